@@ -1,0 +1,12 @@
+// Writing a file so that a reader, a crash or a full disk never meets half of one.
+#pragma once
+
+#include <string>
+
+namespace grid_path_planner {
+
+// Writes `content` beside `file` and renames it over `file`. Throws InputError naming the file and
+// the reason; then `file` is as it was and nothing is left beside it.
+void writeFileAtomically(const std::string& file, const std::string& content);
+
+}  // namespace grid_path_planner

@@ -1,0 +1,43 @@
+// Occupancy maps in files: map_server YAML with its image, MovingAI .map, a plain image, and the text
+// that `rostopic echo` prints of a nav_msgs/OccupancyGrid. Bags are read by ros/bag.h, which needs ROS.
+//
+//   OccupancyGrid map = readMapFile("maps/site.yaml");
+//
+// The first line of a MovingAI map is row 0; the first line of an image is the last row.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "grid_path_planner/grid/occupancy.h"
+
+namespace grid_path_planner {
+
+// map_server's three ways of turning a pixel into an occupancy.
+enum class MapMode { TRINARY, SCALE, RAW };
+
+struct MapFileOptions {
+  // For files that have none of their own (MovingAI, image): 1 m cells and origin 0 by default. For
+  // others they override.
+  std::optional<double> resolution;
+  std::optional<Origin> origin;
+  // Told about what was read with a doubt: a colour image, values clamped by the format.
+  std::function<void(const std::string&)> warn;
+};
+
+// Reads any of the formats above, told apart by extension and content. Throws InputError naming the
+// file, and the line or value.
+OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options = {});
+
+// Writes `file` (a map_server YAML) and its image beside it, name.pgm. In TRINARY mode -1, 0 and 100
+// survive reading back, in RAW mode every value does. Atomic per file, the image first.
+void writeMapServerFile(const std::string& file, const OccupancyGrid& map,
+                        MapMode mode = MapMode::TRINARY, const OccupancyThresholds& thresholds = {});
+
+// Writes a MovingAI .map: '.' free, 'T' unknown, '@' occupied (all but '.' and 'G' read back as
+// occupied, so unknown does not survive). Row 0 is the first line.
+void writeMovingAiFile(const std::string& file, const OccupancyGrid& map,
+                       const OccupancyThresholds& thresholds = {});
+
+}  // namespace grid_path_planner

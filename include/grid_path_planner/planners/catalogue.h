@@ -1,0 +1,19 @@
+// Every planner by name.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/search/planner.h"
+#include "grid_path_planner/search/search_options.h"
+
+namespace grid_path_planner {
+
+// Names in the order in which they should be offered.
+const std::vector<std::string>& plannerNames();
+
+// Throws InputError naming the known planners for any other name.
+std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOptions& options = {});
+
+}  // namespace grid_path_planner

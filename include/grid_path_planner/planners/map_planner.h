@@ -1,0 +1,121 @@
+// From two poses on an occupancy map to a path: terrain, search, and what becomes of the two ends.
+//
+//   MapPlanner planner(options);
+//   planner.setMap(std::make_shared<const OccupancyGrid>(readMapFile("site.yaml")));
+//   PlanReport report = planner.plan({start, goal}, StopToken());
+//
+// The ends of the path are the poses asked for. They are judged on the inflated map at full
+// resolution; where only their block of the kernel is blocked, the search runs at full resolution
+// until it reaches open blocks. No call changes the caller's map. Not thread-safe: one at a time.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/statistics.h"
+#include "grid_path_planner/base/status.h"
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/path/headings.h"
+#include "grid_path_planner/path/path.h"
+#include "grid_path_planner/search/planner.h"
+#include "grid_path_planner/search/search_options.h"
+#include "grid_path_planner/terrain/terrain_options.h"
+
+namespace grid_path_planner {
+
+class Terrain;
+
+struct PlannerOptions {
+  TerrainOptions terrain;
+  std::string planner = "a_star";
+  SearchOptions search;
+  double tolerance = 0.0;            // m
+  double start_escape_radius = 0.0;  // m
+  bool retry_finer = true;
+  double timeout = 5.0;              // s; 0: none
+  HeadingMode heading = HeadingMode::FORWARD;
+  PathZ path_z = PathZ::INTERPOLATE;
+  double fixed_z = 0.0;              // m
+};
+
+template <class Visitor>
+void visitOptions(PlannerOptions& o, Visitor&& visit) {
+  visit("planner", o.planner, OptionInfo{"Name of the algorithm", ""});
+  visitOptions(o.search, visit);
+  visitOptions(o.terrain, visit);
+  visit("tolerance", o.tolerance,
+        OptionInfo{"How far from an occupied or unreachable goal a path may end; 0: no path then",
+                   "m", 0, 10000});
+  visit("start_escape_radius", o.start_escape_radius,
+        OptionInfo{"How far the nearest passable cell may be from an occupied start; 0: no path then",
+                   "m", 0, 10000});
+  visit("retry_finer", o.retry_finer,
+        OptionInfo{"Whether a way that the kernel closes is searched for again at kernel 1", ""});
+  visit("timeout", o.timeout, OptionInfo{"Limit of one planning; 0: none", "s", 0, 86400});
+  visit("heading", o.heading, OptionInfo{"Which way the vehicle looks along the path", ""});
+  visit("path_z", o.path_z, OptionInfo{"Where the z of the path comes from", ""});
+  visit("fixed_z", o.fixed_z, OptionInfo{"z of the path with path_z fixed", "m", -1e6, 1e6});
+}
+
+// Throws InputError naming the option.
+void checkPlannerOptions(const PlannerOptions& options);
+
+// Both in the map's frame.
+struct PoseRequest {
+  Pose start;
+  Pose goal;
+  bool record_expanded = false;
+};
+
+struct PlanReport {
+  Status status = Status::NO_MAP;
+  std::string message;
+  Path path;                       // empty unless FOUND
+  ExactCost cost;                  // between the end cells
+  double length_m = 0.0;
+  std::size_t cells = 0;           // of the path on the map that was searched
+  int kernel = 1;                  // of the map that was searched
+  Statistics statistics;
+  std::vector<Eigen::Vector2d> expanded;  // centres of the expanded cells, metres
+};
+
+class MapPlanner {
+ public:
+  // Throws InputError for options that cannot be used.
+  explicit MapPlanner(const PlannerOptions& options = {});
+  ~MapPlanner();
+  MapPlanner(MapPlanner&&) noexcept;
+  MapPlanner& operator=(MapPlanner&&) noexcept;
+
+  // Throws InputError and keeps the old options where the new ones cannot be used.
+  void setOptions(const PlannerOptions& options);
+  const PlannerOptions& options() const { return options_; }
+
+  // Throws InputError for a map with values outside -1..100 and keeps the old map.
+  void setMap(std::shared_ptr<const OccupancyGrid> map);
+  // `map` has the geometry of the present one and differs from it only inside `changed`.
+  void updateMap(std::shared_ptr<const OccupancyGrid> map, const CellRect& changed);
+  bool hasMap() const { return map_ != nullptr; }
+  const std::shared_ptr<const OccupancyGrid>& map() const { return map_; }
+
+  // The maps that plan() works on, made if the map or the options changed. Throws Stopped.
+  // Precondition: hasMap().
+  std::shared_ptr<const CostGrid> fineCosts(const StopToken& stop);      // kernel 1, inflated
+  std::shared_ptr<const CostGrid> searchedCosts(const StopToken& stop);  // options().terrain.kernel
+
+  // Every failure but a bug is a status; options().timeout runs beside the token's own limit.
+  PlanReport plan(const PoseRequest& request, const StopSource& stop = {});
+
+ private:
+  class Attempt;
+
+  PlannerOptions options_;
+  std::shared_ptr<const OccupancyGrid> map_;
+  std::unique_ptr<Terrain> terrain_;
+  std::unique_ptr<Planner> planner_;
+  std::unique_ptr<Planner> finer_;
+};
+
+}  // namespace grid_path_planner

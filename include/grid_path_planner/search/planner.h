@@ -1,0 +1,87 @@
+// How a path is found: one contract, one file per algorithm.
+//
+//   std::unique_ptr<Planner> planner = makePlanner("a_star", options);
+//   planner->prepare(map, StopToken());
+//   PlanResult result = planner->plan({Cell{1, 2}, {Cell{30, 40}}}, source.token());
+//
+// plan() checks the request once and then computes; it never changes the map, and the same request
+// on the same map gives the same cells, whatever the machine's load. A request that cannot be
+// answered is a status with a sentence; calling plan() before prepare() is NO_MAP.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/base/statistics.h"
+#include "grid_path_planner/base/status.h"
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/terrain/cost_grid.h"
+#include "grid_path_planner/terrain/exact_cost.h"
+
+namespace grid_path_planner {
+
+// What a planner can do and what it promises.
+struct Traits {
+  std::string name;
+  bool four_connected = true;   // understands Connectivity::FOUR
+  bool unit_diagonals = true;   // understands DiagonalCost::UNIT
+  bool cut_corners = true;      // understands cut_corners
+  bool weights = true;          // cells of different weights
+  bool optimal = false;         // the cost is the least possible, for the options it was made with
+  bool any_angle = false;       // cells of the result need not be neighbours
+  bool several_goals = false;   // answers "the nearest of these goals"
+  bool repairs = false;         // update() costs less than prepare()
+};
+
+struct PlanRequest {
+  Cell start;
+  std::vector<Cell> goals;       // the cheapest to reach is answered; most planners take one only
+  bool record_expanded = false;  // fill PlanResult::expanded, for pictures
+};
+
+struct PlanResult {
+  Status status = Status::NO_MAP;
+  std::string message;           // one sentence that holds the values
+  std::vector<Cell> cells;       // start and goal included; start = goal: one cell
+  ExactCost cost;                // in cells of the original map x weight
+  Statistics statistics;
+  std::vector<CellIndex> expanded;  // in order, where the request asks for it
+};
+
+class Planner {
+ public:
+  virtual ~Planner() = default;
+
+  const Traits& traits() const { return traits_; }
+
+  // Memory that prepare() and plan() will hold for a map of this geometry, the map excluded.
+  virtual std::size_t bytesFor(const GridGeometry& geometry) const = 0;
+
+  // Takes the map and makes what the planner needs of it. Throws Stopped.
+  void prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop);
+
+  // `map` differs from the prepared one only inside `changed`, and follows it by one revision;
+  // anything else is a full prepare.
+  void update(std::shared_ptr<const CostGrid> map, const CellRect& changed, const StopToken& stop);
+
+  PlanResult plan(const PlanRequest& request, const StopToken& stop);
+
+ protected:
+  explicit Planner(Traits traits) : traits_(std::move(traits)) {}
+
+  const CostGrid& map() const { return *map_; }
+
+  // The reason why this planner cannot search `map`, "" where it can.
+  virtual std::string refusal(const CostGrid& map) const;
+  virtual void doPrepare(const StopToken&) {}
+  virtual void doUpdate(const CellRect&, const StopToken& stop) { doPrepare(stop); }
+  // The request is valid: start and goals in the map and passable. Throws Stopped.
+  virtual PlanResult doPlan(const PlanRequest& request, const StopToken& stop) = 0;
+
+ private:
+  Traits traits_;
+  std::shared_ptr<const CostGrid> map_;
+};
+
+}  // namespace grid_path_planner

@@ -1,0 +1,49 @@
+// Options of the searches over cells.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/base/option_visitor.h"
+
+namespace grid_path_planner {
+
+enum class Heuristic { ZERO, MANHATTAN, CHEBYSHEV, OCTILE, EUCLIDEAN };
+const std::vector<std::pair<const char*, Heuristic>>& choicesOf(Heuristic);
+
+enum class TieBreak { NONE, LARGER_G, CROSS_PRODUCT, CROSS_PRODUCT_PUBLISHED };
+const std::vector<std::pair<const char*, TieBreak>>& choicesOf(TieBreak);
+
+struct SearchOptions {
+  Heuristic heuristic = Heuristic::OCTILE;
+  std::string heuristic_scale = "cheapest";  // "cheapest", or a number >= 0
+  double epsilon = 1.0;                      // >= 1
+  TieBreak tie_break = TieBreak::LARGER_G;
+};
+
+template <class Visitor>
+void visitOptions(SearchOptions& o, Visitor&& visit) {
+  visit("heuristic", o.heuristic,
+        OptionInfo{"Lower bound of the cost to go that A* uses; manhattan is one only for "
+                   "connectivity 4, octile and euclidean not for unit diagonals",
+                   ""});
+  visit("heuristic_scale", o.heuristic_scale,
+        OptionInfo{"What the heuristic's cell lengths are multiplied by: cheapest (the cheapest "
+                   "passable weight) or a number; above the cheapest weight: faster, not optimal",
+                   ""});
+  visit("epsilon", o.epsilon,
+        OptionInfo{"Weight of the heuristic: above 1 the cost is at most that many times the least",
+                   "", 1, 1000});
+  visit("tie_break", o.tie_break,
+        OptionInfo{"Which of equally promising cells is expanded first", ""});
+}
+
+// The number that heuristic_scale gives; none for "cheapest". Throws InputError for anything else.
+std::optional<double> heuristicScale(const SearchOptions& options);
+
+// Throws InputError naming the option.
+void checkSearchOptions(const SearchOptions& options);
+
+}  // namespace grid_path_planner

@@ -1,0 +1,68 @@
+// What every cell costs: the map that planners search.
+//
+// A weight 1..65535 a cell, 0 where the cell is blocked. The cost of a step between neighbours u and
+// v is max(weight(u), weight(v)) x length: 1 straight, sqrt 2 (or 1) diagonal, times the kernel, so
+// that costs compare between kernels. Constant once made; several planners may read one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "grid_path_planner/grid/grid.h"
+#include "grid_path_planner/grid/occupancy.h"
+#include "grid_path_planner/terrain/motion_model.h"
+
+namespace grid_path_planner {
+
+class CostGrid {
+ public:
+  using Weight = std::uint16_t;
+  static constexpr Weight kBlocked = 0;
+
+  CostGrid() = default;
+  // `weights` and `classes` have the same geometry. `kernel`: how many cells of the original map a
+  // cell of this one is wide; `extent`: width and height in cells of the original map, which the
+  // last column and row may reach beyond.
+  CostGrid(Grid<Weight> weights, Grid<Occupancy> classes, const MotionModel& motion);
+  CostGrid(Grid<Weight> weights, Grid<Occupancy> classes, const MotionModel& motion, int kernel,
+           const GridGeometry& original);
+
+  const GridGeometry& geometry() const { return weights_.geometry(); }
+  const MotionModel& motion() const { return motion_; }
+  int kernel() const { return kernel_; }
+
+  // Outside the map is blocked.
+  bool passable(Cell cell) const { return weights_.contains(cell) && weights_[cell] != kBlocked; }
+  // Precondition of both: the cell lies in the map.
+  Weight weight(Cell cell) const { return weights_[cell]; }
+  Occupancy occupancy(Cell cell) const { return classes_[cell]; }
+
+  const Grid<Weight>& weights() const { return weights_; }
+  const Grid<Occupancy>& classes() const { return classes_; }
+  // The smallest weight of a passable cell; 0 where there is none.
+  Weight cheapest() const { return cheapest_; }
+
+  // Where a path passes through a cell, in metres: the middle of what the original map has of it
+  // (a cell's centre; only the last column and row of a kernel differ).
+  Eigen::Vector2d waypoint(Cell cell) const;
+
+  // Raised by every change of a map that was published as the next of this one.
+  std::uint64_t revision() const { return revision_; }
+  void setRevision(std::uint64_t revision) { revision_ = revision; }
+
+  std::size_t bytes() const;
+
+ private:
+  Grid<Weight> weights_;
+  Grid<Occupancy> classes_;
+  MotionModel motion_;
+  int kernel_ = 1;
+  GridGeometry original_;
+  Weight cheapest_ = 0;
+  std::uint64_t revision_ = 0;
+};
+
+// Whether the one step from `from` to `to` (neighbours by the motion model) is allowed.
+bool stepAllowed(const CostGrid& map, Cell from, Cell to);
+
+}  // namespace grid_path_planner

@@ -1,0 +1,82 @@
+// How an occupancy map becomes costs: the classes of its cells, their weights, the inflation around
+// occupied cells, the kernel that downsamples, the steps that are allowed.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/grid/occupancy.h"
+#include "grid_path_planner/terrain/motion_model.h"
+
+namespace grid_path_planner {
+
+enum class KernelRule { CONSERVATIVE, FILTER2D };
+const std::vector<std::pair<const char*, KernelRule>>& choicesOf(KernelRule);
+
+struct TerrainOptions {
+  OccupancyThresholds thresholds;
+
+  int free_weight = 1;
+  int unknown_weight = 50;
+  int occupied_weight = 100;
+  bool unknown_is_passable = true;
+  bool occupied_is_passable = false;
+
+  double radius = 0.0;         // m; a cell whose centre is nearer than this to an occupied cell is blocked
+  double decay = 0.0;          // 1/m; of the weight beyond the radius; 0: no weight beyond it
+  int inflation_weight = 40;   // at the radius
+
+  int kernel = 1;              // cells of a block's side
+  KernelRule kernel_rule = KernelRule::CONSERVATIVE;
+
+  MotionModel motion;
+};
+
+template <class Visitor>
+void visitOptions(TerrainOptions& o, Visitor&& visit) {
+  visit("free_max", o.thresholds.free_max,
+        OptionInfo{"Occupancy up to this is free; lower: more cells count as unknown", "%", 0, 99});
+  visit("occupied_min", o.thresholds.occupied_min,
+        OptionInfo{"Occupancy from this on is occupied; lower: more obstacles", "%", 1, 100});
+  visit("free_weight", o.free_weight,
+        OptionInfo{"Cost of a cell length through free cells", "", 1, 65535});
+  visit("unknown_weight", o.unknown_weight,
+        OptionInfo{"Cost of a cell length through unknown cells; higher: longer ways around", "", 1,
+                   65535});
+  visit("occupied_weight", o.occupied_weight,
+        OptionInfo{"Cost of a cell length through occupied cells, where they are passable", "", 1,
+                   65535});
+  visit("unknown_is_passable", o.unknown_is_passable,
+        OptionInfo{"Whether paths may cross unknown cells; false: never, at any kernel", ""});
+  visit("occupied_is_passable", o.occupied_is_passable,
+        OptionInfo{"Whether paths may cross occupied cells; only for studies, needs radius 0", ""});
+  visit("radius", o.radius,
+        OptionInfo{"Vehicle radius: cells nearer than this to an occupied cell are blocked", "m", 0,
+                   1000});
+  visit("decay", o.decay,
+        OptionInfo{"How fast the weight falls beyond the radius; 0: no weight beyond the radius; "
+                   "smaller: wider berth",
+                   "1/m", 0, 10000});
+  visit("inflation_weight", o.inflation_weight,
+        OptionInfo{"Weight at the radius, where decay is not 0; higher: wider berth", "", 1, 65535});
+  visit("kernel", o.kernel,
+        OptionInfo{"Side of the blocks that are searched instead of cells; higher: faster, coarser",
+                   "cells", 1, 1024});
+  visit("kernel_rule", o.kernel_rule,
+        OptionInfo{"How a block is judged: conservative is safe, filter2d is the original study's "
+                   "and is not",
+                   ""});
+  visit("connectivity", o.motion.connectivity,
+        OptionInfo{"Neighbours of a cell: 8 or 4", ""});
+  visit("diagonal_cost", o.motion.diagonal_cost,
+        OptionInfo{"Length of a diagonal step: sqrt2, or unit as in the original study", ""});
+  visit("cut_corners", o.motion.cut_corners,
+        OptionInfo{"Whether a diagonal step may pass a blocked cell's corner", ""});
+}
+
+// Throws InputError naming the option for a value outside its limits and for combinations that
+// contradict each other: free_max >= occupied_min, occupied_is_passable with a radius.
+void checkTerrainOptions(const TerrainOptions& options);
+
+}  // namespace grid_path_planner

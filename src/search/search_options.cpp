@@ -1,0 +1,49 @@
+#include "grid_path_planner/search/search_options.h"
+
+#include <cmath>
+
+#include "grid_path_planner/base/check_options.h"
+
+namespace grid_path_planner {
+
+const std::vector<std::pair<const char*, Heuristic>>& choicesOf(Heuristic) {
+  static const std::vector<std::pair<const char*, Heuristic>> choices = {
+      {"zero", Heuristic::ZERO},
+      {"manhattan", Heuristic::MANHATTAN},
+      {"chebyshev", Heuristic::CHEBYSHEV},
+      {"octile", Heuristic::OCTILE},
+      {"euclidean", Heuristic::EUCLIDEAN}};
+  return choices;
+}
+
+const std::vector<std::pair<const char*, TieBreak>>& choicesOf(TieBreak) {
+  static const std::vector<std::pair<const char*, TieBreak>> choices = {
+      {"none", TieBreak::NONE},
+      {"larger_g", TieBreak::LARGER_G},
+      {"cross_product", TieBreak::CROSS_PRODUCT},
+      {"cross_product_published", TieBreak::CROSS_PRODUCT_PUBLISHED}};
+  return choices;
+}
+
+std::optional<double> heuristicScale(const SearchOptions& options) {
+  if (options.heuristic_scale == "cheapest") return std::nullopt;
+  std::size_t used = 0;
+  double scale = -1.0;
+  try {
+    scale = std::stod(options.heuristic_scale, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  const bool number = used == options.heuristic_scale.size() && used > 0;
+  if (!number || !std::isfinite(scale) || scale < 0.0 || scale > 65535.0)
+    throw InputError("heuristic_scale must be 'cheapest' or a number from 0 to 65535, got '" +
+                     options.heuristic_scale + "'");
+  return scale;
+}
+
+void checkSearchOptions(const SearchOptions& options) {
+  checkOptionLimits(options);
+  heuristicScale(options);
+}
+
+}  // namespace grid_path_planner
