@@ -1,0 +1,78 @@
+// YAML files read so that every mistake in one is told with its file and line.
+//
+//   const YAML::Node root = loadYamlFile("site.yaml");
+//   const auto resolution = yamlValue<double>(root, "resolution", "site.yaml", "metres per cell");
+//   const auto frame = yamlValueOr<std::string>(root, "frame_id", "site.yaml", "a name", "map");
+//
+// Files are measured before they are parsed, since yaml-cpp 0.6 recurses for every level of
+// nesting: one that is nested deeper than kDeepestYaml is refused. The measure reads quotes and
+// comments as people write them; it is no defence against a file made to deceive it.
+//
+// A parsed tree takes about a hundred times the memory of its text. Long lists of numbers (the data
+// of a map) are therefore read by grid/occupancy_dump.h without one.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <string>
+#include <type_traits>
+
+#include "grid_path_planner/base/errors.h"
+
+namespace grid_path_planner {
+
+constexpr int kDeepestYaml = 64;                           // levels
+constexpr std::size_t kLargestYaml = 64u * 1024u * 1024u;  // bytes
+
+// The first document of `file`. Throws InputError for a file that cannot be read (see
+// readWholeFile), is not text, is nested too deeply or is not YAML, with the line.
+YAML::Node loadYamlFile(const std::string& file);
+
+// The same for text that is already in memory; `file` is what errors name.
+YAML::Node parseYaml(const std::string& text, const std::string& file);
+
+// An error about `node`, at its line.
+InputError yamlError(const YAML::Node& node, const std::string& file, const std::string& message);
+
+// What stands at `node`, in a few words: "'abc'", "a list", "a mapping", "nothing".
+std::string describeYaml(const YAML::Node& node);
+
+// The node under `key` of the mapping `parent`. Throws InputError at the parent's line where the
+// parent is no mapping or has no such key. `expected` says what should have stood there.
+YAML::Node yamlNode(const YAML::Node& parent, const std::string& key, const std::string& file,
+                    const std::string& expected);
+
+// Whether the mapping `parent` has `key`. Throws InputError where `parent` is no mapping.
+bool yamlHas(const YAML::Node& parent, const std::string& key, const std::string& file);
+
+// The scalar `node` itself as a T; `name` is what the message calls it. Numbers must be finite.
+template <class T>
+T yamlAs(const YAML::Node& node, const std::string& name, const std::string& file,
+         const std::string& expected) {
+  try {
+    if (!node.IsScalar()) throw YAML::BadConversion(node.Mark());
+    const T value = node.as<T>();
+    if constexpr (std::is_floating_point_v<T>)
+      if (!std::isfinite(value)) throw YAML::BadConversion(node.Mark());
+    return value;
+  } catch (const YAML::Exception&) {
+    throw yamlError(node, file, name + " must be " + expected + ", got " + describeYaml(node));
+  }
+}
+
+// The value under `key` of the mapping `parent`, which must be there and be a T.
+template <class T>
+T yamlValue(const YAML::Node& parent, const std::string& key, const std::string& file,
+            const std::string& expected) {
+  return yamlAs<T>(yamlNode(parent, key, file, expected), key, file, expected);
+}
+
+// The same, or `fallback` where there is no such key.
+template <class T>
+T yamlValueOr(const YAML::Node& parent, const std::string& key, const std::string& file,
+              const std::string& expected, const T& fallback) {
+  return yamlHas(parent, key, file) ? yamlValue<T>(parent, key, file, expected) : fallback;
+}
+
+}  // namespace grid_path_planner
