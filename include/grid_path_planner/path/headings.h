@@ -1,4 +1,10 @@
-// Which way a vehicle looks along a path.
+// Which way a vehicle looks along a path, and how high it is.
+//
+//   applyHeadings(path, start.yaw, goal.yaw, HeadingMode::FORWARD);
+//   applyZ(path, start.position.z(), goal.position.z(), 0.0, PathZ::INTERPOLATE);
+//
+// Both look at the positions in the plane only, leave an empty path empty and keep x and y. Yaws
+// that are computed lie in [-pi, pi]; the goal's is kept to the last bit.
 #pragma once
 
 #include <utility>
@@ -13,23 +19,25 @@ enum class HeadingMode {
   NONE,                      // yaw 0 but for the last pose, which has the goal's
   FORWARD,                   // along the next segment; the last pose has the goal's
   INTERPOLATE,               // from the start's to the goal's by length, the shorter way round
-  FORWARD_THEN_INTERPOLATE,  // forward; over the last segment turning to the goal's
-  BACKWARD,
-  LEFTWARD,
-  RIGHTWARD,
+  FORWARD_THEN_INTERPOLATE,  // forward; over the last straight stretch turning to the goal's
+  BACKWARD,                  // the vehicle's back along the path
+  LEFTWARD,                  // its left side (+y) along the path
+  RIGHTWARD,                 // its right side (-y) along the path
 };
 const std::vector<std::pair<const char*, HeadingMode>>& choicesOf(HeadingMode);
 
 // Sets the yaw of every pose from the positions, and the goal's at the last one in every mode.
-// Coinciding poses take the heading of the next segment that has a length.
+// Coinciding poses take the heading of the next segment that has a length, those at the end the
+// goal's. Of two equally short ways round the anticlockwise one is taken. Where no segment has a
+// length, INTERPOLATE turns by equal steps a pose. Precondition: everything is finite.
 void applyHeadings(Path& path, double start_yaw, double goal_yaw, HeadingMode mode);
 
 // What the z of the poses between two ends is.
 enum class PathZ { INTERPOLATE, START, GOAL, FIXED };
 const std::vector<std::pair<const char*, PathZ>>& choicesOf(PathZ);
 
-// Sets every pose's z: by horizontal length from `start_z` to `goal_z`, the one or the other, or
-// `fixed_z`.
+// Sets every pose's z: by horizontal length from `start_z` to `goal_z` (by equal steps a pose where
+// no segment has a length; a single pose has the goal's), the one or the other, or `fixed_z`.
 void applyZ(Path& path, double start_z, double goal_z, double fixed_z, PathZ mode);
 
 }  // namespace grid_path_planner

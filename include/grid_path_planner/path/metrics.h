@@ -1,4 +1,4 @@
-// Numbers that say how good a path is.
+// Numbers that say how good a path is. All look at the positions in the plane, as the map is one.
 #pragma once
 
 #include "grid_path_planner/grid/occupancy.h"
@@ -6,16 +6,18 @@
 
 namespace grid_path_planner {
 
-// Length of the polyline in metres: in the plane, as the map is.
+// Length of the polyline in metres.
 double lengthOf(const Path& path);
 
 // Sum of the absolute changes of direction between segments, in radians; segments without a length
 // are passed over.
 double turningOf(const Path& path);
 
-// The least distance in metres from the polyline to the edge of an occupied cell of `map`; infinity
-// where the map has none, 0 where the path meets one. Exact to within a tenth of a cell: the
-// polyline is sampled at that distance.
-double clearanceOf(const Path& path, const OccupancyGrid& map, const OccupancyThresholds& thresholds);
+// The least distance in metres from the polyline to the edge of an occupied cell of `map`; 0 where
+// the path meets one or touches its edge, infinity where map or path are empty. Exact but for
+// rounding, not sampled. Takes time for one pass over the map and then a little a segment.
+// Precondition: the positions are finite.
+double clearanceOf(const Path& path, const OccupancyGrid& map,
+                   const OccupancyThresholds& thresholds);
 
 }  // namespace grid_path_planner
