@@ -1,0 +1,53 @@
+// What the simulated vehicle can do.
+#pragma once
+
+#include "grid_path_planner/base/option_visitor.h"
+
+namespace grid_path_planner {
+
+struct VehicleOptions {
+  double max_surge_speed = 1.5;       // m/s
+  double max_sway_speed = 1.0;        // m/s
+  double max_heave_speed = 0.8;       // m/s
+  double max_yaw_rate = 1.5;          // rad/s
+  double max_acceleration = 1.0;      // m/s^2, of surge, sway and heave each
+  double max_yaw_acceleration = 2.0;  // rad/s^2
+  double cmd_vel_timeout = 0.5;       // s
+  double vehicle_radius = 0.3;        // m
+  int occupied_min = 65;              // %
+  double time_step = 0.01;            // s
+};
+
+template <class Visitor>
+void visitOptions(VehicleOptions& o, Visitor&& visit) {
+  visit("max_surge_speed", o.max_surge_speed,
+        OptionInfo{"Fastest motion ahead and astern; faster commands are held to it", "m/s", 0.001,
+                   100.0});
+  visit("max_sway_speed", o.max_sway_speed,
+        OptionInfo{"Fastest motion sideways; faster commands are held to it", "m/s", 0.0, 100.0});
+  visit(
+      "max_heave_speed", o.max_heave_speed,
+      OptionInfo{"Fastest motion up and down; faster commands are held to it", "m/s", 0.0, 100.0});
+  visit("max_yaw_rate", o.max_yaw_rate,
+        OptionInfo{"Fastest turn; faster commands are held to it", "rad/s", 0.001, 100.0});
+  visit("max_acceleration", o.max_acceleration,
+        OptionInfo{"How fast surge, sway and heave may change; lower: a heavier vehicle", "m/s^2",
+                   0.001, 1000.0});
+  visit("max_yaw_acceleration", o.max_yaw_acceleration,
+        OptionInfo{"How fast the yaw rate may change; lower: a heavier vehicle", "rad/s^2", 0.001,
+                   1000.0});
+  visit("cmd_vel_timeout", o.cmd_vel_timeout,
+        OptionInfo{"The vehicle stops this long after the last command", "s", 0.01, 3600.0});
+  visit("vehicle_radius", o.vehicle_radius,
+        OptionInfo{"Radius of the disc that touches obstacles", "m", 0.001, 100.0});
+  visit("occupied_min", o.occupied_min,
+        OptionInfo{"Cells of the map with at least this occupancy are obstacles", "%", 1, 100});
+  visit("time_step", o.time_step,
+        OptionInfo{"One step of the integration; shorter: finer and slower", "s", 0.0001, 0.1});
+}
+
+// Throws InputError naming the option for a value outside its limits and for a time_step longer
+// than cmd_vel_timeout.
+void checkVehicleOptions(const VehicleOptions& options);
+
+}  // namespace grid_path_planner

@@ -1,0 +1,150 @@
+#include "grid_path_planner/simulation/vehicle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "obstacle_distance.h"
+
+namespace grid_path_planner {
+namespace {
+
+constexpr double kContactEnds = 1e-3;  // m, beyond the vehicle's radius
+constexpr double kTouch = 1e-9;        // m, below which two lengths are the same
+
+std::int64_t nanoseconds(double seconds) {
+  return std::llround(seconds * 1e9);
+}
+
+double towards(double value, double target, double largest_change) {
+  return value + std::clamp(target - value, -largest_change, largest_change);
+}
+
+double normalized(double angle) {
+  const double turned = std::remainder(angle, 2.0 * M_PI);
+  return turned <= -M_PI ? M_PI : turned;
+}
+
+}  // namespace
+
+Vehicle::Vehicle(const VehicleOptions& options, const VehicleState& initial) {
+  setOptions(options);
+  reset(initial);
+}
+
+void Vehicle::setOptions(const VehicleOptions& options) {
+  checkVehicleOptions(options);
+  options_ = options;
+}
+
+void Vehicle::setMap(std::shared_ptr<const OccupancyGrid> map) {
+  map_ = std::move(map);
+  if (!map_) in_contact_ = false;
+}
+
+void Vehicle::command(const BodyVelocity& velocity) {
+  if (!velocity.isFinite())
+    throw InputError("a velocity command must be four finite numbers, got surge " +
+                     std::to_string(velocity.surge) + ", sway " + std::to_string(velocity.sway) +
+                     ", heave " + std::to_string(velocity.heave) + ", yaw rate " +
+                     std::to_string(velocity.yaw_rate));
+  commanded_ = velocity;
+  command_ends_ns_ = time_ns_ + nanoseconds(options_.cmd_vel_timeout);
+}
+
+void Vehicle::reset(const VehicleState& state) {
+  if (!state.position.allFinite() || !std::isfinite(state.yaw) || !state.velocity.isFinite())
+    throw InputError("a vehicle's state must be finite, got position " +
+                     std::to_string(state.position.x()) + ", " +
+                     std::to_string(state.position.y()) + ", " +
+                     std::to_string(state.position.z()) + " and yaw " + std::to_string(state.yaw));
+  state_ = state;
+  state_.yaw = normalized(state.yaw);
+  commanded_ = {};
+  contacts_ = 0;
+  in_contact_ = false;
+}
+
+void Vehicle::step() {
+  const BodyVelocity before = state_.velocity;
+  changeVelocity(options_.time_step);
+  move(options_.time_step, before);
+  time_ns_ += nanoseconds(options_.time_step);
+}
+
+BodyVelocity Vehicle::setPoint() const {
+  if (time_ns_ >= command_ends_ns_) return {};
+  const auto held = [](double value, double limit) { return std::clamp(value, -limit, limit); };
+  return {held(commanded_.surge, options_.max_surge_speed),
+          held(commanded_.sway, options_.max_sway_speed),
+          held(commanded_.heave, options_.max_heave_speed),
+          held(commanded_.yaw_rate, options_.max_yaw_rate)};
+}
+
+void Vehicle::changeVelocity(double seconds) {
+  const BodyVelocity target = setPoint();
+  const double linear = options_.max_acceleration * seconds;
+  BodyVelocity& v = state_.velocity;
+  v.surge = towards(v.surge, target.surge, linear);
+  v.sway = towards(v.sway, target.sway, linear);
+  v.heave = towards(v.heave, target.heave, linear);
+  v.yaw_rate = towards(v.yaw_rate, target.yaw_rate, options_.max_yaw_acceleration * seconds);
+}
+
+// Trapezoids in the body frame, turned by the yaw at half of the step.
+void Vehicle::move(double seconds, const BodyVelocity& before) {
+  const BodyVelocity& v = state_.velocity;
+  const double turn = 0.5 * (before.yaw_rate + v.yaw_rate) * seconds;
+  const double surge = 0.5 * (before.surge + v.surge) * seconds;
+  const double sway = 0.5 * (before.sway + v.sway) * seconds;
+  const double yaw = state_.yaw + 0.5 * turn;
+  const Eigen::Vector2d way(std::cos(yaw) * surge - std::sin(yaw) * sway,
+                            std::sin(yaw) * surge + std::cos(yaw) * sway);
+  const bool free = moveInPlane(way);
+  if (!free) state_.velocity.surge = state_.velocity.sway = 0.0;
+  state_.position.z() += 0.5 * (before.heave + state_.velocity.heave) * seconds;
+  state_.yaw = normalized(state_.yaw + turn);
+}
+
+// Moves as far along `way` as nothing is touched, in pieces so short that no cell is jumped over.
+// Whether all of it was driven.
+bool Vehicle::moveInPlane(const Eigen::Vector2d& way) {
+  if (!map_) {
+    state_.position.head<2>() += way;
+    return true;
+  }
+  const double longest = std::min(0.5 * map_->geometry().resolution(), options_.vehicle_radius);
+  const int pieces = std::max(1, static_cast<int>(std::ceil(way.norm() / longest)));
+  const Eigen::Vector2d from = state_.position.head<2>();
+  double distance = clearance(from);
+  const auto blocked = [&](double share) {
+    const double there = clearance(from + share * way);
+    return there < options_.vehicle_radius - kTouch && there < distance;
+  };
+  for (int i = 1; i <= pieces; ++i) {
+    double free = static_cast<double>(i - 1) / pieces;
+    double closed = static_cast<double>(i) / pieces;
+    if (!blocked(closed)) {
+      state_.position.head<2>() = from + closed * way;
+      distance = clearance(state_.position.head<2>());
+      continue;
+    }
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (free + closed);
+      (blocked(middle) ? closed : free) = middle;
+    }
+    state_.position.head<2>() = from + free * way;
+    if (!in_contact_) ++contacts_;
+    in_contact_ = true;
+    return false;
+  }
+  if (distance > options_.vehicle_radius + kContactEnds) in_contact_ = false;
+  return true;
+}
+
+double Vehicle::clearance(const Eigen::Vector2d& position) const {
+  return obstacleDistance(*map_, options_.occupied_min, position,
+                          options_.vehicle_radius + 2.0 * kContactEnds);
+}
+
+}  // namespace grid_path_planner

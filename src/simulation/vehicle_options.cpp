@@ -1,0 +1,17 @@
+#include "grid_path_planner/simulation/vehicle_options.h"
+
+#include <string>
+
+#include "grid_path_planner/base/check_options.h"
+
+namespace grid_path_planner {
+
+void checkVehicleOptions(const VehicleOptions& options) {
+  checkOptionLimits(options);
+  if (options.time_step > options.cmd_vel_timeout)
+    throw InputError("time_step must not be longer than cmd_vel_timeout, got " +
+                     std::to_string(options.time_step) + " s and " +
+                     std::to_string(options.cmd_vel_timeout) + " s");
+}
+
+}  // namespace grid_path_planner
