@@ -1,0 +1,37 @@
+// nav_msgs/OccupancyGrid to the package's own map and back.
+//
+//   const OccupancyGrid map = occupancyFromMessage(*message);
+//   const std::string frame = frameName(message->header.frame_id);       // "/map" is "map"
+//   publisher.publish(occupancyToMessage(map, frame, ros::Time::now()));
+//
+// Map -> message -> map is the identity for resolutions of up to six decimal digits (a message
+// holds a float32), and for the origin's yaw to within rounding (a message holds a quaternion). The
+// origin's z is not kept.
+#pragma once
+
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/time.h>
+
+#include <string>
+
+#include "grid_path_planner/grid/occupancy.h"
+
+namespace grid_path_planner {
+
+// A frame's name as tf2 wants it: a leading slash is dropped.
+std::string frameName(const std::string& frame_id);
+
+// The geometry that a message describes, without its cells. Throws InputError for what GridGeometry
+// refuses and for an origin that is not level.
+GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info);
+
+// Throws InputError for a message that is no map: no cells, a number of values other than width x
+// height, a value outside -1..100, a resolution that is not positive and finite, an origin that is
+// not finite or not level.
+OccupancyGrid occupancyFromMessage(const nav_msgs::OccupancyGrid& message);
+
+// A message of `map`, stamped and with map_load_time `stamp`. The origin's z is 0.
+nav_msgs::OccupancyGrid occupancyToMessage(const OccupancyGrid& map, const std::string& frame_id,
+                                           const ros::Time& stamp);
+
+}  // namespace grid_path_planner

@@ -1,0 +1,52 @@
+#include "grid_path_planner/ros/occupancy_conversion.h"
+
+#include <cmath>
+#include <limits>
+
+#include "grid_path_planner/base/level_quaternion.h"
+#include "grid_path_planner/grid/resolution.h"
+
+namespace grid_path_planner {
+
+std::string frameName(const std::string& frame_id) {
+  return !frame_id.empty() && frame_id.front() == '/' ? frame_id.substr(1) : frame_id;
+}
+
+GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info) {
+  constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
+  if (info.width > kMost || info.height > kMost)
+    throw InputError("a map of " + std::to_string(info.width) + "x" + std::to_string(info.height) +
+                     " cells is too large");
+  const auto& position = info.origin.position;
+  const auto& orientation = info.origin.orientation;
+  const double yaw =
+      yawOfLevelQuaternion(orientation.x, orientation.y, orientation.z, orientation.w);
+  return GridGeometry(static_cast<int>(info.width), static_cast<int>(info.height),
+                      decimalOfFloat(info.resolution), {position.x, position.y, yaw});
+}
+
+OccupancyGrid occupancyFromMessage(const nav_msgs::OccupancyGrid& message) {
+  OccupancyGrid map(geometryFromMessage(message.info), message.data);
+  checkOccupancyValues(map);
+  return map;
+}
+
+nav_msgs::OccupancyGrid occupancyToMessage(const OccupancyGrid& map, const std::string& frame_id,
+                                           const ros::Time& stamp) {
+  const GridGeometry& geometry = map.geometry();
+  nav_msgs::OccupancyGrid message;
+  message.header.frame_id = frame_id;
+  message.header.stamp = stamp;
+  message.info.map_load_time = stamp;
+  message.info.resolution = static_cast<float>(geometry.resolution());
+  message.info.width = static_cast<std::uint32_t>(geometry.width());
+  message.info.height = static_cast<std::uint32_t>(geometry.height());
+  message.info.origin.position.x = geometry.origin().x;
+  message.info.origin.position.y = geometry.origin().y;
+  message.info.origin.orientation.z = std::sin(geometry.origin().yaw / 2.0);
+  message.info.origin.orientation.w = std::cos(geometry.origin().yaw / 2.0);
+  message.data = map.values();
+  return message;
+}
+
+}  // namespace grid_path_planner
