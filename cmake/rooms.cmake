@@ -36,3 +36,20 @@ function(gpp_add_room_test room)
     target_link_libraries(${target} ${PROJECT_NAME}_${room} ${PROJECT_NAME}_test_support gtest gtest_main)
   endif()
 endfunction()
+
+# gpp_add_rostest(<name>): test/ros/<name>.test with the gtest of test/ros/<name>_rostest.cpp, which the
+# launch file names as type="grid_path_planner_<name>_rostest". Each has a roscore on a free port of
+# its own, so they may run side by side; logs stay in the build folder.
+function(gpp_add_rostest name)
+  set(target ${PROJECT_NAME}_${name}_rostest)
+  add_rostest_gtest(${target} ${PROJECT_SOURCE_DIR}/test/ros/${name}.test
+    ${PROJECT_SOURCE_DIR}/test/ros/${name}_rostest.cpp
+    ${PROJECT_SOURCE_DIR}/test/ros/support/rostest_main.cpp)
+  if(TARGET ${target})
+    target_link_libraries(${target} ${PROJECT_NAME}_ros ${PROJECT_NAME}_test_support)
+    target_compile_definitions(${target} PRIVATE
+      GPP_TEST_DATA="${PROJECT_SOURCE_DIR}/test/data" GPP_DEVEL="${CATKIN_DEVEL_PREFIX}")
+    set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_${name}.test PROPERTIES TIMEOUT 120
+      ENVIRONMENT "ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_LOG_DIR=${CMAKE_BINARY_DIR}/ros_home/log;ROS_HOSTNAME=localhost")
+  endif()
+endfunction()

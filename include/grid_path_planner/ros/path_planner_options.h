@@ -1,0 +1,53 @@
+// Options of the node path_planner: those of the planning itself and those of the node around it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/planners/map_planner.h"
+
+namespace grid_path_planner {
+
+enum class GoalZ { MESSAGE, VEHICLE };
+const std::vector<std::pair<const char*, GoalZ>>& choicesOf(GoalZ);
+
+struct PathPlannerNodeOptions {
+  PlannerOptions planner;
+  std::string map_frame = "map";
+  std::string base_frame = "base_link";
+  double tf_timeout = 0.5;  // s, steady clock
+  GoalZ goal_z_from = GoalZ::MESSAGE;
+  double replan_period = 0.0;      // s, ROS time; 0: never
+  double replan_hysteresis = 0.1;  // of the new path's cost
+  std::string waypoints_file;      // "": none
+  bool record_search = true;
+};
+
+template <class Visitor>
+void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
+  visitOptions(o.planner, visit);
+  visit("map_frame", o.map_frame,
+        OptionInfo{"Frame of maps that name none, and of results before there is a map", ""});
+  visit("base_frame", o.base_frame, OptionInfo{"Frame of the vehicle, where paths start", ""});
+  visit("tf_timeout", o.tf_timeout,
+        OptionInfo{"How long a transform is waited for before TRANSFORM_ERROR", "s", 0, 60});
+  visit("goal_z_from", o.goal_z_from,
+        OptionInfo{"Whether the z of a goal is the message's or where the path starts", ""});
+  visit(
+      "replan_period", o.replan_period,
+      OptionInfo{"Time between two plannings for the same goal; 0: only where the path is blocked",
+                 "s", 0, 86400});
+  visit("replan_hysteresis", o.replan_hysteresis,
+        OptionInfo{"By which part of its own cost a new path must be cheaper than the old one to "
+                   "replace it",
+                   "", 0, 1000});
+  visit("waypoints_file", o.waypoints_file,
+        OptionInfo{"Waypoint file that every found plan is written to; empty: none", ""});
+  visit("record_search", o.record_search,
+        OptionInfo{"Whether search_markers show the expanded cells; false saves 16 bytes for each",
+                   ""});
+}
+
+}  // namespace grid_path_planner

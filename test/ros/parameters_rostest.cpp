@@ -1,0 +1,182 @@
+#include "grid_path_planner/ros/parameters.h"
+
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <gtest/gtest.h>
+#include <rosgraph_msgs/Log.h>
+
+#include <limits>
+#include <memory>
+
+#include "grid_path_planner/PathPlannerConfig.h"
+#include "grid_path_planner/ros/path_planner_options.h"
+#include "ros/support/latest.h"
+
+namespace grid_path_planner {
+namespace {
+
+using Options = PathPlannerNodeOptions;
+using dynamic_reconfigure::ConfigTools;
+
+std::string refusalOf(const ros::NodeHandle& nh) {
+  Options options;
+  options.planner.terrain.kernel = 7;
+  try {
+    loadParameters(nh, options);
+  } catch (const InputError& error) {
+    EXPECT_EQ(options.planner.terrain.kernel, 7) << "half loaded";
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Parameters, AreTakenByNameAndOthersKeepTheirValue) {
+  Options options;
+  loadParameters(ros::NodeHandle("/given"), options);
+  EXPECT_EQ(options.planner.terrain.radius, 2.0);
+  EXPECT_EQ(options.planner.terrain.motion.connectivity, Connectivity::FOUR);
+  EXPECT_EQ(options.planner.search.heuristic_scale, "1.5");
+  EXPECT_EQ(options.planner.search.heuristic, Heuristic::ZERO);
+  EXPECT_EQ(options.planner.terrain.kernel, 3);
+  EXPECT_EQ(options.planner.terrain.free_weight, 1);
+}
+
+TEST(Parameters, WrongTypesAreRefusedWithFullNameValueAndWhatWasExpected) {
+  ros::NodeHandle nh("/wrong_type");
+  nh.setParam("kernel", "three");
+  EXPECT_EQ(refusalOf(nh), "/wrong_type/kernel must be an integer, got the string three");
+  nh.setParam("kernel", 2.5);
+  EXPECT_EQ(refusalOf(nh), "/wrong_type/kernel must be an integer, got the number 2.5");
+  nh.deleteParam("kernel");
+  nh.setParam("unknown_is_passable", 1);
+  EXPECT_EQ(refusalOf(nh),
+            "/wrong_type/unknown_is_passable must be true or false, got the integer 1");
+  nh.deleteParam("unknown_is_passable");
+  nh.setParam("radius", true);
+  EXPECT_EQ(refusalOf(nh), "/wrong_type/radius must be a number, got the boolean 1");
+  nh.deleteParam("radius");
+  nh.setParam("planner", std::vector<int>{1, 2});
+  EXPECT_EQ(refusalOf(nh).substr(0, 54), "/wrong_type/planner must be a string, got the list {1,");
+}
+
+TEST(Parameters, ValuesOutOfLimitsAreRefusedNeverClamped) {
+  ros::NodeHandle nh("/out_of_limits");
+  nh.setParam("free_weight", 0);
+  EXPECT_EQ(refusalOf(nh), "/out_of_limits/free_weight must be a number from 1 to 65535, got 0");
+  nh.deleteParam("free_weight");
+  nh.setParam("radius", std::numeric_limits<double>::quiet_NaN());
+  EXPECT_NE(refusalOf(nh).find("/out_of_limits/radius must be a number from 0 to 1000 m"),
+            std::string::npos);
+  nh.deleteParam("radius");
+  nh.setParam("heuristic", "crow");
+  EXPECT_EQ(refusalOf(nh),
+            "/out_of_limits/heuristic must be one of zero, manhattan, chebyshev, "
+            "octile, euclidean, got 'crow'");
+}
+
+TEST(Parameters, UnknownNamesAreFound) {
+  ros::NodeHandle nh("/misspelt");
+  nh.setParam("radius", 1.0);
+  nh.setParam("radios", 1.0);
+  nh.setParam("nested/name", 1.0);
+  EXPECT_EQ(unknownParameters(nh, optionNames<Options>()),
+            (std::vector<std::string>{"nested", "radios"}));
+  test::Latest<rosgraph_msgs::Log> log(ros::NodeHandle(), "/rosout");
+  ASSERT_TRUE(test::waitFor([&] { return log.connected(); }));
+  warnUnknownParameters(nh, optionNames<Options>());
+  EXPECT_TRUE(log.waitFor(0, [](const rosgraph_msgs::Log& line) {
+    return line.msg == "Unknown parameter /misspelt/radios is not used; did you mean radius?";
+  }));
+}
+
+class Reconfiguration : public testing::Test {
+ protected:
+  Reconfiguration() : nh_("/reconfigured"), log_(ros::NodeHandle(), "/rosout") {
+    EXPECT_TRUE(test::waitFor([&] { return log_.connected(); }));
+    initial_.planner.terrain.radius = 0.5;
+    nh_.setParam("connectivity", 8);  // as YAML reads it
+    reconfigurable_ = std::make_unique<Reconfigurable<PathPlannerConfig, Options>>(
+        nh_, initial_, [this](const Options& options) {
+          checkTerrainOptions(options.planner.terrain);
+          applied_.push_back(options);
+        });
+  }
+
+  dynamic_reconfigure::Config request(const dynamic_reconfigure::Config& wanted) {
+    dynamic_reconfigure::Reconfigure call;
+    call.request.config = wanted;
+    EXPECT_TRUE(ros::service::call("/reconfigured/set_parameters", call));
+    return call.response.config;
+  }
+  bool loggedReason(const std::string& reason) {
+    return log_
+        .waitFor(0,
+                 [&](const rosgraph_msgs::Log& line) {
+                   return line.msg.find(reason) != std::string::npos;
+                 })
+        .has_value();
+  }
+  double parameter(const std::string& name) {
+    double value = -1.0;
+    nh_.getParam(name, value);
+    return value;
+  }
+
+  ros::NodeHandle nh_;
+  test::Latest<rosgraph_msgs::Log> log_;
+  Options initial_;
+  std::vector<Options> applied_;
+  std::unique_ptr<Reconfigurable<PathPlannerConfig, Options>> reconfigurable_;
+};
+
+TEST_F(Reconfiguration, AnAcceptedRequestIsAppliedOnce) {
+  dynamic_reconfigure::Config wanted;
+  ConfigTools::appendParameter(wanted, "radius", 0.75);
+  ConfigTools::appendParameter(wanted, "connectivity", std::string("4"));
+  const auto answer = request(wanted);
+  ASSERT_EQ(applied_.size(), 1u);
+  EXPECT_EQ(applied_[0].planner.terrain.radius, 0.75);
+  EXPECT_EQ(applied_[0].planner.terrain.motion.connectivity, Connectivity::FOUR);
+  double radius = 0.0;
+  EXPECT_TRUE(ConfigTools::getParameter(answer, "radius", radius));
+  EXPECT_EQ(radius, 0.75);
+  EXPECT_EQ(parameter("radius"), 0.75);
+}
+
+TEST_F(Reconfiguration, OutOfLimitsLeavesTheOldValueAndNamesTheReason) {
+  dynamic_reconfigure::Config wanted;
+  ConfigTools::appendParameter(wanted, "radius", -1.0);
+  ConfigTools::appendParameter(wanted, "kernel", 3);
+  const auto answer = request(wanted);
+  EXPECT_TRUE(applied_.empty());
+  double radius = 0.0;
+  int kernel = 0;
+  EXPECT_TRUE(ConfigTools::getParameter(answer, "radius", radius));
+  EXPECT_TRUE(ConfigTools::getParameter(answer, "kernel", kernel));
+  EXPECT_EQ(radius, 0.5) << "the value in force before, not a limit";
+  EXPECT_EQ(kernel, 1) << "a request is taken as a whole";
+  EXPECT_EQ(parameter("radius"), 0.5);
+  EXPECT_TRUE(loggedReason("radius must be a number from 0 to 1000 m, got -1"));
+}
+
+TEST_F(Reconfiguration, AContradictionIsRevertedWithItsReason) {
+  dynamic_reconfigure::Config wanted;
+  ConfigTools::appendParameter(wanted, "free_max", 70);
+  const auto answer = request(wanted);
+  EXPECT_TRUE(applied_.empty());
+  int free_max = 0;
+  EXPECT_TRUE(ConfigTools::getParameter(answer, "free_max", free_max));
+  EXPECT_EQ(free_max, 25);
+  EXPECT_TRUE(loggedReason("free_max must be below occupied_min, got 70 and 65"));
+}
+
+TEST_F(Reconfiguration, AnUnknownChoiceIsReverted) {
+  dynamic_reconfigure::Config wanted;
+  ConfigTools::appendParameter(wanted, "heuristic", std::string("crow"));
+  std::string heuristic;
+  EXPECT_TRUE(ConfigTools::getParameter(request(wanted), "heuristic", heuristic));
+  EXPECT_EQ(heuristic, "octile");
+  EXPECT_TRUE(loggedReason("heuristic must be one of zero"));
+}
+
+}  // namespace
+}  // namespace grid_path_planner

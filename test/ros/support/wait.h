@@ -1,0 +1,23 @@
+// Waiting in rostests: for a condition, up to a deadline that only a failure reaches.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+namespace grid_path_planner::test {
+
+constexpr std::chrono::seconds kDeadline(20);
+
+// Whether `condition` came true before the deadline, asked every 5 ms of the steady clock.
+inline bool waitFor(const std::function<bool()>& condition,
+                    std::chrono::duration<double> deadline = kDeadline) {
+  const auto end = std::chrono::steady_clock::now() + deadline;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+}  // namespace grid_path_planner::test
