@@ -1,0 +1,179 @@
+#include "grid_path_planner/path/waypoint_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <locale>
+#include <sstream>
+
+#include "grid_path_planner/base/atomic_file.h"
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/yaml_file.h"
+
+namespace grid_path_planner {
+namespace {
+
+constexpr double kShortestQuaternion = 1e-6;
+constexpr double kLargestTilt = 1e-3;  // radians
+
+// One entry of the list, with what an error about it has to say.
+class Entry {
+ public:
+  Entry(const YAML::Node& node, std::size_t number, const std::string& file)
+      : node_(node), name_("waypoint " + std::to_string(number)), file_(file) {}
+
+  Pose pose() const {
+    const YAML::Node position = part("position");
+    const YAML::Node orientation = part("orientation");
+    Pose pose;
+    for (int axis = 0; axis < 3; ++axis)
+      pose.position[axis] = coordinate(position, std::string(1, "xyz"[axis]));
+    pose.yaw = yaw(orientation);
+    return pose;
+  }
+
+ private:
+  YAML::Node part(const std::string& key) const {
+    if (!node_.IsMap())
+      throw yamlError(
+          node_, file_,
+          name_ + " must have a position and an orientation, got " + describeYaml(node_));
+    const YAML::Node part = node_[key];
+    if (!part) throw yamlError(node_, file_, name_ + " has no " + key);
+    if (!part.IsMap())
+      throw yamlError(
+          part, file_,
+          "the " + key + " of " + name_ + " must have x, y and z, got " + describeYaml(part));
+    return part;
+  }
+
+  double number(const YAML::Node& part, const std::string& key) const {
+    const YAML::Node value = part[key];
+    if (!value) throw yamlError(part, file_, name_ + " has no " + key);
+    return yamlAs<double>(value, key + " of " + name_, file_, "a finite number");
+  }
+
+  double coordinate(const YAML::Node& position, const std::string& key) const {
+    const double value = number(position, key);
+    if (std::abs(value) <= kLargestCoordinate) return value;
+    throw yamlError(
+        position[key], file_,
+        key + " of " + name_ + " must be within 1e6 m of 0, got " + describeYaml(position[key]));
+  }
+
+  double yaw(const YAML::Node& orientation) const {
+    const double x = orientation["x"] ? number(orientation, "x") : 0.0;
+    const double y = orientation["y"] ? number(orientation, "y") : 0.0;
+    const double z = number(orientation, "z");
+    const double w = number(orientation, "w");
+    const double heading = std::hypot(z, w), tilt = std::hypot(x, y);
+    if (std::max(heading, tilt) < kShortestQuaternion)
+      throw yamlError(orientation, file_, "the orientation of " + name_ + " is a zero quaternion");
+    if (2.0 * std::atan2(tilt, heading) > kLargestTilt)
+      throw yamlError(
+          orientation, file_,
+          "the orientation of " + name_ + " must be a turn about z alone, got roll or pitch");
+    return std::remainder(2.0 * std::atan2(z, w), 2.0 * M_PI);
+  }
+
+  const YAML::Node node_;
+  const std::string name_;
+  const std::string& file_;
+};
+
+std::string frameOf(const YAML::Node& root, const std::string& file) {
+  if (!yamlHas(root, "header", file)) return "map";
+  std::string frame =
+      yamlValueOr<std::string>(root["header"], "frame_id", file, "the name of a frame", "map");
+  if (!frame.empty() && frame.front() == '/') frame.erase(0, 1);
+  if (frame.empty())
+    throw yamlError(root["header"], file, "frame_id must be the name of a frame, got an empty one");
+  return frame;
+}
+
+// The shortest decimal that reads back as `value`, with a point in it: other readers of YAML take
+// 1e-05 for a string and 4 for an integer.
+std::string decimal(double value) {
+  std::string text;
+  for (const int digits : {15, 16, 17}) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(digits);
+    out << value;
+    text = out.str();
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    double back = 0.0;
+    if (in >> back && back == value) break;
+  }
+  if (text.find('.') == std::string::npos) text.insert(std::min(text.find('e'), text.size()), ".0");
+  return text;
+}
+
+// A name as a YAML scalar: plain where it cannot be mistaken for anything else.
+std::string scalar(const std::string& name) {
+  const auto plain = [](char letter) {
+    return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_' || letter == '/';
+  };
+  const bool letters_only = std::all_of(name.begin(), name.end(), plain);
+  if (letters_only && name != "null" && name != "Null" && name != "NULL") return name;
+  std::ostringstream quoted;
+  quoted << '"';
+  for (const char letter : name) {
+    if (letter == '"' || letter == '\\') quoted << '\\';
+    quoted << letter;
+  }
+  quoted << '"';
+  return quoted.str();
+}
+
+void checkCanBeRead(const std::string& file, const Path& path) {
+  if (path.empty()) throw InputError(file, "is not written: a path without waypoints");
+  const auto control = [](char letter) { return static_cast<unsigned char>(letter) < 0x20; };
+  if (path.frame_id.empty() || path.frame_id == "/" ||
+      std::any_of(path.frame_id.begin(), path.frame_id.end(), control))
+    throw InputError(file, "is not written: the path's frame has no proper name");
+  for (std::size_t i = 0; i < path.poses.size(); ++i) {
+    const Pose& pose = path.poses[i];
+    if (pose.position.allFinite() && std::isfinite(pose.yaw) &&
+        pose.position.cwiseAbs().maxCoeff() <= kLargestCoordinate)
+      continue;
+    std::ostringstream message;
+    message << "is not written: waypoint " << i + 1 << " (" << pose.position.x() << ", "
+            << pose.position.y() << ", " << pose.position.z() << ", yaw " << pose.yaw
+            << ") is not finite and within 1e6 m of 0";
+    throw InputError(file, message.str());
+  }
+}
+
+}  // namespace
+
+Path readWaypointFile(const std::string& file) {
+  const YAML::Node root = loadYamlFile(file);
+  const YAML::Node waypoints = yamlNode(root, "waypoints", file, "a list of waypoints");
+  if (!waypoints.IsSequence() || waypoints.size() == 0)
+    throw yamlError(waypoints, file,
+                    "waypoints must be a list of at least one waypoint, got " +
+                        (waypoints.IsSequence() ? "an empty list" : describeYaml(waypoints)));
+  Path path;
+  path.frame_id = frameOf(root, file);
+  for (const YAML::Node& node : waypoints)
+    path.poses.push_back(Entry(node, path.poses.size() + 1, file).pose());
+  return path;
+}
+
+void writeWaypointFile(const std::string& file, const Path& path) {
+  checkCanBeRead(file, path);
+  std::string text = "header: {frame_id: " + scalar(path.frame_id) + "}\nwaypoints:\n";
+  for (const Pose& pose : path.poses) {
+    const Eigen::Vector3d& p = pose.position;
+    text += "  - position: {x: " + decimal(p.x()) + ", y: " + decimal(p.y()) +
+            ", z: " + decimal(p.z()) +
+            "}\n    orientation: {x: 0.0, y: 0.0, z: " + decimal(std::sin(pose.yaw / 2)) +
+            ", w: " + decimal(std::cos(pose.yaw / 2)) + "}\n";
+  }
+  writeFileAtomically(file, text);
+}
+
+}  // namespace grid_path_planner
