@@ -1,3 +1,5 @@
+# What an install space gets: everything that `roslaunch grid_path_planner demo.launch` and a package
+# that builds on the libraries need.
 get_property(rooms GLOBAL PROPERTY GPP_ROOMS)
 get_property(executables GLOBAL PROPERTY GPP_EXECUTABLES)
 install(TARGETS ${rooms}
@@ -6,6 +8,5 @@ install(TARGETS ${rooms}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 install(TARGETS ${executables} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
-foreach(folder launch config rviz maps)
-  install(DIRECTORY ${folder} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} OPTIONAL)
-endforeach()
+install(DIRECTORY launch config rviz maps DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} OPTIONAL)
