@@ -25,6 +25,7 @@
 
 namespace grid_path_planner {
 
+class RouteFinder;
 class Terrain;
 
 struct PlannerOptions {
@@ -78,6 +79,7 @@ struct PlanReport {
   std::size_t cells = 0;           // of the path on the map that was searched
   int kernel = 1;                  // of the map that was searched
   Statistics statistics;
+  double preparation_time_s = 0.0; // terrain and what the planner makes of it; 0 if nothing changed
   std::vector<Eigen::Vector2d> expanded;  // centres of the expanded cells, metres
 };
 
@@ -109,13 +111,14 @@ class MapPlanner {
   PlanReport plan(const PoseRequest& request, const StopSource& stop = {});
 
  private:
-  class Attempt;
+  friend class PlanAttempt;
+
+  void prepareRoutes(const StopToken& stop);
 
   PlannerOptions options_;
   std::shared_ptr<const OccupancyGrid> map_;
   std::unique_ptr<Terrain> terrain_;
-  std::unique_ptr<Planner> planner_;
-  std::unique_ptr<Planner> finer_;
+  std::unique_ptr<RouteFinder> routes_;
 };
 
 }  // namespace grid_path_planner

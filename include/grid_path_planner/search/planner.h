@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grid_path_planner/base/statistics.h"
@@ -24,14 +25,14 @@ namespace grid_path_planner {
 // What a planner can do and what it promises.
 struct Traits {
   std::string name;
-  bool four_connected = true;   // understands Connectivity::FOUR
-  bool unit_diagonals = true;   // understands DiagonalCost::UNIT
-  bool cut_corners = true;      // understands cut_corners
-  bool weights = true;          // cells of different weights
-  bool optimal = false;         // the cost is the least possible, for the options it was made with
-  bool any_angle = false;       // cells of the result need not be neighbours
-  bool several_goals = false;   // answers "the nearest of these goals"
-  bool repairs = false;         // update() costs less than prepare()
+  bool four_connected = true;  // understands Connectivity::FOUR
+  bool unit_diagonals = true;  // understands DiagonalCost::UNIT
+  bool cut_corners = true;     // understands cut_corners
+  bool weights = true;         // cells of different weights
+  bool optimal = false;        // can be; optimalFor() says whether it is, on a map with its options
+  bool any_angle = false;      // cells of the result need not be neighbours
+  bool several_goals = false;  // answers "the nearest of these goals"
+  bool repairs = false;        // update() costs less than prepare()
 };
 
 struct PlanRequest {
@@ -42,9 +43,9 @@ struct PlanRequest {
 
 struct PlanResult {
   Status status = Status::NO_MAP;
-  std::string message;           // one sentence that holds the values
-  std::vector<Cell> cells;       // start and goal included; start = goal: one cell
-  ExactCost cost;                // in cells of the original map x weight
+  std::string message;      // one sentence that holds the values
+  std::vector<Cell> cells;  // start and goal included; start = goal: one cell
+  ExactCost cost;           // in cells of the original map x weight
   Statistics statistics;
   std::vector<CellIndex> expanded;  // in order, where the request asks for it
 };
@@ -54,6 +55,9 @@ class Planner {
   virtual ~Planner() = default;
 
   const Traits& traits() const { return traits_; }
+
+  // Whether the cost of what is found on `map` is the least there is, exactly.
+  virtual bool optimalFor(const CostGrid& map) const;
 
   // Memory that prepare() and plan() will hold for a map of this geometry, the map excluded.
   virtual std::size_t bytesFor(const GridGeometry& geometry) const = 0;
@@ -82,6 +86,7 @@ class Planner {
  private:
   Traits traits_;
   std::shared_ptr<const CostGrid> map_;
+  bool prepared_ = false;  // false where a preparation was stopped half way
 };
 
 }  // namespace grid_path_planner

@@ -1,15 +1,17 @@
 // What every cell costs: the map that planners search.
 //
-// A weight 1..65535 a cell, 0 where the cell is blocked. The cost of a step between neighbours u and
-// v is max(weight(u), weight(v)) x length: 1 straight, sqrt 2 (or 1) diagonal, times the kernel, so
-// that costs compare between kernels. Constant once made; several planners may read one.
+// A weight 1..65535 a cell, 0 where the cell is blocked. The cost of a step between neighbours u
+// and v is max(weight(u), weight(v)) x length: 1 straight, sqrt 2 (or 1) diagonal, times the
+// kernel, so that costs compare between kernels. Constant once made; several planners may read one.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "grid_path_planner/grid/grid.h"
 #include "grid_path_planner/grid/occupancy.h"
+#include "grid_path_planner/terrain/exact_cost.h"
 #include "grid_path_planner/terrain/motion_model.h"
 
 namespace grid_path_planner {
@@ -21,8 +23,7 @@ class CostGrid {
 
   CostGrid() = default;
   // `weights` and `classes` have the same geometry. `kernel`: how many cells of the original map a
-  // cell of this one is wide; `extent`: width and height in cells of the original map, which the
-  // last column and row may reach beyond.
+  // cell of this one is wide; `original`: that map, which the last column and row may reach beyond.
   CostGrid(Grid<Weight> weights, Grid<Occupancy> classes, const MotionModel& motion);
   CostGrid(Grid<Weight> weights, Grid<Occupancy> classes, const MotionModel& motion, int kernel,
            const GridGeometry& original);
@@ -30,6 +31,7 @@ class CostGrid {
   const GridGeometry& geometry() const { return weights_.geometry(); }
   const MotionModel& motion() const { return motion_; }
   int kernel() const { return kernel_; }
+  const GridGeometry& original() const { return original_; }
 
   // Outside the map is blocked.
   bool passable(Cell cell) const { return weights_.contains(cell) && weights_[cell] != kBlocked; }
@@ -62,7 +64,14 @@ class CostGrid {
   std::uint64_t revision_ = 0;
 };
 
-// Whether the one step from `from` to `to` (neighbours by the motion model) is allowed.
+// Whether one step leads from `from` to `to`: neighbours by the motion model, both passable, no
+// corner cut unless that is allowed.
 bool stepAllowed(const CostGrid& map, Cell from, Cell to);
+
+// Cost of that step, in cells of the original map x weight. Precondition: stepAllowed.
+ExactCost stepCost(const CostGrid& map, Cell from, Cell to);
+
+// Cost of a path of steps. Precondition: every step is allowed.
+ExactCost costOfSteps(const CostGrid& map, const std::vector<Cell>& cells);
 
 }  // namespace grid_path_planner

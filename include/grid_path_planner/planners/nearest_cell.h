@@ -1,0 +1,42 @@
+// The cell nearest a point, among those that may be used.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <optional>
+
+#include "grid_path_planner/grid/grid_geometry.h"
+
+namespace grid_path_planner {
+
+struct NearestCell {
+  Cell cell;
+  double distance = 0.0;  // m, from the point to the cell's centre
+};
+
+// The cell whose centre is nearest `point` (metres), at most `radius` metres away, among those of which
+// `usable(cell)` holds; of equally near ones the one with the lowest index.
+template <class Usable>
+std::optional<NearestCell> nearestCell(const GridGeometry& geometry, const Eigen::Vector2d& point,
+                                       double radius, Usable&& usable) {
+  const Eigen::Vector2d middle = geometry.gridFromWorld(point);
+  const double reach = radius / geometry.resolution() + 1.0;
+  const auto clamped = [](double value, int side) {
+    return static_cast<int>(std::floor(std::min(std::max(value, 0.0), side - 1.0)));
+  };
+  const Cell low{clamped(middle.x() - reach, geometry.width()),
+                 clamped(middle.y() - reach, geometry.height())};
+  const Cell high{clamped(middle.x() + reach, geometry.width()),
+                  clamped(middle.y() + reach, geometry.height())};
+  std::optional<NearestCell> nearest;
+  for (int row = low.row; row <= high.row; ++row)
+    for (int column = low.column; column <= high.column; ++column) {
+      const Cell cell{column, row};
+      const double distance = (geometry.centre(cell) - point).norm();
+      if (distance > radius || (nearest && distance >= nearest->distance)) continue;
+      if (usable(cell)) nearest = NearestCell{cell, distance};
+    }
+  return nearest;
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,45 @@
+// One planning of a MapPlanner: what becomes of the two ends, then the route, then the path.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "grid_path_planner/planners/map_planner.h"
+#include "grid_path_planner/planners/route.h"
+
+namespace grid_path_planner {
+
+class PlanAttempt {
+ public:
+  // The planner is prepared. All three outlive the attempt.
+  PlanAttempt(MapPlanner& planner, const PoseRequest& request, const StopToken& stop);
+
+  // Throws Stopped and CostOverflow.
+  PlanReport run();
+
+ private:
+  // An end of the path: the cell it is searched from, and where the path ends.
+  struct End {
+    Cell cell;
+    Eigen::Vector2d position;
+    std::string note;    // what the answer should say about it, "" if nothing
+    bool moved = false;  // the cell is not the one that was asked for
+  };
+
+  // None where the report says why.
+  std::optional<End> startEnd(PlanReport& report) const;
+  std::optional<End> goalEnd(const End& start, PlanReport& report);
+  std::optional<End> substituteGoal(const End& start, const std::string& why);
+  std::string whyBlocked(Cell cell) const;
+
+  Route search(const End& start, const End& goal);
+  void fill(PlanReport& report, const End& start, const End& goal, Route route) const;
+  Path pathOf(const End& start, const End& goal, const Route& route) const;
+
+  MapPlanner& planner_;
+  const PoseRequest& request_;
+  const StopToken& stop_;
+  std::shared_ptr<const CostGrid> fine_;
+};
+
+}  // namespace grid_path_planner

@@ -1,0 +1,76 @@
+// Between two cells of the full map, over the blocks of a kernel where they are open and cell by cell
+// where they are not.
+//
+// Where the block of an end is blocked though the cell is not, a leg at full resolution leads to the
+// middle of the open block that is cheapest to reach (or straight to the other end, if that is nearer).
+// Where the kernel closes the way the search is repeated at full resolution, if that is allowed.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/search/best_first_search.h"
+#include "grid_path_planner/search/planner.h"
+#include "grid_path_planner/search/search_options.h"
+#include "grid_path_planner/terrain/cost_grid.h"
+
+namespace grid_path_planner {
+
+// Cells that follow each other on one map.
+struct Leg {
+  std::shared_ptr<const CostGrid> map;
+  std::vector<Cell> cells;
+};
+
+struct Route {
+  Status status = Status::UNREACHABLE;
+  std::string message;
+  std::vector<Leg> legs;  // a leg's last cell and the next one's first are the same place or block
+  ExactCost cost;
+  int kernel = 1;  // of the map that the longest part was searched on
+  Statistics statistics;
+  std::vector<Eigen::Vector2d> expanded;  // centres, metres
+};
+
+class RouteFinder {
+ public:
+  // Throws InputError for an unknown planner or options that cannot be used.
+  RouteFinder(std::string planner, const SearchOptions& options);
+
+  // Takes the maps: `fine` at full resolution, `searched` with the kernel, where cells of `searched`
+  // outside `changed` are as they were at the last call. Throws Stopped.
+  void prepare(std::shared_ptr<const CostGrid> fine, std::shared_ptr<const CostGrid> searched,
+               const CellRect& changed, const StopToken& stop);
+
+  // Precondition: both cells are passable on the fine map.
+  Route find(Cell start, Cell goal, bool retry_finer, bool record_expanded, const StopToken& stop);
+
+  // The cells of the fine map that find() reaches from `start`: a byte a cell, not 0 where reached.
+  std::vector<std::uint8_t> reachable(Cell start, bool retry_finer, const StopToken& stop);
+
+ private:
+  Cell blockOf(Cell cell) const {
+    return {cell.column / searched_->kernel(), cell.row / searched_->kernel()};
+  }
+  Cell middleOf(Cell block) const;
+  bool blockOpen(Cell cell) const { return searched_->passable(blockOf(cell)); }
+
+  // From a cell whose block is blocked to the middle of an open one, or to `other`.
+  PlanResult leave(Cell from, Cell other, bool record_expanded, const StopToken& stop);
+  Route findOverBlocks(Cell start, Cell goal, bool record_expanded, const StopToken& stop);
+  Route findFine(Cell start, Cell goal, bool record_expanded, const StopToken& stop);
+
+  std::string planner_name_;
+  SearchOptions options_;
+  std::shared_ptr<const CostGrid> fine_;
+  std::shared_ptr<const CostGrid> searched_;
+  std::unique_ptr<Planner> planner_;                  // on searched_
+  std::unique_ptr<Planner> finer_;                    // on fine_, made when first needed
+  std::shared_ptr<const CostGrid> finer_map_;         // what finer_ is prepared for
+  std::unique_ptr<BestFirstSearch> leaver_;           // on fine_, made when first needed
+  std::shared_ptr<const CostGrid> leaver_map_;        // what leaver_ is prepared for
+};
+
+}  // namespace grid_path_planner

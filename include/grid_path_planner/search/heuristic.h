@@ -1,0 +1,57 @@
+// Lower bounds of the cost between two cells, as search keys.
+//
+// zero, manhattan (4-connected distance), chebyshev (diagonals as long as straights: the "diagonal
+// distance with uniform cost"), octile (diagonals sqrt 2: the "non-uniform" one) and euclidean, in
+// cell lengths times the scale. With `cheapest` as scale they are computed with integers, rounded
+// down, and consistent wherever admissible() says so.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "grid_path_planner/search/search_key.h"
+#include "grid_path_planner/search/search_options.h"
+#include "grid_path_planner/terrain/cost_grid.h"
+
+namespace grid_path_planner {
+
+// Whether the heuristic, times a scale of at most the cheapest weight, never exceeds the cost.
+bool admissible(Heuristic heuristic, const MotionModel& motion);
+
+// Whether A* with these options finds a least-cost path on `map`.
+bool optimalWith(const SearchOptions& options, const CostGrid& map);
+
+// The estimate that A* with `options` adds to g for the way from `start` to `goal` on `map`.
+class Estimate {
+ public:
+  Estimate(const SearchOptions& options, const CostGrid& map, Cell start, Cell goal);
+
+  SearchKey operator()(Cell cell) const {
+    const auto columns = static_cast<std::uint64_t>(std::abs(cell.column - goal_.column));
+    const auto rows = static_cast<std::uint64_t>(std::abs(cell.row - goal_.row));
+    if (integral_ && heuristic_ == Heuristic::OCTILE) return octile(columns, rows) * weight_;
+    return general(cell, columns, rows);
+  }
+
+  // |cross product| of the vectors from the goal to `cell` and to the start: 0 on the straight
+  // line.
+  std::uint64_t cross(Cell cell) const;
+
+ private:
+  static SearchKey octile(std::uint64_t columns, std::uint64_t rows) {
+    return columns < rows ? (rows - columns) * kStraightKey + columns * kDiagonalKey
+                          : (columns - rows) * kStraightKey + rows * kDiagonalKey;
+  }
+  SearchKey general(Cell cell, std::uint64_t columns, std::uint64_t rows) const;
+  SearchKey distance(std::uint64_t columns, std::uint64_t rows) const;
+
+  Heuristic heuristic_;
+  bool published_cross_;
+  Cell start_;
+  Cell goal_;
+  SearchKey weight_;  // the scale where it is the cheapest weight
+  double factor_;     // the scale as a number, times epsilon
+  bool integral_;     // the estimate is distance * weight_ and fits
+};
+
+}  // namespace grid_path_planner

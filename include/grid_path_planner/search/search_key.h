@@ -1,0 +1,32 @@
+// Costs as one integer, for ordering: A * kStraightKey + B * kDiagonalKey for A + B sqrt 2, where
+// kDiagonalKey / kStraightKey is a convergent of sqrt 2. See terrain/exact_cost.h for why the order
+// is exact as long as B < kStraightKey, which kLargestKey guarantees.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "grid_path_planner/terrain/motion_model.h"
+
+namespace grid_path_planner {
+
+using SearchKey = std::uint64_t;
+
+constexpr SearchKey kStraightKey = 3166815962U;
+constexpr SearchKey kDiagonalKey = 4478554083U;
+// A path of this cost is refused: 4.4e9 cell lengths x weight.
+constexpr SearchKey kLargestKey = kStraightKey * kDiagonalKey;
+constexpr SearchKey kInfiniteKey = std::numeric_limits<SearchKey>::max();
+
+// Thrown by a search whose costs reach it; Planner::plan makes INVALID_REQUEST of it.
+struct CostOverflow {};
+
+constexpr SearchKey diagonalKey(DiagonalCost cost) {
+  return cost == DiagonalCost::SQRT2 ? kDiagonalKey : kStraightKey;
+}
+
+constexpr SearchKey saturatingSum(SearchKey a, SearchKey b) {
+  return a > kInfiniteKey - b ? kInfiniteKey : a + b;
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,56 @@
+// How occupied cells make their surroundings dear or blocked.
+//
+// The distance is from a cell's centre to the nearest edge of an occupied cell, exact: it is kept
+// as the integer (2 distance / resolution)^2. Below `radius` a cell is blocked; beyond it weight =
+// max(class weight, free + (inflation_weight - free) e^(-decay (distance - radius))), rounded.
+// Unknown cells do not inflate.
+//
+// The distances come from a separable exact transform (Felzenszwalb & Huttenlocher 2012) over the
+// edges of the cells: time in proportion to the cells, whatever the radius.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/terrain/cost_grid.h"
+#include "grid_path_planner/terrain/terrain_options.h"
+
+namespace grid_path_planner {
+
+// Squared distances in units of (resolution / 2)^2.
+using HalfCellsSquared = std::int64_t;
+constexpr HalfCellsSquared kNoObstacle = -1;
+
+// From the centre of every cell of `window` to the nearest edge of an occupied cell of `classes`
+// that lies inside `window` too; row-major over the window; kNoObstacle where there is none.
+// Precondition: the window lies in the map. Throws Stopped.
+std::vector<HalfCellsSquared> obstacleDistances(const Grid<Occupancy>& classes,
+                                                const CellRect& window, const StopToken& stop);
+
+// What a distance does to a weight.
+class Inflation {
+ public:
+  Inflation(const TerrainOptions& options, double resolution);
+
+  // Whether it changes nothing at any distance.
+  bool none() const { return reach_ == 0; }
+  // Occupied cells farther than this many columns or rows change nothing.
+  int reach() const { return reach_; }
+
+  // Weight of a cell of `class_weight` (kBlocked stays blocked) at `distance`.
+  CostGrid::Weight apply(CostGrid::Weight class_weight, HalfCellsSquared distance) const;
+
+ private:
+  // kBlocked inside the radius, the ring's weight beyond.
+  CostGrid::Weight ringWeight(HalfCellsSquared distance) const;
+
+  double radius_;  // half cells
+  double decay_;   // 1 / half cell
+  double free_;
+  double rise_;  // inflation_weight - free_weight
+  int reach_ = 0;
+  std::vector<CostGrid::Weight> table_;  // ringWeight by distance
+};
+
+}  // namespace grid_path_planner

@@ -1,0 +1,111 @@
+#include "grid_path_planner/planners/map_planner.h"
+
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/planners/plan_attempt.h"
+#include "grid_path_planner/planners/route.h"
+#include "grid_path_planner/terrain/terrain.h"
+
+namespace grid_path_planner {
+namespace {
+
+bool finite(const Pose& pose) { return pose.position.allFinite() && std::isfinite(pose.yaw); }
+
+PlanReport failure(Status status, const std::string& message) {
+  PlanReport report;
+  report.status = status;
+  report.message = message;
+  return report;
+}
+
+StopToken limited(const StopSource& stop, double timeout) {
+  return timeout > 0.0 ? stop.token(std::chrono::duration<double>(timeout)) : stop.token();
+}
+
+}  // namespace
+
+void checkPlannerOptions(const PlannerOptions& options) {
+  checkOptionLimits(options);
+  checkTerrainOptions(options.terrain);
+  checkSearchOptions(options.search);
+  makePlanner(options.planner, options.search);
+}
+
+MapPlanner::MapPlanner(const PlannerOptions& options) { setOptions(options); }
+MapPlanner::~MapPlanner() = default;
+MapPlanner::MapPlanner(MapPlanner&&) noexcept = default;
+MapPlanner& MapPlanner::operator=(MapPlanner&&) noexcept = default;
+
+void MapPlanner::setOptions(const PlannerOptions& options) {
+  checkPlannerOptions(options);
+  const bool new_terrain = !terrain_ || !sameOptions(options.terrain, options_.terrain);
+  const bool new_routes = new_terrain || options.planner != options_.planner ||
+                          !sameOptions(options.search, options_.search);
+  if (new_routes) routes_ = std::make_unique<RouteFinder>(options.planner, options.search);
+  if (new_terrain) {
+    terrain_ = std::make_unique<Terrain>(options.terrain);
+    if (map_) terrain_->setMap(map_);
+  }
+  options_ = options;
+}
+
+void MapPlanner::setMap(std::shared_ptr<const OccupancyGrid> map) {
+  checkOccupancyValues(*map);
+  map_ = std::move(map);
+  terrain_->setMap(map_);
+}
+
+void MapPlanner::updateMap(std::shared_ptr<const OccupancyGrid> map, const CellRect& changed) {
+  if (!map_ || map->geometry() != map_->geometry()) return setMap(std::move(map));
+  checkOccupancyValues(*map);
+  map_ = std::move(map);
+  terrain_->updateMap(map_, changed);
+}
+
+std::shared_ptr<const CostGrid> MapPlanner::fineCosts(const StopToken& stop) {
+  assert(hasMap());
+  return terrain_->fine(stop);
+}
+
+std::shared_ptr<const CostGrid> MapPlanner::searchedCosts(const StopToken& stop) {
+  assert(hasMap());
+  return terrain_->searched(stop);
+}
+
+void MapPlanner::prepareRoutes(const StopToken& stop) {
+  const std::shared_ptr<const CostGrid> searched = searchedCosts(stop);
+  routes_->prepare(fineCosts(stop), searched, terrain_->searchedChange(), stop);
+}
+
+PlanReport MapPlanner::plan(const PoseRequest& request, const StopSource& stop) {
+  if (!hasMap()) return failure(Status::NO_MAP, "no map has arrived yet");
+  if (!finite(request.start) || !finite(request.goal))
+    return failure(Status::INVALID_REQUEST, "start and goal must be finite numbers");
+  PlanReport report;
+  try {
+    const StopToken token = limited(stop, options_.timeout);
+    const auto begin = StopToken::Clock::now();
+    prepareRoutes(token);
+    const auto prepared = StopToken::Clock::now();
+    report = PlanAttempt(*this, request, token).run();
+    report.preparation_time_s = std::chrono::duration<double>(prepared - begin).count();
+  } catch (const Stopped& stopped) {
+    const bool timeout = stopped.status() == Status::TIMEOUT;
+    report = failure(stopped.status(), timeout ? "planning reached its time limit of " +
+                                                     std::to_string(options_.timeout) + " s"
+                                               : "planning was cancelled");
+  } catch (const CostOverflow&) {
+    report = failure(Status::INVALID_REQUEST,
+                     "a path may cost more than 4.4e9 cell lengths x weight: use smaller weights");
+  }
+  report.path.frame_id = "map";
+  return report;
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,156 @@
+#include "grid_path_planner/planners/route.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/search/steps.h"
+
+namespace grid_path_planner {
+namespace {
+
+// Adds a search's answer to the route; its cells only where it found some.
+void append(Route& route, const std::shared_ptr<const CostGrid>& map, PlanResult result) {
+  route.status = result.status;
+  route.message = std::move(result.message);
+  route.statistics += result.statistics;
+  for (const CellIndex index : result.expanded)
+    route.expanded.push_back(map->waypoint(map->geometry().cell(index)));
+  if (result.status != Status::FOUND) return;
+  route.cost += result.cost;
+  route.legs.push_back({map, std::move(result.cells)});
+}
+
+}  // namespace
+
+RouteFinder::RouteFinder(std::string planner, const SearchOptions& options)
+    : planner_name_(std::move(planner)),
+      options_(options),
+      planner_(makePlanner(planner_name_, options)) {}
+
+void RouteFinder::prepare(std::shared_ptr<const CostGrid> fine,
+                          std::shared_ptr<const CostGrid> searched, const CellRect& changed,
+                          const StopToken& stop) {
+  fine_ = std::move(fine);
+  if (searched_ == searched) return;
+  searched_.reset();  // a stopped preparation begins anew
+  planner_->update(searched, changed, stop);
+  searched_ = std::move(searched);
+}
+
+Cell RouteFinder::middleOf(Cell block) const {
+  const int k = searched_->kernel();
+  const auto middle = [k](int first, int side) { return first + std::min(k, side - first) / 2; };
+  return {middle(block.column * k, fine_->geometry().width()),
+          middle(block.row * k, fine_->geometry().height())};
+}
+
+Route RouteFinder::find(Cell start, Cell goal, bool retry_finer, bool record_expanded,
+                        const StopToken& stop) {
+  assert(fine_ && searched_ && fine_->passable(start) && fine_->passable(goal));
+  if (searched_->kernel() == 1) {
+    Route route;
+    append(route, searched_, planner_->plan({start, {goal}, record_expanded}, stop));
+    return route;
+  }
+  Route route = findOverBlocks(start, goal, record_expanded, stop);
+  if (route.status != Status::UNREACHABLE || !retry_finer) return route;
+
+  Route finer = findFine(start, goal, record_expanded, stop);
+  finer.statistics += route.statistics;
+  finer.expanded.insert(finer.expanded.begin(), route.expanded.begin(), route.expanded.end());
+  if (finer.status == Status::FOUND)
+    finer.message = "kernel " + std::to_string(searched_->kernel()) +
+                    " closes the way: planned again at kernel 1";
+  return finer;
+}
+
+PlanResult RouteFinder::leave(Cell from, Cell other, bool record_expanded, const StopToken& stop) {
+  if (!leaver_) leaver_ = std::make_unique<BestFirstSearch>();
+  if (leaver_map_ != fine_) {
+    leaver_map_.reset();
+    leaver_->prepare(*fine_, stop);
+    leaver_map_ = fine_;
+  }
+  const GridGeometry& geometry = fine_->geometry();
+  const auto arrived = [&](std::uint32_t index) {
+    const Cell cell = geometry.cell(CellIndex(index));
+    return cell == other || (blockOpen(cell) && middleOf(blockOf(cell)) == cell);
+  };
+  const auto cheapestFirst = [](SearchKey g, Cell) {
+    return BestFirstSearch::Promise{g, 0};
+  };
+  return leaver_->run(*fine_, from, arrived, cheapestFirst, record_expanded, stop);
+}
+
+Route RouteFinder::findOverBlocks(Cell start, Cell goal, bool record_expanded,
+                                  const StopToken& stop) {
+  Route route;
+  route.kernel = searched_->kernel();
+  Cell first = start;
+  if (!blockOpen(start)) {
+    append(route, fine_, leave(start, goal, record_expanded, stop));
+    if (route.status != Status::FOUND) return route;
+    first = route.legs.back().cells.back();
+    if (first == goal) return route;
+  }
+
+  Route last_leg;
+  Cell last = goal;
+  if (!blockOpen(goal)) {
+    append(last_leg, fine_, leave(goal, start, record_expanded, stop));
+    route.statistics += last_leg.statistics;
+    route.expanded.insert(route.expanded.end(), last_leg.expanded.begin(), last_leg.expanded.end());
+    route.status = last_leg.status;
+    if (last_leg.status != Status::FOUND) return route;
+    auto& cells = last_leg.legs.back().cells;
+    std::reverse(cells.begin(), cells.end());
+    last = cells.front();
+    if (last == start) {
+      last_leg.statistics = route.statistics;
+      return last_leg;
+    }
+  }
+
+  append(route, searched_,
+         planner_->plan({blockOf(first), {blockOf(last)}, record_expanded}, stop));
+  if (route.status != Status::FOUND || last_leg.legs.empty()) return route;
+  route.cost += last_leg.cost;
+  route.legs.push_back(std::move(last_leg.legs.back()));
+  return route;
+}
+
+Route RouteFinder::findFine(Cell start, Cell goal, bool record_expanded, const StopToken& stop) {
+  if (!finer_) finer_ = makePlanner(planner_name_, options_);
+  if (finer_map_ != fine_) {
+    finer_map_.reset();
+    finer_->prepare(fine_, stop);
+    finer_map_ = fine_;
+  }
+  Route route;
+  append(route, fine_, finer_->plan({start, {goal}, record_expanded}, stop));
+  return route;
+}
+
+std::vector<std::uint8_t> RouteFinder::reachable(Cell start, bool retry_finer,
+                                                 const StopToken& stop) {
+  if (retry_finer || searched_->kernel() == 1) return reachableFrom(*fine_, start, stop);
+  std::vector<std::uint8_t> cells(fine_->geometry().size(), 0);
+  Cell first = start;
+  if (!blockOpen(start)) {
+    const PlanResult leaving = leave(start, start, false, stop);
+    if (leaving.status != Status::FOUND) return cells;
+    first = leaving.cells.back();
+  }
+  const std::vector<std::uint8_t> blocks = reachableFrom(*searched_, blockOf(first), stop);
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
+    const Cell cell = fine_->geometry().cell(CellIndex(i));
+    cells[i] = fine_->passable(cell)
+                   ? blocks[searched_->geometry().index(blockOf(cell)).value()]
+                   : std::uint8_t{0};
+  }
+  return cells;
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,70 @@
+#include "grid_path_planner/planners/route_path.h"
+
+#include <cassert>
+
+#include "grid_path_planner/terrain/segment.h"
+
+namespace grid_path_planner {
+namespace {
+
+struct RoutePoint {
+  Eigen::Vector2d position;
+  const CostGrid* map;  // on which the segments at this point are judged
+};
+
+// Two legs meet in the middle of one block: the fine leg's point serves both.
+std::vector<RoutePoint> pointsOf(const Route& route) {
+  std::vector<RoutePoint> points;
+  for (const Leg& leg : route.legs) {
+    const bool coarse = leg.map->kernel() > 1;
+    for (std::size_t i = 0; i < leg.cells.size(); ++i) {
+      const RoutePoint point{leg.map->waypoint(leg.cells[i]), leg.map.get()};
+      const bool joins = i == 0 && !points.empty();
+      if (joins && coarse) continue;
+      if (joins) points.pop_back();
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+bool straightWay(const CostGrid& map, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  return segmentLegal(map, SegmentPoint::nearest(map.geometry().gridFromWorld(from)),
+                      SegmentPoint::nearest(map.geometry().gridFromWorld(to)));
+}
+
+// A vehicle cannot tell poses apart that are this near, in metres.
+bool samePlace(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return (a - b).norm() < 1e-9; }
+
+}  // namespace
+
+Path pathOfRoute(const Route& route, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                 bool keep_first) {
+  std::vector<RoutePoint> points = pointsOf(route);
+  assert(!points.empty());
+  const CostGrid* first_map = points.front().map;
+  const CostGrid* last_map = points.back().map;
+  if (!keep_first) {
+    const Eigen::Vector2d& next = points.size() > 1 ? points[1].position : goal;
+    if (straightWay(*first_map, start, next)) points.erase(points.begin());
+  }
+  if (!points.empty()) {
+    const Eigen::Vector2d& previous = points.size() > 1 ? points[points.size() - 2].position : start;
+    const bool only_kept = keep_first && points.size() == 1;
+    if (!only_kept && straightWay(*last_map, previous, goal)) points.pop_back();
+  }
+
+  Path path;
+  const auto add = [&path](const Eigen::Vector2d& position) {
+    Pose pose;
+    pose.position << position, 0.0;
+    path.poses.push_back(pose);
+  };
+  add(start);
+  for (const RoutePoint& point : points)
+    if (!samePlace(point.position, start) && !samePlace(point.position, goal)) add(point.position);
+  add(goal);
+  return path;
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,49 @@
+#include "grid_path_planner/search/best_first_search.h"
+
+namespace grid_path_planner {
+
+void BestFirstSearch::prepare(const CostGrid& map, const StopToken& stop) {
+  masks_.build(map, stop);
+  if (words_.size() == map.geometry().size()) return;
+  costs_.assign(map.geometry().size(), 0);
+  words_.assign(map.geometry().size(), 0);
+  query_ = 0;
+}
+
+void BestFirstSearch::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
+  masks_.update(map, changed, stop);
+}
+
+void BestFirstSearch::beginQuery() {
+  heap_.clear();
+  const std::uint32_t last = (std::uint32_t{1} << (32 - kQueryShift)) - 1;
+  if (query_ == last) {
+    std::fill(words_.begin(), words_.end(), 0);
+    query_ = 0;
+  }
+  ++query_;
+}
+
+std::vector<Cell> BestFirstSearch::pathTo(const CostGrid& map, std::uint32_t start,
+                                          std::uint32_t goal) const {
+  std::vector<Cell> cells;
+  for (std::uint32_t at = goal; at != start;) {
+    cells.push_back(map.geometry().cell(CellIndex(at)));
+    const std::uint32_t step = words_[at] >> kStepShift & 7U;
+    at = static_cast<std::uint32_t>(at - masks_.offsets()[step]);
+  }
+  cells.push_back(map.geometry().cell(CellIndex(start)));
+  std::reverse(cells.begin(), cells.end());
+  return cells;
+}
+
+PlanResult BestFirstSearch::finish(const CostGrid& map, std::uint32_t start, std::uint32_t goal,
+                                   PlanResult result) const {
+  result.status = Status::FOUND;
+  result.cells = pathTo(map, start, goal);
+  result.cost = costOfSteps(map, result.cells);
+  result.statistics.search_bytes = bytesFor(map.geometry()) + heap_.capacity() * sizeof(Entry);
+  return result;
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,93 @@
+#include "grid_path_planner/search/heuristic.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grid_path_planner {
+namespace {
+
+SearchKey roundedDown(long double key) {
+  if (key >= static_cast<long double>(kInfiniteKey)) return kInfiniteKey;
+  return key <= 0.0L ? 0 : static_cast<SearchKey>(key);
+}
+
+// What the original added to h for every cell off the straight line.
+constexpr long double kPublishedCrossFactor = 0.001L;
+
+}  // namespace
+
+bool admissible(Heuristic heuristic, const MotionModel& motion) {
+  const bool four = motion.connectivity == Connectivity::FOUR;
+  const bool root = motion.diagonal_cost == DiagonalCost::SQRT2;
+  switch (heuristic) {
+    case Heuristic::ZERO:
+    case Heuristic::CHEBYSHEV:
+      return true;
+    case Heuristic::MANHATTAN:
+      return four;
+    case Heuristic::OCTILE:
+    case Heuristic::EUCLIDEAN:
+      return four || root;
+  }
+  return false;
+}
+
+bool optimalWith(const SearchOptions& options, const CostGrid& map) {
+  const std::optional<double> scale = heuristicScale(options);
+  const bool scale_bounds = !scale || *scale <= map.cheapest();
+  return options.epsilon == 1.0 && scale_bounds && admissible(options.heuristic, map.motion()) &&
+         options.tie_break != TieBreak::CROSS_PRODUCT_PUBLISHED;
+}
+
+Estimate::Estimate(const SearchOptions& options, const CostGrid& map, Cell start, Cell goal)
+    : heuristic_(options.heuristic),
+      published_cross_(options.tie_break == TieBreak::CROSS_PRODUCT_PUBLISHED),
+      start_(start),
+      goal_(goal),
+      weight_(map.cheapest()),
+      factor_(heuristicScale(options).value_or(map.cheapest()) * options.epsilon) {
+  // The longest estimate, octile or euclidean, is below (width + height) * weight straight steps.
+  const std::uint64_t longest =
+      static_cast<std::uint64_t>(map.geometry().width()) + map.geometry().height();
+  const bool fits = weight_ == 0 || longest <= kInfiniteKey / (2 * kStraightKey * weight_);
+  integral_ = fits && options.epsilon == 1.0 && !published_cross_ && !heuristicScale(options);
+}
+
+std::uint64_t Estimate::cross(Cell cell) const {
+  const std::int64_t x1 = cell.column - goal_.column;
+  const std::int64_t y1 = cell.row - goal_.row;
+  const std::int64_t x2 = start_.column - goal_.column;
+  const std::int64_t y2 = start_.row - goal_.row;
+  return static_cast<std::uint64_t>(std::abs(x1 * y2 - x2 * y1));
+}
+
+SearchKey Estimate::distance(std::uint64_t columns, std::uint64_t rows) const {
+  switch (heuristic_) {
+    case Heuristic::ZERO:
+      return 0;
+    case Heuristic::MANHATTAN:
+      return (columns + rows) * kStraightKey;
+    case Heuristic::CHEBYSHEV:
+      return std::max(columns, rows) * kStraightKey;
+    case Heuristic::OCTILE:
+      return octile(columns, rows);
+    case Heuristic::EUCLIDEAN:
+      break;
+  }
+  // One unit below: the rounding of the square root must not lift it above the true length.
+  const long double length = std::sqrt(static_cast<long double>(columns * columns + rows * rows));
+  const SearchKey key = roundedDown(length * static_cast<long double>(kStraightKey));
+  return key > 0 ? key - 1 : 0;
+}
+
+SearchKey Estimate::general(Cell cell, std::uint64_t columns, std::uint64_t rows) const {
+  const SearchKey cells = distance(columns, rows);
+  if (integral_) return cells * weight_;
+  long double key = static_cast<long double>(cells) * static_cast<long double>(factor_);
+  if (published_cross_)
+    key += kPublishedCrossFactor * static_cast<long double>(cross(cell)) *
+           static_cast<long double>(kStraightKey);
+  return roundedDown(key);
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,132 @@
+#include "grid_path_planner/search/planner.h"
+
+#include <algorithm>
+#include <chrono>
+#include <sstream>
+#include <utility>
+
+#include "grid_path_planner/search/search_key.h"
+
+namespace grid_path_planner {
+namespace {
+
+template <class... Parts>
+std::string sentence(const Parts&... parts) {
+  std::ostringstream out;
+  (out << ... << parts);
+  return out.str();
+}
+
+PlanResult failure(Status status, std::string message) {
+  PlanResult result;
+  result.status = status;
+  result.message = std::move(message);
+  return result;
+}
+
+std::string sizeOf(const CostGrid& map) {
+  return sentence(map.geometry().width(), "x", map.geometry().height(), " cells");
+}
+
+// The first thing wrong with the request, FOUND where there is none.
+PlanResult check(const CostGrid& map, const PlanRequest& request, const Traits& traits) {
+  if (request.goals.empty()) return failure(Status::INVALID_REQUEST, "the request has no goal");
+  if (request.goals.size() > 1 && !traits.several_goals)
+    return failure(Status::INVALID_REQUEST,
+                   sentence(traits.name, " takes one goal, got ", request.goals.size()));
+  if (!map.geometry().contains(request.start))
+    return failure(Status::START_OUTSIDE_MAP,
+                   sentence("start ", request.start, " lies outside the map of ", sizeOf(map)));
+  for (const Cell goal : request.goals)
+    if (!map.geometry().contains(goal))
+      return failure(Status::GOAL_OUTSIDE_MAP,
+                     sentence("goal ", goal, " lies outside the map of ", sizeOf(map)));
+  if (!map.passable(request.start))
+    return failure(Status::START_OCCUPIED, sentence("start ", request.start, " is blocked"));
+  const auto open = [&map](Cell goal) { return map.passable(goal); };
+  if (std::none_of(request.goals.begin(), request.goals.end(), open))
+    return failure(Status::GOAL_OCCUPIED,
+                   request.goals.size() == 1
+                       ? sentence("goal ", request.goals.front(), " is blocked")
+                       : sentence("all ", request.goals.size(), " goals are blocked"));
+  return failure(Status::FOUND, "");
+}
+
+std::string unreachable(const PlanRequest& request) {
+  if (request.goals.size() == 1)
+    return sentence("no way leads from ", request.start, " to ", request.goals.front());
+  return sentence("no way leads from ", request.start, " to any of ", request.goals.size(),
+                  " goals");
+}
+
+// Goals that are blocked cannot be reached; the others may.
+PlanRequest withoutBlockedGoals(PlanRequest request, const CostGrid& map) {
+  auto& goals = request.goals;
+  goals.erase(
+      std::remove_if(goals.begin(), goals.end(), [&map](Cell goal) { return !map.passable(goal); }),
+      goals.end());
+  return request;
+}
+
+}  // namespace
+
+void Planner::prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop) {
+  map_ = std::move(map);
+  prepared_ = false;
+  doPrepare(stop);
+  prepared_ = true;
+}
+
+void Planner::update(std::shared_ptr<const CostGrid> map, const CellRect& changed,
+                     const StopToken& stop) {
+  const bool follows = prepared_ && map->geometry() == map_->geometry() &&
+                       map->motion() == map_->motion() && map->revision() == map_->revision() + 1;
+  if (!follows) return prepare(std::move(map), stop);
+  map_ = std::move(map);
+  prepared_ = false;
+  doUpdate(changed, stop);
+  prepared_ = true;
+}
+
+PlanResult Planner::plan(const PlanRequest& request, const StopToken& stop) {
+  if (!prepared_) return failure(Status::NO_MAP, traits_.name + " has no map yet");
+  const std::string reason = refusal(*map_);
+  if (!reason.empty()) return failure(Status::INVALID_REQUEST, traits_.name + " " + reason);
+  PlanResult checked = check(*map_, request, traits_);
+  if (checked.status != Status::FOUND) return checked;
+
+  const auto begin = StopToken::Clock::now();
+  PlanResult result;
+  try {
+    const StopReason reason_to_stop = stop.reason();
+    if (reason_to_stop != StopReason::NONE) throw Stopped(reason_to_stop);
+    result = doPlan(withoutBlockedGoals(request, *map_), stop);
+  } catch (const CostOverflow&) {
+    result = failure(Status::INVALID_REQUEST,
+                     "a path may cost more than 4.4e9 cell lengths x weight: use smaller weights");
+  } catch (const Stopped& stopped) {
+    result = failure(stopped.status(), stopped.status() == Status::TIMEOUT
+                                           ? traits_.name + " reached its time limit"
+                                           : traits_.name + " was cancelled");
+  }
+  if (result.status == Status::UNREACHABLE && result.message.empty())
+    result.message = unreachable(request);
+  result.statistics.time_s = std::chrono::duration<double>(StopToken::Clock::now() - begin).count();
+  return result;
+}
+
+bool Planner::optimalFor(const CostGrid&) const {
+  return traits_.optimal;
+}
+
+std::string Planner::refusal(const CostGrid& map) const {
+  const MotionModel& motion = map.motion();
+  if (motion.connectivity == Connectivity::FOUR && !traits_.four_connected)
+    return "does not plan with connectivity 4";
+  if (motion.diagonal_cost == DiagonalCost::UNIT && !traits_.unit_diagonals)
+    return "does not plan with diagonal_cost unit";
+  if (motion.cut_corners && !traits_.cut_corners) return "does not plan with cut_corners";
+  return "";
+}
+
+}  // namespace grid_path_planner

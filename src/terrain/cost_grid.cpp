@@ -1,0 +1,76 @@
+#include "grid_path_planner/terrain/cost_grid.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+namespace grid_path_planner {
+namespace {
+
+CostGrid::Weight cheapestOf(const std::vector<CostGrid::Weight>& weights) {
+  // Blocked is 0: one below it wraps to the largest value and never wins.
+  CostGrid::Weight least = std::numeric_limits<CostGrid::Weight>::max();
+  for (const CostGrid::Weight weight : weights)
+    least = std::min(least, static_cast<CostGrid::Weight>(weight - 1));
+  return static_cast<CostGrid::Weight>(least + 1);
+}
+
+}  // namespace
+
+CostGrid::CostGrid(Grid<Weight> weights, Grid<Occupancy> classes, const MotionModel& motion)
+    : CostGrid(std::move(weights), std::move(classes), motion, 1, GridGeometry()) {
+  original_ = geometry();
+}
+
+CostGrid::CostGrid(Grid<Weight> weights, Grid<Occupancy> classes, const MotionModel& motion,
+                   int kernel, const GridGeometry& original)
+    : weights_(std::move(weights)),
+      classes_(std::move(classes)),
+      motion_(motion),
+      kernel_(kernel),
+      original_(original),
+      cheapest_(cheapestOf(weights_.values())) {
+  assert(weights_.geometry() == classes_.geometry());
+}
+
+Eigen::Vector2d CostGrid::waypoint(Cell cell) const {
+  const auto middle = [this](int block, int side) {
+    const int first = block * kernel_;
+    return 0.5 * (first + std::min(first + kernel_, side));
+  };
+  return original_.worldFromGrid(
+      {middle(cell.column, original_.width()), middle(cell.row, original_.height())});
+}
+
+std::size_t CostGrid::bytes() const {
+  return geometry().size() * (sizeof(Weight) + sizeof(Occupancy));
+}
+
+bool stepAllowed(const CostGrid& map, Cell from, Cell to) {
+  const int columns = std::abs(to.column - from.column);
+  const int rows = std::abs(to.row - from.row);
+  if (std::max(columns, rows) != 1) return false;
+  if (!map.passable(from) || !map.passable(to)) return false;
+  if (columns + rows == 1) return true;
+  if (map.motion().connectivity == Connectivity::FOUR) return false;
+  if (map.motion().cut_corners) return true;
+  return map.passable({from.column, to.row}) && map.passable({to.column, from.row});
+}
+
+ExactCost stepCost(const CostGrid& map, Cell from, Cell to) {
+  assert(stepAllowed(map, from, to));
+  const std::int64_t weight =
+      std::int64_t{std::max(map.weight(from), map.weight(to))} * map.kernel();
+  const bool root = from.column != to.column && from.row != to.row &&
+                    map.motion().diagonal_cost == DiagonalCost::SQRT2;
+  return root ? ExactCost{0, weight} : ExactCost{weight, 0};
+}
+
+ExactCost costOfSteps(const CostGrid& map, const std::vector<Cell>& cells) {
+  ExactCost cost;
+  for (std::size_t i = 1; i < cells.size(); ++i) cost += stepCost(map, cells[i - 1], cells[i]);
+  return cost;
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,168 @@
+#include "grid_path_planner/terrain/inflation.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace grid_path_planner {
+namespace {
+
+// Resolutions arrive as 32-bit floats: a radius of whole cells must not fall to their rounding.
+constexpr double kResolutionSlack = 1e-6;
+constexpr int kLargestReach = 1 << 19;
+constexpr HalfCellsSquared kLargestTable = 1 << 20;
+
+// Distance along the row from each cell to the nearest occupied one, in half cells to its edge,
+// squared: 0 for the cell itself, else (2n - 1)^2.
+void rowDistances(const Occupancy* row, int width, HalfCellsSquared* out) {
+  int last = -1;
+  for (int i = 0; i < width; ++i) {
+    if (row[i] == Occupancy::OCCUPIED) last = i;
+    const HalfCellsSquared edge = 2 * HalfCellsSquared{i - last} - 1;
+    out[i] = last < 0 ? kNoObstacle : last == i ? 0 : edge * edge;
+  }
+  last = -1;
+  for (int i = width - 1; i >= 0; --i) {
+    if (row[i] == Occupancy::OCCUPIED) last = i;
+    if (last < 0 || last == i) continue;
+    const HalfCellsSquared edge = 2 * HalfCellsSquared{last - i} - 1;
+    if (out[i] == kNoObstacle || edge * edge < out[i]) out[i] = edge * edge;
+  }
+}
+
+// Lower envelope of parabolas over the cells' lower and upper edges: along a column an occupied
+// surrounding is entered through an edge, never through a centre.
+class ColumnTransform {
+ public:
+  explicit ColumnTransform(int height) : height_(height), values_(height) {
+    sources_.reserve(height + 1);
+    starts_.reserve(height + 1);
+  }
+
+  HalfCellsSquared* values() { return values_.data(); }
+
+  void run() {
+    buildEnvelope();
+    std::size_t active = 0;
+    if (sources_.empty()) return;
+    for (int row = 0; row < height_; ++row) {
+      const HalfCellsSquared position = 2 * HalfCellsSquared{row};
+      while (active + 1 < sources_.size() && starts_[active + 1] <= position) ++active;
+      const HalfCellsSquared offset = position - sources_[active].position;
+      const HalfCellsSquared through_edge = offset * offset + sources_[active].value;
+      if (values_[row] == kNoObstacle || through_edge < values_[row]) values_[row] = through_edge;
+    }
+  }
+
+ private:
+  struct Source {
+    HalfCellsSquared
+        position;  // half cells: row r's centre is at 2r, its edges at 2r - 1 and 2r + 1
+    HalfCellsSquared value;
+  };
+
+  void buildEnvelope() {
+    sources_.clear();
+    starts_.clear();
+    for (int edge = 0; edge <= height_; ++edge) {
+      const HalfCellsSquared below = edge > 0 ? values_[edge - 1] : kNoObstacle;
+      const HalfCellsSquared above = edge < height_ ? values_[edge] : kNoObstacle;
+      if (below == kNoObstacle && above == kNoObstacle) continue;
+      const HalfCellsSquared value = below == kNoObstacle   ? above
+                                     : above == kNoObstacle ? below
+                                                            : std::min(below, above);
+      push({2 * HalfCellsSquared{edge} - 1, value});
+    }
+  }
+
+  void push(const Source& source) {
+    while (!sources_.empty()) {
+      const HalfCellsSquared start = firstNotWorse(sources_.back(), source);
+      if (sources_.size() == 1 || start > starts_.back()) {
+        sources_.push_back(source);
+        starts_.push_back(start);
+        return;
+      }
+      sources_.pop_back();
+      starts_.pop_back();
+    }
+    sources_.push_back(source);
+    starts_.push_back(0);
+  }
+
+  // The first position at which `right` is no farther than `left`.
+  static HalfCellsSquared firstNotWorse(const Source& left, const Source& right) {
+    const HalfCellsSquared numerator =
+        right.position * right.position + right.value - left.position * left.position - left.value;
+    const HalfCellsSquared denominator = 2 * (right.position - left.position);
+    return numerator <= 0 ? 0 : (numerator + denominator - 1) / denominator;
+  }
+
+  int height_;
+  std::vector<HalfCellsSquared> values_;
+  std::vector<Source> sources_;
+  std::vector<HalfCellsSquared> starts_;
+};
+
+}  // namespace
+
+std::vector<HalfCellsSquared> obstacleDistances(const Grid<Occupancy>& classes,
+                                                const CellRect& window, const StopToken& stop) {
+  assert(classes.geometry().rect().intersection(window) == window);
+  const auto width = static_cast<std::size_t>(window.width);
+  std::vector<HalfCellsSquared> distances(width * window.height);
+  StopPoll poll(stop, 64);
+  for (int row = 0; row < window.height; ++row) {
+    poll();
+    rowDistances(classes.row(window.row + row) + window.column, window.width,
+                 distances.data() + row * width);
+  }
+
+  // A few columns together, so that every line of memory that is fetched is used.
+  constexpr int kTogether = 8;
+  std::vector<ColumnTransform> columns(kTogether, ColumnTransform(window.height));
+  for (int first = 0; first < window.width; first += kTogether) {
+    poll();
+    const int count = std::min(kTogether, window.width - first);
+    for (int row = 0; row < window.height; ++row)
+      for (int i = 0; i < count; ++i) columns[i].values()[row] = distances[row * width + first + i];
+    for (int i = 0; i < count; ++i) columns[i].run();
+    for (int row = 0; row < window.height; ++row)
+      for (int i = 0; i < count; ++i) distances[row * width + first + i] = columns[i].values()[row];
+  }
+  return distances;
+}
+
+Inflation::Inflation(const TerrainOptions& options, double resolution)
+    : radius_(2.0 * options.radius / resolution * (1.0 - kResolutionSlack)),
+      decay_(options.decay * resolution / 2.0),
+      free_(options.free_weight),
+      rise_(options.inflation_weight - options.free_weight) {
+  double half_cells = radius_;
+  if (decay_ > 0.0 && rise_ > 0.5) half_cells = radius_ + std::log(2.0 * rise_) / decay_;
+  if (half_cells > 0.0)
+    reach_ = static_cast<int>(std::min<double>(kLargestReach, std::ceil(half_cells / 2.0) + 1.0));
+  const HalfCellsSquared largest = 4 * HalfCellsSquared{reach_} * reach_;
+  const HalfCellsSquared entries = std::min(kLargestTable, largest + 1);
+  table_.reserve(static_cast<std::size_t>(entries));
+  for (HalfCellsSquared distance = 0; distance < entries; ++distance)
+    table_.push_back(ringWeight(distance));
+}
+
+CostGrid::Weight Inflation::apply(CostGrid::Weight class_weight, HalfCellsSquared distance) const {
+  if (class_weight == CostGrid::kBlocked || distance == kNoObstacle) return class_weight;
+  const bool tabled = distance < static_cast<HalfCellsSquared>(table_.size());
+  const CostGrid::Weight ring =
+      tabled ? table_[static_cast<std::size_t>(distance)] : ringWeight(distance);
+  return ring == CostGrid::kBlocked ? CostGrid::kBlocked : std::max(class_weight, ring);
+}
+
+CostGrid::Weight Inflation::ringWeight(HalfCellsSquared distance) const {
+  const double half_cells = std::sqrt(static_cast<double>(distance));
+  if (half_cells < radius_) return CostGrid::kBlocked;
+  if (decay_ <= 0.0 || rise_ <= 0.0) return static_cast<CostGrid::Weight>(free_);
+  return static_cast<CostGrid::Weight>(
+      std::lround(free_ + rise_ * std::exp(-decay_ * (half_cells - radius_))));
+}
+
+}  // namespace grid_path_planner
