@@ -1,5 +1,6 @@
-// Occupancy maps in files: map_server YAML with its image, MovingAI .map, a plain image, and the text
-// that `rostopic echo` prints of a nav_msgs/OccupancyGrid. Bags are read by ros/bag.h, which needs ROS.
+// Occupancy maps in files: map_server YAML with its image, MovingAI .map, a plain image, and the
+// text that `rostopic echo` prints of a nav_msgs/OccupancyGrid. Bags are read by ros/bag.h, which
+// needs ROS.
 //
 //   OccupancyGrid map = readMapFile("maps/site.yaml");
 //
@@ -9,6 +10,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "grid_path_planner/grid/occupancy.h"
 
@@ -16,6 +19,7 @@ namespace grid_path_planner {
 
 // map_server's three ways of turning a pixel into an occupancy.
 enum class MapMode { TRINARY, SCALE, RAW };
+const std::vector<std::pair<const char*, MapMode>>& choicesOf(MapMode);
 
 struct MapFileOptions {
   // For files that have none of their own (MovingAI, image): 1 m cells and origin 0 by default. For
@@ -30,10 +34,16 @@ struct MapFileOptions {
 // file, and the line or value.
 OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options = {});
 
-// Writes `file` (a map_server YAML) and its image beside it, name.pgm. In TRINARY mode -1, 0 and 100
-// survive reading back, in RAW mode every value does. Atomic per file, the image first.
+// Writes `file` (a map_server YAML) and its image beside it, name.pgm. In TRINARY mode -1, 0 and
+// 100 survive reading back, in RAW mode every value does; SCALE is refused. Atomic per file, the
+// image first. Throws InputError naming the file that cannot be written.
 void writeMapServerFile(const std::string& file, const OccupancyGrid& map,
-                        MapMode mode = MapMode::TRINARY, const OccupancyThresholds& thresholds = {});
+                        MapMode mode = MapMode::TRINARY,
+                        const OccupancyThresholds& thresholds = {});
+
+// Writes the image alone, .pgm or .png, which keeps neither resolution nor origin.
+void writeImageFile(const std::string& file, const OccupancyGrid& map,
+                    MapMode mode = MapMode::TRINARY, const OccupancyThresholds& thresholds = {});
 
 // Writes a MovingAI .map: '.' free, 'T' unknown, '@' occupied (all but '.' and 'G' read back as
 // occupied, so unknown does not survive). Row 0 is the first line.

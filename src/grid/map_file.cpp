@@ -1,0 +1,57 @@
+#include "grid_path_planner/grid/map_file.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <string_view>
+
+#include "grid_path_planner/base/text_file.h"
+#include "grid_path_planner/base/yaml_file.h"
+#include "grid_path_planner/grid/image_file.h"
+#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/grid/map_server_file.h"
+#include "grid_path_planner/grid/moving_ai_file.h"
+#include "grid_path_planner/grid/occupancy_dump.h"
+
+namespace grid_path_planner {
+namespace {
+
+bool isOneOf(const std::string& text, std::initializer_list<const char*> choices) {
+  return std::find(choices.begin(), choices.end(), text) != choices.end();
+}
+
+bool startsWith(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
+
+bool isImage(const std::string& content, const std::string& extension) {
+  using namespace std::literals;
+  for (const std::string_view signature : {"\x89PNG"sv, "\xff\xd8\xff"sv, "BM"sv, "II*\0"sv,
+                                           "MM\0*"sv, "P2"sv, "P3"sv, "P5"sv, "P6"sv})
+    if (startsWith(content, signature)) return true;
+  return isOneOf(extension, {"pgm", "png", "ppm", "bmp", "jpg", "jpeg", "tif", "tiff"});
+}
+
+OccupancyGrid readYamlMap(const std::string& content, const std::string& file,
+                          const MapFileOptions& options) {
+  if (looksLikeOccupancyDump(content)) return parseOccupancyDump(content, file, options);
+  if (content.size() > kLargestYaml)
+    throw InputError(file, "is no map: larger than any map_server file and without 'data'");
+  const YAML::Node root = parseYaml(content, file);
+  if (yamlHas(root, "image", file)) return readMapServerMap(root, file, options);
+  throw InputError(file, "is no map: neither an 'image' (map_server) nor 'data' (rostopic echo)");
+}
+
+}  // namespace
+
+OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options) {
+  const std::string content = readWholeFile(file, kLargestMapFile);
+  const std::string extension = extensionOf(file);
+  if (startsWith(content, "#ROSBAG") || extension == "bag")
+    throw InputError(file, "is a bag, which is read with ROS (grid_path_planner/ros/bag.h)");
+  if (isImage(content, extension)) return readImageFile(file, {}, 1.0, {}, options);
+  if (startsWith(content, "type ") || extension == "map")
+    return parseMovingAi(content, file, options);
+  return readYamlMap(content, file, options);
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,153 @@
+#include "grid_path_planner/grid/moving_ai_file.h"
+
+#include <string_view>
+
+#include "grid_path_planner/base/atomic_file.h"
+#include "grid_path_planner/base/text_file.h"
+#include "grid_path_planner/grid/map_format.h"
+
+namespace grid_path_planner {
+namespace {
+
+// The lines of a text, one after the other, without their ends.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text) {}
+
+  // False after the last line.
+  bool next(std::string_view& line) {
+    if (rest_.empty()) return false;
+    const std::size_t end = rest_.find('\n');
+    line = rest_.substr(0, end);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    rest_ = end == std::string_view::npos ? std::string_view() : rest_.substr(end + 1);
+    ++number_;
+    return true;
+  }
+  int number() const { return number_; }
+
+ private:
+  std::string_view rest_;
+  int number_ = 0;
+};
+
+std::string shown(std::string_view line) {
+  constexpr std::size_t kShown = 40;
+  return "'" + std::string(line.substr(0, kShown)) + (line.size() > kShown ? "...'" : "'");
+}
+
+int positiveInteger(std::string_view digits) {
+  constexpr std::size_t kMostDigits = 6;  // GridGeometry allows less
+  if (digits.empty() || digits.size() > kMostDigits) return 0;
+  int value = 0;
+  for (const char digit : digits) {
+    if (digit < '0' || digit > '9') return 0;
+    value = 10 * value + (digit - '0');
+  }
+  return value;
+}
+
+struct Header {
+  int width = 0;
+  int height = 0;
+};
+
+// "height 49": the number behind `key`.
+int sideIn(std::string_view line, std::string_view key, const std::string& file, int number) {
+  std::string_view digits = line.substr(key.size());
+  while (!digits.empty() && digits.front() == ' ') digits.remove_prefix(1);
+  while (!digits.empty() && digits.back() == ' ') digits.remove_suffix(1);
+  const int side = positiveInteger(digits);
+  if (side == 0)
+    throw InputError(
+        file, number,
+        std::string(key) + " must be a number of cells from 1 to 524288, got " + shown(digits));
+  return side;
+}
+
+bool startsWith(std::string_view line, std::string_view key) {
+  return line.substr(0, key.size()) == key;
+}
+
+// Reads up to and with the line "map".
+Header readHeader(Lines& lines, const std::string& file) {
+  Header header;
+  std::string_view line;
+  if (!lines.next(line) || line != "type octile")
+    throw InputError(file, 1, "a MovingAI map begins with 'type octile', got " + shown(line));
+  while (lines.next(line) && line != "map") {
+    if (startsWith(line, "width "))
+      header.width = sideIn(line, "width", file, lines.number());
+    else if (startsWith(line, "height "))
+      header.height = sideIn(line, "height", file, lines.number());
+    else
+      throw InputError(file, lines.number(),
+                       "expected 'height', 'width' or 'map', got " + shown(line));
+  }
+  if (line != "map") throw InputError(file, lines.number(), "ends before the line 'map'");
+  if (header.width == 0 || header.height == 0)
+    throw InputError(file, lines.number(), "has no 'width' or no 'height' before 'map'");
+  return header;
+}
+
+void readRow(std::string_view line, int number, const std::string& file, OccupancyGrid& map,
+             int row) {
+  if (line.size() != static_cast<std::size_t>(map.width()))
+    throw InputError(file, number,
+                     "a row of the map has " + std::to_string(map.width()) + " cells, got " +
+                         std::to_string(line.size()));
+  std::int8_t* values = map.row(row);
+  for (const char letter : line) *values++ = letter == '.' || letter == 'G' ? 0 : 100;
+}
+
+}  // namespace
+
+OccupancyGrid parseMovingAi(const std::string& text, const std::string& file,
+                            const MapFileOptions& options) {
+  checkIsText(text, file);
+  Lines lines(text);
+  const Header header = readHeader(lines, file);
+  const auto geometry = mapGeometry(file, header.width, header.height, 1.0, {}, options);
+  if (text.size() < geometry.size())
+    throw InputError(file, "is too short for a map of " + std::to_string(header.width) + "x" +
+                               std::to_string(header.height) + " cells");
+  OccupancyGrid map(geometry);
+  std::string_view line;
+  for (int row = 0; row < map.height(); ++row) {
+    if (!lines.next(line))
+      throw InputError(file, lines.number(),
+                       "ends after " + std::to_string(row) + " rows of the map, expected " +
+                           std::to_string(map.height()));
+    readRow(line, lines.number(), file, map, row);
+  }
+  while (lines.next(line))
+    if (!line.empty())
+      throw InputError(file, lines.number(),
+                       "has more than the " + std::to_string(map.height()) + " rows of its header");
+  return map;
+}
+
+void writeMovingAiFile(const std::string& file, const OccupancyGrid& map,
+                       const OccupancyThresholds& thresholds) {
+  const auto letterOf = [&thresholds](std::int8_t value) {
+    switch (thresholds.classify(value)) {
+      case Occupancy::FREE:
+        return '.';
+      case Occupancy::OCCUPIED:
+        return '@';
+      case Occupancy::UNKNOWN:
+        break;
+    }
+    return 'T';
+  };
+  std::string text = "type octile\nheight " + std::to_string(map.height()) + "\nwidth " +
+                     std::to_string(map.width()) + "\nmap\n";
+  text.reserve(text.size() + map.values().size() + map.height());
+  for (int row = 0; row < map.height(); ++row) {
+    for (int column = 0; column < map.width(); ++column) text += letterOf(map.row(row)[column]);
+    text += '\n';
+  }
+  writeFileAtomically(file, text);
+}
+
+}  // namespace grid_path_planner
