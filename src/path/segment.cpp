@@ -35,7 +35,12 @@ std::optional<Segment> clipped(const Segment& segment, const Box& box) {
     leave = std::min(leave, std::max(t_low, t_high));
   }
   if (enter > leave) return std::nullopt;
-  return Segment{segment.from + enter * along, segment.from + leave * along};
+  const auto at = [&](double t) -> Eigen::Vector2d {
+    return (segment.from + t * along)
+        .cwiseMax(box.low)
+        .cwiseMin(box.high);  // whatever the rounding
+  };
+  return Segment{at(enter), at(leave)};
 }
 
 double distanceBetween(const Segment& segment, const Box& box) {

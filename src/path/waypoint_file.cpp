@@ -9,13 +9,11 @@
 
 #include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/base/yaml_file.h"
 
 namespace grid_path_planner {
 namespace {
-
-constexpr double kShortestQuaternion = 1e-6;
-constexpr double kLargestTilt = 1e-3;  // radians
 
 // One entry of the list, with what an error about it has to say.
 class Entry {
@@ -65,16 +63,12 @@ class Entry {
   double yaw(const YAML::Node& orientation) const {
     const double x = orientation["x"] ? number(orientation, "x") : 0.0;
     const double y = orientation["y"] ? number(orientation, "y") : 0.0;
-    const double z = number(orientation, "z");
-    const double w = number(orientation, "w");
-    const double heading = std::hypot(z, w), tilt = std::hypot(x, y);
-    if (std::max(heading, tilt) < kShortestQuaternion)
-      throw yamlError(orientation, file_, "the orientation of " + name_ + " is a zero quaternion");
-    if (2.0 * std::atan2(tilt, heading) > kLargestTilt)
-      throw yamlError(
-          orientation, file_,
-          "the orientation of " + name_ + " must be a turn about z alone, got roll or pitch");
-    return std::remainder(2.0 * std::atan2(z, w), 2.0 * M_PI);
+    const double z = number(orientation, "z"), w = number(orientation, "w");
+    try {
+      return yawOfLevelQuaternion(x, y, z, w);
+    } catch (const InputError& error) {
+      throw yamlError(orientation, file_, name_ + ": " + error.what());
+    }
   }
 
   const YAML::Node node_;

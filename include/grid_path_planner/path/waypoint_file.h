@@ -8,10 +8,10 @@
 //   writeWaypointFile("waypoints.yaml", path);
 //   Path same = readWaypointFile("waypoints.yaml");
 //
-// Whatever is written can be read, and gives the frame and the positions to the last bit and the yaws
-// to within rounding, in [-pi, pi]. The files of the original study are read too. The x and y of an
-// orientation may be left out, it need not be of length 1, and keys that are not named above are
-// passed over.
+// Whatever is written can be read, and gives the frame and the positions to the last bit and the
+// yaws to within rounding, in [-pi, pi]. The files of the original study are read too. The x and y
+// of an orientation may be left out, it need not be of length 1, and keys that are not named above
+// are passed over.
 #pragma once
 
 #include <string>
@@ -23,14 +23,15 @@ namespace grid_path_planner {
 // Largest coordinate that is taken for one, in metres.
 constexpr double kLargestCoordinate = 1e6;
 
-// A leading slash of the frame is dropped. Throws InputError naming the file, the line and the entry
-// (from 1) for anything but at least one waypoint with finite coordinates up to kLargestCoordinate
-// and a quaternion that can be normalised and is level (no roll or pitch beyond 1e-3 rad).
+// A leading slash of the frame is dropped. Throws InputError naming the file, the line and the
+// entry (from 1) for anything but at least one waypoint with finite coordinates up to
+// kLargestCoordinate and a quaternion that can be normalised and is level (no roll or pitch beyond
+// 1e-3 rad).
 Path readWaypointFile(const std::string& file);
 
-// Throws InputError naming the file, and the waypoint where one could not be read back: none at all,
-// a coordinate beyond kLargestCoordinate or a number that is not finite. The old file stays whole
-// where the new one cannot be written (see writeFileAtomically).
+// Throws InputError naming the file, and the waypoint where one could not be read back: none at
+// all, a coordinate beyond kLargestCoordinate or a number that is not finite. The old file stays
+// whole where the new one cannot be written (see writeFileAtomically).
 void writeWaypointFile(const std::string& file, const Path& path);
 
 }  // namespace grid_path_planner
