@@ -1,0 +1,23 @@
+// The map that was recorded in a bag.
+//
+//   OccupancyGrid map = readMapFromBag("run.bag");                 // first message of
+//   projected_map OccupancyGrid map = readAnyMapFile("run.bag");                 // or any format
+//   of readMapFile
+#pragma once
+
+#include <string>
+
+#include "grid_path_planner/grid/map_file.h"
+
+namespace grid_path_planner {
+
+// The first nav_msgs/OccupancyGrid on `topic`, a leading slash here or in the bag ignored. Throws
+// InputError naming the file where there is no such bag, it is cut short, it has no map on that
+// topic (then naming the topics that have one) or the message is no good map.
+OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic = "projected_map");
+
+// A map from any file: a bag (told by its content, or the extension .bag) or what readMapFile
+// reads. `options` override a bag's resolution and origin too.
+OccupancyGrid readAnyMapFile(const std::string& file, const MapFileOptions& options = {});
+
+}  // namespace grid_path_planner

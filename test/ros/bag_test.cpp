@@ -1,0 +1,108 @@
+#include "grid_path_planner/ros/bag.h"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <std_msgs/String.h>
+
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "support/ascii_map.h"
+#include "support/error_text.h"
+#include "support/temporary_folder.h"
+
+namespace grid_path_planner {
+namespace {
+
+using test::AsciiMap;
+using test::contains;
+using test::errorText;
+
+class MapBag : public testing::Test {
+ protected:
+  // A bag of `maps` on `topic`, a second apart, among other messages.
+  std::string write(const std::string& topic, const std::vector<OccupancyGrid>& maps) {
+    const std::string file = folder_.path("a.bag");
+    rosbag::Bag bag(file, rosbag::bagmode::Write);
+    ros::Time time(100, 0);
+    for (const OccupancyGrid& map : maps) {
+      bag.write("/chatter", time, std_msgs::String());
+      bag.write(topic, time, occupancyToMessage(map, "map", time));
+      time += ros::Duration(1.0);
+    }
+    return file;
+  }
+  std::string errorOf(const std::string& file, const std::string& topic = "projected_map") {
+    const std::string error = errorText([&] { readMapFromBag(file, topic); });
+    return error.substr(std::min(error.size(), folder_.path("").size()));
+  }
+
+  const test::TemporaryFolder folder_;
+  const OccupancyGrid first_ = AsciiMap({"..#", "?.."}, 0.05, {-1.0, 2.0, 0.0}).map;
+  const OccupancyGrid second_ = AsciiMap({"####"}).map;
+};
+
+TEST_F(MapBag, TheFirstMapIsReadAndSlashesDoNotMatter) {
+  for (const char* recorded : {"projected_map", "/projected_map"}) {
+    const std::string file = write(recorded, {first_, second_});
+    EXPECT_EQ(readMapFromBag(file), first_);
+    EXPECT_EQ(readMapFromBag(file, "projected_map"), first_);
+    EXPECT_EQ(readMapFromBag(file, "/projected_map"), first_);
+    EXPECT_EQ(readAnyMapFile(file), first_);
+  }
+}
+
+TEST_F(MapBag, OptionsOverrideTheGeometry) {
+  MapFileOptions options;
+  options.resolution = 0.5;
+  const OccupancyGrid map = readAnyMapFile(write("/projected_map", {first_}), options);
+  EXPECT_EQ(map.geometry(), GridGeometry(3, 2, 0.5, {-1.0, 2.0, 0.0}));
+  EXPECT_EQ(map.values(), first_.values());
+}
+
+TEST_F(MapBag, OtherFormatsAreReadToo) {
+  EXPECT_EQ(
+      readAnyMapFile(folder_.write("a.map", "type octile\nheight 1\nwidth 3\nmap\n.@.\n")).values(),
+      AsciiMap({".#."}).map.values());
+  EXPECT_TRUE(contains(errorText([&] { readAnyMapFile(folder_.path("none.map")); }),
+                       "none.map: cannot be read: No such file or directory"));
+}
+
+TEST_F(MapBag, ATopicThatIsNotThereIsToldWithThoseThatAre) {
+  EXPECT_EQ(errorOf(write("/map", {first_})),
+            "a.bag: has no nav_msgs/OccupancyGrid on 'projected_map', but on /map");
+  EXPECT_EQ(errorOf(write("/map", {first_}), "chatter"),
+            "a.bag: has no nav_msgs/OccupancyGrid on 'chatter', but on /map");
+  EXPECT_EQ(errorOf(write("/map", {})),
+            "a.bag: has no nav_msgs/OccupancyGrid on 'projected_map' nor on any other topic");
+}
+
+TEST_F(MapBag, BagsThatCannotBeReadAreNamed) {
+  EXPECT_EQ(errorOf(folder_.path("none.bag")),
+            "none.bag: cannot be read: No such file or directory");
+  EXPECT_TRUE(contains(errorText([&] { readMapFromBag(folder_.path("")); }), "is a directory"));
+  EXPECT_EQ(errorOf(folder_.write("b.bag", "")), "b.bag: is not a bag");
+  EXPECT_EQ(errorOf(folder_.write("b.bag", "image: a.pgm")), "b.bag: is not a bag");
+  EXPECT_TRUE(contains(errorText([&] { readAnyMapFile(folder_.write("b.bag", "x")); }),
+                       "b.bag: is not a bag"));
+}
+
+TEST_F(MapBag, ABagCutShortIsRefusedWhereverItIsCut) {
+  const std::string whole = test::contentOf(write("/projected_map", {first_, second_}));
+  for (std::size_t size = 1; size < whole.size(); size += 97)
+    EXPECT_FALSE(errorOf(folder_.write("cut.bag", whole.substr(0, size))).empty()) << size;
+  EXPECT_EQ(errorOf(folder_.write("cut.bag", whole)), "");
+}
+
+TEST_F(MapBag, AMapThatIsNoneIsRefused) {
+  const std::string file = folder_.path("a.bag");
+  nav_msgs::OccupancyGrid message = occupancyToMessage(first_, "map", ros::Time(1));
+  message.data.pop_back();
+  {
+    rosbag::Bag bag(file, rosbag::bagmode::Write);
+    bag.write("projected_map", ros::Time(1), message);
+  }
+  EXPECT_EQ(errorOf(file),
+            "a.bag: the first map on 'projected_map': a map of 3x2 cells needs 6 values, got 5");
+}
+
+}  // namespace
+}  // namespace grid_path_planner
