@@ -1,0 +1,54 @@
+"""Every launch file can be loaded, its nodes exist, and it sets no parameter that its node lacks."""
+import os
+import subprocess
+
+import roslaunch.config
+import roslib.packages
+import yaml
+
+from common import ROOT, files, finish, read
+
+PACKAGE = "grid_path_planner"
+ARGUMENTS = {"map_file.launch": ["map:=maps/demo_site.yaml"]}
+
+
+def known_parameters(node):
+    return set(yaml.safe_load(read("config/%s.yaml" % node)) or {})
+
+
+def complaints_of(name):
+    file = os.path.join(ROOT, name)
+    try:
+        config = roslaunch.config.load_config_default(
+            [(file, ARGUMENTS.get(os.path.basename(name), []))], None, verbose=False)
+    except Exception as error:  # roslaunch has a class of its own for nearly every mistake
+        return ["%s: %s" % (name, error)]
+    complaints = ["%s: %s" % (name, error) for error in config.config_errors]
+    for node in config.nodes:
+        if node.package != PACKAGE:
+            continue
+        if not roslib.packages.find_node(PACKAGE, node.type):
+            complaints.append("%s: there is no executable %s" % (name, node.type))
+        prefix = "/%s/" % node.name
+        for parameter in config.params:
+            if parameter.startswith(prefix) and "/" not in parameter[len(prefix):]:
+                if parameter[len(prefix):] not in known_parameters(node.type):
+                    complaints.append("%s: %s has no parameter %s"
+                                      % (name, node.type, parameter[len(prefix):]))
+    return complaints
+
+
+def undocumented(name):
+    """roslaunch --ros-args prints the arguments with their doc attributes."""
+    text = subprocess.run(["roslaunch", "--ros-args", os.path.join(ROOT, name)], check=True,
+                          capture_output=True, text=True).stdout
+    return ["%s: %s" % (name, line.strip()) for line in text.splitlines() if "undocumented" in line]
+
+
+def main():
+    names = files(("launch",), (".launch",))
+    finish([complaint for name in names for complaint in complaints_of(name) + undocumented(name)],
+           "%d launch files" % len(names))
+
+
+main()
