@@ -1,0 +1,265 @@
+// One suite over every planner of the catalogue, with every heuristic and tie-break, on every motion
+// model: what the Planner contract promises.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+#include <string>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/planners/catalogue.h"
+#include "support/random_map.h"
+#include "support/reference_search.h"
+
+namespace grid_path_planner {
+namespace {
+
+struct Subject {
+  std::string planner;
+  SearchOptions options;
+};
+
+std::ostream& operator<<(std::ostream& out, const Subject& subject) {
+  return out << subject.planner << ' ' << choiceName(subject.options.heuristic) << " scale "
+             << subject.options.heuristic_scale << " epsilon " << subject.options.epsilon << ' '
+             << choiceName(subject.options.tie_break);
+}
+
+std::vector<Subject> subjects() {
+  std::vector<Subject> all;
+  for (const std::string& planner : plannerNames()) {
+    all.push_back({planner, {}});
+    if (planner.rfind("a_star", 0) != 0) continue;
+    for (const auto& heuristic : choicesOf(Heuristic{}))
+      for (const auto& tie_break : choicesOf(TieBreak{})) {
+        SearchOptions options;
+        options.heuristic = heuristic.second;
+        options.tie_break = tie_break.second;
+        all.push_back({planner, options});
+      }
+    SearchOptions scaled;
+    scaled.heuristic_scale = "1";
+    all.push_back({planner, scaled});
+    scaled.heuristic_scale = "30";
+    all.push_back({planner, scaled});
+    SearchOptions weighted;
+    weighted.epsilon = 2.5;
+    all.push_back({planner, weighted});
+  }
+  return all;
+}
+
+std::vector<MotionModel> motionModels() {
+  std::vector<MotionModel> models;
+  for (const auto& connectivity : choicesOf(Connectivity{}))
+    for (const auto& diagonal : choicesOf(DiagonalCost{}))
+      for (const bool cut : {false, true})
+        models.push_back({connectivity.second, diagonal.second, cut});
+  return models;
+}
+
+class Conformance : public ::testing::TestWithParam<Subject> {
+ protected:
+  std::unique_ptr<Planner> make() const {
+    return makePlanner(GetParam().planner, GetParam().options);
+  }
+};
+
+bool neighbours(Cell a, Cell b) {
+  return a != b && std::abs(a.column - b.column) <= 1 && std::abs(a.row - b.row) <= 1;
+}
+
+void expectLegal(const CostGrid& map, const PlanRequest& request, const PlanResult& result) {
+  ASSERT_FALSE(result.cells.empty());
+  EXPECT_EQ(result.cells.front(), request.start);
+  EXPECT_EQ(result.cells.back(), request.goals.front());
+  for (std::size_t i = 1; i < result.cells.size(); ++i) {
+    EXPECT_TRUE(neighbours(result.cells[i - 1], result.cells[i]));
+    ASSERT_TRUE(stepAllowed(map, result.cells[i - 1], result.cells[i]));
+  }
+  EXPECT_EQ(result.cost, costOfSteps(map, result.cells));
+}
+
+TEST_P(Conformance, AnswersAreLegalAndTheLeastCostWhereOptimalityIsClaimed) {
+  for (const MotionModel& motion : motionModels()) {
+    std::mt19937 random(20261121);
+    for (int trial = 0; trial < 25; ++trial) {
+      const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 24, motion));
+      const PlanRequest request{test::randomCell(random, map->geometry()),
+                                {test::randomCell(random, map->geometry())},
+                                false};
+      const auto planner = make();
+      planner->prepare(map, StopToken());
+      const PlanResult result = planner->plan(request, StopToken());
+      SCOPED_TRACE("trial " + std::to_string(trial) + ", " + result.message);
+      if (!map->passable(request.start)) {
+        EXPECT_EQ(result.status, Status::START_OCCUPIED);
+        continue;
+      }
+      if (!map->passable(request.goals.front())) {
+        EXPECT_EQ(result.status, Status::GOAL_OCCUPIED);
+        continue;
+      }
+      const auto least = test::referenceCosts(
+          *map, request.start)[map->geometry().index(request.goals.front()).value()];
+      ASSERT_EQ(result.status, least ? Status::FOUND : Status::UNREACHABLE);
+      if (!least) continue;
+      expectLegal(*map, request, result);
+      EXPECT_FALSE(result.cost < *least);
+      if (planner->optimalFor(*map)) {
+        EXPECT_EQ(result.cost, *least);
+      }
+    }
+  }
+}
+
+TEST_P(Conformance, EpsilonBoundsTheCost) {
+  const SearchOptions& options = GetParam().options;
+  if (GetParam().planner != "a_star" || options.tie_break == TieBreak::CROSS_PRODUCT_PUBLISHED) return;
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 40; ++trial) {
+    const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 24, {}));
+    if (options.heuristic_scale != "cheapest" || !map->cheapest()) continue;
+    if (options.heuristic == Heuristic::MANHATTAN) continue;
+    const PlanRequest request{test::randomCell(random, map->geometry()),
+                              {test::randomCell(random, map->geometry())},
+                              false};
+    const auto planner = make();
+    planner->prepare(map, StopToken());
+    const PlanResult result = planner->plan(request, StopToken());
+    if (result.status != Status::FOUND) continue;
+    const auto least = test::referenceCosts(
+        *map, request.start)[map->geometry().index(request.goals.front()).value()];
+    EXPECT_LE(result.cost.toDouble(), options.epsilon * least->toDouble() * (1.0 + 1e-12));
+  }
+}
+
+TEST_P(Conformance, SameQuestionSameAnswer) {
+  std::mt19937 random(3);
+  const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 60, {}));
+  const auto planner = make();
+  planner->prepare(map, StopToken());
+  for (int trial = 0; trial < 20; ++trial) {
+    const PlanRequest request{test::randomCell(random, map->geometry()),
+                              {test::randomCell(random, map->geometry())},
+                              true};
+    const PlanResult first = planner->plan(request, StopToken());
+    const PlanResult second = planner->plan(request, StopToken());
+    const auto fresh = make();
+    fresh->prepare(map, StopToken());
+    const PlanResult third = fresh->plan(request, StopToken());
+    EXPECT_EQ(first.cells, second.cells);
+    EXPECT_EQ(first.cells, third.cells);
+    EXPECT_EQ(first.expanded, third.expanded);
+    EXPECT_EQ(first.statistics.expanded, third.statistics.expanded);
+    EXPECT_EQ(first.statistics.expanded, first.expanded.size());
+  }
+}
+
+TEST_P(Conformance, AnUpdatedMapIsPlannedLikeAFreshOne) {
+  std::mt19937 random(11);
+  for (int trial = 0; trial < 20; ++trial) {
+    CostGrid before = test::randomCosts(random, 30, {});
+    Grid<CostGrid::Weight> weights = before.weights();
+    const Cell low = test::randomCell(random, before.geometry());
+    const CellRect changed =
+        CellRect{low.column, low.row, 5, 4}.intersection(before.geometry().rect());
+    for (int row = changed.row; row < changed.row + changed.height; ++row)
+      for (int column = changed.column; column < changed.column + changed.width; ++column)
+        weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 3);
+    auto after = std::make_shared<CostGrid>(weights, before.classes(), before.motion());
+    after->setRevision(before.revision() + 1);
+
+    const auto updated = make();
+    updated->prepare(std::make_shared<const CostGrid>(before), StopToken());
+    updated->update(after, changed, StopToken());
+    const auto fresh = make();
+    fresh->prepare(after, StopToken());
+    for (int query = 0; query < 10; ++query) {
+      const PlanRequest request{test::randomCell(random, after->geometry()),
+                                {test::randomCell(random, after->geometry())},
+                                false};
+      const PlanResult a = updated->plan(request, StopToken());
+      const PlanResult b = fresh->plan(request, StopToken());
+      EXPECT_EQ(a.status, b.status);
+      EXPECT_EQ(a.cells, b.cells);
+    }
+  }
+}
+
+TEST_P(Conformance, NamesWhatIsWrongWithARequest) {
+  const auto planner = make();
+  EXPECT_EQ(planner->plan({{0, 0}, {{0, 0}}, false}, StopToken()).status, Status::NO_MAP);
+  Grid<CostGrid::Weight> weights(GridGeometry(3, 2, 1.0), 1);
+  weights[Cell{2, 1}] = CostGrid::kBlocked;
+  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  planner->prepare(std::make_shared<const CostGrid>(weights, classes, MotionModel()), StopToken());
+  const auto statusOf = [&planner](Cell start, std::vector<Cell> goals) {
+    return planner->plan({start, std::move(goals), false}, StopToken()).status;
+  };
+  EXPECT_EQ(statusOf({0, 0}, {}), Status::INVALID_REQUEST);
+  EXPECT_EQ(statusOf({-1, 0}, {{1, 1}}), Status::START_OUTSIDE_MAP);
+  EXPECT_EQ(statusOf({0, 0}, {{3, 0}}), Status::GOAL_OUTSIDE_MAP);
+  EXPECT_EQ(statusOf({0, 0}, {{0, -7}}), Status::GOAL_OUTSIDE_MAP);
+  EXPECT_EQ(statusOf({2, 1}, {{0, 0}}), Status::START_OCCUPIED);
+  EXPECT_EQ(statusOf({0, 0}, {{2, 1}}), Status::GOAL_OCCUPIED);
+  EXPECT_EQ(statusOf({0, 0}, {{0, 0}}), Status::FOUND);
+  const bool several = planner->traits().several_goals;
+  EXPECT_EQ(statusOf({0, 0}, {{2, 0}, {1, 0}}), several ? Status::FOUND : Status::INVALID_REQUEST);
+}
+
+TEST_P(Conformance, StopsWhenAsked) {
+  const Grid<CostGrid::Weight> weights(GridGeometry(200, 200, 1.0), 1);
+  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  const auto planner = make();
+  planner->prepare(std::make_shared<const CostGrid>(weights, classes, MotionModel()), StopToken());
+  StopSource source;
+  const StopToken expired = source.token(std::chrono::duration<double>(0.0));
+  EXPECT_EQ(planner->plan({{0, 0}, {{199, 150}}, false}, expired).status, Status::TIMEOUT);
+  source.cancel();
+  const PlanResult cancelled = planner->plan({{0, 0}, {{199, 150}}, false}, source.token());
+  EXPECT_EQ(cancelled.status, Status::CANCELLED);
+  EXPECT_TRUE(cancelled.cells.empty());
+  EXPECT_EQ(planner->plan({{0, 0}, {{199, 150}}, false}, StopToken()).status, Status::FOUND);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, Conformance, ::testing::ValuesIn(subjects()));
+
+TEST(Dijkstra, AnswersTheNearestOfSeveralGoals) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 60; ++trial) {
+    const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 24, {}));
+    const Cell start = test::randomCell(random, map->geometry());
+    if (!map->passable(start)) continue;
+    std::vector<Cell> goals;
+    for (int i = 0; i < 5; ++i) goals.push_back(test::randomCell(random, map->geometry()));
+    const auto planner = makePlanner("dijkstra");
+    planner->prepare(map, StopToken());
+    const PlanResult result = planner->plan({start, goals, false}, StopToken());
+    std::optional<ExactCost> least;
+    const auto costs = test::referenceCosts(*map, start);
+    for (const Cell goal : goals) {
+      const auto cost = costs[map->geometry().index(goal).value()];
+      if (cost && (!least || *cost < *least)) least = cost;
+    }
+    ASSERT_EQ(result.status == Status::FOUND, least.has_value()) << result.message;
+    if (least) {
+      EXPECT_EQ(result.cost, *least);
+    }
+  }
+}
+
+TEST(Catalogue, RefusesUnknownNamesAndOptions) {
+  EXPECT_THROW(makePlanner("a_starr"), InputError);
+  SearchOptions options;
+  options.heuristic_scale = "cheap";
+  EXPECT_THROW(makePlanner("a_star", options), InputError);
+  options.heuristic_scale = "-1";
+  EXPECT_THROW(makePlanner("a_star", options), InputError);
+  options.heuristic_scale = "cheapest";
+  options.epsilon = 0.5;
+  EXPECT_THROW(makePlanner("a_star", options), InputError);
+}
+
+}  // namespace
+}  // namespace grid_path_planner

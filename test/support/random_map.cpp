@@ -1,0 +1,86 @@
+#include "support/random_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grid_path_planner::test {
+namespace {
+
+int between(std::mt19937& random, int low, int high) {
+  return std::uniform_int_distribution<int>(low, high)(random);
+}
+
+GridGeometry randomGeometry(std::mt19937& random, int largest_side) {
+  return GridGeometry(between(random, 1, largest_side), between(random, 1, largest_side), 1.0);
+}
+
+void fewValues(std::mt19937& random, Grid<CostGrid::Weight>& weights) {
+  const int values[] = {1, 2, 3, 50};
+  for (auto& weight : weights.values())
+    weight = static_cast<CostGrid::Weight>(values[between(random, 0, 3)]);
+}
+
+void plateaus(std::mt19937& random, Grid<CostGrid::Weight>& weights) {
+  for (int i = 0; i < 6; ++i) {
+    const Cell low = randomCell(random, weights.geometry());
+    const Cell high = randomCell(random, weights.geometry());
+    const auto weight = static_cast<CostGrid::Weight>(between(random, 1, 100));
+    for (int row = low.row; row <= high.row; ++row)
+      for (int column = low.column; column <= high.column; ++column)
+        weights[Cell{column, row}] = weight;
+  }
+}
+
+void rings(std::mt19937& random, Grid<CostGrid::Weight>& weights) {
+  for (int i = 0; i < 4; ++i) {
+    const Cell middle = randomCell(random, weights.geometry());
+    for (std::uint32_t j = 0; j < weights.values().size(); ++j) {
+      const Cell cell = weights.geometry().cell(CellIndex(j));
+      const double distance = std::hypot(cell.column - middle.column, cell.row - middle.row);
+      const auto weight = static_cast<CostGrid::Weight>(1.0 + 40.0 * std::exp(-distance / 3.0));
+      weights[cell] = std::max(weights[cell], weight);
+    }
+  }
+}
+
+void noise(std::mt19937& random, Grid<CostGrid::Weight>& weights) {
+  for (auto& weight : weights.values())
+    weight = static_cast<CostGrid::Weight>(between(random, 1, 65535));
+}
+
+}  // namespace
+
+Cell randomCell(std::mt19937& random, const GridGeometry& geometry) {
+  const int column = between(random, 0, geometry.width() - 1);
+  return {column, between(random, 0, geometry.height() - 1)};
+}
+
+OccupancyGrid randomOccupancy(std::mt19937& random, int largest_side, double occupied,
+                              double unknown) {
+  OccupancyGrid map(randomGeometry(random, largest_side));
+  std::uniform_real_distribution<double> chance(0.0, 1.0);
+  for (auto& value : map.values()) {
+    const double drawn = chance(random);
+    value = drawn < occupied ? 100 : drawn < occupied + unknown ? -1 : 0;
+  }
+  return map;
+}
+
+CostGrid randomCosts(std::mt19937& random, int largest_side, const MotionModel& motion) {
+  Grid<CostGrid::Weight> weights(randomGeometry(random, largest_side), 1);
+  switch (between(random, 0, 4)) {
+    case 0: break;
+    case 1: fewValues(random, weights); break;
+    case 2: plateaus(random, weights); break;
+    case 3: rings(random, weights); break;
+    default: noise(random, weights); break;
+  }
+  const double blocked = std::uniform_real_distribution<double>(0.0, 0.45)(random);
+  std::bernoulli_distribution drawn(blocked);
+  for (auto& weight : weights.values())
+    if (drawn(random)) weight = CostGrid::kBlocked;
+  Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  return CostGrid(std::move(weights), std::move(classes), motion);
+}
+
+}  // namespace grid_path_planner::test

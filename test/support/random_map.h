@@ -1,0 +1,21 @@
+// Seeded random maps of the kinds that planners meet.
+#pragma once
+
+#include <random>
+
+#include "grid_path_planner/grid/occupancy.h"
+#include "grid_path_planner/terrain/cost_grid.h"
+
+namespace grid_path_planner::test {
+
+// Occupied with probability `occupied`, unknown with `unknown`, else free; sides 1..largest_side.
+OccupancyGrid randomOccupancy(std::mt19937& random, int largest_side, double occupied,
+                              double unknown);
+
+// Weights of one of four kinds, drawn anew each time: uniform, few values that tie, plateaus, rings and
+// noise; a share of the cells blocked.
+CostGrid randomCosts(std::mt19937& random, int largest_side, const MotionModel& motion);
+
+Cell randomCell(std::mt19937& random, const GridGeometry& geometry);
+
+}  // namespace grid_path_planner::test

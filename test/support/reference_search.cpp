@@ -1,0 +1,63 @@
+#include "support/reference_search.h"
+
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/dijkstra_shortest_paths.hpp>
+#include <cmath>
+
+namespace grid_path_planner::test {
+namespace {
+
+using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property,
+                                    boost::property<boost::edge_weight_t, ExactCost>>;
+
+// Larger than any cost of a test's map.
+const ExactCost kUnreached{std::int64_t{1} << 40, 0};
+
+int weightAt(const CostGrid& map, int column, int row) {
+  const bool inside = column >= 0 && row >= 0 && column < map.geometry().width() &&
+                      row < map.geometry().height();
+  return inside ? map.weights().values()[std::size_t(row) * map.geometry().width() + column] : 0;
+}
+
+Graph graphOf(const CostGrid& map) {
+  const int width = map.geometry().width();
+  Graph graph(map.geometry().size());
+  for (int row = 0; row < map.geometry().height(); ++row)
+    for (int column = 0; column < width; ++column)
+      for (int up = -1; up <= 1; ++up)
+        for (int right = -1; right <= 1; ++right) {
+          const bool diagonal = up != 0 && right != 0;
+          const int from = weightAt(map, column, row);
+          const int to = weightAt(map, column + right, row + up);
+          if ((up == 0 && right == 0) || from == 0 || to == 0) continue;
+          if (diagonal && map.motion().connectivity == Connectivity::FOUR) continue;
+          const bool corner = weightAt(map, column + right, row) == 0 ||
+                              weightAt(map, column, row + up) == 0;
+          if (diagonal && corner && !map.motion().cut_corners) continue;
+          const std::int64_t weight = std::int64_t{std::max(from, to)} * map.kernel();
+          const bool root = diagonal && map.motion().diagonal_cost == DiagonalCost::SQRT2;
+          boost::add_edge(std::size_t(row) * width + column,
+                          std::size_t(row + up) * width + column + right,
+                          root ? ExactCost{0, weight} : ExactCost{weight, 0}, graph);
+        }
+  return graph;
+}
+
+}  // namespace
+
+std::vector<std::optional<ExactCost>> referenceCosts(const CostGrid& map, Cell start) {
+  const Graph graph = graphOf(map);
+  std::vector<ExactCost> distances(map.geometry().size());
+  boost::dijkstra_shortest_paths(
+      graph, map.geometry().index(start).value(),
+      boost::distance_map(boost::make_iterator_property_map(
+                              distances.begin(), boost::get(boost::vertex_index, graph)))
+          .distance_inf(kUnreached)
+          .distance_zero(ExactCost{}));
+  std::vector<std::optional<ExactCost>> costs;
+  for (const ExactCost& distance : distances)
+    costs.push_back(distance == kUnreached ? std::nullopt : std::optional<ExactCost>(distance));
+  return costs;
+}
+
+}  // namespace grid_path_planner::test

@@ -1,0 +1,15 @@
+// Least costs by Boost.Graph's Dijkstra on exact pairs (A, B): what every planner is compared with. It
+// shares no code with the searches and judges the steps by itself.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "grid_path_planner/terrain/cost_grid.h"
+
+namespace grid_path_planner::test {
+
+// From `start` to every cell, by index; none where no way leads.
+std::vector<std::optional<ExactCost>> referenceCosts(const CostGrid& map, Cell start);
+
+}  // namespace grid_path_planner::test
