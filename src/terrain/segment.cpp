@@ -82,14 +82,18 @@ class Walk {
   std::int64_t dy_ = 0;
 };
 
-// Both diagonal pairs around the lattice point at the lower left corner of cell (column, row).
+// Whether the lattice point at the lower left corner of cell (column, row) is no pinch: not a blocked
+// diagonal pair with open cells on both sides. (With a third cell blocked there is nowhere to squeeze
+// through to; an end may lie there.)
 bool latticePointOpen(const CostGrid& map, const Walk& walk, std::int64_t column,
                       std::int64_t row) {
   const bool lower_left = map.passable(walk.cell(column - 1, row - 1));
   const bool lower_right = map.passable(walk.cell(column, row - 1));
   const bool upper_left = map.passable(walk.cell(column - 1, row));
   const bool upper_right = map.passable(walk.cell(column, row));
-  return (lower_left || upper_right) && (lower_right || upper_left);
+  const bool rising = lower_left && upper_right && !lower_right && !upper_left;
+  const bool falling = lower_right && upper_left && !lower_left && !upper_right;
+  return !rising && !falling;
 }
 
 bool rowsPassable(const CostGrid& map, const Walk& walk, std::int64_t column,
