@@ -82,9 +82,9 @@ class Walk {
   std::int64_t dy_ = 0;
 };
 
-// Whether the lattice point at the lower left corner of cell (column, row) is no pinch: not a blocked
-// diagonal pair with open cells on both sides. (With a third cell blocked there is nowhere to squeeze
-// through to; an end may lie there.)
+// Whether the lattice point at the lower left corner of cell (column, row) is no pinch: not a
+// blocked diagonal pair with open cells on both sides. (With a third cell blocked there is nowhere
+// to squeeze through to; an end may lie there.)
 bool latticePointOpen(const CostGrid& map, const Walk& walk, std::int64_t column,
                       std::int64_t row) {
   const bool lower_left = map.passable(walk.cell(column - 1, row - 1));

@@ -1,5 +1,5 @@
-// One suite over every planner of the catalogue, with every heuristic and tie-break, on every motion
-// model: what the Planner contract promises.
+// One suite over every planner of the catalogue, with every heuristic and tie-break, on every
+// motion model: what the Planner contract promises.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -115,7 +115,8 @@ TEST_P(Conformance, AnswersAreLegalAndTheLeastCostWhereOptimalityIsClaimed) {
 
 TEST_P(Conformance, EpsilonBoundsTheCost) {
   const SearchOptions& options = GetParam().options;
-  if (GetParam().planner != "a_star" || options.tie_break == TieBreak::CROSS_PRODUCT_PUBLISHED) return;
+  if (GetParam().planner != "a_star" || options.tie_break == TieBreak::CROSS_PRODUCT_PUBLISHED)
+    return;
   std::mt19937 random(7);
   for (int trial = 0; trial < 40; ++trial) {
     const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 24, {}));

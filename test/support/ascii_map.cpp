@@ -9,10 +9,14 @@ std::int8_t occupancyOf(char letter) {
   switch (letter) {
     case '.':
     case 'S':
-    case 'G': return 0;
-    case '#': return 100;
-    case '?': return -1;
-    default: throw std::invalid_argument(std::string("no such letter in a map: ") + letter);
+    case 'G':
+      return 0;
+    case '#':
+      return 100;
+    case '?':
+      return -1;
+    default:
+      throw std::invalid_argument(std::string("no such letter in a map: ") + letter);
   }
 }
 

@@ -69,11 +69,20 @@ OccupancyGrid randomOccupancy(std::mt19937& random, int largest_side, double occ
 CostGrid randomCosts(std::mt19937& random, int largest_side, const MotionModel& motion) {
   Grid<CostGrid::Weight> weights(randomGeometry(random, largest_side), 1);
   switch (between(random, 0, 4)) {
-    case 0: break;
-    case 1: fewValues(random, weights); break;
-    case 2: plateaus(random, weights); break;
-    case 3: rings(random, weights); break;
-    default: noise(random, weights); break;
+    case 0:
+      break;
+    case 1:
+      fewValues(random, weights);
+      break;
+    case 2:
+      plateaus(random, weights);
+      break;
+    case 3:
+      rings(random, weights);
+      break;
+    default:
+      noise(random, weights);
+      break;
   }
   const double blocked = std::uniform_real_distribution<double>(0.0, 0.45)(random);
   std::bernoulli_distribution drawn(blocked);

@@ -12,8 +12,8 @@ namespace grid_path_planner::test {
 OccupancyGrid randomOccupancy(std::mt19937& random, int largest_side, double occupied,
                               double unknown);
 
-// Weights of one of four kinds, drawn anew each time: uniform, few values that tie, plateaus, rings and
-// noise; a share of the cells blocked.
+// Weights of one of four kinds, drawn anew each time: uniform, few values that tie, plateaus, rings
+// and noise; a share of the cells blocked.
 CostGrid randomCosts(std::mt19937& random, int largest_side, const MotionModel& motion);
 
 Cell randomCell(std::mt19937& random, const GridGeometry& geometry);

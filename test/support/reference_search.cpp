@@ -14,8 +14,8 @@ using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, 
 const ExactCost kUnreached{std::int64_t{1} << 40, 0};
 
 int weightAt(const CostGrid& map, int column, int row) {
-  const bool inside = column >= 0 && row >= 0 && column < map.geometry().width() &&
-                      row < map.geometry().height();
+  const bool inside =
+      column >= 0 && row >= 0 && column < map.geometry().width() && row < map.geometry().height();
   return inside ? map.weights().values()[std::size_t(row) * map.geometry().width() + column] : 0;
 }
 
@@ -31,8 +31,8 @@ Graph graphOf(const CostGrid& map) {
           const int to = weightAt(map, column + right, row + up);
           if ((up == 0 && right == 0) || from == 0 || to == 0) continue;
           if (diagonal && map.motion().connectivity == Connectivity::FOUR) continue;
-          const bool corner = weightAt(map, column + right, row) == 0 ||
-                              weightAt(map, column, row + up) == 0;
+          const bool corner =
+              weightAt(map, column + right, row) == 0 || weightAt(map, column, row + up) == 0;
           if (diagonal && corner && !map.motion().cut_corners) continue;
           const std::int64_t weight = std::int64_t{std::max(from, to)} * map.kernel();
           const bool root = diagonal && map.motion().diagonal_cost == DiagonalCost::SQRT2;
@@ -50,8 +50,8 @@ std::vector<std::optional<ExactCost>> referenceCosts(const CostGrid& map, Cell s
   std::vector<ExactCost> distances(map.geometry().size());
   boost::dijkstra_shortest_paths(
       graph, map.geometry().index(start).value(),
-      boost::distance_map(boost::make_iterator_property_map(
-                              distances.begin(), boost::get(boost::vertex_index, graph)))
+      boost::distance_map(boost::make_iterator_property_map(distances.begin(),
+                                                            boost::get(boost::vertex_index, graph)))
           .distance_inf(kUnreached)
           .distance_zero(ExactCost{}));
   std::vector<std::optional<ExactCost>> costs;

@@ -1,5 +1,5 @@
-// Least costs by Boost.Graph's Dijkstra on exact pairs (A, B): what every planner is compared with. It
-// shares no code with the searches and judges the steps by itself.
+// Least costs by Boost.Graph's Dijkstra on exact pairs (A, B): what every planner is compared with.
+// It shares no code with the searches and judges the steps by itself.
 #pragma once
 
 #include <optional>

@@ -34,9 +34,9 @@ int weightByDefinition(const OccupancyGrid& map, Cell cell, const TerrainOptions
   if (value >= 65 || distance < options.radius * (1.0 - 1e-9)) return 0;
   const int weight = value == 0 ? options.free_weight : options.unknown_weight;
   if (options.decay == 0.0 || std::isinf(distance)) return weight;
-  const double ring = options.free_weight +
-                      (options.inflation_weight - options.free_weight) *
-                          std::exp(-options.decay * (distance - options.radius));
+  const double ring =
+      options.free_weight + (options.inflation_weight - options.free_weight) *
+                                std::exp(-options.decay * (distance - options.radius));
   return std::max(weight, static_cast<int>(std::lround(ring)));
 }
 
@@ -56,8 +56,8 @@ TEST(Inflation, BlocksWhatIsNearerThanTheRadiusAndNotWhatIsAtIt) {
   EXPECT_TRUE(costs->passable({3, 0}));
 }
 
-// A resolution of 0.03 arrives as a 32-bit float, 0.0299999993: ten cells and a half must not become
-// less than 0.315 m.
+// A resolution of 0.03 arrives as a 32-bit float, 0.0299999993: ten cells and a half must not
+// become less than 0.315 m.
 TEST(Inflation, RoundingOfTheResolutionBlocksNothing) {
   const OccupancyGrid map = test::AsciiMap({"#..............."}, double(0.03F)).map;
   TerrainOptions options;
@@ -81,7 +81,7 @@ TEST(Inflation, WeightFallsFromTheRadiusOn) {
   options.radius = 0.5;
   options.decay = 1.0;
   const auto costs = costsOf(test::AsciiMap({"#....."}).map, options);
-  EXPECT_EQ(costs->weight({1, 0}), 40);                            // at the radius
+  EXPECT_EQ(costs->weight({1, 0}), 40);  // at the radius
   EXPECT_EQ(costs->weight({2, 0}), std::lround(1 + 39 * std::exp(-1.0)));
   EXPECT_EQ(costs->weight({3, 0}), std::lround(1 + 39 * std::exp(-2.0)));
 }

@@ -117,8 +117,8 @@ TEST(TerrainLaw, AnUpdatedRectangleIsLikeAFreshMap) {
   std::mt19937 random(9);
   for (int trial = 0; trial < 80; ++trial) {
     OccupancyGrid map = test::randomOccupancy(random, 50, 0.04, 0.1);
-    TerrainOptions options = withKernel(1 + trial % 4, trial % 3 == 0 ? KernelRule::FILTER2D
-                                                                      : KernelRule::CONSERVATIVE);
+    TerrainOptions options =
+        withKernel(1 + trial % 4, trial % 3 == 0 ? KernelRule::FILTER2D : KernelRule::CONSERVATIVE);
     options.radius = trial % 3 * 0.8;
     options.decay = trial % 2 * 0.7;
     Terrain updated(options);
@@ -128,8 +128,7 @@ TEST(TerrainLaw, AnUpdatedRectangleIsLikeAFreshMap) {
       const auto before = updated.searched(StopToken());
       const Cell cell = test::randomCell(random, map.geometry());
       map[cell] = static_cast<std::int8_t>(map[cell] == 100 ? 0 : 100);
-      updated.updateMap(std::make_shared<const OccupancyGrid>(map),
-                        {cell.column, cell.row, 1, 1});
+      updated.updateMap(std::make_shared<const OccupancyGrid>(map), {cell.column, cell.row, 1, 1});
       const auto after = updated.searched(StopToken());
       Terrain fresh(options);
       fresh.setMap(std::make_shared<const OccupancyGrid>(map));

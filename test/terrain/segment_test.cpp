@@ -79,19 +79,20 @@ TEST(Segment, APointIsASegment) {
 TEST(Segment, AlongAnEdgeTheCheaperPassableSideCounts) {
   const auto map = costsOf({"..??",  //
                             "??##"});
-  const double cost = segmentCost(*map, SegmentPoint::nearest({0.5, 1.0}),
-                                  SegmentPoint::nearest({1.5, 1.0}));
+  const double cost =
+      segmentCost(*map, SegmentPoint::nearest({0.5, 1.0}), SegmentPoint::nearest({1.5, 1.0}));
   EXPECT_DOUBLE_EQ(cost, 1.0);
-  EXPECT_DOUBLE_EQ(segmentCost(*map, SegmentPoint::nearest({2.5, 1.0}),
-                               SegmentPoint::nearest({3.5, 1.0})),
-                   50.0);
+  EXPECT_DOUBLE_EQ(
+      segmentCost(*map, SegmentPoint::nearest({2.5, 1.0}), SegmentPoint::nearest({3.5, 1.0})),
+      50.0);
 }
 
 TEST(Segment, APieceCostsTheDearestCellItMeets) {
   const auto map = costsOf({"...",  //
                             ".?."});
   // Half of the way lies in row 0, the other half begins in the unknown cell.
-  const double cost = segmentCost(*map, SegmentPoint::centreOf({0, 0}), SegmentPoint::centreOf({2, 1}));
+  const double cost =
+      segmentCost(*map, SegmentPoint::centreOf({0, 0}), SegmentPoint::centreOf({2, 1}));
   EXPECT_DOUBLE_EQ(cost, std::sqrt(5.0) * 0.5 * (1.0 + 50.0));
 }
 

@@ -1,0 +1,144 @@
+#include "arguments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <sstream>
+#include <type_traits>
+
+#include "grid_path_planner/base/option_text.h"
+
+namespace grid_path_planner::tools {
+namespace {
+
+namespace po = boost::program_options;
+
+std::string flagOf(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+double numberOf(const std::string& name, const std::string& text) {
+  std::size_t used = 0;
+  double value = NAN;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size() || !std::isfinite(value))
+    throw InputError("--" + name + " needs a finite number, got '" + text + "'");
+  return value;
+}
+
+bool truthOf(const std::string& name, const std::string& text) {
+  if (text == "true" || text == "1" || text == "yes") return true;
+  if (text == "false" || text == "0" || text == "no") return false;
+  throw InputError("--" + name + " needs true or false, got '" + text + "'");
+}
+
+// Writes one option's text into its place.
+struct FromText {
+  const po::variables_map& values;
+
+  template <class Value>
+  void operator()(const char* option, Value& value, const OptionInfo& info) const {
+    const std::string name = flagOf(option);
+    if (values.count(name) == 0) return;
+    const std::string text = values[name].as<std::string>();
+    if constexpr (std::is_enum_v<Value>) {
+      value = choiceFromName<Value>("--" + name, text);
+    } else if constexpr (std::is_same_v<Value, bool>) {
+      value = truthOf(name, text);
+    } else if constexpr (std::is_same_v<Value, std::string>) {
+      value = text;
+    } else {
+      const double number = numberOf(name, text);
+      checkLimits("--" + name, number, info);
+      if (std::is_same_v<Value, int> && number != std::floor(number))
+        throw InputError("--" + name + " needs a whole number, got '" + text + "'");
+      value = static_cast<Value>(number);
+    }
+  }
+};
+
+template <class Value>
+std::string shown(const Value& value) {
+  std::ostringstream out;
+  if constexpr (std::is_enum_v<Value>)
+    out << choiceName(value);
+  else
+    out << std::boolalpha << value;
+  return out.str();
+}
+
+}  // namespace
+
+bool parseArguments(int argc, char** argv, const po::options_description& known,
+                    const std::string& usage, po::variables_map& values) {
+  namespace style = po::command_line_style;
+  const int long_only = style::allow_long | style::long_allow_adjacent | style::long_allow_next;
+  po::options_description all(known);
+  all.add_options()("help", "print this");
+  po::store(po::command_line_parser(argc, argv)
+                .options(all)
+                .positional(po::positional_options_description())
+                .style(long_only)
+                .run(),
+            values);
+  if (values.count("help") != 0) {
+    std::cout << "usage: " << usage << "\n\n" << all << '\n';
+    return false;
+  }
+  po::notify(values);
+  return true;
+}
+
+std::vector<double> numbersOf(const std::string& name, const std::string& text, std::size_t fewest,
+                              std::size_t most) {
+  std::vector<double> numbers;
+  std::istringstream parts(text + ",");
+  for (std::string part; std::getline(parts, part, ',');) numbers.push_back(numberOf(name, part));
+  if (numbers.size() >= fewest && numbers.size() <= most) return numbers;
+  throw InputError("--" + name + " needs " + std::to_string(fewest) +
+                   (most > fewest ? " to " + std::to_string(most) : "") +
+                   " numbers separated by commas, got '" + text + "'");
+}
+
+void describePlannerOptions(po::options_description& known) {
+  PlannerOptions defaults;
+  visitOptions(defaults, [&known](const char* name, auto& value, const OptionInfo& info) {
+    std::string text = info.description;
+    if (*info.unit) text += std::string(" [") + info.unit + "]";
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_enum_v<Value>) {
+      text += " (";
+      for (const auto& choice : choicesOf(Value{}))
+        text += std::string(&choice == &choicesOf(Value{}).front() ? "" : "|") + choice.first;
+      text += ")";
+    }
+    text += "; default " + shown(value);
+    known.add_options()(flagOf(name).c_str(), po::value<std::string>(), text.c_str());
+  });
+  known.add_options()("weights", po::value<std::string>(),
+                      "weights of free, unknown and occupied cells as F,U,O");
+}
+
+PlannerOptions plannerOptionsFrom(const po::variables_map& values, const PlannerOptions& defaults) {
+  PlannerOptions options = defaults;
+  if (values.count("weights") != 0) {
+    const std::string text = values["weights"].as<std::string>();
+    const std::vector<double> weights = numbersOf("weights", text, 3, 3);
+    for (const double weight : weights)
+      if (weight != std::floor(weight) || weight < 1 || weight > 65535)
+        throw InputError("--weights must be whole numbers from 1 to 65535, got '" + text + "'");
+    options.terrain.free_weight = static_cast<int>(weights[0]);
+    options.terrain.unknown_weight = static_cast<int>(weights[1]);
+    options.terrain.occupied_weight = static_cast<int>(weights[2]);
+  }
+  visitOptions(options, FromText{values});
+  checkPlannerOptions(options);
+  return options;
+}
+
+}  // namespace grid_path_planner::tools

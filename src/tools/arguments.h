@@ -1,0 +1,31 @@
+// Command lines read with Boost.Program_options, in the one way that all commands share.
+#pragma once
+
+#include <boost/program_options.hpp>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/planners/map_planner.h"
+
+namespace grid_path_planner::tools {
+
+// Long options only, so that negative numbers parse as values. Prints the help and returns false
+// where
+// --help is given. Throws boost::program_options::error for what it does not know.
+bool parseArguments(int argc, char** argv, const boost::program_options::options_description& known,
+                    const std::string& usage, boost::program_options::variables_map& values);
+
+// "1.5,-2" as two numbers; throws InputError naming the option for anything but `fewest` to `most`
+// finite numbers.
+std::vector<double> numbersOf(const std::string& name, const std::string& text, std::size_t fewest,
+                              std::size_t most);
+
+// Adds an option --some-name for every option some_name of PlannerOptions, and --weights F,U,O.
+void describePlannerOptions(boost::program_options::options_description& known);
+
+// The options given on the command line over `defaults`. Throws InputError naming the option.
+PlannerOptions plannerOptionsFrom(const boost::program_options::variables_map& values,
+                                  const PlannerOptions& defaults = {});
+
+}  // namespace grid_path_planner::tools

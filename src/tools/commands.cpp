@@ -1,0 +1,13 @@
+#include "commands.h"
+
+namespace grid_path_planner::tools {
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> all = {
+      {"plan", "plan a path on a map file", runPlan},
+      {"scenarios", "run MovingAI queries and check their costs", runScenarios},
+  };
+  return all;
+}
+
+}  // namespace grid_path_planner::tools

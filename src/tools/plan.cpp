@@ -1,0 +1,126 @@
+// grid_path plan: one path on one map file.
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "arguments.h"
+#include "commands.h"
+#include "grid_path_planner/grid/map_file.h"
+#include "grid_path_planner/path/picture.h"
+#include "grid_path_planner/path/waypoint_file.h"
+#include "grid_path_planner/planners/map_planner.h"
+
+namespace grid_path_planner::tools {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr int kFound = 0;
+constexpr int kNoPath = 1;
+
+po::options_description describe() {
+  po::options_description known("Options");
+  known.add_options()("map", po::value<std::string>()->required(),
+                      "map_server YAML, MovingAI .map, image, rostopic echo dump or bag")(
+      "start", po::value<std::string>()->required(), "X,Y[,Z[,YAW]] in metres, YAW in radians")(
+      "goal", po::value<std::string>()->required(), "the same")(
+      "cells", "start and goal are COLUMN,ROW of cells")(
+      "resolution", po::value<double>(),
+      "side of the map's cells, where it has none of its own [m]")(
+      "image", po::value<std::string>(), "write a picture of map and path")(
+      "waypoints", po::value<std::string>(), "write the path as a waypoint file")(
+      "json", "print one JSON object instead of a sentence");
+  describePlannerOptions(known);
+  return known;
+}
+
+Pose poseOf(const std::string& name, const std::string& text, bool cells,
+            const GridGeometry& geometry) {
+  const std::vector<double> numbers = numbersOf(name, text, 2, cells ? 2 : 4);
+  Pose pose;
+  if (cells) {
+    if (numbers[0] != std::floor(numbers[0]) || numbers[1] != std::floor(numbers[1]))
+      throw InputError("--" + name + " needs whole numbers with --cells, got '" + text + "'");
+    pose.position << geometry.worldFromGrid({numbers[0] + 0.5, numbers[1] + 0.5}), 0.0;
+    return pose;
+  }
+  pose.position.head<2>() = Eigen::Vector2d(numbers[0], numbers[1]);
+  if (numbers.size() > 2) pose.position.z() = numbers[2];
+  if (numbers.size() > 3) pose.yaw = numbers[3];
+  return pose;
+}
+
+nlohmann::json jsonOf(const PlanReport& report) {
+  const bool found = report.status == Status::FOUND;
+  nlohmann::json poses = nlohmann::json::array();
+  for (const Pose& pose : report.path.poses)
+    poses.push_back({pose.position.x(), pose.position.y(), pose.position.z(), pose.yaw});
+  nlohmann::json object = {
+      {"status", std::string(toString(report.status))},
+      {"message", report.message},
+      {"cost", nullptr},
+      {"length_m", nullptr},
+      {"cells", report.cells},
+      {"kernel", report.kernel},
+      {"expanded", report.statistics.expanded},
+      {"generated", report.statistics.generated},
+      {"reopened", report.statistics.reopened},
+      {"peak_open", report.statistics.peak_open},
+      {"planning_time_ms", report.statistics.time_s * 1e3},
+      {"preparation_time_ms", report.preparation_time_s * 1e3},
+      {"search_bytes", report.statistics.search_bytes},
+      {"path", poses},
+  };
+  if (found) object["cost"] = report.cost.toDouble();
+  if (found) object["length_m"] = report.length_m;
+  return object;
+}
+
+std::vector<Cell> cellsOf(const std::vector<Eigen::Vector2d>& centres,
+                          const GridGeometry& geometry) {
+  std::vector<Cell> cells;
+  for (const Eigen::Vector2d& centre : centres)
+    if (const auto cell = geometry.cellAt(centre)) cells.push_back(*cell);
+  return cells;
+}
+
+}  // namespace
+
+int runPlan(int argc, char** argv) {
+  po::variables_map values;
+  if (!parseArguments(argc, argv, describe(),
+                      "grid_path plan --map FILE --start X,Y --goal X,Y [options]", values))
+    return kFound;
+  const PlannerOptions options = plannerOptionsFrom(values);
+
+  MapFileOptions reading;
+  reading.warn = [](const std::string& warning) { std::cerr << "warning: " << warning << '\n'; };
+  if (values.count("resolution") != 0) reading.resolution = values["resolution"].as<double>();
+  const auto map =
+      std::make_shared<const OccupancyGrid>(readMapFile(values["map"].as<std::string>(), reading));
+
+  const bool cells = values.count("cells") != 0;
+  PoseRequest request;
+  request.start = poseOf("start", values["start"].as<std::string>(), cells, map->geometry());
+  request.goal = poseOf("goal", values["goal"].as<std::string>(), cells, map->geometry());
+  request.record_expanded = values.count("image") != 0;
+
+  MapPlanner planner(options);
+  planner.setMap(map);
+  const PlanReport report = planner.plan(request);
+
+  if (values.count("image") != 0)
+    writePicture(values["image"].as<std::string>(), *map, options.terrain.thresholds, report.path,
+                 cellsOf(report.expanded, map->geometry()));
+  if (values.count("waypoints") != 0 && report.status == Status::FOUND)
+    writeWaypointFile(values["waypoints"].as<std::string>(), report.path);
+  if (values.count("json") != 0)
+    std::cout << jsonOf(report).dump() << '\n';
+  else
+    std::cout << toString(report.status) << ": " << report.message << '\n';
+  if (report.status == Status::INVALID_REQUEST) return kBadInput;
+  return report.status == Status::FOUND ? kFound : kNoPath;
+}
+
+}  // namespace grid_path_planner::tools

@@ -1,0 +1,51 @@
+#include "scenario_file.h"
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "grid_path_planner/base/errors.h"
+
+namespace grid_path_planner::tools {
+namespace {
+
+Query queryOf(const std::string& file, int line, const std::string& text) {
+  Query query;
+  query.line = line;
+  std::istringstream parts(text);
+  int bucket = 0;
+  parts >> bucket >> query.map >> query.width >> query.height >> query.start.column >>
+      query.start.row >> query.goal.column >> query.goal.row >> query.optimum;
+  std::string rest;
+  const bool complete = static_cast<bool>(parts) && !(parts >> rest);
+  if (!complete || !std::isfinite(query.optimum) || query.optimum < 0.0)
+    throw InputError(file, line,
+                     "a query is 'bucket map width height start-x start-y goal-x goal-y "
+                     "optimal-length', got '" +
+                         text.substr(0, 80) + "'");
+  return query;
+}
+
+}  // namespace
+
+std::vector<Query> readScenarioFile(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw InputError(file, "cannot be read");
+  std::vector<Query> queries;
+  int line = 0;
+  for (std::string text; std::getline(in, text);) {
+    ++line;
+    if (!text.empty() && text.back() == '\r') text.pop_back();
+    if (line == 1) {
+      if (text.rfind("version", 0) != 0)
+        throw InputError(file, line, "a scenario file begins with 'version 1'");
+      continue;
+    }
+    if (text.find_first_not_of(" \t") == std::string::npos) continue;
+    queries.push_back(queryOf(file, line, text));
+  }
+  if (queries.empty()) throw InputError(file, "has no queries");
+  return queries;
+}
+
+}  // namespace grid_path_planner::tools
