@@ -1,13 +1,19 @@
 #include "ros/support/parameter_defaults.h"
 
 #include "grid_path_planner/PathPlannerConfig.h"
+#include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/ros/path_planner_options.h"
+#include "grid_path_planner/ros/simulator_options.h"
 
 namespace grid_path_planner {
 namespace {
 
 TEST(ParameterDefaults, PathPlanner) {
   test::expectSameDefaults<PathPlannerConfig, PathPlannerNodeOptions>("path_planner");
+}
+
+TEST(ParameterDefaults, Simulator) {
+  test::expectSameDefaults<SimulatorConfig, SimulatorOptions>("simulator");
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+// The parameters of the node `simulator`.
+#pragma once
+
+#include <string>
+
+#include "grid_path_planner/simulation/vehicle_options.h"
+
+namespace grid_path_planner {
+
+struct SimulatorOptions {
+  VehicleOptions vehicle;
+
+  double initial_x = 0.0;    // m, map frame
+  double initial_y = 0.0;    // m
+  double initial_z = 0.0;    // m
+  double initial_yaw = 0.0;  // rad
+
+  double real_time_factor = 1.0;
+  double update_rate = 100.0;  // Hz, wall time
+  bool publish_clock = true;
+  double start_time = 1.0;  // s
+
+  std::string map_frame = "map";
+  std::string odom_frame = "odom";
+  std::string base_frame = "base_link";
+  bool publish_map_to_odom = true;
+};
+
+template <class Visitor>
+void visitOptions(SimulatorOptions& o, Visitor&& visit) {
+  visitOptions(o.vehicle, visit);
+  visit("initial_x", o.initial_x,
+        OptionInfo{"Where the vehicle starts; a change puts it there", "m", -1e6, 1e6});
+  visit("initial_y", o.initial_y,
+        OptionInfo{"Where the vehicle starts; a change puts it there", "m", -1e6, 1e6});
+  visit("initial_z", o.initial_z,
+        OptionInfo{"Where the vehicle starts; a change puts it there", "m", -1e6, 1e6});
+  visit("initial_yaw", o.initial_yaw,
+        OptionInfo{"Where the vehicle looks at the start; a change turns it", "rad", -7.0, 7.0});
+  visit("real_time_factor", o.real_time_factor,
+        OptionInfo{
+            "Simulated seconds in a second of the wall clock; other than 1 needs publish_clock", "",
+            0.01, 100.0});
+  visit("update_rate", o.update_rate,
+        OptionInfo{"How often odometry, tf and clock are published, by the wall clock", "Hz", 1.0,
+                   1000.0});
+  visit("publish_clock", o.publish_clock,
+        OptionInfo{"Whether /clock is published; the other nodes then need use_sim_time", ""});
+  visit("start_time", o.start_time,
+        OptionInfo{"What /clock begins with; read at the start", "s", 0.001, 2e9});
+  visit("map_frame", o.map_frame, OptionInfo{"Frame of the map, where obstacles are", ""});
+  visit("odom_frame", o.odom_frame, OptionInfo{"Frame of the odometry", ""});
+  visit("base_frame", o.base_frame,
+        OptionInfo{"Frame of the vehicle, in which it is commanded", ""});
+  visit(
+      "publish_map_to_odom", o.publish_map_to_odom,
+      OptionInfo{
+          "Whether tf map to odom (the identity) is published; false: a localisation does it", ""});
+}
+
+// Throws InputError naming the option for a value outside its limits, a factor other than 1 without
+// a clock, and frames that are empty or the same.
+void checkSimulatorOptions(const SimulatorOptions& options);
+
+}  // namespace grid_path_planner

@@ -1,0 +1,95 @@
+#include "grid_path_planner/ros/run_node.h"
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <ros/xmlrpc_manager.h>
+
+#include <atomic>
+#include <csignal>
+#include <mutex>
+
+namespace grid_path_planner {
+namespace {
+
+std::atomic<bool> node_runs{false};
+std::atomic<int> signal_received{0};
+
+void onSignal(int number) {
+  signal_received = number;
+  if (!node_runs) ros::requestShutdown();  // still waiting for a master
+}
+
+// What the master asks for: a second node of this name came, or rosnode kill.
+class ShutdownRequest {
+ public:
+  static ShutdownRequest& instance() {
+    static ShutdownRequest request;
+    return request;
+  }
+
+  // Takes the place of roscpp's own answer, which would close the connections.
+  void listen() {
+    const ros::XMLRPCManagerPtr& server = ros::XMLRPCManager::instance();
+    server->unbind("shutdown");
+    server->bind("shutdown", [this](XmlRpc::XmlRpcValue& request, XmlRpc::XmlRpcValue& response) {
+      receive(request);
+      response = ros::xmlrpc::responseInt(1, "", 0);
+    });
+  }
+
+  std::string reason() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return reason_;
+  }
+
+ private:
+  void receive(XmlRpc::XmlRpcValue& request) {
+    const bool has_reason = request.getType() == XmlRpc::XmlRpcValue::TypeArray &&
+                            request.size() > 1 &&
+                            request[1].getType() == XmlRpc::XmlRpcValue::TypeString;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    reason_ = has_reason ? static_cast<std::string>(request[1]) : "asked by the master";
+  }
+
+  std::mutex mutex_;
+  std::string reason_;
+};
+
+// Empty while nothing asks the node to end.
+std::string endReason() {
+  if (signal_received) return "signal " + std::to_string(signal_received);
+  return ShutdownRequest::instance().reason();
+}
+
+void serve(const std::string& name, const NodeMaker& make) {
+  ros::NodeHandle nh;
+  ros::NodeHandle private_nh("~");
+  ShutdownRequest::instance().listen();
+  const std::shared_ptr<void> node = make(nh, private_nh);
+  node_runs = true;
+  std::string reason = endReason();
+  while (ros::ok() && reason.empty()) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+    reason = endReason();
+  }
+  ROS_WARN_STREAM(name << " ends: " << (reason.empty() ? "ROS was shut down" : reason));
+}
+
+}  // namespace
+
+int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make) {
+  ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
+  std::signal(SIGINT, onSignal);
+  std::signal(SIGTERM, onSignal);
+  int result = 0;
+  try {
+    serve(name, make);
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM(name << " ends: " << error.what());
+    result = 1;
+  }
+  ros::shutdown();
+  return result;
+}
+
+}  // namespace grid_path_planner

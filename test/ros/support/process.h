@@ -1,0 +1,76 @@
+// A program that a rostest starts, watches and ends: by its own process id, nobody else's.
+//
+//   Process simulator("simulator", {"_real_time_factor:=10"});     // one of this package
+//   simulator.signal(SIGKILL);
+//   ASSERT_TRUE(simulator.waitForExit());
+#pragma once
+
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ros/support/wait.h"
+
+namespace grid_path_planner::test {
+
+class Process {
+ public:
+  // An executable of this package in the devel space.
+  Process(const std::string& node, const std::vector<std::string>& arguments)
+      : Process(joined(GPP_DEVEL "/lib/grid_path_planner/" + node, arguments)) {}
+
+  // Any program, looked up in PATH; the first argument is its name.
+  explicit Process(const std::vector<std::string>& command) : pid_(::fork()) {
+    if (pid_ < 0) throw std::runtime_error("no process could be started");
+    if (pid_ > 0) return;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing is left behind by a test that is killed
+    std::vector<char*> arguments;
+    for (const std::string& argument : command)
+      arguments.push_back(const_cast<char*>(argument.c_str()));
+    arguments.push_back(nullptr);
+    ::execvp(arguments[0], arguments.data());
+    ::_exit(127);
+  }
+
+  ~Process() {
+    signal(SIGINT);
+    if (waitForExit(std::chrono::seconds(10))) return;
+    signal(SIGKILL);
+    waitForExit();
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  bool running() {
+    if (!exited_ && ::waitpid(pid_, &status_, WNOHANG) == pid_) exited_ = true;
+    return !exited_;
+  }
+  void signal(int number) {
+    if (running()) ::kill(pid_, number);
+  }
+  bool waitForExit(std::chrono::duration<double> deadline = kDeadline) {
+    return waitFor([this] { return !running(); }, deadline);
+  }
+  // Of a process that exited by itself; -1 of one that was killed.
+  int exitCode() const { return exited_ && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1; }
+
+ private:
+  static std::vector<std::string> joined(const std::string& program,
+                                         const std::vector<std::string>& arguments) {
+    std::vector<std::string> command{program};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return command;
+  }
+
+  pid_t pid_;
+  int status_ = 0;
+  bool exited_ = false;
+};
+
+}  // namespace grid_path_planner::test
