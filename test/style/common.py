@@ -3,7 +3,9 @@ import os
 import subprocess
 import sys
 
-ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
+# The checks are themselves checked on other folders (check_checks.py).
+ROOT = os.environ.get("STYLE_ROOT") or os.path.abspath(
+    os.path.join(os.path.dirname(__file__), "..", ".."))
 SKIPPED = 77
 
 

@@ -1,0 +1,44 @@
+"""C++ files are built alike: a header opens with what it is for, has one #pragma once, and everything
+lives in the package's namespace. Names carry no versions, and nothing is left to be done later."""
+import re
+
+from common import files, finish, read
+
+NAME = re.compile(r"[a-z][a-z0-9_]*\.(h|cpp)$")
+VERSION = re.compile(r"(^|_)(v?\d+|new|old|final|copy|backup|tmp|fixed|improved|refactored)$")
+UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b")
+NAMESPACE = re.compile(r"^namespace grid_path_planner(::\w+)? \{", re.MULTILINE)
+MAIN = re.compile(r"^int main\(", re.MULTILINE)
+
+
+def complaints_of(name, text):
+    base = name.split("/")[-1]
+    lines = text.splitlines()
+    if not NAME.match(base):
+        yield "the name is not under_scored"
+    if VERSION.search(base.rsplit(".", 1)[0]):
+        yield "the name carries a version"
+    if UNFINISHED.search(text):
+        yield "something is left to be done: " + UNFINISHED.search(text).group(0)
+    if not NAMESPACE.search(text) and not MAIN.search(text):
+        yield "no namespace grid_path_planner"
+    if base.endswith(".cpp"):
+        if "#pragma once" in text:
+            yield "#pragma once in a source file"
+        return
+    if lines.count("#pragma once") != 1:
+        yield "a header has #pragma once exactly once"
+    if not lines or not lines[0].startswith("// "):
+        yield "a header opens with what it is for"
+    if re.search(r"^using namespace ", text, re.MULTILINE):
+        yield "using namespace in a header"
+
+
+def main():
+    names = files(("include", "src", "test"), (".h", ".cpp"))
+    finish(["%s: %s" % (name, complaint)
+            for name in names for complaint in complaints_of(name, read(name))],
+           "%d files" % len(names))
+
+
+main()
