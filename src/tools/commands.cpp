@@ -6,6 +6,7 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> all = {
       {"plan", "plan a path on a map file", runPlan},
       {"scenarios", "run MovingAI queries and check their costs", runScenarios},
+      {"convert", "read a map file and write it in another format", runConvert},
   };
   return all;
 }

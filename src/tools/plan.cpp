@@ -6,10 +6,10 @@
 
 #include "arguments.h"
 #include "commands.h"
-#include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/path/picture.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/planners/map_planner.h"
+#include "grid_path_planner/ros/bag.h"
 
 namespace grid_path_planner::tools {
 namespace {
@@ -97,8 +97,8 @@ int runPlan(int argc, char** argv) {
   MapFileOptions reading;
   reading.warn = [](const std::string& warning) { std::cerr << "warning: " << warning << '\n'; };
   if (values.count("resolution") != 0) reading.resolution = values["resolution"].as<double>();
-  const auto map =
-      std::make_shared<const OccupancyGrid>(readMapFile(values["map"].as<std::string>(), reading));
+  const auto map = std::make_shared<const OccupancyGrid>(
+      readAnyMapFile(values["map"].as<std::string>(), reading));
 
   const bool cells = values.count("cells") != 0;
   PoseRequest request;
