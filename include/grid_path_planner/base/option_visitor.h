@@ -13,11 +13,13 @@
 //
 //   const std::vector<std::pair<const char*, E>>& choicesOf(E);
 //
-// Numbers outside [minimum, maximum] and unknown choices are refused by assignOption, never clamped.
+// Numbers outside [minimum, maximum] and unknown choices are refused by assignOption, never
+// clamped.
 #pragma once
 
-#include <cmath>
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -56,10 +58,11 @@ E choiceFromName(const std::string& name, const std::string& text) {
 inline void checkLimits(const std::string& name, double value, const OptionInfo& info) {
   if (value >= info.minimum && value <= info.maximum) return;  // NaN fails both
   const auto number = [](double x) {
-    std::string text = std::to_string(x);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (!text.empty() && text.back() == '.') text.pop_back();
-    return text;
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(12);
+    text << x;
+    return text.str();
   };
   throw InputError(name + " must be a number from " + number(info.minimum) + " to " +
                    number(info.maximum) + (*info.unit ? std::string(" ") + info.unit : "") +

@@ -1,0 +1,69 @@
+// What every options struct must hold to, whatever its options are.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <type_traits>
+
+#include "grid_path_planner/base/check_options.h"
+#include "support/error_text.h"
+
+namespace grid_path_planner::test {
+
+// A value outside the limits, one step above or below; the same where there is none.
+inline double beyond(double limit, int direction) {
+  return std::isinf(limit) ? limit : limit + direction * std::max(1.0, std::abs(limit));
+}
+
+// The name is under_scored, and the description a sentence that stands on one line.
+inline void expectDocumented(const std::string& name, const OptionInfo& info) {
+  EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"), std::string::npos)
+      << name;
+  const std::string description = info.description;
+  EXPECT_GE(description.size(), 10u) << name << " needs a description";
+  EXPECT_EQ(description.find_first_of("\n\"\\"), std::string::npos) << name;
+  EXPECT_LE(info.minimum, info.maximum) << name;
+}
+
+// Defaults lie inside their limits, numbers just outside are refused by name, names differ, choices
+// come back from their own names and other names are refused.
+template <class Options>
+void expectOptionLaws() {
+  EXPECT_EQ(errorText([] { checkOptionLimits(Options{}); }), "") << "of the defaults";
+  std::set<std::string> names;
+  Options options;
+  visitOptions(options, [&](const char* name, auto& value, const OptionInfo& info) {
+    using Value = std::decay_t<decltype(value)>;
+    expectDocumented(name, info);
+    EXPECT_TRUE(names.insert(name).second) << name << " is there twice";
+    if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>) {
+      const Value before = value;
+      for (const double outside : {beyond(info.minimum, -1), beyond(info.maximum, +1)}) {
+        if (std::isinf(outside)) continue;
+        value = static_cast<Value>(outside);
+        EXPECT_EQ(errorText([&] { checkOptionLimits(options); }).find(std::string(name) + " must"),
+                  0u)
+            << name << " = " << outside;
+      }
+      value = before;
+    }
+    if constexpr (std::is_enum_v<Value>) {
+      for (const auto& choice : choicesOf(Value{})) {
+        EXPECT_EQ(choiceFromName<Value>(name, choice.first), choice.second);
+        EXPECT_STREQ(choiceName(choice.second), choice.first);
+      }
+      EXPECT_STRNE(choiceName(value), "?") << "the default of " << name;
+      EXPECT_EQ(errorText([&] {
+                  choiceFromName<Value>(name, "no such");
+                }).find(std::string(name) + " must be one of"),
+                0u);
+    }
+  });
+  EXPECT_FALSE(names.empty());
+}
+
+}  // namespace grid_path_planner::test
