@@ -1,0 +1,89 @@
+// A follower that drives a simulated vehicle, without ROS and without waiting.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "grid_path_planner/following/path_follower.h"
+#include "grid_path_planner/simulation/vehicle.h"
+
+namespace grid_path_planner::test {
+
+inline Path pathOf(const std::vector<std::vector<double>>& poses) {
+  Path path;
+  for (const auto& p : poses)
+    path.poses.push_back(
+        {Eigen::Vector3d(p.at(0), p.at(1), p.size() > 2 ? p[2] : 0.0), p.size() > 3 ? p[3] : 0.0});
+  return path;
+}
+
+inline double distanceTo(const Path& path, const Eigen::Vector3d& position) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < path.poses.size(); ++i) {
+    const Eigen::Vector3d a = path.poses[i].position;
+    const Eigen::Vector3d way = path.poses[std::min(i + 1, path.poses.size() - 1)].position - a;
+    const double square = way.squaredNorm();
+    const double share =
+        square > 0.0 ? std::clamp((position - a).dot(way) / square, 0.0, 1.0) : 0.0;
+    least = std::min(least, (a + share * way - position).norm());
+  }
+  return least;
+}
+
+struct ClosedLoop {
+  explicit ClosedLoop(const FollowerOptions& options = {}, const Eigen::Vector3d& at = {0, 0, 0},
+                      double yaw = 0.0)
+      : follower(options), vehicle({}, {at, yaw, {}}) {}
+
+  Pose pose() const { return {vehicle.state().position, vehicle.state().yaw}; }
+  double speed() const {
+    const BodyVelocity& v = vehicle.state().velocity;
+    return std::sqrt(v.surge * v.surge + v.sway * v.sway + v.heave * v.heave);
+  }
+
+  // One control step of 0.05 s.
+  void step() {
+    FollowInput input{vehicle.time(), pose(), check};
+    if (!pose_known) input.pose.reset();
+    command = follower.update(input);
+    vehicle.command(command);
+    for (int i = 0; i < 5; ++i) vehicle.step();
+    for (FollowEvent& event : follower.takeEvents()) events.push_back(std::move(event));
+  }
+
+  // Until `condition`, at most `seconds`; whether it came true.
+  bool runUntil(const std::function<bool()>& condition, double seconds = 600.0) {
+    for (const double end = vehicle.time() + seconds; vehicle.time() < end;) {
+      if (condition()) return true;
+      step();
+      if (each_step) each_step();
+    }
+    return condition();
+  }
+  bool runUntilState(FollowState state, double seconds = 600.0) {
+    return runUntil([&] { return follower.state() == state; }, seconds);
+  }
+  void run(double seconds) {
+    runUntil([] { return false; }, seconds);
+  }
+
+  std::vector<int> waypointsOf(FollowEvent::Kind kind) const {
+    std::vector<int> waypoints;
+    for (const FollowEvent& event : events)
+      if (event.kind == kind) waypoints.push_back(event.waypoint);
+    return waypoints;
+  }
+
+  PathFollower follower;
+  Vehicle vehicle;
+  WayCheck check;
+  bool pose_known = true;
+  std::function<void()> each_step;
+  BodyVelocity command;
+  std::vector<FollowEvent> events;
+};
+
+}  // namespace grid_path_planner::test
