@@ -78,9 +78,7 @@ PlanResult RouteFinder::leave(Cell from, Cell other, bool record_expanded, const
     const Cell cell = geometry.cell(CellIndex(index));
     return cell == other || (blockOpen(cell) && middleOf(blockOf(cell)) == cell);
   };
-  const auto cheapestFirst = [](SearchKey g, Cell) {
-    return BestFirstSearch::Promise{g, 0};
-  };
+  const auto cheapestFirst = [](SearchKey g, Cell) { return BestFirstSearch::Promise{g, 0}; };
   return leaver_->run(*fine_, from, arrived, cheapestFirst, record_expanded, stop);
 }
 
@@ -144,11 +142,12 @@ std::vector<std::uint8_t> RouteFinder::reachable(Cell start, bool retry_finer,
     first = leaving.cells.back();
   }
   const std::vector<std::uint8_t> blocks = reachableFrom(*searched_, blockOf(first), stop);
+  StopPoll poll(stop, 1 << 18);
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
+    poll();
     const Cell cell = fine_->geometry().cell(CellIndex(i));
-    cells[i] = fine_->passable(cell)
-                   ? blocks[searched_->geometry().index(blockOf(cell)).value()]
-                   : std::uint8_t{0};
+    cells[i] = fine_->passable(cell) ? blocks[searched_->geometry().index(blockOf(cell)).value()]
+                                     : std::uint8_t{0};
   }
   return cells;
 }

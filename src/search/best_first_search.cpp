@@ -5,8 +5,8 @@ namespace grid_path_planner {
 void BestFirstSearch::prepare(const CostGrid& map, const StopToken& stop) {
   masks_.build(map, stop);
   if (words_.size() == map.geometry().size()) return;
-  costs_.assign(map.geometry().size(), 0);
-  words_.assign(map.geometry().size(), 0);
+  costs_ = ZeroedArray<SearchKey>(map.geometry().size());
+  words_ = ZeroedArray<std::uint32_t>(map.geometry().size());
   query_ = 0;
 }
 
@@ -18,7 +18,7 @@ void BestFirstSearch::beginQuery() {
   heap_.clear();
   const std::uint32_t last = (std::uint32_t{1} << (32 - kQueryShift)) - 1;
   if (query_ == last) {
-    std::fill(words_.begin(), words_.end(), 0);
+    words_.clear();
     query_ = 0;
   }
   ++query_;

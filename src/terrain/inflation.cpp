@@ -107,28 +107,38 @@ class ColumnTransform {
 }  // namespace
 
 std::vector<HalfCellsSquared> obstacleDistances(const Grid<Occupancy>& classes,
-                                                const CellRect& window, const StopToken& stop) {
-  assert(classes.geometry().rect().intersection(window) == window);
-  const auto width = static_cast<std::size_t>(window.width);
-  std::vector<HalfCellsSquared> distances(width * window.height);
-  StopPoll poll(stop, 64);
+                                                const CellRect& rect, int reach,
+                                                const StopToken& stop) {
+  assert(classes.geometry().rect().intersection(rect) == rect);
+  const CellRect window = rect.grown(reach).intersection(classes.geometry().rect());
+  const auto width = static_cast<std::size_t>(rect.width);
+  StopPoll poll(stop, 16);
+
+  // Along the rows of the window, kept for the columns of the rectangle.
+  std::vector<HalfCellsSquared> along_rows(width * window.height);
+  std::vector<HalfCellsSquared> line(window.width);
   for (int row = 0; row < window.height; ++row) {
     poll();
-    rowDistances(classes.row(window.row + row) + window.column, window.width,
-                 distances.data() + row * width);
+    rowDistances(classes.row(window.row + row) + window.column, window.width, line.data());
+    std::copy_n(line.begin() + (rect.column - window.column), width,
+                along_rows.begin() + row * width);
   }
 
-  // A few columns together, so that every line of memory that is fetched is used.
+  // Then along a few columns together, so that every line of memory that is fetched is used.
   constexpr int kTogether = 8;
+  const int skipped = rect.row - window.row;
+  std::vector<HalfCellsSquared> distances(width * rect.height);
   std::vector<ColumnTransform> columns(kTogether, ColumnTransform(window.height));
-  for (int first = 0; first < window.width; first += kTogether) {
+  for (int first = 0; first < rect.width; first += kTogether) {
     poll();
-    const int count = std::min(kTogether, window.width - first);
+    const int count = std::min(kTogether, rect.width - first);
     for (int row = 0; row < window.height; ++row)
-      for (int i = 0; i < count; ++i) columns[i].values()[row] = distances[row * width + first + i];
+      for (int i = 0; i < count; ++i)
+        columns[i].values()[row] = along_rows[row * width + first + i];
     for (int i = 0; i < count; ++i) columns[i].run();
-    for (int row = 0; row < window.height; ++row)
-      for (int i = 0; i < count; ++i) distances[row * width + first + i] = columns[i].values()[row];
+    for (int row = 0; row < rect.height; ++row)
+      for (int i = 0; i < count; ++i)
+        distances[row * width + first + i] = columns[i].values()[skipped + row];
   }
   return distances;
 }

@@ -1,5 +1,6 @@
 #include "grid_path_planner/terrain/terrain.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -9,8 +10,10 @@ namespace grid_path_planner {
 namespace {
 
 void classify(const OccupancyGrid& map, const OccupancyThresholds& thresholds, const CellRect& rect,
-              Grid<Occupancy>& classes) {
+              Grid<Occupancy>& classes, const StopToken& stop) {
+  StopPoll poll(stop, 64);
   for (int row = rect.row; row < rect.row + rect.height; ++row) {
+    poll();
     const std::int8_t* from = map.row(row);
     Occupancy* to = classes.row(row);
     for (int column = rect.column; column < rect.column + rect.width; ++column)
@@ -19,24 +22,35 @@ void classify(const OccupancyGrid& map, const OccupancyThresholds& thresholds, c
 }
 
 void weigh(const Grid<Occupancy>& classes, const TerrainOptions& options, const CellRect& rect,
-           Grid<CostGrid::Weight>& weights) {
-  for (int row = rect.row; row < rect.row + rect.height; ++row)
-    for (int column = rect.column; column < rect.column + rect.width; ++column)
-      weights[Cell{column, row}] = classWeight(classes[Cell{column, row}], options);
-}
-
-void inflate(const Grid<Occupancy>& classes, const Inflation& inflation, const CellRect& rect,
-             Grid<CostGrid::Weight>& weights, const StopToken& stop) {
-  const CellRect window = rect.grown(inflation.reach()).intersection(classes.geometry().rect());
-  const std::vector<HalfCellsSquared> distances = obstacleDistances(classes, window, stop);
+           Grid<CostGrid::Weight>& weights, const StopToken& stop) {
   StopPoll poll(stop, 64);
   for (int row = rect.row; row < rect.row + rect.height; ++row) {
     poll();
-    const HalfCellsSquared* distance = distances.data() +
-                                       std::size_t(row - window.row) * window.width +
-                                       (rect.column - window.column);
-    CostGrid::Weight* weight = weights.row(row) + rect.column;
-    for (int i = 0; i < rect.width; ++i) weight[i] = inflation.apply(weight[i], distance[i]);
+    const Occupancy* from = classes.row(row);
+    CostGrid::Weight* to = weights.row(row);
+    for (int column = rect.column; column < rect.column + rect.width; ++column)
+      to[column] = classWeight(from[column], options);
+  }
+}
+
+void inflateStrip(const Grid<Occupancy>& classes, const Inflation& inflation, const CellRect& strip,
+                  Grid<CostGrid::Weight>& weights, const StopToken& stop) {
+  const std::vector<HalfCellsSquared> distances =
+      obstacleDistances(classes, strip, inflation.reach(), stop);
+  for (int row = 0; row < strip.height; ++row) {
+    const HalfCellsSquared* distance = distances.data() + std::size_t(row) * strip.width;
+    CostGrid::Weight* weight = weights.row(strip.row + row) + strip.column;
+    for (int i = 0; i < strip.width; ++i) weight[i] = inflation.apply(weight[i], distance[i]);
+  }
+}
+
+// In strips of columns: the distances of a whole large map would take more memory than the map.
+void inflate(const Grid<Occupancy>& classes, const Inflation& inflation, const CellRect& rect,
+             Grid<CostGrid::Weight>& weights, const StopToken& stop) {
+  const int strip_width = std::max(128, 2 * inflation.reach());
+  for (int column = rect.column; column < rect.column + rect.width; column += strip_width) {
+    const int width = std::min(strip_width, rect.column + rect.width - column);
+    inflateStrip(classes, inflation, {column, rect.row, width, rect.height}, weights, stop);
   }
 }
 
@@ -51,6 +65,7 @@ void Terrain::setMap(std::shared_ptr<const OccupancyGrid> map) {
   map_ = std::move(map);
   fine_.reset();
   searched_.reset();
+  searched_dirty_ = {};
   fine_dirty_ = map_->geometry().rect();
 }
 
@@ -80,8 +95,8 @@ void Terrain::makeFine(const StopToken& stop) {
   Grid<Occupancy> classes = fine_ ? fine_->classes() : Grid<Occupancy>(geometry);
   Grid<CostGrid::Weight> weights = fine_ ? fine_->weights() : Grid<CostGrid::Weight>(geometry);
 
-  classify(*map_, options_.thresholds, fine_ ? fine_dirty_ : rewritten, classes);
-  weigh(classes, options_, rewritten, weights);
+  classify(*map_, options_.thresholds, fine_ ? fine_dirty_ : rewritten, classes, stop);
+  weigh(classes, options_, rewritten, weights, stop);
   if (!inflation.none()) inflate(classes, inflation, rewritten, weights, stop);
 
   auto made = std::make_shared<CostGrid>(std::move(weights), std::move(classes), options_.motion);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/statistics.h"
+#include "grid_path_planner/base/zeroed_array.h"
 #include "grid_path_planner/search/planner.h"
 #include "grid_path_planner/search/search_key.h"
 #include "grid_path_planner/search/steps.h"
@@ -83,8 +84,8 @@ class BestFirstSearch {
                     PlanResult result) const;
 
   StepMasks masks_;
-  std::vector<SearchKey> costs_;
-  std::vector<std::uint32_t> words_;
+  ZeroedArray<SearchKey> costs_;
+  ZeroedArray<std::uint32_t> words_;
   std::vector<Entry> heap_;
   std::uint32_t query_ = 0;
 };

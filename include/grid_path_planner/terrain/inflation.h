@@ -22,11 +22,12 @@ namespace grid_path_planner {
 using HalfCellsSquared = std::int64_t;
 constexpr HalfCellsSquared kNoObstacle = -1;
 
-// From the centre of every cell of `window` to the nearest edge of an occupied cell of `classes`
-// that lies inside `window` too; row-major over the window; kNoObstacle where there is none.
-// Precondition: the window lies in the map. Throws Stopped.
+// From the centre of every cell of `rect` to the nearest edge of an occupied cell of `classes`,
+// row-major over `rect`. Occupied cells more than `reach` columns or rows outside `rect` are not
+// looked at; kNoObstacle where there is none. Precondition: `rect` lies in the map. Throws Stopped.
 std::vector<HalfCellsSquared> obstacleDistances(const Grid<Occupancy>& classes,
-                                                const CellRect& window, const StopToken& stop);
+                                                const CellRect& rect, int reach,
+                                                const StopToken& stop);
 
 // What a distance does to a weight.
 class Inflation {
