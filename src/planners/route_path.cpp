@@ -1,5 +1,6 @@
 #include "grid_path_planner/planners/route_path.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "grid_path_planner/terrain/segment.h"
@@ -12,6 +13,17 @@ struct RoutePoint {
   const CostGrid* map;  // on which the segments at this point are judged
 };
 
+// Whether the step passes the corner of a blocked neighbour, which only cut_corners allows.
+bool cutsCorner(const CostGrid& map, Cell from, Cell to) {
+  if (from.column == to.column || from.row == to.row) return false;
+  return !map.passable({from.column, to.row}) || !map.passable({to.column, from.row});
+}
+
+Eigen::Vector2d sharedCorner(const CostGrid& map, Cell a, Cell b) {
+  return map.geometry().worldFromGrid(Eigen::Vector2d(std::max(a.column, b.column),  //
+                                                      std::max(a.row, b.row)));
+}
+
 // Two legs meet in the middle of one block: the fine leg's point serves both.
 std::vector<RoutePoint> pointsOf(const Route& route) {
   std::vector<RoutePoint> points;
@@ -19,6 +31,10 @@ std::vector<RoutePoint> pointsOf(const Route& route) {
     const bool coarse = leg.map->kernel() > 1;
     for (std::size_t i = 0; i < leg.cells.size(); ++i) {
       const RoutePoint point{leg.map->waypoint(leg.cells[i]), leg.map.get()};
+      // The middles of blocks are not always their centres: past a blocked one the way leads
+      // exactly over the corner.
+      if (coarse && i > 0 && cutsCorner(*leg.map, leg.cells[i - 1], leg.cells[i]))
+        points.push_back({sharedCorner(*leg.map, leg.cells[i - 1], leg.cells[i]), leg.map.get()});
       const bool joins = i == 0 && !points.empty();
       if (joins && coarse) continue;
       if (joins) points.pop_back();
@@ -34,7 +50,9 @@ bool straightWay(const CostGrid& map, const Eigen::Vector2d& from, const Eigen::
 }
 
 // A vehicle cannot tell poses apart that are this near, in metres.
-bool samePlace(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return (a - b).norm() < 1e-9; }
+bool samePlace(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return (a - b).norm() < 1e-9;
+}
 
 }  // namespace
 
@@ -49,7 +67,8 @@ Path pathOfRoute(const Route& route, const Eigen::Vector2d& start, const Eigen::
     if (straightWay(*first_map, start, next)) points.erase(points.begin());
   }
   if (!points.empty()) {
-    const Eigen::Vector2d& previous = points.size() > 1 ? points[points.size() - 2].position : start;
+    const Eigen::Vector2d& previous =
+        points.size() > 1 ? points[points.size() - 2].position : start;
     const bool only_kept = keep_first && points.size() == 1;
     if (!only_kept && straightWay(*last_map, previous, goal)) points.pop_back();
   }

@@ -69,7 +69,9 @@ TEST(MapPlannerLaw, PathsAreLegalAtFullResolutionAndEndWhereTheyWereAsked) {
     rules.cut_corners = options.terrain.motion.cut_corners;
     ASSERT_EQ(test::pathViolations(report.path, request.start, request.goal, map, rules),
               test::kNoViolations)
-        << "trial " << trial << " kernel " << options.terrain.kernel << ' ' << options.planner;
+        << "trial " << trial << " kernel " << options.terrain.kernel << ' ' << options.planner
+        << " cut_corners " << options.terrain.motion.cut_corners << " map " << map.width() << 'x'
+        << map.height();
   }
   EXPECT_GT(found, 500);
 }
