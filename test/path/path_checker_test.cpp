@@ -96,6 +96,17 @@ TEST(PathChecker, SqueezingBetweenADiagonalPairIsTold) {
   EXPECT_EQ(violations(lines, {{1.5, 0.5}, {0.5, 1.5}}, rules), kNoViolations);
 }
 
+TEST(PathChecker, EndingInAnInnerCornerIsLegal) {
+  EXPECT_EQ(violations({"..", "##", "#."}, {{0.5, 0.5}, {1.0, 1.0}}), kNoViolations);
+  EXPECT_EQ(violations({".#", "##"}, {{0.5, 0.5}, {1.0, 1.0}}), kNoViolations);
+}
+
+TEST(PathChecker, AnEndMayLieWhereNothingCouldPass) {
+  const std::vector<std::string> lines = {"#.", ".#"};
+  EXPECT_EQ(violations(lines, {{1.0, 1.0}, {0.5, 1.5}}), kNoViolations);
+  EXPECT_TRUE(says(violations(lines, {{1.5, 0.5}, {1.0, 1.0}, {0.5, 1.5}}), "squeezes"));
+}
+
 TEST(PathChecker, LeavingTheMapIsTold) {
   EXPECT_TRUE(says(violations({"...", "..."}, {{0.5, 0.5}, {3.5, 0.5}}), "blocked cell (3, 0)"));
   EXPECT_TRUE(says(violations({"...", "..."}, {{0.5, -0.1}, {1.5, 0.5}}), "blocked cell (0, -1)"));
@@ -161,6 +172,15 @@ TEST(PathChecker, EndsAreTheOnesAskedFor) {
 // navigation2 PR#6270: near-duplicates before the last pose.
 TEST(PathChecker, CoincidingPosesAreTold) {
   EXPECT_TRUE(says(violations({"..."}, {{0.5, 0.5}, {1.5, 0.5}, {1.5 + 1e-12, 0.5}}), "coincide"));
+}
+
+TEST(PathChecker, ATurnOnTheSpotIsTwoPoses) {
+  const AsciiMap map({"."});
+  Path path = pathThrough({{0.5, 0.5}, {0.5, 0.5}});
+  const Pose start = path.poses[0];
+  EXPECT_TRUE(says(pathViolations(path, start, start, map.map), "coincide"));
+  path.poses[1].yaw = 1.0;
+  EXPECT_EQ(pathViolations(path, start, path.poses[1], map.map), kNoViolations);
 }
 
 TEST(PathChecker, NumbersThatAreNotFiniteAreTold) {

@@ -95,8 +95,10 @@ std::string firstAnswer(const Segment& s, const Ask& ask) {
   return "";
 }
 
-// The first thing that is wrong with a segment in cell units; empty if nothing is.
-std::string segmentViolation(const Segment& s, const Blocked& blocked, const PathRules& rules) {
+// The first thing that is wrong with a segment in cell units; empty if nothing is. `ends`: of the
+// whole path.
+std::string segmentViolation(const Segment& s, const Segment& ends, const Blocked& blocked,
+                             const PathRules& rules) {
   // The cell and its neighbours right and above, as one block without its rim.
   const auto meets = [&](int column, int row, int width, int height) {
     const Eigen::Vector2d low(column, row), rim(rules.slack, rules.slack);
@@ -116,10 +118,16 @@ std::string segmentViolation(const Segment& s, const Blocked& blocked, const Pat
   });
   if (!between.empty() || rules.cut_corners) return between;
   return firstAnswer(s, [&](int column, int row) {
-    const bool pair = (blocked(column, row) && blocked(column + 1, row + 1)) ||
-                      (blocked(column + 1, row) && blocked(column, row + 1));
-    const bool near = distance(s, Eigen::Vector2d(column + 1, row + 1)) < M_SQRT2 * rules.slack;
-    return pair && near ? "squeezes between a diagonal pair at the upper right corner of" : "";
+    const bool here = blocked(column, row), right = blocked(column + 1, row);
+    const bool above = blocked(column, row + 1), beyond = blocked(column + 1, row + 1);
+    const bool pair = here != right && here != above && here == beyond;
+    const Eigen::Vector2d point(column + 1, row + 1);
+    const double near = M_SQRT2 * rules.slack;
+    const bool end = distance({ends.from, ends.from}, point) < near ||
+                     distance({ends.to, ends.to}, point) < near;
+    return pair && !end && distance(s, point) < near
+               ? "squeezes between a diagonal pair at the upper right corner of"
+               : "";
   });
 }
 
@@ -146,11 +154,13 @@ void checkPoses(const Path& path, const Pose& start, const Pose& goal,
   if (!(std::abs(std::remainder(last.yaw - goal.yaw, 2 * M_PI)) < 1e-9))
     say("the last yaw " + std::to_string(last.yaw) + " is not the goal's " +
         std::to_string(goal.yaw));
+  const bool turn_in_place = path.poses.size() == 2 && samePlace(start, goal) &&
+                             (start.yaw != goal.yaw || start.position.z() != goal.position.z());
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     const Pose& pose = path.poses[i];
     if (!pose.position.allFinite() || !std::isfinite(pose.yaw))
       say("pose " + std::to_string(i) + " is not finite");
-    if (i > 0 && samePlace(pose, path.poses[i - 1]))
+    if (i > 0 && !turn_in_place && samePlace(pose, path.poses[i - 1]))
       say("poses " + std::to_string(i - 1) + " and " + std::to_string(i) + " coincide at " +
           describe(pose.position));
   }
@@ -164,12 +174,15 @@ std::vector<std::string> pathViolations(const Path& path, const Pose& start, con
   std::vector<std::string> violations;
   checkPoses(path, start, goal, violations);
   const Blocked blocked(map, rules);
+  const auto inCells = [&](const Pose& pose) -> Eigen::Vector2d {
+    return map.geometry().gridFromWorld(pose.position.head<2>());
+  };
+  const Segment ends = {inCells(path.poses.front()), inCells(path.poses.back())};
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
-    const Eigen::Vector2d from =
-        map.geometry().gridFromWorld(path.poses[i == 0 ? 0 : i - 1].position.head<2>());
-    const Eigen::Vector2d to = map.geometry().gridFromWorld(path.poses[i].position.head<2>());
+    const Eigen::Vector2d from = inCells(path.poses[i == 0 ? 0 : i - 1]);
+    const Eigen::Vector2d to = inCells(path.poses[i]);
     if (!from.allFinite() || !to.allFinite()) continue;  // told above
-    const std::string text = segmentViolation({from, to}, blocked, rules);
+    const std::string text = segmentViolation({from, to}, ends, blocked, rules);
     if (text.empty()) continue;
     violations.push_back("the segment to pose " + std::to_string(i) + " " + text);
   }

@@ -4,9 +4,10 @@
 //   EXPECT_EQ(pathViolations(path, start, goal, map, rules), kNoViolations);
 //
 // A path is right where its ends are the poses asked for, no two poses that follow each other
-// coincide, every number is finite, and every segment is legal at full resolution: it meets no
-// blocked cell's interior, does not run between two blocked cells, and passes no lattice point
-// whose diagonal pair is blocked, while grazing a corner is legal. A cell is blocked by its class,
+// coincide (but for the two of a turn or a climb on the spot), every number is finite, and every
+// segment is legal at full resolution: it meets no blocked cell's interior, does not run between
+// two blocked cells, and passes no lattice point whose diagonal pair is blocked (an end that was
+// asked for may lie on one), while grazing a corner is legal. A cell is blocked by its class,
 // outside the map, or where its centre is nearer than `radius` to the edge of an occupied cell.
 // Segments are compared with every cell of their bounding box, not sampled.
 #pragma once
