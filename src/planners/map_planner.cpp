@@ -3,6 +3,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "grid_path_planner/base/check_options.h"
@@ -15,13 +16,21 @@
 namespace grid_path_planner {
 namespace {
 
-bool finite(const Pose& pose) { return pose.position.allFinite() && std::isfinite(pose.yaw); }
+bool finite(const Pose& pose) {
+  return pose.position.allFinite() && std::isfinite(pose.yaw);
+}
 
 PlanReport failure(Status status, const std::string& message) {
   PlanReport report;
   report.status = status;
   report.message = message;
   return report;
+}
+
+std::string number(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
 }
 
 StopToken limited(const StopSource& stop, double timeout) {
@@ -37,7 +46,9 @@ void checkPlannerOptions(const PlannerOptions& options) {
   makePlanner(options.planner, options.search);
 }
 
-MapPlanner::MapPlanner(const PlannerOptions& options) { setOptions(options); }
+MapPlanner::MapPlanner(const PlannerOptions& options) {
+  setOptions(options);
+}
 MapPlanner::~MapPlanner() = default;
 MapPlanner::MapPlanner(MapPlanner&&) noexcept = default;
 MapPlanner& MapPlanner::operator=(MapPlanner&&) noexcept = default;
@@ -96,14 +107,14 @@ PlanReport MapPlanner::plan(const PoseRequest& request, const StopSource& stop) 
     report = PlanAttempt(*this, request, token).run();
     report.preparation_time_s = std::chrono::duration<double>(prepared - begin).count();
   } catch (const Stopped& stopped) {
-    const bool timeout = stopped.status() == Status::TIMEOUT;
-    report = failure(stopped.status(), timeout ? "planning reached its time limit of " +
-                                                     std::to_string(options_.timeout) + " s"
-                                               : "planning was cancelled");
+    report = failure(stopped.status(), "");
   } catch (const CostOverflow&) {
     report = failure(Status::INVALID_REQUEST,
                      "a path may cost more than 4.4e9 cell lengths x weight: use smaller weights");
   }
+  if (report.status == Status::TIMEOUT)
+    report.message = "planning reached its time limit of " + number(options_.timeout) + " s";
+  if (report.status == Status::CANCELLED) report.message = "planning was cancelled";
   report.path.frame_id = "map";
   return report;
 }

@@ -39,9 +39,14 @@ std::vector<Cell> BestFirstSearch::pathTo(const CostGrid& map, std::uint32_t sta
 
 PlanResult BestFirstSearch::finish(const CostGrid& map, std::uint32_t start, std::uint32_t goal,
                                    PlanResult result) const {
-  result.status = Status::FOUND;
   result.cells = pathTo(map, start, goal);
   result.cost = costOfSteps(map, result.cells);
+  return withStatus(map, Status::FOUND, std::move(result));
+}
+
+PlanResult BestFirstSearch::withStatus(const CostGrid& map, Status status,
+                                       PlanResult result) const {
+  result.status = status;
   result.statistics.search_bytes = bytesFor(map.geometry()) + heap_.capacity() * sizeof(Entry);
   return result;
 }

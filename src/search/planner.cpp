@@ -59,6 +59,20 @@ std::string unreachable(const PlanRequest& request) {
                   " goals");
 }
 
+// What there is to say where the planner itself says nothing.
+std::string usualMessage(Status status, const PlanRequest& request, const std::string& name) {
+  switch (status) {
+    case Status::UNREACHABLE:
+      return unreachable(request);
+    case Status::TIMEOUT:
+      return name + " reached its time limit";
+    case Status::CANCELLED:
+      return name + " was cancelled";
+    default:
+      return "";
+  }
+}
+
 // Goals that are blocked cannot be reached; the others may.
 PlanRequest withoutBlockedGoals(PlanRequest request, const CostGrid& map) {
   auto& goals = request.goals;
@@ -105,12 +119,9 @@ PlanResult Planner::plan(const PlanRequest& request, const StopToken& stop) {
     result = failure(Status::INVALID_REQUEST,
                      "a path may cost more than 4.4e9 cell lengths x weight: use smaller weights");
   } catch (const Stopped& stopped) {
-    result = failure(stopped.status(), stopped.status() == Status::TIMEOUT
-                                           ? traits_.name + " reached its time limit"
-                                           : traits_.name + " was cancelled");
+    result = failure(stopped.status(), "");
   }
-  if (result.status == Status::UNREACHABLE && result.message.empty())
-    result.message = unreachable(request);
+  if (result.message.empty()) result.message = usualMessage(result.status, request, traits_.name);
   result.statistics.time_s = std::chrono::duration<double>(StopToken::Clock::now() - begin).count();
   return result;
 }

@@ -221,7 +221,31 @@ TEST_P(Conformance, StopsWhenAsked) {
   const PlanResult cancelled = planner->plan({{0, 0}, {{199, 150}}, false}, source.token());
   EXPECT_EQ(cancelled.status, Status::CANCELLED);
   EXPECT_TRUE(cancelled.cells.empty());
+  EXPECT_FALSE(cancelled.message.empty());
   EXPECT_EQ(planner->plan({{0, 0}, {{199, 150}}, false}, StopToken()).status, Status::FOUND);
+}
+
+// A search that is stopped on its way says how far it came.
+TEST_P(Conformance, StoppedSearchesKeepTheirStatistics) {
+  const Grid<CostGrid::Weight> weights(GridGeometry(400, 400, 1.0), 1);
+  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  auto walled = weights;  // the goal is walled in: every cell is expanded before it is given up
+  for (const Cell step : {Cell{1, 0}, Cell{0, 1}, Cell{1, 1}, Cell{-1, 0}, Cell{0, -1},
+                          Cell{-1, -1}, Cell{1, -1}, Cell{-1, 1}})
+    walled[Cell{200 + step.column, 200 + step.row}] = CostGrid::kBlocked;
+  const auto planner = make();
+  planner->prepare(std::make_shared<const CostGrid>(walled, classes, MotionModel()), StopToken());
+  const PlanRequest request{{0, 0}, {{200, 200}}, false};
+  const PlanResult whole = planner->plan(request, StopToken());
+  ASSERT_EQ(whole.status, Status::UNREACHABLE);
+  const StopSource source;
+  const PlanResult part = planner->plan(
+      request, source.token(std::chrono::duration<double>(whole.statistics.time_s / 4)));
+  ASSERT_TRUE(part.status == Status::TIMEOUT || part.status == Status::UNREACHABLE);
+  if (part.status == Status::TIMEOUT) {
+    EXPECT_LT(part.statistics.expanded, whole.statistics.expanded);
+    EXPECT_GT(part.statistics.search_bytes, 0U);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, Conformance, ::testing::ValuesIn(subjects()));

@@ -83,10 +83,15 @@ class StopPoll {
       : token_(token), interval_(interval) {}
 
   void operator()() {
-    if (++calls_ < interval_) return;
-    calls_ = 0;
-    const StopReason reason = token_.reason();
+    const StopReason reason = ask();
     if (reason != StopReason::NONE) throw Stopped(reason);
+  }
+
+  // For a caller that still has something to say: NONE, or the reason.
+  StopReason ask() {
+    if (++calls_ < interval_) return StopReason::NONE;
+    calls_ = 0;
+    return token_.reason();
   }
 
  private:

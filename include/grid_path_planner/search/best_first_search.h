@@ -82,6 +82,7 @@ class BestFirstSearch {
   std::vector<Cell> pathTo(const CostGrid& map, std::uint32_t start, std::uint32_t goal) const;
   PlanResult finish(const CostGrid& map, std::uint32_t start, std::uint32_t goal,
                     PlanResult result) const;
+  PlanResult withStatus(const CostGrid& map, Status status, PlanResult result) const;
 
   StepMasks masks_;
   ZeroedArray<SearchKey> costs_;
@@ -112,7 +113,8 @@ PlanResult BestFirstSearch::run(const CostGrid& map, Cell start, IsGoal&& isGoal
   if (when_generated && isGoal(start_index)) return finish(map, start_index, start_index, result);
 
   while (!heap_.empty()) {
-    poll();
+    const StopReason reason = poll.ask();
+    if (reason != StopReason::NONE) return withStatus(map, Stopped(reason).status(), result);
     counts.peak_open = std::max(counts.peak_open, heap_.size());
 
     // 2. The most promising one, unless it was expanded since it was put there.
@@ -143,9 +145,7 @@ PlanResult BestFirstSearch::run(const CostGrid& map, Cell start, IsGoal&& isGoal
       if (when_generated && isGoal(to)) return finish(map, start_index, to, result);
     }
   }
-  result.status = Status::UNREACHABLE;
-  counts.search_bytes = bytesFor(geometry) + heap_.capacity() * sizeof(Entry);
-  return result;
+  return withStatus(map, Status::UNREACHABLE, result);
 }
 
 }  // namespace grid_path_planner

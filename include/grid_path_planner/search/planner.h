@@ -80,7 +80,8 @@ class Planner {
   virtual std::string refusal(const CostGrid& map) const;
   virtual void doPrepare(const StopToken&) {}
   virtual void doUpdate(const CellRect&, const StopToken& stop) { doPrepare(stop); }
-  // The request is valid: start and goals in the map and passable. Throws Stopped.
+  // The request is valid: start and goals in the map and passable. May throw Stopped; TIMEOUT or
+  // CANCELLED with the statistics so far is better.
   virtual PlanResult doPlan(const PlanRequest& request, const StopToken& stop) = 0;
 
  private:
