@@ -227,15 +227,15 @@ TEST_P(Conformance, StopsWhenAsked) {
 
 // A search that is stopped on its way says how far it came.
 TEST_P(Conformance, StoppedSearchesKeepTheirStatistics) {
-  const Grid<CostGrid::Weight> weights(GridGeometry(400, 400, 1.0), 1);
+  const Grid<CostGrid::Weight> weights(GridGeometry(160, 160, 1.0), 1);
   const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
   auto walled = weights;  // the goal is walled in: every cell is expanded before it is given up
   for (const Cell step : {Cell{1, 0}, Cell{0, 1}, Cell{1, 1}, Cell{-1, 0}, Cell{0, -1},
                           Cell{-1, -1}, Cell{1, -1}, Cell{-1, 1}})
-    walled[Cell{200 + step.column, 200 + step.row}] = CostGrid::kBlocked;
+    walled[Cell{80 + step.column, 80 + step.row}] = CostGrid::kBlocked;
   const auto planner = make();
   planner->prepare(std::make_shared<const CostGrid>(walled, classes, MotionModel()), StopToken());
-  const PlanRequest request{{0, 0}, {{200, 200}}, false};
+  const PlanRequest request{{0, 0}, {{80, 80}}, false};
   const PlanResult whole = planner->plan(request, StopToken());
   ASSERT_EQ(whole.status, Status::UNREACHABLE);
   const StopSource source;
