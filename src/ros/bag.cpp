@@ -1,18 +1,13 @@
 #include "grid_path_planner/ros/bag.h"
 
 #include <nav_msgs/OccupancyGrid.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
+#include <ros/serialization.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <set>
-#include <vector>
 
 #include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/ros/bag_reader.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 
 namespace grid_path_planner {
@@ -29,12 +24,9 @@ std::string beginningOf(const std::string& file, std::size_t count) {
   return bytes;
 }
 
-// rosbag's own sentences name neither the file nor the reason.
-void checkIsBag(const std::string& file) {
-  if (std::filesystem::is_directory(file)) throw InputError(file, "is a directory, expected a bag");
-  if (!std::ifstream(file, std::ios::binary))
-    throw InputError(file, std::string("cannot be read: ") + std::strerror(errno));
-  if (beginningOf(file, kSignature.size()) != kSignature) throw InputError(file, "is not a bag");
+bool isMap(const BagConnection& connection) {
+  return connection.type == ros::message_traits::datatype<nav_msgs::OccupancyGrid>() &&
+         connection.md5_sum == ros::message_traits::md5sum<nav_msgs::OccupancyGrid>();
 }
 
 std::string listOf(const std::set<std::string>& names) {
@@ -43,47 +35,60 @@ std::string listOf(const std::set<std::string>& names) {
   return list;
 }
 
-// The names under which the bag knows `topic`, with and without a leading slash.
-std::vector<std::string> namesInBag(rosbag::Bag& bag, const std::string& file,
-                                    const std::string& topic) {
-  std::vector<std::string> names;
+// The connections that carry maps on `topic`, with and without a leading slash.
+std::set<std::uint32_t> mapConnections(const BagReader& bag, const std::string& file,
+                                       const std::string& topic) {
+  std::set<std::uint32_t> ids;
   std::set<std::string> maps;
-  rosbag::View all(bag);
-  for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
-    if (connection->datatype != "nav_msgs/OccupancyGrid") continue;
-    maps.insert(connection->topic);
-    if (frameName(connection->topic) == frameName(topic)) names.push_back(connection->topic);
+  for (const BagConnection& connection : bag.connections()) {
+    if (!isMap(connection)) continue;
+    maps.insert(connection.topic);
+    if (frameName(connection.topic) == frameName(topic)) ids.insert(connection.id);
   }
-  if (!names.empty()) return names;
+  if (!ids.empty()) return ids;
   throw InputError(file,
                    "has no nav_msgs/OccupancyGrid on '" + topic + "'" +
                        (maps.empty() ? " nor on any other topic" : ", but on " + listOf(maps)));
 }
 
-nav_msgs::OccupancyGrid::ConstPtr firstMessage(const std::string& file, const std::string& topic) {
-  rosbag::Bag bag(file, rosbag::bagmode::Read);
-  rosbag::View view(bag, rosbag::TopicQuery(namesInBag(bag, file, topic)));
-  for (const rosbag::MessageInstance& instance : view)
-    if (const auto message = instance.instantiate<nav_msgs::OccupancyGrid>()) return message;
-  throw InputError(file, "has no message on '" + topic + "'");
+void skipBlock(ros::serialization::IStream& stream) {
+  std::uint32_t size = 0;
+  stream.next(size);
+  stream.advance(size);
+}
+
+// Throws a StreamOverrunException where the message's own lengths go beyond its end; deserialize
+// would first take the memory that they ask for.
+void checkLengths(ros::serialization::IStream stream) {
+  constexpr std::uint32_t kSequenceAndStamp = 4 + 8;
+  constexpr std::uint32_t kInfo = 8 + 4 + 4 + 4 + 7 * 8;  // load time, resolution, sides, origin
+  stream.advance(kSequenceAndStamp);
+  skipBlock(stream);  // frame_id
+  stream.advance(kInfo);
+  skipBlock(stream);  // data
+}
+
+OccupancyGrid mapFromBytes(std::string bytes) {
+  nav_msgs::OccupancyGrid message;
+  try {
+    ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()),
+                                       static_cast<std::uint32_t>(bytes.size()));
+    checkLengths(stream);
+    ros::serialization::deserialize(stream, message);
+  } catch (const std::exception& error) {
+    throw InputError(std::string("damaged: ") + error.what());
+  }
+  return occupancyFromMessage(message);
 }
 
 }  // namespace
 
 OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic) {
-  checkIsBag(file);
-  nav_msgs::OccupancyGrid::ConstPtr message;
+  const BagReader bag(file);
+  const auto bytes = bag.firstMessage(mapConnections(bag, file, topic));
+  if (!bytes) throw InputError(file, "has no message on '" + topic + "'");
   try {
-    message = firstMessage(file, topic);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw InputError(file, "was not closed or is cut short (`rosbag reindex` may mend it)");
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw InputError(file, std::string("cannot be read as a bag: ") + error.what());
-  }
-  try {
-    return occupancyFromMessage(*message);
+    return mapFromBytes(*bytes);
   } catch (const InputError& error) {
     throw InputError(file, "the first map on '" + topic + "': " + error.what());
   }

@@ -19,9 +19,12 @@ using test::errorText;
 class MapBag : public testing::Test {
  protected:
   // A bag of `maps` on `topic`, a second apart, among other messages.
-  std::string write(const std::string& topic, const std::vector<OccupancyGrid>& maps) {
+  std::string write(const std::string& topic, const std::vector<OccupancyGrid>& maps,
+                    rosbag::CompressionType compression = rosbag::compression::Uncompressed) {
     const std::string file = folder_.path("a.bag");
     rosbag::Bag bag(file, rosbag::bagmode::Write);
+    bag.setCompression(compression);
+    bag.setChunkThreshold(1000);  // several chunks
     ros::Time time(100, 0);
     for (const OccupancyGrid& map : maps) {
       bag.write("/chatter", time, std_msgs::String());
@@ -48,6 +51,34 @@ TEST_F(MapBag, TheFirstMapIsReadAndSlashesDoNotMatter) {
     EXPECT_EQ(readMapFromBag(file, "/projected_map"), first_);
     EXPECT_EQ(readAnyMapFile(file), first_);
   }
+}
+
+TEST_F(MapBag, EveryCompressionIsRead) {
+  for (const auto compression :
+       {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4})
+    EXPECT_EQ(readMapFromBag(write("/projected_map", {first_, second_}, compression)), first_);
+}
+
+// The map may come long after the first messages of other topics.
+TEST_F(MapBag, AMapInALaterChunkIsFound) {
+  const std::string file = folder_.path("a.bag");
+  {
+    rosbag::Bag bag(file, rosbag::bagmode::Write);
+    bag.setChunkThreshold(100);
+    for (int i = 0; i < 50; ++i) bag.write("/chatter", ros::Time(1 + i), std_msgs::String());
+    bag.write("/other_map", ros::Time(60), occupancyToMessage(second_, "map", ros::Time(60)));
+    bag.write("/projected_map", ros::Time(61), occupancyToMessage(first_, "map", ros::Time(61)));
+  }
+  EXPECT_EQ(readMapFromBag(file), first_);
+  EXPECT_EQ(readMapFromBag(file, "other_map"), second_);
+}
+
+// rosbag record was killed.
+TEST_F(MapBag, ABagThatWasNotClosedIsRefusedWithTheRemedy) {
+  std::string content = test::contentOf(write("/projected_map", {first_}));
+  const std::size_t index = content.find("index_pos=") + 10;
+  content.replace(index, 8, 8, '\0');
+  EXPECT_TRUE(contains(errorOf(folder_.write("b.bag", content)), "`rosbag reindex` may mend it"));
 }
 
 TEST_F(MapBag, OptionsOverrideTheGeometry) {

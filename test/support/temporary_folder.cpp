@@ -1,5 +1,7 @@
 #include "support/temporary_folder.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -8,9 +10,19 @@
 #include <stdexcept>
 
 namespace grid_path_planner::test {
+namespace {
+
+// In memory where that is possible: tests that write thousands of files would wait for the disk.
+std::filesystem::path placeForFolders() {
+  const std::filesystem::path memory = "/dev/shm";
+  return ::access(memory.c_str(), W_OK | X_OK) == 0 ? memory
+                                                    : std::filesystem::temp_directory_path();
+}
+
+}  // namespace
 
 TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "gpp_test_XXXXXX").string();
+  std::string pattern = (placeForFolders() / "gpp_test_XXXXXX").string();
   if (!::mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder: " + pattern);
   folder_ = pattern;
 }
