@@ -161,7 +161,7 @@ void drawPath(Canvas& canvas, const PictureLayout& layout, const Path& path, dou
 // ---- The margin
 
 double textScale(const PictureLayout& layout) {
-  return layout.margin() / 68.0;
+  return layout.margin() / 80.0;
 }
 
 // A bar of 1, 2 or 5 times a power of ten metres, at most a sixth of the picture wide. Gives the x
@@ -186,7 +186,7 @@ double drawScaleBar(Canvas& canvas, const PictureLayout& layout, double resoluti
 // What the symbols mean, from `at` on; what has no room is left out.
 void drawLegend(Canvas& canvas, const PictureLayout& layout, Eigen::Vector2d at, bool with_path,
                 bool with_expanded) {
-  const double size = layout.margin() / 5.0, scale = textScale(layout);
+  const double size = layout.margin() / 5.5, scale = textScale(layout);
   const Eigen::Vector2d half(1.5 * size, 0.0);
   const auto item = [&](bool shown, const std::string& name, const auto& drawSymbol) {
     const double end = at.x() + 4.0 * size + textWidth(name, scale);

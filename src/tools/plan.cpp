@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "arguments.h"
 #include "commands.h"
@@ -77,11 +78,17 @@ nlohmann::json jsonOf(const PlanReport& report) {
   return object;
 }
 
-std::vector<Cell> cellsOf(const std::vector<Eigen::Vector2d>& centres,
-                          const GridGeometry& geometry) {
+// The cells that a picture tints: those of the blocks whose centres were expanded.
+std::vector<Cell> cellsOf(const PlanReport& report, const GridGeometry& geometry) {
   std::vector<Cell> cells;
-  for (const Eigen::Vector2d& centre : centres)
-    if (const auto cell = geometry.cellAt(centre)) cells.push_back(*cell);
+  for (const Eigen::Vector2d& centre : report.expanded) {
+    const std::optional<Cell> middle = geometry.cellAt(centre);
+    if (!middle) continue;
+    const Cell block{middle->column / report.kernel, middle->row / report.kernel};
+    for (int row = 0; row < report.kernel; ++row)
+      for (int column = 0; column < report.kernel; ++column)
+        cells.push_back({block.column * report.kernel + column, block.row * report.kernel + row});
+  }
   return cells;
 }
 
@@ -112,7 +119,7 @@ int runPlan(int argc, char** argv) {
 
   if (values.count("image") != 0)
     writePicture(values["image"].as<std::string>(), *map, options.terrain.thresholds, report.path,
-                 cellsOf(report.expanded, map->geometry()));
+                 cellsOf(report, map->geometry()));
   if (values.count("waypoints") != 0 && report.status == Status::FOUND)
     writeWaypointFile(values["waypoints"].as<std::string>(), report.path);
   if (values.count("json") != 0)
