@@ -6,8 +6,21 @@ foreach(node path_planner navigate_path map_publisher simulator)
   endif()
 endforeach()
 
-file(GLOB tool_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/tools/*.cpp)
-if(tool_sources)
-  gpp_add_executable(grid_path "${tool_sources}" ros)
-  target_link_libraries(${PROJECT_NAME}_grid_path PRIVATE Boost::program_options nlohmann_json::nlohmann_json)
-endif()
+# The commands are a library, so that tests call them without a process.
+file(GLOB command_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/tools/*.cpp)
+list(REMOVE_ITEM command_sources ${PROJECT_SOURCE_DIR}/src/tools/main.cpp)
+add_library(${PROJECT_NAME}_commands STATIC ${command_sources})
+target_include_directories(${PROJECT_NAME}_commands PUBLIC ${PROJECT_SOURCE_DIR}/src/tools)
+target_link_libraries(${PROJECT_NAME}_commands PUBLIC ${PROJECT_NAME}_ros Boost::program_options
+  nlohmann_json::nlohmann_json)
+gpp_add_executable(grid_path src/tools/main.cpp commands)
+
+# Benchmarks: measured by hand, built on demand (cmake --build build --target grid_path_planner_benchmarks).
+add_custom_target(${PROJECT_NAME}_benchmarks)
+file(GLOB benchmark_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/benchmark/*.cpp)
+foreach(source ${benchmark_sources})
+  get_filename_component(name ${source} NAME_WE)
+  add_executable(${PROJECT_NAME}_${name} EXCLUDE_FROM_ALL ${source})
+  target_link_libraries(${PROJECT_NAME}_${name} PRIVATE ${PROJECT_NAME}_planners)
+  add_dependencies(${PROJECT_NAME}_benchmarks ${PROJECT_NAME}_${name})
+endforeach()

@@ -80,12 +80,12 @@ bool parseArguments(int argc, char** argv, const po::options_description& known,
   const int long_only = style::allow_long | style::long_allow_adjacent | style::long_allow_next;
   po::options_description all(known);
   all.add_options()("help", "print this");
-  po::store(po::command_line_parser(argc, argv)
-                .options(all)
-                .positional(po::positional_options_description())
-                .style(long_only)
-                .run(),
-            values);
+  const po::parsed_options parsed =
+      po::command_line_parser(argc, argv).options(all).style(long_only).run();
+  for (const po::option& option : parsed.options)
+    if (option.position_key >= 0)
+      throw InputError("'" + option.value.front() + "' follows no option");
+  po::store(parsed, values);
   if (values.count("help") != 0) {
     std::cout << "usage: " << usage << "\n\n" << all << '\n';
     return false;

@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <exception>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "grid_path_planner/path/waypoint_file.h"
+#include "support/error_text.h"
+#include "support/temporary_folder.h"
+
+namespace grid_path_planner::tools {
+namespace {
+
+using test::contains;
+
+class Plan : public testing::Test {
+ protected:
+  struct Outcome {
+    int code = 0;
+    std::string printed;
+    std::string error;
+  };
+
+  Outcome plan(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"plan", "--map", map_});
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    Outcome outcome;
+    testing::internal::CaptureStdout();
+    try {
+      outcome.code = runPlan(static_cast<int>(argv.size()), argv.data());
+    } catch (const std::exception& error) {
+      outcome.code = kBadInput;
+      outcome.error = error.what();
+    }
+    outcome.printed = testing::internal::GetCapturedStdout();
+    return outcome;
+  }
+
+  const test::TemporaryFolder folder_;
+  const std::string map_ = folder_.write("small.map",
+                                         "type octile\nheight 3\nwidth 4\nmap\n"
+                                         "....\n"
+                                         ".@@.\n"
+                                         "....\n");
+};
+
+TEST_F(Plan, PrintsOneObjectWithTheContractsFields) {
+  const Outcome outcome = plan({"--cells", "--start", "0,0", "--goal", "3,2", "--json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  const auto object = nlohmann::json::parse(outcome.printed);
+  for (const char* field : {"status", "message", "cost", "length_m", "cells", "expanded",
+                            "generated", "planning_time_ms", "search_bytes"})
+    EXPECT_TRUE(object.contains(field)) << field;
+  EXPECT_EQ(object["status"], "FOUND");
+  EXPECT_EQ(object["cost"], 5.0);
+  EXPECT_EQ(object["cells"], 6);
+}
+
+TEST_F(Plan, NoPathIsExitCodeOneAndHasItsReason) {
+  const Outcome outcome = plan({"--cells", "--start", "1,1", "--goal", "3,2", "--json"});
+  EXPECT_EQ(outcome.code, 1);
+  const auto object = nlohmann::json::parse(outcome.printed);
+  EXPECT_EQ(object["status"], "START_OCCUPIED");
+  EXPECT_TRUE(object["cost"].is_null());
+}
+
+TEST_F(Plan, NegativeNumbersParse) {
+  const Outcome outside = plan({"--start", "-1.5,2", "--goal", "0.5,0.5"});
+  EXPECT_EQ(outside.code, 1) << outside.error;
+  EXPECT_TRUE(contains(outside.printed, "START_OUTSIDE_MAP")) << outside.printed;
+  EXPECT_TRUE(contains(outside.printed, "(-1.5, 2)")) << outside.printed;
+  EXPECT_EQ(plan({"--start=-1.5,2", "--goal=0.5,0.5"}).code, 1);
+}
+
+TEST_F(Plan, WritesPictureAndWaypoints) {
+  const std::string picture = folder_.path("path.png");
+  const std::string waypoints = folder_.path("waypoints.yaml");
+  const Outcome outcome = plan({"--start", "0.5,0.5,3", "--goal", "3.5,2.5,5,1.5", "--image",
+                                picture, "--waypoints", waypoints});
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(test::contentOf(picture).substr(1, 3), "PNG");
+  const Path path = readWaypointFile(waypoints);
+  EXPECT_EQ(path.poses.front().position, Eigen::Vector3d(0.5, 0.5, 3.0));
+  EXPECT_EQ(path.poses.back().position, Eigen::Vector3d(3.5, 2.5, 5.0));
+  EXPECT_NEAR(path.poses.back().yaw, 1.5, 1e-12);
+}
+
+TEST_F(Plan, OptionsReachThePlanner) {
+  const std::vector<std::string> ends = {"--cells", "--start", "0,0", "--goal", "3,2", "--json"};
+  const auto costWith = [&](std::vector<std::string> more) {
+    more.insert(more.end(), ends.begin(), ends.end());
+    const Outcome outcome = plan(more);
+    EXPECT_EQ(outcome.code, 0) << outcome.error << outcome.printed;
+    return nlohmann::json::parse(outcome.printed)["cost"].get<double>();
+  };
+  EXPECT_EQ(costWith({"--weights", "3,50,100"}), 15.0);
+  EXPECT_EQ(costWith({"--planner", "dijkstra", "--connectivity", "4"}), 5.0);
+  EXPECT_EQ(
+      costWith({"--occupied-is-passable", "true", "--weights", "1,1,1", "--diagonal-cost", "unit"}),
+      3.0);
+}
+
+TEST_F(Plan, BadInputIsNamed) {
+  const auto errorWith = [&](std::vector<std::string> arguments) {
+    const Outcome outcome = plan(std::move(arguments));
+    EXPECT_EQ(outcome.code, kBadInput) << outcome.printed;
+    return outcome.error;
+  };
+  const std::vector<std::string> ends = {"--start", "0.5,0.5", "--goal", "3.5,0.5"};
+  const auto with = [&ends](std::vector<std::string> more) {
+    more.insert(more.end(), ends.begin(), ends.end());
+    return more;
+  };
+  EXPECT_TRUE(contains(errorWith({"--start", "nan,1", "--goal", "1,1"}), "--start"));
+  EXPECT_TRUE(contains(errorWith({"--start", "1", "--goal", "1,1"}), "--start"));
+  EXPECT_TRUE(contains(errorWith({"--start", "1,x", "--goal", "1,1"}), "'x'"));
+  EXPECT_TRUE(contains(errorWith({"--cells", "--start", "1.5,1", "--goal", "1,1"}), "whole"));
+  EXPECT_TRUE(contains(errorWith({"--start", "1,1"}), "goal"));
+  EXPECT_TRUE(contains(errorWith(with({"--planner", "fastest"})), "a_star"));
+  EXPECT_TRUE(contains(errorWith(with({"--heuristic", "best"})), "octile"));
+  EXPECT_TRUE(contains(errorWith(with({"--kernel", "0"})), "kernel"));
+  EXPECT_TRUE(contains(errorWith(with({"--kernel", "2.5"})), "kernel"));
+  EXPECT_TRUE(contains(errorWith(with({"--weights", "0,1,2"})), "--weights"));
+  EXPECT_TRUE(contains(errorWith(with({"--weights", "1,nan,2"})), "--weights"));
+  EXPECT_TRUE(contains(errorWith(with({"--radius", "-1"})), "radius"));
+  EXPECT_TRUE(contains(errorWith(with({"--no-such-option"})), "no-such-option"));
+  EXPECT_TRUE(contains(errorWith(with({"stray"})), "stray"));
+  EXPECT_TRUE(contains(errorWith(with({"--waypoints", map_ + "/w.yaml"})), "w.yaml"));
+  EXPECT_TRUE(contains(errorWith(with({"--image", map_ + "/p.png"})), "p.png"));
+}
+
+}  // namespace
+}  // namespace grid_path_planner::tools

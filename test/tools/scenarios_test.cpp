@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "commands.h"
+#include "support/error_text.h"
+#include "support/temporary_folder.h"
+
+namespace grid_path_planner::tools {
+namespace {
+
+using test::contains;
+
+class Scenarios : public testing::Test {
+ protected:
+  struct Outcome {
+    int code = 0;
+    std::string last_line;
+    std::string error;
+  };
+
+  Outcome scenarios(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "scenarios");
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    Outcome outcome;
+    testing::internal::CaptureStdout();
+    try {
+      outcome.code = runScenarios(static_cast<int>(argv.size()), argv.data());
+    } catch (const std::exception& error) {
+      outcome.code = kBadInput;
+      outcome.error = error.what();
+    }
+    std::string printed = testing::internal::GetCapturedStdout();
+    if (!printed.empty() && printed.back() == '\n') printed.pop_back();
+    outcome.last_line = printed.substr(printed.rfind('\n') + 1);
+    return outcome;
+  }
+
+  // Three queries on a map of 4x3 cells, the third with `optimum`.
+  std::string scenario(const std::string& optimum) const {
+    folder_.write("small.map", "type octile\nheight 3\nwidth 4\nmap\n....\n.@@.\n....\n");
+    return folder_.write("small.map.scen",
+                         "version 1\n"
+                         "0\tsmall.map\t4\t3\t0\t0\t0\t0\t0\n"
+                         "0\tsmall.map\t4\t3\t0\t0\t3\t0\t3\n"
+                         "1\tsmall.map\t4\t3\t0\t0\t3\t2\t" +
+                             optimum + "\n");
+  }
+
+  const test::TemporaryFolder folder_;
+};
+
+TEST_F(Scenarios, TheLastLineIsTheContracts) {
+  const Outcome outcome = scenarios({"--scen", scenario("5")});
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_TRUE(contains(outcome.last_line, "queries=3 solved=3 wrong=0 total_s="))
+      << outcome.last_line;
+  EXPECT_TRUE(contains(outcome.last_line, " mean_ms=")) << outcome.last_line;
+  EXPECT_TRUE(contains(outcome.last_line, " expanded=")) << outcome.last_line;
+}
+
+TEST_F(Scenarios, AWrongCostFailsWhereOptimalityIsClaimed) {
+  const std::string file = scenario("5.0001");
+  const Outcome optimal = scenarios({"--scen", file});
+  EXPECT_EQ(optimal.code, 1);
+  EXPECT_TRUE(contains(optimal.last_line, "wrong=1")) << optimal.last_line;
+  EXPECT_EQ(scenarios({"--scen", file, "--planner", "a_star_published"}).code, 0);
+  EXPECT_EQ(scenarios({"--scen", file, "--epsilon", "2"}).code, 0);
+  EXPECT_EQ(scenarios({"--scen", scenario("5.00004")}).code, 0);  // within 1e-5 of it
+}
+
+TEST_F(Scenarios, LimitSpreadsAndCsvHasALineAQuery) {
+  const std::string csv = folder_.path("out.csv");
+  const Outcome outcome = scenarios({"--scen", scenario("5"), "--limit", "2", "--csv", csv});
+  EXPECT_TRUE(contains(outcome.last_line, "queries=2 ")) << outcome.last_line;
+  const std::string text = test::contentOf(csv);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
+  EXPECT_TRUE(contains(text, "0,0,0,0,FOUND,0,0,0,1,")) << text;
+}
+
+TEST_F(Scenarios, BadFilesAreNamedWithTheirLine) {
+  EXPECT_TRUE(contains(scenarios({"--scen", folder_.path("none.scen")}).error, "none.scen"));
+  const std::string map = scenario("5");
+  const auto errorOf = [&](const std::string& text) {
+    const Outcome outcome = scenarios({"--scen", folder_.write("bad.scen", text)});
+    EXPECT_EQ(outcome.code, kBadInput);
+    return outcome.error;
+  };
+  EXPECT_TRUE(contains(errorOf("0 small.map 4 3 0 0 0 0 0\n"), "bad.scen:1"));
+  EXPECT_TRUE(contains(errorOf("version 1\n0 small.map 4 3 0 0\n"), "bad.scen:2"));
+  EXPECT_TRUE(contains(errorOf("version 1\n0 small.map 4 3 0 0 0 0 x\n"), "bad.scen:2"));
+  EXPECT_TRUE(contains(errorOf("version 1\n0 small.map 5 3 0 0 0 0 0\n"), "bad.scen:2"));
+  EXPECT_TRUE(contains(errorOf("version 1\n"), "no queries"));
+  EXPECT_TRUE(contains(errorOf("version 1\n0 gone.map 4 3 0 0 0 0 0\n"), "gone.map"));
+  EXPECT_EQ(scenarios({"--scen", map, "--limit", "0"}).code, kBadInput);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::tools
