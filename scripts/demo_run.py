@@ -248,7 +248,7 @@ def run(arguments):
         wait_until(nodes, lambda: os.path.exists(waypoints), 10.0, "waypoint file")
         draw(start, picture, watcher.statistics)
         table(watcher, seconds)
-        if arguments.rviz:
+        if arguments.rviz and sys.stdin.isatty():
             input("demo: press Enter to close rviz ")
         contacts = watcher.contacts.data
         print("demo: status=%s length_m=%.3f arrival_error_m=%.3f contacts=%d picture=%s waypoints=%s" % (
