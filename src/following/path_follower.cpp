@@ -205,7 +205,9 @@ void PathFollower::join(const Pose& vehicle) {
 
 bool PathFollower::isHindered(const FollowInput& input) {
   if (!input.pose) {
-    block(input.time, DriveStatus::TF_STALE, "the vehicle's pose is not known");
+    const bool explained = !input.pose_problem.empty();
+    block(input.time, DriveStatus::TF_STALE,
+          explained ? input.pose_problem : "the vehicle's pose is not known");
     return true;
   }
   if (input.check) {

@@ -1,7 +1,9 @@
 #include "ros/support/parameter_defaults.h"
 
+#include "grid_path_planner/NavigatePathConfig.h"
 #include "grid_path_planner/PathPlannerConfig.h"
 #include "grid_path_planner/SimulatorConfig.h"
+#include "grid_path_planner/ros/navigate_path_options.h"
 #include "grid_path_planner/ros/path_planner_options.h"
 #include "grid_path_planner/ros/simulator_options.h"
 
@@ -10,6 +12,10 @@ namespace {
 
 TEST(ParameterDefaults, PathPlanner) {
   test::expectSameDefaults<PathPlannerConfig, PathPlannerNodeOptions>("path_planner");
+}
+
+TEST(ParameterDefaults, NavigatePath) {
+  test::expectSameDefaults<NavigatePathConfig, NavigatePathOptions>("navigate_path");
 }
 
 TEST(ParameterDefaults, Simulator) {

@@ -72,6 +72,8 @@ struct FollowInput {
   double time = 0.0;         // s
   std::optional<Pose> pose;  // in the path's frame; none where it is not known now
   WayCheck check = {};       // none: every way is free
+  std::string pose_problem =
+      {};  // why there is no pose, in a sentence; empty: nothing more is known
 };
 
 class PathFollower {

@@ -5,11 +5,16 @@
 //   ASSERT_TRUE(simulator.waitForExit());
 #pragma once
 
+#include <fcntl.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
+#include <iostream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -26,10 +31,16 @@ class Process {
       : Process(joined(GPP_DEVEL "/lib/grid_path_planner/" + node, arguments)) {}
 
   // Any program, looked up in PATH; the first argument is its name.
-  explicit Process(const std::vector<std::string>& command) : pid_(::fork()) {
+  explicit Process(const std::vector<std::string>& command)
+      : output_(testing::TempDir() + "process_output_" + std::to_string(::getpid()) + "_" +
+                std::to_string(++count())),
+        pid_(::fork()) {
     if (pid_ < 0) throw std::runtime_error("no process could be started");
     if (pid_ > 0) return;
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing is left behind by a test that is killed
+    const int file = ::open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::dup2(file, STDOUT_FILENO);
+    ::dup2(file, STDERR_FILENO);
     std::vector<char*> arguments;
     for (const std::string& argument : command)
       arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -40,9 +51,12 @@ class Process {
 
   ~Process() {
     signal(SIGINT);
-    if (waitForExit(std::chrono::seconds(10))) return;
-    signal(SIGKILL);
-    waitForExit();
+    if (!waitForExit(std::chrono::seconds(10))) {
+      signal(SIGKILL);
+      waitForExit();
+    }
+    if (testing::Test::HasFailure()) std::cerr << output();
+    ::unlink(output_.c_str());
   }
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -57,10 +71,23 @@ class Process {
   bool waitForExit(std::chrono::duration<double> deadline = kDeadline) {
     return waitFor([this] { return !running(); }, deadline);
   }
+  // What it has printed so far, of both streams.
+  std::string output() const {
+    std::ifstream file(output_);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+  // Whether it prints `text`, before the deadline.
+  bool says(const std::string& text) {
+    return waitFor([&] { return output().find(text) != std::string::npos; });
+  }
   // Of a process that exited by itself; -1 of one that was killed.
   int exitCode() const { return exited_ && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1; }
 
  private:
+  static int& count() {
+    static int processes = 0;
+    return processes;
+  }
   static std::vector<std::string> joined(const std::string& program,
                                          const std::vector<std::string>& arguments) {
     std::vector<std::string> command{program};
@@ -68,6 +95,7 @@ class Process {
     return command;
   }
 
+  std::string output_;  // a file
   pid_t pid_;
   int status_ = 0;
   bool exited_ = false;

@@ -1,0 +1,13 @@
+#include "grid_path_planner/ros/navigate_path_options.h"
+
+#include "grid_path_planner/base/check_options.h"
+
+namespace grid_path_planner {
+
+void checkNavigatePathOptions(const NavigatePathOptions& options) {
+  checkOptionLimits(options);
+  checkFollowerOptions(options.follower);
+  if (options.base_frame.empty()) throw InputError("base_frame must not be empty");
+}
+
+}  // namespace grid_path_planner

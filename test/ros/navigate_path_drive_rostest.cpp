@@ -1,0 +1,136 @@
+// navigate_path drives what it is given, and refuses what cannot be driven.
+#include <geometry_msgs/PoseStamped.h>
+
+#include <cstdio>
+#include <limits>
+
+#include "grid_path_planner/path/waypoint_file.h"
+#include "ros/support/navigate_fixture.h"
+
+namespace grid_path_planner {
+namespace {
+
+using test::Latest;
+using test::pathOf;
+using test::Process;
+using NavigateDrive = test::NavigateTest;
+
+// A file that goes when the test does.
+struct TemporaryFile {
+  explicit TemporaryFile(const std::string& name)
+      : name(testing::TempDir() + name + std::to_string(::getpid()) + ".yaml") {}
+  ~TemporaryFile() { std::remove(name.c_str()); }
+  std::string name;
+};
+
+TEST_F(NavigateDrive, AWaypointFileToItsEnd) {
+  const TemporaryFile file("drive");
+  const Path path = pathOf({{0, 0}, {2, 0, -0.5}, {2, 2, -1.0, 1.5}});
+  writeWaypointFile(file.name, path);
+  Latest<geometry_msgs::PoseStamped> waypoint(nh_, "current_waypoint");
+  startSimulator();
+  startNavigate({"_config_filename:=" + file.name}, false);
+  publishPath(pathOf({{-5, -5}}));  // is ignored
+  ASSERT_TRUE(arrivesAt(2, 2));
+  EXPECT_TRUE(staysStill());
+  EXPECT_LT((pose().position - path.poses.back().position).norm(), 0.1);
+  EXPECT_NEAR(pose().yaw, 1.5, 0.1);
+  const auto last = waypoint.waitFor(
+      0, [](const geometry_msgs::PoseStamped& p) { return p.pose.position.y == 2.0; });
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->header.frame_id, "map");
+}
+
+TEST_F(NavigateDrive, ThePathOfTheTopicFromItsNearestPoint) {
+  startSimulator({"_initial_x:=1.0"});
+  startNavigate();
+  publishPath(pathOf({{-3, 0}, {3, 0, 0, 0.8}}));
+  ASSERT_TRUE(arrivesAt(3, 0));
+  EXPECT_NEAR(pose().yaw, 0.8, 0.1);
+  for (const nav_msgs::Odometry& o : odom_.all()) ASSERT_GT(o.pose.pose.position.x, 0.95);
+  publishPath(pathOf({{3, 0}, {3, 2}}));
+  EXPECT_TRUE(arrivesAt(3, 2)) << "the next one";
+}
+
+// A failed plan: the vehicle does not go on along the old path.
+TEST_F(NavigateDrive, AnEmptyPathStopsTheVehicle) {
+  startSimulator();
+  startNavigate();
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(moves());
+  publishPath(Path());
+  EXPECT_TRUE(staysStill());
+  publishPath(pathOf({{pose().position.x(), 1.0}}));
+  EXPECT_TRUE(moves()) << "the next path is driven";
+}
+
+TEST_F(NavigateDrive, ARestartedNodeDoesNotDriveYesterdaysPath) {
+  startSimulator();
+  startNavigate();
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(moves());
+  navigate_.reset();
+  ASSERT_TRUE(standsStill());
+  startNavigate();  // the topic is latched
+  EXPECT_TRUE(navigate_->says("is not driven: navigate_path started at"));
+  EXPECT_TRUE(staysStill());
+  navigate_.reset();
+  startNavigate({"_follow_latched:=true"});
+  EXPECT_TRUE(moves()) << "where that is asked for";
+}
+
+TEST_F(NavigateDrive, APathInAnotherFrame) {
+  startSimulator({"_initial_yaw:=1.0"});
+  startNavigate();
+  nav_msgs::Path message = pathToMessage(pathOf({{0, 0}, {1, 1, 0, 1}}), ros::Time::now());
+  message.header.frame_id = "/odom";
+  for (auto& pose : message.poses) pose.header.frame_id = "/map";
+  paths_.publish(message);
+  EXPECT_TRUE(arrivesAt(1, 1));
+}
+
+TEST_F(NavigateDrive, PathsThatCannotBeDrivenAreRefusedAndTheDriveGoesOn) {
+  startSimulator();
+  startNavigate();
+  publishPath(pathOf({{0, 0}, {3, 0}}));
+  ASSERT_TRUE(moves());
+  publishPath(pathOf({{0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0}}));
+  EXPECT_TRUE(navigate_->says("The path is refused: pose 2 of the path"));
+  publishPath(pathOf({{0, 0}, {1, 1}, {0, 1e180}}));
+  EXPECT_TRUE(navigate_->says("The path is refused: pose 3 of the path"));
+  Path elsewhere = pathOf({{0, 0}});
+  elsewhere.frame_id = "mars";
+  publishPath(elsewhere);
+  EXPECT_TRUE(navigate_->says("the frame 'mars' is not known"));
+  elsewhere.frame_id = "";
+  publishPath(elsewhere);
+  EXPECT_TRUE(navigate_->says("a path must name its frame"));
+  EXPECT_TRUE(arrivesAt(3, 0));
+}
+
+TEST_F(NavigateDrive, FilesAndParametersThatCannotBeUsedEndItBeforeItStarts) {
+  const TemporaryFile file("bad");
+  const auto endsWithError = [&](const std::string& argument) {
+    Process process("navigate_path", {argument});
+    return process.waitForExit() && process.exitCode() == 1;
+  };
+  const auto write = [&](const std::string& text) {
+    std::FILE* out = std::fopen(file.name.c_str(), "w");
+    std::fputs(text.c_str(), out);
+    std::fclose(out);
+  };
+  write("waypoints: []\n");
+  EXPECT_TRUE(endsWithError("_config_filename:=" + file.name));
+  write(
+      "waypoints:\n  - position: {x: 1e180, y: 0, z: 0}\n    orientation: {x: 0, y: 0, z: 0, w: "
+      "1}\n");
+  EXPECT_TRUE(endsWithError("_config_filename:=" + file.name));
+  EXPECT_TRUE(endsWithError("_config_filename:=/no/such/file.yaml"));
+  ros::param::del("/navigate_path");
+  EXPECT_TRUE(endsWithError("_max_speed:=-1.0"));
+  ros::param::del("/navigate_path");
+  EXPECT_TRUE(endsWithError("_mode:=sometimes"));
+}
+
+}  // namespace
+}  // namespace grid_path_planner

@@ -1,0 +1,134 @@
+// Whatever happens to navigate_path or around it, the vehicle stops.
+#include <nav_msgs/OccupancyGrid.h>
+
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/support/navigate_fixture.h"
+#include "support/ascii_map.h"
+
+namespace grid_path_planner {
+namespace {
+
+using test::isZero;
+using test::Latest;
+using test::pathOf;
+using test::Process;
+using test::StillWorld;
+
+class NavigateStops : public test::NavigateTest {
+ protected:
+  // In a world that the test moves: driving a long path.
+  void driveIn(StillWorld&) {
+    startNavigate();
+    publishPath(pathOf({{0, 0}, {50, 0}}));
+    ASSERT_TRUE(isDriving());
+  }
+  bool isDriving() {
+    const std::size_t seen = velocity_.count();
+    return velocity_.waitFor(seen, [](const geometry_msgs::Twist& v) { return !isZero(v); })
+        .has_value();
+  }
+};
+
+// A vehicle whose commander dies stops.
+TEST_F(NavigateStops, WhenItIsKilled) {
+  startSimulator();
+  startNavigate();
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(moves());
+  navigate_->signal(SIGKILL);
+  ASSERT_TRUE(navigate_->waitForExit());
+  const ros::Time killed = odom_.all().back().header.stamp;
+  const auto stopped = odom_.waitFor(odom_.count(), [](const nav_msgs::Odometry& o) {
+    return o.twist.twist.linear.x == 0.0 && o.twist.twist.linear.y == 0.0;
+  });
+  ASSERT_TRUE(stopped);
+  EXPECT_LT((stopped->header.stamp - killed).toSec(), 0.5 + 0.8 + 0.7)
+      << "timeout, braking, and what is under way";
+  EXPECT_TRUE(staysStill());
+}
+
+TEST_F(NavigateStops, OnSigint) {
+  StillWorld world(100.0);
+  driveIn(world);
+  navigate_->signal(SIGINT);
+  ASSERT_TRUE(navigate_->waitForExit());
+  EXPECT_EQ(navigate_->exitCode(), 0);
+  EXPECT_TRUE(lastCommandIsZero());
+}
+
+TEST_F(NavigateStops, WhenASecondNodeTakesItsName) {
+  StillWorld world(100.0);
+  driveIn(world);
+  Process second("navigate_path", {});
+  ASSERT_TRUE(navigate_->waitForExit()) << "the first ends";
+  EXPECT_EQ(navigate_->exitCode(), 0);
+  EXPECT_TRUE(navigate_->says("navigate_path ends: "));
+  EXPECT_TRUE(navigate_->says("new node registered with same name")) << "and says why";
+  EXPECT_TRUE(lastCommandIsZero());
+  EXPECT_TRUE(second.running());
+}
+
+TEST_F(NavigateStops, OnStaleTfAndGoesOnWhenItIsBack) {
+  StillWorld world(100.0);
+  driveIn(world);
+  world.publishTf(false);
+  EXPECT_TRUE(lastCommandIsZero());
+  world.publishTf(true);
+  EXPECT_TRUE(isDriving());
+}
+
+TEST_F(NavigateStops, WhenTimeGoesBackAndDrivesTheNextPath) {
+  StillWorld world(100.0);
+  driveIn(world);
+  world.jumpTo(10.0);
+  EXPECT_TRUE(lastCommandIsZero());
+  const std::size_t seen = velocity_.count();
+  ASSERT_TRUE(test::waitFor([&] { return world.time() > 15.0; }));
+  EXPECT_LE(velocity_.count(), seen + 5) << "the drive is over";
+  ASSERT_TRUE(test::waitFor([&] { return ros::Time::now().toSec() < 50.0; }));
+  publishPath(pathOf({{0, 0}, {0, 50}}));
+  EXPECT_TRUE(isDriving());
+}
+
+TEST_F(NavigateStops, UntilThereIsAClock) {
+  startNavigate({}, false);
+  EXPECT_TRUE(navigate_->says("no /clock has come yet"));
+  StillWorld world(100.0);
+  ASSERT_TRUE(test::waitFor([&] { return paths_.getNumSubscribers() > 0; }));
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  EXPECT_TRUE(isDriving());
+}
+
+TEST_F(NavigateStops, BeforeOccupiedCellsAndGoesOnWhenTheyAreFree) {
+  ros::Publisher maps = nh_.advertise<nav_msgs::OccupancyGrid>("projected_map", 1, true);
+  const auto publishMap = [&](const std::vector<std::string>& lines) {
+    maps.publish(occupancyToMessage(test::AsciiMap(lines).map, "/map", ros::Time::now()));
+  };
+  startSimulator({"_initial_x:=0.5", "_initial_y:=0.5"});
+  publishMap({".....#.."});
+  startNavigate();
+  publishPath(pathOf({{0.5, 0.5}, {7.5, 0.5}}));
+  ASSERT_TRUE(moves());
+  EXPECT_TRUE(staysStill());
+  EXPECT_NEAR(pose().position.x(), 5.0 - 2.0, 0.8) << "lookahead 2 m, and braking";
+  publishMap({"........"});
+  EXPECT_TRUE(arrivesAt(7.5, 0.5));
+}
+
+TEST_F(NavigateStops, RunsAsANodeletAndStopsWhenItIsUnloaded) {
+  StillWorld world(100.0);
+  Process manager({"rosrun", "nodelet", "nodelet", "manager", "__name:=manager"});
+  ASSERT_TRUE(test::waitFor([] { return ros::service::exists("/manager/load_nodelet", false); }));
+  Process loader({"rosrun", "nodelet", "nodelet", "load", "grid_path_planner/navigate_path",
+                  "manager", "__name:=navigate_path"});
+  ASSERT_TRUE(test::waitFor([&] { return paths_.getNumSubscribers() > 0; }));
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(isDriving());
+  loader.signal(SIGINT);  // unloads it
+  EXPECT_TRUE(lastCommandIsZero());
+  EXPECT_TRUE(loader.waitForExit());
+  EXPECT_TRUE(manager.running());
+}
+
+}  // namespace
+}  // namespace grid_path_planner
