@@ -1,5 +1,6 @@
 #include "grid_path_planner/base/yaml_file.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -127,7 +128,8 @@ std::string describeYaml(const YAML::Node& node) {
     case YAML::NodeType::Scalar:
       break;
   }
-  const std::string& text = node.Scalar();
+  std::string text = node.Scalar();
+  std::replace(text.begin(), text.end(), '\n', ' ');
   return text.size() <= kShown ? "'" + text + "'" : "'" + text.substr(0, kShown) + "...'";
 }
 

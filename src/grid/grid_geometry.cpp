@@ -11,11 +11,13 @@ namespace {
 
 constexpr int kMaxSide = 1 << 19;
 
-// Rounding in world -> grid is far below this many cells; a point that close to a cell border counts
-// as on it, so that borders given in metres (0.15 at 0.05 m) fall where they are meant.
+// Rounding in world -> grid is far below this many cells; a point that close to a cell border
+// counts as on it, so that borders given in metres (0.15 at 0.05 m) fall where they are meant.
 constexpr double kBorderSlack = 1e-9;
 
-double floorWithSlack(double value) { return std::floor(value + kBorderSlack); }
+double floorWithSlack(double value) {
+  return std::floor(value + kBorderSlack);
+}
 
 }  // namespace
 

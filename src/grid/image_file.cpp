@@ -1,8 +1,11 @@
 #include "grid_path_planner/grid/image_file.h"
 
 #include <cstdint>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <sstream>
 #include <vector>
 
 #include "grid_path_planner/base/atomic_file.h"
@@ -13,6 +16,22 @@ namespace grid_path_planner {
 namespace {
 
 constexpr int kAlphaChannel = 3;
+
+// The value that stands for white by the header of a binary PGM or PPM. OpenCV spreads the values
+// of a text PGM to the full range, as map_server's SDL does for both, but not those of a binary
+// one.
+std::optional<int> whiteOf(const std::string& content) {
+  if (content.compare(0, 2, "P5") != 0 && content.compare(0, 2, "P6") != 0) return std::nullopt;
+  std::istringstream header(content.substr(2, 4096));
+  int numbers[3] = {};  // width, height, white
+  for (int& number : numbers) {
+    while ((header >> std::ws).peek() == '#')
+      header.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    header >> number;
+  }
+  if (!header || numbers[2] <= 0) return std::nullopt;
+  return numbers[2];
+}
 
 cv::Mat decode(const std::string& file) {
   const std::string content = readWholeFile(file, kLargestMapFile);
@@ -25,8 +44,10 @@ cv::Mat decode(const std::string& file) {
     throw InputError(file, "is not an image that can be read: " + error.err);
   }
   if (image.empty()) throw InputError(file, "is not an image that can be read");
-  if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1.0 / 257.0);
-  if (image.depth() != CV_8U) throw InputError(file, "must be an image of 8 or 16 bits a channel");
+  if (image.depth() != CV_8U && image.depth() != CV_16U)
+    throw InputError(file, "must be an image of 8 or 16 bits a channel");
+  const int white = whiteOf(content).value_or(image.depth() == CV_8U ? 255 : 65535);
+  if (white != 255) image.convertTo(image, CV_8U, 255.0 / white);
   return image;
 }
 

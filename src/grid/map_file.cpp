@@ -25,10 +25,11 @@ bool startsWith(std::string_view text, std::string_view start) {
 
 bool isImage(const std::string& content, const std::string& extension) {
   using namespace std::literals;
-  for (const std::string_view signature : {"\x89PNG"sv, "\xff\xd8\xff"sv, "BM"sv, "II*\0"sv,
-                                           "MM\0*"sv, "P2"sv, "P3"sv, "P5"sv, "P6"sv})
+  for (const std::string_view signature :
+       {"\x89PNG"sv, "\xff\xd8\xff"sv, "BM"sv, "II*\0"sv, "MM\0*"sv, "P1"sv, "P2"sv, "P3"sv, "P4"sv,
+        "P5"sv, "P6"sv})
     if (startsWith(content, signature)) return true;
-  return isOneOf(extension, {"pgm", "png", "ppm", "bmp", "jpg", "jpeg", "tif", "tiff"});
+  return isOneOf(extension, {"pbm", "pgm", "png", "ppm", "bmp", "jpg", "jpeg", "tif", "tiff"});
 }
 
 OccupancyGrid readYamlMap(const std::string& content, const std::string& file,
@@ -37,7 +38,7 @@ OccupancyGrid readYamlMap(const std::string& content, const std::string& file,
   if (content.size() > kLargestYaml)
     throw InputError(file, "is no map: larger than any map_server file and without 'data'");
   const YAML::Node root = parseYaml(content, file);
-  if (yamlHas(root, "image", file)) return readMapServerMap(root, file, options);
+  if (root.IsMap() && root["image"]) return readMapServerMap(root, file, options);
   throw InputError(file, "is no map: neither an 'image' (map_server) nor 'data' (rostopic echo)");
 }
 

@@ -129,6 +129,28 @@ TEST_F(MapServerFile, SixteenBitsAreReadAsEight) {
   EXPECT_TRUE(warnings_.empty());
 }
 
+// As SDL, which map_server reads with, does; OpenCV by itself leaves a binary image dark.
+TEST_F(MapServerFile, TheWhiteOfAPgmIsWhatItsHeaderSays) {
+  EXPECT_EQ(valuesOf("", std::string("P5\n# 100\n4 1\n100\n\x00\x32\x51\x64", 21)),
+            (Values{100, -1, 0, 0}));
+  EXPECT_EQ(valuesOf("", "P2\n4 1\n100\n0 50 81 100\n"), (Values{100, -1, 0, 0}));
+  EXPECT_EQ(valuesOf("", std::string("P5 3 1 65535\n\x00\x00\xcd\xcd\xff\xff", 19)),
+            (Values{100, -1, 0}));
+}
+
+TEST_F(MapServerFile, ABitmapIsAnImageToo) {
+  const OccupancyGrid map = readMapFile(folder_.write("a.pbm", "P1\n3 1\n1 0 1\n"));
+  EXPECT_EQ(map.values(), (Values{100, 0, 100}));
+}
+
+TEST_F(MapServerFile, TheImageMayHaveAnAbsolutePathOrLieInAFolder) {
+  const std::string image = folder_.write("b.pgm", pgmLine({0, 255}));
+  const std::string rest = "\nresolution: 1\norigin: [0, 0, 0]\n";
+  for (const std::string& name : {image, std::string("b.pgm"), std::string("./b.pgm")})
+    EXPECT_EQ(readMapFile(folder_.write("b.yaml", "image: " + name + rest)).values(),
+              (Values{100, 0}));
+}
+
 TEST_F(MapServerFile, OptionsOverrideTheGeometry) {
   options_.resolution = 0.5;
   options_.origin = Origin{7.0, 8.0, 0.0};
@@ -217,7 +239,7 @@ TEST_F(MapServerFile, BadFilesAreRefusedWithTheirLine) {
   EXPECT_TRUE(contains(errorOf(head + origin + "occupied_thresh: 65\n"),
                        "a.yaml:4: occupied_thresh must be a number from 0 to 1, got 65"));
   EXPECT_TRUE(contains(errorOf(head + origin + "free_thresh: 0.7\n"), "must not be above"));
-  EXPECT_TRUE(contains(errorOf("- 1\n"), "a.yaml:1: expected a mapping"));
+  EXPECT_TRUE(contains(errorOf("- 1\n"), "a.yaml: is no map"));
   EXPECT_TRUE(contains(errorOf("image: [a\n"), "is not YAML"));
   EXPECT_TRUE(contains(errorOf(std::string(100000, '[')), "is nested deeper"));
   EXPECT_TRUE(contains(errorOf(std::string("image\0", 6)), "is not text"));
