@@ -1,29 +1,48 @@
 #include "grid_path_planner/base/atomic_file.h"
 
 #include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 
 #include "grid_path_planner/base/errors.h"
 
 namespace grid_path_planner {
 namespace {
 
-// A write beyond RLIMIT_FSIZE sends SIGXFSZ, which would end the process before the error is seen.
-class IgnoreFileSizeSignal {
+// A write beyond RLIMIT_FSIZE sends SIGXFSZ to the thread, which would end the process before the
+// error is seen. Other threads are left alone.
+class HoldFileSizeSignal {
  public:
-  IgnoreFileSizeSignal() { previous_ = std::signal(SIGXFSZ, SIG_IGN); }
-  ~IgnoreFileSizeSignal() { std::signal(SIGXFSZ, previous_); }
-  IgnoreFileSizeSignal(const IgnoreFileSizeSignal&) = delete;
-  IgnoreFileSizeSignal& operator=(const IgnoreFileSizeSignal&) = delete;
+  HoldFileSizeSignal() {
+    sigemptyset(&held_);
+    sigaddset(&held_, SIGXFSZ);
+    pthread_sigmask(SIG_BLOCK, &held_, &before_);
+  }
+  ~HoldFileSizeSignal() {
+    const timespec at_once{};
+    while (sigtimedwait(&held_, nullptr, &at_once) > 0) continue;
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  HoldFileSizeSignal(const HoldFileSizeSignal&) = delete;
+  HoldFileSizeSignal& operator=(const HoldFileSizeSignal&) = delete;
 
  private:
-  void (*previous_)(int);
+  sigset_t held_;
+  sigset_t before_;
 };
+
+// A name that no other thread or process writes to.
+std::string nameBeside(const std::string& file) {
+  static std::atomic<unsigned> count{0};
+  return file + ".tmp" + std::to_string(::getpid()) + "_" + std::to_string(count++);
+}
 
 bool writeAll(int descriptor, const std::string& content) {
   std::size_t done = 0;
@@ -39,8 +58,8 @@ bool writeAll(int descriptor, const std::string& content) {
 }  // namespace
 
 void writeFileAtomically(const std::string& file, const std::string& content) {
-  const IgnoreFileSizeSignal ignore;
-  const std::string beside = file + ".tmp" + std::to_string(::getpid());
+  const HoldFileSizeSignal hold;
+  const std::string beside = nameBeside(file);
   const int descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor < 0)
     throw InputError(file, std::string("cannot be written: ") + std::strerror(errno));

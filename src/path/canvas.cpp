@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <utility>
 #include <vector>
 
 #include "segment.h"
@@ -55,9 +54,10 @@ void Canvas::disc(const Eigen::Vector2d& at, double radius, const Colour& colour
 
 void Canvas::arrowhead(const Eigen::Vector2d& at, double angle, double size, const Colour& colour) {
   const Eigen::Vector2d ahead(std::cos(angle), -std::sin(angle)), left(ahead.y(), -ahead.x());
+  const Eigen::Vector2d shape[] = {{1.9, 0.0}, {-1.3, 1.35}, {-0.7, 0.0}, {-1.3, -1.35}};
   std::vector<cv::Point> corners;
-  for (const auto& [along, aside] : {std::pair(1.9, 0.0), {-1.3, 1.35}, {-0.7, 0.0}, {-1.3, -1.35}})
-    corners.push_back(subpixel(at + size * (along * ahead + aside * left)));
+  for (const Eigen::Vector2d& corner : shape)
+    corners.push_back(subpixel(at + size * (corner.x() * ahead + corner.y() * left)));
   cv::fillPoly(image_, std::vector<std::vector<cv::Point>>{corners}, cv::Scalar(colour),
                cv::LINE_AA, kSubpixelBits);
 }

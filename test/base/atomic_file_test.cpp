@@ -1,6 +1,10 @@
 #include "grid_path_planner/base/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+
+#include <thread>
+#include <utility>
 
 #include "support/error_text.h"
 #include "support/file_size_limit.h"
@@ -50,6 +54,39 @@ TEST(AtomicFile, OnAFullDiskTheOldFileStaysWholeAndNothingIsLeft) {
   EXPECT_EQ(folder.names(), (Names{"a.yaml"}));
   EXPECT_FALSE(refusedOnAFullDisk(1 << 20, [&] { writeFileAtomically(file, large); }));
   EXPECT_EQ(contentOf(file), large);
+}
+
+// Nodelets of one process may all be asked to save to the same place.
+TEST(AtomicFile, ThreadsThatWriteTheSameFileDoNotMeet) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path("a.yaml");
+  const auto writeOften = [&file](char letter, std::string& error) {
+    for (int i = 0; i < 100 && error.empty(); ++i)
+      error = errorText([&] { writeFileAtomically(file, std::string(50000, letter)); });
+  };
+  std::string error_of_a, error_of_b;
+  std::thread a([&] { writeOften('a', error_of_a); }), b([&] { writeOften('b', error_of_b); });
+  a.join();
+  b.join();
+  EXPECT_EQ(error_of_a, "");
+  EXPECT_EQ(error_of_b, "");
+  const std::string content = contentOf(file);
+  EXPECT_EQ(content, std::string(50000, content.at(0)));
+  EXPECT_EQ(folder.names(), (Names{"a.yaml"}));
+}
+
+TEST(AtomicFile, WhatAProcessDoesAboutSignalsIsLeftAsItWas) {
+  const auto setup = [] {
+    struct sigaction action = {};
+    sigset_t blocked;
+    sigaction(SIGXFSZ, nullptr, &action);
+    pthread_sigmask(SIG_SETMASK, nullptr, &blocked);
+    return std::make_pair(action.sa_handler, sigismember(&blocked, SIGXFSZ));
+  };
+  const test::TemporaryFolder folder;
+  const auto before = setup();
+  writeFileAtomically(folder.path("a.yaml"), "text");
+  EXPECT_EQ(setup(), before);
 }
 
 }  // namespace

@@ -6,7 +6,8 @@
 namespace grid_path_planner {
 
 // Writes `content` beside `file` and renames it over `file`. Throws InputError naming the file and
-// the reason; then `file` is as it was and nothing is left beside it.
+// the reason; then `file` is as it was and nothing is left beside it. Several threads or processes
+// may write the same file: one of them wins.
 void writeFileAtomically(const std::string& file, const std::string& content);
 
 }  // namespace grid_path_planner
