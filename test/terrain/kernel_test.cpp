@@ -28,7 +28,7 @@ TerrainOptions withKernel(int kernel, KernelRule rule = KernelRule::CONSERVATIVE
 TEST(Kernel, TheOriginalStudysMapHasItsSizes) {
   const OccupancyGrid map(GridGeometry(366, 362, 0.05));
   const auto sizeAt = [&map](int kernel) {
-    const GridGeometry& blocks = searched(map, withKernel(kernel))->geometry();
+    const GridGeometry blocks = searched(map, withKernel(kernel))->geometry();
     return std::make_pair(blocks.width(), blocks.height());
   };
   EXPECT_EQ(sizeAt(1), std::make_pair(366, 362));
