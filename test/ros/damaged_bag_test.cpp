@@ -1,6 +1,7 @@
 // A damaged bag gives a map or an InputError, as every map file does.
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
+#include <sys/resource.h>
 
 #include <random>
 
@@ -12,6 +13,13 @@
 
 namespace grid_path_planner {
 namespace {
+
+// Of this process so far.
+long peakKilobytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
 
 class DamagedBag : public testing::Test {
  protected:
@@ -35,7 +43,10 @@ class DamagedBag : public testing::Test {
 };
 
 TEST_F(DamagedBag, CutOffAnywhere) {
-  for (std::size_t size = 0; size < whole_.size(); size += 61) readAsBag(whole_.substr(0, size));
+  const std::size_t end = whole_.size() - 200;  // within its last records
+  for (std::size_t size = 0; size < end; size += 61) readAsBag(whole_.substr(0, size));
+  for (std::size_t size = end; size < whole_.size(); ++size) readAsBag(whole_.substr(0, size));
+  EXPECT_EQ(maps_, 0);
 }
 
 TEST_F(DamagedBag, InjuredAnywhere) {
@@ -43,6 +54,24 @@ TEST_F(DamagedBag, InjuredAnywhere) {
   for (int trial = 0; trial < 500; ++trial) readAsBag(test::mutated(whole_, random));
   EXPECT_GT(maps_, 0);
   EXPECT_LT(maps_, 500);
+}
+
+// The length of a message's list is believed only after a look at what there is.
+TEST_F(DamagedBag, ALengthOfGigabytesTakesNoMemory) {
+  const std::string file = folder_.path("plain.bag");
+  {
+    rosbag::Bag bag(file, rosbag::bagmode::Write);
+    const OccupancyGrid map(GridGeometry(13, 17, 0.05), 0);
+    bag.write("/projected_map", ros::Time(1), occupancyToMessage(map, "map", ros::Time(1)));
+  }
+  std::string content = test::contentOf(file);
+  const std::size_t length = content.find(std::string("\xdd\0\0\0", 4));  // 13 x 17
+  ASSERT_NE(length, std::string::npos);
+  content[length + 3] = '\x7f';
+  const long before = peakKilobytes();
+  readAsBag(content);
+  EXPECT_EQ(maps_, 0);
+  EXPECT_LT(peakKilobytes() - before, 200000);
 }
 
 // Without the checksum of a compression, damage reaches the messages.
