@@ -23,7 +23,13 @@ TEST(Drive, ArrivesAtTheLastPoseAndYaw) {
   ClosedLoop loop;
   const Path path = pathOf({{0, 0}, {5, 0, -1}, {5, 4, -2, 1.5}});
   loop.follower.start(path, Join::FIRST);
+  std::vector<int> current{0};
+  loop.each_step = [&] {
+    if (loop.follower.currentWaypoint() != current.back())
+      current.push_back(loop.follower.currentWaypoint());
+  };
   ASSERT_TRUE(loop.runUntilState(FollowState::ARRIVED));
+  EXPECT_EQ(current, (std::vector<int>{0, 1, 2}));
   loop.run(3.0);
   EXPECT_LT((loop.pose().position - path.poses.back().position).norm(), 0.06);
   EXPECT_NEAR(loop.pose().yaw, 1.5, 0.06);
@@ -87,6 +93,32 @@ TEST(Drive, LooksAlongTheWayAndAtTheEndAsTheWaypointSays) {
   EXPECT_NEAR(loop.pose().yaw, M_PI / 2, 0.05);
   ASSERT_TRUE(loop.runUntilState(FollowState::ARRIVED));
   EXPECT_NEAR(loop.pose().yaw, -1.0, 0.06);
+}
+
+TEST(Drive, PushedFarOffThePathItComesStraightBackBeforeItGoesOn) {
+  ClosedLoop loop;
+  const Path path = pathOf({{0, 0}, {10, 0}});
+  loop.follower.start(path, Join::FIRST);
+  ASSERT_TRUE(loop.runUntil([&] { return loop.pose().position.x() > 2.0; }));
+  loop.vehicle.reset({Eigen::Vector3d(3.0, 2.0, 0.0), 0.0, {}});
+  ASSERT_TRUE(loop.runUntil([&] { return loop.pose().position.y() < 0.3; }));
+  EXPECT_LT(loop.pose().position.x(), 4.0) << "0.64 m to brake";
+  double lowest = 0.0;
+  loop.each_step = [&] { lowest = std::min(lowest, loop.pose().position.y()); };
+  EXPECT_TRUE(loop.runUntilState(FollowState::ARRIVED));
+  EXPECT_GT(lowest, -0.15) << "it does not swing over to the other side";
+}
+
+// With a way to look ahead that reaches round the turn, the point to steer to lies beside or
+// behind.
+TEST(Drive, ThereAndBackWithAFarPursuitAndASmallAcceptanceRadius) {
+  FollowerOptions options;
+  options.acceptance_radius = 0.1;
+  options.pursuit_distance = 1.5;
+  ClosedLoop loop(options);
+  loop.follower.start(pathOf({{0, 0}, {4, 0}, {0, 0.2}}), Join::FIRST);
+  ASSERT_TRUE(loop.runUntilState(FollowState::ARRIVED));
+  EXPECT_EQ(loop.waypointsOf(Kind::REACHED), (std::vector<int>{0, 1, 2}));
 }
 
 TEST(Drive, OneWaypointAndWhereItStandsAlready) {

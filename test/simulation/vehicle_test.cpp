@@ -85,6 +85,14 @@ TEST(Vehicle, StopsWhenCommandsCease) {
   EXPECT_TRUE(vehicle.state().velocity.isZero()) << "0.5 s later, and 0.5 s of braking";
 }
 
+TEST(Vehicle, AVehicleThatWasPutSomewhereStandsThere) {
+  Vehicle vehicle;
+  run(vehicle, {0.5, 0.3, 0.2, 0.5}, 1.0);
+  vehicle.reset({Eigen::Vector3d(4.0, 5.0, 6.0), 1.0});
+  coast(vehicle, 0.4);
+  EXPECT_TRUE(vehicle.state().position == Eigen::Vector3d(4.0, 5.0, 6.0));
+}
+
 TEST(Vehicle, ANewCommandAfterTheSilenceWorks) {
   Vehicle vehicle;
   run(vehicle, {0.5, 0.0, 0.0, 0.0}, 1.0);
@@ -161,6 +169,17 @@ TEST(VehicleContact, AVehicleThatWasPutIntoAnObstacleMayLeaveIt) {
   run(vehicle, {-0.5, 0.0, 0.0, 0.0}, 2.0);
   EXPECT_LT(vehicle.state().position.x(), 2.5);
   EXPECT_EQ(vehicle.contacts(), 0);
+}
+
+TEST(VehicleContact, AFastVehicleDoesNotJumpOverAWall) {
+  VehicleOptions options;
+  options.max_surge_speed = 100.0;
+  options.max_acceleration = 1000.0;
+  options.time_step = 0.1;
+  Vehicle vehicle(options, {Eigen::Vector3d(0.5, 0.5, 0.0), 0.0});
+  vehicle.setMap(mapOf({"....#......."}));
+  run(vehicle, {100.0, 0.0, 0.0, 0.0}, 1.0);
+  EXPECT_NEAR(vehicle.state().position.x(), 3.7, 1e-6);
 }
 
 TEST(VehicleContact, OutsideTheMapNothingIsInTheWay) {
