@@ -112,8 +112,8 @@ void NavigatePathNode::watchTime(const ros::Time& now) {
   ROS_WARN_STREAM("ROS time went back by " << (now_ - now).toSec()
                                            << " s: tf is cleared and the drive cancelled");
   frames_.clear();
-  follower_.cancel("ROS time went back");
-  stop();
+  publishVelocity(follower_.update({now.toSec()}));  // sees it too, and cancels
+  reportEvents();
   started_ = now_ = now;
 }
 
