@@ -69,7 +69,7 @@ void tint(cv::Mat& colours, const cv::Mat& classes, int cells, const GridGeometr
     const cv::Point block(expanded[i].column / cells, expanded[i].row / cells);
     const Occupancy occupancy = Occupancy(classes.at<uchar>(block));
     const Colour colour = mixed(kEarly, kLate, static_cast<double>(i) / expanded.size());
-    const double strength = occupancy == Occupancy::FREE ? 1.0 : 0.45;
+    const double strength = occupancy == Occupancy::FREE ? 1.0 : 0.3;
     colours.at<Colour>(block) = mixed(colourOf(occupancy), colour, strength);
   }
 }

@@ -85,6 +85,12 @@ TEST(Headings, CoincidingPosesLookWhereTheNextOneDoes) {
              {kNorth, kNorth, kWest, kWest, 0.5, 0.5});
 }
 
+TEST(Headings, ForwardThenInterpolateEndsWherePosesBeginToCoincide) {
+  expectYaws(
+      headings({{0, 0}, {0, 1}, {0, 2}, {0, 2}}, 0.0, M_PI, HeadingMode::FORWARD_THEN_INTERPOLATE),
+      {kNorth, 0.75 * M_PI, M_PI, M_PI});
+}
+
 TEST(Headings, PathWithoutLength) {
   const std::vector<Eigen::Vector2d> nowhere = {{1, 1}, {1, 1}, {1, 1}};
   expectYaws(headings(nowhere, 0.0, 1.0, HeadingMode::INTERPOLATE), {0.0, 0.5, 1.0});

@@ -44,6 +44,13 @@ TEST(Metrics, TurningBackIsHalfATurn) {
   EXPECT_DOUBLE_EQ(turningOf(pathThrough({{0, 0}, {5, 0}, {2, 0}})), M_PI);
 }
 
+TEST(Metrics, StraightPathsTurnNowhereInAnyDirection) {
+  for (const int x : {-1, 0, 1})
+    for (const int y : {-1, 0, 1})
+      EXPECT_EQ(turningOf(pathThrough({{0, 0}, {1.0 * x, 1.0 * y}, {2.0 * x, 2.0 * y}})), 0.0)
+          << x << ' ' << y;
+}
+
 TEST(Metrics, PathsThatGoNowhere) {
   for (const Path& path : {Path(), pathThrough({{1, 2}}), pathThrough({{1, 2}, {1, 2}})}) {
     EXPECT_EQ(lengthOf(path), 0.0);

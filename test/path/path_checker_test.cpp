@@ -107,6 +107,11 @@ TEST(PathChecker, AnEndMayLieWhereNothingCouldPass) {
   EXPECT_TRUE(says(violations(lines, {{1.5, 0.5}, {1.0, 1.0}, {0.5, 1.5}}), "squeezes"));
 }
 
+TEST(PathChecker, PassingALatticePointInTheOpenIsLegal) {
+  EXPECT_EQ(violations({"...", "...", "..."}, {{0.5, 0.5}, {2.5, 2.5}}), kNoViolations);
+  EXPECT_EQ(violations({"..#", "..."}, {{0.5, 0.5}, {2.0, 1.0}, {2.5, 1.5}}), kNoViolations);
+}
+
 TEST(PathChecker, LeavingTheMapIsTold) {
   EXPECT_TRUE(says(violations({"...", "..."}, {{0.5, 0.5}, {3.5, 0.5}}), "blocked cell (3, 0)"));
   EXPECT_TRUE(says(violations({"...", "..."}, {{0.5, -0.1}, {1.5, 0.5}}), "blocked cell (0, -1)"));
