@@ -47,7 +47,7 @@ class NestingMeasure {
 
   // Every column at which a block of this line begins; "- - x" begins three.
   void enterLine() {
-    if (brackets_ > 0) return;
+    if (!brackets_.empty()) return;
     std::size_t column = 0;
     while (at_ < text_.size()) {
       while (at_ < text_.size() && isBlank(text_[at_])) ++at_, ++column;
@@ -72,15 +72,20 @@ class NestingMeasure {
 
   void countBracket(char letter) {
     if (letter == '[' || letter == '{') {
-      ++brackets_;
+      brackets_ += letter;
       refuseIfDeep();
-    } else if ((letter == ']' || letter == '}') && brackets_ > 0) {
-      --brackets_;
+    } else if ((letter == ']' || letter == '}') && !brackets_.empty()) {
+      // yaml-cpp 0.6.2 does not come back from "{a:]".
+      if (brackets_.back() != (letter == ']' ? '[' : '{'))
+        throw InputError(
+            file_, line_,
+            std::string("is not YAML: '") + letter + "' closes '" + brackets_.back() + "'");
+      brackets_.pop_back();
     }
   }
 
   void refuseIfDeep() const {
-    if (columns_.size() + brackets_ > static_cast<std::size_t>(kDeepestYaml))
+    if (columns_.size() + brackets_.size() > static_cast<std::size_t>(kDeepestYaml))
       throw InputError(file_, line_,
                        "is nested deeper than " + std::to_string(kDeepestYaml) + " levels");
   }
@@ -89,7 +94,7 @@ class NestingMeasure {
   const std::string& file_;
   int line_ = 1;
   std::size_t at_ = 0;
-  std::size_t brackets_ = 0;
+  std::string brackets_;  // those that are open
   std::vector<std::size_t> columns_;
 };
 
@@ -103,7 +108,8 @@ YAML::Node parseYaml(const std::string& text, const std::string& file) {
   checkIsText(text, file);
   NestingMeasure(text, file).check();
   try {
-    return YAML::Load(text);
+    // yaml-cpp 0.6.2 fails an assertion where a text ends behind a tag ("!"); this one does not.
+    return YAML::Load(text + "\n...\n");
   } catch (const YAML::Exception& error) {
     if (error.mark.is_null()) throw InputError(file, "is not YAML: " + error.msg);
     throw InputError(file, error.mark.line + 1, "is not YAML: " + error.msg);

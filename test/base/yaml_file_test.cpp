@@ -42,6 +42,22 @@ TEST(YamlFile, BrokenYamlIsNamedWithItsLine) {
   EXPECT_TRUE(contains(text, "is not YAML")) << text;
 }
 
+// yaml-cpp 0.6.2 (Ubuntu 20.04) ends the process on some of these.
+TEST(YamlFile, TextsThatEndTooEarlyAreReadOrRefused) {
+  for (const char* text :
+       {"!", "a: !", "!x", "&a", "a: &b", "- !", "[!", "? !", "a: |", "*a", "--- !"})
+    errorText([&] { parseYaml(text, "site.yaml"); });
+  EXPECT_EQ(parseYaml("a: 1\n---\nb: 2\n", "site.yaml")["a"].as<int>(), 1);
+  EXPECT_EQ(parseYaml("a: |\n  b\n", "site.yaml")["a"].Scalar(), "b\n");
+}
+
+TEST(YamlFile, BracketsThatDoNotMatchAreRefused) {
+  EXPECT_EQ(errorText([] { parseYaml("a: 1\nb: {x: 1, y:]2}\n", "site.yaml"); }),
+            "site.yaml:2: is not YAML: ']' closes '{'");
+  EXPECT_EQ(errorText([] { parseYaml("a: [1, 2}\n", "site.yaml"); }),
+            "site.yaml:1: is not YAML: '}' closes '['");
+}
+
 TEST(YamlFile, BinaryIsNotText) {
   EXPECT_EQ(errorText([] { parseYaml(std::string("a: 1\nb: \0x\n", 11), "site.yaml"); }),
             "site.yaml:2: is not text: byte 0");
