@@ -16,8 +16,9 @@
 namespace grid_path_planner {
 namespace {
 
-constexpr double kSlowRate = 5.0;      // Hz, of feedback
-constexpr double kClockWarning = 5.0;  // s, between two
+constexpr double kFeedbackPeriod = 0.2;     // s, wall time
+constexpr double kDiagnosticsPeriod = 1.0;  // s, wall time
+constexpr double kClockWarning = 5.0;       // s, between two
 
 NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh) {
   NavigatePathOptions options;
@@ -65,16 +66,19 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
   reconfigurable_ = std::make_unique<Reconfigurable<NavigatePathConfig, NavigatePathOptions>>(
       private_nh, options_, [this](const NavigatePathOptions& options) { use(options); });
   startTimer();
-  slow_timer_ = nh_.createSteadyTimer(ros::WallDuration(1.0 / kSlowRate),
-                                      [this](const ros::SteadyTimerEvent&) {
-                                        publishFeedback();
-                                        if (ros::Time::isValid()) diagnostics_.update();
-                                      });
+  feedback_timer_ =
+      nh_.createSteadyTimer(ros::WallDuration(kFeedbackPeriod),
+                            [this](const ros::SteadyTimerEvent&) { publishFeedback(); });
+  // By force: the updater's own clock is ROS time, which may jump back.
+  diagnostics_timer_ =
+      nh_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
+                            [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
 }
 
 NavigatePathNode::~NavigatePathNode() {
   timer_.stop();
-  slow_timer_.stop();
+  feedback_timer_.stop();
+  diagnostics_timer_.stop();
   follower_.cancel("navigate_path ends");
   stop();
   if (velocity_publisher_.getNumSubscribers() > 0)
@@ -112,7 +116,9 @@ void NavigatePathNode::watchTime(const ros::Time& now) {
   ROS_WARN_STREAM("ROS time went back by " << (now_ - now).toSec()
                                            << " s: tf is cleared and the drive cancelled");
   frames_.clear();
-  publishVelocity(follower_.update({now.toSec()}));  // sees it too, and cancels
+  FollowInput without_pose;
+  without_pose.time = now.toSec();
+  publishVelocity(follower_.update(without_pose));  // sees it too, and cancels
   reportEvents();
   started_ = now_ = now;
 }

@@ -1,4 +1,5 @@
 // Whatever happens to navigate_path or around it, the vehicle stops.
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <nav_msgs/OccupancyGrid.h>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
@@ -75,6 +76,28 @@ TEST_F(NavigateStops, OnStaleTfAndGoesOnWhenItIsBack) {
   EXPECT_TRUE(lastCommandIsZero());
   world.publishTf(true);
   EXPECT_TRUE(isDriving());
+}
+
+TEST_F(NavigateStops, AndDiagnosticsSayWhy) {
+  Latest<diagnostic_msgs::DiagnosticArray> diagnostics(nh_, "/diagnostics");
+  const auto reports = [&](int level, const std::string& text) {
+    return diagnostics
+        .waitFor(
+            diagnostics.count(),
+            [&](const diagnostic_msgs::DiagnosticArray& array) {
+              return std::any_of(array.status.begin(), array.status.end(), [&](const auto& status) {
+                return status.level == level && status.message.find(text) != std::string::npos;
+              });
+            })
+        .has_value();
+  };
+  StillWorld world(100.0);
+  driveIn(world);
+  EXPECT_TRUE(reports(diagnostic_msgs::DiagnosticStatus::OK, "driving"));
+  world.publishTf(false);
+  EXPECT_TRUE(reports(diagnostic_msgs::DiagnosticStatus::WARN, "blocked: the pose of base_link"));
+  world.jumpTo(10.0);
+  EXPECT_TRUE(reports(diagnostic_msgs::DiagnosticStatus::OK, "cancelled: time went back"));
 }
 
 TEST_F(NavigateStops, WhenTimeGoesBackAndDrivesTheNextPath) {

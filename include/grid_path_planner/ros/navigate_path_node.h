@@ -100,7 +100,8 @@ class NavigatePathNode {
   actionlib::SimpleActionServer<NavigatePathAction> action_;
   diagnostic_updater::Updater diagnostics_;
   ros::SteadyTimer timer_;
-  ros::SteadyTimer slow_timer_;
+  ros::SteadyTimer feedback_timer_;
+  ros::SteadyTimer diagnostics_timer_;
   std::unique_ptr<Reconfigurable<NavigatePathConfig, NavigatePathOptions>> reconfigurable_;
 };
 
