@@ -35,8 +35,7 @@ void checkLevel(const geometry_msgs::Quaternion& q) {
 }  // namespace
 
 double yawOf(const geometry_msgs::Quaternion& q) {
-  return std::atan2(2.0 * (q.w * q.z + q.x * q.y),
-                    q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z);
+  return std::atan2(2.0 * (q.w * q.z + q.x * q.y), q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z);
 }
 
 Pose poseFromMessage(const geometry_msgs::Pose& message) {
@@ -65,8 +64,8 @@ Path pathFromMessage(const nav_msgs::Path& message) {
     try {
       path.poses.push_back(poseFromMessage(stamped.pose));
     } catch (const InputError& error) {
-      throw InputError("pose " + std::to_string(path.poses.size() + 1) + " of the path: " +
-                       error.what());
+      throw InputError("pose " + std::to_string(path.poses.size() + 1) +
+                       " of the path: " + error.what());
     }
   }
   return path;

@@ -82,6 +82,7 @@ int runNode(int argc, char** argv, const std::string& name, const NodeMaker& mak
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
   int result = 0;
+  const ros::NodeHandle keeps_the_log_open;  // the last one to go shuts it, and the reason is lost
   try {
     serve(name, make);
   } catch (const std::exception& error) {

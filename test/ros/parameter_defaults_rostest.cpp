@@ -1,8 +1,10 @@
 #include "ros/support/parameter_defaults.h"
 
+#include "grid_path_planner/MapPublisherConfig.h"
 #include "grid_path_planner/NavigatePathConfig.h"
 #include "grid_path_planner/PathPlannerConfig.h"
 #include "grid_path_planner/SimulatorConfig.h"
+#include "grid_path_planner/ros/map_publisher_options.h"
 #include "grid_path_planner/ros/navigate_path_options.h"
 #include "grid_path_planner/ros/path_planner_options.h"
 #include "grid_path_planner/ros/simulator_options.h"
@@ -20,6 +22,10 @@ TEST(ParameterDefaults, NavigatePath) {
 
 TEST(ParameterDefaults, Simulator) {
   test::expectSameDefaults<SimulatorConfig, SimulatorOptions>("simulator");
+}
+
+TEST(ParameterDefaults, MapPublisher) {
+  test::expectSameDefaults<MapPublisherConfig, MapPublisherOptions>("map_publisher");
 }
 
 }  // namespace

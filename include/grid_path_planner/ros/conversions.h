@@ -20,9 +20,9 @@ namespace grid_path_planner {
 // tilts. Precondition: not all components are 0.
 double yawOf(const geometry_msgs::Quaternion& quaternion);
 
-// Throws InputError for a number that is not finite, a coordinate beyond 1e6 m, a quaternion that is
-// zero or not normalised (its length off 1 by more than 0.01) or that is not level (roll or pitch
-// beyond 0.01 rad).
+// Throws InputError for a number that is not finite, a coordinate beyond 1e6 m, a quaternion that
+// is zero or not normalised (its length off 1 by more than 0.01) or that is not level (roll or
+// pitch beyond 0.01 rad).
 Pose poseFromMessage(const geometry_msgs::Pose& message);
 geometry_msgs::Pose poseToMessage(const Pose& pose);
 

@@ -50,4 +50,7 @@ void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
                    ""});
 }
 
+// Throws InputError naming the option.
+void checkPathPlannerNodeOptions(const PathPlannerNodeOptions& options);
+
 }  // namespace grid_path_planner

@@ -1,0 +1,51 @@
+// The node map_publisher: a map file, latched.
+//
+//   publishes  projected_map (~topic)  nav_msgs/OccupancyGrid
+//              map_metadata            nav_msgs/MapMetaData
+//   serves     static_map              nav_msgs/GetMap
+//
+// The file is read once, at the start and again where ~filename is changed by dynamic_reconfigure;
+// one that cannot be read ends the node, or leaves the map as it is. Nothing is published before
+// there is a ROS time to stamp it with.
+#pragma once
+
+#include <nav_msgs/GetMap.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/service_server.h>
+#include <ros/wall_timer.h>
+
+#include <memory>
+
+#include "grid_path_planner/grid/occupancy.h"
+#include "grid_path_planner/ros/map_publisher_options.h"
+
+namespace grid_path_planner {
+
+class MapPublisherConfig;
+template <class Config, class Options>
+class Reconfigurable;
+
+class MapPublisherNode {
+ public:
+  // Throws InputError for parameters and files that cannot be used.
+  MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
+  ~MapPublisherNode();
+
+ private:
+  void use(const MapPublisherOptions& options);
+  void publishOnceThereIsTime();
+  bool getMap(nav_msgs::GetMap::Request& request, nav_msgs::GetMap::Response& response);
+
+  MapPublisherOptions options_;
+  OccupancyGrid map_;
+  nav_msgs::OccupancyGrid message_;  // stamp 0 until it is published
+  ros::NodeHandle nh_;
+  ros::Publisher map_publisher_;
+  ros::Publisher metadata_publisher_;
+  ros::ServiceServer service_;
+  ros::WallTimer timer_;
+  std::unique_ptr<Reconfigurable<MapPublisherConfig, MapPublisherOptions>> reconfigurable_;
+};
+
+}  // namespace grid_path_planner

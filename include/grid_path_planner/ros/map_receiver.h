@@ -1,0 +1,73 @@
+// The map as it comes in: whole on `projected_map`, in pieces on `projected_map_updates`.
+//
+// A message that is no map is refused with an error that says why, and the map before it stays; so
+// does a piece that does not fit. A piece older than the map is dropped: it is part of the map
+// already. Maps handed out never change; a change makes a new one.
+#pragma once
+
+#include <map_msgs/OccupancyGridUpdate.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "grid_path_planner/grid/occupancy.h"
+
+namespace grid_path_planner {
+
+struct ReceivedMap {
+  std::shared_ptr<const OccupancyGrid> grid;
+  std::string frame_id;  // empty where the message named none
+  ros::Time stamp;       // of the newest message in it
+};
+
+// What changed since the map was last taken.
+struct MapChange {
+  ReceivedMap map;
+  // The cells that may differ from those of the map taken before; none: all may.
+  std::optional<CellRect> changed;
+};
+
+// `map` with the cells of `update`. Throws InputError for an update that does not lie in the map,
+// whose number of values is not width x height, or with a value outside -1..100.
+OccupancyGrid updatedMap(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update);
+
+// The smallest rectangle around the cells in which two maps of the same geometry differ.
+CellRect changedCells(const OccupancyGrid& before, const OccupancyGrid& after);
+
+class MapReceiver {
+ public:
+  // Listens from here on. `on_change` is called after every change, in the subscriber's thread.
+  void start(ros::NodeHandle nh, std::function<void()> on_change);
+
+  // The newest map; its grid is null before the first.
+  ReceivedMap latest() const;
+  // The newest map if it changed since the last call. For one caller.
+  std::optional<MapChange> take();
+  // Why the last message was refused; empty after one that was taken.
+  std::string refusal() const;
+
+  void shutdown();
+
+ private:
+  void onMap(const nav_msgs::OccupancyGrid& message);
+  void onUpdate(const map_msgs::OccupancyGridUpdate& message);
+  void apply(const map_msgs::OccupancyGridUpdate& message);
+  void store(ReceivedMap map, const std::optional<CellRect>& changed);
+  void refuse(const std::string& topic, const std::string& reason);
+
+  std::function<void()> on_change_;
+  mutable std::mutex mutex_;
+  ReceivedMap map_;
+  std::optional<MapChange> untaken_;
+  std::string refusal_;
+  ros::Subscriber map_subscriber_;
+  ros::Subscriber update_subscriber_;
+};
+
+}  // namespace grid_path_planner

@@ -1,0 +1,96 @@
+// Where questions about ways are handed in, from any thread, and answered in the worker's.
+//
+//   PlanDesk desk(nh, options);
+//   auto inquiry = desk.ask(question, PlanDesk::Announce::YES);
+//   inquiry->wait();
+//   use(inquiry->answer());
+//
+// What is announced is seen by everyone: statistics, markers, ~waypoints_file, the last found path.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "grid_path_planner/ros/map_receiver.h"
+#include "grid_path_planner/ros/plan_engine.h"
+#include "grid_path_planner/ros/plan_publisher.h"
+#include "grid_path_planner/ros/plan_worker.h"
+
+namespace grid_path_planner {
+
+// A question on its way.
+class Inquiry {
+ public:
+  void cancel() { task_->cancel(); }
+  void wait() const { task_->wait(); }
+  // Whether the answer is there before `limit` passed (steady clock).
+  bool waitFor(std::chrono::duration<double> limit) const { return task_->waitFor(limit); }
+  // Precondition: the wait is over.
+  const PlanAnswer& answer() const { return answer_; }
+  // "waiting", "preparing" or "searching".
+  const char* phase() const { return phase_; }
+
+ private:
+  friend class PlanDesk;
+  std::atomic<const char*> phase_{"waiting"};
+  PlanAnswer answer_;
+  std::shared_ptr<PlanWorker::Task> task_;
+};
+
+class PlanDesk {
+ public:
+  enum class Announce { NO, YES };
+
+  // Options and how often they were changed.
+  struct Settings {
+    PathPlannerNodeOptions options;
+    unsigned revision = 0;
+  };
+  struct Outcome {
+    Status status;
+    std::string message;
+  };
+
+  PlanDesk(ros::NodeHandle nh, const PathPlannerNodeOptions& options);
+
+  Settings settings() const;
+  // For the questions whose turn comes after this. Precondition: the options are checked.
+  void setOptions(const PathPlannerNodeOptions& options);
+
+  std::shared_ptr<Inquiry> ask(const PlanQuestion& question, Announce announce);
+
+  // Ends everything that is under way and takes nothing more.
+  void stop();
+
+  // What was announced last, and the last found path among it.
+  std::optional<Outcome> lastOutcome() const;
+  std::optional<Path> lastPath() const;
+
+  PlanWorker& worker() { return worker_; }
+  MapReceiver& maps() { return maps_; }
+  FrameTransforms& transforms() { return transforms_; }
+  PlanPublisher& publisher() { return publisher_; }
+
+  // In the worker's thread only:
+  PlanEngine& engine() { return engine_; }
+  void announce(const PlanAnswer& answer, const geometry_msgs::PoseStamped& goal);
+
+ private:
+  void writeWaypoints(const Path& path);
+
+  mutable std::mutex mutex_;
+  Settings settings_;
+  std::optional<Outcome> outcome_;
+  std::optional<Path> last_path_;
+
+  FrameTransforms transforms_;
+  PlanPublisher publisher_;
+  MapReceiver maps_;
+  PlanEngine engine_;
+  PlanWorker worker_;
+};
+
+}  // namespace grid_path_planner

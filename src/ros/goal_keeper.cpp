@@ -1,0 +1,44 @@
+#include "grid_path_planner/ros/goal_keeper.h"
+
+#include <utility>
+
+namespace grid_path_planner {
+
+void GoalKeeper::setStart(const geometry_msgs::PoseStamped& start) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  start_ = start;
+}
+
+void GoalKeeper::forgetStart() {
+  std::lock_guard<std::mutex> lock(mutex_);
+  start_.reset();
+  if (goal_) goal_->question.start.reset();
+}
+
+void GoalKeeper::setGoal(const geometry_msgs::PoseStamped& goal) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  KeptGoal next;
+  next.id = next_id_++;
+  next.question.goal = goal;
+  next.question.start = std::exchange(start_, std::nullopt);
+  goal_ = std::move(next);
+}
+
+std::optional<KeptGoal> GoalKeeper::goal() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return goal_;
+}
+
+bool GoalKeeper::settle(std::uint64_t id, const Path& path, unsigned path_settings,
+                        const std::function<void()>& tell) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  if (!goal_ || goal_->id != id) return false;
+  goal_->answered = true;
+  goal_->question.start.reset();  // every replan starts from tf
+  goal_->path = path;
+  goal_->path_settings = path_settings;
+  tell();
+  return true;
+}
+
+}  // namespace grid_path_planner

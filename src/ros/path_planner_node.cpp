@@ -1,0 +1,151 @@
+#include "grid_path_planner/ros/path_planner_node.h"
+
+#include <utility>
+
+#include "grid_path_planner/PathPlannerConfig.h"
+#include "grid_path_planner/ros/parameters.h"
+#include "grid_path_planner/ros/replan_policy.h"
+
+namespace grid_path_planner {
+namespace {
+
+constexpr char kGoalSlot[] = "goal";
+constexpr char kMapSlot[] = "map";
+
+PathPlannerNodeOptions loadOptions(const ros::NodeHandle& private_nh) {
+  PathPlannerNodeOptions options;
+  loadParameters(private_nh, options);
+  checkPathPlannerNodeOptions(options);
+  auto known = optionNames<PathPlannerNodeOptions>();
+  known.push_back("diagnostic_period");  // diagnostic_updater's
+  warnUnknownParameters(private_nh, known);
+  return options;
+}
+
+}  // namespace
+
+PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh) : nh_(nh) {
+  const PathPlannerNodeOptions options = loadOptions(private_nh);
+  desk_ = std::make_unique<PlanDesk>(nh, options);
+  services_ = std::make_unique<PlanServices>(private_nh, *desk_);
+  action_ = std::make_unique<PlanAction>(nh, *desk_);
+  diagnostics_ = std::make_unique<PlanDiagnostics>(nh, private_nh, *desk_);
+  reconfigurable_ = std::make_unique<Reconfigurable<PathPlannerConfig, PathPlannerNodeOptions>>(
+      private_nh, options, [this](const PathPlannerNodeOptions& wanted) { onOptions(wanted); });
+  desk_->maps().start(nh, [this] { onMapChange(); });
+  goal_subscriber_ = nh.subscribe("goal", 1, &PathPlannerNode::onGoal, this);
+  initial_pose_subscriber_ = nh.subscribe("initialpose", 1, &PathPlannerNode::onInitialPose, this);
+  clock_timer_ = nh.createWallTimer(ros::WallDuration(0.05),
+                                    [this](const ros::WallTimerEvent&) { onClockCheck(); });
+  startReplanTimer(options.replan_period);
+}
+
+PathPlannerNode::~PathPlannerNode() {
+  goal_subscriber_.shutdown();
+  initial_pose_subscriber_.shutdown();
+  replan_timer_.stop();
+  clock_timer_.stop();
+  reconfigurable_.reset();
+  desk_->stop();
+}
+
+void PathPlannerNode::onGoal(const geometry_msgs::PoseStamped& message) {
+  onClockCheck();
+  goals_.setGoal(message);
+  desk_->worker().cancel(kGoalSlot);
+  postPlanForGoal();
+}
+
+void PathPlannerNode::onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+  onClockCheck();
+  geometry_msgs::PoseStamped start;
+  start.header = message.header;
+  start.pose = message.pose.pose;
+  goals_.setStart(start);
+}
+
+void PathPlannerNode::onOptions(const PathPlannerNodeOptions& options) {
+  checkPathPlannerNodeOptions(options);
+  const double old_period = desk_->settings().options.replan_period;
+  desk_->setOptions(options);
+  if (options.replan_period != old_period) startReplanTimer(options.replan_period);
+  onMapChange();
+}
+
+void PathPlannerNode::onMapChange() {
+  desk_->worker().post([this](const StopSource& stop) { useMap(stop); }, kMapSlot);
+}
+
+void PathPlannerNode::onClockCheck() {
+  if (!clock_.jumpedBack()) return;
+  ROS_WARN("ROS time jumped back: transforms and start poses from before are forgotten");
+  desk_->transforms().clear();
+  goals_.forgetStart();
+}
+
+void PathPlannerNode::startReplanTimer(double period) {
+  replan_timer_.stop();
+  if (period <= 0.0) return;
+  replan_timer_ = nh_.createTimer(ros::Duration(period), [this](const ros::TimerEvent&) {
+    const std::optional<KeptGoal> goal = goals_.goal();
+    if (goal && goal->answered) postPlanForGoal();
+  });
+}
+
+void PathPlannerNode::postPlanForGoal() {
+  desk_->worker().post([this](const StopSource& stop) { planForGoal(stop); }, kGoalSlot,
+                       PlanWorker::Turn::NEXT);
+}
+
+void PathPlannerNode::planForGoal(const StopSource& stop) {
+  const std::optional<KeptGoal> goal = goals_.goal();
+  const PlanDesk::Settings settings = desk_->settings();
+  const PlanAnswer answer = desk_->engine().answer(goal->question, settings.options, stop);
+  if (stop.cancelled() || keepsOldPath(*goal, answer, settings, stop)) return;
+  goals_.settle(goal->id, answer.report.path, settings.revision, [&] {
+    desk_->publisher().publishPath(answer);
+    desk_->announce(answer, goal->question.goal);
+  });
+}
+
+bool PathPlannerNode::keepsOldPath(const KeptGoal& goal, const PlanAnswer& answer,
+                                   const PlanDesk::Settings& settings, const StopSource& stop) {
+  if (goal.path.empty() || !answer.found() || goal.path_settings != settings.revision) return false;
+  try {
+    const auto costs = desk_->engine().fineCosts(settings.options, stop.token());
+    return keepsPath(goal.path, answer.report.path, *costs, settings.options.replan_hysteresis);
+  } catch (const Stopped&) {
+    return true;  // a new goal is there
+  }
+}
+
+void PathPlannerNode::useMap(const StopSource& stop) {
+  const PathPlannerNodeOptions options = desk_->settings().options;
+  try {
+    waitForClock(stop.token());
+    publishPlanningMap(options, stop);
+    if (goalPathBlocked(options, stop)) postPlanForGoal();
+  } catch (const Stopped&) {
+    // The node ends.
+  }
+}
+
+void PathPlannerNode::publishPlanningMap(const PathPlannerNodeOptions& options,
+                                         const StopSource& stop) {
+  const auto costs = desk_->engine().searchedCosts(options, stop.token());
+  if (!costs || costs == published_costs_) return;
+  published_costs_ = costs;
+  desk_->publisher().publishMap(*costs, desk_->engine().frame(options));
+}
+
+bool PathPlannerNode::goalPathBlocked(const PathPlannerNodeOptions& options,
+                                      const StopSource& stop) {
+  const std::optional<KeptGoal> goal = goals_.goal();
+  if (!goal || goal->path.empty()) return false;
+  const auto costs = desk_->engine().fineCosts(options, stop.token());
+  if (!pathBlocked(goal->path, desk_->engine().vehicle(options), *costs)) return false;
+  ROS_INFO("What remains of the path is blocked: planning again");
+  return true;
+}
+
+}  // namespace grid_path_planner

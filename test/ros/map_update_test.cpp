@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/ros/map_receiver.h"
+#include "support/ascii_map.h"
+
+namespace grid_path_planner {
+namespace {
+
+map_msgs::OccupancyGridUpdate updateOf(int x, int y, unsigned width, unsigned height,
+                                       const std::vector<std::int8_t>& data) {
+  map_msgs::OccupancyGridUpdate update;
+  update.x = x;
+  update.y = y;
+  update.width = width;
+  update.height = height;
+  update.data = data;
+  return update;
+}
+
+TEST(MapUpdate, ReplacesItsCellsAndNoOthers) {
+  const OccupancyGrid map = test::AsciiMap({"....", "....", "...."}).map;
+  const OccupancyGrid updated = updatedMap(map, updateOf(1, 1, 2, 2, {100, -1, 0, 100}));
+  EXPECT_EQ(updated, test::AsciiMap({"....", ".#?.", "..#."}).map);
+}
+
+TEST(MapUpdate, OutOfTheMapIsRefused) {
+  const OccupancyGrid map = test::AsciiMap({"....", "....", "...."}).map;
+  EXPECT_THROW(updatedMap(map, updateOf(3, 1, 2, 1, {0, 0})), InputError);
+  EXPECT_THROW(updatedMap(map, updateOf(1, 2, 1, 2, {0, 0})), InputError);
+  EXPECT_THROW(updatedMap(map, updateOf(-1, 0, 1, 1, {0})), InputError);
+  const unsigned huge = std::numeric_limits<unsigned>::max();
+  EXPECT_THROW(updatedMap(map, updateOf(1, 0, huge, 1, {0})), InputError);
+}
+
+TEST(MapUpdate, WrongSizesAndValuesAreRefused) {
+  const OccupancyGrid map = test::AsciiMap({"....", "...."}).map;
+  EXPECT_THROW(updatedMap(map, updateOf(0, 0, 2, 2, {0, 0, 0})), InputError);
+  EXPECT_THROW(updatedMap(map, updateOf(0, 0, 1, 1, {101})), InputError);
+  EXPECT_THROW(updatedMap(map, updateOf(0, 0, 1, 1, {-2})), InputError);
+}
+
+TEST(ChangedCells, AreTheSmallestRectangleAroundTheDifferences) {
+  const OccupancyGrid before = test::AsciiMap({"....", "....", "...."}).map;
+  EXPECT_TRUE(changedCells(before, before).empty());
+  const OccupancyGrid after = test::AsciiMap({"....", "..#.", ".#.."}).map;
+  EXPECT_EQ(changedCells(before, after), (CellRect{1, 1, 2, 2}));
+}
+
+TEST(ChangedCellsLaw, NothingOutsideDiffers) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 200; ++trial) {
+    const GridGeometry geometry(9, 7, 1.0);
+    OccupancyGrid before(geometry, 0);
+    OccupancyGrid after = before;
+    std::uniform_int_distribution<std::uint32_t> anywhere(0, 62);
+    for (int i = 0; i < trial % 4; ++i) after[CellIndex(anywhere(random))] = 100;
+    const CellRect changed = changedCells(before, after);
+    for (std::uint32_t i = 0; i < geometry.size(); ++i)
+      if (!changed.contains(geometry.cell(CellIndex(i)))) {
+        EXPECT_EQ(before[CellIndex(i)], after[CellIndex(i)]) << "trial " << trial;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner
