@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "grid_path_planner/PathPlannerConfig.h"
+#include "grid_path_planner/ros/clock.h"
 #include "grid_path_planner/ros/parameters.h"
 #include "grid_path_planner/ros/replan_policy.h"
 
@@ -26,7 +27,7 @@ PathPlannerNodeOptions loadOptions(const ros::NodeHandle& private_nh) {
 
 PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh) : nh_(nh) {
   const PathPlannerNodeOptions options = loadOptions(private_nh);
-  desk_ = std::make_unique<PlanDesk>(nh, options);
+  desk_ = std::make_unique<PlanDesk>(nh, options, [this] { goals_.forgetStart(); });
   services_ = std::make_unique<PlanServices>(private_nh, *desk_);
   action_ = std::make_unique<PlanAction>(nh, *desk_);
   diagnostics_ = std::make_unique<PlanDiagnostics>(nh, private_nh, *desk_);
@@ -36,7 +37,7 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   goal_subscriber_ = nh.subscribe("goal", 1, &PathPlannerNode::onGoal, this);
   initial_pose_subscriber_ = nh.subscribe("initialpose", 1, &PathPlannerNode::onInitialPose, this);
   clock_timer_ = nh.createWallTimer(ros::WallDuration(0.05),
-                                    [this](const ros::WallTimerEvent&) { onClockCheck(); });
+                                    [this](const ros::WallTimerEvent&) { desk_->checkClock(); });
   startReplanTimer(options.replan_period);
 }
 
@@ -50,14 +51,14 @@ PathPlannerNode::~PathPlannerNode() {
 }
 
 void PathPlannerNode::onGoal(const geometry_msgs::PoseStamped& message) {
-  onClockCheck();
+  desk_->checkClock();
   goals_.setGoal(message);
   desk_->worker().cancel(kGoalSlot);
   postPlanForGoal();
 }
 
 void PathPlannerNode::onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  onClockCheck();
+  desk_->checkClock();
   geometry_msgs::PoseStamped start;
   start.header = message.header;
   start.pose = message.pose.pose;
@@ -74,13 +75,6 @@ void PathPlannerNode::onOptions(const PathPlannerNodeOptions& options) {
 
 void PathPlannerNode::onMapChange() {
   desk_->worker().post([this](const StopSource& stop) { useMap(stop); }, kMapSlot);
-}
-
-void PathPlannerNode::onClockCheck() {
-  if (!clock_.jumpedBack()) return;
-  ROS_WARN("ROS time jumped back: transforms and start poses from before are forgotten");
-  desk_->transforms().clear();
-  goals_.forgetStart();
 }
 
 void PathPlannerNode::startReplanTimer(double period) {
@@ -100,7 +94,7 @@ void PathPlannerNode::postPlanForGoal() {
 void PathPlannerNode::planForGoal(const StopSource& stop) {
   const std::optional<KeptGoal> goal = goals_.goal();
   const PlanDesk::Settings settings = desk_->settings();
-  const PlanAnswer answer = desk_->engine().answer(goal->question, settings.options, stop);
+  const PlanAnswer answer = desk_->answer(goal->question, settings.options, stop);
   if (stop.cancelled() || keepsOldPath(*goal, answer, settings, stop)) return;
   goals_.settle(goal->id, answer.report.path, settings.revision, [&] {
     desk_->publisher().publishPath(answer);

@@ -9,8 +9,13 @@
 
 namespace grid_path_planner {
 
-PlanDesk::PlanDesk(ros::NodeHandle nh, const PathPlannerNodeOptions& options)
-    : settings_{options, 0}, transforms_(nh), publisher_(nh), engine_(maps_, transforms_) {}
+PlanDesk::PlanDesk(ros::NodeHandle nh, const PathPlannerNodeOptions& options,
+                   std::function<void()> on_time_jump)
+    : on_time_jump_(std::move(on_time_jump)),
+      settings_{options, 0},
+      transforms_(nh),
+      publisher_(nh),
+      engine_(maps_, transforms_) {}
 
 PlanDesk::Settings PlanDesk::settings() const {
   std::lock_guard<std::mutex> lock(mutex_);
@@ -28,11 +33,24 @@ std::shared_ptr<Inquiry> PlanDesk::ask(const PlanQuestion& question, Announce an
     const auto on_phase = [&](PlanEngine::Phase phase) {
       inquiry->phase_ = phase == PlanEngine::Phase::PREPARING ? "preparing" : "searching";
     };
-    inquiry->answer_ = engine_.answer(question, settings().options, stop, on_phase);
+    inquiry->answer_ = answer(question, settings().options, stop, on_phase);
     if (announce == Announce::YES && !stop.cancelled())
       this->announce(inquiry->answer_, question.goal);
   });
   return inquiry;
+}
+
+PlanAnswer PlanDesk::answer(const PlanQuestion& question, const PathPlannerNodeOptions& options,
+                            const StopSource& stop, const PlanEngine::PhaseListener& on_phase) {
+  checkClock();
+  return engine_.answer(question, options, stop, on_phase);
+}
+
+void PlanDesk::checkClock() {
+  if (!clock_.jumpedBack()) return;
+  ROS_WARN("ROS time jumped back: transforms and start poses from before are forgotten");
+  transforms_.clear();
+  on_time_jump_();
 }
 
 void PlanDesk::stop() {

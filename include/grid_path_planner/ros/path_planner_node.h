@@ -15,7 +15,6 @@
 
 #include <memory>
 
-#include "grid_path_planner/ros/clock.h"
 #include "grid_path_planner/ros/goal_keeper.h"
 #include "grid_path_planner/ros/plan_action.h"
 #include "grid_path_planner/ros/plan_desk.h"
@@ -42,7 +41,6 @@ class PathPlannerNode {
   void onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message);
   void onOptions(const PathPlannerNodeOptions& options);
   void onMapChange();
-  void onClockCheck();
   void startReplanTimer(double period);
 
   // In the worker's thread
@@ -56,7 +54,6 @@ class PathPlannerNode {
   void postPlanForGoal();
 
   ros::NodeHandle nh_;
-  ClockWatch clock_;
   GoalKeeper goals_;
   std::shared_ptr<const CostGrid> published_costs_;  // the worker's
   std::unique_ptr<PlanDesk> desk_;

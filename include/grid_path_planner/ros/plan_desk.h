@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 
+#include "grid_path_planner/ros/clock.h"
 #include "grid_path_planner/ros/map_receiver.h"
 #include "grid_path_planner/ros/plan_engine.h"
 #include "grid_path_planner/ros/plan_publisher.h"
@@ -54,7 +55,9 @@ class PlanDesk {
     std::string message;
   };
 
-  PlanDesk(ros::NodeHandle nh, const PathPlannerNodeOptions& options);
+  // `on_time_jump` is called, from any thread, whenever ROS time went back.
+  PlanDesk(ros::NodeHandle nh, const PathPlannerNodeOptions& options,
+           std::function<void()> on_time_jump);
 
   Settings settings() const;
   // For the questions whose turn comes after this. Precondition: the options are checked.
@@ -65,22 +68,29 @@ class PlanDesk {
   // Ends everything that is under way and takes nothing more.
   void stop();
 
+  // Forgets the transforms where ROS time went back since the last call. Called before every
+  // answer, and as often as a node likes.
+  void checkClock();
+
   // What was announced last, and the last found path among it.
   std::optional<Outcome> lastOutcome() const;
   std::optional<Path> lastPath() const;
 
   PlanWorker& worker() { return worker_; }
   MapReceiver& maps() { return maps_; }
-  FrameTransforms& transforms() { return transforms_; }
   PlanPublisher& publisher() { return publisher_; }
 
   // In the worker's thread only:
   PlanEngine& engine() { return engine_; }
+  PlanAnswer answer(const PlanQuestion& question, const PathPlannerNodeOptions& options,
+                    const StopSource& stop, const PlanEngine::PhaseListener& on_phase = {});
   void announce(const PlanAnswer& answer, const geometry_msgs::PoseStamped& goal);
 
  private:
   void writeWaypoints(const Path& path);
 
+  std::function<void()> on_time_jump_;
+  ClockWatch clock_;
   mutable std::mutex mutex_;
   Settings settings_;
   std::optional<Outcome> outcome_;

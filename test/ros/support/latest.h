@@ -26,7 +26,8 @@ class Latest {
     std::lock_guard<std::mutex> lock(mutex_);
     return messages_;
   }
-  bool connected() const { return subscriber_.getNumPublishers() > 0; }
+  bool connected() const { return publishers() > 0; }
+  std::uint32_t publishers() const { return subscriber_.getNumPublishers(); }
 
   // The newest message once more than `seen` came and `accept` takes it; none at the deadline.
   template <class Accept>

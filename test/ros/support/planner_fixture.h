@@ -9,6 +9,7 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -46,6 +47,7 @@ class PlannerTest : public testing::Test {
     ASSERT_TRUE(waitFor([this] {
       return goals_.getNumSubscribers() > 0 && maps_.getNumSubscribers() > 0 &&
              updates_.getNumSubscribers() > 0 && starts_.getNumSubscribers() > 0 &&
+             log_.publishers() > 1 &&  // the planner beside this process itself
              paths_.connected() && statistics_.connected() && planning_maps_.connected() &&
              ros::service::exists("/path_planner/save_waypoints", false);
     })) << "path_planner did not come up";
@@ -150,6 +152,7 @@ class PlannerTest : public testing::Test {
       nh_.advertise<map_msgs::OccupancyGridUpdate>("projected_map_updates", 10);
   ros::Publisher starts_ =
       nh_.advertise<geometry_msgs::PoseWithCovarianceStamped>("initialpose", 10);
+  Latest<rosgraph_msgs::Log> log_{nh_, "/rosout"};
   Latest<nav_msgs::Path> paths_{nh_, "path"};
   Latest<PlanStatistics> statistics_{nh_, "plan_statistics"};
   Latest<nav_msgs::OccupancyGrid> planning_maps_{nh_, "planning_map"};

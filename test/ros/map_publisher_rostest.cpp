@@ -1,0 +1,105 @@
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <dynamic_reconfigure/config_tools.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/GetMap.h>
+#include <nav_msgs/MapMetaData.h>
+#include <ros/ros.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "grid_path_planner/grid/map_file.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/support/latest.h"
+#include "ros/support/process.h"
+#include "support/ascii_map.h"
+
+namespace grid_path_planner {
+namespace {
+
+class MapPublisherTest : public testing::Test {
+ protected:
+  MapPublisherTest() { ros::param::del("/map_publisher"); }
+  std::string fileOf(const std::string& name, const OccupancyGrid& map) {
+    const std::string file = testing::TempDir() + name;
+    writeMovingAiFile(file, map);
+    return file;
+  }
+  // Exit code and output of a map_publisher that ends by itself.
+  std::pair<int, std::string> refusal(const std::string& arguments) {
+    const std::string log = testing::TempDir() + "gpp_map_publisher.log";
+    test::Process process({"sh", "-c",
+                           "exec " GPP_DEVEL "/lib/grid_path_planner/map_publisher " + arguments +
+                               " > " + log + " 2>&1"});
+    EXPECT_TRUE(process.waitForExit());
+    std::ifstream lines(log);
+    return {process.exitCode(), {std::istreambuf_iterator<char>(lines), {}}};
+  }
+
+  ros::NodeHandle nh_;
+  const OccupancyGrid map_ = test::AsciiMap({"..#", "#.."}).map;
+};
+
+TEST_F(MapPublisherTest, PublishesLatchedWithMetadataAndService) {
+  const test::Process process("map_publisher", {"_filename:=" + fileOf("gpp_a.map", map_),
+                                                "_frame_id:=/site", "_topic:=ground"});
+  test::Latest<nav_msgs::OccupancyGrid> maps(nh_, "ground");
+  const auto message = maps.waitForMoreThan(0);
+  ASSERT_TRUE(message);
+  EXPECT_EQ(message->header.frame_id, "site");
+  EXPECT_FALSE(message->header.stamp.isZero());
+  EXPECT_EQ(occupancyFromMessage(*message), map_);
+
+  test::Latest<nav_msgs::OccupancyGrid> late(nh_, "ground");
+  EXPECT_TRUE(late.waitForMoreThan(0)) << "latched";
+  test::Latest<nav_msgs::MapMetaData> metadata(nh_, "map_metadata");
+  const auto info = metadata.waitForMoreThan(0);
+  ASSERT_TRUE(info);
+  EXPECT_EQ(info->width, 3u);
+  nav_msgs::GetMap call;
+  ASSERT_TRUE(ros::service::call("static_map", call));
+  EXPECT_EQ(occupancyFromMessage(call.response.map), map_);
+}
+
+TEST_F(MapPublisherTest, ReadsBagsToo) {
+  const test::Process process("map_publisher", {"_filename:=" GPP_TEST_DATA "/projected_map.bag"});
+  test::Latest<nav_msgs::OccupancyGrid> maps(nh_, "projected_map");
+  const auto message = maps.waitForMoreThan(0);
+  ASSERT_TRUE(message);
+  EXPECT_EQ(message->header.frame_id, "map");
+  EXPECT_EQ(message->info.width, 80u);
+}
+
+TEST_F(MapPublisherTest, WithoutAMapItFailsLoudly) {
+  const auto [no_name, first] = refusal("");
+  EXPECT_EQ(no_name, 1);
+  EXPECT_NE(first.find("filename must name a map file"), std::string::npos) << first;
+  const auto [missing, second] = refusal("_filename:=/no/such/map.yaml");
+  EXPECT_EQ(missing, 1);
+  EXPECT_NE(second.find("/no/such/map.yaml"), std::string::npos) << second;
+}
+
+TEST_F(MapPublisherTest, AnotherFileIsPublishedWhileItRunsAndABadOneIsRefused) {
+  const std::string first = fileOf("gpp_a.map", map_);
+  const OccupancyGrid other = test::AsciiMap({"....", "####"}).map;
+  const test::Process process("map_publisher", {"_filename:=" + first});
+  test::Latest<nav_msgs::OccupancyGrid> maps(nh_, "projected_map");
+  ASSERT_TRUE(maps.waitForMoreThan(0));
+  const auto reconfigured = [](const std::string& filename) {
+    dynamic_reconfigure::Reconfigure call;
+    dynamic_reconfigure::ConfigTools::appendParameter(call.request.config, "filename", filename);
+    EXPECT_TRUE(ros::service::call("/map_publisher/set_parameters", call));
+    std::string answer;
+    dynamic_reconfigure::ConfigTools::getParameter(call.response.config, "filename", answer);
+    return answer;
+  };
+  EXPECT_EQ(reconfigured("/no/such/map.yaml"), first);
+  const std::string second = fileOf("gpp_b.map", other);
+  EXPECT_EQ(reconfigured(second), second);
+  const auto message = maps.waitForMoreThan(1);
+  ASSERT_TRUE(message);
+  EXPECT_EQ(occupancyFromMessage(*message), other);
+}
+
+}  // namespace
+}  // namespace grid_path_planner

@@ -1,0 +1,39 @@
+// map_publisher and path_planner as nodelets of one manager.
+#include <gtest/gtest.h>
+#include <nav_msgs/GetPlan.h>
+#include <nodelet/NodeletList.h>
+#include <nodelet/NodeletUnload.h>
+#include <ros/ros.h>
+
+#include "ros/support/planner_fixture.h"
+#include "ros/support/wait.h"
+
+namespace grid_path_planner {
+namespace {
+
+std::vector<std::string> loaded() {
+  nodelet::NodeletList call;
+  if (!ros::service::call("/manager/list", call)) return {};
+  return call.response.nodelets;
+}
+
+TEST(Nodelets, PlanTogetherAndAreUnloaded) {
+  ASSERT_TRUE(test::waitFor([] { return loaded().size() == 2; }));
+  nav_msgs::GetPlan call;
+  call.request.start = test::poseAt(-1.5, -1.0);
+  call.request.goal = test::poseAt(-0.2, -0.2);
+  EXPECT_TRUE(test::waitFor([&] {  // until the map has come
+    return ros::service::call("/path_planner/make_plan", call) && !call.response.plan.poses.empty();
+  }));
+  for (const char* name : {"/path_planner", "/map_publisher"}) {
+    nodelet::NodeletUnload unload;
+    unload.request.name = name;
+    EXPECT_TRUE(ros::service::call("/manager/unload_nodelet", unload)) << name;
+    EXPECT_TRUE(unload.response.success) << name;
+  }
+  EXPECT_TRUE(loaded().empty());
+  EXPECT_FALSE(ros::service::exists("/path_planner/make_plan", false));
+}
+
+}  // namespace
+}  // namespace grid_path_planner

@@ -1,0 +1,111 @@
+// path_planner under simulated time: no time yet, time that jumps back, a bag that loops.
+#include <rosgraph_msgs/Clock.h>
+
+#include "ros/support/planner_fixture.h"
+
+namespace grid_path_planner {
+namespace {
+
+using test::AsciiMap;
+using test::poseAt;
+
+class ClockTest : public test::PlannerTest {
+ protected:
+  void setTime(double seconds) {
+    rosgraph_msgs::Clock clock;
+    clock.clock.fromSec(seconds);
+    clock_.publish(clock);
+  }
+  // Until the planner has heard it too, which shows in the stamp of an answer.
+  void setTimeAndWait(double seconds) {
+    ASSERT_TRUE(test::waitFor([&] {
+      setTime(seconds);
+      makePlan(poseAt(0.5, 0.5), poseAt(0.5, 0.5));
+      return path_.header.stamp == ros::Time(seconds);
+    }));
+  }
+  bool logged(const std::string& text) {
+    return log_
+        .waitFor(0,
+                 [&](const rosgraph_msgs::Log& line) {
+                   return line.msg.find(text) != std::string::npos;
+                 })
+        .has_value();
+  }
+
+  ros::Publisher clock_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  tf2_ros::TransformBroadcaster moving_;
+};
+
+// It must be the first test: later the process of the test has a time itself.
+TEST_F(ClockTest, NoClockYetIsWaitedForWithAMessageNotAZeroStamp) {
+  startPlanner();
+  maps_.publish(occupancyToMessage(AsciiMap({"...."}).map, "map", ros::Time(1.0)));
+  placeVehicle(0.5, 0.5);
+  goals_.publish(poseAt(3.5, 0.5));
+  ASSERT_TRUE(logged("no /clock has come yet: waiting for it"));
+  EXPECT_FALSE(test::waitFor([&] { return paths_.count() + planning_maps_.count() > 0; },
+                             std::chrono::milliseconds(300)));
+  ASSERT_TRUE(test::waitFor([&] {
+    setTime(100.0);
+    return paths_.count() > 0;
+  }));
+  EXPECT_EQ(paths_.all()[0].header.stamp, ros::Time(100.0));
+  EXPECT_EQ(paths_.all()[0].poses.size(), 4u);
+  for (const auto& map : planning_maps_.all()) EXPECT_FALSE(map.header.stamp.isZero());
+}
+
+TEST_F(ClockTest, TimeThatJumpsBackClearsTransforms) {
+  startPlanner({"_tf_timeout:=0.05", "_base_frame:=rover"});
+  ASSERT_TRUE(test::waitFor([&] {
+    setTime(200.0);
+    return ros::Time::now() == ros::Time(200.0);
+  }));
+  maps_.publish(occupancyToMessage(AsciiMap({"...."}).map, "map", ros::Time(200.0)));
+  setTimeAndWait(200.0);
+  const auto place = [&](double x, double stamp) {
+    geometry_msgs::TransformStamped transform;
+    transform.header.frame_id = "map";
+    transform.header.stamp.fromSec(stamp);
+    transform.child_frame_id = "rover";
+    transform.transform.translation.x = x;
+    transform.transform.translation.y = 0.5;
+    transform.transform.rotation.w = 1.0;
+    moving_.sendTransform(transform);
+  };
+  ASSERT_TRUE(test::waitFor([&] {
+    place(0.5, 200.0);
+    makePlan({}, poseAt(3.5, 0.5));
+    return answer_.status == "FOUND";
+  }));
+  setTimeAndWait(10.0);
+  ASSERT_TRUE(logged("ROS time jumped back"));
+  makePlan({}, poseAt(3.5, 0.5));
+  EXPECT_EQ(answer_.status, "TRANSFORM_ERROR") << "a transform of the future";
+  ASSERT_TRUE(test::waitFor([&] {
+    place(1.5, 10.0);
+    makePlan({}, poseAt(3.5, 0.5));
+    return answer_.status == "FOUND" && endsAt(path_.poses.front(), 1.5, 0.5);
+  }));
+}
+
+// The recording of test/data, played for ever: its map is planned on in the second round too.
+TEST_F(ClockTest, ABagThatLoopsIsPlannedOn) {
+  startPlanner();
+  const auto plan_in_bag = [&] {
+    makePlan(poseAt(-1.5, -1.0), poseAt(-0.2, -0.2));
+    return answer_.status == "FOUND";
+  };
+  test::Process player({"rosbag", "play", "--clock", "--loop", "--quiet", "--rate=4",
+                        GPP_TEST_DATA "/projected_map.bag"});
+  ASSERT_TRUE(planning_maps_.waitForMoreThan(0));
+  EXPECT_TRUE(test::waitFor(plan_in_bag)) << answer_.status << ": " << answer_.message;
+  ASSERT_TRUE(logged("ROS time jumped back"));
+  const std::size_t seen = planning_maps_.count();
+  ASSERT_TRUE(planning_maps_.waitForMoreThan(seen));
+  EXPECT_TRUE(test::waitFor(plan_in_bag)) << answer_.status << ": " << answer_.message;
+  EXPECT_TRUE(planner_->running());
+}
+
+}  // namespace
+}  // namespace grid_path_planner

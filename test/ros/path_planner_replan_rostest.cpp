@@ -1,0 +1,144 @@
+// path_planner while the vehicle is under way: maps that change, replans, goals that change.
+
+#include "ros/support/planner_fixture.h"
+
+namespace grid_path_planner {
+namespace {
+
+using test::AsciiMap;
+using test::poseAt;
+
+class ReplanTest : public test::PlannerTest {
+ protected:
+  void sendUpdate(int x, int y, unsigned width, unsigned height,
+                  const std::vector<std::int8_t>& data, const ros::Time& stamp = ros::Time::now()) {
+    map_msgs::OccupancyGridUpdate update;
+    update.header.frame_id = "map";
+    update.header.stamp = stamp;
+    update.x = x;
+    update.y = y;
+    update.width = width;
+    update.height = height;
+    update.data = data;
+    updates_.publish(update);
+  }
+  bool logged(const std::string& text, std::size_t seen) {
+    return log_
+        .waitFor(seen,
+                 [&](const rosgraph_msgs::Log& line) {
+                   return line.msg.find(text) != std::string::npos;
+                 })
+        .has_value();
+  }
+  // Whether row `row` of the map (1 m cells) is crossed in column `column`.
+  bool passesCell(int column, int row) { return passes(path_, column + 0.5, row + 0.5, 0.1); }
+};
+
+const std::vector<std::string> kTwoWays = {".......",  //
+                                           ".#####.",  //
+                                           ".......",  //
+                                           ".#####.",  //
+                                           "......."};
+
+TEST_F(ReplanTest, AMapUpdateThatBlocksThePathTriggersAReplan) {
+  startPlanner();
+  publishMap(kTwoWays);
+  placeVehicleAndWait(0.5, 2.5);
+  sendGoal(poseAt(6.5, 2.5));
+  ASSERT_TRUE(passesCell(3, 2)) << "straight on";
+  const std::size_t statistics = statistics_.count();
+  const std::size_t paths = paths_.count();
+  sendUpdate(3, 2, 1, 1, {100});
+  waitForAnswer(statistics, paths);
+  EXPECT_EQ(answer_.status, "FOUND");
+  EXPECT_FALSE(passesCell(3, 2));
+  EXPECT_TRUE(passesCell(3, 0) || passesCell(3, 4));
+  EXPECT_TRUE(endsAt(path_.poses.front(), 0.5, 2.5));
+}
+
+// navigation #750: stop when planning fails.
+TEST_F(ReplanTest, AWholeMapThatClosesEveryWayEmptiesThePath) {
+  startPlanner();
+  publishMap(kTwoWays);
+  placeVehicleAndWait(0.5, 2.5);
+  sendGoal(poseAt(6.5, 2.5));
+  const std::size_t statistics = statistics_.count();
+  const std::size_t paths = paths_.count();
+  publishMap({"...#...", ".#####.", "...#...", ".#####.", "...#..."});
+  waitForAnswer(statistics, paths);
+  EXPECT_EQ(answer_.status, "UNREACHABLE");
+  expectStampedAndEmpty(path_);
+}
+
+TEST_F(ReplanTest, UpdatesOlderThanTheMapAreDroppedAndThoseOutOfItRefused) {
+  startPlanner();
+  const ros::Time now = ros::Time::now();
+  publishMap(AsciiMap(kTwoWays).map, "map", now);
+  sendUpdate(3, 2, 1, 1, {100}, now - ros::Duration(1.0));
+  ASSERT_TRUE(logged("was dropped: the map is newer", 0));
+  sendUpdate(6, 4, 2, 1, {100, 100}, now);
+  ASSERT_TRUE(logged("does not lie in the map of 7x5", 0));
+  makePlan(poseAt(0.5, 2.5), poseAt(6.5, 2.5));
+  EXPECT_TRUE(passesCell(3, 2)) << "the map is as it was";
+  const std::size_t seen = planning_maps_.count();
+  sendUpdate(3, 2, 1, 1, {100}, now);
+  ASSERT_TRUE(planning_maps_.waitForMoreThan(seen));
+  makePlan(poseAt(0.5, 2.5), poseAt(6.5, 2.5));
+  EXPECT_FALSE(passesCell(3, 2)) << "an update as old as the map is taken";
+}
+
+// navigation2 #2381, #2085, navigation #1194: replans flip left and right.
+TEST_F(ReplanTest, APathIsKeptWhileItIsAboutAsGoodAndReplacedWhenItIsNot) {
+  startPlanner({"_replan_period:=0.02", "_replan_hysteresis:=0.2"});
+  publishMap({"...........", ".....#.....", "...........", ".....#.....", "..........."});
+  placeVehicleAndWait(0.5, 2.5);
+  sendGoal(poseAt(10.5, 2.5));
+  ASSERT_TRUE(passesCell(5, 2));
+  const std::size_t statistics = statistics_.count();
+  const std::size_t paths = paths_.count();
+  // Nearer to one side and then to the other: other ways now cost the least, by less than a fifth.
+  for (int i = 0; i < 30; ++i) {
+    placeVehicle(0.5 + 0.1 * i, i % 2 == 0 ? 1.5 : 3.5);
+    EXPECT_FALSE(
+        test::waitFor([&] { return paths_.count() > paths; }, std::chrono::milliseconds(30)))
+        << "after move " << i;
+  }
+  // The straight way becomes dear (unknown), so that the new one is cheaper by more than that.
+  sendUpdate(4, 2, 3, 1, {-1, -1, -1});
+  waitForAnswer(statistics, paths);
+  EXPECT_EQ(answer_.status, "FOUND");
+  EXPECT_FALSE(passesCell(5, 2));
+}
+
+// navigation #949, navigation2 #2002: the old goal's plan for the new goal.
+TEST_F(ReplanTest, ALateResultForAnOldGoalIsDropped) {
+  startPlanner({"_timeout:=0"});
+  OccupancyGrid map(GridGeometry(2500, 2500, 1.0), 0);
+  for (int row = 0; row < 2500; ++row) map[Cell{2498, row}] = 100;
+  publishMap(map);
+  placeVehicleAndWait(0.5, 0.5);
+  const std::size_t statistics = statistics_.count();
+  goals_.publish(poseAt(2499.5, 1.5));  // no way: all of the map is searched
+  goals_.publish(poseAt(5.5, 0.5));
+  const auto answered = statistics_.waitFor(
+      statistics, [](const PlanStatistics& answer) { return answer.goal.pose.position.x == 5.5; });
+  ASSERT_TRUE(answered);
+  EXPECT_EQ(answered->status, "FOUND");
+  makePlan(poseAt(0.5, 0.5), poseAt(1.5, 0.5));  // comes after whatever was under way
+  for (const PlanStatistics& answer : statistics_.all())
+    EXPECT_NE(answer.goal.pose.position.x, 2499.5) << answer.status;
+  EXPECT_EQ(paths_.count(), 1u);
+}
+
+TEST_F(ReplanTest, AGoalWithoutAPathIsTriedAgainEveryPeriod) {
+  startPlanner({"_replan_period:=0.05"});
+  publishMap({"..#..", "..#..", "..#.."});
+  placeVehicleAndWait(0.5, 0.5);
+  sendGoal(poseAt(4.5, 0.5));
+  ASSERT_EQ(answer_.status, "UNREACHABLE");
+  sendUpdate(2, 0, 1, 1, {0});
+  ASSERT_TRUE(paths_.waitFor(0, [](const nav_msgs::Path& path) { return !path.poses.empty(); }));
+}
+
+}  // namespace
+}  // namespace grid_path_planner

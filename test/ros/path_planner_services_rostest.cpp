@@ -1,0 +1,254 @@
+// path_planner's services, its action, its parameters while it runs, and its diagnostics.
+#include <actionlib/client/simple_action_client.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <dynamic_reconfigure/config_tools.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "grid_path_planner/ComparePlans.h"
+#include "grid_path_planner/PlanPathAction.h"
+#include "grid_path_planner/SaveWaypoints.h"
+#include "grid_path_planner/path/waypoint_file.h"
+#include "grid_path_planner/planners/catalogue.h"
+#include "ros/support/planner_fixture.h"
+
+namespace grid_path_planner {
+namespace {
+
+using dynamic_reconfigure::ConfigTools;
+using test::poseAt;
+
+const std::vector<std::string> kRoom = {"......",  //
+                                        ".####.",  //
+                                        "......"};
+
+class ServicesTest : public test::PlannerTest {
+ protected:
+  SaveWaypoints::Response save(const std::string& file) {
+    SaveWaypoints call;
+    call.request.filename = file;
+    EXPECT_TRUE(ros::service::call("/path_planner/save_waypoints", call));
+    return call.response;
+  }
+  dynamic_reconfigure::Config reconfigure(const dynamic_reconfigure::Config& wanted) {
+    dynamic_reconfigure::Reconfigure call;
+    call.request.config = wanted;
+    EXPECT_TRUE(ros::service::call("/path_planner/set_parameters", call));
+    return call.response.config;
+  }
+  const std::string directory_ = testing::TempDir();
+};
+
+TEST_F(ServicesTest, MakePlanReturnsTrueAndAnEmptyStampedPlanOnFailure) {
+  startPlanner();
+  makePlan(poseAt(0.5, 0.5), poseAt(5.5, 2.5));
+  EXPECT_EQ(answer_.status, "NO_MAP");
+  expectStampedAndEmpty(path_);
+  publishMap(kRoom);
+  makePlan(poseAt(0.5, 0.5), poseAt(2.5, 1.5));
+  EXPECT_EQ(answer_.status, "GOAL_OCCUPIED");
+  expectStampedAndEmpty(path_);
+  makePlan(poseAt(2.5, 1.5), poseAt(0.5, 0.5));
+  EXPECT_EQ(answer_.status, "START_OCCUPIED");
+  makePlan(poseAt(0.5, 0.5), poseAt(5.5, 2.5), -1.0F);
+  EXPECT_EQ(answer_.status, "INVALID_REQUEST");
+  EXPECT_NE(answer_.message.find("tolerance"), std::string::npos) << answer_.message;
+  EXPECT_EQ(paths_.count(), 0u) << "the topic is for goals";
+}
+
+TEST_F(ServicesTest, ComparePlansAsksEveryPlannerAndNamesWhatItAsked) {
+  startPlanner();
+  publishMap(kRoom);
+  ComparePlans call;
+  call.request.start = poseAt(0.5, 0.5);
+  call.request.goal = poseAt(5.5, 2.5);
+  ASSERT_TRUE(ros::service::call("/path_planner/compare_plans", call));
+  ASSERT_EQ(call.response.results.size(), plannerNames().size());
+  ASSERT_EQ(call.response.paths.size(), plannerNames().size());
+  for (std::size_t i = 0; i < plannerNames().size(); ++i) {
+    EXPECT_EQ(call.response.results[i].planner, plannerNames()[i]);
+    EXPECT_EQ(call.response.results[i].status, "FOUND");
+    EXPECT_FALSE(call.response.paths[i].poses.empty());
+  }
+  EXPECT_EQ(call.response.results[0].cost, call.response.results[1].cost);
+
+  call.request.planners = {"a_star", "dijkstra", "crow"};
+  call.request.heuristics = {"zero", "octile", "guess"};
+  ASSERT_TRUE(ros::service::call("/path_planner/compare_plans", call));
+  ASSERT_EQ(call.response.results.size(), 3u + 1u + 3u);
+  EXPECT_EQ(call.response.results[0].heuristic, "zero");
+  EXPECT_EQ(call.response.results[1].heuristic, "octile");
+  EXPECT_GT(call.response.results[0].expanded, call.response.results[1].expanded);
+  EXPECT_EQ(call.response.results[2].status, "INVALID_REQUEST");
+  EXPECT_EQ(call.response.results[3].planner, "dijkstra");
+  EXPECT_EQ(call.response.results[3].heuristic, "");
+  EXPECT_EQ(call.response.results[4].status, "INVALID_REQUEST");
+  expectStampedAndEmpty(call.response.paths[4]);
+  EXPECT_EQ(statistics_.count(), 0u) << "a comparison is for who asked";
+}
+
+// follow_waypoints #20, navigation2 #2688: can't save.
+TEST_F(ServicesTest, SaveWaypointsWritesTheLastPathOrSaysWhyNot) {
+  startPlanner();
+  EXPECT_FALSE(save(directory_ + "gpp_save.yaml").success);
+  EXPECT_NE(save(directory_ + "gpp_save.yaml").message.find("no path"), std::string::npos);
+  publishMap(kRoom);
+  makePlan(poseAt(0.5, 0.5), poseAt(5.5, 2.5, 1.0));
+  EXPECT_NE(save("").message.find("filename"), std::string::npos);
+
+  const std::string file = directory_ + "gpp_save.yaml";
+  const auto saved = save(file);
+  ASSERT_TRUE(saved.success) << saved.message;
+  const Path path = readWaypointFile(file);
+  EXPECT_EQ(path.frame_id, "map");
+  ASSERT_EQ(path.poses.size(), path_.poses.size());
+  EXPECT_NEAR(path.poses.back().yaw, 1.0, 1e-9);
+
+  const auto refused = save(file + "/below/a/file.yaml");
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(refused.message.find("/below/a/file.yaml"), std::string::npos) << refused.message;
+  ::unlink(file.c_str());
+}
+
+TEST_F(ServicesTest, AWaypointsFileThatCannotBeWrittenSpoilsNothingElse) {
+  startPlanner({"_waypoints_file:=/dev/null/waypoints.yaml"});
+  publishMap(kRoom);
+  makePlan(poseAt(0.5, 0.5), poseAt(5.5, 2.5));
+  EXPECT_EQ(answer_.status, "FOUND");
+  EXPECT_TRUE(log_.waitFor(0, [](const rosgraph_msgs::Log& line) {
+    return line.msg.find("The waypoints were not saved: /dev/null/waypoints.yaml") == 0;
+  }));
+}
+
+TEST_F(ServicesTest, AContradictionIsRevertedAndAGoodChangeIsInForce) {
+  startPlanner({"_radius:=0.4"});
+  publishMap(kRoom);
+  dynamic_reconfigure::Config wanted;
+  ConfigTools::appendParameter(wanted, "occupied_is_passable", true);
+  bool passable = true;
+  EXPECT_TRUE(ConfigTools::getParameter(reconfigure(wanted), "occupied_is_passable", passable));
+  EXPECT_FALSE(passable) << "not with a radius";
+  makePlan(poseAt(0.5, 0.5), poseAt(2.5, 1.5));
+  EXPECT_EQ(answer_.status, "GOAL_OCCUPIED");
+
+  ConfigTools::appendParameter(wanted, "radius", 0.0);
+  EXPECT_TRUE(ConfigTools::getParameter(reconfigure(wanted), "occupied_is_passable", passable));
+  EXPECT_TRUE(passable);
+  makePlan(poseAt(0.5, 0.5), poseAt(2.5, 1.5));
+  EXPECT_EQ(answer_.status, "FOUND") << answer_.message;
+}
+
+TEST_F(ServicesTest, DiagnosticsNameTheMapAndTheLastPlanning) {
+  test::Latest<diagnostic_msgs::DiagnosticArray> diagnostics(nh_, "/diagnostics");
+  startPlanner();
+  publishMap(kRoom);
+  makePlan(poseAt(0.5, 0.5), poseAt(2.5, 1.5));
+  const auto has = [](const char* name, int level, const char* text) {
+    return [=](const diagnostic_msgs::DiagnosticArray& array) {
+      for (const auto& status : array.status)
+        if (status.name == name && status.level == level &&
+            status.message.find(text) != std::string::npos)
+          return true;
+      return false;
+    };
+  };
+  EXPECT_TRUE(diagnostics.waitFor(0, has("path_planner: map", 0, "a map is there")));
+  EXPECT_TRUE(diagnostics.waitFor(0, has("path_planner: plan", 1, "GOAL_OCCUPIED: ")));
+}
+
+using Client = actionlib::SimpleActionClient<PlanPathAction>;
+
+class ActionTest : public ServicesTest {
+ protected:
+  void connect() {
+    ASSERT_TRUE(test::waitFor([&] { return client_.isServerConnected(); }));
+  }
+  bool ended() {
+    return test::waitFor([&] { return client_.getState().isDone(); });
+  }
+  PlanPathGoal goal(const geometry_msgs::PoseStamped& start, const geometry_msgs::PoseStamped& goal,
+                    const std::string& planner = "") {
+    PlanPathGoal message;
+    message.start = start;
+    message.goal = goal;
+    message.planner = planner;
+    return message;
+  }
+  // A question that takes seconds: every cell of 9 million is searched in vain.
+  void publishHugeMap() {
+    OccupancyGrid map(GridGeometry(3000, 3000, 1.0), 0);
+    for (int row = 0; row < 3000; ++row) map[Cell{2998, row}] = 100;
+    publishMap(map);
+  }
+
+  Client client_{"plan_path", false};
+};
+
+TEST_F(ActionTest, SucceedsWithThePath) {
+  startPlanner();
+  publishMap(kRoom);
+  connect();
+  client_.sendGoal(goal(poseAt(0.5, 0.5), poseAt(5.5, 2.5), "dijkstra"));
+  ASSERT_TRUE(ended());
+  EXPECT_EQ(client_.getState(), actionlib::SimpleClientGoalState::SUCCEEDED);
+  const auto result = client_.getResult();
+  EXPECT_EQ(result->status, "FOUND");
+  EXPECT_EQ(result->statistics.planner, "dijkstra");
+  ASSERT_FALSE(result->path.poses.empty());
+  EXPECT_TRUE(endsAt(result->path.poses.back(), 5.5, 2.5));
+}
+
+TEST_F(ActionTest, AbortsWithTheStatusAndAnEmptyStampedPath) {
+  startPlanner();
+  publishMap(kRoom);
+  connect();
+  client_.sendGoal(goal(poseAt(0.5, 0.5), poseAt(2.5, 1.5)));
+  ASSERT_TRUE(ended());
+  EXPECT_EQ(client_.getState(), actionlib::SimpleClientGoalState::ABORTED);
+  EXPECT_EQ(client_.getResult()->status, "GOAL_OCCUPIED");
+  expectStampedAndEmpty(client_.getResult()->path);
+  client_.sendGoal(goal(poseAt(0.5, 0.5), poseAt(5.5, 2.5)));
+  ASSERT_TRUE(ended());
+  EXPECT_EQ(client_.getState(), actionlib::SimpleClientGoalState::SUCCEEDED) << "the next one";
+}
+
+// navigation2 #4139, #2584: cancel waits for the search.
+TEST_F(ActionTest, CancelEndsTheSearchAndTheNextGoalSucceeds) {
+  startPlanner({"_timeout:=0"});
+  publishHugeMap();
+  connect();
+  std::atomic<bool> searching{false};
+  client_.sendGoal(goal(poseAt(0.5, 0.5), poseAt(2999.5, 1.5)), Client::SimpleDoneCallback(),
+                   Client::SimpleActiveCallback(), [&](const PlanPathFeedbackConstPtr& feedback) {
+                     if (feedback->phase == "searching") searching = true;
+                   });
+  ASSERT_TRUE(test::waitFor([&] { return searching.load(); })) << "no feedback";
+  const auto begin = std::chrono::steady_clock::now();
+  client_.cancelGoal();
+  ASSERT_TRUE(ended());
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  RecordProperty("cancel_ms", static_cast<int>(seconds * 1000));
+  EXPECT_LT(seconds, 1.0) << "100 ms are promised; the rest is for a loaded machine";
+  EXPECT_EQ(client_.getState(), actionlib::SimpleClientGoalState::PREEMPTED);
+  EXPECT_EQ(client_.getResult()->status, "CANCELLED");
+  expectStampedAndEmpty(client_.getResult()->path);
+
+  client_.sendGoal(goal(poseAt(0.5, 0.5), poseAt(5.5, 2.5)));
+  ASSERT_TRUE(ended());
+  EXPECT_EQ(client_.getState(), actionlib::SimpleClientGoalState::SUCCEEDED);
+}
+
+TEST_F(ActionTest, TheTimeLimitEndsTheSearch) {
+  startPlanner({"_timeout:=0.05"});
+  publishHugeMap();
+  connect();
+  client_.sendGoal(goal(poseAt(0.5, 0.5), poseAt(2999.5, 1.5)));
+  ASSERT_TRUE(ended());
+  EXPECT_EQ(client_.getResult()->status, "TIMEOUT");
+}
+
+}  // namespace
+}  // namespace grid_path_planner
