@@ -67,6 +67,9 @@ void serve(const std::string& name, const NodeMaker& make) {
   ShutdownRequest::instance().listen();
   const std::shared_ptr<void> node = make(nh, private_nh);
   node_runs = true;
+  // A process registers with the master at its first line of log. Were that the line that says why
+  // it ends, the master would end the new node of this name in favour of the old one.
+  ROS_INFO_STREAM(name << " runs");
   std::string reason = endReason();
   while (ros::ok() && reason.empty()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
