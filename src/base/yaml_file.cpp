@@ -1,101 +1,56 @@
 #include "grid_path_planner/base/yaml_file.h"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <algorithm>
 #include <cstddef>
-#include <vector>
+#include <sstream>
 
 #include "grid_path_planner/base/text_file.h"
 
 namespace grid_path_planner {
 namespace {
 
-bool isBlank(char letter) {
-  return letter == ' ' || letter == '\t' || letter == '\r';
-}
-
-// Walks over YAML text once and counts open brackets and growing indentation.
-class NestingMeasure {
+// Listens to a first pass over the text, which builds nothing, and ends it where the nesting gets
+// too deep or where there is more to hear than the text can say.
+class Guard : public YAML::EventHandler {
  public:
-  NestingMeasure(const std::string& text, const std::string& file) : text_(text), file_(file) {}
+  Guard(const std::string& file, std::size_t letters) : file_(file), most_(4 * letters + 64) {}
 
-  void check() {
-    enterLine();
-    while (at_ < text_.size()) {
-      const char letter = text_[at_];
-      if (letter == '\n') {
-        ++at_;
-        ++line_;
-        enterLine();
-      } else if ((letter == '"' || letter == '\'') && startsToken()) {
-        skipQuoted(letter);
-      } else if (letter == '#' && (at_ == 0 || isBlank(text_[at_ - 1]) || text_[at_ - 1] == '\n')) {
-        while (at_ < text_.size() && text_[at_] != '\n') ++at_;
-      } else {
-        countBracket(letter);
-        ++at_;
-      }
-    }
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { count(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { count(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                const std::string&) override {
+    count(mark);
   }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    enter(mark);
+  }
+  void OnSequenceEnd() override { --depth_; }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    enter(mark);
+  }
+  void OnMapEnd() override { --depth_; }
 
  private:
-  bool startsToken() const {
-    if (at_ == 0) return true;
-    const char before = text_[at_ - 1];
-    return isBlank(before) || before == '\n' || before == '[' || before == '{' || before == ',' ||
-           before == ':';
-  }
-
-  // Every column at which a block of this line begins; "- - x" begins three.
-  void enterLine() {
-    if (!brackets_.empty()) return;
-    std::size_t column = 0;
-    while (at_ < text_.size()) {
-      while (at_ < text_.size() && isBlank(text_[at_])) ++at_, ++column;
-      if (at_ == text_.size() || text_[at_] == '\n' || text_[at_] == '#') return;
-      while (!columns_.empty() && columns_.back() >= column) columns_.pop_back();
-      columns_.push_back(column);
-      refuseIfDeep();
-      const bool indicator = (text_[at_] == '-' || text_[at_] == '?') &&
-                             (at_ + 1 == text_.size() || isBlank(text_[at_ + 1]));
-      if (!indicator) return;
-      ++at_, ++column;
-    }
-  }
-
-  void skipQuoted(char quote) {
-    for (++at_; at_ < text_.size() && text_[at_] != quote; ++at_) {
-      if (text_[at_] == '\n') ++line_;
-      if (quote == '"' && text_[at_] == '\\') ++at_;
-    }
-    ++at_;
-  }
-
-  void countBracket(char letter) {
-    if (letter == '[' || letter == '{') {
-      brackets_ += letter;
-      refuseIfDeep();
-    } else if ((letter == ']' || letter == '}') && !brackets_.empty()) {
-      // yaml-cpp 0.6.2 does not come back from "{a:]".
-      if (brackets_.back() != (letter == ']' ? '[' : '{'))
-        throw InputError(
-            file_, line_,
-            std::string("is not YAML: '") + letter + "' closes '" + brackets_.back() + "'");
-      brackets_.pop_back();
-    }
-  }
-
-  void refuseIfDeep() const {
-    if (columns_.size() + brackets_.size() > static_cast<std::size_t>(kDeepestYaml))
-      throw InputError(file_, line_,
+  void enter(const YAML::Mark& mark) {
+    count(mark);
+    if (++depth_ > kDeepestYaml)
+      throw InputError(file_, mark.line + 1,
                        "is nested deeper than " + std::to_string(kDeepestYaml) + " levels");
   }
+  void count(const YAML::Mark& mark) {
+    if (++heard_ > most_) throw InputError(file_, mark.line + 1, "is not YAML");
+  }
 
-  const std::string& text_;
   const std::string& file_;
-  int line_ = 1;
-  std::size_t at_ = 0;
-  std::string brackets_;  // those that are open
-  std::vector<std::size_t> columns_;
+  std::size_t most_;
+  std::size_t heard_ = 0;
+  int depth_ = 0;
 };
 
 }  // namespace
@@ -106,10 +61,13 @@ YAML::Node loadYamlFile(const std::string& file) {
 
 YAML::Node parseYaml(const std::string& text, const std::string& file) {
   checkIsText(text, file);
-  NestingMeasure(text, file).check();
+  // yaml-cpp 0.6.2 fails an assertion where a text ends behind a tag ("!"); this one does not.
+  const std::string ended = text + "\n...\n";
   try {
-    // yaml-cpp 0.6.2 fails an assertion where a text ends behind a tag ("!"); this one does not.
-    return YAML::Load(text + "\n...\n");
+    std::istringstream stream(ended);
+    Guard guard(file, ended.size());
+    YAML::Parser(stream).HandleNextDocument(guard);
+    return YAML::Load(ended);
   } catch (const YAML::Exception& error) {
     if (error.mark.is_null()) throw InputError(file, "is not YAML: " + error.msg);
     throw InputError(file, error.mark.line + 1, "is not YAML: " + error.msg);

@@ -4,9 +4,9 @@
 //   const auto resolution = yamlValue<double>(root, "resolution", "site.yaml", "metres per cell");
 //   const auto frame = yamlValueOr<std::string>(root, "frame_id", "site.yaml", "a name", "map");
 //
-// Files are measured before they are parsed, since yaml-cpp 0.6 recurses for every level of
-// nesting: one that is nested deeper than kDeepestYaml is refused. The measure reads quotes and
-// comments as people write them; it is no defence against a file made to deceive it.
+// yaml-cpp 0.6 recurses for every level of nesting, and some texts it never comes back from. A
+// first pass that builds nothing therefore refuses what is nested deeper than kDeepestYaml or makes
+// the parser say more than a text of its length can.
 //
 // A parsed tree takes about a hundred times the memory of its text. Long lists of numbers (the data
 // of a map) are therefore read by grid/occupancy_dump.h without one.
