@@ -18,6 +18,7 @@ double yawOfLevelQuaternion(double x, double y, double z, double w) {
     refuse("must be finite");
   const double length = std::hypot(std::hypot(x, y), std::hypot(z, w));
   if (!(length >= 1e-6)) refuse("has length zero");
+  if (!std::isfinite(length)) refuse("is too long to be normalised");
   const double tilt = 2.0 * std::asin(std::fmin(1.0, std::hypot(x, y) / length));
   if (tilt > kLargestTilt)
     refuse("must be level, but is tilted by " + std::to_string(tilt) + " rad");

@@ -67,6 +67,7 @@ void MapPlanner::setOptions(const PlannerOptions& options) {
 }
 
 void MapPlanner::setMap(std::shared_ptr<const OccupancyGrid> map) {
+  if (map->geometry().size() == 0) throw InputError("a map needs at least one cell, got 0x0");
   checkOccupancyValues(*map);
   map_ = std::move(map);
   terrain_->setMap(map_);

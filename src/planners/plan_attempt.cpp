@@ -12,7 +12,9 @@
 namespace grid_path_planner {
 namespace {
 
-Eigen::Vector2d planar(const Pose& pose) { return pose.position.head<2>(); }
+Eigen::Vector2d planar(const Pose& pose) {
+  return pose.position.head<2>();
+}
 
 std::string text(const Eigen::Vector2d& position) {
   std::ostringstream out;
@@ -34,7 +36,8 @@ std::string extentOf(const GridGeometry& geometry) {
 }
 
 bool samePose(const Pose& a, const Pose& b) {
-  return (a.position - b.position).norm() < 1e-9 && std::abs(a.yaw - b.yaw) < 1e-9;
+  const double turn = std::remainder(a.yaw - b.yaw, 2.0 * M_PI);
+  return (a.position - b.position).norm() < 1e-9 && std::abs(turn) < 1e-9;
 }
 
 void addNote(std::string& message, const std::string& note) {
@@ -48,12 +51,21 @@ PlanAttempt::PlanAttempt(MapPlanner& planner, const PoseRequest& request, const 
 
 PlanReport PlanAttempt::run() {
   PlanReport report;
-  const std::optional<End> start = startEnd(report);
+  std::optional<End> start = startEnd(report);
   if (!start) return report;
   std::optional<End> goal = goalEnd(*start, report);
   if (!goal) return report;
 
   Route route = search(*start, *goal);
+  if (route.status == Status::UNREACHABLE && start->moved && !goal->moved) {
+    const std::optional<End> other = escapeTowards(*goal);
+    if (other) {
+      const Statistics before = route.statistics;
+      start = other;
+      route = search(*start, *goal);
+      route.statistics += before;
+    }
+  }
   if (route.status == Status::UNREACHABLE && !goal->moved && planner_.options().tolerance > 0.0) {
     const std::optional<End> substitute = substituteGoal(*start, "is unreachable");
     if (substitute) {
@@ -78,18 +90,34 @@ std::optional<PlanAttempt::End> PlanAttempt::startEnd(PlanReport& report) const 
   }
   if (fine_->passable(*cell)) return End{*cell, position, "", false};
 
+  const std::optional<End> escape =
+      escapeStart([this](Cell each) { return fine_->passable(each); });
+  if (escape) return escape;
   const double radius = planner_.options().start_escape_radius;
-  const auto nearest = nearestCell(fine_->geometry(), position, radius,
-                                   [this](Cell each) { return fine_->passable(each); });
-  if (radius > 0.0 && nearest)
-    return End{nearest->cell, position,
-               "start " + whyBlocked(*cell) + ": the path leaves it for a passable cell " +
-                   metres(nearest->distance) + " away",
-               true};
   report.status = Status::START_OCCUPIED;
   report.message = "start " + text(position) + " " + whyBlocked(*cell);
   if (radius > 0.0) report.message += ", with no passable cell within " + metres(radius);
   return std::nullopt;
+}
+
+template <class Usable>
+std::optional<PlanAttempt::End> PlanAttempt::escapeStart(Usable&& usable) const {
+  const Eigen::Vector2d position = planar(request_.start);
+  const double radius = planner_.options().start_escape_radius;
+  if (radius <= 0.0) return std::nullopt;
+  const auto nearest = nearestCell(fine_->geometry(), position, radius, usable);
+  if (!nearest) return std::nullopt;
+  return End{nearest->cell, position,
+             "start " + whyBlocked(*fine_->geometry().cellAt(position)) +
+                 ": the path leaves it for a passable cell " + metres(nearest->distance) + " away",
+             true};
+}
+
+std::optional<PlanAttempt::End> PlanAttempt::escapeTowards(const End& goal) const {
+  const std::vector<std::uint8_t> reached =
+      planner_.routes_->reachable(goal.cell, planner_.options().retry_finer, stop_);
+  return escapeStart(
+      [&](Cell cell) { return reached[fine_->geometry().index(cell).value()] != 0; });
 }
 
 std::optional<PlanAttempt::End> PlanAttempt::goalEnd(const End& start, PlanReport& report) {
@@ -120,9 +148,9 @@ std::optional<PlanAttempt::End> PlanAttempt::substituteGoal(const End& start,
   const std::vector<std::uint8_t> reached =
       planner_.routes_->reachable(start.cell, planner_.options().retry_finer, stop_);
   const GridGeometry& geometry = fine_->geometry();
-  const auto nearest = nearestCell(
-      geometry, planar(request_.goal), planner_.options().tolerance,
-      [&](Cell cell) { return reached[geometry.index(cell).value()] != 0; });
+  const auto nearest =
+      nearestCell(geometry, planar(request_.goal), planner_.options().tolerance,
+                  [&](Cell cell) { return reached[geometry.index(cell).value()] != 0; });
   if (!nearest) return std::nullopt;
   return End{nearest->cell, geometry.centre(nearest->cell),
              "goal " + why + ": the path ends " + metres(nearest->distance) + " from it", true};
@@ -135,9 +163,11 @@ std::string PlanAttempt::whyBlocked(Cell cell) const {
       if (!terrain.occupied_is_passable) return "is in an occupied cell";
       break;
     case Occupancy::UNKNOWN:
-      if (!terrain.unknown_is_passable) return "is in an unknown cell and unknown_is_passable is false";
+      if (!terrain.unknown_is_passable)
+        return "is in an unknown cell and unknown_is_passable is false";
       break;
-    case Occupancy::FREE: break;
+    case Occupancy::FREE:
+      break;
   }
   return "is nearer than the radius of " + metres(terrain.radius) + " to an occupied cell";
 }

@@ -66,38 +66,53 @@ Route RouteFinder::find(Cell start, Cell goal, bool retry_finer, bool record_exp
   return finer;
 }
 
-PlanResult RouteFinder::leave(Cell from, Cell other, bool record_expanded, const StopToken& stop) {
+PlanResult RouteFinder::leave(Cell from, Cell other, const Blocks& wanted, bool record_expanded,
+                              const StopToken& stop) {
   if (!leaver_) leaver_ = std::make_unique<BestFirstSearch>();
   if (leaver_map_ != fine_) {
     leaver_map_.reset();
     leaver_->prepare(*fine_, stop);
     leaver_map_ = fine_;
   }
-  const GridGeometry& geometry = fine_->geometry();
   const auto arrived = [&](std::uint32_t index) {
-    const Cell cell = geometry.cell(CellIndex(index));
-    return cell == other || (blockOpen(cell) && middleOf(blockOf(cell)) == cell);
+    const Cell cell = fine_->geometry().cell(CellIndex(index));
+    if (cell == other) return true;
+    const Cell block = blockOf(cell);
+    return wanted[searched_->geometry().index(block).value()] != 0 && middleOf(block) == cell;
   };
   const auto cheapestFirst = [](SearchKey g, Cell) { return BestFirstSearch::Promise{g, 0}; };
   return leaver_->run(*fine_, from, arrived, cheapestFirst, record_expanded, stop);
+}
+
+RouteFinder::Blocks RouteFinder::openBlocks() const {
+  Blocks open;
+  for (const CostGrid::Weight weight : searched_->weights().values())
+    open.push_back(weight != CostGrid::kBlocked ? 1 : 0);
+  return open;
 }
 
 Route RouteFinder::findOverBlocks(Cell start, Cell goal, bool record_expanded,
                                   const StopToken& stop) {
   Route route;
   route.kernel = searched_->kernel();
+
+  // 1. From a start in a blocked block to an open one from which the goal's block can be reached.
   Cell first = start;
   if (!blockOpen(start)) {
-    append(route, fine_, leave(start, goal, record_expanded, stop));
+    const Blocks wanted =
+        blockOpen(goal) ? reachableFrom(*searched_, blockOf(goal), stop) : openBlocks();
+    append(route, fine_, leave(start, goal, wanted, record_expanded, stop));
     if (route.status != Status::FOUND) return route;
     first = route.legs.back().cells.back();
     if (first == goal) return route;
   }
 
+  // 2. The same backwards from the goal.
   Route last_leg;
   Cell last = goal;
   if (!blockOpen(goal)) {
-    append(last_leg, fine_, leave(goal, start, record_expanded, stop));
+    const Blocks wanted = reachableFrom(*searched_, blockOf(first), stop);
+    append(last_leg, fine_, leave(goal, start, wanted, record_expanded, stop));
     route.statistics += last_leg.statistics;
     route.expanded.insert(route.expanded.end(), last_leg.expanded.begin(), last_leg.expanded.end());
     route.status = last_leg.status;
@@ -111,6 +126,7 @@ Route RouteFinder::findOverBlocks(Cell start, Cell goal, bool record_expanded,
     }
   }
 
+  // 3. Over the blocks between.
   append(route, searched_,
          planner_->plan({blockOf(first), {blockOf(last)}, record_expanded}, stop));
   if (route.status != Status::FOUND || last_leg.legs.empty()) return route;
@@ -133,21 +149,15 @@ Route RouteFinder::findFine(Cell start, Cell goal, bool record_expanded, const S
 
 std::vector<std::uint8_t> RouteFinder::reachable(Cell start, bool retry_finer,
                                                  const StopToken& stop) {
-  if (retry_finer || searched_->kernel() == 1) return reachableFrom(*fine_, start, stop);
-  std::vector<std::uint8_t> cells(fine_->geometry().size(), 0);
-  Cell first = start;
-  if (!blockOpen(start)) {
-    const PlanResult leaving = leave(start, start, false, stop);
-    if (leaving.status != Status::FOUND) return cells;
-    first = leaving.cells.back();
-  }
-  const std::vector<std::uint8_t> blocks = reachableFrom(*searched_, blockOf(first), stop);
+  std::vector<std::uint8_t> cells = reachableFrom(*fine_, start, stop);
+  if (retry_finer || searched_->kernel() == 1 || !blockOpen(start)) return cells;
+  const Blocks blocks = reachableFrom(*searched_, blockOf(start), stop);
   StopPoll poll(stop, 1 << 18);
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
     poll();
     const Cell cell = fine_->geometry().cell(CellIndex(i));
-    cells[i] = fine_->passable(cell) ? blocks[searched_->geometry().index(blockOf(cell)).value()]
-                                     : std::uint8_t{0};
+    if (blockOpen(cell) && blocks[searched_->geometry().index(blockOf(cell)).value()] == 0)
+      cells[i] = 0;
   }
   return cells;
 }

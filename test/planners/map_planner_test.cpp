@@ -94,6 +94,10 @@ TEST(MapPlanner, StartAtTheGoalIsAPath) {
   EXPECT_EQ(same.path.poses[0].position, pose.position);
   EXPECT_EQ(same.path.poses[0].yaw, 1.0);
 
+  Pose turned_round = pose;
+  turned_round.yaw += 2.0 * M_PI;
+  EXPECT_EQ(planBetween(map, pose, turned_round).path.poses.size(), 1U);
+
   const PlanReport same_cell = planBetween(map, pose, poseAt({0.8, 0.2}, -2.0, 0.5));
   ASSERT_EQ(same_cell.path.poses.size(), 2U);
   EXPECT_EQ(same_cell.cost, ExactCost());
@@ -172,6 +176,65 @@ TEST(MapPlanner, LeavesAnOccupiedStartWithinTheEscapeRadius) {
   EXPECT_EQ(report.path.poses[0].position, Eigen::Vector3d(0.5, 0.5, 0.0));
   EXPECT_EQ(report.path.poses[1].position, Eigen::Vector3d(1.5, 0.5, 0.0));
   EXPECT_TRUE(says(report, "leaves it")) << report.message;
+}
+
+TEST(MapPlanner, EscapesToTheSideFromWhichTheGoalIsReached) {
+  const OccupancyGrid map = AsciiMap({"...#...",  //
+                                      "...#...",  //
+                                      "...#..."})
+                                .map;
+  PlannerOptions options;
+  options.start_escape_radius = 2.0;
+  for (const double goal : {0.5, 6.5}) {
+    const PlanReport report = planBetween(map, poseAt({3.5, 1.5}), poseAt({goal, 1.5}), options);
+    EXPECT_EQ(report.status, Status::FOUND) << report.message;
+  }
+}
+
+// A tolerance of exactly the distance must not fall to rounding.
+TEST(MapPlanner, ToleranceIsInclusive) {
+  for (const double resolution : {0.03, 0.05, 0.07, 0.1, 0.3})
+    for (const double corner : {0.0, -1.3, 10.7, -33.33}) {
+      const AsciiMap picture({".....", ".....", "..#..", ".....", "....."}, resolution,
+                             {corner, -corner, 0.0});
+      PlannerOptions options;
+      options.tolerance = resolution;
+      const GridGeometry& geometry = picture.map.geometry();
+      const PlanReport report = planBetween(picture.map, poseAt(geometry.centre({0, 0})),
+                                            poseAt(geometry.centre({2, 2})), options);
+      ASSERT_EQ(report.status, Status::FOUND) << report.message;
+      EXPECT_EQ(report.path.poses.back().position.head<2>(), geometry.centre({2, 1}));
+    }
+}
+
+// Blocks that the kernel closes are left at full resolution, also towards a substitute of the goal.
+TEST(MapPlanner, ToleranceWorksInBlockedBlocksWithoutRetry) {
+  for (const bool start_blocked : {false, true}) {
+    OccupancyGrid map(GridGeometry(9, 9, 1.0));
+    map[Cell{4, 4}] = 100;
+    if (start_blocked) map[Cell{0, 0}] = 100;
+    PlannerOptions options;
+    options.terrain.kernel = 3;
+    options.retry_finer = false;
+    options.tolerance = 1.0;
+    const PlanReport report = planBetween(map, poseAt({1.5, 1.5}), poseAt({4.5, 4.5}), options);
+    ASSERT_EQ(report.status, Status::FOUND) << report.message;
+    EXPECT_EQ(report.path.poses.back().position.head<2>(), Eigen::Vector2d(4.5, 3.5));
+  }
+}
+
+// The open block nearest to a start may be a pocket from which nothing leads on.
+TEST(MapPlanner, LeavesABlockedBlockForOneThatLeadsOn) {
+  const AsciiMap picture({"..#.......",  //
+                          "..#.......",  //
+                          "###.......",  //
+                          "..S.......",  //
+                          "#.........",  //
+                          ".........G"});
+  PlannerOptions options;
+  options.terrain.kernel = 2;
+  options.retry_finer = false;
+  EXPECT_EQ(planOn(picture, options).status, Status::FOUND);
 }
 
 // navigation2#5884: no plan in a 1.1 m aisle at factor 4.
@@ -260,6 +323,7 @@ TEST(MapPlanner, BadOptionsAndMapsLoseNothing) {
   OccupancyGrid bad(GridGeometry(2, 1, 1.0));
   bad[Cell{1, 0}] = 101;
   EXPECT_THROW(planner.setMap(std::make_shared<const OccupancyGrid>(bad)), InputError);
+  EXPECT_THROW(planner.setMap(std::make_shared<const OccupancyGrid>()), InputError);
   EXPECT_EQ(planner.plan({poseAt({0.5, 0.5}), poseAt({1.5, 0.5}), false}).status, Status::FOUND);
 }
 

@@ -35,10 +35,10 @@ struct PlannerOptions {
   double tolerance = 0.0;            // m
   double start_escape_radius = 0.0;  // m
   bool retry_finer = true;
-  double timeout = 5.0;              // s; 0: none
+  double timeout = 5.0;  // s; 0: none
   HeadingMode heading = HeadingMode::FORWARD;
   PathZ path_z = PathZ::INTERPOLATE;
-  double fixed_z = 0.0;              // m
+  double fixed_z = 0.0;  // m
 };
 
 template <class Visitor>
@@ -49,9 +49,10 @@ void visitOptions(PlannerOptions& o, Visitor&& visit) {
   visit("tolerance", o.tolerance,
         OptionInfo{"How far from an occupied or unreachable goal a path may end; 0: no path then",
                    "m", 0, 10000});
-  visit("start_escape_radius", o.start_escape_radius,
-        OptionInfo{"How far the nearest passable cell may be from an occupied start; 0: no path then",
-                   "m", 0, 10000});
+  visit(
+      "start_escape_radius", o.start_escape_radius,
+      OptionInfo{"How far the nearest passable cell may be from an occupied start; 0: no path then",
+                 "m", 0, 10000});
   visit("retry_finer", o.retry_finer,
         OptionInfo{"Whether a way that the kernel closes is searched for again at kernel 1", ""});
   visit("timeout", o.timeout, OptionInfo{"Limit of one planning; 0: none", "s", 0, 86400});
@@ -73,13 +74,14 @@ struct PoseRequest {
 struct PlanReport {
   Status status = Status::NO_MAP;
   std::string message;
-  Path path;                       // empty unless FOUND
-  ExactCost cost;                  // between the end cells
+  Path path;       // empty unless FOUND
+  ExactCost cost;  // between the end cells
   double length_m = 0.0;
-  std::size_t cells = 0;           // of the path on the map that was searched
-  int kernel = 1;                  // of the map that was searched
+  std::size_t cells = 0;  // of the path on the map that was searched
+  int kernel = 1;         // of the map that was searched
   Statistics statistics;
-  double preparation_time_s = 0.0; // terrain and what the planner makes of it; 0 if nothing changed
+  double preparation_time_s =
+      0.0;  // terrain and what the planner makes of it; 0 if nothing changed
   std::vector<Eigen::Vector2d> expanded;  // centres of the expanded cells, metres
 };
 
@@ -95,7 +97,7 @@ class MapPlanner {
   void setOptions(const PlannerOptions& options);
   const PlannerOptions& options() const { return options_; }
 
-  // Throws InputError for a map with values outside -1..100 and keeps the old map.
+  // Throws InputError for a map without cells or with values outside -1..100 and keeps the old map.
   void setMap(std::shared_ptr<const OccupancyGrid> map);
   // `map` has the geometry of the present one and differs from it only inside `changed`.
   void updateMap(std::shared_ptr<const OccupancyGrid> map, const CellRect& changed);

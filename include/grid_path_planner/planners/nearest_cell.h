@@ -14,8 +14,8 @@ struct NearestCell {
   double distance = 0.0;  // m, from the point to the cell's centre
 };
 
-// The cell whose centre is nearest `point` (metres), at most `radius` metres away, among those of which
-// `usable(cell)` holds; of equally near ones the one with the lowest index.
+// The cell whose centre is nearest `point` (metres), at most `radius` metres away, among those of
+// which `usable(cell)` holds; of equally near ones the one with the lowest index.
 template <class Usable>
 std::optional<NearestCell> nearestCell(const GridGeometry& geometry, const Eigen::Vector2d& point,
                                        double radius, Usable&& usable) {
@@ -28,12 +28,13 @@ std::optional<NearestCell> nearestCell(const GridGeometry& geometry, const Eigen
                  clamped(middle.y() - reach, geometry.height())};
   const Cell high{clamped(middle.x() + reach, geometry.width()),
                   clamped(middle.y() + reach, geometry.height())};
+  const double slack = 1e-9 * geometry.resolution();  // distances that differ by rounding are equal
   std::optional<NearestCell> nearest;
   for (int row = low.row; row <= high.row; ++row)
     for (int column = low.column; column <= high.column; ++column) {
       const Cell cell{column, row};
       const double distance = (geometry.centre(cell) - point).norm();
-      if (distance > radius || (nearest && distance >= nearest->distance)) continue;
+      if (distance > radius + slack || (nearest && distance > nearest->distance - slack)) continue;
       if (usable(cell)) nearest = NearestCell{cell, distance};
     }
   return nearest;

@@ -28,6 +28,11 @@ class PlanAttempt {
 
   // None where the report says why.
   std::optional<End> startEnd(PlanReport& report) const;
+  // Out of a blocked start: the nearest cell within start_escape_radius of which `usable` holds, or
+  // of those from which the goal can be reached.
+  template <class Usable>
+  std::optional<End> escapeStart(Usable&& usable) const;
+  std::optional<End> escapeTowards(const End& goal) const;
   std::optional<End> goalEnd(const End& start, PlanReport& report);
   std::optional<End> substituteGoal(const End& start, const std::string& why);
   std::string whyBlocked(Cell cell) const;

@@ -1,9 +1,10 @@
-// Between two cells of the full map, over the blocks of a kernel where they are open and cell by cell
-// where they are not.
+// Between two cells of the full map, over the blocks of a kernel where they are open and cell by
+// cell where they are not.
 //
-// Where the block of an end is blocked though the cell is not, a leg at full resolution leads to the
-// middle of the open block that is cheapest to reach (or straight to the other end, if that is nearer).
-// Where the kernel closes the way the search is repeated at full resolution, if that is allowed.
+// Where the block of an end is blocked though the cell is not, a leg at full resolution leads to
+// the middle of the open block that is cheapest to reach and leads on (or straight to the other
+// end, if that is nearer). Where the kernel closes the way the search is repeated at full
+// resolution, if that is allowed.
 #pragma once
 
 #include <memory>
@@ -39,8 +40,8 @@ class RouteFinder {
   // Throws InputError for an unknown planner or options that cannot be used.
   RouteFinder(std::string planner, const SearchOptions& options);
 
-  // Takes the maps: `fine` at full resolution, `searched` with the kernel, where cells of `searched`
-  // outside `changed` are as they were at the last call. Throws Stopped.
+  // Takes the maps: `fine` at full resolution, `searched` with the kernel, where cells of
+  // `searched` outside `changed` are as they were at the last call. Throws Stopped.
   void prepare(std::shared_ptr<const CostGrid> fine, std::shared_ptr<const CostGrid> searched,
                const CellRect& changed, const StopToken& stop);
 
@@ -57,8 +58,12 @@ class RouteFinder {
   Cell middleOf(Cell block) const;
   bool blockOpen(Cell cell) const { return searched_->passable(blockOf(cell)); }
 
-  // From a cell whose block is blocked to the middle of an open one, or to `other`.
-  PlanResult leave(Cell from, Cell other, bool record_expanded, const StopToken& stop);
+  using Blocks = std::vector<std::uint8_t>;  // a byte a block of searched_
+
+  Blocks openBlocks() const;
+  // From a cell whose block is blocked to the middle of a block that is `wanted`, or to `other`.
+  PlanResult leave(Cell from, Cell other, const Blocks& wanted, bool record_expanded,
+                   const StopToken& stop);
   Route findOverBlocks(Cell start, Cell goal, bool record_expanded, const StopToken& stop);
   Route findFine(Cell start, Cell goal, bool record_expanded, const StopToken& stop);
 
@@ -66,11 +71,11 @@ class RouteFinder {
   SearchOptions options_;
   std::shared_ptr<const CostGrid> fine_;
   std::shared_ptr<const CostGrid> searched_;
-  std::unique_ptr<Planner> planner_;                  // on searched_
-  std::unique_ptr<Planner> finer_;                    // on fine_, made when first needed
-  std::shared_ptr<const CostGrid> finer_map_;         // what finer_ is prepared for
-  std::unique_ptr<BestFirstSearch> leaver_;           // on fine_, made when first needed
-  std::shared_ptr<const CostGrid> leaver_map_;        // what leaver_ is prepared for
+  std::unique_ptr<Planner> planner_;            // on searched_
+  std::unique_ptr<Planner> finer_;              // on fine_, made when first needed
+  std::shared_ptr<const CostGrid> finer_map_;   // what finer_ is prepared for
+  std::unique_ptr<BestFirstSearch> leaver_;     // on fine_, made when first needed
+  std::shared_ptr<const CostGrid> leaver_map_;  // what leaver_ is prepared for
 };
 
 }  // namespace grid_path_planner
