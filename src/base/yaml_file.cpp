@@ -53,6 +53,15 @@ class Guard : public YAML::EventHandler {
   int depth_ = 0;
 };
 
+// The scanner of yaml-cpp 0.6.2 (Ubuntu 20.04) never ends on ":]", wherever it stands outside
+// quotes.
+void refuseEndlessText(const std::string& text, const std::string& file) {
+  const std::size_t at = text.find(":]");
+  if (at == std::string::npos) return;
+  const auto line = 1 + std::count(text.begin(), text.begin() + at, '\n');
+  throw InputError(file, static_cast<int>(line), "is not YAML: ']' right behind ':'");
+}
+
 }  // namespace
 
 YAML::Node loadYamlFile(const std::string& file) {
@@ -61,6 +70,7 @@ YAML::Node loadYamlFile(const std::string& file) {
 
 YAML::Node parseYaml(const std::string& text, const std::string& file) {
   checkIsText(text, file);
+  refuseEndlessText(text, file);
   // yaml-cpp 0.6.2 fails an assertion where a text ends behind a tag ("!"); this one does not.
   const std::string ended = text + "\n...\n";
   try {
