@@ -50,6 +50,7 @@ void PlanDesk::checkClock() {
   if (!clock_.jumpedBack()) return;
   ROS_WARN("ROS time jumped back: transforms and start poses from before are forgotten");
   transforms_.clear();
+  maps_.forgetStamp();
   on_time_jump_();
 }
 

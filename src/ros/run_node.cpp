@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <ros/xmlrpc_manager.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
@@ -11,12 +12,16 @@
 namespace grid_path_planner {
 namespace {
 
+std::atomic<bool> master_is_there{false};
 std::atomic<bool> node_runs{false};
 std::atomic<int> signal_received{0};
 
+// A node that comes up ends as soon as it is up: roscpp breaks (SIGTRAP) when it is shut down under
+// the makings of publishers and services. Where it waits for a master it may never be up; there,
+// and at the second signal, it just ends: nothing has been driven yet.
 void onSignal(int number) {
-  signal_received = number;
-  if (!node_runs) ros::requestShutdown();  // still waiting for a master
+  const bool again = signal_received.exchange(number) != 0;
+  if (!node_runs && (again || !master_is_there)) ::_exit(0);
 }
 
 // What the master asks for: a second node of this name came, or rosnode kill.
@@ -85,7 +90,9 @@ int runNode(int argc, char** argv, const std::string& name, const NodeMaker& mak
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
   int result = 0;
+  master_is_there = ros::master::check();
   const ros::NodeHandle keeps_the_log_open;  // the last one to go shuts it, and the reason is lost
+  master_is_there = true;
   try {
     serve(name, make);
   } catch (const std::exception& error) {

@@ -62,6 +62,18 @@ struct FromText {
   }
 };
 
+// The arguments with hyphens in the names of options, which messages and parameters spell with
+// underscores.
+std::vector<std::string> hyphenated(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  for (std::string& argument : arguments) {
+    if (argument.compare(0, 2, "--") != 0) continue;
+    const auto end = std::find(argument.begin(), argument.end(), '=');
+    std::replace(argument.begin(), end, '_', '-');
+  }
+  return arguments;
+}
+
 template <class Value>
 std::string shown(const Value& value) {
   std::ostringstream out;
@@ -81,7 +93,7 @@ bool parseArguments(int argc, char** argv, const po::options_description& known,
   po::options_description all(known);
   all.add_options()("help", "print this");
   const po::parsed_options parsed =
-      po::command_line_parser(argc, argv).options(all).style(long_only).run();
+      po::command_line_parser(hyphenated(argc, argv)).options(all).style(long_only).run();
   for (const po::option& option : parsed.options)
     if (option.position_key >= 0)
       throw InputError("'" + option.value.front() + "' follows no option");

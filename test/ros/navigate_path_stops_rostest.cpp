@@ -2,6 +2,8 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <nav_msgs/OccupancyGrid.h>
 
+#include <algorithm>
+
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/support/navigate_fixture.h"
 #include "support/ascii_map.h"
@@ -55,6 +57,25 @@ TEST_F(NavigateStops, OnSigint) {
   ASSERT_TRUE(navigate_->waitForExit());
   EXPECT_EQ(navigate_->exitCode(), 0);
   EXPECT_TRUE(lastCommandIsZero());
+}
+
+// roscpp breaks when it is shut down while publishers and services are made, now and then: the node
+// died of a SIGTRAP where roslaunch was interrupted at once.
+TEST_F(NavigateStops, OrderlyWhenAskedToWhileItComesUp) {
+  const auto registered = [] {
+    ros::V_string nodes;
+    ros::master::getNodes(nodes);
+    return std::count(nodes.begin(), nodes.end(), "/navigate_path") > 0;
+  };
+  for (int delay_ms = 0; delay_ms < 80; delay_ms += 10) {
+    Process node("navigate_path", {});
+    ASSERT_TRUE(test::waitFor(registered));
+    ros::WallDuration(0.001 * delay_ms).sleep();
+    node.signal(SIGTERM);
+    ASSERT_TRUE(node.waitForExit());
+    EXPECT_EQ(node.exitCode(), 0) << delay_ms << " ms: " << node.output();
+    ASSERT_TRUE(test::waitFor([&] { return !registered(); }));
+  }
 }
 
 TEST_F(NavigateStops, WhenASecondNodeTakesItsName) {

@@ -89,6 +89,31 @@ TEST_F(ClockTest, TimeThatJumpsBackClearsTransforms) {
   }));
 }
 
+// A map from outside the bag keeps its stamp when the bag begins again: its updates count all the
+// same.
+TEST_F(ClockTest, UpdatesAreTakenAfterTimeJumpedBack) {
+  startPlanner();
+  ASSERT_TRUE(test::waitFor([&] {
+    setTime(200.0);
+    return ros::Time::now() == ros::Time(200.0);
+  }));
+  publishMap(AsciiMap({"...."}).map, "map", ros::Time(200.0));
+  setTimeAndWait(200.0);
+  setTimeAndWait(10.0);
+  ASSERT_TRUE(logged("ROS time jumped back"));
+  map_msgs::OccupancyGridUpdate update;
+  update.header.frame_id = "map";
+  update.header.stamp = ros::Time(10.0);
+  update.x = 2;
+  update.width = update.height = 1;
+  update.data = {100};
+  updates_.publish(update);
+  EXPECT_TRUE(test::waitFor([&] {
+    makePlan(poseAt(0.5, 0.5), poseAt(3.5, 0.5));
+    return answer_.status == "UNREACHABLE";
+  })) << answer_.status;
+}
+
 // The recording of test/data, played for ever: its map is planned on in the second round too.
 TEST_F(ClockTest, ABagThatLoopsIsPlannedOn) {
   startPlanner();

@@ -73,6 +73,13 @@ TEST_F(Plan, NegativeNumbersParse) {
   EXPECT_EQ(plan({"--start=-1.5,2", "--goal=0.5,0.5"}).code, 1);
 }
 
+// As the parameters of the nodes and the messages spell them.
+TEST_F(Plan, NamesOfOptionsMayHaveUnderscores) {
+  EXPECT_EQ(plan({"--start", "0.5,0.5", "--goal=3.5,2.5", "--heuristic_scale", "1"}).code, 0);
+  EXPECT_EQ(plan({"--start", "0.5,0.5", "--goal=3.5,2.5", "--heading=along_me"}).error,
+            plan({"--start", "0.5,0.5", "--goal=3.5,2.5", "--heading", "along_me"}).error);
+}
+
 TEST_F(Plan, WritesPictureAndWaypoints) {
   const std::string picture = folder_.path("path.png");
   const std::string waypoints = folder_.path("waypoints.yaml");
