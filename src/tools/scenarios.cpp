@@ -1,6 +1,7 @@
 // grid_path scenarios: MovingAI queries, each cost compared with the file's.
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -34,7 +35,7 @@ po::options_description describe() {
   po::options_description known("Options");
   known.add_options()("scen", po::value<std::string>()->required(), "MovingAI scenario file")(
       "map", po::value<std::string>(), "map file; default: the one the scenario names, beside it")(
-      "limit", po::value<std::size_t>(), "how many queries, spread evenly over the file")(
+      "limit", po::value<std::int64_t>(), "how many queries, spread evenly over the file")(
       "csv", po::value<std::string>(), "write a line a query");
   describePlannerOptions(known);
   return known;
@@ -47,8 +48,9 @@ std::string besideFile(const std::string& file, const std::string& name) {
          (base == std::string::npos ? name : name.substr(base + 1));
 }
 
-std::vector<Query> spread(const std::vector<Query>& queries, std::size_t limit) {
-  if (limit == 0) throw InputError("--limit must be at least 1");
+std::vector<Query> spread(const std::vector<Query>& queries, std::int64_t wanted) {
+  if (wanted < 1) throw InputError("--limit must be at least 1");
+  const auto limit = static_cast<std::size_t>(wanted);
   if (limit >= queries.size()) return queries;
   std::vector<Query> chosen;
   for (std::size_t i = 0; i < limit; ++i) chosen.push_back(queries[i * queries.size() / limit]);
@@ -85,7 +87,7 @@ int runScenarios(int argc, char** argv) {
   std::vector<Query> queries = readScenarioFile(file);
   const std::string map_file = values.count("map") != 0 ? values["map"].as<std::string>()
                                                         : besideFile(file, queries.front().map);
-  if (values.count("limit") != 0) queries = spread(queries, values["limit"].as<std::size_t>());
+  if (values.count("limit") != 0) queries = spread(queries, values["limit"].as<std::int64_t>());
 
   Terrain terrain(options.terrain);
   terrain.setMap(std::make_shared<const OccupancyGrid>(readMapFile(map_file)));
