@@ -95,7 +95,7 @@ TEST_F(Scenarios, BadFilesAreNamedWithTheirLine) {
   EXPECT_TRUE(contains(errorOf("version 1\n"), "no queries"));
   EXPECT_TRUE(contains(errorOf("version 1\n0 gone.map 4 3 0 0 0 0 0\n"), "gone.map"));
   for (const char* limit : {"0", "-2"})
-    EXPECT_EQ(scenarios({"--scen", scenario("5"), "--limit", limit}).code, kBadInput) << limit;
+    EXPECT_EQ(scenarios({"--scen", map, "--limit", limit}).code, kBadInput) << limit;
 }
 
 }  // namespace
