@@ -10,7 +10,6 @@
 #include "grid_path_planner/following/way_check.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/ros/conversions.h"
-#include "grid_path_planner/ros/occupancy_conversion.h"
 #include "grid_path_planner/ros/parameters.h"
 
 namespace grid_path_planner {
@@ -45,7 +44,7 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
   if (!options_.config_filename.empty()) file_ = readWaypointFile(options_.config_filename);
   velocity_publisher_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10);
   waypoint_publisher_ = nh_.advertise<geometry_msgs::PoseStamped>("current_waypoint", 1, true);
-  map_subscriber_ = nh_.subscribe("projected_map", 1, &NavigatePathNode::onMap, this);
+  map_.start(nh_, [] {});  // looked at whenever the way ahead is
 
   using Request = std_srvs::Trigger::Request;
   using Response = std_srvs::Trigger::Response;
@@ -162,12 +161,14 @@ void NavigatePathNode::control(const ros::Time& now) {
 }
 
 std::string NavigatePathNode::whyOccupied(const std::vector<Eigen::Vector3d>& way) const {
-  if (map_.width() == 0) return "";
+  const ReceivedMap map = map_.latest();
+  if (!map.grid) return "";
   try {
-    const auto points = frames_.points(way, follower_.path().frame_id, map_frame_);
-    const auto cell = firstOccupied(map_, options_.occupied_min, points, options_.check_radius);
+    const auto points = frames_.points(way, follower_.path().frame_id, map.frame_id);
+    const auto cell =
+        firstOccupied(*map.grid, options_.occupied_min, points, options_.check_radius);
     if (!cell) return "";
-    const Eigen::Vector2d at = map_.geometry().centre(*cell);
+    const Eigen::Vector2d at = map.grid->geometry().centre(*cell);
     std::ostringstream text;
     text << "projected_map is occupied ahead, at x " << at.x() << ", y " << at.y() << " m";
     return text.str();
@@ -198,15 +199,6 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
     published_waypoint_ = -1;
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
-  }
-}
-
-void NavigatePathNode::onMap(const nav_msgs::OccupancyGrid& message) {
-  try {
-    map_ = occupancyFromMessage(message);
-    map_frame_ = frameName(message.header.frame_id);
-  } catch (const InputError& error) {
-    ROS_ERROR_STREAM("projected_map refused, the one before stays: " << error.what());
   }
 }
 

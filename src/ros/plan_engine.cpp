@@ -1,9 +1,11 @@
 #include "grid_path_planner/ros/plan_engine.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/metrics.h"
+#include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/ros/clock.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 
@@ -36,7 +38,9 @@ Pose named(const char* which, const std::function<Pose()>& pose) {
 }  // namespace
 
 bool usesHeuristic(const std::string& planner) {
-  return planner != "dijkstra";
+  const std::vector<std::string>& known = plannerNames();
+  const bool exists = std::find(known.begin(), known.end(), planner) != known.end();
+  return exists && makePlanner(planner)->traits().heuristic;
 }
 
 PlanAnswer PlanEngine::answer(const PlanQuestion& question, const PathPlannerNodeOptions& options,

@@ -11,6 +11,7 @@ Traits traitsOf(const char* name, bool optimal) {
   Traits traits;
   traits.name = name;
   traits.optimal = optimal;
+  traits.heuristic = true;
   traits.repairs = true;
   return traits;
 }

@@ -1,5 +1,6 @@
 // Whatever happens to navigate_path or around it, the vehicle stops.
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
 
 #include <algorithm>
@@ -157,6 +158,27 @@ TEST_F(NavigateStops, BeforeOccupiedCellsAndGoesOnWhenTheyAreFree) {
   EXPECT_NEAR(pose().position.x(), 5.0 - 2.0, 0.8) << "lookahead 2 m, and braking";
   publishMap({"........"});
   EXPECT_TRUE(arrivesAt(7.5, 0.5));
+}
+
+// A map that is sent once and then in pieces is watched like one that is sent whole.
+TEST_F(NavigateStops, BeforeCellsThatAnUpdateOfTheMapOccupies) {
+  ros::Publisher maps = nh_.advertise<nav_msgs::OccupancyGrid>("projected_map", 1, true);
+  ros::Publisher updates =
+      nh_.advertise<map_msgs::OccupancyGridUpdate>("projected_map_updates", 1, true);
+  maps.publish(occupancyToMessage(test::AsciiMap({"........"}).map, "map", ros::Time::now()));
+  startSimulator({"_initial_x:=0.5", "_initial_y:=0.5"});
+  startNavigate();
+  publishPath(pathOf({{0.5, 0.5}, {7.5, 0.5}}));
+  ASSERT_TRUE(moves());
+  map_msgs::OccupancyGridUpdate update;
+  update.header.frame_id = "map";
+  update.header.stamp = ros::Time::now();
+  update.x = 5;
+  update.width = update.height = 1;
+  update.data = {100};
+  updates.publish(update);
+  EXPECT_TRUE(staysStill());
+  EXPECT_LT(pose().position.x(), 5.0);
 }
 
 TEST_F(NavigateStops, RunsAsANodeletAndStopsWhenItIsUnloaded) {

@@ -21,7 +21,6 @@
 
 #include <actionlib/server/simple_action_server.h>
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
@@ -34,7 +33,7 @@
 
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/following/path_follower.h"
-#include "grid_path_planner/grid/occupancy.h"
+#include "grid_path_planner/ros/map_receiver.h"
 #include "grid_path_planner/ros/navigate_path_options.h"
 #include "grid_path_planner/ros/vehicle_frames.h"
 
@@ -63,7 +62,6 @@ class NavigatePathNode {
   std::string whyOccupied(const std::vector<Eigen::Vector3d>& way) const;
 
   void onPath(const nav_msgs::Path& message);
-  void onMap(const nav_msgs::OccupancyGrid& message);
   void onGoal();
   void onPreempt();
   Path pathOf(const NavigatePathGoal& goal) const;
@@ -89,13 +87,11 @@ class NavigatePathNode {
   bool silent_ = true;  // nothing, or a zero, was sent last and there is no drive
   bool goal_active_ = false;
   int published_waypoint_ = -1;
-  OccupancyGrid map_;
-  std::string map_frame_;
+  MapReceiver map_;
 
   ros::Publisher velocity_publisher_;
   ros::Publisher waypoint_publisher_;
   ros::Subscriber path_subscriber_;
-  ros::Subscriber map_subscriber_;
   std::vector<ros::ServiceServer> services_;
   actionlib::SimpleActionServer<NavigatePathAction> action_;
   diagnostic_updater::Updater diagnostics_;

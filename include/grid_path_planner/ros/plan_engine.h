@@ -39,7 +39,7 @@ struct PlanAnswer {
   bool found() const { return report.status == Status::FOUND; }
 };
 
-// Whether the planner of this name has a heuristic.
+// Whether there is a planner of this name and it is guided by a heuristic.
 bool usesHeuristic(const std::string& planner);
 
 class PlanEngine {

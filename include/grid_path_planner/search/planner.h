@@ -30,6 +30,7 @@ struct Traits {
   bool cut_corners = true;     // understands cut_corners
   bool weights = true;         // cells of different weights
   bool optimal = false;        // can be; optimalFor() says whether it is, on a map with its options
+  bool heuristic = false;      // is guided by SearchOptions::heuristic
   bool any_angle = false;      // cells of the result need not be neighbours
   bool several_goals = false;  // answers "the nearest of these goals"
   bool repairs = false;        // update() costs less than prepare()
