@@ -7,7 +7,8 @@
 namespace grid_path_planner {
 
 // Input that cannot be used. `what()` is one sentence for a person: where, what was expected and
-// what was found, e.g. "maps/site.yaml:3: resolution must be a positive number of metres, got -0.05".
+// what was found, e.g. "maps/site.yaml:3: resolution must be a positive number of metres, got
+// -0.05".
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}

@@ -10,7 +10,8 @@ enum class Connectivity { EIGHT, FOUR };
 enum class DiagonalCost { SQRT2, UNIT };
 
 const std::vector<std::pair<const char*, Connectivity>>& choicesOf(Connectivity);  // "8", "4"
-const std::vector<std::pair<const char*, DiagonalCost>>& choicesOf(DiagonalCost);  // "sqrt2", "unit"
+const std::vector<std::pair<const char*, DiagonalCost>>& choicesOf(
+    DiagonalCost);  // "sqrt2", "unit"
 
 struct MotionModel {
   Connectivity connectivity = Connectivity::EIGHT;

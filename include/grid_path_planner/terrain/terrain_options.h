@@ -23,11 +23,11 @@ struct TerrainOptions {
   bool unknown_is_passable = true;
   bool occupied_is_passable = false;
 
-  double radius = 0.0;         // m; a cell whose centre is nearer than this to an occupied cell is blocked
-  double decay = 0.0;          // 1/m; of the weight beyond the radius; 0: no weight beyond it
-  int inflation_weight = 40;   // at the radius
+  double radius = 0.0;  // m; a cell whose centre is nearer than this to an occupied cell is blocked
+  double decay = 0.0;   // 1/m; of the weight beyond the radius; 0: no weight beyond it
+  int inflation_weight = 40;  // at the radius
 
-  int kernel = 1;              // cells of a block's side
+  int kernel = 1;  // cells of a block's side
   KernelRule kernel_rule = KernelRule::CONSERVATIVE;
 
   MotionModel motion;
@@ -58,8 +58,9 @@ void visitOptions(TerrainOptions& o, Visitor&& visit) {
         OptionInfo{"How fast the weight falls beyond the radius; 0: no weight beyond the radius; "
                    "smaller: wider berth",
                    "1/m", 0, 10000});
-  visit("inflation_weight", o.inflation_weight,
-        OptionInfo{"Weight at the radius, where decay is not 0; higher: wider berth", "", 1, 65535});
+  visit(
+      "inflation_weight", o.inflation_weight,
+      OptionInfo{"Weight at the radius, where decay is not 0; higher: wider berth", "", 1, 65535});
   visit("kernel", o.kernel,
         OptionInfo{"Side of the blocks that are searched instead of cells; higher: faster, coarser",
                    "cells", 1, 1024});
@@ -67,8 +68,7 @@ void visitOptions(TerrainOptions& o, Visitor&& visit) {
         OptionInfo{"How a block is judged: conservative is safe, filter2d is the original study's "
                    "and is not",
                    ""});
-  visit("connectivity", o.motion.connectivity,
-        OptionInfo{"Neighbours of a cell: 8 or 4", ""});
+  visit("connectivity", o.motion.connectivity, OptionInfo{"Neighbours of a cell: 8 or 4", ""});
   visit("diagonal_cost", o.motion.diagonal_cost,
         OptionInfo{"Length of a diagonal step: sqrt2, or unit as in the original study", ""});
   visit("cut_corners", o.motion.cut_corners,
