@@ -182,6 +182,15 @@ def share_folder():
     return rospkg.RosPack().get_path(PACKAGE)
 
 
+def executable(name):
+    """From the first workspace that has it: rosrun would ask where a source folder holds two builds."""
+    for space in os.environ["CMAKE_PREFIX_PATH"].split(":"):
+        path = os.path.join(space, "lib", PACKAGE, name)
+        if os.path.exists(path):
+            return path
+    raise DemoFailed("there is no %s in CMAKE_PREFIX_PATH: is a setup.bash sourced?" % name)
+
+
 def flags(yaml_name):
     """Parameters of path_planner as flags of the command line, which has the same options."""
     import yaml
@@ -194,7 +203,7 @@ def flags(yaml_name):
 def draw(start, picture, statistics):
     """The picture, by the command line; checks that it found the node's path."""
     share = share_folder()
-    command = ["rosrun", PACKAGE, "grid_path", "plan", "--json", "--image", picture,
+    command = [executable("grid_path"), "plan", "--json", "--image", picture,
                "--map", os.path.join(share, "maps", "demo_site.yaml"),
                "--start", ",".join(map(repr, start)), "--goal", ",".join(map(repr, GOAL))]
     command += flags(os.path.join(share, "config", "demo_planner.yaml"))
