@@ -142,7 +142,19 @@ def connect(nodes):
     watcher = Watcher()
     wait_until(nodes, lambda: watcher.odometry and watcher.clock and watcher.contacts is not None,
                START_SECONDS, "simulator")
+    # navigate_path drives no path stamped before it started: it must be there and have seen the clock.
+    wait_until(nodes, lambda: has_service("/navigate_path/cancel"), START_SECONDS, "navigate_path")
+    begin = watcher.now()
+    wait_until(nodes, lambda: watcher.now() > begin + 4.0, START_SECONDS, "running /clock")
     return watcher
+
+
+def has_service(name):
+    import rosgraph
+    try:
+        return bool(rosgraph.Master("/demo").lookupService(name))
+    except rosgraph.MasterError:
+        return False
 
 
 def plan(nodes, watcher):
