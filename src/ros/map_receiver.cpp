@@ -118,7 +118,9 @@ void MapReceiver::onUpdate(const map_msgs::OccupancyGridUpdate& message) {
     ROS_WARN_THROTTLE(5.0, "An update of the map was dropped: no map has come yet");
     return;
   }
-  if (message.header.stamp < before.stamp) {
+  // A map from the future is from before the time jumped back, as when a bag loops.
+  const bool newer_map = message.header.stamp < before.stamp && before.stamp <= ros::Time::now();
+  if (newer_map) {
     ROS_WARN_STREAM_THROTTLE(5.0, "An update of the map stamped "
                                       << message.header.stamp << " was dropped: the map is newer, "
                                       << before.stamp);

@@ -2,7 +2,8 @@
 //
 // A message that is no map is refused with an error that says why, and the map before it stays; so
 // does a piece that does not fit. A piece older than the map is dropped: it is part of the map
-// already. Maps handed out never change; a change makes a new one.
+// already (unless the map is stamped later than now: then ROS time has jumped back). Maps handed
+// out never change; a change makes a new one.
 #pragma once
 
 #include <map_msgs/OccupancyGridUpdate.h>
