@@ -86,11 +86,6 @@ std::string MapReceiver::refusal() const {
   return refusal_;
 }
 
-void MapReceiver::forgetStamp() {
-  std::lock_guard<std::mutex> lock(mutex_);
-  map_.stamp = ros::Time();
-}
-
 void MapReceiver::shutdown() {
   map_subscriber_.shutdown();
   update_subscriber_.shutdown();

@@ -50,7 +50,6 @@ void PlanDesk::checkClock() {
   if (!clock_.jumpedBack()) return;
   ROS_WARN("ROS time jumped back: transforms and start poses from before are forgotten");
   transforms_.clear();
-  maps_.forgetStamp();
   on_time_jump_();
 }
 

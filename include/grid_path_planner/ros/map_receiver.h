@@ -53,9 +53,6 @@ class MapReceiver {
   // Why the last message was refused; empty after one that was taken.
   std::string refusal() const;
 
-  // For ROS time that went back: updates older than the map are not dropped until the next one.
-  void forgetStamp();
-
   void shutdown();
 
  private:
