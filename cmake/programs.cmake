@@ -1,6 +1,6 @@
 # Executables: a node is a main of a few lines around a class of the ros room; the command line is
 # made of all of src/tools.
-foreach(node path_planner navigate_path map_publisher simulator)
+foreach(node path_planner navigate_path map_publisher projected_map simulator)
   if(EXISTS ${PROJECT_SOURCE_DIR}/src/nodes/${node}.cpp)
     gpp_add_executable(${node} src/nodes/${node}.cpp ros)
   endif()
@@ -21,6 +21,7 @@ file(GLOB benchmark_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/benchmark/*.
 foreach(source ${benchmark_sources})
   get_filename_component(name ${source} NAME_WE)
   add_executable(${PROJECT_NAME}_${name} EXCLUDE_FROM_ALL ${source})
-  target_link_libraries(${PROJECT_NAME}_${name} PRIVATE ${PROJECT_NAME}_planners)
+  target_link_libraries(${PROJECT_NAME}_${name} PRIVATE
+    ${PROJECT_NAME}_planners ${PROJECT_NAME}_octree ${PROJECT_NAME}_simulation)
   add_dependencies(${PROJECT_NAME}_benchmarks ${PROJECT_NAME}_${name})
 endforeach()
