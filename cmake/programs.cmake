@@ -1,6 +1,6 @@
 # Executables: a node is a main of a few lines around a class of the ros room; the command line is
 # made of all of src/tools.
-foreach(node path_planner navigate_path map_publisher projected_map simulator)
+foreach(node path_planner navigate_path map_publisher projected_map simulator teleop_joy)
   if(EXISTS ${PROJECT_SOURCE_DIR}/src/nodes/${node}.cpp)
     gpp_add_executable(${node} src/nodes/${node}.cpp ros)
   endif()

@@ -4,10 +4,12 @@
 #include "grid_path_planner/NavigatePathConfig.h"
 #include "grid_path_planner/PathPlannerConfig.h"
 #include "grid_path_planner/SimulatorConfig.h"
+#include "grid_path_planner/TeleopJoyConfig.h"
 #include "grid_path_planner/ros/map_publisher_options.h"
 #include "grid_path_planner/ros/navigate_path_options.h"
 #include "grid_path_planner/ros/path_planner_options.h"
 #include "grid_path_planner/ros/simulator_options.h"
+#include "grid_path_planner/ros/teleop_joy_options.h"
 
 namespace grid_path_planner {
 namespace {
@@ -22,6 +24,10 @@ TEST(ParameterDefaults, NavigatePath) {
 
 TEST(ParameterDefaults, Simulator) {
   test::expectSameDefaults<SimulatorConfig, SimulatorOptions>("simulator");
+}
+
+TEST(ParameterDefaults, TeleopJoy) {
+  test::expectSameDefaults<TeleopJoyConfig, TeleopJoyOptions>("teleop_joy");
 }
 
 TEST(ParameterDefaults, MapPublisher) {

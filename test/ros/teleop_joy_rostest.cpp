@@ -1,0 +1,120 @@
+#include <geometry_msgs/Twist.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <sensor_msgs/Joy.h>
+
+#include "ros/support/latest.h"
+#include "ros/support/process.h"
+
+namespace grid_path_planner {
+namespace {
+
+using geometry_msgs::Twist;
+using test::Latest;
+using test::Process;
+
+sensor_msgs::Joy joyOf(float surge, bool deadman) {
+  sensor_msgs::Joy message;
+  message.axes.assign(8, 0.0f);
+  message.axes[1] = surge;
+  message.buttons.assign(11, 0);
+  message.buttons[4] = deadman;
+  return message;
+}
+
+bool isZero(const Twist& t) {
+  return t.linear.x == 0.0 && t.linear.y == 0.0 && t.linear.z == 0.0 && t.angular.z == 0.0;
+}
+
+class TeleopJoyTest : public testing::Test {
+ protected:
+  TeleopJoyTest() { ros::param::del("/teleop_joy"); }
+
+  void start(const std::vector<std::string>& arguments = {}) {
+    node_ = std::make_unique<Process>("teleop_joy", arguments);
+    ASSERT_TRUE(
+        test::waitFor([&] { return joy_.getNumSubscribers() > 0 && commands_.publishers() > 0; }));
+  }
+
+  // Sends `message` until a command comes that `accept` takes.
+  template <class Accept>
+  bool sendUntil(const sensor_msgs::Joy& message, Accept accept) {
+    const std::size_t seen = commands_.count();
+    return test::waitFor([&] {
+      joy_.publish(message);
+      const auto all = commands_.all();
+      return all.size() > seen && accept(all.back());
+    });
+  }
+  bool driveAhead() {
+    return sendUntil(joyOf(1.0f, true), [](const Twist& t) { return t.linear.x == 0.8; });
+  }
+  bool lastCommandIsZero() {
+    return test::waitFor([&] { return isZero(commands_.all().back()); });
+  }
+
+  ros::NodeHandle nh_;
+  Latest<Twist> commands_{nh_, "cmd_vel"};
+  ros::Publisher joy_ = nh_.advertise<sensor_msgs::Joy>("joy", 10);
+  std::unique_ptr<Process> node_;
+};
+
+TEST_F(TeleopJoyTest, LettingTheDeadmanButtonGoStopsTheVehicleOnceAndLeavesItToOthers) {
+  start({"_joy_timeout:=30"});
+  ASSERT_TRUE(driveAhead());
+  for (int i = 0; i < 5; ++i) joy_.publish(joyOf(1.0f, false));
+  ASSERT_TRUE(lastCommandIsZero());
+  const std::size_t seen = commands_.count();
+  // What comes next is of the next drive: between the two there was nothing.
+  ASSERT_TRUE(driveAhead());
+  EXPECT_FALSE(isZero(commands_.all()[seen]));
+}
+
+// A joystick whose cable was pulled, or whose driver died, must not let the vehicle drive on.
+TEST_F(TeleopJoyTest, AJoystickThatFallsSilentStopsTheVehicle) {
+  start({"_joy_timeout:=0.3"});
+  ASSERT_TRUE(driveAhead());
+  EXPECT_TRUE(lastCommandIsZero());
+  EXPECT_TRUE(node_->says("Nothing has come from the joystick"));
+  EXPECT_TRUE(driveAhead()) << "when it speaks again";
+}
+
+TEST_F(TeleopJoyTest, AMessageThatCannotBeUsedStopsTheVehicleAndSaysWhy) {
+  start({"_joy_timeout:=30"});
+  ASSERT_TRUE(driveAhead());
+  sensor_msgs::Joy few;
+  few.axes.assign(2, 1.0f);
+  few.buttons.assign(5, 1);
+  joy_.publish(few);
+  EXPECT_TRUE(lastCommandIsZero());
+  EXPECT_TRUE(node_->says("fast_button is 5, but the joystick has 5"));
+}
+
+TEST_F(TeleopJoyTest, ItsEndStopsTheVehicle) {
+  start({"_joy_timeout:=30"});
+  ASSERT_TRUE(driveAhead());
+  node_->signal(SIGINT);
+  ASSERT_TRUE(node_->waitForExit());
+  EXPECT_TRUE(lastCommandIsZero());
+}
+
+TEST_F(TeleopJoyTest, DrivesTheSimulatedVehicle) {
+  ros::param::del("/simulator");
+  Latest<nav_msgs::Odometry> odom(nh_, "odom");
+  Process simulator("simulator", {"_real_time_factor:=5"});
+  start({"_command_rate:=200"});
+  EXPECT_TRUE(test::waitFor([&] {
+    joy_.publish(joyOf(1.0f, true));
+    const auto all = odom.all();
+    return !all.empty() && all.back().pose.pose.position.x > 1.0;
+  }));
+}
+
+TEST_F(TeleopJoyTest, RunsAsANodelet) {
+  Process manager({"rosrun", "nodelet", "nodelet", "standalone", "grid_path_planner/teleop_joy"});
+  EXPECT_TRUE(driveAhead());
+}
+
+}  // namespace
+}  // namespace grid_path_planner
