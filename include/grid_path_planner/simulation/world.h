@@ -1,0 +1,54 @@
+// The fixed surroundings of a simulated vehicle: what it can touch and what its camera sees.
+//
+//   const auto world = std::make_shared<const World>(readWorld("worlds/dexrov_site.sdf"));
+//   if (const auto surface = world->nearest(position, 0.3))
+//     std::cout << surface->name << " is " << surface->distance << " m away\n";
+//
+// A world is built once, from meshes in the map frame, and then constant: any number of cameras and
+// vehicles may share it, from several threads. Guaranteed: the same meshes in the same order give
+// the same answers, bit for bit. Surfaces are thin: they have two sides and no inside.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "grid_path_planner/simulation/triangle_mesh.h"
+
+namespace grid_path_planner {
+
+// The point of a world's solid surfaces that is nearest to some other point.
+struct NearestSurface {
+  double distance = 0.0;  // m
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  std::string_view name = {};  // of its mesh; lives as long as the world
+};
+
+class World {
+ public:
+  // `solid` is what can be touched, `visible` what cameras see. Throws InputError naming the mesh
+  // for a vertex that is not finite, beyond 1e6 m, or missing, and for a mesh without triangles.
+  World(std::vector<TriangleMesh> solid, std::vector<TriangleMesh> visible);
+  // All of it both.
+  explicit World(std::vector<TriangleMesh> meshes);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  const std::vector<TriangleMesh>& solid() const { return solid_; }
+  const std::vector<TriangleMesh>& visible() const { return visible_; }
+
+  // Nearest point of the solid surfaces, if one is nearer than `reach` metres.
+  std::optional<NearestSurface> nearest(const Eigen::Vector3d& from, double reach) const;
+
+ private:
+  class SurfaceTree;
+
+  std::vector<TriangleMesh> solid_;
+  std::vector<TriangleMesh> visible_;
+  std::unique_ptr<const SurfaceTree> tree_;
+};
+
+}  // namespace grid_path_planner

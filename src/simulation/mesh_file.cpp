@@ -1,0 +1,44 @@
+#include "mesh_file.h"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <fstream>
+
+#include "grid_path_planner/base/errors.h"
+
+namespace grid_path_planner {
+namespace {
+
+void append(const aiMesh& part, TriangleMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (unsigned i = 0; i < part.mNumVertices; ++i)
+    mesh.vertices.emplace_back(part.mVertices[i].x, part.mVertices[i].y, part.mVertices[i].z);
+  for (unsigned i = 0; i < part.mNumFaces; ++i) {
+    const aiFace& face = part.mFaces[i];
+    if (face.mNumIndices == 3)
+      mesh.triangles.push_back(
+          {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+  }
+}
+
+}  // namespace
+
+TriangleMesh readMesh(const std::string& name, const std::string& file) {
+  if (!std::ifstream(file)) throw InputError(file, "cannot be read");
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene =
+      importer.ReadFile(file, aiProcess_Triangulate | aiProcess_PreTransformVertices |
+                                  aiProcess_JoinIdenticalVertices);
+  if (scene == nullptr)
+    throw InputError(file, std::string("not a mesh: ") + importer.GetErrorString());
+  TriangleMesh mesh{name, {}, {}};
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], mesh);
+  if (mesh.triangles.empty()) throw InputError(file, "has no surface");
+  return mesh;
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,16 @@
+// Loading an SDF file with libsdformat so that what it complains about becomes an InputError.
+#pragma once
+
+#include <functional>
+#include <sdf/sdf.hh>
+#include <string>
+
+namespace grid_path_planner {
+
+// `find` gives the path of an included model for its uri, or "". Throws InputError naming the file,
+// with what libsdformat returned and, where that was nothing better than "unable to read", what it
+// printed.
+sdf::Root loadSdf(const std::string& file,
+                  const std::function<std::string(const std::string&)>& find);
+
+}  // namespace grid_path_planner

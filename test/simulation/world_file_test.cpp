@@ -1,0 +1,214 @@
+#include "grid_path_planner/simulation/world_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "support/error_text.h"
+#include "support/temporary_folder.h"
+
+namespace grid_path_planner {
+namespace {
+
+using test::contains;
+
+std::string sdf(const std::string& content) {
+  return "<?xml version='1.0'?>\n<sdf version='1.6'>\n<world name='test'>\n" + content +
+         "\n</world>\n</sdf>\n";
+}
+
+std::string model(const std::string& name, const std::string& pose, const std::string& shapes) {
+  return "<model name='" + name + "'><static>true</static><pose>" + pose +
+         "</pose><link name='link'>" + shapes + "</link></model>";
+}
+
+std::string shape(const std::string& kind, const std::string& name, const std::string& geometry) {
+  return "<" + kind + " name='" + name + "'><geometry>" + geometry + "</geometry></" + kind + ">";
+}
+
+const char* const kUnitBox = "<box><size>1 1 1</size></box>";
+const char* const kTetrahedron =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n";
+
+class WorldFile : public ::testing::Test {
+ protected:
+  World read(const std::string& content) const {
+    return readWorld(folder_.write("world.sdf", sdf(content)));
+  }
+  // What readWorld says against a world with this content.
+  std::string complaint(const std::string& content) const {
+    return test::errorText([&] { read(content); });
+  }
+  void writeIn(const std::string& folder, const std::string& name,
+               const std::string& content) const {
+    std::filesystem::create_directories(folder_.path(folder));
+    folder_.write(folder + "/" + name, content);
+  }
+
+  const test::TemporaryFolder folder_;
+};
+
+void expectBounds(const TriangleMesh& mesh, const Eigen::Vector3f& lowest,
+                  const Eigen::Vector3f& highest) {
+  EXPECT_TRUE(mesh.bounds().min().isApprox(lowest, 1e-4f)) << mesh.bounds().min().transpose();
+  EXPECT_TRUE(mesh.bounds().max().isApprox(highest, 1e-4f)) << mesh.bounds().max().transpose();
+}
+
+TEST_F(WorldFile, ReadsEveryShapeByItsName) {
+  const World world = read(model(
+      "site", "0 0 0 0 0 0",
+      shape("collision", "a", "<box><size>1 2 3</size></box>") +
+          shape("collision", "b", "<cylinder><radius>2</radius><length>4</length></cylinder>") +
+          shape("collision", "c", "<sphere><radius>3</radius></sphere>") +
+          shape("collision", "d", "<plane><normal>0 0 1</normal><size>6 8</size></plane>")));
+  ASSERT_EQ(world.solid().size(), 4u);
+  EXPECT_EQ(world.solid()[0].name, "site::link::a");
+  expectBounds(world.solid()[0], {-0.5f, -1.0f, -1.5f}, {0.5f, 1.0f, 1.5f});
+  EXPECT_NEAR(world.solid()[1].bounds().max().x(), 2.0f, 0.01f);
+  EXPECT_FLOAT_EQ(world.solid()[1].bounds().max().z(), 2.0f);
+  EXPECT_FLOAT_EQ(world.solid()[2].bounds().min().z(), -3.0f);
+  expectBounds(world.solid()[3], {-3.0f, -4.0f, 0.0f}, {3.0f, 4.0f, 0.0f});
+}
+
+TEST_F(WorldFile, PosesAreNested) {
+  const World world = read(
+      "<model name='outer'><pose>10 0 0 0 0 1.5707963</pose>"
+      "<model name='inner'><pose>1 0 0 0 0 0</pose><link name='link'><pose>1 0 0 0 0 0</pose>"
+      "<visual name='box'><pose>1 0 5 0 0 0</pose><geometry><box><size>2 1 1</size></box>"
+      "</geometry></visual></link></model></model>");
+  ASSERT_EQ(world.visible().size(), 1u);
+  EXPECT_EQ(world.visible()[0].name, "outer::inner::link::box");
+  expectBounds(world.visible()[0], {9.5f, 2.0f, 4.5f}, {10.5f, 4.0f, 5.5f});
+}
+
+TEST_F(WorldFile, CollisionsAreTouchedAndVisualsSeenAndEitherStandsInForTheOther) {
+  const World world =
+      read(model("both", "0 0 0 0 0 0",
+                 shape("collision", "touched", kUnitBox) + shape("visual", "seen", kUnitBox)) +
+           model("ghost", "0 0 0 0 0 0", shape("visual", "picture", kUnitBox)) +
+           model("glass", "0 0 0 0 0 0", shape("collision", "pane", kUnitBox)));
+  const auto names = [](const std::vector<TriangleMesh>& meshes) {
+    std::string text;
+    for (const TriangleMesh& mesh : meshes) text += mesh.name + " ";
+    return text;
+  };
+  EXPECT_EQ(names(world.solid()), "both::link::touched ghost::link::picture glass::link::pane ");
+  EXPECT_EQ(names(world.visible()), "both::link::seen ghost::link::picture glass::link::pane ");
+}
+
+TEST_F(WorldFile, MeshesBesideTheFileByPathAndByModel) {
+  writeIn("meshes", "rock.obj", kTetrahedron);
+  writeIn("rock", "rock.obj", kTetrahedron);
+  const std::string absolute = "file://" + folder_.path("rock/rock.obj");
+  for (const std::string& uri :
+       {std::string("meshes/rock.obj"), std::string("model://rock/rock.obj"),
+        std::string("file://meshes/rock.obj"), absolute}) {
+    const World world = read(
+        model("rock", "1 0 0 0 0 0",
+              shape("visual", "mesh", "<mesh><uri>" + uri + "</uri><scale>2 3 4</scale></mesh>")));
+    ASSERT_EQ(world.solid().size(), 1u) << uri;
+    EXPECT_EQ(world.solid()[0].triangles.size(), 4u);
+    expectBounds(world.solid()[0], {1.0f, 0.0f, 0.0f}, {3.0f, 3.0f, 4.0f});
+  }
+}
+
+TEST_F(WorldFile, IncludedModelsAndTheirMeshes) {
+  writeIn(
+      "models/rock", "model.config",
+      "<?xml version='1.0'?><model><name>rock</name><sdf version='1.6'>model.sdf</sdf></model>");
+  writeIn("models/rock", "model.sdf",
+          "<?xml version='1.0'?><sdf version='1.6'>" +
+              model("rock", "0 0 1 0 0 0",
+                    shape("visual", "mesh", "<mesh><uri>rock.obj</uri></mesh>")) +
+              "</sdf>");
+  writeIn("models/rock", "rock.obj", kTetrahedron);
+  ASSERT_EQ(setenv("GAZEBO_MODEL_PATH", ("/nowhere:" + folder_.path("models")).c_str(), 1), 0);
+  const World world =
+      read("<include><uri>model://rock</uri><name>big</name><pose>5 0 0 0 0 0</pose></include>");
+  unsetenv("GAZEBO_MODEL_PATH");
+  ASSERT_EQ(world.visible().size(), 1u);
+  EXPECT_EQ(world.visible()[0].name, "big::link::mesh");
+  EXPECT_FLOAT_EQ(world.visible()[0].bounds().min().x(), 5.0f);
+}
+
+TEST_F(WorldFile, ModelsThatWouldMoveStandStill) {
+  EXPECT_EQ(read("<model name='boat'><link name='link'>" + shape("visual", "box", kUnitBox) +
+                 "</link></model>")
+                .solid()
+                .size(),
+            1u);
+}
+
+TEST_F(WorldFile, GeometriesOfOtherKindsAreRefusedByName) {
+  const std::string text = complaint(
+      model("seabed", "0 0 0 0 0 0",
+            shape("collision", "ground", "<heightmap><uri>seabed.png</uri></heightmap>")));
+  EXPECT_TRUE(contains(text, folder_.path("world.sdf") + ": seabed::link::ground: a <heightmap>"))
+      << text;
+  const std::string polyline = complaint(
+      model("wall", "0 0 0 0 0 0",
+            shape("visual", "line",
+                  "<polyline><point>0 0</point><point>1 0</point><height>1</height></polyline>")));
+  EXPECT_TRUE(contains(polyline, "wall::link::line")) << polyline;
+  EXPECT_TRUE(
+      contains(complaint(model("m", "0 0 0 0 0 0",
+                               shape("visual", "v",
+                                     "<mesh><uri>a.obj</uri><submesh><name>b</name></submesh>"
+                                     "</mesh>"))),
+               "m::link::v: a <submesh> is not read"));
+}
+
+TEST_F(WorldFile, MissingAndDamagedMeshesAreNamed) {
+  const auto with_mesh = [](const std::string& uri) {
+    return model("rock", "0 0 0 0 0 0",
+                 shape("visual", "mesh", "<mesh><uri>" + uri + "</uri></mesh>"));
+  };
+  const std::string missing = complaint(with_mesh("meshes/rock.obj"));
+  EXPECT_TRUE(contains(missing, "world.sdf: rock::link::mesh: there is no mesh meshes/rock.obj"))
+      << missing;
+  EXPECT_TRUE(contains(complaint(with_mesh("http://far.away/rock.obj")), "http://far.away"));
+  folder_.write("text.obj", "this is not a mesh\n");
+  folder_.write("text.xyz", "nor is this\n");
+  for (const char* name : {"text.obj", "text.xyz"})
+    EXPECT_TRUE(contains(complaint(with_mesh(name)), folder_.path(name))) << name;
+}
+
+TEST_F(WorldFile, ErrorsOfSyntaxNameFileAndLine) {
+  const std::string file = folder_.write(
+      "broken.sdf", "<sdf version='1.6'>\n<world name='w'>\n<model\n</world></sdf>\n");
+  const std::string text = test::errorText([&] { readWorld(file); });
+  EXPECT_EQ(text.find(file + ": "), 0u) << text;
+  EXPECT_TRUE(contains(text, "3")) << text;
+  EXPECT_FALSE(contains(text, "\n"));
+}
+
+TEST_F(WorldFile, ValuesThatAreNoneAreRefused) {
+  const std::string text =
+      complaint(model("m", "0 0 0 0 0 0", shape("visual", "v", "<box><size>1 x 2</size></box>")));
+  EXPECT_TRUE(contains(text, "size")) << text;
+  EXPECT_TRUE(
+      contains(complaint(model("m", "0 0 0 0 0 0",
+                               shape("visual", "v", "<sphere><radius>-1</radius></sphere>"))),
+               "m::link::v: the radius of a sphere must be"));
+}
+
+TEST_F(WorldFile, FilesThatAreNoWorldAreRefused) {
+  EXPECT_EQ(test::errorText([] { readWorld("no/such.sdf"); }), "no/such.sdf: cannot be read");
+  EXPECT_TRUE(contains(complaint(""), "its world is empty"));
+  const std::string only_model = folder_.write(
+      "model.sdf",
+      "<sdf version='1.6'>" + model("m", "0 0 0 0 0 0", shape("visual", "v", kUnitBox)) + "</sdf>");
+  EXPECT_EQ(test::errorText([&] { readWorld(only_model); }), only_model + ": has no <world>");
+  EXPECT_THROW(readWorld(folder_.write("empty.sdf", "")), InputError);
+  EXPECT_THROW(readWorld(folder_.path("")), InputError);
+  EXPECT_TRUE(contains(complaint("<include><uri>model://nothing</uri></include>"), "nothing"));
+}
+
+TEST_F(WorldFile, AfterARefusalTheNextWorldIsRead) {
+  EXPECT_NE(complaint("<model"), "");
+  EXPECT_EQ(read(model("m", "0 0 0 0 0 0", shape("visual", "v", kUnitBox))).solid().size(), 1u);
+}
+
+}  // namespace
+}  // namespace grid_path_planner
