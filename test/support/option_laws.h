@@ -19,9 +19,10 @@ inline double beyond(double limit, int direction) {
   return std::isinf(limit) ? limit : limit + direction * std::max(1.0, std::abs(limit));
 }
 
-// The name is under_scored, and the description a sentence that stands on one line.
+// The name is under_scored, perhaps in a group ("sensor_model/hit"), and the description a sentence
+// that stands on one line.
 inline void expectDocumented(const std::string& name, const OptionInfo& info) {
-  EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"), std::string::npos)
+  EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_/"), std::string::npos)
       << name;
   const std::string description = info.description;
   EXPECT_GE(description.size(), 10u) << name << " needs a description";

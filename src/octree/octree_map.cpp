@@ -1,0 +1,160 @@
+#include "grid_path_planner/octree/octree_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "grid_path_planner/base/errors.h"
+#include "map_tree.h"
+#include "mirror.h"
+#include "tree_edits.h"
+#include "tree_file.h"
+
+namespace grid_path_planner {
+namespace {
+
+using octomap::OcTreeKey;
+using octomap::point3d;
+
+std::string text(const point3d& point) {
+  return "(" + std::to_string(point.x()) + ", " + std::to_string(point.y()) + ", " +
+         std::to_string(point.z()) + ")";
+}
+
+const OctreeOptions& checked(const OctreeOptions& options) {
+  checkOctreeOptions(options);
+  return options;
+}
+
+}  // namespace
+
+OctreeMap::OctreeMap(const OctreeOptions& options)
+    : options_(checked(options)),
+      tree_(std::make_unique<MapTree>(options.resolution, options)),
+      bricks_(options.resolution) {}
+
+OctreeMap::~OctreeMap() = default;
+OctreeMap::OctreeMap(OctreeMap&&) noexcept = default;
+OctreeMap& OctreeMap::operator=(OctreeMap&&) noexcept = default;
+
+const octomap::OcTree& OctreeMap::tree() const {
+  return *tree_;
+}
+
+void OctreeMap::setOptions(const OctreeOptions& options) {
+  checkOctreeOptions(options);
+  if (options.resolution != options_.resolution)
+    throw InputError("resolution is " + std::to_string(options_.resolution) +
+                     " m and cannot become " + std::to_string(options.resolution) +
+                     " m in a map that exists");
+  const bool judged_anew = options.occupancy_threshold != options_.occupancy_threshold;
+  options_ = options;
+  tree_->setModel(options);
+  if (!judged_anew) return;
+  bricks_.clear(tree_->getResolution());
+  mirrorTree(*tree_, bricks_);
+}
+
+std::size_t OctreeMap::insert(const Scan& scan) {
+  OcTreeKey origin_key;
+  if (!tree_->keyOf(scan.origin, origin_key))
+    throw InputError("the origin " + text(scan.origin) + " of a scan is outside the octree");
+  octomap::KeySet free_keys, hit_keys;
+  octomap::KeyRay ray;
+  std::size_t left_out = 0;
+  const auto trace = [&](const point3d& point, bool hit) {
+    const bool near =
+        options_.max_range < 0.0 || (point - scan.origin).norm() <= options_.max_range;
+    const point3d end = near ? point
+                             : scan.origin + (point - scan.origin).normalized() *
+                                                 static_cast<float>(options_.max_range);
+    OcTreeKey key;
+    if (!tree_->keyOf(end, key)) {
+      ++left_out;
+      return;
+    }
+    tree_->computeRayKeys(scan.origin, end, ray);
+    free_keys.insert(ray.begin(), ray.end());
+    if (hit && near) hit_keys.insert(key);
+  };
+  for (const point3d& point : scan.hits) trace(point, true);
+  for (const point3d& point : scan.clear_only) trace(point, false);
+  const auto update = [&](const OcTreeKey& key, bool occupied) {
+    tree_->updateNode(key, occupied);
+    bricks_.setVoxel(key,
+                     tree_->isNodeOccupied(tree_->search(key)) ? Voxel::OCCUPIED : Voxel::FREE);
+  };
+  for (const OcTreeKey& key : free_keys)
+    if (hit_keys.find(key) == hit_keys.end()) update(key, false);
+  for (const OcTreeKey& key : hit_keys) update(key, true);
+  return left_out;
+}
+
+void OctreeMap::clearBox(const point3d& low, const point3d& high) {
+  OcTreeKey keys[2];
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    if (!(low(axis) <= high(axis)) || !std::isfinite(low(axis)) || !std::isfinite(high(axis)))
+      throw InputError("a box goes from its low to its high corner, got " + text(low) + " and " +
+                       text(high));
+    keys[0][axis] = nearestKey(low(axis));
+    keys[1][axis] = nearestKey(high(axis));
+  }
+  freeBox(*tree_, bricks_, keys[0], keys[1]);
+}
+
+void OctreeMap::reset() {
+  tree_->clear();
+  bricks_.clear(tree_->getResolution());
+}
+
+void OctreeMap::decay(double seconds) {
+  if (!(seconds >= 0.0 && std::isfinite(seconds)))
+    throw InputError("a map decays by a time of 0 s or more, got " + std::to_string(seconds));
+  if (options_.decay_time == 0.0) return;
+  const double range = tree_->getClampingThresMaxLog() - tree_->getOccupancyThresLog();
+  fadeOccupied(*tree_, bricks_, static_cast<float>(range * seconds / options_.decay_time));
+}
+
+void OctreeMap::load(const std::string& file) {
+  auto tree = readTreeFile(file, options_);
+  try {
+    replace(std::move(tree));
+  } catch (const InputError& error) {
+    throw InputError(file, error.what());
+  }
+}
+
+void OctreeMap::assign(const octomap::OcTree& tree) {
+  replace(std::make_unique<MapTree>(tree, options_));
+}
+
+void OctreeMap::save(const std::string& file) const {
+  writeTreeFile(*tree_, file);
+}
+
+std::size_t OctreeMap::memoryUsage() const {
+  return tree_->memoryUsage() + bricks_.memoryUsage();
+}
+
+octomap::key_type OctreeMap::nearestKey(double coordinate) const {
+  octomap::key_type key;
+  if (tree_->keyOf(coordinate, key)) return key;
+  return coordinate < 0.0 ? 0 : 0xFFFF;
+}
+
+void OctreeMap::replace(std::unique_ptr<MapTree> tree) {
+  if (const std::size_t bricks = countBricks(*tree); bricks > kMostBricks)
+    throw InputError("the tree covers " + std::to_string(bricks) +
+                     " bricks of 8x8x8 voxels, at most " + std::to_string(kMostBricks) +
+                     " can be held");
+  OctreeOptions options = options_;
+  options.resolution = tree->getResolution();
+  checkOctreeOptions(options);
+  options_ = options;
+  tree_ = std::move(tree);
+  bricks_.clear(options_.resolution);
+  mirrorTree(*tree_, bricks_);
+}
+
+}  // namespace grid_path_planner
