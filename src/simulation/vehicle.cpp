@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "obstacle_distance.h"
+#include "sphere_way.h"
 
 namespace grid_path_planner {
 namespace {
@@ -39,7 +40,12 @@ void Vehicle::setOptions(const VehicleOptions& options) {
 
 void Vehicle::setMap(std::shared_ptr<const OccupancyGrid> map) {
   map_ = std::move(map);
-  if (!map_) in_contact_ = false;
+  if (isClear()) in_contact_ = false;
+}
+
+void Vehicle::setWorld(std::shared_ptr<const World> world) {
+  world_ = std::move(world);
+  if (isClear()) in_contact_ = false;
 }
 
 void Vehicle::command(const BodyVelocity& velocity) {
@@ -63,6 +69,7 @@ void Vehicle::reset(const VehicleState& state) {
   commanded_ = {};
   contacts_ = 0;
   in_contact_ = false;
+  touched_.clear();
 }
 
 void Vehicle::step() {
@@ -100,9 +107,13 @@ void Vehicle::move(double seconds, const BodyVelocity& before) {
   const double yaw = state_.yaw + 0.5 * turn;
   const Eigen::Vector2d way(std::cos(yaw) * surge - std::sin(yaw) * sway,
                             std::sin(yaw) * surge + std::cos(yaw) * sway);
-  const bool free = moveInPlane(way);
-  if (!free) state_.velocity.surge = state_.velocity.sway = 0.0;
+  const Eigen::Vector3d from = state_.position;
+  const bool free_in_plane = moveInPlane(way);
+  if (!free_in_plane) state_.velocity.surge = state_.velocity.sway = 0.0;
   state_.position.z() += 0.5 * (before.heave + state_.velocity.heave) * seconds;
+  const bool free_in_world = moveInWorld(from);
+  if (!free_in_world) state_.velocity.surge = state_.velocity.sway = state_.velocity.heave = 0.0;
+  if (in_contact_ && free_in_plane && free_in_world && isClear()) in_contact_ = false;
   state_.yaw = normalized(state_.yaw + turn);
 }
 
@@ -134,12 +145,32 @@ bool Vehicle::moveInPlane(const Eigen::Vector2d& way) {
       (blocked(middle) ? closed : free) = middle;
     }
     state_.position.head<2>() = from + free * way;
-    if (!in_contact_) ++contacts_;
-    in_contact_ = true;
+    enterContact("projected_map");
     return false;
   }
-  if (distance > options_.vehicle_radius + kContactEnds) in_contact_ = false;
   return true;
+}
+
+// Takes back what the step that began at `from` did after the first touch. Whether there was none.
+bool Vehicle::moveInWorld(const Eigen::Vector3d& from) {
+  if (!world_) return true;
+  const SphereWay way = followWay(*world_, options_.vehicle_radius, from, state_.position);
+  state_.position = way.end;
+  if (!way.touched) return true;
+  enterContact(std::string(way.touched->name));
+  return false;
+}
+
+void Vehicle::enterContact(const std::string& name) {
+  if (!in_contact_) ++contacts_;
+  in_contact_ = true;
+  touched_ = name;
+}
+
+bool Vehicle::isClear() const {
+  const double reach = options_.vehicle_radius + kContactEnds;
+  return (!map_ || clearance(state_.position.head<2>()) > reach) &&
+         (!world_ || !world_->nearest(state_.position, reach));
 }
 
 double Vehicle::clearance(const Eigen::Vector2d& position) const {

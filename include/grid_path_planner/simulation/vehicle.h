@@ -1,25 +1,30 @@
 // An underwater vehicle with four degrees of freedom (surge, sway, heave, yaw) that follows
-// velocity commands as fast as its accelerations allow, and that obstacles of a map hold up.
+// velocity commands as fast as its accelerations allow, and that obstacles hold up: the cells of a
+// map, the surfaces of a world, or both.
 //
 //   Vehicle vehicle(options, {Eigen::Vector3d(1.0, 2.0, -3.0), 0.0});
-//   vehicle.setMap(map);
+//   vehicle.setWorld(world);
 //   vehicle.command({0.5, 0.0, 0.0, 0.1});
 //   for (int i = 0; i < 100; ++i) vehicle.step();
+//   if (vehicle.contacts() > 0) std::cout << "ran into " << vehicle.touched() << "\n";
 //
 // Guaranteed: the same calls give the same states, bit for bit; no clock is read, time is the sum
 // of the steps. The vehicle stops by itself cmd_vel_timeout after the last command. Its disc does
-// not enter an occupied cell: the motion in the plane ends at the first touch. Where it has been
-// put into one it may leave. Not modelled: water, currents, roll and pitch; the map is flat, so
-// obstacles stand at every depth. Outside the map there are no obstacles.
+// not enter an occupied cell: the motion in the plane ends at the first touch. Its sphere does not
+// enter a surface of the world: the whole motion but the turning ends at the first touch. Where it
+// has been put into an obstacle it may leave. Not modelled: water, currents, roll and pitch; the
+// map is flat, so its obstacles stand at every depth. Outside map and world there are no obstacles.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "grid_path_planner/base/body_velocity.h"
 #include "grid_path_planner/grid/occupancy.h"
 #include "grid_path_planner/simulation/vehicle_options.h"
+#include "grid_path_planner/simulation/world.h"
 
 namespace grid_path_planner {
 
@@ -40,6 +45,8 @@ class Vehicle {
 
   // The obstacles; a null pointer takes them away. Contacts counted so far stay.
   void setMap(std::shared_ptr<const OccupancyGrid> map);
+  // The same for the solid surfaces of a world.
+  void setWorld(std::shared_ptr<const World> world);
 
   // The velocity to reach, from now until cmd_vel_timeout later or the next command. Faster than
   // the vehicle's limits: held to them, axis by axis. Throws InputError for numbers that are not
@@ -62,12 +69,18 @@ class Vehicle {
   // it ends when the vehicle is more than a millimetre clear.
   int contacts() const { return contacts_; }
   bool inContact() const { return in_contact_; }
+  // What it ran into last: the name of a mesh of the world, or "projected_map" for a cell of the
+  // map; "" where it has not run into anything since the construction or `reset`.
+  const std::string& touched() const { return touched_; }
 
  private:
   BodyVelocity setPoint() const;
   void changeVelocity(double seconds);
   void move(double seconds, const BodyVelocity& before);
   bool moveInPlane(const Eigen::Vector2d& way);
+  bool moveInWorld(const Eigen::Vector3d& from);
+  void enterContact(const std::string& name);
+  bool isClear() const;
   double clearance(const Eigen::Vector2d& position) const;
 
   VehicleOptions options_;
@@ -76,6 +89,8 @@ class Vehicle {
   std::int64_t command_ends_ns_ = 0;
   std::int64_t time_ns_ = 0;
   std::shared_ptr<const OccupancyGrid> map_;
+  std::shared_ptr<const World> world_;
+  std::string touched_;
   int contacts_ = 0;
   bool in_contact_ = false;
 };

@@ -39,7 +39,8 @@ void visitOptions(VehicleOptions& o, Visitor&& visit) {
   visit("cmd_vel_timeout", o.cmd_vel_timeout,
         OptionInfo{"The vehicle stops this long after the last command", "s", 0.01, 3600.0});
   visit("vehicle_radius", o.vehicle_radius,
-        OptionInfo{"Radius of the disc that touches obstacles", "m", 0.001, 100.0});
+        OptionInfo{"Radius of the disc, in a world the sphere, that touches obstacles", "m", 0.001,
+                   100.0});
   visit("occupied_min", o.occupied_min,
         OptionInfo{"Cells of the map with at least this occupancy are obstacles", "%", 1, 100});
   visit("time_step", o.time_step,
