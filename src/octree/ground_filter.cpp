@@ -68,7 +68,8 @@ Plane refined(const Plane& plane, const Points& points, double distance) {
   for (const Eigen::Vector3d& point : points)
     if (plane.absDistance(point) <= distance) on_plane.push_back(point);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : on_plane) mean += point / static_cast<double>(on_plane.size());
+  for (const Eigen::Vector3d& point : on_plane)
+    mean += point / static_cast<double>(on_plane.size());
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& point : on_plane)
     scatter += (point - mean) * (point - mean).transpose();

@@ -9,6 +9,7 @@
 
 #include "octree/side_view.h"
 #include "support/error_text.h"
+#include "support/option_laws.h"
 
 namespace grid_path_planner {
 namespace {
@@ -247,6 +248,10 @@ TEST(Projection, AHullAboveTheSeabedIsNotTakenForSeabed) {
   EXPECT_EQ(projected(sideView({lines.begin(), lines.end() - 1}), aboveSeabed(0.6, 9.0, 0.5)),
             "???######")
       << "no seabed seen: an obstacle is one, and nothing is free";
+}
+
+TEST(Projection, OptionsHoldTheirLaws) {
+  test::expectOptionLaws<ProjectionOptions>();
 }
 
 TEST(Projection, OptionsThatHoldNothingAreRefused) {

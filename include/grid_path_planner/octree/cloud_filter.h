@@ -5,9 +5,9 @@
 //   map.insert(filterCloud(points, frames, options).scan);
 //
 // A point outside the box of pointcloud_min/max, and one of the ground where filter_ground is set,
-// makes no obstacle, but the way to it was seen through: it goes to Scan::clear_only. The box stands
-// in the frame of the tree whether ground is filtered or not (octomap_server filters in the base
-// frame then).
+// makes no obstacle, but the way to it was seen through: it goes to Scan::clear_only. The box
+// stands in the frame of the tree whether ground is filtered or not (octomap_server filters in the
+// base frame then).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -33,9 +33,7 @@ struct CloudFilterOptions {
 
 template <class Visitor>
 void visitOptions(CloudFilterOptions& o, Visitor&& visit) {
-  const auto side = [](const char* description) {
-    return OptionInfo{description, "m", -1e9, 1e9};
-  };
+  const auto side = [](const char* description) { return OptionInfo{description, "m", -1e9, 1e9}; };
   visit("pointcloud_min_x", o.min_x, side("Points with a smaller x only clear the way to them"));
   visit("pointcloud_max_x", o.max_x, side("Points with a larger x only clear the way to them"));
   visit("pointcloud_min_y", o.min_y, side("Points with a smaller y only clear the way to them"));

@@ -1,13 +1,14 @@
 // Which points of a scan are the floor that a vehicle drives on: a plane found by RANSAC.
 //
-//   const GroundSplit split = splitGround(points, options);     // points in the vehicle's base frame
+//   const GroundSplit split = splitGround(points, options);     // points in the vehicle's base
+//   frame
 //
 // octomap_server's rule: the plane must lean less than `angle` from level and pass within
-// `plane_distance` of the base frame's origin (a table does not); the points within `distance` of it
-// are ground. Where there is no such plane, the points within plane_distance of z = 0 are.
+// `plane_distance` of the base frame's origin (a table does not); the points within `distance` of
+// it are ground. Where there is no such plane, the points within plane_distance of z = 0 are.
 //
-// Guaranteed: deterministic; the same points give the same split. Not guaranteed: the plane with the
-// most points (Fischler and Bolles 1981: very likely it is).
+// Guaranteed: deterministic; the same points give the same split. Not guaranteed: the plane with
+// the most points (Fischler and Bolles 1981: very likely it is).
 #pragma once
 
 #include <Eigen/Core>
