@@ -1,17 +1,14 @@
 #include "grid_path_planner/ros/simulator_node.h"
 
-#include <geometry_msgs/TransformStamped.h>
-#include <nav_msgs/Odometry.h>
 #include <ros/console.h>
 #include <rosgraph_msgs/Clock.h>
-#include <std_msgs/UInt32.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "grid_path_planner/ros/parameters.h"
+#include "grid_path_planner/simulation/world_file.h"
 
 namespace grid_path_planner {
 namespace {
@@ -29,6 +26,14 @@ bool sameStart(const SimulatorOptions& a, const SimulatorOptions& b) {
          a.initial_yaw == b.initial_yaw;
 }
 
+VehicleFrameNames frameNames(const SimulatorOptions& o) {
+  return {o.map_frame, o.odom_frame, o.base_frame, o.publish_map_to_odom};
+}
+
+CameraFrameNames cameraFrameNames(const SimulatorOptions& o) {
+  return {o.base_frame, o.camera_frame, o.camera_optical_frame};
+}
+
 SimulatorOptions loadOptions(const ros::NodeHandle& private_nh) {
   SimulatorOptions options;
   loadParameters(private_nh, options);
@@ -37,61 +42,23 @@ SimulatorOptions loadOptions(const ros::NodeHandle& private_nh) {
   return options;
 }
 
-geometry_msgs::Quaternion quaternionOf(double yaw) {
-  geometry_msgs::Quaternion q;
-  q.z = std::sin(0.5 * yaw);
-  q.w = std::cos(0.5 * yaw);
-  return q;
-}
-
-nav_msgs::Odometry odometryOf(const VehicleState& state, const SimulatorOptions& options) {
-  nav_msgs::Odometry message;
-  message.header.frame_id = options.odom_frame;
-  message.child_frame_id = options.base_frame;
-  message.pose.pose.position.x = state.position.x();
-  message.pose.pose.position.y = state.position.y();
-  message.pose.pose.position.z = state.position.z();
-  message.pose.pose.orientation = quaternionOf(state.yaw);
-  message.twist.twist.linear.x = state.velocity.surge;
-  message.twist.twist.linear.y = state.velocity.sway;
-  message.twist.twist.linear.z = state.velocity.heave;
-  message.twist.twist.angular.z = state.velocity.yaw_rate;
-  return message;
-}
-
-geometry_msgs::TransformStamped transformOf(const nav_msgs::Odometry& odometry) {
-  geometry_msgs::TransformStamped transform;
-  transform.header = odometry.header;
-  transform.child_frame_id = odometry.child_frame_id;
-  transform.transform.translation.x = odometry.pose.pose.position.x;
-  transform.transform.translation.y = odometry.pose.pose.position.y;
-  transform.transform.translation.z = odometry.pose.pose.position.z;
-  transform.transform.rotation = odometry.pose.pose.orientation;
-  return transform;
-}
-
-// Not a static transform: a listener that clears its buffer as time jumps back would not get that
-// again.
-geometry_msgs::TransformStamped identity(const SimulatorOptions& options, const ros::Time& stamp) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = stamp;
-  transform.header.frame_id = options.map_frame;
-  transform.child_frame_id = options.odom_frame;
-  transform.transform.rotation.w = 1.0;
-  return transform;
-}
-
 }  // namespace
 
 SimulatorNode::SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
     : nh_(nh),
       options_(loadOptions(private_nh)),
-      vehicle_(std::make_unique<Vehicle>(options_.vehicle, initialState(options_))) {
-  odometry_publisher_ = nh_.advertise<nav_msgs::Odometry>("odom", 10);
-  contacts_publisher_ = nh_.advertise<std_msgs::UInt32>("contacts", 1, true);
+      vehicle_(std::make_unique<Vehicle>(options_.vehicle, initialState(options_))),
+      odometry_(options_.odometry),
+      vehicle_publisher_(nh_),
+      contact_publisher_(nh_) {
+  odometry_.reset(vehicle_->state());
   if (options_.publish_clock) clock_publisher_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  if (options_.world.empty())
+    map_subscriber_ = nh_.subscribe("projected_map", 1, &SimulatorNode::onMap, this);
+  else
+    enterWorld();
+  useCamera(options_);
   command_subscriber_ = nh_.subscribe("cmd_vel", 10, &SimulatorNode::onCommand, this);
-  map_subscriber_ = nh_.subscribe("projected_map", 1, &SimulatorNode::onMap, this);
   reconfigurable_ = std::make_unique<Reconfigurable<SimulatorConfig, SimulatorOptions>>(
       private_nh, options_, [this](const SimulatorOptions& options) { use(options); });
   startTimer();
@@ -101,15 +68,38 @@ SimulatorNode::~SimulatorNode() {
   timer_.stop();
 }
 
+void SimulatorNode::enterWorld() {
+  world_ = std::make_shared<const World>(readWorld(options_.world));
+  vehicle_->setWorld(world_);
+  contact_publisher_.begin(*vehicle_);
+}
+
 void SimulatorNode::use(const SimulatorOptions& options) {
   checkSimulatorOptions(options);
   if (options.publish_clock != options_.publish_clock || options.start_time != options_.start_time)
     throw InputError("publish_clock and start_time cannot be changed while the simulator runs");
+  if (options.world != options_.world)
+    throw InputError("world cannot be changed while the simulator runs, it is '" + options_.world +
+                     "'");
+  useCamera(options);
   vehicle_->setOptions(options.vehicle);
-  if (!sameStart(options, options_)) vehicle_->reset(initialState(options));
+  odometry_.setOptions(options.odometry);
+  if (!sameStart(options, options_)) putVehicle(options);
   const bool other_rate = options.update_rate != options_.update_rate;
   options_ = options;
   if (other_rate) startTimer();
+}
+
+void SimulatorNode::useCamera(const SimulatorOptions& options) {
+  const CameraFrameNames frames = cameraFrameNames(options);
+  vehicle_publisher_.setFixed(cameraTransforms(options.camera, frames));
+  if (world_ && !(camera_ && camera_->same(options.camera, frames)))
+    camera_ = std::make_unique<DepthCameraPublisher>(nh_, *world_, options.camera, frames);
+}
+
+void SimulatorNode::putVehicle(const SimulatorOptions& options) {
+  vehicle_->reset(initialState(options));
+  odometry_.reset(vehicle_->state());
 }
 
 void SimulatorNode::startTimer() {
@@ -132,7 +122,7 @@ void SimulatorNode::onMap(const nav_msgs::OccupancyGrid& message) {
     if (frame != options_.map_frame)
       throw InputError("its frame must be " + options_.map_frame + ", got '" + frame + "'");
     vehicle_->setMap(std::make_shared<OccupancyGrid>(occupancyFromMessage(message)));
-    publishContacts();
+    contact_publisher_.begin(*vehicle_);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("projected_map refused, the one before stays: " << error.what());
   }
@@ -142,12 +132,32 @@ void SimulatorNode::onTimer(const ros::SteadyTimerEvent&) {
   const ros::SteadyTime tick = ros::SteadyTime::now();
   const double longest = std::max(kLongestDelay, 2.0 / options_.update_rate);
   owed_ += std::min((tick - last_tick_).toSec(), longest) * options_.real_time_factor;
+  owed_ = std::min(owed_, longest * options_.real_time_factor);
   last_tick_ = tick;
-  const double time_step = options_.vehicle.time_step;
-  if (owed_ < time_step) return;
-  for (; owed_ >= time_step; owed_ -= time_step) vehicle_->step();
+  const std::int64_t before = vehicle_->timeNs();
+  for (; owed_ >= options_.vehicle.time_step && !timeMustWait();
+       owed_ -= options_.vehicle.time_step)
+    step();
+  if (vehicle_->timeNs() == before) return;
   publishState();
-  if (published_contacts_ >= 0 && published_contacts_ != vehicle_->contacts()) publishContacts();
+  contact_publisher_.update(*vehicle_);
+}
+
+// A picture is due, and the one before is not finished.
+bool SimulatorNode::timeMustWait() const {
+  return camera_ && camera_->due(vehicle_->timeNs()) && camera_->busy();
+}
+
+void SimulatorNode::step() {
+  if (camera_ && camera_->due(vehicle_->timeNs())) takePicture();
+  vehicle_->step();
+  odometry_.advance(vehicle_->state());
+}
+
+// With tf of exactly its stamp, sent before it.
+void SimulatorNode::takePicture() {
+  publishState();
+  camera_->take(vehicle_->state(), vehicle_->timeNs(), now());
 }
 
 ros::Time SimulatorNode::now() const {
@@ -167,21 +177,7 @@ void SimulatorNode::publishState() {
     clock.clock = stamp;
     clock_publisher_.publish(clock);
   }
-  nav_msgs::Odometry odometry = odometryOf(vehicle_->state(), options_);
-  odometry.header.stamp = stamp;
-  odometry_publisher_.publish(odometry);
-  std::vector<geometry_msgs::TransformStamped> transforms{transformOf(odometry)};
-  if (options_.publish_map_to_odom) transforms.push_back(identity(options_, stamp));
-  broadcaster_.sendTransform(transforms);
-}
-
-void SimulatorNode::publishContacts() {
-  published_contacts_ = vehicle_->contacts();
-  std_msgs::UInt32 message;
-  message.data = static_cast<std::uint32_t>(published_contacts_);
-  contacts_publisher_.publish(message);
-  if (published_contacts_ > 0)
-    ROS_WARN_STREAM("The vehicle has run into an obstacle, contacts so far: " << message.data);
+  vehicle_publisher_.publish(vehicle_->state(), odometry_.measured(), stamp, frameNames(options_));
 }
 
 }  // namespace grid_path_planner

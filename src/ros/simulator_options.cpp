@@ -2,19 +2,32 @@
 
 #include "grid_path_planner/base/check_options.h"
 
+#include <set>
+#include <string>
+
 namespace grid_path_planner {
+namespace {
+
+void checkFrames(const SimulatorOptions& o) {
+  std::set<std::string> names;
+  for (const std::string& name :
+       {o.map_frame, o.odom_frame, o.base_frame, o.camera_frame, o.camera_optical_frame}) {
+    if (name.empty()) throw InputError("the name of a frame must not be empty");
+    if (!names.insert(name).second)
+      throw InputError("frames must have different names, two are called " + name);
+  }
+}
+
+}  // namespace
 
 void checkSimulatorOptions(const SimulatorOptions& o) {
   checkOptionLimits(o);
   checkVehicleOptions(o.vehicle);
+  checkDepthCameraOptions(o.camera);
   if (!o.publish_clock && o.real_time_factor != 1.0)
     throw InputError("real_time_factor other than 1 needs publish_clock, got " +
                      std::to_string(o.real_time_factor));
-  if (o.map_frame.empty() || o.odom_frame.empty() || o.base_frame.empty())
-    throw InputError("map_frame, odom_frame and base_frame must not be empty");
-  if (o.map_frame == o.odom_frame || o.odom_frame == o.base_frame || o.map_frame == o.base_frame)
-    throw InputError("map_frame, odom_frame and base_frame must be three different frames, got " +
-                     o.map_frame + ", " + o.odom_frame + " and " + o.base_frame);
+  checkFrames(o);
 }
 
 }  // namespace grid_path_planner

@@ -3,12 +3,26 @@
 
 #include <string>
 
+#include "grid_path_planner/simulation/dead_reckoning.h"
+#include "grid_path_planner/simulation/depth_camera_options.h"
 #include "grid_path_planner/simulation/vehicle_options.h"
 
 namespace grid_path_planner {
 
+// At the bow, looking ahead and down.
+inline DepthCameraOptions vehicleCamera() {
+  DepthCameraOptions camera;
+  camera.x = 0.35;
+  camera.z = -0.1;
+  camera.pitch = 0.6;
+  return camera;
+}
+
 struct SimulatorOptions {
+  std::string world;  // SDF file
   VehicleOptions vehicle;
+  DeadReckoningOptions odometry;
+  DepthCameraOptions camera = vehicleCamera();
 
   double initial_x = 0.0;    // m, map frame
   double initial_y = 0.0;    // m
@@ -24,10 +38,15 @@ struct SimulatorOptions {
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
   bool publish_map_to_odom = true;
+  std::string camera_frame = "camera_link";
+  std::string camera_optical_frame = "camera_optical_frame";
 };
 
 template <class Visitor>
 void visitOptions(SimulatorOptions& o, Visitor&& visit) {
+  visit(
+      "world", o.world,
+      OptionInfo{"World file (SDF) that is seen and touched; empty: none; read at the start", ""});
   visitOptions(o.vehicle, visit);
   visit("initial_x", o.initial_x,
         OptionInfo{"Where the vehicle starts; a change puts it there", "m", -1e6, 1e6});
@@ -56,10 +75,17 @@ void visitOptions(SimulatorOptions& o, Visitor&& visit) {
       "publish_map_to_odom", o.publish_map_to_odom,
       OptionInfo{
           "Whether tf map to odom (the identity) is published; false: a localisation does it", ""});
+  visitOptions(o.odometry, visit);
+  visit("camera_frame", o.camera_frame, OptionInfo{"Frame of the camera: x ahead, z up", ""});
+  visit("camera_optical_frame", o.camera_optical_frame,
+        OptionInfo{"Frame of the camera's points: z ahead, y down", ""});
+  visitOptions(o.camera, [&](const char* name, auto& value, const OptionInfo& info) {
+    visit((std::string("camera_") + name).c_str(), value, info);
+  });
 }
 
-// Throws InputError naming the option for a value outside its limits, a factor other than 1 without
-// a clock, and frames that are empty or the same.
+// Throws InputError naming the option for a value outside its limits, a range of the camera that
+// holds nothing, a factor other than 1 without a clock, and frames that are empty or the same.
 void checkSimulatorOptions(const SimulatorOptions& options);
 
 }  // namespace grid_path_planner

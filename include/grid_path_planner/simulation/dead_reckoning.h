@@ -1,0 +1,77 @@
+// Odometry as a real vehicle has it: the truth, turned and shifted by errors that grow on the way.
+//
+//   DeadReckoning odometry(options);
+//   odometry.advance(vehicle.state());                   // after every step
+//   const VehicleState measured = odometry.measured();   // what the vehicle believes
+//
+// Drift is a random walk: its standard deviation grows with the square root of the distance driven,
+// so that a vehicle that stands still stays where it believes to be. Noise is independent in every
+// measurement and never adds up. Guaranteed: with all options 0 the measured state is the true one,
+// bit for bit; the same options and states give the same measurements. The velocity is always the
+// true one.
+#pragma once
+
+#include <random>
+
+#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/simulation/vehicle.h"
+
+namespace grid_path_planner {
+
+struct DeadReckoningOptions {
+  double odometry_noise = 0.0;      // m
+  double odometry_yaw_noise = 0.0;  // rad
+  double odometry_drift = 0.0;      // m / sqrt(m)
+  double odometry_yaw_drift = 0.0;  // rad / sqrt(m)
+  int odometry_seed = 1;
+};
+
+template <class Visitor>
+void visitOptions(DeadReckoningOptions& o, Visitor&& visit) {
+  visit("odometry_noise", o.odometry_noise,
+        OptionInfo{"Standard deviation of each coordinate in every measurement of odometry", "m",
+                   0.0, 100.0});
+  visit("odometry_yaw_noise", o.odometry_yaw_noise,
+        OptionInfo{"Standard deviation of the yaw in every measurement of odometry", "rad", 0.0,
+                   3.0});
+  visit("odometry_drift", o.odometry_drift,
+        OptionInfo{"Standard deviation of each coordinate of odometry after the first metre; it "
+                   "grows with the square root of the distance",
+                   "m", 0.0, 100.0});
+  visit("odometry_yaw_drift", o.odometry_yaw_drift,
+        OptionInfo{"Standard deviation of the yaw of odometry after the first metre; it grows with "
+                   "the square root of the distance",
+                   "rad", 0.0, 3.0});
+  visit("odometry_seed", o.odometry_seed,
+        OptionInfo{"What all noise is drawn from; another one gives another run", "", 0, 1e9});
+}
+
+class DeadReckoning {
+ public:
+  explicit DeadReckoning(const DeadReckoningOptions& options = {});
+
+  // From the next `advance` on; the drift so far stays, and a new seed begins a new series.
+  void setOptions(const DeadReckoningOptions& options);
+
+  // No drift, and `truth` is where the vehicle is: the way there was not driven.
+  void reset(const VehicleState& truth);
+
+  // The vehicle has driven from the state before to `truth`.
+  void advance(const VehicleState& truth);
+
+  // With noise that is new in every call.
+  VehicleState measured();
+
+ private:
+  double normal(double deviation);
+  Eigen::Vector3d shift(double deviation);
+  Eigen::Vector3d turned(const Eigen::Vector3d& position) const;
+
+  DeadReckoningOptions options_;
+  std::mt19937 random_;
+  VehicleState truth_;
+  double yaw_error_ = 0.0;                           // rad; measured minus true
+  Eigen::Vector3d shift_ = Eigen::Vector3d::Zero();  // m, after the turn about the origin
+};
+
+}  // namespace grid_path_planner
