@@ -2,7 +2,8 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
+
+#include "grid_path_planner/base/option_text.h"
 
 namespace grid_path_planner {
 namespace {
@@ -52,14 +53,6 @@ sensor_msgs::PointCloud2 emptyCloud(const DepthCameraOptions& options) {
   return cloud;
 }
 
-std::vector<double> optionValues(DepthCameraOptions options) {
-  std::vector<double> values;
-  visitOptions(options, [&](const char*, auto& value, const OptionInfo&) {
-    values.push_back(static_cast<double>(value));
-  });
-  return values;
-}
-
 }  // namespace
 
 std::vector<geometry_msgs::TransformStamped> cameraTransforms(const DepthCameraOptions& options,
@@ -90,7 +83,7 @@ DepthCameraPublisher::~DepthCameraPublisher() {
 
 bool DepthCameraPublisher::same(const DepthCameraOptions& options,
                                 const CameraFrameNames& frames) const {
-  return optionValues(options) == optionValues(camera_.options()) && frames.base == frames_.base &&
+  return sameOptions(options, camera_.options()) && frames.base == frames_.base &&
          frames.camera == frames_.camera && frames.optical == frames_.optical;
 }
 

@@ -1,11 +1,14 @@
 // grid_path convert: a map file from one format to another.
+#include <cmath>
 #include <iostream>
+#include <memory>
 #include <string>
 
 #include "arguments.h"
 #include "commands.h"
 #include "grid_path_planner/grid/map_format.h"
 #include "grid_path_planner/ros/bag.h"
+#include "grid_path_planner/terrain/terrain.h"
 
 namespace grid_path_planner::tools {
 namespace {
@@ -22,7 +25,12 @@ po::options_description describe() {
       "trinary: free, unknown and occupied survive; raw: every value does; default trinary")(
       "resolution", po::value<std::string>(), "side of a cell instead of the map's own [m]")(
       "origin", po::value<std::string>(),
-      "X,Y,YAW of the corner of cell (0, 0) instead of the map's own [m, rad]");
+      "X,Y,YAW of the corner of cell (0, 0) instead of the map's own [m, rad]")(
+      "kernel", po::value<std::string>(),
+      "side of the blocks that become one cell [cells]; default 1")(
+      "kernel-rule", po::value<std::string>(),
+      "conservative: occupied if any cell is, else unknown if any is; filter2d: as the original "
+      "study; default conservative");
   return known;
 }
 
@@ -62,6 +70,47 @@ Target targetOf(const po::variables_map& values) {
   return target;
 }
 
+TerrainOptions kernelOptions(const po::variables_map& values) {
+  TerrainOptions options;
+  if (values.count("kernel") != 0) {
+    const std::string& text = values["kernel"].as<std::string>();
+    const double kernel = numbersOf("kernel", text, 1, 1)[0];
+    if (kernel != std::floor(kernel) || std::abs(kernel) > 1e6)
+      throw InputError("--kernel must be a whole number of cells, got '" + text + "'");
+    options.kernel = static_cast<int>(kernel);
+  }
+  if (values.count("kernel-rule") != 0)
+    options.kernel_rule =
+        choiceFromName<KernelRule>("--kernel-rule", values["kernel-rule"].as<std::string>());
+  checkTerrainOptions(options);
+  return options;
+}
+
+std::int8_t valueOf(Occupancy occupancy) {
+  switch (occupancy) {
+    case Occupancy::FREE:
+      return 0;
+    case Occupancy::OCCUPIED:
+      return 100;
+    case Occupancy::UNKNOWN:
+      break;
+  }
+  return -1;
+}
+
+// The classes of the blocks; the map itself for kernel 1.
+OccupancyGrid withKernel(const OccupancyGrid& map, const TerrainOptions& options) {
+  if (options.kernel == 1) return map;
+  Terrain terrain(options);
+  terrain.setMap(std::make_shared<OccupancyGrid>(map));
+  const auto blocks = terrain.searched(StopToken());
+  OccupancyGrid result(blocks->geometry());
+  for (int row = 0; row < result.height(); ++row)
+    for (int column = 0; column < result.width(); ++column)
+      result[{column, row}] = valueOf(blocks->occupancy({column, row}));
+  return result;
+}
+
 void write(const Target& target, const OccupancyGrid& map) {
   if (target.extension == "map")
     writeMovingAiFile(target.file, map);
@@ -93,7 +142,9 @@ int runConvert(int argc, char** argv) {
                       values))
     return 0;
   const Target target = targetOf(values);
-  const OccupancyGrid map = readAnyMapFile(values["map"].as<std::string>(), readingOptions(values));
+  const TerrainOptions kernel = kernelOptions(values);
+  const OccupancyGrid map =
+      withKernel(readAnyMapFile(values["map"].as<std::string>(), readingOptions(values)), kernel);
   write(target, map);
   report(target.file, map);
   return 0;

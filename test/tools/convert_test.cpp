@@ -66,6 +66,23 @@ TEST_F(Convert, RawKeepsEveryValue) {
   EXPECT_EQ(readMapFile(path("out.yaml")), map);
 }
 
+// The last blocks hold what is left of the map; conservative is what planning is safe on.
+TEST_F(Convert, AKernelMakesBlocksOfCells) {
+  const AsciiMap map({"..?#.",  //
+                      "....?",  //
+                      "??...",  //
+                      "?#..."},
+                     0.5, {-1.0, 2.0, 0.0});
+  writeMapServerFile(path("in.yaml"), map.map);
+  EXPECT_EQ(convert({"--map", path("in.yaml"), "--output", path("a.yaml"), "--kernel", "2"}), "");
+  EXPECT_EQ(readMapFile(path("a.yaml")), AsciiMap({".#?", "#.."}, 1.0, {-1.0, 2.0, 0.0}).map);
+  EXPECT_EQ(convert({"--map", path("in.yaml"), "--output", path("b.yaml"), "--kernel", "2",
+                     "--kernel-rule", "filter2d"}),
+            "");
+  EXPECT_EQ(readMapFile(path("b.yaml")), AsciiMap({".#?", "..."}, 1.0, {-1.0, 2.0, 0.0}).map)
+      << "one obstacle among three unknown cells vanishes";
+}
+
 TEST_F(Convert, BadInputIsNamedAndNothingIsWritten) {
   writeMovingAiFile(path("in.map"), map_);
   const auto errorWith = [&](const std::vector<std::string>& more) {
@@ -81,6 +98,9 @@ TEST_F(Convert, BadInputIsNamedAndNothingIsWritten) {
   EXPECT_TRUE(contains(errorWith({"--output", out, "--resolution", "-0.05"}), "got -0.05"));
   EXPECT_TRUE(contains(errorWith({"--output", out, "--resolution", "nan"}), "got 'nan'"));
   EXPECT_TRUE(contains(errorWith({"--output", out, "--origin", "1,2"}), "--origin needs 3"));
+  EXPECT_TRUE(contains(errorWith({"--output", out, "--kernel", "0"}), "kernel must be"));
+  EXPECT_TRUE(contains(errorWith({"--output", out, "--kernel", "1.5"}), "whole number"));
+  EXPECT_TRUE(contains(errorWith({"--output", out, "--kernel-rule", "mean"}), "got 'mean'"));
   EXPECT_TRUE(contains(errorWith({"--output", out, "--colour", "red"}), "colour"));
   EXPECT_TRUE(contains(errorWith({"--output", path("in.map/out.yaml")}), "Not a directory"));
   EXPECT_TRUE(contains(convert({"--map", path("none"), "--output", out}), "No such file"));
