@@ -26,7 +26,7 @@ void append(const aiMesh& part, TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh readMesh(const std::string& name, const std::string& file) {
+TriangleMesh readMesh(const std::string& file) {
   if (!std::ifstream(file)) throw InputError(file, "cannot be read");
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
@@ -35,7 +35,7 @@ TriangleMesh readMesh(const std::string& name, const std::string& file) {
                                   aiProcess_JoinIdenticalVertices);
   if (scene == nullptr)
     throw InputError(file, std::string("not a mesh: ") + importer.GetErrorString());
-  TriangleMesh mesh{name, {}, {}};
+  TriangleMesh mesh{file, {}, {}};
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], mesh);
   if (mesh.triangles.empty()) throw InputError(file, "has no surface");
   return mesh;

@@ -7,8 +7,8 @@
 
 namespace grid_path_planner {
 
-// All surfaces of the file as one mesh, in the file's own axes. Throws InputError naming the file
-// where it is missing, damaged, or without a surface.
-TriangleMesh readMesh(const std::string& name, const std::string& file);
+// All surfaces of the file as one mesh with the file's name, in the file's own axes. Throws
+// InputError naming the file where it is missing, damaged, or without a surface.
+TriangleMesh readMesh(const std::string& file);
 
 }  // namespace grid_path_planner

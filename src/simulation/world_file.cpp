@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sdf/sdf.hh>
 #include <utility>
 #include <vector>
@@ -80,7 +81,7 @@ class WorldReader {
 
   template <class Shape>  // collision or visual
   void addShape(const Shape& shape, const Eigen::Isometry3d& parent, const std::string& prefix,
-                std::vector<TriangleMesh>& meshes) const {
+                std::vector<TriangleMesh>& meshes) {
     const std::string name = prefix + shape.Name();
     const sdf::Geometry* geometry = shape.Geom();
     const std::string kind = kindOf(geometry);
@@ -100,7 +101,7 @@ class WorldReader {
   }
 
   TriangleMesh meshOf(const std::string& name, const std::string& kind,
-                      const sdf::Geometry& geometry) const {
+                      const sdf::Geometry& geometry) {
     switch (geometry.Type()) {
       case sdf::GeometryType::BOX:
         return boxMesh(name, vectorOf(geometry.BoxShape()->Size()));
@@ -120,12 +121,15 @@ class WorldReader {
     }
   }
 
-  TriangleMesh fileMesh(const std::string& name, const sdf::Mesh& shape) const {
+  TriangleMesh fileMesh(const std::string& name, const sdf::Mesh& shape) {
     if (!shape.Submesh().empty())
       throw InputError(name + ": a <submesh> is not read, only whole meshes");
     const std::string path = resourcePath(shape.Uri(), folderOf(shape.FilePath()), folder_);
     if (path.empty()) throw InputError(name + ": there is no mesh " + shape.Uri());
-    TriangleMesh mesh = readMesh(name, path);
+    auto known = meshes_.find(path);
+    if (known == meshes_.end()) known = meshes_.emplace(path, readMesh(path)).first;
+    TriangleMesh mesh = known->second;
+    mesh.name = name;
     const Eigen::Vector3f scale = vectorOf(shape.Scale()).cast<float>();
     for (Eigen::Vector3f& vertex : mesh.vertices) vertex = vertex.cwiseProduct(scale);
     return mesh;
@@ -135,6 +139,7 @@ class WorldReader {
   const std::string folder_;
   std::vector<TriangleMesh> solid_;
   std::vector<TriangleMesh> visible_;
+  std::map<std::string, TriangleMesh> meshes_;  // by their files, each of which is read once
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-"""Shell scripts pass shellcheck, Python ones compile (and pass pyflakes), and the demo map is the one
-that scripts/make_demo_map makes."""
+"""Shell scripts pass shellcheck, Python ones compile (and pass pyflakes), and the demo map and the
+worlds are what their scripts make."""
 import os
 import subprocess
 import sys
@@ -14,15 +14,34 @@ def run(command):
     return [] if answer.returncode == 0 else [answer.stdout.strip() or " ".join(command) + " failed"]
 
 
-def demo_map_complaints():
+# What scripts make, and where it is committed.
+MADE = {"make_demo_map": ("maps", ("demo_site.pgm", "demo_site.yaml")),
+        "make_worlds": ("worlds", ("dexrov_site.sdf", "forest_maze.sdf", "meshes"))}
+
+
+def contents(folder, names):
+    """The bytes of every file of these names, folders with all that is in them."""
+    found = {}
+    for name in names:
+        path = os.path.join(folder, name)
+        if os.path.isdir(path):
+            inside = contents(path, sorted(os.listdir(path)))
+            found.update({os.path.join(name, key): value for key, value in inside.items()})
+        else:
+            with open(path, "rb") as file:
+                found[name] = file.read()
+    return found
+
+
+def made_file_complaints(script):
+    place, names = MADE[script]
     with tempfile.TemporaryDirectory() as folder:
-        complaints = run([sys.executable, "scripts/make_demo_map", folder])
-        for name in ("demo_site.pgm", "demo_site.yaml"):
-            with open(os.path.join(ROOT, "maps", name), "rb") as committed:
-                with open(os.path.join(folder, name), "rb") as made:
-                    if committed.read() != made.read():
-                        complaints.append("maps/%s is not what scripts/make_demo_map makes" % name)
-    return complaints
+        complaints = run([sys.executable, "scripts/" + script, folder])
+        if complaints:
+            return complaints
+        made, committed = contents(folder, names), contents(os.path.join(ROOT, place), names)
+    return ["%s/%s is not what scripts/%s makes" % (place, name, script)
+            for name in sorted(set(made) | set(committed)) if made.get(name) != committed.get(name)]
 
 
 def main():
@@ -30,7 +49,7 @@ def main():
     names = [name for name in names if "__pycache__" not in name and not name.endswith(".txt")]
     python = [name for name in names if name.endswith(".py") or "python" in read(name).split("\n")[0]]
     shell = [name for name in names if name not in python]
-    complaints = demo_map_complaints()
+    complaints = [text for script in sorted(MADE) for text in made_file_complaints(script)]
     for name in python:
         try:
             compile(read(name), name, "exec")
