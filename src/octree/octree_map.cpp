@@ -8,6 +8,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "map_tree.h"
 #include "mirror.h"
+#include "scan_insertion.h"
 #include "tree_edits.h"
 #include "tree_file.h"
 
@@ -32,7 +33,8 @@ const OctreeOptions& checked(const OctreeOptions& options) {
 OctreeMap::OctreeMap(const OctreeOptions& options)
     : options_(checked(options)),
       tree_(std::make_unique<MapTree>(options.resolution, options)),
-      bricks_(options.resolution) {}
+      bricks_(options.resolution),
+      insertion_(std::make_unique<ScanInsertion>()) {}
 
 OctreeMap::~OctreeMap() = default;
 OctreeMap::OctreeMap(OctreeMap&&) noexcept = default;
@@ -60,35 +62,7 @@ std::size_t OctreeMap::insert(const Scan& scan) {
   OcTreeKey origin_key;
   if (!tree_->keyOf(scan.origin, origin_key))
     throw InputError("the origin " + text(scan.origin) + " of a scan is outside the octree");
-  octomap::KeySet free_keys, hit_keys;
-  octomap::KeyRay ray;
-  std::size_t left_out = 0;
-  const auto trace = [&](const point3d& point, bool hit) {
-    const bool near =
-        options_.max_range < 0.0 || (point - scan.origin).norm() <= options_.max_range;
-    const point3d end = near ? point
-                             : scan.origin + (point - scan.origin).normalized() *
-                                                 static_cast<float>(options_.max_range);
-    OcTreeKey key;
-    if (!tree_->keyOf(end, key)) {
-      ++left_out;
-      return;
-    }
-    tree_->computeRayKeys(scan.origin, end, ray);
-    free_keys.insert(ray.begin(), ray.end());
-    if (hit && near) hit_keys.insert(key);
-  };
-  for (const point3d& point : scan.hits) trace(point, true);
-  for (const point3d& point : scan.clear_only) trace(point, false);
-  const auto update = [&](const OcTreeKey& key, bool occupied) {
-    tree_->updateNode(key, occupied);
-    bricks_.setVoxel(key,
-                     tree_->isNodeOccupied(tree_->search(key)) ? Voxel::OCCUPIED : Voxel::FREE);
-  };
-  for (const OcTreeKey& key : free_keys)
-    if (hit_keys.find(key) == hit_keys.end()) update(key, false);
-  for (const OcTreeKey& key : hit_keys) update(key, true);
-  return left_out;
+  return insertion_->insert(scan, origin_key, options_.max_range, *tree_, bricks_);
 }
 
 void OctreeMap::clearBox(const point3d& low, const point3d& high) {
@@ -134,7 +108,7 @@ void OctreeMap::save(const std::string& file) const {
 }
 
 std::size_t OctreeMap::memoryUsage() const {
-  return tree_->memoryUsage() + bricks_.memoryUsage();
+  return tree_->memoryUsage() + bricks_.memoryUsage() + insertion_->memoryUsage();
 }
 
 octomap::key_type OctreeMap::nearestKey(double coordinate) const {

@@ -66,6 +66,8 @@ class OccupancyBricks {
   double resolution() const { return resolution_; }
 
   Voxel voxel(const octomap::OcTreeKey& key) const;
+  // Valid until the next change.
+  const Brick& brick(BrickKey key) const { return brick(handleOf(key)); }
   void setVoxel(const octomap::OcTreeKey& key, Voxel state);
   // Every voxel of the brick.
   void setBrick(BrickKey key, const Brick& content);

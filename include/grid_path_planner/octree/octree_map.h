@@ -28,6 +28,7 @@
 namespace grid_path_planner {
 
 class MapTree;
+class ScanInsertion;
 
 class OctreeMap {
  public:
@@ -78,7 +79,7 @@ class OctreeMap {
   const OccupancyBricks& bricks() const { return bricks_; }
   OccupancyBricks& bricks() { return bricks_; }  // to drain what has changed
 
-  // Of tree and bricks, in bytes.
+  // Of tree, bricks and what is kept for the next insertion, in bytes.
   std::size_t memoryUsage() const;
 
   // The most bricks of 8x8x8 voxels that a tree from outside may cover: a few bytes of a file can
@@ -92,6 +93,7 @@ class OctreeMap {
   OctreeOptions options_;
   std::unique_ptr<MapTree> tree_;
   OccupancyBricks bricks_;
+  std::unique_ptr<ScanInsertion> insertion_;
 };
 
 }  // namespace grid_path_planner

@@ -1,0 +1,30 @@
+// What a scan saw of one brick, in the order in which an octree divides space.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "grid_path_planner/octree/occupancy_bricks.h"
+#include "voxel_tiles.h"
+
+namespace grid_path_planner {
+
+// The 512 voxels of a brick, by the indices of the children on the way down: a word for each child
+// of the brick, in it a byte for each of that child's children, in it a bit for each voxel.
+using OctantWords = std::array<std::uint64_t, 8>;
+
+struct BrickMarks {
+  BrickKey key;
+  std::uint64_t order;  // the children's indices from the root down to the brick, three bits each
+  OctantWords free, hit;
+};
+
+// The marks of all tiles as bricks, ordered from the root down; bricks without a mark are left out.
+// The tiles' cells are NONE again.
+void collectMarks(const VoxelTiles& tiles, std::vector<BrickMarks>& bricks);
+
+// The same voxels in the order of OccupancyBricks.
+Brick::Words brickWords(const OctantWords& octants);
+
+}  // namespace grid_path_planner
