@@ -18,7 +18,9 @@ using Spot = std::uint64_t;
 constexpr unsigned kFieldBits = VoxelTile::kEdgeBits + 1;
 constexpr unsigned kFieldShift[] = {32, 32 + kFieldBits, 32 + 2 * kFieldBits};
 
-constexpr Spot field(unsigned axis, Spot value) { return value << kFieldShift[axis]; }
+constexpr Spot field(unsigned axis, Spot value) {
+  return value << kFieldShift[axis];
+}
 
 constexpr Spot kGuards =
     field(0, VoxelTile::kEdge) | field(1, VoxelTile::kEdge) | field(2, VoxelTile::kEdge);

@@ -24,19 +24,41 @@ bool all(const OctantWords& voxels) {
   for (const Octant octant : voxels) common &= octant;
   return common == ~Octant{0};
 }
-bool any(Octant voxels) { return voxels != 0; }
-bool all(Octant voxels) { return voxels == ~Octant{0}; }
-bool any(Eight voxels) { return voxels != 0; }
-bool all(Eight voxels) { return voxels == 0xFF; }
-bool any(One voxel) { return voxel; }
-bool all(One voxel) { return voxel; }
+bool any(Octant voxels) {
+  return voxels != 0;
+}
+bool all(Octant voxels) {
+  return voxels == ~Octant{0};
+}
+bool any(Eight voxels) {
+  return voxels != 0;
+}
+bool all(Eight voxels) {
+  return voxels == 0xFF;
+}
+bool any(One voxel) {
+  return voxel;
+}
+bool all(One voxel) {
+  return voxel;
+}
 
-Octant childOf(const OctantWords& voxels, unsigned i) { return voxels[i]; }
-Eight childOf(Octant voxels, unsigned i) { return static_cast<Eight>(voxels >> (8 * i)); }
-One childOf(Eight voxels, unsigned i) { return voxels >> i & 1; }
+Octant childOf(const OctantWords& voxels, unsigned i) {
+  return voxels[i];
+}
+Eight childOf(Octant voxels, unsigned i) {
+  return static_cast<Eight>(voxels >> (8 * i));
+}
+One childOf(Eight voxels, unsigned i) {
+  return voxels >> i & 1;
+}
 
-void addChild(OctantWords& voxels, unsigned i, Octant child) { voxels[i] |= child; }
-void addChild(Octant& voxels, unsigned i, Eight child) { voxels |= Octant{child} << (8 * i); }
+void addChild(OctantWords& voxels, unsigned i, Octant child) {
+  voxels[i] |= child;
+}
+void addChild(Octant& voxels, unsigned i, Eight child) {
+  voxels |= Octant{child} << (8 * i);
+}
 void addChild(Eight& voxels, unsigned i, One child) {
   voxels = static_cast<Eight>(voxels | child << i);
 }
@@ -46,9 +68,15 @@ OctantWords united(const OctantWords& a, const OctantWords& b) {
   for (unsigned i = 0; i < 8; ++i) both[i] = a[i] | b[i];
   return both;
 }
-Octant united(Octant a, Octant b) { return a | b; }
-Eight united(Eight a, Eight b) { return a | b; }
-One united(One a, One b) { return a || b; }
+Octant united(Octant a, Octant b) {
+  return a | b;
+}
+Eight united(Eight a, Eight b) {
+  return a | b;
+}
+One united(One a, One b) {
+  return a || b;
+}
 
 class Update {
  public:

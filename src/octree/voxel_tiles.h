@@ -27,7 +27,7 @@ struct VoxelTile {
   }
 
   std::array<Mark, kEdge * kEdge * kEdge> cells{};
-  std::array<VoxelTile*, 6> neighbors{};  // by 2 * axis + (1 if forward); null: not looked up yet
+  std::array<VoxelTile*, 6> neighbors{};    // by 2 * axis + (1 if forward); null: not looked up yet
   std::array<std::uint16_t, 3> position{};  // keys >> kEdgeBits
 };
 
