@@ -70,6 +70,22 @@ std::string closest(const std::string& name, const std::vector<std::string>& kno
   return best != known.end() && editDistance(name, *best) <= name.size() / 2 ? *best : "";
 }
 
+bool isKnown(const std::string& name, const std::vector<std::string>& known) {
+  return std::any_of(known.begin(), known.end(), [&](const std::string& other) {
+    return name == other || name == configName(other);
+  });
+}
+
+// Of an unknown nested name as much as is needed to see what is unknown.
+std::string reportedName(const std::string& name, const std::vector<std::string>& known) {
+  const std::string group = name.substr(0, name.find('/') + 1);
+  const bool group_is_known =
+      !group.empty() && std::any_of(known.begin(), known.end(), [&](const std::string& other) {
+        return other.compare(0, group.size(), group) == 0;
+      });
+  return group_is_known ? name : name.substr(0, name.find('/'));
+}
+
 }  // namespace
 
 void assignParameter(const std::string& name, XmlRpcValue value, bool& target) {
@@ -102,6 +118,11 @@ void assignParameter(const std::string& name, XmlRpcValue value, std::string& ta
     refuse(name, "a string", value);
 }
 
+std::string configName(std::string name) {
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
 std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
                                            const std::vector<std::string>& known) {
   std::vector<std::string> set_names;
@@ -110,9 +131,8 @@ std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
   std::set<std::string> unknown;
   for (const std::string& full_name : set_names) {
     if (full_name.compare(0, prefix.size(), prefix) != 0) continue;
-    const std::string name =
-        full_name.substr(prefix.size(), full_name.find('/', prefix.size()) - prefix.size());
-    if (std::find(known.begin(), known.end(), name) == known.end()) unknown.insert(name);
+    const std::string name = full_name.substr(prefix.size());
+    if (!isKnown(name, known)) unknown.insert(reportedName(name, known));
   }
   return {unknown.begin(), unknown.end()};
 }

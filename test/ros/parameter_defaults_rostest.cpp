@@ -3,11 +3,13 @@
 #include "grid_path_planner/MapPublisherConfig.h"
 #include "grid_path_planner/NavigatePathConfig.h"
 #include "grid_path_planner/PathPlannerConfig.h"
+#include "grid_path_planner/ProjectedMapConfig.h"
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/TeleopJoyConfig.h"
 #include "grid_path_planner/ros/map_publisher_options.h"
 #include "grid_path_planner/ros/navigate_path_options.h"
 #include "grid_path_planner/ros/path_planner_options.h"
+#include "grid_path_planner/ros/projected_map_options.h"
 #include "grid_path_planner/ros/simulator_options.h"
 #include "grid_path_planner/ros/teleop_joy_options.h"
 
@@ -32,6 +34,10 @@ TEST(ParameterDefaults, TeleopJoy) {
 
 TEST(ParameterDefaults, MapPublisher) {
   test::expectSameDefaults<MapPublisherConfig, MapPublisherOptions>("map_publisher");
+}
+
+TEST(ParameterDefaults, ProjectedMap) {
+  test::expectSameDefaults<ProjectedMapConfig, ProjectedMapOptions>("projected_map");
 }
 
 }  // namespace

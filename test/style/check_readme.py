@@ -10,7 +10,8 @@ import xml.etree.ElementTree
 
 from common import ROOT, files, finish, read
 
-PARAMETER = re.compile(r"^(\w+):\s*(\S+?)\s*(?:#\s*(.*))?$")
+PARAMETER = re.compile(r"^( *)(\w+):\s*(\S+?)\s*(?:#\s*(.*))?$")
+GROUP = re.compile(r"^(\w+):\s*(?:#.*)?$")
 
 
 def row(*cells):
@@ -18,12 +19,16 @@ def row(*cells):
 
 
 def parameter_table(node):
-    """From the lines `name: value  # comment` of config/<node>.yaml."""
+    """From the lines `name: value  # comment` of config/<node>.yaml, indented ones below their group."""
     rows = [row("parameter", "default", ""), "|---|---|---|"]
+    group = ""
     for line in read("config/%s.yaml" % node).splitlines():
         match = PARAMETER.match(line)
         if match:
-            rows.append(row("`%s`" % match.group(1), "`%s`" % match.group(2), match.group(3) or ""))
+            name = group + "/" + match.group(2) if match.group(1) else match.group(2)
+            rows.append(row("`%s`" % name, "`%s`" % match.group(3), match.group(4) or ""))
+        elif GROUP.match(line):
+            group = GROUP.match(line).group(1)
         elif line and not line.startswith("#"):
             raise ValueError("config/%s.yaml: not `name: value  # comment`: %s" % (node, line))
     return "\n".join(rows)

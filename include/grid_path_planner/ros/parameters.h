@@ -11,6 +11,9 @@
 // Nothing is clamped and nothing is half applied: a value of the wrong type, outside its limits or
 // in a contradictory combination is refused with a sentence, and what was in force stays. For that
 // the .cfg of a node states no min and max: dynamic_reconfigure would clamp to them without a word.
+//
+// An option with a nested name, sensor_model/hit, is the parameter ~sensor_model/hit; for
+// dynamic_reconfigure, whose names are C++ names, it is sensor_model_hit.
 #pragma once
 
 #include <XmlRpcValue.h>
@@ -40,8 +43,12 @@ void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, int& ta
 void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, double& target);
 void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, std::string& target);
 
+// The name of an option in dynamic_reconfigure.
+std::string configName(std::string name);
+
 // Names under the namespace of `private_nh` that are not in `known`; of a nested one the first
-// part.
+// part, unless known names begin with that too. What dynamic_reconfigure calls a known one is
+// known.
 std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
                                            const std::vector<std::string>& known);
 
@@ -81,10 +88,14 @@ void loadParameters(const ros::NodeHandle& private_nh, Options& options) {
   options = std::move(loaded);
 }
 
-// Sets every parameter to what `options` holds, enums by name.
+enum class Stored { ALL, NESTED };
+
+// Sets every parameter, or every one with a nested name, to what `options` holds, enums by name.
 template <class Options>
-void storeParameters(const ros::NodeHandle& private_nh, Options options) {
+void storeParameters(const ros::NodeHandle& private_nh, Options options,
+                     Stored stored = Stored::ALL) {
   visitOptions(options, [&](const char* name, auto& value, const OptionInfo&) {
+    if (stored == Stored::NESTED && configName(name) == name) return;
     if constexpr (std::is_enum_v<std::decay_t<decltype(value)>>)
       private_nh.setParam(name, std::string(choiceName(value)));
     else
@@ -99,9 +110,9 @@ dynamic_reconfigure::Config configMessage(Options options) {
   visitOptions(options, [&](const char* name, auto& value, const OptionInfo&) {
     using dynamic_reconfigure::ConfigTools;
     if constexpr (std::is_enum_v<std::decay_t<decltype(value)>>)
-      ConfigTools::appendParameter(message, name, std::string(choiceName(value)));
+      ConfigTools::appendParameter(message, configName(name), std::string(choiceName(value)));
     else
-      ConfigTools::appendParameter(message, name, value);
+      ConfigTools::appendParameter(message, configName(name), value);
   });
   return message;
 }
@@ -115,8 +126,9 @@ Options withConfigMessage(Options options, const dynamic_reconfigure::Config& me
     using dynamic_reconfigure::ConfigTools;
     if constexpr (std::is_enum_v<Value>) {
       std::string text;
-      if (ConfigTools::getParameter(message, name, text)) value = choiceFromName<Value>(name, text);
-    } else if (ConfigTools::getParameter(message, name, value)) {
+      if (ConfigTools::getParameter(message, configName(name), text))
+        value = choiceFromName<Value>(name, text);
+    } else if (ConfigTools::getParameter(message, configName(name), value)) {
       if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>)
         checkLimits(name, static_cast<double>(value), info);
     }
@@ -175,6 +187,7 @@ class Reconfigurable {
       const Options wanted = optionsFromConfig(options_, config);
       apply_(wanted);
       options_ = wanted;
+      storeParameters(private_nh_, options_, Stored::NESTED);  // others the server stores
     } catch (const InputError& error) {
       ROS_ERROR_STREAM("Reconfiguration of " << private_nh_.getNamespace()
                                              << " refused, the old values stay: " << error.what());

@@ -1,0 +1,60 @@
+// What projected_map reports on /diagnostics, once a second: the clouds that came and what became
+// of them, and the size of the map.
+//
+//   clouds: received, inserted, waiting, dropped (each with its reason), last_insertion_s,
+//           mean_insertion_s; a warning while clouds are dropped
+//   map:    nodes, bytes (counted seldom where that takes long), resolution
+//
+// All clouds that came are in the map when waiting is 0 and received is inserted + dropped.
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <ros/wall_timer.h>
+
+#include <chrono>
+#include <mutex>
+
+#include "grid_path_planner/ros/cloud_queue.h"
+#include "grid_path_planner/ros/map_keeper.h"
+#include "grid_path_planner/ros/mapping_desk.h"
+
+namespace grid_path_planner {
+
+class MappingDiagnostics {
+ public:
+  // `queue` and `desk` outlive this.
+  MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, const CloudQueue& queue,
+                     MappingDesk& desk);
+  ~MappingDiagnostics() { timer_.stop(); }
+
+  // Takes note of an insertion. Thread-safe.
+  void noteInsertion(const MapKeeper::Inserted& inserted);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Figures {
+    std::size_t nodes = 0;
+    std::size_t bytes = 0;
+    double resolution = 0.0;  // m
+  };
+
+  void onTimer();
+  void measure(const MapKeeper& map);
+  void reportClouds(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportMap(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  const CloudQueue& queue_;
+  MappingDesk& desk_;
+  std::mutex mutex_;
+  Figures figures_;
+  double last_insertion_ = 0.0;  // s
+  double all_insertions_ = 0.0;  // s
+  std::uint64_t insertions_ = 0;
+  std::uint64_t reported_drops_ = 0;
+  Clock::time_point measure_not_before_;  // of the map's thread
+  diagnostic_updater::Updater updater_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace grid_path_planner

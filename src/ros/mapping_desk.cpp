@@ -1,0 +1,31 @@
+#include "grid_path_planner/ros/mapping_desk.h"
+
+#include <exception>
+#include <utility>
+
+namespace grid_path_planner {
+
+void MappingDesk::ask(const Work& work) {
+  std::exception_ptr thrown;
+  const auto task = worker_.post(
+      [&](const StopSource&) {
+        try {
+          work(map_);
+        } catch (...) {
+          thrown = std::current_exception();
+        }
+      },
+      "", PlanWorker::Turn::NEXT);
+  task->wait();
+  if (thrown) std::rethrow_exception(thrown);
+}
+
+void MappingDesk::post(const std::string& slot, Work work) {
+  worker_.post(
+      [this, work = std::move(work)](const StopSource& stop) {
+        if (!stop.cancelled()) work(map_);
+      },
+      slot);
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,165 @@
+// projected_map as octomap_server's users know it: clouds to a map, files, services.
+#include <gtest/gtest.h>
+#include <std_srvs/Empty.h>
+
+#include <fstream>
+
+#include "grid_path_planner/SaveFile.h"
+#include "grid_path_planner/grid/map_file.h"
+#include "grid_path_planner/octree/octree_map.h"
+#include "grid_path_planner/ros/mapping_services.h"
+#include "ros/support/mapping_fixture.h"
+#include "support/temporary_folder.h"
+
+namespace grid_path_planner {
+namespace {
+
+using test::valueAt;
+using test::wallAt;
+
+class ProjectedMapTest : public test::MappingTest {
+ protected:
+  SaveFile::Response save(const std::string& service, const std::string& file) {
+    SaveFile call;
+    call.request.filename = file;
+    EXPECT_TRUE(ros::service::call("/projected_map/" + service, call));
+    return call.response;
+  }
+  // An octree with one occupied voxel at (1.05, 0.05, 0.05).
+  std::string octreeFile(const std::string& name) {
+    OctreeOptions options;
+    options.resolution = 0.1;
+    OctreeMap map(options);
+    map.insert({{0.05F, 0.05F, 0.05F}, {{1.05F, 0.05F, 0.05F}}, {}});
+    map.save(folder_.path(name));
+    return folder_.path(name);
+  }
+
+  const test::TemporaryFolder folder_;
+};
+
+TEST_F(ProjectedMapTest, ACloudInTheSensorsFrameBecomesAMap) {
+  startMapping();
+  const Maps maps(nh_, "projected_map");
+  const ros::Time stamp = ros::Time::now();
+  placeSensor(1.0, 2.0, 0.5, "sensor", stamp);
+  clouds_.publish(test::cloudOf(wallAt(2.0F), "sensor", stamp));
+  ASSERT_TRUE(becomes(maps, 3.05, 2.05, 100));
+  const nav_msgs::OccupancyGrid map = maps.all().back();
+  EXPECT_EQ(map.header.frame_id, "map");
+  EXPECT_FLOAT_EQ(map.info.resolution, 0.1F);
+  EXPECT_EQ(valueAt(map, 2.05, 2.05), 0) << "between sensor and wall";
+  EXPECT_EQ(valueAt(map, 3.35, 2.05), -1) << "behind the wall";
+}
+
+// octomap_mapping PR#127 and #90, and the band of existing launch files.
+TEST_F(ProjectedMapTest, TheBandIsOccupancyZUnlessItIsSetItself) {
+  startMapping({"_occupancy_min_z:=0.3", "_occupancy_max_z:=0.5"});
+  const Maps maps(nh_, "projected_map");
+  publish(wallAt(2.0F, -0.45F, 0.05F));
+  const auto map = maps.waitFor(0, [](const auto& m) { return m.info.width > 1; });
+  ASSERT_TRUE(map);
+  EXPECT_EQ(valueAt(*map, 2.05, 0.05), -1) << "the wall ends below the band";
+  startMapping({"_occupancy_min_z:=0.3", "_occupancy_max_z:=0.5", "_projection_min_z:=-0.5"});
+  publish(wallAt(2.0F, -0.45F, 0.05F));
+  EXPECT_TRUE(becomes(maps, 2.05, 0.05, 100));
+}
+
+// octomap_mapping#85, PR#34: reset gave no answer, an empty tree crashed.
+TEST_F(ProjectedMapTest, OM85ResetPublishesAClearedGridOfTheSameExtent) {
+  startMapping();
+  const Maps maps(nh_, "projected_map");
+  ASSERT_TRUE(maps.waitForMoreThan(0)) << "an empty tree is a map too";
+  EXPECT_EQ(maps.all().back().data, (std::vector<std::int8_t>{-1}));
+  std_srvs::Empty call;
+  EXPECT_TRUE(ros::service::call("/projected_map/reset", call)) << "of an empty tree";
+  publish(wallAt(2.0F));
+  ASSERT_TRUE(becomes(maps, 2.05, 0.05, 100));
+  const nav_msgs::OccupancyGrid before = maps.all().back();
+  EXPECT_TRUE(ros::service::call("/projected_map/reset", call));
+  const auto cleared = maps.waitFor(0, [&](const nav_msgs::OccupancyGrid& map) {
+    return map.info.width == before.info.width &&
+           map.data == std::vector<std::int8_t>(before.data.size(), -1);
+  });
+  ASSERT_TRUE(cleared);
+  EXPECT_EQ(cleared->info.origin, before.info.origin);
+  publish(wallAt(1.0F));
+  EXPECT_TRUE(becomes(maps, 1.05, 0.05, 100)) << "mapping goes on";
+}
+
+TEST_F(ProjectedMapTest, ClearBbxFreesABox) {
+  startMapping();
+  const Maps maps(nh_, "projected_map");
+  publish(wallAt(2.0F));
+  ASSERT_TRUE(becomes(maps, 2.05, 0.05, 100));
+  ClearBoxService call;
+  call.request.min.x = 1.9;
+  call.request.min.y = -0.2;
+  call.request.min.z = -1.0;
+  call.request.max.x = 2.2;
+  call.request.max.y = 0.2;
+  call.request.max.z = 1.0;
+  ASSERT_TRUE(ros::service::call("/projected_map/clear_bbx", call));
+  EXPECT_TRUE(becomes(maps, 2.05, 0.05, 0));
+  EXPECT_EQ(valueAt(maps.all().back(), 2.05, 0.55), 100) << "outside the box";
+  std::swap(call.request.min, call.request.max);
+  EXPECT_FALSE(ros::service::call("/projected_map/clear_bbx", call));
+}
+
+TEST_F(ProjectedMapTest, MapAndOctreeAreSavedAndLoaded) {
+  startMapping({"_octree_file:=" + folder_.path("parameter.ot")});
+  const Maps maps(nh_, "projected_map");
+  publish(wallAt(2.0F));
+  ASSERT_TRUE(becomes(maps, 2.05, 0.05, 100));
+  EXPECT_TRUE(save("save_map", folder_.path("map.yaml")).success);
+  EXPECT_EQ(readMapFile(folder_.path("map.yaml")), occupancyFromMessage(maps.all().back()));
+  EXPECT_TRUE(save("save_octree", folder_.path("tree.bt")).success);
+  EXPECT_TRUE(save("save_octree", "").success) << "where the parameter says";
+  EXPECT_FALSE(save("save_map", "").success);
+  const SaveFile::Response refused = save("save_octree", folder_.path("none/tree.bt"));
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(refused.message.find("none/tree.bt"), std::string::npos) << refused.message;
+  for (const char* name : {"tree.bt", "parameter.ot"}) {
+    startMapping({"_filename:=" + folder_.path(name)});
+    const Maps loaded(nh_, "projected_map");
+    EXPECT_TRUE(becomes(loaded, 2.05, 0.05, 100)) << name;
+  }
+}
+
+// octomap#211: the .bt given as an argument was ignored.
+TEST_F(ProjectedMapTest, O211AFileAsArgumentIsLoadedOrTheNodeFailsLoudly) {
+  startMapping({octreeFile("one.bt")});
+  const Maps maps(nh_, "projected_map");
+  EXPECT_TRUE(becomes(maps, 1.05, 0.05, 100));
+  node_.reset();
+  const std::string damaged = folder_.path("damaged.bt");
+  std::ofstream(damaged) << "# Octomap OcTree binary file\nid OcTree\nsize 9\nres 0.1\ndata\nx";
+  for (const std::string& file : {damaged, std::string("/no/such/tree.bt")}) {
+    test::Process failing("projected_map", {file});
+    ASSERT_TRUE(failing.waitForExit());
+    EXPECT_EQ(failing.exitCode(), 1);
+    EXPECT_TRUE(failing.says(file)) << failing.output();
+  }
+  test::Process two_files("projected_map", {"a.bt", "b.bt"});
+  ASSERT_TRUE(two_files.waitForExit());
+  EXPECT_EQ(two_files.exitCode(), 2);
+}
+
+// octomap_mapping#90: limits were clamped without a word.
+TEST_F(ProjectedMapTest, OM90NothingIsClampedAndUnknownNamesAreSaid) {
+  ros::param::del("/projected_map");
+  for (const std::string argument :
+       {"_sensor_model/hit:=1.5", "_occupancy_min_z:=2e9", "_projection_min_z:=low"}) {
+    test::Process failing("projected_map", {argument});
+    ASSERT_TRUE(failing.waitForExit());
+    EXPECT_EQ(failing.exitCode(), 1);
+    EXPECT_TRUE(failing.says("must be")) << failing.output();
+    ros::param::del("/projected_map");
+  }
+  startMapping({"_compress_map:=true", "_sensor_model/hitt:=0.8"});
+  EXPECT_TRUE(node_->says("compress_map has no effect"));
+  EXPECT_TRUE(node_->says("did you mean sensor_model/hit"));
+}
+
+}  // namespace
+}  // namespace grid_path_planner
