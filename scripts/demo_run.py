@@ -1,206 +1,84 @@
 #!/usr/bin/env python3
-"""Runs demo.launch on a roscore of its own, sends a goal, waits until the vehicle has arrived, reports.
+"""The whole study on a roscore of its own: survey, 3-D map, 2-D map, plan, waypoint file, drive.
 
     rosrun grid_path_planner demo_run.py [--rviz] [--speed FACTOR] [--out FOLDER]
 
-Writes path.png and waypoints.yaml into FOLDER (default: out), the nodes' output into demo.log there.
-The picture is drawn by `grid_path plan` with the same map, ends and parameters; that its path is the
-node's is checked. Exit code 0 only if a path was found and driven without touching anything.
+A simulated vehicle replays config/survey_waypoints.yaml; its depth camera fills an octree, whose slice at
+the vehicle's depth becomes the 2-D map. On that a path is planned, written as a waypoint file and driven.
+Into FOLDER (default: out) go projected_map.yaml and .pgm, waypoints.yaml, path.png and the nodes' output,
+demo.log. The picture is drawn by `grid_path plan` with the same map, ends and parameters; that its path is
+the node's is checked. Exit code 0 only if nothing was touched, a path was found and its end was reached.
 """
 import argparse
 import json
 import math
 import os
 import signal
-import socket
 import subprocess
 import sys
 import time
 
-PACKAGE = "grid_path_planner"
-GOAL = (4.6, 4.65, 0.5, 0.35)  # x, y, z in m, yaw in rad: in front of the testing panel, facing it
-LARGEST_ARRIVAL_ERROR = 0.2    # m
-START_SECONDS = 60.0           # for all nodes to be there and a path to be found
-DRIVE_SECONDS = 120.0          # of simulated time
+from ros_session import (START_SECONDS, Mapping, Nodes, SessionFailed, Vehicle, executable, set_camera_rate,
+                         share_file)
+
+START = (10.6115, -12.4845, 2.947, 1.7279)  # x, y, z in m, yaw in rad: where the survey ends
+GOAL = (1.2191, 4.8549, 2.883, 1.6864)
+LARGEST_START_ERROR = 0.15    # m
+LARGEST_ARRIVAL_ERROR = 0.1   # m
+SURVEY_SECONDS = 1500.0       # of the wall clock, if nothing else ends it
+DRIVE_SECONDS = 600.0
+HELD_RATE = 0.01              # Hz: no picture for 100 simulated seconds
 
 
-class DemoFailed(Exception):
-    """The message says why."""
+class Planner:
+    """Asks path_planner for the path, and keeps what it answers."""
 
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
-class Nodes:
-    """demo.launch as a child process, with everything that it starts. Stops it on the way out."""
-
-    def __init__(self, log, arguments):
-        port = free_port()
-        os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
-        os.environ["ROS_HOSTNAME"] = "localhost"
-        os.environ.pop("ROS_IP", None)
-        self.log_name = log
-        self.log = open(log, "w")
-        # A session of its own: Ctrl-C reaches this program alone, which then stops the nodes in order.
-        self.process = subprocess.Popen(
-            ["roslaunch", "-p", str(port), PACKAGE, "demo.launch"] + arguments,
-            stdout=self.log, stderr=subprocess.STDOUT, start_new_session=True)
-
-    def __enter__(self):
-        return self
-
-    def check(self):
-        if self.process.poll() is not None:
-            raise DemoFailed("roslaunch has ended with code %d, see %s"
-                             % (self.process.returncode, self.log_name))
-
-    def __exit__(self, *_):
-        for step, seconds in ((signal.SIGINT, 20), (signal.SIGTERM, 5), (signal.SIGKILL, 5)):
-            if self.process.poll() is not None:
-                break
-            self.process.send_signal(step)
-            try:
-                self.process.wait(seconds)
-            except subprocess.TimeoutExpired:
-                pass
-        self.log.close()
-
-
-class Watcher:
-    """Hears what the nodes say, and keeps the last of it."""
-
-    def __init__(self):
-        # Imported here: they read ROS_MASTER_URI, which the nodes' roscore sets.
+    def __init__(self, nodes, vehicle):
         import rospy
-        from geometry_msgs.msg import PoseStamped
-        from nav_msgs.msg import Odometry, Path
-        from rosgraph_msgs.msg import Clock
-        from std_msgs.msg import UInt32
+        from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
+        from nav_msgs.msg import Path
         from grid_path_planner.msg import PlanStatistics
-        self.rospy = rospy
-        self.PoseStamped = PoseStamped
-        self.statistics = self.path = self.odometry = self.contacts = self.clock = None
-        self.driven_m = 0.0
-        rospy.init_node("demo", anonymous=True, disable_signals=True)
-        self.goal_publisher = rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=1)
-        rospy.Subscriber("plan_statistics", PlanStatistics, self.keep("statistics"))
-        rospy.Subscriber("path", Path, self.keep("path"))
-        rospy.Subscriber("contacts", UInt32, self.keep("contacts"))
-        rospy.Subscriber("/clock", Clock, self.keep("clock"))
-        rospy.Subscriber("odom", Odometry, self.on_odometry)
+        self.nodes, self.vehicle = nodes, vehicle
+        self.PoseStamped, self.PoseWithCovarianceStamped = PoseStamped, PoseWithCovarianceStamped
+        self.statistics = self.path = None
+        self.start = rospy.Publisher("/initialpose", PoseWithCovarianceStamped, queue_size=1)
+        self.goal = rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=1)
+        rospy.Subscriber("plan_statistics", PlanStatistics, lambda m: setattr(self, "statistics", m))
+        rospy.Subscriber("path", Path, lambda m: setattr(self, "path", m))
 
-    def keep(self, name):
-        return lambda message: setattr(self, name, message)
+    def ask(self):
+        start, goal = self.PoseWithCovarianceStamped(), self.PoseStamped()
+        for message in (start, goal):
+            message.header.frame_id = "map"
+            message.header.stamp = self.vehicle.clock.clock
+        fill(start.pose.pose, START)
+        fill(goal.pose, GOAL)
+        self.start.publish(start)
+        time.sleep(0.5)  # two topics: there is no other way to be heard in this order
+        self.goal.publish(goal)
 
-    def on_odometry(self, message):
-        if self.odometry is not None:
-            a, b = self.odometry.pose.pose.position, message.pose.pose.position
-            self.driven_m += math.dist((a.x, a.y, a.z), (b.x, b.y, b.z))
-        self.odometry = message
-
-    def now(self):
-        return self.clock.clock.to_sec() if self.clock else 0.0
-
-    def send_goal(self):
-        goal = self.PoseStamped()
-        goal.header.frame_id = "map"
-        goal.header.stamp = self.clock.clock
-        goal.pose.position.x, goal.pose.position.y, goal.pose.position.z = GOAL[:3]
-        goal.pose.orientation.z, goal.pose.orientation.w = math.sin(GOAL[3] / 2), math.cos(GOAL[3] / 2)
-        self.goal_publisher.publish(goal)
-
-    def pose(self):
-        """x, y, z in m and yaw in rad; the simulator's odometry frame coincides with the map."""
-        position, q = self.odometry.pose.pose.position, self.odometry.pose.pose.orientation
-        yaw = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
-        return position.x, position.y, position.z, yaw
-
-    def speed(self):
-        v, w = self.odometry.twist.twist.linear, self.odometry.twist.twist.angular
-        return math.sqrt(v.x ** 2 + v.y ** 2 + v.z ** 2) + abs(w.z)
-
-    def arrival_error(self):
-        return math.dist(self.pose()[:3], GOAL[:3])
+    def plan(self):
+        """Asks until there is an answer that is not for want of the map or a transform: the nodes of a launch
+        file start in no order."""
+        deadline = time.monotonic() + START_SECONDS
+        while True:
+            self.nodes.wait_until(
+                lambda: self.start.get_num_connections() > 0 and self.goal.get_num_connections() > 0,
+                START_SECONDS, "path_planner")
+            self.statistics = None
+            self.ask()
+            self.nodes.wait_until(lambda: self.statistics, START_SECONDS, "plan_statistics")
+            if self.statistics.status == "FOUND":
+                self.nodes.wait_until(lambda: self.path and self.path.poses, 10.0, "path")
+                return self.statistics, self.path
+            if self.statistics.status not in ("NO_MAP", "TRANSFORM_ERROR") or time.monotonic() > deadline:
+                raise SessionFailed("%s: %s" % (self.statistics.status, self.statistics.message))
+            time.sleep(0.5)
 
 
-def wait_until(nodes, done, seconds, what):
-    """Polls `done` for so many seconds of the wall clock."""
-    deadline = time.monotonic() + seconds
-    while not done():
-        nodes.check()
-        if time.monotonic() > deadline:
-            raise DemoFailed("no %s within %.0f s, see %s" % (what, seconds, nodes.log_name))
-        time.sleep(0.05)
-
-
-def connect(nodes):
-    import rosgraph
-    wait_until(nodes, rosgraph.is_master_online, START_SECONDS, "roscore")
-    watcher = Watcher()
-    wait_until(nodes, lambda: watcher.odometry and watcher.clock and watcher.contacts is not None,
-               START_SECONDS, "simulator")
-    # navigate_path drives no path stamped before it started: it must be there and have seen the clock.
-    wait_until(nodes, lambda: has_service("/navigate_path/cancel"), START_SECONDS, "navigate_path")
-    begin = watcher.now()
-    wait_until(nodes, lambda: watcher.now() > begin + 4.0, START_SECONDS, "running /clock")
-    return watcher
-
-
-def has_service(name):
-    import rosgraph
-    try:
-        return bool(rosgraph.Master("/demo").lookupService(name))
-    except rosgraph.MasterError:
-        return False
-
-
-def plan(nodes, watcher):
-    """Sends the goal until there is an answer that is not for want of the map or the vehicle's pose:
-    the nodes of a launch file start in no order."""
-    start = watcher.pose()
-    deadline = time.monotonic() + START_SECONDS
-    while True:
-        watcher.statistics = None
-        wait_until(nodes, lambda: watcher.goal_publisher.get_num_connections() > 0,
-                   START_SECONDS, "path_planner")
-        watcher.send_goal()
-        wait_until(nodes, lambda: watcher.statistics, START_SECONDS, "plan_statistics")
-        if watcher.statistics.status == "FOUND":
-            wait_until(nodes, lambda: watcher.path and watcher.path.poses, 10.0, "path")
-            return start
-        if watcher.statistics.status not in ("NO_MAP", "TRANSFORM_ERROR") or time.monotonic() > deadline:
-            raise DemoFailed("%s: %s" % (watcher.statistics.status, watcher.statistics.message))
-        time.sleep(0.5)
-
-
-def drive(nodes, watcher, speed):
-    """Waits until the vehicle stands still at the goal; returns the simulated seconds it took."""
-    begin = watcher.now()
-    deadline = time.monotonic() + 2 * DRIVE_SECONDS / speed
-    while not (watcher.arrival_error() < LARGEST_ARRIVAL_ERROR and watcher.speed() < 0.005):
-        nodes.check()
-        if watcher.now() > begin + DRIVE_SECONDS or time.monotonic() > deadline:
-            raise DemoFailed("after %.0f s the vehicle is %.2f m from the goal, see %s" % (
-                watcher.now() - begin, watcher.arrival_error(), nodes.log_name))
-        time.sleep(0.02)
-    return watcher.now() - begin
-
-
-def share_folder():
-    import rospkg
-    return rospkg.RosPack().get_path(PACKAGE)
-
-
-def executable(name):
-    """From the first workspace that has it: rosrun would ask where a source folder holds two builds."""
-    for space in os.environ["CMAKE_PREFIX_PATH"].split(":"):
-        path = os.path.join(space, "lib", PACKAGE, name)
-        if os.path.exists(path):
-            return path
-    raise DemoFailed("there is no %s in CMAKE_PREFIX_PATH: is a setup.bash sourced?" % name)
+def fill(pose, values):
+    pose.position.x, pose.position.y, pose.position.z = values[:3]
+    pose.orientation.z, pose.orientation.w = math.sin(values[3] / 2), math.cos(values[3] / 2)
 
 
 def flags(yaml_name):
@@ -212,84 +90,109 @@ def flags(yaml_name):
             for part in ("--" + name.replace("_", "-"), str(value).lower())]
 
 
-def draw(start, picture, statistics):
+def draw(map_file, picture, statistics):
     """The picture, by the command line; checks that it found the node's path."""
-    share = share_folder()
-    command = [executable("grid_path"), "plan", "--json", "--image", picture,
-               "--map", os.path.join(share, "maps", "demo_site.yaml"),
-               "--start", ",".join(map(repr, start)), "--goal", ",".join(map(repr, GOAL))]
-    command += flags(os.path.join(share, "config", "demo_planner.yaml"))
+    command = [executable("grid_path"), "plan", "--json", "--image", picture, "--map", map_file,
+               "--start", ",".join(map(repr, START)), "--goal", ",".join(map(repr, GOAL))]
+    command += flags(share_file("config", "demo_planner.yaml"))
     answer = subprocess.run(command, capture_output=True, text=True)
     if answer.returncode != 0:
-        raise DemoFailed("grid_path plan: " + (answer.stderr or answer.stdout).strip())
+        raise SessionFailed("grid_path plan: " + (answer.stderr or answer.stdout).strip())
     report = json.loads(answer.stdout)
     if abs(report["cost"] - statistics.cost) > 1e-9 * statistics.cost:
-        raise DemoFailed("grid_path plan found a path of cost %r, the node one of %r"
-                         % (report["cost"], statistics.cost))
+        raise SessionFailed("grid_path plan found a path of cost %r on the saved map, the node one of %r"
+                            % (report["cost"], statistics.cost))
 
 
-def table(watcher, seconds):
-    s = watcher.statistics
-    x, y, z, yaw = watcher.pose()
-    rows = [
-        ("status", s.status),
-        ("planner", "%s, %s, kernel %d" % (s.planner, s.heuristic, s.kernel)),
-        ("path", "%.2f m, %d waypoints" % (s.length_m, len(watcher.path.poses))),
-        ("cost", "%.3f" % s.cost),
-        ("clearance", "%.2f m" % s.clearance_m),
-        ("expanded", "%d cells" % s.expanded),
-        ("search memory", "%.2f MB" % (s.search_bytes / 1e6)),
-        ("planning time", "%.2f ms, map preparation %.1f ms" % (s.planning_time_ms, s.preparation_time_ms)),
-        ("driven", "%.2f m in %.1f s" % (watcher.driven_m, seconds)),
-        ("arrived at", "x %.3f  y %.3f  z %.3f m  yaw %.3f rad" % (x, y, z, yaw)),
-        ("arrival error", "%.3f m, %.3f rad" % (
-            watcher.arrival_error(), abs(math.remainder(yaw - GOAL[3], 2 * math.pi)))),
-        ("contacts", str(watcher.contacts.data)),
-    ]
-    for name, value in rows:
-        print("  %-14s %s" % (name, value))
+def survey(nodes, vehicle, mapping, map_file):
+    """Drives the survey's waypoints and saves the map that comes of it. Returns the rows of the report."""
+    begin = time.monotonic()
+    seconds = vehicle.drive_file("/survey", share_file("config", "survey_waypoints.yaml"), SURVEY_SECONDS)
+    if vehicle.distance(START) > LARGEST_START_ERROR:
+        raise SessionFailed("the survey ended %.2f m from the start of the path" % vehicle.distance(START))
+    set_camera_rate(HELD_RATE)  # the map that is saved is the one that is planned on
+    mapping.wait_until_mapped(SURVEY_SECONDS)
+    mapping.save(map_file)
+    return [("survey", "%.1f m in %.0f s, %.0f s of the wall clock" % (
+                vehicle.driven_m, seconds, time.monotonic() - begin)),
+            ("depth pictures", "%d mapped, %d dropped" % (mapping.count("inserted"), mapping.count("dropped"))),
+            ("octree", "%d nodes, %.0f MB" % (mapping.count("nodes"), mapping.count("bytes") / 1e6))]
+
+
+def plan_rows(s, path):
+    return [("status", s.status),
+            ("planner", "%s, %s, kernel %d" % (s.planner, s.heuristic, s.kernel)),
+            ("path", "%.2f m, %d waypoints" % (s.length_m, len(path.poses))),
+            ("cost", "%.3f" % s.cost),
+            ("clearance", "%.2f m" % s.clearance_m),
+            ("expanded", "%d cells" % s.expanded),
+            ("search memory", "%.2f MB" % (s.search_bytes / 1e6)),
+            ("planning time", "%.2f ms, map preparation %.1f ms" % (s.planning_time_ms, s.preparation_time_ms))]
+
+
+def drive(vehicle, waypoints):
+    driven = vehicle.driven_m
+    seconds = vehicle.drive_file("", waypoints, DRIVE_SECONDS)
+    x, y, z, yaw = vehicle.pose()
+    return [("driven", "%.2f m in %.1f s" % (vehicle.driven_m - driven, seconds)),
+            ("arrived at", "x %.3f  y %.3f  z %.3f m  yaw %.3f rad" % (x, y, z, yaw)),
+            ("arrival error", "%.3f m, %.3f rad" % (
+                vehicle.distance(GOAL), abs(math.remainder(yaw - GOAL[3], 2 * math.pi)))),
+            ("touched", vehicle.contact.data if vehicle.contact else "nothing (%d contacts)"
+             % vehicle.contacts.data)]
+
+
+def prepared(folder):
+    """Names of the results, none of which is there yet."""
+    os.makedirs(folder, exist_ok=True)
+    names = [os.path.join(folder, name) for name in ("path.png", "waypoints.yaml", "projected_map.yaml")]
+    for name in names:
+        if os.path.exists(name):
+            os.remove(name)
+    return names
 
 
 def run(arguments):
-    os.makedirs(arguments.out, exist_ok=True)
-    picture = os.path.join(arguments.out, "path.png")
-    waypoints = os.path.join(arguments.out, "waypoints.yaml")
-    for name in (picture, waypoints):
-        if os.path.exists(name):
-            os.remove(name)
-    launch_arguments = ["rviz:=" + str(arguments.rviz).lower(),
-                        "real_time_factor:=%g" % arguments.speed,
+    picture, waypoints, map_file = prepared(arguments.out)
+    launch_arguments = ["rviz:=" + str(arguments.rviz).lower(), "real_time_factor:=%g" % arguments.speed,
                         "waypoints_file:=" + os.path.abspath(waypoints)]
-    with Nodes(os.path.join(arguments.out, "demo.log"), launch_arguments) as nodes:
+    with Nodes("demo.launch", launch_arguments, os.path.join(arguments.out, "demo.log")) as nodes:
         print("demo: nodes start on %s" % os.environ["ROS_MASTER_URI"], flush=True)
-        watcher = connect(nodes)
-        start = plan(nodes, watcher)
+        vehicle = Vehicle(nodes)
+        mapping = Mapping(nodes)
+        vehicle.wait_until_ready()
+        nodes.wait_for_service("/projected_map/save_map")
+        print("demo: the vehicle surveys the site", flush=True)
+        rows = survey(nodes, vehicle, mapping, map_file)
+        statistics, path = Planner(nodes, vehicle).plan()
+        rows += plan_rows(statistics, path)
+        nodes.wait_until(lambda: os.path.exists(waypoints), 10.0, "waypoint file")
         print("demo: a path is found, the vehicle drives", flush=True)
-        seconds = drive(nodes, watcher, arguments.speed)
-        wait_until(nodes, lambda: os.path.exists(waypoints), 10.0, "waypoint file")
-        draw(start, picture, watcher.statistics)
-        table(watcher, seconds)
+        rows += drive(vehicle, waypoints)
+        draw(map_file, picture, statistics)
+        for row in rows:
+            print("  %-14s %s" % row)
         if arguments.rviz and sys.stdin.isatty():
             input("demo: press Enter to close rviz ")
-        contacts = watcher.contacts.data
-        print("demo: status=%s length_m=%.3f arrival_error_m=%.3f contacts=%d picture=%s waypoints=%s" % (
-            watcher.statistics.status, watcher.statistics.length_m, watcher.arrival_error(), contacts,
-            picture, waypoints))
-        if contacts != 0:
-            raise DemoFailed("the vehicle touched something")
+        error = vehicle.distance(GOAL)
+        print("demo: status=%s length_m=%.3f arrival_error_m=%.3f contacts=%d picture=%s waypoints=%s map=%s" % (
+            statistics.status, statistics.length_m, error, vehicle.contacts.data, picture, waypoints, map_file))
+        vehicle.check_untouched()
+        if error > LARGEST_ARRIVAL_ERROR:
+            raise SessionFailed("the vehicle arrived %.3f m from the goal" % error)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--rviz", action="store_true", help="show it in rviz")
-    parser.add_argument("--speed", type=float, default=4.0, metavar="FACTOR",
-                        help="simulated seconds in a second of the wall clock (default: 4)")
+    parser.add_argument("--speed", type=float, default=8.0, metavar="FACTOR",
+                        help="simulated seconds in a second of the wall clock, if the machine allows (default: 8)")
     parser.add_argument("--out", default="out", metavar="FOLDER", help="for the results (default: out)")
     arguments = parser.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
         run(arguments)
-    except DemoFailed as reason:
+    except SessionFailed as reason:
         print("demo: failed: %s" % reason, file=sys.stderr)
         sys.exit(1)
     except KeyboardInterrupt:

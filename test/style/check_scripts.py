@@ -1,5 +1,5 @@
-"""Shell scripts pass shellcheck, Python ones compile (and pass pyflakes), and the demo map and the
-worlds are what their scripts make."""
+"""Shell scripts pass shellcheck, Python ones compile (and pass pyflakes), and the worlds are
+what their script makes."""
 import os
 import subprocess
 import sys
@@ -15,8 +15,7 @@ def run(command):
 
 
 # What scripts make, and where it is committed.
-MADE = {"make_demo_map": ("maps", ("demo_site.pgm", "demo_site.yaml")),
-        "make_worlds": ("worlds", ("dexrov_site.sdf", "forest_maze.sdf", "meshes"))}
+MADE = {"make_worlds": ("worlds", ("dexrov_site.sdf", "forest_maze.sdf", "meshes"))}
 
 
 def contents(folder, names):

@@ -1,0 +1,224 @@
+"""What the demo and the survey scripts share: a roscore and the nodes of a launch file as a child process,
+and somebody who listens to the simulated vehicle and sends it on its way.
+
+    with Nodes("demo.launch", ["rviz:=false"], "out/demo.log") as nodes:
+        vehicle = Vehicle(nodes)
+        vehicle.wait_until_ready()
+        vehicle.drive_file("/survey", "config/survey_waypoints.yaml", seconds=600)
+"""
+import math
+import os
+import signal
+import socket
+import subprocess
+import time
+
+PACKAGE = "grid_path_planner"
+START_SECONDS = 60.0  # of the wall clock, for all nodes to be there
+
+
+class SessionFailed(Exception):
+    """The message says why."""
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def share_file(*parts):
+    import rospkg
+    return os.path.join(rospkg.RosPack().get_path(PACKAGE), *parts)
+
+
+def executable(name):
+    """From the first workspace that has it: rosrun would ask where a source folder holds two builds."""
+    for space in os.environ["CMAKE_PREFIX_PATH"].split(":"):
+        path = os.path.join(space, "lib", PACKAGE, name)
+        if os.path.exists(path):
+            return path
+    raise SessionFailed("there is no %s in CMAKE_PREFIX_PATH: is a setup.bash sourced?" % name)
+
+
+class Nodes:
+    """A launch file as a child process, with everything that it starts. Stops it on the way out."""
+
+    def __init__(self, launch_file, arguments, log):
+        port = free_port()
+        os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
+        os.environ["ROS_HOSTNAME"] = "localhost"
+        os.environ.pop("ROS_IP", None)
+        self.log_name = log
+        self.log = open(log, "w")
+        # A session of its own: Ctrl-C reaches this program alone, which then stops the nodes in order.
+        self.process = subprocess.Popen(
+            ["roslaunch", "-p", str(port), PACKAGE, launch_file] + arguments,
+            stdout=self.log, stderr=subprocess.STDOUT, start_new_session=True)
+
+    def __enter__(self):
+        return self
+
+    def check(self):
+        if self.process.poll() is not None:
+            raise SessionFailed("roslaunch has ended with code %d, see %s"
+                                % (self.process.returncode, self.log_name))
+
+    def wait_until(self, done, seconds, what):
+        """Polls `done` for so many seconds of the wall clock."""
+        deadline = time.monotonic() + seconds
+        while not done():
+            self.check()
+            if time.monotonic() > deadline:
+                raise SessionFailed("no %s within %.0f s, see %s" % (what, seconds, self.log_name))
+            time.sleep(0.05)
+
+    def wait_for_service(self, name):
+        self.wait_until(lambda: has_service(name), START_SECONDS, name)
+
+    def __exit__(self, *_):
+        for step, seconds in ((signal.SIGINT, 20), (signal.SIGTERM, 5), (signal.SIGKILL, 5)):
+            if self.process.poll() is not None:
+                break
+            self.process.send_signal(step)
+            try:
+                self.process.wait(seconds)
+            except subprocess.TimeoutExpired:
+                pass
+        self.log.close()
+
+
+def has_service(name):
+    import rosgraph
+    try:
+        return bool(rosgraph.Master("/session").lookupService(name))
+    except rosgraph.MasterError:
+        return False
+
+
+class Vehicle:
+    """Hears what the simulated vehicle does, and sends it along waypoint files."""
+
+    def __init__(self, nodes):
+        # Imported here: they read ROS_MASTER_URI, which the nodes' roscore sets.
+        import rosgraph
+        import rospy
+        from nav_msgs.msg import Odometry
+        from rosgraph_msgs.msg import Clock
+        from std_msgs.msg import String, UInt32
+        self.nodes = nodes
+        self.truth = self.contacts = self.contact = self.clock = None
+        self.driven_m = 0.0
+        nodes.wait_until(rosgraph.is_master_online, START_SECONDS, "roscore")
+        rospy.init_node("session", anonymous=True, disable_signals=True)
+        rospy.Subscriber("contacts", UInt32, self.keep("contacts"))
+        rospy.Subscriber("contact", String, self.keep("contact"))
+        rospy.Subscriber("/clock", Clock, self.keep("clock"))
+        rospy.Subscriber("ground_truth", Odometry, self.on_truth)
+
+    def keep(self, name):
+        return lambda message: setattr(self, name, message)
+
+    def on_truth(self, message):
+        if self.truth is not None:
+            a, b = self.truth.pose.pose.position, message.pose.pose.position
+            self.driven_m += math.dist((a.x, a.y, a.z), (b.x, b.y, b.z))
+        self.truth = message
+
+    def wait_until_ready(self):
+        self.nodes.wait_until(lambda: self.truth and self.clock and self.contacts is not None,
+                              START_SECONDS, "simulator")
+
+    def now(self):
+        """Simulated seconds."""
+        return self.clock.clock.to_sec() if self.clock else 0.0
+
+    def pose(self):
+        """True x, y, z in m and yaw in rad, in the map."""
+        position, q = self.truth.pose.pose.position, self.truth.pose.pose.orientation
+        yaw = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
+        return position.x, position.y, position.z, yaw
+
+    def speed(self):
+        v, w = self.truth.twist.twist.linear, self.truth.twist.twist.angular
+        return math.sqrt(v.x ** 2 + v.y ** 2 + v.z ** 2) + abs(w.z)
+
+    def distance(self, pose):
+        return math.dist(self.pose()[:3], pose[:3])
+
+    def check_untouched(self):
+        if self.contacts.data > 0:
+            raise SessionFailed("the vehicle has run into %s at x %.2f, y %.2f, z %.2f" % (
+                (self.contact.data if self.contact else "something",) + self.pose()[:3]))
+
+    def drive_file(self, namespace, waypoint_file, seconds):
+        """Has the navigate_path of `namespace` drive a waypoint file, within so many seconds of the wall
+        clock. Returns the simulated seconds it took. Fails at once where the vehicle touches something."""
+        import rospy
+        from grid_path_planner.msg import NavigatePathActionGoal, NavigatePathActionResult
+        results = []
+        action = namespace + "/navigate_path"
+        subscriber = rospy.Subscriber(action + "/result", NavigatePathActionResult, results.append)
+        publisher = rospy.Publisher(action + "/goal", NavigatePathActionGoal, queue_size=1)
+        self.nodes.wait_until(
+            lambda: publisher.get_num_connections() > 0 and subscriber.get_num_connections() > 0,
+            START_SECONDS, action)
+        goal = NavigatePathActionGoal()
+        goal.goal_id.id = waypoint_file
+        goal.goal.filename = os.path.abspath(waypoint_file)
+        begin = self.now()
+        publisher.publish(goal)
+
+        def done():
+            self.check_untouched()
+            return results
+        self.nodes.wait_until(done, seconds, "end of " + waypoint_file)
+        if results[0].result.status != "ARRIVED":
+            raise SessionFailed("%s: %s" % (results[0].result.status, results[0].result.message))
+        return self.now() - begin
+
+
+class Mapping:
+    """Hears how far projected_map is with the clouds that came, and has it save the map."""
+
+    def __init__(self, nodes):
+        import rospy
+        from diagnostic_msgs.msg import DiagnosticArray
+        self.nodes = nodes
+        self.figures = {}
+        self.reports = 0
+        rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)
+
+    def on_diagnostics(self, message):
+        for status in message.status:
+            if "projected_map" in status.name:
+                self.figures.update((pair.key, pair.value) for pair in status.values)
+                self.reports += 1
+
+    def count(self, name):
+        return int(self.figures.get(name, "0"))
+
+    def wait_until_mapped(self, seconds):
+        """Until all clouds that came before this call are in the map, or dropped."""
+        reports = self.reports
+        self.nodes.wait_until(lambda: self.reports > reports + 2, START_SECONDS, "/diagnostics of projected_map")
+        received = self.count("received")
+        self.nodes.wait_until(lambda: self.count("inserted") + self.count("dropped") >= received, seconds,
+                              "end of the mapping")
+
+    def save(self, map_file):
+        """The 2-D map as a map_server YAML and its image."""
+        import rospy
+        from grid_path_planner.srv import SaveFile
+        answer = rospy.ServiceProxy("/projected_map/save_map", SaveFile)(os.path.abspath(map_file))
+        if not answer.success:
+            raise SessionFailed(answer.message)
+
+
+def set_camera_rate(rate):
+    """Pictures in a simulated second."""
+    import rospy
+    from dynamic_reconfigure.msg import Config, DoubleParameter
+    from dynamic_reconfigure.srv import Reconfigure
+    rospy.ServiceProxy("/simulator/set_parameters", Reconfigure)(
+        Config(doubles=[DoubleParameter("camera_rate", rate)]))
