@@ -154,11 +154,13 @@ TEST(DepthCamera, MeasuresOnlyWithinItsRange) {
   EXPECT_EQ(Picture(wallAt(10.01), exact()).measuredCount(), 0u);
   DepthCameraOptions options = exact();
   options.range_min = 1.0;
-  World two({planeMesh("near", Vector3d::UnitX(), {100.0, 100.0})
-                 .moved(Isometry3d(Eigen::Translation3d(0.3, 0.0, 0.0))),
-             planeMesh("far", Vector3d::UnitX(), {100.0, 100.0})
-                 .moved(Isometry3d(Eigen::Translation3d(5.0, 0.0, 0.0)))});
+  const World two({planeMesh("near", Vector3d::UnitX(), {100.0, 100.0})
+                       .moved(Isometry3d(Eigen::Translation3d(0.3, 0.0, 0.0))),
+                   planeMesh("far", Vector3d::UnitX(), {100.0, 100.0})
+                       .moved(Isometry3d(Eigen::Translation3d(5.0, 0.0, 0.0)))});
   EXPECT_EQ(Picture(two, options).measuredCount(), 0u) << "what is too near still hides";
+  options.noise_base = 0.5;
+  EXPECT_EQ(Picture(two, options).measuredCount(), 0u) << "and noise does not bring it back";
 }
 
 TEST(DepthCamera, NoiseGrowsWithTheSquareOfTheRangeAndIsNearlyNormal) {
@@ -221,6 +223,16 @@ TEST(DepthCamera, DropsOutAsOftenAsAsked) {
   EXPECT_NEAR(static_cast<double>(picture.measuredCount()) / picture.size(), 0.9, 0.005);
   options.dropout = 1.0;
   EXPECT_EQ(Picture(wallAt(3.0), options).measuredCount(), 0u);
+}
+
+TEST(DepthCamera, NoPixelDropsOutAlways) {
+  DepthCameraOptions options = exact();
+  options.dropout = 0.3;
+  const Picture first(wallAt(3.0), options, Isometry3d::Identity(), 1);
+  const Picture second(wallAt(3.0), options, Isometry3d::Identity(), 2);
+  std::size_t both = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) both += !first.measured(i) && !second.measured(i);
+  EXPECT_NEAR(static_cast<double>(both) / first.size(), 0.3 * 0.3, 0.01);
 }
 
 TEST(DepthCamera, RangesWithNoiseStayInsideTheLimits) {

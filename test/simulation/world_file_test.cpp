@@ -82,6 +82,18 @@ TEST_F(WorldFile, PosesAreNested) {
   expectBounds(world.visible()[0], {9.5f, 2.0f, 4.5f}, {10.5f, 4.0f, 5.5f});
 }
 
+TEST_F(WorldFile, PosesMayBeRelativeToFrames) {
+  const World world = readWorld(folder_.write(
+      "frames.sdf",
+      "<sdf version='1.7'><world name='w'><frame name='jetty'><pose>5 0 0 0 0 0</pose></frame>"
+      "<model name='m'><pose relative_to='jetty'>0 7 0 0 0 0</pose>"
+      "<frame name='mast'><pose>0 0 3 0 0 0</pose></frame>"
+      "<link name='link'><pose relative_to='mast'>0 0 1 0 0 0</pose>" +
+          shape("visual", "box", kUnitBox) + "</link></model></world></sdf>"));
+  ASSERT_EQ(world.visible().size(), 1u);
+  expectBounds(world.visible()[0], {4.5f, 6.5f, 3.5f}, {5.5f, 7.5f, 4.5f});
+}
+
 TEST_F(WorldFile, CollisionsAreTouchedAndVisualsSeenAndEitherStandsInForTheOther) {
   const World world =
       read(model("both", "0 0 0 0 0 0",
@@ -110,6 +122,33 @@ TEST_F(WorldFile, MeshesBesideTheFileByPathAndByModel) {
     ASSERT_EQ(world.solid().size(), 1u) << uri;
     EXPECT_EQ(world.solid()[0].triangles.size(), 4u);
     expectBounds(world.solid()[0], {1.0f, 0.0f, 0.0f}, {3.0f, 3.0f, 4.0f});
+  }
+}
+
+// A triangle that stands on the xz plane: as the file says, whatever its format holds to be up.
+TEST_F(WorldFile, MeshesOfOtherFormatsKeepTheirAxes) {
+  folder_.write("sail.stl",
+                "solid sail\nfacet normal 0 1 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                "vertex 0 0 2\nendloop\nendfacet\nendsolid sail\n");
+  folder_.write(
+      "sail.dae",
+      "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+      "version='1.4.1'><asset><unit name='meter' meter='1'/><up_axis>Z_UP</up_axis></asset>"
+      "<library_geometries><geometry id='g'><mesh><source id='p'>"
+      "<float_array id='a' count='9'>0 0 0 1 0 0 0 0 2</float_array><technique_common>"
+      "<accessor source='#a' count='3' stride='3'><param name='X' type='float'/>"
+      "<param name='Y' type='float'/><param name='Z' type='float'/></accessor>"
+      "</technique_common></source><vertices id='v'><input semantic='POSITION' source='#p'/>"
+      "</vertices><triangles count='1'><input semantic='VERTEX' source='#v' offset='0'/>"
+      "<p>0 1 2</p></triangles></mesh></geometry></library_geometries><library_visual_scenes>"
+      "<visual_scene id='s'><node id='n'><instance_geometry url='#g'/></node></visual_scene>"
+      "</library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>");
+  for (const char* file : {"sail.stl", "sail.dae"}) {
+    const World world =
+        read(model("boat", "0 0 0 0 0 0",
+                   shape("visual", "sail", std::string("<mesh><uri>") + file + "</uri></mesh>")));
+    SCOPED_TRACE(file);
+    expectBounds(world.visible()[0], {0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 2.0f});
   }
 }
 
