@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <utility>
 
 namespace grid_path_planner {
 namespace {
@@ -11,8 +10,6 @@ namespace {
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "rows of cells are read as words");
 
 constexpr std::uint64_t kEveryByte = 0x0101010101010101;
-constexpr unsigned kBricksAlongTile = VoxelTile::kEdge / 8;
-
 // Three coordinates of up to 16 bits as one number, bit by bit: x, y, z from below.
 std::uint64_t interleaved(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   const auto spread = [](std::uint64_t bits) {
@@ -37,50 +34,74 @@ void addRow(OctantWords& octants, unsigned x, unsigned y, std::uint64_t bytes) {
   octants[octant + 4] |= alongOctant(static_cast<std::uint32_t>(bytes >> 32)) << shift;
 }
 
-// Whether the brick of the tile at these multiples of 8 has a mark.
-bool takeMarks(VoxelTile& tile, unsigned x0, unsigned y0, unsigned z0, BrickMarks& marks) {
-  marks.free = {};
-  marks.hit = {};
-  std::uint64_t any = 0;
+// Adds the brick whose lowest cell is `cells`, if it has a mark.
+void collectBrick(Mark* cells, std::int64_t stride_x, std::int64_t stride_y, BrickKey key,
+                  std::vector<BrickMarks>& bricks) {
+  std::uint64_t rows[64], any = 0;
   for (unsigned x = 0; x < 8; ++x)
     for (unsigned y = 0; y < 8; ++y) {
-      Mark* const row = &tile.cells[VoxelTile::place(x0 + x, y0 + y, z0)];
-      std::uint64_t cells;
-      std::memcpy(&cells, row, sizeof cells);
-      if (cells == 0) continue;
-      std::memset(row, 0, sizeof cells);
-      any |= cells;
-      addRow(marks.free, x, y, cells & kEveryByte);
-      if (cells & 2 * kEveryByte) addRow(marks.hit, x, y, cells >> 1 & kEveryByte);
+      std::uint64_t& row = rows[8 * x + y];
+      std::memcpy(&row, cells + x * stride_x + y * stride_y, sizeof row);
+      any |= row;
     }
-  return any != 0;
+  if (any == 0) return;
+  bricks.push_back({key, interleaved(key.x, key.y, key.z), {}, {}});
+  BrickMarks& marks = bricks.back();
+  for (unsigned x = 0; x < 8; ++x)
+    for (unsigned y = 0; y < 8; ++y) {
+      const std::uint64_t row = rows[8 * x + y];
+      std::memset(cells + x * stride_x + y * stride_y, 0, sizeof row);
+      addRow(marks.free, x, y, row & kEveryByte);
+      if (any & 2 * kEveryByte) addRow(marks.hit, x, y, row >> 1 & kEveryByte);
+    }
 }
 
-void collectTile(VoxelTile& tile, std::vector<BrickMarks>& bricks) {
-  constexpr unsigned kCount = kBricksAlongTile * kBricksAlongTile * kBricksAlongTile;
-  static_assert(kBricksAlongTile == 2, "the children of a tile are bricks");
-  for (unsigned child = 0; child < kCount; ++child) {
-    const unsigned x = child & 1, y = child >> 1 & 1, z = child >> 2;
-    bricks.emplace_back();
-    BrickMarks& marks = bricks.back();
-    marks.key = {static_cast<std::uint16_t>(tile.position[0] * kBricksAlongTile + x),
-                 static_cast<std::uint16_t>(tile.position[1] * kBricksAlongTile + y),
-                 static_cast<std::uint16_t>(tile.position[2] * kBricksAlongTile + z)};
-    marks.order = interleaved(marks.key.x, marks.key.y, marks.key.z);
-    if (!takeMarks(tile, 8 * x, 8 * y, 8 * z, marks)) bricks.pop_back();
+// Bricks of the window inside the cube of `edge` bricks at (x, y, z), by octants.
+void collectCube(VoxelWindow& window, std::int32_t x, std::int32_t y, std::int32_t z,
+                 std::int32_t edge, std::vector<BrickMarks>& bricks) {
+  const std::int32_t lowest[] = {x, y, z};
+  std::int64_t first_cell = 0;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const std::int32_t offset = lowest[axis] - window.lowBrick()[axis];
+    if (offset >= window.bricks()[axis] || offset + edge <= 0) return;
+    first_cell += 8 * offset * window.strides()[axis];
   }
+  if (edge == 1) {
+    const BrickKey key{static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
+                       static_cast<std::uint16_t>(z)};
+    return collectBrick(window.cells() + first_cell, window.strides()[0], window.strides()[1], key,
+                        bricks);
+  }
+  const std::int32_t half = edge / 2;
+  for (unsigned i = 0; i < 8; ++i)
+    collectCube(window, x + (i & 1 ? half : 0), y + (i & 2 ? half : 0), z + (i & 4 ? half : 0),
+                half, bricks);
 }
 
 }  // namespace
 
-void collectMarks(const VoxelTiles& tiles, std::vector<BrickMarks>& bricks) {
-  std::vector<std::pair<std::uint64_t, VoxelTile*>> order;
-  order.reserve(tiles.tiles().size());
-  for (VoxelTile* tile : tiles.tiles())
-    order.emplace_back(interleaved(tile->position[0], tile->position[1], tile->position[2]), tile);
-  std::sort(order.begin(), order.end());
+void collectMarks(VoxelWindow& window, std::vector<BrickMarks>& bricks) {
   bricks.clear();
-  for (const auto& entry : order) collectTile(*entry.second, bricks);
+  collectCube(window, 0, 0, 0, VoxelWindow::kBricksAlongSpace, bricks);
+  window.clearOutside();
+}
+
+void collectMarks(VoxelTiles& tiles, std::vector<BrickMarks>& bricks) {
+  constexpr unsigned kBricksAlong = VoxelTile::kEdge / 8;
+  bricks.clear();
+  for (VoxelTile& tile : tiles.tiles())
+    for (unsigned x = 0; x < kBricksAlong; ++x)
+      for (unsigned y = 0; y < kBricksAlong; ++y)
+        for (unsigned z = 0; z < kBricksAlong; ++z) {
+          const auto& at = tile.position;
+          const BrickKey key{static_cast<std::uint16_t>(at[0] * kBricksAlong + x),
+                             static_cast<std::uint16_t>(at[1] * kBricksAlong + y),
+                             static_cast<std::uint16_t>(at[2] * kBricksAlong + z)};
+          collectBrick(&tile.cells[VoxelTile::place(8 * x, 8 * y, 8 * z)],
+                       VoxelTile::place(1, 0, 0), VoxelTile::place(0, 1, 0), key, bricks);
+        }
+  std::sort(bricks.begin(), bricks.end(),
+            [](const BrickMarks& a, const BrickMarks& b) { return a.order < b.order; });
 }
 
 Brick::Words brickWords(const OctantWords& octants) {

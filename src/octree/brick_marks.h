@@ -7,6 +7,7 @@
 
 #include "grid_path_planner/octree/occupancy_bricks.h"
 #include "voxel_tiles.h"
+#include "voxel_window.h"
 
 namespace grid_path_planner {
 
@@ -20,9 +21,10 @@ struct BrickMarks {
   OctantWords free, hit;
 };
 
-// The marks of all tiles as bricks, ordered from the root down; bricks without a mark are left out.
-// The tiles' cells are NONE again.
-void collectMarks(const VoxelTiles& tiles, std::vector<BrickMarks>& bricks);
+// The marks as bricks, ordered from the root down; bricks without a mark are left out, and those
+// outside of space. The cells are NONE again.
+void collectMarks(VoxelWindow& window, std::vector<BrickMarks>& bricks);
+void collectMarks(VoxelTiles& tiles, std::vector<BrickMarks>& bricks);
 
 // The same voxels in the order of OccupancyBricks.
 Brick::Words brickWords(const OctantWords& octants);

@@ -1,7 +1,6 @@
 #include "map_tree.h"
 
 #include <cassert>
-#include <cmath>
 
 namespace grid_path_planner {
 
@@ -28,9 +27,10 @@ void MapTree::setModel(const OctreeOptions& model) {
 }
 
 bool MapTree::keyOf(double coordinate, octomap::key_type& key) const {
-  const double scaled = std::floor(resolution_factor * coordinate) + tree_max_val;
-  if (!(scaled >= 0.0 && scaled < 2.0 * tree_max_val)) return false;  // NaN fails both
-  key = static_cast<octomap::key_type>(scaled);
+  const double voxels = resolution_factor * coordinate, half = tree_max_val;
+  if (!(voxels >= -half && voxels < half)) return false;  // NaN fails both
+  const int cut = static_cast<int>(voxels);
+  key = static_cast<octomap::key_type>(cut - (voxels < cut) + static_cast<int>(tree_max_val));
   return true;
 }
 

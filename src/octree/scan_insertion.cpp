@@ -1,7 +1,11 @@
 #include "scan_insertion.h"
 
-#include "ray_tracer.h"
+#include <algorithm>
+#include <cstdlib>
+
 #include "scan_update.h"
+#include "tile_walk.h"
+#include "window_walk.h"
 
 namespace grid_path_planner {
 
@@ -10,55 +14,92 @@ using octomap::point3d;
 
 std::size_t ScanInsertion::insert(const Scan& scan, const OcTreeKey& origin, double max_range,
                                   MapTree& tree, OccupancyBricks& bricks) {
-  const std::size_t left_out = traceRays(scan, origin, max_range, tree);
-  markHits();
-  collectMarks(tiles_, marks_);
-  tiles_.clear();
+  const std::size_t left_out = collectEnds(scan, max_range, tree);
+  const RaySource rays(tree, scan.origin, origin);
+  VoxelWindow::Box box;
+  if (fillsItsBox(origin, box))
+    markWindow(rays, origin, box);
+  else
+    markTiles(rays, origin);
   updateTree(tree, bricks, marks_);
   return left_out;
 }
 
 std::size_t ScanInsertion::memoryUsage() const {
-  return tiles_.memoryUsage() + hits_.capacity() * sizeof hits_[0] +
-         marks_.capacity() * sizeof marks_[0];
+  return ends_.capacity() * sizeof(End) + window_.memoryUsage() +
+         marks_.capacity() * sizeof(BrickMarks);
 }
 
 // Gives how many points were left out.
-std::size_t ScanInsertion::traceRays(const Scan& scan, const OcTreeKey& origin, double max_range,
-                                     const MapTree& tree) {
-  RayTracer tracer(tree, scan.origin, origin, tiles_);
+std::size_t ScanInsertion::collectEnds(const Scan& scan, double max_range, const MapTree& tree) {
   std::size_t left_out = 0;
-  hits_.clear();
-  const auto trace = [&](const point3d& point, bool is_hit) {
-    const point3d ray = point - scan.origin;
-    const bool reached = max_range < 0.0 || ray.norm() <= max_range;
-    const point3d end =
-        reached ? point : scan.origin + ray.normalized() * static_cast<float>(max_range);
-    OcTreeKey key;
-    if (!tree.keyOf(end, key)) {
-      ++left_out;
-      return;
+  ends_.clear();
+  const auto collect = [&](const std::vector<point3d>& points, bool are_hits) {
+    for (const point3d& point : points) {
+      End end{point, {}, are_hits};
+      const point3d ray = point - scan.origin;
+      if (max_range >= 0.0 && !(ray.norm() <= max_range)) {
+        end.point = scan.origin + ray.normalized() * static_cast<float>(max_range);
+        end.is_hit = false;
+      }
+      if (tree.keyOf(end.point, end.key))
+        ends_.push_back(end);
+      else
+        ++left_out;
     }
-    tracer.trace(end, key);
-    if (is_hit && reached) hits_.push_back(key);
   };
-  for (const point3d& point : scan.hits) trace(point, true);
-  for (const point3d& point : scan.clear_only) trace(point, false);
+  collect(scan.hits, true);
+  collect(scan.clear_only, false);
   return left_out;
 }
 
-// After all rays: a hit wins.
-void ScanInsertion::markHits() {
-  VoxelTile* tile = nullptr;
-  OcTreeKey last(0, 0, 0);
-  for (const OcTreeKey& key : hits_) {
-    bool same_tile = tile != nullptr;
-    for (unsigned axis = 0; axis < 3; ++axis)
-      same_tile &= key[axis] >> VoxelTile::kEdgeBits == last[axis] >> VoxelTile::kEdgeBits;
-    if (!same_tile) tile = &tiles_.tileOf(key);
-    tile->cells[VoxelTile::place(key[0], key[1], key[2])] = Mark::HIT;
-    last = key;
+// Whether a window over all rays is worth its cells; it is read as a whole. Sets `box` to the keys
+// of the rays.
+bool ScanInsertion::fillsItsBox(const OcTreeKey& origin, VoxelWindow::Box& box) const {
+  constexpr std::size_t kMostCells = std::size_t{1} << 26, kMostCellsPerVoxel = 16;
+  box = {origin, origin};
+  std::size_t voxels = 0;
+  for (const End& end : ends_)
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], end.key[axis]);
+      box.high[axis] = std::max(box.high[axis], end.key[axis]);
+      voxels += static_cast<std::size_t>(std::abs(end.key[axis] - origin[axis]));
+    }
+  const std::size_t cells = VoxelWindow::cellsFor(box);
+  return cells <= kMostCells && cells / kMostCellsPerVoxel <= voxels;
+}
+
+void ScanInsertion::markWindow(const RaySource& rays, const OcTreeKey& origin,
+                               const VoxelWindow::Box& box) {
+  window_.cover(box);
+  const WindowWalk walk(window_, origin);
+  for (const End& end : ends_) {
+    Ray ray;
+    if (end.key == origin) continue;
+    if (rays.rayTo(end.point, ray))
+      walk.mark(ray, end.key);
+    else
+      walk.markOrigin();
   }
+  for (const End& end : ends_)  // after all rays: a hit wins
+    if (end.is_hit) window_.cells()[window_.place(end.key)] = Mark::HIT;
+  collectMarks(window_, marks_);
+}
+
+void ScanInsertion::markTiles(const RaySource& rays, const OcTreeKey& origin) {
+  TileWalk walk(tiles_, origin);
+  for (const End& end : ends_) {
+    Ray ray;
+    if (end.key == origin) continue;
+    if (rays.rayTo(end.point, ray))
+      walk.mark(ray, end.key);
+    else
+      walk.mark(origin, Mark::FREE);
+  }
+  for (const End& end : ends_)
+    if (end.is_hit) walk.mark(end.key, Mark::HIT);
+  collectMarks(tiles_, marks_);
+  tiles_.clear();
 }
 
 }  // namespace grid_path_planner

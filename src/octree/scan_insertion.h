@@ -1,5 +1,5 @@
-// One scan into a tree and its bricks: rays to marks, marks to bricks, bricks to nodes. Keeps its
-// memory from scan to scan.
+// One scan into a tree and its bricks: points to rays, rays to marks, marks to bricks, bricks to
+// nodes. Keeps its memory from scan to scan.
 #pragma once
 
 #include <octomap/octomap_types.h>
@@ -13,11 +13,11 @@
 #include "grid_path_planner/octree/occupancy_bricks.h"
 #include "grid_path_planner/octree/scan.h"
 #include "map_tree.h"
+#include "ray.h"
 #include "voxel_tiles.h"
+#include "voxel_window.h"
 
 namespace grid_path_planner {
-
-class RayTracer;
 
 class ScanInsertion {
  public:
@@ -28,12 +28,22 @@ class ScanInsertion {
   std::size_t memoryUsage() const;
 
  private:
-  std::size_t traceRays(const Scan& scan, const octomap::OcTreeKey& origin, double max_range,
-                        const MapTree& tree);
-  void markHits();
+  // Where a ray ends.
+  struct End {
+    octomap::point3d point;
+    octomap::OcTreeKey key;
+    bool is_hit;
+  };
 
+  std::size_t collectEnds(const Scan& scan, double max_range, const MapTree& tree);
+  bool fillsItsBox(const octomap::OcTreeKey& origin, VoxelWindow::Box& box) const;
+  void markWindow(const RaySource& rays, const octomap::OcTreeKey& origin,
+                  const VoxelWindow::Box& box);
+  void markTiles(const RaySource& rays, const octomap::OcTreeKey& origin);
+
+  std::vector<End> ends_;
+  VoxelWindow window_;
   VoxelTiles tiles_;
-  std::vector<octomap::OcTreeKey> hits_;
   std::vector<BrickMarks> marks_;
 };
 

@@ -1,0 +1,109 @@
+#include "window_walk.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace grid_path_planner {
+namespace {
+
+// Two of something at once, in a register where the machine has such.
+using Times = double __attribute__((vector_size(16)));
+using Pair = std::int64_t __attribute__((vector_size(16)));
+
+// Which of two axes' next crossings, at `next`, come before those at `other`: at the same time, the
+// higher axis is first. `kFirst` and `kSecond` say whether theirs is the higher one.
+template <bool kFirst, bool kSecond>
+Pair before(Times next, Times other) {
+  if constexpr (kFirst && kSecond) return next <= other;
+  if constexpr (!kFirst && !kSecond) return next < other;
+  return (next < other) | ((next == other) & Pair{-kFirst, -kSecond});
+}
+
+struct WindowCursor {
+  Mark* cells;
+  std::int64_t place, end;
+  std::array<std::int64_t, 3> steps;
+
+  void mark() { cells[place] = Mark::FREE; }
+  void step(unsigned axis) { place += steps[axis]; }
+  bool atEnd() const { return place == end; }
+};
+
+// `a` where the mask is -1, `b` where it is 0.
+std::int64_t either(std::int64_t mask, std::int64_t a, std::int64_t b) {
+  return b ^ ((a ^ b) & mask);
+}
+
+}  // namespace
+
+void WindowWalk::mark(Ray& ray, const octomap::OcTreeKey& end) const {
+  const auto& between = ray.between;
+  const std::int64_t end_place = window_.place(end);
+  const auto slabs = [&](unsigned axis) {
+    return std::abs(static_cast<std::int64_t>(end[axis]) - key_[axis]);
+  };
+  if (between[0] < between[1] && between[0] < between[2])
+    return markSlabs<0>(ray, slabs(0), end_place);
+  if (between[1] < between[2]) return markSlabs<1>(ray, slabs(1), end_place);
+  markSlabs<2>(ray, slabs(2), end_place);
+}
+
+template <unsigned kMajor>
+void WindowWalk::markSlabs(Ray& ray, std::int64_t slabs, std::int64_t end) const {
+  constexpr unsigned kA = kMajor == 2 ? 1 : 2, kB = kMajor == 0 ? 1 : 0;  // kA > kB
+  // Else rounding might let a ray cross two borders of another axis in one slab.
+  constexpr double kClearly = 1.0 + 1e-9;
+  // Sums of up to 65536 times may be off by so much.
+  constexpr double kSurely = 1.0 + 1e-11;
+  const double between_major = ray.between[kMajor];
+  double exit = ray.next[kMajor];
+  if (slabs == 0 || !(std::min(ray.between[kA], ray.between[kB]) > between_major * kClearly) ||
+      !((exit + static_cast<double>(slabs - 1) * between_major) * kSurely <= ray.length))
+    return markVoxels(ray, origin_, end, true);
+
+  const auto stride = [&](unsigned axis) {
+    return ray.forward[axis] ? window_.strides()[axis] : -window_.strides()[axis];
+  };
+  Mark* const cells = window_.cells();
+  const std::int64_t step_major = stride(kMajor);
+  const Pair steps{stride(kA), stride(kB)};
+  const Times between{ray.between[kA], ray.between[kB]};
+  Times next{ray.next[kA], ray.next[kB]};
+  std::int64_t place = origin_;
+  for (; slabs > 0; --slabs) {
+    const Times exits{exit, exit}, swapped{next[1], next[0]};
+    const Pair crosses = before<(kA > kMajor), (kB > kMajor)>(next, exits);
+    const Pair moves = crosses & steps;
+    const std::int64_t a = moves[0], b = moves[1];
+    const std::int64_t second = place + either((next <= swapped)[0], a, b);
+    const std::int64_t third = place + a + b;
+    cells[place] = cells[second] = cells[third] = Mark::FREE;
+    place = third + step_major;
+    next = crosses ? next + between : next;
+    exit += between_major;
+  }
+  if (!(exit > ray.length)) {
+    ray.next[kA] = next[0];
+    ray.next[kB] = next[1];
+    ray.next[kMajor] = exit;
+    return markVoxels(ray, place, end, false);
+  }
+  // The last slab: each other axis is crossed if its time comes before the ray's length; the voxel
+  // entered by the last crossing stays unmarked, as does the end and all behind.
+  const Times lengths{ray.length, ray.length}, swapped{next[1], next[0]};
+  const Pair crosses = next <= lengths, moves = crosses & steps;
+  const std::int64_t second = place + either((next <= swapped)[0], moves[0], moves[1]);
+  const std::int64_t first_counts = -static_cast<std::int64_t>(place != end);
+  const std::int64_t second_counts = first_counts & -static_cast<std::int64_t>(second != end);
+  cells[either((crosses[0] | crosses[1]) & first_counts, place, window_.sink())] = Mark::FREE;
+  cells[either(crosses[0] & crosses[1] & second_counts, second, window_.sink())] = Mark::FREE;
+}
+
+void WindowWalk::markVoxels(Ray& ray, std::int64_t place, std::int64_t end, bool at_origin) const {
+  WindowCursor cursor{window_.cells(), place, end, window_.strides()};
+  for (unsigned axis = 0; axis < 3; ++axis)
+    if (!ray.forward[axis]) cursor.steps[axis] = -cursor.steps[axis];
+  walkVoxels(ray, cursor, at_origin);
+}
+
+}  // namespace grid_path_planner
