@@ -35,10 +35,14 @@ class WorldReader {
         file_, [this](const std::string& uri) { return resourcePath(uri, folder_, folder_); });
     const sdf::World* world = root.WorldByIndex(0);
     if (world == nullptr) throw InputError(file_, "has no <world>");
-    for (std::size_t i = 0; i < world->ModelCount(); ++i)
-      addModel(*world->ModelByIndex(i), Eigen::Isometry3d::Identity(), "");
-    if (solid_.empty()) throw InputError(file_, "its world is empty");
-    return World(std::move(solid_), std::move(visible_));
+    try {
+      for (std::size_t i = 0; i < world->ModelCount(); ++i)
+        addModel(*world->ModelByIndex(i), Eigen::Isometry3d::Identity(), "");
+      if (solid_.empty()) throw InputError("its world is empty");
+      return World(std::move(solid_), std::move(visible_));
+    } catch (const InputError& error) {
+      throw InputError(file_, error.what());
+    }
   }
 
  private:
@@ -48,7 +52,7 @@ class WorldReader {
                            const std::string& name) const {
     ignition::math::Pose3d pose;
     const sdf::Errors errors = thing.SemanticPose().Resolve(pose);
-    if (!errors.empty()) throw InputError(file_, name + ": " + errors.front().Message());
+    if (!errors.empty()) throw InputError(name, errors.front().Message());
     const ignition::math::Quaterniond& turn = pose.Rot();
     return parent * Eigen::Translation3d(vectorOf(pose.Pos())) *
            Eigen::Quaterniond(turn.W(), turn.X(), turn.Y(), turn.Z());
@@ -86,11 +90,7 @@ class WorldReader {
     const sdf::Geometry* geometry = shape.Geom();
     const std::string kind = kindOf(geometry);
     if (kind == "empty") return;
-    try {
-      meshes.push_back(meshOf(name, kind, *geometry).moved(poseOf(shape, parent, name)));
-    } catch (const InputError& error) {
-      throw InputError(file_, error.what());
-    }
+    meshes.push_back(meshOf(name, kind, *geometry).moved(poseOf(shape, parent, name)));
   }
 
   // The name of the element inside <geometry>; libsdformat's own list of kinds depends on its age.

@@ -4,8 +4,10 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 
 #include "support/error_text.h"
+#include "support/mutation.h"
 #include "support/temporary_folder.h"
 
 namespace grid_path_planner {
@@ -232,6 +234,13 @@ TEST_F(WorldFile, ValuesThatAreNoneAreRefused) {
                "m::link::v: the radius of a sphere must be"));
 }
 
+TEST_F(WorldFile, PosesThatAreNoneAreRefusedWithFileAndName) {
+  for (const char* pose : {"nan 0 0 0 0 0", "0 inf 0 0 0 0", "0 0 2e7 0 0 0", "0 0 0 nan 0 0"}) {
+    const std::string text = complaint(model("m", pose, shape("visual", "v", kUnitBox)));
+    EXPECT_EQ(text.find(folder_.path("world.sdf") + ": "), 0u) << pose << ": " << text;
+  }
+}
+
 TEST_F(WorldFile, FilesThatAreNoWorldAreRefused) {
   EXPECT_EQ(test::errorText([] { readWorld("no/such.sdf"); }), "no/such.sdf: cannot be read");
   EXPECT_TRUE(contains(complaint(""), "its world is empty"));
@@ -242,6 +251,19 @@ TEST_F(WorldFile, FilesThatAreNoWorldAreRefused) {
   EXPECT_THROW(readWorld(folder_.write("empty.sdf", "")), InputError);
   EXPECT_THROW(readWorld(folder_.path("")), InputError);
   EXPECT_TRUE(contains(complaint("<include><uri>model://nothing</uri></include>"), "nothing"));
+}
+
+TEST_F(WorldFile, DamagedFilesAreReadOrRefusedByName) {
+  const std::string good = sdf(
+      model("m", "1 2 3 0 0 1",
+            shape("collision", "c", "<cylinder><radius>0.5</radius><length>2</length></cylinder>") +
+                shape("visual", "v", kUnitBox)));
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    std::mt19937 random(seed);
+    const std::string file = folder_.write("damaged.sdf", test::mutated(good, random));
+    const std::string text = test::errorText([&] { readWorld(file); });
+    EXPECT_TRUE(text.empty() || text.find(file + ": ") == 0) << "seed " << seed << ": " << text;
+  }
 }
 
 TEST_F(WorldFile, AfterARefusalTheNextWorldIsRead) {
