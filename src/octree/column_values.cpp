@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kKeyOfZero = 32768;  // of the voxel whose lower side is z = 0
 constexpr int kLargestKey = 65535;
+constexpr std::uint64_t kOnes = 0x0101010101010101;  // a 1 in every byte
 constexpr double kOnTheLattice =
     1e-6;  // voxels; how near to a voxel's side a height counts as on it
 
@@ -29,7 +30,7 @@ std::uint8_t bitsInBand(int brick, const VoxelBand& band) {
 
 // Eight cells at a time.
 void addMasked(const Brick& brick, std::uint8_t mask, Seen& seen) {
-  const std::uint64_t mask_of_eight = mask * std::uint64_t{0x0101010101010101};
+  const std::uint64_t mask_of_eight = mask * kOnes;
   for (std::size_t y = 0; y < 8; ++y) {
     seen.occupied[y] |= brick.occupied[y] & mask_of_eight;
     seen.known[y] |= brick.known[y] & mask_of_eight;
@@ -44,12 +45,21 @@ std::uint64_t masksOfRow(const std::array<VoxelBand, 64>& bands, std::size_t y, 
   return masks;
 }
 
+// A 1 for every byte that is not 0.
+std::uint64_t nonZeroBytes(std::uint64_t bytes) {
+  const std::uint64_t low_bits = 0x7f * kOnes;
+  return ((bytes | ((bytes & low_bits) + low_bits)) >> 7) & kOnes;
+}
+
+// Eight cells at a time: 100 where a voxel is occupied, else -1 (0xff) where none is known.
 ColumnValues valuesOf(const Seen& seen) {
   ColumnValues values;
-  for (unsigned i = 0; i < values.size(); ++i)
-    values[i] = Brick::column(seen.occupied, i % 8, i / 8) ? 100
-                : Brick::column(seen.known, i % 8, i / 8)  ? 0
-                                                           : -1;
+  for (std::size_t y = 0; y < 8; ++y) {
+    const std::uint64_t row =
+        nonZeroBytes(seen.occupied[y]) * 100 + (kOnes ^ nonZeroBytes(seen.known[y])) * 0xff;
+    for (std::size_t x = 0; x < 8; ++x)
+      values[8 * y + x] = static_cast<std::int8_t>(row >> (8 * x));
+  }
   return values;
 }
 

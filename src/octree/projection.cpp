@@ -117,6 +117,7 @@ ProjectionChange Projection::update(OccupancyBricks& bricks) {
 // What is to be looked at stays in to_do_ until it was.
 void Projection::collect(OccupancyBricks& bricks) {
   const std::vector<BrickColumn> changed = bricks.drainChangedColumns();
+  const bool each_once = to_do_.empty() && !all_;
   to_do_.insert(to_do_.end(), changed.begin(), changed.end());
   if (all_) {
     const std::vector<BrickColumn> columns = bricks.columns();
@@ -127,7 +128,7 @@ void Projection::collect(OccupancyBricks& bricks) {
           std::make_unique<Seabed>(options_.seabed_radius, options_.seabed_max_slope, resolution_);
   }
   all_ = false;
-  sortOut(to_do_);
+  if (!each_once) sortOut(to_do_);
 }
 
 // Whether the geometry had to change.
@@ -208,15 +209,19 @@ ColumnValues Projection::valuesAbove(const std::array<double, 64>& seabed,
 void Projection::write(BrickColumn column, const ColumnValues& values, CellRect& changed) {
   const CellRect place = cellsOf(column);
   const CellRect inside = place.intersection(cells_);
-  for (int row = inside.row; row < inside.row + inside.height; ++row)
-    for (int x = inside.column; x < inside.column + inside.width; ++x) {
-      const Cell cell{x - cells_.column, row - cells_.row};
-      const std::int8_t value =
-          values[static_cast<std::size_t>(8 * (row - place.row) + x - place.column)];
-      if (grid_[cell] == value) continue;
-      grid_[cell] = value;
-      changed = changed.hull({cell.column, cell.row, 1, 1});
-    }
+  const int skipped = inside.column - place.column;
+  for (int row = inside.row; row < inside.row + inside.height; ++row) {
+    const std::int8_t* from = values.data() + 8 * (row - place.row) + skipped;
+    std::int8_t* to = grid_.row(row - cells_.row) + inside.column - cells_.column;
+    if (std::equal(from, from + inside.width, to)) continue;
+    int first = 0;
+    int last = inside.width - 1;
+    while (from[first] == to[first]) ++first;
+    while (from[last] == to[last]) --last;
+    std::copy(from, from + inside.width, to);
+    changed = changed.hull(
+        {inside.column - cells_.column + first, row - cells_.row, last - first + 1, 1});
+  }
 }
 
 }  // namespace grid_path_planner

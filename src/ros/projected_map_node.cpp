@@ -115,7 +115,11 @@ void ProjectedMapNode::checkClock() {
 
 void ProjectedMapNode::sortOutClouds() {
   checkClock();
-  if (queue_.sortOut()) desk_->post("insert", [this](MapKeeper& map) { insertNext(map); });
+  if (queue_.sortOut()) postInsertion();
+}
+
+void ProjectedMapNode::postInsertion() {
+  desk_->post("insert", [this](MapKeeper& map) { insertNext(map); });
 }
 
 void ProjectedMapNode::postPublishing() {
@@ -132,6 +136,7 @@ void ProjectedMapNode::insertNext(MapKeeper& map) {
   } catch (const InputError& error) {
     queue_.countDropped("cannot be used", error.what());
   }
+  postInsertion();
 }
 
 void ProjectedMapNode::insert(MapKeeper& map, const CloudQueue::Ready& ready) {

@@ -7,6 +7,7 @@ const std::vector<Command>& commands() {
       {"plan", "plan a path on a map file", runPlan},
       {"scenarios", "run MovingAI queries and check their costs", runScenarios},
       {"convert", "read a map file and write it in another format", runConvert},
+      {"project", "project an octree file to a map file", runProject},
   };
   return all;
 }

@@ -9,6 +9,7 @@
 #include "grid_path_planner/grid/map_format.h"
 #include "grid_path_planner/ros/bag.h"
 #include "grid_path_planner/terrain/terrain.h"
+#include "report_map.h"
 
 namespace grid_path_planner::tools {
 namespace {
@@ -120,19 +121,6 @@ void write(const Target& target, const OccupancyGrid& map) {
     writeMapServerFile(target.file, map, target.mode);
 }
 
-void report(const std::string& file, const OccupancyGrid& map) {
-  std::size_t counts[3] = {};
-  for (const std::int8_t value : map.values())
-    ++counts[static_cast<int>(OccupancyThresholds().classify(value))];
-  const Origin& origin = map.geometry().origin();
-  std::cout << file << ": " << map.width() << "x" << map.height() << " cells of "
-            << map.geometry().resolution() << " m, origin " << origin.x << ", " << origin.y
-            << " m, yaw " << origin.yaw << " rad; free "
-            << counts[static_cast<int>(Occupancy::FREE)] << ", unknown "
-            << counts[static_cast<int>(Occupancy::UNKNOWN)] << ", occupied "
-            << counts[static_cast<int>(Occupancy::OCCUPIED)] << '\n';
-}
-
 }  // namespace
 
 int runConvert(int argc, char** argv) {
@@ -146,7 +134,7 @@ int runConvert(int argc, char** argv) {
   const OccupancyGrid map =
       withKernel(readAnyMapFile(values["map"].as<std::string>(), readingOptions(values)), kernel);
   write(target, map);
-  report(target.file, map);
+  reportMap(target.file, map);
   return 0;
 }
 

@@ -60,6 +60,7 @@ class ProjectedMapNode {
   void onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud);
   void checkClock();
   void sortOutClouds();
+  void postInsertion();
   void postPublishing();
 
   // In the map's thread

@@ -1,0 +1,171 @@
+// Clouds as they come from the field: none of them loses anything but itself.
+#include <gtest/gtest.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "ros/support/mapping_fixture.h"
+
+namespace grid_path_planner {
+namespace {
+
+using test::cloudOf;
+using test::CloudPoints;
+using test::wallAt;
+
+class HostileClouds : public test::MappingTest {
+ protected:
+  void start(std::vector<std::string> arguments = {}) {
+    arguments.insert(arguments.begin(), {"_tf_timeout:=0.3", "_queue_size:=50"});
+    startMapping(arguments);
+  }
+  // Whether a good cloud that comes now is still mapped.
+  bool stillMaps() {
+    const Maps maps(nh_, "projected_map");
+    publish(wallAt(1.0F));
+    return becomes(maps, 1.05, 0.05, 100);
+  }
+  bool drops(const std::string& reason, const std::string& count) {
+    return reports("dropped: " + reason, count);
+  }
+};
+
+TEST_F(HostileClouds, AnUnknownFrameHoldsUpNoOther) {
+  start();
+  for (int i = 0; i < 30; ++i)
+    clouds_.publish(cloudOf(wallAt(2.0F), "no_such_frame", ros::Time::now()));
+  EXPECT_TRUE(stillMaps());
+  EXPECT_TRUE(node_->says("no_such_frame"));
+  EXPECT_TRUE(reports("dropped", "30"));
+  clouds_.publish(cloudOf(wallAt(2.0F), "", ros::Time::now()));
+  EXPECT_TRUE(drops("no frame", "1"));
+}
+
+TEST_F(HostileClouds, ACloudWaitsForTheTransformOfItsStamp) {
+  startMapping({"_tf_timeout:=10"});
+  const Maps maps(nh_, "projected_map");
+  const ros::Time first = ros::Time::now();
+  const ros::Time second = first + ros::Duration(0.1);
+  clouds_.publish(cloudOf(wallAt(2.0F), "sensor", second));  // out of order in time
+  clouds_.publish(cloudOf(wallAt(2.0F), "sensor", first));
+  ASSERT_TRUE(reports("waiting", "2"));
+  placeSensor(0.0, 0.0, 0.0, "sensor", first);
+  ASSERT_TRUE(becomes(maps, 2.05, 0.05, 100));
+  EXPECT_FALSE(test::valueAt(maps.all().back(), 5.05, 0.05) == 100);
+  placeSensor(3.0, 0.0, 0.0, "sensor", second);
+  EXPECT_TRUE(becomes(maps, 5.05, 0.05, 100));
+  EXPECT_TRUE(reports("inserted", "2"));
+}
+
+TEST_F(HostileClouds, NaNsZeroPointsAndOrganisedCloudsWithPaddedRows) {
+  start();
+  const Maps maps(nh_, "projected_map");
+  publish({});
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  publish({{nan, 0.0F, 0.0F}, {1.0F, nan, 1.0F}, {INFINITY, 0.0F, 0.0F}});
+  sensor_msgs::PointCloud2 organised = cloudOf(wallAt(2.0F), "map", ros::Time::now());
+  organised.height = 20;
+  organised.width /= 20;
+  const std::size_t row = organised.width * organised.point_step;
+  organised.row_step = static_cast<std::uint32_t>(row + 10);
+  std::vector<std::uint8_t> padded;
+  for (std::size_t i = 0; i < organised.height; ++i) {
+    padded.insert(padded.end(), organised.data.begin() + static_cast<std::ptrdiff_t>(i * row),
+                  organised.data.begin() + static_cast<std::ptrdiff_t>((i + 1) * row));
+    padded.insert(padded.end(), 10, 0xff);
+  }
+  organised.data = padded;
+  clouds_.publish(organised);
+  EXPECT_TRUE(becomes(maps, 2.05, 0.05, 100));
+  EXPECT_TRUE(reports("inserted", "3"));
+  EXPECT_TRUE(reports("dropped", "0"));
+}
+
+TEST_F(HostileClouds, CloudsThatCannotBeReadAreRefusedWithASentence) {
+  start();
+  const sensor_msgs::PointCloud2 good = cloudOf(wallAt(2.0F), "map", ros::Time::now());
+  sensor_msgs::PointCloud2 bad = good;
+  bad.is_bigendian = true;
+  clouds_.publish(bad);
+  EXPECT_TRUE(node_->says("big-endian"));
+  bad = good;
+  bad.fields[2].name = "w";
+  clouds_.publish(bad);
+  bad = good;
+  bad.data.resize(100);
+  clouds_.publish(bad);
+  bad = good;
+  bad.point_step = 0;
+  clouds_.publish(bad);
+  EXPECT_TRUE(drops("cannot be used", "4"));
+  publish({{1e30F, 0.0F, 0.0F}});
+  clouds_.publish(cloudOf(wallAt(2.0F), "far", ros::Time::now()));
+  placeSensor(1e9, 0.0, 0.0, "far", good.header.stamp);
+  EXPECT_TRUE(stillMaps());
+}
+
+TEST_F(HostileClouds, AMillionPoints) {
+  start();
+  const Maps maps(nh_, "projected_map");
+  CloudPoints points;
+  while (points.size() < 1000000)
+    for (const Eigen::Vector3f& point : wallAt(2.0F)) points.push_back(point);
+  points.resize(1000000);
+  publish(points);
+  EXPECT_TRUE(becomes(maps, 2.05, 0.05, 100));
+  EXPECT_TRUE(stillMaps());
+}
+
+// octomap_mapping#89: the ground filter flooded the log.
+TEST_F(HostileClouds, OM89TheGroundFilterSaysOnceThatItFoundNoGround) {
+  start({"_filter_ground:=true", "_base_frame_id:=map"});
+  for (int i = 0; i < 20; ++i) publish(wallAt(2.0F));
+  ASSERT_TRUE(reports("inserted", "20"));
+  const std::string sentence = "No ground plane found";
+  ASSERT_TRUE(node_->says(sentence));
+  const std::string output = node_->output();
+  EXPECT_EQ(output.find(sentence, output.find(sentence) + 1), std::string::npos);
+}
+
+TEST_F(HostileClouds, WithoutTheBaseFrameCloudsToFilterAreDroppedAndItIsSaid) {
+  start({"_filter_ground:=true"});
+  publish(wallAt(2.0F));
+  EXPECT_TRUE(drops("no transform", "1"));
+  EXPECT_TRUE(node_->says("base_footprint"));
+}
+
+// A bag that loops, as it is looked at again and again.
+TEST_F(HostileClouds, TimeThatJumpsBackClearsWhatWaitsAndKeepsTheMap) {
+  ros::param::set("/use_sim_time", true);
+  ros::Publisher clock = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  const auto tick = [&](double seconds) {
+    rosgraph_msgs::Clock message;
+    message.clock = ros::Time(seconds);
+    clock.publish(message);
+  };
+  startMapping({"_tf_timeout:=100"});
+  ASSERT_TRUE(test::waitFor([&] { return clock.getNumSubscribers() > 0; }));
+  tick(1000.0);
+  {
+    const Maps maps(nh_, "projected_map");
+    clouds_.publish(cloudOf(wallAt(2.0F), "map", ros::Time(1000.0)));
+    ASSERT_TRUE(test::waitFor([&] {
+      tick(1000.1);
+      return becomes(maps, 2.05, 0.05, 100);
+    }));
+    clouds_.publish(cloudOf(wallAt(2.0F), "sensor", ros::Time(1000.1)));
+    ASSERT_TRUE(reports("waiting", "1"));
+    tick(500.0);
+    EXPECT_TRUE(drops("time jumped back", "1"));
+    placeSensor(0.0, 0.0, 0.0, "sensor", ros::Time(500.0));
+    clouds_.publish(cloudOf(wallAt(1.0F, -0.45F, 0.0F), "sensor", ros::Time(500.0)));
+    EXPECT_TRUE(becomes(maps, 1.05, 0.05, 100)) << "the new time is mapped";
+    EXPECT_EQ(test::valueAt(maps.all().back(), 2.05, 0.05), 100) << "the old map is still there";
+  }
+  node_.reset();
+  ros::param::del("/use_sim_time");
+}
+
+}  // namespace
+}  // namespace grid_path_planner

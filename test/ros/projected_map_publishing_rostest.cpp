@@ -1,0 +1,192 @@
+// What projected_map sends, to whom, how often and at which cost.
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <dynamic_reconfigure/config_tools.h>
+#include <gtest/gtest.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "ros/support/mapping_fixture.h"
+
+namespace grid_path_planner {
+namespace {
+
+using test::CloudPoints;
+using test::valueAt;
+using test::wallAt;
+using Updates = test::Latest<map_msgs::OccupancyGridUpdate>;
+
+class Publishing : public test::MappingTest {
+ protected:
+  // A map on topic `topic` as a process of its own hears it: rostopic's text of one message.
+  static std::string heardElsewhere(const std::string& topic) {
+    test::Process echo({"rostopic", "echo", "-n1", topic});
+    EXPECT_TRUE(echo.waitForExit());
+    return echo.output();
+  }
+  bool insertsAll(int count) { return reports("inserted", std::to_string(count)); }
+  static std::string configured(const std::string& name, const std::string& value) {
+    dynamic_reconfigure::Reconfigure call;
+    dynamic_reconfigure::ConfigTools::appendParameter(call.request.config, name, value);
+    EXPECT_TRUE(ros::service::call("/projected_map/set_parameters", call));
+    std::string answer;
+    dynamic_reconfigure::ConfigTools::getParameter(call.response.config, name, answer);
+    return answer;
+  }
+
+  const std::vector<std::string> bounds_ = {
+      "_projection_bounds/min_x:=-5", "_projection_bounds/min_y:=-5", "_projection_bounds/max_x:=5",
+      "_projection_bounds/max_y:=5"};
+};
+
+// octomap_mapping#75, PR#53: publishing took longer and longer.
+TEST_F(Publishing, OM75AChangeSendsItsRectangleOnly) {
+  std::vector<std::string> arguments = bounds_;
+  arguments.push_back("_always_send_full_map:=false");
+  startMapping(arguments);
+  const Maps maps(nh_, "projected_map");
+  const Updates updates(nh_, "projected_map_updates");
+  ASSERT_TRUE(maps.waitForMoreThan(0));
+  ASSERT_TRUE(test::waitFor([&] { return updates.connected(); }));
+  publish(wallAt(2.0F));
+  const auto update = updates.waitForMoreThan(0);
+  ASSERT_TRUE(update);
+  EXPECT_EQ(update->header.frame_id, "map");
+  EXPECT_LT(update->width * update->height, 2500u);
+  EXPECT_EQ(update->data.size(), update->width * update->height);
+  const auto column = static_cast<std::uint32_t>(70 - update->x);
+  const auto row = static_cast<std::uint32_t>(50 - update->y);
+  ASSERT_LT(column, update->width);
+  ASSERT_LT(row, update->height);
+  EXPECT_EQ(update->data[row * update->width + column], 100);
+  for (const auto& map : maps.all()) EXPECT_NE(valueAt(map, 2.05, 0.05), 100) << "no whole map";
+}
+
+TEST_F(Publishing, EveryNewSubscriberGetsAFreshWholeMap) {
+  std::vector<std::string> arguments = bounds_;
+  arguments.push_back("_always_send_full_map:=false");
+  startMapping(arguments);
+  const Maps maps(nh_, "projected_map");
+  const Updates updates(nh_, "projected_map_updates");
+  ASSERT_TRUE(maps.waitForMoreThan(0));
+  publish(wallAt(2.0F));
+  ASSERT_TRUE(updates.waitForMoreThan(0));
+  const std::size_t before = maps.count();
+  heardElsewhere("/projected_map");
+  const auto fresh = maps.waitForMoreThan(before);
+  ASSERT_TRUE(fresh);
+  EXPECT_EQ(valueAt(*fresh, 2.05, 0.05), 100);
+}
+
+TEST_F(Publishing, ByDefaultEveryChangeSendsTheWholeMap) {
+  startMapping(bounds_);
+  const Maps maps(nh_, "projected_map");
+  const Updates updates(nh_, "projected_map_updates");
+  ASSERT_TRUE(maps.waitForMoreThan(0));
+  publish(wallAt(2.0F));
+  EXPECT_TRUE(becomes(maps, 2.05, 0.05, 100));
+  EXPECT_EQ(updates.count(), 0u);
+}
+
+// octomap_server2#26: the grid does not grow with the tree.
+TEST_F(Publishing, OS26ChangedGeometryIsAWholeMapAndNothingShifts) {
+  startMapping({"_always_send_full_map:=false"});
+  const Maps maps(nh_, "projected_map");
+  publish(wallAt(2.0F));
+  ASSERT_TRUE(becomes(maps, 2.05, 0.05, 100));
+  publish(wallAt(-4.0F));
+  const auto grown = maps.waitFor(
+      0, [](const nav_msgs::OccupancyGrid& map) { return valueAt(map, -3.95, 0.05) == 100; });
+  ASSERT_TRUE(grown);
+  EXPECT_EQ(valueAt(*grown, 2.05, 0.05), 100);
+  EXPECT_LT(grown->info.origin.position.x, -3.95);
+}
+
+TEST_F(Publishing, PublicationsAreRateLimited) {
+  startMapping({"_publish_rate:=1"});
+  const Maps maps(nh_, "projected_map");
+  ASSERT_TRUE(maps.waitForMoreThan(0));
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < 40; ++i) {
+    publish(wallAt(1.0F + 0.1F * static_cast<float>(i % 20)));
+    ros::Duration(0.02).sleep();
+  }
+  ASSERT_TRUE(insertsAll(40));
+  const double passed =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_LE(static_cast<double>(maps.count()), 4.0 + passed);
+}
+
+// octomap#183, octomap_mapping#62, #110: removed objects stayed.
+TEST_F(Publishing, O183WhatIsSeenThroughIsFreed) {
+  startMapping();
+  const Maps maps(nh_, "projected_map");
+  publish(wallAt(1.0F));
+  ASSERT_TRUE(becomes(maps, 1.05, 0.05, 100));
+  for (int i = 0; i < 20; ++i) publish(wallAt(3.0F, -1.35F, 1.35F));
+  EXPECT_TRUE(becomes(maps, 1.05, 0.05, 0));
+}
+
+TEST_F(Publishing, OM62WhatIsNotSeenAgainFades) {
+  startMapping({"_decay_time:=2"});
+  const Maps maps(nh_, "projected_map");
+  publish(wallAt(1.0F));
+  ASSERT_TRUE(becomes(maps, 1.05, 0.05, 100));
+  const std::size_t seen = maps.count();
+  EXPECT_TRUE(maps.waitFor(seen, [](const auto& map) { return valueAt(map, 1.05, 0.05) != 100; }));
+}
+
+TEST_F(Publishing, TheBandCanBeChangedWhileItRunsAndABadOneIsRefused) {
+  startMapping({"_projection_max_z:=-0.2"});
+  const Maps maps(nh_, "projected_map");
+  publish(wallAt(1.0F, -0.15F, 0.45F));
+  const auto below =
+      maps.waitFor(0, [](const nav_msgs::OccupancyGrid& map) { return map.info.width > 1; });
+  ASSERT_TRUE(below);
+  EXPECT_NE(valueAt(*below, 1.05, 0.05), 100);
+  EXPECT_EQ(configured("projection_max_z", "high"), "-0.2");
+  EXPECT_TRUE(node_->says("projection_max_z must be a height"));
+  EXPECT_EQ(configured("projection_max_z", "0.3"), "0.3");
+  EXPECT_TRUE(becomes(maps, 1.05, 0.05, 100));
+  EXPECT_EQ(configured("frame_id", "odom"), "map");
+}
+
+TEST_F(Publishing, TheBandFollowsTheVehiclesDepth) {
+  startMapping({"_projection_reference:=vehicle", "_projection_min_z:=-0.2",
+                "_projection_max_z:=0.2", "_base_frame_id:=base_link"});
+  const Maps maps(nh_, "projected_map");
+  publish(wallAt(1.0F, -0.45F, 0.0F));
+  ASSERT_TRUE(insertsAll(1));
+  EXPECT_EQ(maps.count(), 0u) << "the depth is not known yet";
+  placeSensor(0.0, 0.0, -0.3, "base_link");
+  EXPECT_TRUE(becomes(maps, 1.05, 0.05, 100));
+  placeSensor(0.0, 0.0, 2.0, "base_link", ros::Time::now() + ros::Duration(0.1));
+  EXPECT_TRUE(becomes(maps, 1.05, 0.05, -1));
+}
+
+TEST_F(Publishing, VoxelsAreShownInsideOfTheOccupancyBand) {
+  startMapping({"_occupancy_max_z:=0.1", "_publish_free_space:=true"});
+  const test::Latest<visualization_msgs::MarkerArray> occupied(nh_, "occupied_cells_vis_array");
+  const test::Latest<visualization_msgs::MarkerArray> free(nh_, "free_cells_vis_array");
+  const test::Latest<sensor_msgs::PointCloud2> centres(nh_, "octomap_point_cloud_centers");
+  publish(wallAt(1.0F));
+  const auto cloud = centres.waitFor(0, [](const auto& cloud) { return cloud.width > 0; });
+  ASSERT_TRUE(cloud);
+  EXPECT_EQ(cloud->header.frame_id, "map");
+  sensor_msgs::PointCloud2ConstIterator<float> x(*cloud, "x");
+  for (; x != x.end(); ++x) {
+    EXPECT_NEAR(x[0], 1.05, 1e-4);
+    EXPECT_LT(x[2], 0.1);
+  }
+  const auto cubes = [](const visualization_msgs::MarkerArray& array) {
+    std::size_t number = 0;
+    for (const auto& marker : array.markers) number += marker.points.size();
+    return number;
+  };
+  const auto shown = occupied.waitFor(0, [&](const auto& array) { return cubes(array) > 0; });
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(cubes(*shown), cloud->width);
+  EXPECT_EQ(shown->markers.back().colors.size(), shown->markers.back().points.size());
+  EXPECT_TRUE(free.waitFor(0, [&](const auto& array) { return cubes(array) > 10; }));
+}
+
+}  // namespace
+}  // namespace grid_path_planner
