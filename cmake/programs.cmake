@@ -9,10 +9,18 @@ endforeach()
 # The commands are a library, so that tests call them without a process.
 file(GLOB command_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/tools/*.cpp)
 list(REMOVE_ITEM command_sources ${PROJECT_SOURCE_DIR}/src/tools/main.cpp)
+find_package(MPI QUIET COMPONENTS CXX)  # optional: `grid_path study` on several machines
+if(NOT MPI_CXX_FOUND)
+  list(REMOVE_ITEM command_sources ${PROJECT_SOURCE_DIR}/src/tools/mpi_workers.cpp)
+endif()
 add_library(${PROJECT_NAME}_commands STATIC ${command_sources})
 target_include_directories(${PROJECT_NAME}_commands PUBLIC ${PROJECT_SOURCE_DIR}/src/tools)
 target_link_libraries(${PROJECT_NAME}_commands PUBLIC ${PROJECT_NAME}_ros Boost::program_options
   nlohmann_json::nlohmann_json)
+if(MPI_CXX_FOUND)
+  target_compile_definitions(${PROJECT_NAME}_commands PRIVATE GPP_HAVE_MPI OMPI_SKIP_MPICXX)
+  target_link_libraries(${PROJECT_NAME}_commands PUBLIC MPI::MPI_CXX)
+endif()
 gpp_add_executable(grid_path src/tools/main.cpp commands)
 
 # Benchmarks: measured by hand, built on demand (cmake --build build --target grid_path_planner_benchmarks).

@@ -1,42 +1,18 @@
 #include "grid_path_planner/base/atomic_file.h"
 
 #include <fcntl.h>
-#include <pthread.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/file_size_signal.h"
 
 namespace grid_path_planner {
 namespace {
-
-// A write beyond RLIMIT_FSIZE sends SIGXFSZ to the thread, which would end the process before the
-// error is seen. Other threads are left alone.
-class HoldFileSizeSignal {
- public:
-  HoldFileSizeSignal() {
-    sigemptyset(&held_);
-    sigaddset(&held_, SIGXFSZ);
-    pthread_sigmask(SIG_BLOCK, &held_, &before_);
-  }
-  ~HoldFileSizeSignal() {
-    const timespec at_once{};
-    while (sigtimedwait(&held_, nullptr, &at_once) > 0) continue;
-    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
-  HoldFileSizeSignal(const HoldFileSizeSignal&) = delete;
-  HoldFileSizeSignal& operator=(const HoldFileSizeSignal&) = delete;
-
- private:
-  sigset_t held_;
-  sigset_t before_;
-};
 
 // A name that no other thread or process writes to.
 std::string nameBeside(const std::string& file) {

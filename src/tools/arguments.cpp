@@ -6,7 +6,7 @@
 #include <sstream>
 #include <type_traits>
 
-#include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/base/option_parsing.h"
 
 namespace grid_path_planner::tools {
 namespace {
@@ -18,25 +18,6 @@ std::string flagOf(std::string name) {
   return name;
 }
 
-double numberOf(const std::string& name, const std::string& text) {
-  std::size_t used = 0;
-  double value = NAN;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || !std::isfinite(value))
-    throw InputError("--" + name + " needs a finite number, got '" + text + "'");
-  return value;
-}
-
-bool truthOf(const std::string& name, const std::string& text) {
-  if (text == "true" || text == "1" || text == "yes") return true;
-  if (text == "false" || text == "0" || text == "no") return false;
-  throw InputError("--" + name + " needs true or false, got '" + text + "'");
-}
-
 // Writes one option's text into its place.
 struct FromText {
   const po::variables_map& values;
@@ -45,20 +26,7 @@ struct FromText {
   void operator()(const char* option, Value& value, const OptionInfo& info) const {
     const std::string name = flagOf(option);
     if (values.count(name) == 0) return;
-    const std::string text = values[name].as<std::string>();
-    if constexpr (std::is_enum_v<Value>) {
-      value = choiceFromName<Value>("--" + name, text);
-    } else if constexpr (std::is_same_v<Value, bool>) {
-      value = truthOf(name, text);
-    } else if constexpr (std::is_same_v<Value, std::string>) {
-      value = text;
-    } else {
-      const double number = numberOf(name, text);
-      checkLimits("--" + name, number, info);
-      if (std::is_same_v<Value, int> && number != std::floor(number))
-        throw InputError("--" + name + " needs a whole number, got '" + text + "'");
-      value = static_cast<Value>(number);
-    }
+    parseOption("--" + name, values[name].as<std::string>(), info, value);
   }
 };
 
@@ -110,7 +78,8 @@ std::vector<double> numbersOf(const std::string& name, const std::string& text, 
                               std::size_t most) {
   std::vector<double> numbers;
   std::istringstream parts(text + ",");
-  for (std::string part; std::getline(parts, part, ',');) numbers.push_back(numberOf(name, part));
+  for (std::string part; std::getline(parts, part, ',');)
+    numbers.push_back(numberFromText("--" + name, part));
   if (numbers.size() >= fewest && numbers.size() <= most) return numbers;
   throw InputError("--" + name + " needs " + std::to_string(fewest) +
                    (most > fewest ? " to " + std::to_string(most) : "") +

@@ -13,6 +13,7 @@ int runPlan(int argc, char** argv);
 int runScenarios(int argc, char** argv);
 int runConvert(int argc, char** argv);
 int runProject(int argc, char** argv);
+int runStudyCommand(int argc, char** argv);
 
 struct Command {
   const char* name;

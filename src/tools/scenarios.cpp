@@ -12,9 +12,9 @@
 #include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/study/scenario_file.h"
 #include "grid_path_planner/terrain/terrain.h"
 #include "progress_bar.h"
-#include "scenario_file.h"
 
 namespace grid_path_planner::tools {
 namespace {
@@ -48,24 +48,14 @@ std::string besideFile(const std::string& file, const std::string& name) {
          (base == std::string::npos ? name : name.substr(base + 1));
 }
 
-std::vector<Query> spread(const std::vector<Query>& queries, std::int64_t wanted) {
-  if (wanted < 1) throw InputError("--limit must be at least 1");
-  const auto limit = static_cast<std::size_t>(wanted);
-  if (limit >= queries.size()) return queries;
-  std::vector<Query> chosen;
-  for (std::size_t i = 0; i < limit; ++i) chosen.push_back(queries[i * queries.size() / limit]);
-  return chosen;
+std::size_t limitOf(const po::variables_map& values) {
+  if (values.count("limit") == 0) return 0;
+  const auto limit = values["limit"].as<std::int64_t>();
+  if (limit < 1) throw InputError("--limit must be at least 1");
+  return static_cast<std::size_t>(limit);
 }
 
-void checkQuery(const Query& query, const GridGeometry& geometry, const std::string& file) {
-  if (query.width == geometry.width() && query.height == geometry.height()) return;
-  throw InputError(file, query.line,
-                   "the query is for a map of " + std::to_string(query.width) + "x" +
-                       std::to_string(query.height) + " cells, the map has " +
-                       std::to_string(geometry.width()) + "x" + std::to_string(geometry.height()));
-}
-
-std::string csvLine(const Query& query, const PlanResult& result, bool wrong) {
+std::string csvLine(const ScenarioQuery& query, const PlanResult& result, bool wrong) {
   std::ostringstream out;
   out.precision(12);
   out << query.start.column << ',' << query.start.row << ',' << query.goal.column << ','
@@ -84,10 +74,10 @@ int runScenarios(int argc, char** argv) {
     return 0;
   const std::string file = values["scen"].as<std::string>();
   const PlannerOptions options = plannerOptionsFrom(values);
-  std::vector<Query> queries = readScenarioFile(file);
+  const std::vector<ScenarioQuery> all = readScenarioFile(file);
+  const std::vector<ScenarioQuery> queries = spreadOver(all, limitOf(values));
   const std::string map_file = values.count("map") != 0 ? values["map"].as<std::string>()
-                                                        : besideFile(file, queries.front().map);
-  if (values.count("limit") != 0) queries = spread(queries, values["limit"].as<std::int64_t>());
+                                                        : besideFile(file, all.front().map);
 
   Terrain terrain(options.terrain);
   terrain.setMap(std::make_shared<const OccupancyGrid>(readMapFile(map_file)));
@@ -102,8 +92,8 @@ int runScenarios(int argc, char** argv) {
       "start_x,start_y,goal_x,goal_y,status,cost,optimum,wrong,cells,expanded,generated,time_ms,"
       "search_bytes\n";
   ProgressBar bar(queries.size());
-  for (const Query& query : queries) {
-    checkQuery(query, terrain.fine(StopToken())->geometry(), file);
+  for (const ScenarioQuery& query : queries) {
+    checkScenarioQuery(query, terrain.fine(StopToken())->geometry(), file);
     const PlanResult result = planner->plan({query.start, {query.goal}}, StopToken());
     const bool solved = result.status == Status::FOUND;
     const bool wrong = !solved || std::abs(result.cost.toDouble() - query.optimum) >

@@ -1,4 +1,4 @@
-#include "scenario_file.h"
+#include "grid_path_planner/study/scenario_file.h"
 
 #include <cmath>
 #include <fstream>
@@ -6,11 +6,11 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner::tools {
+namespace grid_path_planner {
 namespace {
 
-Query queryOf(const std::string& file, int line, const std::string& text) {
-  Query query;
+ScenarioQuery queryOf(const std::string& file, int line, const std::string& text) {
+  ScenarioQuery query;
   query.line = line;
   std::istringstream parts(text);
   int bucket = 0;
@@ -28,10 +28,10 @@ Query queryOf(const std::string& file, int line, const std::string& text) {
 
 }  // namespace
 
-std::vector<Query> readScenarioFile(const std::string& file) {
+std::vector<ScenarioQuery> readScenarioFile(const std::string& file) {
   std::ifstream in(file);
   if (!in) throw InputError(file, "cannot be read");
-  std::vector<Query> queries;
+  std::vector<ScenarioQuery> queries;
   int line = 0;
   for (std::string text; std::getline(in, text);) {
     ++line;
@@ -48,4 +48,21 @@ std::vector<Query> readScenarioFile(const std::string& file) {
   return queries;
 }
 
-}  // namespace grid_path_planner::tools
+std::vector<ScenarioQuery> spreadOver(const std::vector<ScenarioQuery>& queries,
+                                      std::size_t limit) {
+  if (limit == 0 || limit >= queries.size()) return queries;
+  std::vector<ScenarioQuery> chosen;
+  for (std::size_t i = 0; i < limit; ++i) chosen.push_back(queries[i * queries.size() / limit]);
+  return chosen;
+}
+
+void checkScenarioQuery(const ScenarioQuery& query, const GridGeometry& geometry,
+                        const std::string& file) {
+  if (query.width == geometry.width() && query.height == geometry.height()) return;
+  throw InputError(file, query.line,
+                   "the query is for a map of " + std::to_string(query.width) + "x" +
+                       std::to_string(query.height) + " cells, the map has " +
+                       std::to_string(geometry.width()) + "x" + std::to_string(geometry.height()));
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,42 @@
+// How sure a figure is: intervals at 95 % confidence.
+//
+// Times are compared in pairs (the same query on the same setting) and as ratios, since planning
+// times spread over decades. A difference counts only where the interval leaves out 1. What is
+// sampled are the queries: one query under several weights is not several samples, so every figure
+// is first averaged for each query.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace grid_path_planner {
+
+struct Interval {
+  double value = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+};
+
+// The geometric mean of `ratios` (positive), with Student's t interval of their logarithms. One
+// ratio alone says nothing of its spread: low 0 and high infinity. Precondition: not empty.
+Interval meanRatio(const std::vector<double>& ratios);
+
+// Whether an interval of a ratio leaves out 1.
+inline bool differs(const Interval& ratio) {
+  return ratio.low > 1.0 || ratio.high < 1.0;
+}
+
+// The mean of `differences`, with Student's t interval; one alone: from -infinity to infinity.
+// Precondition: not empty.
+Interval meanDifference(const std::vector<double>& differences);
+
+// `some` of `all` as a share, with Wilson's score interval (Wilson 1927), which holds for small
+// numbers and shares near 0 and 1 too, for `samples` independent ones among them. Precondition:
+// all > 0, samples > 0.
+Interval share(std::size_t some, std::size_t all, std::size_t samples);
+
+// The share of the sorted values below `part` of them (0.5: the median), linearly between two.
+// Precondition: not empty.
+double quantileOf(std::vector<double> values, double part);
+
+}  // namespace grid_path_planner

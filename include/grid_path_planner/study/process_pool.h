@@ -1,0 +1,56 @@
+// Work done by child processes, so that one that crashes or is killed takes nothing with it but
+// the task it was at.
+//
+//   ProcessPool pool(2, [&](std::size_t task) { return lines(worker.run(units[task])); });
+//   while (...) { if (pool.idle() > 0) pool.start(task); for (auto& end : pool.wait(100)) ...; }
+//
+// The children are forks: they see all that was in memory when the pool was made. A child that is
+// lost is replaced by a new fork. Not thread-safe; make it before other threads are started.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/study/worker_group.h"
+
+namespace grid_path_planner {
+
+class ProcessPool : public WorkerGroup {
+ public:
+  using Work = std::function<std::string(std::size_t task)>;
+
+  // Throws InputError where no process can be had. An exception that `work` throws is a failed
+  // task, not a lost child.
+  ProcessPool(std::size_t processes, Work work);
+  ~ProcessPool() override;  // ends the children, whatever they are at
+  ProcessPool(const ProcessPool&) = delete;
+  ProcessPool& operator=(const ProcessPool&) = delete;
+
+  std::size_t idle() const override;
+  std::size_t busy() const override { return children_.size() - idle(); }
+  void start(std::size_t task) override;
+  std::vector<TaskEnd> wait(int milliseconds) override;
+
+ private:
+  struct Child {
+    pid_t process = 0;
+    int to = -1;
+    int from = -1;
+    bool busy = false;
+    std::size_t task = 0;
+    std::string received;
+  };
+
+  Child makeChild() const;
+  void replace(Child& child, TaskEnd& end);
+  bool receive(Child& child, TaskEnd& end);
+
+  Work work_;
+  std::vector<Child> children_;
+};
+
+}  // namespace grid_path_planner

@@ -1,0 +1,32 @@
+// MovingAI scenario files: queries on a map with their optimal costs (Sturtevant 2012).
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/grid/grid_geometry.h"
+
+namespace grid_path_planner {
+
+struct ScenarioQuery {
+  std::string map;
+  int width = 0;
+  int height = 0;
+  Cell start;
+  Cell goal;
+  double optimum = 0.0;  // cell lengths, diagonals sqrt 2, corners not cut
+  int line = 0;          // in the file, from 1
+};
+
+// Throws InputError naming file and line.
+std::vector<ScenarioQuery> readScenarioFile(const std::string& file);
+
+// `limit` of them, evenly over the file; all where it is 0 or not less than their number.
+std::vector<ScenarioQuery> spreadOver(const std::vector<ScenarioQuery>& queries, std::size_t limit);
+
+// Throws InputError where the query, of `file`, is for a map of another size.
+void checkScenarioQuery(const ScenarioQuery& query, const GridGeometry& geometry,
+                        const std::string& file);
+
+}  // namespace grid_path_planner

@@ -1,0 +1,89 @@
+// What a study compares: maps x settings of the terrain x queries, and on each of those every
+// planner with every heuristic and tie-break.
+//
+//   Study study = readStudyFile("config/study_thesis.yaml");
+//
+// A *setting* is what makes the problem (map, kernel, rule, weights), a *variant* what solves it
+// (planner, heuristic, tie-break). Variants are compared on the same setting and query, never
+// across.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/grid/cell.h"
+#include "grid_path_planner/planners/map_planner.h"
+
+namespace grid_path_planner {
+
+struct CellPair {
+  Cell start;
+  Cell goal;
+};
+
+// Where the queries on a map come from; all of those given are taken, in this order.
+struct QuerySource {
+  std::vector<CellPair> pairs;  // cells of the full map
+  int random_count = 0;         // pairs of free cells, of which one can be reached from the other
+  std::uint32_t random_seed = 1;
+  std::string scenario;    // MovingAI .scen, "" for none
+  int scenario_limit = 0;  // spread evenly over the file; 0: all
+
+  bool empty() const { return pairs.empty() && random_count == 0 && scenario.empty(); }
+};
+
+struct StudyMap {
+  std::string name;
+  std::string file;
+  QuerySource queries;
+};
+
+struct Weights {
+  int free = 1;
+  int unknown = 50;
+  int occupied = 100;
+};
+
+struct StudyVariant {
+  std::string label;  // "a_star octile"
+  std::string planner;
+  SearchOptions search;
+};
+
+struct StudySetting {
+  std::string label;  // "dexrov_site, kernel 3 filter2d, weights 1/50/100"
+  std::size_t map = 0;
+  std::string weights;  // "1/50/100"
+  TerrainOptions terrain;
+};
+
+// What was published about the same comparison, to stand beside what is found.
+struct PublishedFigures {
+  std::string source;                                   // "" where nothing was published
+  std::map<std::string, std::map<int, double>> time_s;  // by variant and kernel
+  double expanded_ratio = 0.0;                          // Dijkstra's over A*'s; 0: not published
+  std::map<std::string, double> shortest_percent;       // by heuristic
+  std::map<std::string, double> alone_percent;          // by heuristic: shortest, and no other is
+  std::map<std::string, std::string> crossing;          // by weights: "unknown" or "occupied"
+  bool dijkstra_not_optimal = false;                    // whether that was concluded
+};
+
+struct Study {
+  std::string file;
+  std::string title;
+  std::vector<StudyMap> maps;
+  std::vector<StudySetting> settings;
+  std::vector<StudyVariant> variants;
+  PlannerOptions base;  // what settings and variants do not say
+  int repeats = 5;      // of each run, for its time
+  PublishedFigures published;
+};
+
+// Relative file names in it are meant from its folder. Throws InputError naming the file and the
+// line: unknown keys, planners and options, empty lists, the same entry twice.
+Study readStudyFile(const std::string& file);
+
+}  // namespace grid_path_planner

@@ -1,0 +1,78 @@
+// The runs of a study, looked up by what was asked and who answered.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/study/confidence.h"
+#include "grid_path_planner/study/study_plan.h"
+#include "grid_path_planner/study/study_run.h"
+
+namespace grid_path_planner {
+
+double medianTime(const StudyRun& run);  // ms
+
+// The runs of one query on one setting, by variant; a null pointer where there is none.
+using UnitRow = std::vector<const StudyRun*>;
+
+// Settings that differ in weights only: they have the same number of cells to search.
+struct ProblemSize {
+  std::size_t map = 0;
+  int kernel = 1;
+  KernelRule rule = KernelRule::CONSERVATIVE;
+
+  friend bool operator<(const ProblemSize& a, const ProblemSize& b) {
+    return std::tie(a.map, a.kernel, a.rule) < std::tie(b.map, b.kernel, b.rule);
+  }
+};
+
+// A query of a map: what is sampled.
+using QueryKey = std::pair<std::size_t, std::size_t>;
+
+// One number a query: the geometric mean of those added to it.
+class RatiosByQuery {
+ public:
+  // Passed over where one is not positive.
+  void add(const QueryKey& query, double numerator, double denominator);
+  std::vector<double> values() const;
+
+ private:
+  std::map<QueryKey, std::vector<double>> logarithms_;
+};
+
+class StudyData {
+ public:
+  // Both outlive the data.
+  StudyData(const StudyPlan& plan, const std::vector<StudyRun>& runs);
+
+  const StudyPlan& plan() const { return plan_; }
+  const Study& study() const { return plan_.study(); }
+  const std::vector<StudyRun>& runs() const { return runs_; }
+  // All of them, in the order of the plan.
+  const std::vector<UnitRow>& units() const { return units_; }
+
+  const StudySetting& settingOf(const StudyRun& run) const { return study().settings[run.setting]; }
+  QueryKey queryOf(const StudyRun& run) const { return {settingOf(run).map, run.query}; }
+  std::size_t queries() const;  // of all maps
+  ProblemSize sizeOf(std::size_t setting) const;
+  std::vector<ProblemSize> sizes() const;  // in the order of the settings
+
+  // The variant that the others are compared with: Dijkstra, or the first.
+  std::size_t baseline() const;
+
+  // value(a) / value(b) for every query on `size` (null: any), geometric means over the settings
+  // where both variants found a path and both values are positive.
+  std::vector<double> ratios(std::size_t a, std::size_t b, const ProblemSize* size,
+                             const std::function<double(const StudyRun&)>& value) const;
+
+ private:
+  const StudyPlan& plan_;
+  const std::vector<StudyRun>& runs_;
+  std::vector<UnitRow> units_;
+};
+
+}  // namespace grid_path_planner

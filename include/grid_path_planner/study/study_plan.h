@@ -1,0 +1,48 @@
+// A study with its maps read and its queries chosen: everything that is to be run, in order.
+//
+// The work is cut into units: one query on one setting, by every variant. A unit is what is handed
+// to a worker, what is lost with one, and what an interrupted study resumes after.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/grid/occupancy.h"
+#include "grid_path_planner/study/study.h"
+#include "grid_path_planner/study/study_query.h"
+
+namespace grid_path_planner {
+
+struct StudyUnit {
+  std::size_t setting = 0;
+  std::size_t query = 0;
+};
+
+class StudyPlan {
+ public:
+  using MapReader = std::function<OccupancyGrid(const std::string& file)>;
+
+  // Throws InputError for a map or scenario that cannot be read and for queries outside a map.
+  StudyPlan(Study study, const MapReader& read_map);
+
+  const Study& study() const { return study_; }
+  const std::shared_ptr<const OccupancyGrid>& map(std::size_t i) const { return maps_[i]; }
+  const std::vector<StudyQuery>& queries(std::size_t map) const { return queries_[map]; }
+  const std::vector<StudyUnit>& units() const { return units_; }
+
+  // "dexrov_site, kernel 3 filter2d, weights 1/50/100, (30, 30) to (360, 360)"
+  std::string nameOf(const StudyUnit& unit) const;
+
+  // A number that differs, in all likelihood, where the plan does: file, maps, queries.
+  std::uint64_t fingerprint() const;
+
+ private:
+  Study study_;
+  std::vector<std::shared_ptr<const OccupancyGrid>> maps_;
+  std::vector<std::vector<StudyQuery>> queries_;
+  std::vector<StudyUnit> units_;
+};
+
+}  // namespace grid_path_planner

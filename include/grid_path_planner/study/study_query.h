@@ -1,0 +1,28 @@
+// The questions that a study asks on one map.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/study/study.h"
+#include "grid_path_planner/terrain/cost_grid.h"
+
+namespace grid_path_planner {
+
+struct StudyQuery {
+  Cell start;
+  Cell goal;
+  std::string note;  // which end was blocked and what took its place, "" where none was
+  std::optional<double> optimum;  // what a .scen file says, in cells
+};
+
+// The queries of `map` on `occupancy`. Ends that are occupied or too near to something that is (by
+// `terrain`'s radius) are moved to the nearest free cell. Random pairs are connected, and the same
+// for the same seed and map. Throws InputError for a pair outside the map, a scenario of another
+// map, and a map on which no end can be placed.
+std::vector<StudyQuery> studyQueries(const StudyMap& map, const OccupancyGrid& occupancy,
+                                     const TerrainOptions& terrain);
+
+}  // namespace grid_path_planner

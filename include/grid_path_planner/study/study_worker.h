@@ -1,0 +1,39 @@
+// Runs units of a study, one after the other.
+//
+// Every variant plans the same query `repeats` times, the variants in turn, so that what slows the
+// machine for a while slows all of them alike. The least cost by grid steps is found once more by
+// Dijkstra, whether that is among the variants or not.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "grid_path_planner/planners/map_planner.h"
+#include "grid_path_planner/study/study_plan.h"
+#include "grid_path_planner/study/study_run.h"
+
+namespace grid_path_planner {
+
+class StudyWorker {
+ public:
+  // Of how many queries a map the paths are kept: a picture with more shows nothing.
+  static constexpr std::size_t kDrawnQueries = 12;
+
+  // `plan` outlives the worker.
+  explicit StudyWorker(const StudyPlan& plan) : plan_(plan) {}
+
+  // One run a variant, in the order of the variants.
+  std::vector<StudyRun> run(const StudyUnit& unit);
+
+ private:
+  void prepare(std::size_t setting);
+  MapPlanner plannerFor(const StudySetting& setting, const std::string& planner,
+                        const SearchOptions& search) const;
+
+  const StudyPlan& plan_;
+  std::size_t prepared_ = static_cast<std::size_t>(-1);  // the setting that the planners are for
+  std::vector<MapPlanner> planners_;                     // one a variant
+  std::unique_ptr<MapPlanner> exact_;
+};
+
+}  // namespace grid_path_planner

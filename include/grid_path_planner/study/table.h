@@ -1,0 +1,30 @@
+// A table of results, for people and for programs: cells are texts, and numbers where they are.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grid_path_planner {
+
+struct TableCell {
+  std::string text;
+  std::optional<double> number;  // what it sorts by
+
+  TableCell(std::string text) : text(std::move(text)) {}
+  TableCell(const char* text) : text(text) {}
+  // Shown with `digits` significant digits.
+  TableCell(double number, int digits);
+};
+
+// Digits for people, e.g. 0.0123, 4.57, 123, 45,678; whole numbers in full.
+std::string shownNumber(double number, int digits = 3);
+
+struct Table {
+  std::string name;     // of its file, and its anchor
+  std::string caption;  // one sentence
+  std::vector<std::string> columns;
+  std::vector<std::vector<TableCell>> rows;  // each as long as columns
+};
+
+}  // namespace grid_path_planner

@@ -1,0 +1,54 @@
+#include "grid_path_planner/study/confidence.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+namespace grid_path_planner {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTail = 0.025;           // on either side: 95 % confidence
+constexpr double kNormalTail = 1.959964;  // standard deviations that leave kTail outside
+
+}  // namespace
+
+Interval meanDifference(const std::vector<double>& differences) {
+  const auto n = static_cast<double>(differences.size());
+  double mean = 0.0, squares = 0.0;
+  for (const double difference : differences) mean += difference / n;
+  for (const double difference : differences) squares += std::pow(difference - mean, 2);
+  if (differences.size() == 1) return {mean, -kInfinity, kInfinity};
+  const boost::math::students_t distribution(n - 1.0);
+  const double half = boost::math::quantile(boost::math::complement(distribution, kTail)) *
+                      std::sqrt(squares / (n - 1.0) / n);
+  return {mean, mean - half, mean + half};
+}
+
+Interval meanRatio(const std::vector<double>& ratios) {
+  std::vector<double> logarithms;
+  for (const double ratio : ratios) logarithms.push_back(std::log(ratio));
+  const Interval mean = meanDifference(logarithms);
+  return {std::exp(mean.value), std::exp(mean.low), std::exp(mean.high)};
+}
+
+Interval share(std::size_t some, std::size_t all, std::size_t samples) {
+  const auto n = static_cast<double>(samples);
+  const double p = static_cast<double>(some) / static_cast<double>(all);
+  const double z2 = kNormalTail * kNormalTail;
+  const double middle = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
+  const double half =
+      kNormalTail * std::sqrt(p * (1.0 - p) / n + z2 / (4.0 * n * n)) / (1.0 + z2 / n);
+  return {p, std::max(0.0, middle - half), std::min(1.0, middle + half)};
+}
+
+double quantileOf(std::vector<double> values, double part) {
+  std::sort(values.begin(), values.end());
+  const double place = part * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+}  // namespace grid_path_planner

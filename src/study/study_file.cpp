@@ -1,0 +1,350 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "grid_path_planner/base/option_parsing.h"
+#include "grid_path_planner/base/yaml_file.h"
+#include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/study/study.h"
+
+namespace grid_path_planner {
+namespace {
+
+constexpr int kMostRepeats = 1000;
+constexpr int kMostQueries = 1000000;
+
+std::string weightsLabel(const Weights& weights) {
+  return std::to_string(weights.free) + '/' + std::to_string(weights.unknown) + '/' +
+         std::to_string(weights.occupied);
+}
+
+std::string folderOf(const std::string& file) {
+  const std::size_t slash = file.rfind('/');
+  return slash == std::string::npos ? "" : file.substr(0, slash + 1);
+}
+
+std::string stemOf(const std::string& file) {
+  const std::size_t slash = file.rfind('/');
+  const std::string base = slash == std::string::npos ? file : file.substr(slash + 1);
+  return base.substr(0, base.rfind('.'));
+}
+
+// Reads one study file; every method takes a node of it and says what is wrong at its line.
+class StudyReader {
+ public:
+  explicit StudyReader(const std::string& file) : file_(file) {}
+
+  Study read() {
+    const YAML::Node root = loadYamlFile(file_);
+    checkKeys(root, "the study",
+              {"title", "maps", "planners", "heuristics", "tie_breaks", "kernels", "kernel_rules",
+               "weights", "options", "queries", "repeats", "published"});
+    study_.file = file_;
+    study_.title = yamlValueOr<std::string>(root, "title", file_, "a sentence", stemOf(file_));
+    if (root["options"]) readOptions(root["options"]);
+    if (root["repeats"]) study_.repeats = wholeNumber(root["repeats"], "repeats", 1, kMostRepeats);
+    if (root["queries"]) common_queries_ = queriesOf(root["queries"]);
+    readMaps(yamlNode(root, "maps", file_, "a list of map files"));
+    readVariants(root);
+    readSettings(root);
+    if (root["published"]) readPublished(root["published"]);
+    return study_;
+  }
+
+ private:
+  void checkKeys(const YAML::Node& node, const std::string& what,
+                 const std::set<std::string>& known) const {
+    if (!node.IsMap())
+      throw yamlError(node, file_, what + " must be a mapping, got " + describeYaml(node));
+    std::set<std::string> seen;
+    for (const auto& entry : node) {
+      const auto key = yamlAs<std::string>(entry.first, "a key", file_, "a name");
+      if (known.count(key) == 0)
+        throw yamlError(entry.first, file_,
+                        what + " has no '" + key + "'; it has " + listOf(known));
+      if (!seen.insert(key).second)
+        throw yamlError(entry.first, file_, what + " has '" + key + "' twice");
+    }
+  }
+
+  static std::string listOf(const std::set<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list;
+  }
+
+  // A list with at least one entry.
+  YAML::Node entriesOf(const YAML::Node& node, const std::string& name) const {
+    if (!node.IsSequence())
+      throw yamlError(node, file_, name + " must be a list, got " + describeYaml(node));
+    if (node.size() == 0) throw yamlError(node, file_, name + " is an empty list");
+    return node;
+  }
+
+  int wholeNumber(const YAML::Node& node, const std::string& name, int least, int most) const {
+    const std::string expected =
+        "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+    const int number = yamlAs<int>(node, name, file_, expected);
+    if (number < least || number > most)
+      throw yamlError(node, file_, name + " must be " + expected + ", got " + describeYaml(node));
+    return number;
+  }
+
+  std::string resolved(const YAML::Node& node, const std::string& name) const {
+    const auto named = yamlAs<std::string>(node, name, file_, "a file name");
+    return !named.empty() && named.front() == '/' ? named : folderOf(file_) + named;
+  }
+
+  template <class T>
+  void refuseTwice(const YAML::Node& node, std::set<T>& seen, const T& value,
+                   const std::string& name) const {
+    if (!seen.insert(value).second)
+      throw yamlError(node, file_, name + " names " + describeYaml(node) + " twice");
+  }
+
+  // Runs `parse`; an InputError of it gets file and line.
+  void atLine(const YAML::Node& node, const std::function<void()>& parse) const {
+    try {
+      parse();
+    } catch (const InputError& error) {
+      throw yamlError(node, file_, error.what());
+    }
+  }
+
+  void readOptions(const YAML::Node& node) {
+    if (!node.IsMap())
+      throw yamlError(node, file_, "options must be a mapping, got " + describeYaml(node));
+    for (const auto& entry : node) {
+      const auto key = yamlAs<std::string>(entry.first, "an option", file_, "a name");
+      const auto text = yamlAs<std::string>(entry.second, key, file_, "a value");
+      bool known = false;
+      visitOptions(study_.base, [&](const char* name, auto& value, const OptionInfo& info) {
+        if (key != name) return;
+        known = true;
+        atLine(entry.second, [&] { parseOption(key, text, info, value); });
+      });
+      if (!known)
+        throw yamlError(entry.first, file_, "there is no option '" + key + "' of path_planner");
+    }
+  }
+
+  Cell cellOf(const YAML::Node& node) const {
+    if (!node.IsSequence() || node.size() != 2)
+      throw yamlError(node, file_, "a cell must be [column, row], got " + describeYaml(node));
+    constexpr int kLargest = 1 << 19;
+    return {wholeNumber(node[0], "column", 0, kLargest), wholeNumber(node[1], "row", 0, kLargest)};
+  }
+
+  CellPair pairOf(const YAML::Node& node) const {
+    if (!node.IsSequence() || node.size() != 2)
+      throw yamlError(node, file_,
+                      "a pair must be [[column, row], [column, row]], got " + describeYaml(node));
+    return {cellOf(node[0]), cellOf(node[1])};
+  }
+
+  void readRandom(const YAML::Node& node, QuerySource& queries) const {
+    checkKeys(node, "random", {"count", "seed"});
+    queries.random_count =
+        wholeNumber(yamlNode(node, "count", file_, "how many"), "count", 1, kMostQueries);
+    if (node["seed"])
+      queries.random_seed =
+          static_cast<std::uint32_t>(wholeNumber(node["seed"], "seed", 0, 2147483647));
+  }
+
+  void readScenario(const YAML::Node& node, QuerySource& queries) const {
+    if (node.IsScalar()) {
+      queries.scenario = resolved(node, "scenario");
+      return;
+    }
+    checkKeys(node, "scenario", {"file", "limit"});
+    queries.scenario = resolved(yamlNode(node, "file", file_, "a .scen file"), "file");
+    if (node["limit"])
+      queries.scenario_limit = wholeNumber(node["limit"], "limit", 1, kMostQueries);
+  }
+
+  QuerySource queriesOf(const YAML::Node& node) const {
+    checkKeys(node, "queries", {"pairs", "random", "scenario"});
+    QuerySource queries;
+    if (node["pairs"])
+      for (const YAML::Node& pair : entriesOf(node["pairs"], "pairs"))
+        queries.pairs.push_back(pairOf(pair));
+    if (node["random"]) readRandom(node["random"], queries);
+    if (node["scenario"]) readScenario(node["scenario"], queries);
+    if (queries.empty()) throw yamlError(node, file_, "queries names none");
+    return queries;
+  }
+
+  void readMaps(const YAML::Node& node) {
+    std::set<std::string> names;
+    for (const YAML::Node& entry : entriesOf(node, "maps")) {
+      StudyMap map;
+      map.queries = common_queries_;
+      if (entry.IsMap()) {
+        checkKeys(entry, "a map", {"file", "name", "queries"});
+        map.file = resolved(yamlNode(entry, "file", file_, "a map file"), "file");
+        map.name = yamlValueOr<std::string>(entry, "name", file_, "a name", stemOf(map.file));
+        if (entry["queries"]) map.queries = queriesOf(entry["queries"]);
+      } else {
+        map.file = resolved(entry, "a map");
+        map.name = stemOf(map.file);
+      }
+      if (map.queries.empty())
+        throw yamlError(entry, file_, "map '" + map.name + "' has no queries");
+      refuseTwice(entry, names, map.name, "maps");
+      study_.maps.push_back(map);
+    }
+  }
+
+  // The choices of an enum under `key`, or `fallback` alone.
+  template <class E>
+  std::vector<E> choicesUnder(const YAML::Node& root, const std::string& key, E fallback) const {
+    if (!root[key]) return {fallback};
+    std::vector<E> choices;
+    std::set<E> seen;
+    for (const YAML::Node& entry : entriesOf(root[key], key)) {
+      const auto text = yamlAs<std::string>(entry, key, file_, "a name");
+      E choice = fallback;
+      atLine(entry, [&] { choice = choiceFromName<E>(key, text); });
+      refuseTwice(entry, seen, choice, key);
+      choices.push_back(choice);
+    }
+    return choices;
+  }
+
+  void addVariant(const YAML::Node& node, const std::string& planner, const SearchOptions& search,
+                  const std::string& label) {
+    atLine(node, [&] { makePlanner(planner, search); });
+    study_.variants.push_back({label, planner, search});
+  }
+
+  void readVariants(const YAML::Node& root) {
+    const auto heuristics = choicesUnder(root, "heuristics", study_.base.search.heuristic);
+    const auto tie_breaks = choicesUnder(root, "tie_breaks", study_.base.search.tie_break);
+    std::set<std::string> seen;
+    for (const YAML::Node& entry :
+         entriesOf(yamlNode(root, "planners", file_, "a list of planners"), "planners")) {
+      const auto planner = yamlAs<std::string>(entry, "planners", file_, "a name");
+      refuseTwice(entry, seen, planner, "planners");
+      bool guided = false;
+      atLine(entry, [&] { guided = makePlanner(planner)->traits().heuristic; });
+      if (!guided) {
+        addVariant(entry, planner, study_.base.search, planner);
+        continue;
+      }
+      for (const Heuristic heuristic : heuristics)
+        for (const TieBreak tie_break : tie_breaks) {
+          SearchOptions search = study_.base.search;
+          search.heuristic = heuristic;
+          search.tie_break = tie_break;
+          addVariant(entry, planner, search,
+                     planner + ' ' + choiceName(heuristic) +
+                         (tie_breaks.size() > 1 ? std::string(", ") + choiceName(tie_break) : ""));
+        }
+    }
+  }
+
+  std::vector<int> kernelsOf(const YAML::Node& root) const {
+    if (!root["kernels"]) return {study_.base.terrain.kernel};
+    std::vector<int> kernels;
+    std::set<int> seen;
+    for (const YAML::Node& entry : entriesOf(root["kernels"], "kernels")) {
+      kernels.push_back(wholeNumber(entry, "a kernel", 1, 1024));
+      refuseTwice(entry, seen, kernels.back(), "kernels");
+    }
+    return kernels;
+  }
+
+  std::vector<Weights> weightsOf(const YAML::Node& root) const {
+    const TerrainOptions& terrain = study_.base.terrain;
+    if (!root["weights"])
+      return {{terrain.free_weight, terrain.unknown_weight, terrain.occupied_weight}};
+    std::vector<Weights> weights;
+    std::set<std::string> seen;
+    for (const YAML::Node& entry : entriesOf(root["weights"], "weights")) {
+      if (!entry.IsSequence() || entry.size() != 3)
+        throw yamlError(entry, file_,
+                        "weights must be [free, unknown, occupied], got " + describeYaml(entry));
+      const auto weight = [&](int i) { return wholeNumber(entry[i], "a weight", 1, 65535); };
+      weights.push_back({weight(0), weight(1), weight(2)});
+      refuseTwice(entry, seen, weightsLabel(weights.back()), "weights");
+    }
+    return weights;
+  }
+
+  void addSetting(const YAML::Node& root, std::size_t map, int kernel, KernelRule rule,
+                  const Weights& weights) {
+    StudySetting setting;
+    setting.map = map;
+    setting.weights = weightsLabel(weights);
+    setting.terrain = study_.base.terrain;
+    setting.terrain.kernel = kernel;
+    setting.terrain.kernel_rule = rule;
+    setting.terrain.free_weight = weights.free;
+    setting.terrain.unknown_weight = weights.unknown;
+    setting.terrain.occupied_weight = weights.occupied;
+    setting.label = study_.maps[map].name + ", kernel " + std::to_string(kernel) + ' ' +
+                    choiceName(rule) + ", weights " + setting.weights;
+    atLine(root, [&] { checkTerrainOptions(setting.terrain); });
+    study_.settings.push_back(setting);
+  }
+
+  void readSettings(const YAML::Node& root) {
+    const std::vector<int> kernels = kernelsOf(root);
+    const auto rules = choicesUnder(root, "kernel_rules", study_.base.terrain.kernel_rule);
+    const std::vector<Weights> weights = weightsOf(root);
+    for (std::size_t map = 0; map < study_.maps.size(); ++map)
+      for (const int kernel : kernels)
+        for (const KernelRule rule : rules)
+          for (const Weights& each : weights) addSetting(root, map, kernel, rule, each);
+  }
+
+  template <class Key, class Value>
+  std::map<Key, Value> mappingOf(const YAML::Node& node, const std::string& name) const {
+    if (!node.IsMap())
+      throw yamlError(node, file_, name + " must be a mapping, got " + describeYaml(node));
+    std::map<Key, Value> values;
+    for (const auto& entry : node)
+      values[yamlAs<Key>(entry.first, "a key of " + name, file_, "a name or number")] =
+          yamlAs<Value>(entry.second, name, file_, "a value");
+    return values;
+  }
+
+  void readPublished(const YAML::Node& node) {
+    checkKeys(node, "published",
+              {"source", "time_s", "expanded_ratio", "shortest_percent", "alone_percent",
+               "crossing", "dijkstra_not_optimal"});
+    PublishedFigures& published = study_.published;
+    published.source = yamlValue<std::string>(node, "source", file_, "who published them");
+    if (node["time_s"]) {
+      if (!node["time_s"].IsMap())
+        throw yamlError(node["time_s"], file_, "time_s must be a mapping");
+      for (const auto& entry : node["time_s"])
+        published.time_s[yamlAs<std::string>(entry.first, "time_s", file_, "a variant")] =
+            mappingOf<int, double>(entry.second, "time_s");
+    }
+    published.expanded_ratio = yamlValueOr<double>(node, "expanded_ratio", file_, "a number", 0.0);
+    if (node["shortest_percent"])
+      published.shortest_percent =
+          mappingOf<std::string, double>(node["shortest_percent"], "shortest_percent");
+    if (node["alone_percent"])
+      published.alone_percent =
+          mappingOf<std::string, double>(node["alone_percent"], "alone_percent");
+    if (node["crossing"])
+      published.crossing = mappingOf<std::string, std::string>(node["crossing"], "crossing");
+    published.dijkstra_not_optimal =
+        yamlValueOr<bool>(node, "dijkstra_not_optimal", file_, "true or false", false);
+  }
+
+  std::string file_;
+  Study study_;
+  QuerySource common_queries_;
+};
+
+}  // namespace
+
+Study readStudyFile(const std::string& file) {
+  return StudyReader(file).read();
+}
+
+}  // namespace grid_path_planner

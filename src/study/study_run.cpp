@@ -1,0 +1,97 @@
+#include "grid_path_planner/study/study_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "grid_path_planner/base/errors.h"
+
+namespace grid_path_planner {
+namespace {
+
+using nlohmann::json;
+
+Status statusFromName(const std::string& name) {
+  for (int i = 0; i <= static_cast<int>(Status::INVALID_REQUEST); ++i)
+    if (toString(static_cast<Status>(i)) == name) return static_cast<Status>(i);
+  throw InputError("no status is called '" + name + "'");
+}
+
+json jsonOf(Cell cell) {
+  return {cell.column, cell.row};
+}
+
+Cell cellFrom(const json& pair) {
+  return {pair.at(0).get<int>(), pair.at(1).get<int>()};
+}
+
+// JSON has no infinity: null stands for it.
+json orNull(double value) {
+  return std::isfinite(value) ? json(value) : json();
+}
+
+double orInfinity(const json& value) {
+  return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+}
+
+}  // namespace
+
+std::string lineOf(const StudyRun& run) {
+  return json{{"setting", run.setting},
+              {"query", run.query},
+              {"variant", run.variant},
+              {"start", jsonOf(run.start)},
+              {"goal", jsonOf(run.goal)},
+              {"note", run.note},
+              {"status", std::string(toString(run.status))},
+              {"message", run.message},
+              {"cost", run.cost},
+              {"optimum", run.optimum},
+              {"length_m", run.length_m},
+              {"turning_rad", run.turning_rad},
+              {"clearance_m", orNull(run.clearance_m)},
+              {"unknown_m", run.unknown_m},
+              {"occupied_m", run.occupied_m},
+              {"cells", run.cells},
+              {"expanded", run.expanded},
+              {"generated", run.generated},
+              {"bytes", run.bytes},
+              {"times_ms", run.times_ms},
+              {"path_xy", run.path_xy}}
+      .dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+StudyRun runFromLine(const std::string& line) {
+  try {
+    const json object = json::parse(line);
+    StudyRun run;
+    object.at("setting").get_to(run.setting);
+    object.at("query").get_to(run.query);
+    object.at("variant").get_to(run.variant);
+    run.start = cellFrom(object.at("start"));
+    run.goal = cellFrom(object.at("goal"));
+    object.at("note").get_to(run.note);
+    run.status = statusFromName(object.at("status").get<std::string>());
+    object.at("message").get_to(run.message);
+    object.at("cost").get_to(run.cost);
+    object.at("optimum").get_to(run.optimum);
+    object.at("length_m").get_to(run.length_m);
+    object.at("turning_rad").get_to(run.turning_rad);
+    run.clearance_m = orInfinity(object.at("clearance_m"));
+    object.at("unknown_m").get_to(run.unknown_m);
+    object.at("occupied_m").get_to(run.occupied_m);
+    object.at("cells").get_to(run.cells);
+    object.at("expanded").get_to(run.expanded);
+    object.at("generated").get_to(run.generated);
+    object.at("bytes").get_to(run.bytes);
+    object.at("times_ms").get_to(run.times_ms);
+    object.at("path_xy").get_to(run.path_xy);
+    if (run.times_ms.empty()) throw InputError("a run without times");
+    return run;
+  } catch (const json::exception& error) {
+    throw InputError(std::string("is no run of a study: ") + error.what());
+  }
+}
+
+}  // namespace grid_path_planner

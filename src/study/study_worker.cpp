@@ -1,0 +1,107 @@
+#include "grid_path_planner/study/study_worker.h"
+
+#include "grid_path_planner/path/crossing.h"
+#include "grid_path_planner/path/metrics.h"
+
+namespace grid_path_planner {
+namespace {
+
+Pose poseOf(const OccupancyGrid& map, Cell cell) {
+  Pose pose;
+  pose.position << map.geometry().centre(cell), 0.0;
+  return pose;
+}
+
+// The corners of the polyline; what lies straight between two of them is left out.
+std::vector<float> cornersOf(const Path& path) {
+  std::vector<float> corners;
+  const auto at = [&path](std::size_t i) { return path.poses[i].position.head<2>(); };
+  for (std::size_t i = 0; i < path.poses.size(); ++i) {
+    if (i > 0 && i + 1 < path.poses.size()) {
+      const Eigen::Vector2d before = at(i) - at(i - 1), after = at(i + 1) - at(i);
+      const double cross = before.x() * after.y() - before.y() * after.x();
+      if (std::abs(cross) < 1e-9 && before.dot(after) > 0.0) continue;
+    }
+    corners.push_back(static_cast<float>(at(i).x()));
+    corners.push_back(static_cast<float>(at(i).y()));
+  }
+  return corners;
+}
+
+void fillStatistics(const Statistics& statistics, StudyRun& run) {
+  run.expanded = statistics.expanded;
+  run.generated = statistics.generated;
+  run.bytes = statistics.search_bytes;
+}
+
+void fillPath(const PlanReport& report, const OccupancyGrid& map,
+              const OccupancyThresholds& thresholds, bool keep_path, StudyRun& run) {
+  run.cost = report.cost.toDouble();
+  run.length_m = report.length_m;
+  run.turning_rad = turningOf(report.path);
+  run.clearance_m = clearanceOf(report.path, map, thresholds);
+  const ClassLengths lengths = lengthsByClass(report.path, map, thresholds);
+  run.unknown_m = lengths.unknown_m;
+  run.occupied_m = lengths.occupied_m;
+  run.cells = report.cells;
+  if (keep_path) run.path_xy = cornersOf(report.path);
+}
+
+}  // namespace
+
+MapPlanner StudyWorker::plannerFor(const StudySetting& setting, const std::string& planner,
+                                   const SearchOptions& search) const {
+  PlannerOptions options = plan_.study().base;
+  options.terrain = setting.terrain;
+  options.planner = planner;
+  options.search = search;
+  options.retry_finer = false;  // what a kernel closes is a result here
+  MapPlanner made(options);
+  made.setMap(plan_.map(setting.map));
+  return made;
+}
+
+void StudyWorker::prepare(std::size_t setting) {
+  if (prepared_ == setting) return;
+  planners_.clear();
+  const StudySetting& chosen = plan_.study().settings[setting];
+  for (const StudyVariant& variant : plan_.study().variants)
+    planners_.push_back(plannerFor(chosen, variant.planner, variant.search));
+  exact_ = std::make_unique<MapPlanner>(plannerFor(chosen, "dijkstra", {}));
+  prepared_ = setting;
+}
+
+std::vector<StudyRun> StudyWorker::run(const StudyUnit& unit) {
+  prepare(unit.setting);
+  const StudySetting& setting = plan_.study().settings[unit.setting];
+  const OccupancyGrid& map = *plan_.map(setting.map);
+  const StudyQuery& query = plan_.queries(setting.map)[unit.query];
+  const PoseRequest request{poseOf(map, query.start), poseOf(map, query.goal), false};
+
+  const PlanReport exact = exact_->plan(request);
+  const std::size_t variants = planners_.size();
+  std::vector<StudyRun> runs(variants);
+  for (int repeat = 0; repeat < plan_.study().repeats; ++repeat)
+    for (std::size_t turn = 0; turn < variants; ++turn) {
+      const std::size_t variant = (turn + static_cast<std::size_t>(repeat)) % variants;
+      StudyRun& run = runs[variant];
+      const PlanReport report = planners_[variant].plan(request);
+      run.times_ms.push_back(report.statistics.time_s * 1e3);
+      if (repeat > 0) continue;
+      run.setting = unit.setting;
+      run.query = unit.query;
+      run.variant = variant;
+      run.start = query.start;
+      run.goal = query.goal;
+      run.note = query.note;
+      run.status = report.status;
+      run.message = report.message;
+      fillStatistics(report.statistics, run);
+      if (exact.status == Status::FOUND) run.optimum = exact.cost.toDouble();
+      if (report.status == Status::FOUND)
+        fillPath(report, map, setting.terrain.thresholds, unit.query < kDrawnQueries, run);
+    }
+  return runs;
+}
+
+}  // namespace grid_path_planner
