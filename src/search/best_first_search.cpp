@@ -47,7 +47,8 @@ PlanResult BestFirstSearch::finish(const CostGrid& map, std::uint32_t start, std
 PlanResult BestFirstSearch::withStatus(const CostGrid& map, Status status,
                                        PlanResult result) const {
   result.status = status;
-  result.statistics.search_bytes = bytesFor(map.geometry()) + heap_.capacity() * sizeof(Entry);
+  result.statistics.search_bytes =
+      bytesFor(map.geometry()) + result.statistics.peak_open * sizeof(Entry);
   return result;
 }
 

@@ -8,11 +8,12 @@ namespace grid_path_planner {
 
 struct Statistics {
   std::uint64_t expanded = 0;  // nodes taken from the open list and whose neighbours were looked at
-  std::uint64_t generated = 0;   // nodes put into the open list, a better cost counted again
-  std::uint64_t reopened = 0;    // nodes expanded before and put into the open list again
-  std::size_t peak_open = 0;     // entries
-  double time_s = 0.0;           // steady clock, the plan alone: map preparation is not in it
-  std::size_t search_bytes = 0;  // memory the search holds, the map excluded
+  std::uint64_t generated = 0;  // nodes put into the open list, a better cost counted again
+  std::uint64_t reopened = 0;   // nodes expanded before and put into the open list again
+  std::size_t peak_open = 0;    // entries
+  double time_s = 0.0;          // steady clock, the plan alone: map preparation is not in it
+  // Memory of the search, the map excluded: its arrays, and the open list at its longest.
+  std::size_t search_bytes = 0;
 
   // Sums of counters and time, the larger of the sizes: two searches of one request.
   Statistics& operator+=(const Statistics& other) {

@@ -1,0 +1,76 @@
+#include "grid_path_planner/study/confidence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "grid_path_planner/study/table.h"
+
+namespace grid_path_planner {
+namespace {
+
+TEST(Confidence, OfAMeanIsStudentsInterval) {
+  // Mean 3, standard error sqrt(2.5 / 5); t(0.975, 4) = 2.776445 (any table of Student's t).
+  const Interval mean = meanDifference({1, 2, 3, 4, 5});
+  EXPECT_DOUBLE_EQ(mean.value, 3.0);
+  EXPECT_NEAR(mean.high - 3.0, 2.776445 * std::sqrt(0.5), 1e-5);
+  EXPECT_NEAR(3.0 - mean.low, 2.776445 * std::sqrt(0.5), 1e-5);
+}
+
+TEST(Confidence, OfARatioIsThatOfItsLogarithm) {
+  const Interval ratio = meanRatio({2.0, 8.0});
+  EXPECT_NEAR(ratio.value, 4.0, 1e-12);
+  EXPECT_NEAR(ratio.value / ratio.low, ratio.high / ratio.value, 1e-9);
+  EXPECT_FALSE(differs(ratio)) << "two ratios so far apart say nothing";
+  EXPECT_TRUE(differs(meanRatio({2.0, 2.1, 1.9, 2.05})));
+  EXPECT_FALSE(differs(meanRatio({3.0}))) << "one alone says nothing of its spread";
+}
+
+TEST(Confidence, OfAShareIsWilsons) {
+  // Wilson (1927) for 8 of 10: 0.4902 to 0.9433.
+  const Interval share_of_ten = share(8, 10, 10);
+  EXPECT_NEAR(share_of_ten.low, 0.4902, 1e-4);
+  EXPECT_NEAR(share_of_ten.high, 0.9433, 1e-4);
+  EXPECT_EQ(share(0, 10, 10).low, 0.0);
+  EXPECT_GT(share(0, 10, 10).high, 0.0);
+  EXPECT_LT(share(80, 100, 100).high - share(80, 100, 100).low,
+            share(80, 100, 10).high - share(80, 100, 10).low)
+      << "fewer samples, less certainty";
+}
+
+// The law that gives the interval its name.
+TEST(Confidence, HoldsTheTrueRatioInAbout95Of100Samples) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(std::log(1.5), 0.4);
+  int held = 0;
+  constexpr int kSamples = 2000;
+  for (int sample = 0; sample < kSamples; ++sample) {
+    std::vector<double> ratios;
+    for (int i = 0; i < 10; ++i) ratios.push_back(std::exp(noise(random)));
+    const Interval found = meanRatio(ratios);
+    held += found.low <= 1.5 && 1.5 <= found.high ? 1 : 0;
+  }
+  EXPECT_NEAR(held / static_cast<double>(kSamples), 0.95, 0.02);
+}
+
+TEST(Confidence, QuantilesLieBetweenTheValues) {
+  EXPECT_DOUBLE_EQ(quantileOf({4, 1, 3, 2}, 0.5), 2.5);
+  EXPECT_DOUBLE_EQ(quantileOf({7}, 0.25), 7.0);
+  EXPECT_DOUBLE_EQ(quantileOf({1, 2, 3, 4, 5}, 0.25), 2.0);
+}
+
+TEST(ShownNumber, IsForPeople) {
+  EXPECT_EQ(shownNumber(0.012345), "0.0123");
+  EXPECT_EQ(shownNumber(4.5678), "4.57");
+  EXPECT_EQ(shownNumber(123.4), "123");
+  EXPECT_EQ(shownNumber(45678.9), "45,679");
+  EXPECT_EQ(shownNumber(-45678.9), "-45,679");
+  EXPECT_EQ(shownNumber(630), "630");
+  EXPECT_EQ(shownNumber(0), "0");
+  EXPECT_EQ(shownNumber(1e-7), "1e-07");
+  EXPECT_EQ(shownNumber(std::numeric_limits<double>::infinity()), "∞");
+}
+
+}  // namespace
+}  // namespace grid_path_planner

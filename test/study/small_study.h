@@ -1,0 +1,48 @@
+// A study small enough to run in a test.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "grid_path_planner/grid/map_file.h"
+#include "grid_path_planner/study/process_pool.h"
+#include "grid_path_planner/study/study_folder.h"
+#include "grid_path_planner/study/study_plan.h"
+#include "grid_path_planner/study/study_runner.h"
+#include "grid_path_planner/study/study_worker.h"
+#include "support/ascii_map.h"
+#include "support/temporary_folder.h"
+
+namespace grid_path_planner::test {
+
+// Two kernels, two sets of weights, three queries, of which one has no answer; Dijkstra and two A*.
+inline StudyPlan smallStudy(const TemporaryFolder& folder) {
+  writeMapServerFile(folder.path("site.yaml"), AsciiMap({".....#.",  //
+                                                         ".##..#.",  //
+                                                         ".?#..##",  //
+                                                         ".??....",  //
+                                                         ".......",  //
+                                                         "......."})
+                                                   .map);
+  const std::string file = folder.write("study.yaml", R"(
+title: A small study
+maps: [site.yaml]
+planners: [dijkstra, a_star]
+heuristics: [octile, euclidean]
+kernels: [1, 2]
+weights: [[1, 2, 100], [1, 50, 100]]
+queries:
+  pairs: [[[0, 0], [4, 5]], [[0, 5], [6, 0]], [[0, 0], [6, 5]]]
+repeats: 2
+)");
+  return StudyPlan(readStudyFile(file), [](const std::string& map) { return readMapFile(map); });
+}
+
+inline StudyResult runWith(const StudyPlan& plan, StudyFolder& folder, std::size_t processes) {
+  const auto worker = std::make_shared<StudyWorker>(plan);
+  ProcessPool pool(processes,
+                   [&plan, worker](std::size_t task) { return linesOfUnit(*worker, plan, task); });
+  return runStudy(plan, folder, pool, StopToken(), [](std::size_t, std::size_t) {});
+}
+
+}  // namespace grid_path_planner::test
