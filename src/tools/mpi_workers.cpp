@@ -18,7 +18,7 @@ constexpr int kAlive = 4;   // other -> rank 0: still at it
 constexpr std::uint64_t kNoMore = ~std::uint64_t{0};
 constexpr int kPollMs = 5;
 constexpr std::chrono::seconds kAliveEvery{2};
-constexpr std::chrono::seconds kLostAfter{30};  // of silence
+constexpr std::chrono::seconds kLostAfter{15};  // of silence
 
 std::string receiveText(const MPI_Status& status) {
   int size = 0;
