@@ -23,8 +23,8 @@ MappingDiagnostics::MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle priva
   updater_.setHardwareID("none");
   updater_.add("clouds", this, &MappingDiagnostics::reportClouds);
   updater_.add("map", this, &MappingDiagnostics::reportMap);
-  timer_ =
-      nh.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTimer(); });
+  timer_ = nh.createWallTimer(ros::WallDuration(updater_.getPeriod()),
+                              [this](const ros::WallTimerEvent&) { onTimer(); });
 }
 
 void MappingDiagnostics::onTimer() {

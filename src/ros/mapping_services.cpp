@@ -21,7 +21,7 @@ void answerSaving(const SaveFile::Request& request, const std::string& name,
     save(file);
     response.success = true;
     response.message = "written to " + file;
-    ROS_INFO_STREAM(name << " " << response.message);
+    ROS_INFO_STREAM("Saved " << file);
   } catch (const InputError& error) {
     response.success = false;
     response.message = error.what();

@@ -66,8 +66,6 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
       std::make_unique<OctreePublisher>(nh, service_nh, options.latch, *desk_, on_change);
   services_ = std::make_unique<MappingServices>(private_service_nh, *desk_, on_change);
   diagnostics_ = std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *desk_);
-  reconfigurable_ = std::make_unique<Reconfigurable<ProjectedMapConfig, ProjectedMapOptions>>(
-      private_nh, options, [this](const ProjectedMapOptions& wanted) { use(wanted); });
   service_spinner_.start();
 
   cloud_subscriber_ = nh.subscribe<sensor_msgs::PointCloud2>(
@@ -75,6 +73,9 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   cloud_timer_ = nh.createWallTimer(ros::WallDuration(kCloudPeriod),
                                     [this](const ros::WallTimerEvent&) { sortOutClouds(); });
   startPublishing(options.publish_rate);
+  complete_ = true;
+  reconfigurable_ = std::make_unique<Reconfigurable<ProjectedMapConfig, ProjectedMapOptions>>(
+      private_nh, options, [this](const ProjectedMapOptions& wanted) { use(wanted); });
 }
 
 ProjectedMapNode::~ProjectedMapNode() {
@@ -122,7 +123,9 @@ void ProjectedMapNode::postInsertion() {
   desk_->post("insert", [this](MapKeeper& map) { insertNext(map); });
 }
 
+// A nodelet's subscribers may be there, in another thread, before it is complete.
 void ProjectedMapNode::postPublishing() {
+  if (!complete_) return;
   desk_->post("publish", [this](MapKeeper& map) { publish(map); });
 }
 

@@ -45,11 +45,11 @@ void checkProjectedMapOptions(const ProjectedMapOptions& o) {
   checkOptionLimits(o);
   checkOctreeOptions(o.octree);
   checkCloudFilterOptions(o.cloud);
-  checkProjectionOptions(projectionOptions(o));
   if (!(o.occupancy_min_z < o.occupancy_max_z))
     throw InputError("occupancy_min_z must be below occupancy_max_z, got " +
                      std::to_string(o.occupancy_min_z) + " and " +
                      std::to_string(o.occupancy_max_z));
+  checkProjectionOptions(projectionOptions(o));
   if (o.frame_id.empty()) throw InputError("frame_id must name a frame, got ''");
   if (o.base_frame_id.empty()) throw InputError("base_frame_id must name a frame, got ''");
   checkEnding("map_file", o.map_file, {".yaml", ".yml"});

@@ -1,9 +1,10 @@
-// map_publisher and path_planner as nodelets of one manager.
+// map_publisher, projected_map and path_planner as nodelets of one manager.
 #include <gtest/gtest.h>
 #include <nav_msgs/GetPlan.h>
 #include <nodelet/NodeletList.h>
 #include <nodelet/NodeletUnload.h>
 #include <ros/ros.h>
+#include <std_srvs/Empty.h>
 
 #include "ros/support/planner_fixture.h"
 #include "ros/support/wait.h"
@@ -18,14 +19,16 @@ std::vector<std::string> loaded() {
 }
 
 TEST(Nodelets, PlanTogetherAndAreUnloaded) {
-  ASSERT_TRUE(test::waitFor([] { return loaded().size() == 2; }));
+  ASSERT_TRUE(test::waitFor([] { return loaded().size() == 3; }));
   nav_msgs::GetPlan call;
   call.request.start = test::poseAt(-1.5, -1.0);
   call.request.goal = test::poseAt(-0.2, -0.2);
   EXPECT_TRUE(test::waitFor([&] {  // until the map has come
     return ros::service::call("/path_planner/make_plan", call) && !call.response.plan.poses.empty();
   }));
-  for (const char* name : {"/path_planner", "/map_publisher"}) {
+  std_srvs::Empty reset;
+  EXPECT_TRUE(ros::service::call("/octree_mapping/reset", reset));
+  for (const char* name : {"/path_planner", "/octree_mapping", "/map_publisher"}) {
     nodelet::NodeletUnload unload;
     unload.request.name = name;
     EXPECT_TRUE(ros::service::call("/manager/unload_nodelet", unload)) << name;
@@ -33,6 +36,7 @@ TEST(Nodelets, PlanTogetherAndAreUnloaded) {
   }
   EXPECT_TRUE(loaded().empty());
   EXPECT_FALSE(ros::service::exists("/path_planner/make_plan", false));
+  EXPECT_FALSE(ros::service::exists("/octree_mapping/reset", false));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "grid_path_planner/PathPlannerConfig.h"
 #include "grid_path_planner/ros/path_planner_options.h"
+#include "grid_path_planner/ros/projected_map_options.h"
 #include "ros/support/latest.h"
 
 namespace grid_path_planner {
@@ -86,6 +87,26 @@ TEST(Parameters, UnknownNamesAreFound) {
   EXPECT_TRUE(log.waitFor(0, [](const rosgraph_msgs::Log& line) {
     return line.msg == "Unknown parameter /misspelt/radios is not used; did you mean radius?";
   }));
+}
+
+TEST(Parameters, NestedNamesAreNamesWithAnUnderscoreForDynamicReconfigure) {
+  ros::NodeHandle nh("/nested");
+  nh.setParam("sensor_model/hit", 0.8);
+  nh.setParam("sensor_model/hitt", 0.8);
+  nh.setParam("sensor_model_miss", 0.3);  // what dynamic_reconfigure stores
+  const auto known = optionNames<ProjectedMapOptions>();
+  EXPECT_EQ(unknownParameters(nh, known), std::vector<std::string>{"sensor_model/hitt"});
+  ProjectedMapOptions options;
+  loadParameters(nh, options);
+  EXPECT_EQ(options.octree.hit, 0.8);
+  double hit = 0.0;
+  EXPECT_TRUE(dynamic_reconfigure::ConfigTools::getParameter(configMessage(options),
+                                                             "sensor_model_hit", hit));
+  EXPECT_EQ(hit, 0.8);
+  options.octree.miss = 0.2;
+  storeParameters(nh, options, Stored::NESTED);
+  EXPECT_EQ(nh.param("sensor_model/miss", 0.0), 0.2);
+  EXPECT_FALSE(nh.hasParam("resolution")) << "not nested";
 }
 
 class Reconfiguration : public testing::Test {

@@ -1,5 +1,5 @@
-// What projected_map reports on /diagnostics, once a second: the clouds that came and what became
-// of them, and the size of the map.
+// What projected_map reports on /diagnostics, once a second (~diagnostic_period): the clouds
+// that came and what became of them, and the size of the map.
 //
 //   clouds: received, inserted, waiting, dropped (each with its reason), last_insertion_s,
 //           mean_insertion_s; a warning while clouds are dropped

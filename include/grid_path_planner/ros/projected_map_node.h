@@ -26,8 +26,8 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <atomic>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "grid_path_planner/ros/clock.h"
@@ -77,6 +77,7 @@ class ProjectedMapNode {
   CloudQueue queue_;
   std::unique_ptr<MappingDesk> desk_;
   ros::Time decayed_until_;  // of the map's thread
+  std::atomic<bool> complete_{false};
 
   ros::CallbackQueue service_queue_;
   ros::AsyncSpinner service_spinner_;
