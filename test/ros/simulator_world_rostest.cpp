@@ -109,6 +109,24 @@ TEST_F(SimulatorWorldTest, TheCameraSeesTheWorldWhereTfSaysThatItIs) {
   EXPECT_EQ(elsewhere, 0);
 }
 
+// A listener that clears its buffer as time jumps back would not get a static transform again.
+TEST_F(SimulatorWorldTest, TransformsToTheCameraComeAgainAfterTimeJumpedBack) {
+  tf2_ros::Buffer buffer;
+  tf2_ros::TransformListener listener(buffer);
+  const auto known = [&](double before) {
+    return test::waitFor([&] {
+      return buffer.canTransform("base_link", "camera_optical_frame", ros::Time(0)) &&
+             buffer.lookupTransform("base_link", "camera_optical_frame", ros::Time(0))
+                     .header.stamp.toSec() < before;
+    });
+  };
+  start({"_start_time:=1000"});
+  ASSERT_TRUE(known(2000.0));
+  simulator_.reset();
+  start({"_start_time:=1"});
+  EXPECT_TRUE(known(500.0));
+}
+
 TEST_F(SimulatorWorldTest, CameraInfoSaysWhichPixelSeesWhichPoint) {
   Latest<PointCloud2> clouds(nh_, "depth_camera/points");
   Latest<CameraInfo> infos(nh_, "depth_camera/camera_info");
