@@ -129,18 +129,23 @@ void SimulatorNode::onMap(const nav_msgs::OccupancyGrid& message) {
 }
 
 void SimulatorNode::onTimer(const ros::SteadyTimerEvent&) {
-  const ros::SteadyTime tick = ros::SteadyTime::now();
-  const double longest = std::max(kLongestDelay, 2.0 / options_.update_rate);
-  owed_ += std::min((tick - last_tick_).toSec(), longest) * options_.real_time_factor;
-  owed_ = std::min(owed_, longest * options_.real_time_factor);
-  last_tick_ = tick;
+  const double time_step = options_.vehicle.time_step;
+  collectTime();
   const std::int64_t before = vehicle_->timeNs();
-  for (; owed_ >= options_.vehicle.time_step && !timeMustWait();
-       owed_ -= options_.vehicle.time_step)
-    step();
+  for (; owed_ >= time_step && !timeMustWait(); owed_ -= time_step) step();
   if (vehicle_->timeNs() == before) return;
   publishState();
   contact_publisher_.update(*vehicle_);
+}
+
+// Adds what has passed since the last call, but never more than a late timer may make up for.
+void SimulatorNode::collectTime() {
+  const ros::SteadyTime tick = ros::SteadyTime::now();
+  const double most =
+      std::max(kLongestDelay, 2.0 / options_.update_rate) * options_.real_time_factor;
+  owed_ += (tick - last_tick_).toSec() * options_.real_time_factor;
+  owed_ = std::min(owed_, most + options_.vehicle.time_step);  // at slow factors a step is more
+  last_tick_ = tick;
 }
 
 // A picture is due, and the one before is not finished.

@@ -161,6 +161,15 @@ TEST(Simulator, ParametersThatCannotBeUsedEndItBeforeItStarts) {
   EXPECT_EQ(contradiction.exitCode(), 1);
 }
 
+// At a fiftieth of real time a tick is much less than a step.
+TEST(Simulator, SimulatedTimeGoesOnHoweverSlowly) {
+  ros::NodeHandle nh;
+  ros::param::del("/simulator");
+  Latest<rosgraph_msgs::Clock> clock(nh, "/clock");
+  Process simulator("simulator", {"_real_time_factor:=0.02"});
+  EXPECT_TRUE(clock.waitForMoreThan(1)) << "no more than one /clock has come";
+}
+
 TEST(Simulator, RunsAsANodelet) {
   ros::NodeHandle nh;
   Latest<Odometry> odom(nh, "odom");

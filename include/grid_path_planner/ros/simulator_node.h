@@ -58,6 +58,7 @@ class SimulatorNode {
   void onCommand(const geometry_msgs::Twist& message);
   void onMap(const nav_msgs::OccupancyGrid& message);
   void onTimer(const ros::SteadyTimerEvent& event);
+  void collectTime();
   void step();
   bool timeMustWait() const;
   void takePicture();
