@@ -10,13 +10,23 @@ namespace {
 using Times = double __attribute__((vector_size(16)));
 using Pair = std::int64_t __attribute__((vector_size(16)));
 
-// Which of two axes' next crossings, at `next`, come before those at `other`: at the same time, the
-// higher axis is first. `kFirst` and `kSecond` say whether theirs is the higher one.
-template <bool kFirst, bool kSecond>
-Pair before(Times next, Times other) {
-  if constexpr (kFirst && kSecond) return next <= other;
-  if constexpr (!kFirst && !kSecond) return next < other;
-  return (next < other) | ((next == other) & Pair{-kFirst, -kSecond});
+// By bit: `a` where the mask is set, else `b`. (Of `mask ? a : b`, GCC 12 makes
+// branches here.)
+template <class Bits>
+Bits either(Bits mask, Bits a, Bits b) {
+  return b ^ ((a ^ b) & mask);
+}
+
+// Which of two crossings at `next` come before that of the major axis at `exit`
+// > 0. Of crossings at the same time that of the higher axis is first: `kA` >
+// `kB`.
+template <unsigned kMajor, unsigned kA, unsigned kB>
+Pair before(Times next, double exit) {
+  const Times exits{exit, exit};
+  if constexpr (kB > kMajor) return next <= exits;
+  if constexpr (kA < kMajor) return next < exits;
+  const Pair one_less_for_b{0, -1};  // the next smaller number of double precision
+  return next <= reinterpret_cast<Times>(reinterpret_cast<Pair>(exits) + one_less_for_b);
 }
 
 struct WindowCursor {
@@ -28,11 +38,6 @@ struct WindowCursor {
   void step(unsigned axis) { place += steps[axis]; }
   bool atEnd() const { return place == end; }
 };
-
-// `a` where the mask is -1, `b` where it is 0.
-std::int64_t either(std::int64_t mask, std::int64_t a, std::int64_t b) {
-  return b ^ ((a ^ b) & mask);
-}
 
 }  // namespace
 
@@ -50,14 +55,17 @@ void WindowWalk::mark(Ray& ray, const octomap::OcTreeKey& end) const {
 
 template <unsigned kMajor>
 void WindowWalk::markSlabs(Ray& ray, std::int64_t slabs, std::int64_t end) const {
-  constexpr unsigned kA = kMajor == 2 ? 1 : 2, kB = kMajor == 0 ? 1 : 0;  // kA > kB
-  // Else rounding might let a ray cross two borders of another axis in one slab.
+  constexpr unsigned kA = kMajor == 2 ? 1 : 2,
+                     kB = kMajor == 0 ? 1 : 0;  // kA > kB
+  // Else rounding might let a ray cross two borders of another axis in one
+  // slab.
   constexpr double kClearly = 1.0 + 1e-9;
   // Sums of up to 65536 times may be off by so much.
   constexpr double kSurely = 1.0 + 1e-11;
   const double between_major = ray.between[kMajor];
   double exit = ray.next[kMajor];
-  if (slabs == 0 || !(std::min(ray.between[kA], ray.between[kB]) > between_major * kClearly) ||
+  if (slabs == 0 || !(exit > 0.0) ||
+      !(std::min(ray.between[kA], ray.between[kB]) > between_major * kClearly) ||
       !((exit + static_cast<double>(slabs - 1) * between_major) * kSurely <= ray.length))
     return markVoxels(ray, origin_, end, true);
 
@@ -71,15 +79,16 @@ void WindowWalk::markSlabs(Ray& ray, std::int64_t slabs, std::int64_t end) const
   Times next{ray.next[kA], ray.next[kB]};
   std::int64_t place = origin_;
   for (; slabs > 0; --slabs) {
-    const Times exits{exit, exit}, swapped{next[1], next[0]};
-    const Pair crosses = before<(kA > kMajor), (kB > kMajor)>(next, exits);
+    const Times swapped{next[1], next[0]}, after = next + between;
+    const Pair crosses = before<kMajor, kA, kB>(next, exit);
     const Pair moves = crosses & steps;
     const std::int64_t a = moves[0], b = moves[1];
     const std::int64_t second = place + either((next <= swapped)[0], a, b);
     const std::int64_t third = place + a + b;
     cells[place] = cells[second] = cells[third] = Mark::FREE;
     place = third + step_major;
-    next = crosses ? next + between : next;
+    next = reinterpret_cast<Times>(
+        either(crosses, reinterpret_cast<Pair>(after), reinterpret_cast<Pair>(next)));
     exit += between_major;
   }
   if (!(exit > ray.length)) {
@@ -88,8 +97,9 @@ void WindowWalk::markSlabs(Ray& ray, std::int64_t slabs, std::int64_t end) const
     ray.next[kMajor] = exit;
     return markVoxels(ray, place, end, false);
   }
-  // The last slab: each other axis is crossed if its time comes before the ray's length; the voxel
-  // entered by the last crossing stays unmarked, as does the end and all behind.
+  // The last slab: each other axis is crossed if its time comes before the
+  // ray's length; the voxel entered by the last crossing stays unmarked, as
+  // does the end and all behind.
   const Times lengths{ray.length, ray.length}, swapped{next[1], next[0]};
   const Pair crosses = next <= lengths, moves = crosses & steps;
   const std::int64_t second = place + either((next <= swapped)[0], moves[0], moves[1]);

@@ -85,6 +85,56 @@ TEST_P(InsertionLaw, clearOnlyPointsCountAsOctomapServersGround) {
   }
 }
 
+// Rays that fill their box are marked in another way than a few long ones.
+TEST_P(InsertionLaw, densePicturesCountAsSparseOnes) {
+  octomap::OcTree expected = emptyTree(options_);
+  OctreeMap map(options_);
+  for (int i = 0; i < 6; ++i) {
+    const Scan scan = test::denseScan(random_, options_);
+    insertAsOctomapServer(expected, scan, options_.max_range);
+    map.insert(scan);
+    ASSERT_NO_FATAL_FAILURE(test::expectSameTree(map.tree(), expected)) << "scan " << i;
+  }
+  test::expectBricksMirrorTree(map);
+}
+
+// Where crossings of two axes coincide, and ends lie on the borders of voxels.
+TEST_P(InsertionLaw, tiesFallAlike) {
+  octomap::OcTree expected = emptyTree(options_);
+  OctreeMap map(options_);
+  const float step = static_cast<float>(options_.resolution);
+  std::uniform_int_distribution<int> halves(-24, 24);
+  const auto onLattice = [&] {
+    const int x = halves(random_), y = halves(random_);
+    return point3d(0.5f * step * x, 0.5f * step * y, 0.5f * step * halves(random_));
+  };
+  for (int i = 0; i < 6; ++i) {
+    Scan scan{onLattice(), {}, {}};
+    for (int ray = 0; ray < 1500; ++ray) scan.hits.push_back(onLattice());
+    expected.insertPointCloud(cloudOf(scan.hits), scan.origin, options_.max_range);
+    map.insert(scan);
+    ASSERT_NO_FATAL_FAILURE(test::expectSameTree(map.tree(), expected)) << "scan " << i;
+  }
+}
+
+// At the border of the keys' range, where a ray has nothing beyond it.
+TEST_P(InsertionLaw, cornersOfSpaceAreLikeAnyPlace) {
+  options_.resolution = 0.05;
+  octomap::OcTree expected = emptyTree(options_);
+  OctreeMap map(options_);
+  const point3d corner(-1638.38f, 1638.38f, -1638.38f);
+  for (int i = 0; i < 4; ++i) {
+    Scan scan{corner + point3d(0.6f, -0.6f, 0.6f), {}, {}};
+    for (int ray = 0; ray < 600; ++ray) {
+      const point3d inside = test::randomPoint(random_, 0.55f);
+      scan.hits.push_back(scan.origin + inside);
+    }
+    expected.insertPointCloud(cloudOf(scan.hits), scan.origin, options_.max_range);
+    map.insert(scan);
+    ASSERT_NO_FATAL_FAILURE(test::expectSameTree(map.tree(), expected)) << "scan " << i;
+  }
+}
+
 // The same scan again and again saturates voxels, prunes whole regions and splits them again.
 TEST_P(InsertionLaw, saturatedRegionsArePrunedAndSplitAlike) {
   octomap::OcTree expected = emptyTree(options_);
@@ -99,7 +149,7 @@ TEST_P(InsertionLaw, saturatedRegionsArePrunedAndSplitAlike) {
   test::expectBricksMirrorTree(map);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, InsertionLaw, testing::Range(1u, 25u));
+INSTANTIATE_TEST_SUITE_P(Seeds, InsertionLaw, testing::Range(1u, 21u));
 
 }  // namespace
 }  // namespace grid_path_planner

@@ -126,6 +126,32 @@ TEST(OctreeMap, emptyScansAndEmptyMapsAreNoTrouble) {
   EXPECT_TRUE(map.bricks().drainChangedColumns().empty());
 }
 
+// One ray of 100 m at 0.01 m crosses a box of a billion voxels or more.
+TEST(OctreeMap, aLongRayTakesMemoryForItsVoxelsOnly) {
+  OctreeOptions options;
+  options.resolution = 0.01;
+  OctreeMap map(options);
+  map.insert({{0, 0, 0}, {{60.0f, 55.0f, -57.0f}}, {}});
+  EXPECT_GT(map.tree().size(), 10000u);
+  EXPECT_LT(map.memoryUsage(), 100000000u);
+  test::expectBricksMirrorTree(map);
+}
+
+// Single precision has no direction for points so near to each other, but they lie in two voxels.
+TEST(OctreeMap, aRayOfNoLengthEnds) {
+  OctreeMap map(tenthOfAMetre());
+  const float tiny = 1e-30f;
+  map.insert({{-tiny, -tiny, -tiny}, {{tiny, tiny, tiny}}, {}});
+  EXPECT_EQ(at(map, -0.05f, -0.05f, -0.05f), Voxel::FREE);
+  EXPECT_EQ(at(map, 0.05f, 0.05f, 0.05f), Voxel::OCCUPIED);
+}
+
+TEST(OctreeMap, aMillionPointsInOneVoxelAreOneHit) {
+  OctreeMap map(tenthOfAMetre());
+  map.insert({{0.05f, 0.05f, 0.05f}, std::vector<point3d>(1000000, {0.55f, 0.05f, 0.05f}), {}});
+  EXPECT_EQ(map.tree().search(0.55, 0.05, 0.05)->getLogOdds(), map.tree().getProbHitLog());
+}
+
 // octomap_mapping #62, #110: what has been removed stayed in the map.
 TEST(OctreeMap, aVoxelFreedInTheTreeIsFreedInTheBricks) {
   OctreeMap map(tenthOfAMetre());

@@ -48,6 +48,22 @@ inline Scan randomScan(std::mt19937& random, const OctreeOptions& options) {
   return scan;
 }
 
+// A picture of what lies around: many rays close together, so that they fill the box around them.
+inline Scan denseScan(std::mt19937& random, const OctreeOptions& options) {
+  const float step = static_cast<float>(options.resolution);
+  Scan scan;
+  scan.origin = randomPoint(random, 20 * step);
+  const octomap::point3d ahead = randomPoint(random, 30 * step);
+  for (int row = 0; row < 25; ++row)
+    for (int column = 0; column < 40; ++column) {
+      const octomap::point3d aside(step * column, step * row, 0.1f * step * column);
+      const float range = 0.5f + 0.001f * static_cast<float>(random() % 1000);
+      const octomap::point3d point = scan.origin + (ahead + aside) * range;
+      (random() % 8 == 0 ? scan.clear_only : scan.hits).push_back(point);
+    }
+  return scan;
+}
+
 inline OctreeOptions randomOptions(std::mt19937& random) {
   OctreeOptions options;
   const double resolutions[] = {0.05, 0.1, 0.07, 0.25, 1.0};
