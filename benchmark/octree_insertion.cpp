@@ -9,6 +9,11 @@
 // octree is up to date, of ours also the bricks. After every scan the trees are compared node by
 // node: key, depth and the bits of the log odds. Prints the medians of the repetitions; exits with
 // 1 if a tree differs.
+//
+// What lost, in the time of a depth frame on the machine where this was made: 16^3 tiles of marks
+// instead of one window, with guard bits for their borders (1.6 times the window's); GCC's vector
+// `mask ? a : b`, which becomes branches (1.4). AVX2 would save another 5 to 10 %. A camera that is
+// held before a wall, with rays of 0.7 m, gains least: there the time is each ray's beginning.
 #include <octomap/OcTree.h>
 #include <octomap/ScanGraph.h>
 

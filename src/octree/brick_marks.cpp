@@ -1,6 +1,5 @@
 #include "brick_marks.h"
 
-#include <algorithm>
 #include <cstring>
 
 namespace grid_path_planner {
@@ -10,15 +9,12 @@ namespace {
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "rows of cells are read as words");
 
 constexpr std::uint64_t kEveryByte = 0x0101010101010101;
-// Three coordinates of up to 16 bits as one number, bit by bit: x, y, z from below.
-std::uint64_t interleaved(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  const auto spread = [](std::uint64_t bits) {
-    bits = (bits | bits << 16) & 0x0000FF0000FF;
-    bits = (bits | bits << 8) & 0x00F00F00F00F;
-    bits = (bits | bits << 4) & 0x0C30C30C30C3;
-    return (bits | bits << 2) & 0x249249249249;
-  };
-  return spread(x) | spread(y) << 1 | spread(z) << 2;
+// Makes room for two bits above each of up to 16.
+std::uint64_t spread(std::uint64_t bits) {
+  bits = (bits | bits << 16) & 0x0000FF0000FF;
+  bits = (bits | bits << 8) & 0x00F00F00F00F;
+  bits = (bits | bits << 4) & 0x0C30C30C30C3;
+  return (bits | bits << 2) & 0x249249249249;
 }
 
 // Four voxels along z, given as the lowest bits of four bytes, as bits of an octant's word.
@@ -45,7 +41,7 @@ void collectBrick(Mark* cells, std::int64_t stride_x, std::int64_t stride_y, Bri
       any |= row;
     }
   if (any == 0) return;
-  bricks.push_back({key, interleaved(key.x, key.y, key.z), {}, {}});
+  bricks.push_back({key, childrenDownTo(key), {}, {}});
   BrickMarks& marks = bricks.back();
   for (unsigned x = 0; x < 8; ++x)
     for (unsigned y = 0; y < 8; ++y) {
@@ -80,28 +76,14 @@ void collectCube(VoxelWindow& window, std::int32_t x, std::int32_t y, std::int32
 
 }  // namespace
 
+std::uint64_t childrenDownTo(BrickKey key) {
+  return spread(key.x) | spread(key.y) << 1 | spread(key.z) << 2;
+}
+
 void collectMarks(VoxelWindow& window, std::vector<BrickMarks>& bricks) {
   bricks.clear();
   collectCube(window, 0, 0, 0, VoxelWindow::kBricksAlongSpace, bricks);
   window.clearOutside();
-}
-
-void collectMarks(VoxelTiles& tiles, std::vector<BrickMarks>& bricks) {
-  constexpr unsigned kBricksAlong = VoxelTile::kEdge / 8;
-  bricks.clear();
-  for (VoxelTile& tile : tiles.tiles())
-    for (unsigned x = 0; x < kBricksAlong; ++x)
-      for (unsigned y = 0; y < kBricksAlong; ++y)
-        for (unsigned z = 0; z < kBricksAlong; ++z) {
-          const auto& at = tile.position;
-          const BrickKey key{static_cast<std::uint16_t>(at[0] * kBricksAlong + x),
-                             static_cast<std::uint16_t>(at[1] * kBricksAlong + y),
-                             static_cast<std::uint16_t>(at[2] * kBricksAlong + z)};
-          collectBrick(&tile.cells[VoxelTile::place(8 * x, 8 * y, 8 * z)],
-                       VoxelTile::place(1, 0, 0), VoxelTile::place(0, 1, 0), key, bricks);
-        }
-  std::sort(bricks.begin(), bricks.end(),
-            [](const BrickMarks& a, const BrickMarks& b) { return a.order < b.order; });
 }
 
 Brick::Words brickWords(const OctantWords& octants) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "grid_path_planner/octree/occupancy_bricks.h"
-#include "voxel_tiles.h"
 #include "voxel_window.h"
 
 namespace grid_path_planner {
@@ -21,10 +20,12 @@ struct BrickMarks {
   OctantWords free, hit;
 };
 
-// The marks as bricks, ordered from the root down; bricks without a mark are left out, and those
+// BrickMarks::order of a brick.
+std::uint64_t childrenDownTo(BrickKey key);
+
+// The marks of a window as bricks in their order; bricks without a mark are left out, and those
 // outside of space. The cells are NONE again.
 void collectMarks(VoxelWindow& window, std::vector<BrickMarks>& bricks);
-void collectMarks(VoxelTiles& tiles, std::vector<BrickMarks>& bricks);
 
 // The same voxels in the order of OccupancyBricks.
 Brick::Words brickWords(const OctantWords& octants);

@@ -88,7 +88,7 @@ std::vector<BrickColumn> OccupancyBricks::drainChangedColumns() {
 
 std::size_t OccupancyBricks::memoryUsage() const {
   std::size_t bytes =
-      sizeof *this + mixed_.capacity() * sizeof(Brick) + released_.capacity() * sizeof(Handle) +
+      sizeof *this + mixed_.size() * sizeof(Brick) + released_.capacity() * sizeof(Handle) +
       changed_.capacity() * sizeof(BrickColumn) + columns_.bucket_count() * sizeof(void*);
   for (const auto& entry : columns_)
     bytes += sizeof entry + sizeof(void*) + entry.second.handles.capacity() * sizeof(Handle);

@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "brick_walk.h"
 #include "scan_update.h"
-#include "tile_walk.h"
 #include "window_walk.h"
 
 namespace grid_path_planner {
+
+namespace {
+
+constexpr std::size_t kMostMarksKept = 1 << 18;  // for the next scan: 38 MB
+
+}  // namespace
 
 using octomap::OcTreeKey;
 using octomap::point3d;
@@ -20,8 +26,9 @@ std::size_t ScanInsertion::insert(const Scan& scan, const OcTreeKey& origin, dou
   if (fillsItsBox(origin, box))
     markWindow(rays, origin, box);
   else
-    markTiles(rays, origin);
+    markBricks(rays, origin);
   updateTree(tree, bricks, marks_);
+  if (marks_.size() > kMostMarksKept) marks_ = {};
   return left_out;
 }
 
@@ -86,20 +93,21 @@ void ScanInsertion::markWindow(const RaySource& rays, const OcTreeKey& origin,
   collectMarks(window_, marks_);
 }
 
-void ScanInsertion::markTiles(const RaySource& rays, const OcTreeKey& origin) {
-  TileWalk walk(tiles_, origin);
+void ScanInsertion::markBricks(const RaySource& rays, const OcTreeKey& origin) {
+  marks_.clear();
+  BrickWalk walk(marks_, origin);
   for (const End& end : ends_) {
     Ray ray;
     if (end.key == origin) continue;
     if (rays.rayTo(end.point, ray))
       walk.mark(ray, end.key);
     else
-      walk.mark(origin, Mark::FREE);
+      walk.markFree(origin);
   }
   for (const End& end : ends_)
-    if (end.is_hit) walk.mark(end.key, Mark::HIT);
-  collectMarks(tiles_, marks_);
-  tiles_.clear();
+    if (end.is_hit) walk.markHit(end.key);
+  std::sort(marks_.begin(), marks_.end(),
+            [](const BrickMarks& a, const BrickMarks& b) { return a.order < b.order; });
 }
 
 }  // namespace grid_path_planner

@@ -14,7 +14,6 @@
 #include "grid_path_planner/octree/scan.h"
 #include "map_tree.h"
 #include "ray.h"
-#include "voxel_tiles.h"
 #include "voxel_window.h"
 
 namespace grid_path_planner {
@@ -39,11 +38,10 @@ class ScanInsertion {
   bool fillsItsBox(const octomap::OcTreeKey& origin, VoxelWindow::Box& box) const;
   void markWindow(const RaySource& rays, const octomap::OcTreeKey& origin,
                   const VoxelWindow::Box& box);
-  void markTiles(const RaySource& rays, const octomap::OcTreeKey& origin);
+  void markBricks(const RaySource& rays, const octomap::OcTreeKey& origin);
 
   std::vector<End> ends_;
   VoxelWindow window_;
-  VoxelTiles tiles_;
   std::vector<BrickMarks> marks_;
 };
 

@@ -1,7 +1,7 @@
 // What a scan saw, voxel by voxel: a byte for each of a box around the scan.
 //
 // A byte and not a bit, since marking one is then a single store that waits for nothing. For scans
-// that fill their box; see VoxelTiles for the others.
+// that fill their box; see BrickWalk for the others.
 #pragma once
 
 #include <octomap/octomap_types.h>

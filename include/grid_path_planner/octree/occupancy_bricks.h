@@ -19,6 +19,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <unordered_map>
 #include <vector>
 
@@ -117,7 +118,7 @@ class OccupancyBricks {
 
   double resolution_;
   std::unordered_map<std::uint32_t, Column> columns_;
-  std::vector<Brick> mixed_;
+  std::deque<Brick> mixed_;  // growing moves none of them
   std::vector<Handle> released_;
   std::vector<BrickColumn> changed_;
 };
