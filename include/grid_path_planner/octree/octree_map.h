@@ -9,7 +9,8 @@
 // the same scans: the same nodes with bit-identical log odds, each voxel updated once a scan, a hit
 // winning over a ray that passes. The bricks know and hold occupied exactly the voxels that the
 // tree does, after every call. A call that throws InputError has changed nothing. Not guaranteed:
-// safe use by several threads at once, the const calls excepted.
+// safe use by several threads at once, the const calls excepted; OctoMap's answer where it has none
+// to give (rays shorter than single precision can tell, rays that rounding leads out of space).
 //
 // A. Hornung et al., "OctoMap: an efficient probabilistic 3D mapping framework based on octrees",
 // Autonomous Robots 34 (2013).
