@@ -3,17 +3,20 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/search/a_star.h"
 #include "grid_path_planner/search/dijkstra.h"
+#include "grid_path_planner/search/theta_star.h"
 
 namespace grid_path_planner {
 
 const std::vector<std::string>& plannerNames() {
-  static const std::vector<std::string> names = {"a_star", "dijkstra", "a_star_published"};
+  static const std::vector<std::string> names = {"a_star", "dijkstra", "theta_star",
+                                                 "a_star_published"};
   return names;
 }
 
 std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOptions& options) {
   if (name == "a_star") return std::make_unique<AStar>(options);
   if (name == "dijkstra") return std::make_unique<Dijkstra>();
+  if (name == "theta_star") return std::make_unique<ThetaStar>();
   if (name == "a_star_published") return std::make_unique<AStar>(AStar::published(options));
   std::string known;
   for (const std::string& each : plannerNames()) known += (known.empty() ? "" : ", ") + each;

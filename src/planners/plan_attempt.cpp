@@ -192,13 +192,14 @@ void PlanAttempt::fill(PlanReport& report, const End& start, const End& goal, Ro
   if (route.status != Status::FOUND) return;
 
   report.cost = route.cost;
+  report.segment_cost = route.segment_cost;
   for (const Leg& leg : route.legs) report.cells += leg.cells.size();
   report.cells -= route.legs.size() - 1;
   report.path = pathOf(start, goal, route);
   report.length_m = lengthOf(report.path);
   std::ostringstream message;
   message << "a path of " << metres(report.length_m) << ", cost " << std::setprecision(10)
-          << report.cost.toDouble();
+          << report.costValue();
   report.message = message.str();
   addNote(report.message, route.message);
   addNote(report.message, start.note);

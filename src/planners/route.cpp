@@ -19,6 +19,7 @@ void append(Route& route, const std::shared_ptr<const CostGrid>& map, PlanResult
     route.expanded.push_back(map->waypoint(map->geometry().cell(index)));
   if (result.status != Status::FOUND) return;
   route.cost += result.cost;
+  route.segment_cost += result.segment_cost;
   route.legs.push_back({map, std::move(result.cells)});
 }
 

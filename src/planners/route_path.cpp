@@ -13,9 +13,27 @@ struct RoutePoint {
   const CostGrid* map;  // on which the segments at this point are judged
 };
 
-// Whether the step passes the corner of a blocked neighbour, which only cut_corners allows.
+bool neighbours(Cell a, Cell b) {
+  return std::abs(a.column - b.column) <= 1 && std::abs(a.row - b.row) <= 1;
+}
+
+// Whether a leg's cells are the turning points of longer segments, which hold between the very
+// points they were found for.
+bool anyAngle(const Leg& leg) {
+  for (std::size_t i = 1; i < leg.cells.size(); ++i)
+    if (!neighbours(leg.cells[i - 1], leg.cells[i])) return true;
+  return false;
+}
+
+// A vehicle cannot tell poses apart that are this near, in metres.
+bool samePlace(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return (a - b).norm() < 1e-9;
+}
+
+// Whether the step passes the corner of a blocked neighbour, which only cut_corners allows. Longer
+// segments are judged where they lie.
 bool cutsCorner(const CostGrid& map, Cell from, Cell to) {
-  if (from.column == to.column || from.row == to.row) return false;
+  if (from.column == to.column || from.row == to.row || !neighbours(from, to)) return false;
   return !map.passable({from.column, to.row}) || !map.passable({to.column, from.row});
 }
 
@@ -24,9 +42,11 @@ Eigen::Vector2d sharedCorner(const CostGrid& map, Cell a, Cell b) {
                                                       std::max(a.row, b.row)));
 }
 
-// Two legs meet in the middle of one block: the fine leg's point serves both.
+// Two legs meet in the middle of one block: the fine leg's point serves both, unless a longer
+// segment leads to the coarse one's.
 std::vector<RoutePoint> pointsOf(const Route& route) {
   std::vector<RoutePoint> points;
+  const bool keep_both = std::any_of(route.legs.begin(), route.legs.end(), anyAngle);
   for (const Leg& leg : route.legs) {
     const bool coarse = leg.map->kernel() > 1;
     for (std::size_t i = 0; i < leg.cells.size(); ++i) {
@@ -35,7 +55,9 @@ std::vector<RoutePoint> pointsOf(const Route& route) {
       // exactly over the corner.
       if (coarse && i > 0 && cutsCorner(*leg.map, leg.cells[i - 1], leg.cells[i]))
         points.push_back({sharedCorner(*leg.map, leg.cells[i - 1], leg.cells[i]), leg.map.get()});
-      const bool joins = i == 0 && !points.empty();
+      if (keep_both && !points.empty() && samePlace(points.back().position, point.position))
+        continue;
+      const bool joins = i == 0 && !points.empty() && !keep_both;
       if (joins && coarse) continue;
       if (joins) points.pop_back();
       points.push_back(point);
@@ -47,11 +69,6 @@ std::vector<RoutePoint> pointsOf(const Route& route) {
 bool straightWay(const CostGrid& map, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   return segmentLegal(map, SegmentPoint::nearest(map.geometry().gridFromWorld(from)),
                       SegmentPoint::nearest(map.geometry().gridFromWorld(to)));
-}
-
-// A vehicle cannot tell poses apart that are this near, in metres.
-bool samePlace(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return (a - b).norm() < 1e-9;
 }
 
 }  // namespace

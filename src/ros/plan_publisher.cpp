@@ -54,7 +54,7 @@ PlanStatistics statisticsMessage(const PlanAnswer& answer, const geometry_msgs::
   message.planner = answer.planner;
   message.heuristic = answer.heuristic;
   message.kernel = report.kernel;
-  message.cost = report.cost.toDouble();
+  message.cost = report.costValue();
   message.length_m = report.length_m;
   message.turning_rad = answer.turning_rad;
   message.clearance_m = answer.clearance_m;

@@ -36,7 +36,7 @@ void fillStatistics(const Statistics& statistics, StudyRun& run) {
 
 void fillPath(const PlanReport& report, const OccupancyGrid& map,
               const OccupancyThresholds& thresholds, bool keep_path, StudyRun& run) {
-  run.cost = report.cost.toDouble();
+  run.cost = report.costValue();
   run.length_m = report.length_m;
   run.turning_rad = turningOf(report.path);
   run.clearance_m = clearanceOf(report.path, map, thresholds);

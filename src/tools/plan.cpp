@@ -73,7 +73,7 @@ nlohmann::json jsonOf(const PlanReport& report) {
       {"search_bytes", report.statistics.search_bytes},
       {"path", poses},
   };
-  if (found) object["cost"] = report.cost.toDouble();
+  if (found) object["cost"] = report.costValue();
   if (found) object["length_m"] = report.length_m;
   return object;
 }

@@ -59,7 +59,7 @@ std::string csvLine(const ScenarioQuery& query, const PlanResult& result, bool w
   std::ostringstream out;
   out.precision(12);
   out << query.start.column << ',' << query.start.row << ',' << query.goal.column << ','
-      << query.goal.row << ',' << toString(result.status) << ',' << result.cost.toDouble() << ','
+      << query.goal.row << ',' << toString(result.status) << ',' << result.costValue() << ','
       << query.optimum << ',' << wrong << ',' << result.cells.size() << ','
       << result.statistics.expanded << ',' << result.statistics.generated << ','
       << result.statistics.time_s * 1e3 << ',' << result.statistics.search_bytes << '\n';
@@ -96,8 +96,8 @@ int runScenarios(int argc, char** argv) {
     checkScenarioQuery(query, terrain.fine(StopToken())->geometry(), file);
     const PlanResult result = planner->plan({query.start, {query.goal}}, StopToken());
     const bool solved = result.status == Status::FOUND;
-    const bool wrong = !solved || std::abs(result.cost.toDouble() - query.optimum) >
-                                      kRelativeError * query.optimum;
+    const bool wrong =
+        !solved || std::abs(result.costValue() - query.optimum) > kRelativeError * query.optimum;
     ++totals.queries;
     totals.solved += solved ? 1 : 0;
     totals.wrong += wrong ? 1 : 0;

@@ -8,6 +8,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/terrain/segment.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
 
@@ -69,10 +70,28 @@ bool neighbours(Cell a, Cell b) {
   return a != b && std::abs(a.column - b.column) <= 1 && std::abs(a.row - b.row) <= 1;
 }
 
-void expectLegal(const CostGrid& map, const PlanRequest& request, const PlanResult& result) {
-  ASSERT_FALSE(result.cells.empty());
-  EXPECT_EQ(result.cells.front(), request.start);
-  EXPECT_EQ(result.cells.back(), request.goals.front());
+// Whether the planner says that it cannot search a map of this motion model.
+bool refuses(const Traits& traits, const MotionModel& motion) {
+  return (motion.connectivity == Connectivity::FOUR && !traits.four_connected) ||
+         (motion.diagonal_cost == DiagonalCost::UNIT && !traits.unit_diagonals) ||
+         (motion.cut_corners && !traits.cut_corners);
+}
+
+void expectLegalSegments(const CostGrid& map, const PlanResult& result) {
+  double cost = 0.0;
+  for (std::size_t i = 1; i < result.cells.size(); ++i) {
+    const SegmentPoint from = SegmentPoint::centreOf(result.cells[i - 1]);
+    const SegmentPoint to = SegmentPoint::centreOf(result.cells[i]);
+    ASSERT_NE(result.cells[i - 1], result.cells[i]);
+    ASSERT_TRUE(segmentLegal(map, from, to));
+    cost += segmentCost(map, from, to);
+  }
+  EXPECT_EQ(result.cost, ExactCost());
+  EXPECT_NEAR(result.segment_cost, cost, 1e-9 * cost);
+}
+
+void expectLegalSteps(const CostGrid& map, const PlanResult& result) {
+  EXPECT_EQ(result.segment_cost, 0.0);
   for (std::size_t i = 1; i < result.cells.size(); ++i) {
     EXPECT_TRUE(neighbours(result.cells[i - 1], result.cells[i]));
     ASSERT_TRUE(stepAllowed(map, result.cells[i - 1], result.cells[i]));
@@ -92,6 +111,10 @@ TEST_P(Conformance, AnswersAreLegalAndTheLeastCostWhereOptimalityIsClaimed) {
       planner->prepare(map, StopToken());
       const PlanResult result = planner->plan(request, StopToken());
       SCOPED_TRACE("trial " + std::to_string(trial) + ", " + result.message);
+      if (refuses(planner->traits(), motion)) {
+        EXPECT_EQ(result.status, Status::INVALID_REQUEST);
+        continue;
+      }
       if (!map->passable(request.start)) {
         EXPECT_EQ(result.status, Status::START_OCCUPIED);
         continue;
@@ -104,7 +127,14 @@ TEST_P(Conformance, AnswersAreLegalAndTheLeastCostWhereOptimalityIsClaimed) {
           *map, request.start)[map->geometry().index(request.goals.front()).value()];
       ASSERT_EQ(result.status, least ? Status::FOUND : Status::UNREACHABLE);
       if (!least) continue;
-      expectLegal(*map, request, result);
+      ASSERT_FALSE(result.cells.empty());
+      EXPECT_EQ(result.cells.front(), request.start);
+      EXPECT_EQ(result.cells.back(), request.goals.front());
+      if (planner->traits().any_angle) {
+        expectLegalSegments(*map, result);
+        continue;
+      }
+      expectLegalSteps(*map, result);
       EXPECT_FALSE(result.cost < *least);
       if (planner->optimalFor(*map)) {
         EXPECT_EQ(result.cost, *least);

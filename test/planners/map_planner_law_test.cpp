@@ -35,6 +35,8 @@ PlannerOptions randomOptions(std::mt19937& random) {
       random() % 4 == 0 ? Connectivity::FOUR : Connectivity::EIGHT;
   options.retry_finer = random() % 3 != 0;
   options.planner = plannerNames()[random() % plannerNames().size()];
+  if (!makePlanner(options.planner)->traits().four_connected)
+    options.terrain.motion.connectivity = Connectivity::EIGHT;
   return options;
 }
 

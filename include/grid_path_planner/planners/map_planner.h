@@ -75,7 +75,9 @@ struct PlanReport {
   Status status = Status::NO_MAP;
   std::string message;
   Path path;       // empty unless FOUND
-  ExactCost cost;  // between the end cells
+  ExactCost cost;  // between the end cells, as in PlanResult
+  double segment_cost = 0.0;
+  double costValue() const { return cost.toDouble() + segment_cost; }
   double length_m = 0.0;
   std::size_t cells = 0;  // of the path on the map that was searched
   int kernel = 1;         // of the map that was searched

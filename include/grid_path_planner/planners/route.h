@@ -29,7 +29,8 @@ struct Route {
   Status status = Status::UNREACHABLE;
   std::string message;
   std::vector<Leg> legs;  // a leg's last cell and the next one's first are the same place or block
-  ExactCost cost;
+  ExactCost cost;         // as in PlanResult
+  double segment_cost = 0.0;
   int kernel = 1;  // of the map that the longest part was searched on
   Statistics statistics;
   std::vector<Eigen::Vector2d> expanded;  // centres, metres

@@ -46,7 +46,12 @@ struct PlanResult {
   Status status = Status::NO_MAP;
   std::string message;      // one sentence that holds the values
   std::vector<Cell> cells;  // start and goal included; start = goal: one cell
-  ExactCost cost;           // in cells of the original map x weight
+  // In cells of the original map x weight: of the steps, and of the segments of any-angle planners,
+  // which have no exact form.
+  ExactCost cost;
+  double segment_cost = 0.0;
+  double costValue() const { return cost.toDouble() + segment_cost; }
+
   Statistics statistics;
   std::vector<CellIndex> expanded;  // in order, where the request asks for it
 };
