@@ -93,6 +93,7 @@ void MapKeeper::decay(double seconds) {
 
 const OccupancyGrid& MapKeeper::grid() {
   const ProjectionChange change = projection_.update(map_.bricks());
+  ++projections_;
   change_.geometry = change_.geometry || change.geometry;
   change_.cells = change_.cells.hull(change.cells);
   return projection_.grid();

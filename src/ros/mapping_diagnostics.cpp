@@ -18,8 +18,12 @@ std::uint64_t sumOf(const std::map<std::string, std::uint64_t>& dropped) {
 }  // namespace
 
 MappingDiagnostics::MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
-                                       const CloudQueue& queue, MappingDesk& desk)
-    : queue_(queue), desk_(desk), updater_(nh, private_nh, private_nh.getNamespace()) {
+                                       const CloudQueue& queue, MappingDesk& desk,
+                                       const OctreePublisher& octree)
+    : queue_(queue),
+      desk_(desk),
+      octree_(octree),
+      updater_(nh, private_nh, private_nh.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("clouds", this, &MappingDiagnostics::reportClouds);
   updater_.add("map", this, &MappingDiagnostics::reportMap);
@@ -36,7 +40,7 @@ void MappingDiagnostics::measure(const MapKeeper& map) {
   const auto start = Clock::now();
   if (start < measure_not_before_) return;
   const Figures figures{map.map().tree().size(), map.map().memoryUsage(),
-                        map.map().options().resolution};
+                        map.map().options().resolution, map.projections()};
   const auto end = Clock::now();
   measure_not_before_ = end + kRest * (end - start);
   std::lock_guard<std::mutex> lock(mutex_);
@@ -77,6 +81,8 @@ void MappingDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& 
   status.add("nodes", figures_.nodes);
   status.add("bytes", figures_.bytes);
   status.add("resolution", figures_.resolution);
+  status.add("projections", figures_.projections);
+  status.add("tree_messages", octree_.builds());
 }
 
 }  // namespace grid_path_planner

@@ -50,6 +50,7 @@ void OctreePublisher::publish(const MapKeeper& map, const ros::Time& stamp) {
 }
 
 void OctreePublisher::send(const MapKeeper& map, const ros::Time& stamp) {
+  ++builds_;
   sendMarkers(map, stamp);
   if (centres_.getNumSubscribers() > 0) {
     const ProjectedMapOptions& options = map.options();

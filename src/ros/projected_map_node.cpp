@@ -65,7 +65,8 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   octree_publisher_ =
       std::make_unique<OctreePublisher>(nh, service_nh, options.latch, *desk_, on_change);
   services_ = std::make_unique<MappingServices>(private_service_nh, *desk_, on_change);
-  diagnostics_ = std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *desk_);
+  diagnostics_ =
+      std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *desk_, *octree_publisher_);
   service_spinner_.start();
 
   cloud_subscriber_ = nh.subscribe<sensor_msgs::PointCloud2>(

@@ -100,6 +100,25 @@ TEST_F(Publishing, OS26ChangedGeometryIsAWholeMapAndNothingShifts) {
   EXPECT_LT(grown->info.origin.position.x, -3.95);
 }
 
+// octomap_mapping#75: what nobody wanted to see was built with every cloud.
+TEST_F(Publishing, OM75NothingIsBuiltThatNobodySubscribesTo) {
+  startMapping();
+  for (int i = 0; i < 8; ++i) publish(wallAt(1.05F + 0.1F * static_cast<float>(i)));
+  ASSERT_TRUE(insertsAll(8));
+  // A report about the map as it is after the last cloud.
+  const std::size_t nodes_known = diagnostics_.count();
+  ASSERT_TRUE(diagnostics_.waitForMoreThan(nodes_known + 5));
+  EXPECT_NE(reported("nodes", "map"), "0");
+  EXPECT_EQ(reported("projections", "map"), "0");
+  EXPECT_EQ(reported("tree_messages", "map"), "0");
+  const Maps maps(nh_, "projected_map");
+  EXPECT_TRUE(becomes(maps, 1.75, 0.05, 100)) << "it has waited in the tree";
+  EXPECT_EQ(reported("tree_messages", "map"), "0");
+  const test::Latest<sensor_msgs::PointCloud2> centres(nh_, "octomap_point_cloud_centers");
+  EXPECT_TRUE(centres.waitForMoreThan(0));
+  EXPECT_TRUE(reports("tree_messages", "1", "map"));
+}
+
 TEST_F(Publishing, PublicationsAreRateLimited) {
   startMapping({"_publish_rate:=1"});
   const Maps maps(nh_, "projected_map");

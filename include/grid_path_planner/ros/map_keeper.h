@@ -51,6 +51,8 @@ class MapKeeper {
   const OccupancyGrid& grid();
   // What changed in grid() since the last call.
   ProjectionChange takeChange();
+  // How often the tree has been projected.
+  std::uint64_t projections() const { return projections_; }
 
   const OctreeMap& map() const { return map_; }
   // Grows with whatever may have changed the tree.
@@ -68,6 +70,7 @@ class MapKeeper {
   Projection projection_;
   ProjectionChange change_;
   std::uint64_t revision_ = 1;
+  std::uint64_t projections_ = 0;
 };
 
 }  // namespace grid_path_planner

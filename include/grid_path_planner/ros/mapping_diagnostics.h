@@ -3,7 +3,8 @@
 //
 //   clouds: received, inserted, waiting, dropped (each with its reason), last_insertion_s,
 //           mean_insertion_s; a warning while clouds are dropped
-//   map:    nodes, bytes (counted seldom where that takes long), resolution
+//   map:    nodes, bytes and projections (counted seldom where that takes long), resolution,
+//           tree_messages: how often projected_map, and how often the 3-D topics, were built
 //
 // All clouds that came are in the map when waiting is 0 and received is inserted + dropped.
 #pragma once
@@ -18,14 +19,15 @@
 #include "grid_path_planner/ros/cloud_queue.h"
 #include "grid_path_planner/ros/map_keeper.h"
 #include "grid_path_planner/ros/mapping_desk.h"
+#include "grid_path_planner/ros/octree_publisher.h"
 
 namespace grid_path_planner {
 
 class MappingDiagnostics {
  public:
-  // `queue` and `desk` outlive this.
+  // `queue`, `desk` and `octree` outlive this.
   MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, const CloudQueue& queue,
-                     MappingDesk& desk);
+                     MappingDesk& desk, const OctreePublisher& octree);
   ~MappingDiagnostics() { timer_.stop(); }
 
   // Takes note of an insertion. Thread-safe.
@@ -37,6 +39,7 @@ class MappingDiagnostics {
     std::size_t nodes = 0;
     std::size_t bytes = 0;
     double resolution = 0.0;  // m
+    std::uint64_t projections = 0;
   };
 
   void onTimer();
@@ -46,6 +49,7 @@ class MappingDiagnostics {
 
   const CloudQueue& queue_;
   MappingDesk& desk_;
+  const OctreePublisher& octree_;
   std::mutex mutex_;
   Figures figures_;
   double last_insertion_ = 0.0;  // s

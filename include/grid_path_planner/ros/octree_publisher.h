@@ -31,6 +31,8 @@ class OctreePublisher {
   // Publishes what somebody listens to, if it is due. In the map's thread.
   void publish(const MapKeeper& map, const ros::Time& stamp);
   void shutdown() { messages_->shutdown(); }
+  // How often messages have been built. Thread-safe.
+  std::uint64_t builds() const { return builds_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -40,6 +42,7 @@ class OctreePublisher {
   void sendMarkers(const MapKeeper& map, const ros::Time& stamp);
 
   std::atomic<bool> someone_new_{false};
+  std::atomic<std::uint64_t> builds_{0};
   std::uint64_t sent_revision_ = 0;
   Clock::time_point not_before_;
   ros::Publisher occupied_, free_, centres_;

@@ -90,17 +90,18 @@ class MappingTest : public testing::Test {
     clouds_.publish(cloudOf(points, "map", ros::Time::now()));
   }
 
-  // What the clouds' diagnostics say under `key`; "" before they do.
-  std::string reported(const std::string& key) const {
+  // What the diagnostics say under `key`, of the clouds or of the map; "" before they do.
+  std::string reported(const std::string& key, const std::string& about = "clouds") const {
     std::string value;
     for (const auto& array : diagnostics_.all())
       for (const auto& status : array.status)
         for (const auto& entry : status.values)
-          if (status.name == "projected_map: clouds" && entry.key == key) value = entry.value;
+          if (status.name == "projected_map: " + about && entry.key == key) value = entry.value;
     return value;
   }
-  bool reports(const std::string& key, const std::string& value) const {
-    return waitFor([&] { return reported(key) == value; });
+  bool reports(const std::string& key, const std::string& value,
+               const std::string& about = "clouds") const {
+    return waitFor([&] { return reported(key, about) == value; });
   }
 
   using Maps = Latest<nav_msgs::OccupancyGrid>;
