@@ -76,18 +76,28 @@ bool ScanInsertion::fillsItsBox(const OcTreeKey& origin, VoxelWindow::Box& box) 
   return cells <= kMostCells && cells / kMostCellsPerVoxel <= voxels;
 }
 
-void ScanInsertion::markWindow(const RaySource& rays, const OcTreeKey& origin,
-                               const VoxelWindow::Box& box) {
-  window_.cover(box);
-  const WindowWalk walk(window_, origin);
+// Calls mark(ray, key of its end) for every ray that leaves the origin's voxel, mark_origin() where
+// it is too short to have a direction.
+template <class MarkRay, class MarkOrigin>
+void ScanInsertion::forEachRay(const RaySource& rays, const OcTreeKey& origin, MarkRay&& mark,
+                               MarkOrigin&& mark_origin) const {
   for (const End& end : ends_) {
     Ray ray;
     if (end.key == origin) continue;
     if (rays.rayTo(end.point, ray))
-      walk.mark(ray, end.key);
+      mark(ray, end.key);
     else
-      walk.markOrigin();
+      mark_origin();
   }
+}
+
+void ScanInsertion::markWindow(const RaySource& rays, const OcTreeKey& origin,
+                               const VoxelWindow::Box& box) {
+  window_.cover(box);
+  const WindowWalk walk(window_, origin);
+  forEachRay(
+      rays, origin, [&](Ray& ray, const OcTreeKey& key) { walk.mark(ray, key); },
+      [&] { walk.markOrigin(); });
   for (const End& end : ends_)  // after all rays: a hit wins
     if (end.is_hit) window_.cells()[window_.place(end.key)] = Mark::HIT;
   collectMarks(window_, marks_);
@@ -96,14 +106,9 @@ void ScanInsertion::markWindow(const RaySource& rays, const OcTreeKey& origin,
 void ScanInsertion::markBricks(const RaySource& rays, const OcTreeKey& origin) {
   marks_.clear();
   BrickWalk walk(marks_, origin);
-  for (const End& end : ends_) {
-    Ray ray;
-    if (end.key == origin) continue;
-    if (rays.rayTo(end.point, ray))
-      walk.mark(ray, end.key);
-    else
-      walk.markFree(origin);
-  }
+  forEachRay(
+      rays, origin, [&](Ray& ray, const OcTreeKey& key) { walk.mark(ray, key); },
+      [&] { walk.markFree(origin); });
   for (const End& end : ends_)
     if (end.is_hit) walk.markHit(end.key);
   std::sort(marks_.begin(), marks_.end(),

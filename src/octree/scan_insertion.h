@@ -36,6 +36,9 @@ class ScanInsertion {
 
   std::size_t collectEnds(const Scan& scan, double max_range, const MapTree& tree);
   bool fillsItsBox(const octomap::OcTreeKey& origin, VoxelWindow::Box& box) const;
+  template <class MarkRay, class MarkOrigin>
+  void forEachRay(const RaySource& rays, const octomap::OcTreeKey& origin, MarkRay&& mark,
+                  MarkOrigin&& mark_origin) const;
   void markWindow(const RaySource& rays, const octomap::OcTreeKey& origin,
                   const VoxelWindow::Box& box);
   void markBricks(const RaySource& rays, const octomap::OcTreeKey& origin);

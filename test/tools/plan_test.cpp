@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <exception>
 #include <nlohmann/json.hpp>
 
-#include "commands.h"
 #include "grid_path_planner/path/waypoint_file.h"
+#include "run_command.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
@@ -15,26 +14,9 @@ using test::contains;
 
 class Plan : public testing::Test {
  protected:
-  struct Outcome {
-    int code = 0;
-    std::string printed;
-    std::string error;
-  };
-
   Outcome plan(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"plan", "--map", map_});
-    std::vector<char*> argv;
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    Outcome outcome;
-    testing::internal::CaptureStdout();
-    try {
-      outcome.code = runPlan(static_cast<int>(argv.size()), argv.data());
-    } catch (const std::exception& error) {
-      outcome.code = kBadInput;
-      outcome.error = error.what();
-    }
-    outcome.printed = testing::internal::GetCapturedStdout();
-    return outcome;
+    return runCommand(runPlan, arguments);
   }
 
   const test::TemporaryFolder folder_;

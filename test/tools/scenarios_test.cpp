@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <exception>
 
-#include "commands.h"
+#include "run_command.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
@@ -14,28 +13,15 @@ using test::contains;
 
 class Scenarios : public testing::Test {
  protected:
-  struct Outcome {
-    int code = 0;
-    std::string last_line;
-    std::string error;
-  };
-
-  Outcome scenarios(std::vector<std::string> arguments) {
+  static Outcome scenarios(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "scenarios");
-    std::vector<char*> argv;
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    Outcome outcome;
-    testing::internal::CaptureStdout();
-    try {
-      outcome.code = runScenarios(static_cast<int>(argv.size()), argv.data());
-    } catch (const std::exception& error) {
-      outcome.code = kBadInput;
-      outcome.error = error.what();
-    }
-    std::string printed = testing::internal::GetCapturedStdout();
+    return runCommand(runScenarios, arguments);
+  }
+
+  static std::string lastLine(const Outcome& outcome) {
+    std::string printed = outcome.printed;
     if (!printed.empty() && printed.back() == '\n') printed.pop_back();
-    outcome.last_line = printed.substr(printed.rfind('\n') + 1);
-    return outcome;
+    return printed.substr(printed.rfind('\n') + 1);
   }
 
   // Three queries on a map of 4x3 cells, the third with `optimum`.
@@ -55,17 +41,17 @@ class Scenarios : public testing::Test {
 TEST_F(Scenarios, TheLastLineIsTheContracts) {
   const Outcome outcome = scenarios({"--scen", scenario("5")});
   EXPECT_EQ(outcome.code, 0) << outcome.error;
-  EXPECT_TRUE(contains(outcome.last_line, "queries=3 solved=3 wrong=0 total_s="))
-      << outcome.last_line;
-  EXPECT_TRUE(contains(outcome.last_line, " mean_ms=")) << outcome.last_line;
-  EXPECT_TRUE(contains(outcome.last_line, " expanded=")) << outcome.last_line;
+  EXPECT_TRUE(contains(lastLine(outcome), "queries=3 solved=3 wrong=0 total_s="))
+      << lastLine(outcome);
+  EXPECT_TRUE(contains(lastLine(outcome), " mean_ms=")) << lastLine(outcome);
+  EXPECT_TRUE(contains(lastLine(outcome), " expanded=")) << lastLine(outcome);
 }
 
 TEST_F(Scenarios, AWrongCostFailsWhereOptimalityIsClaimed) {
   const std::string file = scenario("5.0001");
   const Outcome optimal = scenarios({"--scen", file});
   EXPECT_EQ(optimal.code, 1);
-  EXPECT_TRUE(contains(optimal.last_line, "wrong=1")) << optimal.last_line;
+  EXPECT_TRUE(contains(lastLine(optimal), "wrong=1")) << lastLine(optimal);
   EXPECT_EQ(scenarios({"--scen", file, "--planner", "a_star_published"}).code, 0);
   EXPECT_EQ(scenarios({"--scen", file, "--epsilon", "2"}).code, 0);
   EXPECT_EQ(scenarios({"--scen", scenario("5.00004")}).code, 0);  // within 1e-5 of it
@@ -74,7 +60,7 @@ TEST_F(Scenarios, AWrongCostFailsWhereOptimalityIsClaimed) {
 TEST_F(Scenarios, LimitSpreadsAndCsvHasALineAQuery) {
   const std::string csv = folder_.path("out.csv");
   const Outcome outcome = scenarios({"--scen", scenario("5"), "--limit", "2", "--csv", csv});
-  EXPECT_TRUE(contains(outcome.last_line, "queries=2 ")) << outcome.last_line;
+  EXPECT_TRUE(contains(lastLine(outcome), "queries=2 ")) << lastLine(outcome);
   const std::string text = test::contentOf(csv);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
   EXPECT_TRUE(contains(text, "0,0,0,0,FOUND,0,0,0,1,")) << text;

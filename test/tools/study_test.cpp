@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <exception>
 #include <sstream>
 
-#include "commands.h"
+#include "run_command.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
@@ -14,28 +13,11 @@ using test::contains;
 
 class StudyCommand : public testing::Test {
  protected:
-  struct Outcome {
-    int code = 0;
-    std::string printed;
-    std::string error;
-  };
-
   Outcome study(const std::string& text, std::vector<std::string> more = {}) {
     const std::string file = folder_.write("study.yaml", text);
     std::vector<std::string> arguments = {"study", file, "--out", folder_.path("out")};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    std::vector<char*> argv;
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    Outcome outcome;
-    testing::internal::CaptureStdout();
-    try {
-      outcome.code = runStudyCommand(static_cast<int>(argv.size()), argv.data());
-    } catch (const std::exception& error) {
-      outcome.code = kBadInput;
-      outcome.error = error.what();
-    }
-    outcome.printed = testing::internal::GetCapturedStdout();
-    return outcome;
+    return runCommand(runStudyCommand, arguments);
   }
 
   static std::string text(const std::string& planners, const std::string& map = "small.map") {
