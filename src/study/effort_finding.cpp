@@ -50,8 +50,9 @@ std::string answerFor(const StudyData& data) {
                      intervalText(meanRatio(by_cells.values())) + " times as many cells.";
   const double published = data.study().published.expanded_ratio;
   if (published <= 0.0) return text;
-  text += " Published: Dijkstra explores about " + shownNumber(published) +
-          " times as much, and \"explored\" are the cells of the path there: those are not.";
+  text +=
+      " Published: Dijkstra explores about " + shownNumber(published) +
+      " times as much; what it calls explored are the cells of the path, which do not differ so.";
   if (!differs(ratio) || ratio.value < 1.0)
     return text + " Of the cells expanded it does not hold either.";
   const bool near = ratio.high > published / 1.5 && ratio.low < published * 1.5;

@@ -71,7 +71,7 @@ std::string answerFor(const std::string& variant, int fine, int coarse, const In
   if (published > 0.0) {
     const bool agrees = (published > 1.0) == (time.value > 1.0);
     text += "; published: " + shownNumber(published) +
-            (agrees ? ", so that a larger kernel is faster holds" : ", the opposite");
+            (agrees ? ". That a larger kernel is faster holds" : ", the opposite");
   }
   return text + '.';
 }

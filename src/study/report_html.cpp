@@ -140,12 +140,18 @@ std::string fact(std::size_t number, const std::string& singular) {
 std::string summaryHtml(const StudyData& data, const std::vector<Finding>& findings) {
   std::size_t found = 0;
   for (const StudyRun& run : data.runs()) found += run.status == Status::FOUND ? 1 : 0;
-  std::string html = "<ul class=\"facts\">" + fact(data.study().maps.size(), "map") +
-                     fact(data.study().settings.size(), "setting") +
-                     fact(data.study().variants.size(), "variant") +
-                     fact(data.units().size(), "question") + fact(data.runs().size(), "run") +
-                     "<li><b>" + shownNumber(static_cast<double>(found), 6) +
-                     "</b> found</li></ul>";
+  const std::size_t all = data.units().size() * data.study().variants.size();
+  std::string html;
+  if (data.runs().size() < all)
+    html = "<p class=\"failure\"><b>Not complete:</b> " +
+           shownNumber(static_cast<double>(data.runs().size())) + " of " +
+           shownNumber(static_cast<double>(all)) +
+           " runs are done, and everything below is about those. The same command goes on.</p>";
+  html += "<ul class=\"facts\">" + fact(data.study().maps.size(), "map") +
+          fact(data.study().settings.size(), "setting") +
+          fact(data.study().variants.size(), "variant") + fact(data.units().size(), "question") +
+          fact(data.runs().size(), "run") + "<li><b>" + shownNumber(static_cast<double>(found), 6) +
+          "</b> found</li></ul>";
   html += "<ul>";
   for (const Finding& finding : findings)
     if (!finding.answers.empty())

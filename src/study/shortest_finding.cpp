@@ -68,8 +68,8 @@ std::string answerFor(const StudyData& data, const std::string& planner,
                    [](const Score& a, const Score& b) { return a.shortest > b.shortest; });
   for (const Score& score : ranked) {
     const Interval found = share(score.shortest, score.units, data.queries());
-    text += std::string(&score == &ranked.front() ? "" : ", ") +
-            choiceName(data.study().variants[score.variant].search.heuristic) +
+    const std::string& label = data.study().variants[score.variant].label;
+    text += std::string(&score == &ranked.front() ? "" : "; ") + label.substr(planner.size() + 1) +
             " gives the shortest path for " + percentText(found.value);
     if (&score != &ranked.front() && found.high > before.low) apart = false;
     same_order = same_order && figureOf(score) <= before_published;

@@ -42,7 +42,10 @@ class StudyReader {
                "weights", "options", "queries", "repeats", "published"});
     study_.file = file_;
     study_.title = yamlValueOr<std::string>(root, "title", file_, "a sentence", stemOf(file_));
-    if (root["options"]) readOptions(root["options"]);
+    if (root["options"]) {
+      readOptions(root["options"]);
+      refuseSaidTwice(root);
+    }
     if (root["repeats"]) study_.repeats = wholeNumber(root["repeats"], "repeats", 1, kMostRepeats);
     if (root["queries"]) common_queries_ = queriesOf(root["queries"]);
     readMaps(yamlNode(root, "maps", file_, "a list of map files"));
@@ -126,6 +129,20 @@ class StudyReader {
       });
       if (!known)
         throw yamlError(entry.first, file_, "there is no option '" + key + "' of path_planner");
+    }
+  }
+
+  // An option that a list of the study replaces would be read and have no effect.
+  void refuseSaidTwice(const YAML::Node& root) const {
+    static const std::map<std::string, std::string> lists = {
+        {"planner", "planners"},       {"heuristic", "heuristics"},     {"tie_break", "tie_breaks"},
+        {"kernel", "kernels"},         {"kernel_rule", "kernel_rules"}, {"free_weight", "weights"},
+        {"unknown_weight", "weights"}, {"occupied_weight", "weights"}};
+    for (const auto& entry : root["options"]) {
+      const auto list = lists.find(entry.first.Scalar());
+      if (list != lists.end() && root[list->second])
+        throw yamlError(entry.first, file_,
+                        list->first + " stands in '" + list->second + "' already");
     }
   }
 

@@ -36,6 +36,10 @@ std::string againstBaseline(const StudyData& data, std::size_t variant, const Pr
   if (!differs(ratio))
     return "At " + at + " no difference in time between " + name + " and " + base_name +
            " can be claimed (ratio " + intervalText(ratio) + ").";
+  if (ratio.value < 1.0)
+    return "At " + at + ' ' + name + " takes " +
+           intervalText({1.0 / ratio.value, 1.0 / ratio.high, 1.0 / ratio.low}) +
+           " times as long as " + base_name + '.';
   std::string text =
       "At " + at + ' ' + base_name + " takes " + intervalText(ratio) + " times as long as " + name;
   const double published = publishedTime(data, size, variant);

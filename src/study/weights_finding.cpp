@@ -82,6 +82,7 @@ std::string publishedAnswer(const StudyData& data, const std::string& what,
   std::string text = "Published: weights " + weights + " send paths through " + what +
                      " cells. Here " + percentText(sum_here / n) + " of those paths cross them, " +
                      percentText(sum_there / n) + " with weights " + others;
+  text += " (by query " + percentText(more.low) + " to " + percentText(more.high) + " more)";
   if (more.low > 0.0) return text + ": it holds.";
   if (sum_here == 0.0) return text + ": it does not hold on this map.";
   return text +

@@ -16,6 +16,8 @@ void reportMap(const std::string& file, const OccupancyGrid& map) {
             << counts[static_cast<int>(Occupancy::FREE)] << ", unknown "
             << counts[static_cast<int>(Occupancy::UNKNOWN)] << ", occupied "
             << counts[static_cast<int>(Occupancy::OCCUPIED)] << '\n';
+  if (counts[static_cast<int>(Occupancy::UNKNOWN)] == map.geometry().size())
+    std::cerr << "warning: " << file << ": every cell is unknown\n";
 }
 
 }  // namespace grid_path_planner::tools

@@ -75,6 +75,25 @@ TEST_F(FindingsTest, ADearerPathIsNotOptimal) {
   EXPECT_NEAR(*table.rows[2][6].number, 0.1, 1e-12);
 }
 
+// Found by a newcomer: an any-angle path that cost less was said to cost the same.
+TEST_F(FindingsTest, OnlyPathsThatCostTheSameAreComparedInLengthAtTheSameCost) {
+  change(0, [](StudyRun& run) { run.length_m = 12.0 + 0.01 * run.query; });
+  change(1, [](StudyRun& run) { run.cost = 12.0; });
+  EXPECT_TRUE(contains(wordsOf(optimalFinding(StudyData(plan_, runs_))), "which cost the same"));
+  change(2, [](StudyRun& run) { run.cost = 9.0; });
+  EXPECT_FALSE(contains(wordsOf(optimalFinding(StudyData(plan_, runs_))), "which cost the same"));
+}
+
+TEST_F(FindingsTest, AnIncompleteStudySaysSo) {
+  const auto report = [&] {
+    const StudyData data(plan_, runs_);
+    return reportHtml(data, findingsOf(data), {}, "grid_path study x.yaml");
+  };
+  EXPECT_FALSE(contains(report(), "Not complete"));
+  runs_.resize(6);
+  EXPECT_TRUE(contains(report(), "Not complete:</b> 6 of 36 runs are done"));
+}
+
 TEST_F(FindingsTest, ShortestCountsTiesForAllAndAloneForOne) {
   change(2, [](StudyRun& run) {
     run.length_m = run.query == 0 ? 9.0 : run.query == 1 ? 12.0 : 10.0;

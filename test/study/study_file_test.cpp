@@ -115,6 +115,7 @@ TEST_F(StudyFileTest, ABadLineIsNamed) {
       {"[2, 3, 4]", "[2, 3]", ":7: weights must be [free, unknown, occupied]"},
       {"radius: 0", "radios: 0", ":8: there is no option 'radios'"},
       {"radius: 0", "radius: -1", ":8: radius must be a number from 0"},
+      {"radius: 0", "planner: dijkstra", ":8: planner stands in 'planners' already"},
       {"[3, 1]", "[4, 1]", "the goal (4, 1) of a query is outside its 4x2 cells"},
       {"[3, 1]", "[3]", ":10: a cell must be [column, row]"},
       {"repeats: 2", "repeats: 0", ":11: repeats must be a whole number from 1"},
