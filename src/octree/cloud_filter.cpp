@@ -7,11 +7,6 @@
 namespace grid_path_planner {
 namespace {
 
-octomap::point3d treePoint(const Eigen::Vector3d& point) {
-  return {static_cast<float>(point.x()), static_cast<float>(point.y()),
-          static_cast<float>(point.z())};
-}
-
 bool inBox(const Eigen::Vector3d& p, const CloudFilterOptions& o) {
   return p.x() >= o.min_x && p.x() <= o.max_x && p.y() >= o.min_y && p.y() <= o.max_y &&
          p.z() >= o.min_z && p.z() <= o.max_z;

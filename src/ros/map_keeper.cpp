@@ -14,11 +14,6 @@ const ProjectedMapOptions& checked(const ProjectedMapOptions& options) {
   return options;
 }
 
-octomap::point3d treePoint(const Eigen::Vector3d& point) {
-  return {static_cast<float>(point.x()), static_cast<float>(point.y()),
-          static_cast<float>(point.z())};
-}
-
 OctreeMap mapOf(const ProjectedMapOptions& options) {
   OctreeMap map(options.octree);
   if (!options.filename.empty()) map.load(options.filename);

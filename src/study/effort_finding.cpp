@@ -20,7 +20,7 @@ std::vector<double> valuesOf(const StudyData& data, const ProblemSize& size, std
     const StudyRun* run = unit[variant];
     if (run == nullptr || run->status != Status::FOUND) continue;
     const ProblemSize of = data.sizeOf(run->setting);
-    if (!(of < size) && !(size < of)) values.push_back(value(*run));
+    if (of == size) values.push_back(value(*run));
   }
   return values;
 }

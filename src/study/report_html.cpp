@@ -63,7 +63,7 @@ std::vector<BoxGroup> boxesOf(const StudyData& data, Value&& value) {
       group.series.push_back({variant.label, {}});
     for (const StudyRun& run : data.runs()) {
       const ProblemSize of = data.sizeOf(run.setting);
-      if (of < size || size < of || run.status != Status::FOUND || value(run) <= 0.0) continue;
+      if (of != size || run.status != Status::FOUND || value(run) <= 0.0) continue;
       group.series[run.variant].values.push_back(value(run));
     }
     groups.push_back(group);

@@ -109,7 +109,7 @@ json pictureOf(const StudyData& data, const ProblemSize& size, const StudySettin
   for (const UnitRow& row : data.units()) {
     if (row.front() == nullptr || row.front()->query >= StudyWorker::kDrawnQueries) continue;
     const ProblemSize of = data.sizeOf(row.front()->setting);
-    if (!(of < size) && !(size < of)) picture["units"].push_back(unitOf(data, row, geometry));
+    if (of == size) picture["units"].push_back(unitOf(data, row, geometry));
   }
   return picture;
 }
@@ -125,7 +125,7 @@ json pictureData(const StudyData& data) {
   for (const ProblemSize& size : data.sizes())
     for (std::size_t setting = 0; setting < data.study().settings.size(); ++setting) {
       const ProblemSize of = data.sizeOf(setting);
-      if (of < size || size < of) continue;
+      if (of != size) continue;
       const json picture = pictureOf(data, size, data.study().settings[setting]);
       if (!picture.is_null() && !picture["units"].empty()) result["pictures"].push_back(picture);
       break;

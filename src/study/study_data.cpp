@@ -49,9 +49,7 @@ std::vector<ProblemSize> StudyData::sizes() const {
   std::vector<ProblemSize> sizes;
   for (std::size_t setting = 0; setting < study().settings.size(); ++setting) {
     const ProblemSize size = sizeOf(setting);
-    const bool known = std::any_of(sizes.begin(), sizes.end(), [&](const ProblemSize& other) {
-      return !(other < size) && !(size < other);
-    });
+    const bool known = std::find(sizes.begin(), sizes.end(), size) != sizes.end();
     if (!known) sizes.push_back(size);
   }
   return sizes;
@@ -71,7 +69,7 @@ std::vector<double> StudyData::ratios(std::size_t a, std::size_t b, const Proble
     if (first == nullptr || second == nullptr) continue;
     if (first->status != Status::FOUND || second->status != Status::FOUND) continue;
     const ProblemSize of = sizeOf(first->setting);
-    if (size != nullptr && (of < *size || *size < of)) continue;
+    if (size != nullptr && of != *size) continue;
     all.add(queryOf(*first), value(*first), value(*second));
   }
   return all.values();

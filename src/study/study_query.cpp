@@ -38,7 +38,7 @@ class QueryMaker {
         costs_(strictCosts(occupancy, terrain)) {}
 
   std::vector<StudyQuery> make() {
-    for (const CellPair& pair : map_.queries.pairs) add(pair.start, pair.goal, {});
+    for (const CellPair& pair : map_.queries.pairs) add(pair.start, pair.goal);
     addRandom();
     addScenario();
     return queries_;
@@ -67,11 +67,10 @@ class QueryMaker {
     return nearest->cell;
   }
 
-  void add(Cell start, Cell goal, std::optional<double> optimum) {
+  void add(Cell start, Cell goal) {
     StudyQuery query;
     query.start = freeCellNear(start, "start", query.note);
     query.goal = freeCellNear(goal, "goal", query.note);
-    query.optimum = optimum;
     queries_.push_back(query);
   }
 
@@ -102,7 +101,7 @@ class QueryMaker {
       for (int tries = 0; tries < 20 && made < map_.queries.random_count; ++tries) {
         const Cell goal = any();
         if (reached[geometry.index(goal).value()] == 0 || goal == start) continue;
-        queries_.push_back({start, goal, "", {}});
+        queries_.push_back({start, goal, ""});
         ++made;
         break;
       }
@@ -116,7 +115,7 @@ class QueryMaker {
     const GridGeometry& geometry = occupancy_.geometry();
     for (const ScenarioQuery& query : spreadOver(all, limit)) {
       checkScenarioQuery(query, geometry, map_.queries.scenario);
-      add(query.start, query.goal, query.optimum);
+      add(query.start, query.goal);
     }
   }
 

@@ -11,7 +11,7 @@ std::vector<double> timesOf(const StudyData& data, const ProblemSize& size, std:
     const StudyRun* run = unit[variant];
     if (run == nullptr || run->status != Status::FOUND) continue;
     const ProblemSize of = data.sizeOf(run->setting);
-    if (!(of < size) && !(size < of)) times.push_back(medianTime(*run));
+    if (of == size) times.push_back(medianTime(*run));
   }
   return times;
 }

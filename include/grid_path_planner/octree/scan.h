@@ -3,9 +3,16 @@
 
 #include <octomap/octomap_types.h>
 
+#include <Eigen/Core>
 #include <vector>
 
 namespace grid_path_planner {
+
+// A point as OctoMap has it, in single precision.
+inline octomap::point3d treePoint(const Eigen::Vector3d& point) {
+  return {static_cast<float>(point.x()), static_cast<float>(point.y()),
+          static_cast<float>(point.z())};
+}
 
 struct Scan {
   octomap::point3d origin;                   // m, frame of the tree

@@ -28,6 +28,10 @@ struct ProblemSize {
   friend bool operator<(const ProblemSize& a, const ProblemSize& b) {
     return std::tie(a.map, a.kernel, a.rule) < std::tie(b.map, b.kernel, b.rule);
   }
+  friend bool operator==(const ProblemSize& a, const ProblemSize& b) {
+    return std::tie(a.map, a.kernel, a.rule) == std::tie(b.map, b.kernel, b.rule);
+  }
+  friend bool operator!=(const ProblemSize& a, const ProblemSize& b) { return !(a == b); }
 };
 
 // A query of a map: what is sampled.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,6 @@ struct StudyQuery {
   Cell start;
   Cell goal;
   std::string note;  // which end was blocked and what took its place, "" where none was
-  std::optional<double> optimum;  // what a .scen file says, in cells
 };
 
 // The queries of `map` on `occupancy`. Ends that are occupied or too near to something that is (by
