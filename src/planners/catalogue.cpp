@@ -13,7 +13,9 @@ const std::vector<std::string>& plannerNames() {
   return names;
 }
 
-std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOptions& options) {
+namespace {
+
+std::unique_ptr<Planner> make(const std::string& name, const SearchOptions& options) {
   if (name == "a_star") return std::make_unique<AStar>(options);
   if (name == "dijkstra") return std::make_unique<Dijkstra>();
   if (name == "theta_star") return std::make_unique<ThetaStar>();
@@ -21,6 +23,15 @@ std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOption
   std::string known;
   for (const std::string& each : plannerNames()) known += (known.empty() ? "" : ", ") + each;
   throw InputError("planner must be one of " + known + ", got '" + name + "'");
+}
+
+}  // namespace
+
+std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOptions& options) {
+  checkSearchOptions(options);
+  std::unique_ptr<Planner> planner = make(name, options);
+  planner->limitMemory(static_cast<std::size_t>(options.memory_limit) * 1000000);
+  return planner;
 }
 
 }  // namespace grid_path_planner

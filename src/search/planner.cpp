@@ -28,6 +28,10 @@ std::string sizeOf(const CostGrid& map) {
   return sentence(map.geometry().width(), "x", map.geometry().height(), " cells");
 }
 
+std::size_t megabytes(std::size_t bytes) {
+  return bytes / 1000000 + (bytes % 1000000 != 0 ? 1 : 0);
+}
+
 // The first thing wrong with the request, FOUND where there is none.
 PlanResult check(const CostGrid& map, const PlanRequest& request, const Traits& traits) {
   if (request.goals.empty()) return failure(Status::INVALID_REQUEST, "the request has no goal");
@@ -87,15 +91,16 @@ PlanRequest withoutBlockedGoals(PlanRequest request, const CostGrid& map) {
 void Planner::prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop) {
   map_ = std::move(map);
   prepared_ = false;
-  doPrepare(stop);
+  refusal_ = reasonAgainst(*map_);
+  if (refusal_.empty()) doPrepare(stop);
   prepared_ = true;
 }
 
 void Planner::update(std::shared_ptr<const CostGrid> map, const CellRect& changed,
                      const StopToken& stop) {
-  const bool follows = prepared_ && map->geometry() == map_->geometry() &&
+  const bool follows = prepared_ && refusal_.empty() && map->geometry() == map_->geometry() &&
                        map->motion() == map_->motion() && map->revision() == map_->revision() + 1;
-  if (!follows) return prepare(std::move(map), stop);
+  if (!follows || !reasonAgainst(*map).empty()) return prepare(std::move(map), stop);
   map_ = std::move(map);
   prepared_ = false;
   doUpdate(changed, stop);
@@ -104,8 +109,7 @@ void Planner::update(std::shared_ptr<const CostGrid> map, const CellRect& change
 
 PlanResult Planner::plan(const PlanRequest& request, const StopToken& stop) {
   if (!prepared_) return failure(Status::NO_MAP, traits_.name + " has no map yet");
-  const std::string reason = refusal(*map_);
-  if (!reason.empty()) return failure(Status::INVALID_REQUEST, traits_.name + " " + reason);
+  if (!refusal_.empty()) return failure(Status::INVALID_REQUEST, traits_.name + " " + refusal_);
   PlanResult checked = check(*map_, request, traits_);
   if (checked.status != Status::FOUND) return checked;
 
@@ -128,6 +132,14 @@ PlanResult Planner::plan(const PlanRequest& request, const StopToken& stop) {
 
 bool Planner::optimalFor(const CostGrid&) const {
   return traits_.optimal;
+}
+
+std::string Planner::reasonAgainst(const CostGrid& map) const {
+  const std::size_t bytes = bytesFor(map.geometry());
+  if (bytes > memory_limit_)
+    return sentence("needs ", megabytes(bytes), " MB to search a map of ", sizeOf(map),
+                    ", more than its memory_limit of ", megabytes(memory_limit_), " MB");
+  return refusal(map);
 }
 
 std::string Planner::refusal(const CostGrid& map) const {

@@ -143,6 +143,31 @@ TEST_P(Conformance, AnswersAreLegalAndTheLeastCostWhereOptimalityIsClaimed) {
   }
 }
 
+TEST_P(Conformance, AMapThatNeedsMoreThanTheMemoryLimitIsRefusedBeforeMemoryIsTaken) {
+  const auto uniform = [](int side) {
+    const GridGeometry geometry(side, side, 1.0);
+    return std::make_shared<const CostGrid>(Grid<CostGrid::Weight>(geometry, 1),
+                                            Grid<Occupancy>(geometry, Occupancy::FREE),
+                                            MotionModel());
+  };
+  const auto small = uniform(20), large = uniform(600);
+  const auto planner = make();
+  const std::size_t needed = planner->bytesFor(large->geometry());
+  ASSERT_GE(needed, 1000000U);
+  planner->limitMemory(needed - 1);
+  planner->prepare(large, StopToken());
+  const PlanRequest request{{1, 2}, {{15, 17}}, false};
+  const PlanResult refused = planner->plan(request, StopToken());
+  EXPECT_EQ(refused.status, Status::INVALID_REQUEST);
+  EXPECT_NE(refused.message.find("600x600 cells, more than its memory_limit of"), std::string::npos)
+      << refused.message;
+  planner->prepare(small, StopToken());
+  EXPECT_EQ(planner->plan(request, StopToken()).status, Status::FOUND);
+  planner->limitMemory(needed);
+  planner->prepare(large, StopToken());
+  EXPECT_EQ(planner->plan(request, StopToken()).status, Status::FOUND);
+}
+
 TEST_P(Conformance, EpsilonBoundsTheCost) {
   const SearchOptions& options = GetParam().options;
   if (GetParam().planner != "a_star" || options.tie_break == TieBreak::CROSS_PRODUCT_PUBLISHED)

@@ -9,6 +9,7 @@
 // answered is a status with a sentence; calling plan() before prepare() is NO_MAP.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -68,7 +69,12 @@ class Planner {
   // Memory that prepare() and plan() will hold for a map of this geometry, the map excluded.
   virtual std::size_t bytesFor(const GridGeometry& geometry) const = 0;
 
-  // Takes the map and makes what the planner needs of it. Throws Stopped.
+  // The most that prepare() may take, by bytesFor(). For a map that needs more it takes nothing,
+  // and plan() is INVALID_REQUEST with both figures.
+  void limitMemory(std::size_t bytes) { memory_limit_ = bytes; }
+
+  // Takes the map and makes what the planner needs of it: nothing of a map that it cannot search.
+  // Throws Stopped.
   void prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop);
 
   // `map` differs from the prepared one only inside `changed`, and follows it by one revision;
@@ -92,7 +98,11 @@ class Planner {
 
  private:
   Traits traits_;
+  std::string reasonAgainst(const CostGrid& map) const;
+
+  std::size_t memory_limit_ = std::numeric_limits<std::size_t>::max();
   std::shared_ptr<const CostGrid> map_;
+  std::string refusal_;    // why map_ cannot be searched, "" where it can
   bool prepared_ = false;  // false where a preparation was stopped half way
 };
 

@@ -21,6 +21,7 @@ struct SearchOptions {
   std::string heuristic_scale = "cheapest";  // "cheapest", or a number >= 0
   double epsilon = 1.0;                      // >= 1
   TieBreak tie_break = TieBreak::LARGER_G;
+  int memory_limit = 6000;  // MB
 };
 
 template <class Visitor>
@@ -38,6 +39,10 @@ void visitOptions(SearchOptions& o, Visitor&& visit) {
                    "", 1, 1000});
   visit("tie_break", o.tie_break,
         OptionInfo{"Which of equally promising cells is expanded first", ""});
+  visit("memory_limit", o.memory_limit,
+        OptionInfo{"What a planner may take for itself, the map not counted: it refuses a map that "
+                   "needs more, before it takes anything",
+                   "MB", 1, 1000000});
 }
 
 // The number that heuristic_scale gives; none for "cheapest". Throws InputError for anything else.
