@@ -1,8 +1,10 @@
 #include "grid_path_planner/terrain/cost_grid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <limits>
+#include <mutex>
 #include <utility>
 
 namespace grid_path_planner {
@@ -16,7 +18,21 @@ CostGrid::Weight cheapestOf(const std::vector<CostGrid::Weight>& weights) {
   return static_cast<CostGrid::Weight>(least + 1);
 }
 
+CostGrid::Weight dearestOf(const std::vector<CostGrid::Weight>& weights) {
+  CostGrid::Weight most = CostGrid::kBlocked;
+  for (const CostGrid::Weight weight : weights) most = std::max(most, weight);
+  return most;
+}
+
 }  // namespace
+
+struct CostGrid::LazyBitMaps {
+  std::mutex making;
+  BitMaps maps;
+  std::atomic<bool> made{false};
+};
+
+CostGrid::CostGrid() : bit_maps_(std::make_shared<LazyBitMaps>()) {}
 
 CostGrid::CostGrid(Grid<Weight> weights, Grid<Occupancy> classes, const MotionModel& motion)
     : CostGrid(std::move(weights), std::move(classes), motion, 1, GridGeometry()) {
@@ -30,7 +46,9 @@ CostGrid::CostGrid(Grid<Weight> weights, Grid<Occupancy> classes, const MotionMo
       motion_(motion),
       kernel_(kernel),
       original_(original),
-      cheapest_(cheapestOf(weights_.values())) {
+      cheapest_(cheapestOf(weights_.values())),
+      dearest_(dearestOf(weights_.values())),
+      bit_maps_(std::make_shared<LazyBitMaps>()) {
   assert(weights_.geometry() == classes_.geometry());
 }
 
@@ -43,8 +61,18 @@ Eigen::Vector2d CostGrid::waypoint(Cell cell) const {
       {middle(cell.column, original_.width()), middle(cell.row, original_.height())});
 }
 
+const BitMaps& CostGrid::bitMaps(const StopToken& stop) const {
+  LazyBitMaps& lazy = *bit_maps_;
+  if (lazy.made) return lazy.maps;
+  const std::lock_guard<std::mutex> lock(lazy.making);
+  if (!lazy.made) lazy.maps = BitMaps(weights_, stop);
+  lazy.made = true;
+  return lazy.maps;
+}
+
 std::size_t CostGrid::bytes() const {
-  return geometry().size() * (sizeof(Weight) + sizeof(Occupancy));
+  const std::size_t bits = bit_maps_->made ? bit_maps_->maps.bytes() : 0;
+  return geometry().size() * (sizeof(Weight) + sizeof(Occupancy)) + bits;
 }
 
 bool stepAllowed(const CostGrid& map, Cell from, Cell to) {

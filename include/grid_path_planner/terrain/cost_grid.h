@@ -7,10 +7,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "grid_path_planner/grid/grid.h"
 #include "grid_path_planner/grid/occupancy.h"
+#include "grid_path_planner/terrain/bit_maps.h"
 #include "grid_path_planner/terrain/exact_cost.h"
 #include "grid_path_planner/terrain/motion_model.h"
 
@@ -21,7 +23,7 @@ class CostGrid {
   using Weight = std::uint16_t;
   static constexpr Weight kBlocked = 0;
 
-  CostGrid() = default;
+  CostGrid();
   // `weights` and `classes` have the same geometry. `kernel`: how many cells of the original map a
   // cell of this one is wide; `original`: that map, which the last column and row may reach beyond.
   CostGrid(Grid<Weight> weights, Grid<Occupancy> classes, const MotionModel& motion);
@@ -43,6 +45,12 @@ class CostGrid {
   const Grid<Occupancy>& classes() const { return classes_; }
   // The smallest weight of a passable cell; 0 where there is none.
   Weight cheapest() const { return cheapest_; }
+  // Whether all passable cells weigh the same.
+  bool uniform() const { return cheapest_ == dearest_; }
+
+  // One bit a cell, made at the first asking. May be asked by several threads at once; the answer
+  // lives as long as this map or a copy of it. Throws Stopped; asked again it begins anew.
+  const BitMaps& bitMaps(const StopToken& stop) const;
 
   // Where a path passes through a cell, in metres: the middle of what the original map has of it
   // (a cell's centre; only the last column and row of a kernel differ).
@@ -52,16 +60,21 @@ class CostGrid {
   std::uint64_t revision() const { return revision_; }
   void setRevision(std::uint64_t revision) { revision_ = revision; }
 
+  // The bit maps too, where they were made.
   std::size_t bytes() const;
 
  private:
+  struct LazyBitMaps;
+
   Grid<Weight> weights_;
   Grid<Occupancy> classes_;
   MotionModel motion_;
   int kernel_ = 1;
   GridGeometry original_;
   Weight cheapest_ = 0;
+  Weight dearest_ = 0;
   std::uint64_t revision_ = 0;
+  std::shared_ptr<LazyBitMaps> bit_maps_;  // copies of a map share them
 };
 
 // Whether one step leads from `from` to `to`: neighbours by the motion model, both passable, no
