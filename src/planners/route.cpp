@@ -20,7 +20,7 @@ void append(Route& route, const std::shared_ptr<const CostGrid>& map, PlanResult
   if (result.status != Status::FOUND) return;
   route.cost += result.cost;
   route.segment_cost += result.segment_cost;
-  route.legs.push_back({map, std::move(result.cells)});
+  route.legs.push_back({map, std::move(result.cells), std::move(result.points)});
 }
 
 }  // namespace

@@ -17,12 +17,12 @@ bool neighbours(Cell a, Cell b) {
   return std::abs(a.column - b.column) <= 1 && std::abs(a.row - b.row) <= 1;
 }
 
-// Whether a leg's cells are the turning points of longer segments, which hold between the very
-// points they were found for.
 bool anyAngle(const Leg& leg) {
-  for (std::size_t i = 1; i < leg.cells.size(); ++i)
-    if (!neighbours(leg.cells[i - 1], leg.cells[i])) return true;
-  return false;
+  return !leg.points.empty();
+}
+
+Eigen::Vector2d positionOf(const Leg& leg, std::size_t i) {
+  return anyAngle(leg) ? worldOf(*leg.map, leg.points[i]) : leg.map->waypoint(leg.cells[i]);
 }
 
 // A vehicle cannot tell poses apart that are this near, in metres.
@@ -33,6 +33,7 @@ bool samePlace(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 // Whether the step passes the corner of a blocked neighbour, which only cut_corners allows. Longer
 // segments are judged where they lie.
 bool cutsCorner(const CostGrid& map, Cell from, Cell to) {
+  if (!map.motion().cut_corners) return false;
   if (from.column == to.column || from.row == to.row || !neighbours(from, to)) return false;
   return !map.passable({from.column, to.row}) || !map.passable({to.column, from.row});
 }
@@ -42,15 +43,15 @@ Eigen::Vector2d sharedCorner(const CostGrid& map, Cell a, Cell b) {
                                                       std::max(a.row, b.row)));
 }
 
-// Two legs meet in the middle of one block: the fine leg's point serves both, unless a longer
-// segment leads to the coarse one's.
+// Two legs meet in the middle of one block: the fine leg's point serves both, unless turning points
+// hold only as they are.
 std::vector<RoutePoint> pointsOf(const Route& route) {
   std::vector<RoutePoint> points;
   const bool keep_both = std::any_of(route.legs.begin(), route.legs.end(), anyAngle);
   for (const Leg& leg : route.legs) {
     const bool coarse = leg.map->kernel() > 1;
     for (std::size_t i = 0; i < leg.cells.size(); ++i) {
-      const RoutePoint point{leg.map->waypoint(leg.cells[i]), leg.map.get()};
+      const RoutePoint point{positionOf(leg, i), leg.map.get()};
       // The middles of blocks are not always their centres: past a blocked one the way leads
       // exactly over the corner.
       if (coarse && i > 0 && cutsCorner(*leg.map, leg.cells[i - 1], leg.cells[i]))

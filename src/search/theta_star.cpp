@@ -37,13 +37,6 @@ void ThetaStar::doUpdate(const CellRect& changed, const StopToken& stop) {
   masks_.update(map(), changed, stop);
 }
 
-// Where a path passes through the cell: in the last column and row of a kernel not its centre.
-SegmentPoint ThetaStar::point(std::uint32_t index) const {
-  const Cell at = cell(index);
-  if (map().kernel() == 1) return SegmentPoint::centreOf(at);
-  return SegmentPoint::nearest(map().geometry().gridFromWorld(map().waypoint(at)));
-}
-
 // The straight line at the cheapest weight.
 double ThetaStar::estimate(std::uint32_t index) const {
   const Cell from = cell(index), to = cell(goal_);
@@ -116,9 +109,11 @@ PlanResult ThetaStar::doPlan(const PlanRequest& request, const StopToken& stop) 
 PlanResult ThetaStar::found(PlanResult result) const {
   for (std::uint32_t at = goal_;; at = nodes_[at].parent) {
     result.cells.push_back(cell(at));
+    result.points.push_back(point(at));
     if (nodes_[at].parent == at) break;
   }
   std::reverse(result.cells.begin(), result.cells.end());
+  std::reverse(result.points.begin(), result.points.end());
   result.segment_cost = nodes_[goal_].g;
   return withStatus(Status::FOUND, std::move(result));
 }

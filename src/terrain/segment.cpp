@@ -148,6 +148,16 @@ SegmentPoint SegmentPoint::nearest(const Eigen::Vector2d& cells) {
   return {std::llround(cells.x() * kUnitsPerCell), std::llround(cells.y() * kUnitsPerCell)};
 }
 
+SegmentPoint waypointOf(const CostGrid& map, Cell cell) {
+  if (map.kernel() == 1) return SegmentPoint::centreOf(cell);
+  return SegmentPoint::nearest(map.geometry().gridFromWorld(map.waypoint(cell)));
+}
+
+Eigen::Vector2d worldOf(const CostGrid& map, SegmentPoint point) {
+  return map.geometry().worldFromGrid(
+      Eigen::Vector2d(double(point.x) / double(kUnit), double(point.y) / double(kUnit)));
+}
+
 bool segmentLegal(const CostGrid& map, SegmentPoint from, SegmentPoint to) {
   const auto inside = [&map](SegmentPoint point) {
     return point.x >= 0 && point.x <= map.geometry().width() * kUnit && point.y >= 0 &&

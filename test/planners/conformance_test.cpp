@@ -77,14 +77,25 @@ bool refuses(const Traits& traits, const MotionModel& motion) {
          (motion.cut_corners && !traits.cut_corners);
 }
 
+// Whether the point lies in the cell or on its edge.
+bool touches(Cell cell, SegmentPoint point) {
+  const SegmentPoint centre = SegmentPoint::centreOf(cell);
+  return 2 * std::max(std::abs(point.x - centre.x), std::abs(point.y - centre.y)) <=
+         SegmentPoint::kUnitsPerCell;
+}
+
 void expectLegalSegments(const CostGrid& map, const PlanResult& result) {
+  ASSERT_EQ(result.points.size(), result.cells.size());
+  EXPECT_EQ(result.points.front(), waypointOf(map, result.cells.front()));
+  EXPECT_EQ(result.points.back(), waypointOf(map, result.cells.back()));
   double cost = 0.0;
-  for (std::size_t i = 1; i < result.cells.size(); ++i) {
-    const SegmentPoint from = SegmentPoint::centreOf(result.cells[i - 1]);
-    const SegmentPoint to = SegmentPoint::centreOf(result.cells[i]);
-    ASSERT_NE(result.cells[i - 1], result.cells[i]);
-    ASSERT_TRUE(segmentLegal(map, from, to));
-    cost += segmentCost(map, from, to);
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    ASSERT_TRUE(map.passable(result.cells[i]));
+    ASSERT_TRUE(touches(result.cells[i], result.points[i]));
+    if (i == 0) continue;
+    ASSERT_NE(result.points[i - 1], result.points[i]);
+    ASSERT_TRUE(segmentLegal(map, result.points[i - 1], result.points[i]));
+    cost += segmentCost(map, result.points[i - 1], result.points[i]);
   }
   EXPECT_EQ(result.cost, ExactCost());
   EXPECT_NEAR(result.segment_cost, cost, 1e-9 * cost);
@@ -92,6 +103,7 @@ void expectLegalSegments(const CostGrid& map, const PlanResult& result) {
 
 void expectLegalSteps(const CostGrid& map, const PlanResult& result) {
   EXPECT_EQ(result.segment_cost, 0.0);
+  EXPECT_TRUE(result.points.empty());
   for (std::size_t i = 1; i < result.cells.size(); ++i) {
     EXPECT_TRUE(neighbours(result.cells[i - 1], result.cells[i]));
     ASSERT_TRUE(stepAllowed(map, result.cells[i - 1], result.cells[i]));

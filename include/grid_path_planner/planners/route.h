@@ -19,10 +19,11 @@
 
 namespace grid_path_planner {
 
-// Cells that follow each other on one map.
+// Cells that follow each other on one map, or turning points as in PlanResult.
 struct Leg {
   std::shared_ptr<const CostGrid> map;
   std::vector<Cell> cells;
+  std::vector<SegmentPoint> points;
 };
 
 struct Route {

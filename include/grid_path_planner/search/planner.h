@@ -20,6 +20,7 @@
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/terrain/cost_grid.h"
 #include "grid_path_planner/terrain/exact_cost.h"
+#include "grid_path_planner/terrain/segment.h"
 
 namespace grid_path_planner {
 
@@ -32,7 +33,7 @@ struct Traits {
   bool weights = true;         // cells of different weights
   bool optimal = false;        // can be; optimalFor() says whether it is, on a map with its options
   bool heuristic = false;      // is guided by SearchOptions::heuristic
-  bool any_angle = false;      // cells of the result need not be neighbours
+  bool any_angle = false;      // the result is turning points: PlanResult::points
   bool several_goals = false;  // answers "the nearest of these goals"
   bool repairs = false;        // update() costs less than prepare()
 };
@@ -47,6 +48,10 @@ struct PlanResult {
   Status status = Status::NO_MAP;
   std::string message;      // one sentence that holds the values
   std::vector<Cell> cells;  // start and goal included; start = goal: one cell
+  // Of any-angle planners only: the turning points on the searched map, from the waypoint of the
+  // start to that of the goal, which may be corners of cells. `cells` then has as many, each
+  // passable and holding or touching its point.
+  std::vector<SegmentPoint> points;
   // In cells of the original map x weight: of the steps, and of the segments of any-angle planners,
   // which have no exact form.
   ExactCost cost;

@@ -2,8 +2,8 @@
 // Any-angle path planning on grids", JAIR 39, 2010), on weighted maps by the cost of segments.
 //
 // Where a cell is reached, the straight segment from its parent's parent is tried too, and taken
-// where it is legal and no dearer. The cells of a result are the turning points, from middle to
-// middle of what the original map has of them.
+// where it is legal and no dearer. The turning points are the middles of cells, or of
+// what the original map has of them.
 //
 // Guaranteed: every segment is legal, the cost is the sum of the segments' (terrain/segment.h).
 // Not guaranteed: that it is the least an any-angle path can cost, or even as low as that of a grid
@@ -55,7 +55,7 @@ class ThetaStar : public Planner {
   void reach(std::uint32_t index, std::uint32_t parent, double g, Statistics& counts);
   double estimate(std::uint32_t index) const;
   Cell cell(std::uint32_t index) const { return map().geometry().cell(CellIndex(index)); }
-  SegmentPoint point(std::uint32_t index) const;
+  SegmentPoint point(std::uint32_t index) const { return waypointOf(map(), cell(index)); }
   PlanResult withStatus(Status status, PlanResult result) const;
   PlanResult found(PlanResult result) const;
 

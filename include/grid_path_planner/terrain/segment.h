@@ -30,7 +30,16 @@ struct SegmentPoint {
   }
   // The nearest one to a point in cell units. Precondition: |coordinate| < 2^20.
   static SegmentPoint nearest(const Eigen::Vector2d& cells);
+
+  friend bool operator==(SegmentPoint a, SegmentPoint b) { return a.x == b.x && a.y == b.y; }
+  friend bool operator!=(SegmentPoint a, SegmentPoint b) { return !(a == b); }
 };
+
+// Where a path passes through the cell (CostGrid::waypoint): its centre but for the last column and
+// row of a kernel.
+SegmentPoint waypointOf(const CostGrid& map, Cell cell);
+// The same place as a point of the map's plane, in metres.
+Eigen::Vector2d worldOf(const CostGrid& map, SegmentPoint point);
 
 bool segmentLegal(const CostGrid& map, SegmentPoint from, SegmentPoint to);
 
