@@ -13,6 +13,12 @@ const std::vector<std::string>& plannerNames() {
   return names;
 }
 
+std::string listOfPlanners() {
+  std::string list;
+  for (const std::string& each : plannerNames()) list += (list.empty() ? "" : ", ") + each;
+  return list;
+}
+
 namespace {
 
 std::unique_ptr<Planner> make(const std::string& name, const SearchOptions& options) {
@@ -20,9 +26,7 @@ std::unique_ptr<Planner> make(const std::string& name, const SearchOptions& opti
   if (name == "dijkstra") return std::make_unique<Dijkstra>();
   if (name == "theta_star") return std::make_unique<ThetaStar>();
   if (name == "a_star_published") return std::make_unique<AStar>(AStar::published(options));
-  std::string known;
-  for (const std::string& each : plannerNames()) known += (known.empty() ? "" : ", ") + each;
-  throw InputError("planner must be one of " + known + ", got '" + name + "'");
+  throw InputError("planner must be one of " + listOfPlanners() + ", got '" + name + "'");
 }
 
 }  // namespace

@@ -13,6 +13,9 @@ namespace grid_path_planner {
 // Names in the order in which they should be offered.
 const std::vector<std::string>& plannerNames();
 
+// The names as a list for people: "a_star, dijkstra, ...".
+std::string listOfPlanners();
+
 // Throws InputError naming the known planners for any other name.
 std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOptions& options = {});
 

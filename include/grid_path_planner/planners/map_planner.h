@@ -19,6 +19,7 @@
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/path/headings.h"
 #include "grid_path_planner/path/path.h"
+#include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/search/planner.h"
 #include "grid_path_planner/search/search_options.h"
 #include "grid_path_planner/terrain/terrain_options.h"
@@ -43,7 +44,8 @@ struct PlannerOptions {
 
 template <class Visitor>
 void visitOptions(PlannerOptions& o, Visitor&& visit) {
-  visit("planner", o.planner, OptionInfo{"Name of the algorithm", ""});
+  static const std::string names = "Name of the algorithm: " + listOfPlanners();
+  visit("planner", o.planner, OptionInfo{names.c_str(), ""});
   visitOptions(o.search, visit);
   visitOptions(o.terrain, visit);
   visit("tolerance", o.tolerance,
