@@ -4,12 +4,13 @@
 #include "grid_path_planner/search/a_star.h"
 #include "grid_path_planner/search/dijkstra.h"
 #include "grid_path_planner/search/theta_star.h"
+#include "grid_path_planner/search/weighted_jump_point.h"
 
 namespace grid_path_planner {
 
 const std::vector<std::string>& plannerNames() {
-  static const std::vector<std::string> names = {"a_star", "dijkstra", "theta_star",
-                                                 "a_star_published"};
+  static const std::vector<std::string> names = {"a_star", "weighted_jump_point", "dijkstra",
+                                                 "theta_star", "a_star_published"};
   return names;
 }
 
@@ -23,6 +24,7 @@ namespace {
 
 std::unique_ptr<Planner> make(const std::string& name, const SearchOptions& options) {
   if (name == "a_star") return std::make_unique<AStar>(options);
+  if (name == "weighted_jump_point") return std::make_unique<WeightedJumpPoint>();
   if (name == "dijkstra") return std::make_unique<Dijkstra>();
   if (name == "theta_star") return std::make_unique<ThetaStar>();
   if (name == "a_star_published") return std::make_unique<AStar>(AStar::published(options));

@@ -92,6 +92,7 @@ class Planner {
   explicit Planner(Traits traits) : traits_(std::move(traits)) {}
 
   const CostGrid& map() const { return *map_; }
+  const std::shared_ptr<const CostGrid>& sharedMap() const { return map_; }
 
   // The reason why this planner cannot search `map`, "" where it can.
   virtual std::string refusal(const CostGrid& map) const;
