@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
+
+#include "grid_path_planner/terrain/terrain.h"
 
 namespace grid_path_planner::test {
 namespace {
@@ -43,6 +47,17 @@ void rings(std::mt19937& random, Grid<CostGrid::Weight>& weights) {
   }
 }
 
+// A rectangle of at most eight cells a side.
+void fill(std::mt19937& random, OccupancyGrid& map, int value) {
+  const Cell low = randomCell(random, map.geometry());
+  const CellRect rect =
+      CellRect{low.column, low.row, between(random, 1, 8), between(random, 1, 8)}.intersection(
+          map.geometry().rect());
+  for (int row = rect.row; row < rect.row + rect.height; ++row)
+    for (int column = rect.column; column < rect.column + rect.width; ++column)
+      map[Cell{column, row}] = static_cast<std::int8_t>(value);
+}
+
 void noise(std::mt19937& random, Grid<CostGrid::Weight>& weights) {
   for (auto& weight : weights.values())
     weight = static_cast<CostGrid::Weight>(between(random, 1, 65535));
@@ -67,7 +82,12 @@ OccupancyGrid randomOccupancy(std::mt19937& random, int largest_side, double occ
 }
 
 CostGrid randomCosts(std::mt19937& random, int largest_side, const MotionModel& motion) {
-  Grid<CostGrid::Weight> weights(randomGeometry(random, largest_side), 1);
+  return randomCosts(random, randomGeometry(random, largest_side), motion);
+}
+
+CostGrid randomCosts(std::mt19937& random, const GridGeometry& geometry,
+                     const MotionModel& motion) {
+  Grid<CostGrid::Weight> weights(geometry, 1);
   switch (between(random, 0, 4)) {
     case 0:
       break;
@@ -90,6 +110,22 @@ CostGrid randomCosts(std::mt19937& random, int largest_side, const MotionModel& 
     if (drawn(random)) weight = CostGrid::kBlocked;
   Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
   return CostGrid(std::move(weights), std::move(classes), motion);
+}
+
+CostGrid randomInflated(std::mt19937& random, const GridGeometry& geometry,
+                        const MotionModel& motion) {
+  const auto map = std::make_shared<OccupancyGrid>(geometry);
+  const auto area = static_cast<int>(geometry.size());
+  for (int left = between(random, 0, 4 + area / 300); left > 0; --left)
+    fill(random, *map, between(random, 0, 3) == 0 ? -1 : 100);
+  TerrainOptions options;
+  options.motion = motion;
+  options.radius = between(random, 0, 2);
+  options.decay = between(random, 0, 3) * 0.25;
+  options.unknown_weight = between(random, 1, 50);
+  Terrain terrain(options);
+  terrain.setMap(map);
+  return *terrain.searched(StopToken());
 }
 
 }  // namespace grid_path_planner::test

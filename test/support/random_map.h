@@ -12,9 +12,15 @@ namespace grid_path_planner::test {
 OccupancyGrid randomOccupancy(std::mt19937& random, int largest_side, double occupied,
                               double unknown);
 
-// Weights of one of four kinds, drawn anew each time: uniform, few values that tie, plateaus, rings
+// Weights of one of five kinds, drawn anew each time: uniform, few values that tie, plateaus, rings
 // and noise; a share of the cells blocked.
 CostGrid randomCosts(std::mt19937& random, int largest_side, const MotionModel& motion);
+CostGrid randomCosts(std::mt19937& random, const GridGeometry& geometry, const MotionModel& motion);
+
+// As robots have them: rectangular obstacles, inflated by a few cells with or without a decay,
+// among free and unknown ground.
+CostGrid randomInflated(std::mt19937& random, const GridGeometry& geometry,
+                        const MotionModel& motion);
 
 Cell randomCell(std::mt19937& random, const GridGeometry& geometry);
 

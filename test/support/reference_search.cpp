@@ -1,14 +1,17 @@
 #include "support/reference_search.h"
 
-#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/compressed_sparse_row_graph.hpp>
 #include <boost/graph/dijkstra_shortest_paths.hpp>
 #include <cmath>
+#include <utility>
 
 namespace grid_path_planner::test {
 namespace {
 
-using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property,
-                                    boost::property<boost::edge_weight_t, ExactCost>>;
+struct Step {
+  ExactCost cost;
+};
+using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, Step>;
 
 // Larger than any cost of a test's map.
 const ExactCost kUnreached{std::int64_t{1} << 40, 0};
@@ -21,7 +24,8 @@ int weightAt(const CostGrid& map, int column, int row) {
 
 Graph graphOf(const CostGrid& map) {
   const int width = map.geometry().width();
-  Graph graph(map.geometry().size());
+  std::vector<std::pair<std::size_t, std::size_t>> ends;  // in the order of their first
+  std::vector<Step> steps;
   for (int row = 0; row < map.geometry().height(); ++row)
     for (int column = 0; column < width; ++column)
       for (int up = -1; up <= 1; ++up)
@@ -36,11 +40,12 @@ Graph graphOf(const CostGrid& map) {
           if (diagonal && corner && !map.motion().cut_corners) continue;
           const std::int64_t weight = std::int64_t{std::max(from, to)} * map.kernel();
           const bool root = diagonal && map.motion().diagonal_cost == DiagonalCost::SQRT2;
-          boost::add_edge(std::size_t(row) * width + column,
-                          std::size_t(row + up) * width + column + right,
-                          root ? ExactCost{0, weight} : ExactCost{weight, 0}, graph);
+          ends.emplace_back(std::size_t(row) * width + column,
+                            std::size_t(row + up) * width + column + right);
+          steps.push_back({root ? ExactCost{0, weight} : ExactCost{weight, 0}});
         }
-  return graph;
+  return Graph(boost::edges_are_sorted, ends.begin(), ends.end(), steps.begin(),
+               map.geometry().size());
 }
 
 }  // namespace
@@ -52,6 +57,7 @@ std::vector<std::optional<ExactCost>> referenceCosts(const CostGrid& map, Cell s
       graph, map.geometry().index(start).value(),
       boost::distance_map(boost::make_iterator_property_map(distances.begin(),
                                                             boost::get(boost::vertex_index, graph)))
+          .weight_map(boost::get(&Step::cost, graph))
           .distance_inf(kUnreached)
           .distance_zero(ExactCost{}));
   std::vector<std::optional<ExactCost>> costs;
