@@ -1,10 +1,13 @@
-// grid_path scenarios: MovingAI queries, each cost compared with the file's.
+// grid_path scenarios: MovingAI queries, each cost compared with the file's, or with another
+// planner's where inflation, weights or other steps make the file's optima wrong.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 #include "arguments.h"
@@ -22,13 +25,24 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr double kRelativeError = 1e-5;  // the files' costs are rounded
+constexpr double kRounding = 1e-12;      // a planner's once, by exact integers
+
+constexpr char kFile[] = "file";  // as reference: the file's own costs
 
 struct Totals {
-  std::size_t queries = 0;
+  std::size_t queries = 0;     // without the unsolvable ones
+  std::size_t unsolvable = 0;  // there is no path, says the reference
   std::size_t solved = 0;
   std::size_t wrong = 0;
   std::uint64_t expanded = 0;
   double time_s = 0.0;
+
+  void add(const PlanResult& result) {
+    ++queries;
+    solved += result.status == Status::FOUND ? 1 : 0;
+    expanded += result.statistics.expanded;
+    time_s += result.statistics.time_s;
+  }
 };
 
 po::options_description describe() {
@@ -36,7 +50,10 @@ po::options_description describe() {
   known.add_options()("scen", po::value<std::string>()->required(), "MovingAI scenario file")(
       "map", po::value<std::string>(), "map file; default: the one the scenario names, beside it")(
       "limit", po::value<std::int64_t>(), "how many queries, spread evenly over the file")(
-      "csv", po::value<std::string>(), "write a line a query");
+      "csv", po::value<std::string>(), "write a line a query")(
+      "reference", po::value<std::string>(),
+      "what costs are compared with: file, or a planner's answers; default: file where its optima "
+      "hold, dijkstra where inflation, a kernel, weights or other steps change them");
   describePlannerOptions(known);
   return known;
 }
@@ -55,14 +72,68 @@ std::size_t limitOf(const po::variables_map& values) {
   return static_cast<std::size_t>(limit);
 }
 
-std::string csvLine(const ScenarioQuery& query, const PlanResult& result, bool wrong) {
+// Whether the costs of scenario files are the least ones on a map that is made with these options.
+bool fileOptimaHold(const TerrainOptions& terrain) {
+  return terrain.radius == 0.0 && terrain.decay == 0.0 && terrain.kernel == 1 &&
+         terrain.free_weight == 1 && terrain.motion == MotionModel();
+}
+
+std::string referenceNameOf(const po::variables_map& values, const TerrainOptions& terrain) {
+  if (values.count("reference") != 0) return values["reference"].as<std::string>();
+  return fileOptimaHold(terrain) ? kFile : "dijkstra";
+}
+
+// The query's cells, or their blocks on a map of a kernel.
+PlanRequest requestOf(const ScenarioQuery& query, int kernel) {
+  const auto block = [kernel](Cell cell) { return Cell{cell.column / kernel, cell.row / kernel}; };
+  return {block(query.start), {block(query.goal)}, false};
+}
+
+// Answers what the queries' least costs are.
+class Reference {
+ public:
+  // Throws InputError for a name that is neither "file" nor a planner's.
+  Reference(const std::string& name, const std::shared_ptr<const CostGrid>& map)
+      : name_(name), kernel_(map->kernel()) {
+    if (name_ == kFile) return;
+    planner_ = makePlanner(name_);
+    planner_->prepare(map, StopToken());
+  }
+
+  const std::string& name() const { return name_; }
+
+  // None where there is no path.
+  std::optional<double> costOf(const ScenarioQuery& query) const {
+    if (!planner_) return query.optimum;
+    const PlanResult result = planner_->plan(requestOf(query, kernel_), StopToken());
+    if (result.status == Status::FOUND) return result.costValue();
+    return std::nullopt;
+  }
+
+  // Paths of any angle may be cheaper than the reference's.
+  bool contradicts(const PlanResult& result, const std::optional<double>& least,
+                   bool any_angle) const {
+    if ((result.status == Status::FOUND) != least.has_value()) return true;
+    if (!least) return false;
+    const double more = result.costValue() - *least;
+    return (any_angle ? more : std::abs(more)) > (planner_ ? kRounding : kRelativeError) * *least;
+  }
+
+ private:
+  std::string name_;
+  int kernel_;
+  std::unique_ptr<Planner> planner_;  // none: the file
+};
+
+std::string csvLine(const ScenarioQuery& query, const PlanResult& result, double least,
+                    bool wrong) {
   std::ostringstream out;
   out.precision(12);
   out << query.start.column << ',' << query.start.row << ',' << query.goal.column << ','
       << query.goal.row << ',' << toString(result.status) << ',' << result.costValue() << ','
-      << query.optimum << ',' << wrong << ',' << result.cells.size() << ','
-      << result.statistics.expanded << ',' << result.statistics.generated << ','
-      << result.statistics.time_s * 1e3 << ',' << result.statistics.search_bytes << '\n';
+      << least << ',' << wrong << ',' << result.cells.size() << ',' << result.statistics.expanded
+      << ',' << result.statistics.generated << ',' << result.statistics.time_s * 1e3 << ','
+      << result.statistics.search_bytes << '\n';
   return out.str();
 }
 
@@ -86,6 +157,7 @@ int runScenarios(int argc, char** argv) {
   const std::unique_ptr<Planner> planner = makePlanner(options.planner, options.search);
   planner->prepare(map, StopToken());
   const std::chrono::duration<double> preparation = std::chrono::steady_clock::now() - begin;
+  const Reference reference(referenceNameOf(values, options.terrain), map);
 
   Totals totals;
   std::string csv =
@@ -94,25 +166,25 @@ int runScenarios(int argc, char** argv) {
   ProgressBar bar(queries.size());
   for (const ScenarioQuery& query : queries) {
     checkScenarioQuery(query, terrain.fine(StopToken())->geometry(), file);
-    const PlanResult result = planner->plan({query.start, {query.goal}}, StopToken());
-    const bool solved = result.status == Status::FOUND;
-    const bool wrong =
-        !solved || std::abs(result.costValue() - query.optimum) > kRelativeError * query.optimum;
-    ++totals.queries;
-    totals.solved += solved ? 1 : 0;
+    const PlanResult result = planner->plan(requestOf(query, map->kernel()), StopToken());
+    const std::optional<double> least = reference.costOf(query);
+    const bool wrong = reference.contradicts(result, least, planner->traits().any_angle);
     totals.wrong += wrong ? 1 : 0;
-    totals.expanded += result.statistics.expanded;
-    totals.time_s += result.statistics.time_s;
-    csv += csvLine(query, result, wrong);
-    bar.done(totals.queries);
+    if (least)
+      totals.add(result);
+    else
+      ++totals.unsolvable;
+    if (least || wrong) csv += csvLine(query, result, least.value_or(-1.0), wrong);
+    bar.done(totals.queries + totals.unsolvable);
   }
   if (values.count("csv") != 0) writeFileAtomically(values["csv"].as<std::string>(), csv);
 
-  std::printf("map=%s planner=%s preparation_ms=%.3f\n", map_file.c_str(), options.planner.c_str(),
-              preparation.count() * 1e3);
+  std::printf("map=%s planner=%s preparation_ms=%.3f reference=%s unsolvable=%zu\n",
+              map_file.c_str(), options.planner.c_str(), preparation.count() * 1e3,
+              reference.name().c_str(), totals.unsolvable);
   std::printf("queries=%zu solved=%zu wrong=%zu total_s=%.6f mean_ms=%.6f expanded=%llu\n",
               totals.queries, totals.solved, totals.wrong, totals.time_s,
-              totals.time_s * 1e3 / static_cast<double>(totals.queries),
+              totals.time_s * 1e3 / static_cast<double>(std::max<std::size_t>(totals.queries, 1)),
               static_cast<unsigned long long>(totals.expanded));
   return totals.wrong > 0 && planner->optimalFor(*map) ? 1 : 0;
 }

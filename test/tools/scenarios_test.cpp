@@ -66,6 +66,39 @@ TEST_F(Scenarios, LimitSpreadsAndCsvHasALineAQuery) {
   EXPECT_TRUE(contains(text, "0,0,0,0,FOUND,0,0,0,1,")) << text;
 }
 
+TEST_F(Scenarios, WhatInflationChangesIsComparedWithDijkstra) {
+  const std::string file = scenario("5");
+  const Outcome inflated = scenarios({"--scen", file, "--radius", "0.6"});  // closes both ways
+  EXPECT_EQ(inflated.code, 0) << inflated.error;
+  EXPECT_TRUE(contains(inflated.printed, " reference=dijkstra unsolvable=2\n")) << inflated.printed;
+  EXPECT_TRUE(contains(lastLine(inflated), "queries=1 solved=1 wrong=0 ")) << lastLine(inflated);
+
+  const Outcome weighted = scenarios({"--scen", file, "--decay", "0.5"});
+  EXPECT_EQ(weighted.code, 0) << weighted.error;
+  EXPECT_TRUE(contains(weighted.printed, " reference=dijkstra unsolvable=0\n")) << weighted.printed;
+  EXPECT_TRUE(contains(lastLine(weighted), "queries=3 solved=3 wrong=0 ")) << lastLine(weighted);
+  EXPECT_EQ(scenarios({"--scen", file, "--decay", "0.5", "--reference", "file"}).code, 1);
+  EXPECT_EQ(scenarios({"--scen", file, "--connectivity", "4"}).code, 0);
+  EXPECT_EQ(scenarios({"--scen", file, "--kernel", "2"}).code, 0);
+}
+
+TEST_F(Scenarios, AReferenceMayBeNamed) {
+  const std::string wrong = scenario("99");
+  EXPECT_EQ(scenarios({"--scen", wrong, "--reference", "dijkstra"}).code, 0);
+  EXPECT_EQ(scenarios({"--scen", wrong, "--reference", "file"}).code, 1);
+  const Outcome unknown = scenarios({"--scen", wrong, "--reference", "nobody"});
+  EXPECT_EQ(unknown.code, kBadInput);
+  EXPECT_TRUE(contains(unknown.error, "nobody")) << unknown.error;
+}
+
+TEST_F(Scenarios, APathOfAnyAngleMayBeShorterThanTheGrids) {
+  const auto wrongOf = [&](const std::string& optimum) {
+    return lastLine(scenarios({"--scen", scenario(optimum), "--planner", "theta_star"}));
+  };
+  EXPECT_TRUE(contains(wrongOf("5"), " wrong=0 ")) << wrongOf("5");
+  EXPECT_TRUE(contains(wrongOf("3.5"), " wrong=1 ")) << wrongOf("3.5");
+}
+
 TEST_F(Scenarios, BadFilesAreNamedWithTheirLine) {
   EXPECT_TRUE(contains(scenarios({"--scen", folder_.path("none.scen")}).error, "none.scen"));
   const std::string map = scenario("5");
