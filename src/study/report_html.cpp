@@ -4,10 +4,10 @@
 #include <sstream>
 
 #include "grid_path_planner/study/report.h"
+#include "grid_path_planner/study/svg_chart.h"
 #include "markup.h"
 #include "report_assets.h"
 #include "report_pictures.h"
-#include "svg_chart.h"
 
 namespace grid_path_planner {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "grid_path_planner/study/report.h"
 #include "grid_path_planner/study/study_worker.h"
+#include "grid_path_planner/study/svg_chart.h"
 #include "grid_path_planner/terrain/terrain.h"
-#include "svg_chart.h"
 
 namespace grid_path_planner {
 namespace {

@@ -1,4 +1,4 @@
-#include "svg_chart.h"
+#include "grid_path_planner/study/svg_chart.h"
 
 #include <algorithm>
 #include <array>
@@ -142,7 +142,7 @@ std::string seriesColour(std::size_t series) {
 
 std::string seriesDash(std::size_t series) {
   static const std::array<const char*, 4> dashes = {"", "7 3", "2 3", "9 3 2 3"};
-  return dashes[series % dashes.size()];
+  return dashes[(series + series / 8) % dashes.size()];  // where colours come again, another one
 }
 
 std::string boxPlot(const std::string& title, const std::string& axis_name,

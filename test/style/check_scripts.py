@@ -45,6 +45,7 @@ def made_file_complaints(script):
 
 def main():
     names = files(("scripts", ".ci", "test/style"), ("",))
+    names += [name for name in files(("benchmark",), ("",)) if "." not in name.split("/")[-1]]
     names = [name for name in names if "__pycache__" not in name and not name.endswith(".txt")]
     python = [name for name in names if name.endswith(".py") or "python" in read(name).split("\n")[0]]
     shell = [name for name in names if name not in python]

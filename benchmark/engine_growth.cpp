@@ -1,0 +1,373 @@
+// How time and memory grow with the map's side and with obstacle density, for every planner.
+//
+//   grid_path_planner_engine_growth [--sides 256,512,…] [--densities 0.05,0.1,…] [--density-side
+//   1024]
+//       [--planners a_star,…] [--weights uniform|rings] [--limit-s 60] [--csv OUT] [--html OUT]
+//
+// Each planner plans from corner to corner among random rectangles (10 % of the area while the side
+// grows), in a process of its own, so that its peak of memory is its own: of the whole process, the
+// map and its making included. "rings" adds weights 1 to 40 that fall off around each rectangle, as
+// inflation does. "second" is a query between neighbours in the middle of the map after that: it
+// shows whether a query costs time proportional to the map. Prints Markdown, writes CSV and charts.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/option_parsing.h"
+#include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/study/svg_chart.h"
+
+namespace {
+
+using namespace grid_path_planner;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kUsualDensity = 0.1;
+constexpr std::size_t kMemoryLimit = 8'000'000'000;  // with the map; planners that need more refuse
+constexpr int kLargestObstacle = 32;                 // cells a side
+constexpr int kFreeCorner = 40;                      // cells; so that both ends are in the open
+constexpr int kRingWidth = 20;                       // cells
+constexpr double kQuick = 0.5;                       // s; a plan that is faster is measured again
+
+// All but the original study's, which searches as a_star does.
+std::vector<std::string> ownPlanners() {
+  std::vector<std::string> names = plannerNames();
+  names.erase(std::remove(names.begin(), names.end(), "a_star_published"), names.end());
+  return names;
+}
+
+struct Options {
+  std::vector<double> sides = {256, 512, 1024, 2048, 4096, 8192, 16384};
+  std::vector<double> densities = {0.02, 0.05, 0.1, 0.2, 0.3, 0.4};
+  double density_side = 1024;
+  std::vector<std::string> planners = ownPlanners();
+  std::string weights = "uniform";
+  double limit_s = 60.0;
+  std::string csv;
+  std::string html;
+};
+
+// One planner on one map.
+struct Case {
+  std::string planner;
+  int side = 0;
+  double density = 0.0;
+  std::string weights;
+};
+
+struct Growth {
+  Case of;
+  std::string status = "lost";  // what the child said before it ended
+  double prepare_s = 0.0;
+  double plan_s = 0.0;
+  double second_s = 0.0;
+  double cost = 0.0;
+  double expanded = 0.0;
+  double search_bytes = 0.0;
+  double peak_bytes = 0.0;
+  std::string message;
+
+  bool found() const { return status == "FOUND"; }
+  double cells() const { return static_cast<double>(of.side) * of.side; }
+};
+
+double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// Paints `rect` blocked, and around it what inflation would make of it.
+void paint(Grid<CostGrid::Weight>& weights, const CellRect& rect, bool rings) {
+  const CellRect around =
+      rect.grown(rings ? kRingWidth : 0).intersection(weights.geometry().rect());
+  for (int row = around.row; row < around.row + around.height; ++row)
+    for (int column = around.column; column < around.column + around.width; ++column) {
+      auto& weight = weights[Cell{column, row}];
+      const int dx = std::max({rect.column - column, column - rect.column - rect.width + 1, 0});
+      const int dy = std::max({rect.row - row, row - rect.row - rect.height + 1, 0});
+      if (weight == CostGrid::kBlocked) continue;
+      const double ring = 1.0 + 39.0 * std::exp(-std::max(dx, dy) / 4.0);
+      weight = dx == 0 && dy == 0
+                   ? CostGrid::kBlocked
+                   : std::max(weight, static_cast<CostGrid::Weight>(std::lround(ring)));
+    }
+}
+
+std::shared_ptr<const CostGrid> mapOf(const Case& which) {
+  const GridGeometry geometry(which.side, which.side, 1.0);
+  Grid<CostGrid::Weight> weights(geometry, 1);
+  std::mt19937 random(20261121);
+  const auto below = [&random](int limit) {
+    return static_cast<int>(random() % static_cast<unsigned>(limit));
+  };
+  // Rectangles lie over each other: this many cover the share `density`.
+  const double mean_area = std::pow((kLargestObstacle + 1) / 2.0, 2);
+  const auto count = static_cast<long>(-std::log(1.0 - which.density) *
+                                       static_cast<double>(geometry.size()) / mean_area);
+  for (long i = 0; i < count; ++i) {
+    const CellRect rect{below(which.side), below(which.side), 1 + below(kLargestObstacle),
+                        1 + below(kLargestObstacle)};
+    const bool at_an_end = rect.column < kFreeCorner && rect.row < kFreeCorner;
+    const bool at_the_other = rect.column + rect.width > which.side - kFreeCorner &&
+                              rect.row + rect.height > which.side - kFreeCorner;
+    if (!at_an_end && !at_the_other)
+      paint(weights, rect.intersection(geometry.rect()), which.weights == "rings");
+  }
+  return std::make_shared<const CostGrid>(
+      std::move(weights), Grid<Occupancy>(geometry, Occupancy::FREE), MotionModel());
+}
+
+// A passable cell near the middle whose right neighbour is passable too.
+Cell middleOf(const CostGrid& map) {
+  Cell cell{map.geometry().width() / 2, map.geometry().height() / 2};
+  while (!map.passable(cell) || !map.passable({cell.column + 1, cell.row})) ++cell.column;
+  return cell;
+}
+
+// In the child: what it measures, as text.
+std::string measured(const Case& which, double limit_s) {
+  const auto map = mapOf(which);
+  const auto planner = makePlanner(which.planner);
+  planner->limitMemory(kMemoryLimit - std::min(kMemoryLimit, map->bytes()));
+  auto begin = Clock::now();
+  planner->prepare(map, StopToken());
+  const double prepare_s = secondsSince(begin);
+
+  const PlanRequest across{{0, 0}, {{which.side - 1, which.side - 1}}, false};
+  const StopSource stop;
+  PlanResult result;
+  double plan_s = std::numeric_limits<double>::max();
+  for (int i = 0; i < 3; ++i) {
+    result = planner->plan(across, stop.token(std::chrono::duration<double>(limit_s)));
+    plan_s = std::min(plan_s, result.statistics.time_s);
+    if (plan_s > kQuick || result.status != Status::FOUND) break;
+  }
+  double second_s = std::numeric_limits<double>::max();
+  const Cell middle = middleOf(*map);
+  const PlanRequest near{middle, {{middle.column + 1, middle.row}}, false};
+  for (int i = 0; i < 5; ++i)
+    second_s = std::min(second_s, planner->plan(near, stop.token()).statistics.time_s);
+
+  std::ostringstream out;
+  out << toString(result.status) << ' ' << prepare_s << ' ' << plan_s << ' ' << second_s << ' '
+      << result.costValue() << ' ' << result.statistics.expanded << ' '
+      << result.statistics.search_bytes << ' ' << result.message;
+  return out.str();
+}
+
+// Measures in a child process, whose peak of memory the system tells when it ends.
+Growth measure(const Case& which, double limit_s) {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+  std::cout.flush();
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("no process");
+  if (child == 0) {
+    std::string text = "failed 0 0 0 0 0 0 ";
+    try {
+      text = measured(which, limit_s);
+    } catch (const std::exception& error) {
+      text += error.what();
+    }
+    const bool written = write(ends[1], text.data(), text.size()) >= 0;
+    _exit(written ? 0 : 1);
+  }
+  close(ends[1]);
+  std::string text(4096, '\0');
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, read(ends[0], &text[0], text.size()))));
+  close(ends[0]);
+  int code = 0;
+  rusage usage{};
+  wait4(child, &code, 0, &usage);
+
+  Growth growth;
+  growth.of = which;
+  std::istringstream in(text);
+  in >> growth.status >> growth.prepare_s >> growth.plan_s >> growth.second_s >> growth.cost >>
+      growth.expanded >> growth.search_bytes >> std::ws;
+  std::getline(in, growth.message);
+  growth.peak_bytes = static_cast<double>(usage.ru_maxrss) * 1024.0;
+  return growth;
+}
+
+void printHead(std::ostream& out) {
+  out << "\n| planner | side | density | weights | status | prepare s | plan ms | second query µs "
+         "| "
+         "expanded | search bytes a cell | peak MB "
+         "|\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+}
+
+void print(std::ostream& out, const Growth& g) {
+  out << "| " << g.of.planner << " | " << g.of.side << " | " << g.of.density << " | "
+      << g.of.weights << " | " << (g.status == "INVALID_REQUEST" ? g.message : g.status) << " | ";
+  if (g.found())
+    out << g.prepare_s << " | " << g.plan_s * 1e3 << " | " << g.second_s * 1e6 << " | "
+        << g.expanded << " | " << g.search_bytes / g.cells() << " | ";
+  else
+    out << "| | | | | ";
+  out << g.peak_bytes / 1e6 << " |\n" << std::flush;
+}
+
+std::string withoutCommas(std::string text) {
+  std::replace(text.begin(), text.end(), ',', ';');
+  return text;
+}
+
+std::string csvOf(const std::vector<Growth>& all) {
+  std::ostringstream out;
+  out << "planner,side,density,weights,status,prepare_s,plan_s,second_s,cost,expanded,search_bytes,"
+         "peak_bytes,message\n";
+  out.precision(9);
+  for (const Growth& g : all)
+    out << g.of.planner << ',' << g.of.side << ',' << g.of.density << ',' << g.of.weights << ','
+        << g.status << ',' << g.prepare_s << ',' << g.plan_s << ',' << g.second_s << ',' << g.cost
+        << ',' << g.expanded << ',' << g.search_bytes << ',' << g.peak_bytes << ','
+        << withoutCommas(g.message) << '\n';
+  return out.str();
+}
+
+// The lines of a chart: `x` and `y` of what was found, a line a planner.
+template <class X, class Y>
+std::vector<LineSeries> seriesOf(const std::vector<Growth>& all, const X& x, const Y& y) {
+  std::vector<LineSeries> series;
+  for (const Growth& growth : all) {
+    if (!growth.found()) continue;
+    if (series.empty() || series.back().name != growth.of.planner)
+      series.push_back({growth.of.planner, {}});
+    series.back().points.emplace_back(x(growth), std::max(y(growth), 1e-9));
+  }
+  return series;
+}
+
+std::string htmlOf(const std::vector<Growth>& by_side, const std::vector<Growth>& by_density,
+                   const std::string& weights, double density_side) {
+  const auto side = [](const Growth& g) { return static_cast<double>(g.of.side); };
+  const auto density = [](const Growth& g) { return g.of.density * 100.0; };
+  const auto plan_ms = [](const Growth& g) { return g.plan_s * 1e3; };
+  const auto peak_mb = [](const Growth& g) { return g.peak_bytes / 1e6; };
+  const std::string map = weights == "rings" ? "obstacles with rings of weights" : "obstacles";
+  std::ostringstream out;
+  out << "<!doctype html><meta charset=\"utf-8\"><title>How cost "
+         "grows</title><style>body{margin:8px;"
+         "background:#fff;width:1560px;display:grid;grid-template-columns:1fr 1fr;gap:12px}"
+         "svg{width:100%;font:12px system-ui,sans-serif}.grid{stroke:#ddd}"
+         ".chart-title{font-weight:600;font-size:14px}</style>\n"
+      << linePlot("Corner to corner, " + map + " on 10 % of the area", "side of the map, cells",
+                  "plan, ms", seriesOf(by_side, side, plan_ms))
+      << linePlot("Peak memory of the process, map included", "side of the map, cells", "MB",
+                  seriesOf(by_side, side, peak_mb));
+  std::ostringstream title;
+  title << "Corner to corner on " << density_side << "x" << density_side;
+  out << linePlot(title.str() + ", " + map, "share of the area under obstacles, %", "plan, ms",
+                  seriesOf(by_density, density, plan_ms))
+      << linePlot("A second query, between neighbours", "side of the map, cells", "µs",
+                  seriesOf(by_side, side, [](const Growth& g) { return g.second_s * 1e6; }))
+      << '\n';
+  return out.str();
+}
+
+void writeText(const std::string& file, const std::string& text) {
+  if (file.empty()) return;
+  std::ofstream out(file);
+  out << text;
+  if (!out.flush()) throw InputError(file, "cannot be written");
+}
+
+// A planner that took longer than the limit is not asked on a larger map.
+std::vector<Growth> grow(const std::vector<Case>& cases, double limit_s) {
+  std::vector<Growth> all;
+  for (const Case& which : cases) {
+    const bool gave_up = !all.empty() && all.back().of.planner == which.planner &&
+                         all.back().status == "TIMEOUT" && all.back().of.side < which.side;
+    if (gave_up) continue;
+    all.push_back(measure(which, limit_s));
+    print(std::cout, all.back());
+  }
+  return all;
+}
+
+std::vector<std::string> partsOf(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+std::vector<double> numbersOf(const std::string& name, const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& part : partsOf(text)) numbers.push_back(numberFromText(name, part));
+  return numbers;
+}
+
+Options optionsFrom(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; i += 2) {
+    const std::string name = argv[i];
+    if (i + 1 == argc) throw InputError(name + " needs a value");
+    const std::string value = argv[i + 1];
+    if (name == "--sides")
+      options.sides = numbersOf(name, value);
+    else if (name == "--densities")
+      options.densities = numbersOf(name, value);
+    else if (name == "--density-side")
+      options.density_side = numberFromText(name, value);
+    else if (name == "--planners")
+      options.planners = partsOf(value);
+    else if (name == "--weights" && (value == "uniform" || value == "rings"))
+      options.weights = value;
+    else if (name == "--limit-s")
+      options.limit_s = numberFromText(name, value);
+    else if (name == "--csv")
+      options.csv = value;
+    else if (name == "--html")
+      options.html = value;
+    else
+      throw InputError("there is no " + name + " " + value);
+  }
+  return options;
+}
+
+void run(const Options& options) {
+  std::vector<Case> by_side, by_density;
+  for (const std::string& planner : options.planners) {
+    for (const double side : options.sides)
+      by_side.push_back({planner, static_cast<int>(side), kUsualDensity, options.weights});
+    for (const double density : options.densities)
+      by_density.push_back(
+          {planner, static_cast<int>(options.density_side), density, options.weights});
+  }
+  printHead(std::cout);
+  const std::vector<Growth> sides = grow(by_side, options.limit_s);
+  printHead(std::cout);
+  const std::vector<Growth> densities = grow(by_density, options.limit_s);
+  std::vector<Growth> all = sides;
+  all.insert(all.end(), densities.begin(), densities.end());
+  writeText(options.csv, csvOf(all));
+  writeText(options.html, htmlOf(sides, densities, options.weights, options.density_side));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    run(optionsFrom(argc, argv));
+  } catch (const std::exception& error) {
+    std::cerr << "engine_growth: " << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}

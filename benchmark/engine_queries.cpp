@@ -1,0 +1,199 @@
+// The time of every query of a MovingAI scenario file, for benchmark/engine_table.
+//
+//   grid_path_planner_engine_queries --scen FILE --map FILE --planner NAME[:HEURISTIC] [options]
+//
+//     --limit N            queries, spread evenly over the file
+//     --radius R --decay D inflation of the map, in cells and 1/cells (inflation_weight 40)
+//     --weights KIND       inflated: as the terrain makes them (default)
+//                          noise: 1 to 40, random in every passable cell
+//                          costmap: as navfn sees the cost map, 50 + 0.8 x (0 to 252)
+//     --write-costs FILE   the same map as costmap_2d has it (0 to 252, 254 blocked), an 8-bit PGM
+//     --list all           prints the planners, the heuristics and the default planner instead
+//
+// Prints "map", "planner" and, a line each, "query INDEX NANOSECONDS STATUS COST EXPANDED": of
+// plan() alone. NAME may be repeated by commas; the planners take turns, all queries at a time.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/option_parsing.h"
+#include "grid_path_planner/grid/map_file.h"
+#include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/planners/map_planner.h"
+#include "grid_path_planner/study/scenario_file.h"
+#include "grid_path_planner/terrain/terrain.h"
+
+namespace {
+
+using namespace grid_path_planner;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kInflationWeight = 40;
+constexpr int kMostCost = 252;       // of a passable cell in a costmap_2d
+constexpr int kLethalCost = 254;     // of a blocked one
+constexpr int kNeutralCost = 50;     // what navfn adds
+constexpr double kCostFactor = 0.8;  // and what it multiplies by
+
+class Arguments {
+ public:
+  Arguments(int argc, char** argv) {
+    for (int i = 1; i < argc; i += 2) {
+      if (i + 1 == argc) throw InputError(std::string(argv[i]) + " needs a value");
+      values_[argv[i]] = argv[i + 1];
+    }
+  }
+  std::string text(const std::string& name, const std::string& otherwise = "") const {
+    const auto found = values_.find(name);
+    return found == values_.end() ? otherwise : found->second;
+  }
+  double number(const std::string& name) const { return numberFromText(name, text(name, "0")); }
+
+ private:
+  std::map<std::string, std::string> values_;
+};
+
+// 0 to 252 for 1 to the inflation weight, as costmap_2d scales it.
+int costOf(CostGrid::Weight weight) {
+  if (weight == CostGrid::kBlocked) return kLethalCost;
+  return static_cast<int>(std::lround(kMostCost * (weight - 1.0) / (kInflationWeight - 1.0)));
+}
+
+std::shared_ptr<const CostGrid> inflated(const Arguments& arguments) {
+  const auto map = std::make_shared<const OccupancyGrid>(readMapFile(arguments.text("--map")));
+  TerrainOptions options;
+  options.radius = arguments.number("--radius") * map->geometry().resolution();
+  options.decay = arguments.number("--decay") / map->geometry().resolution();
+  options.inflation_weight = kInflationWeight;
+  Terrain terrain(options);
+  terrain.setMap(map);
+  return terrain.searched(StopToken());
+}
+
+std::shared_ptr<const CostGrid> withWeights(const CostGrid& map, const std::string& kind) {
+  Grid<CostGrid::Weight> weights = map.weights();
+  std::mt19937 random(20261121);
+  std::uniform_int_distribution<int> noise(1, kInflationWeight);
+  for (auto& weight : weights.values()) {
+    if (weight == CostGrid::kBlocked) continue;
+    const int value = kind == "noise" ? noise(random)
+                      : kind == "costmap"
+                          ? kNeutralCost + static_cast<int>(kCostFactor * costOf(weight))
+                          : weight;
+    weight = static_cast<CostGrid::Weight>(value);
+  }
+  return std::make_shared<const CostGrid>(std::move(weights), map.classes(), map.motion());
+}
+
+void writeCosts(const CostGrid& map, const std::string& file) {
+  std::ofstream out(file, std::ios::binary);
+  out << "P5\n" << map.geometry().width() << ' ' << map.geometry().height() << "\n255\n";
+  for (const CostGrid::Weight weight : map.weights().values())
+    out.put(static_cast<char>(costOf(weight)));
+  if (!out.flush()) throw InputError(file, "cannot be written");
+}
+
+std::unique_ptr<Planner> plannerOf(const std::string& subject) {
+  SearchOptions options;
+  const std::size_t colon = subject.find(':');
+  if (colon != std::string::npos)
+    options.heuristic = choiceFromName<Heuristic>("--planner", subject.substr(colon + 1));
+  return makePlanner(subject.substr(0, colon), options);
+}
+
+double millisecondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+// The median of what nine small changes of the map cost the planner.
+double repairMilliseconds(Planner& planner, std::shared_ptr<const CostGrid>& map) {
+  std::vector<double> times;
+  std::mt19937 random(7);
+  for (int i = 0; i < 9; ++i) {
+    const GridGeometry& geometry = map->geometry();
+    const CellRect changed = CellRect{static_cast<int>(random() % geometry.width()),
+                                      static_cast<int>(random() % geometry.height()), 9, 9}
+                                 .intersection(geometry.rect());
+    Grid<CostGrid::Weight> weights = map->weights();
+    for (int row = changed.row; row < changed.row + changed.height; ++row)
+      for (int column = changed.column; column < changed.column + changed.width; ++column) {
+        auto& weight = weights[Cell{column, row}];
+        weight = weight == CostGrid::kBlocked ? map->cheapest() : CostGrid::kBlocked;
+      }
+    auto next = std::make_shared<CostGrid>(std::move(weights), map->classes(), map->motion());
+    next->setRevision(map->revision() + 1);
+    map = std::move(next);
+    const auto begin = Clock::now();
+    planner.update(map, changed, StopToken());
+    times.push_back(millisecondsSince(begin));
+  }
+  std::nth_element(times.begin(), times.begin() + 4, times.end());
+  return times[4];
+}
+
+void run(const std::string& subject, std::shared_ptr<const CostGrid> map,
+         const std::vector<ScenarioQuery>& queries) {
+  const std::unique_ptr<Planner> planner = plannerOf(subject);
+  const auto begin = Clock::now();
+  planner->prepare(map, StopToken());
+  const double prepared = millisecondsSince(begin);
+  std::size_t search_bytes = 0;
+  std::ostringstream lines;
+  lines.precision(17);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const PlanResult result =
+        planner->plan({queries[i].start, {queries[i].goal}, false}, StopToken());
+    search_bytes = std::max(search_bytes, result.statistics.search_bytes);
+    lines << "query " << i << ' ' << std::llround(result.statistics.time_s * 1e9) << ' '
+          << toString(result.status) << ' ' << result.costValue() << ' '
+          << result.statistics.expanded << '\n';
+  }
+  std::cout << "planner " << subject << " prepare_ms " << prepared << " repair_ms "
+            << repairMilliseconds(*planner, map) << " search_bytes " << search_bytes << " optimal "
+            << planner->optimalFor(*map) << '\n'
+            << lines.str();
+}
+
+int list() {
+  std::cout << "planners";
+  for (const std::string& name : plannerNames()) std::cout << ' ' << name;
+  std::cout << "\nheuristics";
+  for (const auto& choice : choicesOf(Heuristic{})) std::cout << ' ' << choice.first;
+  std::cout << "\ndefault " << PlannerOptions().planner << '\n';
+  return 0;
+}
+
+int runAll(const Arguments& arguments) {
+  if (!arguments.text("--list").empty()) return list();
+  const auto inflated_map = inflated(arguments);
+  const auto map = withWeights(*inflated_map, arguments.text("--weights", "inflated"));
+  if (!arguments.text("--write-costs").empty())
+    writeCosts(*inflated_map, arguments.text("--write-costs"));
+  const std::vector<ScenarioQuery> queries =
+      spreadOver(readScenarioFile(arguments.text("--scen")),
+                 static_cast<std::size_t>(arguments.number("--limit")));
+  std::cout << "map cells " << map->geometry().size() << " cheapest " << map->cheapest() << '\n';
+  std::istringstream subjects(arguments.text("--planner"));
+  for (std::string subject; std::getline(subjects, subject, ',');) run(subject, map, queries);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return runAll(Arguments(argc, argv));
+  } catch (const std::exception& error) {
+    std::cerr << "engine_queries: " << error.what() << '\n';
+    return 2;
+  }
+}
