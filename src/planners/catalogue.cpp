@@ -2,6 +2,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/search/a_star.h"
+#include "grid_path_planner/search/anya.h"
 #include "grid_path_planner/search/dijkstra.h"
 #include "grid_path_planner/search/theta_star.h"
 #include "grid_path_planner/search/weighted_jump_point.h"
@@ -9,8 +10,8 @@
 namespace grid_path_planner {
 
 const std::vector<std::string>& plannerNames() {
-  static const std::vector<std::string> names = {"a_star", "weighted_jump_point", "dijkstra",
-                                                 "theta_star", "a_star_published"};
+  static const std::vector<std::string> names = {
+      "a_star", "weighted_jump_point", "dijkstra", "theta_star", "anya", "a_star_published"};
   return names;
 }
 
@@ -27,6 +28,7 @@ std::unique_ptr<Planner> make(const std::string& name, const SearchOptions& opti
   if (name == "weighted_jump_point") return std::make_unique<WeightedJumpPoint>();
   if (name == "dijkstra") return std::make_unique<Dijkstra>();
   if (name == "theta_star") return std::make_unique<ThetaStar>();
+  if (name == "anya") return std::make_unique<Anya>();
   if (name == "a_star_published") return std::make_unique<AStar>(AStar::published(options));
   throw InputError("planner must be one of " + listOfPlanners() + ", got '" + name + "'");
 }

@@ -149,6 +149,10 @@ std::string Planner::refusal(const CostGrid& map) const {
   if (motion.diagonal_cost == DiagonalCost::UNIT && !traits_.unit_diagonals)
     return "does not plan with diagonal_cost unit";
   if (motion.cut_corners && !traits_.cut_corners) return "does not plan with cut_corners";
+  if (!map.uniform() && !traits_.weights)
+    return "plans only where all passable cells weigh the same: set unknown_is_passable false or "
+           "unknown_weight to free_weight, occupied_is_passable false and decay 0, or take another "
+           "planner";
   return "";
 }
 

@@ -70,9 +70,11 @@ bool neighbours(Cell a, Cell b) {
   return a != b && std::abs(a.column - b.column) <= 1 && std::abs(a.row - b.row) <= 1;
 }
 
-// Whether the planner says that it cannot search a map of this motion model.
-bool refuses(const Traits& traits, const MotionModel& motion) {
-  return (motion.connectivity == Connectivity::FOUR && !traits.four_connected) ||
+// Whether the planner says that it cannot search this map.
+bool refuses(const Traits& traits, const CostGrid& map) {
+  const MotionModel& motion = map.motion();
+  return (!map.uniform() && !traits.weights) ||
+         (motion.connectivity == Connectivity::FOUR && !traits.four_connected) ||
          (motion.diagonal_cost == DiagonalCost::UNIT && !traits.unit_diagonals) ||
          (motion.cut_corners && !traits.cut_corners);
 }
@@ -123,7 +125,7 @@ TEST_P(Conformance, AnswersAreLegalAndTheLeastCostWhereOptimalityIsClaimed) {
       planner->prepare(map, StopToken());
       const PlanResult result = planner->plan(request, StopToken());
       SCOPED_TRACE("trial " + std::to_string(trial) + ", " + result.message);
-      if (refuses(planner->traits(), motion)) {
+      if (refuses(planner->traits(), *map)) {
         EXPECT_EQ(result.status, Status::INVALID_REQUEST);
         continue;
       }

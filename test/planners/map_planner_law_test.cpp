@@ -35,8 +35,13 @@ PlannerOptions randomOptions(std::mt19937& random) {
       random() % 4 == 0 ? Connectivity::FOUR : Connectivity::EIGHT;
   options.retry_finer = random() % 3 != 0;
   options.planner = plannerNames()[random() % plannerNames().size()];
-  if (!makePlanner(options.planner)->traits().four_connected)
-    options.terrain.motion.connectivity = Connectivity::EIGHT;
+  const Traits traits = makePlanner(options.planner)->traits();
+  if (!traits.four_connected) options.terrain.motion.connectivity = Connectivity::EIGHT;
+  if (!traits.cut_corners) options.terrain.motion.cut_corners = false;
+  if (!traits.weights) {
+    options.terrain.unknown_weight = options.terrain.free_weight;
+    options.terrain.decay = 0.0;
+  }
   return options;
 }
 

@@ -1,0 +1,84 @@
+#include "grid_path_planner/search/anya.h"
+
+#include <cmath>
+
+#include "taut_search.h"
+
+namespace grid_path_planner {
+namespace {
+
+// Measured on maps with a quarter of their cells blocked at random.
+constexpr std::size_t kBytesPerCell = 12;
+
+constexpr double kUnit = SegmentPoint::kUnitsPerCell;
+
+Traits anyaTraits() {
+  Traits traits;
+  traits.name = "anya";
+  traits.four_connected = false;
+  traits.unit_diagonals = false;
+  traits.cut_corners = false;
+  traits.weights = false;
+  traits.any_angle = true;
+  traits.repairs = true;
+  return traits;
+}
+
+TautSearch::Point inCells(SegmentPoint point) {
+  return {double(point.x) / kUnit, double(point.y) / kUnit};
+}
+
+SegmentPoint inUnits(TautSearch::Point point) {
+  return {std::llround(point.x * kUnit), std::llround(point.y * kUnit)};
+}
+
+// A passable cell that has this corner. Precondition: there is one.
+Cell cellAtCorner(const CostGrid& map, TautSearch::Point corner) {
+  const int column = static_cast<int>(corner.x), row = static_cast<int>(corner.y);
+  for (const Cell cell : {Cell{column, row}, Cell{column - 1, row}, Cell{column, row - 1}})
+    if (map.passable(cell)) return cell;
+  return {column - 1, row - 1};
+}
+
+}  // namespace
+
+Anya::Anya() : Planner(anyaTraits()), search_(std::make_unique<TautSearch>()) {}
+Anya::~Anya() = default;
+
+std::size_t Anya::bytesFor(const GridGeometry& geometry) const {
+  return BitMaps::bytesFor(geometry) + geometry.size() * kBytesPerCell;
+}
+
+void Anya::doPrepare(const StopToken& stop) {
+  rows_ = &map().bitMaps(stop).rows;
+}
+
+PlanResult Anya::doPlan(const PlanRequest& request, const StopToken& stop) {
+  const Cell start = request.start, goal = request.goals.front();
+  const SegmentPoint from = waypointOf(map(), start), to = waypointOf(map(), goal);
+  PlanResult result;
+  if (start == goal) {
+    result.status = Status::FOUND;
+    result.cells = {start};
+    result.points = {from};
+    return result;
+  }
+  std::vector<Cell> expanded;
+  const TautSearch::Answer answer =
+      search_->run(*rows_, inCells(from), inCells(to), stop, result.statistics,
+                   request.record_expanded ? &expanded : nullptr);
+  for (const Cell cell : expanded) result.expanded.push_back(map().geometry().index(cell));
+  result.status = answer.status;
+  result.statistics.search_bytes = search_->bytes();
+  if (answer.status != Status::FOUND) return result;
+
+  result.segment_cost = answer.length * map().cheapest() * map().kernel();
+  for (const TautSearch::Point& point : answer.points) {
+    result.points.push_back(inUnits(point));
+    result.cells.push_back(result.cells.empty() ? start : cellAtCorner(map(), point));
+  }
+  result.cells.back() = goal;
+  return result;
+}
+
+}  // namespace grid_path_planner

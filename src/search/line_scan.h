@@ -1,0 +1,56 @@
+// Scans of a row of a bit map, a word at a time. They rely on the zeros around it.
+#pragma once
+
+#include "grid_path_planner/terrain/bit_maps.h"
+
+namespace grid_path_planner {
+
+using Word = BitMap::Word;
+
+inline bool bitAt(const Word* row, int column) {
+  return (row[column >> 6] >> (column & 63) & 1U) != 0;
+}
+
+// The first 0 at or after `column`. Precondition: 0 <= column <= width.
+inline int zeroFrom(const Word* row, int column) {
+  int word = column >> 6;
+  Word zeros = ~row[word] >> (column & 63) << (column & 63);
+  while (zeros == 0) zeros = ~row[++word];
+  return word * 64 + __builtin_ctzll(zeros);
+}
+
+// The first 1 at or after `column`, or some column from `limit` on. Precondition: 0 <= column.
+inline int oneFrom(const Word* row, int column, int limit) {
+  if (column >= limit) return limit;
+  int word = column >> 6;
+  Word ones = row[word] >> (column & 63) << (column & 63);
+  while (ones == 0) {
+    if (++word * 64 >= limit) return limit;
+    ones = row[word];
+  }
+  return word * 64 + __builtin_ctzll(ones);
+}
+
+// The last 0 before `column`, -1 at least: what follows it up to `column` is all ones.
+// Precondition: 0 <= column <= width.
+inline int zeroBefore(const Word* row, int column) {
+  int word = (column - 1) >> 6;  // of column 0: the word of zeros before the row
+  const int shift = 63 - ((column - 1) & 63);
+  Word zeros = ~row[word] << shift >> shift;
+  while (zeros == 0) zeros = ~row[--word];
+  return word * 64 + 63 - __builtin_clzll(zeros);
+}
+
+// Whether all of [first, last) are ones. Precondition: 0 <= first < last <= width.
+inline bool allOnes(const Word* row, int first, int last) {
+  const int begin = first >> 6, end = (last - 1) >> 6;
+  Word zeros = ~row[begin] >> (first & 63) << (first & 63);
+  for (int word = begin; word < end; ++word) {
+    if (zeros != 0) return false;
+    zeros = ~row[word + 1];
+  }
+  const int shift = 63 - ((last - 1) & 63);
+  return zeros << shift == 0;
+}
+
+}  // namespace grid_path_planner

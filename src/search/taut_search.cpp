@@ -1,0 +1,387 @@
+#include "taut_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "line_scan.h"
+
+namespace grid_path_planner {
+namespace {
+
+constexpr double kTie = 1e-12;  // relative: sums of the same lengths in another order
+
+// Whole where it is nearer than 2^-31 to a whole number. Precondition: |x| < 2^31.
+double snapped(double x) {
+  constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to whole numbers
+  const double whole = (x + kRound) - kRound;
+  return std::abs(x - whole) < 0x1p-31 ? whole : x;
+}
+
+int floorOf(double x) {  // of x >= 0
+  return static_cast<int>(x);
+}
+int ceilOf(double x) {  // of x >= 0
+  const int below = static_cast<int>(x);
+  return below + (below < x ? 1 : 0);
+}
+
+// Which of the bits of the word are corners or ends of a walk along a line towards the lower (or
+// higher) cells: `a`, `b` are the rows beside the line, `a_past`, `b_past` the cells before these.
+Word events(Word a, Word b, Word a_past, Word b_past) {
+  const Word closed = ~a & ~b;
+  const Word pinch = (~a & ~b_past & a_past & b) | (~b & ~a_past & b_past & a);
+  const Word corner = a & b & (a_past ^ b_past);
+  return closed | pinch | corner;
+}
+
+}  // namespace
+
+// Where a ray is after so many lines; off the map it does not matter where.
+inline double TautSearch::reach(const Point& root, double ray, double lines) const {
+  const double x = root.x + ray * lines;
+  return snapped(std::min(std::max(x, -2.0), map_->width() + 2.0));
+}
+
+inline double TautSearch::distance(const Point& a, double x, double y) const {
+  return std::sqrt((a.x - x) * (a.x - x) + (a.y - y) * (a.y - y));
+}
+
+std::size_t TautSearch::bytes() const {
+  return roots_.size() * sizeof(Root) + corners_.bytes() +
+         nodes_.size() * (sizeof(Node) + sizeof(Entry) + sizeof(std::uint32_t));
+}
+
+void TautSearch::push(double f, const Node& node) {
+  if (f >= best_) return;
+  std::uint32_t place = static_cast<std::uint32_t>(nodes_.size());
+  if (unused_.empty()) {
+    nodes_.push_back(node);
+  } else {
+    place = unused_.back();
+    unused_.pop_back();
+    nodes_[place] = node;
+  }
+  heap_.push_back({f, place});
+  std::push_heap(heap_.begin(), heap_.end());
+  ++counts_->generated;
+}
+
+TautSearch::Node TautSearch::pop() {
+  std::pop_heap(heap_.begin(), heap_.end());
+  const std::uint32_t place = heap_.back().node;
+  heap_.pop_back();
+  unused_.push_back(place);
+  return nodes_[place];
+}
+
+void TautSearch::see(std::int32_t root) {
+  const double length = roots_[root].g + distance(roots_[root].at, goal_.x, goal_.y);
+  if (length >= best_) return;
+  best_ = length;
+  best_root_ = root;
+}
+
+// The least length of a way through the cone to the goal: straight, or round an end of the
+// interval; a goal on the root's side of the line is as far as its mirror image.
+double TautSearch::promise(const Node& cone) const {
+  const Root& root = roots_[cone.root];
+  const double lines = cone.rows * (cone.line - root.at.y);
+  const double beyond = std::abs(cone.line - goal_.y);
+  const double slope = (goal_.x - root.at.x) / (lines + beyond);
+  const bool left = slope<cone.ray[LEFT], right = slope> cone.ray[RIGHT];
+  const double across = goal_.x - root.at.x;
+  if (!left && !right)
+    return root.g + std::sqrt(across * across + (lines + beyond) * (lines + beyond));
+  const double turn = cone.ray[left ? LEFT : RIGHT] * lines;
+  return root.g + std::sqrt(turn * turn + lines * lines) +
+         std::sqrt((across - turn) * (across - turn) + beyond * beyond);
+}
+
+// A root at the corner for an arrival from `parent`, -1 where a better or wider one was there.
+std::int32_t TautSearch::relax(std::int32_t parent, int column, int line, Sense sense) {
+  const Root& from = roots_[parent];
+  const Point corner{double(column), double(line)};
+  const double g = from.g + distance(from.at, corner.x, corner.y);
+  if (g + distance(corner, goal_.x, goal_.y) >= best_) return -1;
+  const auto key = static_cast<std::uint64_t>(line) << 32 | static_cast<std::uint32_t>(column);
+  std::int32_t& known = corners_[key];
+  if (known >= 0) {
+    Root& root = roots_[known];
+    if (g > root.g * (1.0 + kTie)) return -1;
+    if (g >= root.g * (1.0 - kTie)) {
+      std::int32_t& widest = root.widest[sense];
+      if (widest >= 0) {
+        const Point& other = roots_[widest].at;
+        const double cross = (corner.x - other.x) * (corner.y - from.at.y) -
+                             (corner.y - other.y) * (corner.x - from.at.x);
+        if (sense == ANTICLOCKWISE ? cross >= 0.0 : cross <= 0.0) return -1;
+      }
+      widest = parent;
+      return known;
+    }
+    root.beaten = true;
+    ++counts_->reopened;
+  }
+  known = static_cast<std::int32_t>(roots_.size());
+  Root root{corner, g, parent, {-1, -1}, false};
+  root.widest[sense] = parent;
+  roots_.push_back(root);
+  return known;
+}
+
+void TautSearch::open(std::int32_t root, int line, int rows, double left, double right) {
+  const Node cone{{left, right}, root, line, static_cast<std::int8_t>(rows), 0};
+  push(promise(cone), cone);
+}
+
+// The next corner along the line, seen from the root, which lies on it.
+void TautSearch::follow(std::int32_t root, int column, int line, int columns) {
+  const Word* above = map_->row(line);
+  const Word* below = map_->row(line - 1);
+  int next = 0;
+  if (columns < 0) {
+    int word = (column - 2) >> 6;
+    const int shift = 63 - ((column - 2) & 63);
+    Word mask = ~Word{0} >> shift;
+    for (;; --word, mask = ~Word{0}) {
+      const Word a = above[word], b = below[word];
+      const Word found =
+          mask & events(a, b, a >> 1 | above[word + 1] << 63, b >> 1 | below[word + 1] << 63);
+      if (found == 0) continue;
+      next = word * 64 + 63 - __builtin_clzll(found) + 1;
+      break;
+    }
+  } else {
+    int word = (column + 1) >> 6;
+    Word mask = ~Word{0} << ((column + 1) & 63);
+    for (;; ++word, mask = ~Word{0}) {
+      const Word a = above[word], b = below[word];
+      const Word found =
+          mask & events(a, b, a << 1 | above[word - 1] >> 63, b << 1 | below[word - 1] >> 63);
+      if (found == 0) continue;
+      next = word * 64 + __builtin_ctzll(found);
+      break;
+    }
+  }
+  const int beyond = columns < 0 ? next - 1 : next;
+  if (!bitAt(above, beyond) || !bitAt(below, beyond)) return;  // closed, or a pinch
+  const double f =
+      roots_[root].g + std::abs(roots_[root].at.x - next) + distance(goal_, next, line);
+  push(f, {{double(next), 0.0}, root, line, 0, static_cast<std::int8_t>(columns)});
+}
+
+// A corner met along the line: round it, and on along the line.
+void TautSearch::expandCorner(const Node& node) {
+  const int column = static_cast<int>(node.ray[0]);
+  const int passed = node.columns < 0 ? column : column - 1;
+  const int rows = bitAt(map_->row(node.line), passed) ? -1 : 1;  // towards the obstacle's row
+  const Sense sense = (node.columns < 0) == (rows < 0) ? ANTICLOCKWISE : CLOCKWISE;
+  const std::int32_t root = relax(node.root, column, node.line, sense);
+  if (root < 0) return;
+  const Word* row = ahead(node.line, rows);
+  const int end = node.columns < 0 ? zeroBefore(row, column) + 1 : zeroFrom(row, column);
+  if (leadsToGoal(node.line, rows) && (goal_.x - column) * (goal_.x - end) <= 0.0) see(root);
+  open(root, node.line + rows, rows, std::min(0, end - column), std::max(0, end - column));
+  follow(node.root, column, node.line, node.columns);
+}
+
+TautSearch::Gate TautSearch::gateOf(const Node& cone, const double* near, const double* far,
+                                    int first, int last) const {
+  Gate gate{{near[LEFT], near[RIGHT]},
+            {cone.ray[LEFT], cone.ray[RIGHT]},
+            {far[LEFT], far[RIGHT]},
+            {first, last}};
+  const Point& root = roots_[cone.root].at;
+  const double lines = cone.rows * (cone.line - root.y);
+  const auto narrow = [&](Side side) {
+    gate.near[side] = gate.run[side];
+    gate.ray[side] = (gate.run[side] - root.x) / lines;
+    gate.far[side] = reach(root, gate.ray[side], lines + 1.0);
+  };
+  if (first > near[LEFT]) narrow(LEFT);
+  if (last < near[RIGHT]) narrow(RIGHT);
+  return gate;
+}
+
+void TautSearch::lookForGoal(const Node& cone, const Gate& gate) {
+  const Point& root = roots_[cone.root].at;
+  const double lines = std::abs(goal_.y - root.y);
+  if (goal_.x < gate.run[LEFT] || goal_.x > gate.run[RIGHT]) return;
+  const double slack = 0x1p-31;
+  if (goal_.x < root.x + gate.ray[LEFT] * lines - slack) return;
+  if (goal_.x > root.x + gate.ray[RIGHT] * lines + slack) return;
+  see(cone.root);
+}
+
+// Round the corner at one end of the gate, if there is one: to what lies in the run beyond the ray,
+// and along the line.
+void TautSearch::turn(const Node& cone, const Gate& gate, Side side) {
+  const int column = static_cast<int>(gate.near[side]);
+  if (column != gate.near[side]) return;
+  const int outer = side == LEFT ? column - 1 : column;
+  const bool behind_open = bitAt(ahead(cone.line, -cone.rows), outer);
+  const bool ahead_open = bitAt(ahead(cone.line, cone.rows), outer);
+  if (behind_open == ahead_open) return;
+
+  // What the ray leaves of the run on the far line.
+  const double inner = side == LEFT ? std::min(gate.far[LEFT], double(gate.run[RIGHT]))
+                                    : std::max(gate.far[RIGHT], double(gate.run[LEFT]));
+  const bool room = side == LEFT ? inner > gate.run[LEFT] : inner < gate.run[RIGHT];
+  if (!ahead_open && !room) return;
+  const Sense sense = (side == LEFT) == (cone.rows > 0) ? ANTICLOCKWISE : CLOCKWISE;
+  const std::int32_t root = relax(cone.root, column, cone.line, sense);
+  if (root < 0) return;
+  const double outer_ray = gate.run[side] - column;
+  const double inner_ray = inner == gate.far[side] ? gate.ray[side] : inner - column;
+  const double left = side == LEFT ? outer_ray : inner_ray;
+  const double right = side == LEFT ? inner_ray : outer_ray;
+  if (leadsToGoal(cone.line, cone.rows)) {
+    // The cell beside the line is whole: only the ray of the arrival limits what is seen in it.
+    Gate beyond = gate;
+    beyond.ray[LEFT] = side == LEFT ? -std::numeric_limits<double>::infinity() : gate.ray[RIGHT];
+    beyond.ray[RIGHT] = side == LEFT ? gate.ray[LEFT] : std::numeric_limits<double>::infinity();
+    Node from = cone;
+    from.root = root;
+    lookForGoal(from, beyond);
+  }
+  if (room) open(root, cone.line + cone.rows, cone.rows, left, right);
+  if (ahead_open) follow(root, column, cone.line, side == LEFT ? -1 : 1);
+}
+
+// Moves the cone on for as long as nothing is in its way and no corner touches it, at most to where
+// it has to be judged anew.
+void TautSearch::glide(Node& cone, double* near, double* far) const {
+  const Point root = roots_[cone.root].at;
+  const double left_ray = cone.ray[LEFT], right_ray = cone.ray[RIGHT];
+  const int rows = cone.rows, width = map_->width();
+  int line = cone.line;
+  double lines = rows * (line - root.y);
+  double left = reach(root, left_ray, lines), right = reach(root, right_ray, lines);
+  const Word* behind = ahead(line, -rows);
+  const std::ptrdiff_t stride = rows * map_->stride();
+  for (;;) {
+    lines += 1.0;
+    const double far_left = reach(root, left_ray, lines);
+    const double far_right = reach(root, right_ray, lines);
+    const Word* row = behind + stride;
+    const double least = std::min(left, far_left), most = std::max(right, far_right);
+    const int first = floorOf(least), last = ceilOf(most);
+    const int left_column = static_cast<int>(left), right_column = static_cast<int>(right);
+    const bool clear =
+        least >= 0.0 && most <= width && allOnes(row, first, last) &&
+        !(left == left_column && bitAt(row, left_column - 1) != bitAt(behind, left_column - 1)) &&
+        !(right == right_column && bitAt(row, right_column) != bitAt(behind, right_column)) &&
+        (rows > 0 ? line : line - 1) != goal_row_;
+    if (!clear) {
+      cone.line = line;
+      near[LEFT] = left;
+      near[RIGHT] = right;
+      far[LEFT] = far_left;
+      far[RIGHT] = far_right;
+      return;
+    }
+    left = far_left;
+    right = far_right;
+    behind = row;
+    line += rows;
+  }
+}
+
+void TautSearch::expandCone(Node cone) {
+  const Point root = roots_[cone.root].at;
+  for (;;) {
+    double near[2], far[2];
+    glide(cone, near, far);
+    const Word* row = ahead(cone.line, cone.rows);
+    const double lines = cone.rows * (cone.line - root.y);
+    Node next{};
+    int found = 0;
+    const bool goal_row = leadsToGoal(cone.line, cone.rows);
+    for (int column = oneFrom(row, floorOf(near[LEFT]), ceilOf(near[RIGHT]));
+         column < near[RIGHT];) {
+      const int first = zeroBefore(row, column) + 1;
+      const int last = zeroFrom(row, column);
+      const Gate gate = gateOf(cone, near, far, first, last);
+      if (goal_row) lookForGoal(cone, gate);
+      turn(cone, gate, LEFT);
+      turn(cone, gate, RIGHT);
+      const double left = std::max(gate.far[LEFT], double(first));
+      const double right = std::min(gate.far[RIGHT], double(last));
+      if (left < right) {
+        if (found++ > 0) push(promise(next), next);
+        next = cone;
+        next.line += cone.rows;
+        next.ray[LEFT] = left == gate.far[LEFT] ? gate.ray[LEFT] : (left - root.x) / (lines + 1.0);
+        next.ray[RIGHT] =
+            right == gate.far[RIGHT] ? gate.ray[RIGHT] : (right - root.x) / (lines + 1.0);
+      }
+      column = oneFrom(row, last, ceilOf(near[RIGHT]));
+    }
+    if (found == 0) return;
+    if (found > 1) return push(promise(next), next);
+    cone = next;
+  }
+}
+
+TautSearch::Answer TautSearch::run(const BitMap& rows, Point start, Point goal,
+                                   const StopToken& stop, Statistics& counts,
+                                   std::vector<Cell>* expanded) {
+  map_ = &rows;
+  counts_ = &counts;
+  goal_ = goal;
+  goal_row_ = floorOf(goal.y);
+  best_ = std::numeric_limits<double>::infinity();
+  best_root_ = -1;
+  roots_.clear();
+  nodes_.clear();
+  unused_.clear();
+  heap_.clear();
+  corners_.clear();
+
+  // 1. The start sees its run of cells, and through its upper and lower edge.
+  const int start_row = floorOf(start.y);
+  const Word* row = rows.row(start_row);
+  const int first = zeroBefore(row, floorOf(start.x)) + 1;
+  const int last = zeroFrom(row, floorOf(start.x));
+  roots_.push_back({start, 0.0, -1, {-1, -1}, false});
+  if (goal_row_ == start_row && first < goal.x && goal.x < last) see(0);
+  const double up = start_row + 1 - start.y, down = start.y - start_row;
+  open(0, start_row + 1, 1, (first - start.x) / up, (last - start.x) / up);
+  open(0, start_row, -1, (first - start.x) / down, (last - start.x) / down);
+
+  // 2. The most promising cone or corner, until none can lead to a shorter way.
+  StopPoll poll(stop, 16);  // an expansion may cross the whole map
+  Answer answer;
+  while (!heap_.empty() && heap_.front().f < best_) {
+    const StopReason reason = poll.ask();
+    if (reason != StopReason::NONE) {
+      answer.status = Stopped(reason).status();
+      return answer;
+    }
+    counts.peak_open = std::max(counts.peak_open, heap_.size());
+    const Node node = pop();
+    if (roots_[node.root].beaten) continue;
+    ++counts.expanded;
+    if (expanded) {
+      const int column = static_cast<int>(roots_[node.root].at.x);
+      expanded->push_back({std::min(column, rows.width() - 1),
+                           std::min(std::max(node.line, 0), rows.height() - 1)});
+    }
+    if (node.rows == 0)
+      expandCorner(node);
+    else
+      expandCone(node);
+  }
+  if (best_root_ < 0) return answer;
+
+  // 3. The way back over the roots.
+  answer.status = Status::FOUND;
+  answer.length = best_;
+  answer.points.push_back(goal);
+  for (std::int32_t at = best_root_; at >= 0; at = roots_[at].parent)
+    answer.points.push_back(roots_[at].at);
+  std::reverse(answer.points.begin(), answer.points.end());
+  return answer;
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,186 @@
+#include "grid_path_planner/search/anya.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "grid_path_planner/terrain/terrain.h"
+#include "support/ascii_map.h"
+#include "support/random_map.h"
+#include "support/visibility_graph.h"
+
+namespace grid_path_planner {
+namespace {
+
+std::shared_ptr<const CostGrid> costsOf(const OccupancyGrid& map,
+                                        const TerrainOptions& options = {}) {
+  Terrain terrain(options);
+  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+  return terrain.searched(StopToken());
+}
+
+PlanResult planOn(const std::shared_ptr<const CostGrid>& map, Cell start, Cell goal) {
+  Anya planner;
+  planner.prepare(map, StopToken());
+  return planner.plan({start, {goal}, false}, StopToken());
+}
+
+PlanResult planOn(const test::AsciiMap& picture) {
+  return planOn(costsOf(picture.map), picture.start, picture.goal);
+}
+
+SegmentPoint corner(int column, int row) {
+  return {column * SegmentPoint::kUnitsPerCell, row * SegmentPoint::kUnitsPerCell};
+}
+
+TEST(Anya, CrossesOpenWaterInOneLine) {
+  const PlanResult result = planOn(test::AsciiMap({"S......",  //
+                                                   ".......",  //
+                                                   "......G"}));
+  EXPECT_EQ(result.cells, (std::vector<Cell>{{0, 0}, {6, 2}}));
+  EXPECT_DOUBLE_EQ(result.costValue(), std::hypot(6, 2));
+}
+
+TEST(Anya, TurnsAtCornersOfCells) {
+  const PlanResult result = planOn(test::AsciiMap({"S..#..G",  //
+                                                   "...#...",  //
+                                                   "......."}));
+  ASSERT_EQ(result.status, Status::FOUND);
+  EXPECT_EQ(result.points,
+            (std::vector<SegmentPoint>{SegmentPoint::centreOf({0, 0}), corner(3, 2), corner(4, 2),
+                                       SegmentPoint::centreOf({6, 0})}));
+  EXPECT_EQ(result.cells.front(), (Cell{0, 0}));
+  EXPECT_EQ(result.cells.back(), (Cell{6, 0}));
+  EXPECT_DOUBLE_EQ(result.costValue(), 2 * std::hypot(2.5, 1.5) + 1.0);
+}
+
+// A corner met along a line between rows: round it to the other side.
+TEST(Anya, FollowsAWallAndTurnsAtItsEnd) {
+  const PlanResult result = planOn(test::AsciiMap({"...#...",  //
+                                                   "S..#...",  //
+                                                   "...####",  //
+                                                   ".......",  //
+                                                   ".#####.",  //
+                                                   ".....#G"}));
+  ASSERT_EQ(result.status, Status::FOUND);
+  EXPECT_EQ(result.points,
+            (std::vector<SegmentPoint>{SegmentPoint::centreOf({0, 1}), corner(3, 3), corner(6, 4),
+                                       SegmentPoint::centreOf({6, 5})}));
+}
+
+TEST(Anya, DoesNotSqueezeThroughACorner) {
+  EXPECT_EQ(planOn(test::AsciiMap({"S#",  //
+                                   "#G"}))
+                .status,
+            Status::UNREACHABLE);
+}
+
+TEST(Anya, StaysWhereItIs) {
+  const auto map = costsOf(test::AsciiMap({"S.G"}).map);
+  const PlanResult result = planOn(map, {1, 0}, {1, 0});
+  EXPECT_EQ(result.cells, std::vector<Cell>{(Cell{1, 0})});
+  EXPECT_EQ(result.points, std::vector<SegmentPoint>{SegmentPoint::centreOf({1, 0})});
+  EXPECT_EQ(result.costValue(), 0.0);
+}
+
+TEST(Anya, SaysWhatItCannotPlanWith) {
+  EXPECT_EQ(planOn(test::AsciiMap({"S?G"})).message,
+            "anya plans only where all passable cells weigh the same: set unknown_is_passable "
+            "false or unknown_weight to free_weight, occupied_is_passable false and decay 0, or "
+            "take another planner");
+  TerrainOptions options;
+  options.motion.cut_corners = true;
+  const PlanResult result = planOn(costsOf(test::AsciiMap({"S.G"}).map, options), {0, 0}, {2, 0});
+  EXPECT_EQ(result.status, Status::INVALID_REQUEST);
+  EXPECT_EQ(result.message, "anya does not plan with cut_corners");
+}
+
+// One weight, whatever it is; rectangles or single cells blocked.
+std::shared_ptr<const CostGrid> randomUniform(std::mt19937& random, int largest_side) {
+  const auto below = [&random](int limit) { return static_cast<int>(random() % limit); };
+  const auto weight = static_cast<CostGrid::Weight>(1 + below(3));
+  Grid<CostGrid::Weight> weights(
+      GridGeometry(1 + below(largest_side), 1 + below(largest_side), 1.0), weight);
+  const bool rectangles = below(2) == 0;
+  const double share = below(500) * 1e-3;
+  const int wanted =
+      static_cast<int>(share * (rectangles ? 20.0 : double(weights.values().size())));
+  for (int i = 0; i < wanted; ++i) {
+    const Cell low = test::randomCell(random, weights.geometry());
+    const CellRect rect =
+        CellRect{low.column, low.row, rectangles ? 1 + below(5) : 1, rectangles ? 1 + below(5) : 1}
+            .intersection(weights.geometry().rect());
+    for (int row = rect.row; row < rect.row + rect.height; ++row)
+      std::fill_n(weights.row(row) + rect.column, rect.width, CostGrid::kBlocked);
+  }
+  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  return std::make_shared<const CostGrid>(weights, classes, MotionModel());
+}
+
+void expectShortest(const std::shared_ptr<const CostGrid>& map, Cell start, Cell goal, int& found) {
+  const PlanResult result = planOn(map, start, goal);
+  const auto shortest = test::shortestAnyAngle(*map, start, goal);
+  ASSERT_EQ(result.status, shortest ? Status::FOUND : Status::UNREACHABLE);
+  if (!shortest) return;
+  ++found;
+  const double scale = map->cheapest() * map->kernel();
+  EXPECT_NEAR(result.costValue(), *shortest * scale, 1e-9 * *shortest * scale);
+  double cost = 0.0;
+  for (std::size_t i = 1; i < result.points.size(); ++i) {
+    ASSERT_TRUE(segmentLegal(*map, result.points[i - 1], result.points[i]));
+    cost += segmentCost(*map, result.points[i - 1], result.points[i]);
+  }
+  EXPECT_NEAR(result.costValue(), cost, 1e-9 * cost);
+}
+
+TEST(AnyaLaw, IsAsShortAsTheVisibilityGraph) {
+  std::mt19937 random(2016);
+  int found = 0;
+  for (int trial = 0; trial < 6000; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    const auto map = randomUniform(random, 16);
+    const Cell start = test::randomCell(random, map->geometry());
+    const Cell goal = test::randomCell(random, map->geometry());
+    if (map->passable(start) && map->passable(goal)) expectShortest(map, start, goal, found);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(found, 2500);
+}
+
+// Words are 64 cells: what lies across their edges.
+TEST(AnyaLaw, IsAsShortAsTheVisibilityGraphOnWideMaps) {
+  std::mt19937 random(64);
+  int found = 0;
+  for (int trial = 0; trial < 150; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    OccupancyGrid picture(GridGeometry(120 + trial % 20, 6, 1.0), 0);
+    for (auto& value : picture.values()) value = random() % 8 == 0 ? 100 : 0;
+    const auto map = costsOf(picture);
+    const Cell start{static_cast<int>(random() % 60), static_cast<int>(random() % 6)};
+    const Cell goal{70 + static_cast<int>(random() % 50), static_cast<int>(random() % 6)};
+    if (map->passable(start) && map->passable(goal)) expectShortest(map, start, goal, found);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(found, 50);
+}
+
+// In the last blocks of a kernel a path does not pass through the middle.
+TEST(AnyaLaw, IsAsShortAsTheVisibilityGraphOverBlocks) {
+  std::mt19937 random(3);
+  int found = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    TerrainOptions options;
+    options.kernel = 2 + trial % 4;
+    const auto map = costsOf(test::randomOccupancy(random, 40, 0.04, 0.0), options);
+    const Cell start = test::randomCell(random, map->geometry());
+    const Cell goal = test::randomCell(random, map->geometry());
+    if (map->passable(start) && map->passable(goal)) expectShortest(map, start, goal, found);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(found, 150);
+}
+
+}  // namespace
+}  // namespace grid_path_planner
