@@ -4,6 +4,7 @@
 #include "grid_path_planner/search/a_star.h"
 #include "grid_path_planner/search/anya.h"
 #include "grid_path_planner/search/dijkstra.h"
+#include "grid_path_planner/search/jump_point.h"
 #include "grid_path_planner/search/theta_star.h"
 #include "grid_path_planner/search/weighted_jump_point.h"
 
@@ -11,7 +12,8 @@ namespace grid_path_planner {
 
 const std::vector<std::string>& plannerNames() {
   static const std::vector<std::string> names = {
-      "a_star", "weighted_jump_point", "dijkstra", "theta_star", "anya", "a_star_published"};
+      "a_star", "weighted_jump_point", "jump_point", "dijkstra", "theta_star",
+      "anya",   "a_star_published"};
   return names;
 }
 
@@ -27,6 +29,7 @@ std::unique_ptr<Planner> make(const std::string& name, const SearchOptions& opti
   if (name == "a_star") return std::make_unique<AStar>(options);
   if (name == "weighted_jump_point") return std::make_unique<WeightedJumpPoint>();
   if (name == "dijkstra") return std::make_unique<Dijkstra>();
+  if (name == "jump_point") return std::make_unique<JumpPoint>();
   if (name == "theta_star") return std::make_unique<ThetaStar>();
   if (name == "anya") return std::make_unique<Anya>();
   if (name == "a_star_published") return std::make_unique<AStar>(AStar::published(options));

@@ -150,9 +150,10 @@ std::string Planner::refusal(const CostGrid& map) const {
     return "does not plan with diagonal_cost unit";
   if (motion.cut_corners && !traits_.cut_corners) return "does not plan with cut_corners";
   if (!map.uniform() && !traits_.weights)
-    return "plans only where all passable cells weigh the same: set unknown_is_passable false or "
-           "unknown_weight to free_weight, occupied_is_passable false and decay 0, or take another "
-           "planner";
+    return sentence("plans only where all passable cells weigh the same, and these weigh ",
+                    map.cheapest(), " to ", map.dearest(),
+                    ": set unknown_is_passable false or unknown_weight to free_weight,"
+                    " occupied_is_passable false and decay 0, or take another planner");
   return "";
 }
 

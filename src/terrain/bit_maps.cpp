@@ -1,7 +1,6 @@
 #include "grid_path_planner/terrain/bit_maps.h"
 
 #include <algorithm>
-#include <array>
 
 namespace grid_path_planner {
 namespace {
@@ -23,9 +22,11 @@ Word packed(const std::uint16_t* weights, int count) {
   return word;
 }
 
-// Bit j of word i becomes bit i of word j: halves are swapped across the diagonal, then the halves
-// of the halves (Warren, Hacker's Delight, 7-3).
-void transpose(std::array<Word, kBits>& block) {
+}  // namespace
+
+// Halves are swapped across the diagonal, then the halves of the halves (Warren, Hacker's Delight,
+// 7-3).
+void transpose(BitBlock& block) {
   Word mask = 0x00000000FFFFFFFFU;
   for (int half = kBits / 2; half != 0; half /= 2, mask ^= mask << half)
     for (int i = 0; i < kBits; i = ((i | half) + 1) & ~half) {
@@ -35,9 +36,11 @@ void transpose(std::array<Word, kBits>& block) {
     }
 }
 
+namespace {
+
 // The block of 64x64 cells whose first cell is (column, row), both multiples of 64.
 void transposeBlock(const BitMap& rows, BitMap& columns, int column, int row) {
-  std::array<Word, kBits> block{};
+  BitBlock block{};
   const int height = std::min(kBits, rows.height() - row);
   for (int i = 0; i < height; ++i) block[i] = rows.row(row + i)[column / kBits];
   transpose(block);

@@ -70,13 +70,12 @@ bool neighbours(Cell a, Cell b) {
   return a != b && std::abs(a.column - b.column) <= 1 && std::abs(a.row - b.row) <= 1;
 }
 
-// Whether the planner says that it cannot search this map.
+// Whether the planner says that it cannot search the map.
 bool refuses(const Traits& traits, const CostGrid& map) {
   const MotionModel& motion = map.motion();
-  return (!map.uniform() && !traits.weights) ||
-         (motion.connectivity == Connectivity::FOUR && !traits.four_connected) ||
+  return (motion.connectivity == Connectivity::FOUR && !traits.four_connected) ||
          (motion.diagonal_cost == DiagonalCost::UNIT && !traits.unit_diagonals) ||
-         (motion.cut_corners && !traits.cut_corners);
+         (motion.cut_corners && !traits.cut_corners) || (!map.uniform() && !traits.weights);
 }
 
 // Whether the point lies in the cell or on its edge.

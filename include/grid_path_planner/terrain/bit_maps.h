@@ -10,6 +10,7 @@
 // inside the memory, and every neighbour of a cell of the map may be looked at without asking.
 #pragma once
 
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -70,6 +71,10 @@ class BitMap {
   std::ptrdiff_t stride_;  // the words of a row and a word of zeros, which is also the next row's
   std::vector<Word> words_;
 };
+
+// 64 words of 64 bits. transpose: bit j of word i becomes bit i of word j.
+using BitBlock = std::array<BitMap::Word, BitMap::kWordBits>;
+void transpose(BitBlock& block);
 
 // Bit 1: the cell's weight is not 0, so it is passable.
 struct BitMaps {

@@ -45,6 +45,8 @@ class CostGrid {
   const Grid<Occupancy>& classes() const { return classes_; }
   // The smallest weight of a passable cell; 0 where there is none.
   Weight cheapest() const { return cheapest_; }
+  // The largest; 0 where there is none.
+  Weight dearest() const { return dearest_; }
   // Whether all passable cells weigh the same.
   bool uniform() const { return cheapest_ == dearest_; }
 

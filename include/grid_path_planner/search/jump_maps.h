@@ -1,0 +1,92 @@
+// What jump point search wants to know of every cell, as bits that are made and repaired 64 cells
+// at a time.
+//
+//   JumpMaps maps;
+//   maps.build(map.bitMaps(stop), stop);
+//   if (maps.leads(0, cell)) next = maps.stop(0, cell);  // the jump point to the east
+//
+// Going straight, one stops before a cell that is blocked and at a turn: a free cell beside which
+// an obstacle ends, so that the shortest way around the obstacle may turn there. With p the cell
+// before x, x is a turn where a neighbour beside p is blocked and the one beside x is not
+// (corners are not cut; Harabor & Grastien, "The JPS Pathfinding System", SoCS 2012).
+// Going diagonally, one stops where the way ends, and where a straight way that leads to a turn
+// branches off.
+//
+// So a straight jump is a search for the next 0 bit in one line of words, and a diagonal one looks
+// at one bit a step, where scanning the three lines of every branch would take dozens of
+// instructions. Memory: 12 bits a cell. Directions are numbered as in search/steps.h.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/search/steps.h"
+#include "grid_path_planner/terrain/bit_maps.h"
+
+namespace grid_path_planner {
+
+class JumpMaps {
+ public:
+  using Word = BitMap::Word;
+
+  // Throws Stopped.
+  void build(const BitMaps& free, const StopToken& stop);
+  // `free` differs from what was built only inside `changed`, which is repaired, and as far around
+  // as straight ways lead into it without a stop. Throws Stopped.
+  void update(const BitMaps& free, const CellRect& changed, const StopToken& stop);
+
+  static std::size_t bytesFor(const GridGeometry& geometry);
+  std::size_t bytes() const;
+
+  // Of the straight steps 0..3: whether the first stop beyond `cell` is a turn.
+  bool leads(int step, Cell cell) const { return leads_[step][cell]; }
+  // The column (steps 0, 2) or row (1, 3) of the first stop beyond `cell`: of a turn, or of the
+  // first blocked cell, which may lie one outside the map.
+  int stop(int step, Cell cell) const {
+    const bool horizontal = step % 2 == 0;
+    const Word* line = go_[step].row(horizontal ? cell.row : cell.column);
+    const int from = horizontal ? cell.column : cell.row;
+    return step < 2 ? nextZero(line, from) : previousZero(line, from);
+  }
+  // Of the diagonal steps 4..7: how many steps to the first stop beyond `cell`: a cell from which a
+  // straight way leads to a turn, or one into which the diagonal step is not allowed.
+  int diagonalStop(int step, Cell cell) const;
+
+  friend bool operator==(const JumpMaps& a, const JumpMaps& b) {
+    return a.go_ == b.go_ && a.leads_ == b.leads_ && a.pass_ == b.pass_;
+  }
+
+ private:
+  static int nextZero(const Word* line, int from) {
+    int index = from >> 6;
+    Word zeros = ~line[index] & ~Word{1} << (from & 63);
+    while (zeros == 0) zeros = ~line[++index];
+    return index * BitMap::kWordBits + __builtin_ctzll(zeros);
+  }
+  static int previousZero(const Word* line, int from) {
+    int index = from >> 6;
+    Word zeros = ~line[index] & ((Word{1} << (from & 63)) - 1);
+    while (zeros == 0) zeros = ~line[--index];
+    return index * BitMap::kWordBits + 63 - __builtin_clzll(zeros);
+  }
+
+  struct Range {
+    int first;
+    int last;
+  };
+
+  void markStops(const BitMap& free, int line, int first_word, int last_word, int axis);
+  void markRowLeads(const BitMap& free, int row, int first_word, int last_word);
+  void markColumnLeads(const BitMap& free, int word, int first_block, int last_block);
+  void markPasses(const BitMap& free, int row, int first_word, int last_word);
+  // Of a line, the cells that see something of `along` on their straight way, and `along`.
+  Range reachOf(int axis, int line, Range along) const;
+
+  // A bit is 1 where one does not stop. By straight step; 1 and 3 transposed, a column a row.
+  std::array<BitMap, 4> go_;
+  std::array<BitMap, 4> leads_;  // by straight step, all row by row
+  std::array<BitMap, 4> pass_;   // by diagonal step - 4: 1 where one does not stop
+};
+
+}  // namespace grid_path_planner

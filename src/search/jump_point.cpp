@@ -1,0 +1,359 @@
+#include "grid_path_planner/search/jump_point.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "grid_path_planner/search/search_key.h"
+
+namespace grid_path_planner {
+namespace {
+
+// An expansion may cross the map several times.
+constexpr std::uint32_t kExpansionsBetweenPolls = 64;
+
+Traits jumpPointTraits() {
+  Traits traits;
+  traits.name = "jump_point";
+  traits.four_connected = false;
+  traits.unit_diagonals = false;
+  traits.cut_corners = false;
+  traits.weights = false;
+  traits.optimal = true;
+  traits.repairs = true;
+  return traits;
+}
+
+// Keys of one cell length and one diagonal, neighbouring convergents of sqrt 2: the order of keys
+// below kLargest is that of costs (see terrain/exact_cost.h).
+struct SmallScale {
+  using Key = std::uint32_t;
+  static constexpr Key kStraight = 33461;
+  static constexpr Key kDiagonal = 47321;
+  static constexpr Key kLargest = kStraight * kDiagonal;
+};
+struct LargeScale {
+  using Key = std::uint64_t;
+  static constexpr Key kStraight = kStraightKey;
+  static constexpr Key kDiagonal = kDiagonalKey;
+  static constexpr Key kLargest = kLargestKey;
+};
+
+// The straight steps that a diagonal step is made of: columns, then rows.
+constexpr int sideOf(int diagonal) {
+  return kSteps[diagonal].column > 0 ? 0 : 2;
+}
+constexpr int heightOf(int diagonal) {
+  return kSteps[diagonal].row > 0 ? 1 : 3;
+}
+constexpr int diagonalOf(int side, int height) {
+  return height == 1 ? (side == 0 ? 4 : 5) : (side == 0 ? 7 : 6);
+}
+
+constexpr Cell moved(Cell cell, int step, int times) {
+  return {cell.column + times * kSteps[step].column, cell.row + times * kSteps[step].row};
+}
+
+// One search: what every part of an expansion needs.
+template <class Scale>
+class Search {
+ public:
+  using Key = typename Scale::Key;
+  using Nodes = JumpNodes<Key>;
+
+  Search(const BitMap& free, const JumpMaps& maps, Nodes& nodes, const PlanRequest& request,
+         const StopToken& stop)
+      : free_(free),
+        maps_(maps),
+        nodes_(nodes),
+        request_(request),
+        goal_(request.goals.front()),
+        poll_(stop, kExpansionsBetweenPolls) {}
+
+  enum class Outcome { FOUND, EXHAUSTED, TOO_LARGE };
+
+  // The result gets its expanded cells and statistics. Throws nothing; `stopped` says why it ended.
+  Outcome run(PlanResult& result, StopReason& stopped) {
+    Statistics& counts = result.statistics;
+    nodes_.begin(free_.width());
+    const std::uint32_t start = nodes_.find(request_.start);
+    goal_number_ = request_.start == goal_ ? start : kNone;
+    nodes_[start].arrived = nodes_[start].waiting = kEverywhere;
+    nodes_.push(estimate(request_.start), start);
+    generated_ = 1;
+    Outcome outcome = Outcome::EXHAUSTED;
+    while (nodes_.open()) {
+      stopped = poll_.ask();
+      if (stopped != StopReason::NONE) break;
+      number_ = nodes_.pop();
+      auto& node = nodes_[number_];
+      if (node.waiting == 0) continue;
+      ++counts.expanded;
+      if (request_.record_expanded) result.expanded.push_back(cellIndex(nodes_.cell(number_)));
+      if (number_ == goal_number_) {
+        outcome = Outcome::FOUND;
+        break;
+      }
+      const std::uint8_t steps = node.waiting;
+      node.waiting = 0;
+      expand(nodes_.cell(number_), node.g, steps);
+      if (too_large_) {
+        outcome = Outcome::TOO_LARGE;
+        break;
+      }
+    }
+    counts.generated = generated_;
+    counts.reopened = reopened_;
+    counts.peak_open = nodes_.peakOpen();
+    return outcome;
+  }
+
+  // All cells from the start to the goal. Precondition: run() was FOUND.
+  std::vector<Cell> path() const {
+    std::size_t count = 1;
+    for (std::uint32_t at = goal_number_; at != 0; at = nodes_[at].parent) {
+      const Cell to = nodes_.cell(at), from = nodes_.cell(nodes_[at].parent);
+      count += static_cast<std::size_t>(
+          std::max(std::abs(to.column - from.column), std::abs(to.row - from.row)));
+    }
+    std::vector<Cell> cells(count);
+    for (std::uint32_t at = goal_number_; at != 0; at = nodes_[at].parent)
+      count = writeBackwards(nodes_.cell(nodes_[at].parent), nodes_.cell(at), cells, count);
+    cells[0] = request_.start;
+    return cells;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr std::uint8_t kEverywhere = 15;
+
+  static Key length(int diagonals, int straights) {
+    return static_cast<Key>(diagonals) * Scale::kDiagonal +
+           static_cast<Key>(straights) * Scale::kStraight;
+  }
+  Key estimate(Cell cell) const {
+    const int columns = std::abs(cell.column - goal_.column);
+    const int rows = std::abs(cell.row - goal_.row);
+    return columns < rows ? length(columns, rows - columns) : length(rows, columns - rows);
+  }
+  CellIndex cellIndex(Cell cell) const {
+    return CellIndex(static_cast<std::uint32_t>(cell.row) * std::uint32_t(free_.width()) +
+                     static_cast<std::uint32_t>(cell.column));
+  }
+
+  // Of a way from `from` to `to` that is diagonal first: the cells after `from`, the last at
+  // cells[end - 1]. Returns where they begin.
+  static std::size_t writeBackwards(Cell from, Cell to, std::vector<Cell>& cells, std::size_t end) {
+    while (to != from) {
+      cells[--end] = to;
+      const int columns = to.column - from.column, rows = to.row - from.row;
+      if (std::abs(columns) >= std::abs(rows)) to.column -= columns > 0 ? 1 : -1;
+      if (std::abs(rows) >= std::abs(columns)) to.row -= rows > 0 ? 1 : -1;
+    }
+    return end;
+  }
+
+  void expand(Cell from, Key g, std::uint8_t steps) {
+    unsigned ways = 0;
+    if (steps == kEverywhere) {
+      ways = 255;
+    } else {
+      for (unsigned rest = steps; rest != 0; rest &= rest - 1)
+        ways |= waysAfter(from, __builtin_ctz(rest));
+    }
+    for (unsigned rest = ways & 15U; rest != 0; rest &= rest - 1)
+      goStraight(from, g, __builtin_ctz(rest));
+    for (unsigned rest = ways & ~15U; rest != 0; rest &= rest - 1)
+      goDiagonally(from, g, __builtin_ctz(rest));
+  }
+
+  // Where to go on from a turn that was reached by a straight step: straight on, and around the
+  // obstacle that ends beside it.
+  unsigned waysAfter(Cell turn, int step) const {
+    unsigned ways = 1U << step;
+    const Cell before = moved(turn, step, -1);
+    for (const int side : {(step + 1) % 4, (step + 3) % 4}) {
+      if (free_[moved(before, side, 1)] || !free_[moved(turn, side, 1)]) continue;
+      ways |= 1U << side;
+      ways |= 1U << (step % 2 == 0 ? diagonalOf(step, side) : diagonalOf(side, step));
+    }
+    return ways;
+  }
+
+  void goStraight(Cell from, Key g, int step) {
+    if (goalAhead(from, step)) {
+      const int steps = std::abs(goal_.column - from.column) + std::abs(goal_.row - from.row);
+      return reach(goal_, g + length(0, steps), step);
+    }
+    if (!maps_.leads(step, from)) return;
+    const int stop = maps_.stop(step, from);
+    if (step % 2 == 0)
+      reach({stop, from.row}, g + length(0, std::abs(stop - from.column)), step);
+    else
+      reach({from.column, stop}, g + length(0, std::abs(stop - from.row)), step);
+  }
+
+  // Whether the goal lies on the straight way, not beyond its first stop.
+  bool goalAhead(Cell from, int step) const {
+    if (step % 2 == 0) {
+      if (goal_.row != from.row || (goal_.column - from.column) * kSteps[step].column <= 0)
+        return false;
+      const int stop = maps_.stop(step, from);
+      return step == 0 ? stop >= goal_.column : stop <= goal_.column;
+    }
+    if (goal_.column != from.column || (goal_.row - from.row) * kSteps[step].row <= 0) return false;
+    const int stop = maps_.stop(step, from);
+    return step == 1 ? stop >= goal_.row : stop <= goal_.row;
+  }
+
+  // From `from` diagonally: from every cell on the way the straight ways that lead to turns, and
+  // to the goal.
+  void goDiagonally(Cell from, Key g, int step) {
+    const int side = sideOf(step), height = heightOf(step);
+    const int goal_columns = (goal_.column - from.column) * kSteps[step].column;
+    const int goal_rows = (goal_.row - from.row) * kSteps[step].row;
+    const int goal_line =
+        goal_columns >= 0 && goal_rows >= 0 ? std::min(goal_columns, goal_rows) : 0;
+    int gone = 0;
+    while (true) {
+      const Cell at = moved(from, step, gone);
+      const int next = gone + maps_.diagonalStop(step, at);
+      if (gone < goal_line && goal_line < next) goTowardsGoal(from, g, step, goal_line);
+      gone = next;
+      const Cell cell = moved(from, step, gone);
+      if (!entered(cell, step)) return;
+      if (gone == goal_line) goTowardsGoal(from, g, step, goal_line);
+      const Key to_g = g + length(gone, 0);
+      if (maps_.leads(side, cell)) {
+        const int stop = maps_.stop(side, cell);
+        reach({stop, cell.row}, to_g + length(0, std::abs(stop - cell.column)), side);
+      }
+      if (maps_.leads(height, cell)) {
+        const int stop = maps_.stop(height, cell);
+        reach({cell.column, stop}, to_g + length(0, std::abs(stop - cell.row)), height);
+      }
+    }
+  }
+
+  // From the cell of a diagonal way that lies in the goal's column or row, or is the goal.
+  void goTowardsGoal(Cell from, Key g, int step, int diagonals) {
+    const Cell cell = moved(from, step, diagonals);
+    const Key to_g = g + length(diagonals, 0);
+    if (cell == goal_) return reach(goal_, to_g, sideOf(step));
+    const int straight = cell.row == goal_.row ? sideOf(step) : heightOf(step);
+    if (!goalAhead(cell, straight)) return;
+    const int steps = std::abs(goal_.column - cell.column) + std::abs(goal_.row - cell.row);
+    reach(goal_, to_g + length(0, steps), straight);
+  }
+
+  // Whether the diagonal step into `cell` is allowed, its beginning being passable.
+  bool entered(Cell cell, int step) const {
+    return free_[cell] && free_[{cell.column - kSteps[step].column, cell.row}] &&
+           free_[{cell.column, cell.row - kSteps[step].row}];
+  }
+
+  // A way to a turn or the goal: the node gets it if it is cheaper, or as cheap from another side.
+  void reach(Cell cell, Key g, int step) {
+    if (g >= Scale::kLargest) {
+      too_large_ = true;
+      return;
+    }
+    const std::uint32_t number = nodes_.find(cell);
+    auto& node = nodes_[number];
+    const auto bit = static_cast<std::uint8_t>(1U << step);
+    if (node.arrived == 0 || g < node.g) {
+      if (node.arrived != 0 && node.waiting == 0) ++reopened_;
+      node.arrived = node.waiting = bit;
+      node.g = g;
+      node.parent = number_;
+      if (cell == goal_) goal_number_ = number;
+    } else if (g == node.g && (node.arrived & bit) == 0) {
+      const bool queued = node.waiting != 0;
+      node.arrived |= bit;
+      node.waiting |= bit;
+      if (queued) return;
+      ++reopened_;
+    } else {
+      return;
+    }
+    nodes_.push(g + estimate(cell), number);
+    ++generated_;
+  }
+
+  const BitMap& free_;
+  const JumpMaps& maps_;
+  Nodes& nodes_;
+  const PlanRequest& request_;
+  const Cell goal_;
+  StopPoll poll_;
+  std::uint32_t number_ = 0;  // of the node that is expanded
+  std::uint32_t goal_number_ = kNone;
+  std::uint64_t generated_ = 0;
+  std::uint64_t reopened_ = 0;
+  bool too_large_ = false;
+};
+
+ExactCost costOf(const std::vector<Cell>& cells, const CostGrid& map) {
+  ExactCost steps;
+  for (std::size_t i = 1; i < cells.size(); ++i) {
+    const bool diagonal =
+        cells[i].column != cells[i - 1].column && cells[i].row != cells[i - 1].row;
+    (diagonal ? steps.diagonal : steps.straight) += 1;
+  }
+  return steps * (std::int64_t{map.cheapest()} * map.kernel());
+}
+
+// The bits.
+std::size_t mapBytes(const GridGeometry& geometry) {
+  return BitMaps::bytesFor(geometry) + JumpMaps::bytesFor(geometry);
+}
+
+}  // namespace
+
+JumpPoint::JumpPoint() : Planner(jumpPointTraits()) {}
+
+// On noise up to half of the cells are turns, and a search that looks at all of them needs a node,
+// two places in the table and a share of the open list for each.
+std::size_t JumpPoint::bytesFor(const GridGeometry& geometry) const {
+  constexpr std::size_t kTurnBytes = sizeof(JumpNodes<std::uint32_t>::Node) + 12;
+  return mapBytes(geometry) + geometry.size() / 2 * kTurnBytes;
+}
+
+void JumpPoint::doPrepare(const StopToken& stop) {
+  maps_.build(map().bitMaps(stop), stop);
+}
+
+void JumpPoint::doUpdate(const CellRect& changed, const StopToken& stop) {
+  maps_.update(map().bitMaps(stop), changed, stop);
+}
+
+template <class Scale>
+std::optional<PlanResult> JumpPoint::search(JumpNodes<typename Scale::Key>& nodes,
+                                            const PlanRequest& request, const StopToken& stop) {
+  using Found = Search<Scale>;
+  Found search(map().bitMaps(stop).rows, maps_, nodes, request, stop);
+  PlanResult result;
+  StopReason stopped = StopReason::NONE;
+  const auto outcome = search.run(result, stopped);
+  if (outcome == Found::Outcome::TOO_LARGE) return std::nullopt;
+  result.status = Status::UNREACHABLE;
+  if (stopped != StopReason::NONE) result.status = Stopped(stopped).status();
+  if (outcome == Found::Outcome::FOUND) {
+    result.status = Status::FOUND;
+    result.cells = search.path();
+    result.cost = costOf(result.cells, map());
+  }
+  result.statistics.search_bytes = mapBytes(map().geometry()) + nodes.bytes();
+  return result;
+}
+
+PlanResult JumpPoint::doPlan(const PlanRequest& request, const StopToken& stop) {
+  // The estimate must fit beside the cost: no way is as long as a map's sides of 2^15 cells.
+  const GridGeometry& geometry = map().geometry();
+  if (std::max(geometry.width(), geometry.height()) <= 1 << 15)
+    if (auto result = search<SmallScale>(nodes_, request, stop)) return std::move(*result);
+  if (auto result = search<LargeScale>(large_nodes_, request, stop)) return std::move(*result);
+  throw CostOverflow();
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,137 @@
+// Jump maps say of every cell what walking cell by cell says, and after any edits what maps made
+// anew say.
+#include "grid_path_planner/search/jump_maps.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/random_map.h"
+
+namespace grid_path_planner {
+namespace {
+
+using Weights = Grid<CostGrid::Weight>;
+
+Weights blockedWith(std::mt19937& random, int width, int height, double share) {
+  Weights weights(GridGeometry(width, height, 1.0), 1);
+  std::bernoulli_distribution blocked(share);
+  for (auto& weight : weights.values())
+    if (blocked(random)) weight = CostGrid::kBlocked;
+  return weights;
+}
+
+bool passable(const Weights& weights, Cell cell) {
+  return weights.contains(cell) && weights[cell] != CostGrid::kBlocked;
+}
+
+Cell beside(Cell cell, int step) {
+  return {cell.column + kSteps[step].column, cell.row + kSteps[step].row};
+}
+
+// Whether going on by `step` from `before` one may have to turn at the next cell.
+bool turnAfter(const Weights& weights, Cell before, int step) {
+  const Cell cell = beside(before, step);
+  if (!passable(weights, cell)) return false;
+  for (const int side : {(step + 1) % 4, (step + 3) % 4})
+    if (!passable(weights, beside(before, side)) && passable(weights, beside(cell, side)))
+      return true;
+  return false;
+}
+
+struct Stop {
+  Cell cell;
+  bool turn;
+};
+
+Stop stopBeyond(const Weights& weights, Cell cell, int step) {
+  while (true) {
+    const bool turn = turnAfter(weights, cell, step);
+    cell = beside(cell, step);
+    if (turn || !passable(weights, cell)) return {cell, turn};
+  }
+}
+
+bool diagonalStepAllowed(const Weights& weights, Cell from, int step) {
+  const Cell to = beside(from, step);
+  return passable(weights, to) && passable(weights, {from.column, to.row}) &&
+         passable(weights, {to.column, from.row});
+}
+
+int diagonalStopBeyond(const Weights& weights, Cell cell, int step) {
+  const int side = kSteps[step].column > 0 ? 0 : 2;
+  const int height = kSteps[step].row > 0 ? 1 : 3;
+  for (int steps = 1; true; ++steps) {
+    if (!diagonalStepAllowed(weights, cell, step)) return steps;
+    cell = beside(cell, step);
+    if (stopBeyond(weights, cell, side).turn || stopBeyond(weights, cell, height).turn)
+      return steps;
+  }
+}
+
+// Of some 500 cells: every one of a small map.
+void expectTrue(const JumpMaps& maps, const Weights& weights) {
+  const std::size_t stride = 1 + weights.values().size() / 500;
+  for (std::size_t i = 0; i < weights.values().size(); i += stride) {
+    const Cell cell = weights.geometry().cell(CellIndex(static_cast<std::uint32_t>(i)));
+    if (!passable(weights, cell)) continue;
+    for (int step = 0; step < 4; ++step) {
+      const Stop stop = stopBeyond(weights, cell, step);
+      ASSERT_EQ(maps.leads(step, cell), stop.turn) << cell << " step " << step;
+      ASSERT_EQ(maps.stop(step, cell), step % 2 == 0 ? stop.cell.column : stop.cell.row)
+          << cell << " step " << step;
+    }
+    for (int step = 4; step < 8; ++step)
+      ASSERT_EQ(maps.diagonalStop(step, cell), diagonalStopBeyond(weights, cell, step))
+          << cell << " step " << step;
+  }
+}
+
+TEST(JumpMaps, SayWhatWalkingCellByCellSays) {
+  std::mt19937 random(1);
+  for (const int width : {1, 2, 7, 63, 64, 65, 150})
+    for (const int height : {1, 5, 64, 131})
+      for (const double share : {0.0, 0.01, 0.1, 0.4}) {
+        const Weights weights = blockedWith(random, width, height, share);
+        JumpMaps maps;
+        maps.build(BitMaps(weights, StopToken()), StopToken());
+        expectTrue(maps, weights);
+      }
+}
+
+TEST(JumpMaps, AreAfterEditsAsIfMadeAnew) {
+  std::mt19937 random(2);
+  for (const double share : {0.001, 0.02, 0.3}) {
+    Weights weights = blockedWith(random, 210, 170, share);
+    BitMaps bits(weights, StopToken());
+    JumpMaps maps;
+    maps.build(bits, StopToken());
+    for (int edit = 0; edit < 150; ++edit) {
+      const Cell low = test::randomCell(random, weights.geometry());
+      const int side = edit % 3 == 0 ? 80 : 3;
+      const CellRect changed =
+          CellRect{low.column, low.row, 1 + int(random() % side), 1 + int(random() % side)}
+              .intersection(weights.geometry().rect());
+      std::bernoulli_distribution blocked(share);
+      for (int row = changed.row; row < changed.row + changed.height; ++row)
+        for (int column = changed.column; column < changed.column + changed.width; ++column)
+          weights[Cell{column, row}] = blocked(random) ? CostGrid::kBlocked : 1;
+      bits.update(weights, changed, StopToken());
+      maps.update(bits, changed, StopToken());
+      JumpMaps fresh;
+      fresh.build(bits, StopToken());
+      ASSERT_TRUE(maps == fresh) << "share " << share << " edit " << edit;
+    }
+  }
+}
+
+TEST(JumpMaps, TakeTheBytesTheySay) {
+  std::mt19937 random(3);
+  const Weights weights = blockedWith(random, 300, 200, 0.2);
+  JumpMaps maps;
+  maps.build(BitMaps(weights, StopToken()), StopToken());
+  EXPECT_EQ(maps.bytes(), JumpMaps::bytesFor(weights.geometry()));
+}
+
+}  // namespace
+}  // namespace grid_path_planner
