@@ -69,7 +69,7 @@ Route RouteFinder::find(Cell start, Cell goal, bool retry_finer, bool record_exp
 
 PlanResult RouteFinder::leave(Cell from, Cell other, const Blocks& wanted, bool record_expanded,
                               const StopToken& stop) {
-  if (!leaver_) leaver_ = std::make_unique<BestFirstSearch>();
+  if (!leaver_) leaver_ = std::make_unique<BucketSearch>();
   if (leaver_map_ != fine_) {
     leaver_map_.reset();
     leaver_->prepare(*fine_, stop);
@@ -81,8 +81,7 @@ PlanResult RouteFinder::leave(Cell from, Cell other, const Blocks& wanted, bool 
     const Cell block = blockOf(cell);
     return wanted[searched_->geometry().index(block).value()] != 0 && middleOf(block) == cell;
   };
-  const auto cheapestFirst = [](SearchKey g, Cell) { return BestFirstSearch::Promise{g, 0}; };
-  return leaver_->run(*fine_, from, arrived, cheapestFirst, record_expanded, stop);
+  return leaver_->run(*fine_, from, arrived, noEstimate, record_expanded, stop);
 }
 
 RouteFinder::Blocks RouteFinder::openBlocks() const {

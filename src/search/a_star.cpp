@@ -46,7 +46,7 @@ AStar::AStar(Traits traits, const SearchOptions& options, BestFirstSearch::GoalT
 }
 
 std::size_t AStar::bytesFor(const GridGeometry& geometry) const {
-  return BestFirstSearch::bytesFor(geometry);
+  return strictlyOrdered() ? BestFirstSearch::bytesFor(geometry) : BucketSearch::bytesFor(geometry);
 }
 
 bool AStar::optimalFor(const CostGrid& map) const {
@@ -54,19 +54,48 @@ bool AStar::optimalFor(const CostGrid& map) const {
 }
 
 void AStar::doPrepare(const StopToken& stop) {
-  search_.prepare(map(), stop);
+  if (strictlyOrdered())
+    in_order_.prepare(map(), stop);
+  else
+    by_buckets_.prepare(map(), stop);
 }
 
 void AStar::doUpdate(const CellRect& changed, const StopToken& stop) {
-  search_.update(map(), changed, stop);
+  if (strictlyOrdered())
+    in_order_.update(map(), changed, stop);
+  else
+    by_buckets_.update(map(), changed, stop);
 }
 
 PlanResult AStar::doPlan(const PlanRequest& request, const StopToken& stop) {
+  return strictlyOrdered() ? planInOrder(request, stop) : planByBuckets(request, stop);
+}
+
+PlanResult AStar::planByBuckets(const PlanRequest& request, const StopToken& stop) {
+  const Cell goal = request.goals.front();
+  const std::uint32_t goal_index = map().geometry().index(goal).value();
+  const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
+  const auto plainOctile = [&](const KeyScale& scale) {
+    return [estimate = OctileEstimate(map(), goal, scale)](Cell cell, std::uint32_t) {
+      return estimate(cell);
+    };
+  };
+  const auto general = [&](const KeyScale& scale) {
+    return [estimate = Estimate(options_, map(), request.start, goal, scale)](
+               Cell cell, std::uint32_t) { return estimate(cell); };
+  };
+  if (Estimate(options_, map(), request.start, goal).plainOctile())
+    return by_buckets_.run(map(), request.start, isGoal, plainOctile, request.record_expanded,
+                           stop);
+  return by_buckets_.run(map(), request.start, isGoal, general, request.record_expanded, stop);
+}
+
+PlanResult AStar::planInOrder(const PlanRequest& request, const StopToken& stop) {
   const Cell goal = request.goals.front();
   const std::uint32_t goal_index = map().geometry().index(goal).value();
   const Estimate estimate(options_, map(), request.start, goal);
   const TieBreak tie_break = options_.tie_break;
-  return search_.run(
+  return in_order_.run(
       map(), request.start, [goal_index](std::uint32_t index) { return index == goal_index; },
       [&estimate, tie_break](SearchKey g, Cell cell) {
         return BestFirstSearch::Promise{saturatingSum(g, estimate(cell)),

@@ -19,7 +19,7 @@ Traits dijkstraTraits() {
 Dijkstra::Dijkstra() : Planner(dijkstraTraits()) {}
 
 std::size_t Dijkstra::bytesFor(const GridGeometry& geometry) const {
-  return BestFirstSearch::bytesFor(geometry);
+  return BucketSearch::bytesFor(geometry);
 }
 
 void Dijkstra::doPrepare(const StopToken& stop) {
@@ -34,15 +34,10 @@ PlanResult Dijkstra::doPlan(const PlanRequest& request, const StopToken& stop) {
   std::vector<std::uint32_t> goals;
   for (const Cell goal : request.goals) goals.push_back(map().geometry().index(goal).value());
   std::sort(goals.begin(), goals.end());
-  return search_.run(
-      map(), request.start,
-      [&goals](std::uint32_t index) {
-        return std::binary_search(goals.begin(), goals.end(), index);
-      },
-      [](SearchKey g, Cell) {
-        return BestFirstSearch::Promise{g, 0};
-      },
-      request.record_expanded, stop);
+  const auto isGoal = [&goals](std::uint32_t index) {
+    return std::binary_search(goals.begin(), goals.end(), index);
+  };
+  return search_.run(map(), request.start, isGoal, noEstimate, request.record_expanded, stop);
 }
 
 }  // namespace grid_path_planner

@@ -39,8 +39,10 @@ bool optimalWith(const SearchOptions& options, const CostGrid& map) {
          options.tie_break != TieBreak::CROSS_PRODUCT_PUBLISHED;
 }
 
-Estimate::Estimate(const SearchOptions& options, const CostGrid& map, Cell start, Cell goal)
-    : heuristic_(options.heuristic),
+Estimate::Estimate(const SearchOptions& options, const CostGrid& map, Cell start, Cell goal,
+                   const KeyScale& scale)
+    : scale_(scale),
+      heuristic_(options.heuristic),
       published_cross_(options.tie_break == TieBreak::CROSS_PRODUCT_PUBLISHED),
       start_(start),
       goal_(goal),
@@ -49,7 +51,7 @@ Estimate::Estimate(const SearchOptions& options, const CostGrid& map, Cell start
   // The longest estimate, octile or euclidean, is below (width + height) * weight straight steps.
   const std::uint64_t longest =
       static_cast<std::uint64_t>(map.geometry().width()) + map.geometry().height();
-  const bool fits = weight_ == 0 || longest <= kInfiniteKey / (2 * kStraightKey * weight_);
+  const bool fits = weight_ == 0 || longest <= kInfiniteKey / (2 * scale_.straight * weight_);
   integral_ = fits && options.epsilon == 1.0 && !published_cross_ && !heuristicScale(options);
 }
 
@@ -66,9 +68,9 @@ SearchKey Estimate::distance(std::uint64_t columns, std::uint64_t rows) const {
     case Heuristic::ZERO:
       return 0;
     case Heuristic::MANHATTAN:
-      return (columns + rows) * kStraightKey;
+      return (columns + rows) * scale_.straight;
     case Heuristic::CHEBYSHEV:
-      return std::max(columns, rows) * kStraightKey;
+      return std::max(columns, rows) * scale_.straight;
     case Heuristic::OCTILE:
       return octile(columns, rows);
     case Heuristic::EUCLIDEAN:
@@ -76,7 +78,7 @@ SearchKey Estimate::distance(std::uint64_t columns, std::uint64_t rows) const {
   }
   // One unit below: the rounding of the square root must not lift it above the true length.
   const long double length = std::sqrt(static_cast<long double>(columns * columns + rows * rows));
-  const SearchKey key = roundedDown(length * static_cast<long double>(kStraightKey));
+  const SearchKey key = roundedDown(length * static_cast<long double>(scale_.straight));
   return key > 0 ? key - 1 : 0;
 }
 
@@ -86,7 +88,7 @@ SearchKey Estimate::general(Cell cell, std::uint64_t columns, std::uint64_t rows
   long double key = static_cast<long double>(cells) * static_cast<long double>(factor_);
   if (published_cross_)
     key += kPublishedCrossFactor * static_cast<long double>(cross(cell)) *
-           static_cast<long double>(kStraightKey);
+           static_cast<long double>(scale_.straight);
   return roundedDown(key);
 }
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/search/best_first_search.h"
+#include "grid_path_planner/search/bucket_search.h"
 #include "grid_path_planner/search/planner.h"
 #include "grid_path_planner/search/search_options.h"
 #include "grid_path_planner/terrain/cost_grid.h"
@@ -76,7 +76,7 @@ class RouteFinder {
   std::unique_ptr<Planner> planner_;            // on searched_
   std::unique_ptr<Planner> finer_;              // on fine_, made when first needed
   std::shared_ptr<const CostGrid> finer_map_;   // what finer_ is prepared for
-  std::unique_ptr<BestFirstSearch> leaver_;     // on fine_, made when first needed
+  std::unique_ptr<BucketSearch> leaver_;        // on fine_, made when first needed
   std::shared_ptr<const CostGrid> leaver_map_;  // what leaver_ is prepared for
 };
 

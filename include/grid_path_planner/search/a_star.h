@@ -6,11 +6,16 @@
 // 1 and an admissible heuristic it is at most epsilon times the least. Otherwise nothing but a
 // legal path.
 //
+// tie_break none leaves the order of nearly equally promising cells to the quickest open list
+// (bucket_search.h); the others order strictly by promise, then by what they are named for
+// (best_first_search.h), at several times the cost.
+//
 // `a_star_published` is the original study's program: it stops when the goal is generated, not when
 // it is expanded, and claims nothing. It exists so that the study can be repeated.
 #pragma once
 
 #include "grid_path_planner/search/best_first_search.h"
+#include "grid_path_planner/search/bucket_search.h"
 #include "grid_path_planner/search/planner.h"
 #include "grid_path_planner/search/search_options.h"
 
@@ -33,9 +38,17 @@ class AStar : public Planner {
  private:
   AStar(Traits traits, const SearchOptions& options, BestFirstSearch::GoalTest goal_test);
 
+  bool strictlyOrdered() const {
+    return options_.tie_break != TieBreak::NONE ||
+           goal_test_ == BestFirstSearch::GoalTest::WHEN_GENERATED;
+  }
+  PlanResult planByBuckets(const PlanRequest& request, const StopToken& stop);
+  PlanResult planInOrder(const PlanRequest& request, const StopToken& stop);
+
   SearchOptions options_;
   BestFirstSearch::GoalTest goal_test_;
-  BestFirstSearch search_;
+  BucketSearch by_buckets_;  // one of the two is used
+  BestFirstSearch in_order_;
 };
 
 }  // namespace grid_path_planner

@@ -4,7 +4,7 @@
 // the one that is answered is the cheapest to reach: which is what it is for where A* is not.
 #pragma once
 
-#include "grid_path_planner/search/best_first_search.h"
+#include "grid_path_planner/search/bucket_search.h"
 #include "grid_path_planner/search/planner.h"
 
 namespace grid_path_planner {
@@ -21,7 +21,7 @@ class Dijkstra : public Planner {
   PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
 
  private:
-  BestFirstSearch search_;
+  BucketSearch search_;
 };
 
 }  // namespace grid_path_planner

@@ -24,7 +24,8 @@ bool optimalWith(const SearchOptions& options, const CostGrid& map);
 // The estimate that A* with `options` adds to g for the way from `start` to `goal` on `map`.
 class Estimate {
  public:
-  Estimate(const SearchOptions& options, const CostGrid& map, Cell start, Cell goal);
+  Estimate(const SearchOptions& options, const CostGrid& map, Cell start, Cell goal,
+           const KeyScale& scale = kWideScale);
 
   SearchKey operator()(Cell cell) const {
     const auto columns = static_cast<std::uint64_t>(std::abs(cell.column - goal_.column));
@@ -33,18 +34,22 @@ class Estimate {
     return general(cell, columns, rows);
   }
 
+  // Whether OctileEstimate gives the same.
+  bool plainOctile() const { return integral_ && heuristic_ == Heuristic::OCTILE; }
+
   // |cross product| of the vectors from the goal to `cell` and to the start: 0 on the straight
   // line.
   std::uint64_t cross(Cell cell) const;
 
  private:
-  static SearchKey octile(std::uint64_t columns, std::uint64_t rows) {
-    return columns < rows ? (rows - columns) * kStraightKey + columns * kDiagonalKey
-                          : (columns - rows) * kStraightKey + rows * kDiagonalKey;
+  SearchKey octile(std::uint64_t columns, std::uint64_t rows) const {
+    return columns < rows ? (rows - columns) * scale_.straight + columns * scale_.diagonal
+                          : (columns - rows) * scale_.straight + rows * scale_.diagonal;
   }
   SearchKey general(Cell cell, std::uint64_t columns, std::uint64_t rows) const;
   SearchKey distance(std::uint64_t columns, std::uint64_t rows) const;
 
+  KeyScale scale_;
   Heuristic heuristic_;
   bool published_cross_;
   Cell start_;
@@ -52,6 +57,27 @@ class Estimate {
   SearchKey weight_;  // the scale where it is the cheapest weight
   double factor_;     // the scale as a number, times epsilon
   bool integral_;     // the estimate is distance * weight_ and fits
+};
+
+// The octile distance at the cheapest weight, for inner loops.
+class OctileEstimate {
+ public:
+  OctileEstimate(const CostGrid& map, Cell goal, const KeyScale& scale)
+      : goal_(goal),
+        straight_(scale.straight * map.cheapest()),
+        diagonal_(scale.diagonal * map.cheapest()) {}
+
+  SearchKey operator()(Cell cell) const {
+    const auto columns = static_cast<std::uint64_t>(std::abs(cell.column - goal_.column));
+    const auto rows = static_cast<std::uint64_t>(std::abs(cell.row - goal_.row));
+    const std::uint64_t less = columns < rows ? columns : rows;
+    return (columns + rows - 2 * less) * straight_ + less * diagonal_;
+  }
+
+ private:
+  Cell goal_;
+  SearchKey straight_;
+  SearchKey diagonal_;
 };
 
 }  // namespace grid_path_planner

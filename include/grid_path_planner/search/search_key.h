@@ -18,11 +18,26 @@ constexpr SearchKey kDiagonalKey = 4478554083U;
 constexpr SearchKey kLargestKey = kStraightKey * kDiagonalKey;
 constexpr SearchKey kInfiniteKey = std::numeric_limits<SearchKey>::max();
 
+// A unit of length as keys: of a straight step of weight 1, of a diagonal one, and the largest key
+// up to which the order is exact.
+struct KeyScale {
+  SearchKey straight;
+  SearchKey diagonal;
+  SearchKey largest;
+};
+constexpr KeyScale kWideScale = {kStraightKey, kDiagonalKey, kLargestKey};
+// Keys of 43 bits, by an earlier convergent from above: costs up to 3.2e6 cell lengths x weight.
+constexpr KeyScale kPackedScale = {2744210, 3880899, (SearchKey{1} << 43) - 1};
+
 // Thrown by a search whose costs reach it; Planner::plan makes INVALID_REQUEST of it.
 struct CostOverflow {};
 
 constexpr SearchKey diagonalKey(DiagonalCost cost) {
   return cost == DiagonalCost::SQRT2 ? kDiagonalKey : kStraightKey;
+}
+
+constexpr SearchKey diagonalKey(const KeyScale& scale, DiagonalCost cost) {
+  return cost == DiagonalCost::SQRT2 ? scale.diagonal : scale.straight;
 }
 
 constexpr SearchKey saturatingSum(SearchKey a, SearchKey b) {

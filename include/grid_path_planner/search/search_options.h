@@ -20,7 +20,7 @@ struct SearchOptions {
   Heuristic heuristic = Heuristic::OCTILE;
   std::string heuristic_scale = "cheapest";  // "cheapest", or a number >= 0
   double epsilon = 1.0;                      // >= 1
-  TieBreak tie_break = TieBreak::LARGER_G;
+  TieBreak tie_break = TieBreak::NONE;
   int memory_limit = 6000;  // MB
 };
 
@@ -38,7 +38,9 @@ void visitOptions(SearchOptions& o, Visitor&& visit) {
         OptionInfo{"Weight of the heuristic: above 1 the cost is at most that many times the least",
                    "", 1, 1000});
   visit("tie_break", o.tie_break,
-        OptionInfo{"Which of equally promising cells is expanded first", ""});
+        OptionInfo{"Which of equally promising cells is expanded first: none leaves it to the "
+                   "quickest order, the others cost several times as much a cell",
+                   ""});
   visit("memory_limit", o.memory_limit,
         OptionInfo{"What a planner may take for itself, the map not counted: it refuses a map that "
                    "needs more, before it takes anything",

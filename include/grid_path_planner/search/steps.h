@@ -15,6 +15,19 @@ namespace grid_path_planner {
 constexpr std::array<Cell, 8> kSteps = {Cell{1, 0}, Cell{0, 1},  Cell{-1, 0},  Cell{0, -1},
                                         Cell{1, 1}, Cell{-1, 1}, Cell{-1, -1}, Cell{1, -1}};
 
+// What each step adds to a cell's index.
+std::array<std::ptrdiff_t, 8> stepOffsets(int width);
+
+// The steps that are allowed from the middle of a 3x3, by its nine bits (neighbourhoods.h).
+class NeighbourhoodMasks {
+ public:
+  explicit NeighbourhoodMasks(const MotionModel& motion);
+  std::uint8_t operator[](unsigned bits) const { return masks_[bits]; }
+
+ private:
+  std::array<std::uint8_t, 512> masks_{};
+};
+
 // One byte a cell, bit n for step n.
 class StepMasks {
  public:

@@ -1,0 +1,65 @@
+// Which steps are worth trying from a cell, by the step that led there: what another way is sure to
+// serve as well is left out.
+//
+// A step from x to y is left out after the step d from p where a way from p to y around x, inside
+// x's 3x3, costs less by the weights' least regard (y next to p: straight from p it is nearer), or,
+// where the 3x3 weighs the same all over or all the map does, costs the same with its diagonals
+// first (Harabor & Grastien, "Online graph pruning for pathfinding on grid maps", AAAI 2011). A
+// least-cost path of the tried steps remains to every cell, as long as a cell that is reached at
+// equal cost by another step tries what that one leaves open: missing().
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/search/steps.h"
+#include "grid_path_planner/terrain/cost_grid.h"
+
+namespace grid_path_planner {
+
+class Moves {
+ public:
+  // Throw Stopped. `changed`: the cells whose weights changed since.
+  void build(const CostGrid& map, const StopToken& stop);
+  void update(const CostGrid& map, const CellRect& changed, const StopToken& stop);
+
+  // The steps to try from a cell that was reached by any of `steps`; all for the start, which no
+  // step led to. Bit n for step n of steps.h.
+  std::uint32_t after(std::uint32_t steps, std::uint32_t index) const {
+    const std::uint8_t kind = kinds_[index];
+    if (steps == 0) return allowed(kind);
+    std::uint32_t tried = 0;
+    for (; steps != 0; steps &= steps - 1) tried |= tried_[lowest(steps)][kind];
+    return tried;
+  }
+
+  // Whether a cell that was reached by `steps` has to try more if it is reached by `step`, too.
+  bool missing(std::uint32_t steps, unsigned step, std::uint32_t index) const;
+
+  // What step n adds to a cell's index.
+  const std::array<std::ptrdiff_t, 8>& offsets() const { return offsets_; }
+
+ private:
+  using Kind = std::uint8_t;
+
+  // A cell's kind is the mask of the allowed steps, but for one that cannot be: all diagonals and
+  // nothing straight stands for an open 3x3 of one weight.
+  static constexpr Kind kAllEqual = 0xF0;
+
+  static unsigned lowest(std::uint32_t steps) {
+    return static_cast<unsigned>(__builtin_ctz(steps));
+  }
+  std::uint32_t allowed(Kind kind) const { return marks_equal_ && kind == kAllEqual ? 0xFF : kind; }
+  void makeTables(const CostGrid& map);
+
+  std::vector<Kind> kinds_;
+  std::array<std::ptrdiff_t, 8> offsets_{};
+  std::array<std::array<std::uint8_t, 256>, 8> tried_{};  // by step, by kind
+  std::array<std::uint8_t, 8> never_{};                   // by step: what is dearer than around
+  bool marks_equal_ = false;
+  bool uniform_ = false;
+};
+
+}  // namespace grid_path_planner

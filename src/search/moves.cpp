@@ -1,0 +1,96 @@
+#include "grid_path_planner/search/moves.h"
+
+#include <cstdlib>
+
+#include "grid_path_planner/search/neighbourhoods.h"
+
+namespace grid_path_planner {
+namespace {
+
+bool diagonal(Cell step) {
+  return step.column != 0 && step.row != 0;
+}
+
+std::uint8_t bitOf(Cell step) {
+  for (std::size_t n = 0; n < kSteps.size(); ++n)
+    if (kSteps[n] == step) return static_cast<std::uint8_t>(1U << n);
+  return 0;
+}
+
+// The steps that, after `step`, lead back or to where one straight step would have led: straight
+// from the cell before costs at most the dearer one of the two steps, whatever the weights.
+std::uint8_t dearerAfter(Cell step) {
+  std::uint8_t dearer = 0;
+  for (const Cell next : kSteps) {
+    const Cell sum{step.column + next.column, step.row + next.row};
+    if (std::abs(sum.column) + std::abs(sum.row) <= 1)
+      dearer = static_cast<std::uint8_t>(dearer | bitOf(next));
+  }
+  return dearer;
+}
+
+// Of the `allowed` steps after `step`, where all passable cells weigh the same and corners are not
+// cut: straight on; sideways only around a blocked cell that is left behind; after a diagonal its
+// two parts as well.
+std::uint8_t canonicalAfter(Cell step, std::uint8_t allowed) {
+  if (diagonal(step))
+    return static_cast<std::uint8_t>(
+        allowed & (bitOf(step) | bitOf({step.column, 0}) | bitOf({0, step.row})));
+  unsigned tried = bitOf(step);
+  for (const Cell side : {Cell{step.row, step.column}, Cell{-step.row, -step.column}})
+    if ((allowed & bitOf({side.column - step.column, side.row - step.row})) == 0)
+      tried |= bitOf(side) | bitOf({side.column + step.column, side.row + step.row});
+  return static_cast<std::uint8_t>(allowed & tried);
+}
+
+bool canonicalHolds(const MotionModel& motion) {
+  return motion.connectivity == Connectivity::EIGHT &&
+         motion.diagonal_cost == DiagonalCost::SQRT2 && !motion.cut_corners;
+}
+
+}  // namespace
+
+bool Moves::missing(std::uint32_t steps, unsigned step, std::uint32_t index) const {
+  const Kind kind = kinds_[index];
+  if (!uniform_ && !(marks_equal_ && kind == kAllEqual)) return false;
+  std::uint32_t done = 0;
+  for (; steps != 0; steps &= steps - 1) {
+    const unsigned known = lowest(steps);
+    done |= tried_[known][kind] | never_[known];
+  }
+  return (tried_[step][kind] & ~done) != 0;
+}
+
+void Moves::makeTables(const CostGrid& map) {
+  marks_equal_ = canonicalHolds(map.motion());
+  uniform_ = marks_equal_ && map.uniform();
+  for (std::size_t step = 0; step < kSteps.size(); ++step) {
+    never_[step] = dearerAfter(kSteps[step]);
+    for (std::size_t kind = 0; kind < 256; ++kind) {
+      const auto mask = static_cast<std::uint8_t>(allowed(static_cast<Kind>(kind)));
+      const bool equal = uniform_ || (marks_equal_ && kind == kAllEqual);
+      tried_[step][kind] = equal ? canonicalAfter(kSteps[step], mask)
+                                 : static_cast<std::uint8_t>(mask & ~never_[step]);
+    }
+  }
+}
+
+void Moves::build(const CostGrid& map, const StopToken& stop) {
+  kinds_.resize(map.geometry().size());
+  offsets_ = stepOffsets(map.geometry().width());
+  update(map, map.geometry().rect(), stop);
+}
+
+void Moves::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
+  makeTables(map);
+  const NeighbourhoodMasks masks(map.motion());
+  const bool marks = marks_equal_;
+  Kind* kinds = kinds_.data();
+  forEachNeighbourhood(map, changed.grown(1).intersection(map.geometry().rect()), stop,
+                       [&masks, marks, kinds](std::size_t index, unsigned bits, bool equal) {
+                         const std::uint8_t mask = masks[bits];
+                         kinds[index] = marks && equal && mask == 0xFF ? kAllEqual : mask;
+                       });
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,92 @@
+#include "grid_path_planner/search/moves.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/ascii_map.h"
+#include "support/random_map.h"
+
+namespace grid_path_planner {
+namespace {
+
+constexpr unsigned kEast = 0, kNorth = 1, kWest = 2, kSouth = 3, kNorthEast = 4, kSouthEast = 7;
+
+std::uint32_t bits(const std::vector<unsigned>& steps) {
+  std::uint32_t all = 0;
+  for (const unsigned step : steps) all |= 1U << step;
+  return all;
+}
+
+// Free cells weigh 2, '?' 9; north is the next line.
+CostGrid costsOf(const std::vector<std::string>& lines) {
+  const test::AsciiMap picture(lines);
+  Grid<CostGrid::Weight> weights(picture.map.geometry(), 2);
+  for (std::size_t i = 0; i < weights.values().size(); ++i) {
+    if (picture.map.values()[i] == 100) weights.values()[i] = CostGrid::kBlocked;
+    if (picture.map.values()[i] == -1) weights.values()[i] = 9;
+  }
+  Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  return CostGrid(std::move(weights), std::move(classes), MotionModel());
+}
+
+std::uint32_t afterInTheMiddle(const std::vector<std::string>& lines, unsigned step) {
+  Moves moves;
+  moves.build(costsOf(lines), StopToken());
+  return moves.after(1U << step, 4);
+}
+
+TEST(Moves, GoStraightOnInTheOpen) {
+  const std::vector<std::string> open = {"...", "...", "..."};
+  EXPECT_EQ(afterInTheMiddle(open, kEast), bits({kEast}));
+  EXPECT_EQ(afterInTheMiddle(open, kSouth), bits({kSouth}));
+  EXPECT_EQ(afterInTheMiddle(open, kNorthEast), bits({kNorthEast, kNorth, kEast}));
+}
+
+TEST(Moves, TurnAroundWhatIsBlocked) {
+  EXPECT_EQ(afterInTheMiddle({"...", "...", "#.."}, kEast), bits({kEast, kNorth, 4}));
+  EXPECT_EQ(afterInTheMiddle({"#..", "...", "..."}, kEast), bits({kEast, kSouth, kSouthEast}));
+  EXPECT_EQ(afterInTheMiddle({"...", "..#", "#.."}, kEast), bits({kNorth}));
+}
+
+TEST(Moves, TryMoreWhereWeightsDiffer) {
+  EXPECT_EQ(afterInTheMiddle({"...", "...", "?.."}, kEast), bits({kEast, kNorth, kSouth, 4, 7}));
+}
+
+TEST(Moves, TryAllFromTheStart) {
+  Moves moves;
+  moves.build(costsOf({"...", "...", "..."}), StopToken());
+  EXPECT_EQ(moves.after(0, 4), 0xFFu);
+  moves.build(costsOf({"...", "..?", "..."}), StopToken());
+  EXPECT_EQ(moves.after(0, 4), 0xFFu);
+}
+
+TEST(Moves, KnowWhatAnotherStepLeavesOpen) {
+  Moves moves;
+  moves.build(costsOf({"...", "...", "..."}), StopToken());
+  EXPECT_TRUE(moves.missing(bits({kEast}), kNorth, 4));
+  EXPECT_FALSE(moves.missing(bits({kNorthEast}), kNorth, 4));
+  EXPECT_FALSE(moves.missing(bits({kEast}), kWest, 4)) << "back is never worth it";
+}
+
+// A cell whose weight changes, changes the kinds around it, at the border of the map too.
+TEST(MovesLaw, AnUpdateIsLikeABuild) {
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 200; ++trial) {
+    const CostGrid before = test::randomCosts(random, 12, {});
+    Grid<CostGrid::Weight> weights = before.weights();
+    const Cell changed = test::randomCell(random, before.geometry());
+    weights[changed] = static_cast<CostGrid::Weight>(random() % 3);
+    const CostGrid after(weights, before.classes(), before.motion());
+    Moves updated, fresh;
+    updated.build(before, StopToken());
+    updated.update(after, {changed.column, changed.row, 1, 1}, StopToken());
+    fresh.build(after, StopToken());
+    for (std::uint32_t index = 0; index < weights.values().size(); ++index)
+      for (std::uint32_t step = 0; step < 8; ++step)
+        ASSERT_EQ(updated.after(1U << step, index), fresh.after(1U << step, index));
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner
