@@ -75,24 +75,29 @@ void MapPlanner::setMap(std::shared_ptr<const OccupancyGrid> map) {
 
 void MapPlanner::updateMap(std::shared_ptr<const OccupancyGrid> map, const CellRect& changed) {
   if (!map_ || map->geometry() != map_->geometry()) return setMap(std::move(map));
-  checkOccupancyValues(*map);
+  checkOccupancyValues(*map, changed);
   map_ = std::move(map);
   terrain_->updateMap(map_, changed);
 }
 
 std::shared_ptr<const CostGrid> MapPlanner::fineCosts(const StopToken& stop) {
-  assert(hasMap());
-  return terrain_->fine(stop);
+  return followedMaps(stop).fine;
 }
 
 std::shared_ptr<const CostGrid> MapPlanner::searchedCosts(const StopToken& stop) {
-  assert(hasMap());
-  return terrain_->searched(stop);
+  return followedMaps(stop).searched;
 }
 
-void MapPlanner::prepareRoutes(const StopToken& stop) {
-  const std::shared_ptr<const CostGrid> searched = searchedCosts(stop);
-  routes_->prepare(fineCosts(stop), searched, terrain_->searchedChange(), stop);
+RouteMaps MapPlanner::maps(const StopToken& stop) {
+  assert(hasMap());
+  const auto searched = terrain_->searched(stop);
+  return {terrain_->fine(stop), searched, terrain_->fineChange(), terrain_->searchedChange()};
+}
+
+RouteMaps MapPlanner::followedMaps(const StopToken& stop) {
+  RouteMaps all = maps(stop);
+  routes_->follow(all, stop);
+  return all;
 }
 
 PlanReport MapPlanner::plan(const PoseRequest& request, const StopSource& stop) {
@@ -103,7 +108,7 @@ PlanReport MapPlanner::plan(const PoseRequest& request, const StopSource& stop) 
   try {
     const StopToken token = limited(stop, options_.timeout);
     const auto begin = StopToken::Clock::now();
-    prepareRoutes(token);
+    routes_->prepare(maps(token), token);
     const auto prepared = StopToken::Clock::now();
     report = PlanAttempt(*this, request, token).run();
     report.preparation_time_s = std::chrono::duration<double>(prepared - begin).count();

@@ -30,14 +30,34 @@ RouteFinder::RouteFinder(std::string planner, const SearchOptions& options)
       options_(options),
       planner_(makePlanner(planner_name_, options)) {}
 
-void RouteFinder::prepare(std::shared_ptr<const CostGrid> fine,
-                          std::shared_ptr<const CostGrid> searched, const CellRect& changed,
-                          const StopToken& stop) {
-  fine_ = std::move(fine);
-  if (searched_ == searched) return;
+void RouteFinder::prepare(const RouteMaps& maps, const StopToken& stop) {
+  if (fine_ != maps.fine) followFine(maps, stop);
+  if (searched_ == maps.searched) return;
   searched_.reset();  // a stopped preparation begins anew
-  planner_->update(searched, changed, stop);
-  searched_ = std::move(searched);
+  planner_->update(maps.searched, maps.searched_change, stop);
+  searched_ = maps.searched;
+}
+
+void RouteFinder::follow(const RouteMaps& maps, const StopToken& stop) {
+  if (searched_ && planner_->traits().repairs) prepare(maps, stop);
+}
+
+void RouteFinder::followFine(const RouteMaps& maps, const StopToken& stop) {
+  const std::shared_ptr<const CostGrid> before = std::exchange(fine_, maps.fine);
+  const bool next = before && before->geometry() == fine_->geometry() &&
+                    before->revision() + 1 == fine_->revision();
+  const bool finer_follows = next && finer_map_ == before && finer_->traits().repairs;
+  const bool leaver_follows = next && leaver_map_ == before;
+  finer_map_.reset();
+  leaver_map_.reset();
+  if (finer_follows) {
+    finer_->update(fine_, maps.fine_change, stop);
+    finer_map_ = fine_;
+  }
+  if (leaver_follows) {
+    leaver_->update(*fine_, maps.fine_change, stop);
+    leaver_map_ = fine_;
+  }
 }
 
 Cell RouteFinder::middleOf(Cell block) const {

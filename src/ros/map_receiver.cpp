@@ -32,7 +32,7 @@ bool sameRow(const OccupancyGrid& a, const OccupancyGrid& b, int row) {
 
 }  // namespace
 
-OccupancyGrid updatedMap(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update) {
+CellRect checkedRect(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update) {
   const CellRect rect = rectOf(map, update);
   const std::size_t expected = static_cast<std::size_t>(rect.width) * rect.height;
   if (update.data.size() != expected)
@@ -43,11 +43,14 @@ OccupancyGrid updatedMap(const OccupancyGrid& map, const map_msgs::OccupancyGrid
     if (value < -1 || value > 100)
       throw InputError("occupancy must be -1 to 100, got " + std::to_string(value) +
                        " in an update");
-  OccupancyGrid updated = map;
+  return rect;
+}
+
+void applyUpdate(const map_msgs::OccupancyGridUpdate& update, const CellRect& rect,
+                 OccupancyGrid& map) {
   for (int row = 0; row < rect.height; ++row)
     std::copy_n(update.data.begin() + static_cast<std::ptrdiff_t>(row) * rect.width, rect.width,
-                updated.row(rect.row + row) + rect.column);
-  return updated;
+                map.row(rect.row + row) + rect.column);
 }
 
 CellRect changedCells(const OccupancyGrid& before, const OccupancyGrid& after) {
@@ -93,13 +96,14 @@ void MapReceiver::shutdown() {
 
 void MapReceiver::onMap(const nav_msgs::OccupancyGrid& message) {
   try {
-    auto grid = std::make_shared<const OccupancyGrid>(occupancyFromMessage(message));
+    auto grid = std::make_shared<OccupancyGrid>(occupancyFromMessage(message));
     const ReceivedMap before = latest();
     std::optional<CellRect> changed;
     const std::string frame_id = frameName(message.header.frame_id);
     if (before.grid && before.frame_id == frame_id && before.grid->geometry() == grid->geometry())
       changed = changedCells(*before.grid, *grid);
-    store({std::move(grid), frame_id, message.header.stamp}, changed);
+    grids_.begin(std::move(grid));
+    store(frame_id, message.header.stamp, changed);
   } catch (const InputError& error) {
     refuse(map_subscriber_.getTopic(), error.what());
     return;
@@ -135,13 +139,15 @@ void MapReceiver::apply(const map_msgs::OccupancyGridUpdate& message) {
   const std::string frame_id = frameName(message.header.frame_id);
   if (!frame_id.empty() && frame_id != before.frame_id)
     throw InputError("an update in frame " + frame_id + " for a map in frame " + before.frame_id);
-  auto grid = std::make_shared<const OccupancyGrid>(updatedMap(*before.grid, message));
-  store({std::move(grid), before.frame_id, message.header.stamp}, rectOf(*before.grid, message));
+  const CellRect changed = checkedRect(*before.grid, message);
+  grids_.advance(changed, [&](OccupancyGrid& next) { applyUpdate(message, changed, next); });
+  store(before.frame_id, message.header.stamp, changed);
 }
 
-void MapReceiver::store(ReceivedMap map, const std::optional<CellRect>& changed) {
+void MapReceiver::store(const std::string& frame_id, const ros::Time& stamp,
+                        const std::optional<CellRect>& changed) {
   std::lock_guard<std::mutex> lock(mutex_);
-  map_ = std::move(map);
+  map_ = {grids_.current(), frame_id, stamp};
   refusal_.clear();
   const bool all = !changed || (untaken_ && !untaken_->changed);
   const CellRect since = untaken_ && untaken_->changed ? *untaken_->changed : CellRect{};

@@ -30,6 +30,14 @@ struct CostGrid::LazyBitMaps {
   std::mutex making;
   BitMaps maps;
   std::atomic<bool> made{false};
+
+  std::shared_ptr<LazyBitMaps> copy() {
+    auto other = std::make_shared<LazyBitMaps>();
+    const std::lock_guard<std::mutex> lock(making);
+    if (made) other->maps = maps;
+    other->made = made.load();
+    return other;
+  }
 };
 
 CostGrid::CostGrid() : bit_maps_(std::make_shared<LazyBitMaps>()) {}
@@ -72,7 +80,28 @@ const BitMaps& CostGrid::bitMaps(const StopToken& stop) const {
 
 std::size_t CostGrid::bytes() const {
   const std::size_t bits = bit_maps_->made ? bit_maps_->maps.bytes() : 0;
-  return geometry().size() * (sizeof(Weight) + sizeof(Occupancy)) + bits;
+  return geometry().size() * (sizeof(Weight) + sizeof(Occupancy)) + counts_.bytes() + bits;
+}
+
+void CostGrid::beginEdit(const CellRect& rect) {
+  assert(geometry().rect().intersection(rect) == rect);
+  if (counts_.empty()) counts_.add(weights_, geometry().rect());
+  counts_.remove(weights_, rect);
+  if (bit_maps_.use_count() > 1) bit_maps_ = bit_maps_->copy();
+}
+
+void CostGrid::finishEdit(const CellRect& rect) {
+  counts_.add(weights_, rect);
+  cheapest_ = counts_.cheapest();
+  dearest_ = counts_.dearest();
+  if (bit_maps_->made) bit_maps_->maps.update(weights_, rect, StopToken());
+}
+
+void copyCells(const CostGrid& from, const CellRect& rect, CostGrid& to) {
+  to.edit(rect, [&](auto& weights, auto& classes) {
+    copyCells(from.weights(), rect, weights);
+    copyCells(from.classes(), rect, classes);
+  });
 }
 
 bool stepAllowed(const CostGrid& map, Cell from, Cell to) {

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "grid_path_planner/terrain/near_obstacles.h"
+
 namespace grid_path_planner {
 namespace {
 
@@ -11,6 +13,10 @@ namespace {
 constexpr double kResolutionSlack = 1e-6;
 constexpr int kLargestReach = 1 << 19;
 constexpr HalfCellsSquared kLargestTable = 1 << 20;
+// Columns that are inflated together: the distances of a whole large map would take more memory
+// than the map.
+constexpr int kNearStrip = 512;
+constexpr int kFarStrip = 128;
 
 // Distance along the row from each cell to the nearest occupied one, in half cells to its edge,
 // squared: 0 for the cell itself, else (2n - 1)^2.
@@ -152,15 +158,52 @@ Inflation::Inflation(const TerrainOptions& options, double resolution)
   if (decay_ > 0.0 && rise_ > 0.5) half_cells = radius_ + std::log(2.0 * rise_) / decay_;
   if (half_cells > 0.0)
     reach_ = static_cast<int>(std::min<double>(kLargestReach, std::ceil(half_cells / 2.0) + 1.0));
-  const HalfCellsSquared largest = 4 * HalfCellsSquared{reach_} * reach_;
-  const HalfCellsSquared entries = std::min(kLargestTable, largest + 1);
+  farthest_ = 4 * HalfCellsSquared{reach_} * reach_;
+  const HalfCellsSquared entries = std::min(kLargestTable, farthest_ + 1);
   table_.reserve(static_cast<std::size_t>(entries));
   for (HalfCellsSquared distance = 0; distance < entries; ++distance)
     table_.push_back(ringWeight(distance));
 }
 
-CostGrid::Weight Inflation::apply(CostGrid::Weight class_weight, HalfCellsSquared distance) const {
-  if (class_weight == CostGrid::kBlocked || distance == kNoObstacle) return class_weight;
+void Inflation::apply(const Grid<Occupancy>& classes, const CellRect& rect,
+                      Grid<CostGrid::Weight>& weights, const StopToken& stop) const {
+  if (none()) return;
+  const bool near = reach_ <= NearObstacles::kLargestReach;
+  const int strip_width = near ? kNearStrip : std::max(kFarStrip, 2 * reach_);
+  for (int column = rect.column; column < rect.column + rect.width; column += strip_width) {
+    const int width = std::min(strip_width, rect.column + rect.width - column);
+    const CellRect strip = {column, rect.row, width, rect.height};
+    near ? applyNear(classes, strip, weights, stop) : applyFar(classes, strip, weights, stop);
+  }
+}
+
+void Inflation::applyNear(const Grid<Occupancy>& classes, const CellRect& rect,
+                          Grid<CostGrid::Weight>& weights, const StopToken& stop) const {
+  NearObstacles near(classes, rect, reach_);
+  StopPoll poll(stop, 64);
+  for (int row = rect.row; row < rect.row + rect.height; ++row) {
+    poll();
+    const std::int16_t* distances = near.row(row);
+    if (distances == nullptr) continue;
+    CostGrid::Weight* weight = weights.row(row) + rect.column;
+    for (int i = 0; i < rect.width; ++i) weight[i] = inflated(weight[i], distances[i]);
+  }
+}
+
+void Inflation::applyFar(const Grid<Occupancy>& classes, const CellRect& rect,
+                         Grid<CostGrid::Weight>& weights, const StopToken& stop) const {
+  const std::vector<HalfCellsSquared> distances = obstacleDistances(classes, rect, reach_, stop);
+  for (int row = 0; row < rect.height; ++row) {
+    const HalfCellsSquared* distance = distances.data() + std::size_t(row) * rect.width;
+    CostGrid::Weight* weight = weights.row(rect.row + row) + rect.column;
+    for (int i = 0; i < rect.width; ++i) weight[i] = inflated(weight[i], distance[i]);
+  }
+}
+
+CostGrid::Weight Inflation::inflated(CostGrid::Weight class_weight,
+                                     HalfCellsSquared distance) const {
+  if (class_weight == CostGrid::kBlocked || distance == kNoObstacle || distance > farthest_)
+    return class_weight;
   const bool tabled = distance < static_cast<HalfCellsSquared>(table_.size());
   const CostGrid::Weight ring =
       tabled ? table_[static_cast<std::size_t>(distance)] : ringWeight(distance);

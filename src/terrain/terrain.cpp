@@ -1,6 +1,6 @@
 #include "grid_path_planner/terrain/terrain.h"
 
-#include <algorithm>
+#include <array>
 #include <cassert>
 #include <utility>
 
@@ -21,37 +21,49 @@ void classify(const OccupancyGrid& map, const OccupancyThresholds& thresholds, c
   }
 }
 
+// The cells of `rect` whose class is no longer that of `map`: the smallest rectangle around them.
+CellRect changedClasses(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
+                        const CellRect& rect, const Grid<Occupancy>& classes,
+                        const StopToken& stop) {
+  StopPoll poll(stop, 64);
+  CellRect changed;
+  for (int row = rect.row; row < rect.row + rect.height; ++row) {
+    poll();
+    const std::int8_t* values = map.row(row);
+    const Occupancy* before = classes.row(row);
+    const auto same = [&](int column) {
+      return thresholds.classify(values[column]) == before[column];
+    };
+    int first = rect.column;
+    int end = rect.column + rect.width;
+    while (first < end && same(first)) ++first;
+    if (first == end) continue;
+    while (same(end - 1)) --end;
+    changed = changed.hull({first, row, end - first, 1});
+  }
+  return changed;
+}
+
 void weigh(const Grid<Occupancy>& classes, const TerrainOptions& options, const CellRect& rect,
            Grid<CostGrid::Weight>& weights, const StopToken& stop) {
+  std::array<CostGrid::Weight, 3> by_class;
+  for (const Occupancy each : {Occupancy::FREE, Occupancy::UNKNOWN, Occupancy::OCCUPIED})
+    by_class[static_cast<std::size_t>(each)] = classWeight(each, options);
   StopPoll poll(stop, 64);
   for (int row = rect.row; row < rect.row + rect.height; ++row) {
     poll();
     const Occupancy* from = classes.row(row);
     CostGrid::Weight* to = weights.row(row);
     for (int column = rect.column; column < rect.column + rect.width; ++column)
-      to[column] = classWeight(from[column], options);
+      to[column] = by_class[static_cast<std::size_t>(from[column])];
   }
 }
 
-void inflateStrip(const Grid<Occupancy>& classes, const Inflation& inflation, const CellRect& strip,
-                  Grid<CostGrid::Weight>& weights, const StopToken& stop) {
-  const std::vector<HalfCellsSquared> distances =
-      obstacleDistances(classes, strip, inflation.reach(), stop);
-  for (int row = 0; row < strip.height; ++row) {
-    const HalfCellsSquared* distance = distances.data() + std::size_t(row) * strip.width;
-    CostGrid::Weight* weight = weights.row(strip.row + row) + strip.column;
-    for (int i = 0; i < strip.width; ++i) weight[i] = inflation.apply(weight[i], distance[i]);
-  }
-}
-
-// In strips of columns: the distances of a whole large map would take more memory than the map.
-void inflate(const Grid<Occupancy>& classes, const Inflation& inflation, const CellRect& rect,
-             Grid<CostGrid::Weight>& weights, const StopToken& stop) {
-  const int strip_width = std::max(128, 2 * inflation.reach());
-  for (int column = rect.column; column < rect.column + rect.width; column += strip_width) {
-    const int width = std::min(strip_width, rect.column + rect.width - column);
-    inflateStrip(classes, inflation, {column, rect.row, width, rect.height}, weights, stop);
-  }
+CellRect blocksOf(const CellRect& cells, int kernel) {
+  const Cell first{cells.column / kernel, cells.row / kernel};
+  const Cell last{(cells.column + cells.width - 1) / kernel,
+                  (cells.row + cells.height - 1) / kernel};
+  return {first.column, first.row, last.column - first.column + 1, last.row - first.row + 1};
 }
 
 }  // namespace
@@ -63,10 +75,11 @@ Terrain::Terrain(const TerrainOptions& options) : options_(options) {
 void Terrain::setMap(std::shared_ptr<const OccupancyGrid> map) {
   assert(map);
   map_ = std::move(map);
-  fine_.reset();
-  searched_.reset();
+  inflation_.emplace(options_, map_->geometry().resolution());
+  fine_.begin(nullptr);
+  searched_.begin(nullptr);
   searched_dirty_ = {};
-  fine_dirty_ = map_->geometry().rect();
+  fine_dirty_ = {};
 }
 
 void Terrain::updateMap(std::shared_ptr<const OccupancyGrid> map, const CellRect& changed) {
@@ -76,59 +89,79 @@ void Terrain::updateMap(std::shared_ptr<const OccupancyGrid> map, const CellRect
 }
 
 std::shared_ptr<const CostGrid> Terrain::fine(const StopToken& stop) {
-  assert(map_);
-  if (!fine_ || !fine_dirty_.empty()) makeFine(stop);
-  return fine_;
+  bringUpToDate(stop);
+  return fine_.current();
 }
 
 std::shared_ptr<const CostGrid> Terrain::searched(const StopToken& stop) {
-  fine(stop);
-  if (!searched_ || !searched_dirty_.empty()) makeSearched(stop);
-  return searched_;
+  bringUpToDate(stop);
+  return options_.kernel == 1 ? fine_.current() : searched_.current();
 }
 
-void Terrain::makeFine(const StopToken& stop) {
-  const GridGeometry& geometry = map_->geometry();
-  const Inflation inflation(options_, geometry.resolution());
-  const CellRect rewritten =
-      fine_ ? fine_dirty_.grown(inflation.reach()).intersection(geometry.rect()) : geometry.rect();
-  Grid<Occupancy> classes = fine_ ? fine_->classes() : Grid<Occupancy>(geometry);
-  Grid<CostGrid::Weight> weights = fine_ ? fine_->weights() : Grid<CostGrid::Weight>(geometry);
-
-  classify(*map_, options_.thresholds, fine_ ? fine_dirty_ : rewritten, classes, stop);
-  weigh(classes, options_, rewritten, weights, stop);
-  if (!inflation.none()) inflate(classes, inflation, rewritten, weights, stop);
-
-  auto made = std::make_shared<CostGrid>(std::move(weights), std::move(classes), options_.motion);
-  made->setRevision(++revision_);
-  fine_ = std::move(made);
-  fine_dirty_ = {};
-  searched_dirty_ = searched_dirty_.hull(rewritten);
+void Terrain::bringUpToDate(const StopToken& stop) {
+  assert(map_);
+  if (!fine_.current()) return makeAnew(stop);
+  if (!fine_dirty_.empty()) updateFine(stop);
+  if (!searched_dirty_.empty()) updateSearched(stop);
 }
 
-void Terrain::makeSearched(const StopToken& stop) {
-  if (options_.kernel == 1) {
-    searched_change_ = searched_ ? searched_dirty_ : fine_->geometry().rect();
-    searched_ = fine_;
-    searched_dirty_ = {};
-    return;
+void Terrain::makeAnew(const StopToken& stop) {
+  const CellRect all = map_->geometry().rect();
+  Grid<Occupancy> classes(map_->geometry());
+  Grid<CostGrid::Weight> weights(map_->geometry());
+  classify(*map_, options_.thresholds, all, classes, stop);
+  weigh(classes, options_, all, weights, stop);
+  inflation_->apply(classes, all, weights, stop);
+  auto fine = std::make_shared<CostGrid>(std::move(weights), std::move(classes), options_.motion);
+  fine->setRevision(++revision_);
+
+  if (options_.kernel > 1) {
+    const GridGeometry geometry = blockGeometry(fine->geometry(), options_.kernel);
+    Grid<Occupancy> block_classes(geometry);
+    Grid<CostGrid::Weight> block_weights(geometry);
+    applyKernel(*fine, options_, all, block_weights, block_classes, stop);
+    auto searched = std::make_shared<CostGrid>(std::move(block_weights), std::move(block_classes),
+                                               options_.motion, options_.kernel, fine->geometry());
+    searched->setRevision(revision_);
+    searched_.begin(std::move(searched));
   }
-  const GridGeometry blocks = blockGeometry(fine_->geometry(), options_.kernel);
-  const CellRect cells = searched_ ? searched_dirty_ : fine_->geometry().rect();
-  Grid<Occupancy> classes = searched_ ? searched_->classes() : Grid<Occupancy>(blocks);
-  Grid<CostGrid::Weight> weights =
-      searched_ ? searched_->weights() : Grid<CostGrid::Weight>(blocks);
-  applyKernel(*fine_, options_, cells, weights, classes, stop);
+  fine_change_ = all;
+  searched_change_ = blocksOf(all, options_.kernel);
+  fine_.begin(std::move(fine));
+  fine_dirty_ = {};
+}
 
-  auto made = std::make_shared<CostGrid>(std::move(weights), std::move(classes), options_.motion,
-                                         options_.kernel, fine_->geometry());
-  made->setRevision(fine_->revision());
-  const int k = options_.kernel;
-  const Cell first{cells.column / k, cells.row / k};
-  const Cell last{(cells.column + cells.width - 1) / k, (cells.row + cells.height - 1) / k};
-  searched_change_ = {first.column, first.row, last.column - first.column + 1,
-                      last.row - first.row + 1};
-  searched_ = std::move(made);
+void Terrain::updateFine(const StopToken& stop) {
+  const CellRect changed =
+      changedClasses(*map_, options_.thresholds, fine_dirty_, fine_.current()->classes(), stop);
+  if (!changed.empty()) {
+    const CellRect rewritten =
+        changed.grown(inflation_->reach()).intersection(map_->geometry().rect());
+    fine_.advance(rewritten, [&](CostGrid& next) {
+      next.edit(rewritten, [&](auto& weights, auto& classes) {
+        classify(*map_, options_.thresholds, changed, classes, stop);
+        weigh(classes, options_, rewritten, weights, stop);
+        inflation_->apply(classes, rewritten, weights, stop);
+      });
+      next.setRevision(revision_ + 1);
+    });
+    ++revision_;
+    fine_change_ = rewritten;
+    searched_dirty_ = searched_dirty_.hull(rewritten);
+  }
+  fine_dirty_ = {};
+}
+
+void Terrain::updateSearched(const StopToken& stop) {
+  const CellRect blocks = blocksOf(searched_dirty_, options_.kernel);
+  if (options_.kernel > 1)
+    searched_.advance(blocks, [&](CostGrid& next) {
+      next.edit(blocks, [&](auto& weights, auto& classes) {
+        applyKernel(*fine_.current(), options_, searched_dirty_, weights, classes, stop);
+      });
+      next.setRevision(revision_);
+    });
+  searched_change_ = blocks;
   searched_dirty_ = {};
 }
 

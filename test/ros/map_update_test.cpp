@@ -21,6 +21,11 @@ map_msgs::OccupancyGridUpdate updateOf(int x, int y, unsigned width, unsigned he
   return update;
 }
 
+OccupancyGrid updatedMap(OccupancyGrid map, const map_msgs::OccupancyGridUpdate& update) {
+  applyUpdate(update, checkedRect(map, update), map);
+  return map;
+}
+
 TEST(MapUpdate, ReplacesItsCellsAndNoOthers) {
   const OccupancyGrid map = test::AsciiMap({"....", "....", "...."}).map;
   const OccupancyGrid updated = updatedMap(map, updateOf(1, 1, 2, 2, {100, -1, 0, 100}));

@@ -121,6 +121,25 @@ TEST(InflationLaw, WeightsAreThoseOfTheDefinition) {
   }
 }
 
+// Beyond a reach of 63 cells another transform takes over.
+TEST(InflationLaw, WeightsAreThoseOfTheDefinitionAtEveryReach) {
+  std::mt19937 random(43);
+  for (const double reach : {1.0, 2.5, 30.0, 61.0, 62.0, 63.0, 64.0, 100.0}) {
+    OccupancyGrid map(GridGeometry(300, 4, 1.0), 0);
+    for (int obstacle = 0; obstacle < 3; ++obstacle)
+      map[test::randomCell(random, map.geometry())] = 100;
+    TerrainOptions options;
+    options.radius = reach / 2.0;
+    options.decay = 4.4 / (reach / 2.0);  // 39 e^-4.4 is below a half
+    const auto costs = costsOf(map, options);
+    for (std::uint32_t i = 0; i < map.values().size(); ++i) {
+      const Cell cell = map.geometry().cell(CellIndex(i));
+      ASSERT_EQ(costs->weight(cell), weightByDefinition(map, cell, options))
+          << "reach " << reach << " cell " << cell;
+    }
+  }
+}
+
 // PX4-Avoidance PR#384: gaps too narrow for the vehicle.
 TEST(InflationLaw, EveryPassableCellIsAtLeastTheRadiusAway) {
   std::mt19937 random(384);

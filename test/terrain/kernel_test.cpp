@@ -113,35 +113,5 @@ TEST(KernelLaw, AnOpenBlockHasOnlyPassableCellsAndTheLargestOfTheirWeights) {
   }
 }
 
-TEST(TerrainLaw, AnUpdatedRectangleIsLikeAFreshMap) {
-  std::mt19937 random(9);
-  for (int trial = 0; trial < 80; ++trial) {
-    OccupancyGrid map = test::randomOccupancy(random, 50, 0.04, 0.1);
-    TerrainOptions options =
-        withKernel(1 + trial % 4, trial % 3 == 0 ? KernelRule::FILTER2D : KernelRule::CONSERVATIVE);
-    options.radius = trial % 3 * 0.8;
-    options.decay = trial % 2 * 0.7;
-    Terrain updated(options);
-    updated.setMap(std::make_shared<const OccupancyGrid>(map));
-    updated.searched(StopToken());
-    for (int edit = 0; edit < 4; ++edit) {
-      const auto before = updated.searched(StopToken());
-      const Cell cell = test::randomCell(random, map.geometry());
-      map[cell] = static_cast<std::int8_t>(map[cell] == 100 ? 0 : 100);
-      updated.updateMap(std::make_shared<const OccupancyGrid>(map), {cell.column, cell.row, 1, 1});
-      const auto after = updated.searched(StopToken());
-      Terrain fresh(options);
-      fresh.setMap(std::make_shared<const OccupancyGrid>(map));
-      ASSERT_EQ(after->weights(), fresh.searched(StopToken())->weights());
-      ASSERT_EQ(after->classes(), fresh.searched(StopToken())->classes());
-      EXPECT_GT(after->revision(), before->revision());
-      for (std::uint32_t i = 0; i < after->weights().values().size(); ++i) {
-        if (after->weights().values()[i] == before->weights().values()[i]) continue;
-        ASSERT_TRUE(updated.searchedChange().contains(after->geometry().cell(CellIndex(i))));
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace grid_path_planner

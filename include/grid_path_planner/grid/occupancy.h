@@ -22,7 +22,8 @@ struct OccupancyThresholds {
   }
 };
 
-// Throws InputError naming the first cell whose value is not in -1..100.
+// Throws InputError naming the first cell (of `rect`) whose value is not in -1..100.
 void checkOccupancyValues(const OccupancyGrid& map);
+void checkOccupancyValues(const OccupancyGrid& map, const CellRect& rect);
 
 }  // namespace grid_path_planner

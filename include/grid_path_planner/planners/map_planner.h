@@ -27,6 +27,7 @@
 namespace grid_path_planner {
 
 class RouteFinder;
+struct RouteMaps;
 class Terrain;
 
 struct PlannerOptions {
@@ -103,7 +104,8 @@ class MapPlanner {
 
   // Throws InputError for a map without cells or with values outside -1..100 and keeps the old map.
   void setMap(std::shared_ptr<const OccupancyGrid> map);
-  // `map` has the geometry of the present one and differs from it only inside `changed`.
+  // `map` has the geometry of the present one and differs from it only inside `changed`. Takes time
+  // in proportion to `changed`, as does what the next call makes of it.
   void updateMap(std::shared_ptr<const OccupancyGrid> map, const CellRect& changed);
   bool hasMap() const { return map_ != nullptr; }
   const std::shared_ptr<const OccupancyGrid>& map() const { return map_; }
@@ -119,7 +121,10 @@ class MapPlanner {
  private:
   friend class PlanAttempt;
 
-  void prepareRoutes(const StopToken& stop);
+  // The maps brought up to date.
+  RouteMaps maps(const StopToken& stop);
+  // The same, and what was made of them keeps up.
+  RouteMaps followedMaps(const StopToken& stop);
 
   PlannerOptions options_;
   std::shared_ptr<const OccupancyGrid> map_;

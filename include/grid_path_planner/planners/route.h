@@ -37,15 +37,27 @@ struct Route {
   std::vector<Eigen::Vector2d> expanded;  // centres, metres
 };
 
+// The maps at full resolution and with the kernel, and the cells in which each differs from that of
+// the revision before.
+struct RouteMaps {
+  std::shared_ptr<const CostGrid> fine;
+  std::shared_ptr<const CostGrid> searched;
+  CellRect fine_change;
+  CellRect searched_change;
+};
+
 class RouteFinder {
  public:
   // Throws InputError for an unknown planner or options that cannot be used.
   RouteFinder(std::string planner, const SearchOptions& options);
 
-  // Takes the maps: `fine` at full resolution, `searched` with the kernel, where cells of
-  // `searched` outside `changed` are as they were at the last call. Throws Stopped.
-  void prepare(std::shared_ptr<const CostGrid> fine, std::shared_ptr<const CostGrid> searched,
-               const CellRect& changed, const StopToken& stop);
+  // Takes the maps. Where they follow those of the last call by one revision, what was made of
+  // those is repaired. Throws Stopped.
+  void prepare(const RouteMaps& maps, const StopToken& stop);
+
+  // Keeps up with maps that nothing is asked about yet, if prepare() was called and that is cheap:
+  // so the planner misses no revision. Throws Stopped.
+  void follow(const RouteMaps& maps, const StopToken& stop);
 
   // Precondition: both cells are passable on the fine map.
   Route find(Cell start, Cell goal, bool retry_finer, bool record_expanded, const StopToken& stop);
@@ -59,6 +71,9 @@ class RouteFinder {
   }
   Cell middleOf(Cell block) const;
   bool blockOpen(Cell cell) const { return searched_->passable(blockOf(cell)); }
+
+  // Brings what was made of the last fine map up to date.
+  void followFine(const RouteMaps& maps, const StopToken& stop);
 
   using Blocks = std::vector<std::uint8_t>;  // a byte a block of searched_
 

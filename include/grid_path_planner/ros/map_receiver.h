@@ -3,7 +3,7 @@
 // A message that is no map is refused with an error that says why, and the map before it stays; so
 // does a piece that does not fit. A piece older than the map is dropped: it is part of the map
 // already (unless the map is stamped later than now: then ROS time has jumped back). Maps handed
-// out never change; a change makes a new one.
+// out never change; a piece makes a new one in time proportional to the piece (grid/map_turns.h).
 #pragma once
 
 #include <map_msgs/OccupancyGridUpdate.h>
@@ -17,6 +17,7 @@
 #include <optional>
 #include <string>
 
+#include "grid_path_planner/grid/map_turns.h"
 #include "grid_path_planner/grid/occupancy.h"
 
 namespace grid_path_planner {
@@ -34,9 +35,13 @@ struct MapChange {
   std::optional<CellRect> changed;
 };
 
-// `map` with the cells of `update`. Throws InputError for an update that does not lie in the map,
-// whose number of values is not width x height, or with a value outside -1..100.
-OccupancyGrid updatedMap(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update);
+// The cells of `map` that `update` replaces. Throws InputError for an update that does not lie in
+// the map, whose number of values is not width x height, or with a value outside -1..100.
+CellRect checkedRect(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update);
+
+// Replaces them. Precondition: `rect` is checkedRect(map, update).
+void applyUpdate(const map_msgs::OccupancyGridUpdate& update, const CellRect& rect,
+                 OccupancyGrid& map);
 
 // The smallest rectangle around the cells in which two maps of the same geometry differ.
 CellRect changedCells(const OccupancyGrid& before, const OccupancyGrid& after);
@@ -59,11 +64,13 @@ class MapReceiver {
   void onMap(const nav_msgs::OccupancyGrid& message);
   void onUpdate(const map_msgs::OccupancyGridUpdate& message);
   void apply(const map_msgs::OccupancyGridUpdate& message);
-  void store(ReceivedMap map, const std::optional<CellRect>& changed);
+  void store(const std::string& frame_id, const ros::Time& stamp,
+             const std::optional<CellRect>& changed);
   void refuse(const std::string& topic, const std::string& reason);
 
   std::function<void()> on_change_;
   mutable std::mutex mutex_;
+  MapTurns<OccupancyGrid> grids_;  // the subscribers'
   ReceivedMap map_;
   std::optional<MapChange> untaken_;
   std::string refusal_;

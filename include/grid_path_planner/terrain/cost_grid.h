@@ -2,7 +2,8 @@
 //
 // A weight 1..65535 a cell, 0 where the cell is blocked. The cost of a step between neighbours u
 // and v is max(weight(u), weight(v)) x length: 1 straight, sqrt 2 (or 1) diagonal, times the
-// kernel, so that costs compare between kernels. Constant once made; several planners may read one.
+// kernel, so that costs compare between kernels. Constant while it is handed out; several planners
+// may read one.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +11,12 @@
 #include <memory>
 #include <vector>
 
-#include "grid_path_planner/grid/grid.h"
+#include "grid_path_planner/grid/map_turns.h"
 #include "grid_path_planner/grid/occupancy.h"
 #include "grid_path_planner/terrain/bit_maps.h"
 #include "grid_path_planner/terrain/exact_cost.h"
 #include "grid_path_planner/terrain/motion_model.h"
+#include "grid_path_planner/terrain/weight_counts.h"
 
 namespace grid_path_planner {
 
@@ -50,8 +52,9 @@ class CostGrid {
   // Whether all passable cells weigh the same.
   bool uniform() const { return cheapest_ == dearest_; }
 
-  // One bit a cell, made at the first asking. May be asked by several threads at once; the answer
-  // lives as long as this map or a copy of it. Throws Stopped; asked again it begins anew.
+  // One bit a cell, made at the first asking, then repaired by edits. May be asked by several
+  // threads at once; the answer lives as long as this map or a copy of it. Throws Stopped; asked
+  // again it begins anew.
   const BitMaps& bitMaps(const StopToken& stop) const;
 
   // Where a path passes through a cell, in metres: the middle of what the original map has of it
@@ -62,11 +65,24 @@ class CostGrid {
   std::uint64_t revision() const { return revision_; }
   void setRevision(std::uint64_t revision) { revision_ = revision; }
 
-  // The bit maps too, where they were made.
+  // The bit maps too, where they were made, and the counts of weights from the first edit on.
   std::size_t bytes() const;
+
+  // Changes the map in place, in time proportional to `rect` (the first time, to the map): for who
+  // made it and has not handed it out, or holds it alone again. write(weights, classes) writes
+  // cells of `rect` and no others; if it throws, the map is of no further use.
+  template <class Write>
+  void edit(const CellRect& rect, Write&& write) {
+    beginEdit(rect);
+    write(weights_, classes_);
+    finishEdit(rect);
+  }
 
  private:
   struct LazyBitMaps;
+
+  void beginEdit(const CellRect& rect);
+  void finishEdit(const CellRect& rect);
 
   Grid<Weight> weights_;
   Grid<Occupancy> classes_;
@@ -76,8 +92,12 @@ class CostGrid {
   Weight cheapest_ = 0;
   Weight dearest_ = 0;
   std::uint64_t revision_ = 0;
-  std::shared_ptr<LazyBitMaps> bit_maps_;  // copies of a map share them
+  std::shared_ptr<LazyBitMaps> bit_maps_;  // copies of a map share them until one is edited
+  WeightCounts counts_;                    // made by the first edit
 };
+
+// For MapTurns<CostGrid>: edits `to`. Precondition: the maps have the same geometry and kernel.
+void copyCells(const CostGrid& from, const CellRect& rect, CostGrid& to);
 
 // Whether one step leads from `from` to `to`: neighbours by the motion model, both passable, no
 // corner cut unless that is allowed.

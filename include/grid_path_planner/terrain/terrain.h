@@ -4,12 +4,14 @@
 //   terrain.setMap(map);
 //   std::shared_ptr<const CostGrid> costs = terrain.searched(stop);
 //
-// Made when asked for. After updateMap() only the changed rectangle, grown by what inflation
-// reaches, is computed again. The grids handed out stay as they are; a changed map gives new ones
-// with a higher revision. The caller's map is never changed.
+// Made when asked for. After updateMap() only the cells whose class changed, grown by what
+// inflation reaches, are computed again and nothing is done in proportion to the map
+// (grid/map_turns.h says when). The grids handed out stay as they are; a changed map gives new
+// ones with a higher revision. The caller's map is never changed.
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/terrain/cost_grid.h"
@@ -27,28 +29,33 @@ class Terrain {
   // `map` has the geometry of the present one and differs from it only inside `changed`.
   void updateMap(std::shared_ptr<const OccupancyGrid> map, const CellRect& changed);
 
-  // Kernel 1, inflated; and what is searched: with the kernel (the same object where it is 1).
-  // Throw Stopped; asked again they begin anew. Precondition: setMap was called.
+  // Kernel 1, inflated; and what is searched: with the kernel (the same object where it is 1). Both
+  // are made together. Throw Stopped; asked again they go on. Precondition: setMap was called.
   std::shared_ptr<const CostGrid> fine(const StopToken& stop);
   std::shared_ptr<const CostGrid> searched(const StopToken& stop);
 
-  // The cells (blocks) in which the last searched() differs from the one before it: everything
-  // after setMap().
+  // The cells, and the blocks, in which fine() and searched() differ from those of the revision
+  // before: everything after setMap().
+  const CellRect& fineChange() const { return fine_change_; }
   const CellRect& searchedChange() const { return searched_change_; }
 
   const TerrainOptions& options() const { return options_; }
 
  private:
-  void makeFine(const StopToken& stop);
-  void makeSearched(const StopToken& stop);
+  void bringUpToDate(const StopToken& stop);
+  void makeAnew(const StopToken& stop);
+  void updateFine(const StopToken& stop);
+  void updateSearched(const StopToken& stop);
 
   TerrainOptions options_;
   std::shared_ptr<const OccupancyGrid> map_;
-  CellRect fine_dirty_;      // cells of the map that changed since fine_ was made
-  CellRect searched_dirty_;  // cells of fine_ that changed since searched_ was made
+  std::optional<Inflation> inflation_;  // for the resolution of map_
+  CellRect fine_dirty_;                 // cells of map_ that changed since fine_ was made
+  CellRect searched_dirty_;             // cells of fine_ that changed since searched_ was made
+  CellRect fine_change_;
   CellRect searched_change_;
-  std::shared_ptr<const CostGrid> fine_;
-  std::shared_ptr<const CostGrid> searched_;
+  MapTurns<CostGrid> fine_;
+  MapTurns<CostGrid> searched_;  // empty where the kernel is 1
   std::uint64_t revision_ = 0;
 };
 

@@ -1,0 +1,154 @@
+// What becomes of cost grids when the map changes: the newest is like a freshly made one, the ones
+// handed out before stay as they were.
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <memory>
+#include <random>
+
+#include "grid_path_planner/terrain/terrain.h"
+#include "support/ascii_map.h"
+#include "support/random_map.h"
+
+namespace grid_path_planner {
+namespace {
+
+using Costs = std::shared_ptr<const CostGrid>;
+
+std::shared_ptr<const OccupancyGrid> shared(const std::vector<std::string>& lines) {
+  return std::make_shared<const OccupancyGrid>(test::AsciiMap(lines).map);
+}
+
+Costs freshlySearched(const OccupancyGrid& map, const TerrainOptions& options) {
+  Terrain fresh(options);
+  fresh.setMap(std::make_shared<const OccupancyGrid>(map));
+  return fresh.searched(StopToken());
+}
+
+void expectSame(const CostGrid& updated, const CostGrid& fresh) {
+  ASSERT_EQ(updated.weights(), fresh.weights());
+  ASSERT_EQ(updated.classes(), fresh.classes());
+  EXPECT_EQ(updated.cheapest(), fresh.cheapest());
+  EXPECT_EQ(updated.uniform(), fresh.uniform());
+  EXPECT_EQ(updated.bitMaps(StopToken()).rows, fresh.bitMaps(StopToken()).rows);
+  EXPECT_EQ(updated.bitMaps(StopToken()).columns, fresh.bitMaps(StopToken()).columns);
+  EXPECT_EQ(updated.original(), fresh.original());
+  EXPECT_EQ(updated.kernel(), fresh.kernel());
+}
+
+TerrainOptions randomOptions(std::mt19937& random) {
+  TerrainOptions options;
+  options.kernel = 1 + static_cast<int>(random() % 4);
+  options.kernel_rule = random() % 3 == 0 ? KernelRule::FILTER2D : KernelRule::CONSERVATIVE;
+  options.radius = static_cast<double>(random() % 3) * 0.8;
+  options.decay = static_cast<double>(random() % 2) * 0.7;
+  options.free_weight = random() % 4 == 0 ? 60 : 1;
+  return options;
+}
+
+// Draws new values in a rectangle of the map and gives it.
+CellRect scribble(std::mt19937& random, OccupancyGrid& map) {
+  const Cell low = test::randomCell(random, map.geometry());
+  const CellRect rect = CellRect{low.column, low.row, 1 + static_cast<int>(random() % 6),
+                                 1 + static_cast<int>(random() % 6)}
+                            .intersection(map.geometry().rect());
+  const std::int8_t values[] = {0, 0, 0, 100, -1, 10};
+  for (int row = rect.row; row < rect.row + rect.height; ++row)
+    for (int column = rect.column; column < rect.column + rect.width; ++column)
+      map[Cell{column, row}] = values[random() % 6];
+  return rect;
+}
+
+TEST(TerrainUpdates, TheGridBeforeStaysAsItWas) {
+  Terrain terrain({});
+  terrain.setMap(shared({"...", "..."}));
+  const Costs first = terrain.fine(StopToken());
+  terrain.updateMap(shared({"...", ".#."}), {1, 1, 1, 1});
+  const Costs second = terrain.fine(StopToken());
+  EXPECT_TRUE(first->passable({1, 1}));
+  EXPECT_FALSE(second->passable({1, 1}));
+  EXPECT_EQ(second->revision(), first->revision() + 1);
+}
+
+TEST(TerrainUpdates, TwoGridsTakeTurnsOnceNobodyHoldsThem) {
+  Terrain terrain({});
+  terrain.setMap(shared({"...", "..."}));
+  const CostGrid* first = terrain.fine(StopToken()).get();
+  terrain.updateMap(shared({"..#", "..."}), {2, 0, 1, 1});
+  Costs second = terrain.fine(StopToken());
+  terrain.updateMap(shared({"..#", "#.."}), {0, 1, 1, 1});
+  EXPECT_EQ(terrain.fine(StopToken()).get(), first);
+  terrain.updateMap(shared({"...", "#.."}), {2, 0, 1, 1});
+  EXPECT_NE(terrain.fine(StopToken()), second);  // somebody holds it
+}
+
+TEST(TerrainUpdates, WhatChangesNoClassMakesNoNewGrid) {
+  Terrain terrain({});
+  auto map = std::make_shared<OccupancyGrid>(test::AsciiMap({"...", "..."}).map);
+  terrain.setMap(map);
+  const Costs before = terrain.searched(StopToken());
+  (*map)[Cell{1, 1}] = 7;  // free as before
+  terrain.updateMap(map, map->geometry().rect());
+  EXPECT_EQ(terrain.searched(StopToken()), before);
+}
+
+TEST(TerrainUpdates, AStoppedUpdateLosesNothing) {
+  TerrainOptions options;
+  options.radius = 3.0;
+  options.kernel = 2;
+  OccupancyGrid map(GridGeometry(300, 300, 1.0), 0);
+  Terrain terrain(options);
+  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+  const Costs before = terrain.searched(StopToken());
+  for (std::uint32_t i = 0; i < map.values().size(); i += 900) map[CellIndex(i)] = 100;
+  terrain.updateMap(std::make_shared<const OccupancyGrid>(map), map.geometry().rect());
+  StopSource source;
+  source.cancel();
+  EXPECT_THROW(terrain.searched(source.token()), Stopped);
+  EXPECT_TRUE(before->passable({0, 0}));
+  expectSame(*terrain.searched(StopToken()), *freshlySearched(map, options));
+}
+
+TEST(TerrainUpdatesLaw, AGridAfterUpdatesIsLikeAFreshOneAndTheOthersStay) {
+  struct Held {
+    Costs costs;
+    CostGrid copy;
+  };
+  std::mt19937 random(9);
+  for (int trial = 0; trial < 80; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    OccupancyGrid map = test::randomOccupancy(random, 50, 0.04, 0.1);
+    const TerrainOptions options = randomOptions(random);
+    Terrain terrain(options);
+    terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+    std::deque<Held> held;
+    for (int edit = 0; edit < 12; ++edit) {
+      const Costs before = terrain.searched(StopToken());
+      held.push_back({before, *before});
+      while (random() % 2 == 0 && !held.empty()) held.pop_front();
+
+      for (unsigned i = 0; i <= random() % 3; ++i) {
+        const CellRect changed = scribble(random, map);
+        terrain.updateMap(std::make_shared<const OccupancyGrid>(map), changed);
+      }
+      const Costs after = terrain.searched(StopToken());
+      expectSame(*after, *freshlySearched(map, options));
+      for (const Held& each : held) {
+        ASSERT_EQ(each.costs->weights(), each.copy.weights());
+        ASSERT_EQ(each.costs->classes(), each.copy.classes());
+        ASSERT_EQ(each.costs->revision(), each.copy.revision());
+        ASSERT_EQ(each.costs->bitMaps(StopToken()).rows,
+                  BitMaps(each.copy.weights(), StopToken()).rows);
+      }
+      if (after == before) continue;
+      EXPECT_EQ(after->revision(), before->revision() + 1);
+      for (std::uint32_t i = 0; i < after->weights().values().size(); ++i)
+        if (after->weights().values()[i] != before->weights().values()[i]) {
+          ASSERT_TRUE(terrain.searchedChange().contains(after->geometry().cell(CellIndex(i))));
+        }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner
