@@ -19,6 +19,16 @@ Traits weightedJumpPointTraits() {
   return traits;
 }
 
+// The best of the bounds that hold for a motion model.
+SearchOptions optionsFor(const MotionModel& motion) {
+  SearchOptions options;
+  if (motion.connectivity == Connectivity::FOUR)
+    options.heuristic = Heuristic::MANHATTAN;
+  else if (motion.diagonal_cost == DiagonalCost::UNIT)
+    options.heuristic = Heuristic::CHEBYSHEV;
+  return options;
+}
+
 Cell moved(Cell cell, unsigned step, int times = 1) {
   return {cell.column + times * kSteps[step].column, cell.row + times * kSteps[step].row};
 }
@@ -35,11 +45,16 @@ bool WeightedJumpPoint::leftToAStar() const {
   return !(map().motion() == MotionModel());
 }
 
+void WeightedJumpPoint::prepareAStar(const StopToken& stop) {
+  auto a_star = std::make_unique<AStar>(optionsFor(map().motion()));
+  a_star->prepare(sharedMap(), stop);
+  a_star_ = std::move(a_star);
+}
+
 void WeightedJumpPoint::doPrepare(const StopToken& stop) {
-  a_star_ready_ = false;
+  a_star_.reset();
   if (leftToAStar()) {
-    a_star_.prepare(sharedMap(), stop);
-    a_star_ready_ = true;
+    prepareAStar(stop);
     return;
   }
   jumps_.build(map(), stop);
@@ -50,19 +65,18 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
 }
 
 void WeightedJumpPoint::doUpdate(const CellRect& changed, const StopToken& stop) {
-  if (a_star_ready_) a_star_.update(sharedMap(), changed, stop);
+  if (a_star_) a_star_->update(sharedMap(), changed, stop);
   if (!leftToAStar()) jumps_.update(map(), changed, stop);
 }
 
 PlanResult WeightedJumpPoint::doPlan(const PlanRequest& request, const StopToken& stop) {
-  if (leftToAStar()) return a_star_.plan(request, stop);
+  if (leftToAStar()) return a_star_->plan(request, stop);
   try {
     const JumpMap::Target target(jumps_, request.goals.front());
     return search(request, stop);
   } catch (const TooDear&) {
-    if (!a_star_ready_) a_star_.prepare(sharedMap(), stop);
-    a_star_ready_ = true;
-    return a_star_.plan(request, stop);
+    if (!a_star_) prepareAStar(stop);
+    return a_star_->plan(request, stop);
   }
 }
 

@@ -86,9 +86,9 @@ TEST(Anya, StaysWhereItIs) {
 
 TEST(Anya, SaysWhatItCannotPlanWith) {
   EXPECT_EQ(planOn(test::AsciiMap({"S?G"})).message,
-            "anya plans only where all passable cells weigh the same: set unknown_is_passable "
-            "false or unknown_weight to free_weight, occupied_is_passable false and decay 0, or "
-            "take another planner");
+            "anya plans only where all passable cells weigh the same, and these weigh 1 to 50: set "
+            "unknown_is_passable false or unknown_weight to free_weight, occupied_is_passable "
+            "false and decay 0, or take another planner");
   TerrainOptions options;
   options.motion.cut_corners = true;
   const PlanResult result = planOn(costsOf(test::AsciiMap({"S.G"}).map, options), {0, 0}, {2, 0});

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "grid_path_planner/base/zeroed_array.h"
@@ -83,14 +84,14 @@ class WeightedJumpPoint : public Planner {
   Cell labelledBefore(Cell cell) const;
   PlanResult withStatus(Status status, PlanResult result) const;
   bool leftToAStar() const;
+  void prepareAStar(const StopToken& stop);
 
   JumpMap jumps_;
   ZeroedArray<Label> labels_;
   ZeroedArray<Sides> sides_;
   std::uint64_t query_ = 0;
   std::vector<Entry> heap_;
-  AStar a_star_;
-  bool a_star_ready_ = false;
+  std::unique_ptr<AStar> a_star_;  // prepared, where it was needed
 
   // Of the present query
   Cell goal_;
