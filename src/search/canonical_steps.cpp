@@ -112,11 +112,20 @@ NaturalSteps naturalSteps(const Window& window) {
 
 Window windowAt(const CostGrid& map, Cell cell) {
   Window window;
-  for (int row = 0; row < 3; ++row)
+  const int width = map.geometry().width(), height = map.geometry().height();
+  const bool inner =
+      cell.column > 0 && cell.column + 1 < width && cell.row > 0 && cell.row + 1 < height;
+  for (int row = 0; row < 3; ++row) {
+    const int at_row = cell.row + row - 1;
+    if (inner) {
+      std::copy_n(map.weights().row(at_row) + cell.column - 1, 3, window.begin() + 3 * row);
+      continue;
+    }
     for (int column = 0; column < 3; ++column) {
-      const Cell at{cell.column + column - 1, cell.row + row - 1};
+      const Cell at{cell.column + column - 1, at_row};
       window[3 * row + column] = map.geometry().contains(at) ? map.weight(at) : CostGrid::kBlocked;
     }
+  }
   return window;
 }
 

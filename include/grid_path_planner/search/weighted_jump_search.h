@@ -1,0 +1,101 @@
+// A* that follows one of the many equally cheap paths and runs over the cells where nothing can be
+// decided: the search of planner weighted_jump_point, for diagonals of sqrt 2 that cut no corners.
+//
+//   WeightedJumpSearch search;
+//   search.prepare(map, stop);
+//   PlanResult result = search.run(map, request, stop);
+//
+// Guaranteed: the cost is the least there is, whatever the weights.
+//
+// Only natural steps outside dead branches are taken (search/canonical_steps.h,
+// search/weighted_jump_map.h). A straight run queues the cell where it ends. A diagonal run looks
+// along its two straight parts at every cell from which they find something, and goes on, without
+// the open list, until its turn comes later than that of others by kAhead. A run ends at a cell
+// that was reached cheaper. A cell that gets cheaper, or is reached at the same cost from another
+// side after which further steps are natural, is queued again, so the order within a bucket of the
+// open list does not matter.
+//
+// Ideas: word scans and straight jump points of diagonal runs, Harabor & Grastien 2011, 2014;
+// weights, Carlson, Harabor, Stuckey et al. 2023. The canonical order, the dead branches, blind
+// cells, stops inside gradients and their pricing are this package's.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grid_path_planner/base/zeroed_array.h"
+#include "grid_path_planner/search/bucket_queue.h"
+#include "grid_path_planner/search/planner.h"
+#include "grid_path_planner/search/weighted_jump_map.h"
+
+namespace grid_path_planner {
+
+class WeightedJumpSearch {
+ public:
+  static std::size_t bytesFor(const GridGeometry& geometry) {
+    return WeightedJumpMap::bytesFor(geometry) + geometry.size() * sizeof(Label);
+  }
+
+  // Throw Stopped. `changed`: the cells whose weights changed since.
+  void prepare(const CostGrid& map, const StopToken& stop);
+  void update(const CostGrid& map, const CellRect& changed, const StopToken& stop);
+  // Nothing is prepared any more, no memory is held.
+  void release();
+
+  // Thrown by run() where a path may cost more than its keys hold: 17.6e6 cell lengths x weight.
+  struct TooDear {};
+
+  // FOUND, UNREACHABLE, TIMEOUT or CANCELLED. Throws TooDear.
+  // Precondition: `map` is the prepared one, start and goal are passable.
+  PlanResult run(const CostGrid& map, const PlanRequest& request, const StopToken& stop);
+
+ private:
+  // The cost of a path as one integer, A * kStraight + B * kDiagonal for A + B sqrt 2. While 48
+  // bits hold it B is below the convergent's denominator, so the order is exact
+  // (terrain/exact_cost.h).
+  using Key = std::uint64_t;
+  static constexpr Key kStraight = 15994428;
+  static constexpr Key kDiagonal = 22619537;
+  static constexpr int kKeyBits = 48;
+  static constexpr Key kLargest = (Key{1} << kKeyBits) - 1;
+
+  // Number of the query, then kLargest - g: a larger label is a better one, and any label of this
+  // query is better than any of an earlier one.
+  using Label = std::uint64_t;
+
+  void beginQuery(const CostGrid& map, const PlanRequest& request);
+  PlanResult search(const PlanRequest& request, const StopToken& stop);
+  void expandStart(Cell start);
+  void expand(std::uint32_t index, Cell cell, Key g);
+  void take(unsigned steps, std::uint32_t index, Cell cell, Key g);
+  void runStraight(unsigned step, Cell cell, Key g);
+  void runDiagonally(unsigned step, std::uint32_t index, Cell cell, Key g);
+  bool improve(std::uint32_t index, Key g);
+  void reach(std::uint32_t index, NaturalSteps steps, unsigned step, Key f);
+
+  std::uint32_t indexOf(Cell cell) const {
+    return std::uint32_t(cell.row) * width_ + std::uint32_t(cell.column);
+  }
+  Key costOf(std::uint32_t index) const { return kLargest - (labels_[index] & kLargest); }
+  bool labelled(std::uint32_t index) const { return labels_[index] >> kKeyBits == query_; }
+  Key estimate(Cell cell) const;
+  void trace(Cell start, PlanResult& result) const;
+  Cell labelledBefore(Cell cell, unsigned step) const;
+  PlanResult withStatus(Status status, PlanResult result) const;
+
+  WeightedJumpMap jumps_;
+  ZeroedArray<Label> labels_;
+  std::uint64_t query_ = 0;
+  BucketQueue open_;
+
+  // Of the present query
+  const CostGrid* map_ = nullptr;
+  const CostGrid::Weight* weights_ = nullptr;
+  std::uint32_t width_ = 0;
+  Cell goal_;
+  std::uint32_t goal_index_ = 0;
+  Key goal_cost_ = 0;  // kInfiniteKey until the goal is reached
+  Statistics counts_;
+};
+
+}  // namespace grid_path_planner

@@ -1,0 +1,253 @@
+#include "grid_path_planner/search/weighted_jump_search.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "grid_path_planner/search/steps.h"
+
+namespace grid_path_planner {
+namespace {
+
+// An expansion may run across the map.
+constexpr std::uint32_t kExpansionsBetweenPolls = 64;
+
+// How much later than the cell from which it began, in cell lengths at the cheapest weight, a
+// diagonal run's turn may come before it is queued. Short: the open list is busy; long: runs go
+// where the search never comes. From 8 to 100 hardly matters.
+constexpr std::uint64_t kAhead = 16;
+
+// Buckets of about a quarter of the cheapest step.
+constexpr unsigned kBucketsPerStep = 4;
+
+Cell moved(Cell cell, unsigned step) {
+  return {cell.column + kSteps[step].column, cell.row + kSteps[step].row};
+}
+
+}  // namespace
+
+void WeightedJumpSearch::prepare(const CostGrid& map, const StopToken& stop) {
+  jumps_.build(map, stop);
+  if (labels_.size() == map.geometry().size()) return;
+  labels_ = ZeroedArray<Label>(map.geometry().size());
+  query_ = 0;
+}
+
+void WeightedJumpSearch::update(const CostGrid& map, const CellRect& changed,
+                                const StopToken& stop) {
+  jumps_.update(map, changed, stop);
+}
+
+void WeightedJumpSearch::release() {
+  jumps_ = WeightedJumpMap();
+  labels_ = ZeroedArray<Label>();
+}
+
+PlanResult WeightedJumpSearch::run(const CostGrid& map, const PlanRequest& request,
+                                   const StopToken& stop) {
+  const WeightedJumpMap::Target target(jumps_, map, request.goals.front());
+  beginQuery(map, request);
+  return search(request, stop);
+}
+
+void WeightedJumpSearch::beginQuery(const CostGrid& map, const PlanRequest& request) {
+  if (query_ == (std::uint64_t{1} << (64 - kKeyBits)) - 1) {
+    labels_.clear();
+    query_ = 0;
+  }
+  ++query_;
+  map_ = &map;
+  weights_ = map.weights().values().data();
+  width_ = std::uint32_t(map.geometry().width());
+  goal_ = request.goals.front();
+  goal_index_ = indexOf(goal_);
+  goal_cost_ = kInfiniteKey;
+  counts_ = Statistics();
+  const Key bucket = kStraight * map.cheapest() / kBucketsPerStep;
+  open_.begin(estimate(request.start), 63U - unsigned(__builtin_clzll(bucket)));
+}
+
+PlanResult WeightedJumpSearch::search(const PlanRequest& request, const StopToken& stop) {
+  PlanResult result;
+  StopPoll poll(stop, kExpansionsBetweenPolls);
+  if (request.record_expanded) result.expanded.emplace_back(indexOf(request.start));
+  expandStart(request.start);
+  while (!open_.empty() && open_.lowest() < goal_cost_) {
+    const StopReason reason = poll.ask();
+    if (reason != StopReason::NONE) return withStatus(Stopped(reason).status(), std::move(result));
+    counts_.peak_open = std::max(counts_.peak_open, open_.size());
+    const std::uint32_t index = open_.pop();
+    const WeightedJumpMap::Mark& mark = jumps_.mark(index);
+    if (mark.reached == mark.expanded) continue;  // it was queued more than once
+    const Cell cell = map_->geometry().cell(CellIndex(index));
+    const Key g = costOf(index);
+    if (g + estimate(cell) >= goal_cost_) continue;
+    if (request.record_expanded) result.expanded.emplace_back(index);
+    expand(index, cell, g);
+  }
+  if (goal_cost_ == kInfiniteKey) return withStatus(Status::UNREACHABLE, std::move(result));
+  trace(request.start, result);
+  return withStatus(Status::FOUND, std::move(result));
+}
+
+void WeightedJumpSearch::expandStart(Cell start) {
+  const std::uint32_t index = indexOf(start);
+  improve(index, 0);
+  ++counts_.expanded;
+  if (index == goal_index_) {
+    goal_cost_ = 0;
+    return;
+  }
+  unsigned steps = 0;
+  for (unsigned step = 0; step < 8; ++step)
+    if (stepAllowed(*map_, start, moved(start, step))) steps |= 1U << step;
+  take(steps, index, start, 0);
+}
+
+void WeightedJumpSearch::expand(std::uint32_t index, Cell cell, Key g) {
+  WeightedJumpMap::Mark& mark = jumps_.mark(index);
+  const NaturalSteps steps = jumps_.steps(*map_, index);
+  const unsigned fresh = stepsAfter(steps, mark.reached) & ~stepsAfter(steps, mark.expanded);
+  mark.expanded = mark.reached;
+  ++counts_.expanded;
+  take(fresh, index, cell, g);
+}
+
+void WeightedJumpSearch::take(unsigned steps, std::uint32_t index, Cell cell, Key g) {
+  for (; steps != 0; steps &= steps - 1) {
+    const auto step = unsigned(__builtin_ctz(steps));
+    if (step < 4)
+      runStraight(step, cell, g);
+    else
+      runDiagonally(step, index, cell, g);
+  }
+}
+
+inline void WeightedJumpSearch::runStraight(unsigned step, Cell cell, Key g) {
+  if (jumps_.blind(step, cell)) return;
+  const WeightedJumpMap::Run run = jumps_.run(step, cell, weights_);
+  g += run.weights * kStraight;
+  const Key f = g + estimate(run.to);
+  if (f >= goal_cost_) return;
+  const std::uint32_t index = indexOf(run.to);
+  if (improve(index, g)) reach(index, jumps_.steps(*map_, index), step, f);
+}
+
+// Over open cells from which straight runs find nothing it leaves no labels.
+void WeightedJumpSearch::runDiagonally(unsigned step, std::uint32_t index, Cell cell, Key g) {
+  const std::ptrdiff_t offset = std::ptrdiff_t{kSteps[step].row} * width_ + kSteps[step].column;
+  const unsigned side = 1U << step;
+  const auto row_step = unsigned(__builtin_ctz(kDefaultSteps[step] & 5U));
+  const auto column_step = unsigned(__builtin_ctz(kDefaultSteps[step] & 10U));
+  const Key limit = g + estimate(cell) + kAhead * kStraight * map_->cheapest();
+  Key weight = weights_[index];
+  for (;;) {
+    index = static_cast<std::uint32_t>(index + offset);
+    cell = moved(cell, step);
+    if (jumps_.open(cell)) {
+      g += kDiagonal * weight;
+      if (jumps_.blind(row_step, cell) && jumps_.blind(column_step, cell)) continue;
+    } else {
+      const Key next = weights_[index];
+      g += kDiagonal * std::max(weight, next);
+      weight = next;
+    }
+    const NaturalSteps steps = jumps_.steps(*map_, index);
+    const unsigned after = steps >> (8 * step) & 255U;
+    if (after == 0 && index != goal_index_) return;
+    const Key f = g + estimate(cell);
+    if (f >= goal_cost_ || !improve(index, g)) return;
+    WeightedJumpMap::Mark& mark = jumps_.mark(index);
+    if ((mark.reached & side) != 0) return;
+    const bool turns = (after & ~unsigned(kDefaultSteps[step])) != 0;
+    if (turns || f > limit || index == goal_index_) return reach(index, steps, step, f);
+    const unsigned fresh = after & ~stepsAfter(steps, mark.expanded);
+    mark.reached |= static_cast<std::uint8_t>(side);
+    mark.expanded |= static_cast<std::uint8_t>(side);
+    if ((fresh >> row_step & 1U) != 0) runStraight(row_step, cell, g);
+    if ((fresh >> column_step & 1U) != 0) runStraight(column_step, cell, g);
+    if ((fresh & side) == 0) return;
+  }
+}
+
+// Whether g is no worse than what the cell has; a better one starts afresh. Throws TooDear.
+inline bool WeightedJumpSearch::improve(std::uint32_t index, Key g) {
+  if (g > kLargest) throw TooDear();
+  const Label label = query_ << kKeyBits | (kLargest - g);
+  if (label < labels_[index]) return false;
+  if (label > labels_[index]) {
+    labels_[index] = label;
+    WeightedJumpMap::Mark& mark = jumps_.mark(index);
+    mark.reached = mark.expanded = 0;
+  }
+  return true;
+}
+
+// A run by `step` ended at the cell, whose label is right already: it is queued if a step of
+// `steps` becomes worth taking by that.
+void WeightedJumpSearch::reach(std::uint32_t index, NaturalSteps steps, unsigned step, Key f) {
+  if (index == goal_index_) goal_cost_ = f;
+  WeightedJumpMap::Mark& mark = jumps_.mark(index);
+  const bool queued = mark.reached != mark.expanded;
+  const unsigned fresh = steps >> (8 * step) & 255U & ~stepsAfter(steps, mark.reached);
+  mark.reached |= static_cast<std::uint8_t>(1U << step);
+  if (queued) return;
+  if (fresh == 0) {
+    mark.expanded = mark.reached;
+    return;
+  }
+  if (f >= goal_cost_) return;
+  if (mark.expanded != 0) ++counts_.reopened;
+  open_.push(f, index);
+  ++counts_.generated;
+}
+
+// Octile at the cheapest weight.
+inline WeightedJumpSearch::Key WeightedJumpSearch::estimate(Cell cell) const {
+  const Key columns = Key(std::abs(cell.column - goal_.column));
+  const Key rows = Key(std::abs(cell.row - goal_.row));
+  const Key diagonal = std::min(columns, rows);
+  return map_->cheapest() *
+         ((std::max(columns, rows) - diagonal) * kStraight + diagonal * kDiagonal);
+}
+
+// Back from the goal by a step that reached each cell.
+void WeightedJumpSearch::trace(Cell start, PlanResult& result) const {
+  std::vector<Cell>& cells = result.cells;
+  cells = {goal_};
+  while (cells.back() != start) {
+    const auto step = unsigned(__builtin_ctz(jumps_.mark(indexOf(cells.back())).reached));
+    const Cell from = labelledBefore(cells.back(), step);
+    std::int64_t weights = 0;
+    while (cells.back() != from) {
+      const Cell at = cells.back();
+      cells.push_back({at.column - kSteps[step].column, at.row - kSteps[step].row});
+      weights += std::max(map_->weight(at), map_->weight(cells.back()));
+    }
+    result.cost += (step < 4 ? ExactCost{weights, 0} : ExactCost{0, weights}) * map_->kernel();
+  }
+  std::reverse(cells.begin(), cells.end());
+}
+
+// The nearest cell back along the step whose label and the way from there make the cell's cost.
+Cell WeightedJumpSearch::labelledBefore(Cell cell, unsigned step) const {
+  const Key length = step < 4 ? kStraight : kDiagonal;
+  const Key cost = costOf(indexOf(cell));
+  Key way = 0;
+  for (Cell at = cell;;) {
+    const Cell before{at.column - kSteps[step].column, at.row - kSteps[step].row};
+    way += length * std::max(map_->weight(at), map_->weight(before));
+    at = before;
+    const std::uint32_t index = indexOf(at);
+    if (labelled(index) && costOf(index) + way == cost) return at;
+  }
+}
+
+PlanResult WeightedJumpSearch::withStatus(Status status, PlanResult result) const {
+  result.status = status;
+  result.statistics = counts_;
+  result.statistics.search_bytes =
+      bytesFor(map_->geometry()) + counts_.peak_open * sizeof(BucketQueue::Index);
+  return result;
+}
+
+}  // namespace grid_path_planner
