@@ -12,8 +12,8 @@ namespace grid_path_planner {
 
 const std::vector<std::string>& plannerNames() {
   static const std::vector<std::string> names = {
-      "a_star", "weighted_jump_point", "jump_point", "dijkstra", "theta_star",
-      "anya",   "a_star_published"};
+      "a_star",     "weighted_jump_point", "jump_point", "dijkstra",
+      "theta_star", "lazy_theta_star",     "anya",       "a_star_published"};
   return names;
 }
 
@@ -31,6 +31,7 @@ std::unique_ptr<Planner> make(const std::string& name, const SearchOptions& opti
   if (name == "dijkstra") return std::make_unique<Dijkstra>();
   if (name == "jump_point") return std::make_unique<JumpPoint>();
   if (name == "theta_star") return std::make_unique<ThetaStar>();
+  if (name == "lazy_theta_star") return std::make_unique<ThetaStar>(ThetaStar::lazy());
   if (name == "anya") return std::make_unique<Anya>();
   if (name == "a_star_published") return std::make_unique<AStar>(AStar::published(options));
   throw InputError("planner must be one of " + listOfPlanners() + ", got '" + name + "'");

@@ -44,6 +44,12 @@ void checkPlannerOptions(const PlannerOptions& options) {
   checkTerrainOptions(options.terrain);
   checkSearchOptions(options.search);
   makePlanner(options.planner, options.search);
+  const MotionModel& motion = options.terrain.motion;
+  if (options.smooth &&
+      (motion.connectivity != Connectivity::EIGHT || motion.diagonal_cost != DiagonalCost::SQRT2))
+    throw InputError("smooth needs connectivity 8 and diagonal_cost sqrt2, got connectivity " +
+                     std::string(choiceName(motion.connectivity)) + " and diagonal_cost " +
+                     choiceName(motion.diagonal_cost));
 }
 
 MapPlanner::MapPlanner(const PlannerOptions& options) {

@@ -8,6 +8,7 @@
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/planners/nearest_cell.h"
 #include "grid_path_planner/planners/route_path.h"
+#include "grid_path_planner/planners/smooth_route.h"
 
 namespace grid_path_planner {
 namespace {
@@ -173,8 +174,10 @@ std::string PlanAttempt::whyBlocked(Cell cell) const {
 }
 
 Route PlanAttempt::search(const End& start, const End& goal) {
-  return planner_.routes_->find(start.cell, goal.cell, planner_.options().retry_finer,
-                                request_.record_expanded, stop_);
+  Route route = planner_.routes_->find(start.cell, goal.cell, planner_.options().retry_finer,
+                                       request_.record_expanded, stop_);
+  if (planner_.options().smooth && route.status == Status::FOUND) smoothRoute(route, stop_);
+  return route;
 }
 
 void PlanAttempt::fill(PlanReport& report, const End& start, const End& goal, Route route) const {

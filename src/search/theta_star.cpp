@@ -2,16 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "grid_path_planner/terrain/centre_segment.h"
 
 namespace grid_path_planner {
 namespace {
 
 // An expansion may try eight segments across the map.
 constexpr std::uint32_t kExpansionsBetweenPolls = 32;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t kQueries = std::uint32_t{1} << 30;
 
-Traits thetaStarTraits() {
+// Sums of the same lengths in another order differ by less, relatively.
+constexpr double kRounding = 1e-12;
+
+Traits thetaStarTraits(const char* name) {
   Traits traits;
-  traits.name = "theta_star";
+  traits.name = name;
   traits.four_connected = false;
   traits.unit_diagonals = false;
   traits.any_angle = true;
@@ -21,69 +29,165 @@ Traits thetaStarTraits() {
 
 }  // namespace
 
-ThetaStar::ThetaStar() : Planner(thetaStarTraits()) {}
+ThetaStar::ThetaStar() : ThetaStar("theta_star", Sight::WHEN_REACHED) {}
+ThetaStar::ThetaStar(const char* name, Sight sight)
+    : Planner(thetaStarTraits(name)), sight_(sight) {}
+
+ThetaStar ThetaStar::lazy() {
+  return ThetaStar("lazy_theta_star", Sight::WHEN_EXPANDED);
+}
 
 std::size_t ThetaStar::bytesFor(const GridGeometry& geometry) const {
-  return geometry.size() * (sizeof(Node) + sizeof(std::uint8_t));
+  return geometry.size() * (sizeof(Node) + sizeof(std::uint8_t)) + BitMaps::bytesFor(geometry);
 }
 
 void ThetaStar::doPrepare(const StopToken& stop) {
   masks_.build(map(), stop);
-  nodes_.assign(map().geometry().size(), Node());
+  nodes_ = ZeroedArray<Node>(map().geometry().size());
   query_ = 0;
+  doUpdate({}, stop);
 }
 
 void ThetaStar::doUpdate(const CellRect& changed, const StopToken& stop) {
-  masks_.update(map(), changed, stop);
+  if (!changed.empty()) masks_.update(map(), changed, stop);
+  bits_ = map().uniform() ? &map().bitMaps(stop) : nullptr;
+  const GridGeometry& original = map().original();
+  centred_ = {original.width() / map().kernel(), original.height() / map().kernel()};
 }
 
-// The straight line at the cheapest weight.
-double ThetaStar::estimate(std::uint32_t index) const {
-  const Cell from = cell(index), to = cell(goal_);
-  return std::hypot(from.column - to.column, from.row - to.row) * map().kernel() * map().cheapest();
+SegmentPoint ThetaStar::point(Cell cell) const {
+  return centred(cell) ? SegmentPoint::centreOf(cell) : waypointOf(map(), cell);
+}
+
+double ThetaStar::leastCost(Cell from, Cell to) const {
+  const double least = map().kernel() * map().cheapest();
+  if (centred(from) && centred(to)) {
+    const double columns = from.column - to.column, rows = from.row - to.row;
+    return std::sqrt(columns * columns + rows * rows) * least;
+  }
+  const SegmentPoint a = point(from), b = point(to);
+  return std::hypot(double(a.x - b.x), double(a.y - b.y)) / double(SegmentPoint::kUnitsPerCell) *
+         least;
+}
+
+std::optional<double> ThetaStar::straight(Cell from, Cell to, double limit) const {
+  return straightCost(map(), bits_, point(from), point(to), limit);
+}
+
+double ThetaStar::stepTo(Cell from, Cell to) const {
+  if (!centred(from) || !centred(to)) {
+    const auto cost = straight(from, to, kInfinity);
+    if (cost) return *cost;  // none past a corner that may be cut, but not between these middles
+  }
+  const double length = from.column == to.column || from.row == to.row ? 1.0 : M_SQRT2;
+  return length * (std::max(map().weight(from), map().weight(to)) * map().kernel());
 }
 
 void ThetaStar::begin(std::uint32_t start) {
-  if (++query_ == 0) {
-    nodes_.assign(nodes_.size(), Node());
+  if (++query_ == kQueries) {
+    nodes_.clear();
     query_ = 1;
   }
   heap_.clear();
-  nodes_[start] = {0.0, start, query_, false};
-  heap_.push_back({estimate(start), 0.0, start});
+  nodes_[start] = {0.0, start, query_, 0, 0};
+  heap_.push_back({leastCost(cell(start), goal_), 0.0, start});
 }
 
-void ThetaStar::reach(std::uint32_t index, std::uint32_t parent, double g, Statistics& counts) {
-  Node& node = nodes_[index];
-  if (node.query == query_ && node.g <= g) return;
-  node = {g, parent, query_, false};
-  heap_.push_back({g + estimate(index), g, index});
+void ThetaStar::reach(std::uint32_t index, Cell at, std::uint32_t parent, double g, bool trusted,
+                      Statistics& counts) {
+  if (known(index) && nodes_[index].g <= g) return;
+  nodes_[index] = {g, parent, query_, 0, trusted};
+  heap_.push_back({g + leastCost(at, goal_), g, index});
   std::push_heap(heap_.begin(), heap_.end(), Later());
   ++counts.generated;
 }
 
+// Calls visit(index, cell) for every neighbour that a step leads to.
+template <class Visit>
+void ThetaStar::forNeighbours(std::uint32_t index, Cell at, Visit&& visit) const {
+  for (unsigned mask = masks_[index]; mask != 0; mask &= mask - 1) {
+    const auto step = static_cast<std::size_t>(__builtin_ctz(mask));
+    visit(static_cast<std::uint32_t>(index + masks_.offsets()[step]),
+          Cell{at.column + kSteps[step].column, at.row + kSteps[step].row});
+  }
+}
+
+// Theta*: each neighbour by the segment from the parent, or by the step.
 void ThetaStar::expand(std::uint32_t from, Statistics& counts) {
   const Node node = nodes_[from];
-  const SegmentPoint parent = point(node.parent);
-  for (unsigned mask = masks_[from]; mask != 0; mask &= mask - 1) {
-    const auto step = static_cast<std::size_t>(__builtin_ctz(mask));
-    const auto to = static_cast<std::uint32_t>(from + masks_.offsets()[step]);
-    if (nodes_[to].query == query_ && nodes_[to].closed) continue;
-    const double by_step = node.g + stepCost(map(), cell(from), cell(to)).toDouble();
-    if (node.parent != from && segmentLegal(map(), parent, point(to))) {
-      const double straight = nodes_[node.parent].g + segmentCost(map(), parent, point(to));
-      if (straight <= by_step) {
-        reach(to, node.parent, straight, counts);
-        continue;
-      }
+  const double parent_g = nodes_[node.parent].g;
+  const Cell at = cell(from), parent = cell(node.parent);
+  forNeighbours(from, at, [&](std::uint32_t index, Cell to) {
+    if (closed(index)) return;
+    const double by_step = node.g + stepTo(at, to);
+    if (node.parent != from) {
+      const double least = (parent_g + leastCost(parent, to)) * (1.0 - kRounding);
+      if (known(index) && nodes_[index].g <= least) return;
+      const auto cost = straight(parent, to, by_step - parent_g);
+      if (cost && parent_g + *cost <= by_step)
+        return reach(index, to, node.parent, parent_g + *cost, false, counts);
     }
-    reach(to, from, by_step, counts);
-  }
+    reach(index, to, from, by_step, false, counts);
+  });
+}
+
+// Lazy Theta*: each neighbour by the segment from the parent, taken on trust. On maps of several
+// weights it is thought to be as much cheaper than the step as it is shorter.
+void ThetaStar::expandTrusting(std::uint32_t from, Statistics& counts) {
+  const Node node = nodes_[from];
+  const double parent_g = nodes_[node.parent].g;
+  const Cell at = cell(from), parent = cell(node.parent);
+  const double to_parent = leastCost(parent, at);
+  forNeighbours(from, at, [&](std::uint32_t index, Cell to) {
+    if (closed(index)) return;
+    double g = parent_g + leastCost(parent, to);
+    if (!bits_) {
+      const double shorter = to_parent + leastCost(at, to) - (g - parent_g);
+      const double dearer = std::max(map().weight(at), map().weight(to)) / double(map().cheapest());
+      g = node.g + stepTo(at, to) - dearer * shorter;
+    }
+    reach(index, to, node.parent, g, true, counts);
+  });
+}
+
+// The cheapest step to a cell from a neighbour that was expanded.
+ThetaStar::Arrival ThetaStar::byStep(std::uint32_t index, Cell at) const {
+  Arrival best{kInfinity, index};
+  forNeighbours(index, at, [&](std::uint32_t from, Cell neighbour) {
+    if (!closed(from)) return;
+    const double g = nodes_[from].g + stepTo(neighbour, at);
+    if (g < best.g) best = {g, from};
+  });
+  return best;
+}
+
+// Makes the trusted way to a cell a true one: the segment, or a step. Whether the cell's turn is
+// still now.
+bool ThetaStar::verify(std::uint32_t index, Statistics& counts) {
+  Node& node = nodes_[index];
+  const Cell at = cell(index);
+  const double trusted = node.g, parent_g = nodes_[node.parent].g;
+  node.trusted = 0;
+  Arrival best{kInfinity, index};
+  if (!bits_) best = byStep(index, at);
+  const auto cost = straight(cell(node.parent), at, best.g - parent_g);
+  if (cost && parent_g + *cost <= best.g)
+    best = {parent_g + *cost, node.parent};
+  else if (bits_)
+    best = byStep(index, at);
+  node.g = best.g;
+  node.parent = best.parent;
+  if (best.g <= trusted * (1.0 + kRounding)) return true;
+  heap_.push_back({best.g + leastCost(at, goal_), best.g, index});
+  std::push_heap(heap_.begin(), heap_.end(), Later());
+  ++counts.generated;
+  return false;
 }
 
 PlanResult ThetaStar::doPlan(const PlanRequest& request, const StopToken& stop) {
   const GridGeometry& geometry = map().geometry();
-  goal_ = geometry.index(request.goals.front()).value();
+  goal_ = request.goals.front();
+  const std::uint32_t goal = geometry.index(goal_).value();
   begin(geometry.index(request.start).value());
   PlanResult result;
   Statistics& counts = result.statistics;
@@ -94,27 +198,33 @@ PlanResult ThetaStar::doPlan(const PlanRequest& request, const StopToken& stop) 
     if (reason != StopReason::NONE) return withStatus(Stopped(reason).status(), result);
     counts.peak_open = std::max(counts.peak_open, heap_.size());
     std::pop_heap(heap_.begin(), heap_.end(), Later());
-    const std::uint32_t from = heap_.back().index;
+    const Entry entry = heap_.back();
+    const std::uint32_t from = entry.index;
     heap_.pop_back();
-    if (nodes_[from].closed) continue;
-    nodes_[from].closed = true;
+    if (nodes_[from].closed || entry.g != nodes_[from].g) continue;
+    if (nodes_[from].trusted && !verify(from, counts)) continue;
+    nodes_[from].closed = 1;
     ++counts.expanded;
     if (request.record_expanded) result.expanded.emplace_back(from);
-    if (from == goal_) return found(std::move(result));
-    expand(from, counts);
+    if (from == goal) return found(std::move(result));
+    if (sight_ == Sight::WHEN_REACHED)
+      expand(from, counts);
+    else
+      expandTrusting(from, counts);
   }
   return withStatus(Status::UNREACHABLE, result);
 }
 
 PlanResult ThetaStar::found(PlanResult result) const {
-  for (std::uint32_t at = goal_;; at = nodes_[at].parent) {
+  const std::uint32_t goal = map().geometry().index(goal_).value();
+  for (std::uint32_t at = goal;; at = nodes_[at].parent) {
     result.cells.push_back(cell(at));
-    result.points.push_back(point(at));
+    result.points.push_back(point(cell(at)));
     if (nodes_[at].parent == at) break;
   }
   std::reverse(result.cells.begin(), result.cells.end());
   std::reverse(result.points.begin(), result.points.end());
-  result.segment_cost = nodes_[goal_].g;
+  result.segment_cost = nodes_[goal].g;
   return withStatus(Status::FOUND, std::move(result));
 }
 

@@ -15,6 +15,7 @@
 #include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/planners/smooth_route.h"
 #include "grid_path_planner/study/scenario_file.h"
 #include "grid_path_planner/terrain/terrain.h"
 #include "progress_bar.h"
@@ -166,9 +167,11 @@ int runScenarios(int argc, char** argv) {
   ProgressBar bar(queries.size());
   for (const ScenarioQuery& query : queries) {
     checkScenarioQuery(query, terrain.fine(StopToken())->geometry(), file);
-    const PlanResult result = planner->plan(requestOf(query, map->kernel()), StopToken());
+    PlanResult result = planner->plan(requestOf(query, map->kernel()), StopToken());
+    if (result.status == Status::FOUND && options.smooth) smoothResult(*map, result, StopToken());
+    const bool any_angle = planner->traits().any_angle || options.smooth;
     const std::optional<double> least = reference.costOf(query);
-    const bool wrong = reference.contradicts(result, least, planner->traits().any_angle);
+    const bool wrong = reference.contradicts(result, least, any_angle);
     totals.wrong += wrong ? 1 : 0;
     if (least)
       totals.add(result);

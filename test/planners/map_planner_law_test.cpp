@@ -37,6 +37,7 @@ PlannerOptions randomOptions(std::mt19937& random) {
   options.planner = plannerNames()[random() % plannerNames().size()];
   const Traits traits = makePlanner(options.planner)->traits();
   if (!traits.four_connected) options.terrain.motion.connectivity = Connectivity::EIGHT;
+  options.smooth = random() % 3 == 0 && options.terrain.motion.connectivity == Connectivity::EIGHT;
   if (!traits.cut_corners) options.terrain.motion.cut_corners = false;
   if (!traits.weights) {
     options.terrain.unknown_weight = options.terrain.free_weight;

@@ -20,8 +20,9 @@ std::shared_ptr<const CostGrid> costsOf(const OccupancyGrid& map,
   return terrain.searched(StopToken());
 }
 
-PlanResult planOn(const std::shared_ptr<const CostGrid>& map, Cell start, Cell goal) {
-  ThetaStar planner;
+PlanResult planOn(const std::shared_ptr<const CostGrid>& map, Cell start, Cell goal,
+                  bool lazy = false) {
+  ThetaStar planner = lazy ? ThetaStar::lazy() : ThetaStar();
   planner.prepare(map, StopToken());
   return planner.plan({start, {goal}, false}, StopToken());
 }
@@ -64,6 +65,38 @@ TEST(ThetaStar, DoesNotSqueezeThroughACorner) {
                                    "#G"}))
                 .status,
             Status::UNREACHABLE);
+}
+
+TEST(LazyThetaStar, CrossesOpenWaterAndGoesAroundWhatIsDear) {
+  const test::AsciiMap open({"S......",  //
+                             ".......",  //
+                             "......G"});
+  EXPECT_EQ(planOn(costsOf(open.map), open.start, open.goal, true).cells,
+            (std::vector<Cell>{{0, 0}, {6, 2}}));
+  const test::AsciiMap dear({"........",  //
+                             "S.????.G",  //
+                             "..????.."});
+  EXPECT_LT(planOn(costsOf(dear.map), dear.start, dear.goal, true).costValue(), 10.0);
+}
+
+// What is found on trust is no better than what was looked at, and hardly worse.
+TEST(LazyThetaStarLaw, CostsAboutWhatThetaStarCosts) {
+  std::mt19937 random(2011);
+  double eager = 0.0, lazy = 0.0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 50, {}));
+    const Cell start = test::randomCell(random, map->geometry());
+    const Cell goal = test::randomCell(random, map->geometry());
+    const PlanResult a = planOn(map, start, goal);
+    const PlanResult b = planOn(map, start, goal, true);
+    ASSERT_EQ(a.status, b.status);
+    if (a.status != Status::FOUND || a.costValue() == 0.0) continue;
+    EXPECT_LT(b.costValue(), 1.2 * a.costValue()) << "trial " << trial;
+    eager += 1.0;
+    lazy += b.costValue() / a.costValue();
+  }
+  EXPECT_GT(eager, 80.0);
+  EXPECT_LT(lazy, 1.02 * eager);
 }
 
 TEST(ThetaStar, SaysWhatItCannotPlanWith) {

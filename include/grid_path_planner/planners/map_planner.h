@@ -37,6 +37,7 @@ struct PlannerOptions {
   double tolerance = 0.0;            // m
   double start_escape_radius = 0.0;  // m
   bool retry_finer = true;
+  bool smooth = false;
   double timeout = 5.0;  // s; 0: none
   HeadingMode heading = HeadingMode::FORWARD;
   PathZ path_z = PathZ::INTERPOLATE;
@@ -58,13 +59,18 @@ void visitOptions(PlannerOptions& o, Visitor&& visit) {
                  "m", 0, 10000});
   visit("retry_finer", o.retry_finer,
         OptionInfo{"Whether a way that the kernel closes is searched for again at kernel 1", ""});
+  visit("smooth", o.smooth,
+        OptionInfo{"Whether a path over the grid is straightened where that costs nothing; needs "
+                   "connectivity 8 and diagonal_cost sqrt2",
+                   ""});
   visit("timeout", o.timeout, OptionInfo{"Limit of one planning; 0: none", "s", 0, 86400});
   visit("heading", o.heading, OptionInfo{"Which way the vehicle looks along the path", ""});
   visit("path_z", o.path_z, OptionInfo{"Where the z of the path comes from", ""});
   visit("fixed_z", o.fixed_z, OptionInfo{"z of the path with path_z fixed", "m", -1e6, 1e6});
 }
 
-// Throws InputError naming the option.
+// Throws InputError naming the option for a value outside its limits and for combinations that
+// contradict each other: smooth with connectivity 4 or unit diagonals.
 void checkPlannerOptions(const PlannerOptions& options);
 
 // Both in the map's frame.

@@ -1,9 +1,13 @@
 // Theta*: A* whose paths leave the grid's directions (Daniel, Nash, Koenig & Felner, "Theta*:
-// Any-angle path planning on grids", JAIR 39, 2010), on weighted maps by the cost of segments.
+// Any-angle path planning on grids", JAIR 39, 2010), and Lazy Theta* (Nash, Koenig & Tovey, "Lazy
+// Theta*: Any-angle path planning and path length analysis in 3D", AAAI 2010), on weighted maps by
+// the cost of segments.
 //
-// Where a cell is reached, the straight segment from its parent's parent is tried too, and taken
-// where it is legal and no dearer. The turning points are the middles of cells, or of
-// what the original map has of them.
+// Where theta_star reaches a cell, the straight segment from its parent's parent is tried too, and
+// taken where it is legal and no dearer; not where even at the cheapest weight it could not better
+// what is known. lazy_theta_star takes that segment on trust and looks at it only when the cell's
+// turn has come, so at one segment a cell; what turns out dearer than was thought waits for its
+// turn again. The turning points are the middles of cells, or of what the original map has of them.
 //
 // Guaranteed: every segment is legal, the cost is the sum of the segments' (terrain/segment.h).
 // Not guaranteed: that it is the least an any-angle path can cost, or even as low as that of a grid
@@ -11,8 +15,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "grid_path_planner/base/zeroed_array.h"
 #include "grid_path_planner/search/planner.h"
 #include "grid_path_planner/search/steps.h"
 #include "grid_path_planner/terrain/segment.h"
@@ -22,6 +28,7 @@ namespace grid_path_planner {
 class ThetaStar : public Planner {
  public:
   ThetaStar();
+  static ThetaStar lazy();
 
   std::size_t bytesFor(const GridGeometry& geometry) const override;
 
@@ -31,12 +38,15 @@ class ThetaStar : public Planner {
   PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
 
  private:
-  // What is known of a cell in the query of its number.
+  enum class Sight { WHEN_REACHED, WHEN_EXPANDED };
+
+  // What is known of a cell in the query of its number: 16 bytes.
   struct Node {
-    double g = 0.0;
-    std::uint32_t parent = 0;
-    std::uint32_t query = 0;
-    bool closed = false;
+    double g;
+    std::uint32_t parent;
+    std::uint32_t query : 30;
+    std::uint32_t closed : 1;
+    std::uint32_t trusted : 1;  // g is a guess: nobody has looked along the segment
   };
   struct Entry {
     double f;
@@ -50,20 +60,46 @@ class ThetaStar : public Planner {
     }
   };
 
+  struct Arrival {
+    double g;
+    std::uint32_t parent;
+  };
+
+  ThetaStar(const char* name, Sight sight);
+
   void begin(std::uint32_t start);
   void expand(std::uint32_t from, Statistics& counts);
-  void reach(std::uint32_t index, std::uint32_t parent, double g, Statistics& counts);
-  double estimate(std::uint32_t index) const;
+  void expandTrusting(std::uint32_t from, Statistics& counts);
+  Arrival byStep(std::uint32_t index, Cell at) const;
+  bool verify(std::uint32_t index, Statistics& counts);
+  template <class Visit>
+  void forNeighbours(std::uint32_t index, Cell at, Visit&& visit) const;
+  void reach(std::uint32_t index, Cell at, std::uint32_t parent, double g, bool trusted,
+             Statistics& counts);
+  bool known(std::uint32_t index) const { return nodes_[index].query == query_; }
+  bool closed(std::uint32_t index) const { return known(index) && nodes_[index].closed != 0; }
+
+  // Of the straight segment between the middles of two cells: the least that it can cost, and what
+  // it costs, none where it is not legal or costs more than `limit`.
+  double leastCost(Cell from, Cell to) const;
+  std::optional<double> straight(Cell from, Cell to, double limit) const;
+  double stepTo(Cell from, Cell to) const;
+
+  SegmentPoint point(Cell cell) const;
   Cell cell(std::uint32_t index) const { return map().geometry().cell(CellIndex(index)); }
-  SegmentPoint point(std::uint32_t index) const { return waypointOf(map(), cell(index)); }
+  // Whether paths pass through its centre.
+  bool centred(Cell cell) const { return cell.column < centred_.column && cell.row < centred_.row; }
   PlanResult withStatus(Status status, PlanResult result) const;
   PlanResult found(PlanResult result) const;
 
+  Sight sight_;
   StepMasks masks_;
-  std::vector<Node> nodes_;
+  ZeroedArray<Node> nodes_;
   std::vector<Entry> heap_;
   std::uint32_t query_ = 0;
-  std::uint32_t goal_ = 0;
+  Cell goal_;
+  Cell centred_;                   // see centred()
+  const BitMaps* bits_ = nullptr;  // of a map of one weight: sight is all that matters
 };
 
 }  // namespace grid_path_planner

@@ -1,0 +1,31 @@
+// Grid paths without their zigzag: the corners of a polyline that a straight way makes superfluous.
+//
+//   SmoothPath smooth = smoothed(map, points, stop);
+//   for (std::size_t i : smooth.kept) use(points[i]);
+//
+// Guaranteed: the ends stay, every segment is legal (terrain/segment.h), and none costs more than
+// what it replaces. No new points: a path of cells' centres keeps its half cell from what is
+// blocked, where the shortest one would graze it. Not guaranteed: that it is the least that the
+// points allow.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/terrain/cost_grid.h"
+#include "grid_path_planner/terrain/segment.h"
+
+namespace grid_path_planner {
+
+struct SmoothPath {
+  std::vector<std::size_t> kept;  // of the points, in order
+  double cost = 0.0;              // sum of the segments'
+};
+
+// Where a segment of the polyline is itself not legal all points are kept and the cost is infinite.
+// Throws Stopped. Precondition: at least one point, each inside the map.
+SmoothPath smoothed(const CostGrid& map, const std::vector<SegmentPoint>& points,
+                    const StopToken& stop);
+
+}  // namespace grid_path_planner

@@ -1,0 +1,154 @@
+#include "grid_path_planner/terrain/centre_segment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+namespace grid_path_planner {
+namespace {
+
+int signOf(int value) {
+  return value > 0 ? 1 : value < 0 ? -1 : 0;
+}
+
+bool bitAt(const BitMap::Word* row, std::int64_t column) {
+  return (row[column >> 6] >> (column & 63) & 1U) != 0;
+}
+
+// Whether all of [first, last] are ones. Precondition: 0 <= first <= last < width.
+inline bool allOnes(const BitMap::Word* row, std::int64_t first, std::int64_t last) {
+  std::int64_t word = first >> 6;
+  const std::int64_t end = last >> 6;
+  BitMap::Word mask = ~BitMap::Word{0} << (first & 63);
+  for (; word < end; ++word, mask = ~BitMap::Word{0})
+    if ((~row[word] & mask) != 0) return false;
+  return (~row[word] & mask) << (63 - (last & 63)) == 0;
+}
+
+constexpr std::int64_t kUnit = SegmentPoint::kUnitsPerCell;
+
+bool isCentre(SegmentPoint point) {
+  return point.x % kUnit == kUnit / 2 && point.y % kUnit == kUnit / 2;
+}
+
+Cell cellOf(SegmentPoint point) {
+  return {static_cast<int>(point.x / kUnit), static_cast<int>(point.y / kUnit)};
+}
+
+}  // namespace
+
+std::optional<double> centreSegmentCost(const CostGrid& map, Cell from, Cell to, double limit) {
+  const std::ptrdiff_t width = map.geometry().width();
+  const int columns = to.column - from.column, rows = to.row - from.row;
+  const bool steep = std::abs(rows) > std::abs(columns);
+  const std::int64_t across = steep ? std::abs(rows) : std::abs(columns);  // the major axis
+  const std::int64_t aside = steep ? std::abs(columns) : std::abs(rows);
+  if (across == 0) return 0.0;
+  const std::ptrdiff_t along_columns = signOf(columns), along_rows = signOf(rows) * width;
+  const std::ptrdiff_t major = steep ? along_rows : along_columns;
+  const std::ptrdiff_t minor = steep ? along_columns : along_rows;
+  const double length_per_unit = std::hypot(double(across), double(aside)) / double(across);
+
+  // What weights above the cheapest may add up to.
+  const double units = limit / (length_per_unit * map.kernel()) + 1e-6;
+  const std::int64_t cheapest = map.cheapest();
+  std::int64_t spare =
+      static_cast<std::int64_t>(std::min(units, 1e18)) - across * std::int64_t{map.cheapest()};
+
+  // The segment's height is counted from the lower edge of the present cell, in 1 / (2 across)
+  // cells: half a column changes it by `aside`.
+  const CostGrid::Weight* at = map.weights().row(from.row) + from.column;
+  const std::int64_t cell = 2 * across;
+  const bool cut_corners = map.motion().cut_corners;
+  std::int64_t height = across;
+  std::int64_t weighted = 0;
+  for (std::int64_t piece = 0; piece < across; ++piece) {
+    // 1. From the centre line of this column to its edge.
+    CostGrid::Weight weight = *at;
+    if (weight == CostGrid::kBlocked) return std::nullopt;
+    height += aside;
+    if (height == cell) {
+      const bool pinch =
+          at[major] == CostGrid::kBlocked && at[minor] == CostGrid::kBlocked && !cut_corners;
+      if (pinch) return std::nullopt;
+      at += minor;
+      height = 0;
+    } else if (height > cell) {
+      at += minor;
+      height -= cell;
+      if (*at == CostGrid::kBlocked) return std::nullopt;
+      weight = std::max(weight, *at);
+    }
+    // 2. From there to the next centre line.
+    at += major;
+    if (*at == CostGrid::kBlocked) return std::nullopt;
+    weight = std::max(weight, *at);
+    height += aside;
+    if (height >= cell) {
+      at += minor;
+      height -= cell;
+      if (height > 0) {
+        if (*at == CostGrid::kBlocked) return std::nullopt;
+        weight = std::max(weight, *at);
+      }
+    }
+    weighted += weight;
+    spare -= weight - cheapest;
+    if (spare < 0) return std::nullopt;
+  }
+  return double(weighted) * length_per_unit * map.kernel();
+}
+
+bool centresInSight(const BitMaps& bits, Cell from, Cell to, bool cut_corners) {
+  const bool steep = std::abs(to.row - from.row) > std::abs(to.column - from.column);
+  const BitMap& map = steep ? bits.columns : bits.rows;
+  if (steep) {
+    std::swap(from.column, from.row);
+    std::swap(to.column, to.row);
+  }
+  if (from.column > to.column) std::swap(from, to);
+  const BitMap::Word* row = map.row(from.row);
+  const std::int64_t rise = std::abs(to.row - from.row);
+  if (rise == 0) return allOnes(row, from.column, to.column);
+
+  // The columns at which the segment crosses from row to row, counted in 1 / (2 rise) columns.
+  const std::ptrdiff_t stride = (to.row > from.row ? 1 : -1) * map.stride();
+  const std::int64_t run = to.column - from.column;
+  const std::int64_t column = 2 * rise;
+  std::int64_t whole = from.column + (rise + run) / column;
+  std::int64_t part = (rise + run) % column;
+  const std::int64_t whole_step = 2 * run / column, part_step = 2 * run % column;
+  std::int64_t first = from.column;
+  for (std::int64_t crossed = 0; crossed < rise; ++crossed, row += stride) {
+    const std::int64_t last = part == 0 ? whole - 1 : whole;
+    if (!allOnes(row, first, last)) return false;
+    if (part == 0 && !cut_corners && !bitAt(row, whole) && !bitAt(row + stride, whole - 1))
+      return false;
+    first = whole;
+    whole += whole_step;
+    part += part_step;
+    if (part >= column) {
+      ++whole;
+      part -= column;
+    }
+  }
+  return allOnes(row, first, to.column);
+}
+
+std::optional<double> straightCost(const CostGrid& map, const BitMaps* bits, SegmentPoint from,
+                                   SegmentPoint to, double limit) {
+  if (!isCentre(from) || !isCentre(to)) {
+    if (!segmentLegal(map, from, to)) return std::nullopt;
+    const double cost = segmentCost(map, from, to);
+    return cost <= limit ? std::optional<double>(cost) : std::nullopt;
+  }
+  const Cell a = cellOf(from), b = cellOf(to);
+  if (!bits) return centreSegmentCost(map, a, b, limit);
+  const double columns = a.column - b.column, rows = a.row - b.row;
+  const double cost = std::sqrt(columns * columns + rows * rows) * (map.kernel() * map.cheapest());
+  if (cost > limit || !centresInSight(*bits, a, b, map.motion().cut_corners)) return std::nullopt;
+  return cost;
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,121 @@
+#include "grid_path_planner/planners/smooth_route.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/planners/map_planner.h"
+#include "support/random_map.h"
+
+namespace grid_path_planner {
+namespace {
+
+PlanResult planOn(const std::shared_ptr<const CostGrid>& map, const std::string& name, Cell start,
+                  Cell goal) {
+  const auto planner = makePlanner(name);
+  planner->prepare(map, StopToken());
+  return planner->plan({start, {goal}, false}, StopToken());
+}
+
+double costOf(const CostGrid& map, const std::vector<SegmentPoint>& points) {
+  double cost = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    EXPECT_TRUE(segmentLegal(map, points[i - 1], points[i]));
+    cost += segmentCost(map, points[i - 1], points[i]);
+  }
+  return cost;
+}
+
+TEST(SmoothRouteLaw, SegmentsAreLegalAndNoCostRises) {
+  std::mt19937 random(9);
+  double before = 0.0, after = 0.0;
+  int found = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    MotionModel motion;
+    motion.cut_corners = trial % 5 == 0;
+    const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 40, motion));
+    const Cell start = test::randomCell(random, map->geometry());
+    const Cell goal = test::randomCell(random, map->geometry());
+    const bool any_angle = trial % 3 == 0;
+    const PlanResult raw = planOn(map, any_angle ? "theta_star" : "a_star", start, goal);
+    if (raw.status != Status::FOUND) continue;
+    ++found;
+    PlanResult smooth = raw;
+    smoothResult(*map, smooth, StopToken());
+    ASSERT_EQ(smooth.points.size(), smooth.cells.size());
+    EXPECT_EQ(smooth.points.front(), SegmentPoint::centreOf(start));
+    EXPECT_EQ(smooth.points.back(), SegmentPoint::centreOf(goal));
+    EXPECT_EQ(smooth.cost, ExactCost());
+    EXPECT_NEAR(smooth.costValue(), costOf(*map, smooth.points), 1e-9 * smooth.costValue());
+    EXPECT_LE(smooth.costValue(), raw.costValue() * (1.0 + 1e-12));
+    before += raw.costValue();
+    after += smooth.costValue();
+  }
+  EXPECT_GT(found, 200);
+  EXPECT_LT(after, 0.99 * before);
+}
+
+// On maps of one weight nothing is shorter than anya, and none of the others far from it.
+TEST(SmoothRouteLaw, AnyaIsNoLongerThanTheOthers) {
+  std::mt19937 random(10);
+  double shortest = 0.0, smooth_ones = 0.0;
+  int found = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    Grid<CostGrid::Weight> weights(GridGeometry(60, 60, 1.0), 1);
+    for (int i = 0; i < 40; ++i) {
+      const Cell low = test::randomCell(random, weights.geometry());
+      const CellRect rect = CellRect{low.column, low.row, 1 + static_cast<int>(random() % 9),
+                                     1 + static_cast<int>(random() % 9)}
+                                .intersection(weights.geometry().rect());
+      for (int row = rect.row; row < rect.row + rect.height; ++row)
+        std::fill_n(weights.row(row) + rect.column, rect.width, CostGrid::kBlocked);
+    }
+    const auto map = std::make_shared<const CostGrid>(
+        weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), MotionModel());
+    const Cell start = test::randomCell(random, map->geometry());
+    const Cell goal = test::randomCell(random, map->geometry());
+    const PlanResult anya = planOn(map, "anya", start, goal);
+    PlanResult smooth = planOn(map, "a_star", start, goal);
+    ASSERT_EQ(anya.status, smooth.status);
+    if (anya.status != Status::FOUND) continue;
+    ++found;
+    const double slack = 1e-9;
+    EXPECT_GE(anya.costValue() + slack,
+              std::hypot(start.column - goal.column, start.row - goal.row));
+    smoothResult(*map, smooth, StopToken());
+    EXPECT_LE(anya.costValue(), smooth.costValue() + slack);
+    for (const char* name : {"theta_star", "lazy_theta_star"})
+      EXPECT_LE(anya.costValue(), planOn(map, name, start, goal).costValue() + slack) << name;
+    shortest += anya.costValue();
+    smooth_ones += smooth.costValue();
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_LT(smooth_ones, 1.03 * shortest);
+}
+
+TEST(SmoothOption, StraightensThePathAndRefusesWhatItContradicts) {
+  OccupancyGrid map(GridGeometry(20, 10, 1.0), 0);
+  PlannerOptions options;
+  options.smooth = true;
+  MapPlanner planner(options);
+  planner.setMap(std::make_shared<const OccupancyGrid>(map));
+  PoseRequest request;
+  request.start.position << 0.5, 0.5, 0.0;
+  request.goal.position << 18.5, 8.5, 0.0;
+  const PlanReport report = planner.plan(request);
+  ASSERT_EQ(report.status, Status::FOUND);
+  EXPECT_EQ(report.path.poses.size(), 2U);
+  EXPECT_NEAR(report.length_m, std::hypot(18, 8), 1e-9);
+  EXPECT_NEAR(report.costValue(), std::hypot(18, 8), 1e-9);
+  options.terrain.motion.connectivity = Connectivity::FOUR;
+  EXPECT_THROW(planner.setOptions(options), InputError);
+}
+
+}  // namespace
+}  // namespace grid_path_planner
