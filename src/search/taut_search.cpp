@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "line_scan.h"
-
 namespace grid_path_planner {
 namespace {
+
+// A cone that goes on alone is not put back into the open list row by row, but it may not run away
+// from more promising ones either.
+constexpr int kRowsUnjudged = 32;
 
 constexpr double kTie = 1e-12;  // relative: sums of the same lengths in another order
 
@@ -27,10 +29,10 @@ int ceilOf(double x) {  // of x >= 0
 
 // Which of the bits of the word are corners or ends of a walk along a line towards the lower (or
 // higher) cells: `a`, `b` are the rows beside the line, `a_past`, `b_past` the cells before these.
-Word events(Word a, Word b, Word a_past, Word b_past) {
-  const Word closed = ~a & ~b;
-  const Word pinch = (~a & ~b_past & a_past & b) | (~b & ~a_past & b_past & a);
-  const Word corner = a & b & (a_past ^ b_past);
+BitMap::Word events(BitMap::Word a, BitMap::Word b, BitMap::Word a_past, BitMap::Word b_past) {
+  const BitMap::Word closed = ~a & ~b;
+  const BitMap::Word pinch = (~a & ~b_past & a_past & b) | (~b & ~a_past & b_past & a);
+  const BitMap::Word corner = a & b & (a_past ^ b_past);
   return closed | pinch | corner;
 }
 
@@ -248,50 +250,74 @@ void TautSearch::turn(const Node& cone, const Gate& gate, Side side) {
   if (ahead_open) follow(root, column, cone.line, side == LEFT ? -1 : 1);
 }
 
-// Moves the cone on for as long as nothing is in its way and no corner touches it, at most to where
-// it has to be judged anew.
+// Moves the cone on for as long as nothing splits it and no corner touches it: open rows, and walls
+// along which an end stays in its column.
 void TautSearch::glide(Node& cone, double* near, double* far) const {
   const Point root = roots_[cone.root].at;
-  const double left_ray = cone.ray[LEFT], right_ray = cone.ray[RIGHT];
   const int rows = cone.rows, width = map_->width();
+  const int goal_line = rows > 0 ? goal_row_ : goal_row_ + 1;
   int line = cone.line;
   double lines = rows * (line - root.y);
+  double left_ray = cone.ray[LEFT], right_ray = cone.ray[RIGHT];
   double left = reach(root, left_ray, lines), right = reach(root, right_ray, lines);
   const Word* behind = ahead(line, -rows);
   const std::ptrdiff_t stride = rows * map_->stride();
   for (;;) {
-    lines += 1.0;
-    const double far_left = reach(root, left_ray, lines);
-    const double far_right = reach(root, right_ray, lines);
     const Word* row = behind + stride;
-    const double least = std::min(left, far_left), most = std::max(right, far_right);
-    const int first = floorOf(least), last = ceilOf(most);
+    double far_left = reach(root, left_ray, lines + 1.0);
+    double far_right = reach(root, right_ray, lines + 1.0);
+    double next_left_ray = left_ray, next_right_ray = right_ray;
+    bool clear = line != goal_line;
     const int left_column = static_cast<int>(left), right_column = static_cast<int>(right);
-    const bool clear =
-        least >= 0.0 && most <= width && allOnes(row, first, last) &&
-        !(left == left_column && bitAt(row, left_column - 1) != bitAt(behind, left_column - 1)) &&
-        !(right == right_column && bitAt(row, right_column) != bitAt(behind, right_column)) &&
-        (rows > 0 ? line : line - 1) != goal_row_;
-    if (!clear) {
-      cone.line = line;
-      near[LEFT] = left;
-      near[RIGHT] = right;
-      far[LEFT] = far_left;
-      far[RIGHT] = far_right;
-      return;
+    if (left == left_column) {
+      const bool open = bitAt(row, left_column - 1);
+      if (!open && far_left < left) {
+        far_left = left;
+        next_left_ray = (left - root.x) / (lines + 1.0);
+      } else if (open != bitAt(behind, left_column - 1)) {
+        clear = false;
+      }
     }
+    if (right == right_column) {
+      const bool open = bitAt(row, right_column);
+      if (!open && far_right > right) {
+        far_right = right;
+        next_right_ray = (right - root.x) / (lines + 1.0);
+      } else if (open != bitAt(behind, right_column)) {
+        clear = false;
+      }
+    }
+    const double least = std::min(left, far_left), most = std::max(right, far_right);
+    clear = clear && least >= 0.0 && most <= width && far_left < far_right;
+    if (!clear || !allOnes(row, floorOf(least), ceilOf(most))) break;
     left = far_left;
     right = far_right;
+    left_ray = next_left_ray;
+    right_ray = next_right_ray;
     behind = row;
     line += rows;
+    lines += 1.0;
   }
+  cone.line = line;
+  cone.ray[LEFT] = left_ray;
+  cone.ray[RIGHT] = right_ray;
+  near[LEFT] = left;
+  near[RIGHT] = right;
+  far[LEFT] = reach(root, left_ray, lines + 1.0);
+  far[RIGHT] = reach(root, right_ray, lines + 1.0);
 }
 
 void TautSearch::expandCone(Node cone) {
   const Point root = roots_[cone.root].at;
+  int judged = cone.line;
   for (;;) {
     double near[2], far[2];
     glide(cone, near, far);
+    if (std::abs(cone.line - judged) >= kRowsUnjudged) {
+      const double f = promise(cone);
+      if (f >= best_ || (!heap_.empty() && f > heap_.front().f)) return push(f, cone);
+      judged = cone.line;
+    }
     const Word* row = ahead(cone.line, cone.rows);
     const double lines = cone.rows * (cone.line - root.y);
     Node next{};

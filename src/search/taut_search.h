@@ -20,8 +20,7 @@
 #include "grid_path_planner/base/statistics.h"
 #include "grid_path_planner/base/status.h"
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/terrain/bit_maps.h"
-#include "line_scan.h"
+#include "grid_path_planner/terrain/bit_scan.h"
 
 namespace grid_path_planner {
 
@@ -47,6 +46,7 @@ class TautSearch {
 
  private:
   enum Side { LEFT, RIGHT };
+  using Word = BitMap::Word;
   enum Sense { ANTICLOCKWISE, CLOCKWISE };
 
   struct Root {

@@ -5,25 +5,13 @@
 #include <cstdlib>
 #include <utility>
 
+#include "grid_path_planner/terrain/bit_scan.h"
+
 namespace grid_path_planner {
 namespace {
 
 int signOf(int value) {
   return value > 0 ? 1 : value < 0 ? -1 : 0;
-}
-
-bool bitAt(const BitMap::Word* row, std::int64_t column) {
-  return (row[column >> 6] >> (column & 63) & 1U) != 0;
-}
-
-// Whether all of [first, last] are ones. Precondition: 0 <= first <= last < width.
-inline bool allOnes(const BitMap::Word* row, std::int64_t first, std::int64_t last) {
-  std::int64_t word = first >> 6;
-  const std::int64_t end = last >> 6;
-  BitMap::Word mask = ~BitMap::Word{0} << (first & 63);
-  for (; word < end; ++word, mask = ~BitMap::Word{0})
-    if ((~row[word] & mask) != 0) return false;
-  return (~row[word] & mask) << (63 - (last & 63)) == 0;
 }
 
 constexpr std::int64_t kUnit = SegmentPoint::kUnitsPerCell;
@@ -109,20 +97,19 @@ bool centresInSight(const BitMaps& bits, Cell from, Cell to, bool cut_corners) {
   }
   if (from.column > to.column) std::swap(from, to);
   const BitMap::Word* row = map.row(from.row);
-  const std::int64_t rise = std::abs(to.row - from.row);
-  if (rise == 0) return allOnes(row, from.column, to.column);
+  const int rise = std::abs(to.row - from.row);
+  if (rise == 0) return allOnes(row, from.column, to.column + 1);
 
-  // The columns at which the segment crosses from row to row, counted in 1 / (2 rise) columns.
+  // The columns at which the segment crosses from row to row: whole ones, and 1 / (2 rise) ones.
   const std::ptrdiff_t stride = (to.row > from.row ? 1 : -1) * map.stride();
-  const std::int64_t run = to.column - from.column;
-  const std::int64_t column = 2 * rise;
-  std::int64_t whole = from.column + (rise + run) / column;
-  std::int64_t part = (rise + run) % column;
-  const std::int64_t whole_step = 2 * run / column, part_step = 2 * run % column;
-  std::int64_t first = from.column;
-  for (std::int64_t crossed = 0; crossed < rise; ++crossed, row += stride) {
-    const std::int64_t last = part == 0 ? whole - 1 : whole;
-    if (!allOnes(row, first, last)) return false;
+  const int run = to.column - from.column;
+  const int column = 2 * rise;
+  int whole = from.column + (rise + run) / column;
+  int part = (rise + run) % column;
+  const int whole_step = run / rise, part_step = 2 * (run % rise);
+  int first = from.column;
+  for (int crossed = 0; crossed < rise; ++crossed, row += stride) {
+    if (!allOnes(row, first, part == 0 ? whole : whole + 1)) return false;
     if (part == 0 && !cut_corners && !bitAt(row, whole) && !bitAt(row + stride, whole - 1))
       return false;
     first = whole;
@@ -133,7 +120,7 @@ bool centresInSight(const BitMaps& bits, Cell from, Cell to, bool cut_corners) {
       part -= column;
     }
   }
-  return allOnes(row, first, to.column);
+  return allOnes(row, first, to.column + 1);
 }
 
 std::optional<double> straightCost(const CostGrid& map, const BitMaps* bits, SegmentPoint from,

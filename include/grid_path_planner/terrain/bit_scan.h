@@ -5,25 +5,23 @@
 
 namespace grid_path_planner {
 
-using Word = BitMap::Word;
-
-inline bool bitAt(const Word* row, int column) {
+inline bool bitAt(const BitMap::Word* row, int column) {
   return (row[column >> 6] >> (column & 63) & 1U) != 0;
 }
 
 // The first 0 at or after `column`. Precondition: 0 <= column <= width.
-inline int zeroFrom(const Word* row, int column) {
+inline int zeroFrom(const BitMap::Word* row, int column) {
   int word = column >> 6;
-  Word zeros = ~row[word] >> (column & 63) << (column & 63);
+  BitMap::Word zeros = ~row[word] >> (column & 63) << (column & 63);
   while (zeros == 0) zeros = ~row[++word];
   return word * 64 + __builtin_ctzll(zeros);
 }
 
 // The first 1 at or after `column`, or some column from `limit` on. Precondition: 0 <= column.
-inline int oneFrom(const Word* row, int column, int limit) {
+inline int oneFrom(const BitMap::Word* row, int column, int limit) {
   if (column >= limit) return limit;
   int word = column >> 6;
-  Word ones = row[word] >> (column & 63) << (column & 63);
+  BitMap::Word ones = row[word] >> (column & 63) << (column & 63);
   while (ones == 0) {
     if (++word * 64 >= limit) return limit;
     ones = row[word];
@@ -33,24 +31,22 @@ inline int oneFrom(const Word* row, int column, int limit) {
 
 // The last 0 before `column`, -1 at least: what follows it up to `column` is all ones.
 // Precondition: 0 <= column <= width.
-inline int zeroBefore(const Word* row, int column) {
+inline int zeroBefore(const BitMap::Word* row, int column) {
   int word = (column - 1) >> 6;  // of column 0: the word of zeros before the row
   const int shift = 63 - ((column - 1) & 63);
-  Word zeros = ~row[word] << shift >> shift;
+  BitMap::Word zeros = ~row[word] << shift >> shift;
   while (zeros == 0) zeros = ~row[--word];
   return word * 64 + 63 - __builtin_clzll(zeros);
 }
 
 // Whether all of [first, last) are ones. Precondition: 0 <= first < last <= width.
-inline bool allOnes(const Word* row, int first, int last) {
-  const int begin = first >> 6, end = (last - 1) >> 6;
-  Word zeros = ~row[begin] >> (first & 63) << (first & 63);
-  for (int word = begin; word < end; ++word) {
-    if (zeros != 0) return false;
-    zeros = ~row[word + 1];
-  }
-  const int shift = 63 - ((last - 1) & 63);
-  return zeros << shift == 0;
+inline bool allOnes(const BitMap::Word* row, int first, int last) {
+  int word = first >> 6;
+  const int end = (last - 1) >> 6;
+  BitMap::Word mask = ~BitMap::Word{0} << (first & 63);
+  for (; word < end; ++word, mask = ~BitMap::Word{0})
+    if ((~row[word] & mask) != 0) return false;
+  return (~row[word] & mask) << (63 - ((last - 1) & 63)) == 0;
 }
 
 }  // namespace grid_path_planner
