@@ -50,29 +50,29 @@ bool canonicalHolds(const MotionModel& motion) {
 
 }  // namespace
 
-bool Moves::missing(std::uint32_t steps, unsigned step, std::uint32_t index) const {
-  const Kind kind = kinds_[index];
-  if (!uniform_ && !(marks_equal_ && kind == kAllEqual)) return false;
+MoveRules::MoveRules(const CostGrid& map)
+    : masks_(map.motion()),
+      canonical_(canonicalHolds(map.motion())),
+      uniform_(canonical_ && map.uniform()) {
+  for (std::size_t step = 0; step < kSteps.size(); ++step) {
+    never_[step] = dearerAfter(kSteps[step]);
+    for (std::size_t kind = 0; kind < 256; ++kind) {
+      const auto mask = static_cast<std::uint8_t>(allowed(static_cast<Kind>(kind)));
+      const bool equal = uniform_ || (canonical_ && kind == kAllEqual);
+      tried_[step][kind] = equal ? canonicalAfter(kSteps[step], mask)
+                                 : static_cast<std::uint8_t>(mask & ~never_[step]);
+    }
+  }
+}
+
+bool MoveRules::missing(std::uint32_t steps, unsigned step, Kind kind) const {
+  if (!uniform_ && !(canonical_ && kind == kAllEqual)) return false;
   std::uint32_t done = 0;
   for (; steps != 0; steps &= steps - 1) {
     const unsigned known = lowest(steps);
     done |= tried_[known][kind] | never_[known];
   }
   return (tried_[step][kind] & ~done) != 0;
-}
-
-void Moves::makeTables(const CostGrid& map) {
-  marks_equal_ = canonicalHolds(map.motion());
-  uniform_ = marks_equal_ && map.uniform();
-  for (std::size_t step = 0; step < kSteps.size(); ++step) {
-    never_[step] = dearerAfter(kSteps[step]);
-    for (std::size_t kind = 0; kind < 256; ++kind) {
-      const auto mask = static_cast<std::uint8_t>(allowed(static_cast<Kind>(kind)));
-      const bool equal = uniform_ || (marks_equal_ && kind == kAllEqual);
-      tried_[step][kind] = equal ? canonicalAfter(kSteps[step], mask)
-                                 : static_cast<std::uint8_t>(mask & ~never_[step]);
-    }
-  }
 }
 
 void Moves::build(const CostGrid& map, const StopToken& stop) {
@@ -82,14 +82,10 @@ void Moves::build(const CostGrid& map, const StopToken& stop) {
 }
 
 void Moves::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
-  makeTables(map);
-  const NeighbourhoodMasks masks(map.motion());
-  const bool marks = marks_equal_;
-  Kind* kinds = kinds_.data();
+  rules_ = MoveRules(map);
   forEachNeighbourhood(map, changed.grown(1).intersection(map.geometry().rect()), stop,
-                       [&masks, marks, kinds](std::size_t index, unsigned bits, bool equal) {
-                         const std::uint8_t mask = masks[bits];
-                         kinds[index] = marks && equal && mask == 0xFF ? kAllEqual : mask;
+                       [this](std::size_t index, unsigned bits, bool equal) {
+                         kinds_[index] = rules_.kindOf(bits, equal);
                        });
 }
 

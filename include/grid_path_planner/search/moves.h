@@ -19,16 +19,25 @@
 
 namespace grid_path_planner {
 
-class Moves {
+class MoveRules {
  public:
-  // Throw Stopped. `changed`: the cells whose weights changed since.
-  void build(const CostGrid& map, const StopToken& stop);
-  void update(const CostGrid& map, const CellRect& changed, const StopToken& stop);
+  // A cell's kind is the mask of the allowed steps, but for one that cannot be where corners are
+  // not cut: all diagonals and nothing straight stands for an open 3x3 of one weight.
+  using Kind = std::uint8_t;
+
+  MoveRules() = default;
+  explicit MoveRules(const CostGrid& map);
+
+  // Of a cell by the nine bits of its 3x3 and whether it weighs the same all over, as
+  // forEachNeighbourhood() gives them.
+  Kind kindOf(unsigned bits, bool equal) const {
+    const std::uint8_t mask = masks_[bits];
+    return canonical_ && equal && mask == 0xFF ? kAllEqual : mask;
+  }
 
   // The steps to try from a cell that was reached by any of `steps`; all for the start, which no
   // step led to. Bit n for step n of steps.h.
-  std::uint32_t after(std::uint32_t steps, std::uint32_t index) const {
-    const std::uint8_t kind = kinds_[index];
+  std::uint32_t after(std::uint32_t steps, Kind kind) const {
     if (steps == 0) return allowed(kind);
     std::uint32_t tried = 0;
     for (; steps != 0; steps &= steps - 1) tried |= tried_[lowest(steps)][kind];
@@ -36,30 +45,44 @@ class Moves {
   }
 
   // Whether a cell that was reached by `steps` has to try more if it is reached by `step`, too.
-  bool missing(std::uint32_t steps, unsigned step, std::uint32_t index) const;
-
-  // What step n adds to a cell's index.
-  const std::array<std::ptrdiff_t, 8>& offsets() const { return offsets_; }
+  bool missing(std::uint32_t steps, unsigned step, Kind kind) const;
 
  private:
-  using Kind = std::uint8_t;
-
-  // A cell's kind is the mask of the allowed steps, but for one that cannot be: all diagonals and
-  // nothing straight stands for an open 3x3 of one weight.
   static constexpr Kind kAllEqual = 0xF0;
 
   static unsigned lowest(std::uint32_t steps) {
     return static_cast<unsigned>(__builtin_ctz(steps));
   }
-  std::uint32_t allowed(Kind kind) const { return marks_equal_ && kind == kAllEqual ? 0xFF : kind; }
-  void makeTables(const CostGrid& map);
+  std::uint32_t allowed(Kind kind) const { return canonical_ && kind == kAllEqual ? 0xFF : kind; }
 
-  std::vector<Kind> kinds_;
-  std::array<std::ptrdiff_t, 8> offsets_{};
+  NeighbourhoodMasks masks_;
   std::array<std::array<std::uint8_t, 256>, 8> tried_{};  // by step, by kind
   std::array<std::uint8_t, 8> never_{};                   // by step: what is dearer than around
-  bool marks_equal_ = false;
+  bool canonical_ = false;                                // the motion model allows canonical moves
   bool uniform_ = false;
+};
+
+// The rules, and the kind of every cell of a map.
+class Moves {
+ public:
+  // Throw Stopped. `changed`: the cells whose weights changed since.
+  void build(const CostGrid& map, const StopToken& stop);
+  void update(const CostGrid& map, const CellRect& changed, const StopToken& stop);
+
+  std::uint32_t after(std::uint32_t steps, std::uint32_t index) const {
+    return rules_.after(steps, kinds_[index]);
+  }
+  bool missing(std::uint32_t steps, unsigned step, std::uint32_t index) const {
+    return rules_.missing(steps, step, kinds_[index]);
+  }
+
+  // What step n adds to a cell's index.
+  const std::array<std::ptrdiff_t, 8>& offsets() const { return offsets_; }
+
+ private:
+  MoveRules rules_;
+  std::vector<MoveRules::Kind> kinds_;
+  std::array<std::ptrdiff_t, 8> offsets_{};
 };
 
 }  // namespace grid_path_planner

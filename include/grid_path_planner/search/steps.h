@@ -21,6 +21,7 @@ std::array<std::ptrdiff_t, 8> stepOffsets(int width);
 // The steps that are allowed from the middle of a 3x3, by its nine bits (neighbourhoods.h).
 class NeighbourhoodMasks {
  public:
+  NeighbourhoodMasks() = default;
   explicit NeighbourhoodMasks(const MotionModel& motion);
   std::uint8_t operator[](unsigned bits) const { return masks_[bits]; }
 
