@@ -30,6 +30,7 @@ foreach(source ${benchmark_sources})
   get_filename_component(name ${source} NAME_WE)
   add_executable(${PROJECT_NAME}_${name} EXCLUDE_FROM_ALL ${source})
   target_link_libraries(${PROJECT_NAME}_${name} PRIVATE
-    ${PROJECT_NAME}_study ${PROJECT_NAME}_octree ${PROJECT_NAME}_simulation)
+    ${PROJECT_NAME}_study ${PROJECT_NAME}_octree ${PROJECT_NAME}_simulation
+    ${PROJECT_NAME}_test_support)
   add_dependencies(${PROJECT_NAME}_benchmarks ${PROJECT_NAME}_${name})
 endforeach()

@@ -1,6 +1,7 @@
 #include "grid_path_planner/planners/catalogue.h"
 
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/rectangles/rectangle_map_planner.h"
 #include "grid_path_planner/search/a_star.h"
 #include "grid_path_planner/search/anya.h"
 #include "grid_path_planner/search/dijkstra.h"
@@ -9,11 +10,53 @@
 #include "grid_path_planner/search/weighted_jump_point.h"
 
 namespace grid_path_planner {
+namespace {
+
+using Made = std::unique_ptr<Planner>;
+
+struct Row {
+  const char* name;
+  Made (*make)(const SearchOptions&);
+};
+
+template <class T>
+Made plain(const SearchOptions&) {
+  return std::make_unique<T>();
+}
+
+template <class T>
+Made withOptions(const SearchOptions& options) {
+  return std::make_unique<T>(options);
+}
+
+Made lazyThetaStar(const SearchOptions&) {
+  return std::make_unique<ThetaStar>(ThetaStar::lazy());
+}
+
+Made publishedAStar(const SearchOptions& options) {
+  return std::make_unique<AStar>(AStar::published(options));
+}
+
+constexpr Row kCatalogue[] = {
+    {"a_star", withOptions<AStar>},
+    {"weighted_jump_point", plain<WeightedJumpPoint>},
+    {"jump_point", plain<JumpPoint>},
+    {"dijkstra", plain<Dijkstra>},
+    {"theta_star", plain<ThetaStar>},
+    {"lazy_theta_star", lazyThetaStar},
+    {"anya", plain<Anya>},
+    {"rectangle_map", withOptions<RectangleMapPlanner>},
+    {"a_star_published", publishedAStar},
+};
+
+}  // namespace
 
 const std::vector<std::string>& plannerNames() {
-  static const std::vector<std::string> names = {
-      "a_star",     "weighted_jump_point", "jump_point", "dijkstra",
-      "theta_star", "lazy_theta_star",     "anya",       "a_star_published"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Row& row : kCatalogue) all.emplace_back(row.name);
+    return all;
+  }();
   return names;
 }
 
@@ -23,27 +66,15 @@ std::string listOfPlanners() {
   return list;
 }
 
-namespace {
-
-std::unique_ptr<Planner> make(const std::string& name, const SearchOptions& options) {
-  if (name == "a_star") return std::make_unique<AStar>(options);
-  if (name == "weighted_jump_point") return std::make_unique<WeightedJumpPoint>();
-  if (name == "dijkstra") return std::make_unique<Dijkstra>();
-  if (name == "jump_point") return std::make_unique<JumpPoint>();
-  if (name == "theta_star") return std::make_unique<ThetaStar>();
-  if (name == "lazy_theta_star") return std::make_unique<ThetaStar>(ThetaStar::lazy());
-  if (name == "anya") return std::make_unique<Anya>();
-  if (name == "a_star_published") return std::make_unique<AStar>(AStar::published(options));
-  throw InputError("planner must be one of " + listOfPlanners() + ", got '" + name + "'");
-}
-
-}  // namespace
-
 std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOptions& options) {
   checkSearchOptions(options);
-  std::unique_ptr<Planner> planner = make(name, options);
-  planner->limitMemory(static_cast<std::size_t>(options.memory_limit) * 1000000);
-  return planner;
+  for (const Row& row : kCatalogue) {
+    if (name != row.name) continue;
+    std::unique_ptr<Planner> planner = row.make(options);
+    planner->limitMemory(static_cast<std::size_t>(options.memory_limit) * 1000000);
+    return planner;
+  }
+  throw InputError("planner must be one of " + listOfPlanners() + ", got '" + name + "'");
 }
 
 }  // namespace grid_path_planner

@@ -25,6 +25,16 @@ const std::vector<std::pair<const char*, TieBreak>>& choicesOf(TieBreak) {
   return choices;
 }
 
+const std::vector<std::pair<const char*, RectangleWeight>>& choicesOf(RectangleWeight) {
+  static const std::vector<std::pair<const char*, RectangleWeight>> choices = {
+      {"area", RectangleWeight::AREA},
+      {"border", RectangleWeight::BORDER},
+      {"distance", RectangleWeight::DISTANCE},
+      {"connections", RectangleWeight::CONNECTIONS},
+      {"length", RectangleWeight::LENGTH}};
+  return choices;
+}
+
 std::optional<double> heuristicScale(const SearchOptions& options) {
   if (options.heuristic_scale == "cheapest") return std::nullopt;
   std::size_t used = 0;

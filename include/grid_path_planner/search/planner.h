@@ -97,6 +97,9 @@ class Planner {
   // The reason why this planner cannot search `map`, "" where it can.
   virtual std::string refusal(const CostGrid& map) const;
   virtual void doPrepare(const StopToken&) {}
+  // For doPrepare(), where only a look at the map tells that it cannot be searched.
+  void refuse(std::string reason) { refusal_ = std::move(reason); }
+  std::size_t memoryLimit() const { return memory_limit_; }
   virtual void doUpdate(const CellRect&, const StopToken& stop) { doPrepare(stop); }
   // The request is valid: start and goals in the map and passable. May throw Stopped; TIMEOUT or
   // CANCELLED with the statistics so far is better.

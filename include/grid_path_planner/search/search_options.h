@@ -16,12 +16,18 @@ const std::vector<std::pair<const char*, Heuristic>>& choicesOf(Heuristic);
 enum class TieBreak { NONE, LARGER_G, CROSS_PRODUCT, CROSS_PRODUCT_PUBLISHED };
 const std::vector<std::pair<const char*, TieBreak>>& choicesOf(TieBreak);
 
+// What rectangle_map's search adds up (rectangles/rectangle_route.h).
+enum class RectangleWeight { AREA, BORDER, DISTANCE, CONNECTIONS, LENGTH };
+const std::vector<std::pair<const char*, RectangleWeight>>& choicesOf(RectangleWeight);
+
 struct SearchOptions {
   Heuristic heuristic = Heuristic::OCTILE;
   std::string heuristic_scale = "cheapest";  // "cheapest", or a number >= 0
   double epsilon = 1.0;                      // >= 1
   TieBreak tie_break = TieBreak::NONE;
   int memory_limit = 6000;  // MB
+  RectangleWeight rectangle_weight = RectangleWeight::LENGTH;
+  bool rectangle_funnel = true;
 };
 
 template <class Visitor>
@@ -45,6 +51,14 @@ void visitOptions(SearchOptions& o, Visitor&& visit) {
         OptionInfo{"What a planner may take for itself, the map not counted: it refuses a map that "
                    "needs more, before it takes anything",
                    "MB", 1, 1000000});
+  visit("rectangle_weight", o.rectangle_weight,
+        OptionInfo{"What rectangle_map adds up from rectangle to rectangle; all but length are the "
+                   "published ones and may lead far around",
+                   ""});
+  visit("rectangle_funnel", o.rectangle_funnel,
+        OptionInfo{"Whether rectangle_map pulls its path taut; false: through the middles of the "
+                   "borders, as published",
+                   ""});
 }
 
 // The number that heuristic_scale gives; none for "cheapest". Throws InputError for anything else.

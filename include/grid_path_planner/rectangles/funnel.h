@@ -1,0 +1,18 @@
+// The shortest way through a sequence of openings: the funnel algorithm (Lee & Preparata 1984,
+// Chazelle 1982) on lattice points.
+#pragma once
+
+#include <vector>
+
+#include "grid_path_planner/rectangles/rectangle_route.h"
+#include "grid_path_planner/terrain/segment.h"
+
+namespace grid_path_planner {
+
+// The turning points of the shortest path from `start` to `goal` that crosses the borders of
+// `route` in their order, both ends included. It stays inside the rectangles of the route.
+// Preconditions: `start` lies in the route's first rectangle, `goal` in its last.
+std::vector<SegmentPoint> shortestThrough(const RectangleMap& map, const RectangleRoute& route,
+                                          SegmentPoint start, SegmentPoint goal);
+
+}  // namespace grid_path_planner

@@ -1,0 +1,41 @@
+// Planning on rectangles instead of cells: the R-map (Ahn & Jeon 2010, Park 2013).
+//
+// prepare() cuts the map into rectangles (largestFirst); a plan is a search over them by
+// SearchOptions::rectangle_weight, whose path runs through the middles of the shared borders and is
+// then pulled taut (rectangle_funnel).
+//
+// Guaranteed: a legal path, and one where there is one: rectangles are connected where a vehicle
+// can drive. With `length` the sequence of rectangles is the one whose path through the middles is
+// the shortest, with funnel the path is the shortest through that sequence.
+// Not guaranteed: the shortest path there is; with the published weights not even a short one.
+#pragma once
+
+#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_route.h"
+#include "grid_path_planner/search/planner.h"
+#include "grid_path_planner/search/search_options.h"
+
+namespace grid_path_planner {
+
+class RectangleMapPlanner : public Planner {
+ public:
+  explicit RectangleMapPlanner(const SearchOptions& options = {});
+
+  std::size_t bytesFor(const GridGeometry& geometry) const override;
+
+  // Of the prepared map.
+  const RectangleMap& rectangles() const { return rectangles_; }
+
+ protected:
+  void doPrepare(const StopToken& stop) override;
+  PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
+
+ private:
+  void keep(const RectangleRoute& route, const PlanRequest& request, PlanResult& result) const;
+
+  SearchOptions options_;
+  RectangleMap rectangles_;
+  RectangleSearch search_;
+};
+
+}  // namespace grid_path_planner

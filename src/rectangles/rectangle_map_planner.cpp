@@ -1,0 +1,103 @@
+#include "grid_path_planner/rectangles/rectangle_map_planner.h"
+
+#include <utility>
+
+#include "grid_path_planner/rectangles/decomposition.h"
+#include "grid_path_planner/rectangles/funnel.h"
+
+namespace grid_path_planner {
+namespace {
+
+Traits rectangleMapTraits() {
+  Traits traits;
+  traits.name = "rectangle_map";
+  traits.four_connected = false;
+  traits.unit_diagonals = false;
+  traits.weights = false;
+  traits.any_angle = true;
+  return traits;
+}
+
+Cell middleOf(const CellRect& rect) {
+  return {rect.column + rect.width / 2, rect.row + rect.height / 2};
+}
+
+// The outward and inward cells of every border, between the two ends.
+std::vector<Cell> throughTheMiddles(const RectangleMap& map, const RectangleRoute& route,
+                                    Cell start, Cell goal) {
+  std::vector<Cell> cells = {start};
+  const auto add = [&cells](Cell cell) {
+    if (cell != cells.back()) cells.push_back(cell);
+  };
+  std::uint32_t rectangle = route.first;
+  for (const Connection& step : route.steps) {
+    const auto [outward, inward] = middleOf(map.rectangles()[rectangle], step);
+    add(outward);
+    add(inward);
+    rectangle = step.to;
+  }
+  add(goal);
+  return cells;
+}
+
+// A passable cell that touches a lattice point where a path may turn.
+Cell cellAt(const CostGrid& map, SegmentPoint point) {
+  const auto column = static_cast<int>(point.x / SegmentPoint::kUnitsPerCell);
+  const auto row = static_cast<int>(point.y / SegmentPoint::kUnitsPerCell);
+  for (const Cell cell : {Cell{column, row}, Cell{column - 1, row}, Cell{column, row - 1}})
+    if (map.passable(cell)) return cell;
+  return {column - 1, row - 1};
+}
+
+}  // namespace
+
+RectangleMapPlanner::RectangleMapPlanner(const SearchOptions& options)
+    : Planner(rectangleMapTraits()), options_(options) {}
+
+// Of a map without obstacles, the least there is; doPrepare() looks at the map.
+std::size_t RectangleMapPlanner::bytesFor(const GridGeometry& geometry) const {
+  return largestFirstBytes(geometry, static_cast<std::size_t>(geometry.height()));
+}
+
+void RectangleMapPlanner::doPrepare(const StopToken& stop) {
+  const BitMaps& free = map().bitMaps(stop);
+  const std::size_t bytes = largestFirstBytes(map().geometry(), countRuns(free.rows));
+  if (bytes > memoryLimit())
+    return refuse("needs up to " + std::to_string(bytes / 1000000 + 1) +
+                  " MB to cut this map into rectangles, more than its memory_limit");
+  rectangles_ = RectangleMap(map().geometry(), largestFirst(free, {}, stop), Touching::BORDERS);
+}
+
+void RectangleMapPlanner::keep(const RectangleRoute& route, const PlanRequest& request,
+                               PlanResult& result) const {
+  const Cell start = request.start, goal = request.goals.front();
+  if (options_.rectangle_funnel) {
+    result.points =
+        shortestThrough(rectangles_, route, waypointOf(map(), start), waypointOf(map(), goal));
+    for (const SegmentPoint point : result.points) result.cells.push_back(cellAt(map(), point));
+    result.cells.front() = start;
+    result.cells.back() = goal;
+  } else {
+    result.cells = throughTheMiddles(rectangles_, route, start, goal);
+    for (const Cell cell : result.cells) result.points.push_back(waypointOf(map(), cell));
+  }
+  for (std::size_t i = 1; i < result.points.size(); ++i)
+    result.segment_cost += segmentCost(map(), result.points[i - 1], result.points[i]);
+}
+
+PlanResult RectangleMapPlanner::doPlan(const PlanRequest& request, const StopToken& stop) {
+  const RectangleRoute route = search_.find(rectangles_, options_.rectangle_weight, request.start,
+                                            request.goals.front(), stop);
+  PlanResult result;
+  result.statistics = route.statistics;
+  result.statistics.search_bytes += rectangles_.bytes();
+  if (request.record_expanded)
+    for (const std::uint32_t rectangle : route.expanded)
+      result.expanded.push_back(
+          map().geometry().index(middleOf(rectangles_.rectangles()[rectangle])));
+  result.status = route.found ? Status::FOUND : Status::UNREACHABLE;
+  if (route.found) keep(route, request, result);
+  return result;
+}
+
+}  // namespace grid_path_planner

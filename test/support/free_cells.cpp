@@ -1,0 +1,57 @@
+#include "support/free_cells.h"
+
+#include <stdexcept>
+
+namespace grid_path_planner::test {
+namespace {
+
+GridGeometry randomGeometry(std::mt19937& random, int largest_side) {
+  std::uniform_int_distribution<int> side(1, largest_side);
+  const int width = side(random);
+  return GridGeometry(width, side(random), 1.0);
+}
+
+}  // namespace
+
+FreeCells freeCells(const std::vector<std::string>& lines) {
+  FreeCells free(
+      GridGeometry(static_cast<int>(lines.at(0).size()), static_cast<int>(lines.size()), 1.0));
+  for (int row = 0; row < free.height(); ++row) {
+    const std::string& line = lines[static_cast<std::size_t>(row)];
+    if (line.size() != lines[0].size()) throw std::invalid_argument("lines of different lengths");
+    for (int column = 0; column < free.width(); ++column) {
+      const char letter = line[static_cast<std::size_t>(column)];
+      free[Cell{column, row}] = letter == '1' || letter == '.' ? 1 : 0;
+    }
+  }
+  return free;
+}
+
+FreeCells randomFreeCells(std::mt19937& random, int largest_side, double free) {
+  FreeCells cells(randomGeometry(random, largest_side));
+  std::bernoulli_distribution draw(free);
+  for (std::uint8_t& cell : cells.values()) cell = draw(random) ? 1 : 0;
+  return cells;
+}
+
+FreeCells randomBlocks(std::mt19937& random, int largest_side) {
+  FreeCells cells(randomGeometry(random, largest_side), 1);
+  std::uniform_int_distribution<int> count(0, 12), side(1, 1 + largest_side / 5);
+  std::uniform_int_distribution<int> column(0, cells.width() - 1), row(0, cells.height() - 1);
+  for (int blocks = count(random); blocks > 0; --blocks) {
+    const CellRect block =
+        CellRect{column(random), row(random), side(random), side(random)}.intersection(
+            cells.geometry().rect());
+    for (int r = block.row; r < block.row + block.height; ++r)
+      for (int c = block.column; c < block.column + block.width; ++c) cells[Cell{c, r}] = 0;
+  }
+  return cells;
+}
+
+BitMaps bitMapsOf(const FreeCells& free) {
+  Grid<std::uint16_t> weights(free.geometry());
+  for (std::size_t i = 0; i < free.values().size(); ++i) weights.values()[i] = free.values()[i];
+  return BitMaps(weights, StopToken());
+}
+
+}  // namespace grid_path_planner::test

@@ -1,0 +1,24 @@
+// Free and blocked cells for the rectangles, from pictures and at random.
+#pragma once
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/terrain/bit_maps.h"
+#include "support/rectangle_survey.h"
+
+namespace grid_path_planner::test {
+
+// '1' or '.' free, anything else blocked; the first line is row 0.
+FreeCells freeCells(const std::vector<std::string>& lines);
+
+// Free with the given probability; sides from 1.
+FreeCells randomFreeCells(std::mt19937& random, int largest_side, double free);
+
+// Blocks of random sizes taken out of free space, as rooms and walls are.
+FreeCells randomBlocks(std::mt19937& random, int largest_side);
+
+BitMaps bitMapsOf(const FreeCells& free);
+
+}  // namespace grid_path_planner::test
