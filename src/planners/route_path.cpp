@@ -54,8 +54,11 @@ std::vector<RoutePoint> pointsOf(const Route& route) {
       const RoutePoint point{positionOf(leg, i), leg.map.get()};
       // The middles of blocks are not always their centres: past a blocked one the way leads
       // exactly over the corner.
-      if (coarse && i > 0 && cutsCorner(*leg.map, leg.cells[i - 1], leg.cells[i]))
-        points.push_back({sharedCorner(*leg.map, leg.cells[i - 1], leg.cells[i]), leg.map.get()});
+      if (coarse && i > 0 && cutsCorner(*leg.map, leg.cells[i - 1], leg.cells[i])) {
+        const Eigen::Vector2d corner = sharedCorner(*leg.map, leg.cells[i - 1], leg.cells[i]);
+        if (!samePlace(corner, points.back().position) && !samePlace(corner, point.position))
+          points.push_back({corner, leg.map.get()});
+      }
       if (keep_both && !points.empty() && samePlace(points.back().position, point.position))
         continue;
       const bool joins = i == 0 && !points.empty() && !keep_both;
