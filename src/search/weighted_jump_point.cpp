@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "grid_path_planner/search/heuristic.h"
+
 namespace grid_path_planner {
 namespace {
 
@@ -10,6 +12,7 @@ Traits weightedJumpPointTraits() {
   Traits traits;
   traits.name = "weighted_jump_point";
   traits.optimal = true;
+  traits.heuristic = true;
   traits.repairs = true;
   return traits;
 }
@@ -18,9 +21,26 @@ bool jumpsUnderstand(const MotionModel& motion) {
   return motion == MotionModel();
 }
 
-// The best lower bound of the motion model.
-SearchOptions optionsFor(const MotionModel& motion) {
-  SearchOptions options;
+// Whether a search is asked for that differs from what finds the least cost the quickest.
+bool asksForAStar(const SearchOptions& options) {
+  const SearchOptions usual;
+  return options.heuristic != usual.heuristic || options.epsilon != usual.epsilon ||
+         options.heuristic_scale != usual.heuristic_scale || options.tie_break != usual.tie_break;
+}
+
+}  // namespace
+
+WeightedJumpPoint::WeightedJumpPoint(const SearchOptions& options)
+    : Planner(weightedJumpPointTraits()),
+      options_(options),
+      a_star_asked_for_(asksForAStar(options)) {
+  checkSearchOptions(options);
+}
+
+// As asked for, or with the best lower bound of the motion model.
+SearchOptions WeightedJumpPoint::optionsOfAStar(const MotionModel& motion) const {
+  SearchOptions options = options_;
+  if (a_star_asked_for_) return options;
   if (motion.connectivity == Connectivity::FOUR)
     options.heuristic = Heuristic::MANHATTAN;
   else if (motion.diagonal_cost == DiagonalCost::UNIT)
@@ -28,16 +48,16 @@ SearchOptions optionsFor(const MotionModel& motion) {
   return options;
 }
 
-}  // namespace
-
-WeightedJumpPoint::WeightedJumpPoint() : Planner(weightedJumpPointTraits()) {}
+bool WeightedJumpPoint::optimalFor(const CostGrid& map) const {
+  return optimalWith(optionsOfAStar(map.motion()), map);
+}
 
 std::size_t WeightedJumpPoint::bytesFor(const GridGeometry& geometry) const {
-  return std::max(WeightedJumpSearch::bytesFor(geometry), AStar().bytesFor(geometry));
+  return std::max(WeightedJumpSearch::bytesFor(geometry), AStar(options_).bytesFor(geometry));
 }
 
 bool WeightedJumpPoint::worthJumping() const {
-  return jumpsUnderstand(map().motion()) && sample_.symmetric();
+  return !a_star_asked_for_ && jumpsUnderstand(map().motion()) && sample_.symmetric();
 }
 
 void WeightedJumpPoint::doPrepare(const StopToken& stop) {
@@ -61,7 +81,7 @@ void WeightedJumpPoint::doUpdate(const CellRect& changed, const StopToken& stop)
 }
 
 void WeightedJumpPoint::prepareAStar(const StopToken& stop) {
-  auto a_star = std::make_unique<AStar>(optionsFor(map().motion()));
+  auto a_star = std::make_unique<AStar>(optionsOfAStar(map().motion()));
   a_star->prepare(sharedMap(), stop);
   a_star_ = std::move(a_star);
 }

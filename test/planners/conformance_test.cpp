@@ -30,7 +30,7 @@ std::vector<Subject> subjects() {
   std::vector<Subject> all;
   for (const std::string& planner : plannerNames()) {
     all.push_back({planner, {}});
-    if (planner.rfind("a_star", 0) != 0) continue;
+    if (planner.rfind("a_star", 0) != 0 && planner != "weighted_jump_point") continue;
     for (const auto& heuristic : choicesOf(Heuristic{}))
       for (const auto& tie_break : choicesOf(TieBreak{})) {
         SearchOptions options;
@@ -183,8 +183,8 @@ TEST_P(Conformance, AMapThatNeedsMoreThanTheMemoryLimitIsRefusedBeforeMemoryIsTa
 
 TEST_P(Conformance, EpsilonBoundsTheCost) {
   const SearchOptions& options = GetParam().options;
-  if (GetParam().planner != "a_star" || options.tie_break == TieBreak::CROSS_PRODUCT_PUBLISHED)
-    return;
+  if (GetParam().planner == "a_star_published" || !make()->traits().heuristic) return;
+  if (options.tie_break == TieBreak::CROSS_PRODUCT_PUBLISHED) return;
   std::mt19937 random(7);
   for (int trial = 0; trial < 40; ++trial) {
     const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 24, {}));

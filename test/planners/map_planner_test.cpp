@@ -318,7 +318,7 @@ TEST(MapPlanner, BadOptionsAndMapsLoseNothing) {
   options = PlannerOptions();
   options.tolerance = -1.0;
   EXPECT_THROW(planner.setOptions(options), InputError);
-  EXPECT_EQ(planner.options().planner, "a_star");
+  EXPECT_EQ(planner.options().planner, PlannerOptions().planner);
 
   OccupancyGrid bad(GridGeometry(2, 1, 1.0));
   bad[Cell{1, 0}] = 101;

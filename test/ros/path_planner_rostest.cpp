@@ -32,7 +32,7 @@ TEST_F(PathPlannerTest, AGoalGetsAPathFromWhereTheVehicleIs) {
   EXPECT_TRUE(endsAt(path_.poses.front(), 0.5, 0.5));
   EXPECT_GT(answer_.expanded, 0u);
   EXPECT_GT(answer_.search_bytes, 0u);
-  EXPECT_EQ(answer_.planner, "a_star");
+  EXPECT_EQ(answer_.planner, "weighted_jump_point");
   EXPECT_EQ(answer_.heuristic, "octile");
 }
 

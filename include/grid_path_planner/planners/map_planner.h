@@ -32,7 +32,7 @@ class Terrain;
 
 struct PlannerOptions {
   TerrainOptions terrain;
-  std::string planner = "a_star";
+  std::string planner = "weighted_jump_point";
   SearchOptions search;
   double tolerance = 0.0;            // m
   double start_escape_radius = 0.0;  // m

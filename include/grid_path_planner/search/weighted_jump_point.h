@@ -1,18 +1,22 @@
 // Jump point search over cells of any weight, and A* where that is faster.
 //
-// Guaranteed: the cost is the least there is, on every map and motion model.
+// Guaranteed: the cost is the least there is, on every map and motion model, unless the options ask
+// A* for less.
 //
 // Where diagonals are sqrt 2 long and cut no corners, jumps (search/weighted_jump_search.h) leave
 // out what symmetry makes superfluous: nearly everything on plateaus, much of the slopes around
 // obstacles, little where every cell has another weight. Whether that is worth it is counted when a
 // map is prepared (search/symmetry_sample.h) and kept up with its changes; where it is not, and for
-// other motion models, A* answers, with the heuristic that fits them. So no map is refused.
+// other motion models, A* answers, with the heuristic that fits them. So no map is refused. Nor is
+// an option ignored: with any search option (heuristic, scale, epsilon, tie-break) that is not the
+// default, A* answers with it.
 #pragma once
 
 #include <memory>
 
 #include "grid_path_planner/search/a_star.h"
 #include "grid_path_planner/search/planner.h"
+#include "grid_path_planner/search/search_options.h"
 #include "grid_path_planner/search/symmetry_sample.h"
 #include "grid_path_planner/search/weighted_jump_search.h"
 
@@ -20,9 +24,11 @@ namespace grid_path_planner {
 
 class WeightedJumpPoint : public Planner {
  public:
-  WeightedJumpPoint();
+  // Throws InputError for options that cannot be used.
+  explicit WeightedJumpPoint(const SearchOptions& options = {});
 
   std::size_t bytesFor(const GridGeometry& geometry) const override;
+  bool optimalFor(const CostGrid& map) const override;
 
  protected:
   void doPrepare(const StopToken& stop) override;
@@ -32,7 +38,10 @@ class WeightedJumpPoint : public Planner {
  private:
   bool worthJumping() const;
   void prepareAStar(const StopToken& stop);
+  SearchOptions optionsOfAStar(const MotionModel& motion) const;
 
+  SearchOptions options_;
+  bool a_star_asked_for_;
   SymmetrySample sample_;
   bool jumps_ready_ = false;
   WeightedJumpSearch jumps_;
