@@ -60,9 +60,13 @@ void WeightedJumpSearch::beginQuery(const CostGrid& map, const PlanRequest& requ
   width_ = std::uint32_t(map.geometry().width());
   goal_ = request.goals.front();
   goal_index_ = indexOf(goal_);
-  goal_cost_ = kInfiniteKey;
+  straight_ = map.cheapest() * kStraight;
+  saving_ = map.cheapest() * (2 * kStraight - kDiagonal);
+  fresh_ = query_ << kKeyBits | kLargest;
+  bound_ = kLargest;
+  goal_reached_ = too_dear_ = false;
   counts_ = Statistics();
-  const Key bucket = kStraight * map.cheapest() / kBucketsPerStep;
+  const Key bucket = straight_ / kBucketsPerStep;
   open_.begin(estimate(request.start), 63U - unsigned(__builtin_clzll(bucket)));
 }
 
@@ -71,7 +75,7 @@ PlanResult WeightedJumpSearch::search(const PlanRequest& request, const StopToke
   StopPoll poll(stop, kExpansionsBetweenPolls);
   if (request.record_expanded) result.expanded.emplace_back(indexOf(request.start));
   expandStart(request.start);
-  while (!open_.empty() && open_.lowest() < goal_cost_) {
+  while (!open_.empty() && open_.lowest() < bound_) {
     const StopReason reason = poll.ask();
     if (reason != StopReason::NONE) return withStatus(Stopped(reason).status(), std::move(result));
     counts_.peak_open = std::max(counts_.peak_open, open_.size());
@@ -80,11 +84,12 @@ PlanResult WeightedJumpSearch::search(const PlanRequest& request, const StopToke
     if (mark.reached == mark.expanded) continue;  // it was queued more than once
     const Cell cell = map_->geometry().cell(CellIndex(index));
     const Key g = costOf(index);
-    if (g + estimate(cell) >= goal_cost_) continue;
+    if (g + estimate(cell) >= bound_) continue;
     if (request.record_expanded) result.expanded.emplace_back(index);
     expand(index, cell, g);
   }
-  if (goal_cost_ == kInfiniteKey) return withStatus(Status::UNREACHABLE, std::move(result));
+  if (!goal_reached_ && too_dear_) throw TooDear();
+  if (!goal_reached_) return withStatus(Status::UNREACHABLE, std::move(result));
   trace(request.start, result);
   return withStatus(Status::FOUND, std::move(result));
 }
@@ -94,7 +99,7 @@ void WeightedJumpSearch::expandStart(Cell start) {
   improve(index, 0);
   ++counts_.expanded;
   if (index == goal_index_) {
-    goal_cost_ = 0;
+    goal_reached_ = true;
     return;
   }
   unsigned steps = 0;
@@ -113,66 +118,77 @@ void WeightedJumpSearch::expand(std::uint32_t index, Cell cell, Key g) {
 }
 
 void WeightedJumpSearch::take(unsigned steps, std::uint32_t index, Cell cell, Key g) {
-  for (; steps != 0; steps &= steps - 1) {
-    const auto step = unsigned(__builtin_ctz(steps));
-    if (step < 4)
-      runStraight(step, cell, g);
-    else
-      runDiagonally(step, index, cell, g);
-  }
+  if ((steps & 1U) != 0) runStraight<0>(cell, g);
+  if ((steps & 2U) != 0) runStraight<1>(cell, g);
+  if ((steps & 4U) != 0) runStraight<2>(cell, g);
+  if ((steps & 8U) != 0) runStraight<3>(cell, g);
+  if ((steps & 16U) != 0) runDiagonally<4>(index, cell, g);
+  if ((steps & 32U) != 0) runDiagonally<5>(index, cell, g);
+  if ((steps & 64U) != 0) runDiagonally<6>(index, cell, g);
+  if ((steps & 128U) != 0) runDiagonally<7>(index, cell, g);
 }
 
-inline void WeightedJumpSearch::runStraight(unsigned step, Cell cell, Key g) {
-  if (jumps_.blind(step, cell)) return;
-  const WeightedJumpMap::Run run = jumps_.run(step, cell, weights_);
+// Whether a path that costs f at least is of no use.
+inline bool WeightedJumpSearch::hopeless(Key f) {
+  if (f < bound_) return false;
+  too_dear_ = true;  // which is asked only if the goal was not reached
+  return true;
+}
+
+template <unsigned kStep>
+void WeightedJumpSearch::runStraight(Cell cell, Key g) {
+  if (jumps_.blind<kStep>(cell)) return;
+  const WeightedJumpMap::Run run = jumps_.run<kStep>(cell, weights_);
   g += run.weights * kStraight;
   const Key f = g + estimate(run.to);
-  if (f >= goal_cost_) return;
+  if (hopeless(f)) return;
   const std::uint32_t index = indexOf(run.to);
-  if (improve(index, g)) reach(index, jumps_.steps(*map_, index), step, f);
+  if (improve(index, g)) reach(index, jumps_.steps(*map_, index), kStep, f);
 }
 
 // Over open cells from which straight runs find nothing it leaves no labels.
-void WeightedJumpSearch::runDiagonally(unsigned step, std::uint32_t index, Cell cell, Key g) {
-  const std::ptrdiff_t offset = std::ptrdiff_t{kSteps[step].row} * width_ + kSteps[step].column;
-  const unsigned side = 1U << step;
-  const auto row_step = unsigned(__builtin_ctz(kDefaultSteps[step] & 5U));
-  const auto column_step = unsigned(__builtin_ctz(kDefaultSteps[step] & 10U));
-  const Key limit = g + estimate(cell) + kAhead * kStraight * map_->cheapest();
+template <unsigned kStep>
+void WeightedJumpSearch::runDiagonally(std::uint32_t index, Cell cell, Key g) {
+  constexpr unsigned kSide = 1U << kStep;
+  constexpr unsigned kRowStep = kStep == 4 || kStep == 7 ? 0 : 2;  // its straight parts
+  constexpr unsigned kColumnStep = kStep == 4 || kStep == 5 ? 1 : 3;
+  static_assert(kDefaultSteps[kStep] == (kSide | 1U << kRowStep | 1U << kColumnStep));
+  const std::uint32_t offset =
+      static_cast<std::uint32_t>(kSteps[kStep].row) * width_ + std::uint32_t(kSteps[kStep].column);
+  const Key limit = g + estimate(cell) + kAhead * straight_;
   Key weight = weights_[index];
   for (;;) {
-    index = static_cast<std::uint32_t>(index + offset);
-    cell = moved(cell, step);
+    index += offset;
+    cell = moved(cell, kStep);
     if (jumps_.open(cell)) {
       g += kDiagonal * weight;
-      if (jumps_.blind(row_step, cell) && jumps_.blind(column_step, cell)) continue;
+      if (jumps_.blind<kRowStep>(cell) && jumps_.blind<kColumnStep>(cell)) continue;
     } else {
       const Key next = weights_[index];
       g += kDiagonal * std::max(weight, next);
       weight = next;
     }
     const NaturalSteps steps = jumps_.steps(*map_, index);
-    const unsigned after = steps >> (8 * step) & 255U;
+    const unsigned after = steps >> (8 * kStep) & 255U;
     if (after == 0 && index != goal_index_) return;
     const Key f = g + estimate(cell);
-    if (f >= goal_cost_ || !improve(index, g)) return;
+    if (hopeless(f) || !improve(index, g)) return;
     WeightedJumpMap::Mark& mark = jumps_.mark(index);
-    if ((mark.reached & side) != 0) return;
-    const bool turns = (after & ~unsigned(kDefaultSteps[step])) != 0;
-    if (turns || f > limit || index == goal_index_) return reach(index, steps, step, f);
-    const unsigned fresh = after & ~stepsAfter(steps, mark.expanded);
-    mark.reached |= static_cast<std::uint8_t>(side);
-    mark.expanded |= static_cast<std::uint8_t>(side);
-    if ((fresh >> row_step & 1U) != 0) runStraight(row_step, cell, g);
-    if ((fresh >> column_step & 1U) != 0) runStraight(column_step, cell, g);
-    if ((fresh & side) == 0) return;
+    if ((mark.reached & kSide) != 0) return;
+    const bool turns = (after & ~unsigned(kDefaultSteps[kStep])) != 0;
+    if (turns || f > limit || index == goal_index_) return reach(index, steps, kStep, f);
+    const unsigned fresh = mark.expanded == 0 ? after : after & ~stepsAfter(steps, mark.expanded);
+    mark.reached |= static_cast<std::uint8_t>(kSide);
+    mark.expanded |= static_cast<std::uint8_t>(kSide);
+    if ((fresh >> kRowStep & 1U) != 0) runStraight<kRowStep>(cell, g);
+    if ((fresh >> kColumnStep & 1U) != 0) runStraight<kColumnStep>(cell, g);
+    if ((fresh & kSide) == 0) return;
   }
 }
 
-// Whether g is no worse than what the cell has; a better one starts afresh. Throws TooDear.
+// Whether g is no worse than what the cell has; a better one starts afresh.
 inline bool WeightedJumpSearch::improve(std::uint32_t index, Key g) {
-  if (g > kLargest) throw TooDear();
-  const Label label = query_ << kKeyBits | (kLargest - g);
+  const Label label = fresh_ - g;
   if (label < labels_[index]) return false;
   if (label > labels_[index]) {
     labels_[index] = label;
@@ -185,17 +201,21 @@ inline bool WeightedJumpSearch::improve(std::uint32_t index, Key g) {
 // A run by `step` ended at the cell, whose label is right already: it is queued if a step of
 // `steps` becomes worth taking by that.
 void WeightedJumpSearch::reach(std::uint32_t index, NaturalSteps steps, unsigned step, Key f) {
-  if (index == goal_index_) goal_cost_ = f;
+  if (index == goal_index_) {
+    goal_reached_ = true;
+    bound_ = f;
+  }
   WeightedJumpMap::Mark& mark = jumps_.mark(index);
   const bool queued = mark.reached != mark.expanded;
-  const unsigned fresh = steps >> (8 * step) & 255U & ~stepsAfter(steps, mark.reached);
+  unsigned fresh = steps >> (8 * step) & 255U;
+  if (mark.reached != 0) fresh &= ~stepsAfter(steps, mark.reached);
   mark.reached |= static_cast<std::uint8_t>(1U << step);
   if (queued) return;
   if (fresh == 0) {
     mark.expanded = mark.reached;
     return;
   }
-  if (f >= goal_cost_) return;
+  if (f >= bound_) return;
   if (mark.expanded != 0) ++counts_.reopened;
   open_.push(f, index);
   ++counts_.generated;
@@ -203,11 +223,9 @@ void WeightedJumpSearch::reach(std::uint32_t index, NaturalSteps steps, unsigned
 
 // Octile at the cheapest weight.
 inline WeightedJumpSearch::Key WeightedJumpSearch::estimate(Cell cell) const {
-  const Key columns = Key(std::abs(cell.column - goal_.column));
-  const Key rows = Key(std::abs(cell.row - goal_.row));
-  const Key diagonal = std::min(columns, rows);
-  return map_->cheapest() *
-         ((std::max(columns, rows) - diagonal) * kStraight + diagonal * kDiagonal);
+  const auto columns = std::uint32_t(std::abs(cell.column - goal_.column));
+  const auto rows = std::uint32_t(std::abs(cell.row - goal_.row));
+  return (columns + rows) * straight_ - std::min(columns, rows) * saving_;
 }
 
 // Back from the goal by a step that reached each cell.

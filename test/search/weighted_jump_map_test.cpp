@@ -19,6 +19,22 @@ NaturalSteps stepsAt(const WeightedJumpMap& jumps, const CostGrid& map, Cell cel
   return jumps.steps(map, map.geometry().index(cell).value());
 }
 
+WeightedJumpMap::Run runOf(const WeightedJumpMap& jumps, const CostGrid& map, unsigned step,
+                           Cell cell) {
+  const CostGrid::Weight* weights = map.weights().values().data();
+  return step == 0   ? jumps.run<0>(cell, weights)
+         : step == 1 ? jumps.run<1>(cell, weights)
+         : step == 2 ? jumps.run<2>(cell, weights)
+                     : jumps.run<3>(cell, weights);
+}
+
+bool blindTo(const WeightedJumpMap& jumps, unsigned step, Cell cell) {
+  return step == 0   ? jumps.blind<0>(cell)
+         : step == 1 ? jumps.blind<1>(cell)
+         : step == 2 ? jumps.blind<2>(cell)
+                     : jumps.blind<3>(cell);
+}
+
 // The runs are what following the steps cell by cell gives.
 void expectRunsFollowSteps(const WeightedJumpMap& jumps, const CostGrid& map, Cell from) {
   for (unsigned step = 0; step < 4; ++step) {
@@ -32,10 +48,10 @@ void expectRunsFollowSteps(const WeightedJumpMap& jumps, const CostGrid& map, Ce
       at = next;
       steps = stepsAt(jumps, map, at) >> (8 * step) & 255U;
     } while (steps == kDefaultSteps[step]);
-    const WeightedJumpMap::Run run = jumps.run(step, from, map.weights().values().data());
+    const WeightedJumpMap::Run run = runOf(jumps, map, step, from);
     ASSERT_EQ(run.to, at) << from << " step " << step;
     ASSERT_EQ(run.weights, weights) << from << " step " << step;
-    ASSERT_EQ(jumps.blind(step, from), steps == 0) << from << " step " << step;
+    ASSERT_EQ(blindTo(jumps, step, from), steps == 0) << from << " step " << step;
   }
 }
 
@@ -52,7 +68,7 @@ void expectAlike(const WeightedJumpMap& a, const WeightedJumpMap& b, const CostG
     ASSERT_EQ(stepsAt(a, map, cell), stepsAt(b, map, cell)) << cell;
     for (unsigned step = 0; step < 4; ++step) {
       if (stepAllowed(map, cell, after(cell, step))) {
-        ASSERT_EQ(a.blind(step, cell), b.blind(step, cell)) << cell << " step " << step;
+        ASSERT_EQ(blindTo(a, step, cell), blindTo(b, step, cell)) << cell << " step " << step;
       }
     }
   }
@@ -71,12 +87,11 @@ TEST(WeightedJumpMap, RunsPastSlopesThatLeadNowhere) {
   for (int row = 0; row < 9; ++row)
     for (int column = 0; column < 100; ++column) weights[Cell{column, row}] = slope[row];
   const CostGrid map(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), {});
-  const WeightedJumpMap jumps = built(map);
-  EXPECT_GE(jumps.run(0, {20, 6}, weights.values().data()).to.column,
-            100 - WeightedJumpMap::kDepth - 5);
-  EXPECT_TRUE(jumps.blind(1, {20, 6})) << "up the slope";
-  const WeightedJumpMap::Target target(const_cast<WeightedJumpMap&>(jumps), map, {20, 8});
-  EXPECT_FALSE(jumps.blind(1, {20, 6})) << "but there is the goal";
+  WeightedJumpMap jumps = built(map);
+  EXPECT_GE(runOf(jumps, map, 0, {20, 6}).to.column, 100 - WeightedJumpMap::kDepth - 5);
+  EXPECT_TRUE(blindTo(jumps, 1, {20, 6})) << "up the slope";
+  const WeightedJumpMap::Target target(jumps, map, {20, 8});
+  EXPECT_FALSE(blindTo(jumps, 1, {20, 6})) << "but there is the goal";
 }
 
 TEST(WeightedJumpMapLaw, RunsFollowTheSteps) {
@@ -139,8 +154,8 @@ TEST(WeightedJumpMapLaw, ATargetStopsEveryRunAndLeavesNoTrace) {
       for (unsigned step = 0; step < 4; ++step) {
         const Cell before{goal.column - kSteps[step].column, goal.row - kSteps[step].row};
         if (!stepAllowed(map, before, goal)) continue;
-        EXPECT_EQ(jumps.run(step, before, map.weights().values().data()).to, goal);
-        EXPECT_FALSE(jumps.blind(step, before));
+        EXPECT_EQ(runOf(jumps, map, step, before).to, goal);
+        EXPECT_FALSE(blindTo(jumps, step, before));
       }
     }
     expectAlike(jumps, fresh, map);

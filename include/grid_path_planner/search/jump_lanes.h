@@ -44,6 +44,11 @@ class JumpLanes {
   }
   Word& word(std::size_t lane, unsigned at) { return words_[lane * words_per_lane_ + at / 64]; }
 
+  template <bool kForward>
+  bool blind(std::size_t lane, unsigned at) const {
+    return (word(lane, at).blind[kForward ? 0 : 1] >> (at & 63U) & 1U) != 0;
+  }
+
   // What a cell is to the runs of one direction, and what that means to the cells before it.
   template <bool kForward>
   void set(std::size_t lane, unsigned at, bool stop, bool dead);

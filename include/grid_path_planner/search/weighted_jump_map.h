@@ -81,12 +81,11 @@ class WeightedJumpMap {
     return bitOf(rows_.word(std::size_t(cell.row), unsigned(cell.column)).open, cell.column);
   }
   // Whether a run by the straight step finds nothing.
-  bool blind(unsigned step, Cell cell) const {
-    return (step & 1U) == 0
-               ? bitOf(rows_.word(std::size_t(cell.row), unsigned(cell.column)).blind[step / 2],
-                       cell.column)
-               : bitOf(columns_.word(std::size_t(cell.column), unsigned(cell.row)).blind[step / 2],
-                       cell.row);
+  template <unsigned kStep>
+  bool blind(Cell cell) const {
+    return kStep % 2 == 0
+               ? rows_.blind<kStep / 2 == 0>(std::size_t(cell.row), unsigned(cell.column))
+               : columns_.blind<kStep / 2 == 0>(std::size_t(cell.column), unsigned(cell.row));
   }
   // Where a run by the straight step ends, and the sum of max(weight, weight) on the way.
   // Precondition: the step is legal.
@@ -94,7 +93,8 @@ class WeightedJumpMap {
     Cell to;
     std::uint64_t weights;
   };
-  Run run(unsigned step, Cell cell, const CostGrid::Weight* weights) const;
+  template <unsigned kStep>
+  Run run(Cell cell, const CostGrid::Weight* weights) const;
 
   // While one lives every run stops at its cell and no step towards it is left out.
   class Target {
@@ -144,17 +144,16 @@ class WeightedJumpMap {
   std::unordered_map<NaturalSteps, unsigned> kind_of_;
 };
 
-inline WeightedJumpMap::Run WeightedJumpMap::run(unsigned step, Cell cell,
-                                                 const CostGrid::Weight* weights) const {
+template <unsigned kStep>
+WeightedJumpMap::Run WeightedJumpMap::run(Cell cell, const CostGrid::Weight* weights) const {
+  constexpr bool kForward = kStep / 2 == 0;
   const auto column = unsigned(cell.column), row = unsigned(cell.row);
-  if ((step & 1U) == 0) {
+  if (kStep % 2 == 0) {
     const CostGrid::Weight* lane = weights + std::size_t(row) * unsigned(width_);
-    const JumpLanes::Run run =
-        step == 0 ? rows_.run<true>(row, column, lane, 1) : rows_.run<false>(row, column, lane, 1);
+    const JumpLanes::Run run = rows_.run<kForward>(row, column, lane, 1);
     return {{int(run.to), cell.row}, run.weights};
   }
-  const JumpLanes::Run run = step == 1 ? columns_.run<true>(column, row, weights + column, width_)
-                                       : columns_.run<false>(column, row, weights + column, width_);
+  const JumpLanes::Run run = columns_.run<kForward>(column, row, weights + column, width_);
   return {{cell.column, int(run.to)}, run.weights};
 }
 

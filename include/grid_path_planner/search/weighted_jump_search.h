@@ -42,7 +42,8 @@ class WeightedJumpSearch {
   // Nothing is prepared any more, no memory is held.
   void release();
 
-  // Thrown by run() where a path may cost more than its keys hold: 17.6e6 cell lengths x weight.
+  // Thrown by run() where no path was found among those that cost less than its keys hold, 17.6e6
+  // cell lengths x weight, but there may be a dearer one.
   struct TooDear {};
 
   // FOUND, UNREACHABLE, TIMEOUT or CANCELLED. Throws TooDear.
@@ -68,8 +69,11 @@ class WeightedJumpSearch {
   void expandStart(Cell start);
   void expand(std::uint32_t index, Cell cell, Key g);
   void take(unsigned steps, std::uint32_t index, Cell cell, Key g);
-  void runStraight(unsigned step, Cell cell, Key g);
-  void runDiagonally(unsigned step, std::uint32_t index, Cell cell, Key g);
+  template <unsigned kStep>
+  void runStraight(Cell cell, Key g);
+  template <unsigned kStep>
+  void runDiagonally(std::uint32_t index, Cell cell, Key g);
+  bool hopeless(Key f);
   bool improve(std::uint32_t index, Key g);
   void reach(std::uint32_t index, NaturalSteps steps, unsigned step, Key f);
 
@@ -94,7 +98,12 @@ class WeightedJumpSearch {
   std::uint32_t width_ = 0;
   Cell goal_;
   std::uint32_t goal_index_ = 0;
-  Key goal_cost_ = 0;  // kInfiniteKey until the goal is reached
+  Key straight_ = 0;  // of the estimate: a straight cell length at the cheapest weight,
+  Key saving_ = 0;    // and what a diagonal step saves against two of these
+  Label fresh_ = 0;   // label of cost 0
+  Key bound_ = 0;     // what costs as much is of no use: the goal's cost, once it is known
+  bool goal_reached_ = false;
+  bool too_dear_ = false;  // something was left out that the keys do not hold
   Statistics counts_;
 };
 
