@@ -7,7 +7,8 @@
 // out what symmetry makes superfluous: nearly everything on plateaus, much of the slopes around
 // obstacles, little where every cell has another weight. Whether that is worth it is counted when a
 // map is prepared (search/symmetry_sample.h) and kept up with its changes; where it is not, and for
-// other motion models, A* answers, with the heuristic that fits them. So no map is refused. Nor is
+// other motion models, A* answers, with the heuristic that fits them. So no map is refused: where a
+// path costs more than the keys of the jumps hold, A* is made ready beside them. Nor is
 // an option ignored: with any search option (heuristic, scale, epsilon, tie-break) that is not the
 // default, A* answers with it.
 #pragma once
