@@ -1,5 +1,6 @@
 #include "grid_path_planner/search/a_star.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "grid_path_planner/search/heuristic.h"
@@ -30,6 +31,12 @@ SearchKey tieKey(TieBreak tie_break, SearchKey g, const Estimate& estimate, Cell
   return 0;
 }
 
+SearchKey stretched(SearchKey bound, double epsilon) {
+  if (epsilon == 1.0) return bound;
+  const double key = static_cast<double>(bound) * epsilon;
+  return key < static_cast<double>(kInfiniteKey) ? static_cast<SearchKey>(key) : kInfiniteKey;
+}
+
 }  // namespace
 
 AStar::AStar(const SearchOptions& options)
@@ -41,12 +48,14 @@ AStar AStar::published(const SearchOptions& options) {
 }
 
 AStar::AStar(Traits traits, const SearchOptions& options, BestFirstSearch::GoalTest goal_test)
-    : Planner(std::move(traits)), options_(options), goal_test_(goal_test) {
+    : Planner(std::move(traits)), options_(options), goal_test_(goal_test), tables_(options) {
   checkSearchOptions(options);
 }
 
 std::size_t AStar::bytesFor(const GridGeometry& geometry) const {
-  return strictlyOrdered() ? BestFirstSearch::bytesFor(geometry) : BucketSearch::bytesFor(geometry);
+  const std::size_t search =
+      strictlyOrdered() ? BestFirstSearch::bytesFor(geometry) : BucketSearch::bytesFor(geometry);
+  return search + PreparedHeuristic::bytesFor(options_, geometry);
 }
 
 bool AStar::optimalFor(const CostGrid& map) const {
@@ -58,6 +67,7 @@ void AStar::doPrepare(const StopToken& stop) {
     in_order_.prepare(map(), stop);
   else
     by_buckets_.prepare(map(), stop);
+  tables_.prepare(sharedMap());
 }
 
 void AStar::doUpdate(const CellRect& changed, const StopToken& stop) {
@@ -65,10 +75,30 @@ void AStar::doUpdate(const CellRect& changed, const StopToken& stop) {
     in_order_.update(map(), changed, stop);
   else
     by_buckets_.update(map(), changed, stop);
+  tables_.update(mapBefore(), sharedMap(), changed);
 }
 
 PlanResult AStar::doPlan(const PlanRequest& request, const StopToken& stop) {
-  return strictlyOrdered() ? planInOrder(request, stop) : planByBuckets(request, stop);
+  PlanResult result = strictlyOrdered() ? planInOrder(request, stop)
+                      : tables_.ready() ? planWithTables(request, stop)
+                                        : planByBuckets(request, stop);
+  result.statistics.search_bytes += tables_.work().bytes;
+  return result;
+}
+
+PlanResult AStar::planWithTables(const PlanRequest& request, const StopToken& stop) {
+  const Cell goal = request.goals.front();
+  const std::uint32_t goal_index = map().geometry().index(goal).value();
+  const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
+  return tables_.withBound(goal_index, [&](const auto& boundIn) {
+    const auto estimateIn = [&](const KeyScale& scale) {
+      return [estimate = Estimate(options_, map(), request.start, goal, scale),
+              bound = boundIn(scale), epsilon = options_.epsilon](Cell cell, std::uint32_t index) {
+        return std::max(estimate(cell), stretched(bound(index), epsilon));
+      };
+    };
+    return by_buckets_.run(map(), request.start, isGoal, estimateIn, request.record_expanded, stop);
+  });
 }
 
 PlanResult AStar::planByBuckets(const PlanRequest& request, const StopToken& stop) {
@@ -95,13 +125,18 @@ PlanResult AStar::planInOrder(const PlanRequest& request, const StopToken& stop)
   const std::uint32_t goal_index = map().geometry().index(goal).value();
   const Estimate estimate(options_, map(), request.start, goal);
   const TieBreak tie_break = options_.tie_break;
-  return in_order_.run(
-      map(), request.start, [goal_index](std::uint32_t index) { return index == goal_index; },
-      [&estimate, tie_break](SearchKey g, Cell cell) {
-        return BestFirstSearch::Promise{saturatingSum(g, estimate(cell)),
-                                        tieKey(tie_break, g, estimate, cell)};
-      },
-      request.record_expanded, stop, goal_test_);
+  const GridGeometry& geometry = map().geometry();
+  const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
+  return tables_.withBound(goal_index, [&](const auto& boundIn) {
+    const auto bound = boundIn(kWideScale);
+    const auto promise = [&](SearchKey g, Cell cell) {
+      const SearchKey least = stretched(bound(geometry.index(cell).value()), options_.epsilon);
+      return BestFirstSearch::Promise{saturatingSum(g, std::max(estimate(cell), least)),
+                                      tieKey(tie_break, g, estimate, cell)};
+    };
+    return in_order_.run(map(), request.start, isGoal, promise, request.record_expanded, stop,
+                         goal_test_);
+  });
 }
 
 }  // namespace grid_path_planner

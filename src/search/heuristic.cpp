@@ -11,10 +11,21 @@ SearchKey roundedDown(long double key) {
   return key <= 0.0L ? 0 : static_cast<SearchKey>(key);
 }
 
+// The one that is computed: itself, or what stands in for a table.
+Heuristic closedForm(Heuristic heuristic, const MotionModel& motion) {
+  if (!prepared(heuristic)) return heuristic;
+  if (motion.connectivity == Connectivity::FOUR) return Heuristic::MANHATTAN;
+  return motion.diagonal_cost == DiagonalCost::UNIT ? Heuristic::CHEBYSHEV : Heuristic::OCTILE;
+}
+
 // What the original added to h for every cell off the straight line.
 constexpr long double kPublishedCrossFactor = 0.001L;
 
 }  // namespace
+
+bool prepared(Heuristic heuristic) {
+  return heuristic == Heuristic::LANDMARK || heuristic == Heuristic::EXACT;
+}
 
 bool admissible(Heuristic heuristic, const MotionModel& motion) {
   const bool four = motion.connectivity == Connectivity::FOUR;
@@ -22,6 +33,8 @@ bool admissible(Heuristic heuristic, const MotionModel& motion) {
   switch (heuristic) {
     case Heuristic::ZERO:
     case Heuristic::CHEBYSHEV:
+    case Heuristic::LANDMARK:
+    case Heuristic::EXACT:
       return true;
     case Heuristic::MANHATTAN:
       return four;
@@ -42,7 +55,7 @@ bool optimalWith(const SearchOptions& options, const CostGrid& map) {
 Estimate::Estimate(const SearchOptions& options, const CostGrid& map, Cell start, Cell goal,
                    const KeyScale& scale)
     : scale_(scale),
-      heuristic_(options.heuristic),
+      heuristic_(closedForm(options.heuristic, map.motion())),
       published_cross_(options.tie_break == TieBreak::CROSS_PRODUCT_PUBLISHED),
       start_(start),
       goal_(goal),
@@ -74,6 +87,8 @@ SearchKey Estimate::distance(std::uint64_t columns, std::uint64_t rows) const {
     case Heuristic::OCTILE:
       return octile(columns, rows);
     case Heuristic::EUCLIDEAN:
+    case Heuristic::LANDMARK:
+    case Heuristic::EXACT:
       break;
   }
   // One unit below: the rounding of the square root must not lift it above the true length.

@@ -90,6 +90,7 @@ PlanRequest withoutBlockedGoals(PlanRequest request, const CostGrid& map) {
 
 void Planner::prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop) {
   map_ = std::move(map);
+  map_before_.reset();
   prepared_ = false;
   refusal_ = reasonAgainst(*map_);
   if (refusal_.empty()) doPrepare(stop);
@@ -101,10 +102,11 @@ void Planner::update(std::shared_ptr<const CostGrid> map, const CellRect& change
   const bool follows = prepared_ && refusal_.empty() && map->geometry() == map_->geometry() &&
                        map->motion() == map_->motion() && map->revision() == map_->revision() + 1;
   if (!follows || !reasonAgainst(*map).empty()) return prepare(std::move(map), stop);
-  map_ = std::move(map);
+  map_before_ = std::exchange(map_, std::move(map));
   prepared_ = false;
   doUpdate(changed, stop);
   prepared_ = true;
+  map_before_.reset();
 }
 
 PlanResult Planner::plan(const PlanRequest& request, const StopToken& stop) {

@@ -157,6 +157,7 @@ int runScenarios(int argc, char** argv) {
   const std::shared_ptr<const CostGrid> map = terrain.searched(StopToken());
   const std::unique_ptr<Planner> planner = makePlanner(options.planner, options.search);
   planner->prepare(map, StopToken());
+  planner->finishBackgroundWork(StopToken());
   const std::chrono::duration<double> preparation = std::chrono::steady_clock::now() - begin;
   const Reference reference(referenceNameOf(values, options.terrain), map);
 
@@ -182,9 +183,12 @@ int runScenarios(int argc, char** argv) {
   }
   if (values.count("csv") != 0) writeFileAtomically(values["csv"].as<std::string>(), csv);
 
+  const BackgroundWork work = planner->backgroundWork();
   std::printf("map=%s planner=%s preparation_ms=%.3f reference=%s unsolvable=%zu\n",
               map_file.c_str(), options.planner.c_str(), preparation.count() * 1e3,
               reference.name().c_str(), totals.unsolvable);
+  if (work.bytes > 0)
+    std::printf("background_ms=%.3f background_bytes=%zu\n", work.time_s * 1e3, work.bytes);
   std::printf("queries=%zu solved=%zu wrong=%zu total_s=%.6f mean_ms=%.6f expanded=%llu\n",
               totals.queries, totals.solved, totals.wrong, totals.time_s,
               totals.time_s * 1e3 / static_cast<double>(std::max<std::size_t>(totals.queries, 1)),

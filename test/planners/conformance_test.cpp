@@ -8,6 +8,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/search/heuristic.h"
 #include "grid_path_planner/terrain/segment.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
@@ -26,6 +27,11 @@ std::ostream& operator<<(std::ostream& out, const Subject& subject) {
              << choiceName(subject.options.tie_break);
 }
 
+// Larger ones would need tables for every pair of their cells.
+int sideFor(const Subject& subject, int side) {
+  return subject.options.heuristic == Heuristic::EXACT ? side / 4 : side;
+}
+
 std::vector<Subject> subjects() {
   std::vector<Subject> all;
   for (const std::string& planner : plannerNames()) {
@@ -34,6 +40,7 @@ std::vector<Subject> subjects() {
     for (const auto& heuristic : choicesOf(Heuristic{}))
       for (const auto& tie_break : choicesOf(TieBreak{})) {
         SearchOptions options;
+        if (prepared(heuristic.second) && tie_break.second != options.tie_break) continue;
         options.heuristic = heuristic.second;
         options.tie_break = tie_break.second;
         all.push_back({planner, options});
@@ -57,6 +64,12 @@ std::vector<MotionModel> motionModels() {
       for (const bool cut : {false, true})
         models.push_back({connectivity.second, diagonal.second, cut});
   return models;
+}
+
+// Tables that were repaired bound other cells than new ones: of paths of equal cost another may be
+// found.
+bool mayDifferAfterUpdates(const Subject& subject) {
+  return prepared(subject.options.heuristic);
 }
 
 class Conformance : public ::testing::TestWithParam<Subject> {
@@ -122,6 +135,7 @@ TEST_P(Conformance, AnswersAreLegalAndTheLeastCostWhereOptimalityIsClaimed) {
                                 false};
       const auto planner = make();
       planner->prepare(map, StopToken());
+      if (trial % 2 == 0) planner->finishBackgroundWork(StopToken());
       const PlanResult result = planner->plan(request, StopToken());
       SCOPED_TRACE("trial " + std::to_string(trial) + ", " + result.message);
       if (refuses(planner->traits(), *map)) {
@@ -208,6 +222,7 @@ TEST_P(Conformance, SameQuestionSameAnswer) {
   const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 60, {}));
   const auto planner = make();
   planner->prepare(map, StopToken());
+  planner->finishBackgroundWork(StopToken());
   for (int trial = 0; trial < 20; ++trial) {
     const PlanRequest request{test::randomCell(random, map->geometry()),
                               {test::randomCell(random, map->geometry())},
@@ -216,6 +231,7 @@ TEST_P(Conformance, SameQuestionSameAnswer) {
     const PlanResult second = planner->plan(request, StopToken());
     const auto fresh = make();
     fresh->prepare(map, StopToken());
+    fresh->finishBackgroundWork(StopToken());
     const PlanResult third = fresh->plan(request, StopToken());
     EXPECT_EQ(first.cells, second.cells);
     EXPECT_EQ(first.cells, third.cells);
@@ -251,7 +267,10 @@ TEST_P(Conformance, AnUpdatedMapIsPlannedLikeAFreshOne) {
       const PlanResult a = updated->plan(request, StopToken());
       const PlanResult b = fresh->plan(request, StopToken());
       EXPECT_EQ(a.status, b.status);
-      EXPECT_EQ(a.cells, b.cells);
+      if (mayDifferAfterUpdates(GetParam()))
+        EXPECT_TRUE(a.cost == b.cost || !updated->optimalFor(*after));
+      else
+        EXPECT_EQ(a.cells, b.cells);
     }
   }
 }
@@ -278,32 +297,36 @@ TEST_P(Conformance, NamesWhatIsWrongWithARequest) {
 }
 
 TEST_P(Conformance, StopsWhenAsked) {
-  const Grid<CostGrid::Weight> weights(GridGeometry(200, 200, 1.0), 1);
+  const int side = sideFor(GetParam(), 200);
+  const PlanRequest request{{0, 0}, {{side - 1, side * 3 / 4}}, false};
+  const Grid<CostGrid::Weight> weights(GridGeometry(side, side, 1.0), 1);
   const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
   const auto planner = make();
   planner->prepare(std::make_shared<const CostGrid>(weights, classes, MotionModel()), StopToken());
   StopSource source;
   const StopToken expired = source.token(std::chrono::duration<double>(0.0));
-  EXPECT_EQ(planner->plan({{0, 0}, {{199, 150}}, false}, expired).status, Status::TIMEOUT);
+  EXPECT_EQ(planner->plan(request, expired).status, Status::TIMEOUT);
   source.cancel();
-  const PlanResult cancelled = planner->plan({{0, 0}, {{199, 150}}, false}, source.token());
+  const PlanResult cancelled = planner->plan(request, source.token());
   EXPECT_EQ(cancelled.status, Status::CANCELLED);
   EXPECT_TRUE(cancelled.cells.empty());
   EXPECT_FALSE(cancelled.message.empty());
-  EXPECT_EQ(planner->plan({{0, 0}, {{199, 150}}, false}, StopToken()).status, Status::FOUND);
+  EXPECT_EQ(planner->plan(request, StopToken()).status, Status::FOUND);
 }
 
 // A search that is stopped on its way says how far it came.
 TEST_P(Conformance, StoppedSearchesKeepTheirStatistics) {
-  const Grid<CostGrid::Weight> weights(GridGeometry(160, 160, 1.0), 1);
+  const int side = sideFor(GetParam(), 160);
+  const int middle = side / 2;
+  const Grid<CostGrid::Weight> weights(GridGeometry(side, side, 1.0), 1);
   const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
   auto walled = weights;  // the goal is walled in: every cell is expanded before it is given up
   for (const Cell step : {Cell{1, 0}, Cell{0, 1}, Cell{1, 1}, Cell{-1, 0}, Cell{0, -1},
                           Cell{-1, -1}, Cell{1, -1}, Cell{-1, 1}})
-    walled[Cell{80 + step.column, 80 + step.row}] = CostGrid::kBlocked;
+    walled[Cell{middle + step.column, middle + step.row}] = CostGrid::kBlocked;
   const auto planner = make();
   planner->prepare(std::make_shared<const CostGrid>(walled, classes, MotionModel()), StopToken());
-  const PlanRequest request{{0, 0}, {{80, 80}}, false};
+  const PlanRequest request{{0, 0}, {{middle, middle}}, false};
   const PlanResult whole = planner->plan(request, StopToken());
   ASSERT_EQ(whole.status, Status::UNREACHABLE);
   // On a busy machine the time may be over before the search began: ask more than once.

@@ -17,6 +17,7 @@
 #include "grid_path_planner/search/best_first_search.h"
 #include "grid_path_planner/search/bucket_search.h"
 #include "grid_path_planner/search/planner.h"
+#include "grid_path_planner/search/prepared_heuristic.h"
 #include "grid_path_planner/search/search_options.h"
 
 namespace grid_path_planner {
@@ -29,6 +30,8 @@ class AStar : public Planner {
 
   std::size_t bytesFor(const GridGeometry& geometry) const override;
   bool optimalFor(const CostGrid& map) const override;
+  BackgroundWork backgroundWork() override { return tables_.work(); }
+  void finishBackgroundWork(const StopToken& stop) override { tables_.wait(stop); }
 
  protected:
   void doPrepare(const StopToken& stop) override;
@@ -43,12 +46,14 @@ class AStar : public Planner {
            goal_test_ == BestFirstSearch::GoalTest::WHEN_GENERATED;
   }
   PlanResult planByBuckets(const PlanRequest& request, const StopToken& stop);
+  PlanResult planWithTables(const PlanRequest& request, const StopToken& stop);
   PlanResult planInOrder(const PlanRequest& request, const StopToken& stop);
 
   SearchOptions options_;
   BestFirstSearch::GoalTest goal_test_;
   BucketSearch by_buckets_;  // one of the two is used
   BestFirstSearch in_order_;
+  PreparedHeuristic tables_;
 };
 
 }  // namespace grid_path_planner

@@ -15,6 +15,9 @@
 
 namespace grid_path_planner {
 
+// Whether it comes from tables that are made for a map (search/prepared_table.h).
+bool prepared(Heuristic heuristic);
+
 // Whether the heuristic, times a scale of at most the cheapest weight, never exceeds the cost.
 bool admissible(Heuristic heuristic, const MotionModel& motion);
 

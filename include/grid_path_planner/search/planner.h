@@ -62,6 +62,13 @@ struct PlanResult {
   std::vector<CellIndex> expanded;  // in order, where the request asks for it
 };
 
+// What a planner makes in a thread of its own, to be faster when it is there.
+struct BackgroundWork {
+  bool pending = false;   // something is being made
+  double time_s = 0.0;    // that the last one took; 0 where there is none
+  std::size_t bytes = 0;  // that it holds
+};
+
 class Planner {
  public:
   virtual ~Planner() = default;
@@ -86,6 +93,12 @@ class Planner {
   // anything else is a full prepare.
   void update(std::shared_ptr<const CostGrid> map, const CellRect& changed, const StopToken& stop);
 
+  // Until background work is done plans take longer; they cost the same before and after, though of
+  // paths of equal cost they may answer another.
+  virtual BackgroundWork backgroundWork() { return {}; }
+  // Returns when it is done. Throws Stopped; it goes on then.
+  virtual void finishBackgroundWork(const StopToken&) {}
+
   PlanResult plan(const PlanRequest& request, const StopToken& stop);
 
  protected:
@@ -93,6 +106,8 @@ class Planner {
 
   const CostGrid& map() const { return *map_; }
   const std::shared_ptr<const CostGrid>& sharedMap() const { return map_; }
+  // The map that update() replaces. Precondition: called by doUpdate().
+  const CostGrid& mapBefore() const { return *map_before_; }
 
   // The reason why this planner cannot search `map`, "" where it can.
   virtual std::string refusal(const CostGrid& map) const;
@@ -111,8 +126,9 @@ class Planner {
 
   std::size_t memory_limit_ = std::numeric_limits<std::size_t>::max();
   std::shared_ptr<const CostGrid> map_;
-  std::string refusal_;    // why map_ cannot be searched, "" where it can
-  bool prepared_ = false;  // false where a preparation was stopped half way
+  std::shared_ptr<const CostGrid> map_before_;  // during an update
+  std::string refusal_;                         // why map_ cannot be searched, "" where it can
+  bool prepared_ = false;                       // false where a preparation was stopped half way
 };
 
 }  // namespace grid_path_planner

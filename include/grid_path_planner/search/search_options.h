@@ -10,7 +10,7 @@
 
 namespace grid_path_planner {
 
-enum class Heuristic { ZERO, MANHATTAN, CHEBYSHEV, OCTILE, EUCLIDEAN };
+enum class Heuristic { ZERO, MANHATTAN, CHEBYSHEV, OCTILE, EUCLIDEAN, LANDMARK, EXACT };
 const std::vector<std::pair<const char*, Heuristic>>& choicesOf(Heuristic);
 
 enum class TieBreak { NONE, LARGER_G, CROSS_PRODUCT, CROSS_PRODUCT_PUBLISHED };
@@ -25,6 +25,7 @@ struct SearchOptions {
   std::string heuristic_scale = "cheapest";  // "cheapest", or a number >= 0
   double epsilon = 1.0;                      // >= 1
   TieBreak tie_break = TieBreak::NONE;
+  int landmarks = 16;
   int memory_limit = 6000;  // MB
   RectangleWeight rectangle_weight = RectangleWeight::LENGTH;
   bool rectangle_funnel = true;
@@ -47,6 +48,10 @@ void visitOptions(SearchOptions& o, Visitor&& visit) {
         OptionInfo{"Which of equally promising cells is expanded first: none leaves it to the "
                    "quickest order, the others cost several times as much a cell",
                    ""});
+  visit("landmarks", o.landmarks,
+        OptionInfo{"Cells from which heuristic landmark knows all costs; more: fewer cells "
+                   "expanded, 4 bytes a cell of the map and 2 whole-map searches each",
+                   "", 1, 64});
   visit("memory_limit", o.memory_limit,
         OptionInfo{"What a planner may take for itself, the map not counted: it refuses a map that "
                    "needs more, before it takes anything",

@@ -1,0 +1,93 @@
+// One computation in a thread of its own, and its result when it is there.
+//
+//   Background<Table> making;
+//   making.start([map](const StopToken& stop) { return Table(*map, stop); });
+//   if (std::shared_ptr<const Table> table = making.take()) use(*table);
+//
+// A computation that is no longer wanted is stopped by its token, so it should ask it often. One
+// that throws leaves no result; Stopped and std::bad_alloc are the ones that are expected, and
+// anything else ends the program, as it would without a thread.
+//
+// start(), take(), wait() and the destructor belong to one thread.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <thread>
+#include <utility>
+
+#include "grid_path_planner/base/stop_token.h"
+
+namespace grid_path_planner {
+
+template <class Result>
+class Background {
+ public:
+  Background() = default;
+  ~Background() { stop(); }
+  Background(const Background&) = delete;
+  Background& operator=(const Background&) = delete;
+
+  // Stops what is under way, forgets its result and begins `compute(token)`, which gives a Result.
+  template <class Compute>
+  void start(Compute compute) {
+    stop();
+    source_ = StopSource();
+    running_ = true;
+    thread_ = std::thread([this, compute = std::move(compute), token = source_.token()]() mutable {
+      std::shared_ptr<const Result> result;
+      try {
+        result = std::make_shared<const Result>(compute(token));
+      } catch (const Stopped&) {
+      } catch (const std::bad_alloc&) {
+      }
+      const std::lock_guard<std::mutex> lock(mutex_);
+      result_ = std::move(result);
+      running_ = false;
+      ended_.notify_all();
+    });
+  }
+
+  // Returns when the thread has ended: some thousand steps of its computation later.
+  void stop() {
+    source_.cancel();
+    if (thread_.joinable()) thread_.join();
+    result_.reset();
+    running_ = false;
+  }
+
+  bool running() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return running_;
+  }
+
+  // The result, once; null while there is none.
+  std::shared_ptr<const Result> take() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::move(result_);
+  }
+
+  // Returns when nothing is under way. Throws Stopped where `stop` asks first; the computation goes
+  // on then.
+  void wait(const StopToken& stop) const {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (running_) {
+      const StopReason reason = stop.reason();
+      if (reason != StopReason::NONE) throw Stopped(reason);
+      ended_.wait_for(lock, std::chrono::milliseconds(2));
+    }
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::condition_variable ended_;
+  std::shared_ptr<const Result> result_;
+  bool running_ = false;
+  StopSource source_;
+  std::thread thread_;
+};
+
+}  // namespace grid_path_planner
