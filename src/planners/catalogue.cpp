@@ -5,6 +5,7 @@
 #include "grid_path_planner/search/a_star.h"
 #include "grid_path_planner/search/anya.h"
 #include "grid_path_planner/search/dijkstra.h"
+#include "grid_path_planner/search/incremental_a_star.h"
 #include "grid_path_planner/search/jump_point.h"
 #include "grid_path_planner/search/theta_star.h"
 #include "grid_path_planner/search/weighted_jump_point.h"
@@ -42,6 +43,7 @@ constexpr Row kCatalogue[] = {
     {"weighted_jump_point", plain<WeightedJumpPoint>},
     {"jump_point", plain<JumpPoint>},
     {"dijkstra", plain<Dijkstra>},
+    {"incremental_a_star", plain<IncrementalAStar>},
     {"theta_star", plain<ThetaStar>},
     {"lazy_theta_star", lazyThetaStar},
     {"anya", plain<Anya>},

@@ -51,7 +51,9 @@ bool canonicalHolds(const MotionModel& motion) {
 }  // namespace
 
 MoveRules::MoveRules(const CostGrid& map)
-    : masks_(map.motion()),
+    : motion_(map.motion()),
+      map_uniform_(map.uniform()),
+      masks_(map.motion()),
       canonical_(canonicalHolds(map.motion())),
       uniform_(canonical_ && map.uniform()) {
   for (std::size_t step = 0; step < kSteps.size(); ++step) {
@@ -78,11 +80,12 @@ bool MoveRules::missing(std::uint32_t steps, unsigned step, Kind kind) const {
 void Moves::build(const CostGrid& map, const StopToken& stop) {
   kinds_.resize(map.geometry().size());
   offsets_ = stepOffsets(map.geometry().width());
+  rules_ = MoveRules(map);
   update(map, map.geometry().rect(), stop);
 }
 
 void Moves::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
-  rules_ = MoveRules(map);
+  if (!rules_.fit(map)) rules_ = MoveRules(map);
   forEachNeighbourhood(map, changed.grown(1).intersection(map.geometry().rect()), stop,
                        [this](std::size_t index, unsigned bits, bool equal) {
                          kinds_[index] = rules_.kindOf(bits, equal);

@@ -99,6 +99,7 @@ void Planner::prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop
 
 void Planner::update(std::shared_ptr<const CostGrid> map, const CellRect& changed,
                      const StopToken& stop) {
+  if (prepared_ && map == map_) return;
   const bool follows = prepared_ && refusal_.empty() && map->geometry() == map_->geometry() &&
                        map->motion() == map_->motion() && map->revision() == map_->revision() + 1;
   if (!follows || !reasonAgainst(*map).empty()) return prepare(std::move(map), stop);

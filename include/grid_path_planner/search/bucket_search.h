@@ -39,6 +39,9 @@ class BucketSearch {
   void prepare(const CostGrid& map, const StopToken& stop);
   void update(const CostGrid& map, const CellRect& changed, const StopToken& stop);
 
+  // The moves of the prepared map, for searches beside this one.
+  const Moves& moves() const { return moves_; }
+
   // A cheapest path from `start` to a cell of which isGoal(index) holds, if the estimates are lower
   // bounds of the way to the nearest such cell; at most e times as dear if they are lower bounds
   // times e. `estimateIn(scale)` gives a function of (cell, index), whose result is a key of that

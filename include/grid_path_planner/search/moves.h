@@ -27,6 +27,10 @@ class MoveRules {
 
   MoveRules() = default;
   explicit MoveRules(const CostGrid& map);
+  // Whether they are those of `map`, too.
+  bool fit(const CostGrid& map) const {
+    return motion_ == map.motion() && map_uniform_ == map.uniform();
+  }
 
   // Of a cell by the nine bits of its 3x3 and whether it weighs the same all over, as
   // forEachNeighbourhood() gives them.
@@ -55,6 +59,8 @@ class MoveRules {
   }
   std::uint32_t allowed(Kind kind) const { return canonical_ && kind == kAllEqual ? 0xFF : kind; }
 
+  MotionModel motion_;
+  bool map_uniform_ = false;
   NeighbourhoodMasks masks_;
   std::array<std::array<std::uint8_t, 256>, 8> tried_{};  // by step, by kind
   std::array<std::uint8_t, 8> never_{};                   // by step: what is dearer than around
@@ -75,6 +81,9 @@ class Moves {
   bool missing(std::uint32_t steps, unsigned step, std::uint32_t index) const {
     return rules_.missing(steps, step, kinds_[index]);
   }
+
+  // All that are allowed.
+  std::uint32_t from(std::uint32_t index) const { return rules_.after(0, kinds_[index]); }
 
   // What step n adds to a cell's index.
   const std::array<std::ptrdiff_t, 8>& offsets() const { return offsets_; }

@@ -36,6 +36,9 @@ struct Traits {
   bool any_angle = false;      // the result is turning points: PlanResult::points
   bool several_goals = false;  // answers "the nearest of these goals"
   bool repairs = false;        // update() costs less than prepare()
+  // plan() goes on from the searches before: its statistics are of what it did anew, and which of
+  // equally cheap paths is answered depends on the calls since prepare().
+  bool incremental = false;
 };
 
 struct PlanRequest {
@@ -90,7 +93,7 @@ class Planner {
   void prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop);
 
   // `map` differs from the prepared one only inside `changed`, and follows it by one revision;
-  // anything else is a full prepare.
+  // anything else is a full prepare, but for the prepared map itself, which is nothing new.
   void update(std::shared_ptr<const CostGrid> map, const CellRect& changed, const StopToken& stop);
 
   // Until background work is done plans take longer; they cost the same before and after, though of
@@ -105,6 +108,7 @@ class Planner {
   explicit Planner(Traits traits) : traits_(std::move(traits)) {}
 
   const CostGrid& map() const { return *map_; }
+  // The same, for a planner inside this one.
   const std::shared_ptr<const CostGrid>& sharedMap() const { return map_; }
   // The map that update() replaces. Precondition: called by doUpdate().
   const CostGrid& mapBefore() const { return *map_before_; }

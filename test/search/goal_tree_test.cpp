@@ -1,0 +1,276 @@
+// The tree of least-cost ways to a goal, repaired while the map changes and the start moves: every
+// cost is compared with a search that shares no code with it.
+#include "grid_path_planner/search/goal_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+#include <random>
+#include <set>
+
+#include "grid_path_planner/search/incremental_a_star.h"
+#include "support/random_map.h"
+#include "support/reference_search.h"
+
+namespace grid_path_planner {
+namespace {
+
+using Map = std::shared_ptr<const CostGrid>;
+constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+
+MotionModel motionOf(std::mt19937& random) {
+  MotionModel motion;
+  if (random() % 3 != 0) return motion;
+  motion.connectivity = random() % 2 == 0 ? Connectivity::EIGHT : Connectivity::FOUR;
+  motion.diagonal_cost = random() % 2 == 0 ? DiagonalCost::SQRT2 : DiagonalCost::UNIT;
+  motion.cut_corners = random() % 2 == 0;
+  return motion;
+}
+
+struct Edited {
+  Map map;
+  CellRect changed;
+};
+
+// New weights in a small rectangle: blocked, open, as it was when the world began, or any.
+Edited edited(std::mt19937& random, const CostGrid& before, const CostGrid& world) {
+  Grid<CostGrid::Weight> weights = before.weights();
+  const Cell low = test::randomCell(random, before.geometry());
+  const int side = 1 + static_cast<int>(random() % 7);
+  const CellRect changed =
+      CellRect{low.column, low.row, side, side}.intersection(before.geometry().rect());
+  const unsigned kind = random() % 4;
+  for (int row = changed.row; row < changed.row + changed.height; ++row)
+    for (int column = changed.column; column < changed.column + changed.width; ++column) {
+      const Cell cell{column, row};
+      const CostGrid::Weight choices[] = {CostGrid::kBlocked, before.cheapest(), world.weight(cell),
+                                          static_cast<CostGrid::Weight>(random() % 40)};
+      weights[cell] = choices[kind];
+    }
+  auto map = std::make_shared<CostGrid>(weights, before.classes(), before.motion());
+  map->setRevision(before.revision() + 1);
+  return {map, changed};
+}
+
+std::optional<ExactCost> leastCost(const CostGrid& map, Cell start, Cell goal) {
+  return test::referenceCosts(map, goal)[map.geometry().index(start).value()];
+}
+
+void expectLeast(const CostGrid& map, Cell start, Cell goal, bool found, const PlanResult& result) {
+  const auto least = leastCost(map, start, goal);
+  ASSERT_EQ(found, least.has_value());
+  if (!least) return;
+  ASSERT_FALSE(result.cells.empty());
+  EXPECT_EQ(result.cells.front(), start);
+  EXPECT_EQ(result.cells.back(), goal);
+  for (std::size_t i = 1; i < result.cells.size(); ++i)
+    ASSERT_TRUE(stepAllowed(map, result.cells[i - 1], result.cells[i]));
+  ASSERT_EQ(result.cost, *least);
+  EXPECT_EQ(costOfSteps(map, result.cells), *least);
+}
+
+// One way to a goal over a changing world.
+class Journey {
+ public:
+  explicit Journey(std::mt19937& random)
+      : random_(random),
+        world_(std::make_shared<const CostGrid>(test::randomCosts(random, 28, motionOf(random)))),
+        map_(world_),
+        start_(test::randomCell(random, map_->geometry())),
+        goal_(test::randomCell(random, map_->geometry())) {}
+
+  bool possible() const { return map_->passable(start_) && map_->passable(goal_); }
+  const Map& map() const { return map_; }
+  Cell start() const { return start_; }
+  Cell goal() const { return goal_; }
+
+  CellRect edit() {
+    const Edited next = edited(random_, *map_, *world_);
+    map_ = next.map;
+    return next.changed;
+  }
+  // Along the path, or to anywhere.
+  void move(const std::vector<Cell>& path) {
+    if (random_() % 6 == 0 || path.empty())
+      start_ = test::randomCell(random_, map_->geometry());
+    else
+      start_ = path[std::min<std::size_t>(path.size() - 1, random_() % 4)];
+  }
+
+ private:
+  std::mt19937& random_;
+  Map world_;
+  Map map_;
+  Cell start_;
+  Cell goal_;
+};
+
+TEST(GoalTreeLaw, RepairedWaysCostTheLeast) {
+  std::mt19937 random(2002);
+  int repairs = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    Journey journey(random);
+    if (!journey.possible()) continue;
+    Moves moves;
+    moves.build(*journey.map(), StopToken());
+    GoalTree tree;
+    tree.prepare(*journey.map(), moves);
+    PlanResult result;
+    const auto begun = tree.begin(*journey.map(), journey.goal(), journey.start(), trial % 3, false,
+                                  result, StopToken());
+    expectLeast(*journey.map(), journey.start(), journey.goal(), begun == GoalTree::Outcome::FOUND,
+                result);
+    for (int edit = 0; edit < 14; ++edit) {
+      const Map before = journey.map();
+      const CellRect changed = journey.edit();
+      moves.update(*journey.map(), changed, StopToken());
+      tree.update(*before, *journey.map(), changed);
+      journey.move(result.cells);
+      if (!journey.possible() || random() % 4 == 0) continue;
+      if (!tree.serves(*journey.map(), journey.goal())) break;  // something cheaper than all
+      auto outcome = GoalTree::Outcome::LIMIT;
+      const std::uint64_t limit = trial % 2 == 0 ? kUnlimited : 1 + random() % 20;
+      while (outcome == GoalTree::Outcome::LIMIT) {  // put off and gone on with
+        result = {};
+        outcome = tree.repair(*journey.map(), journey.start(), limit, false, result, StopToken());
+      }
+      ++repairs;
+      expectLeast(*journey.map(), journey.start(), journey.goal(),
+                  outcome == GoalTree::Outcome::FOUND, result);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(repairs, 1000);
+}
+
+TEST(GoalTree, NothingIsDoneForAChangeThatDoesNotMatter) {
+  const Grid<CostGrid::Weight> weights(GridGeometry(40, 40, 1.0), 1);
+  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  const CostGrid before(weights, classes, MotionModel());
+  Grid<CostGrid::Weight> changed = weights;
+  changed[Cell{2, 37}] = CostGrid::kBlocked;
+  const CostGrid after(changed, classes, MotionModel());
+  Moves moves;
+  moves.build(before, StopToken());
+  GoalTree tree;
+  tree.prepare(before, moves);
+  PlanResult result;
+  tree.begin(before, {35, 3}, {3, 3}, 3, false, result, StopToken());
+  const std::vector<Cell> path = result.cells;
+  moves.update(after, {2, 37, 1, 1}, StopToken());
+  tree.update(before, after, {2, 37, 1, 1});
+  result = {};
+  EXPECT_EQ(tree.repair(after, {3, 3}, kUnlimited, false, result, StopToken()),
+            GoalTree::Outcome::FOUND);
+  EXPECT_EQ(result.statistics.expanded, 0U);
+  EXPECT_EQ(result.cells, path);
+}
+
+TEST(GoalTree, AStoppedRepairGoesOn) {
+  std::mt19937 random(5);
+  Grid<CostGrid::Weight> weights(GridGeometry(150, 150, 1.0), 1);
+  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  const CostGrid before(weights, classes, MotionModel());
+  const CellRect wall{75, 5, 1, 140};
+  for (int row = wall.row; row < wall.row + wall.height; ++row)
+    weights[Cell{75, row}] = CostGrid::kBlocked;
+  const CostGrid after(weights, classes, MotionModel());
+  Moves moves;
+  moves.build(before, StopToken());
+  GoalTree tree;
+  tree.prepare(before, moves);
+  PlanResult result;
+  tree.begin(before, {140, 75}, {10, 75}, 0, false, result, StopToken());
+  moves.update(after, wall, StopToken());
+  tree.update(before, after, wall);
+  StopSource source;
+  source.cancel();
+  EXPECT_THROW(tree.repair(after, {10, 75}, kUnlimited, false, result, source.token()), Stopped);
+  result = {};
+  const auto outcome = tree.repair(after, {10, 75}, kUnlimited, false, result, StopToken());
+  expectLeast(after, {10, 75}, {140, 75}, outcome == GoalTree::Outcome::FOUND, result);
+}
+
+TEST(IncrementalAStarLaw, PlansOnTheWayCostTheLeast) {
+  std::mt19937 random(1968);
+  for (int trial = 0; trial < 200; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    Journey journey(random);
+    IncrementalAStar planner;
+    planner.prepare(journey.map(), StopToken());
+    PlanResult result;
+    for (int edit = 0; edit < 12; ++edit) {
+      if (journey.possible()) {
+        result = planner.plan({journey.start(), {journey.goal()}, false}, StopToken());
+        expectLeast(*journey.map(), journey.start(), journey.goal(), result.status == Status::FOUND,
+                    result);
+        if (HasFatalFailure()) return;
+      }
+      const CellRect changed = journey.edit();
+      planner.update(journey.map(), changed, StopToken());
+      journey.move(result.cells);
+    }
+  }
+}
+
+// On a map large enough that repairs are not put off from the beginning.
+TEST(IncrementalAStar, RepairsOnALargeMapAndPutsOffWhatTakesTooLong) {
+  Grid<CostGrid::Weight> weights(GridGeometry(400, 400, 1.0), 1);
+  for (int i = 0; i < 400 * 400; i += 97) weights[CellIndex(i)] = 30;
+  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  Map map = std::make_shared<const CostGrid>(weights, classes, MotionModel());
+  IncrementalAStar planner;
+  planner.prepare(map, StopToken());
+  const Cell start{20, 20}, goal{390, 200};
+  planner.plan({start, {goal}, false}, StopToken());
+  EXPECT_EQ(planner.strategies().begun, 1U);
+  std::uint64_t revision = map->revision();
+  const auto change = [&](const CellRect& rect, CostGrid::Weight weight) {
+    for (int row = rect.row; row < rect.row + rect.height; ++row)
+      for (int column = rect.column; column < rect.column + rect.width; ++column)
+        weights[Cell{column, row}] = weight;
+    auto next = std::make_shared<CostGrid>(weights, classes, MotionModel());
+    next->setRevision(++revision);
+    map = next;
+    planner.update(map, rect, StopToken());
+    const PlanResult result = planner.plan({start, {goal}, false}, StopToken());
+    expectLeast(*map, start, goal, result.status == Status::FOUND, result);
+  };
+  change({25, 15, 3, 10}, CostGrid::kBlocked);
+  EXPECT_EQ(planner.strategies().repaired, 1U);
+  change({200, 0, 2, 399}, CostGrid::kBlocked);  // but for one row
+  EXPECT_EQ(planner.strategies().fresh, 1U);
+  change({25, 15, 3, 10}, 1);
+  EXPECT_EQ(planner.strategies().begun, 1U);
+}
+
+TEST(PatientQueue, GivesTheLeastKeyWhateverTheOrderOfItsCalls) {
+  std::mt19937 random(17);
+  for (int trial = 0; trial < 50; ++trial) {
+    PatientQueue queue;
+    queue.begin(random() % 1000, 1 + random() % 50);
+    std::multiset<SearchKey> reference;
+    const auto renew = [](PatientQueue::Entry&) { return true; };
+    for (int call = 0; call < 2000; ++call) {
+      if (random() % 3 != 0) {
+        const SearchKey key = random() % (trial % 2 == 0 ? 3000 : 3000000);
+        queue.push({key, 0, 0});
+        reference.insert(key);
+        continue;
+      }
+      const SearchKey bound = random() % 4000;
+      const PatientQueue::Entry* first = queue.first(bound, renew);
+      ASSERT_EQ(first != nullptr, !reference.empty() && *reference.begin() <= bound);
+      if (first == nullptr) continue;
+      ASSERT_EQ(first->key, *reference.begin());
+      queue.pop();
+      reference.erase(reference.begin());
+      ASSERT_EQ(queue.size(), reference.size());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner
