@@ -32,7 +32,7 @@ constexpr std::uint64_t kAhead = 3;
 // A repair that takes more than this part of the cells of a fresh search is put off: a cell that
 // is repaired costs several times as much as one that A* expands. Less than the least is not worth
 // beginning.
-constexpr double kRepairShare = 1.0 / 30.0;
+constexpr double kRepairShare = 1.0 / 20.0;
 constexpr std::uint64_t kLeastRepair = 64;
 
 }  // namespace
