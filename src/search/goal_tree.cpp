@@ -141,6 +141,7 @@ GoalTree::Outcome GoalTree::begin(const CostGrid& map, Cell goal, Cell start, st
   }
 
   // 3. What still waits does so for repairs.
+  new_doubts_.clear();
   queue_.begin(labels_[from], kQueueWidth * std::max<SearchKey>(scale_, 1));
   while (!waiting.empty()) {
     const Index index = waiting.pop();
@@ -211,44 +212,91 @@ void GoalTree::expand(Index index, Statistics& counts, const Wait& wait) {
   }
 }
 
-void GoalTree::settle(Index doubtful, Statistics& counts) {
-  // 1. The best way that closed neighbours offer, and those whose way leads through this cell.
-  SearchKey best = kInfiniteKey;
-  std::uint32_t best_step = 0;
-  std::array<Index, kSteps.size()> followers;
-  std::size_t following = 0;
+GoalTree::Offered GoalTree::offeredTo(Index doubtful) {
+  Offered best;
+  following_ = 0;
   for (unsigned mask = moves_->from(doubtful); mask != 0; mask &= mask - 1) {
     const auto step = static_cast<std::uint32_t>(__builtin_ctz(mask));
     const Index next = along(doubtful, step);
     const State is = state(next);
     if (is == UNLABELLED || is == DOUBTFUL) continue;
     if (stepOf(next) == opposite(step) && next != root_) {
-      followers[following++] = next;
+      followers_[following_++] = next;
       continue;
     }
     if (is != CLOSED) continue;
     const SearchKey label = labels_[next] + stepKey(doubtful, next, step);
-    if (label >= best) continue;
-    best = label;
-    best_step = step;
+    if (label < best.label) best = {label, step};
   }
+  return best;
+}
 
-  // 2. No dearer than before: nobody else need doubt.
-  if (best <= labels_[doubtful]) {
-    labels_[doubtful] = best;
-    set(doubtful, best_step, OPEN);
+void GoalTree::open(Index index, const Offered& way, Statistics& counts) {
+  if (way.label == kInfiniteKey) return;
+  if (way.label > kLargestLabel) throw CostOverflow();
+  labels_[index] = way.label;
+  set(index, way.step, OPEN);
+  push(index);
+  ++counts.generated;
+}
+
+void GoalTree::settle(Index doubtful, Statistics& counts) {
+  const Offered best = offeredTo(doubtful);
+  if (best.label <= labels_[doubtful]) {  // nobody else need doubt
+    labels_[doubtful] = best.label;
+    set(doubtful, best.step, OPEN);
     return expand(doubtful, counts, [this](Index index) { push(index); });
   }
-
-  // 3. Dearer: they doubt their way.
-  for (std::size_t i = 0; i < following; ++i) doubt(followers[i]);
+  for (std::size_t i = 0; i < following_; ++i) doubt(followers_[i]);
   set(doubtful, 0, UNLABELLED);
-  if (best == kInfiniteKey) return;
-  if (best > kLargestLabel) throw CostOverflow();
-  labels_[doubtful] = best;
-  set(doubtful, best_step, OPEN);
-  push(doubtful);
-  ++counts.generated;
+  open(doubtful, best, counts);
+}
+
+std::uint64_t GoalTree::sweep(SearchKey bound, std::uint64_t limit, bool record, PlanResult& result,
+                              StopPoll& poll) {
+  const auto collect = [&](Index index) {
+    setState(index, DOUBTFUL);
+    if (keyOf(index) > bound) return push(index);
+    doubts_.push_back({labels_[index], index});
+    std::push_heap(doubts_.begin(), doubts_.end());
+  };
+  for (const Index index : new_doubts_)
+    if (state(index) == DOUBTFUL) collect(index);
+  new_doubts_.clear();
+
+  // 1. Nobody doubts in vain: what is taken has the least label, so those it may follow are sure.
+  std::uint64_t taken = 0;
+  while (!doubts_.empty() && taken < limit && poll.ask() == StopReason::NONE) {
+    std::pop_heap(doubts_.begin(), doubts_.end());
+    const Index index = doubts_.back().index;
+    doubts_.pop_back();
+    if (state(index) != DOUBTFUL) continue;
+    ++taken;
+    ++result.statistics.expanded;
+    if (record) result.expanded.emplace_back(index);
+    const Offered best = offeredTo(index);
+    if (best.label <= labels_[index]) {
+      labels_[index] = best.label;
+      set(index, best.step, OPEN);
+      expand(index, result.statistics, [this](Index opened) { push(opened); });
+      continue;
+    }
+    for (std::size_t i = 0; i < following_; ++i) collect(followers_[i]);
+    set(index, 0, UNLABELLED);
+    swept_.push_back(index);
+  }
+  for (const Doubt& left : doubts_)
+    if (state(left.index) == DOUBTFUL) push(left.index);
+  doubts_.clear();
+
+  // 2. What is sure now is offered to those who have no way, or took another meanwhile.
+  for (const Index index : swept_) {
+    const Offered best = offeredTo(index);
+    if (state(index) == UNLABELLED || best.label < labels_[index])
+      open(index, best, result.statistics);
+  }
+  swept_.clear();
+  return taken;
 }
 
 std::optional<GoalTree::Index> GoalTree::trace(Index start) {
@@ -276,7 +324,8 @@ GoalTree::Outcome GoalTree::repair(const CostGrid& map, Cell start, std::uint64_
   StopPoll poll(stop);
   moveStart(start);
   const auto renewed = [this](PatientQueue::Entry& entry) { return renew(entry); };
-  for (std::uint64_t taken = 0; taken < limit; ++taken) {
+  const SearchKey before = state(from) == UNLABELLED ? 0 : labels_[from] + raised_;
+  for (std::uint64_t taken = sweep(before, limit, record, result, poll);; ++taken) {
     poll();
     // 1. What waits behind the cost of the way found cannot make it cheaper.
     const State is = state(from);
@@ -286,10 +335,12 @@ GoalTree::Outcome GoalTree::repair(const CostGrid& map, Cell start, std::uint64_
     if (found && (next == nullptr || (next->key == bound && next->order != kDoubtFirst))) {
       const std::optional<Index> doubtful = trace(from);
       if (!doubtful) return finish(map, result);
+      if (taken >= limit) return Outcome::LIMIT;
       take(*doubtful, record, result);
       continue;
     }
     if (next == nullptr) return Outcome::UNREACHABLE;
+    if (taken >= limit) return Outcome::LIMIT;
 
     // 2. The most promising cell, unless the entry is out of date.
     result.statistics.peak_open = std::max(result.statistics.peak_open, queue_.size());
@@ -301,7 +352,6 @@ GoalTree::Outcome GoalTree::repair(const CostGrid& map, Cell start, std::uint64_
     else
       take(entry.index, record, result);
   }
-  return Outcome::LIMIT;
 }
 
 void GoalTree::checkWayOf(Index index) {
@@ -310,9 +360,12 @@ void GoalTree::checkWayOf(Index index) {
   const std::uint32_t step = stepOf(index);
   if (weights_[index] == CostGrid::kBlocked) return set(index, 0, UNLABELLED);
   if (is == DOUBTFUL) return;
-  if ((moves_->from(index) >> step & 1U) == 0) return doubt(index);
   const Index next = along(index, step);
-  if (labels_[index] < labels_[next] + stepKey(index, next, step)) doubt(index);
+  if ((moves_->from(index) >> step & 1U) != 0 &&
+      labels_[index] >= labels_[next] + stepKey(index, next, step))
+    return;
+  setState(index, DOUBTFUL);
+  new_doubts_.push_back(index);
 }
 
 void GoalTree::update(const CostGrid& before, const CostGrid& after, const CellRect& changed) {

@@ -12,7 +12,8 @@
 // neighbours do not know yet), closed (they do) or doubtful (its way got dearer; the label is a
 // lower bound). What is open or doubtful waits in a queue by label + estimate of the way from the
 // start. A doubtful cell that is taken out passes the doubt on to those whose way leads through it
-// and takes the best way its closed neighbours offer. Nothing is done for cells that wait behind
+// and takes the best way its closed neighbours offer. Doubts below the cost before are settled
+// first, all together. Nothing is done for cells that wait behind
 // the cost of the way that is found, so doubt about ways that lead elsewhere costs nothing. When
 // the start moves, the queue's keys stay lower bounds once new ones are raised by the estimate
 // between the old and the new start.
@@ -23,6 +24,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -117,6 +119,18 @@ class GoalTree {
   void moveStart(Cell start);
 
   void doubt(Index index);
+  // Settles all doubts with keys up to `bound` together, those nearest to the goal first: what a
+  // cell takes for its way is then no doubtful way. Returns how many, at most about `limit`.
+  std::uint64_t sweep(SearchKey bound, std::uint64_t limit, bool record, PlanResult& result,
+                      StopPoll& poll);
+  struct Offered {
+    SearchKey label = kInfiniteKey;
+    std::uint32_t step = 0;
+  };
+  // The best way that closed neighbours offer; those whose own way leads through the cell are put
+  // into followers_.
+  Offered offeredTo(Index doubtful);
+  void open(Index index, const Offered& way, Statistics& counts);
   // wait(index) puts a cell that was opened where it waits.
   template <class Wait>
   void expand(Index index, Statistics& counts, const Wait& wait);
@@ -138,6 +152,16 @@ class GoalTree {
   ZeroedArray<SearchKey> labels_;
   ZeroedArray<std::uint32_t> words_;
   PatientQueue queue_;
+  std::vector<Index> new_doubts_;  // of updates, not in queue_ yet
+  struct Doubt {
+    SearchKey label;
+    Index index;
+    friend bool operator<(const Doubt& a, const Doubt& b) { return a.label > b.label; }
+  };
+  std::vector<Doubt> doubts_;  // of the present sweep, a heap
+  std::vector<Index> swept_;
+  std::array<Index, 8> followers_;
+  std::size_t following_ = 0;
   std::vector<Cell> path_;
   std::uint32_t tree_ = 0;
   bool begun_ = false;
