@@ -1,17 +1,20 @@
 // An array of zeros that costs no time before it is used.
 //
-// The memory comes from calloc: on a large array the system maps pages of zeros when they are first
-// touched, so a search that stays near its start neither waits for the rest nor occupies it.
+// On a large array the system maps pages of zeros when they are first touched, so a search that
+// stays near its start neither waits for the rest nor occupies it. Very large ones ask for large
+// pages: a search over a map of 4096x4096 cells spends half its time looking up small ones.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <type_traits>
 
 namespace grid_path_planner {
+
+// `count` x `size` bytes of zeros. Throws std::bad_alloc.
+void* zeroedMemory(std::size_t count, std::size_t size);
+void freeZeroedMemory(void* memory, std::size_t bytes);
 
 template <class T>
 class ZeroedArray {
@@ -22,9 +25,8 @@ class ZeroedArray {
   ZeroedArray() = default;
   // Throws std::bad_alloc.
   explicit ZeroedArray(std::size_t size)
-      : values_(static_cast<T*>(std::calloc(size, sizeof(T)))), size_(size) {
-    if (!values_ && size > 0) throw std::bad_alloc();
-  }
+      : values_(static_cast<T*>(zeroedMemory(size, sizeof(T))), Free{size * sizeof(T)}),
+        size_(size) {}
 
   std::size_t size() const { return size_; }
   const T& operator[](std::size_t index) const { return values_.get()[index]; }
@@ -33,7 +35,8 @@ class ZeroedArray {
 
  private:
   struct Free {
-    void operator()(T* values) const { std::free(values); }
+    std::size_t bytes = 0;
+    void operator()(T* values) const { freeZeroedMemory(values, bytes); }
   };
   std::unique_ptr<T, Free> values_;
   std::size_t size_ = 0;
