@@ -4,6 +4,7 @@
 #include "grid_path_planner/rectangles/rectangle_map_planner.h"
 #include "grid_path_planner/search/a_star.h"
 #include "grid_path_planner/search/anya.h"
+#include "grid_path_planner/search/coarse_to_fine.h"
 #include "grid_path_planner/search/dijkstra.h"
 #include "grid_path_planner/search/incremental_a_star.h"
 #include "grid_path_planner/search/jump_point.h"
@@ -48,6 +49,7 @@ constexpr Row kCatalogue[] = {
     {"lazy_theta_star", lazyThetaStar},
     {"anya", plain<Anya>},
     {"rectangle_map", withOptions<RectangleMapPlanner>},
+    {"coarse_to_fine", withOptions<CoarseToFine>},
     {"a_star_published", publishedAStar},
 };
 

@@ -61,6 +61,7 @@ nlohmann::json jsonOf(const PlanReport& report) {
       {"status", std::string(toString(report.status))},
       {"message", report.message},
       {"cost", nullptr},
+      {"lower_bound", nullptr},
       {"length_m", nullptr},
       {"cells", report.cells},
       {"kernel", report.kernel},
@@ -74,6 +75,7 @@ nlohmann::json jsonOf(const PlanReport& report) {
       {"path", poses},
   };
   if (found) object["cost"] = report.costValue();
+  if (found && report.lower_bound > 0.0) object["lower_bound"] = report.lower_bound;
   if (found) object["length_m"] = report.length_m;
   return object;
 }

@@ -87,6 +87,7 @@ struct PlanReport {
   ExactCost cost;  // between the end cells, as in PlanResult
   double segment_cost = 0.0;
   double costValue() const { return cost.toDouble() + segment_cost; }
+  double lower_bound = 0.0;  // as in PlanResult
   double length_m = 0.0;
   std::size_t cells = 0;  // of the path on the map that was searched
   int kernel = 1;         // of the map that was searched

@@ -32,7 +32,8 @@ struct Route {
   std::vector<Leg> legs;  // a leg's last cell and the next one's first are the same place or block
   ExactCost cost;         // as in PlanResult
   double segment_cost = 0.0;
-  int kernel = 1;  // of the map that the longest part was searched on
+  double lower_bound = 0.0;  // as in PlanResult; 0 where legs are joined
+  int kernel = 1;            // of the map that the longest part was searched on
   Statistics statistics;
   std::vector<Eigen::Vector2d> expanded;  // centres, metres
 };
