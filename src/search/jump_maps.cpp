@@ -52,21 +52,6 @@ Word carryFromBelow(const Word* free, const Word* go, int index) {
       return free[index] >> (63 - __builtin_clzll(stops)) & 1U;
 }
 
-// How many steps, one line of `stride` words and one column each, lead to the first 0 bit.
-template <bool towards_higher>
-int diagonalZero(const Word* line, std::ptrdiff_t stride, int column) {
-  int steps = 1;
-  while (true) {
-    const int at_column = towards_higher ? column + steps : column - steps;
-    const Word* at = line + steps * stride + (at_column >> 6);
-    for (Word bit = Word{1} << (at_column & 63); bit != 0; towards_higher ? bit <<= 1 : bit >>= 1) {
-      if ((*at & bit) == 0) return steps;
-      at += stride;
-      ++steps;
-    }
-  }
-}
-
 constexpr int wordOf(int position) {
   return position / kBits;
 }
@@ -79,7 +64,7 @@ void JumpMaps::build(const BitMaps& free, const StopToken& stop) {
   for (int step = 0; step < 4; ++step) {
     go_[step] = step % 2 == 0 ? BitMap(width, height) : BitMap(height, width);
     leads_[step] = BitMap(width, height);
-    pass_[step] = BitMap(width, height);
+    tiles_[step] = JumpTiles(width, height);
   }
   update(free, {0, 0, width, height}, stop);
 }
@@ -194,40 +179,34 @@ void JumpMaps::markColumnLeads(const BitMap& free, int word, int first_block, in
 }
 
 void JumpMaps::markPasses(const BitMap& free, int row, int first_word, int last_word) {
+  const auto marks = [](Word entered, Word side, Word height) {
+    return JumpTiles::Marks{entered & ~side & ~height, entered & side, entered & height};
+  };
   for (int index = first_word; index <= last_word; ++index) {
     const Word* at = free.row(row) + index;
     const Word* low = free.row(row - 1) + index;
     const Word* high = free.row(row + 1) + index;
     const Word from_west = *at & before(at);
     const Word from_east = *at & after(at);
-    const Word from_low = *low & ~leads_[1].row(row)[index];
-    const Word from_high = *high & ~leads_[3].row(row)[index];
-    const Word east = ~leads_[0].row(row)[index];
-    const Word west = ~leads_[2].row(row)[index];
-    pass_[0].row(row)[index] = from_west & from_low & before(low) & east;
-    pass_[1].row(row)[index] = from_east & from_low & after(low) & west;
-    pass_[2].row(row)[index] = from_east & from_high & after(high) & west;
-    pass_[3].row(row)[index] = from_west & from_high & before(high) & east;
+    const Word east = leads_[0].row(row)[index], west = leads_[2].row(row)[index];
+    const Word up = leads_[1].row(row)[index], down = leads_[3].row(row)[index];
+    tiles_[0].write(row, index, marks(from_west & *low & before(low), east, up));
+    tiles_[1].write(row, index, marks(from_east & *low & after(low), west, up));
+    tiles_[2].write(row, index, marks(from_east & *high & after(high), west, down));
+    tiles_[3].write(row, index, marks(from_west & *high & before(high), east, down));
   }
 }
 
-int JumpMaps::diagonalStop(int step, Cell cell) const {
-  const BitMap& pass = pass_[step - 4];
-  const std::ptrdiff_t stride = kSteps[step].row * pass.stride();
-  const Word* row = pass.row(cell.row);
-  return kSteps[step].column > 0 ? diagonalZero<true>(row, stride, cell.column)
-                                 : diagonalZero<false>(row, stride, cell.column);
-}
-
 std::size_t JumpMaps::bytesFor(const GridGeometry& geometry) {
-  return 10 * BitMap::bytesFor(geometry.width(), geometry.height()) +
-         2 * BitMap::bytesFor(geometry.height(), geometry.width());
+  return 6 * BitMap::bytesFor(geometry.width(), geometry.height()) +
+         2 * BitMap::bytesFor(geometry.height(), geometry.width()) +
+         4 * JumpTiles::bytesFor(geometry.width(), geometry.height());
 }
 
 std::size_t JumpMaps::bytes() const {
   std::size_t bytes = 0;
   for (int step = 0; step < 4; ++step)
-    bytes += go_[step].bytes() + leads_[step].bytes() + pass_[step].bytes();
+    bytes += go_[step].bytes() + leads_[step].bytes() + tiles_[step].bytes();
   return bytes;
 }
 

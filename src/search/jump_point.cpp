@@ -1,6 +1,7 @@
 #include "grid_path_planner/search/jump_point.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <utility>
 
@@ -108,24 +109,26 @@ class Search {
     return outcome;
   }
 
-  // All cells from the start to the goal. Precondition: run() was FOUND.
-  std::vector<Cell> path() const {
-    std::size_t count = 1;
+  // All cells from the start to the goal and their cost. Precondition: run() was FOUND.
+  void trace(std::int64_t weight, PlanResult& result) const {
+    ExactCost lengths;
     for (std::uint32_t at = goal_number_; at != 0; at = nodes_[at].parent) {
       const Cell to = nodes_.cell(at), from = nodes_.cell(nodes_[at].parent);
-      count += static_cast<std::size_t>(
-          std::max(std::abs(to.column - from.column), std::abs(to.row - from.row)));
+      const int columns = std::abs(to.column - from.column), rows = std::abs(to.row - from.row);
+      lengths += {std::abs(columns - rows), std::min(columns, rows)};
     }
-    std::vector<Cell> cells(count);
+    result.cost = lengths * weight;
+    result.cells.resize(static_cast<std::size_t>(1 + lengths.straight + lengths.diagonal));
+    Cell* end = result.cells.data() + result.cells.size();
     for (std::uint32_t at = goal_number_; at != 0; at = nodes_[at].parent)
-      count = writeBackwards(nodes_.cell(nodes_[at].parent), nodes_.cell(at), cells, count);
-    cells[0] = request_.start;
-    return cells;
+      end = writeBackwards(nodes_.cell(nodes_[at].parent), nodes_.cell(at), end);
+    result.cells.front() = request_.start;
   }
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   static constexpr std::uint8_t kEverywhere = 15;
+  static constexpr std::size_t kBranches = 64;
 
   static Key length(int diagonals, int straights) {
     return static_cast<Key>(diagonals) * Scale::kDiagonal +
@@ -142,14 +145,17 @@ class Search {
   }
 
   // Of a way from `from` to `to` that is diagonal first: the cells after `from`, the last at
-  // cells[end - 1]. Returns where they begin.
-  static std::size_t writeBackwards(Cell from, Cell to, std::vector<Cell>& cells, std::size_t end) {
-    while (to != from) {
-      cells[--end] = to;
-      const int columns = to.column - from.column, rows = to.row - from.row;
-      if (std::abs(columns) >= std::abs(rows)) to.column -= columns > 0 ? 1 : -1;
-      if (std::abs(rows) >= std::abs(columns)) to.row -= rows > 0 ? 1 : -1;
+  // end[-1]. Returns where they begin.
+  static Cell* writeBackwards(Cell from, Cell to, Cell* end) {
+    const int columns = to.column - from.column, rows = to.row - from.row;
+    const int dx = (columns > 0) - (columns < 0), dy = (rows > 0) - (rows < 0);
+    const int straights = std::abs(std::abs(columns) - std::abs(rows));
+    const bool wide = std::abs(columns) > std::abs(rows);
+    for (int i = 0; i < straights; ++i) {
+      *--end = to;
+      (wide ? to.column -= dx : to.row -= dy);
     }
+    for (; to.column != from.column; to.column -= dx, to.row -= dy) *--end = to;
     return end;
   }
 
@@ -161,10 +167,56 @@ class Search {
       for (unsigned rest = steps; rest != 0; rest &= rest - 1)
         ways |= waysAfter(from, __builtin_ctz(rest));
     }
-    for (unsigned rest = ways & 15U; rest != 0; rest &= rest - 1)
-      goStraight(from, g, __builtin_ctz(rest));
-    for (unsigned rest = ways & ~15U; rest != 0; rest &= rest - 1)
-      goDiagonally(from, g, __builtin_ctz(rest));
+    if ((ways & 1U << 0) != 0) goStraight<0>(from, g);
+    if ((ways & 1U << 1) != 0) goStraight<1>(from, g);
+    if ((ways & 1U << 2) != 0) goStraight<2>(from, g);
+    if ((ways & 1U << 3) != 0) goStraight<3>(from, g);
+    if ((ways & 1U << 4) != 0) goDiagonally<4>(from, g);
+    if ((ways & 1U << 5) != 0) goDiagonally<5>(from, g);
+    if ((ways & 1U << 6) != 0) goDiagonally<6>(from, g);
+    if ((ways & 1U << 7) != 0) goDiagonally<7>(from, g);
+    jumpAll();
+  }
+
+  // A straight way that leads to a turn, still to be gone.
+  struct Branch {
+    Cell from;
+    Key g;
+  };
+  struct Branches {
+    std::array<Branch, kBranches> all;
+    std::size_t count = 0;
+
+    void addIf(bool wanted, Branch branch) {
+      all[count] = branch;
+      count += wanted ? 1 : 0;
+    }
+  };
+
+  // Branches wait here, so that the reading of many lines of the map overlaps.
+  void jumpAll() {
+    jumpFrom<0>();
+    jumpFrom<1>();
+    jumpFrom<2>();
+    jumpFrom<3>();
+  }
+  template <int step>
+  void jumpFrom() {
+    Branches& branches = branches_[step];
+    for (std::size_t i = 0; i < branches.count; ++i) {
+      Branch& branch = branches.all[i];
+      const int stop = maps_.stop(step, branch.from);
+      if (step % 2 == 0) {
+        branch.g += length(0, std::abs(stop - branch.from.column));
+        branch.from.column = stop;
+      } else {
+        branch.g += length(0, std::abs(stop - branch.from.row));
+        branch.from.row = stop;
+      }
+    }
+    for (std::size_t i = 0; i < branches.count; ++i)
+      reach(branches.all[i].from, branches.all[i].g, step);
+    branches.count = 0;
   }
 
   // Where to go on from a turn that was reached by a straight step: straight on, and around the
@@ -180,17 +232,13 @@ class Search {
     return ways;
   }
 
-  void goStraight(Cell from, Key g, int step) {
+  template <int step>
+  void goStraight(Cell from, Key g) {
     if (goalAhead(from, step)) {
       const int steps = std::abs(goal_.column - from.column) + std::abs(goal_.row - from.row);
       return reach(goal_, g + length(0, steps), step);
     }
-    if (!maps_.leads(step, from)) return;
-    const int stop = maps_.stop(step, from);
-    if (step % 2 == 0)
-      reach({stop, from.row}, g + length(0, std::abs(stop - from.column)), step);
-    else
-      reach({from.column, stop}, g + length(0, std::abs(stop - from.row)), step);
+    branches_[step].addIf(maps_.leads(step, from), {from, g});
   }
 
   // Whether the goal lies on the straight way, not beyond its first stop.
@@ -208,31 +256,28 @@ class Search {
 
   // From `from` diagonally: from every cell on the way the straight ways that lead to turns, and
   // to the goal.
-  void goDiagonally(Cell from, Key g, int step) {
-    const int side = sideOf(step), height = heightOf(step);
-    const int goal_columns = (goal_.column - from.column) * kSteps[step].column;
-    const int goal_rows = (goal_.row - from.row) * kSteps[step].row;
+  template <int step>
+  void goDiagonally(Cell from, Key g) {
+    constexpr int side = sideOf(step), height = heightOf(step);
+    constexpr int dx = kSteps[step].column, dy = kSteps[step].row;
+    const int goal_columns = (goal_.column - from.column) * dx;
+    const int goal_rows = (goal_.row - from.row) * dy;
     const int goal_line =
         goal_columns >= 0 && goal_rows >= 0 ? std::min(goal_columns, goal_rows) : 0;
+    Cell cell = from;
     int gone = 0;
     while (true) {
-      const Cell at = moved(from, step, gone);
-      const int next = gone + maps_.diagonalStop(step, at);
-      if (gone < goal_line && goal_line < next) goTowardsGoal(from, g, step, goal_line);
-      gone = next;
-      const Cell cell = moved(from, step, gone);
-      if (!entered(cell, step)) return;
-      if (gone == goal_line) goTowardsGoal(from, g, step, goal_line);
-      const Key to_g = g + length(gone, 0);
-      if (maps_.leads(side, cell)) {
-        const int stop = maps_.stop(side, cell);
-        reach({stop, cell.row}, to_g + length(0, std::abs(stop - cell.column)), side);
-      }
-      if (maps_.leads(height, cell)) {
-        const int stop = maps_.stop(height, cell);
-        reach({cell.column, stop}, to_g + length(0, std::abs(stop - cell.row)), height);
-      }
+      const JumpTiles::Stop stop = maps_.template diagonalStop<step>(cell);
+      cell = {cell.column + dx * stop.steps, cell.row + dy * stop.steps};
+      gone += stop.steps;
+      if (!stop.side && !stop.height) break;
+      const Branch branch{cell, g + length(gone, 0)};
+      if (branches_[side].count == kBranches - 1 || branches_[height].count == kBranches - 1)
+        jumpAll();
+      branches_[side].addIf(stop.side, branch);
+      branches_[height].addIf(stop.height, branch);
     }
+    if (0 < goal_line && goal_line < gone) goTowardsGoal(from, g, step, goal_line);
   }
 
   // From the cell of a diagonal way that lies in the goal's column or row, or is the goal.
@@ -244,12 +289,6 @@ class Search {
     if (!goalAhead(cell, straight)) return;
     const int steps = std::abs(goal_.column - cell.column) + std::abs(goal_.row - cell.row);
     reach(goal_, to_g + length(0, steps), straight);
-  }
-
-  // Whether the diagonal step into `cell` is allowed, its beginning being passable.
-  bool entered(Cell cell, int step) const {
-    return free_[cell] && free_[{cell.column - kSteps[step].column, cell.row}] &&
-           free_[{cell.column, cell.row - kSteps[step].row}];
   }
 
   // A way to a turn or the goal: the node gets it if it is cheaper, or as cheap from another side.
@@ -291,17 +330,8 @@ class Search {
   std::uint64_t generated_ = 0;
   std::uint64_t reopened_ = 0;
   bool too_large_ = false;
+  std::array<Branches, 4> branches_;  // by straight step
 };
-
-ExactCost costOf(const std::vector<Cell>& cells, const CostGrid& map) {
-  ExactCost steps;
-  for (std::size_t i = 1; i < cells.size(); ++i) {
-    const bool diagonal =
-        cells[i].column != cells[i - 1].column && cells[i].row != cells[i - 1].row;
-    (diagonal ? steps.diagonal : steps.straight) += 1;
-  }
-  return steps * (std::int64_t{map.cheapest()} * map.kernel());
-}
 
 // The bits.
 std::size_t mapBytes(const GridGeometry& geometry) {
@@ -340,8 +370,7 @@ std::optional<PlanResult> JumpPoint::search(JumpNodes<typename Scale::Key>& node
   if (stopped != StopReason::NONE) result.status = Stopped(stopped).status();
   if (outcome == Found::Outcome::FOUND) {
     result.status = Status::FOUND;
-    result.cells = search.path();
-    result.cost = costOf(result.cells, map());
+    search.trace(std::int64_t{map().cheapest()} * map().kernel(), result);
   }
   result.statistics.search_bytes = mapBytes(map().geometry()) + nodes.bytes();
   return result;

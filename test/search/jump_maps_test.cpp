@@ -58,15 +58,25 @@ bool diagonalStepAllowed(const Weights& weights, Cell from, int step) {
          passable(weights, {to.column, from.row});
 }
 
-int diagonalStopBeyond(const Weights& weights, Cell cell, int step) {
+JumpTiles::Stop diagonalStopBeyond(const Weights& weights, Cell cell, int step) {
   const int side = kSteps[step].column > 0 ? 0 : 2;
   const int height = kSteps[step].row > 0 ? 1 : 3;
   for (int steps = 1; true; ++steps) {
-    if (!diagonalStepAllowed(weights, cell, step)) return steps;
+    if (!diagonalStepAllowed(weights, cell, step)) return {steps, false, false};
     cell = beside(cell, step);
-    if (stopBeyond(weights, cell, side).turn || stopBeyond(weights, cell, height).turn)
-      return steps;
+    const bool to_side = stopBeyond(weights, cell, side).turn;
+    const bool to_height = stopBeyond(weights, cell, height).turn;
+    if (to_side || to_height) return {steps, to_side, to_height};
   }
+}
+
+template <int step>
+void expectTrueDiagonally(const JumpMaps& maps, const Weights& weights, Cell cell) {
+  const JumpTiles::Stop stop = maps.diagonalStop<step>(cell);
+  const JumpTiles::Stop walked = diagonalStopBeyond(weights, cell, step);
+  ASSERT_EQ(stop.steps, walked.steps) << cell << " step " << step;
+  ASSERT_EQ(stop.side, walked.side) << cell << " step " << step;
+  ASSERT_EQ(stop.height, walked.height) << cell << " step " << step;
 }
 
 // Of some 500 cells: every one of a small map.
@@ -81,9 +91,10 @@ void expectTrue(const JumpMaps& maps, const Weights& weights) {
       ASSERT_EQ(maps.stop(step, cell), step % 2 == 0 ? stop.cell.column : stop.cell.row)
           << cell << " step " << step;
     }
-    for (int step = 4; step < 8; ++step)
-      ASSERT_EQ(maps.diagonalStop(step, cell), diagonalStopBeyond(weights, cell, step))
-          << cell << " step " << step;
+    expectTrueDiagonally<4>(maps, weights, cell);
+    expectTrueDiagonally<5>(maps, weights, cell);
+    expectTrueDiagonally<6>(maps, weights, cell);
+    expectTrueDiagonally<7>(maps, weights, cell);
   }
 }
 

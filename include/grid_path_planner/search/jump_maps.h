@@ -21,6 +21,7 @@
 #include <cstddef>
 
 #include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/search/jump_tiles.h"
 #include "grid_path_planner/search/steps.h"
 #include "grid_path_planner/terrain/bit_maps.h"
 
@@ -51,10 +52,13 @@ class JumpMaps {
   }
   // Of the diagonal steps 4..7: how many steps to the first stop beyond `cell`: a cell from which a
   // straight way leads to a turn, or one into which the diagonal step is not allowed.
-  int diagonalStop(int step, Cell cell) const;
+  template <int step>
+  JumpTiles::Stop diagonalStop(Cell cell) const {
+    return tiles_[step - 4].stop<kSteps[step].column, kSteps[step].row>(cell);
+  }
 
   friend bool operator==(const JumpMaps& a, const JumpMaps& b) {
-    return a.go_ == b.go_ && a.leads_ == b.leads_ && a.pass_ == b.pass_;
+    return a.go_ == b.go_ && a.leads_ == b.leads_ && a.tiles_ == b.tiles_;
   }
 
  private:
@@ -85,8 +89,8 @@ class JumpMaps {
 
   // A bit is 1 where one does not stop. By straight step; 1 and 3 transposed, a column a row.
   std::array<BitMap, 4> go_;
-  std::array<BitMap, 4> leads_;  // by straight step, all row by row
-  std::array<BitMap, 4> pass_;   // by diagonal step - 4: 1 where one does not stop
+  std::array<BitMap, 4> leads_;     // by straight step, all row by row
+  std::array<JumpTiles, 4> tiles_;  // by diagonal step - 4
 };
 
 }  // namespace grid_path_planner

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -30,8 +31,10 @@ class JumpNodes {
   void begin(int width) {
     shift_ = width > 1 ? 32 - __builtin_clz(static_cast<unsigned>(width - 1)) : 0;
     nodes_.clear();
-    open_.clear();
-    peak_open_ = 0;
+    for (std::vector<Entry>& bucket : buckets_) bucket.clear();
+    filled_ = 0;
+    last_ = 0;
+    open_ = peak_open_ = 0;
     resizeTable(kFirstTableBits);
   }
 
@@ -54,17 +57,18 @@ class JumpNodes {
     }
   }
 
-  bool open() const { return !open_.empty(); }
+  bool open() const { return open_ != 0; }
+  // No f may be less than that of the last popped node.
   void push(Key f, std::uint32_t number) {
-    open_.push_back({f, ~number});
-    std::push_heap(open_.begin(), open_.end(), Later());
-    peak_open_ = std::max(peak_open_, open_.size());
+    put({f, number});
+    if (++open_ > peak_open_) peak_open_ = open_;
   }
-  // The one of least f, of equal ones the latest seen. Precondition: open().
+  // The one of least f, of equal ones the one put there last. Precondition: open().
   std::uint32_t pop() {
-    std::pop_heap(open_.begin(), open_.end(), Later());
-    const std::uint32_t number = ~open_.back().inverse;
-    open_.pop_back();
+    if (buckets_[0].empty()) spreadLowest();
+    const std::uint32_t number = buckets_[0].back().number;
+    buckets_[0].pop_back();
+    --open_;
     return number;
   }
 
@@ -80,13 +84,30 @@ class JumpNodes {
 
   struct Entry {
     Key f;
-    std::uint32_t inverse;
+    std::uint32_t number;
   };
-  struct Later {
-    bool operator()(const Entry& a, const Entry& b) const {
-      return a.f != b.f ? a.f > b.f : a.inverse > b.inverse;
-    }
-  };
+  static constexpr int kKeyBits = 8 * static_cast<int>(sizeof(Key));
+
+  // A radix heap (Ahuja, Mehlhorn, Orlin & Tarjan 1990): bucket b > 0 holds the keys whose highest
+  // bit that differs from the last popped one is bit b - 1; bucket 0 the equal ones.
+  void put(const Entry& entry) {
+    const Key difference = entry.f ^ last_;
+    const int bucket =
+        difference == 0 ? 0 : 64 - __builtin_clzll(static_cast<std::uint64_t>(difference));
+    buckets_[static_cast<std::size_t>(bucket)].push_back(entry);
+    filled_ |= std::uint64_t{1} << bucket;
+  }
+  // Precondition: bucket 0 is empty, another one is not.
+  void spreadLowest() {
+    filled_ &= ~std::uint64_t{1};
+    const int lowest = __builtin_ctzll(filled_);
+    std::vector<Entry>& bucket = buckets_[static_cast<std::size_t>(lowest)];
+    last_ = bucket.front().f;
+    for (const Entry& entry : bucket) last_ = std::min(last_, entry.f);
+    for (const Entry& entry : bucket) put(entry);
+    bucket.clear();
+    filled_ &= ~(std::uint64_t{1} << lowest);
+  }
 
   std::uint32_t slotOf(std::uint32_t place) const {
     return (place * 0x9E3779B1U) >> (32 - table_bits_);
@@ -113,7 +134,10 @@ class JumpNodes {
   int table_bits_ = 0;
   std::vector<std::uint32_t> table_;  // number + 1, 0 where there is none
   std::vector<Node> nodes_;
-  std::vector<Entry> open_;
+  std::array<std::vector<Entry>, kKeyBits> buckets_;
+  std::uint64_t filled_ = 0;  // a bit a bucket
+  Key last_ = 0;
+  std::size_t open_ = 0;
   std::size_t peak_open_ = 0;
 };
 
