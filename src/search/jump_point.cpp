@@ -47,7 +47,8 @@ constexpr int sideOf(int diagonal) {
 constexpr int heightOf(int diagonal) {
   return kSteps[diagonal].row > 0 ? 1 : 3;
 }
-constexpr int diagonalOf(int side, int height) {
+constexpr int diagonalBetween(int a, int b) {
+  const int side = a % 2 == 0 ? a : b, height = a % 2 == 0 ? b : a;
   return height == 1 ? (side == 0 ? 4 : 5) : (side == 0 ? 7 : 6);
 }
 
@@ -160,13 +161,7 @@ class Search {
   }
 
   void expand(Cell from, Key g, std::uint8_t steps) {
-    unsigned ways = 0;
-    if (steps == kEverywhere) {
-      ways = 255;
-    } else {
-      for (unsigned rest = steps; rest != 0; rest &= rest - 1)
-        ways |= waysAfter(from, __builtin_ctz(rest));
-    }
+    const unsigned ways = waysFrom(from, steps);
     if ((ways & 1U << 0) != 0) goStraight<0>(from, g);
     if ((ways & 1U << 1) != 0) goStraight<1>(from, g);
     if ((ways & 1U << 2) != 0) goStraight<2>(from, g);
@@ -221,15 +216,22 @@ class Search {
 
   // Where to go on from a turn that was reached by a straight step: straight on, and around the
   // obstacle that ends beside it.
-  unsigned waysAfter(Cell turn, int step) const {
-    unsigned ways = 1U << step;
+  template <int step>
+  unsigned waysAfter(Cell turn) const {
+    constexpr int left = (step + 1) % 4, right = (step + 3) % 4;
+    constexpr unsigned around_left = 1U << left | 1U << diagonalBetween(step, left);
+    constexpr unsigned around_right = 1U << right | 1U << diagonalBetween(step, right);
     const Cell before = moved(turn, step, -1);
-    for (const int side : {(step + 1) % 4, (step + 3) % 4}) {
-      if (free_[moved(before, side, 1)] || !free_[moved(turn, side, 1)]) continue;
-      ways |= 1U << side;
-      ways |= 1U << (step % 2 == 0 ? diagonalOf(step, side) : diagonalOf(side, step));
-    }
-    return ways;
+    const bool ends_left = !free_[moved(before, left, 1)] && free_[moved(turn, left, 1)];
+    const bool ends_right = !free_[moved(before, right, 1)] && free_[moved(turn, right, 1)];
+    return 1U << step | (ends_left ? around_left : 0U) | (ends_right ? around_right : 0U);
+  }
+  unsigned waysFrom(Cell from, std::uint8_t steps) const {
+    if (steps == kEverywhere) return 255;
+    return ((steps & 1U) != 0 ? waysAfter<0>(from) : 0U) |
+           ((steps & 2U) != 0 ? waysAfter<1>(from) : 0U) |
+           ((steps & 4U) != 0 ? waysAfter<2>(from) : 0U) |
+           ((steps & 8U) != 0 ? waysAfter<3>(from) : 0U);
   }
 
   template <int step>
