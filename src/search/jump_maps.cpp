@@ -126,8 +126,8 @@ void JumpMaps::markStops(const BitMap& free, int line, int first_word, int last_
 }
 
 JumpMaps::Range JumpMaps::reachOf(int axis, int line, Range along) const {
-  const int first = previousZero(go_[axis].row(line), along.first);
-  const int last = nextZero(go_[axis + 2].row(line), along.last);
+  const int first = zeroBefore(go_[axis].row(line), along.first);
+  const int last = zeroFrom(go_[axis + 2].row(line), along.last + 1);
   return {std::max(first, 0), std::min(last, go_[axis].width() - 1)};
 }
 

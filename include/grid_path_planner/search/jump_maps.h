@@ -12,9 +12,10 @@
 // Going diagonally, one stops where the way ends, and where a straight way that leads to a turn
 // branches off.
 //
-// So a straight jump is a search for the next 0 bit in one line of words, and a diagonal one looks
-// at one bit a step, where scanning the three lines of every branch would take dozens of
-// instructions. Memory: 12 bits a cell. Directions are numbered as in search/steps.h.
+// So a straight jump is a search for the next 0 bit in one line of words, and a diagonal one reads
+// a word for up to eight steps, where scanning three lines of words for every branch at every step
+// would take dozens of instructions. Memory: 20 bits a cell. Directions are numbered as in
+// search/steps.h.
 #pragma once
 
 #include <array>
@@ -24,6 +25,7 @@
 #include "grid_path_planner/search/jump_tiles.h"
 #include "grid_path_planner/search/steps.h"
 #include "grid_path_planner/terrain/bit_maps.h"
+#include "grid_path_planner/terrain/bit_scan.h"
 
 namespace grid_path_planner {
 
@@ -48,7 +50,7 @@ class JumpMaps {
     const bool horizontal = step % 2 == 0;
     const Word* line = go_[step].row(horizontal ? cell.row : cell.column);
     const int from = horizontal ? cell.column : cell.row;
-    return step < 2 ? nextZero(line, from) : previousZero(line, from);
+    return step < 2 ? zeroFrom(line, from + 1) : zeroBefore(line, from);
   }
   // Of the diagonal steps 4..7: how many steps to the first stop beyond `cell`: a cell from which a
   // straight way leads to a turn, or one into which the diagonal step is not allowed.
@@ -62,19 +64,6 @@ class JumpMaps {
   }
 
  private:
-  static int nextZero(const Word* line, int from) {
-    int index = from >> 6;
-    Word zeros = ~line[index] & ~Word{1} << (from & 63);
-    while (zeros == 0) zeros = ~line[++index];
-    return index * BitMap::kWordBits + __builtin_ctzll(zeros);
-  }
-  static int previousZero(const Word* line, int from) {
-    int index = from >> 6;
-    Word zeros = ~line[index] & ((Word{1} << (from & 63)) - 1);
-    while (zeros == 0) zeros = ~line[--index];
-    return index * BitMap::kWordBits + 63 - __builtin_clzll(zeros);
-  }
-
   struct Range {
     int first;
     int last;
