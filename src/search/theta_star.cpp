@@ -12,7 +12,6 @@ namespace {
 // An expansion may try eight segments across the map.
 constexpr std::uint32_t kExpansionsBetweenPolls = 32;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t kQueries = std::uint32_t{1} << 30;
 
 // Sums of the same lengths in another order differ by less, relatively.
 constexpr double kRounding = 1e-12;
@@ -89,14 +88,14 @@ void ThetaStar::begin(std::uint32_t start) {
     query_ = 1;
   }
   heap_.clear();
-  nodes_[start] = {0.0, start, query_, 0, 0};
+  nodes_[start] = Node{0.0, start, query_, 0, 0};
   heap_.push_back({leastCost(cell(start), goal_), 0.0, start});
 }
 
 void ThetaStar::reach(std::uint32_t index, Cell at, std::uint32_t parent, double g, bool trusted,
                       Statistics& counts) {
   if (known(index) && nodes_[index].g <= g) return;
-  nodes_[index] = {g, parent, query_, 0, trusted};
+  nodes_[index] = Node{g, parent, query_, 0, trusted};
   heap_.push_back({g + leastCost(at, goal_), g, index});
   std::push_heap(heap_.begin(), heap_.end(), Later());
   ++counts.generated;

@@ -99,6 +99,26 @@ TEST(LazyThetaStarLaw, CostsAboutWhatThetaStarCosts) {
   EXPECT_LT(lazy, 1.02 * eager);
 }
 
+// The numbers of queries begin anew after 16,383.
+TEST(ThetaStar, ALateQueryIsAnsweredLikeTheFirst) {
+  const test::AsciiMap picture({"S.#.",  //
+                                "...G"});
+  const auto map = costsOf(picture.map);
+  ThetaStar planner;
+  planner.prepare(map, StopToken());
+  const PlanRequest there{picture.start, {picture.goal}, false};
+  const PlanRequest back{picture.goal, {picture.start}, false};
+  const PlanResult first = planner.plan(there, StopToken());
+  for (int i = 0; i < 17000; ++i) {
+    const PlanResult again = planner.plan(i % 2 == 0 ? back : there, StopToken());
+    ASSERT_EQ(again.status, Status::FOUND) << "query " << i;
+    ASSERT_NEAR(again.costValue(), first.costValue(), 1e-12);
+    if (i % 2 == 1) {
+      ASSERT_EQ(again.cells, first.cells) << "query " << i;
+    }
+  }
+}
+
 TEST(ThetaStar, SaysWhatItCannotPlanWith) {
   TerrainOptions options;
   options.motion.connectivity = Connectivity::FOUR;
