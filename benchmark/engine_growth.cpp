@@ -145,6 +145,7 @@ std::string measured(const Case& which, double limit_s) {
   planner->limitMemory(kMemoryLimit - std::min(kMemoryLimit, map->bytes()));
   auto begin = Clock::now();
   planner->prepare(map, StopToken());
+  planner->finishBackgroundWork(StopToken());
   const double prepare_s = secondsSince(begin);
 
   const PlanRequest across{{0, 0}, {{which.side - 1, which.side - 1}}, false};

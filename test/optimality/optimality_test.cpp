@@ -172,9 +172,11 @@ TEST_P(Optimality, CostsAreThoseOfBoostGraph) {
       if (planner->bytesFor(map->geometry()) > kMostBytes) continue;
       const std::string name = subject.name(planner->traits());
       planner->prepare(map, StopToken());
+      planner->finishBackgroundWork(StopToken());
       ask(*planner, name, questions.front());
       if (questions.size() < 2) continue;
       planner->update(questions.back().map, rect, StopToken());
+      planner->finishBackgroundWork(StopToken());
       ask(*planner, name + " updated", questions.back());
     }
     if (HasFailure()) return;
