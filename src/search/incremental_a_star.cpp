@@ -106,14 +106,22 @@ PlanResult IncrementalAStar::planAfresh(const PlanRequest& request, const PlanRe
   ++strategies_.fresh;
   const Cell goal = request.goals.front();
   const std::uint32_t goal_index = map().geometry().index(goal).value();
+  const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
+  const auto run = [&](const auto& estimateIn) {
+    return fresh_.run(map(), request.start, isGoal, estimateIn, request.record_expanded, stop);
+  };
+  const auto octile = [&](const KeyScale& scale) {
+    return [estimate = OctileEstimate(map(), goal, scale)](Cell cell, std::uint32_t) {
+      return estimate(cell);
+    };
+  };
   const SearchOptions options = bestEstimate(map().motion());
-  PlanResult result = fresh_.run(
-      map(), request.start, [goal_index](std::uint32_t index) { return index == goal_index; },
-      [&](const KeyScale& scale) {
-        return [estimate = Estimate(options, map(), request.start, goal, scale)](
-                   Cell cell, std::uint32_t) { return estimate(cell); };
-      },
-      request.record_expanded, stop);
+  const auto general = [&](const KeyScale& scale) {
+    return [estimate = Estimate(options, map(), request.start, goal, scale)](
+               Cell cell, std::uint32_t) { return estimate(cell); };
+  };
+  const bool plain = Estimate(options, map(), request.start, goal).plainOctile();
+  PlanResult result = plain ? run(octile) : run(general);
   result.expanded.insert(result.expanded.begin(), so_far.expanded.begin(), so_far.expanded.end());
   const std::size_t bytes = result.statistics.search_bytes;
   result.statistics += so_far.statistics;
