@@ -41,7 +41,7 @@ Made publishedAStar(const SearchOptions& options) {
 
 constexpr Row kCatalogue[] = {
     {"a_star", withOptions<AStar>},
-    {"weighted_jump_point", plain<WeightedJumpPoint>},
+    {"weighted_jump_point", withOptions<WeightedJumpPoint>},
     {"jump_point", plain<JumpPoint>},
     {"dijkstra", plain<Dijkstra>},
     {"incremental_a_star", plain<IncrementalAStar>},
