@@ -56,6 +56,14 @@ std::size_t WeightedJumpPoint::bytesFor(const GridGeometry& geometry) const {
   return std::max(WeightedJumpSearch::bytesFor(geometry), AStar(options_).bytesFor(geometry));
 }
 
+BackgroundWork WeightedJumpPoint::backgroundWork() {
+  return a_star_ ? a_star_->backgroundWork() : BackgroundWork();
+}
+
+void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
+  if (a_star_) a_star_->finishBackgroundWork(stop);
+}
+
 bool WeightedJumpPoint::worthJumping() const {
   return !a_star_asked_for_ && jumpsUnderstand(map().motion()) && sample_.symmetric();
 }

@@ -30,6 +30,8 @@ class WeightedJumpPoint : public Planner {
 
   std::size_t bytesFor(const GridGeometry& geometry) const override;
   bool optimalFor(const CostGrid& map) const override;
+  BackgroundWork backgroundWork() override;
+  void finishBackgroundWork(const StopToken& stop) override;
 
  protected:
   void doPrepare(const StopToken& stop) override;
