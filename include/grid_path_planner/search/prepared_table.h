@@ -11,7 +11,8 @@
 // Where the map gets dearer a bound stays a bound. Where it gets cheaper the table's
 // Table::Cheaper is told, which repairs the bounds in time proportional to the change, or makes the
 // table unusable. A new table is made when that is so, or when so much has changed that the bounds
-// are loose; meanwhile the old one serves.
+// are loose; meanwhile the old one serves, unless places far from each other became cheaper: such
+// bounds would cost more time than they save.
 //
 // Not thread-safe but towards its own thread, with which it shares the map while a table is made.
 #pragma once
@@ -67,7 +68,8 @@ class PreparedTable {
   // Null while there is no table that can be used. Both hold until the next call of another method.
   const Table* ready() {
     adopt();
-    return made_ && cheaper_.usable() ? &made_->table : nullptr;
+    return made_ && cheaper_.usable() && !looseAfter(geometry_, 0, cheaper_.hull()) ? &made_->table
+                                                                                    : nullptr;
   }
   const Cheaper& cheaper() const { return cheaper_; }
 
