@@ -12,7 +12,6 @@ Traits weightedJumpPointTraits() {
   Traits traits;
   traits.name = "weighted_jump_point";
   traits.optimal = true;
-  traits.heuristic = true;
   traits.repairs = true;
   return traits;
 }
