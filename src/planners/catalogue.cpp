@@ -43,7 +43,7 @@ constexpr Row kCatalogue[] = {
     {"a_star", withOptions<AStar>},
     {"weighted_jump_point", withOptions<WeightedJumpPoint>},
     {"jump_point", plain<JumpPoint>},
-    {"dijkstra", plain<Dijkstra>},
+    {"dijkstra", withOptions<Dijkstra>},
     {"incremental_a_star", plain<IncrementalAStar>},
     {"theta_star", plain<ThetaStar>},
     {"lazy_theta_star", lazyThetaStar},

@@ -16,18 +16,25 @@ Traits dijkstraTraits() {
 
 }  // namespace
 
-Dijkstra::Dijkstra() : Planner(dijkstraTraits()) {}
+Dijkstra::Dijkstra(const SearchOptions& options)
+    : Planner(dijkstraTraits()), strictly_ordered_(options.tie_break != TieBreak::NONE) {}
 
 std::size_t Dijkstra::bytesFor(const GridGeometry& geometry) const {
-  return BucketSearch::bytesFor(geometry);
+  return strictly_ordered_ ? BestFirstSearch::bytesFor(geometry) : BucketSearch::bytesFor(geometry);
 }
 
 void Dijkstra::doPrepare(const StopToken& stop) {
-  search_.prepare(map(), stop);
+  if (strictly_ordered_)
+    in_order_.prepare(map(), stop);
+  else
+    by_buckets_.prepare(map(), stop);
 }
 
 void Dijkstra::doUpdate(const CellRect& changed, const StopToken& stop) {
-  search_.update(map(), changed, stop);
+  if (strictly_ordered_)
+    in_order_.update(map(), changed, stop);
+  else
+    by_buckets_.update(map(), changed, stop);
 }
 
 PlanResult Dijkstra::doPlan(const PlanRequest& request, const StopToken& stop) {
@@ -37,7 +44,10 @@ PlanResult Dijkstra::doPlan(const PlanRequest& request, const StopToken& stop) {
   const auto isGoal = [&goals](std::uint32_t index) {
     return std::binary_search(goals.begin(), goals.end(), index);
   };
-  return search_.run(map(), request.start, isGoal, noEstimate, request.record_expanded, stop);
+  if (!strictly_ordered_)
+    return by_buckets_.run(map(), request.start, isGoal, noEstimate, request.record_expanded, stop);
+  const auto cheapestFirst = [](SearchKey g, Cell) { return BestFirstSearch::Promise{g, 0}; };
+  return in_order_.run(map(), request.start, isGoal, cheapestFirst, request.record_expanded, stop);
 }
 
 }  // namespace grid_path_planner

@@ -36,6 +36,11 @@ std::vector<Subject> subjects() {
   std::vector<Subject> all;
   for (const std::string& planner : plannerNames()) {
     all.push_back({planner, {}});
+    if (planner == "dijkstra") {
+      SearchOptions ordered;
+      ordered.tie_break = TieBreak::LARGER_G;
+      all.push_back({planner, ordered});
+    }
     if (planner.rfind("a_star", 0) != 0 && planner != "weighted_jump_point") continue;
     for (const auto& heuristic : choicesOf(Heuristic{}))
       for (const auto& tie_break : choicesOf(TieBreak{})) {

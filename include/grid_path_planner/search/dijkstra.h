@@ -2,16 +2,22 @@
 //
 // Guaranteed: the cost is the least there is, on every map and motion model, and of several goals
 // the one that is answered is the cheapest to reach: which is what it is for where A* is not.
+//
+// It has nothing to break ties by. But with a tie-break other than none A* keeps its open list in
+// strict order, which costs several times as much a cell, and Dijkstra then does the same: so that
+// who compares the two compares them and not their open lists.
 #pragma once
 
+#include "grid_path_planner/search/best_first_search.h"
 #include "grid_path_planner/search/bucket_search.h"
 #include "grid_path_planner/search/planner.h"
+#include "grid_path_planner/search/search_options.h"
 
 namespace grid_path_planner {
 
 class Dijkstra : public Planner {
  public:
-  Dijkstra();
+  explicit Dijkstra(const SearchOptions& options = {});
 
   std::size_t bytesFor(const GridGeometry& geometry) const override;
 
@@ -21,7 +27,9 @@ class Dijkstra : public Planner {
   PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
 
  private:
-  BucketSearch search_;
+  bool strictly_ordered_;
+  BucketSearch by_buckets_;  // one of the two is used
+  BestFirstSearch in_order_;
 };
 
 }  // namespace grid_path_planner
