@@ -3,6 +3,7 @@
 //   grid_path_planner_engine_growth [--sides 256,512,…] [--densities 0.05,0.1,…] [--density-side
 //   1024]
 //       [--planners a_star,…] [--weights uniform|rings] [--limit-s 60] [--csv OUT] [--html OUT]
+//   grid_path_planner_engine_growth --from CSV,CSV --html OUT    draws what such runs wrote
 //
 // Each planner plans from corner to corner among random rectangles (10 % of the area while the side
 // grows), in a process of its own, so that its peak of memory is its own: of the whole process, the
@@ -60,6 +61,7 @@ struct Options {
   double limit_s = 60.0;
   std::string csv;
   std::string html;
+  std::vector<std::string> from;
 };
 
 // One planner on one map.
@@ -250,9 +252,14 @@ std::vector<LineSeries> seriesOf(const std::vector<Growth>& all, const X& x, con
   std::vector<LineSeries> series;
   for (const Growth& growth : all) {
     if (!growth.found()) continue;
-    if (series.empty() || series.back().name != growth.of.planner)
-      series.push_back({growth.of.planner, {}});
-    series.back().points.emplace_back(x(growth), std::max(y(growth), 1e-9));
+    auto same = std::find_if(series.begin(), series.end(), [&growth](const LineSeries& each) {
+      return each.name == growth.of.planner;
+    });
+    if (same == series.end()) same = series.insert(same, {growth.of.planner, {}});
+    const double place = x(growth);
+    const bool known = std::any_of(same->points.begin(), same->points.end(),
+                                   [place](const auto& point) { return point.first == place; });
+    if (!known) same->points.emplace_back(place, std::max(y(growth), 1e-9));
   }
   return series;
 }
@@ -278,8 +285,8 @@ std::string htmlOf(const std::vector<Growth>& by_side, const std::vector<Growth>
   title << "Corner to corner on " << density_side << "x" << density_side;
   out << linePlot(title.str() + ", " + map, "share of the area under obstacles, %", "plan, ms",
                   seriesOf(by_density, density, plan_ms))
-      << linePlot("A second query, between neighbours", "side of the map, cells", "µs",
-                  seriesOf(by_side, side, [](const Growth& g) { return g.second_s * 1e6; }))
+      << linePlot("A second query, between neighbours, right after that", "side of the map, cells",
+                  "µs", seriesOf(by_side, side, [](const Growth& g) { return g.second_s * 1e6; }))
       << '\n';
   return out.str();
 }
@@ -339,13 +346,48 @@ Options optionsFrom(int argc, char** argv) {
       options.csv = value;
     else if (name == "--html")
       options.html = value;
+    else if (name == "--from")
+      options.from = partsOf(value);
     else
       throw InputError("there is no " + name + " " + value);
   }
   return options;
 }
 
+// What csvOf() wrote.
+std::vector<Growth> readCsv(const std::string& file) {
+  std::vector<Growth> all;
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    const std::vector<std::string> parts = partsOf(line);
+    if (parts.size() < 13) throw InputError(file, "'" + line + "' is no line of such a file");
+    Growth growth;
+    growth.of = {parts[0], static_cast<int>(numberFromText(file, parts[1])),
+                 numberFromText(file, parts[2]), parts[3]};
+    growth.status = parts[4];
+    growth.plan_s = numberFromText(file, parts[7]);
+    growth.second_s = numberFromText(file, parts[8]);
+    growth.peak_bytes = numberFromText(file, parts[12]);
+    all.push_back(growth);
+  }
+  if (all.empty()) throw InputError(file, "has no measurements");
+  return all;
+}
+
+void draw(const Options& options) {
+  std::vector<Growth> by_side, by_density;
+  for (const std::string& file : options.from)
+    for (const Growth& growth : readCsv(file)) {
+      if (growth.of.density == kUsualDensity) by_side.push_back(growth);
+      if (growth.of.side == options.density_side) by_density.push_back(growth);
+    }
+  writeText(options.html, htmlOf(by_side, by_density, options.weights, options.density_side));
+}
+
 void run(const Options& options) {
+  if (!options.from.empty()) return draw(options);
   std::vector<Case> by_side, by_density;
   for (const std::string& planner : options.planners) {
     for (const double side : options.sides)
