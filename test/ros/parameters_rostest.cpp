@@ -71,7 +71,7 @@ TEST(Parameters, ValuesOutOfLimitsAreRefusedNeverClamped) {
   nh.setParam("heuristic", "crow");
   EXPECT_EQ(refusalOf(nh),
             "/out_of_limits/heuristic must be one of zero, manhattan, chebyshev, "
-            "octile, euclidean, got 'crow'");
+            "octile, euclidean, landmark, exact, got 'crow'");
 }
 
 TEST(Parameters, UnknownNamesAreFound) {
