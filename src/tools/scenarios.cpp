@@ -117,8 +117,11 @@ class Reference {
     if ((result.status == Status::FOUND) != least.has_value()) return true;
     if (!least) return false;
     const double more = result.costValue() - *least;
-    return (any_angle ? more : std::abs(more)) > (planner_ ? kRounding : kRelativeError) * *least;
+    return (any_angle ? more : std::abs(more)) > tolerance() * *least;
   }
+
+  // Relative: the file's optima are rounded.
+  double tolerance() const { return planner_ ? kRounding : kRelativeError; }
 
  private:
   std::string name_;
@@ -129,11 +132,11 @@ class Reference {
 // How good the answers of a planner are that says how good they are at least.
 class Ratios {
  public:
-  void add(const PlanResult& result, double least) {
+  void add(const PlanResult& result, double least, double tolerance) {
     if (result.status != Status::FOUND || result.lower_bound <= 0.0) return;
     over_bound_.push_back(result.costValue() / result.lower_bound);
     over_least_.push_back(least > 0.0 ? result.costValue() / least : 1.0);
-    if (result.lower_bound > least * (1.0 + kRounding)) ++false_bounds_;
+    if (result.lower_bound > least * (1.0 + tolerance)) ++false_bounds_;
   }
   void print() {
     if (over_bound_.empty()) return;
@@ -203,7 +206,7 @@ int runScenarios(int argc, char** argv) {
     const std::optional<double> least = reference.costOf(query);
     const bool wrong = reference.contradicts(result, least, any_angle);
     totals.wrong += wrong ? 1 : 0;
-    if (least) ratios.add(result, *least);
+    if (least) ratios.add(result, *least, reference.tolerance());
     if (least)
       totals.add(result);
     else
