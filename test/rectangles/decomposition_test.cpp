@@ -14,6 +14,7 @@ namespace {
 using test::bitMapsOf;
 using test::FreeCells;
 using test::freeCells;
+using test::publishedExample;
 
 std::vector<CellRect> cut(const FreeCells& free, const DecompositionLimits& limits = {}) {
   return largestFirst(bitMapsOf(free), limits, StopToken());
@@ -33,20 +34,6 @@ std::vector<std::string> labelled(const FreeCells& free, const std::vector<CellR
     lines.push_back(line);
   }
   return lines;
-}
-
-// The worked example of the published R-map.
-FreeCells publishedExample() {
-  return freeCells({"1100111111",  //
-                    "1100111000",  //
-                    "1110111000",  //
-                    "1111111111",  //
-                    "1100000111",  //
-                    "1100000111",  //
-                    "1100000100",  //
-                    "1111111100",  //
-                    "0000111100",  //
-                    "1111111100"});
 }
 
 TEST(LargestFirst, CutsThePublishedExampleAsPublished) {

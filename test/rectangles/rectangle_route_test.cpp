@@ -12,16 +12,7 @@ namespace {
 class PublishedExample : public ::testing::Test {
  protected:
   static RectangleMap make() {
-    const auto free = test::freeCells({"1100111111",  //
-                                       "1100111000",  //
-                                       "1110111000",  //
-                                       "1111111111",  //
-                                       "1100000111",  //
-                                       "1100000111",  //
-                                       "1100000100",  //
-                                       "1111111100",  //
-                                       "0000111100",  //
-                                       "1111111100"});
+    const auto free = test::publishedExample();
     return RectangleMap(free.geometry(), largestFirst(test::bitMapsOf(free), {}, StopToken()),
                         Touching::BORDERS);
   }

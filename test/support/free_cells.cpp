@@ -27,6 +27,19 @@ FreeCells freeCells(const std::vector<std::string>& lines) {
   return free;
 }
 
+FreeCells publishedExample() {
+  return freeCells({"1100111111",  //
+                    "1100111000",  //
+                    "1110111000",  //
+                    "1111111111",  //
+                    "1100000111",  //
+                    "1100000111",  //
+                    "1100000100",  //
+                    "1111111100",  //
+                    "0000111100",  //
+                    "1111111100"});
+}
+
 FreeCells randomFreeCells(std::mt19937& random, int largest_side, double free) {
   FreeCells cells(randomGeometry(random, largest_side));
   std::bernoulli_distribution draw(free);

@@ -13,6 +13,9 @@ namespace grid_path_planner::test {
 // '1' or '.' free, anything else blocked; the first line is row 0.
 FreeCells freeCells(const std::vector<std::string>& lines);
 
+// The worked example of the published R-map.
+FreeCells publishedExample();
+
 // Free with the given probability; sides from 1.
 FreeCells randomFreeCells(std::mt19937& random, int largest_side, double free);
 
