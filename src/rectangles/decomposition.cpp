@@ -3,10 +3,29 @@
 #include <algorithm>
 #include <cassert>
 
-#include "runs.h"
+#include "grid_path_planner/terrain/bit_scan.h"
 
 namespace grid_path_planner {
 namespace {
+
+int nextFree(const BitMap& bits, int row, int column) {
+  return std::min(bits.width(), oneFrom(bits.row(row), column, bits.width()));
+}
+
+int nextBlocked(const BitMap& bits, int row, int column) {
+  return zeroFrom(bits.row(row), column);
+}
+
+// Makes the bits of [first, end) in a row 0.
+void block(BitMap& bits, int row, int first, int end) {
+  BitMap::Word* words = bits.row(row);
+  while (first < end) {
+    const int next = std::min(end, (first | 63) + 1);
+    const BitMap::Word ones = ~BitMap::Word{0} >> (64 - (next - first));
+    words[first >> 6] &= ~(ones << (first & 63));
+    first = next;
+  }
+}
 
 // The largest rectangle that has its last row in a run of free cells: what a heap entry promises.
 struct Entry {
@@ -86,7 +105,7 @@ class GreedyCut {
       const int run_end = std::min(end, nextBlocked(rows, row, first));
       const std::size_t before = heap_.size();
       add(row, first, run_end,
-          [this, row](int column) { return freeUpTo(left_.columns, column, row); });
+          [this, row](int column) { return row - zeroBefore(left_.columns.row(column), row + 1); });
       if (heap_.size() > before) std::push_heap(heap_.begin(), heap_.end(), TakenLater());
       first = run_end;
     }
@@ -121,7 +140,7 @@ class GreedyCut {
 
   bool isFree(const CellRect& rect) const {
     for (int row = rect.row; row < rect.row + rect.height; ++row)
-      if (!allFree(left_.rows, row, rect.column, rect.column + rect.width)) return false;
+      if (!allOnes(left_.rows.row(row), rect.column, rect.column + rect.width)) return false;
     return true;
   }
 
