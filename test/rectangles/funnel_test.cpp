@@ -2,7 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
+
+#include "grid_path_planner/rectangles/decomposition.h"
+#include "support/free_cells.h"
+#include "support/random_map.h"
 
 namespace grid_path_planner {
 namespace {
@@ -54,6 +62,96 @@ TEST(Funnel, WindsThroughAStaircase) {
         SegmentPoint::kUnitsPerCell;
   EXPECT_LT(length, 5.2);
   EXPECT_GE(length, 5.0);
+}
+
+// ---- against every choice of turning points
+
+double distance(SegmentPoint a, SegmentPoint b) {
+  return std::hypot(double(a.x - b.x), double(a.y - b.y)) / SegmentPoint::kUnitsPerCell;
+}
+
+// A border as its two ends.
+std::pair<SegmentPoint, SegmentPoint> endsOf(const CellRect& from, const Connection& step) {
+  switch (step.side) {
+    case Side::EAST:
+      return {corner(from.column + from.width, step.first),
+              corner(from.column + from.width, step.first + step.length)};
+    case Side::WEST:
+      return {corner(from.column, step.first), corner(from.column, step.first + step.length)};
+    case Side::NORTH:
+      return {corner(step.first, from.row + from.height),
+              corner(step.first + step.length, from.row + from.height)};
+    default:
+      return {corner(step.first, from.row), corner(step.first + step.length, from.row)};
+  }
+}
+
+bool crosses(SegmentPoint a, SegmentPoint b, const std::pair<SegmentPoint, SegmentPoint>& border) {
+  const auto turn = [](SegmentPoint p, SegmentPoint q, SegmentPoint r) {
+    const std::int64_t area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+    return area > 0 ? 1 : area < 0 ? -1 : 0;
+  };
+  const int first = turn(a, b, border.first), second = turn(a, b, border.second);
+  if (first == 0 && second == 0) return true;  // along it
+  return first * second <= 0 &&
+         turn(border.first, border.second, a) * turn(border.first, border.second, b) <= 0;
+}
+
+// The least length over all ways that turn at ends of borders only, borders crossed in order.
+double leastLength(const RectangleMap& map, const RectangleRoute& route, SegmentPoint start,
+                   SegmentPoint goal) {
+  std::vector<std::pair<SegmentPoint, SegmentPoint>> borders = {{start, start}};
+  std::uint32_t rectangle = route.first;
+  for (const Connection& step : route.steps) {
+    borders.push_back(endsOf(map.rectangles()[rectangle], step));
+    rectangle = step.to;
+  }
+  borders.push_back({goal, goal});
+  const double infinite = std::numeric_limits<double>::infinity();
+  std::vector<std::array<double, 2>> least(borders.size(), {infinite, infinite});
+  least[0] = {0.0, 0.0};
+  const auto end = [&borders](std::size_t i, int side) {
+    return side == 0 ? borders[i].first : borders[i].second;
+  };
+  for (std::size_t to = 1; to < borders.size(); ++to)
+    for (std::size_t from = 0; from < to; ++from)
+      for (int a : {0, 1})
+        for (int b : {0, 1}) {
+          bool open = true;
+          for (std::size_t i = from + 1; open && i < to; ++i)
+            open = crosses(end(from, a), end(to, b), borders[i]);
+          if (open)
+            least[to][std::size_t(b)] =
+                std::min(least[to][std::size_t(b)],
+                         least[from][std::size_t(a)] + distance(end(from, a), end(to, b)));
+        }
+  return least.back()[0];
+}
+
+TEST(FunnelLaw, NoOtherTurningPointsAreShorter) {
+  std::mt19937 random(20261121);
+  int bent = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const auto free =
+        trial % 2 == 0 ? test::randomFreeCells(random, 16, 0.75) : test::randomBlocks(random, 40);
+    const RectangleMap map(free.geometry(), largestFirst(test::bitMapsOf(free), {}, StopToken()),
+                           Touching::BORDERS);
+    const Cell start = test::randomCell(random, free.geometry());
+    const Cell goal = test::randomCell(random, free.geometry());
+    if (free[start] == 0 || free[goal] == 0) continue;
+    RectangleSearch search;
+    for (const auto& weight : choicesOf(RectangleWeight{})) {
+      const RectangleRoute route = search.find(map, weight.second, start, goal, StopToken());
+      if (!route.found) continue;
+      const SegmentPoint a = SegmentPoint::centreOf(start), b = SegmentPoint::centreOf(goal);
+      const std::vector<SegmentPoint> points = shortestThrough(map, route, a, b);
+      double length = 0.0;
+      for (std::size_t i = 1; i < points.size(); ++i) length += distance(points[i - 1], points[i]);
+      bent += points.size() > 2 ? 1 : 0;
+      ASSERT_NEAR(length, leastLength(map, route, a, b), 1e-9) << "trial " << trial;
+    }
+  }
+  EXPECT_GT(bent, 200);
 }
 
 }  // namespace

@@ -5,20 +5,15 @@
 #include <cmath>
 #include <random>
 
-#include "grid_path_planner/terrain/terrain.h"
 #include "support/ascii_map.h"
+#include "support/costs_of.h"
 #include "support/random_map.h"
 #include "support/visibility_graph.h"
 
 namespace grid_path_planner {
 namespace {
 
-std::shared_ptr<const CostGrid> costsOf(const OccupancyGrid& map,
-                                        const TerrainOptions& options = {}) {
-  Terrain terrain(options);
-  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
-  return terrain.searched(StopToken());
-}
+using test::costsOf;
 
 PlanResult planOn(const std::shared_ptr<const CostGrid>& map, Cell start, Cell goal) {
   Anya planner;
