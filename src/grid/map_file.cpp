@@ -11,6 +11,7 @@
 #include "grid_path_planner/grid/map_server_file.h"
 #include "grid_path_planner/grid/moving_ai_file.h"
 #include "grid_path_planner/grid/occupancy_dump.h"
+#include "grid_path_planner/grid/vector_map_file.h"
 
 namespace grid_path_planner {
 namespace {
@@ -32,14 +33,28 @@ bool isImage(const std::string& content, const std::string& extension) {
   return isOneOf(extension, {"pbm", "pgm", "png", "ppm", "bmp", "jpg", "jpeg", "tif", "tiff"});
 }
 
+bool isMovingAi(const std::string& content, const std::string& extension) {
+  return startsWith(content, "type ") || extension == "map";
+}
+
+bool isBag(const std::string& content, const std::string& extension) {
+  return startsWith(content, "#ROSBAG") || extension == "bag";
+}
+
+bool isMapServerYaml(const YAML::Node& root) {
+  return root.IsMap() && root["image"];
+}
+
 OccupancyGrid readYamlMap(const std::string& content, const std::string& file,
                           const MapFileOptions& options) {
   if (looksLikeOccupancyDump(content)) return parseOccupancyDump(content, file, options);
   if (content.size() > kLargestYaml)
     throw InputError(file, "is no map: larger than any map_server file and without 'data'");
   const YAML::Node root = parseYaml(content, file);
-  if (root.IsMap() && root["image"]) return readMapServerMap(root, file, options);
-  throw InputError(file, "is no map: neither an 'image' (map_server) nor 'data' (rostopic echo)");
+  if (isMapServerYaml(root)) return readMapServerMap(root, file, options);
+  if (looksLikeVectorMap(root)) return readVectorMap(root, file, options);
+  throw InputError(
+      file, "is no map: no 'image' (map_server), 'data' (rostopic echo) or 'vector_map' in it");
 }
 
 }  // namespace
@@ -47,12 +62,23 @@ OccupancyGrid readYamlMap(const std::string& content, const std::string& file,
 OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options) {
   const std::string content = readWholeFile(file, kLargestMapFile);
   const std::string extension = extensionOf(file);
-  if (startsWith(content, "#ROSBAG") || extension == "bag")
+  if (isBag(content, extension))
     throw InputError(file, "is a bag, which is read with ROS (grid_path_planner/ros/bag.h)");
   if (isImage(content, extension)) return readImageFile(file, {}, 1.0, {}, options);
-  if (startsWith(content, "type ") || extension == "map")
-    return parseMovingAi(content, file, options);
+  if (isMovingAi(content, extension)) return parseMovingAi(content, file, options);
   return readYamlMap(content, file, options);
+}
+
+RowOrder rowOrderOf(const std::string& file) {
+  const std::string content = readWholeFile(file, kLargestMapFile);
+  const std::string extension = extensionOf(file);
+  if (isBag(content, extension)) return RowOrder::FIRST_ROW_FIRST;
+  if (isImage(content, extension)) return RowOrder::LAST_ROW_FIRST;
+  if (isMovingAi(content, extension) || looksLikeOccupancyDump(content) ||
+      content.size() > kLargestYaml)
+    return RowOrder::FIRST_ROW_FIRST;
+  return isMapServerYaml(parseYaml(content, file)) ? RowOrder::LAST_ROW_FIRST
+                                                   : RowOrder::FIRST_ROW_FIRST;
 }
 
 }  // namespace grid_path_planner

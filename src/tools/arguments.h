@@ -10,6 +10,10 @@
 
 namespace grid_path_planner::tools {
 
+// What --map reads, for its help.
+constexpr const char* kMapFiles =
+    "map_server YAML, MovingAI .map, image, drawing (vector_map YAML), rostopic echo dump or bag";
+
 // Long options only, so that negative numbers parse as values. Prints the help and returns false
 // where
 // --help is given. Throws boost::program_options::error for what it does not know.

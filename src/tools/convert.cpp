@@ -18,8 +18,7 @@ namespace po = boost::program_options;
 
 po::options_description describe() {
   po::options_description known("Options");
-  known.add_options()("map", po::value<std::string>()->required(),
-                      "map_server YAML, MovingAI .map, image, rostopic echo dump or bag")(
+  known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
       "output", po::value<std::string>()->required(),
       "OUT.yaml (with OUT.pgm beside it), OUT.map, OUT.png or OUT.pgm")(
       "mode", po::value<std::string>(),

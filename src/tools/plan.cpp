@@ -22,8 +22,7 @@ constexpr int kNoPath = 1;
 
 po::options_description describe() {
   po::options_description known("Options");
-  known.add_options()("map", po::value<std::string>()->required(),
-                      "map_server YAML, MovingAI .map, image, rostopic echo dump or bag")(
+  known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
       "start", po::value<std::string>()->required(), "X,Y[,Z[,YAW]] in metres, YAW in radians")(
       "goal", po::value<std::string>()->required(), "the same")(
       "cells", "start and goal are COLUMN,ROW of cells")(

@@ -58,6 +58,8 @@ TEST_F(MapServerFile, FirstImageLineIsTheLastRow) {
   folder_.write("a.pgm", "P5\n3 2\n255\n\xfe\xfe\x01\xcd\xfe\xfe");
   const OccupancyGrid map = readMapFile(folder_.write("a.yaml", kGeometry));
   EXPECT_EQ(map.values(), AsciiMap({"?..", "..#"}).map.values());
+  EXPECT_EQ(rowOrderOf(folder_.path("a.yaml")), RowOrder::LAST_ROW_FIRST);
+  EXPECT_EQ(rowOrderOf(folder_.path("a.pgm")), RowOrder::LAST_ROW_FIRST);
   EXPECT_EQ(map.geometry(), GridGeometry(3, 2, 0.05, {-1.5, 2.0, 0.25}));
 }
 
@@ -226,7 +228,7 @@ TEST_F(MapServerFile, BadFilesAreRefusedWithTheirLine) {
                          "resolution must be a positive, finite number of metres, got "))
         << resolution;
   EXPECT_TRUE(contains(errorOf(image + origin), "has no 'resolution'"));
-  EXPECT_TRUE(contains(errorOf("resolution: 1\n" + origin), "is no map: neither an 'image'"));
+  EXPECT_TRUE(contains(errorOf("resolution: 1\n" + origin), "is no map: no 'image' (map_server)"));
   EXPECT_TRUE(contains(errorOf("image:\nresolution: 1\n" + origin), "image must be the path"));
   const std::string head = image + "resolution: 1\n";
   EXPECT_TRUE(contains(errorOf(head), "has no 'origin'"));

@@ -32,6 +32,7 @@ TEST_F(MovingAiFile, FirstLineIsRowZeroAndOnlyDotAndGAreFree) {
                            "#.##"})
                      .map);
   EXPECT_EQ(map.geometry(), GridGeometry(4, 2, 1.0));
+  EXPECT_EQ(rowOrderOf(folder_.path("a.map")), RowOrder::FIRST_ROW_FIRST);
 }
 
 TEST_F(MovingAiFile, GeometryIsOverridable) {

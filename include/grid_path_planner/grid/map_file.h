@@ -1,6 +1,6 @@
-// Occupancy maps in files: map_server YAML with its image, MovingAI .map, a plain image, and the
-// text that `rostopic echo` prints of a nav_msgs/OccupancyGrid. Bags are read by ros/bag.h, which
-// needs ROS.
+// Occupancy maps in files: map_server YAML with its image, MovingAI .map, a plain image, a drawing
+// (grid/vector_map_file.h), and the text that `rostopic echo` prints of a nav_msgs/OccupancyGrid.
+// Bags are read by ros/bag.h, which needs ROS.
 //
 //   OccupancyGrid map = readMapFile("maps/site.yaml");
 //
@@ -33,6 +33,11 @@ struct MapFileOptions {
 // Reads any of the formats above, told apart by extension and content. Throws InputError naming the
 // file, and the line or value.
 OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options = {});
+
+// Which row of the map a file begins with: images (map_server's too) with the last, the uppermost;
+// all others, bags included, with row 0. Throws InputError for a file that cannot be read.
+enum class RowOrder { FIRST_ROW_FIRST, LAST_ROW_FIRST };
+RowOrder rowOrderOf(const std::string& file);
 
 // Writes `file` (a map_server YAML) and its image beside it, name.pgm. In TRINARY mode -1, 0 and
 // 100 survive reading back, in RAW mode every value does; SCALE is refused. Atomic per file, the
