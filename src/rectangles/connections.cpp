@@ -1,6 +1,7 @@
 #include "grid_path_planner/rectangles/connections.h"
 
 #include <algorithm>
+#include <cassert>
 #include <tuple>
 
 namespace grid_path_planner {
@@ -98,7 +99,47 @@ void addAllCorners(const std::vector<CellRect>& rectangles, std::vector<Found>& 
   addCorners(std::move(north_west), std::move(south_east), found);
 }
 
+Side opposite(Side side) {
+  switch (side) {
+    case Side::EAST:
+      return Side::WEST;
+    case Side::NORTH:
+      return Side::SOUTH;
+    case Side::WEST:
+      return Side::EAST;
+    case Side::SOUTH:
+      return Side::NORTH;
+    case Side::CORNER:
+      break;
+  }
+  return Side::CORNER;
+}
+
+bool before(const Connection& connection, std::uint32_t to) {
+  return connection.to < to;
+}
+
+// The least i with 2^i >= count. Precondition: count > 0.
+int roomClass(std::size_t count) {
+  return count == 1 ? 0 : 64 - __builtin_clzll(count - 1);
+}
+
 }  // namespace
+
+std::optional<Connection> connectionBetween(const CellRect& from, const CellRect& to,
+                                            std::uint32_t number, Touching touching) {
+  const int first_column = std::max(from.column, to.column);
+  const int first_row = std::max(from.row, to.row);
+  const int columns = std::min(from.column + from.width, to.column + to.width) - first_column;
+  const int rows = std::min(from.row + from.height, to.row + to.height) - first_row;
+  if (columns < 0 || rows < 0) return std::nullopt;
+  if (rows > 0)
+    return Connection{number, from.column < to.column ? Side::EAST : Side::WEST, first_row, rows};
+  if (columns > 0)
+    return Connection{number, from.row < to.row ? Side::NORTH : Side::SOUTH, first_column, columns};
+  if (touching == Touching::BORDERS) return std::nullopt;
+  return Connection{number, Side::CORNER, 0, 0};
+}
 
 Connections::Connections(const std::vector<CellRect>& rectangles, Touching touching) {
   std::vector<Found> found;
@@ -111,13 +152,94 @@ Connections::Connections(const std::vector<CellRect>& rectangles, Touching touch
     return std::tie(a.from, a.connection.to) < std::tie(b.from, b.connection.to);
   });
 
-  first_.assign(rectangles.size() + 1, 0);
+  blocks_.resize(rectangles.size());
   all_.reserve(found.size());
   for (const Found& each : found) {
-    ++first_[each.from + 1];
+    ++blocks_[each.from].count;
     all_.push_back(each.connection);
   }
-  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  std::uint32_t first = 0;
+  for (Block& block : blocks_) {
+    block.first = first;
+    block.room = block.count;
+    first += block.count;
+  }
+  count_ = all_.size();
+}
+
+std::size_t Connections::bytes() const {
+  std::size_t bytes = all_.capacity() * sizeof(Connection) + blocks_.capacity() * sizeof(Block);
+  for (const auto& each : released_) bytes += each.capacity() * sizeof(std::uint32_t);
+  return bytes;
+}
+
+void Connections::remove(std::uint32_t rectangle) {
+  Block& block = blocks_[rectangle];
+  for (const Connection& connection : of(rectangle)) erase(connection.to, rectangle);
+  count_ -= block.count;
+  release(block);
+  block = Block();
+}
+
+void Connections::add(std::uint32_t rectangle, const std::vector<Connection>& connections) {
+  if (blocks_.size() <= rectangle) blocks_.resize(rectangle + std::size_t{1});
+  assert(blocks_[rectangle].count == 0);
+  makeRoom(blocks_[rectangle], connections.size());
+  Block& block = blocks_[rectangle];
+  std::copy(connections.begin(), connections.end(), all_.begin() + block.first);
+  block.count = static_cast<std::uint32_t>(connections.size());
+  count_ += connections.size();
+  for (const Connection& each : connections)
+    insert(each.to, {rectangle, opposite(each.side), each.first, each.length});
+}
+
+void Connections::insert(std::uint32_t rectangle, const Connection& connection) {
+  Block& block = blocks_[rectangle];
+  makeRoom(block, block.count + std::size_t{1});
+  Connection* begin = all_.data() + block.first;
+  Connection* end = begin + block.count;
+  Connection* place = std::lower_bound(begin, end, connection.to, before);
+  std::copy_backward(place, end, end + 1);
+  *place = connection;
+  ++block.count;
+  ++count_;
+}
+
+void Connections::erase(std::uint32_t rectangle, std::uint32_t to) {
+  Block& block = blocks_[rectangle];
+  Connection* begin = all_.data() + block.first;
+  Connection* end = begin + block.count;
+  Connection* place = std::lower_bound(begin, end, to, before);
+  assert(place != end && place->to == to);
+  std::copy(place + 1, end, place);
+  --block.count;
+  --count_;
+}
+
+std::uint32_t Connections::take(std::uint32_t room) {
+  auto& released = released_[static_cast<std::size_t>(roomClass(room))];
+  if (released.empty()) {
+    all_.resize(all_.size() + room);
+    return static_cast<std::uint32_t>(all_.size() - room);
+  }
+  const std::uint32_t first = released.back();
+  released.pop_back();
+  return first;
+}
+
+void Connections::release(const Block& block) {
+  if (block.room == 0) return;
+  released_[static_cast<std::size_t>(31 - __builtin_clz(block.room))].push_back(block.first);
+}
+
+void Connections::makeRoom(Block& block, std::size_t count) {
+  if (count <= block.room) return;
+  Block larger = block;
+  larger.room = std::uint32_t{1} << std::max(2, roomClass(count));
+  larger.first = take(larger.room);
+  std::copy_n(all_.begin() + block.first, block.count, all_.begin() + larger.first);
+  release(block);
+  block = larger;
 }
 
 }  // namespace grid_path_planner

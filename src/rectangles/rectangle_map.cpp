@@ -1,10 +1,13 @@
 #include "grid_path_planner/rectangles/rectangle_map.h"
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <utility>
 
+#include "free_changes.h"
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/rectangles/decomposition.h"
 #include "grid_path_planner/rectangles/rectangle_index.h"
 
 namespace grid_path_planner {
@@ -42,13 +45,107 @@ void checkDisjoint(const RectangleIndex& index, const std::vector<CellRect>& rec
         throw InputError(nameOf(rectangles, i) + " overlaps " + nameOf(rectangles, other));
 }
 
+void sortUnique(std::vector<std::uint32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+bool holds(const std::vector<std::uint32_t>& ascending, std::uint32_t number) {
+  return std::binary_search(ascending.begin(), ascending.end(), number);
+}
+
 }  // namespace
+
+// Takes rectangles out of a map and puts others in, and remembers which.
+class RectangleMap::Replacement {
+ public:
+  explicit Replacement(RectangleMap& map) : map_(map) {}
+
+  // `old`: numbers, ascending. `around`: all rectangles that touch one of `fresh` are among these,
+  // the old ones and what these touch.
+  void replace(std::vector<std::uint32_t> old, std::vector<CellRect> fresh,
+               std::vector<std::uint32_t> around) {
+    keepTheSame(old, fresh);
+    for (const std::uint32_t number : old)
+      for (const Connection& connection : map_.connections_.of(number))
+        around.push_back(connection.to);
+    sortUnique(around);
+    const auto goes = [&old](std::uint32_t number) { return holds(old, number); };
+    around.erase(std::remove_if(around.begin(), around.end(), goes), around.end());
+    for (const std::uint32_t number : old) remove(number);
+    for (const CellRect& rect : fresh) {
+      const std::uint32_t number = add(rect, around);
+      around.insert(std::lower_bound(around.begin(), around.end(), number), number);
+    }
+  }
+
+  RectangleEdit edit() {
+    std::stable_sort(events_.begin(), events_.end(),
+                     [](const Event& a, const Event& b) { return a.number < b.number; });
+    RectangleEdit edit;
+    for (std::size_t i = 0; i < events_.size(); ++i) {
+      const Event& event = events_[i];
+      if (i > 0 && events_[i - 1].number == event.number) continue;
+      if (!event.came) edit.removed.push_back(event.number);
+      if (!map_.rectangles_[event.number].empty()) edit.added.push_back(event.number);
+    }
+    return edit;
+  }
+
+ private:
+  struct Event {
+    std::uint32_t number;
+    bool came;
+  };
+
+  void keepTheSame(std::vector<std::uint32_t>& old, std::vector<CellRect>& fresh) const {
+    const auto stays = [&](std::uint32_t number) {
+      const auto same = std::find(fresh.begin(), fresh.end(), map_.rectangles_[number]);
+      if (same == fresh.end()) return false;
+      fresh.erase(same);
+      return true;
+    };
+    old.erase(std::remove_if(old.begin(), old.end(), stays), old.end());
+  }
+
+  void remove(std::uint32_t number) {
+    map_.connections_.remove(number);
+    map_.index_->remove(map_.rectangles_[number], number);
+    map_.rectangles_[number] = CellRect();
+    map_.vacant_.push_back(number);
+    events_.push_back({number, false});
+  }
+
+  std::uint32_t add(const CellRect& rect, const std::vector<std::uint32_t>& around) {
+    auto number = static_cast<std::uint32_t>(map_.rectangles_.size());
+    if (map_.vacant_.empty()) {
+      map_.rectangles_.emplace_back();
+    } else {
+      number = map_.vacant_.back();
+      map_.vacant_.pop_back();
+    }
+    map_.rectangles_[number] = rect;
+    map_.index_->add(rect, number);
+    touching_.clear();
+    for (const std::uint32_t other : around)
+      if (const auto connection =
+              connectionBetween(rect, map_.rectangles_[other], other, map_.touching_))
+        touching_.push_back(*connection);
+    map_.connections_.add(number, touching_);
+    events_.push_back({number, true});
+    return number;
+  }
+
+  RectangleMap& map_;
+  std::vector<Event> events_;
+  std::vector<Connection> touching_;
+};
 
 RectangleMap::RectangleMap() : index_(std::make_unique<RectangleIndex>()) {}
 
 RectangleMap::RectangleMap(const GridGeometry& geometry, std::vector<CellRect> rectangles,
                            Touching touching)
-    : geometry_(geometry), rectangles_(std::move(rectangles)) {
+    : geometry_(geometry), touching_(touching), rectangles_(std::move(rectangles)) {
   checkInside(geometry_, rectangles_);
   index_ = std::make_unique<RectangleIndex>(rectangles_);
   checkDisjoint(*index_, rectangles_);
@@ -63,6 +160,39 @@ std::optional<std::uint32_t> RectangleMap::at(Cell cell) const {
   return index_->at(cell);
 }
 
+std::size_t RectangleMap::count() const {
+  return rectangles_.size() - vacant_.size();
+}
+
+RectangleEdit RectangleMap::edit(const BitMap& free, const CellRect& changed,
+                                 const StopToken& stop) {
+  const CellRect inside = changed.intersection(geometry_.rect());
+  std::vector<CellRect> met;
+  for (const std::uint32_t number : index_->meeting(inside)) met.push_back(rectangles_[number]);
+  const FreeChanges changes = freeChanges(free, met, inside, stop);
+  Replacement replacement(*this);
+  if (!changes.empty()) repair(changes, replacement, stop);
+  return replacement.edit();
+}
+
+void RectangleMap::repair(const FreeChanges& changes, Replacement& replacement,
+                          const StopToken& stop) {
+  std::vector<std::uint32_t> old, around;
+  const auto append = [this](const CellRect& rect, std::vector<std::uint32_t>& numbers) {
+    for (const std::uint32_t number : index_->meeting(rect)) numbers.push_back(number);
+  };
+  for (const CellRect& rect : changes.lost) append(rect, old);
+  for (const CellRect& rect : changes.gained) {
+    append({rect.column - 1, rect.row, rect.width + 2, rect.height}, old);
+    append({rect.column, rect.row - 1, rect.width, rect.height + 2}, old);
+    append(rect.grown(1), around);
+  }
+  sortUnique(old);
+  std::vector<CellRect> free = changes.gained;
+  for (const std::uint32_t number : old) free.push_back(rectangles_[number]);
+  replacement.replace(old, largestFirst(free, changes.lost, stop), around);
+}
+
 std::size_t RectangleMap::freeCells() const {
   std::size_t cells = 0;
   for (const CellRect& rect : rectangles_)
@@ -71,7 +201,8 @@ std::size_t RectangleMap::freeCells() const {
 }
 
 std::size_t RectangleMap::bytes() const {
-  return rectangles_.capacity() * sizeof(CellRect) + connections_.bytes() + index_->bytes();
+  return rectangles_.capacity() * sizeof(CellRect) + vacant_.capacity() * sizeof(std::uint32_t) +
+         connections_.bytes() + index_->bytes();
 }
 
 }  // namespace grid_path_planner

@@ -133,6 +133,32 @@ TEST(LargestFirst, CannotBeSurprisedByManyEqualRectangles) {
   EXPECT_EQ(rectangles, test::surveyRectangles(checkers, checkers.values().size()));
 }
 
+// The same cells, given as rectangles of any sizes that may overlap.
+TEST(LargestFirst, OfRectanglesIsThatOfTheirCells) {
+  std::mt19937 random(29);
+  for (int trial = 0; trial < 200; ++trial) {
+    FreeCells cells(GridGeometry(90, 70, 1.0), 0);
+    std::vector<CellRect> free, blocked;
+    const auto draw = [&](std::vector<CellRect>& list, std::uint8_t value, int largest) {
+      for (auto left = random() % 9; left > 0; --left) {
+        const auto side = [&](int limit) {
+          return 1 + static_cast<int>(random() % unsigned(limit));
+        };
+        const CellRect rect =
+            CellRect{side(90) - 1, side(70) - 1, side(largest), side(largest)}.intersection(
+                cells.geometry().rect());
+        list.push_back(rect);
+        for (int row = rect.row; row < rect.row + rect.height; ++row)
+          for (int column = rect.column; column < rect.column + rect.width; ++column)
+            cells[Cell{column, row}] = value;
+      }
+    };
+    draw(free, 1, 50);
+    draw(blocked, 0, 10);
+    ASSERT_EQ(largestFirst(free, blocked, StopToken()), cut(cells));
+  }
+}
+
 TEST(LargestFirst, StopsWhenAsked) {
   StopSource stop;
   stop.cancel();

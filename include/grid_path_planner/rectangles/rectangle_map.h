@@ -3,20 +3,37 @@
 //   RectangleMap map(geometry, largestFirst(bits, {}, stop), Touching::BORDERS);
 //   std::optional<std::uint32_t> here = map.at(cell);
 //
-// Constant once made. Holds the rectangles, an R-tree over them (Boost.Geometry) and their
-// connections: nothing in proportion to the cells.
+//   RectangleEdit edit = map.edit(bits.rows, changed, stop);  // cells became free or blocked
+//
+// Holds the rectangles, an R-tree over them (Boost.Geometry) and their connections: nothing in
+// proportion to the cells.
+//
+// edit() redoes the rectangles that the changed cells touch, and only them. Guaranteed: the result
+// is again a partition of the free cells; the others keep their numbers; the time follows what is
+// touched, not the map. Not guaranteed: that the rectangles are those of a decomposition of the new
+// map, or as few, or in the order of their size.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/grid/grid_geometry.h"
 #include "grid_path_planner/rectangles/connections.h"
+#include "grid_path_planner/terrain/bit_maps.h"
 
 namespace grid_path_planner {
 
 class RectangleIndex;
+struct FreeChanges;
+
+// The numbers whose rectangle went and whose came, ascending. A number in both has another
+// rectangle now.
+struct RectangleEdit {
+  std::vector<std::uint32_t> removed;
+  std::vector<std::uint32_t> added;
+};
 
 class RectangleMap {
  public:
@@ -29,18 +46,32 @@ class RectangleMap {
   RectangleMap& operator=(RectangleMap&&) noexcept;
 
   const GridGeometry& geometry() const { return geometry_; }
+  // By number. After edits some numbers may be vacant: theirs are empty, until they are used again.
   const std::vector<CellRect>& rectangles() const { return rectangles_; }
+  // How many there are.
+  std::size_t count() const;
   const Connections& connections() const { return connections_; }
 
   // The number of the rectangle that holds the cell.
   std::optional<std::uint32_t> at(Cell cell) const;
 
+  // `free` is the map as it is now, and differs from what the rectangles cover only inside
+  // `changed`. Throws Stopped, and has changed nothing or a part of it then: it may be called
+  // again.
+  RectangleEdit edit(const BitMap& free, const CellRect& changed, const StopToken& stop);
+
   std::size_t freeCells() const;
   std::size_t bytes() const;
 
  private:
+  class Replacement;
+
+  void repair(const FreeChanges& changes, Replacement& replacement, const StopToken& stop);
+
   GridGeometry geometry_;
+  Touching touching_ = Touching::BORDERS;
   std::vector<CellRect> rectangles_;
+  std::vector<std::uint32_t> vacant_;
   Connections connections_;
   std::unique_ptr<RectangleIndex> index_;
 };

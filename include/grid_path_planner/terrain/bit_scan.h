@@ -1,5 +1,7 @@
-// Scans of a row of a bit map, a word at a time. They rely on the zeros around it.
+// Scans and fillings of a row of a bit map, a word at a time. Scans rely on the zeros around it.
 #pragma once
+
+#include <algorithm>
 
 #include "grid_path_planner/terrain/bit_maps.h"
 
@@ -47,6 +49,17 @@ inline bool allOnes(const BitMap::Word* row, int first, int last) {
   for (; word < end; ++word, mask = ~BitMap::Word{0})
     if ((~row[word] & mask) != 0) return false;
   return (~row[word] & mask) << (63 - ((last - 1) & 63)) == 0;
+}
+
+// Makes all of [first, last) ones or zeros. Precondition: 0 <= first, last <= 64 words().
+inline void fillBits(BitMap::Word* row, int first, int last, bool value) {
+  while (first < last) {
+    const int next = std::min(last, (first | 63) + 1);
+    const BitMap::Word ones = ~BitMap::Word{0} >> (64 - (next - first)) << (first & 63);
+    BitMap::Word& word = row[first >> 6];
+    word = value ? word | ones : word & ~ones;
+    first = next;
+  }
 }
 
 }  // namespace grid_path_planner

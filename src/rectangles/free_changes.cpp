@@ -1,0 +1,58 @@
+#include "free_changes.h"
+
+#include "grid_path_planner/rectangles/decomposition.h"
+#include "grid_path_planner/terrain/bit_scan.h"
+
+namespace grid_path_planner {
+namespace {
+
+// Words of `changed` alone, from the one that holds its first column on.
+struct Window {
+  CellRect cells;
+  int first_word;
+
+  explicit Window(const CellRect& changed) : cells(changed), first_word(changed.column >> 6) {}
+
+  int columnOf(int column) const { return column - 64 * first_word; }
+  CellRect inMap(const CellRect& rect) const {
+    return {rect.column + 64 * first_word, rect.row + cells.row, rect.width, rect.height};
+  }
+};
+
+}  // namespace
+
+FreeChanges freeChanges(const BitMap& free, const std::vector<CellRect>& rectangles,
+                        const CellRect& changed, const StopToken& stop) {
+  const Window window(changed);
+  const int end = window.columnOf(changed.column + changed.width);
+  BitMap covered(end, changed.height);
+  for (const CellRect& rect : rectangles) {
+    const CellRect part = rect.intersection(changed);
+    for (int row = part.row; row < part.row + part.height; ++row)
+      fillBits(covered.row(row - changed.row), window.columnOf(part.column),
+               window.columnOf(part.column + part.width), true);
+  }
+
+  BitMap gained(end, changed.height);
+  BitMap lost(end, changed.height);
+  for (int row = 0; row < changed.height; ++row) {
+    const BitMap::Word* now = free.row(changed.row + row) + window.first_word;
+    const BitMap::Word* before = covered.row(row);
+    for (int word = 0; word < covered.words(); ++word) {
+      gained.row(row)[word] = now[word] & ~before[word];
+      lost.row(row)[word] = before[word] & ~now[word];
+    }
+    // The words' other bits are not of `changed`.
+    for (BitMap* bits : {&gained, &lost}) {
+      fillBits(bits->row(row), 0, window.columnOf(changed.column), false);
+      fillBits(bits->row(row), end, 64 * covered.words(), false);
+    }
+  }
+
+  FreeChanges changes{mergedRuns(gained, stop), mergedRuns(lost, stop)};
+  for (auto* each : {&changes.gained, &changes.lost})
+    for (CellRect& rect : *each) rect = window.inMap(rect);
+  return changes;
+}
+
+}  // namespace grid_path_planner
