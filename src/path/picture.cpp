@@ -9,6 +9,7 @@
 #include "canvas.h"
 #include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/base/errors.h"
+#include "rectangle_marks.h"
 #include "segment.h"
 
 namespace grid_path_planner {
@@ -219,16 +220,19 @@ void drawMargin(Canvas& canvas, const PictureLayout& layout, double resolution, 
 
 // ---- Everything
 
-Canvas drawn(const OccupancyGrid& map, const OccupancyThresholds& thresholds, const Path& path,
-             const std::vector<Cell>& expanded, const PictureOptions& options) {
+Canvas drawn(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
+             const PictureContent& content, const PictureOptions& options) {
+  const Path& path = content.path;
   for (std::size_t i = 0; i < path.poses.size(); ++i)
     if (!path.poses[i].position.allFinite() || !std::isfinite(path.poses[i].yaw))
       throw InputError("pose " + std::to_string(i + 1) + " of the path to draw is not finite");
   const PictureLayout layout(map.geometry(), options);
   Canvas canvas(layout.width(), layout.height(), kPaper);
-  drawMap(canvas, layout, map, thresholds, expanded);
+  drawMap(canvas, layout, map, thresholds, content.expanded);
+  drawRectangles(canvas, layout, map.geometry(), content.rectangles);
+  drawLinks(canvas, layout, content.links);
   drawPath(canvas, layout, path, map.geometry().origin().yaw);
-  drawMargin(canvas, layout, map.geometry().resolution(), !path.empty(), !expanded.empty());
+  drawMargin(canvas, layout, map.geometry().resolution(), !path.empty(), !content.expanded.empty());
   return canvas;
 }
 
@@ -240,20 +244,19 @@ std::string extensionOf(const std::string& file) {
 }  // namespace
 
 Picture drawPicture(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
-                    const Path& path, const std::vector<Cell>& expanded,
-                    const PictureOptions& options) {
+                    const PictureContent& content, const PictureOptions& options) {
   cv::Mat image;
-  cv::cvtColor(drawn(map, thresholds, path, expanded, options).image(), image, cv::COLOR_BGR2RGB);
+  cv::cvtColor(drawn(map, thresholds, content, options).image(), image, cv::COLOR_BGR2RGB);
   return {image.cols, image.rows, {image.datastart, image.dataend}};
 }
 
 void writePicture(const std::string& file, const OccupancyGrid& map,
-                  const OccupancyThresholds& thresholds, const Path& path,
-                  const std::vector<Cell>& expanded, const PictureOptions& options) {
+                  const OccupancyThresholds& thresholds, const PictureContent& content,
+                  const PictureOptions& options) {
   const std::string extension = extensionOf(file);
   if (extension.empty() || !cv::haveImageWriter("picture" + extension))
     throw InputError(file, "no picture is written with this extension, use .png");
-  const Canvas canvas = drawn(map, thresholds, path, expanded, options);
+  const Canvas canvas = drawn(map, thresholds, content, options);
   std::vector<uchar> bytes;
   try {
     cv::imencode(extension, canvas.image(), bytes);

@@ -119,8 +119,8 @@ int runPlan(int argc, char** argv) {
   const PlanReport report = planner.plan(request);
 
   if (values.count("image") != 0)
-    writePicture(values["image"].as<std::string>(), *map, options.terrain.thresholds, report.path,
-                 cellsOf(report, map->geometry()));
+    writePicture(values["image"].as<std::string>(), *map, options.terrain.thresholds,
+                 {report.path, cellsOf(report, map->geometry()), {}, {}});
   if (values.count("waypoints") != 0 && report.status == Status::FOUND)
     writeWaypointFile(values["waypoints"].as<std::string>(), report.path);
   if (values.count("json") != 0)

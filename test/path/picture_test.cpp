@@ -50,11 +50,17 @@ Path pathThrough(const std::vector<Eigen::Vector2d>& points, double goal_yaw = 0
   return path;
 }
 
+PictureContent along(const Path& path, const std::vector<Cell>& expanded = {}) {
+  return {path, expanded, {}, {}};
+}
+
 // A picture that is asked about places of the map.
 struct Drawn {
+  Drawn(const OccupancyGrid& map, const PictureContent& content, const PictureOptions& options = {})
+      : layout(map.geometry(), options), picture(drawPicture(map, {}, content, options)) {}
   explicit Drawn(const OccupancyGrid& map, const Path& path = {},
                  const std::vector<Cell>& expanded = {}, const PictureOptions& options = {})
-      : layout(map.geometry(), options), picture(drawPicture(map, {}, path, expanded, options)) {}
+      : Drawn(map, along(path, expanded), options) {}
   Colour at(double x, double y) const { return pixelAt(picture, layout.pixelAt({x, y})); }
 
   PictureLayout layout;
@@ -130,8 +136,10 @@ TEST(Picture, ATurnedMapGivesTheSamePicture) {
   const std::vector<std::string> lines = {"......", "..#...", "......"};
   const AsciiMap straight(lines);
   const AsciiMap turned(lines, 1.0, {0.0, 0.0, M_PI / 2});
-  const Picture a = drawPicture(straight.map, {}, pathThrough({{0.5, 0.5}, {5.5, 0.5}}, 0.0));
-  const Picture b = drawPicture(turned.map, {}, pathThrough({{-0.5, 0.5}, {-0.5, 5.5}}, M_PI / 2));
+  const Picture a =
+      drawPicture(straight.map, {}, along(pathThrough({{0.5, 0.5}, {5.5, 0.5}}, 0.0)));
+  const Picture b =
+      drawPicture(turned.map, {}, along(pathThrough({{-0.5, 0.5}, {-0.5, 5.5}}, M_PI / 2)));
   EXPECT_EQ(a.rgb, b.rgb);
 }
 
@@ -175,7 +183,7 @@ TEST(Picture, AThinWallSurvivesReduction) {
 
 TEST(Picture, SizesAreThoseOfTheLayout) {
   const OccupancyGrid map(GridGeometry(20, 10, 1.0));
-  const Picture picture = drawPicture(map, {}, {}, {}, {50, 200});
+  const Picture picture = drawPicture(map, {}, {}, {50, 200});
   const PictureLayout layout(map.geometry(), {50, 200});
   EXPECT_EQ(layout.mapArea().width, 100);
   EXPECT_EQ(picture.width, layout.width());
@@ -184,7 +192,8 @@ TEST(Picture, SizesAreThoseOfTheLayout) {
 }
 
 TEST(Picture, ASingleCellAndALongMapCanBeDrawn) {
-  EXPECT_NO_THROW(drawPicture(OccupancyGrid(GridGeometry(1, 1, 0.05)), {}, pathThrough({{0, 0}})));
+  EXPECT_NO_THROW(
+      drawPicture(OccupancyGrid(GridGeometry(1, 1, 0.05)), {}, along(pathThrough({{0, 0}}))));
   EXPECT_NO_THROW(drawPicture(OccupancyGrid(GridGeometry(1, 20000, 1e-3)), {}, {}));
 }
 
@@ -199,23 +208,23 @@ TEST(Picture, BadInputIsRefused) {
   const AsciiMap map({"..."});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(contains(errorText([&] {
-                         drawPicture(map.map, {}, pathThrough({{0, 0}, {nan, 0}}));
+                         drawPicture(map.map, {}, along(pathThrough({{0, 0}, {nan, 0}})));
                        }),
                        "pose 2"));
   EXPECT_TRUE(contains(errorText([&] {
-                         drawPicture(map.map, {}, pathThrough({{0, 0}}, nan));
+                         drawPicture(map.map, {}, along(pathThrough({{0, 0}}, nan)));
                        }),
                        "pose 1"));
   EXPECT_TRUE(contains(errorText([&] { drawPicture(OccupancyGrid(), {}, {}); }), "without cells"));
   for (const PictureOptions options : {PictureOptions{0, 100}, {200, 100}, {100, 20000}})
-    EXPECT_TRUE(contains(errorText([&] { drawPicture(map.map, {}, {}, {}, options); }), "sides"));
+    EXPECT_TRUE(contains(errorText([&] { drawPicture(map.map, {}, {}, options); }), "sides"));
 }
 
 TEST(PictureFile, IsAPngOfTheRightSize) {
   const TemporaryFolder folder;
   const std::string file = folder.path("map.png");
   const AsciiMap map({"....", ".#.."});
-  writePicture(file, map.map, {}, pathThrough({{0.5, 0.5}, {3.5, 0.5}}), {{1, 0}});
+  writePicture(file, map.map, {}, along(pathThrough({{0.5, 0.5}, {3.5, 0.5}}), {{1, 0}}));
   const std::string bytes = contentOf(file);
   ASSERT_GT(bytes.size(), 24u);
   EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n");
@@ -234,7 +243,8 @@ TEST(PictureFile, IsTheSameEveryTime) {
   const TemporaryFolder folder;
   const AsciiMap map({"....", ".#.?"});
   for (const std::string name : {"a.png", "b.png"})
-    writePicture(folder.path(name), map.map, {}, pathThrough({{0.5, 0.5}, {3.2, 1.1}}), {{1, 0}});
+    writePicture(folder.path(name), map.map, {},
+                 along(pathThrough({{0.5, 0.5}, {3.2, 1.1}}), {{1, 0}}));
   EXPECT_EQ(contentOf(folder.path("a.png")), contentOf(folder.path("b.png")));
 }
 
@@ -264,6 +274,41 @@ TEST(PictureFile, APlaceThatCannotBeWrittenIsNamed) {
   const std::string file = folder.write("file", "not a folder") + "/map.png";
   EXPECT_EQ(errorText([&] { writePicture(file, map.map, {}, {}); }),
             file + ": cannot be written: Not a directory");
+}
+
+TEST(Picture, RectanglesAreTintedOutlinedAndNumbered) {
+  const AsciiMap map({"....",  //
+                      "....",  //
+                      "..##"});
+  PictureContent content;
+  content.rectangles = {{0, 0, 4, 2}, {0, 2, 2, 1}, {3, 2, 9, 9}, {7, 7, 1, 1}};
+  const Drawn drawn(map.map, content);
+  const Drawn plain(map.map);
+  const Colour first = drawn.at(0.3, 0.3), second = drawn.at(0.3, 2.3);
+  EXPECT_NE(first, plain.at(0.3, 0.3));
+  EXPECT_NE(first, second);
+  EXPECT_GT(lightness(first), 170);
+  EXPECT_EQ(drawn.at(3.7, 1.7), first) << "all of it is tinted";
+  EXPECT_EQ(drawn.at(2.5, 2.5), plain.at(2.5, 2.5)) << "what is in none is as it was";
+  EXPECT_NE(drawn.at(3.5, 2.3), plain.at(3.5, 2.3)) << "one that leaves the map is cut";
+  EXPECT_LT(lightness(drawn.at(1.999, 2.5)), 130) << "an outline";
+  int dark = 0;
+  for (double x = 1.9; x < 2.1; x += 0.004)
+    for (double y = 0.9; y < 1.1; y += 0.004) dark += lightness(drawn.at(x, y)) < 100 ? 1 : 0;
+  EXPECT_GT(dark, 5) << "a number in the middle";
+}
+
+TEST(Picture, LinksAreLinesBetweenDots) {
+  const AsciiMap map({"....", "...."});
+  PictureContent content;
+  content.links = {{{0.5, 0.5}, {3.5, 1.5}}};
+  const Drawn drawn(map.map, content);
+  const Drawn plain(map.map);
+  for (const double share : {0.0, 0.25, 0.5, 1.0}) {
+    const double x = 0.5 + 3.0 * share, y = 0.5 + share;
+    EXPECT_NE(drawn.at(x, y), plain.at(x, y)) << share;
+  }
+  EXPECT_EQ(drawn.at(3.5, 0.5), plain.at(3.5, 0.5));
 }
 
 }  // namespace

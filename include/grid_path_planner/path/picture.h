@@ -1,13 +1,14 @@
 // A picture of a map with a path on it, for people.
 //
-//   writePicture("out/path.png", map, thresholds, path, expanded);
+//   writePicture("out/path.png", map, thresholds, {path, expanded});
 //
 // Free cells are light, unknown ones grey, occupied ones dark; expanded cells are tinted, from pale
 // (early) to strong (late); the path is a blue line, its start a green disc and its goal an orange
-// arrowhead that points where the vehicle looks. A margin holds a scale bar in metres and a legend.
-// The colours differ in lightness and are chosen to be told apart by colour-blind eyes. +x is to
-// the right and +y up, in the map's own axes: the picture of a turned map is not turned. The same
-// input gives the same file, byte for byte.
+// arrowhead that points where the vehicle looks. Rectangles are tinted in turning colours, outlined
+// and numbered from 1 where they are large enough for that; links are lines between dots. A margin
+// holds a scale bar in metres and a legend. The colours differ in lightness and are chosen to be
+// told apart by colour-blind eyes. +x is to the right and +y up, in the map's own axes: the picture
+// of a turned map is not turned. The same input gives the same file, byte for byte.
 //
 // Where several cells share a pixel, occupied wins over unknown and unknown over free.
 #pragma once
@@ -15,6 +16,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grid_path_planner/grid/occupancy.h"
@@ -63,16 +65,24 @@ struct Picture {
   std::vector<std::uint8_t> rgb;
 };
 
+// What is drawn on the map.
+struct PictureContent {
+  Path path;
+  std::vector<Cell> expanded;
+  std::vector<CellRect> rectangles;
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> links;  // metres
+};
+
 // Throws InputError for a path with a position that is not finite. The part of a path that lies
-// outside the picture is left out, expanded cells outside the map are passed over.
+// outside the picture is left out, expanded cells and rectangles
+// outside the map are passed over.
 Picture drawPicture(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
-                    const Path& path, const std::vector<Cell>& expanded = {},
-                    const PictureOptions& options = {});
+                    const PictureContent& content, const PictureOptions& options = {});
 
 // Draws and writes a PNG, or by the file's extension any other format that OpenCV writes. The old
 // file stays whole where the new one cannot be written. Throws InputError naming the file.
 void writePicture(const std::string& file, const OccupancyGrid& map,
-                  const OccupancyThresholds& thresholds, const Path& path,
-                  const std::vector<Cell>& expanded = {}, const PictureOptions& options = {});
+                  const OccupancyThresholds& thresholds, const PictureContent& content,
+                  const PictureOptions& options = {});
 
 }  // namespace grid_path_planner

@@ -1,8 +1,7 @@
 // The map that was recorded in a bag.
 //
-//   OccupancyGrid map = readMapFromBag("run.bag");                 // first message of
-//   projected_map OccupancyGrid map = readAnyMapFile("run.bag");                 // or any format
-//   of readMapFile
+//   OccupancyGrid map = readMapFromBag("run.bag");  // first message of projected_map
+//   OccupancyGrid any = readAnyMapFile("run.bag");  // or any format of readMapFile
 #pragma once
 
 #include <string>

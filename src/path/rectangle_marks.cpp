@@ -1,0 +1,69 @@
+#include "rectangle_marks.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+namespace grid_path_planner {
+namespace {
+
+const Colour kOutline = colourOf(70, 78, 92);
+const Colour kNumber = colourOf(30, 34, 40);
+const Colour kLink = colourOf(160, 40, 70);
+constexpr int kSmallestOutlined = 5;  // pixels
+
+// Light, so that outlines and numbers stand out; after Brewer's Set3.
+const Colour kTints[] = {colourOf(176, 219, 211), colourOf(253, 237, 176), colourOf(205, 201, 226),
+                         colourOf(250, 186, 178), colourOf(171, 205, 228), colourOf(252, 205, 157),
+                         colourOf(204, 228, 161), colourOf(248, 217, 233)};
+
+// The pixels that the rectangle covers; empty outside the map.
+cv::Rect pixelsOf(const CellRect& rect, const PictureLayout& layout, const GridGeometry& geometry) {
+  const CellRect inside = rect.intersection(geometry.rect());
+  if (inside.empty()) return {};
+  const Eigen::Vector2d low = layout.pixelAt(geometry.worldFromGrid({inside.column, inside.row}));
+  const Eigen::Vector2d high = layout.pixelAt(
+      geometry.worldFromGrid({inside.column + inside.width, inside.row + inside.height}));
+  const int left = cvRound(low.x()), top = cvRound(high.y());
+  return {left, top, std::max(1, cvRound(high.x()) - left), std::max(1, cvRound(low.y()) - top)};
+}
+
+// In the middle, as large as fits up to a size that reads well; nothing where that is too small.
+void drawNumber(Canvas& canvas, const cv::Rect& pixels, std::size_t number) {
+  constexpr double kLargest = 0.8, kSmallest = 0.28, kHeight = 22.0;  // of scale 1, pixels
+  const std::string text = std::to_string(number);
+  const double scale = std::min(
+      {kLargest, 0.8 * pixels.width / textWidth(text, 1.0), 0.7 * pixels.height / kHeight});
+  if (scale < kSmallest) return;
+  const Eigen::Vector2d middle(pixels.x + pixels.width / 2.0, pixels.y + pixels.height / 2.0);
+  canvas.text(text, middle - Eigen::Vector2d(textWidth(text, scale) / 2.0, 0.0), scale, kNumber);
+}
+
+}  // namespace
+
+void drawRectangles(Canvas& canvas, const PictureLayout& layout, const GridGeometry& geometry,
+                    const std::vector<CellRect>& rectangles) {
+  const cv::Rect whole(0, 0, layout.width(), layout.height());
+  for (std::size_t i = 0; i < rectangles.size(); ++i) {
+    const cv::Rect pixels = pixelsOf(rectangles[i], layout, geometry) & whole;
+    if (pixels.empty()) continue;
+    cv::Mat part = canvas.part(pixels);
+    part.setTo(cv::Scalar(kTints[i % std::size(kTints)]));
+    if (std::min(pixels.width, pixels.height) >= kSmallestOutlined)
+      cv::rectangle(part, cv::Rect(0, 0, part.cols, part.rows), cv::Scalar(kOutline), 1);
+    drawNumber(canvas, pixels, i + 1);
+  }
+}
+
+void drawLinks(Canvas& canvas, const PictureLayout& layout,
+               const std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>& links) {
+  const double stroke = std::clamp(layout.mapArea().width / 600.0, 1.0, 3.0);
+  for (const auto& [from, to] : links) {
+    const Eigen::Vector2d a = layout.pixelAt(from), b = layout.pixelAt(to);
+    canvas.line(a, b, kLink, stroke);
+    canvas.disc(a, 1.6 * stroke, kLink);
+    canvas.disc(b, 1.6 * stroke, kLink);
+  }
+}
+
+}  // namespace grid_path_planner

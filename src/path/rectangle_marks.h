@@ -1,0 +1,21 @@
+// Rectangles of cells, and links between places, drawn on a picture's map.
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "canvas.h"
+#include "grid_path_planner/path/picture.h"
+
+namespace grid_path_planner {
+
+// Tinted, outlined and numbered from 1; outline and number are left out where there is no room.
+void drawRectangles(Canvas& canvas, const PictureLayout& layout, const GridGeometry& geometry,
+                    const std::vector<CellRect>& rectangles);
+
+// Lines between dots.
+void drawLinks(Canvas& canvas, const PictureLayout& layout,
+               const std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>& links);
+
+}  // namespace grid_path_planner
