@@ -1,6 +1,5 @@
 #include "grid_path_planner/rectangles/map_sizes.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -60,10 +59,8 @@ MapSizes mapSizes(const RectangleMap& map) {
   sizes.entire_map = wholeBytes(geometry.size());
   // A width is written less 1, so it needs no more bits than a column.
   const std::size_t place_bits = bitsFor(geometry.width()) + bitsFor(geometry.height());
-  const auto rectangles = std::count_if(map.rectangles().begin(), map.rectangles().end(),
-                                        [](const CellRect& rect) { return !rect.empty(); });
   sizes.empty_cells = wholeBytes(map.freeCells() * place_bits);
-  sizes.rectangles = wholeBytes(static_cast<std::size_t>(rectangles) * 2 * place_bits);
+  sizes.rectangles = wholeBytes(map.count() * 2 * place_bits);
   const cv::Mat picture = pictureOf(map);
   sizes.png = pngSize(picture);
   sizes.zlib = deflated(bitsOf(picture)).size();

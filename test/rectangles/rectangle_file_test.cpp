@@ -115,6 +115,20 @@ TEST_F(RectangleFile, keepsTheGeometryToTheBit) {
   }
 }
 
+TEST_F(RectangleFile, leavesOutWhatEditsLeftVacant) {
+  FreeCells free = test::randomBlocks(random_, 40);
+  RectangleMap map(free.geometry(), cut(free), Touching::BORDERS);
+  map.edit(BitMap(free.width(), free.height()), free.geometry().rect(), StopToken());
+  for (std::uint8_t& cell : free.values()) cell = 0;
+  free.values()[0] = 1;
+  map.edit(test::bitMapsOf(free).rows, {0, 0, 1, 1}, StopToken());
+  ASSERT_EQ(map.count(), 1u);
+  ASSERT_GT(map.rectangles().size(), 1u);
+  writeRectangleFile(folder_.path("map"), map);
+  const RectangleMap same = readRectangleFile(folder_.path("map"), Touching::BORDERS);
+  EXPECT_EQ(same.rectangles(), (std::vector<CellRect>{{0, 0, 1, 1}}));
+}
+
 TEST_F(RectangleFile, aMapWithoutCellsHasNone) {
   EXPECT_EQ(test::errorText([] { rectangleFileContent(RectangleMap()); }),
             "a rectangle map without cells has no file");
