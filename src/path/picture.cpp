@@ -231,6 +231,7 @@ Canvas drawn(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
   drawMap(canvas, layout, map, thresholds, content.expanded);
   drawRectangles(canvas, layout, map.geometry(), content.rectangles);
   drawLinks(canvas, layout, content.links);
+  drawNumbers(canvas, layout, map.geometry(), content.rectangles);
   drawPath(canvas, layout, path, map.geometry().origin().yaw);
   drawMargin(canvas, layout, map.geometry().resolution(), !path.empty(), !content.expanded.empty());
   return canvas;

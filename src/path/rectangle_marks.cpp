@@ -29,14 +29,23 @@ cv::Rect pixelsOf(const CellRect& rect, const PictureLayout& layout, const GridG
 }
 
 // In the middle, as large as fits up to a size that reads well; nothing where that is too small.
-void drawNumber(Canvas& canvas, const cv::Rect& pixels, std::size_t number) {
+// On a ground of its own, since links may run through it.
+void drawNumber(Canvas& canvas, const cv::Rect& pixels, std::size_t number, const Colour& ground) {
+  if (pixels.empty()) return;
   constexpr double kLargest = 0.8, kSmallest = 0.28, kHeight = 22.0;  // of scale 1, pixels
   const std::string text = std::to_string(number);
   const double scale = std::min(
       {kLargest, 0.8 * pixels.width / textWidth(text, 1.0), 0.7 * pixels.height / kHeight});
   if (scale < kSmallest) return;
+  const double width = textWidth(text, scale);
   const Eigen::Vector2d middle(pixels.x + pixels.width / 2.0, pixels.y + pixels.height / 2.0);
-  canvas.text(text, middle - Eigen::Vector2d(textWidth(text, scale) / 2.0, 0.0), scale, kNumber);
+  const Eigen::Vector2d left = middle - Eigen::Vector2d(width / 2.0, 0.0);
+  const double height = 1.3 * kHeight * scale;
+  const cv::Rect text_box(cvRound(left.x()) - 1, cvRound(middle.y() - height / 2.0),
+                          cvRound(width) + 2, cvRound(height));
+  const cv::Rect inside(pixels.x + 1, pixels.y + 1, pixels.width - 2, pixels.height - 2);
+  canvas.part(text_box & inside).setTo(cv::Scalar(ground));
+  canvas.text(text, left, scale, kNumber);
 }
 
 }  // namespace
@@ -51,8 +60,14 @@ void drawRectangles(Canvas& canvas, const PictureLayout& layout, const GridGeome
     part.setTo(cv::Scalar(kTints[i % std::size(kTints)]));
     if (std::min(pixels.width, pixels.height) >= kSmallestOutlined)
       cv::rectangle(part, cv::Rect(0, 0, part.cols, part.rows), cv::Scalar(kOutline), 1);
-    drawNumber(canvas, pixels, i + 1);
   }
+}
+
+void drawNumbers(Canvas& canvas, const PictureLayout& layout, const GridGeometry& geometry,
+                 const std::vector<CellRect>& rectangles) {
+  for (std::size_t i = 0; i < rectangles.size(); ++i)
+    drawNumber(canvas, pixelsOf(rectangles[i], layout, geometry), i + 1,
+               kTints[i % std::size(kTints)]);
 }
 
 void drawLinks(Canvas& canvas, const PictureLayout& layout,

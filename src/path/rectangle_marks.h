@@ -10,9 +10,13 @@
 
 namespace grid_path_planner {
 
-// Tinted, outlined and numbered from 1; outline and number are left out where there is no room.
+// Tinted and outlined; the outline is left out where there is no room.
 void drawRectangles(Canvas& canvas, const PictureLayout& layout, const GridGeometry& geometry,
                     const std::vector<CellRect>& rectangles);
+
+// From 1, in the middle of each; left out where there is no room.
+void drawNumbers(Canvas& canvas, const PictureLayout& layout, const GridGeometry& geometry,
+                 const std::vector<CellRect>& rectangles);
 
 // Lines between dots.
 void drawLinks(Canvas& canvas, const PictureLayout& layout,

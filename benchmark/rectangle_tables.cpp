@@ -1,0 +1,348 @@
+// The published tables of the rectangle map, again, on this project's own drawings.
+//
+//   grid_path_planner_rectangle_tables MAPS_FOLDER [PICTURES_FOLDER]
+//
+// MAPS_FOLDER holds indoor, campus, complex and simple.yaml. Prints Markdown: free cells and
+// rectangles at growing resolutions beside the published counts, bytes in every form, and
+// elements, connections, times and lengths of planning on cells and on rectangles. Lengths are in
+// cells; times are of the thread's CPU, the least of several. Writes pictures if asked to. Exit
+// code 1 where planners disagree about whether there is a path, or a path is shorter than the
+// shortest.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/grid/map_file.h"
+#include "grid_path_planner/path/picture.h"
+#include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/rectangles/decomposition.h"
+#include "grid_path_planner/rectangles/map_sizes.h"
+#include "grid_path_planner/rectangles/rectangle_map_planner.h"
+#include "grid_path_planner/terrain/terrain.h"
+
+namespace {
+
+using namespace grid_path_planner;
+
+bool failed = false;
+
+// ---- Maps
+
+struct Drawing {
+  const char* name;
+  double side;            // m
+  double from_x, from_y;  // m; the way across
+  double to_x, to_y;
+};
+
+const Drawing kIndoor{"indoor", 40, 6, 37, 30, 4.5};
+const Drawing kCampus{"campus", 160, 4, 4, 156, 156};
+const Drawing kComplex{"complex", 64, 2, 2, 62, 62};
+const Drawing kSimple{"simple", 64, 2, 2, 62, 62};
+
+OccupancyGrid render(const std::string& folder, const Drawing& drawing, int cells) {
+  MapFileOptions options;
+  options.resolution = drawing.side / cells;
+  return readMapFile(folder + "/" + drawing.name + ".yaml", options);
+}
+
+std::shared_ptr<const CostGrid> terrainOf(const OccupancyGrid& map,
+                                          Connectivity connectivity = Connectivity::EIGHT) {
+  TerrainOptions options;
+  options.motion.connectivity = connectivity;
+  Terrain terrain(options);
+  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+  return terrain.searched(StopToken());
+}
+
+RectangleMap rectanglesOf(const OccupancyGrid& map) {
+  const auto terrain = terrainOf(map);
+  return RectangleMap(map.geometry(), largestFirst(terrain->bitMaps(StopToken()), {}, StopToken()),
+                      Touching::BORDERS);
+}
+
+// Pairs of free cells that share a side.
+std::size_t sharedSides(const CostGrid& map) {
+  std::size_t sides = 0;
+  for (int row = 0; row < map.geometry().height(); ++row)
+    for (int column = 0; column < map.geometry().width(); ++column) {
+      const Cell cell{column, row}, east{column + 1, row}, north{column, row + 1};
+      if (!map.passable(cell)) continue;
+      sides += map.geometry().contains(east) && map.passable(east) ? 1 : 0;
+      sides += map.geometry().contains(north) && map.passable(north) ? 1 : 0;
+    }
+  return sides;
+}
+
+// ---- Counts and bytes
+
+struct Resolution {
+  int cells;
+  int published_cells;       // 0: not published
+  int published_rectangles;  // 0: not published
+};
+
+void printCounts(const std::string& folder, const Drawing& drawing,
+                 const std::vector<Resolution>& resolutions) {
+  std::printf(
+      "| cells a side | free cells | growth | rectangles | growth | published: free cells | growth "
+      "| rectangles | growth |\n|---|---|---|---|---|---|---|---|---|\n");
+  std::vector<double> before(4, 0.0);
+  for (const Resolution& resolution : resolutions) {
+    const RectangleMap map = rectanglesOf(render(folder, drawing, resolution.cells));
+    const std::vector<double> now = {double(map.freeCells()), double(map.rectangles().size()),
+                                     double(resolution.published_cells),
+                                     double(resolution.published_rectangles)};
+    std::printf("| %d |", resolution.cells);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      std::printf(" %.0f |", now[i]);
+      if (before[i] > 0.0)
+        std::printf(" ×%.2f |", now[i] / before[i]);
+      else
+        std::printf(" |");
+    }
+    std::printf("\n");
+    before = now;
+  }
+  std::printf("\n");
+}
+
+void printBytes(const std::string& folder, const Drawing& drawing) {
+  std::printf(
+      "| cells a side | free cells | rectangles | entire map in bits | empty cells | rectangles, "
+      "listed | rectangles, our file | PNG | bits in zlib "
+      "|\n|---|---|---|---|---|---|---|---|---|\n");
+  for (const int cells : {10, 50, 250, 1250}) {
+    const RectangleMap map = rectanglesOf(render(folder, drawing, cells));
+    const MapSizes sizes = mapSizes(map);
+    std::printf("| %d | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %zu |\n", cells, map.freeCells(),
+                map.rectangles().size(), sizes.entire_map, sizes.empty_cells, sizes.rectangles,
+                sizes.file, sizes.png, sizes.zlib);
+  }
+  std::printf("\n");
+}
+
+// ---- Planning
+
+double threadMilliseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+struct Query {
+  Cell start;
+  Cell goal;
+};
+
+Cell nearestFree(const CostGrid& map, double x, double y) {
+  std::optional<Cell> nearest;
+  double least = 0.0;
+  for (int row = 0; row < map.geometry().height(); ++row)
+    for (int column = 0; column < map.geometry().width(); ++column) {
+      const Cell cell{column, row};
+      const double distance = (map.geometry().centre(cell) - Eigen::Vector2d(x, y)).norm();
+      if (!map.passable(cell) || (nearest && distance >= least)) continue;
+      nearest = cell;
+      least = distance;
+    }
+  return nearest.value();
+}
+
+// The way across, and pairs of free cells drawn at random.
+std::vector<Query> queriesOn(const CostGrid& map, const Drawing& drawing) {
+  constexpr int kRandom = 100;
+  std::vector<Query> queries = {{nearestFree(map, drawing.from_x, drawing.from_y),
+                                 nearestFree(map, drawing.to_x, drawing.to_y)}};
+  std::mt19937 random(20261121);
+  const auto draw = [&] {
+    while (true) {
+      const Cell cell{static_cast<int>(random() % unsigned(map.geometry().width())),
+                      static_cast<int>(random() % unsigned(map.geometry().height()))};
+      if (map.passable(cell)) return cell;
+    }
+  };
+  for (int i = 0; i < kRandom; ++i) {
+    const Cell start = draw();
+    queries.push_back({start, draw()});
+  }
+  return queries;
+}
+
+struct Contender {
+  std::string name;
+  std::string planner;
+  SearchOptions options;
+  Connectivity connectivity = Connectivity::EIGHT;
+};
+
+struct Measured {
+  double prepare_ms = 0.0;
+  std::vector<double> lengths;  // cells; of each query, -1 where there is no path
+  std::vector<double> plan_ms;
+  std::size_t expanded = 0;  // on the way across
+};
+
+Measured measure(const Contender& contender, const OccupancyGrid& map,
+                 const std::vector<Query>& queries) {
+  constexpr int kRounds = 7;
+  const auto terrain = terrainOf(map, contender.connectivity);
+  terrain->bitMaps(StopToken());
+  const std::unique_ptr<Planner> planner = makePlanner(contender.planner, contender.options);
+  Measured measured;
+  for (int round = 0; round < kRounds; ++round) {
+    const double begin = threadMilliseconds();
+    planner->prepare(terrain, StopToken());
+    const double taken = threadMilliseconds() - begin;
+    measured.prepare_ms = round == 0 ? taken : std::min(measured.prepare_ms, taken);
+  }
+  for (const Query& query : queries) {
+    PlanResult result;
+    double least = 0.0;
+    for (int round = 0; round < kRounds; ++round) {
+      const double begin = threadMilliseconds();
+      result = planner->plan({query.start, {query.goal}}, StopToken());
+      const double taken = threadMilliseconds() - begin;
+      least = round == 0 ? taken : std::min(least, taken);
+    }
+    if (measured.lengths.empty()) measured.expanded = result.statistics.expanded;
+    measured.plan_ms.push_back(least);
+    measured.lengths.push_back(result.status == Status::FOUND ? result.costValue() : -1.0);
+  }
+  return measured;
+}
+
+std::vector<Contender> gridContenders() {
+  Contender dijkstra{"Dijkstra on cells, 4-connected", "dijkstra", {}, Connectivity::FOUR};
+  return {dijkstra, {"`jump_point`", "jump_point", {}}, {"`anya`", "anya", {}}};
+}
+
+std::vector<Contender> rectangleContenders() {
+  std::vector<Contender> contenders;
+  for (const auto& [name, weight] : choicesOf(RectangleWeight{})) {
+    contenders.push_back({std::string("`rectangle_map` ") + name, "rectangle_map", {}});
+    contenders.back().options.rectangle_weight = weight;
+  }
+  contenders.push_back({"`polyanya`", "polyanya", {}});
+  return contenders;
+}
+
+// The same through the middles of the borders, as published, instead of pulled taut.
+Contender throughTheMiddles(Contender contender) {
+  contender.options.rectangle_funnel = false;
+  return contender;
+}
+
+// Over the queries that have a path.
+double meanOf(const std::vector<double>& values, const Measured& measured) {
+  double sum = 0.0;
+  int number = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (measured.lengths[i] >= 0.0) {
+      sum += values[i];
+      ++number;
+    }
+  return sum / std::max(1, number);
+}
+
+// The mean of length over the shortest.
+double meanDetour(const Measured& measured, const Measured& shortest) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < measured.lengths.size(); ++i) {
+    if ((measured.lengths[i] < 0.0) != (shortest.lengths[i] < 0.0)) failed = true;
+    if (measured.lengths[i] < shortest.lengths[i] - 1e-9) failed = true;
+    ratios.push_back(shortest.lengths[i] > 0.0 ? measured.lengths[i] / shortest.lengths[i] : 1.0);
+  }
+  return meanOf(ratios, measured);
+}
+
+void printPlanning(const std::string& folder, const Drawing& drawing, int cells,
+                   const std::vector<Contender>& contenders) {
+  const OccupancyGrid map = render(folder, drawing, cells);
+  const auto terrain = terrainOf(map);
+  const std::vector<Query> queries = queriesOn(*terrain, drawing);
+  const RectangleMap rectangles = rectanglesOf(map);
+  const std::size_t free_cells = rectangles.freeCells(), sides = sharedSides(*terrain);
+  const Measured shortest = measure({"", "anya", {}}, map, queries);
+
+  std::printf("### %s, %d×%d\n\n", drawing.name, cells, cells);
+  std::printf(
+      "| | elements | connections | prepared | way across: expanded | time | length | through the "
+      "middles | 100 pairs: mean time | length ÷ shortest | through the middles |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const Contender& contender : contenders) {
+    const Measured measured = measure(contender, map, queries);
+    const bool on_rectangles =
+        contender.planner == "rectangle_map" || contender.planner == "polyanya";
+    std::printf("| %s | %zu | %zu | %.3f ms | %zu | %.1f µs | %.1f | ", contender.name.c_str(),
+                on_rectangles ? rectangles.count() : free_cells,
+                on_rectangles ? rectangles.connections().count() / 2 : sides, measured.prepare_ms,
+                measured.expanded, 1e3 * measured.plan_ms.front(), measured.lengths.front());
+    std::optional<Measured> plain;
+    if (contender.planner == "rectangle_map")
+      plain = measure(throughTheMiddles(contender), map, queries);
+    if (plain) std::printf("%.1f", plain->lengths.front());
+    std::printf(" | %.1f µs | %.3f | ", 1e3 * meanOf(measured.plan_ms, measured),
+                meanDetour(measured, shortest));
+    if (plain) std::printf("%.3f", meanDetour(*plain, shortest));
+    std::printf(" |\n");
+  }
+  std::printf("\n");
+}
+
+void drawRectangleMap(const std::string& file, const std::string& folder, const Drawing& drawing,
+                      int cells) {
+  const OccupancyGrid map = render(folder, drawing, cells);
+  PictureContent content;
+  content.rectangles = rectanglesOf(map).rectangles();
+  writePicture(file, map, {}, content);
+}
+
+void printAll(const std::string& folder) {
+  std::printf("## Growth with resolution\n\nIndoor:\n\n");
+  printCounts(folder, kIndoor, {{16, 153, 25}, {32, 562, 44}, {64, 2325, 86}, {128, 9331, 156}});
+  std::printf("Outdoor (campus):\n\n");
+  printCounts(folder, kCampus,
+              {{20, 292, 53}, {40, 1240, 154}, {80, 4859, 302}, {160, 19397, 552}});
+  std::printf("## Bytes\n\nIndoor:\n\n");
+  printBytes(folder, kIndoor);
+  std::printf("Outdoor (campus):\n\n");
+  printBytes(folder, kCampus);
+
+  std::printf("## Planning\n\n");
+  std::vector<Contender> all = gridContenders();
+  const std::vector<Contender> on_rectangles = rectangleContenders();
+  all.insert(all.end(), on_rectangles.begin(), on_rectangles.end());
+  for (const Drawing& drawing : {kIndoor, kCampus})
+    for (const int cells : {64, 256}) printPlanning(folder, drawing, cells, all);
+  std::printf("## The weights on a complex and a simple map\n\n");
+  for (const Drawing& drawing : {kComplex, kSimple})
+    for (const int cells : {64, 256}) printPlanning(folder, drawing, cells, on_rectangles);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2 || argc > 3) {
+    std::fprintf(stderr, "usage: %s MAPS_FOLDER [PICTURES_FOLDER]\n", argv[0]);
+    return 2;
+  }
+  try {
+    printAll(argv[1]);
+    if (argc == 3)
+      for (const Drawing& drawing : {kIndoor, kCampus, kComplex, kSimple})
+        drawRectangleMap(std::string(argv[2]) + "/rectangles_" + drawing.name + ".png", argv[1],
+                         drawing, 64);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+  if (failed) std::fprintf(stderr, "planners disagree about a path, or one is too short\n");
+  return failed ? 1 : 0;
+}
