@@ -204,7 +204,6 @@ class Run {
       largest = std::max(largest, replans_[i] / fresh_[i]);
       too_long += replans_[i] > 1.2 * fresh_[i] + 50.0 ? 1 : 0;
     }
-    const auto strategies = replanner_.strategies();
     std::printf("%d edits on %dx%d, seed %u, every cost the same\n", arguments_.edits,
                 arguments_.side, arguments_.side, arguments_.seed);
     std::printf("fresh A*: mean %.0f us, median %.0f us, last %.0f us\n", fresh,
@@ -217,10 +216,6 @@ class Run {
         percentile(replans_, 1.0));
     std::printf("largest ratio to its own fresh search %.2f; above 1.2 x + 50 us: %d\n", largest,
                 too_long);
-    std::printf("trees begun %llu, repaired %llu, answered afresh %llu\n",
-                static_cast<unsigned long long>(strategies.begun),
-                static_cast<unsigned long long>(strategies.repaired),
-                static_cast<unsigned long long>(strategies.fresh));
   }
 
  private:

@@ -1,8 +1,8 @@
 #include "grid_path_planner/search/goal_tree.h"
 
-#include <array>
+#include <algorithm>
 #include <limits>
-#include <utility>
+#include <vector>
 
 #include "grid_path_planner/search/bucket_queue.h"
 
@@ -10,118 +10,100 @@ namespace grid_path_planner {
 namespace {
 
 // Labels, estimates and what keys are raised by must not overflow together.
-constexpr SearchKey kLargestLabel = kLargestKey / 2;
-constexpr SearchKey kLargestEstimate = kLargestKey / 4;
-constexpr SearchKey kLargestRaise = kLargestKey / 4;
+constexpr SearchKey kLargestEstimate = kLargestKey / 8;
+constexpr SearchKey kLargestRaise = kLargestKey / 8;
+static_assert(kInfiniteKey - kLargestKey > kLargestEstimate + kLargestRaise);
 
 // What is left of the largest label fits 32 bits.
-constexpr unsigned kLabelShift = 31;
-static_assert(kLargestLabel >> kLabelShift < ~std::uint32_t{0});
+constexpr unsigned kLabelShift = 32;
+static_assert(kLargestKey >> kLabelShift < ~std::uint32_t{0});
 // Half a straight step: see bucket_queue.h.
 constexpr unsigned kBucketShift = 30;
 
 // Of the buckets of what waits for repairs, times the cheapest weight.
 constexpr SearchKey kQueueWidth = 2 * kStraightKey;
 
-constexpr std::uint32_t opposite(std::uint32_t step) {
-  return step ^ 2U;
-}
-static_assert(kSteps[opposite(0)].column == -kSteps[0].column &&
-              kSteps[opposite(1)].row == -kSteps[1].row &&
-              kSteps[opposite(4)].column == -kSteps[4].column &&
-              kSteps[opposite(5)].column == -kSteps[5].column);
+// A detour of so many straight steps of the cheapest weight is searched for without a second look
+// at what waits.
+constexpr SearchKey kMargin = 24;
 
-// Where in a rectangle of a map, and one cell around it, a step may have become dearer or cheaper.
-class ChangesAround {
- public:
-  using Kind = std::uint8_t;
-  static constexpr Kind DEARER = 1, CHEAPER = 2;
+// Of cells by which the tree grows at first where it holds no way from the start.
+constexpr std::uint64_t kFirstFurther = 4096;
 
-  ChangesAround(const Grid<CostGrid::Weight>& before, const Grid<CostGrid::Weight>& after,
-                const CellRect& changed)
-      : rect_(changed.grown(1).intersection(after.geometry().rect())),
-        kinds_(static_cast<std::size_t>(rect_.width) * rect_.height) {
-    const CellRect inside = changed.intersection(after.geometry().rect());
-    for (int row = inside.row; row < inside.row + inside.height; ++row) {
-      const CostGrid::Weight* old_weights = before.row(row);
-      const CostGrid::Weight* new_weights = after.row(row);
-      for (int column = inside.column; column < inside.column + inside.width; ++column) {
-        // Blocked is 0: one below it is dearer than anything.
-        const auto was = static_cast<CostGrid::Weight>(old_weights[column] - 1);
-        const auto is = static_cast<CostGrid::Weight>(new_weights[column] - 1);
-        if (was != is) markAround({column, row}, is > was ? DEARER : CHEAPER);
-      }
-    }
-  }
-
-  template <class Visit>
-  void forEach(Kind kind, const Visit& visit) const {
-    std::size_t i = 0;
-    for (int row = rect_.row; row < rect_.row + rect_.height; ++row)
-      for (int column = rect_.column; column < rect_.column + rect_.width; ++column, ++i)
-        if ((kinds_[i] & kind) != 0) visit(Cell{column, row});
-  }
-
- private:
-  void markAround(Cell cell, Kind kind) {
-    const CellRect around = CellRect{cell.column, cell.row, 1, 1}.grown(1).intersection(rect_);
-    for (int row = around.row; row < around.row + around.height; ++row)
-      for (int column = around.column; column < around.column + around.width; ++column)
-        kinds_[static_cast<std::size_t>(row - rect_.row) * rect_.width + column - rect_.column] |=
-            kind;
-  }
-
-  CellRect rect_;
-  std::vector<Kind> kinds_;
+// The smallest rectangles around the cells of `changed` that weigh more, or are blocked now, and
+// around those that weigh less.
+struct Changes {
+  CellRect dearer;
+  CellRect cheaper;
 };
+
+template <class Is>
+CellRect hullOf(const CellRect& rect, const Is& is) {
+  CellRect hull;
+  for (int row = rect.row; row < rect.row + rect.height; ++row) {
+    int first = rect.column, end = rect.column + rect.width;
+    while (first < end && !is(first, row)) ++first;
+    if (first == end) continue;
+    while (!is(end - 1, row)) --end;
+    hull = hull.hull({first, row, end - first, 1});
+  }
+  return hull;
+}
+
+Changes changesBetween(const Grid<CostGrid::Weight>& before, const Grid<CostGrid::Weight>& after,
+                       const CellRect& changed) {
+  const CellRect rect = changed.intersection(after.geometry().rect());
+  // Blocked is 0: one below it is dearer than anything.
+  const auto value = [](const Grid<CostGrid::Weight>& weights, int column, int row) {
+    return static_cast<CostGrid::Weight>(weights.row(row)[column] - 1);
+  };
+  return {
+      hullOf(rect, [&](int column,
+                       int row) { return value(after, column, row) > value(before, column, row); }),
+      hullOf(rect, [&](int column, int row) {
+        return value(after, column, row) < value(before, column, row);
+      })};
+}
 
 }  // namespace
 
 void GoalTree::prepare(const CostGrid& map, const Moves& moves) {
   begun_ = false;
-  moves_ = &moves;
-  geometry_ = map.geometry();
-  cell_of_ = CellOfIndex(geometry_);
-  diagonal_step_ = diagonalKey(map.motion().diagonal_cost);
-  if (words_.size() == geometry_.size()) return;
-  labels_ = ZeroedArray<SearchKey>(geometry_.size());
-  words_ = ZeroedArray<std::uint32_t>(geometry_.size());
-  tree_ = 0;
+  labels_.prepare(map, moves);
 }
 
 void GoalTree::setRoot(const CostGrid& map, Cell goal) {
-  if (++tree_ == std::uint32_t{1} << (32 - kTreeShift)) {
-    words_.clear();
-    tree_ = 1;
-  }
+  const GridGeometry& geometry = map.geometry();
   raised_ = 0;
+  too_dear_ = false;
+  sound_below_ = kInfiniteKey;
   goal_ = goal;
-  root_ = geometry_.index(goal).value();
 
   const MotionModel& motion = map.motion();
-  const auto longest = static_cast<SearchKey>(geometry_.width()) + geometry_.height();
+  const auto longest = static_cast<SearchKey>(geometry.width()) + geometry.height();
   const bool fits = longest * 2 * kStraightKey <= kLargestEstimate / map.cheapest();
   scale_ = fits ? map.cheapest() : CostGrid::kBlocked;
   straight_ = kStraightKey * scale_;
-  diagonal_ = motion.connectivity == Connectivity::FOUR ? 2 * straight_ : diagonal_step_ * scale_;
-
-  set(root_, 0, OPEN);
-  labels_[root_] = 0;
+  diagonal_ = motion.connectivity == Connectivity::FOUR
+                  ? 2 * straight_
+                  : diagonalKey(motion.diagonal_cost) * scale_;
+  margin_ = kMargin * straight_;
+  labels_.begin(geometry.index(goal).value());
 }
 
-GoalTree::Outcome GoalTree::begin(const CostGrid& map, Cell goal, Cell start, std::uint64_t ahead,
-                                  bool record, PlanResult& result, const StopToken& stop) {
-  weights_ = map.weights().values().data();
+Status GoalTree::begin(const CostGrid& map, Cell goal, Cell start, double ahead, bool record,
+                       PlanResult& result, const StopToken& stop) {
   begun_ = false;
+  labels_.look(map);
   setRoot(map, goal);
   start_ = start;
-  const Index from = geometry_.index(start).value();
+  const Index from = map.geometry().index(start).value();
   Statistics& counts = result.statistics;
   StopPoll poll(stop);
   BucketQueue waiting;
-  waiting.begin(keyOf(root_), kBucketShift);
+  waiting.begin(keyOf(labels_.root()), kBucketShift);
   const auto wait = [&](Index index) { waiting.push(keyOf(index), index); };
-  wait(root_);
+  wait(labels_.root());
 
   // 1. Until nothing that waits can make the way from the start cheaper; 2. and some more.
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
@@ -129,34 +111,28 @@ GoalTree::Outcome GoalTree::begin(const CostGrid& map, Cell goal, Cell start, st
   while (!waiting.empty() && counts.expanded < limit) {
     poll();
     counts.peak_open = std::max(counts.peak_open, waiting.size());
-    if (!found && state(from) != UNLABELLED && waiting.lowest() >= labels_[from]) {
+    if (!found && labels_.state(from) != GoalLabels::UNLABELLED &&
+        waiting.lowest() >= labels_.label(from)) {
       found = true;
-      limit = counts.expanded * (1 + ahead);
+      limit = counts.expanded +
+              static_cast<std::uint64_t>(ahead * static_cast<double>(counts.expanded));
     }
     const Index index = waiting.pop();
-    if (state(index) != OPEN) continue;
+    if (labels_.state(index) != GoalLabels::OPEN) continue;
     ++counts.expanded;
     if (record) result.expanded.emplace_back(index);
     expand(index, counts, wait);
   }
 
-  // 3. What still waits does so for repairs.
-  new_doubts_.clear();
-  queue_.begin(labels_[from], kQueueWidth * std::max<SearchKey>(scale_, 1));
+  // 3. What still waits does so for later plans.
+  const bool reached = labels_.state(from) != GoalLabels::UNLABELLED;
+  queue_.begin(reached ? labels_.label(from) : 0, kQueueWidth * std::max<SearchKey>(scale_, 1));
   while (!waiting.empty()) {
     const Index index = waiting.pop();
-    if (state(index) == OPEN) push(index);
+    if (labels_.state(index) == GoalLabels::OPEN) push(index);
   }
   begun_ = true;
-  if (state(from) == UNLABELLED) return Outcome::UNREACHABLE;
-  trace(from);
-  return finish(map, result);
-}
-
-GoalTree::Outcome GoalTree::finish(const CostGrid& map, PlanResult& result) const {
-  result.cells = path_;
-  result.cost = costOfSteps(map, path_);
-  return Outcome::FOUND;
+  return plan(map, start, record, result, stop);
 }
 
 bool GoalTree::serves(const CostGrid& map, Cell goal) const {
@@ -164,222 +140,165 @@ bool GoalTree::serves(const CostGrid& map, Cell goal) const {
 }
 
 void GoalTree::push(Index index) {
-  const std::uint32_t order = state(index) == DOUBTFUL
-                                  ? kDoubtFirst
-                                  : static_cast<std::uint32_t>(labels_[index] >> kLabelShift);
-  queue_.push({keyOf(index), order, index});
+  queue_.push(
+      {keyOf(index), static_cast<std::uint32_t>(labels_.label(index) >> kLabelShift), index});
 }
 
 bool GoalTree::renew(PatientQueue::Entry& entry) const {
-  const State is = state(entry.index);
-  if (is != OPEN && is != DOUBTFUL) return false;
+  if (labels_.state(entry.index) != GoalLabels::OPEN) return false;
   const SearchKey key = keyOf(entry.index);
   if (key < entry.key) return false;  // another entry came with the lower key
   entry.key = key;
   return true;
 }
 
-void GoalTree::moveStart(Cell start) {
-  raised_ += estimate(start_, start);
-  start_ = start;
-}
-
-void GoalTree::doubt(Index index) {
-  setState(index, DOUBTFUL);
-  push(index);
-}
-
 template <class Wait>
 void GoalTree::relax(Index from, Index to, std::uint32_t step, Statistics& counts,
                      const Wait& wait) {
-  const SearchKey label = labels_[from] + stepKey(from, to, step);
-  const State is = state(to);
-  if (is != UNLABELLED && (labels_[to] < label || (labels_[to] == label && is != DOUBTFUL))) return;
-  if (label > kLargestLabel) throw CostOverflow();
-  if (is == CLOSED) ++counts.reopened;
-  labels_[to] = label;
-  set(to, opposite(step), OPEN);
+  const SearchKey label = labels_.label(from) + labels_.stepKey(from, to, step);
+  const State is = labels_.state(to);
+  if (is != GoalLabels::UNLABELLED && labels_.label(to) <= label) return;
+  if (label > kLargestKey) {
+    too_dear_ = true;
+    return;
+  }
+  if (is == GoalLabels::CLOSED) ++counts.reopened;
+  labels_.set(to, label, oppositeStep(step), GoalLabels::OPEN);
   wait(to);
   ++counts.generated;
 }
 
 template <class Wait>
 void GoalTree::expand(Index index, Statistics& counts, const Wait& wait) {
-  setState(index, CLOSED);
-  for (unsigned mask = moves_->from(index); mask != 0; mask &= mask - 1) {
+  labels_.setState(index, GoalLabels::CLOSED);
+  for (unsigned mask = labels_.stepsFrom(index); mask != 0; mask &= mask - 1) {
     const auto step = static_cast<std::uint32_t>(__builtin_ctz(mask));
-    relax(index, along(index, step), step, counts, wait);
+    relax(index, labels_.along(index, step), step, counts, wait);
   }
 }
 
-GoalTree::Offered GoalTree::offeredTo(Index doubtful) {
-  Offered best;
-  following_ = 0;
-  for (unsigned mask = moves_->from(doubtful); mask != 0; mask &= mask - 1) {
-    const auto step = static_cast<std::uint32_t>(__builtin_ctz(mask));
-    const Index next = along(doubtful, step);
-    const State is = state(next);
-    if (is == UNLABELLED || is == DOUBTFUL) continue;
-    if (stepOf(next) == opposite(step) && next != root_) {
-      followers_[following_++] = next;
-      continue;
-    }
-    if (is != CLOSED) continue;
-    const SearchKey label = labels_[next] + stepKey(doubtful, next, step);
-    if (label < best.label) best = {label, step};
-  }
-  return best;
-}
-
-void GoalTree::open(Index index, const Offered& way, Statistics& counts) {
-  if (way.label == kInfiniteKey) return;
-  if (way.label > kLargestLabel) throw CostOverflow();
-  labels_[index] = way.label;
-  set(index, way.step, OPEN);
-  push(index);
-  ++counts.generated;
-}
-
-void GoalTree::settle(Index doubtful, Statistics& counts) {
-  const Offered best = offeredTo(doubtful);
-  if (best.label <= labels_[doubtful]) {  // nobody else need doubt
-    labels_[doubtful] = best.label;
-    set(doubtful, best.step, OPEN);
-    return expand(doubtful, counts, [this](Index index) { push(index); });
-  }
-  for (std::size_t i = 0; i < following_; ++i) doubt(followers_[i]);
-  set(doubtful, 0, UNLABELLED);
-  open(doubtful, best, counts);
-}
-
-std::uint64_t GoalTree::sweep(SearchKey bound, std::uint64_t limit, bool record, PlanResult& result,
-                              StopPoll& poll) {
-  const auto collect = [&](Index index) {
-    setState(index, DOUBTFUL);
-    if (keyOf(index) > bound) return push(index);
-    doubts_.push_back({labels_[index], index});
-    std::push_heap(doubts_.begin(), doubts_.end());
-  };
-  for (const Index index : new_doubts_)
-    if (state(index) == DOUBTFUL) collect(index);
-  new_doubts_.clear();
-
-  // 1. Nobody doubts in vain: what is taken has the least label, so those it may follow are sure.
-  std::uint64_t taken = 0;
-  while (!doubts_.empty() && taken < limit && poll.ask() == StopReason::NONE) {
-    std::pop_heap(doubts_.begin(), doubts_.end());
-    const Index index = doubts_.back().index;
-    doubts_.pop_back();
-    if (state(index) != DOUBTFUL) continue;
-    ++taken;
-    ++result.statistics.expanded;
-    if (record) result.expanded.emplace_back(index);
-    const Offered best = offeredTo(index);
-    if (best.label <= labels_[index]) {
-      labels_[index] = best.label;
-      set(index, best.step, OPEN);
-      expand(index, result.statistics, [this](Index opened) { push(opened); });
-      continue;
-    }
-    for (std::size_t i = 0; i < following_; ++i) collect(followers_[i]);
-    set(index, 0, UNLABELLED);
-    swept_.push_back(index);
-  }
-  for (const Doubt& left : doubts_)
-    if (state(left.index) == DOUBTFUL) push(left.index);
-  doubts_.clear();
-
-  // 2. What is sure now is offered to those who have no way, or took another meanwhile.
-  for (const Index index : swept_) {
-    const Offered best = offeredTo(index);
-    if (state(index) == UNLABELLED || best.label < labels_[index])
-      open(index, best, result.statistics);
-  }
-  swept_.clear();
-  return taken;
-}
-
-std::optional<GoalTree::Index> GoalTree::trace(Index start) {
-  path_.clear();
-  for (Index at = start;; at = along(at, stepOf(at))) {
-    if (state(at) == DOUBTFUL) return at;
-    path_.push_back(cell_of_(at));
-    if (at == root_) return std::nullopt;
-  }
-}
-
-void GoalTree::take(Index index, bool record, PlanResult& result) {
-  ++result.statistics.expanded;
-  if (record) result.expanded.emplace_back(index);
-  if (state(index) == DOUBTFUL)
-    settle(index, result.statistics);
-  else
-    expand(index, result.statistics, [this](Index opened) { push(opened); });
-}
-
-GoalTree::Outcome GoalTree::repair(const CostGrid& map, Cell start, std::uint64_t limit,
-                                   bool record, PlanResult& result, const StopToken& stop) {
-  weights_ = map.weights().values().data();
-  const Index from = geometry_.index(start).value();
-  StopPoll poll(stop);
-  moveStart(start);
+bool GoalTree::advance(SearchKey bound, std::uint64_t limit, bool record, PlanResult& result,
+                       StopPoll& poll) {
   const auto renewed = [this](PatientQueue::Entry& entry) { return renew(entry); };
-  const SearchKey before = state(from) == UNLABELLED ? 0 : labels_[from] + raised_;
-  for (std::uint64_t taken = sweep(before, limit, record, result, poll);; ++taken) {
+  const auto wait = [this](Index index) { push(index); };
+  Statistics& counts = result.statistics;
+  std::uint64_t taken = 0;
+  while (taken < limit) {
     poll();
-    // 1. What waits behind the cost of the way found cannot make it cheaper.
-    const State is = state(from);
-    const bool found = is == OPEN || is == CLOSED;
-    const SearchKey bound = found ? labels_[from] + raised_ : kInfiniteKey;
     const PatientQueue::Entry* next = queue_.first(bound, renewed);
-    if (found && (next == nullptr || (next->key == bound && next->order != kDoubtFirst))) {
-      const std::optional<Index> doubtful = trace(from);
-      if (!doubtful) return finish(map, result);
-      if (taken >= limit) return Outcome::LIMIT;
-      take(*doubtful, record, result);
-      continue;
-    }
-    if (next == nullptr) return Outcome::UNREACHABLE;
-    if (taken >= limit) return Outcome::LIMIT;
-
-    // 2. The most promising cell, unless the entry is out of date.
-    result.statistics.peak_open = std::max(result.statistics.peak_open, queue_.size());
+    if (next == nullptr || next->key >= bound) break;
+    counts.peak_open = std::max(counts.peak_open, queue_.size());
     const PatientQueue::Entry old = queue_.pop();
     PatientQueue::Entry entry = old;
     if (!renew(entry)) continue;
-    if (entry.key > old.key)
+    if (entry.key > old.key) {
       queue_.push(entry);
-    else
-      take(entry.index, record, result);
+      continue;
+    }
+    ++taken;
+    ++counts.expanded;
+    if (record) result.expanded.emplace_back(entry.index);
+    expand(entry.index, counts, wait);
+  }
+  return taken != 0;
+}
+
+Status GoalTree::plan(const CostGrid& map, Cell start, bool record, PlanResult& result,
+                      const StopToken& stop) {
+  constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+  labels_.look(map);
+  const Index from = map.geometry().index(start).value();
+  StopPoll poll(stop);
+  raised_ += estimate(start_, start);
+  start_ = start;
+  std::uint64_t further = kFirstFurther;
+  while (true) {
+    // 1. What waits behind the cost of a way cannot make it cheaper; the rest is passed on.
+    while (labels_.state(from) == GoalLabels::UNLABELLED)
+      if (!advance(kInfiniteKey, 1, record, result, poll)) return unreachable();
+    if (advance(labels_.label(from) + raised_ + margin_, kUnlimited, record, result, poll))
+      continue;
+
+    // 2. Around what got dearer.
+    if (detour_.run(labels_, from, sound_below_, record, result, poll)) {
+      if (advance(detour_.cost() + raised_, kUnlimited, record, result, poll)) continue;
+      detour_.learn(labels_);
+      return finish(map, result);
+    }
+
+    // 3. There is no way over the cells of the tree: it grows.
+    too_dear_ = too_dear_ || detour_.tooDear();
+    if (!detour_.sawTheEnd()) return unreachable();
+    if (!advance(kInfiniteKey, further, record, result, poll)) return unreachable();
+    further *= 2;
   }
 }
 
-void GoalTree::checkWayOf(Index index) {
-  const State is = state(index);
-  if (is == UNLABELLED || index == root_) return;
-  const std::uint32_t step = stepOf(index);
-  if (weights_[index] == CostGrid::kBlocked) return set(index, 0, UNLABELLED);
-  if (is == DOUBTFUL) return;
-  const Index next = along(index, step);
-  if ((moves_->from(index) >> step & 1U) != 0 &&
-      labels_[index] >= labels_[next] + stepKey(index, next, step))
-    return;
-  setState(index, DOUBTFUL);
-  new_doubts_.push_back(index);
+Status GoalTree::unreachable() const {
+  if (too_dear_) throw CostOverflow();
+  return Status::UNREACHABLE;
+}
+
+Status GoalTree::finish(const CostGrid& map, PlanResult& result) const {
+  const CellIndex start = map.geometry().index(start_);
+  for (Index at = static_cast<Index>(start.value());; at = labels_.next(at)) {
+    result.cells.push_back(labels_.cell(at));
+    if (at == labels_.root()) break;
+  }
+  result.cost = costOfSteps(map, result.cells);
+  return Status::FOUND;
 }
 
 void GoalTree::update(const CostGrid& before, const CostGrid& after, const CellRect& changed) {
   if (!begun_) return;
-  weights_ = after.weights().values().data();
-  const ChangesAround changes(before.weights(), after.weights(), changed);
-  Statistics counts;
-  const auto wait = [this](Index index) { push(index); };
-  changes.forEach(ChangesAround::DEARER,
-                  [&](Cell cell) { checkWayOf(geometry_.index(cell).value()); });
-  changes.forEach(ChangesAround::CHEAPER, [&](Cell cell) {
-    const Index index = geometry_.index(cell).value();
-    if (state(index) == CLOSED) expand(index, counts, wait);
-  });
+  labels_.look(after);
+  const Changes changes = changesBetween(before.weights(), after.weights(), changed);
+  const CellRect all = after.geometry().rect();
+  takeDearer(changes.dearer.empty() ? CellRect() : changes.dearer.grown(1).intersection(all));
+  takeCheaper(changes.cheaper.empty() ? CellRect() : changes.cheaper.grown(1).intersection(all));
+}
+
+void GoalTree::takeDearer(const CellRect& rect) {
+  for (int row = rect.row; row < rect.row + rect.height; ++row) {
+    Index index = static_cast<Index>(labels_.geometry().index({rect.column, row}).value());
+    for (int column = 0; column < rect.width; ++column, ++index)
+      if (labels_.state(index) != GoalLabels::UNLABELLED && labels_.label(index) < sound_below_ &&
+          !labels_.supported(index))
+        sound_below_ = labels_.label(index);
+  }
+}
+
+// Where a label exceeds a neighbour's and the step there, the neighbour waits from now on.
+void GoalTree::takeCheaper(const CellRect& rect) {
+  for (int row = rect.row; row < rect.row + rect.height; ++row) {
+    Index index = static_cast<Index>(labels_.geometry().index({rect.column, row}).value());
+    for (int column = rect.column; column < rect.column + rect.width; ++column, ++index) {
+      const bool east = column + 1 < rect.column + rect.width;
+      const bool west = column > rect.column, north = row + 1 < rect.row + rect.height;
+      if (east) compare(index, 0);
+      if (north) compare(index, 1);
+      if (north && east) compare(index, 4);
+      if (north && west) compare(index, 5);
+    }
+  }
+}
+
+inline void GoalTree::compare(Index index, std::uint32_t step) {
+  const Index other = labels_.along(index, step);
+  const SearchKey length = labels_.stepKey(index, other, step);
+  const bool known = labels_.state(index) != GoalLabels::UNLABELLED;
+  const bool other_known = labels_.state(other) != GoalLabels::UNLABELLED;
+  if (known && (!other_known || labels_.label(other) > labels_.label(index) + length))
+    wake(index, step);
+  else if (other_known && (!known || labels_.label(index) > labels_.label(other) + length))
+    wake(other, oppositeStep(step));
+}
+
+void GoalTree::wake(Index index, std::uint32_t step) {
+  if (labels_.state(index) != GoalLabels::CLOSED || (labels_.stepsFrom(index) >> step & 1U) == 0)
+    return;
+  labels_.setState(index, GoalLabels::OPEN);
+  push(index);
 }
 
 }  // namespace grid_path_planner

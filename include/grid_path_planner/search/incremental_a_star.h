@@ -5,20 +5,22 @@
 //   planner.prepare(map, stop);
 //   planner.plan({start, {goal}}, stop);           // a whole search, backwards from the goal
 //   planner.update(changed_map, rectangle, stop);
-//   planner.plan({moved_start, {goal}}, stop);     // a repair of it
+//   planner.plan({moved_start, {goal}}, stop);     // a search around the change
 //
-// The search's tree is kept and repaired (goal_tree.h: D* Lite). A repair that takes more than a
-// share of what a fresh search takes is put off, and the plan is answered by A* from the start: so
-// a plan for the same goal never takes much more than A* takes, and the next one goes on with the
-// repair. Whether it is put off is decided by counts of cells, never by a clock.
+// The labels of the first search are kept (goal_tree.h). Where the map changed so that the way of
+// the start still holds and none can be cheaper, it is the answer; else A* goes from the start as
+// far as the changes reach (detour_search.h), with the labels as estimates: it expands no more
+// cells than A* with an octile estimate does, for the most part a few hundred. What got cheaper is
+// passed on in the labels as far as it may matter. How far that is, the costs decide, never a
+// clock.
 //
 // Guaranteed: the least cost, exactly, on every map and motion model. Not guaranteed: which of
 // equally cheap paths, as that depends on the plans before. A single plan for a new goal takes
 // longer than a_star's: without replanning this is not the planner to choose.
 #pragma once
 
-#include "grid_path_planner/search/bucket_search.h"
 #include "grid_path_planner/search/goal_tree.h"
+#include "grid_path_planner/search/moves.h"
 #include "grid_path_planner/search/planner.h"
 
 namespace grid_path_planner {
@@ -29,31 +31,16 @@ class IncrementalAStar : public Planner {
 
   std::size_t bytesFor(const GridGeometry& geometry) const override;
 
-  // How often plan() was answered how, since this planner was made.
-  struct Strategies {
-    std::uint64_t begun = 0;     // a tree for a new goal
-    std::uint64_t repaired = 0;  // the tree kept or repaired
-    std::uint64_t fresh = 0;     // A* from the start, the repair being put off
-  };
-  const Strategies& strategies() const { return strategies_; }
-
  protected:
   void doPrepare(const StopToken& stop) override;
   void doUpdate(const CellRect& changed, const StopToken& stop) override;
   PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
 
  private:
-  std::uint64_t repairLimit(Cell start) const;
-  GoalTree::Outcome planByTree(const PlanRequest& request, PlanResult& result,
-                               const StopToken& stop);
-  PlanResult planAfresh(const PlanRequest& request, const PlanResult& so_far,
-                        const StopToken& stop);
+  Status planByTree(const PlanRequest& request, PlanResult& result, const StopToken& stop);
 
+  Moves moves_;
   GoalTree tree_;
-  BucketSearch fresh_;
-  Strategies strategies_;
-  std::uint64_t first_expanded_ = 0;  // by the search that began the tree
-  SearchKey first_cost_ = 1;          // of what it found
 };
 
 }  // namespace grid_path_planner

@@ -1,0 +1,102 @@
+// What a tree of ways to one goal says of every cell: a label, the step that it came by, and
+// whether the neighbours were told.
+//
+//   if (labels.state(index) != GoalLabels::UNLABELLED && labels.supported(index)) ...
+//
+// A label is the cost of a way to the goal at the time when it was written. It holds still where
+// every step of the way is supported: legal, and no dearer than the labels of its two ends differ.
+// 12 bytes a cell; nothing is cleared between trees.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "grid_path_planner/base/zeroed_array.h"
+#include "grid_path_planner/search/cell_of_index.h"
+#include "grid_path_planner/search/moves.h"
+#include "grid_path_planner/search/search_key.h"
+#include "grid_path_planner/terrain/cost_grid.h"
+
+namespace grid_path_planner {
+
+class GoalLabels {
+ public:
+  using Index = std::uint32_t;
+  // Of a cell that is CLOSED its neighbours know the label; of one that is OPEN not yet.
+  enum State : std::uint32_t { UNLABELLED, OPEN, CLOSED };
+
+  static std::size_t bytesFor(const GridGeometry& geometry) {
+    return geometry.size() * (sizeof(SearchKey) + sizeof(std::uint32_t));
+  }
+
+  // `moves` are those of the map of every call, and outlive this.
+  void prepare(const CostGrid& map, const Moves& moves);
+  // Forgets all labels but the root's, which is 0.
+  void begin(Index root);
+  // To be called before anything that asks for steps, after every change of the map.
+  void look(const CostGrid& map) { weights_ = map.weights().values().data(); }
+
+  Index root() const { return root_; }
+  const GridGeometry& geometry() const { return geometry_; }
+  Cell cell(Index index) const { return cell_of_(index); }
+
+  State state(Index index) const {
+    const std::uint32_t word = words_[index];
+    return word >> kTreeShift == tree_ ? static_cast<State>(word & kStateMask) : UNLABELLED;
+  }
+  // Preconditions from here on: the cell has a label.
+  SearchKey label(Index index) const { return labels_[index]; }
+  std::uint32_t stepOf(Index index) const { return words_[index] >> kStepShift & 7U; }
+  // Where the way leads next. Precondition: not the root.
+  Index next(Index index) const { return along(index, stepOf(index)); }
+  bool supported(Index index) const {
+    const std::uint32_t step = stepOf(index);
+    if ((stepsFrom(index) >> step & 1U) == 0) return index == root_;
+    const Index next = along(index, step);
+    return labels_[index] >= labels_[next] + stepKey(index, next, step) || index == root_;
+  }
+
+  void set(Index index, SearchKey label, std::uint32_t step, State state) {
+    labels_[index] = label;
+    words_[index] = tree_ << kTreeShift | step << kStepShift | state;
+  }
+  void setState(Index index, State state) { words_[index] = (words_[index] & ~kStateMask) | state; }
+  void raise(Index index, SearchKey label) { labels_[index] = std::max(labels_[index], label); }
+  // The cell's way begins with `step` and costs `label`.
+  void setWay(Index index, SearchKey label, std::uint32_t step) {
+    set(index, label, step, state(index));
+  }
+
+  // The steps that the map allows, bit n for step n of steps.h; and where they lead.
+  std::uint32_t stepsFrom(Index index) const { return moves_->from(index); }
+  Index along(Index index, std::uint32_t step) const {
+    return static_cast<Index>(index + moves_->offsets()[step]);
+  }
+  // What a step between neighbours costs.
+  SearchKey stepKey(Index from, Index to, std::uint32_t step) const {
+    return (step < 4 ? kStraightKey : diagonal_step_) * std::max(weights_[from], weights_[to]);
+  }
+
+ private:
+  // A word: number of the tree, step towards the goal, state.
+  static constexpr std::uint32_t kStepShift = 2;
+  static constexpr std::uint32_t kTreeShift = 5;
+  static constexpr std::uint32_t kStateMask = (1U << kStepShift) - 1;
+
+  GridGeometry geometry_;
+  CellOfIndex cell_of_{GridGeometry(1, 1, 1.0)};
+  const CostGrid::Weight* weights_ = nullptr;
+  SearchKey diagonal_step_ = 0;
+  const Moves* moves_ = nullptr;
+  ZeroedArray<SearchKey> labels_;
+  ZeroedArray<std::uint32_t> words_;
+  std::uint32_t tree_ = 0;
+  Index root_ = 0;
+};
+
+// The step back.
+constexpr std::uint32_t oppositeStep(std::uint32_t step) {
+  return step ^ 2U;
+}
+
+}  // namespace grid_path_planner

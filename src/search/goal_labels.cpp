@@ -1,0 +1,30 @@
+#include "grid_path_planner/search/goal_labels.h"
+
+namespace grid_path_planner {
+
+static_assert(kSteps[oppositeStep(0)].column == -kSteps[0].column &&
+              kSteps[oppositeStep(1)].row == -kSteps[1].row &&
+              kSteps[oppositeStep(4)].column == -kSteps[4].column &&
+              kSteps[oppositeStep(5)].column == -kSteps[5].column);
+
+void GoalLabels::prepare(const CostGrid& map, const Moves& moves) {
+  moves_ = &moves;
+  geometry_ = map.geometry();
+  cell_of_ = CellOfIndex(geometry_);
+  diagonal_step_ = diagonalKey(map.motion().diagonal_cost);
+  if (words_.size() == geometry_.size()) return;
+  labels_ = ZeroedArray<SearchKey>(geometry_.size());
+  words_ = ZeroedArray<std::uint32_t>(geometry_.size());
+  tree_ = 0;
+}
+
+void GoalLabels::begin(Index root) {
+  if (++tree_ == std::uint32_t{1} << (32 - kTreeShift)) {
+    words_.clear();
+    tree_ = 1;
+  }
+  root_ = root;
+  set(root, 0, 0, OPEN);
+}
+
+}  // namespace grid_path_planner
