@@ -1,7 +1,6 @@
 #include "grid_path_planner/planners/catalogue.h"
 
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/rectangles/polyanya.h"
 #include "grid_path_planner/rectangles/rectangle_map_planner.h"
 #include "grid_path_planner/search/a_star.h"
 #include "grid_path_planner/search/anya.h"
@@ -49,7 +48,6 @@ constexpr Row kCatalogue[] = {
     {"theta_star", plain<ThetaStar>},
     {"lazy_theta_star", lazyThetaStar},
     {"anya", plain<Anya>},
-    {"polyanya", plain<Polyanya>},
     {"rectangle_map", withOptions<RectangleMapPlanner>},
     {"coarse_to_fine", withOptions<CoarseToFine>},
     {"a_star_published", publishedAStar},

@@ -153,7 +153,7 @@ Connections::Connections(const std::vector<CellRect>& rectangles, Touching touch
   });
 
   blocks_.resize(rectangles.size());
-  all_.reserve(found.size());
+  all_.reserve(2 * found.size());  // so that edits need not move them all
   for (const Found& each : found) {
     ++blocks_[each.from].count;
     all_.push_back(each.connection);
@@ -168,7 +168,8 @@ Connections::Connections(const std::vector<CellRect>& rectangles, Touching touch
 }
 
 std::size_t Connections::bytes() const {
-  std::size_t bytes = all_.capacity() * sizeof(Connection) + blocks_.capacity() * sizeof(Block);
+  // What is only reserved was never touched.
+  std::size_t bytes = all_.size() * sizeof(Connection) + blocks_.capacity() * sizeof(Block);
   for (const auto& each : released_) bytes += each.capacity() * sizeof(std::uint32_t);
   return bytes;
 }

@@ -1,5 +1,8 @@
 #include "free_changes.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "grid_path_planner/rectangles/decomposition.h"
 #include "grid_path_planner/terrain/bit_scan.h"
 
@@ -19,7 +22,56 @@ struct Window {
   }
 };
 
+struct Change {
+  CellRect rect;
+  bool gained;
+};
+using Changes = std::vector<Change>::iterator;
+
+FreeChanges together(Changes first, Changes last) {
+  FreeChanges changes;
+  for (; first != last; ++first)
+    (first->gained ? changes.gained : changes.lost).push_back(first->rect);
+  return changes;
+}
+
+// Of a group of several.
+constexpr int kLargestHull = 64;
+
+void group(Changes first, Changes last, std::vector<FreeChanges>& groups) {
+  FreeChanges changes = together(first, last);
+  const CellRect hull = changes.hull();
+  if (last - first == 1 || std::max(hull.width, hull.height) <= kLargestHull)
+    return groups.push_back(std::move(changes));
+  const bool wide = hull.width >= hull.height;
+  const auto twiceTheMiddle = [wide](const CellRect& rect) {
+    return wide ? 2 * rect.column + rect.width : 2 * rect.row + rect.height;
+  };
+  const Changes half = first + (last - first) / 2;
+  std::nth_element(first, half, last, [&](const Change& a, const Change& b) {
+    return twiceTheMiddle(a.rect) < twiceTheMiddle(b.rect);
+  });
+  group(first, half, groups);
+  group(half, last, groups);
+}
+
 }  // namespace
+
+CellRect FreeChanges::hull() const {
+  CellRect hull;
+  for (const auto* list : {&gained, &lost})
+    for (const CellRect& rect : *list) hull = hull.hull(rect);
+  return hull;
+}
+
+std::vector<FreeChanges> nearEachOther(const FreeChanges& changes) {
+  std::vector<Change> all;
+  for (const CellRect& rect : changes.gained) all.push_back({rect, true});
+  for (const CellRect& rect : changes.lost) all.push_back({rect, false});
+  std::vector<FreeChanges> groups;
+  if (!all.empty()) group(all.begin(), all.end(), groups);
+  return groups;
+}
 
 FreeChanges freeChanges(const BitMap& free, const std::vector<CellRect>& rectangles,
                         const CellRect& changed, const StopToken& stop) {

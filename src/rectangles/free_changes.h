@@ -11,12 +11,17 @@ struct FreeChanges {
   std::vector<CellRect> gained;  // free now, in no rectangle: disjoint
   std::vector<CellRect> lost;    // blocked now, in a rectangle: disjoint
 
-  bool empty() const { return gained.empty() && lost.empty(); }
+  // Around all of them.
+  CellRect hull() const;
 };
 
 // Of the cells of `changed`, which lies in the map. `rectangles`: all that hold cells of it. Throws
 // Stopped.
 FreeChanges freeChanges(const BitMap& free, const std::vector<CellRect>& rectangles,
                         const CellRect& changed, const StopToken& stop);
+
+// The same in groups that may be dealt with one after the other: of one rectangle, or of several
+// that lie within some dozens of cells.
+std::vector<FreeChanges> nearEachOther(const FreeChanges& changes);
 
 }  // namespace grid_path_planner

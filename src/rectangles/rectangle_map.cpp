@@ -7,11 +7,16 @@
 
 #include "free_changes.h"
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/rectangles/decomposition.h"
 #include "grid_path_planner/rectangles/rectangle_index.h"
+#include "grid_path_planner/rectangles/rectangle_union.h"
 
 namespace grid_path_planner {
 namespace {
+
+// Rectangles so many cells away from those that changed are redone with them; with fewer than kFew
+// these, those farther off too; never more than kMostRedone. Chosen by benchmark/rectangle_repair.
+constexpr int kNear = 4, kFar = 16;
+constexpr std::size_t kFew = 5, kMostRedone = 12;
 
 std::string nameOf(const std::vector<CellRect>& rectangles, std::size_t number) {
   const CellRect& rect = rectangles[number];
@@ -45,6 +50,10 @@ void checkDisjoint(const RectangleIndex& index, const std::vector<CellRect>& rec
         throw InputError(nameOf(rectangles, i) + " overlaps " + nameOf(rectangles, other));
 }
 
+std::int64_t areaOf(const CellRect& rect) {
+  return std::int64_t{rect.width} * rect.height;
+}
+
 void sortUnique(std::vector<std::uint32_t>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -72,7 +81,10 @@ class RectangleMap::Replacement {
     sortUnique(around);
     const auto goes = [&old](std::uint32_t number) { return holds(old, number); };
     around.erase(std::remove_if(around.begin(), around.end(), goes), around.end());
-    for (const std::uint32_t number : old) remove(number);
+    // The larger ones get the smaller numbers.
+    std::for_each(old.rbegin(), old.rend(), [this](std::uint32_t number) { remove(number); });
+    std::stable_sort(fresh.begin(), fresh.end(),
+                     [](const CellRect& a, const CellRect& b) { return areaOf(a) > areaOf(b); });
     for (const CellRect& rect : fresh) {
       const std::uint32_t number = add(rect, around);
       around.insert(std::lower_bound(around.begin(), around.end(), number), number);
@@ -169,34 +181,57 @@ RectangleEdit RectangleMap::edit(const BitMap& free, const CellRect& changed,
   const CellRect inside = changed.intersection(geometry_.rect());
   std::vector<CellRect> met;
   for (const std::uint32_t number : index_->meeting(inside)) met.push_back(rectangles_[number]);
-  const FreeChanges changes = freeChanges(free, met, inside, stop);
   Replacement replacement(*this);
-  if (!changes.empty()) repair(changes, replacement, stop);
+  for (const FreeChanges& each : nearEachOther(freeChanges(free, met, inside, stop)))
+    repair(each, replacement, stop);
   return replacement.edit();
 }
 
 void RectangleMap::repair(const FreeChanges& changes, Replacement& replacement,
                           const StopToken& stop) {
-  std::vector<std::uint32_t> old, around;
+  std::vector<std::uint32_t> touched, around;
   const auto append = [this](const CellRect& rect, std::vector<std::uint32_t>& numbers) {
     for (const std::uint32_t number : index_->meeting(rect)) numbers.push_back(number);
   };
-  for (const CellRect& rect : changes.lost) append(rect, old);
+  for (const CellRect& rect : changes.lost) append(rect, touched);
   for (const CellRect& rect : changes.gained) {
-    append({rect.column - 1, rect.row, rect.width + 2, rect.height}, old);
-    append({rect.column, rect.row - 1, rect.width, rect.height + 2}, old);
+    append({rect.column - 1, rect.row, rect.width + 2, rect.height}, touched);
+    append({rect.column, rect.row - 1, rect.width, rect.height + 2}, touched);
     append(rect.grown(1), around);
   }
-  sortUnique(old);
+  sortUnique(touched);
   std::vector<CellRect> free = changes.gained;
-  for (const std::uint32_t number : old) free.push_back(rectangles_[number]);
-  replacement.replace(old, largestFirst(free, changes.lost, stop), around);
+  for (const std::uint32_t number : touched) free.push_back(rectangles_[number]);
+  std::vector<CellRect> fresh = fewestRectangles(free, changes.lost, stop);
+
+  // With others nearby, where the whole is no more then: else the map would fall to pieces.
+  const std::vector<std::uint32_t> others = nearby(changes.hull(), touched);
+  if (!others.empty()) {
+    for (const std::uint32_t number : others) free.push_back(rectangles_[number]);
+    std::vector<CellRect> wider = fewestRectangles(free, changes.lost, stop);
+    if (wider.size() <= fresh.size() + others.size()) {
+      fresh = std::move(wider);
+      touched.insert(touched.end(), others.begin(), others.end());
+      std::sort(touched.begin(), touched.end());
+    }
+  }
+  replacement.replace(std::move(touched), std::move(fresh), std::move(around));
+}
+
+std::vector<std::uint32_t> RectangleMap::nearby(const CellRect& changed,
+                                                const std::vector<std::uint32_t>& touched) const {
+  std::vector<std::uint32_t> numbers = index_->meeting(changed.grown(kNear));
+  if (numbers.size() < kFew) numbers = index_->meeting(changed.grown(kFar));
+  const auto isTouched = [&touched](std::uint32_t number) { return holds(touched, number); };
+  numbers.erase(std::remove_if(numbers.begin(), numbers.end(), isTouched), numbers.end());
+  if (numbers.size() + touched.size() > kMostRedone)
+    numbers.resize(kMostRedone - std::min(kMostRedone, touched.size()));
+  return numbers;
 }
 
 std::size_t RectangleMap::freeCells() const {
   std::size_t cells = 0;
-  for (const CellRect& rect : rectangles_)
-    cells += static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
+  for (const CellRect& rect : rectangles_) cells += static_cast<std::size_t>(areaOf(rect));
   return cells;
 }
 

@@ -15,6 +15,7 @@ Traits rectangleMapTraits() {
   traits.unit_diagonals = false;
   traits.weights = false;
   traits.any_angle = true;
+  traits.repairs = true;
   return traits;
 }
 
@@ -40,6 +41,15 @@ std::vector<Cell> throughTheMiddles(const RectangleMap& map, const RectangleRout
   return cells;
 }
 
+// A passable cell that touches a lattice point where a path may turn.
+Cell cellAt(const CostGrid& map, SegmentPoint point) {
+  const auto column = static_cast<int>(point.x / SegmentPoint::kUnitsPerCell);
+  const auto row = static_cast<int>(point.y / SegmentPoint::kUnitsPerCell);
+  for (const Cell cell : {Cell{column, row}, Cell{column - 1, row}, Cell{column, row - 1}})
+    if (map.passable(cell)) return cell;
+  return {column - 1, row - 1};
+}
+
 }  // namespace
 
 RectangleMapPlanner::RectangleMapPlanner(const SearchOptions& options)
@@ -56,7 +66,15 @@ void RectangleMapPlanner::doPrepare(const StopToken& stop) {
   if (bytes > memoryLimit())
     return refuse("needs up to " + std::to_string(bytes / 1000000 + 1) +
                   " MB to cut this map into rectangles, more than its memory_limit");
-  rectangles_ = RectangleMap(map().geometry(), largestFirst(free, {}, stop), Touching::BORDERS);
+  keeper_.prepare(sharedMap(), stop);
+}
+
+void RectangleMapPlanner::doUpdate(const CellRect& changed, const StopToken& stop) {
+  keeper_.update(sharedMap(), changed, stop, memoryLimit());
+}
+
+void RectangleMapPlanner::finishBackgroundWork(const StopToken& stop) {
+  keeper_.finish(stop);
 }
 
 void RectangleMapPlanner::keep(const RectangleRoute& route, const PlanRequest& request,
@@ -64,13 +82,12 @@ void RectangleMapPlanner::keep(const RectangleRoute& route, const PlanRequest& r
   const Cell start = request.start, goal = request.goals.front();
   if (options_.rectangle_funnel) {
     result.points =
-        shortestThrough(rectangles_, route, waypointOf(map(), start), waypointOf(map(), goal));
-    for (const SegmentPoint point : result.points)
-      result.cells.push_back(passableCellAt(map(), point));
+        shortestThrough(rectangles(), route, waypointOf(map(), start), waypointOf(map(), goal));
+    for (const SegmentPoint point : result.points) result.cells.push_back(cellAt(map(), point));
     result.cells.front() = start;
     result.cells.back() = goal;
   } else {
-    result.cells = throughTheMiddles(rectangles_, route, start, goal);
+    result.cells = throughTheMiddles(rectangles(), route, start, goal);
     for (const Cell cell : result.cells) result.points.push_back(waypointOf(map(), cell));
   }
   for (std::size_t i = 1; i < result.points.size(); ++i)
@@ -78,15 +95,15 @@ void RectangleMapPlanner::keep(const RectangleRoute& route, const PlanRequest& r
 }
 
 PlanResult RectangleMapPlanner::doPlan(const PlanRequest& request, const StopToken& stop) {
-  const RectangleRoute route = search_.find(rectangles_, options_.rectangle_weight, request.start,
+  const RectangleRoute route = search_.find(rectangles(), options_.rectangle_weight, request.start,
                                             request.goals.front(), stop);
   PlanResult result;
   result.statistics = route.statistics;
-  result.statistics.search_bytes += rectangles_.bytes();
+  result.statistics.search_bytes += rectangles().bytes();
   if (request.record_expanded)
     for (const std::uint32_t rectangle : route.expanded)
       result.expanded.push_back(
-          map().geometry().index(middleOf(rectangles_.rectangles()[rectangle])));
+          map().geometry().index(middleOf(rectangles().rectangles()[rectangle])));
   result.status = route.found ? Status::FOUND : Status::UNREACHABLE;
   if (route.found) keep(route, request, result);
   return result;

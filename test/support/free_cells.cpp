@@ -1,5 +1,6 @@
 #include "support/free_cells.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace grid_path_planner::test {
@@ -55,8 +56,7 @@ FreeCells randomBlocks(std::mt19937& random, int largest_side) {
     const CellRect block =
         CellRect{column(random), row(random), side(random), side(random)}.intersection(
             cells.geometry().rect());
-    for (int r = block.row; r < block.row + block.height; ++r)
-      for (int c = block.column; c < block.column + block.width; ++c) cells[Cell{c, r}] = 0;
+    fillCells(cells, block, 0);
   }
   return cells;
 }
@@ -65,6 +65,28 @@ BitMaps bitMapsOf(const FreeCells& free) {
   Grid<std::uint16_t> weights(free.geometry());
   for (std::size_t i = 0; i < free.values().size(); ++i) weights.values()[i] = free.values()[i];
   return BitMaps(weights, StopToken());
+}
+
+void fillCells(FreeCells& cells, const CellRect& rect, std::uint8_t value) {
+  for (int row = rect.row; row < rect.row + rect.height; ++row)
+    for (int column = rect.column; column < rect.column + rect.width; ++column)
+      cells[Cell{column, row}] = value;
+}
+
+bool isPartition(const FreeCells& free, const std::vector<CellRect>& rectangles) {
+  FreeCells left = free;
+  for (const CellRect& rect : rectangles) {
+    if (rect.empty()) return false;
+    for (int row = rect.row; row < rect.row + rect.height; ++row)
+      for (int column = rect.column; column < rect.column + rect.width; ++column) {
+        if (!left.contains({column, row})) return false;
+        std::uint8_t& cell = left[Cell{column, row}];
+        if (cell == 0) return false;
+        cell = 0;
+      }
+  }
+  return std::count(left.values().begin(), left.values().end(), 0) ==
+         static_cast<std::ptrdiff_t>(left.values().size());
 }
 
 }  // namespace grid_path_planner::test

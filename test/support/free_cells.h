@@ -24,4 +24,11 @@ FreeCells randomBlocks(std::mt19937& random, int largest_side);
 
 BitMaps bitMapsOf(const FreeCells& free);
 
+// Precondition: `rect` lies in the map.
+void fillCells(FreeCells& cells, const CellRect& rect, std::uint8_t value);
+
+// Whether every free cell lies in exactly one of the rectangles and no other does, and none of them
+// is empty.
+bool isPartition(const FreeCells& free, const std::vector<CellRect>& rectangles);
+
 }  // namespace grid_path_planner::test

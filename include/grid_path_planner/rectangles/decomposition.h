@@ -38,11 +38,6 @@ struct DecompositionLimits {
 std::vector<CellRect> largestFirst(const BitMaps& free, const DecompositionLimits& limits,
                                    const StopToken& stop);
 
-// The same of the cells that lie in a rectangle of `free` and in none of `blocked`. Its time
-// follows the rectangles' edges, not the cells between them. Throws Stopped.
-std::vector<CellRect> largestFirst(const std::vector<CellRect>& free,
-                                   const std::vector<CellRect>& blocked, const StopToken& stop);
-
 // How many maximal runs of free cells the rows have.
 std::size_t countRuns(const BitMap& free);
 

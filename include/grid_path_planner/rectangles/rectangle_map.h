@@ -8,10 +8,11 @@
 // Holds the rectangles, an R-tree over them (Boost.Geometry) and their connections: nothing in
 // proportion to the cells.
 //
-// edit() redoes the rectangles that the changed cells touch, and only them. Guaranteed: the result
-// is again a partition of the free cells; the others keep their numbers; the time follows what is
-// touched, not the map. Not guaranteed: that the rectangles are those of a decomposition of the new
-// map, or as few, or in the order of their size.
+// edit() redoes the rectangles that the changed cells touch, and a few around them where that keeps
+// their number down. Guaranteed: the result is again a partition of the free cells; the others keep
+// their numbers; the time follows what is redone, not the map. Not guaranteed: the rectangles of a
+// decomposition of the new map, nor as few, nor the order of their size. Measured (see
+// benchmark/rectangle_repair.cpp): within 5 % of the number of largestFirst after 10,000 edits.
 #pragma once
 
 #include <memory>
@@ -67,6 +68,9 @@ class RectangleMap {
   class Replacement;
 
   void repair(const FreeChanges& changes, Replacement& replacement, const StopToken& stop);
+  // Some that lie around `changed` and are not touched, ascending.
+  std::vector<std::uint32_t> nearby(const CellRect& changed,
+                                    const std::vector<std::uint32_t>& touched) const;
 
   GridGeometry geometry_;
   Touching touching_ = Touching::BORDERS;

@@ -2,15 +2,17 @@
 //
 // prepare() cuts the map into rectangles (largestFirst); a plan is a search over them by
 // SearchOptions::rectangle_weight, whose path runs through the middles of the shared borders and is
-// then pulled taut (rectangle_funnel).
+// then pulled taut (rectangle_funnel). update() redoes the rectangles that a change touches; after
+// many of them the map is cut anew in the background (RectangleKeeper).
 //
 // Guaranteed: a legal path, and one where there is one: rectangles are connected where a vehicle
 // can drive. With `length` the sequence of rectangles is the one whose path through the middles is
 // the shortest, with funnel the path is the shortest through that sequence.
-// Not guaranteed: the shortest path there is; with the published weights not even a short one.
+// Not guaranteed: the shortest path there is; with the published weights not even a short one;
+// after updates the path that a fresh planner finds.
 #pragma once
 
-#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_keeper.h"
 #include "grid_path_planner/rectangles/rectangle_route.h"
 #include "grid_path_planner/search/planner.h"
 #include "grid_path_planner/search/search_options.h"
@@ -24,17 +26,21 @@ class RectangleMapPlanner : public Planner {
   std::size_t bytesFor(const GridGeometry& geometry) const override;
 
   // Of the prepared map.
-  const RectangleMap& rectangles() const { return rectangles_; }
+  const RectangleMap& rectangles() const { return keeper_.rectangles(); }
+
+  BackgroundWork backgroundWork() override { return keeper_.work(); }
+  void finishBackgroundWork(const StopToken& stop) override;
 
  protected:
   void doPrepare(const StopToken& stop) override;
+  void doUpdate(const CellRect& changed, const StopToken& stop) override;
   PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
 
  private:
   void keep(const RectangleRoute& route, const PlanRequest& request, PlanResult& result) const;
 
   SearchOptions options_;
-  RectangleMap rectangles_;
+  RectangleKeeper keeper_;
   RectangleSearch search_;
 };
 

@@ -7,6 +7,7 @@
 //   border       1 / length of the shared border: through the widest openings
 //   distance     between the centres
 //   connections  1 / number of j's connections: through the rectangles with the most neighbours
+// On a map that was edited, numbers follow the areas only roughly.
 // None of them measures the path that is driven. `length` does: from the middle of a border to the
 // middle of the next, the start's and the goal's cells included.
 #pragma once

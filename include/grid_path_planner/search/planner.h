@@ -99,8 +99,8 @@ class Planner {
   // anything else is a full prepare, but for the prepared map itself, which is nothing new.
   void update(std::shared_ptr<const CostGrid> map, const CellRect& changed, const StopToken& stop);
 
-  // Until background work is done plans take longer; they cost the same before and after, though of
-  // paths of equal cost they may answer another.
+  // Until background work is done plans take longer. An optimal planner's cost the same before and
+  // after, though of paths of equal cost it may answer another.
   virtual BackgroundWork backgroundWork() { return {}; }
   // Returns when it is done. Throws Stopped; it goes on then.
   virtual void finishBackgroundWork(const StopToken&) {}

@@ -1,0 +1,246 @@
+#include "grid_path_planner/rectangles/rectangle_map_planner.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "grid_path_planner/rectangles/decomposition.h"
+#include "grid_path_planner/rectangles/rectangle_keeper.h"
+#include "grid_path_planner/terrain/segment.h"
+#include "support/changing_map.h"
+#include "support/free_cells.h"
+
+namespace grid_path_planner {
+namespace {
+
+using test::costsOf;
+using test::FreeCells;
+using test::freeCells;
+
+Cell randomCell(std::mt19937& random, const FreeCells& free) {
+  const int column = static_cast<int>(random() % static_cast<unsigned>(free.width()));
+  return {column, static_cast<int>(random() % static_cast<unsigned>(free.height()))};
+}
+
+PlanResult plan(Planner& planner, Cell start, Cell goal) {
+  return planner.plan({start, {goal}, false}, StopToken());
+}
+
+PlanResult planOn(const FreeCells& free, Cell start, Cell goal) {
+  RectangleMapPlanner planner;
+  planner.prepare(costsOf(free), StopToken());
+  return plan(planner, start, goal);
+}
+
+bool isLegal(const CostGrid& map, const PlanResult& result) {
+  for (std::size_t i = 1; i < result.points.size(); ++i)
+    if (!segmentLegal(map, result.points[i - 1], result.points[i])) return false;
+  return !result.points.empty();
+}
+
+// --- Maps of the simplest kinds -----------------------------------------------------------------
+
+TEST(RectangleMapPlanner, OnAMapWithoutObstacles) {
+  const PlanResult result = planOn(FreeCells(GridGeometry(30, 20, 1.0), 1), {0, 0}, {29, 19});
+  EXPECT_EQ(result.status, Status::FOUND);
+  EXPECT_EQ(result.points.size(), 2U);
+}
+
+TEST(RectangleMapPlanner, OnAMapWithoutFreeCells) {
+  const FreeCells blocked(GridGeometry(30, 20, 1.0), 0);
+  const PlanResult result = planOn(blocked, {0, 0}, {29, 19});
+  EXPECT_EQ(result.status, Status::START_OCCUPIED);
+  EXPECT_EQ(result.message, "start (0, 0) is blocked");
+}
+
+TEST(RectangleMapPlanner, OnAMapOfOneCell) {
+  EXPECT_EQ(planOn(freeCells({"."}), {0, 0}, {0, 0}).status, Status::FOUND);
+  EXPECT_EQ(planOn(freeCells({"#"}), {0, 0}, {0, 0}).status, Status::START_OCCUPIED);
+  EXPECT_EQ(planOn(freeCells({"."}), {0, 0}, {1, 0}).status, Status::GOAL_OUTSIDE_MAP);
+}
+
+TEST(RectangleMapPlanner, OnMapsOfOneRowOrColumn) {
+  const FreeCells row = freeCells({"...#.."});
+  EXPECT_EQ(planOn(row, {0, 0}, {2, 0}).status, Status::FOUND);
+  EXPECT_EQ(planOn(row, {0, 0}, {5, 0}).status, Status::UNREACHABLE);
+  EXPECT_EQ(planOn(row, {0, 0}, {3, 0}).status, Status::GOAL_OCCUPIED);
+  const FreeCells column = freeCells({".", ".", "#", "."});
+  EXPECT_EQ(planOn(column, {0, 1}, {0, 0}).status, Status::FOUND);
+  EXPECT_EQ(planOn(column, {0, 3}, {0, 0}).status, Status::UNREACHABLE);
+  EXPECT_EQ(planOn(column, {0, 2}, {0, 0}).status, Status::START_OCCUPIED);
+}
+
+TEST(RectangleMapPlanner, OnACheckerboard) {
+  FreeCells checkers(GridGeometry(17, 16, 1.0));
+  for (int row = 0; row < 16; ++row)
+    for (int column = 0; column < 17; ++column)
+      checkers[Cell{column, row}] = (row + column) % 2 == 0 ? 1 : 0;
+  EXPECT_EQ(planOn(checkers, {0, 0}, {0, 0}).status, Status::FOUND);
+  EXPECT_EQ(planOn(checkers, {0, 0}, {1, 1}).status, Status::UNREACHABLE);
+  EXPECT_EQ(planOn(checkers, {0, 0}, {1, 0}).status, Status::GOAL_OCCUPIED);
+}
+
+TEST(RectangleMapPlanner, RefusesAMapForWhichItHasNoMemory) {
+  std::mt19937 random(1);
+  FreeCells noise(GridGeometry(400, 400, 1.0));
+  for (std::uint8_t& cell : noise.values()) cell = random() % 2 == 0 ? 1 : 0;
+  noise[Cell{0, 0}] = 1;
+  RectangleMapPlanner planner;
+  planner.limitMemory(planner.bytesFor(noise.geometry()));
+  planner.prepare(costsOf(noise), StopToken());
+  const PlanResult refused = plan(planner, {0, 0}, {0, 0});
+  EXPECT_EQ(refused.status, Status::INVALID_REQUEST);
+  EXPECT_NE(refused.message.find("MB to cut this map into rectangles"), std::string::npos)
+      << refused.message;
+  planner.prepare(costsOf(FreeCells(noise.geometry(), 1)), StopToken());
+  EXPECT_EQ(plan(planner, {0, 0}, {399, 399}).status, Status::FOUND);
+}
+
+// --- Updates ------------------------------------------------------------------------------------
+
+TEST(RectangleMapPlanner, SeesThatADoorWasShutAndOpened) {
+  FreeCells free = freeCells({"...#...",  //
+                              ".......",  //
+                              "...#..."});
+  RectangleMapPlanner planner;
+  planner.prepare(costsOf(free), StopToken());
+  EXPECT_EQ(plan(planner, {0, 0}, {6, 2}).status, Status::FOUND);
+  free[Cell{3, 1}] = 0;
+  planner.update(costsOf(free, 1), {3, 1, 1, 1}, StopToken());
+  EXPECT_EQ(plan(planner, {0, 0}, {6, 2}).status, Status::UNREACHABLE);
+  EXPECT_EQ(plan(planner, {0, 0}, {3, 1}).status, Status::GOAL_OCCUPIED);
+  free[Cell{3, 1}] = 1;
+  planner.update(costsOf(free, 2), {3, 1, 1, 1}, StopToken());
+  EXPECT_EQ(plan(planner, {0, 0}, {6, 2}).status, Status::FOUND);
+}
+
+TEST(RectangleMapPlanner, FindsPathsAfterUpdatesWhereAFreshOneDoes) {
+  std::mt19937 random(20261121);
+  int found = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    FreeCells free = test::randomBlocks(random, 60);
+    SearchOptions options;
+    options.rectangle_weight = static_cast<RectangleWeight>(trial % 5);
+    options.rectangle_funnel = trial % 2 == 0;
+    RectangleMapPlanner updated(options);
+    updated.prepare(costsOf(free), StopToken());
+    for (std::uint64_t step = 1; step <= 40; ++step) {
+      const Cell low = randomCell(random, free);
+      const int side = 1 + static_cast<int>(random() % 6);
+      const CellRect changed =
+          CellRect{low.column, low.row, side, side}.intersection(free.geometry().rect());
+      test::fillCells(free, changed, random() % 2 == 0 ? 1 : 0);
+      const auto map = costsOf(free, step);
+      updated.update(map, changed, StopToken());
+      if (step % 4 != 0) continue;
+      RectangleMapPlanner fresh;
+      fresh.prepare(map, StopToken());
+      const Cell start = randomCell(random, free), goal = randomCell(random, free);
+      const PlanResult result = plan(updated, start, goal);
+      ASSERT_EQ(result.status, plan(fresh, start, goal).status) << result.message;
+      if (result.status != Status::FOUND) continue;
+      ++found;
+      ASSERT_TRUE(isLegal(*map, result));
+    }
+  }
+  EXPECT_GT(found, 50);
+}
+
+// --- The rectangles in the long run --------------------------------------------------------------
+
+// Toggles cells of a map and tells a keeper; remembers what a reader of the map would.
+class Toggling {
+ public:
+  explicit Toggling(unsigned seed) : random_(seed), free_(GridGeometry(64, 48, 1.0), 1) {
+    keeper.prepare(costsOf(free_), StopToken());
+  }
+
+  void run(int updates) {
+    for (int i = 0; i < updates; ++i) {
+      const Cell cell = randomCell(random_, free_);
+      free_[cell] ^= 1;
+      keeper.update(costsOf(free_, ++revision_), {cell.column, cell.row, 1, 1}, StopToken());
+    }
+  }
+
+  void runUntilPending() {
+    for (int i = 0; i < 5000 && !keeper.work().pending; ++i) run(1);
+    ASSERT_TRUE(keeper.work().pending);
+  }
+
+  bool isRight() const {
+    std::vector<CellRect> rectangles;
+    for (const CellRect& rect : keeper.rectangles().rectangles())
+      if (!rect.empty()) rectangles.push_back(rect);
+    return test::isPartition(free_, rectangles);
+  }
+
+  const FreeCells& free() const { return free_; }
+
+  RectangleKeeper keeper;
+
+ private:
+  std::mt19937 random_;
+  FreeCells free_;
+  std::uint64_t revision_ = 0;
+};
+
+TEST(RectangleKeeper, CutsTheMapAnewAfterManyEdits) {
+  Toggling toggling(7);
+  toggling.runUntilPending();
+  toggling.keeper.finish(StopToken());
+  EXPECT_FALSE(toggling.keeper.work().pending);
+  EXPECT_GT(toggling.keeper.work().time_s, 0.0);
+  EXPECT_EQ(toggling.keeper.rectangles().rectangles(),
+            largestFirst(test::bitMapsOf(toggling.free()), {}, StopToken()));
+}
+
+TEST(RectangleKeeper, KeepsTheEditsThatCameMeanwhile) {
+  Toggling toggling(8);
+  toggling.runUntilPending();
+  toggling.run(20);
+  EXPECT_TRUE(toggling.keeper.work().pending);
+  EXPECT_TRUE(toggling.isRight());
+  toggling.keeper.finish(StopToken());
+  EXPECT_TRUE(toggling.isRight());
+  toggling.runUntilPending();
+  toggling.run(63);
+  EXPECT_TRUE(toggling.keeper.work().pending);
+  toggling.run(1);
+  EXPECT_FALSE(toggling.keeper.work().pending);
+  EXPECT_TRUE(toggling.isRight());
+}
+
+TEST(RectangleKeeper, GivesTheSameRectanglesHoweverLongTheWorkTakes) {
+  Toggling hasty(9), patient(9);
+  for (int i = 0; i < 40; ++i) {
+    hasty.run(100);
+    for (int j = 0; j < 10; ++j) {
+      patient.run(10);
+      if (patient.keeper.work().pending) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ASSERT_EQ(hasty.keeper.rectangles().rectangles(), patient.keeper.rectangles().rectangles());
+  }
+  EXPECT_GT(hasty.keeper.work().time_s, 0.0);
+}
+
+TEST(RectangleKeeper, GoesOnWithItsRectanglesWhereThereIsNoMemoryForOthers) {
+  FreeCells free(GridGeometry(40, 40, 1.0), 1);
+  RectangleKeeper keeper;
+  keeper.prepare(costsOf(free), StopToken());
+  for (std::uint64_t i = 1; i < 5000; ++i) {
+    const Cell cell{static_cast<int>(i * 7 % 40), static_cast<int>(i * 11 % 37)};
+    free[cell] ^= 1;
+    keeper.update(costsOf(free, i), {cell.column, cell.row, 1, 1}, StopToken(), 1);
+  }
+  keeper.finish(StopToken());
+  EXPECT_EQ(keeper.work().time_s, 0.0);
+  EXPECT_EQ(keeper.rectangles().freeCells(),
+            static_cast<std::size_t>(std::count(free.values().begin(), free.values().end(), 1)));
+}
+
+}  // namespace
+}  // namespace grid_path_planner
