@@ -19,6 +19,7 @@ using Made = std::unique_ptr<Planner>;
 struct Row {
   const char* name;
   Made (*make)(const SearchOptions&);
+  std::initializer_list<const char*> options;  // of SearchOptions, beside memory_limit
 };
 
 template <class T>
@@ -39,19 +40,32 @@ Made publishedAStar(const SearchOptions& options) {
   return std::make_unique<AStar>(AStar::published(options));
 }
 
+constexpr std::initializer_list<const char*> kNone = {};
+constexpr std::initializer_list<const char*> kGuided = {"heuristic", "heuristic_scale", "epsilon",
+                                                        "tie_break", "landmarks"};
+constexpr std::initializer_list<const char*> kOrder = {"tie_break"};
+constexpr std::initializer_list<const char*> kAccuracy = {"accuracy"};
+constexpr std::initializer_list<const char*> kRectangles = {"rectangle_weight", "rectangle_funnel"};
+
 constexpr Row kCatalogue[] = {
-    {"a_star", withOptions<AStar>},
-    {"weighted_jump_point", withOptions<WeightedJumpPoint>},
-    {"jump_point", plain<JumpPoint>},
-    {"dijkstra", withOptions<Dijkstra>},
-    {"incremental_a_star", plain<IncrementalAStar>},
-    {"theta_star", plain<ThetaStar>},
-    {"lazy_theta_star", lazyThetaStar},
-    {"anya", plain<Anya>},
-    {"rectangle_map", withOptions<RectangleMapPlanner>},
-    {"coarse_to_fine", withOptions<CoarseToFine>},
-    {"a_star_published", publishedAStar},
+    {"a_star", withOptions<AStar>, kGuided},
+    {"weighted_jump_point", withOptions<WeightedJumpPoint>, kGuided},
+    {"jump_point", plain<JumpPoint>, kNone},
+    {"dijkstra", withOptions<Dijkstra>, kOrder},
+    {"incremental_a_star", plain<IncrementalAStar>, kNone},
+    {"theta_star", plain<ThetaStar>, kNone},
+    {"lazy_theta_star", lazyThetaStar, kNone},
+    {"anya", plain<Anya>, kNone},
+    {"rectangle_map", withOptions<RectangleMapPlanner>, kRectangles},
+    {"coarse_to_fine", withOptions<CoarseToFine>, kAccuracy},
+    {"a_star_published", publishedAStar, kGuided},
 };
+
+const Row& rowOf(const std::string& name) {
+  for (const Row& row : kCatalogue)
+    if (name == row.name) return row;
+  throw InputError("planner must be one of " + listOfPlanners() + ", got '" + name + "'");
+}
 
 }  // namespace
 
@@ -72,13 +86,16 @@ std::string listOfPlanners() {
 
 std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOptions& options) {
   checkSearchOptions(options);
-  for (const Row& row : kCatalogue) {
-    if (name != row.name) continue;
-    std::unique_ptr<Planner> planner = row.make(options);
-    planner->limitMemory(static_cast<std::size_t>(options.memory_limit) * 1000000);
-    return planner;
-  }
-  throw InputError("planner must be one of " + listOfPlanners() + ", got '" + name + "'");
+  std::unique_ptr<Planner> planner = rowOf(name).make(options);
+  planner->limitMemory(static_cast<std::size_t>(options.memory_limit) * 1000000);
+  return planner;
+}
+
+std::vector<std::string> optionsUsedBy(const std::string& name) {
+  const Row& row = rowOf(name);
+  std::vector<std::string> options(row.options.begin(), row.options.end());
+  options.emplace_back("memory_limit");
+  return options;
 }
 
 }  // namespace grid_path_planner

@@ -106,6 +106,11 @@ RouteMaps MapPlanner::followedMaps(const StopToken& stop) {
   return all;
 }
 
+void MapPlanner::finishPreparation(const StopToken& stop) {
+  routes_->prepare(maps(stop), stop);
+  routes_->finishBackgroundWork(stop);
+}
+
 PlanReport MapPlanner::plan(const PoseRequest& request, const StopSource& stop) {
   if (!hasMap()) return failure(Status::NO_MAP, "no map has arrived yet");
   if (!finite(request.start) || !finite(request.goal))

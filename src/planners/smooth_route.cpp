@@ -57,6 +57,7 @@ void smoothRoute(Route& route, const StopToken& stop) {
   for (Leg& leg : legs) cost += smoothCells(*leg.map, leg.cells, leg.points, stop);
   if (!std::isinf(cost)) {
     route.legs = std::move(legs);
+    route.optimal = false;
     route.cost = {};
     route.segment_cost = cost;
   }

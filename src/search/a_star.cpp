@@ -58,6 +58,11 @@ std::size_t AStar::bytesFor(const GridGeometry& geometry) const {
   return search + PreparedHeuristic::bytesFor(options_, geometry);
 }
 
+std::string AStar::waysToLessMemory() const {
+  const std::string ways = PreparedHeuristic::waysToLessMemory(options_);
+  return ways.empty() ? Planner::waysToLessMemory() : ways;
+}
+
 bool AStar::optimalFor(const CostGrid& map) const {
   return traits().optimal && optimalWith(options_, map);
 }

@@ -20,6 +20,7 @@ Traits anyaTraits() {
   traits.cut_corners = false;
   traits.weights = false;
   traits.any_angle = true;
+  traits.shortest = true;
   traits.repairs = true;
   return traits;
 }

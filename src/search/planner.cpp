@@ -77,6 +77,41 @@ std::string usualMessage(Status status, const PlanRequest& request, const std::s
   }
 }
 
+// The weights of a class's passable cells; none: 0.
+struct WeightRange {
+  CostGrid::Weight least = 0;
+  CostGrid::Weight most = 0;
+
+  void add(CostGrid::Weight weight) {
+    least = least == 0 ? weight : std::min(least, weight);
+    most = std::max(most, weight);
+  }
+};
+
+// The options that make passable cells weigh differently on this map, set so that they do not.
+std::string waysToOneWeight(const CostGrid& map) {
+  WeightRange free, unknown, occupied;
+  const Grid<CostGrid::Weight>& weights = map.weights();
+  for (int row = 0; row < weights.height(); ++row)
+    for (int column = 0; column < weights.width(); ++column) {
+      const CostGrid::Weight weight = weights[Cell{column, row}];
+      if (weight == CostGrid::kBlocked) continue;
+      const Occupancy occupancy = map.occupancy({column, row});
+      (occupancy == Occupancy::FREE      ? free
+       : occupancy == Occupancy::UNKNOWN ? unknown
+                                         : occupied)
+          .add(weight);
+    }
+  std::string ways;
+  const auto add = [&ways](const char* way) {
+    ways += (ways.empty() ? "set " : " and ") + std::string(way);
+  };
+  if (unknown.most > free.least) add("unknown_is_passable false or unknown_weight to free_weight");
+  if (occupied.most > free.least) add("occupied_is_passable false");
+  if (free.least != free.most) add("decay 0");
+  return ways;
+}
+
 // Goals that are blocked cannot be reached; the others may.
 PlanRequest withoutBlockedGoals(PlanRequest request, const CostGrid& map) {
   auto& goals = request.goals;
@@ -133,6 +168,10 @@ PlanResult Planner::plan(const PlanRequest& request, const StopToken& stop) {
   return result;
 }
 
+std::string Planner::waysToLessMemory() const {
+  return "raise it or search with a larger kernel";
+}
+
 bool Planner::optimalFor(const CostGrid&) const {
   return traits_.optimal;
 }
@@ -141,22 +180,23 @@ std::string Planner::reasonAgainst(const CostGrid& map) const {
   const std::size_t bytes = bytesFor(map.geometry());
   if (bytes > memory_limit_)
     return sentence("needs ", megabytes(bytes), " MB to search a map of ", sizeOf(map),
-                    ", more than its memory_limit of ", megabytes(memory_limit_), " MB");
+                    ", more than its memory_limit of ", megabytes(memory_limit_),
+                    " MB: ", waysToLessMemory());
   return refusal(map);
 }
 
 std::string Planner::refusal(const CostGrid& map) const {
   const MotionModel& motion = map.motion();
   if (motion.connectivity == Connectivity::FOUR && !traits_.four_connected)
-    return "does not plan with connectivity 4";
+    return "does not plan with connectivity 4, which a_star does";
   if (motion.diagonal_cost == DiagonalCost::UNIT && !traits_.unit_diagonals)
-    return "does not plan with diagonal_cost unit";
-  if (motion.cut_corners && !traits_.cut_corners) return "does not plan with cut_corners";
+    return "does not plan with diagonal_cost unit, which a_star does";
+  if (motion.cut_corners && !traits_.cut_corners)
+    return "does not plan with cut_corners, which a_star does";
   if (!map.uniform() && !traits_.weights)
     return sentence("plans only where all passable cells weigh the same, and these weigh ",
-                    map.cheapest(), " to ", map.dearest(),
-                    ": set unknown_is_passable false or unknown_weight to free_weight,"
-                    " occupied_is_passable false and decay 0, or take another planner");
+                    map.cheapest(), " to ", map.dearest(), ": ", waysToOneWeight(map),
+                    ", or take a_star");
   return "";
 }
 

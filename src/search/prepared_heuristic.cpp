@@ -23,6 +23,14 @@ std::size_t PreparedHeuristic::bytesFor(const SearchOptions& options,
   return 0;
 }
 
+std::string PreparedHeuristic::waysToLessMemory(const SearchOptions& options) {
+  if (options.heuristic == Heuristic::LANDMARK)
+    return "raise it, take fewer landmarks or search with a larger kernel";
+  if (options.heuristic == Heuristic::EXACT)
+    return "heuristic exact holds the cost between every two cells; take landmark or octile";
+  return "";
+}
+
 void PreparedHeuristic::prepare(std::shared_ptr<const CostGrid> map) {
   if (landmarks_)
     landmarks_->prepare(std::move(map));

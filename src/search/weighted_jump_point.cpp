@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "grid_path_planner/search/heuristic.h"
+#include "grid_path_planner/search/prepared_heuristic.h"
 
 namespace grid_path_planner {
 namespace {
@@ -53,6 +54,11 @@ bool WeightedJumpPoint::optimalFor(const CostGrid& map) const {
 
 std::size_t WeightedJumpPoint::bytesFor(const GridGeometry& geometry) const {
   return std::max(WeightedJumpSearch::bytesFor(geometry), AStar(options_).bytesFor(geometry));
+}
+
+std::string WeightedJumpPoint::waysToLessMemory() const {
+  const std::string ways = PreparedHeuristic::waysToLessMemory(options_);
+  return ways.empty() ? Planner::waysToLessMemory() : ways;
 }
 
 BackgroundWork WeightedJumpPoint::backgroundWork() {

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "grid_path_planner/base/option_parsing.h"
+#include "grid_path_planner/planners/unused_options.h"
 
 namespace grid_path_planner::tools {
 namespace {
@@ -120,6 +121,13 @@ PlannerOptions plannerOptionsFrom(const po::variables_map& values, const Planner
   visitOptions(options, FromText{values});
   checkPlannerOptions(options);
   return options;
+}
+
+void warnAboutUnusedOptions(const PlannerOptions& options) {
+  for (const std::string& name : unusedOptions(options))
+    std::cerr << "warning: --" << flagOf(name) << " changes nothing with planner "
+              << options.planner << " and heuristic " << choiceName(options.search.heuristic)
+              << '\n';
 }
 
 }  // namespace grid_path_planner::tools

@@ -32,4 +32,7 @@ void describePlannerOptions(boost::program_options::options_description& known);
 PlannerOptions plannerOptionsFrom(const boost::program_options::variables_map& values,
                                   const PlannerOptions& defaults = {});
 
+// On the standard error, of what changes nothing with this planner.
+void warnAboutUnusedOptions(const PlannerOptions& options);
+
 }  // namespace grid_path_planner::tools

@@ -1,4 +1,5 @@
 // grid_path plan: one path on one map file.
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -51,7 +52,7 @@ Pose poseOf(const std::string& name, const std::string& text, bool cells,
   return pose;
 }
 
-nlohmann::json jsonOf(const PlanReport& report) {
+nlohmann::json jsonOf(const PlanReport& report, double preparation_ms) {
   const bool found = report.status == Status::FOUND;
   nlohmann::json poses = nlohmann::json::array();
   for (const Pose& pose : report.path.poses)
@@ -61,6 +62,7 @@ nlohmann::json jsonOf(const PlanReport& report) {
       {"message", report.message},
       {"cost", nullptr},
       {"lower_bound", nullptr},
+      {"optimal", report.optimal},
       {"length_m", nullptr},
       {"cells", report.cells},
       {"kernel", report.kernel},
@@ -69,7 +71,7 @@ nlohmann::json jsonOf(const PlanReport& report) {
       {"reopened", report.statistics.reopened},
       {"peak_open", report.statistics.peak_open},
       {"planning_time_ms", report.statistics.time_s * 1e3},
-      {"preparation_time_ms", report.preparation_time_s * 1e3},
+      {"preparation_time_ms", preparation_ms},
       {"search_bytes", report.statistics.search_bytes},
       {"path", poses},
   };
@@ -93,6 +95,15 @@ std::vector<Cell> cellsOf(const PlanReport& report, const GridGeometry& geometry
   return cells;
 }
 
+// Where the planner promises the cheapest path by itself, but not with these options.
+void warnAboutPromise(const PlannerOptions& options) {
+  if (options.terrain.kernel != 1 || options.smooth) return;
+  if (!makePlanner(options.planner)->traits().optimal) return;
+  std::cerr << "warning: the path may not be the cheapest: with this heuristic, heuristic_scale or "
+               "epsilon "
+            << options.planner << " does not promise it\n";
+}
+
 }  // namespace
 
 int runPlan(int argc, char** argv) {
@@ -101,6 +112,7 @@ int runPlan(int argc, char** argv) {
                       "grid_path plan --map FILE --start X,Y --goal X,Y [options]", values))
     return kFound;
   const PlannerOptions options = plannerOptionsFrom(values);
+  warnAboutUnusedOptions(options);
 
   MapFileOptions reading;
   reading.warn = [](const std::string& warning) { std::cerr << "warning: " << warning << '\n'; };
@@ -116,7 +128,12 @@ int runPlan(int argc, char** argv) {
 
   MapPlanner planner(options);
   planner.setMap(map);
+  const auto begin = std::chrono::steady_clock::now();
+  planner.finishPreparation(StopToken());
+  const std::chrono::duration<double, std::milli> prepared =
+      std::chrono::steady_clock::now() - begin;
   const PlanReport report = planner.plan(request);
+  if (report.status == Status::FOUND && !report.optimal) warnAboutPromise(options);
 
   if (values.count("image") != 0)
     writePicture(values["image"].as<std::string>(), *map, options.terrain.thresholds,
@@ -124,7 +141,7 @@ int runPlan(int argc, char** argv) {
   if (values.count("waypoints") != 0 && report.status == Status::FOUND)
     writeWaypointFile(values["waypoints"].as<std::string>(), report.path);
   if (values.count("json") != 0)
-    std::cout << jsonOf(report).dump() << '\n';
+    std::cout << jsonOf(report, prepared.count()).dump() << '\n';
   else
     std::cout << toString(report.status) << ": " << report.message << '\n';
   if (report.status == Status::INVALID_REQUEST) return kBadInput;

@@ -27,6 +27,7 @@ namespace po = boost::program_options;
 
 constexpr double kRelativeError = 1e-5;  // the files' costs are rounded
 constexpr double kRounding = 1e-12;      // a planner's once, by exact integers
+constexpr double kRootsRounding = 1e-9;
 
 constexpr char kFile[] = "file";  // as reference: the file's own costs
 
@@ -90,15 +91,32 @@ PlanRequest requestOf(const ScenarioQuery& query, int kernel) {
   return {block(query.start), {block(query.goal)}, false};
 }
 
+// A planner that refuses the map refuses every query.
+PlanResult answerOf(Planner& planner, const PlanRequest& request) {
+  PlanResult result = planner.plan(request, StopToken());
+  if (result.status == Status::INVALID_REQUEST) throw InputError(result.message);
+  return result;
+}
+
 // Answers what the queries' least costs are.
 class Reference {
  public:
-  // Throws InputError for a name that is neither "file" nor a planner's.
-  Reference(const std::string& name, const std::shared_ptr<const CostGrid>& map)
+  // Throws InputError for a name that is neither "file" nor a planner's, and for a planner whose
+  // answers say nothing about those of `judged`.
+  Reference(const std::string& name, const std::shared_ptr<const CostGrid>& map,
+            const Traits& judged)
       : name_(name), kernel_(map->kernel()) {
-    if (name_ == kFile) return;
-    planner_ = makePlanner(name_);
-    planner_->prepare(map, StopToken());
+    if (name_ != kFile) planner_ = plannerNamed(name_);
+    const bool any_angle = planner_ && planner_->traits().any_angle;
+    if (any_angle && !judged.any_angle)
+      throw InputError("--reference " + name_ +
+                       " finds paths of any angle, which no path over the grid can be as short as");
+    if (planner_ && !(any_angle ? planner_->traits().shortest : planner_->optimalFor(*map)))
+      throw InputError("--reference " + name_ + " does not promise the least cost on this map");
+    right_ = any_angle == judged.any_angle && any_angle == judged.shortest ? Right::EQUAL
+             : any_angle                                                   ? Right::NOT_LESS
+                                                                           : Right::NOT_MORE;
+    if (planner_) planner_->prepare(map, StopToken());
   }
 
   const std::string& name() const { return name_; }
@@ -106,26 +124,40 @@ class Reference {
   // None where there is no path.
   std::optional<double> costOf(const ScenarioQuery& query) const {
     if (!planner_) return query.optimum;
-    const PlanResult result = planner_->plan(requestOf(query, kernel_), StopToken());
+    const PlanResult result = answerOf(*planner_, requestOf(query, kernel_));
     if (result.status == Status::FOUND) return result.costValue();
     return std::nullopt;
   }
 
-  // Paths of any angle may be cheaper than the reference's.
-  bool contradicts(const PlanResult& result, const std::optional<double>& least,
-                   bool any_angle) const {
+  bool contradicts(const PlanResult& result, const std::optional<double>& least) const {
     if ((result.status == Status::FOUND) != least.has_value()) return true;
     if (!least) return false;
-    const double more = result.costValue() - *least;
-    return (any_angle ? more : std::abs(more)) > tolerance() * *least;
+    const double more = result.costValue() - *least, allowed = tolerance() * *least;
+    return (right_ != Right::NOT_MORE && more < -allowed) ||
+           (right_ != Right::NOT_LESS && more > allowed);
   }
 
-  // Relative: the file's optima are rounded.
-  double tolerance() const { return planner_ ? kRounding : kRelativeError; }
+  // Relative: the file's optima are rounded, and the lengths of any angle are sums of roots.
+  double tolerance() const {
+    if (!planner_) return kRelativeError;
+    return planner_->traits().any_angle ? kRootsRounding : kRounding;
+  }
 
  private:
+  // What a right cost is: paths of any angle may be cheaper than those over the grid.
+  enum class Right { EQUAL, NOT_MORE, NOT_LESS };
+
+  static std::unique_ptr<Planner> plannerNamed(const std::string& name) {
+    const std::vector<std::string>& known = plannerNames();
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError("--reference must be file or a planner (" + listOfPlanners() + "), got '" +
+                       name + "'");
+    return makePlanner(name);
+  }
+
   std::string name_;
   int kernel_;
+  Right right_;
   std::unique_ptr<Planner> planner_;  // none: the file
 };
 
@@ -177,6 +209,7 @@ int runScenarios(int argc, char** argv) {
     return 0;
   const std::string file = values["scen"].as<std::string>();
   const PlannerOptions options = plannerOptionsFrom(values);
+  warnAboutUnusedOptions(options);
   const std::vector<ScenarioQuery> all = readScenarioFile(file);
   const std::vector<ScenarioQuery> queries = spreadOver(all, limitOf(values));
   const std::string map_file = values.count("map") != 0 ? values["map"].as<std::string>()
@@ -190,7 +223,9 @@ int runScenarios(int argc, char** argv) {
   planner->prepare(map, StopToken());
   planner->finishBackgroundWork(StopToken());
   const std::chrono::duration<double> preparation = std::chrono::steady_clock::now() - begin;
-  const Reference reference(referenceNameOf(values, options.terrain), map);
+  Traits judged = planner->traits();
+  judged.any_angle |= options.smooth;
+  const Reference reference(referenceNameOf(values, options.terrain), map, judged);
 
   Totals totals;
   Ratios ratios;
@@ -200,11 +235,10 @@ int runScenarios(int argc, char** argv) {
   ProgressBar bar(queries.size());
   for (const ScenarioQuery& query : queries) {
     checkScenarioQuery(query, terrain.fine(StopToken())->geometry(), file);
-    PlanResult result = planner->plan(requestOf(query, map->kernel()), StopToken());
+    PlanResult result = answerOf(*planner, requestOf(query, map->kernel()));
     if (result.status == Status::FOUND && options.smooth) smoothResult(*map, result, StopToken());
-    const bool any_angle = planner->traits().any_angle || options.smooth;
     const std::optional<double> least = reference.costOf(query);
-    const bool wrong = reference.contradicts(result, least, any_angle);
+    const bool wrong = reference.contradicts(result, least);
     totals.wrong += wrong ? 1 : 0;
     if (least) ratios.add(result, *least, reference.tolerance());
     if (least)

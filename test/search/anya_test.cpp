@@ -82,13 +82,17 @@ TEST(Anya, StaysWhereItIs) {
 TEST(Anya, SaysWhatItCannotPlanWith) {
   EXPECT_EQ(planOn(test::AsciiMap({"S?G"})).message,
             "anya plans only where all passable cells weigh the same, and these weigh 1 to 50: set "
-            "unknown_is_passable false or unknown_weight to free_weight, occupied_is_passable "
-            "false and decay 0, or take another planner");
+            "unknown_is_passable false or unknown_weight to free_weight, or take a_star");
+  TerrainOptions inflated;
+  inflated.decay = 1.0;
+  EXPECT_EQ(planOn(costsOf(test::AsciiMap({"S..#..G"}).map, inflated), {0, 0}, {2, 0}).message,
+            "anya plans only where all passable cells weigh the same, and these weigh 4 to 25: set "
+            "decay 0, or take a_star");
   TerrainOptions options;
   options.motion.cut_corners = true;
   const PlanResult result = planOn(costsOf(test::AsciiMap({"S.G"}).map, options), {0, 0}, {2, 0});
   EXPECT_EQ(result.status, Status::INVALID_REQUEST);
-  EXPECT_EQ(result.message, "anya does not plan with cut_corners");
+  EXPECT_EQ(result.message, "anya does not plan with cut_corners, which a_star does");
 }
 
 // One weight, whatever it is; rectangles or single cells blocked.

@@ -119,7 +119,7 @@ TEST(ThetaStar, SaysWhatItCannotPlanWith) {
   options.motion.connectivity = Connectivity::FOUR;
   const PlanResult result = planOn(costsOf(test::AsciiMap({"S.G"}).map, options), {0, 0}, {2, 0});
   EXPECT_EQ(result.status, Status::INVALID_REQUEST);
-  EXPECT_EQ(result.message, "theta_star does not plan with connectivity 4");
+  EXPECT_EQ(result.message, "theta_star does not plan with connectivity 4, which a_star does");
 }
 
 // Never below the straight line; together shorter than grid paths, which is what it is for.

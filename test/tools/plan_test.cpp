@@ -90,6 +90,43 @@ TEST_F(Plan, OptionsReachThePlanner) {
       3.0);
 }
 
+TEST_F(Plan, SaysWhetherThePathIsTheCheapest) {
+  const auto optimalWith = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--cells", "--start", "0,0", "--goal", "3,2", "--json"});
+    testing::internal::CaptureStderr();
+    const Outcome outcome = plan(more);
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    const std::string warning = testing::internal::GetCapturedStderr();
+    const bool optimal = nlohmann::json::parse(outcome.printed)["optimal"];
+    EXPECT_EQ(contains(warning, "may not be the cheapest"),
+              !optimal && more[0] != "--planner" && more[0] != "--smooth")
+        << warning;
+    return optimal;
+  };
+  EXPECT_TRUE(optimalWith({}));
+  EXPECT_TRUE(optimalWith({"--planner", "dijkstra"}));
+  EXPECT_FALSE(optimalWith({"--planner", "theta_star"}));
+  EXPECT_FALSE(optimalWith({"--smooth", "true"}));
+  EXPECT_FALSE(optimalWith({"--epsilon", "2"}));
+  EXPECT_FALSE(optimalWith({"--heuristic", "manhattan"}));
+}
+
+TEST_F(Plan, OptionsThatChangeNothingAreTold) {
+  const auto warningsWith = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--start", "0.5,0.5", "--goal", "3.5,2.5"});
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(plan(more).code, 0);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(warningsWith({"--planner", "jump_point", "--epsilon", "2"}),
+            "warning: --epsilon changes nothing with planner jump_point and heuristic octile\n");
+  EXPECT_EQ(warningsWith({"--landmarks", "4"}),
+            "warning: --landmarks changes nothing with planner weighted_jump_point and heuristic "
+            "octile\n");
+  EXPECT_EQ(warningsWith({"--landmarks", "4", "--heuristic", "landmark"}), "");
+  EXPECT_EQ(warningsWith({"--planner", "rectangle_map", "--rectangle-weight", "area"}), "");
+}
+
 TEST_F(Plan, BadInputIsNamed) {
   const auto errorWith = [&](std::vector<std::string> arguments) {
     const Outcome outcome = plan(std::move(arguments));

@@ -88,7 +88,33 @@ TEST_F(Scenarios, AReferenceMayBeNamed) {
   EXPECT_EQ(scenarios({"--scen", wrong, "--reference", "file"}).code, 1);
   const Outcome unknown = scenarios({"--scen", wrong, "--reference", "nobody"});
   EXPECT_EQ(unknown.code, kBadInput);
+  EXPECT_TRUE(contains(unknown.error, "--reference must be file or a planner")) << unknown.error;
   EXPECT_TRUE(contains(unknown.error, "nobody")) << unknown.error;
+}
+
+// Each kind of path is judged by what it can be as good as.
+TEST_F(Scenarios, AReferenceOfAnyAngleJudgesPathsOfAnyAngle) {
+  const std::string file = scenario("5");
+  const auto errorOf = [&](const std::string& planner, const std::string& reference) {
+    return scenarios({"--scen", file, "--planner", planner, "--reference", reference}).error;
+  };
+  EXPECT_TRUE(contains(errorOf("a_star", "anya"), "no path over the grid can be as short"));
+  EXPECT_TRUE(contains(errorOf("anya", "theta_star"), "does not promise the least cost"));
+  EXPECT_TRUE(contains(errorOf("a_star", "a_star_published"), "does not promise the least cost"));
+  const Outcome same = scenarios({"--scen", file, "--planner", "anya", "--reference", "anya"});
+  EXPECT_TRUE(contains(lastLine(same), "queries=3 solved=3 wrong=0 ")) << same.error;
+  const Outcome longer =
+      scenarios({"--scen", file, "--planner", "theta_star", "--reference", "anya"});
+  EXPECT_TRUE(contains(lastLine(longer), "queries=3 solved=3 wrong=0 ")) << longer.error;
+}
+
+// From a newcomer: refusals were counted as wrong answers, without their sentence.
+TEST_F(Scenarios, APlannerThatRefusesTheMapSaysWhy) {
+  const Outcome outcome =
+      scenarios({"--scen", scenario("5"), "--planner", "jump_point", "--decay", "0.5"});
+  EXPECT_EQ(outcome.code, kBadInput);
+  EXPECT_TRUE(contains(outcome.error, "jump_point plans only where")) << outcome.error;
+  EXPECT_TRUE(contains(outcome.error, "set decay 0, or take a_star")) << outcome.error;
 }
 
 TEST_F(Scenarios, APathOfAnyAngleMayBeShorterThanTheGrids) {

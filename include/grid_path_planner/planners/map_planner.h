@@ -88,6 +88,8 @@ struct PlanReport {
   double segment_cost = 0.0;
   double costValue() const { return cost.toDouble() + segment_cost; }
   double lower_bound = 0.0;  // as in PlanResult
+  bool optimal = false;      // the planner promises that no path between the end cells costs less;
+                             // never of a kernel or a smoothed path
   double length_m = 0.0;
   std::size_t cells = 0;  // of the path on the map that was searched
   int kernel = 1;         // of the map that was searched
@@ -121,6 +123,10 @@ class MapPlanner {
   // Precondition: hasMap().
   std::shared_ptr<const CostGrid> fineCosts(const StopToken& stop);      // kernel 1, inflated
   std::shared_ptr<const CostGrid> searchedCosts(const StopToken& stop);  // options().terrain.kernel
+
+  // Returns when all is made that plan() uses, the planner's background work too, without which the
+  // first plans take longer. Throws Stopped. Precondition: hasMap().
+  void finishPreparation(const StopToken& stop);
 
   // Every failure but a bug is a status; options().timeout runs beside the token's own limit.
   PlanReport plan(const PoseRequest& request, const StopSource& stop = {});

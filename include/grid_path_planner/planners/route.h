@@ -33,6 +33,7 @@ struct Route {
   ExactCost cost;         // as in PlanResult
   double segment_cost = 0.0;
   double lower_bound = 0.0;  // as in PlanResult; 0 where legs are joined
+  bool optimal = false;      // the planner promises that none costs less on the map searched
   int kernel = 1;            // of the map that the longest part was searched on
   Statistics statistics;
   std::vector<Eigen::Vector2d> expanded;  // centres, metres
@@ -59,6 +60,9 @@ class RouteFinder {
   // Keeps up with maps that nothing is asked about yet, if prepare() was called and that is cheap:
   // so the planner misses no revision. Throws Stopped.
   void follow(const RouteMaps& maps, const StopToken& stop);
+
+  // Returns when the planner has made what it makes in the background. Throws Stopped.
+  void finishBackgroundWork(const StopToken& stop) { planner_->finishBackgroundWork(stop); }
 
   // Precondition: both cells are passable on the fine map.
   Route find(Cell start, Cell goal, bool retry_finer, bool record_expanded, const StopToken& stop);

@@ -34,6 +34,7 @@ struct Traits {
   bool optimal = false;        // can be; optimalFor() says whether it is, on a map with its options
   bool heuristic = false;      // is guided by SearchOptions::heuristic
   bool any_angle = false;      // the result is turning points: PlanResult::points
+  bool shortest = false;       // of any angle, and none is shorter, but for rounding
   bool several_goals = false;  // answers "the nearest of these goals"
   bool repairs = false;        // update() costs less than prepare()
   // plan() goes on from the searches before: its statistics are of what it did anew, and which of
@@ -115,6 +116,9 @@ class Planner {
   const std::shared_ptr<const CostGrid>& sharedMap() const { return map_; }
   // The map that update() replaces. Precondition: called by doUpdate().
   const CostGrid& mapBefore() const { return *map_before_; }
+
+  // What a user may do where bytesFor() is more than the limit.
+  virtual std::string waysToLessMemory() const;
 
   // The reason why this planner cannot search `map`, "" where it can.
   virtual std::string refusal(const CostGrid& map) const;

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "grid_path_planner/search/exact_table.h"
@@ -32,6 +33,8 @@ class PreparedHeuristic {
 
   // Two tables at most: one in use while the next is made.
   static std::size_t bytesFor(const SearchOptions& options, const GridGeometry& geometry);
+  // What a user may do where that is too much; "" where the heuristic takes none.
+  static std::string waysToLessMemory(const SearchOptions& options);
 
   // As those of PreparedTable; nothing where there is no table to make.
   void prepare(std::shared_ptr<const CostGrid> map);

@@ -34,6 +34,7 @@ class WeightedJumpPoint : public Planner {
   void finishBackgroundWork(const StopToken& stop) override;
 
  protected:
+  std::string waysToLessMemory() const override;
   void doPrepare(const StopToken& stop) override;
   void doUpdate(const CellRect& changed, const StopToken& stop) override;
   PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
