@@ -25,6 +25,19 @@ GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info) {
                       decimalOfFloat(info.resolution), {position.x, position.y, yaw});
 }
 
+nav_msgs::MapMetaData geometryToMessage(const GridGeometry& geometry, const ros::Time& load_time) {
+  nav_msgs::MapMetaData info;
+  info.map_load_time = load_time;
+  info.resolution = static_cast<float>(geometry.resolution());
+  info.width = static_cast<std::uint32_t>(geometry.width());
+  info.height = static_cast<std::uint32_t>(geometry.height());
+  info.origin.position.x = geometry.origin().x;
+  info.origin.position.y = geometry.origin().y;
+  info.origin.orientation.z = std::sin(geometry.origin().yaw / 2.0);
+  info.origin.orientation.w = std::cos(geometry.origin().yaw / 2.0);
+  return info;
+}
+
 OccupancyGrid occupancyFromMessage(const nav_msgs::OccupancyGrid& message) {
   OccupancyGrid map(geometryFromMessage(message.info), message.data);
   checkOccupancyValues(map);
@@ -33,18 +46,10 @@ OccupancyGrid occupancyFromMessage(const nav_msgs::OccupancyGrid& message) {
 
 nav_msgs::OccupancyGrid occupancyToMessage(const OccupancyGrid& map, const std::string& frame_id,
                                            const ros::Time& stamp) {
-  const GridGeometry& geometry = map.geometry();
   nav_msgs::OccupancyGrid message;
   message.header.frame_id = frame_id;
   message.header.stamp = stamp;
-  message.info.map_load_time = stamp;
-  message.info.resolution = static_cast<float>(geometry.resolution());
-  message.info.width = static_cast<std::uint32_t>(geometry.width());
-  message.info.height = static_cast<std::uint32_t>(geometry.height());
-  message.info.origin.position.x = geometry.origin().x;
-  message.info.origin.position.y = geometry.origin().y;
-  message.info.origin.orientation.z = std::sin(geometry.origin().yaw / 2.0);
-  message.info.origin.orientation.w = std::cos(geometry.origin().yaw / 2.0);
+  message.info = geometryToMessage(map.geometry(), stamp);
   message.data = map.values();
   return message;
 }

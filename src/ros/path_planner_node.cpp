@@ -23,6 +23,10 @@ PathPlannerNodeOptions loadOptions(const ros::NodeHandle& private_nh) {
   return options;
 }
 
+std::size_t memoryLimitOf(const PathPlannerNodeOptions& options) {
+  return static_cast<std::size_t>(options.planner.search.memory_limit) * 1000000;
+}
+
 }  // namespace
 
 PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh) : nh_(nh) {
@@ -117,19 +121,31 @@ void PathPlannerNode::useMap(const StopSource& stop) {
   const PathPlannerNodeOptions options = desk_->settings().options;
   try {
     waitForClock(stop.token());
-    publishPlanningMap(options, stop);
+    publishSearchedMap(options, stop);
     if (goalPathBlocked(options, stop)) postPlanForGoal();
   } catch (const Stopped&) {
     // The node ends.
   }
 }
 
-void PathPlannerNode::publishPlanningMap(const PathPlannerNodeOptions& options,
+void PathPlannerNode::publishSearchedMap(const PathPlannerNodeOptions& options,
                                          const StopSource& stop) {
   const auto costs = desk_->engine().searchedCosts(options, stop.token());
-  if (!costs || costs == published_costs_) return;
+  const bool changed = costs && costs != published_costs_;
+  if (changed) desk_->publisher().publishMap(*costs, desk_->engine().frame(options));
   published_costs_ = costs;
-  desk_->publisher().publishMap(*costs, desk_->engine().frame(options));
+  publishRectangles(options, changed);
+}
+
+void PathPlannerNode::publishRectangles(const PathPlannerNodeOptions& options, bool map_changed) {
+  const bool wanted_before = rectangles_ != nullptr;
+  if (!options.publish_rectangles) {
+    rectangles_.reset();
+    return;
+  }
+  if (!wanted_before) rectangles_ = std::make_unique<RectanglePublisher>(nh_);
+  if (published_costs_ && (map_changed || !wanted_before))
+    rectangles_->publish(published_costs_, desk_->engine().frame(options), memoryLimitOf(options));
 }
 
 bool PathPlannerNode::goalPathBlocked(const PathPlannerNodeOptions& options,

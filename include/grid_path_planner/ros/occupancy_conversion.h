@@ -24,6 +24,8 @@ std::string frameName(const std::string& frame_id);
 // The geometry that a message describes, without its cells. Throws InputError for what GridGeometry
 // refuses and for an origin that is not level.
 GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info);
+// The origin's z is 0.
+nav_msgs::MapMetaData geometryToMessage(const GridGeometry& geometry, const ros::Time& load_time);
 
 // Throws InputError for a message that is no map: no cells, a number of values other than width x
 // height, a value outside -1..100, a resolution that is not positive and finite, an origin that is

@@ -20,6 +20,7 @@
 #include "grid_path_planner/ros/plan_desk.h"
 #include "grid_path_planner/ros/plan_diagnostics.h"
 #include "grid_path_planner/ros/plan_services.h"
+#include "grid_path_planner/ros/rectangle_publisher.h"
 
 namespace grid_path_planner {
 
@@ -48,7 +49,8 @@ class PathPlannerNode {
   bool keepsOldPath(const KeptGoal& goal, const PlanAnswer& answer,
                     const PlanDesk::Settings& settings, const StopSource& stop);
   void useMap(const StopSource& stop);
-  void publishPlanningMap(const PathPlannerNodeOptions& options, const StopSource& stop);
+  void publishSearchedMap(const PathPlannerNodeOptions& options, const StopSource& stop);
+  void publishRectangles(const PathPlannerNodeOptions& options, bool map_changed);
   bool goalPathBlocked(const PathPlannerNodeOptions& options, const StopSource& stop);
 
   void postPlanForGoal();
@@ -56,6 +58,7 @@ class PathPlannerNode {
   ros::NodeHandle nh_;
   GoalKeeper goals_;
   std::shared_ptr<const CostGrid> published_costs_;  // the worker's
+  std::unique_ptr<RectanglePublisher> rectangles_;   // the worker's; null unless wanted
   std::unique_ptr<PlanDesk> desk_;
   std::unique_ptr<PlanServices> services_;
   std::unique_ptr<PlanAction> action_;

@@ -23,6 +23,7 @@ struct PathPlannerNodeOptions {
   double replan_hysteresis = 0.1;  // of the new path's cost
   std::string waypoints_file;      // "": none
   bool record_search = true;
+  bool publish_rectangles = false;
 };
 
 template <class Visitor>
@@ -48,6 +49,9 @@ void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
   visit("record_search", o.record_search,
         OptionInfo{"Whether search_markers show the expanded cells; false saves 16 bytes for each",
                    ""});
+  visit("publish_rectangles", o.publish_rectangles,
+        OptionInfo{
+            "Whether rectangle_map and rectangle_markers tell the searched map as rectangles", ""});
 }
 
 // Throws InputError naming the option.

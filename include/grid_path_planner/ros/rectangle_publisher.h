@@ -1,0 +1,43 @@
+// Tells the map that is searched as rectangles: `rectangle_map` and `rectangle_markers`, latched.
+//
+//   RectanglePublisher publisher(nh);
+//   publisher.publish(costs, "map", memory_limit);     // returns at once
+//
+// Maps are cut in a thread of their own, so nobody waits for that; where maps come faster than they
+// are cut, those in between are left out, and the last is always told. A map that would take more
+// than the limit to cut is refused with an error in the log, and the rectangles before it stay.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "grid_path_planner/ros/plan_worker.h"
+#include "grid_path_planner/terrain/cost_grid.h"
+
+namespace grid_path_planner {
+
+class RectanglePublisher {
+ public:
+  // Advertises both topics.
+  explicit RectanglePublisher(ros::NodeHandle nh);
+  // Stops what is under way and takes the topics back.
+  ~RectanglePublisher() { worker_.stop(); }
+
+  // The passable cells of `costs`, in this frame. `memory_limit` in bytes.
+  void publish(std::shared_ptr<const CostGrid> costs, const std::string& frame_id,
+               std::size_t memory_limit);
+
+ private:
+  void cutAndTell(std::shared_ptr<const CostGrid> costs, const std::string& frame_id,
+                  std::size_t memory_limit, const StopToken& stop) const;
+
+  ros::Publisher map_;
+  ros::Publisher markers_;
+  PlanWorker worker_;
+};
+
+}  // namespace grid_path_planner

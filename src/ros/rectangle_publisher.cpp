@@ -1,0 +1,50 @@
+#include "grid_path_planner/ros/rectangle_publisher.h"
+
+#include <ros/console.h>
+
+#include <utility>
+
+#include "grid_path_planner/rectangles/decomposition.h"
+#include "grid_path_planner/ros/rectangle_markers.h"
+#include "grid_path_planner/ros/rectangle_messages.h"
+
+namespace grid_path_planner {
+
+RectanglePublisher::RectanglePublisher(ros::NodeHandle nh)
+    : map_(nh.advertise<RectangleMapMessage>("rectangle_map", 1, true)),
+      markers_(nh.advertise<visualization_msgs::MarkerArray>("rectangle_markers", 1, true)) {}
+
+void RectanglePublisher::publish(std::shared_ptr<const CostGrid> costs, const std::string& frame_id,
+                                 std::size_t memory_limit) {
+  worker_.post(
+      [this, costs = std::move(costs), frame_id, memory_limit](const StopSource& stop) mutable {
+        try {
+          cutAndTell(std::move(costs), frame_id, memory_limit, stop.token());
+        } catch (const Stopped&) {
+          // Nobody wants the rectangles any more.
+        }
+      },
+      "rectangles");
+}
+
+void RectanglePublisher::cutAndTell(std::shared_ptr<const CostGrid> costs,
+                                    const std::string& frame_id, std::size_t memory_limit,
+                                    const StopToken& stop) const {
+  const GridGeometry geometry = costs->geometry();
+  const BitMaps free = costs->bitMaps(stop);
+  costs.reset();  // while somebody holds it, the map cannot take its turn to be changed
+  const std::size_t bytes = largestFirstBytes(geometry, countRuns(free.rows));
+  if (bytes > memory_limit) {
+    ROS_ERROR(
+        "It takes %zu MB to cut this map into rectangles, more than memory_limit: they are "
+        "not published",
+        bytes / 1000000);
+    return;
+  }
+  const std::vector<CellRect> rectangles = largestFirst(free, {}, stop);
+  const ros::Time now = ros::Time::now();
+  map_.publish(rectanglesToMessage(geometry, rectangles, frame_id, now));
+  markers_.publish(rectangleMarkers(geometry, rectangles, frame_id, now));
+}
+
+}  // namespace grid_path_planner
