@@ -1,6 +1,7 @@
 #include "grid_path_planner/planners/catalogue.h"
 
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/rectangles/polyanya.h"
 #include "grid_path_planner/rectangles/rectangle_map_planner.h"
 #include "grid_path_planner/search/a_star.h"
 #include "grid_path_planner/search/anya.h"
@@ -56,6 +57,7 @@ constexpr Row kCatalogue[] = {
     {"theta_star", plain<ThetaStar>, kNone},
     {"lazy_theta_star", lazyThetaStar, kNone},
     {"anya", plain<Anya>, kNone},
+    {"polyanya", plain<Polyanya>, kNone},
     {"rectangle_map", withOptions<RectangleMapPlanner>, kRectangles},
     {"coarse_to_fine", withOptions<CoarseToFine>, kAccuracy},
     {"a_star_published", publishedAStar, kGuided},

@@ -41,15 +41,6 @@ std::vector<Cell> throughTheMiddles(const RectangleMap& map, const RectangleRout
   return cells;
 }
 
-// A passable cell that touches a lattice point where a path may turn.
-Cell cellAt(const CostGrid& map, SegmentPoint point) {
-  const auto column = static_cast<int>(point.x / SegmentPoint::kUnitsPerCell);
-  const auto row = static_cast<int>(point.y / SegmentPoint::kUnitsPerCell);
-  for (const Cell cell : {Cell{column, row}, Cell{column - 1, row}, Cell{column, row - 1}})
-    if (map.passable(cell)) return cell;
-  return {column - 1, row - 1};
-}
-
 }  // namespace
 
 RectangleMapPlanner::RectangleMapPlanner(const SearchOptions& options)
@@ -83,7 +74,8 @@ void RectangleMapPlanner::keep(const RectangleRoute& route, const PlanRequest& r
   if (options_.rectangle_funnel) {
     result.points =
         shortestThrough(rectangles(), route, waypointOf(map(), start), waypointOf(map(), goal));
-    for (const SegmentPoint point : result.points) result.cells.push_back(cellAt(map(), point));
+    for (const SegmentPoint point : result.points)
+      result.cells.push_back(passableCellAt(map(), point));
     result.cells.front() = start;
     result.cells.back() = goal;
   } else {

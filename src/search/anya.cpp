@@ -33,14 +33,6 @@ SegmentPoint inUnits(TautSearch::Point point) {
   return {std::llround(point.x * kUnit), std::llround(point.y * kUnit)};
 }
 
-// A passable cell that has this corner. Precondition: there is one.
-Cell cellAtCorner(const CostGrid& map, TautSearch::Point corner) {
-  const int column = static_cast<int>(corner.x), row = static_cast<int>(corner.y);
-  for (const Cell cell : {Cell{column, row}, Cell{column - 1, row}, Cell{column, row - 1}})
-    if (map.passable(cell)) return cell;
-  return {column - 1, row - 1};
-}
-
 }  // namespace
 
 Anya::Anya() : Planner(anyaTraits()), search_(std::make_unique<TautSearch>()) {}
@@ -76,8 +68,9 @@ PlanResult Anya::doPlan(const PlanRequest& request, const StopToken& stop) {
   result.segment_cost = answer.length * map().cheapest() * map().kernel();
   for (const TautSearch::Point& point : answer.points) {
     result.points.push_back(inUnits(point));
-    result.cells.push_back(result.cells.empty() ? start : cellAtCorner(map(), point));
+    result.cells.push_back(passableCellAt(map(), result.points.back()));
   }
+  result.cells.front() = start;
   result.cells.back() = goal;
   return result;
 }

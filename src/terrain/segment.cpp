@@ -158,6 +158,13 @@ Eigen::Vector2d worldOf(const CostGrid& map, SegmentPoint point) {
       Eigen::Vector2d(double(point.x) / double(kUnit), double(point.y) / double(kUnit)));
 }
 
+Cell passableCellAt(const CostGrid& map, SegmentPoint point) {
+  const int column = static_cast<int>(point.x / kUnit), row = static_cast<int>(point.y / kUnit);
+  for (const Cell cell : {Cell{column, row}, Cell{column - 1, row}, Cell{column, row - 1}})
+    if (map.passable(cell)) return cell;
+  return {column - 1, row - 1};
+}
+
 bool segmentLegal(const CostGrid& map, SegmentPoint from, SegmentPoint to) {
   const auto inside = [&map](SegmentPoint point) {
     return point.x >= 0 && point.x <= map.geometry().width() * kUnit && point.y >= 0 &&

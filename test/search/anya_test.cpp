@@ -8,7 +8,7 @@
 #include "support/ascii_map.h"
 #include "support/costs_of.h"
 #include "support/random_map.h"
-#include "support/visibility_graph.h"
+#include "support/shortest_any_angle.h"
 
 namespace grid_path_planner {
 namespace {
@@ -95,42 +95,9 @@ TEST(Anya, SaysWhatItCannotPlanWith) {
   EXPECT_EQ(result.message, "anya does not plan with cut_corners, which a_star does");
 }
 
-// One weight, whatever it is; rectangles or single cells blocked.
-std::shared_ptr<const CostGrid> randomUniform(std::mt19937& random, int largest_side) {
-  const auto below = [&random](int limit) { return static_cast<int>(random() % limit); };
-  const auto weight = static_cast<CostGrid::Weight>(1 + below(3));
-  Grid<CostGrid::Weight> weights(
-      GridGeometry(1 + below(largest_side), 1 + below(largest_side), 1.0), weight);
-  const bool rectangles = below(2) == 0;
-  const double share = below(500) * 1e-3;
-  const int wanted =
-      static_cast<int>(share * (rectangles ? 20.0 : double(weights.values().size())));
-  for (int i = 0; i < wanted; ++i) {
-    const Cell low = test::randomCell(random, weights.geometry());
-    const CellRect rect =
-        CellRect{low.column, low.row, rectangles ? 1 + below(5) : 1, rectangles ? 1 + below(5) : 1}
-            .intersection(weights.geometry().rect());
-    for (int row = rect.row; row < rect.row + rect.height; ++row)
-      std::fill_n(weights.row(row) + rect.column, rect.width, CostGrid::kBlocked);
-  }
-  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
-  return std::make_shared<const CostGrid>(weights, classes, MotionModel());
-}
-
 void expectShortest(const std::shared_ptr<const CostGrid>& map, Cell start, Cell goal, int& found) {
-  const PlanResult result = planOn(map, start, goal);
-  const auto shortest = test::shortestAnyAngle(*map, start, goal);
-  ASSERT_EQ(result.status, shortest ? Status::FOUND : Status::UNREACHABLE);
-  if (!shortest) return;
-  ++found;
-  const double scale = map->cheapest() * map->kernel();
-  EXPECT_NEAR(result.costValue(), *shortest * scale, 1e-9 * *shortest * scale);
-  double cost = 0.0;
-  for (std::size_t i = 1; i < result.points.size(); ++i) {
-    ASSERT_TRUE(segmentLegal(*map, result.points[i - 1], result.points[i]));
-    cost += segmentCost(*map, result.points[i - 1], result.points[i]);
-  }
-  EXPECT_NEAR(result.costValue(), cost, 1e-9 * cost);
+  Anya planner;
+  test::expectShortest(planner, map, start, goal, found);
 }
 
 TEST(AnyaLaw, IsAsShortAsTheVisibilityGraph) {
@@ -138,7 +105,7 @@ TEST(AnyaLaw, IsAsShortAsTheVisibilityGraph) {
   int found = 0;
   for (int trial = 0; trial < 6000; ++trial) {
     SCOPED_TRACE("trial " + std::to_string(trial));
-    const auto map = randomUniform(random, 16);
+    const auto map = test::randomUniform(random, 16);
     const Cell start = test::randomCell(random, map->geometry());
     const Cell goal = test::randomCell(random, map->geometry());
     if (map->passable(start) && map->passable(goal)) expectShortest(map, start, goal, found);

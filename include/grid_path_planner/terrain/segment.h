@@ -40,6 +40,9 @@ struct SegmentPoint {
 SegmentPoint waypointOf(const CostGrid& map, Cell cell);
 // The same place as a point of the map's plane, in metres.
 Eigen::Vector2d worldOf(const CostGrid& map, SegmentPoint point);
+// A passable cell that the point lies in or, a lattice point, is a corner of. Precondition: there
+// is one.
+Cell passableCellAt(const CostGrid& map, SegmentPoint point);
 
 bool segmentLegal(const CostGrid& map, SegmentPoint from, SegmentPoint to);
 

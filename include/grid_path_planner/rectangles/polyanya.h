@@ -1,0 +1,44 @@
+// Polyanya: the shortest of all paths, at any angle, over rectangles instead of cells (Cui, Harabor
+// & Grastien, "Compromise-free pathfinding on a navigation mesh", IJCAI 2017).
+//
+// prepare() cuts the map into rectangles (mergedRuns), which are a convex mesh; a plan searches
+// over what a corner sees of their borders. Unlike the published one it turns into one node at a
+// corner and leaves out the rectangles that no shortest path between the two ends can enter.
+//
+// Guaranteed: no legal any-angle path (terrain/segment.h) between the two waypoints is shorter, up
+// to rounding (1e-12 of the length). Refused: maps of several weights, 4-connected ones, unit
+// diagonals, cut corners and maps of more than RectangleMesh::kMaxSide cells a side.
+#pragma once
+
+#include <memory>
+
+#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_mesh.h"
+#include "grid_path_planner/search/planner.h"
+
+namespace grid_path_planner {
+
+class ConeSearch;
+
+class Polyanya : public Planner {
+ public:
+  Polyanya();
+  ~Polyanya() override;
+
+  std::size_t bytesFor(const GridGeometry& geometry) const override;
+
+  // Of the prepared map.
+  const RectangleMap& rectangles() const { return rectangles_; }
+
+ protected:
+  std::string refusal(const CostGrid& map) const override;
+  void doPrepare(const StopToken& stop) override;
+  PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
+
+ private:
+  RectangleMap rectangles_;
+  RectangleMesh mesh_;
+  std::unique_ptr<ConeSearch> search_;
+};
+
+}  // namespace grid_path_planner
