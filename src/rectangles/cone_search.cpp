@@ -6,55 +6,24 @@
 namespace grid_path_planner {
 namespace {
 
+// A cone that nothing splits is not put back into the open list at every border, but it may not run
+// away from more promising ones either.
+constexpr int kBordersUnjudged = 16;
+
+// Sides with more borders than these are bisected.
+constexpr std::uint32_t kFewBorders = 8;
+
 constexpr double kTie = 1e-12;  // relative: sums of the same lengths in another order
 
-constexpr MeshPoint kAxes[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-
-bool upright(int side) {  // a side, not an axis
-  return side % 2 == 0;
-}
-
-// In the quarter, the axis it begins with included, the one it ends with not.
-bool fromFirstAxis(MeshPoint d, int quarter) {
-  switch (quarter) {
-    case 0:
-      return d.x > 0 && d.y >= 0;
-    case 1:
-      return d.y > 0 && d.x <= 0;
-    case 2:
-      return d.x < 0 && d.y <= 0;
-    default:
-      return d.y < 0 && d.x >= 0;
-  }
-}
-
-// The other way round.
-bool fromLastAxis(MeshPoint d, int quarter) {
-  switch (quarter) {
-    case 0:
-      return d.y > 0 && d.x >= 0;
-    case 1:
-      return d.x < 0 && d.y >= 0;
-    case 2:
-      return d.y < 0 && d.x <= 0;
-    default:
-      return d.x > 0 && d.y <= 0;
-  }
-}
-
-std::int64_t dot(MeshPoint a, MeshPoint b) {
-  return std::int64_t{a.x} * b.x + std::int64_t{a.y} * b.y;
-}
-
-double length(double x, double y) {
+double lengthOf(double x, double y) {
   return std::sqrt(x * x + y * y);
 }
 
-}  // namespace
-
-inline double ConeSearch::distance(MeshPoint a, MeshPoint b) const {
-  return length(double(a.x) - b.x, double(a.y) - b.y);
+double distance(MeshPoint a, MeshPoint b) {
+  return lengthOf(double(a.x) - b.x, double(a.y) - b.y);
 }
+
+}  // namespace
 
 std::size_t ConeSearch::bytes() const {
   return roots_.size() * sizeof(Root) + corners_.size() * sizeof(Known) +
@@ -101,38 +70,47 @@ void ConeSearch::see(std::int32_t root) {
   best_root_ = root;
 }
 
-inline bool ConeSearch::sees(const Node& node) const {
-  const MeshPoint towards = goal_.at - roots_[node.root].at;
-  return cross(node.left, towards) <= 0 && cross(node.right, towards) >= 0;
+// Where a point lies of a ray, so many columns and lines from the root: east of it above 0.
+template <class Ray>
+inline std::int64_t eastOf(const Ray& ray, std::int64_t columns, std::int64_t lines) {
+  return columns * ray.lines - ray.columns * lines;
 }
 
-// The least length of a way through the cone to the goal: straight, or round an end of what it sees
-// of the border; a goal on the root's side of the border's line is as far as its mirror image.
-double ConeSearch::promise(const Node& node, MeshPoint on_border, int side) const {
-  const Root& root = roots_[node.root];
-  MeshPoint goal = goal_.at;
-  if (upright(side)) {
-    if ((goal.x < on_border.x) == (root.at.x < on_border.x)) goal.x = 2 * on_border.x - goal.x;
+// The least length of a way through the cone and out of the far side of its rectangle to the goal:
+// straight, or round an end of what it sees of that side; a goal on the root's side of the far line
+// is as far as its mirror image.
+double ConeSearch::promise(const Node& cone) const {
+  const Root& root = roots_[cone.root];
+  const RectangleMesh::Rectangle& rect = mesh_->rectangle(cone.place);
+  const std::int64_t far = rect.line[cone.heading];
+  const std::int64_t lines = std::abs(far - root.at.y), beyond = std::abs(far - goal_.at.y);
+  const std::int64_t columns = std::int64_t{goal_.at.x} - root.at.x;
+  double crossing;  // columns from the root, on the far line
+  const Ray west = cone.ray[Way::WEST], east = cone.ray[Way::EAST];
+  const auto along = [lines](Ray ray) { return double(ray.columns) * lines / ray.lines; };
+  bool bends = true;
+  if (eastOf(west, columns, lines + beyond) < 0) {
+    crossing = along(west);
+  } else if (eastOf(east, columns, lines + beyond) > 0) {
+    crossing = along(east);
   } else {
-    if ((goal.y < on_border.y) == (root.at.y < on_border.y)) goal.y = 2 * on_border.y - goal.y;
+    crossing = double(columns) * lines / double(lines + beyond);
+    bends = false;
   }
-  const MeshPoint towards = goal - root.at;
-  MeshPoint ray;
-  if (cross(node.left, towards) > 0) {
-    ray = node.left;
-  } else if (cross(node.right, towards) < 0) {
-    ray = node.right;
-  } else {
-    return root.g + length(towards.x, towards.y);
+  const double first = double(rect.west) - root.at.x, last = double(rect.east) - root.at.x;
+  if (crossing < first) {
+    crossing = first;
+    bends = true;
+  } else if (crossing > last) {
+    crossing = last;
+    bends = true;
   }
-  const double share = upright(side) ? (double(on_border.x) - root.at.x) / ray.x
-                                     : (double(on_border.y) - root.at.y) / ray.y;
-  const double x = share * ray.x, y = share * ray.y;
-  return root.g + length(x, y) + length(towards.x - x, towards.y - y);
+  if (!bends) return root.g + lengthOf(columns, lines + beyond);
+  return root.g + lengthOf(crossing, lines) + lengthOf(columns - crossing, beyond);
 }
 
 // A root at the corner for an arrival from `parent`, -1 where a better or wider one was there.
-std::int32_t ConeSearch::relax(std::int32_t parent, std::uint32_t corner, Turn sense) {
+std::int32_t ConeSearch::relax(std::int32_t parent, std::uint32_t corner, Sense sense) {
   const Root& from = roots_[parent];
   const MeshPoint at = mesh_->corner(corner).at;
   const double g = from.g + distance(from.at, at);
@@ -145,7 +123,7 @@ std::int32_t ConeSearch::relax(std::int32_t parent, std::uint32_t corner, Turn s
       std::int32_t& widest = root.widest[sense];
       if (widest >= 0) {
         const std::int64_t side = cross(at - roots_[widest].at, at - from.at);
-        if (sense == Turn::ANTICLOCKWISE ? side >= 0 : side <= 0) return -1;
+        if (sense == ANTICLOCKWISE ? side >= 0 : side <= 0) return -1;
       }
       widest = parent;
       return known.root;
@@ -160,129 +138,215 @@ std::int32_t ConeSearch::relax(std::int32_t parent, std::uint32_t corner, Turn s
   return known.root;
 }
 
-// Round the corner, if a way from the root can turn tautly there.
-void ConeSearch::turn(std::int32_t parent, std::uint32_t corner, Turn sense) {
-  const RectangleMesh::Corner& place = mesh_->corner(corner);
-  const MeshPoint arrival = place.at - roots_[parent].at;
-  const bool left = sense == Turn::ANTICLOCKWISE;
-  const int quarter = (place.quarter + (left ? 3 : 1)) % 4;
-  if (!(left ? fromFirstAxis(arrival, quarter) : fromLastAxis(arrival, quarter))) return;
-  const std::int32_t root = relax(parent, corner, sense);
+// A cone that has come to the goal's rectangle.
+void ConeSearch::lookForGoal(const Node& cone) {
+  const MeshPoint root = roots_[cone.root].at;
+  const std::int64_t columns = std::int64_t{goal_.at.x} - root.x;
+  const std::int64_t lines = std::abs(std::int64_t{goal_.at.y} - root.y);
+  if (eastOf(cone.ray[Way::WEST], columns, lines) >= 0 &&
+      eastOf(cone.ray[Way::EAST], columns, lines) <= 0)
+    see(cone.root);
+}
+
+// The next corner along the line on which the root lies.
+void ConeSearch::follow(std::int32_t root, std::uint32_t corner, Way way) {
+  const std::uint32_t next = mesh_->corner(corner).along[way];
+  if (next == RectangleMesh::kNone) return;
+  const MeshPoint at = mesh_->corner(next).at;
+  const double f = roots_[root].g + distance(roots_[root].at, at) + distance(at, goal_.at);
+  offer(f, {{}, root, next, {}, static_cast<std::int8_t>(way)});
+}
+
+// Whether a taut way can turn at that end of the border, so many columns and lines from the root,
+// and sees something to go on to.
+inline bool ConeSearch::turns(const RectangleMesh::Rectangle& from,
+                              const RectangleMesh::Border& border, Way way, Heading heading,
+                              std::int32_t columns, std::int32_t lines) const {
+  if (border.corner[way] == RectangleMesh::kNone) return false;
+  if (!RectangleMesh::behind(from, border, way) && (way == Way::EAST ? columns >= 0 : columns <= 0))
+    return false;
+  if (border.to == goal_.rectangle || border.leads_on[way]) return true;
+  // Of what lies beyond, the border that is farthest round the corner.
+  const RectangleMesh::Rectangle& next = mesh_->rectangle(border.to);
+  const std::uint32_t first = next.first[heading], end = next.first[heading + 1];
+  if (first == end) return false;
+  const std::int64_t limit = std::int64_t{columns} * (next.line[1] - next.line[0]);
+  return way == Way::EAST ? std::int64_t{mesh_->border(end - 1).east - border.east} * lines > limit
+                          : std::int64_t{mesh_->border(first).west - border.west} * lines < limit;
+}
+
+// Of borders in order the westernmost that reaches to the east of the ray.
+inline std::uint32_t ConeSearch::firstSeen(std::uint32_t first, std::uint32_t end,
+                                           std::int32_t root, Ray west, std::int32_t lines) const {
+  const std::int64_t limit = std::int64_t{west.columns} * lines;
+  const auto unseen = [&](std::uint32_t i) {
+    return std::int64_t{mesh_->border(i).east - root} * west.lines <= limit;
+  };
+  std::uint32_t last = end;
+  while (last - first > kFewBorders) {
+    const std::uint32_t middle = first + (last - first) / 2;
+    if (unseen(middle))
+      first = middle + 1;
+    else
+      last = middle;
+  }
+  while (first < last && unseen(first)) ++first;
+  return first;
+}
+
+// Moves the cone on through at most `borders` borders, for as long as it does not part and no taut
+// way turns at its ends. In `far` the borders that it meets.
+inline ConeSearch::Meets ConeSearch::glide(MeshPoint root, Node& cone, FarSide& far,
+                                           int& borders) const {
+  const Heading heading = cone.heading;
+  Ray west = cone.ray[Way::WEST], east = cone.ray[Way::EAST];
+  std::uint32_t place = cone.place, first = 0, end = 0;
+  std::int32_t lines = 0;
+  int left = borders;
+  Meets meets = Meets::END;
+  for (;; --left) {
+    if (place == goal_.rectangle || left <= 0) {
+      meets = place == goal_.rectangle ? Meets::GOAL : Meets::NOTHING;
+      break;
+    }
+    const RectangleMesh::Rectangle& rect = mesh_->rectangle(place);
+    lines = std::abs(rect.line[heading] - root.y);
+    end = rect.first[heading + 1];
+    first = firstSeen(rect.first[heading], end, root.x, west, lines);
+    if (first == end) break;
+    const RectangleMesh::Border& border = mesh_->border(first);
+    const std::int32_t west_end = border.west - root.x, east_end = border.east - root.x;
+    if (eastOf(east, west_end, lines) >= 0) break;
+    if (eastOf(west, west_end, lines) >= 0) {
+      if (turns(rect, border, Way::WEST, heading, west_end, lines)) {
+        meets = Meets::BORDERS;
+        break;
+      }
+      west = {west_end, lines};
+    }
+    if (eastOf(east, east_end, lines) <= 0) {
+      if (turns(rect, border, Way::EAST, heading, east_end, lines) ||
+          (first + 1 < end && eastOf(east, mesh_->border(first + 1).west - root.x, lines) < 0)) {
+        meets = Meets::BORDERS;
+        break;
+      }
+      east = {east_end, lines};
+    }
+    if (!allowed(border)) break;
+    place = border.to;
+  }
+  cone.ray[Way::WEST] = west;
+  cone.ray[Way::EAST] = east;
+  cone.place = place;
+  borders = left;
+  far = {lines, first, end};
+  return meets;
+}
+
+// Into the open list, but not before it parts or can turn: many end before.
+void ConeSearch::settle(Node cone) {
+  FarSide far;
+  int borders = kBordersUnjudged;
+  const Meets meets = glide(roots_[cone.root].at, cone, far, borders);
+  if (meets == Meets::GOAL) return lookForGoal(cone);
+  if (meets != Meets::END) offer(promise(cone), cone);
+}
+
+// A corner met along a line: round it, and on along the line.
+void ConeSearch::expandCorner(const Node& node) {
+  const RectangleMesh::Corner& corner = mesh_->corner(node.place);
+  const bool east = node.along == Way::EAST;
+  const bool blocked_east = corner.quarter == 0 || corner.quarter == 3;
+  if (blocked_east != east && block_queries_[corner.block] == query_) {
+    const bool north = corner.quarter < 2;  // towards the obstacle's rows
+    const std::int32_t root =
+        relax(node.root, node.place, east == north ? ANTICLOCKWISE : CLOCKWISE);
+    if (root < 0) return;
+    Node cone{{{-1, 0}, {0, 1}}, root, corner.rectangle[north], Heading(north), kCone};
+    if (east) {
+      cone.ray[Way::WEST] = {0, 1};
+      cone.ray[Way::EAST] = {1, 0};
+    }
+    settle(cone);
+  }
+  follow(node.root, node.place, static_cast<Way>(node.along));
+}
+
+// Round the corner at one end of a border, if that leads anywhere.
+void ConeSearch::turn(const Node& cone, const RectangleMesh::Border& border, Way way) {
+  const std::uint32_t corner = border.corner[way];
+  const MeshPoint at = mesh_->corner(corner).at;
+  const MeshPoint arrival = at - roots_[cone.root].at;
+  const bool north = cone.heading == Heading::NORTHWARDS, east = way == Way::EAST;
+  Node turned = cone;
+  turned.place = border.to;
+  turned.ray[way] = RectangleMesh::behind(mesh_->rectangle(cone.place), border, way)
+                        ? Ray{east ? 1 : -1, 0}
+                        : Ray{0, 1};
+  turned.ray[1 - way] = {arrival.x, std::abs(arrival.y)};
+  FarSide far;
+  int borders = kBordersUnjudged;
+  const Meets meets = glide(at, turned, far, borders);
+  if (meets == Meets::END && !border.leads_on[way]) return;
+  const std::int32_t root = relax(cone.root, corner, east == north ? CLOCKWISE : ANTICLOCKWISE);
   if (root < 0) return;
-  Node node{arrival, kAxes[(quarter + 1) % 4], root, place.rectangle[sense], (quarter + 3) % 4, 4};
-  if (!left) {
-    node.right = kAxes[quarter];
-    node.left = arrival;
-  }
-  if (node.rectangle == goal_.rectangle) {
-    if (sees(node)) see(root);
-    return;
-  }
-  offer(roots_[root].g + distance(place.at, goal_.at), node);
+  turned.root = root;
+  if (meets == Meets::GOAL)
+    lookForGoal(turned);
+  else if (meets != Meets::END)
+    offer(promise(turned), turned);
+  if (border.leads_on[way]) follow(root, corner, way);
 }
 
-// Through a border; `right` and `left` are where its ends lie of the cone's rays: to the left of
-// the right ray above 0, to the right of the left ray below 0.
-inline void ConeSearch::pass(const Node& node, const RectangleMesh::Border& border, int side,
-                             std::int64_t right, std::int64_t left) {
-  if (block_queries_[border.block] != query_ || border.to == start_.rectangle) return;
-  const MeshPoint root = roots_[node.root].at;
-  Node onwards{right > 0 ? border.right - root : node.right,
-               left < 0 ? border.left - root : node.left,
-               node.root,
-               border.to,
-               (side + 3) % 4,
-               3};
-  if (left <= 0 && border.left_corner != RectangleMesh::kNone)
-    turn(node.root, border.left_corner, Turn::ANTICLOCKWISE);
-  if (right >= 0 && border.right_corner != RectangleMesh::kNone)
-    turn(node.root, border.right_corner, Turn::CLOCKWISE);
-  if (border.to == goal_.rectangle) {
-    if (sees(onwards)) see(node.root);
-    return;
+// Through a border, and round the corners at its ends.
+inline ConeSearch::Node ConeSearch::pass(const Node& cone, std::int32_t lines,
+                                         const RectangleMesh::Border& border) {
+  const RectangleMesh::Rectangle& rect = mesh_->rectangle(cone.place);
+  const std::int32_t root = roots_[cone.root].at.x;
+  const std::int32_t west = border.west - root, east = border.east - root;
+  const std::int64_t west_end = eastOf(cone.ray[Way::WEST], west, lines);
+  const std::int64_t east_end = eastOf(cone.ray[Way::EAST], east, lines);
+  Node onwards = cone;
+  onwards.place = border.to;
+  if (west_end > 0) onwards.ray[Way::WEST] = {west, lines};
+  if (east_end < 0) onwards.ray[Way::EAST] = {east, lines};
+  for (const Way way : {Way::WEST, Way::EAST}) {
+    const bool touches = way == Way::WEST ? west_end >= 0 : east_end <= 0;
+    const std::int32_t columns = way == Way::WEST ? west : east;
+    if (touches && turns(rect, border, way, cone.heading, columns, lines)) turn(cone, border, way);
   }
-  offer(promise(onwards, border.right, side), onwards);
+  return onwards;
 }
 
-// A root on the line of a side meets the borders there at their nearer ends.
-void ConeSearch::alongLeft(const Node& node, int side) {
-  const RectangleMesh::Rectangle& rect = mesh_->rectangle(node.rectangle);
-  const MeshPoint root = roots_[node.root].at;
-  for (std::uint32_t i = rect.first[side]; i < rect.first[side + 1]; ++i) {
-    const RectangleMesh::Border& border = mesh_->border(i);
-    if (border.left_corner == RectangleMesh::kNone || dot(node.left, border.left - root) <= 0 ||
-        block_queries_[border.block] != query_)
-      continue;
-    turn(node.root, border.left_corner, Turn::ANTICLOCKWISE);
-  }
-}
-
-void ConeSearch::alongRight(const Node& node, int side) {
-  const RectangleMesh::Rectangle& rect = mesh_->rectangle(node.rectangle);
-  const MeshPoint root = roots_[node.root].at;
-  for (std::uint32_t i = rect.first[side]; i < rect.first[side + 1]; ++i) {
-    const RectangleMesh::Border& border = mesh_->border(i);
-    if (border.right_corner == RectangleMesh::kNone || dot(node.right, border.right - root) <= 0 ||
-        block_queries_[border.block] != query_)
-      continue;
-    turn(node.root, border.right_corner, Turn::CLOCKWISE);
-  }
-}
-
-void ConeSearch::lookAlongWalls(const Node& node) {
-  const RectangleMesh::Rectangle& rect = mesh_->rectangle(node.rectangle);
-  const MeshPoint root = roots_[node.root].at;
-  const int right_side = node.side, left_side = (node.side + node.sides - 1) % 4;
-  const auto onLine = [&](int side) {
-    const MeshPoint end = rect.end(side);
-    return upright(side) ? end.x == root.x : end.y == root.y;
-  };
-  const auto parallel = [](MeshPoint ray, int side) {
-    return (upright(side) ? ray.x : ray.y) == 0;
-  };
-  if (onLine(right_side) && parallel(node.right, right_side)) alongRight(node, right_side);
-  if (onLine(left_side) && parallel(node.left, left_side)) alongLeft(node, left_side);
-}
-
-void ConeSearch::expand(const Node& node) {
-  lookAlongWalls(node);
-  const RectangleMesh::Rectangle& rect = mesh_->rectangle(node.rectangle);
-  const MeshPoint root = roots_[node.root].at;
-  // 1. The side through which the right ray leaves.
-  int side = node.side, left = node.sides;
-  MeshPoint end = rect.end(side);
-  while (cross(node.right, end - root) <= 0) {
-    if (--left == 0) return;
-    side = (side + 1) % 4;
-    end = rect.end(side);
-  }
-  // 2. The first border of which the cone sees something.
-  std::uint32_t i = rect.first[side];
-  while (i < rect.first[side + 1] && cross(node.right, mesh_->border(i).left - root) <= 0) ++i;
-  // 3. All up to the left ray.
+void ConeSearch::expandCone(Node cone) {
+  const MeshPoint root = roots_[cone.root].at;
+  int borders = kBordersUnjudged;
   for (;;) {
-    for (; i < rect.first[side + 1]; ++i) {
-      const RectangleMesh::Border& border = mesh_->border(i);
-      const MeshPoint right_end = border.right - root;
-      if (cross(node.left, right_end) >= 0) return;
-      pass(node, border, side, cross(node.right, right_end), cross(node.left, border.left - root));
+    FarSide far;
+    const Meets meets = glide(root, cone, far, borders);
+    if (meets == Meets::END) return;
+    if (meets == Meets::GOAL) return lookForGoal(cone);
+    if (meets == Meets::BORDERS) {
+      int found = 0;
+      Node next{};
+      for (std::uint32_t i = far.first; i < far.end; ++i) {
+        const RectangleMesh::Border& border = mesh_->border(i);
+        if (eastOf(cone.ray[Way::EAST], border.west - root.x, far.lines) >= 0) break;
+        if (!allowed(border)) continue;
+        if (found++ > 0) settle(next);
+        next = pass(cone, far.lines, border);
+      }
+      if (found == 0) return;
+      if (found > 1) return settle(next);
+      cone = next;
+      --borders;
+      continue;
     }
-    if (cross(node.left, rect.end(side) - root) >= 0 || --left == 0) return;
-    side = (side + 1) % 4;
-    i = rect.first[side];
+    const double f = promise(cone);
+    if (f >= best_) return;
+    if (!heap_.empty() && f > heap_.front().f) return push(f, cone);
+    borders = kBordersUnjudged;
   }
-}
-
-// The start lies inside its rectangle and sees all its borders.
-void ConeSearch::leaveStart() {
-  const RectangleMesh::Rectangle& rect = mesh_->rectangle(start_.rectangle);
-  for (int side = 0; side < 4; ++side)
-    for (std::uint32_t i = rect.first[side]; i < rect.first[side + 1]; ++i) {
-      const Node all{{}, {}, 0, start_.rectangle, 0, 4};
-      pass(all, mesh_->border(i), side, 1, -1);
-    }
-  if (has_next_) push(next_f_, next_);
-  has_next_ = false;
 }
 
 void ConeSearch::begin(const RectangleMesh& mesh, End start, End goal, Statistics& counts) {
@@ -315,12 +379,19 @@ ConeSearch::Answer ConeSearch::run(const RectangleMesh& mesh, End start, End goa
   // 1. Where a way may lead, and what the start sees.
   if (!mesh.blocksBetween(start.rectangle, goal.rectangle, blocks_)) return answer;
   for (const std::uint32_t block : blocks_) block_queries_[block] = query_;
-  if (start.rectangle == goal.rectangle)
+  if (start.rectangle == goal.rectangle) {
     see(0);
-  else
-    leaveStart();
+  } else {
+    const RectangleMesh::Rectangle& rect = mesh.rectangle(start.rectangle);
+    const std::int32_t west = rect.west - start.at.x, east = rect.east - start.at.x;
+    for (const Heading heading : {Heading::SOUTHWARDS, Heading::NORTHWARDS}) {
+      const std::int32_t lines = std::abs(rect.line[heading] - start.at.y);
+      const Node cone{{{west, lines}, {east, lines}}, 0, start.rectangle, heading, kCone};
+      push(promise(cone), cone);
+    }
+  }
 
-  // 2. The most promising cone or turn, until none can lead to a shorter way.
+  // 2. The most promising cone or corner, until none can lead to a shorter way.
   StopPoll poll(stop, 64);
   while (!heap_.empty() && heap_.front().f < best_) {
     counts.peak_open = std::max(counts.peak_open, heap_.size());
@@ -333,10 +404,16 @@ ConeSearch::Answer ConeSearch::run(const RectangleMesh& mesh, End start, End goa
         return answer;
       }
       ++counts.expanded;
-      if (expanded) expanded->push_back(node.rectangle);
-      expand(node);
+      if (expanded)
+        expanded->push_back(node.along != kCone ? mesh.corner(node.place).rectangle[0]
+                                                : node.place);
+      if (node.along != kCone)
+        expandCorner(node);
+      else
+        expandCone(node);
       if (!has_next_) break;
       has_next_ = false;
+      if (next_f_ >= best_) break;
       if (!heap_.empty() && next_f_ > heap_.front().f) {
         push(next_f_, next_);
         break;

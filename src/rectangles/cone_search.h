@@ -1,12 +1,12 @@
 // The search of Polyanya over a mesh of rectangles.
 //
-// A cone is all that one root sees of a border: what lies between two directions. It crosses the
-// rectangle behind and is split by the borders that it meets there. Where it touches a corner round
-// which a taut way can turn, a turn begins: a root of its own, that sees the quarter between the
-// direction of the arrival and the wall that it turns along. That quarter lies in one rectangle, so
-// a turn is one node, and its borders are looked at when its time comes.
+// A cone is all that one root sees, between two rays, of what lies north (or south) of it. It
+// crosses a rectangle and is split by the borders on the far side. Where it touches a corner round
+// which a taut way can turn, the corner becomes a root of its own, with a cone for what lies beyond
+// the ray; and where the wall that it turned along is one of the line, with the corners that follow
+// on the line.
 //
-// Points and directions are whole numbers and every decision is the sign of a cross product of two
+// Points and rays are whole numbers and every decision is the sign of a difference of two products
 // of them, so all are exact; only lengths are rounded.
 #pragma once
 
@@ -41,22 +41,30 @@ class ConeSearch {
   std::size_t bytes() const;
 
  private:
-  using Turn = RectangleMesh::Turn;
+  static constexpr std::int8_t kCone = -1;
+  using Way = RectangleMesh::Way;
+  using Heading = RectangleMesh::Heading;
+  enum Sense { ANTICLOCKWISE, CLOCKWISE };
 
   struct Root {
     MeshPoint at;
     double g;
     std::int32_t parent;
-    std::int32_t widest[2];  // by Turn: the parent of the widest arrival so far at this g
+    std::int32_t widest[2];  // by Sense: the parent of the widest arrival so far at this g
     bool beaten;             // a shorter way to this corner has a root of its own
   };
+  // A direction: columns to the east for lines ahead, which are 0 or more.
+  struct Ray {
+    std::int32_t columns;
+    std::int32_t lines;
+  };
+  // A cone that is about to cross a rectangle; or the next corner along a line.
   struct Node {
-    MeshPoint right;  // directions
-    MeshPoint left;
+    Ray ray[2];  // by Way
     std::int32_t root;
-    std::uint32_t rectangle;
-    std::int32_t side;   // the first to look at, anticlockwise
-    std::int32_t sides;  // how many
+    std::uint32_t place;  // the rectangle, or the corner
+    Heading heading;      // of a cone
+    std::int8_t along;    // the Way along the line, kCone of a cone
   };
   struct Entry {
     double f;
@@ -67,24 +75,38 @@ class ConeSearch {
     std::uint32_t query = 0;
     std::int32_t root = -1;
   };
+  // What a cone that goes on meets: nothing more, the goal's rectangle, borders where it parts or
+  // can turn, or nothing yet.
+  enum class Meets { END, GOAL, BORDERS, NOTHING };
+  // The far side of a rectangle: its borders from the first on of which a cone sees something.
+  struct FarSide {
+    std::int32_t lines;  // from the root
+    std::uint32_t first;
+    std::uint32_t end;
+  };
 
   void begin(const RectangleMesh& mesh, End start, End goal, Statistics& counts);
-  void leaveStart();
-  void expand(const Node& node);
-  void lookAlongWalls(const Node& node);
-  void alongLeft(const Node& node, int side);
-  void alongRight(const Node& node, int side);
-  void pass(const Node& node, const RectangleMesh::Border& border, int side, std::int64_t right,
-            std::int64_t left);
-  void turn(std::int32_t parent, std::uint32_t corner, Turn sense);
-  std::int32_t relax(std::int32_t parent, std::uint32_t corner, Turn sense);
-  bool sees(const Node& node) const;
+  bool turns(const RectangleMesh::Rectangle& from, const RectangleMesh::Border& border, Way way,
+             Heading heading, std::int32_t columns, std::int32_t lines) const;
+  std::uint32_t firstSeen(std::uint32_t first, std::uint32_t end, std::int32_t root, Ray west,
+                          std::int32_t lines) const;
+  Meets glide(MeshPoint root, Node& cone, FarSide& far, int& borders) const;
+  void settle(Node cone);
+  void expandCorner(const Node& node);
+  void expandCone(Node cone);
+  Node pass(const Node& cone, std::int32_t lines, const RectangleMesh::Border& border);
+  void turn(const Node& cone, const RectangleMesh::Border& border, Way way);
+  void follow(std::int32_t root, std::uint32_t corner, Way way);
+  void lookForGoal(const Node& cone);
+  std::int32_t relax(std::int32_t parent, std::uint32_t corner, Sense sense);
   void see(std::int32_t root);
-  double promise(const Node& node, MeshPoint on_border, int side) const;
+  double promise(const Node& cone) const;
   void offer(double f, const Node& node);
   void push(double f, const Node& node);
   Node pop();
-  double distance(MeshPoint a, MeshPoint b) const;
+  bool allowed(const RectangleMesh::Border& border) const {
+    return block_queries_[border.block] == query_ && border.to != start_.rectangle;
+  }
 
   const RectangleMesh* mesh_ = nullptr;
   Statistics* counts_ = nullptr;

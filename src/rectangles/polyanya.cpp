@@ -66,7 +66,7 @@ void Polyanya::doPrepare(const StopToken& stop) {
     return refuse("needs up to " + std::to_string(bytes / 1000000 + 1) +
                   " MB to cut this map into rectangles, more than its memory_limit");
   rectangles_ = RectangleMap(map().geometry(), mergedRuns(free.rows, stop), Touching::BORDERS);
-  mesh_ = RectangleMesh(rectangles_, free.rows, stop);
+  mesh_ = RectangleMesh(rectangles_, stop);
   search_ = std::make_unique<ConeSearch>();
 }
 

@@ -1,128 +1,57 @@
 #include "grid_path_planner/rectangles/rectangle_mesh.h"
 
 #include <algorithm>
-#include <optional>
+#include <cassert>
 
 namespace grid_path_planner {
 namespace {
 
 constexpr std::int32_t kUnit = static_cast<std::int32_t>(SegmentPoint::kUnitsPerCell);
 
-MeshPoint latticePoint(int column, int row) {
-  return {column * kUnit, row * kUnit};
-}
-
-RectangleMesh::Border borderOf(const CellRect& from, const Connection& connection) {
-  const bool upright = connection.side == Side::EAST || connection.side == Side::WEST;
-  const int line = connection.side == Side::EAST    ? from.column + from.width
-                   : connection.side == Side::WEST  ? from.column
-                   : connection.side == Side::NORTH ? from.row + from.height
-                                                    : from.row;
-  const auto point = [upright, line](int along) {
-    return upright ? latticePoint(line, along) : latticePoint(along, line);
-  };
-  RectangleMesh::Border border{};
-  border.right = point(connection.first);
-  border.left = point(connection.first + connection.length);
-  if (connection.side == Side::NORTH || connection.side == Side::WEST)
-    std::swap(border.right, border.left);
-  border.to = connection.to;
-  border.right_corner = border.left_corner = RectangleMesh::kNone;
-  return border;
-}
-
-// The cell of each quarter around a lattice point.
-Cell cellInQuarter(MeshPoint point, int quarter) {
-  const int column = point.x / kUnit, row = point.y / kUnit;
-  return {quarter == 0 || quarter == 3 ? column : column - 1, quarter < 2 ? row : row - 1};
-}
-
-// The quarter of the only blocked cell around the point.
-std::optional<int> cornerQuarter(const BitMap& free, MeshPoint point) {
-  std::optional<int> blocked;
-  for (int quarter = 0; quarter < 4; ++quarter) {
-    if (free[cellInQuarter(point, quarter)]) continue;
-    if (blocked) return std::nullopt;
-    blocked = quarter;
-  }
-  return blocked;
-}
-
-bool holds(const RectangleMesh::Rectangle& rect, Cell cell) {
-  const MeshPoint low = latticePoint(cell.column, cell.row);
-  return rect.low.x <= low.x && low.x < rect.high.x && rect.low.y <= low.y && low.y < rect.high.y;
+bool fromTheWest(const RectangleMesh::Border& a, const RectangleMesh::Border& b) {
+  return a.west < b.west;
 }
 
 }  // namespace
 
-RectangleMesh::RectangleMesh(const RectangleMap& map, const BitMap& free, const StopToken& stop) {
+RectangleMesh::RectangleMesh(const RectangleMap& map, const StopToken& stop) {
   addBorders(map, stop);
-  addCorners(free, stop);
   findBlocks(stop);
+  addCorners(stop);
 }
 
 void RectangleMesh::addBorders(const RectangleMap& map, const StopToken& stop) {
   StopPoll poll(stop);
   rectangles_.reserve(map.rectangles().size());
   borders_.reserve(map.connections().size());
-  std::array<std::vector<Border>, 4> sides;
+  std::vector<Border> below, above;
   for (std::uint32_t i = 0; i < map.rectangles().size(); ++i) {
     poll();
+    below.clear();
+    above.clear();
+    for (const Connection& connection : map.connections().of(i)) {
+      assert(connection.side != Side::EAST && connection.side != Side::WEST);
+      if (connection.side == Side::CORNER) continue;
+      (connection.side == Side::NORTH ? above : below)
+          .push_back({connection.first * kUnit,
+                      (connection.first + connection.length) * kUnit,
+                      connection.to,
+                      kNone,
+                      {kNone, kNone},
+                      {false, false}});
+    }
     const CellRect& cells = map.rectangles()[i];
-    Rectangle rect{latticePoint(cells.column, cells.row),
-                   latticePoint(cells.column + cells.width, cells.row + cells.height),
-                   {}};
-    for (const Connection& connection : map.connections().of(i))
-      if (connection.side != Side::CORNER)
-        sides[static_cast<int>(connection.side)].push_back(borderOf(cells, connection));
-    for (int side = 0; side < 4; ++side) {
-      rect.first[side] = static_cast<std::uint32_t>(borders_.size());
-      const bool ascending = side == static_cast<int>(Side::EAST) ||  //
-                             side == static_cast<int>(Side::SOUTH);
-      std::sort(sides[side].begin(), sides[side].end(), [=](const Border& a, const Border& b) {
-        return ascending ? a.right < b.right : b.right < a.right;
-      });
-      borders_.insert(borders_.end(), sides[side].begin(), sides[side].end());
-      sides[side].clear();
-    }
-    rect.first[4] = static_cast<std::uint32_t>(borders_.size());
+    Rectangle rect{cells.column * kUnit,
+                   (cells.column + cells.width) * kUnit,
+                   {cells.row * kUnit, (cells.row + cells.height) * kUnit},
+                   {static_cast<std::uint32_t>(borders_.size()), 0, 0}};
+    std::sort(below.begin(), below.end(), fromTheWest);
+    std::sort(above.begin(), above.end(), fromTheWest);
+    borders_.insert(borders_.end(), below.begin(), below.end());
+    rect.first[1] = static_cast<std::uint32_t>(borders_.size());
+    borders_.insert(borders_.end(), above.begin(), above.end());
+    rect.first[2] = static_cast<std::uint32_t>(borders_.size());
     rectangles_.push_back(rect);
-  }
-}
-
-void RectangleMesh::addCorners(const BitMap& free, const StopToken& stop) {
-  StopPoll poll(stop);
-  struct End {
-    MeshPoint at;
-    std::uint32_t border;
-    bool left;
-    std::uint32_t from;
-  };
-  std::vector<End> ends;
-  for (std::uint32_t from = 0; from < rectangles_.size(); ++from)
-    for (std::uint32_t i = rectangles_[from].first[0]; i < rectangles_[from].first[4]; ++i) {
-      poll();
-      ends.push_back({borders_[i].right, i, false, from});
-      ends.push_back({borders_[i].left, i, true, from});
-    }
-  std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.at < b.at; });
-  for (std::size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
-    poll();
-    const MeshPoint at = ends[begin].at;
-    while (end < ends.size() && ends[end].at == at) ++end;
-    const std::optional<int> quarter = cornerQuarter(free, at);
-    if (!quarter) continue;
-    Corner corner{at, {kNone, kNone}, *quarter};
-    const Cell cells[] = {cellInQuarter(at, (*quarter + 3) % 4),
-                          cellInQuarter(at, (*quarter + 1) % 4)};
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto number = static_cast<std::uint32_t>(corners_.size());
-      (ends[i].left ? borders_[ends[i].border].left_corner
-                    : borders_[ends[i].border].right_corner) = number;
-      for (const Turn turn : {ANTICLOCKWISE, CLOCKWISE})
-        if (holds(rectangles_[ends[i].from], cells[turn])) corner.rectangle[turn] = ends[i].from;
-    }
-    corners_.push_back(corner);
   }
 }
 
@@ -162,7 +91,7 @@ void RectangleMesh::findBlocks(const StopToken& stop) {
     while (!way.empty()) {
       poll();
       const std::uint32_t rect = way.back();
-      if (next[rect] == rectangles_[rect].first[4]) {
+      if (next[rect] == rectangles_[rect].first[2]) {
         leave(rect);
         continue;
       }
@@ -179,13 +108,79 @@ void RectangleMesh::findBlocks(const StopToken& stop) {
   for (const std::uint32_t rect : by_order)
     if (block_above_[rect] != kNone) depth_[rect] = depth_[block_parent_[block_above_[rect]]] + 1;
   for (std::uint32_t from = 0; from < count; ++from)
-    for (std::uint32_t i = rectangles_[from].first[0]; i < rectangles_[from].first[4]; ++i)
+    for (std::uint32_t i = rectangles_[from].first[0]; i < rectangles_[from].first[2]; ++i)
       borders_[i].block = blockOf(from, borders_[i].to);
 }
 
 std::uint32_t RectangleMesh::blockOf(std::uint32_t from, std::uint32_t to) const {
   const std::uint32_t above = block_above_[to];
   return above != kNone && block_parent_[above] == from ? above : block_above_[from];
+}
+
+// Of the border between two rectangles the one seen from the north, given that from the south.
+std::uint32_t RectangleMesh::twin(std::uint32_t south, std::uint32_t border) const {
+  const Rectangle& north = rectangles_[borders_[border].to];
+  const auto first = borders_.begin() + north.first[0], end = borders_.begin() + north.first[1];
+  const auto found = std::lower_bound(first, end, borders_[border], fromTheWest);
+  assert(found != end && found->to == south);
+  static_cast<void>(south);
+  return static_cast<std::uint32_t>(found - borders_.begin());
+}
+
+std::uint32_t RectangleMesh::addCorner(MeshPoint at, int quarter, std::uint32_t south,
+                                       std::uint32_t border) {
+  const Border& between = borders_[border];
+  corners_.push_back({at, {kNone, kNone}, {south, between.to}, between.block, quarter});
+  return static_cast<std::uint32_t>(corners_.size() - 1);
+}
+
+// At an end of a border one of the two rectangles ends, and there is a corner; or both do.
+void RectangleMesh::addCornersOf(std::uint32_t south, std::uint32_t border) {
+  const Rectangle lower = rectangles_[south], upper = rectangles_[borders_[border].to];
+  std::array<std::uint32_t, 2> found = {kNone, kNone};
+  if (lower.west != upper.west) {
+    const MeshPoint at{std::max(lower.west, upper.west), lower.line[NORTHWARDS]};
+    found[WEST] = addCorner(at, lower.west < upper.west ? 1 : 2, south, border);
+  }
+  if (lower.east != upper.east) {
+    const MeshPoint at{std::min(lower.east, upper.east), lower.line[NORTHWARDS]};
+    found[EAST] = addCorner(at, lower.east > upper.east ? 0 : 3, south, border);
+  }
+  borders_[border].corner = borders_[twin(south, border)].corner = found;
+  link(found[WEST], found[EAST]);
+}
+
+void RectangleMesh::link(std::uint32_t west, std::uint32_t east) {
+  if (west == kNone || east == kNone) return;
+  corners_[west].along[EAST] = east;
+  corners_[east].along[WEST] = west;
+}
+
+// Of borders on one side of a rectangle: from one to the next there is a wall.
+void RectangleMesh::linkAlong(std::uint32_t first, std::uint32_t end) {
+  for (; first + 1 < end; ++first)
+    link(borders_[first].corner[EAST], borders_[first + 1].corner[WEST]);
+}
+
+void RectangleMesh::addCorners(const StopToken& stop) {
+  StopPoll poll(stop);
+  for (std::uint32_t south = 0; south < rectangles_.size(); ++south)
+    for (std::uint32_t i = rectangles_[south].first[1]; i < rectangles_[south].first[2]; ++i) {
+      poll();
+      addCornersOf(south, i);
+    }
+  for (const Rectangle& rect : rectangles_) {
+    poll();
+    linkAlong(rect.first[0], rect.first[1]);
+    linkAlong(rect.first[1], rect.first[2]);
+  }
+  for (const Rectangle& rect : rectangles_)
+    for (std::uint32_t i = rect.first[0]; i < rect.first[2]; ++i)
+      for (const Way way : {WEST, EAST}) {
+        Border& border = borders_[i];
+        border.leads_on[way] = border.corner[way] != kNone && behind(rect, border, way) &&
+                               corners_[border.corner[way]].along[way] != kNone;
+      }
 }
 
 bool RectangleMesh::blocksBetween(std::uint32_t start, std::uint32_t goal,

@@ -110,14 +110,30 @@ TEST(Polyanya, StaysWhereItIs) {
 }
 
 TEST(Polyanya, KnowsTheSmallestMaps) {
-  EXPECT_EQ(planOn(test::AsciiMap({"."}).map.values().empty()
-                       ? nullptr
-                       : costsOf(OccupancyGrid(GridGeometry(1, 1, 1.0), 0)),
-                   {0, 0}, {0, 0})
-                .status,
-            Status::FOUND);
+  const auto cell = costsOf(OccupancyGrid(GridGeometry(1, 1, 1.0), 0));
+  EXPECT_EQ(planOn(cell, {0, 0}, {0, 0}).status, Status::FOUND);
   EXPECT_DOUBLE_EQ(planOn(test::AsciiMap({"S.........G"})).costValue(), 10.0);
   EXPECT_EQ(planOn(test::AsciiMap({"S....#....G"})).status, Status::UNREACHABLE);
+}
+
+TEST(Polyanya, FindsNoWayOverACheckerboard) {
+  OccupancyGrid board(GridGeometry(40, 40, 1.0), 0);
+  for (int row = 0; row < 40; ++row)
+    for (int column = 0; column < 40; ++column)
+      if ((row + column) % 2 == 1) board[Cell{column, row}] = 100;
+  EXPECT_EQ(planOn(costsOf(board), {0, 0}, {38, 38}).status, Status::UNREACHABLE);
+}
+
+TEST(Polyanya, SeesAMapThatChanged) {
+  Polyanya planner;
+  const auto before = costsOf(test::AsciiMap({".....", "..#..", "....."}).map);
+  planner.prepare(before, StopToken());
+  EXPECT_GT(planner.plan({{0, 1}, {{4, 1}}, false}, StopToken()).costValue(), 4.0);
+  auto after =
+      std::make_shared<CostGrid>(*costsOf(test::AsciiMap({".....", ".....", "....."}).map));
+  after->setRevision(before->revision() + 1);
+  planner.update(after, {2, 1, 1, 1}, StopToken());
+  EXPECT_DOUBLE_EQ(planner.plan({{0, 1}, {{4, 1}}, false}, StopToken()).costValue(), 4.0);
 }
 
 TEST(Polyanya, SaysWhatItCannotPlanWith) {
@@ -166,6 +182,39 @@ TEST(PolyanyaLaw, IsAsShortAsTheVisibilityGraphOverBlocks) {
   EXPECT_GT(found, 150);
 }
 
+// Discs: walls of many steps, along which a cone meets one border after another.
+std::shared_ptr<const CostGrid> roundObstacles(std::mt19937& random, int side) {
+  OccupancyGrid picture(GridGeometry(side, side, 1.0), 0);
+  for (int disc = 0; disc < side / 8; ++disc) {
+    const Cell middle = test::randomCell(random, picture.geometry());
+    const int radius = 2 + static_cast<int>(random() % 20);
+    for (int row = 0; row < side; ++row)
+      for (int column = 0; column < side; ++column)
+        if (std::hypot(column - middle.column, row - middle.row) < radius)
+          picture[Cell{column, row}] = 100;
+  }
+  return costsOf(picture);
+}
+
+void expectAsShortAsAnya(const std::shared_ptr<const CostGrid>& map, std::mt19937& random,
+                         int queries, int& found) {
+  Polyanya planner;
+  Anya anya;
+  planner.prepare(map, StopToken());
+  anya.prepare(map, StopToken());
+  for (int query = 0; query < queries; ++query) {
+    const PlanRequest request{test::randomCell(random, map->geometry()),
+                              {test::randomCell(random, map->geometry())},
+                              false};
+    const PlanResult result = planner.plan(request, StopToken());
+    const PlanResult other = anya.plan(request, StopToken());
+    ASSERT_EQ(result.status, other.status);
+    if (result.status != Status::FOUND) continue;
+    ASSERT_NEAR(result.costValue(), other.costValue(), 1e-9 * other.costValue());
+    ++found;
+  }
+}
+
 // Larger than the visibility graph can look at; many queries on each.
 TEST(PolyanyaLaw, IsAsShortAsAnya) {
   std::mt19937 random(20);
@@ -175,23 +224,21 @@ TEST(PolyanyaLaw, IsAsShortAsAnya) {
     const auto map = trial % 2 == 0
                          ? test::randomUniform(random, 150)
                          : costsOf(test::randomOccupancy(random, 150, 0.1 + trial * 0.005, 0.0));
-    Polyanya planner;
-    Anya anya;
-    planner.prepare(map, StopToken());
-    anya.prepare(map, StopToken());
-    for (int query = 0; query < 50; ++query) {
-      const PlanRequest request{test::randomCell(random, map->geometry()),
-                                {test::randomCell(random, map->geometry())},
-                                false};
-      const PlanResult result = planner.plan(request, StopToken());
-      const PlanResult other = anya.plan(request, StopToken());
-      ASSERT_EQ(result.status, other.status);
-      if (result.status != Status::FOUND) continue;
-      ASSERT_NEAR(result.costValue(), other.costValue(), 1e-9 * other.costValue());
-      ++found;
-    }
+    expectAsShortAsAnya(map, random, 50, found);
+    if (HasFatalFailure()) return;
   }
   EXPECT_GT(found, 1000);
+}
+
+TEST(PolyanyaLaw, IsAsShortAsAnyaAmongRoundObstacles) {
+  std::mt19937 random(8);
+  int found = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    expectAsShortAsAnya(roundObstacles(random, 300), random, 60, found);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(found, 100);
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // Polyanya: the shortest of all paths, at any angle, over rectangles instead of cells (Cui, Harabor
 // & Grastien, "Compromise-free pathfinding on a navigation mesh", IJCAI 2017).
 //
-// prepare() cuts the map into rectangles (mergedRuns), which are a convex mesh; a plan searches
-// over what a corner sees of their borders. Unlike the published one it turns into one node at a
-// corner and leaves out the rectangles that no shortest path between the two ends can enter.
+// prepare() cuts the map into rectangles as wide as the obstacles let them (mergedRuns), which are
+// a convex mesh; a plan searches over what corners see of their borders. Unlike the published one
+// it leaves out the rectangles that no shortest path between the two ends can enter, follows what
+// it sees until it parts before it puts it into the open list, and makes a node of a turn only if
+// it leads anywhere.
 //
 // Guaranteed: no legal any-angle path (terrain/segment.h) between the two waypoints is shorter, up
 // to rounding (1e-12 of the length). Refused: maps of several weights, 4-connected ones, unit

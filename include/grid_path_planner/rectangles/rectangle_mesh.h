@@ -1,16 +1,19 @@
-// The rectangles of a map as a convex mesh, laid out for a search that sees through borders.
+// Rectangles as wide as the free space lets them (mergedRuns), as a convex mesh laid out for a
+// search that sees through borders.
 //
-//   RectangleMesh mesh(rectangles, free, stop);
-//   mesh.rectangle(7).first[Side] ... first[Side + 1]   // its borders on that side, anticlockwise
+//   RectangleMesh mesh(rectangles, stop);
+//   const RectangleMesh::Rectangle& rect = mesh.rectangle(7);
+//   const auto first = rect.first[NORTHWARDS], end = rect.first[NORTHWARDS + 1];
+//   for (std::uint32_t i = first; i < end; ++i) mesh.border(i) ...  // of its north side, eastwards
 //
-// A border is the part of a side that two rectangles share, seen from one of them. Where one of its
-// ends is a corner at which a taut way can turn, one blocked cell among three free ones, it knows
-// the corner.
+// Such rectangles have no neighbours to the east and west, so a border ends only where there is a
+// blocked cell, and nothing that is seen through borders is split but by obstacles. Where one
+// blocked cell is among three free ones, a taut way can turn: a corner.
 //
-// Two rectangles that can be left in one way only need not be entered by a shortest way between
-// others: rectangles are convex, so a shortest way enters none twice, and the borders that it
-// crosses lie in the blocks (biconnected components: Hopcroft & Tarjan 1973) between the one that
-// holds the start and the one that holds the goal. Every border knows its block.
+// Rectangles that can be left in one way only need not be entered by a shortest way between others:
+// rectangles are convex, so a shortest way enters none twice, and the borders that it crosses lie
+// in the blocks (biconnected components: Hopcroft & Tarjan 1973) between the one that holds the
+// start and the one that holds the goal. Every border knows its block.
 //
 // Points are in 1/4096 cell, as SegmentPoint's, in 32 bits: sides up to kMaxSide cells.
 #pragma once
@@ -22,7 +25,6 @@
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/rectangles/rectangle_map.h"
-#include "grid_path_planner/terrain/bit_maps.h"
 #include "grid_path_planner/terrain/segment.h"
 
 namespace grid_path_planner {
@@ -33,8 +35,6 @@ struct MeshPoint {
   std::int32_t y = 0;
 
   friend MeshPoint operator-(MeshPoint a, MeshPoint b) { return {a.x - b.x, a.y - b.y}; }
-  friend bool operator==(MeshPoint a, MeshPoint b) { return a.x == b.x && a.y == b.y; }
-  friend bool operator<(MeshPoint a, MeshPoint b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
 };
 
 // Above 0 where b lies anticlockwise of a.
@@ -47,40 +47,47 @@ class RectangleMesh {
   static constexpr int kMaxSide = (1 << 18) - 1;
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  // Which way a way turns.
-  enum Turn { ANTICLOCKWISE, CLOCKWISE };
+  enum Way { WEST, EAST };
+  enum Heading { SOUTHWARDS, NORTHWARDS };
 
   struct Rectangle {
-    MeshPoint low;
-    MeshPoint high;
-    // By Side, and the end: its borders. Within a side anticlockwise too.
-    std::array<std::uint32_t, 5> first;
-
-    // Where the side ends, anticlockwise.
-    MeshPoint end(int side) const {
-      return {side == 0 || side == 3 ? high.x : low.x, side < 2 ? high.y : low.y};
-    }
+    std::int32_t west;
+    std::int32_t east;
+    std::array<std::int32_t, 2> line;  // where it ends, southwards and northwards
+    // Its borders, each side's from the west: [first[0], first[1]) on the south side,
+    // [first[1], first[2]) on the north side.
+    std::array<std::uint32_t, 3> first;
   };
 
+  // What two rectangles share of a side, seen from one of them.
   struct Border {
-    MeshPoint right;  // its ends, as one sees it who leaves
-    MeshPoint left;
+    std::int32_t west;
+    std::int32_t east;
     std::uint32_t to;
     std::uint32_t block;
-    std::uint32_t right_corner;  // kNone where no way turns there
-    std::uint32_t left_corner;
+    std::array<std::uint32_t, 2> corner;  // by Way, at its ends; kNone where no way turns
+    // By Way: the corner's obstacle is behind, and its wall leads along the line to another corner.
+    std::array<bool, 2> leads_on;
   };
 
   struct Corner {
     MeshPoint at;
-    std::array<std::uint32_t, 2> rectangle;  // by Turn: the one in which a way goes on
+    std::array<std::uint32_t, 2> along;      // by Way: the next on the line, kNone beyond a wall
+    std::array<std::uint32_t, 2> rectangle;  // by Heading: the one that begins there
+    std::uint32_t block;                     // of the border that ends here
     // Of the blocked cell, quarters being numbered anticlockwise from the north-east.
     std::int32_t quarter;
   };
 
+  // Whether the obstacle at the end of a border ends at the line, seen from the rectangle that is
+  // left; else it begins there.
+  static bool behind(const Rectangle& from, const Border& border, Way way) {
+    return way == EAST ? border.east == from.east : border.west == from.west;
+  }
+
   RectangleMesh() = default;
-  // `free`: the cells that the rectangles cover. Throws Stopped.
-  RectangleMesh(const RectangleMap& map, const BitMap& free, const StopToken& stop);
+  // Throws Stopped. Precondition: no two rectangles share an eastern and a western side.
+  RectangleMesh(const RectangleMap& map, const StopToken& stop);
 
   const Rectangle& rectangle(std::uint32_t number) const { return rectangles_[number]; }
   const Border& border(std::uint32_t number) const { return borders_[number]; }
@@ -96,9 +103,14 @@ class RectangleMesh {
 
  private:
   void addBorders(const RectangleMap& map, const StopToken& stop);
-  void addCorners(const BitMap& free, const StopToken& stop);
   void findBlocks(const StopToken& stop);
   std::uint32_t blockOf(std::uint32_t from, std::uint32_t to) const;
+  void addCorners(const StopToken& stop);
+  void addCornersOf(std::uint32_t south, std::uint32_t border);
+  std::uint32_t addCorner(MeshPoint at, int quarter, std::uint32_t south, std::uint32_t border);
+  std::uint32_t twin(std::uint32_t from, std::uint32_t border) const;
+  void link(std::uint32_t west, std::uint32_t east);
+  void linkAlong(std::uint32_t first, std::uint32_t end);
 
   std::vector<Rectangle> rectangles_;
   std::vector<Border> borders_;
