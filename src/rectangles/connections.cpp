@@ -7,11 +7,6 @@
 namespace grid_path_planner {
 namespace {
 
-struct Found {
-  std::uint32_t from;
-  Connection connection;
-};
-
 // One side of a rectangle: it lies on a grid line and covers [first, end) of it.
 struct Edge {
   int line;
@@ -32,35 +27,6 @@ Edge rowEdge(const CellRect& rect, bool upper, std::uint32_t number) {
   return {rect.row + (upper ? rect.height : 0), rect.column, rect.column + rect.width, number};
 }
 
-std::vector<Edge> sortedEdges(const std::vector<CellRect>& rectangles,
-                              Edge (*edgeOf)(const CellRect&, bool, std::uint32_t), bool upper) {
-  std::vector<Edge> edges;
-  edges.reserve(rectangles.size());
-  for (std::uint32_t i = 0; i < rectangles.size(); ++i)
-    edges.push_back(edgeOf(rectangles[i], upper, i));
-  std::sort(edges.begin(), edges.end(), alongTheLine);
-  return edges;
-}
-
-// The shared parts of edges on the same line: `lower` ends there, `upper` begins there.
-void addBorders(const std::vector<Edge>& lower, const std::vector<Edge>& upper, Side onwards,
-                Side back, std::vector<Found>& found) {
-  auto b = upper.begin();
-  for (auto a = lower.begin(); a != lower.end() && b != upper.end();) {
-    const int first = std::max(a->first, b->first);
-    const int end = std::min(a->end, b->end);
-    if (a->line == b->line && first < end) {
-      found.push_back({a->rectangle, {b->rectangle, onwards, first, end - first}});
-      found.push_back({b->rectangle, {a->rectangle, back, first, end - first}});
-    }
-    // The one that ends first has met all it can meet.
-    if (std::tie(a->line, a->end) <= std::tie(b->line, b->end))
-      ++a;
-    else
-      ++b;
-  }
-}
-
 struct Corner {
   int column;
   int row;
@@ -71,33 +37,85 @@ bool byPlace(const Corner& a, const Corner& b) {
   return std::tie(a.column, a.row) < std::tie(b.column, b.row);
 }
 
-// Pairs of which the one's corner of the kind `of` is where the other's opposite corner is.
-void addCorners(std::vector<Corner> ends, std::vector<Corner> begins, std::vector<Found>& found) {
-  std::sort(ends.begin(), ends.end(), byPlace);
-  std::sort(begins.begin(), begins.end(), byPlace);
-  auto b = begins.begin();
-  for (const Corner& a : ends) {
-    while (b != begins.end() && byPlace(*b, a)) ++b;
-    if (b == begins.end()) break;
-    if (byPlace(a, *b)) continue;
-    found.push_back({a.rectangle, {b->rectangle, Side::CORNER, 0, 0}});
-    found.push_back({b->rectangle, {a.rectangle, Side::CORNER, 0, 0}});
-  }
+// Long sorts ask too.
+template <class Value>
+void sortBy(bool (*before)(const Value&, const Value&), std::vector<Value>& values,
+            StopPoll& poll) {
+  std::sort(values.begin(), values.end(), [before, &poll](const Value& a, const Value& b) {
+    poll();
+    return before(a, b);
+  });
 }
 
-void addAllCorners(const std::vector<CellRect>& rectangles, std::vector<Found>& found) {
-  std::vector<Corner> south_west, north_east, south_east, north_west;
-  for (std::uint32_t i = 0; i < rectangles.size(); ++i) {
-    const CellRect& rect = rectangles[i];
-    const int east = rect.column + rect.width, north = rect.row + rect.height;
-    south_west.push_back({rect.column, rect.row, i});
-    north_east.push_back({east, north, i});
-    south_east.push_back({east, rect.row, i});
-    north_west.push_back({rect.column, north, i});
+// The sides of all rectangles along one axis, in order.
+struct Edges {
+  std::vector<Edge> ends;
+  std::vector<Edge> begins;
+
+  Edges(const std::vector<CellRect>& rectangles,
+        Edge (*edgeOf)(const CellRect&, bool, std::uint32_t), StopPoll& poll) {
+    ends.reserve(rectangles.size());
+    begins.reserve(rectangles.size());
+    for (std::uint32_t i = 0; i < rectangles.size(); ++i) {
+      ends.push_back(edgeOf(rectangles[i], true, i));
+      begins.push_back(edgeOf(rectangles[i], false, i));
+    }
+    sortBy(alongTheLine, ends, poll);
+    sortBy(alongTheLine, begins, poll);
   }
-  addCorners(std::move(north_east), std::move(south_west), found);
-  addCorners(std::move(north_west), std::move(south_east), found);
-}
+
+  // The shared parts of edges on the same line, from both sides.
+  template <class Tell>
+  void tellBorders(Side onwards, Side back, StopPoll& poll, Tell&& tell) const {
+    auto b = begins.begin();
+    for (auto a = ends.begin(); a != ends.end() && b != begins.end();) {
+      poll();
+      const int first = std::max(a->first, b->first);
+      const int end = std::min(a->end, b->end);
+      if (a->line == b->line && first < end) {
+        tell(a->rectangle, Connection{b->rectangle, onwards, first, end - first});
+        tell(b->rectangle, Connection{a->rectangle, back, first, end - first});
+      }
+      // The one that ends first has met all it can meet.
+      if (std::tie(a->line, a->end) <= std::tie(b->line, b->end))
+        ++a;
+      else
+        ++b;
+    }
+  }
+};
+
+// The corners of one kind and those that lie opposite to them.
+struct Corners {
+  std::vector<Corner> ends;
+  std::vector<Corner> begins;
+
+  // `north_east`: or else north west.
+  Corners(const std::vector<CellRect>& rectangles, bool north_east, StopPoll& poll) {
+    for (std::uint32_t i = 0; i < rectangles.size(); ++i) {
+      const CellRect& rect = rectangles[i];
+      const int west = rect.column, east = rect.column + rect.width;
+      ends.push_back({north_east ? east : west, rect.row + rect.height, i});
+      begins.push_back({north_east ? west : east, rect.row, i});
+    }
+    sortBy(byPlace, ends, poll);
+    sortBy(byPlace, begins, poll);
+  }
+
+  // Pairs of which the one's corner is where the other's opposite corner is, from both sides.
+  template <class Tell>
+  void tellPairs(StopPoll& poll, Tell&& tell) const {
+    auto b = begins.begin();
+    for (const Corner& a : ends) {
+      poll();
+      while (b != begins.end() && byPlace(*b, a)) ++b;
+      if (b == begins.end()) break;
+      if (byPlace(a, *b)) continue;
+      tell(a.rectangle, Connection{b->rectangle, Side::CORNER, 0, 0});
+      tell(b->rectangle, Connection{a.rectangle, Side::CORNER, 0, 0});
+    }
+  }
+};
 
 Side opposite(Side side) {
   switch (side) {
@@ -141,30 +159,38 @@ std::optional<Connection> connectionBetween(const CellRect& from, const CellRect
   return Connection{number, Side::CORNER, 0, 0};
 }
 
-Connections::Connections(const std::vector<CellRect>& rectangles, Touching touching) {
-  std::vector<Found> found;
-  addBorders(sortedEdges(rectangles, columnEdge, true), sortedEdges(rectangles, columnEdge, false),
-             Side::EAST, Side::WEST, found);
-  addBorders(sortedEdges(rectangles, rowEdge, true), sortedEdges(rectangles, rowEdge, false),
-             Side::NORTH, Side::SOUTH, found);
-  if (touching == Touching::BORDERS_AND_CORNERS) addAllCorners(rectangles, found);
-  std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
-    return std::tie(a.from, a.connection.to) < std::tie(b.from, b.connection.to);
-  });
+Connections::Connections(const std::vector<CellRect>& rectangles, Touching touching,
+                         const StopToken& stop) {
+  StopPoll poll(stop);
+  const bool corners_too = touching == Touching::BORDERS_AND_CORNERS;
+  const std::vector<CellRect> none;
+  const Edges columns(rectangles, columnEdge, poll), rows(rectangles, rowEdge, poll);
+  const Corners rising(corners_too ? rectangles : none, true, poll);
+  const Corners falling(corners_too ? rectangles : none, false, poll);
+  const auto tellAll = [&](auto&& tell) {
+    columns.tellBorders(Side::EAST, Side::WEST, poll, tell);
+    rows.tellBorders(Side::NORTH, Side::SOUTH, poll, tell);
+    rising.tellPairs(poll, tell);
+    falling.tellPairs(poll, tell);
+  };
 
   blocks_.resize(rectangles.size());
-  all_.reserve(2 * found.size());  // so that edits need not move them all
-  for (const Found& each : found) {
-    ++blocks_[each.from].count;
-    all_.push_back(each.connection);
-  }
-  std::uint32_t first = 0;
+  tellAll([this](std::uint32_t from, const Connection&) { ++blocks_[from].room; });
   for (Block& block : blocks_) {
-    block.first = first;
-    block.room = block.count;
-    first += block.count;
+    block.first = static_cast<std::uint32_t>(count_);
+    count_ += block.room;
   }
-  count_ = all_.size();
+  all_.reserve(2 * count_);  // so that edits need not move them all
+  all_.resize(count_);
+  tellAll([this](std::uint32_t from, const Connection& connection) {
+    Block& block = blocks_[from];
+    all_[block.first + block.count++] = connection;
+  });
+  for (const Block& block : blocks_) {
+    poll();
+    std::sort(all_.begin() + block.first, all_.begin() + block.first + block.count,
+              [](const Connection& a, const Connection& b) { return a.to < b.to; });
+  }
 }
 
 std::size_t Connections::bytes() const {

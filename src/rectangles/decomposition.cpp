@@ -6,6 +6,7 @@ namespace grid_path_planner {
 
 std::vector<CellRect> largestFirst(const BitMaps& free, const DecompositionLimits& limits,
                                    const StopToken& stop) {
+  if (free.bytes() > limits.bytes) throw DecompositionTooLarge();
   return GreedyCut<EvenLines>(free, {}, {}, limits, stop).run();
 }
 

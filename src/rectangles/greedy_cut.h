@@ -62,27 +62,31 @@ class GreedyCut {
         columns_(std::move(columns)),
         rows_(std::move(rows)),
         limits_(limits),
-        poll_(stop, 1024) {}
+        stop_(stop) {
+    checkRoomFor(0);
+  }
 
   std::vector<CellRect> run() {
     measureAll();
-    std::vector<CellRect> rectangles;
-    while (!heap_.empty() && rectangles.size() < limits_.count) {
-      poll_();
+    while (!heap_.empty() && rectangles_.size() < limits_.count) {
+      worked(1);
       std::pop_heap(heap_.begin(), heap_.end(), GreedyOrder());
       const GreedyEntry entry = heap_.back();
       heap_.pop_back();
       const CellRect rect = rectOf(entry);
       if (isFree(rect)) {
-        rectangles.push_back(rect);
+        push(rectangles_, rect);
         fillBits(left_, rect, false);
       }
       measureAgain(entry.last_row, entry.run_first, entry.run_end);
     }
-    return rectangles;
+    return std::move(rectangles_);
   }
 
  private:
+  // Some milliseconds' work.
+  static constexpr int kColumnsBetweenPolls = 1 << 14;
+
   // A bar of the histogram of free cells above a row that is still open to the right.
   struct Bar {
     int first_column;
@@ -104,7 +108,32 @@ class GreedyCut {
         add(row, first, end, [&heights](int column) { return heights[std::size_t(column)]; });
       }
     }
-    std::make_heap(heap_.begin(), heap_.end(), GreedyOrder());
+    std::make_heap(heap_.begin(), heap_.end(), [this](const GreedyEntry& a, const GreedyEntry& b) {
+      worked(1);
+      return GreedyOrder()(a, b);
+    });
+  }
+
+  // Asks the token now and then; `columns`: that were looked at.
+  void worked(int columns) {
+    work_ += columns;
+    if (work_ < kColumnsBetweenPolls) return;
+    work_ = 0;
+    const StopReason reason = stop_.reason();
+    if (reason != StopReason::NONE) throw Stopped(reason);
+  }
+
+  void checkRoomFor(std::size_t bytes) const {
+    const std::size_t taken = left_.bytes() + heap_.capacity() * sizeof(GreedyEntry) +
+                              rectangles_.capacity() * sizeof(CellRect);
+    if (bytes > limits_.bytes || taken > limits_.bytes - bytes) throw DecompositionTooLarge();
+  }
+
+  // A vector that grows holds both copies for a while.
+  template <class T>
+  void push(std::vector<T>& values, const T& value) {
+    if (values.size() == values.capacity()) checkRoomFor((2 * values.size() + 1) * sizeof(T));
+    values.push_back(value);
   }
 
   // What is left of a run.
@@ -124,7 +153,7 @@ class GreedyCut {
   // Appends the entry of a run, unless its rectangle is below the smallest area that is wanted.
   template <class HeightOf>
   void add(int row, int first, int end, HeightOf&& heightOf) {
-    poll_();
+    worked(end - first);
     GreedyEntry best{0, first, row, 1, first, end};
     bars_.clear();
     for (int column = first; column <= end; ++column) {
@@ -137,7 +166,7 @@ class GreedyCut {
       }
       bars_.push_back({start, height});
     }
-    if (std::int64_t{best.area} >= limits_.smallest_area) heap_.push_back(best);
+    if (std::int64_t{best.area} >= limits_.smallest_area) push(heap_, best);
   }
 
   void keepBetter(GreedyEntry& best, const Bar& bar, int end) const {
@@ -167,8 +196,10 @@ class GreedyCut {
   Lines columns_;
   Lines rows_;
   DecompositionLimits limits_;
-  StopPoll poll_;
+  const StopToken& stop_;
+  int work_ = 0;
   std::vector<GreedyEntry> heap_;
+  std::vector<CellRect> rectangles_;
   std::vector<Bar> bars_;
 };
 

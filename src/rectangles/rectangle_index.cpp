@@ -5,7 +5,9 @@
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/counting_iterator.hpp>
 #include <boost/iterator/function_output_iterator.hpp>
+#include <boost/iterator/transform_iterator.hpp>
 #include <utility>
 
 namespace grid_path_planner {
@@ -23,7 +25,21 @@ Box boxOf(const CellRect& rect) {
           Point(rect.column + rect.width - 1, rect.row + rect.height - 1)};
 }
 
+// Makes a value when the tree asks for it, and asks the stop token then.
+struct ValueOf {
+  const std::vector<CellRect>* rectangles;
+  StopPoll* poll;
+
+  Value operator()(std::uint32_t number) const {
+    (*poll)();
+    return {boxOf((*rectangles)[number]), number};
+  }
+};
+
 }  // namespace
+
+// Nodes are four fifths full.
+static_assert(RectangleIndex::kBytes == sizeof(Value) * 5 / 4);
 
 struct RectangleIndex::Tree {
   bg::index::rtree<Value, bg::index::quadratic<16>> values;
@@ -31,12 +47,15 @@ struct RectangleIndex::Tree {
 
 RectangleIndex::RectangleIndex() : tree_(std::make_unique<Tree>()) {}
 
-RectangleIndex::RectangleIndex(const std::vector<CellRect>& rectangles) : RectangleIndex() {
-  std::vector<Value> values;
-  values.reserve(rectangles.size());
-  for (const CellRect& rect : rectangles)
-    values.emplace_back(boxOf(rect), static_cast<std::uint32_t>(values.size()));
-  tree_->values = decltype(tree_->values)(values.begin(), values.end());
+RectangleIndex::RectangleIndex(const std::vector<CellRect>& rectangles, const StopToken& stop)
+    : RectangleIndex() {
+  StopPoll poll(stop);
+  const auto at = [&](std::size_t number) {
+    return boost::make_transform_iterator(
+        boost::make_counting_iterator(static_cast<std::uint32_t>(number)),
+        ValueOf{&rectangles, &poll});
+  };
+  tree_->values = decltype(tree_->values)(at(0), at(rectangles.size()));
 }
 
 RectangleIndex::~RectangleIndex() = default;
@@ -71,7 +90,7 @@ std::size_t RectangleIndex::size() const {
 }
 
 std::size_t RectangleIndex::bytes() const {
-  return size() * sizeof(Value) * 5 / 4;
+  return size() * kBytes;
 }
 
 }  // namespace grid_path_planner

@@ -15,18 +15,24 @@ std::size_t updatesUntilTakenOver(const GridGeometry& geometry) {
   return std::max<std::size_t>(64, geometry.size() >> 14);
 }
 
-RectangleMap decomposed(const CostGrid& map, const StopToken& stop) {
-  return RectangleMap(map.geometry(), largestFirst(map.bitMaps(stop), {}, stop), Touching::BORDERS);
+RectangleMap decomposed(const CostGrid& map, const StopToken& stop, std::size_t memory) {
+  DecompositionLimits limits;
+  limits.bytes = memory;
+  std::vector<CellRect> rectangles = largestFirst(map.bitMaps(stop), limits, stop);
+  rectangles.shrink_to_fit();
+  if (RectangleMap::bytesFor(rectangles.size()) > memory) throw DecompositionTooLarge();
+  return RectangleMap(map.geometry(), std::move(rectangles), Touching::BORDERS, stop);
 }
 
 }  // namespace
 
-void RectangleKeeper::prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop) {
+void RectangleKeeper::prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop,
+                              std::size_t memory) {
   making_.stop();
   begun_ = false;
   map_ = std::move(map);
   rectangles_ = RectangleMap();
-  rectangles_ = decomposed(*map_, stop);
+  rectangles_ = decomposed(*map_, stop, memory);
   decomposed_ = rectangles_.count();
   edited_ = 0;
 }
@@ -62,12 +68,14 @@ void RectangleKeeper::begin(std::size_t memory) {
   edited_ = 0;
   begun_ = true;
   since_begin_.clear();
-  making_.start([map = map_, memory](const StopToken& stop) mutable {
+  const std::size_t left = memory - std::min(memory, rectangles_.bytes());
+  making_.start([map = map_, left](const StopToken& stop) mutable {
     const auto begin = StopToken::Clock::now();
     Made made;
-    const std::size_t runs = countRuns(map->bitMaps(stop).rows);
-    if (largestFirstBytes(map->geometry(), runs) <= memory)
-      made.rectangles = std::make_unique<RectangleMap>(decomposed(*map, stop));
+    try {
+      made.rectangles = std::make_unique<RectangleMap>(decomposed(*map, stop, left));
+    } catch (const DecompositionTooLarge&) {
+    }
     map.reset();  // whoever changes the map next may have it
     made.time_s = std::chrono::duration<double>(StopToken::Clock::now() - begin).count();
     return made;

@@ -43,11 +43,15 @@ void checkInside(const GridGeometry& geometry, const std::vector<CellRect>& rect
   }
 }
 
-void checkDisjoint(const RectangleIndex& index, const std::vector<CellRect>& rectangles) {
-  for (std::size_t i = 0; i < rectangles.size(); ++i)
+void checkDisjoint(const RectangleIndex& index, const std::vector<CellRect>& rectangles,
+                   const StopToken& stop) {
+  StopPoll poll(stop);
+  for (std::size_t i = 0; i < rectangles.size(); ++i) {
+    poll();
     for (const std::uint32_t other : index.meeting(rectangles[i]))
       if (other != i)
         throw InputError(nameOf(rectangles, i) + " overlaps " + nameOf(rectangles, other));
+  }
 }
 
 std::int64_t areaOf(const CellRect& rect) {
@@ -156,12 +160,12 @@ class RectangleMap::Replacement {
 RectangleMap::RectangleMap() : index_(std::make_unique<RectangleIndex>()) {}
 
 RectangleMap::RectangleMap(const GridGeometry& geometry, std::vector<CellRect> rectangles,
-                           Touching touching)
+                           Touching touching, const StopToken& stop)
     : geometry_(geometry), touching_(touching), rectangles_(std::move(rectangles)) {
   checkInside(geometry_, rectangles_);
-  index_ = std::make_unique<RectangleIndex>(rectangles_);
-  checkDisjoint(*index_, rectangles_);
-  connections_ = Connections(rectangles_, touching);
+  index_ = std::make_unique<RectangleIndex>(rectangles_, stop);
+  checkDisjoint(*index_, rectangles_, stop);
+  connections_ = Connections(rectangles_, touching, stop);
 }
 
 RectangleMap::~RectangleMap() = default;
@@ -238,6 +242,10 @@ std::size_t RectangleMap::freeCells() const {
 std::size_t RectangleMap::bytes() const {
   return rectangles_.capacity() * sizeof(CellRect) + vacant_.capacity() * sizeof(std::uint32_t) +
          connections_.bytes() + index_->bytes();
+}
+
+std::size_t RectangleMap::bytesFor(std::size_t rectangles) {
+  return rectangles * (sizeof(CellRect) + RectangleIndex::kBytes + Connections::kMakingBytes);
 }
 
 }  // namespace grid_path_planner

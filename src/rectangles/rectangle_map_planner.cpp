@@ -1,5 +1,7 @@
 #include "grid_path_planner/rectangles/rectangle_map_planner.h"
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "grid_path_planner/rectangles/decomposition.h"
@@ -17,6 +19,11 @@ Traits rectangleMapTraits() {
   traits.any_angle = true;
   traits.repairs = true;
   return traits;
+}
+
+// Maps have about as many rectangles as their rows have runs of free cells.
+std::size_t bytesForRuns(const GridGeometry& geometry, std::size_t runs) {
+  return std::max(largestFirstBytes(geometry, runs), RectangleMap::bytesFor(runs));
 }
 
 Cell middleOf(const CellRect& rect) {
@@ -48,16 +55,21 @@ RectangleMapPlanner::RectangleMapPlanner(const SearchOptions& options)
 
 // Of a map without obstacles, the least there is; doPrepare() looks at the map.
 std::size_t RectangleMapPlanner::bytesFor(const GridGeometry& geometry) const {
-  return largestFirstBytes(geometry, static_cast<std::size_t>(geometry.height()));
+  return bytesForRuns(geometry, static_cast<std::size_t>(geometry.height()));
 }
 
 void RectangleMapPlanner::doPrepare(const StopToken& stop) {
-  const BitMaps& free = map().bitMaps(stop);
-  const std::size_t bytes = largestFirstBytes(map().geometry(), countRuns(free.rows));
-  if (bytes > memoryLimit())
-    return refuse("needs up to " + std::to_string(bytes / 1000000 + 1) +
-                  " MB to cut this map into rectangles, more than its memory_limit");
-  keeper_.prepare(sharedMap(), stop);
+  const std::size_t bytes = bytesForRuns(map().geometry(), countRuns(map().bitMaps(stop).rows));
+  const auto megabytes = [](std::size_t number) { return std::to_string(number / 1000000 + 1); };
+  const std::string too_much =
+      " MB to cut this map into rectangles, more than its memory_limit of " +
+      std::to_string(memoryLimit() / 1000000) + " MB";
+  if (bytes > memoryLimit()) return refuse("needs up to " + megabytes(bytes) + too_much);
+  try {
+    keeper_.prepare(sharedMap(), stop, memoryLimit());
+  } catch (const DecompositionTooLarge&) {
+    refuse("needs more than " + megabytes(memoryLimit()) + too_much);
+  }
 }
 
 void RectangleMapPlanner::doUpdate(const CellRect& changed, const StopToken& stop) {

@@ -120,13 +120,30 @@ struct Answer {
   double time_ms = 0.0;
 };
 
+std::size_t bytesAllowed(const Question& question) {
+  return static_cast<std::size_t>(question.memory_limit) * 1000000;
+}
+
+// `bytes` are needed, or more.
+[[noreturn]] void refuse(const Question& question, std::size_t bytes) {
+  throw InputError(question.map, "needs " + std::to_string(bytes / 1000000 + 1) +
+                                     " MB or more to be cut into rectangles, more than "
+                                     "--memory-limit " +
+                                     std::to_string(question.memory_limit));
+}
+
 // Throws InputError before memory is taken.
-void checkMemory(const Question& question, const GridGeometry& geometry, const BitMap& free) {
-  const std::size_t megabytes = largestFirstBytes(geometry, countRuns(free)) / 1000000 + 1;
-  if (megabytes > static_cast<std::size_t>(question.memory_limit))
-    throw InputError(question.map, "needs up to " + std::to_string(megabytes) +
-                                       " MB to be cut into rectangles, more than --memory-limit " +
-                                       std::to_string(question.memory_limit));
+std::vector<CellRect> cutWithinMemory(const Question& question, const GridGeometry& geometry,
+                                      const BitMaps& free) {
+  const std::size_t expected = largestFirstBytes(geometry, countRuns(free.rows));
+  if (expected > bytesAllowed(question)) refuse(question, expected);
+  DecompositionLimits limits = question.limits;
+  limits.bytes = bytesAllowed(question);
+  try {
+    return question.merged_runs ? mergedRuns(free.rows, {}) : largestFirst(free, limits, {});
+  } catch (const DecompositionTooLarge&) {
+    refuse(question, limits.bytes);
+  }
 }
 
 // Cut as the file has its rows, since the order among equal rectangles depends on it: the same
@@ -134,13 +151,13 @@ void checkMemory(const Question& question, const GridGeometry& geometry, const B
 Answer answerOf(const Question& question, const OccupancyGrid& map) {
   const bool over = rowOrderOf(question.map) == RowOrder::LAST_ROW_FIRST;
   const BitMaps free = freeCellsOf(over ? turnedOver(map) : map, {}, question.unknown_is_free, {});
-  checkMemory(question, map.geometry(), free.rows);
   Answer answer;
   const auto begin = std::chrono::steady_clock::now();
-  answer.in_file =
-      question.merged_runs ? mergedRuns(free.rows, {}) : largestFirst(free, question.limits, {});
+  answer.in_file = cutWithinMemory(question, map.geometry(), free);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
   answer.time_ms = time.count();
+  const std::size_t needed = RectangleMap::bytesFor(answer.in_file.size());
+  if (needed > bytesAllowed(question)) refuse(question, needed);
   std::vector<CellRect> rectangles = answer.in_file;
   if (over)
     for (CellRect& rect : rectangles) rect.row = map.height() - rect.row - rect.height;

@@ -122,6 +122,21 @@ TEST(LargestFirst, CannotBeSurprisedByManyEqualRectangles) {
   EXPECT_EQ(rectangles, test::surveyRectangles(checkers, checkers.values().size()));
 }
 
+// Tall rectangles cut the runs of many rows: the heap grows far beyond the runs that the map has.
+TEST(LargestFirst, TakesNoMoreMemoryThanAllowed) {
+  std::mt19937 random(31);
+  FreeCells sparse(GridGeometry(600, 600, 1.0), 1);
+  for (std::uint8_t& cell : sparse.values()) cell = random() % 1000 != 0 ? 1 : 0;
+  const BitMaps bits = bitMapsOf(sparse);
+  DecompositionLimits limits;
+  limits.bytes = bits.bytes() - 1;
+  EXPECT_THROW(largestFirst(bits, limits, StopToken()), DecompositionTooLarge);
+  limits.bytes = largestFirstBytes(sparse.geometry(), countRuns(bits.rows));
+  EXPECT_THROW(largestFirst(bits, limits, StopToken()), DecompositionTooLarge);
+  limits.bytes *= 10;
+  EXPECT_EQ(largestFirst(bits, limits, StopToken()), cut(sparse));
+}
+
 TEST(LargestFirst, StopsWhenAsked) {
   StopSource stop;
   stop.cancel();

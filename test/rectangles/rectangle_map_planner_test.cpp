@@ -99,6 +99,24 @@ TEST(RectangleMapPlanner, RefusesAMapForWhichItHasNoMemory) {
   EXPECT_EQ(plan(planner, {0, 0}, {399, 399}).status, Status::FOUND);
 }
 
+// What tall rectangles cost shows only while they are cut.
+TEST(RectangleMapPlanner, RefusesAMapThatTurnsOutToNeedMoreMemory) {
+  std::mt19937 random(31);
+  FreeCells sparse(GridGeometry(600, 600, 1.0), 1);
+  for (std::uint8_t& cell : sparse.values()) cell = random() % 1000 != 0 ? 1 : 0;
+  const BitMaps bits = test::bitMapsOf(sparse);
+  const std::size_t runs = countRuns(bits.rows);
+  RectangleMapPlanner planner;
+  planner.limitMemory(
+      std::max(largestFirstBytes(sparse.geometry(), runs), RectangleMap::bytesFor(runs)));
+  planner.prepare(costsOf(sparse), StopToken());
+  const PlanResult refused = plan(planner, {0, 0}, {0, 0});
+  EXPECT_EQ(refused.status, Status::INVALID_REQUEST);
+  EXPECT_NE(refused.message.find("needs more than"), std::string::npos) << refused.message;
+  planner.prepare(costsOf(FreeCells(sparse.geometry(), 1)), StopToken());
+  EXPECT_EQ(plan(planner, {0, 0}, {599, 599}).status, Status::FOUND);
+}
+
 // --- Updates ------------------------------------------------------------------------------------
 
 TEST(RectangleMapPlanner, SeesThatADoorWasShutAndOpened) {

@@ -48,6 +48,17 @@ TEST(RectangleMap, RefusesRectanglesThatCannotBe) {
             "rectangle 0 [0, 0, 3, 3] overlaps rectangle 2 [2, 2, 2, 2]");
 }
 
+TEST(RectangleMap, StopsWhenAsked) {
+  StopSource stop;
+  stop.cancel();
+  std::vector<CellRect> rectangles;
+  for (int i = 0; i < 5000; ++i) rectangles.push_back({i, 0, 1, 1});
+  const GridGeometry geometry(5000, 1, 1.0);
+  EXPECT_THROW(RectangleMap(geometry, rectangles, Touching::BORDERS, stop.token()), Stopped);
+  EXPECT_THROW(RectangleIndex(rectangles, stop.token()), Stopped);
+  EXPECT_THROW(Connections(rectangles, Touching::BORDERS, stop.token()), Stopped);
+}
+
 TEST(RectangleIndex, FollowsWhatComesAndGoes) {
   RectangleIndex index;
   index.add({0, 0, 4, 4}, 7);

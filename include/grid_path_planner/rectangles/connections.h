@@ -16,6 +16,7 @@
 #include <optional>
 #include <vector>
 
+#include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/grid/cell.h"
 
 namespace grid_path_planner {
@@ -55,9 +56,14 @@ class Connections {
     const Connection* end_;
   };
 
+  // The most that making them takes of one of many rectangles: of a plane's regions each borders on
+  // less than six others in the mean, and all edges are sorted along both axes.
+  static constexpr std::size_t kMakingBytes = 6 * sizeof(Connection) + 12 + 4 * 16;
+
   Connections() = default;
-  // Precondition: the rectangles are disjoint and none is empty.
-  Connections(const std::vector<CellRect>& rectangles, Touching touching);
+  // Precondition: the rectangles are disjoint and none is empty. Throws Stopped.
+  Connections(const std::vector<CellRect>& rectangles, Touching touching,
+              const StopToken& stop = StopToken());
 
   // Of the rectangle with that number; valid until the next change.
   Range of(std::uint32_t rectangle) const {

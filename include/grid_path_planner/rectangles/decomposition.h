@@ -32,9 +32,13 @@ namespace grid_path_planner {
 struct DecompositionLimits {
   std::size_t count = std::numeric_limits<std::size_t>::max();  // no more rectangles than these
   std::int64_t smallest_area = 1;                               // none of fewer cells
+  std::size_t bytes = std::numeric_limits<std::size_t>::max();  // all memory at any time
 };
 
-// `free`: a cell's bit is 1 where it is free. Throws Stopped.
+// Thrown where the work would need more memory than DecompositionLimits::bytes, before it is taken.
+struct DecompositionTooLarge {};
+
+// `free`: a cell's bit is 1 where it is free. Throws Stopped and DecompositionTooLarge.
 std::vector<CellRect> largestFirst(const BitMaps& free, const DecompositionLimits& limits,
                                    const StopToken& stop);
 
@@ -42,7 +46,8 @@ std::vector<CellRect> largestFirst(const BitMaps& free, const DecompositionLimit
 std::size_t countRuns(const BitMap& free);
 
 // About what largestFirst takes, its result included, for a map with so many runs in its rows; a
-// map without obstacles has one a row.
+// map without obstacles has one a row. Where large rectangles are taken across many runs it may be
+// several times as much: who needs a bound sets DecompositionLimits::bytes.
 std::size_t largestFirstBytes(const GridGeometry& geometry, std::size_t runs);
 
 // A partition where order does not matter, in one pass: each row's maximal runs, joined with the

@@ -8,15 +8,20 @@
 #include <optional>
 #include <vector>
 
+#include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/grid/cell.h"
 
 namespace grid_path_planner {
 
 class RectangleIndex {
  public:
+  // About, of one of many rectangles.
+  static constexpr std::size_t kBytes = 25;
+
   RectangleIndex();
-  // Numbered by their place in the list; made in bulk, which gives a better tree.
-  explicit RectangleIndex(const std::vector<CellRect>& rectangles);
+  // Numbered by their place in the list; made in bulk, which gives a better tree. Throws Stopped.
+  explicit RectangleIndex(const std::vector<CellRect>& rectangles,
+                          const StopToken& stop = StopToken());
   ~RectangleIndex();
   RectangleIndex(RectangleIndex&&) noexcept;
   RectangleIndex& operator=(RectangleIndex&&) noexcept;

@@ -36,10 +36,12 @@ class RectangleKeeper {
   // Counted as if a decomposition had at least so many.
   static constexpr std::size_t kLeastRectangles = 1000;
 
-  // Drops what there is and decomposes. Throws Stopped.
-  void prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop);
-  // `map` differs from the one before only inside `changed`. Nothing is decomposed anew where that
-  // needs more than `memory`, by largestFirstBytes(). Throws Stopped, and is to be prepared then.
+  // Drops what there is and decomposes, in no more memory than `memory`. Throws Stopped, and
+  // DecompositionTooLarge before it takes more.
+  void prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop,
+               std::size_t memory = std::numeric_limits<std::size_t>::max());
+  // `map` differs from the one before only inside `changed`. What is decomposed anew must find room
+  // beside the rectangles there are. Throws Stopped, and is to be prepared then.
   void update(std::shared_ptr<const CostGrid> map, const CellRect& changed, const StopToken& stop,
               std::size_t memory = std::numeric_limits<std::size_t>::max());
 

@@ -40,8 +40,10 @@ class RectangleMap {
  public:
   // No cells, no rectangles.
   RectangleMap();
-  // Throws InputError naming the first rectangle that is empty, leaves the map or overlaps another.
-  RectangleMap(const GridGeometry& geometry, std::vector<CellRect> rectangles, Touching touching);
+  // Throws InputError naming the first rectangle that is empty, leaves the map or overlaps another,
+  // and Stopped.
+  RectangleMap(const GridGeometry& geometry, std::vector<CellRect> rectangles, Touching touching,
+               const StopToken& stop = StopToken());
   ~RectangleMap();
   RectangleMap(RectangleMap&&) noexcept;
   RectangleMap& operator=(RectangleMap&&) noexcept;
@@ -63,6 +65,8 @@ class RectangleMap {
 
   std::size_t freeCells() const;
   std::size_t bytes() const;
+  // The most that a map of so many rectangles that border each other takes while it is made.
+  static std::size_t bytesFor(std::size_t rectangles);
 
  private:
   class Replacement;
