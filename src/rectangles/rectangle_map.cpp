@@ -186,8 +186,11 @@ RectangleEdit RectangleMap::edit(const BitMap& free, const CellRect& changed,
   std::vector<CellRect> met;
   for (const std::uint32_t number : index_->meeting(inside)) met.push_back(rectangles_[number]);
   Replacement replacement(*this);
-  for (const FreeChanges& each : nearEachOther(freeChanges(free, met, inside, stop)))
+  StopPoll poll(stop, 8);
+  for (const FreeChanges& each : nearEachOther(freeChanges(free, met, inside, stop))) {
+    poll();
     repair(each, replacement, stop);
+  }
   return replacement.edit();
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <random>
 #include <tuple>
 
@@ -77,13 +78,20 @@ TEST(RectangleEdit, TheOthersKeepTheirNumbers) {
 }
 
 TEST(RectangleEdit, NothingChangesWhereNothingChanged) {
-  const FreeCells free = test::publishedExample();
-  RectangleMap map = mapOf(free);
-  const std::vector<CellRect> before = map.rectangles();
-  const RectangleEdit edited = edit(map, free, free.geometry().rect().grown(3));
-  EXPECT_TRUE(edited.removed.empty());
-  EXPECT_TRUE(edited.added.empty());
-  EXPECT_EQ(map.rectangles(), before);
+  std::mt19937 random(13);
+  for (int trial = 0; trial < 50; ++trial) {
+    const FreeCells free = test::randomFreeCells(random, 100, 0.7);
+    RectangleMap map = mapOf(free);
+    const std::vector<CellRect> before = map.rectangles();
+    const CellRect changed{static_cast<int>(random() % 100), static_cast<int>(random() % 100), 9,
+                           7};
+    for (const CellRect& rect : {changed, free.geometry().rect().grown(3)}) {
+      const RectangleEdit edited = edit(map, free, rect);
+      EXPECT_TRUE(edited.removed.empty());
+      EXPECT_TRUE(edited.added.empty());
+      EXPECT_EQ(map.rectangles(), before);
+    }
+  }
 }
 
 TEST(RectangleEdit, ThePublishedExampleComesBack) {
@@ -211,6 +219,50 @@ TEST(RectangleEdit, LeavesAMapLikeOneMadeAnew) {
   }
 }
 
+// A town of 80 houses, of which cells are toggled: anywhere, and where walls are.
+FreeCells town(std::mt19937& random) {
+  FreeCells free(GridGeometry(250, 250, 1.0), 1);
+  for (int house = 0; house < 80; ++house) {
+    const CellRect rect{static_cast<int>(random() % 245), static_cast<int>(random() % 245),
+                        5 + static_cast<int>(random() % 20), 5 + static_cast<int>(random() % 20)};
+    test::fillCells(free, rect.intersection(free.geometry().rect()), 0);
+  }
+  return free;
+}
+
+bool besideAWall(const FreeCells& free, Cell cell) {
+  int blocked = 0, cells = 0;
+  for (int row = cell.row - 1; row <= cell.row + 1; ++row)
+    for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
+      if (!free.contains({column, row})) continue;
+      ++cells;
+      blocked += free[Cell{column, row}] == 0 ? 1 : 0;
+    }
+  return 0 < blocked && blocked < cells;
+}
+
+TEST(RectangleEdit, KeepsAboutAsFewRectanglesAsAFreshDecomposition) {
+  std::mt19937 random(20261122);
+  for (const bool walls : {false, true}) {
+    FreeCells free = town(random);
+    BitMaps bits = bitMapsOf(free);
+    RectangleMap map = mapOf(free);
+    for (int edits = 1; edits <= 10000; ++edits) {
+      const Cell cell{static_cast<int>(random() % 250), static_cast<int>(random() % 250)};
+      if (walls && !besideAWall(free, cell)) {
+        --edits;
+        continue;
+      }
+      free[cell] ^= 1;
+      bits.rows.set(cell, free[cell] != 0);
+      map.edit(bits.rows, {cell.column, cell.row, 1, 1}, StopToken());
+      if (edits % 2500 == 0) {
+        EXPECT_LE(static_cast<double>(map.count()), 1.1 * static_cast<double>(mapOf(free).count()));
+      }
+    }
+  }
+}
+
 // Two maps that have nothing in common but their size.
 TEST(RectangleEdit, TakesAWholeNewMap) {
   std::mt19937 random(5);
@@ -225,6 +277,28 @@ TEST(RectangleEdit, TakesAWholeNewMap) {
     expectPartition(after, map);
     expectConnections(map, Touching::BORDERS);
   }
+}
+
+TEST(RectangleEdit, StopsWhenAskedAndMayBeCalledAgain) {
+  std::mt19937 random(6);
+  const GridGeometry geometry(700, 700, 1.0);
+  FreeCells before(geometry, 1), after(geometry);
+  for (std::uint8_t& cell : after.values()) cell = random() % 2 == 0 ? 1 : 0;
+  RectangleMap map = mapOf(before);
+  const BitMaps bits = bitMapsOf(after);
+  int stopped = 0;
+  for (const double limit : {0.0, 0.01, 0.02, 0.04}) {
+    const StopSource source;
+    try {
+      map.edit(bits.rows, geometry.rect(), source.token(std::chrono::duration<double>(limit)));
+    } catch (const Stopped&) {
+      ++stopped;
+    }
+  }
+  EXPECT_GT(stopped, 0);
+  map.edit(bits.rows, geometry.rect(), StopToken());
+  expectPartition(after, map);
+  expectConnections(map, Touching::BORDERS);
 }
 
 TEST(RectangleEdit, SameEditsSameRectangles) {
