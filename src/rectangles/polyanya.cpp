@@ -65,7 +65,8 @@ void Polyanya::doPrepare(const StopToken& stop) {
   if (bytes > memoryLimit())
     return refuse("needs up to " + std::to_string(bytes / 1000000 + 1) +
                   " MB to cut this map into rectangles, more than its memory_limit");
-  rectangles_ = RectangleMap(map().geometry(), mergedRuns(free.rows, stop), Touching::BORDERS);
+  rectangles_ = mergedRuns(free.rows, stop);
+  index_ = RectangleIndex(rectangles_);
   mesh_ = RectangleMesh(rectangles_, stop);
   search_ = std::make_unique<ConeSearch>();
 }
@@ -81,14 +82,14 @@ PlanResult Polyanya::doPlan(const PlanRequest& request, const StopToken& stop) {
   }
   std::vector<std::uint32_t> expanded;
   const ConeSearch::Answer answer =
-      search_->run(mesh_, {inMesh(waypointOf(map(), start)), *rectangles_.at(start)},
-                   {inMesh(waypointOf(map(), goal)), *rectangles_.at(goal)}, stop,
-                   result.statistics, request.record_expanded ? &expanded : nullptr);
+      search_->run(mesh_, {inMesh(waypointOf(map(), start)), *index_.at(start)},
+                   {inMesh(waypointOf(map(), goal)), *index_.at(goal)}, stop, result.statistics,
+                   request.record_expanded ? &expanded : nullptr);
   for (const std::uint32_t rectangle : expanded)
-    result.expanded.push_back(
-        map().geometry().index(middleOf(rectangles_.rectangles()[rectangle])));
+    result.expanded.push_back(map().geometry().index(middleOf(rectangles_[rectangle])));
   result.status = answer.status;
-  result.statistics.search_bytes = rectangles_.bytes() + mesh_.bytes() + search_->bytes();
+  result.statistics.search_bytes =
+      rectangles_.capacity() * sizeof(CellRect) + index_.bytes() + mesh_.bytes() + search_->bytes();
   if (answer.status != Status::FOUND) return result;
 
   result.segment_cost = answer.length / kUnit * map().cheapest() * map().kernel();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "grid_path_planner/rectangles/connections.h"
+
 namespace grid_path_planner {
 namespace {
 
@@ -14,24 +16,24 @@ bool fromTheWest(const RectangleMesh::Border& a, const RectangleMesh::Border& b)
 
 }  // namespace
 
-RectangleMesh::RectangleMesh(const RectangleMap& map, const StopToken& stop) {
-  addBorders(map, stop);
+RectangleMesh::RectangleMesh(const std::vector<CellRect>& rectangles, const StopToken& stop) {
+  addBorders(rectangles, stop);
   findBlocks(stop);
   addCorners(stop);
 }
 
-void RectangleMesh::addBorders(const RectangleMap& map, const StopToken& stop) {
+void RectangleMesh::addBorders(const std::vector<CellRect>& rectangles, const StopToken& stop) {
   StopPoll poll(stop);
-  rectangles_.reserve(map.rectangles().size());
-  borders_.reserve(map.connections().size());
+  const Connections connections(rectangles, Touching::BORDERS);
+  rectangles_.reserve(rectangles.size());
+  borders_.reserve(connections.size());
   std::vector<Border> below, above;
-  for (std::uint32_t i = 0; i < map.rectangles().size(); ++i) {
+  for (std::uint32_t i = 0; i < rectangles.size(); ++i) {
     poll();
     below.clear();
     above.clear();
-    for (const Connection& connection : map.connections().of(i)) {
+    for (const Connection& connection : connections.of(i)) {
       assert(connection.side != Side::EAST && connection.side != Side::WEST);
-      if (connection.side == Side::CORNER) continue;
       (connection.side == Side::NORTH ? above : below)
           .push_back({connection.first * kUnit,
                       (connection.first + connection.length) * kUnit,
@@ -40,7 +42,7 @@ void RectangleMesh::addBorders(const RectangleMap& map, const StopToken& stop) {
                       {kNone, kNone},
                       {false, false}});
     }
-    const CellRect& cells = map.rectangles()[i];
+    const CellRect& cells = rectangles[i];
     Rectangle rect{cells.column * kUnit,
                    (cells.column + cells.width) * kUnit,
                    {cells.row * kUnit, (cells.row + cells.height) * kUnit},

@@ -13,8 +13,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
-#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_index.h"
 #include "grid_path_planner/rectangles/rectangle_mesh.h"
 #include "grid_path_planner/search/planner.h"
 
@@ -30,7 +32,7 @@ class Polyanya : public Planner {
   std::size_t bytesFor(const GridGeometry& geometry) const override;
 
   // Of the prepared map.
-  const RectangleMap& rectangles() const { return rectangles_; }
+  const std::vector<CellRect>& rectangles() const { return rectangles_; }
 
  protected:
   std::string refusal(const CostGrid& map) const override;
@@ -38,7 +40,8 @@ class Polyanya : public Planner {
   PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
 
  private:
-  RectangleMap rectangles_;
+  std::vector<CellRect> rectangles_;
+  RectangleIndex index_;
   RectangleMesh mesh_;
   std::unique_ptr<ConeSearch> search_;
 };

@@ -1,7 +1,7 @@
 // Rectangles as wide as the free space lets them (mergedRuns), as a convex mesh laid out for a
 // search that sees through borders.
 //
-//   RectangleMesh mesh(rectangles, stop);
+//   RectangleMesh mesh(mergedRuns(free, stop), stop);
 //   const RectangleMesh::Rectangle& rect = mesh.rectangle(7);
 //   const auto first = rect.first[NORTHWARDS], end = rect.first[NORTHWARDS + 1];
 //   for (std::uint32_t i = first; i < end; ++i) mesh.border(i) ...  // of its north side, eastwards
@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/grid/cell.h"
 #include "grid_path_planner/terrain/segment.h"
 
 namespace grid_path_planner {
@@ -86,8 +86,9 @@ class RectangleMesh {
   }
 
   RectangleMesh() = default;
-  // Throws Stopped. Precondition: no two rectangles share an eastern and a western side.
-  RectangleMesh(const RectangleMap& map, const StopToken& stop);
+  // Throws Stopped. Precondition: they are disjoint, none is empty, and none has a neighbour to its
+  // east or west.
+  RectangleMesh(const std::vector<CellRect>& rectangles, const StopToken& stop);
 
   const Rectangle& rectangle(std::uint32_t number) const { return rectangles_[number]; }
   const Border& border(std::uint32_t number) const { return borders_[number]; }
@@ -102,7 +103,7 @@ class RectangleMesh {
   std::size_t bytes() const;
 
  private:
-  void addBorders(const RectangleMap& map, const StopToken& stop);
+  void addBorders(const std::vector<CellRect>& rectangles, const StopToken& stop);
   void findBlocks(const StopToken& stop);
   std::uint32_t blockOf(std::uint32_t from, std::uint32_t to) const;
   void addCorners(const StopToken& stop);
