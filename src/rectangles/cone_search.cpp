@@ -27,30 +27,12 @@ double distance(MeshPoint a, MeshPoint b) {
 
 std::size_t ConeSearch::bytes() const {
   return roots_.size() * sizeof(Root) + corners_.size() * sizeof(Known) +
-         block_queries_.size() * sizeof(std::uint32_t) +
-         nodes_.size() * (sizeof(Node) + sizeof(Entry) + sizeof(std::uint32_t));
+         block_queries_.size() * sizeof(std::uint32_t) + open_.bytes();
 }
 
 void ConeSearch::push(double f, const Node& node) {
-  std::uint32_t place = static_cast<std::uint32_t>(nodes_.size());
-  if (unused_.empty()) {
-    nodes_.push_back(node);
-  } else {
-    place = unused_.back();
-    unused_.pop_back();
-    nodes_[place] = node;
-  }
-  heap_.push_back({f, place});
-  std::push_heap(heap_.begin(), heap_.end());
+  open_.push(f, node);
   ++counts_->generated;
-}
-
-ConeSearch::Node ConeSearch::pop() {
-  std::pop_heap(heap_.begin(), heap_.end());
-  const std::uint32_t place = heap_.back().node;
-  heap_.pop_back();
-  unused_.push_back(place);
-  return nodes_[place];
 }
 
 // The most promising of the successors need not pass through the open list.
@@ -344,7 +326,7 @@ void ConeSearch::expandCone(Node cone) {
     }
     const double f = promise(cone);
     if (f >= best_) return;
-    if (!heap_.empty() && f > heap_.front().f) return push(f, cone);
+    if (!open_.empty() && f > open_.least()) return push(f, cone);
     borders = kBordersUnjudged;
   }
 }
@@ -358,9 +340,7 @@ void ConeSearch::begin(const RectangleMesh& mesh, End start, End goal, Statistic
   best_root_ = -1;
   has_next_ = false;
   roots_.clear();
-  nodes_.clear();
-  unused_.clear();
-  heap_.clear();
+  open_.clear();
   if (++query_ == 0 || corners_.size() != mesh.corners() ||
       block_queries_.size() != mesh.blocks()) {
     query_ = 1;
@@ -393,9 +373,9 @@ ConeSearch::Answer ConeSearch::run(const RectangleMesh& mesh, End start, End goa
 
   // 2. The most promising cone or corner, until none can lead to a shorter way.
   StopPoll poll(stop, 64);
-  while (!heap_.empty() && heap_.front().f < best_) {
-    counts.peak_open = std::max(counts.peak_open, heap_.size());
-    Node node = pop();
+  while (!open_.empty() && open_.least() < best_) {
+    counts.peak_open = std::max(counts.peak_open, open_.size());
+    Node node = open_.pop();
     if (roots_[node.root].beaten) continue;
     for (;;) {
       const StopReason reason = poll.ask();
@@ -414,7 +394,7 @@ ConeSearch::Answer ConeSearch::run(const RectangleMesh& mesh, End start, End goa
       if (!has_next_) break;
       has_next_ = false;
       if (next_f_ >= best_) break;
-      if (!heap_.empty() && next_f_ > heap_.front().f) {
+      if (!open_.empty() && next_f_ > open_.least()) {
         push(next_f_, next_);
         break;
       }

@@ -18,6 +18,7 @@
 #include "grid_path_planner/base/status.h"
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/rectangles/rectangle_mesh.h"
+#include "grid_path_planner/search/node_heap.h"
 
 namespace grid_path_planner {
 
@@ -66,11 +67,6 @@ class ConeSearch {
     Heading heading;      // of a cone
     std::int8_t along;    // the Way along the line, kCone of a cone
   };
-  struct Entry {
-    double f;
-    std::uint32_t node;
-    friend bool operator<(const Entry& a, const Entry& b) { return a.f > b.f; }  // for std's heaps
-  };
   struct Known {  // of a corner
     std::uint32_t query = 0;
     std::int32_t root = -1;
@@ -103,7 +99,6 @@ class ConeSearch {
   double promise(const Node& cone) const;
   void offer(double f, const Node& node);
   void push(double f, const Node& node);
-  Node pop();
   bool allowed(const RectangleMesh::Border& border) const {
     return block_queries_[border.block] == query_ && border.to != start_.rectangle;
   }
@@ -118,9 +113,7 @@ class ConeSearch {
   double next_f_ = 0.0;
   Node next_{};
   std::vector<Root> roots_;
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> unused_;  // places in nodes_
-  std::vector<Entry> heap_;
+  NodeHeap<Node> open_;
   std::uint32_t query_ = 0;
   std::vector<Known> corners_;
   std::vector<std::uint32_t> blocks_;         // that this query may pass

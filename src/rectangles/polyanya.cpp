@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kUnit = SegmentPoint::kUnitsPerCell;
 
-// Rectangles, borders, corners and a search over all of them: measured on random maps, where every
-// run is a rectangle.
-constexpr std::size_t kBytesPerRun = 1000;
+// A rectangle with its borders and corners, their making and a search over all of them: 545
+// measured on a map with a quarter of its cells blocked at random.
+constexpr std::size_t kBytesPerRectangle = 600;
 
 Traits polyanyaTraits() {
   Traits traits;
@@ -34,9 +34,8 @@ SegmentPoint inUnits(MeshPoint point) {
   return {point.x, point.y};
 }
 
-// At most, with a run of free cells for each of so many.
-std::size_t bytesForRuns(const GridGeometry& geometry, std::size_t runs) {
-  return BitMaps::bytesFor(geometry) + runs * kBytesPerRun;
+std::size_t bytesForRectangles(const GridGeometry& geometry, std::size_t count) {
+  return BitMaps::bytesFor(geometry) + count * kBytesPerRectangle;
 }
 
 Cell middleOf(const CellRect& rect) {
@@ -50,7 +49,7 @@ Polyanya::~Polyanya() = default;
 
 // Of a map without obstacles, the least there is; doPrepare() looks at the map.
 std::size_t Polyanya::bytesFor(const GridGeometry& geometry) const {
-  return bytesForRuns(geometry, static_cast<std::size_t>(geometry.height()));
+  return bytesForRectangles(geometry, 1);
 }
 
 std::string Polyanya::refusal(const CostGrid& map) const {
@@ -61,14 +60,24 @@ std::string Polyanya::refusal(const CostGrid& map) const {
 
 void Polyanya::doPrepare(const StopToken& stop) {
   const BitMaps& free = map().bitMaps(stop);
-  const std::size_t bytes = bytesForRuns(map().geometry(), countRuns(free.rows));
-  if (bytes > memoryLimit())
-    return refuse("needs up to " + std::to_string(bytes / 1000000 + 1) +
-                  " MB to cut this map into rectangles, more than its memory_limit");
+  // The list of rectangles may be as long as there are runs, and doubles as it grows.
+  const std::size_t list = 2 * sizeof(CellRect) * countRuns(free.rows);
+  if (list > memoryLimit()) return refuseFor(list);
   rectangles_ = mergedRuns(free.rows, stop);
-  index_ = RectangleIndex(rectangles_);
+  const std::size_t bytes = bytesForRectangles(map().geometry(), rectangles_.size());
+  if (bytes > memoryLimit()) {
+    rectangles_ = {};
+    return refuseFor(bytes);
+  }
+  index_ = RectangleIndex(rectangles_, stop);
   mesh_ = RectangleMesh(rectangles_, stop);
   search_ = std::make_unique<ConeSearch>();
+}
+
+void Polyanya::refuseFor(std::size_t bytes) {
+  refuse("needs up to " + std::to_string(bytes / 1000000 + 1) +
+         " MB to cut this map into rectangles, more than its memory_limit of " +
+         std::to_string(memoryLimit() / 1000000) + " MB");
 }
 
 PlanResult Polyanya::doPlan(const PlanRequest& request, const StopToken& stop) {

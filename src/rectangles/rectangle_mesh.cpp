@@ -24,7 +24,7 @@ RectangleMesh::RectangleMesh(const std::vector<CellRect>& rectangles, const Stop
 
 void RectangleMesh::addBorders(const std::vector<CellRect>& rectangles, const StopToken& stop) {
   StopPoll poll(stop);
-  const Connections connections(rectangles, Touching::BORDERS);
+  const Connections connections(rectangles, Touching::BORDERS, stop);
   rectangles_.reserve(rectangles.size());
   borders_.reserve(connections.size());
   std::vector<Border> below, above;

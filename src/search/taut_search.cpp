@@ -49,31 +49,13 @@ inline double TautSearch::distance(const Point& a, double x, double y) const {
 }
 
 std::size_t TautSearch::bytes() const {
-  return roots_.size() * sizeof(Root) + corners_.bytes() +
-         nodes_.size() * (sizeof(Node) + sizeof(Entry) + sizeof(std::uint32_t));
+  return roots_.size() * sizeof(Root) + corners_.bytes() + open_.bytes();
 }
 
 void TautSearch::push(double f, const Node& node) {
   if (f >= best_) return;
-  std::uint32_t place = static_cast<std::uint32_t>(nodes_.size());
-  if (unused_.empty()) {
-    nodes_.push_back(node);
-  } else {
-    place = unused_.back();
-    unused_.pop_back();
-    nodes_[place] = node;
-  }
-  heap_.push_back({f, place});
-  std::push_heap(heap_.begin(), heap_.end());
+  open_.push(f, node);
   ++counts_->generated;
-}
-
-TautSearch::Node TautSearch::pop() {
-  std::pop_heap(heap_.begin(), heap_.end());
-  const std::uint32_t place = heap_.back().node;
-  heap_.pop_back();
-  unused_.push_back(place);
-  return nodes_[place];
 }
 
 void TautSearch::see(std::int32_t root) {
@@ -315,7 +297,7 @@ void TautSearch::expandCone(Node cone) {
     glide(cone, near, far);
     if (std::abs(cone.line - judged) >= kRowsUnjudged) {
       const double f = promise(cone);
-      if (f >= best_ || (!heap_.empty() && f > heap_.front().f)) return push(f, cone);
+      if (f >= best_ || (!open_.empty() && f > open_.least())) return push(f, cone);
       judged = cone.line;
     }
     const Word* row = ahead(cone.line, cone.rows);
@@ -359,9 +341,7 @@ TautSearch::Answer TautSearch::run(const BitMap& rows, Point start, Point goal,
   best_ = std::numeric_limits<double>::infinity();
   best_root_ = -1;
   roots_.clear();
-  nodes_.clear();
-  unused_.clear();
-  heap_.clear();
+  open_.clear();
   corners_.clear();
 
   // 1. The start sees its run of cells, and through its upper and lower edge.
@@ -378,14 +358,14 @@ TautSearch::Answer TautSearch::run(const BitMap& rows, Point start, Point goal,
   // 2. The most promising cone or corner, until none can lead to a shorter way.
   StopPoll poll(stop, 16);  // an expansion may cross the whole map
   Answer answer;
-  while (!heap_.empty() && heap_.front().f < best_) {
+  while (!open_.empty() && open_.least() < best_) {
     const StopReason reason = poll.ask();
     if (reason != StopReason::NONE) {
       answer.status = Stopped(reason).status();
       return answer;
     }
-    counts.peak_open = std::max(counts.peak_open, heap_.size());
-    const Node node = pop();
+    counts.peak_open = std::max(counts.peak_open, open_.size());
+    const Node node = open_.pop();
     if (roots_[node.root].beaten) continue;
     ++counts.expanded;
     if (expanded) {

@@ -20,6 +20,7 @@
 #include "grid_path_planner/base/statistics.h"
 #include "grid_path_planner/base/status.h"
 #include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/search/node_heap.h"
 #include "grid_path_planner/terrain/bit_scan.h"
 
 namespace grid_path_planner {
@@ -64,11 +65,6 @@ class TautSearch {
     std::int8_t rows;     // the cone's way: 1 or -1; 0: along the line
     std::int8_t columns;  // the way along the line: 1 or -1
   };
-  struct Entry {
-    double f;
-    std::uint32_t node;
-    friend bool operator<(const Entry& a, const Entry& b) { return a.f > b.f; }  // for std's heaps
-  };
   // What of a cone leads into one run of open cells of the next row.
   struct Gate {
     double near[2];  // by Side: its ends on the cone's line
@@ -86,7 +82,6 @@ class TautSearch {
   void follow(std::int32_t root, int column, int line, int columns);
   void open(std::int32_t root, int line, int rows, double left, double right);
   void push(double f, const Node& node);
-  Node pop();
   void see(std::int32_t root);
   std::int32_t relax(std::int32_t parent, int column, int line, Sense sense);
   double promise(const Node& cone) const;
@@ -101,9 +96,7 @@ class TautSearch {
   double best_ = std::numeric_limits<double>::infinity();  // the shortest way to the goal so far
   std::int32_t best_root_ = -1;
   std::vector<Root> roots_;
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> unused_;  // places in nodes_
-  std::vector<Entry> heap_;
+  NodeHeap<Node> open_;
   CornerTable corners_;
   Statistics* counts_ = nullptr;
 };

@@ -33,6 +33,7 @@ class Polyanya : public Planner {
 
   // Of the prepared map.
   const std::vector<CellRect>& rectangles() const { return rectangles_; }
+  const RectangleMesh& mesh() const { return mesh_; }
 
  protected:
   std::string refusal(const CostGrid& map) const override;
@@ -40,6 +41,8 @@ class Polyanya : public Planner {
   PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
 
  private:
+  void refuseFor(std::size_t bytes);
+
   std::vector<CellRect> rectangles_;
   RectangleIndex index_;
   RectangleMesh mesh_;

@@ -93,6 +93,8 @@ class RectangleMesh {
   const Rectangle& rectangle(std::uint32_t number) const { return rectangles_[number]; }
   const Border& border(std::uint32_t number) const { return borders_[number]; }
   const Corner& corner(std::uint32_t number) const { return corners_[number]; }
+  std::size_t rectangles() const { return rectangles_.size(); }
+  std::size_t borders() const { return borders_.size(); }  // each counted from both sides
   std::size_t corners() const { return corners_.size(); }
   std::size_t blocks() const { return block_parent_.size(); }
 
