@@ -4,107 +4,139 @@
 
 namespace grid_path_planner {
 
+void DetourSearch::prepare(const CostGrid& map) {
+  nodes_.prepare(map.geometry());
+  const SearchKey width = kStraightKey * std::max<SearchKey>(map.cheapest(), 1) / 2;
+  bucket_shift_ = 63U - static_cast<unsigned>(__builtin_clzll(width));  // see bucket_search.cpp
+}
+
 bool DetourSearch::run(const GoalLabels& labels, Index start, SearchKey sound_below, bool record,
                        PlanResult& result, StopPoll& poll) {
-  nodes_.begin(labels.geometry().width());
-  cost_ = kInfiniteKey;
-  reached_ = 0;
+  start_ = last_ = start;
+  sound_below_ = sound_below;
+  expanded_ = 0;
   saw_the_end_ = too_dear_ = false;
-  const std::uint32_t first = nodeOf(labels, start);
-  nodes_[first].arrived |= kReached;
-  if (sound(labels, start, sound_below)) {
+  nodes_.beginQuery();
+  if (sound(labels, start, labels.cell(start))) {
     cost_ = labels.label(start);
-    last_ = first;
     return true;
   }
-  nodes_[first].waiting = 1;
-  nodes_.push(labels.label(start), first);
-  while (nodes_.open()) {
+  cost_ = kInfiniteKey;
+  nodes_.at(labels.cell(start)).g = 0;
+  open_.begin(labels.label(start), bucket_shift_);
+  open_.push(labels.label(start), start);
+  std::size_t& peak = result.statistics.peak_open;
+  while (!open_.empty() && open_.lowest() < cost_) {
     poll();
-    const std::uint32_t number = nodes_.pop();
-    Nodes::Node& node = nodes_[number];
-    if (node.waiting == 0) continue;
-    node.waiting = 0;
-    const Index index = indexOf(labels, number);
-    reached_ = std::max(reached_, node.g + labels.label(index));
-    if (reached_ >= cost_) break;
-    ++result.statistics.expanded;
+    peak = std::max(peak, open_.size());
+    const Index index = open_.pop();
+    const Cell cell = labels.cell(index);
+    Node& node = nodes_.at(cell);
+    if (node.closed() || node.g + labels.label(index) >= cost_) continue;
+    node.close();
+    ++expanded_;
     if (record) result.expanded.emplace_back(index);
-    expand(labels, number, sound_below, result.statistics);
+    expand(labels, index, cell, node, result.statistics);
   }
-  result.statistics.peak_open = std::max(result.statistics.peak_open, nodes_.peakOpen());
+  result.statistics.expanded += expanded_;
   return cost_ != kInfiniteKey;
 }
 
-void DetourSearch::expand(const GoalLabels& labels, std::uint32_t number, SearchKey sound_below,
+void DetourSearch::expand(const GoalLabels& labels, Index index, Cell cell, const Node& node,
                           Statistics& counts) {
-  nodes_[number].arrived |= kExpanded;
-  const SearchKey g = nodes_[number].g;
-  const Index index = indexOf(labels, number);
-  for (unsigned mask = labels.stepsFrom(index); mask != 0; mask &= mask - 1) {
-    const auto step = static_cast<std::uint32_t>(__builtin_ctz(mask));
+  const Moves& moves = labels.moves();
+  for (std::uint32_t tried = moves.after(node.steps(), index); tried != 0; tried &= tried - 1) {
+    const auto step = static_cast<std::uint32_t>(__builtin_ctz(tried));
     const Index to = labels.along(index, step);
+    const Cell to_cell{cell.column + kSteps[step].column, cell.row + kSteps[step].row};
     if (labels.state(to) == GoalLabels::UNLABELLED) {
       saw_the_end_ = true;
       continue;
     }
-    const SearchKey next_g = g + labels.stepKey(index, to, step);
-    if (next_g > kLargestKey - labels.label(to)) {
+    const SearchKey g = node.g + labels.stepKey(index, to, step);
+    if (g > kLargestKey - labels.label(to)) {
       too_dear_ = true;
       continue;
     }
-    const SearchKey next_f = next_g + labels.label(to);
-    if (next_f >= cost_) continue;
-    const std::uint32_t next = nodeOf(labels, to);
-    if ((nodes_[next].arrived & kReached) != 0 && nodes_[next].g <= next_g) continue;
-    nodes_[next].arrived |= kReached;
-    nodes_[next].g = next_g;
-    nodes_[next].parent = number;
-    ++counts.generated;
-    if (sound(labels, to, sound_below)) {
-      cost_ = next_f;
-      last_ = next;
-      continue;
+    const SearchKey f = g + labels.label(to);
+    if (f >= cost_) continue;
+    Node& next = nodes_.at(to_cell);
+    if (g > next.g) continue;
+
+    // 1. Another way as cheap: it may leave open what the known one does not.
+    if (g == next.g) {
+      if (!moves.missing(next.steps(), step, to)) continue;
+      next.addStep(step);
+      if (!next.closed()) continue;
+      next.reopen();
+      ++counts.reopened;
+    } else {
+      // 2. A cheaper one: the tree goes on from here, or the cell is opened, perhaps again.
+      if (next.closed()) ++counts.reopened;
+      next.reach(g, step);
+      const bool leads_back = labels.stepOf(to) == oppositeStep(step) && to != labels.root();
+      if (!leads_back && sound(labels, to, to_cell)) {
+        cost_ = f;
+        last_ = to;
+        continue;
+      }
     }
-    nodes_[next].waiting = 1;
-    nodes_.push(std::max(reached_, next_f), next);
+    open_.push(f, to);
+    ++counts.generated;
   }
 }
 
 // Every cell of the ways that are followed here is looked at once.
-bool DetourSearch::sound(const GoalLabels& labels, Index index, SearchKey sound_below) {
+bool DetourSearch::sound(const GoalLabels& labels, Index index, Cell cell) {
   bool sound = true;
-  way_.clear();
-  for (Index at = index; labels.label(at) >= sound_below && at != labels.root();
-       at = labels.next(at)) {
-    const std::uint32_t number = nodeOf(labels, at);
-    const std::uint8_t known = nodes_[number].arrived & (kSound | kUnsound);
-    if (known != 0) {
-      sound = known == kSound;
+  asked_.clear();
+  while (labels.label(index) >= sound_below_ && index != labels.root()) {
+    Node& node = nodes_.at(cell);
+    if (node.note() != 0) {
+      sound = node.note() == kSound;
       break;
     }
-    way_.push_back(number);
-    if (labels.supported(at)) continue;
-    sound = false;
-    break;
+    asked_.push_back(&node);
+    if (!labels.supported(index)) {
+      sound = false;
+      break;
+    }
+    const std::uint32_t step = labels.stepOf(index);
+    index = labels.along(index, step);
+    cell = {cell.column + kSteps[step].column, cell.row + kSteps[step].row};
   }
-  for (const std::uint32_t number : way_) nodes_[number].arrived |= sound ? kSound : kUnsound;
+  for (Node* node : asked_) node->setNote(sound ? kSound : kUnsound);
   return sound;
 }
 
-void DetourSearch::learn(GoalLabels& labels) const {
-  for (std::uint32_t number = 0; number < nodes_.size(); ++number)
-    if ((nodes_[number].arrived & kExpanded) != 0)
-      labels.raise(indexOf(labels, number), cost_ - nodes_[number].g);
-  const GoalLabels::Index start = indexOf(labels, 0);
-  for (std::uint32_t number = last_; indexOf(labels, number) != start;) {
-    const std::uint32_t before = nodes_[number].parent;
-    const Index from = indexOf(labels, before), to = indexOf(labels, number);
-    std::uint32_t step = 0;
-    while (labels.along(from, step) != to) ++step;
-    labels.setWay(from, cost_ - nodes_[before].g, step);
-    number = before;
+std::vector<Cell> DetourSearch::way(const GoalLabels& labels) {
+  std::vector<Cell> cells;
+  for (Index at = last_; at != start_;) {
+    const auto step = static_cast<std::uint32_t>(__builtin_ctz(nodes_.at(labels.cell(at)).steps()));
+    at = labels.along(at, oppositeStep(step));
+    cells.push_back(labels.cell(at));
   }
+  std::reverse(cells.begin(), cells.end());
+  Cell cell = labels.cell(last_);
+  for (Index at = last_; at != labels.root(); at = labels.next(at)) {
+    cells.push_back(cell);
+    const Cell step = kSteps[labels.stepOf(at)];
+    cell = {cell.column + step.column, cell.row + step.row};
+  }
+  cells.push_back(cell);
+  return cells;
+}
+
+// run() expanded all that it had to by the labels of then; a cheaper way would leave the expanded
+// cells over one whose label is lower now.
+bool DetourSearch::concerns(const GoalLabels& labels, Index index) const {
+  const Cell cell = labels.cell(index);
+  if (index == start_ || nodes_.closed(cell)) return true;
+  for (unsigned mask = labels.stepsFrom(index); mask != 0; mask &= mask - 1) {
+    const Cell step = kSteps[static_cast<std::size_t>(__builtin_ctz(mask))];
+    if (nodes_.closed({cell.column + step.column, cell.row + step.row})) return true;
+  }
+  return false;
 }
 
 }  // namespace grid_path_planner

@@ -12,15 +12,15 @@ void GoalLabels::prepare(const CostGrid& map, const Moves& moves) {
   geometry_ = map.geometry();
   cell_of_ = CellOfIndex(geometry_);
   diagonal_step_ = diagonalKey(map.motion().diagonal_cost);
-  if (words_.size() == geometry_.size()) return;
-  labels_ = ZeroedArray<SearchKey>(geometry_.size());
-  words_ = ZeroedArray<std::uint32_t>(geometry_.size());
+  offsets_ = moves.offsets();
+  if (entries_.size() == geometry_.size()) return;
+  entries_ = ZeroedArray<Entry>(geometry_.size());
   tree_ = 0;
 }
 
 void GoalLabels::begin(Index root) {
   if (++tree_ == std::uint32_t{1} << (32 - kTreeShift)) {
-    words_.clear();
+    entries_.clear();
     tree_ = 1;
   }
   root_ = root;

@@ -23,9 +23,8 @@ constexpr unsigned kBucketShift = 30;
 // Of the buckets of what waits for repairs, times the cheapest weight.
 constexpr SearchKey kQueueWidth = 2 * kStraightKey;
 
-// A detour of so many straight steps of the cheapest weight is searched for without a second look
-// at what waits.
-constexpr SearchKey kMargin = 24;
+// See serves().
+constexpr std::uint64_t kWorn = 2;
 
 // Of cells by which the tree grows at first where it holds no way from the start.
 constexpr std::uint64_t kFirstFurther = 4096;
@@ -70,6 +69,7 @@ Changes changesBetween(const Grid<CostGrid::Weight>& before, const Grid<CostGrid
 void GoalTree::prepare(const CostGrid& map, const Moves& moves) {
   begun_ = false;
   labels_.prepare(map, moves);
+  detour_.prepare(map);
 }
 
 void GoalTree::setRoot(const CostGrid& map, Cell goal) {
@@ -87,7 +87,6 @@ void GoalTree::setRoot(const CostGrid& map, Cell goal) {
   diagonal_ = motion.connectivity == Connectivity::FOUR
                   ? 2 * straight_
                   : diagonalKey(motion.diagonal_cost) * scale_;
-  margin_ = kMargin * straight_;
   labels_.begin(geometry.index(goal).value());
 }
 
@@ -124,6 +123,9 @@ Status GoalTree::begin(const CostGrid& map, Cell goal, Cell start, double ahead,
     expand(index, counts, wait);
   }
 
+  expanded_ = counts.expanded;
+  detoured_ = 0;
+
   // 3. What still waits does so for later plans.
   const bool reached = labels_.state(from) != GoalLabels::UNLABELLED;
   queue_.begin(reached ? labels_.label(from) : 0, kQueueWidth * std::max<SearchKey>(scale_, 1));
@@ -136,7 +138,8 @@ Status GoalTree::begin(const CostGrid& map, Cell goal, Cell start, double ahead,
 }
 
 bool GoalTree::serves(const CostGrid& map, Cell goal) const {
-  return begun_ && goal_ == goal && scale_ <= map.cheapest() && raised_ <= kLargestRaise;
+  return begun_ && goal_ == goal && scale_ <= map.cheapest() && raised_ <= kLargestRaise &&
+         detoured_ <= kWorn * expanded_;
 }
 
 void GoalTree::push(Index index) {
@@ -177,16 +180,21 @@ void GoalTree::expand(Index index, Statistics& counts, const Wait& wait) {
   }
 }
 
-bool GoalTree::advance(SearchKey bound, std::uint64_t limit, bool record, PlanResult& result,
-                       StopPoll& poll) {
+template <class Bound, class Lowered>
+std::uint64_t GoalTree::advance(const Bound& bound, const Lowered& lowered, std::uint64_t limit,
+                                bool record, PlanResult& result, StopPoll& poll) {
   const auto renewed = [this](PatientQueue::Entry& entry) { return renew(entry); };
-  const auto wait = [this](Index index) { push(index); };
+  const auto wait = [&](Index index) {
+    push(index);
+    lowered(index);
+  };
   Statistics& counts = result.statistics;
   std::uint64_t taken = 0;
   while (taken < limit) {
     poll();
-    const PatientQueue::Entry* next = queue_.first(bound, renewed);
-    if (next == nullptr || next->key >= bound) break;
+    const SearchKey below = bound();
+    const PatientQueue::Entry* next = queue_.first(below, renewed);
+    if (next == nullptr || next->key >= below) break;
     counts.peak_open = std::max(counts.peak_open, queue_.size());
     const PatientQueue::Entry old = queue_.pop();
     PatientQueue::Entry entry = old;
@@ -200,7 +208,7 @@ bool GoalTree::advance(SearchKey bound, std::uint64_t limit, bool record, PlanRe
     if (record) result.expanded.emplace_back(entry.index);
     expand(entry.index, counts, wait);
   }
-  return taken != 0;
+  return taken;
 }
 
 Status GoalTree::plan(const CostGrid& map, Cell start, bool record, PlanResult& result,
@@ -211,25 +219,39 @@ Status GoalTree::plan(const CostGrid& map, Cell start, bool record, PlanResult& 
   StopPoll poll(stop);
   raised_ += estimate(start_, start);
   start_ = start;
+  const auto everything = [] { return kInfiniteKey; };
+  const auto below_start = [&] {
+    const bool labelled = labels_.state(from) != GoalLabels::UNLABELLED;
+    return labelled ? labels_.label(from) + raised_ : kInfiniteKey;
+  };
+  const auto below_way = [this] { return detour_.cost() + raised_; };
+  const auto nobody = [](Index) {};
+  bool concerned = false;
+  const auto theDetour = [&](Index index) {
+    concerned = concerned || detour_.concerns(labels_, index);
+  };
   std::uint64_t further = kFirstFurther;
   while (true) {
     // 1. What waits behind the cost of a way cannot make it cheaper; the rest is passed on.
-    while (labels_.state(from) == GoalLabels::UNLABELLED)
-      if (!advance(kInfiniteKey, 1, record, result, poll)) return unreachable();
-    if (advance(labels_.label(from) + raised_ + margin_, kUnlimited, record, result, poll))
-      continue;
+    advance(below_start, nobody, kUnlimited, record, result, poll);
+    if (labels_.state(from) == GoalLabels::UNLABELLED) return unreachable();
 
     // 2. Around what got dearer.
-    if (detour_.run(labels_, from, sound_below_, record, result, poll)) {
-      if (advance(detour_.cost() + raised_, kUnlimited, record, result, poll)) continue;
-      detour_.learn(labels_);
-      return finish(map, result);
+    const bool found = detour_.run(labels_, from, sound_below_, record, result, poll);
+    detoured_ += detour_.expanded();
+    if (found) {
+      concerned = false;
+      advance(below_way, theDetour, kUnlimited, record, result, poll);
+      if (concerned) continue;
+      result.cells = detour_.way(labels_);
+      result.cost = costOfSteps(map, result.cells);
+      return Status::FOUND;
     }
 
     // 3. There is no way over the cells of the tree: it grows.
     too_dear_ = too_dear_ || detour_.tooDear();
     if (!detour_.sawTheEnd()) return unreachable();
-    if (!advance(kInfiniteKey, further, record, result, poll)) return unreachable();
+    if (advance(everything, nobody, further, record, result, poll) == 0) return unreachable();
     further *= 2;
   }
 }
@@ -237,16 +259,6 @@ Status GoalTree::plan(const CostGrid& map, Cell start, bool record, PlanResult& 
 Status GoalTree::unreachable() const {
   if (too_dear_) throw CostOverflow();
   return Status::UNREACHABLE;
-}
-
-Status GoalTree::finish(const CostGrid& map, PlanResult& result) const {
-  const CellIndex start = map.geometry().index(start_);
-  for (Index at = static_cast<Index>(start.value());; at = labels_.next(at)) {
-    result.cells.push_back(labels_.cell(at));
-    if (at == labels_.root()) break;
-  }
-  result.cost = costOfSteps(map, result.cells);
-  return Status::FOUND;
 }
 
 void GoalTree::update(const CostGrid& before, const CostGrid& after, const CellRect& changed) {

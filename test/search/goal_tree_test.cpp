@@ -206,43 +206,65 @@ TEST(IncrementalAStarLaw, PlansOnTheWayCostTheLeast) {
   }
 }
 
-// A search follows the change: not the map, and not the way that is left.
-TEST(IncrementalAStar, ExpandsAroundAChangeOnlyAndRemembersTheDetour) {
-  Grid<CostGrid::Weight> weights(GridGeometry(400, 400, 1.0), 1);
-  for (int i = 0; i < 400 * 400; i += 97) weights[CellIndex(i)] = 30;
-  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
-  Map map = std::make_shared<const CostGrid>(weights, classes, MotionModel());
-  IncrementalAStar planner;
-  planner.prepare(map, StopToken());
-  const PlanRequest request{{20, 20}, {{390, 200}}, false};
-  const auto expanded = [&] {
-    Dijkstra dijkstra;
-    dijkstra.prepare(map, StopToken());
-    const PlanResult result = planner.plan(request, StopToken());
-    EXPECT_EQ(result.cost, dijkstra.plan(request, StopToken()).cost);
-    return result.statistics.expanded;
-  };
-  const std::uint64_t first = expanded();
-  std::uint64_t revision = map->revision();
-  const auto change = [&](const CellRect& rect, CostGrid::Weight weight) {
+// A large map with a post here and there, across which every plan leads.
+class Crossing {
+ public:
+  Crossing() : weights_(GridGeometry(400, 400, 1.0), 1) {
+    for (int i = 0; i < 400 * 400; i += 97) weights_[CellIndex(i)] = 30;
+    planner_.prepare(map(), StopToken());
+  }
+
+  void change(const CellRect& rect, CostGrid::Weight weight) {
     for (int row = rect.row; row < rect.row + rect.height; ++row)
       for (int column = rect.column; column < rect.column + rect.width; ++column)
-        weights[Cell{column, row}] = weight;
-    auto next = std::make_shared<CostGrid>(weights, classes, MotionModel());
-    next->setRevision(++revision);
-    map = next;
-    planner.update(map, rect, StopToken());
-  };
+        weights_[Cell{column, row}] = weight;
+    ++revision_;
+    planner_.update(map(), rect, StopToken());
+  }
+  // The cells that a plan took, which costs the least.
+  std::uint64_t expanded() {
+    const PlanRequest request{{20, 20}, {{390, 200}}, false};
+    Dijkstra dijkstra;
+    dijkstra.prepare(map(), StopToken());
+    const PlanResult result = planner_.plan(request, StopToken());
+    EXPECT_EQ(result.cost, dijkstra.plan(request, StopToken()).cost);
+    return result.statistics.expanded;
+  }
+
+ private:
+  Map map() const {
+    const Grid<Occupancy> classes(weights_.geometry(), Occupancy::FREE);
+    auto map = std::make_shared<CostGrid>(weights_, classes, MotionModel());
+    map->setRevision(revision_);
+    return map;
+  }
+
+  Grid<CostGrid::Weight> weights_;
+  std::uint64_t revision_ = 0;
+  IncrementalAStar planner_;
+};
+
+// A search follows the change: not the map, and not the way that is left.
+TEST(IncrementalAStar, ExpandsAroundAChangeOnly) {
+  Crossing crossing;
+  const std::uint64_t first = crossing.expanded();
   const CellRect block{25, 15, 3, 12};
-  change(block, CostGrid::kBlocked);
-  EXPECT_LT(expanded(), first / 20);
-  EXPECT_EQ(expanded(), 0U);
-  change(block, 1);
-  EXPECT_LT(expanded(), first / 20);
-  change({200, 0, 2, 399}, CostGrid::kBlocked);  // but for one row
-  expanded();
-  change(block, CostGrid::kBlocked);
-  EXPECT_LT(expanded(), first / 20);
+  crossing.change(block, CostGrid::kBlocked);
+  EXPECT_LT(crossing.expanded(), first / 20);
+  crossing.change(block, 1);
+  EXPECT_LT(crossing.expanded(), first / 20);
+}
+
+// A door that stays closed: a tree that has none of the ways around it is given up in time.
+TEST(IncrementalAStar, ATreeThatIsOfNoUseAnyMoreIsGivenUp) {
+  Crossing crossing;
+  const std::uint64_t first = crossing.expanded();
+  crossing.change({385, 0, 2, 399}, CostGrid::kBlocked);  // but for one row
+  std::uint64_t detours = 0;
+  for (int plan = 0; plan < 20; ++plan) detours += crossing.expanded();
+  EXPECT_GT(detours, 2 * first);
+  EXPECT_LT(detours, 6 * first);
+  EXPECT_EQ(crossing.expanded(), 0U);
 }
 
 TEST(PatientQueue, GivesTheLeastKeyWhateverTheOrderOfItsCalls) {

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "grid_path_planner/base/zeroed_array.h"
@@ -26,7 +28,7 @@ class GoalLabels {
   enum State : std::uint32_t { UNLABELLED, OPEN, CLOSED };
 
   static std::size_t bytesFor(const GridGeometry& geometry) {
-    return geometry.size() * (sizeof(SearchKey) + sizeof(std::uint32_t));
+    return geometry.size() * sizeof(Entry);
   }
 
   // `moves` are those of the map of every call, and outlive this.
@@ -41,36 +43,33 @@ class GoalLabels {
   Cell cell(Index index) const { return cell_of_(index); }
 
   State state(Index index) const {
-    const std::uint32_t word = words_[index];
+    const std::uint32_t word = entries_[index].word;
     return word >> kTreeShift == tree_ ? static_cast<State>(word & kStateMask) : UNLABELLED;
   }
   // Preconditions from here on: the cell has a label.
-  SearchKey label(Index index) const { return labels_[index]; }
-  std::uint32_t stepOf(Index index) const { return words_[index] >> kStepShift & 7U; }
+  SearchKey label(Index index) const { return entries_[index].label; }
+  std::uint32_t stepOf(Index index) const { return entries_[index].word >> kStepShift & 7U; }
   // Where the way leads next. Precondition: not the root.
   Index next(Index index) const { return along(index, stepOf(index)); }
   bool supported(Index index) const {
     const std::uint32_t step = stepOf(index);
     if ((stepsFrom(index) >> step & 1U) == 0) return index == root_;
     const Index next = along(index, step);
-    return labels_[index] >= labels_[next] + stepKey(index, next, step) || index == root_;
+    return label(index) >= label(next) + stepKey(index, next, step) || index == root_;
   }
 
   void set(Index index, SearchKey label, std::uint32_t step, State state) {
-    labels_[index] = label;
-    words_[index] = tree_ << kTreeShift | step << kStepShift | state;
+    entries_[index] = {label, tree_ << kTreeShift | step << kStepShift | state};
   }
-  void setState(Index index, State state) { words_[index] = (words_[index] & ~kStateMask) | state; }
-  void raise(Index index, SearchKey label) { labels_[index] = std::max(labels_[index], label); }
-  // The cell's way begins with `step` and costs `label`.
-  void setWay(Index index, SearchKey label, std::uint32_t step) {
-    set(index, label, step, state(index));
+  void setState(Index index, State state) {
+    entries_[index].word = (entries_[index].word & ~kStateMask) | state;
   }
 
+  const Moves& moves() const { return *moves_; }
   // The steps that the map allows, bit n for step n of steps.h; and where they lead.
   std::uint32_t stepsFrom(Index index) const { return moves_->from(index); }
   Index along(Index index, std::uint32_t step) const {
-    return static_cast<Index>(index + moves_->offsets()[step]);
+    return static_cast<Index>(index + offsets_[step]);
   }
   // What a step between neighbours costs.
   SearchKey stepKey(Index from, Index to, std::uint32_t step) const {
@@ -83,13 +82,18 @@ class GoalLabels {
   static constexpr std::uint32_t kTreeShift = 5;
   static constexpr std::uint32_t kStateMask = (1U << kStepShift) - 1;
 
+  struct __attribute__((packed, aligned(4))) Entry {
+    SearchKey label;
+    std::uint32_t word;
+  };
+
   GridGeometry geometry_;
   CellOfIndex cell_of_{GridGeometry(1, 1, 1.0)};
   const CostGrid::Weight* weights_ = nullptr;
   SearchKey diagonal_step_ = 0;
   const Moves* moves_ = nullptr;
-  ZeroedArray<SearchKey> labels_;
-  ZeroedArray<std::uint32_t> words_;
+  std::array<std::ptrdiff_t, 8> offsets_{};
+  ZeroedArray<Entry> entries_;
   std::uint32_t tree_ = 0;
   Index root_ = 0;
 };

@@ -56,7 +56,8 @@ class GoalTree {
   Status begin(const CostGrid& map, Cell goal, Cell start, double ahead, bool record,
                PlanResult& result, const StopToken& stop);
   void forget() { begun_ = false; }
-  // Whether a tree for `goal` is there that can be used on `map`.
+  // Whether a tree for `goal` is there that can be used on `map`, and is worth it: where the
+  // detours took twice as many cells as the tree, it is time for another one.
   bool serves(const CostGrid& map, Cell goal) const;
 
   // The least-cost way from `start`, by as much of a search as the changes ask for. Throws as
@@ -90,15 +91,16 @@ class GoalTree {
   void expand(Index index, Statistics& counts, const Wait& wait);
   template <class Wait>
   void relax(Index from, Index to, std::uint32_t step, Statistics& counts, const Wait& wait);
-  // Expands what waits with keys below `bound`, at most `limit` cells. Whether there was any.
-  bool advance(SearchKey bound, std::uint64_t limit, bool record, PlanResult& result,
-               StopPoll& poll);
+  // Expands what waits with keys below bound(), which may fall meanwhile, at most `limit` cells;
+  // lowered(index) is told of every cell that got a label or a lower one. How many it expanded.
+  template <class Bound, class Lowered>
+  std::uint64_t advance(const Bound& bound, const Lowered& lowered, std::uint64_t limit,
+                        bool record, PlanResult& result, StopPoll& poll);
   void takeDearer(const CellRect& rect);
   void takeCheaper(const CellRect& rect);
   void compare(Index index, std::uint32_t step);
   // The cell's neighbour by `step` may take a better way.
   void wake(Index index, std::uint32_t step);
-  Status finish(const CostGrid& map, PlanResult& result) const;
   Status unreachable() const;
 
   GoalLabels labels_;
@@ -108,13 +110,14 @@ class GoalTree {
   bool too_dear_ = false;  // a label was left out that the keys do not hold
   Cell goal_;
   Cell start_;
+  std::uint64_t expanded_ = 0;            // by the tree
+  std::uint64_t detoured_ = 0;            // and by detours since it was begun
   SearchKey sound_below_ = kInfiniteKey;  // labels below this are supported, all the way
   SearchKey raised_ = 0;                  // what new keys are raised by, as the start moved
   // The estimate's straight and diagonal lengths, by the weight that was cheapest when it began.
   CostGrid::Weight scale_ = 0;
   SearchKey straight_ = 0;
   SearchKey diagonal_ = 0;
-  SearchKey margin_ = 0;
 };
 
 }  // namespace grid_path_planner

@@ -57,8 +57,6 @@ class JumpNodes {
     }
   }
 
-  std::size_t size() const { return nodes_.size(); }
-
   bool open() const { return open_ != 0; }
   // No f may be less than that of the last popped node.
   void push(Key f, std::uint32_t number) {

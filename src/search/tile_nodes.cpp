@@ -1,0 +1,31 @@
+#include "grid_path_planner/search/tile_nodes.h"
+
+namespace grid_path_planner {
+
+void TileNodes::prepare(const GridGeometry& geometry) {
+  const auto tiles = [](int cells) {
+    return (static_cast<std::size_t>(cells) + kSide - 1) >> kSideBits;
+  };
+  across_ = tiles(geometry.width());
+  tile_at_.assign(across_ * tiles(geometry.height()), 0);
+  tiles_.clear();
+  used_.clear();
+  query_ = 0;
+}
+
+void TileNodes::beginQuery() {
+  for (const std::size_t place : used_) tile_at_[place] = 0;
+  used_.clear();
+  if (++query_ == std::uint32_t{1} << (32 - Node::kQueryShift)) {
+    tiles_.clear();
+    query_ = 1;
+  }
+}
+
+void TileNodes::use(std::size_t place) {
+  if (used_.size() == tiles_.size()) tiles_.push_back(std::make_unique<Tile>());
+  used_.push_back(place);
+  tile_at_[place] = static_cast<std::uint32_t>(used_.size());
+}
+
+}  // namespace grid_path_planner
