@@ -22,6 +22,11 @@ void RectanglePublisher::publish(std::shared_ptr<const CostGrid> costs, const st
           cutAndTell(std::move(costs), frame_id, memory_limit, stop.token());
         } catch (const Stopped&) {
           // Nobody wants the rectangles any more.
+        } catch (const DecompositionTooLarge&) {
+          ROS_ERROR(
+              "To cut this map into rectangles takes more than memory_limit, %zu MB: "
+              "they are not published",
+              memory_limit / 1000000);
         }
       },
       "rectangles");
@@ -33,15 +38,9 @@ void RectanglePublisher::cutAndTell(std::shared_ptr<const CostGrid> costs,
   const GridGeometry geometry = costs->geometry();
   const BitMaps free = costs->bitMaps(stop);
   costs.reset();  // while somebody holds it, the map cannot take its turn to be changed
-  const std::size_t bytes = largestFirstBytes(geometry, countRuns(free.rows));
-  if (bytes > memory_limit) {
-    ROS_ERROR(
-        "It takes %zu MB to cut this map into rectangles, more than memory_limit: they are "
-        "not published",
-        bytes / 1000000);
-    return;
-  }
-  const std::vector<CellRect> rectangles = largestFirst(free, {}, stop);
+  DecompositionLimits limits;
+  limits.bytes = memory_limit;
+  const std::vector<CellRect> rectangles = largestFirst(free, limits, stop);
   const ros::Time now = ros::Time::now();
   map_.publish(rectanglesToMessage(geometry, rectangles, frame_id, now));
   markers_.publish(rectangleMarkers(geometry, rectangles, frame_id, now));

@@ -118,7 +118,8 @@ TEST_F(PathPlannerRectanglesTest, AMapThatWouldTakeTooMuchMemoryIsRefused) {
   const std::size_t seen = log_.count();
   publishMap(stripes);
   EXPECT_TRUE(log_.waitFor(seen, [](const rosgraph_msgs::Log& line) {
-    return line.msg.find("more than memory_limit: they are not published") != std::string::npos;
+    return line.msg.find("more than memory_limit, 1 MB: they are not published") !=
+           std::string::npos;
   }));
   EXPECT_EQ(maps_told_.count(), 1u);
 }
