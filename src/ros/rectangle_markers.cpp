@@ -87,7 +87,7 @@ void add(const Corners& corners, const std::array<std::size_t, count>& order,
 Marker numberOf(const MarkerMaker& maker, const CellRect& rect, std::size_t number) {
   Marker marker = maker.marker("numbers", Marker::TEXT_VIEW_FACING, kNumberHeight);
   marker.id = static_cast<std::int32_t>(number);
-  marker.text = std::to_string(number);
+  marker.text = std::to_string(number + 1);  // as in pictures, and as published
   marker.pose.position =
       maker.point({rect.column + 0.5 * rect.width, rect.row + 0.5 * rect.height}, kNumberHeight);
   const double by_width = rect.width / (kLargestDigits * static_cast<double>(marker.text.size()));

@@ -32,8 +32,8 @@ TEST(RectangleMarkers, FillOutlineAndNumberEveryRectangle) {
   EXPECT_EQ(array.markers[2].ns, "outlines");
   EXPECT_EQ(array.markers[2].points.size(), 16u);
   EXPECT_EQ(array.markers[2].colors.size(), 16u);
-  EXPECT_EQ(array.markers[3].text, "0");
-  EXPECT_EQ(array.markers[4].text, "1");
+  EXPECT_EQ(array.markers[3].text, "1");
+  EXPECT_EQ(array.markers[4].text, "2");
   EXPECT_EQ(array.markers[4].ns, "numbers");
   EXPECT_NEAR(array.markers[4].pose.position.x, 3.0, 1e-9);
   EXPECT_NEAR(array.markers[4].pose.position.y, 0.5, 1e-9);

@@ -15,9 +15,9 @@ namespace grid_path_planner {
 constexpr std::size_t kMostShownRectangles = 50000;
 constexpr std::size_t kMostNumberedRectangles = 200;
 
-// Namespaces "rectangles" (filled, a colour a number), "outlines" and "numbers" (of the first
-// kMostNumberedRectangles, as large as they fit). Begins with a marker that deletes all that the
-// topic showed before.
+// Namespaces "rectangles" (filled, a colour a number), "outlines" and "numbers" (from 1, of the
+// first kMostNumberedRectangles, as large as they fit). Begins with a marker that deletes all that
+// the topic showed before.
 visualization_msgs::MarkerArray rectangleMarkers(const GridGeometry& geometry,
                                                  const std::vector<CellRect>& rectangles,
                                                  const std::string& frame_id,
