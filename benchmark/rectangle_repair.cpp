@@ -5,7 +5,7 @@
 //
 // Unknown cells are not free. Four kinds of edits, each on its own copy of the map: cells toggled
 // anywhere, cells toggled beside obstacles, blocks of up to 12x12 cells that come and go, and all
-// three in turn. Prints CPU times of RectangleMap::edit (mean, 99th percentile, longest) and the
+// three in turn. Prints CPU times of RectangleGraph::edit (mean, 99th percentile, longest) and the
 // count beside that of largestFirst, at ten moments.
 #include <algorithm>
 #include <cstdio>
@@ -17,7 +17,7 @@
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/grid/occupancy.h"
 #include "grid_path_planner/rectangles/decomposition.h"
-#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_graph.h"
 
 namespace {
 
@@ -141,7 +141,7 @@ class Editing {
   std::mt19937 random_{kSeed};
   Weights weights_;
   BitMaps bits_;
-  RectangleMap map_;
+  RectangleGraph map_;
   const char* name_;
   int kind_;
   std::deque<std::pair<CellRect, std::vector<std::uint16_t>>> blocks_;

@@ -61,10 +61,11 @@ std::shared_ptr<const CostGrid> terrainOf(const OccupancyGrid& map,
   return terrain.searched(StopToken());
 }
 
-RectangleMap rectanglesOf(const OccupancyGrid& map) {
+RectangleGraph rectanglesOf(const OccupancyGrid& map) {
   const auto terrain = terrainOf(map);
-  return RectangleMap(map.geometry(), largestFirst(terrain->bitMaps(StopToken()), {}, StopToken()),
-                      Touching::BORDERS);
+  return RectangleGraph(map.geometry(),
+                        largestFirst(terrain->bitMaps(StopToken()), {}, StopToken()),
+                        Touching::BORDERS);
 }
 
 // Pairs of free cells that share a side.
@@ -95,7 +96,7 @@ void printCounts(const std::string& folder, const Drawing& drawing,
       "| rectangles | growth |\n|---|---|---|---|---|---|---|---|---|\n");
   std::vector<double> before(4, 0.0);
   for (const Resolution& resolution : resolutions) {
-    const RectangleMap map = rectanglesOf(render(folder, drawing, resolution.cells));
+    const RectangleGraph map = rectanglesOf(render(folder, drawing, resolution.cells));
     const std::vector<double> now = {double(map.freeCells()), double(map.rectangles().size()),
                                      double(resolution.published_cells),
                                      double(resolution.published_rectangles)};
@@ -119,7 +120,7 @@ void printBytes(const std::string& folder, const Drawing& drawing) {
       "listed | rectangles, our file | PNG | bits in zlib "
       "|\n|---|---|---|---|---|---|---|---|---|\n");
   for (const int cells : {10, 50, 250, 1250}) {
-    const RectangleMap map = rectanglesOf(render(folder, drawing, cells));
+    const RectangleGraph map = rectanglesOf(render(folder, drawing, cells));
     const MapSizes sizes = mapSizes(map);
     std::printf("| %d | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %zu |\n", cells, map.freeCells(),
                 map.rectangles().size(), sizes.entire_map, sizes.empty_cells, sizes.rectangles,
@@ -267,7 +268,7 @@ void printPlanning(const std::string& folder, const Drawing& drawing, int cells,
   const OccupancyGrid map = render(folder, drawing, cells);
   const auto terrain = terrainOf(map);
   const std::vector<Query> queries = queriesOn(*terrain, drawing);
-  const RectangleMap rectangles = rectanglesOf(map);
+  const RectangleGraph rectangles = rectanglesOf(map);
   const std::size_t free_cells = rectangles.freeCells(), sides = sharedSides(*terrain);
   const Measured shortest = measure({"", "anya", {}}, map, queries);
 

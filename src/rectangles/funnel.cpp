@@ -27,7 +27,7 @@ Opening openingOf(const CellRect& from, const Connection& step) {
   return high_is_left ? Opening{high, low} : Opening{low, high};
 }
 
-std::vector<Opening> openingsOf(const RectangleMap& map, const RectangleRoute& route,
+std::vector<Opening> openingsOf(const RectangleGraph& map, const RectangleRoute& route,
                                 SegmentPoint goal) {
   std::vector<Opening> openings;
   std::uint32_t rectangle = route.first;
@@ -46,7 +46,7 @@ std::int64_t turn(SegmentPoint a, SegmentPoint b, SegmentPoint c) {
 
 }  // namespace
 
-std::vector<SegmentPoint> shortestThrough(const RectangleMap& map, const RectangleRoute& route,
+std::vector<SegmentPoint> shortestThrough(const RectangleGraph& map, const RectangleRoute& route,
                                           SegmentPoint start, SegmentPoint goal) {
   const std::vector<Opening> openings = openingsOf(map, route, goal);
   std::vector<SegmentPoint> points = {start};

@@ -24,7 +24,7 @@ std::size_t wholeBytes(std::size_t bits) {
 }
 
 // White where it is free.
-cv::Mat pictureOf(const RectangleMap& map) {
+cv::Mat pictureOf(const RectangleGraph& map) {
   cv::Mat picture = cv::Mat::zeros(map.geometry().height(), map.geometry().width(), CV_8UC1);
   for (const CellRect& rect : map.rectangles())
     if (!rect.empty()) picture(cv::Rect(rect.column, rect.row, rect.width, rect.height)).setTo(255);
@@ -52,7 +52,7 @@ std::size_t pngSize(const cv::Mat& picture) {
 
 }  // namespace
 
-MapSizes mapSizes(const RectangleMap& map) {
+MapSizes mapSizes(const RectangleGraph& map) {
   const GridGeometry& geometry = map.geometry();
   MapSizes sizes;
   sizes.file = rectangleFileContent(map).size();

@@ -142,20 +142,20 @@ std::vector<std::string> listsIn(const std::string& body, std::size_t count,
   return lists;
 }
 
-RectangleMap mapOf(const std::string& content, Touching touching) {
+RectangleGraph mapOf(const std::string& content, Touching touching) {
   checkFormat(content);
   checkWhole(content);
   const Header header = headerOf(content);
   const std::vector<std::string> lists = listsIn(content.substr(kHeaderSize, header.body),
                                                  numberOfLists(header.order), header.rectangles);
-  return RectangleMap(header.geometry,
-                      rectanglesOf(lists, header.rectangles, header.geometry, header.order),
-                      touching);
+  return RectangleGraph(header.geometry,
+                        rectanglesOf(lists, header.rectangles, header.geometry, header.order),
+                        touching);
 }
 
 }  // namespace
 
-std::string rectangleFileContent(const RectangleMap& map) {
+std::string rectangleFileContent(const RectangleGraph& map) {
   if (map.geometry().size() == 0) throw InputError("a rectangle map without cells has no file");
   const std::vector<CellRect> rectangles = withoutEmpty(map.rectangles());
   const RectangleOrder order = orderOf(rectangles);
@@ -166,11 +166,11 @@ std::string rectangleFileContent(const RectangleMap& map) {
   return content;
 }
 
-void writeRectangleFile(const std::string& file, const RectangleMap& map) {
+void writeRectangleFile(const std::string& file, const RectangleGraph& map) {
   writeFileAtomically(file, rectangleFileContent(map));
 }
 
-RectangleMap readRectangleFile(const std::string& file, Touching touching) {
+RectangleGraph readRectangleFile(const std::string& file, Touching touching) {
   const std::string content = readWholeFile(file, kLargestFile);
   try {
     return mapOf(content, touching);

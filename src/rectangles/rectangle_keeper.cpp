@@ -15,13 +15,13 @@ std::size_t updatesUntilTakenOver(const GridGeometry& geometry) {
   return std::max<std::size_t>(64, geometry.size() >> 14);
 }
 
-RectangleMap decomposed(const CostGrid& map, const StopToken& stop, std::size_t memory) {
+RectangleGraph decomposed(const CostGrid& map, const StopToken& stop, std::size_t memory) {
   DecompositionLimits limits;
   limits.bytes = memory;
   std::vector<CellRect> rectangles = largestFirst(map.bitMaps(stop), limits, stop);
   rectangles.shrink_to_fit();
-  if (RectangleMap::bytesFor(rectangles.size()) > memory) throw DecompositionTooLarge();
-  return RectangleMap(map.geometry(), std::move(rectangles), Touching::BORDERS, stop);
+  if (RectangleGraph::bytesFor(rectangles.size()) > memory) throw DecompositionTooLarge();
+  return RectangleGraph(map.geometry(), std::move(rectangles), Touching::BORDERS, stop);
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ void RectangleKeeper::prepare(std::shared_ptr<const CostGrid> map, const StopTok
   making_.stop();
   begun_ = false;
   map_ = std::move(map);
-  rectangles_ = RectangleMap();
+  rectangles_ = RectangleGraph();
   rectangles_ = decomposed(*map_, stop, memory);
   decomposed_ = rectangles_.count();
   edited_ = 0;
@@ -73,7 +73,7 @@ void RectangleKeeper::begin(std::size_t memory) {
     const auto begin = StopToken::Clock::now();
     Made made;
     try {
-      made.rectangles = std::make_unique<RectangleMap>(decomposed(*map, stop, left));
+      made.rectangles = std::make_unique<RectangleGraph>(decomposed(*map, stop, left));
     } catch (const DecompositionTooLarge&) {
     }
     map.reset();  // whoever changes the map next may have it

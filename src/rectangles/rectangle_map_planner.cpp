@@ -23,7 +23,7 @@ Traits rectangleMapTraits() {
 
 // Maps have about as many rectangles as their rows have runs of free cells.
 std::size_t bytesForRuns(const GridGeometry& geometry, std::size_t runs) {
-  return std::max(largestFirstBytes(geometry, runs), RectangleMap::bytesFor(runs));
+  return std::max(largestFirstBytes(geometry, runs), RectangleGraph::bytesFor(runs));
 }
 
 Cell middleOf(const CellRect& rect) {
@@ -31,7 +31,7 @@ Cell middleOf(const CellRect& rect) {
 }
 
 // The outward and inward cells of every border, between the two ends.
-std::vector<Cell> throughTheMiddles(const RectangleMap& map, const RectangleRoute& route,
+std::vector<Cell> throughTheMiddles(const RectangleGraph& map, const RectangleRoute& route,
                                     Cell start, Cell goal) {
   std::vector<Cell> cells = {start};
   const auto add = [&cells](Cell cell) {

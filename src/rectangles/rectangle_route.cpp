@@ -24,7 +24,7 @@ struct Later {
 
 }  // namespace
 
-double stepWeight(const RectangleMap& map, RectangleWeight weight, std::uint32_t from,
+double stepWeight(const RectangleGraph& map, RectangleWeight weight, std::uint32_t from,
                   const Connection& step) {
   switch (weight) {
     case RectangleWeight::AREA:
@@ -96,7 +96,7 @@ bool RectangleSearch::take(std::uint32_t& node, Statistics& counts) {
   return false;
 }
 
-RectangleRoute RectangleSearch::find(const RectangleMap& map, RectangleWeight weight, Cell start,
+RectangleRoute RectangleSearch::find(const RectangleGraph& map, RectangleWeight weight, Cell start,
                                      Cell goal, const StopToken& stop) {
   RectangleRoute route = weight == RectangleWeight::LENGTH
                              ? findOverBorders(map, start, goal, stop)
@@ -106,8 +106,9 @@ RectangleRoute RectangleSearch::find(const RectangleMap& map, RectangleWeight we
   return route;
 }
 
-RectangleRoute RectangleSearch::findOverRectangles(const RectangleMap& map, RectangleWeight weight,
-                                                   Cell start, Cell goal, const StopToken& stop) {
+RectangleRoute RectangleSearch::findOverRectangles(const RectangleGraph& map,
+                                                   RectangleWeight weight, Cell start, Cell goal,
+                                                   const StopToken& stop) {
   const Connections& connections = map.connections();
   const std::uint32_t last = map.at(goal).value();
   RectangleRoute route;
@@ -143,7 +144,7 @@ RectangleRoute RectangleSearch::findOverRectangles(const RectangleMap& map, Rect
 
 // A node is a connection that was crossed: the vehicle stands on its inward cell. The last two
 // nodes are the start and the goal.
-RectangleRoute RectangleSearch::findOverBorders(const RectangleMap& map, Cell start, Cell goal,
+RectangleRoute RectangleSearch::findOverBorders(const RectangleGraph& map, Cell start, Cell goal,
                                                 const StopToken& stop) {
   const Connections& connections = map.connections();
   const auto origin = static_cast<std::uint32_t>(connections.size());

@@ -34,10 +34,10 @@ CellRect rectangleFromMessage(const CellRectangle& message, std::size_t number) 
 
 }  // namespace
 
-RectangleMapMessage rectanglesToMessage(const GridGeometry& geometry,
-                                        const std::vector<CellRect>& rectangles,
-                                        const std::string& frame_id, const ros::Time& stamp) {
-  RectangleMapMessage message;
+RectangleMap rectanglesToMessage(const GridGeometry& geometry,
+                                 const std::vector<CellRect>& rectangles,
+                                 const std::string& frame_id, const ros::Time& stamp) {
+  RectangleMap message;
   message.header.frame_id = frame_id;
   message.header.stamp = stamp;
   message.info = geometryToMessage(geometry, stamp);
@@ -47,13 +47,13 @@ RectangleMapMessage rectanglesToMessage(const GridGeometry& geometry,
   return message;
 }
 
-RectangleMap rectangleMapFromMessage(const RectangleMapMessage& message, Touching touching) {
+RectangleGraph rectanglesFromMessage(const RectangleMap& message, Touching touching) {
   const GridGeometry geometry = geometryFromMessage(message.info);
   std::vector<CellRect> rectangles;
   rectangles.reserve(message.rectangles.size());
   for (const CellRectangle& rect : message.rectangles)
     rectangles.push_back(rectangleFromMessage(rect, rectangles.size()));
-  return RectangleMap(geometry, std::move(rectangles), touching);
+  return RectangleGraph(geometry, std::move(rectangles), touching);
 }
 
 }  // namespace grid_path_planner

@@ -11,7 +11,7 @@
 namespace grid_path_planner {
 
 RectanglePublisher::RectanglePublisher(ros::NodeHandle nh)
-    : map_(nh.advertise<RectangleMapMessage>("rectangle_map", 1, true)),
+    : map_(nh.advertise<RectangleMap>("rectangle_map", 1, true)),
       markers_(nh.advertise<visualization_msgs::MarkerArray>("rectangle_markers", 1, true)) {}
 
 void RectanglePublisher::publish(std::shared_ptr<const CostGrid> costs, const std::string& frame_id,

@@ -14,7 +14,7 @@
 #include "grid_path_planner/rectangles/free_cells.h"
 #include "grid_path_planner/rectangles/map_sizes.h"
 #include "grid_path_planner/rectangles/rectangle_file.h"
-#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_graph.h"
 #include "grid_path_planner/rectangles/rectangle_route.h"
 #include "grid_path_planner/ros/bag.h"
 
@@ -115,7 +115,7 @@ OccupancyGrid turnedOver(const OccupancyGrid& map) {
 
 struct Answer {
   std::vector<CellRect> in_file;  // rows as the file has them
-  RectangleMap map;               // the same, in the same order, rows as in Cell
+  RectangleGraph map;             // the same, in the same order, rows as in Cell
   MapSizes sizes;
   double time_ms = 0.0;
 };
@@ -156,18 +156,18 @@ Answer answerOf(const Question& question, const OccupancyGrid& map) {
   answer.in_file = cutWithinMemory(question, map.geometry(), free);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
   answer.time_ms = time.count();
-  const std::size_t needed = RectangleMap::bytesFor(answer.in_file.size());
+  const std::size_t needed = RectangleGraph::bytesFor(answer.in_file.size());
   if (needed > bytesAllowed(question)) refuse(question, needed);
   std::vector<CellRect> rectangles = answer.in_file;
   if (over)
     for (CellRect& rect : rectangles) rect.row = map.height() - rect.row - rect.height;
-  answer.map = RectangleMap(map.geometry(), std::move(rectangles), question.touching);
+  answer.map = RectangleGraph(map.geometry(), std::move(rectangles), question.touching);
   answer.sizes = mapSizes(answer.map);
   return answer;
 }
 
 template <class Visit>
-void visitConnections(const RectangleMap& map, Visit&& visit) {
+void visitConnections(const RectangleGraph& map, Visit&& visit) {
   for (std::uint32_t from = 0; from < map.rectangles().size(); ++from)
     for (const Connection& step : map.connections().of(from)) visit(from, step);
 }
@@ -223,7 +223,7 @@ void print(const Question& question, const Answer& answer) {
 }
 
 // Between the centres of the rectangles and the middle of their border.
-std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> linksOf(const RectangleMap& map) {
+std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> linksOf(const RectangleGraph& map) {
   const GridGeometry& geometry = map.geometry();
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> links;
   visitConnections(map, [&](std::uint32_t from, const Connection& step) {

@@ -25,7 +25,7 @@ std::vector<SegmentPoint> taut(const std::vector<CellRect>& rectangles, Cell sta
   std::int32_t side = 1;
   for (const CellRect& rect : rectangles)
     side = std::max({side, rect.column + rect.width, rect.row + rect.height});
-  const RectangleMap map(GridGeometry(side, side, 1.0), rectangles, Touching::BORDERS);
+  const RectangleGraph map(GridGeometry(side, side, 1.0), rectangles, Touching::BORDERS);
   RectangleSearch search;
   const RectangleRoute route = search.find(map, RectangleWeight::LENGTH, start, goal, StopToken());
   EXPECT_TRUE(route.found);
@@ -98,7 +98,7 @@ bool crosses(SegmentPoint a, SegmentPoint b, const std::pair<SegmentPoint, Segme
 }
 
 // The least length over all ways that turn at ends of borders only, borders crossed in order.
-double leastLength(const RectangleMap& map, const RectangleRoute& route, SegmentPoint start,
+double leastLength(const RectangleGraph& map, const RectangleRoute& route, SegmentPoint start,
                    SegmentPoint goal) {
   std::vector<std::pair<SegmentPoint, SegmentPoint>> borders = {{start, start}};
   std::uint32_t rectangle = route.first;
@@ -134,8 +134,8 @@ TEST(FunnelLaw, NoOtherTurningPointsAreShorter) {
   for (int trial = 0; trial < 400; ++trial) {
     const auto free =
         trial % 2 == 0 ? test::randomFreeCells(random, 16, 0.75) : test::randomBlocks(random, 40);
-    const RectangleMap map(free.geometry(), largestFirst(test::bitMapsOf(free), {}, StopToken()),
-                           Touching::BORDERS);
+    const RectangleGraph map(free.geometry(), largestFirst(test::bitMapsOf(free), {}, StopToken()),
+                             Touching::BORDERS);
     const Cell start = test::randomCell(random, free.geometry());
     const Cell goal = test::randomCell(random, free.geometry());
     if (free[start] == 0 || free[goal] == 0) continue;

@@ -13,7 +13,7 @@ namespace grid_path_planner {
 namespace {
 
 MapSizes sizesOf(int width, int height, const std::vector<CellRect>& rectangles) {
-  return mapSizes(RectangleMap(GridGeometry(width, height, 1.0), rectangles, Touching::BORDERS));
+  return mapSizes(RectangleGraph(GridGeometry(width, height, 1.0), rectangles, Touching::BORDERS));
 }
 
 TEST(MapSizes, countsAsThePublishedComparisonDoes) {
@@ -34,8 +34,8 @@ TEST(MapSizes, theFileIsTheFileAndNoiseCannotBeCompressed) {
   std::mt19937 random(5);
   test::FreeCells free(GridGeometry(200, 150, 1.0));
   for (std::uint8_t& cell : free.values()) cell = random() & 1;
-  const RectangleMap map(free.geometry(), largestFirst(test::bitMapsOf(free), {}, StopToken()),
-                         Touching::BORDERS);
+  const RectangleGraph map(free.geometry(), largestFirst(test::bitMapsOf(free), {}, StopToken()),
+                           Touching::BORDERS);
   const MapSizes sizes = mapSizes(map);
   EXPECT_EQ(sizes.file, rectangleFileContent(map).size());
   // A bit a cell is all that noise can be brought to, in a PNG and by zlib.
@@ -54,7 +54,7 @@ TEST(MapSizes, anOpenMapTakesNextToNothing) {
 }
 
 TEST(MapSizes, aMapWithoutCellsHasNone) {
-  EXPECT_NE(test::errorText([] { mapSizes(RectangleMap()); }), "");
+  EXPECT_NE(test::errorText([] { mapSizes(RectangleGraph()); }), "");
 }
 
 }  // namespace

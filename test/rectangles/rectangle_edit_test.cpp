@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "grid_path_planner/rectangles/decomposition.h"
-#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_graph.h"
 #include "support/free_cells.h"
 
 namespace grid_path_planner {
@@ -17,11 +17,11 @@ using test::bitMapsOf;
 using test::FreeCells;
 using test::freeCells;
 
-RectangleMap mapOf(const FreeCells& free, Touching touching = Touching::BORDERS) {
-  return RectangleMap(free.geometry(), largestFirst(bitMapsOf(free), {}, StopToken()), touching);
+RectangleGraph mapOf(const FreeCells& free, Touching touching = Touching::BORDERS) {
+  return RectangleGraph(free.geometry(), largestFirst(bitMapsOf(free), {}, StopToken()), touching);
 }
 
-RectangleEdit edit(RectangleMap& map, const FreeCells& free, const CellRect& changed) {
+RectangleEdit edit(RectangleGraph& map, const FreeCells& free, const CellRect& changed) {
   return map.edit(bitMapsOf(free).rows, changed, StopToken());
 }
 
@@ -32,7 +32,7 @@ std::vector<CellRect> sorted(std::vector<CellRect> rectangles) {
   return rectangles;
 }
 
-std::vector<CellRect> present(const RectangleMap& map) {
+std::vector<CellRect> present(const RectangleGraph& map) {
   std::vector<CellRect> rectangles;
   for (const CellRect& rect : map.rectangles())
     if (!rect.empty()) rectangles.push_back(rect);
@@ -43,7 +43,7 @@ TEST(RectangleEdit, ACellThatIsBlockedCutsItsRectangle) {
   FreeCells free = freeCells({"11111",  //
                               "11111",  //
                               "11111"});
-  RectangleMap map = mapOf(free);
+  RectangleGraph map = mapOf(free);
   free[Cell{3, 1}] = 0;
   const RectangleEdit edited = edit(map, free, {3, 1, 1, 1});
   EXPECT_EQ(sorted(present(map)),
@@ -56,7 +56,7 @@ TEST(RectangleEdit, ACellThatIsFreedJoinsItsNeighbours) {
   FreeCells free = freeCells({"11111",  //
                               "111#1",  //
                               "11111"});
-  RectangleMap map = mapOf(free);
+  RectangleGraph map = mapOf(free);
   free[Cell{3, 1}] = 1;
   edit(map, free, {3, 1, 1, 1});
   EXPECT_EQ(present(map), (std::vector<CellRect>{{0, 0, 5, 3}}));
@@ -68,7 +68,7 @@ TEST(RectangleEdit, TheOthersKeepTheirNumbers) {
   FreeCells free = freeCells({"1111#11",  //
                               "1111#11",  //
                               "1111#11"});
-  RectangleMap map = mapOf(free);
+  RectangleGraph map = mapOf(free);
   ASSERT_EQ(map.rectangles(), (std::vector<CellRect>{{0, 0, 4, 3}, {5, 0, 2, 3}}));
   free[Cell{0, 0}] = 0;
   const RectangleEdit edited = edit(map, free, free.geometry().rect());
@@ -81,7 +81,7 @@ TEST(RectangleEdit, NothingChangesWhereNothingChanged) {
   std::mt19937 random(13);
   for (int trial = 0; trial < 50; ++trial) {
     const FreeCells free = test::randomFreeCells(random, 100, 0.7);
-    RectangleMap map = mapOf(free);
+    RectangleGraph map = mapOf(free);
     const std::vector<CellRect> before = map.rectangles();
     const CellRect changed{static_cast<int>(random() % 100), static_cast<int>(random() % 100), 9,
                            7};
@@ -97,7 +97,7 @@ TEST(RectangleEdit, NothingChangesWhereNothingChanged) {
 TEST(RectangleEdit, ThePublishedExampleComesBack) {
   FreeCells free = test::publishedExample();
   for (std::size_t i = 0; i < free.values().size(); ++i) {
-    RectangleMap map = mapOf(free);
+    RectangleGraph map = mapOf(free);
     const Cell cell = free.geometry().cell(CellIndex(static_cast<std::uint32_t>(i)));
     const CellRect changed{cell.column, cell.row, 1, 1};
     free[cell] ^= 1;
@@ -112,7 +112,7 @@ TEST(RectangleEdit, ThePublishedExampleComesBack) {
 
 TEST(RectangleEdit, NumbersThatAreVacantAreUsedAgain) {
   FreeCells free(GridGeometry(40, 40, 1.0), 1);
-  RectangleMap map = mapOf(free);
+  RectangleGraph map = mapOf(free);
   std::size_t most = 0;
   for (int i = 0; i < 200; ++i) {
     const Cell cell{i % 37, i % 31};
@@ -125,7 +125,7 @@ TEST(RectangleEdit, NumbersThatAreVacantAreUsedAgain) {
 
 // --- Laws ---------------------------------------------------------------------------------------
 
-void expectPartition(const FreeCells& free, const RectangleMap& map) {
+void expectPartition(const FreeCells& free, const RectangleGraph& map) {
   ASSERT_TRUE(test::isPartition(free, present(map)));
   EXPECT_EQ(map.count(), present(map).size());
   for (int row = 0; row < free.height(); ++row)
@@ -137,11 +137,11 @@ void expectPartition(const FreeCells& free, const RectangleMap& map) {
 }
 
 // Those of a map made of the same rectangles, but for the numbers.
-void expectConnections(const RectangleMap& map, Touching touching) {
+void expectConnections(const RectangleGraph& map, Touching touching) {
   std::vector<std::uint32_t> numbers;  // that the fresh map's rectangles have in the edited one
   for (std::uint32_t i = 0; i < map.rectangles().size(); ++i)
     if (!map.rectangles()[i].empty()) numbers.push_back(i);
-  const RectangleMap fresh(map.geometry(), present(map), touching);
+  const RectangleGraph fresh(map.geometry(), present(map), touching);
   EXPECT_EQ(map.connections().count(), fresh.connections().count());
   std::vector<char> seen(map.connections().size(), 0);
   for (std::uint32_t i = 0; i < numbers.size(); ++i) {
@@ -164,7 +164,7 @@ void expectConnections(const RectangleMap& map, Touching touching) {
 }
 
 // What the edit says is what differs.
-void expectEdit(const std::vector<CellRect>& before, const RectangleMap& map,
+void expectEdit(const std::vector<CellRect>& before, const RectangleGraph& map,
                 const RectangleEdit& edited) {
   std::vector<CellRect> was = before;
   was.resize(map.rectangles().size());
@@ -204,7 +204,7 @@ TEST(RectangleEdit, LeavesAMapLikeOneMadeAnew) {
     FreeCells free = trial % 2 == 0 ? test::randomBlocks(random, 90)
                                     : test::randomFreeCells(random, 30, 0.1 * (trial % 11));
     const Touching touching = trial % 3 == 0 ? Touching::BORDERS_AND_CORNERS : Touching::BORDERS;
-    RectangleMap map = mapOf(free, touching);
+    RectangleGraph map = mapOf(free, touching);
     for (int step = 0; step < 40; ++step) {
       const std::vector<CellRect> before = map.rectangles();
       const CellRect changed = randomChange(random, free);
@@ -246,7 +246,7 @@ TEST(RectangleEdit, KeepsAboutAsFewRectanglesAsAFreshDecomposition) {
   for (const bool walls : {false, true}) {
     FreeCells free = town(random);
     BitMaps bits = bitMapsOf(free);
-    RectangleMap map = mapOf(free);
+    RectangleGraph map = mapOf(free);
     for (int edits = 1; edits <= 10000; ++edits) {
       const Cell cell{static_cast<int>(random() % 250), static_cast<int>(random() % 250)};
       if (walls && !besideAWall(free, cell)) {
@@ -272,7 +272,7 @@ TEST(RectangleEdit, TakesAWholeNewMap) {
     FreeCells before(geometry), after(geometry);
     for (auto* cells : {&before, &after})
       for (std::uint8_t& cell : cells->values()) cell = random() % 5 < random() % 6 ? 1 : 0;
-    RectangleMap map = mapOf(before);
+    RectangleGraph map = mapOf(before);
     edit(map, after, geometry.rect());
     expectPartition(after, map);
     expectConnections(map, Touching::BORDERS);
@@ -284,7 +284,7 @@ TEST(RectangleEdit, StopsWhenAskedAndMayBeCalledAgain) {
   const GridGeometry geometry(700, 700, 1.0);
   FreeCells before(geometry, 1), after(geometry);
   for (std::uint8_t& cell : after.values()) cell = random() % 2 == 0 ? 1 : 0;
-  RectangleMap map = mapOf(before);
+  RectangleGraph map = mapOf(before);
   const BitMaps bits = bitMapsOf(after);
   int stopped = 0;
   for (const double limit : {0.0, 0.01, 0.02, 0.04}) {
@@ -304,7 +304,7 @@ TEST(RectangleEdit, StopsWhenAskedAndMayBeCalledAgain) {
 TEST(RectangleEdit, SameEditsSameRectangles) {
   std::mt19937 random(3);
   FreeCells free = test::randomBlocks(random, 120);
-  RectangleMap a = mapOf(free), b = mapOf(free);
+  RectangleGraph a = mapOf(free), b = mapOf(free);
   for (int step = 0; step < 100; ++step) {
     const CellRect changed = randomChange(random, free);
     edit(a, free, changed);

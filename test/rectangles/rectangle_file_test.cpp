@@ -27,9 +27,10 @@ std::vector<CellRect> cut(const FreeCells& free) {
   return largestFirst(test::bitMapsOf(free), {}, StopToken());
 }
 
-RectangleMap publishedMap() {
+RectangleGraph publishedMap() {
   const FreeCells free = test::publishedExample();
-  return RectangleMap(GridGeometry(10, 10, 0.05, {-1.5, 2.25, 0.3}), cut(free), Touching::BORDERS);
+  return RectangleGraph(GridGeometry(10, 10, 0.05, {-1.5, 2.25, 0.3}), cut(free),
+                        Touching::BORDERS);
 }
 
 std::string littleEndian(std::uint64_t value, int count) {
@@ -71,9 +72,9 @@ const std::string kZeros(2, '\0');
 class RectangleFile : public testing::Test {
  protected:
   void expectComesBack(const GridGeometry& geometry, const std::vector<CellRect>& rectangles) {
-    const RectangleMap map(geometry, rectangles, Touching::BORDERS);
+    const RectangleGraph map(geometry, rectangles, Touching::BORDERS);
     writeRectangleFile(folder_.path("map"), map);
-    const RectangleMap same = readRectangleFile(folder_.path("map"), Touching::BORDERS);
+    const RectangleGraph same = readRectangleFile(folder_.path("map"), Touching::BORDERS);
     ASSERT_EQ(same.geometry(), geometry);
     ASSERT_EQ(same.rectangles(), rectangles);
     ASSERT_EQ(same.connections().size(), map.connections().size());
@@ -117,7 +118,7 @@ TEST_F(RectangleFile, keepsTheGeometryToTheBit) {
 
 TEST_F(RectangleFile, leavesOutWhatEditsLeftVacant) {
   FreeCells free = test::randomBlocks(random_, 40);
-  RectangleMap map(free.geometry(), cut(free), Touching::BORDERS);
+  RectangleGraph map(free.geometry(), cut(free), Touching::BORDERS);
   map.edit(BitMap(free.width(), free.height()), free.geometry().rect(), StopToken());
   for (std::uint8_t& cell : free.values()) cell = 0;
   free.values()[0] = 1;
@@ -125,12 +126,12 @@ TEST_F(RectangleFile, leavesOutWhatEditsLeftVacant) {
   ASSERT_EQ(map.count(), 1u);
   ASSERT_GT(map.rectangles().size(), 1u);
   writeRectangleFile(folder_.path("map"), map);
-  const RectangleMap same = readRectangleFile(folder_.path("map"), Touching::BORDERS);
+  const RectangleGraph same = readRectangleFile(folder_.path("map"), Touching::BORDERS);
   EXPECT_EQ(same.rectangles(), (std::vector<CellRect>{{0, 0, 1, 1}}));
 }
 
 TEST_F(RectangleFile, aMapWithoutCellsHasNone) {
-  EXPECT_EQ(test::errorText([] { rectangleFileContent(RectangleMap()); }),
+  EXPECT_EQ(test::errorText([] { rectangleFileContent(RectangleGraph()); }),
             "a rectangle map without cells has no file");
 }
 
@@ -138,7 +139,7 @@ TEST_F(RectangleFile, largestFirstCostsNothingToKeep) {
   const FreeCells free = test::randomFreeCells(random_, 60, 0.8);
   std::vector<CellRect> rectangles = cut(free);
   const auto sizeOf = [&free](const std::vector<CellRect>& list) {
-    return rectangleFileContent(RectangleMap(free.geometry(), list, Touching::BORDERS)).size();
+    return rectangleFileContent(RectangleGraph(free.geometry(), list, Touching::BORDERS)).size();
   };
   const std::size_t size = sizeOf(rectangles);
   std::reverse(rectangles.begin(), rectangles.end());
@@ -280,7 +281,7 @@ TEST_F(RectangleFile, damageThatTheChecksumMissesNeverCrashes) {
 }
 
 TEST_F(RectangleFile, writingFailsLoudlyAndLeavesTheOldFile) {
-  const RectangleMap map = publishedMap();
+  const RectangleGraph map = publishedMap();
   const auto write = [&map](const std::string& file) { writeRectangleFile(file, map); };
   EXPECT_TRUE(contains(test::errorText([&] { write(folder_.path("none/map")); }),
                        "none/map: cannot be written"));

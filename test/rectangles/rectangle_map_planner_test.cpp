@@ -108,7 +108,7 @@ TEST(RectangleMapPlanner, RefusesAMapThatTurnsOutToNeedMoreMemory) {
   const std::size_t runs = countRuns(bits.rows);
   RectangleMapPlanner planner;
   planner.limitMemory(
-      std::max(largestFirstBytes(sparse.geometry(), runs), RectangleMap::bytesFor(runs)));
+      std::max(largestFirstBytes(sparse.geometry(), runs), RectangleGraph::bytesFor(runs)));
   planner.prepare(costsOf(sparse), StopToken());
   const PlanResult refused = plan(planner, {0, 0}, {0, 0});
   EXPECT_EQ(refused.status, Status::INVALID_REQUEST);

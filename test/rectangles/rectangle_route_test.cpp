@@ -11,10 +11,10 @@ namespace {
 // The worked example of the published R-map; its rectangles count from 1, ours from 0.
 class PublishedExample : public ::testing::Test {
  protected:
-  static RectangleMap make() {
+  static RectangleGraph make() {
     const auto free = test::publishedExample();
-    return RectangleMap(free.geometry(), largestFirst(test::bitMapsOf(free), {}, StopToken()),
-                        Touching::BORDERS);
+    return RectangleGraph(free.geometry(), largestFirst(test::bitMapsOf(free), {}, StopToken()),
+                          Touching::BORDERS);
   }
 
   double weight(RectangleWeight weight, std::uint32_t from, std::uint32_t to) const {
@@ -24,7 +24,7 @@ class PublishedExample : public ::testing::Test {
     return 0.0;
   }
 
-  RectangleMap map_ = make();
+  RectangleGraph map_ = make();
 };
 
 TEST_F(PublishedExample, HasThePublishedConnections) {
@@ -72,7 +72,8 @@ TEST_F(PublishedExample, MiddlesOfBordersAreNeighbouringCells) {
 }
 
 TEST(RectangleSearch, DoesNotFindWhatIsNotConnected) {
-  const RectangleMap map(GridGeometry(3, 3, 1.0), {{0, 0, 1, 1}, {1, 1, 1, 1}}, Touching::BORDERS);
+  const RectangleGraph map(GridGeometry(3, 3, 1.0), {{0, 0, 1, 1}, {1, 1, 1, 1}},
+                           Touching::BORDERS);
   for (const auto& choice : choicesOf(RectangleWeight{})) {
     RectangleSearch search;
     EXPECT_FALSE(search.find(map, choice.second, {0, 0}, {1, 1}, StopToken()).found);

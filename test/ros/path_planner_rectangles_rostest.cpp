@@ -20,8 +20,8 @@ class PathPlannerRectanglesTest : public test::PlannerTest {
   void expectRectanglesOf(const std::vector<std::string>& lines, std::size_t seen) {
     const std::vector<CellRect> expected =
         largestFirst(test::bitMapsOf(test::freeCells(lines)), {}, StopToken());
-    const auto told = maps_told_.waitFor(seen, [&](const RectangleMapMessage& message) {
-      return rectangleMapFromMessage(message, Touching::BORDERS).rectangles() == expected;
+    const auto told = maps_told_.waitFor(seen, [&](const RectangleMap& message) {
+      return rectanglesFromMessage(message, Touching::BORDERS).rectangles() == expected;
     });
     ASSERT_TRUE(told);
     EXPECT_EQ(told->header.frame_id, "map");
@@ -44,7 +44,7 @@ class PathPlannerRectanglesTest : public test::PlannerTest {
     ASSERT_TRUE(ros::service::call("/path_planner/set_parameters", call));
   }
 
-  test::Latest<RectangleMapMessage> maps_told_{nh_, "rectangle_map"};
+  test::Latest<RectangleMap> maps_told_{nh_, "rectangle_map"};
   test::Latest<MarkerArray> markers_{nh_, "rectangle_markers"};
 };
 
@@ -78,7 +78,7 @@ TEST_F(PathPlannerRectanglesTest, AreOfTheMapAsSearched) {
   ASSERT_TRUE(told);
   EXPECT_EQ(told->info.width, 4u);
   EXPECT_EQ(told->info.resolution, 2.0F);
-  EXPECT_EQ(rectangleMapFromMessage(*told, Touching::BORDERS).freeCells(), 6u);
+  EXPECT_EQ(rectanglesFromMessage(*told, Touching::BORDERS).freeCells(), 6u);
 }
 
 TEST_F(PathPlannerRectanglesTest, NothingIsAdvertisedUnlessWantedAndThatMayChange) {

@@ -14,20 +14,20 @@ namespace {
 
 using test::errorText;
 
-RectangleMapMessage goodMessage() {
+RectangleMap goodMessage() {
   return rectanglesToMessage(GridGeometry(10, 6, 0.05, {-1.5, 2.0, 0.0}),
                              {{0, 0, 4, 3}, {4, 0, 2, 1}, {9, 5, 1, 1}}, "map", ros::Time(12, 34));
 }
 
 // What is said of a good message after `spoil`.
-std::string errorOf(const std::function<void(RectangleMapMessage&)>& spoil) {
-  RectangleMapMessage message = goodMessage();
+std::string errorOf(const std::function<void(RectangleMap&)>& spoil) {
+  RectangleMap message = goodMessage();
   spoil(message);
-  return errorText([&message] { rectangleMapFromMessage(message, Touching::BORDERS); });
+  return errorText([&message] { rectanglesFromMessage(message, Touching::BORDERS); });
 }
 
 TEST(RectangleMessages, SayWhereAndWhat) {
-  const RectangleMapMessage message = goodMessage();
+  const RectangleMap message = goodMessage();
   EXPECT_EQ(message.header.frame_id, "map");
   EXPECT_EQ(message.header.stamp, ros::Time(12, 34));
   EXPECT_EQ(message.info.width, 10u);
@@ -46,11 +46,11 @@ TEST(RectangleMessages, ComeBackTheSame) {
   for (int trial = 0; trial < 50; ++trial) {
     const test::FreeCells free = test::randomBlocks(random, 50);
     const GridGeometry geometry(free.width(), free.height(), 0.05, {-3.25, 1.5, 0.25});
-    const RectangleMap map(geometry, largestFirst(test::bitMapsOf(free), {}, StopToken()),
-                           Touching::BORDERS_AND_CORNERS);
-    const RectangleMap same = rectangleMapFromMessage(
-        rectanglesToMessage(geometry, map.rectangles(), "map", ros::Time(1)),
-        Touching::BORDERS_AND_CORNERS);
+    const RectangleGraph map(geometry, largestFirst(test::bitMapsOf(free), {}, StopToken()),
+                             Touching::BORDERS_AND_CORNERS);
+    const RectangleGraph same =
+        rectanglesFromMessage(rectanglesToMessage(geometry, map.rectangles(), "map", ros::Time(1)),
+                              Touching::BORDERS_AND_CORNERS);
     ASSERT_EQ(same.rectangles(), map.rectangles());
     ASSERT_EQ(same.connections().size(), map.connections().size());
     EXPECT_EQ(same.geometry().rect(), geometry.rect());
@@ -61,14 +61,14 @@ TEST(RectangleMessages, ComeBackTheSame) {
 }
 
 TEST(RectangleMessages, LeaveOutVacantNumbers) {
-  const RectangleMapMessage message = rectanglesToMessage(
+  const RectangleMap message = rectanglesToMessage(
       GridGeometry(4, 4, 1.0), {{0, 0, 2, 2}, {}, {3, 3, 1, 1}}, "map", ros::Time(1));
   ASSERT_EQ(message.rectangles.size(), 2u);
   EXPECT_EQ(message.rectangles[1].column, 3u);
 }
 
 TEST(RectangleMessages, BadOnesAreRefusedByName) {
-  EXPECT_EQ(errorOf([](RectangleMapMessage&) {}), "");
+  EXPECT_EQ(errorOf([](RectangleMap&) {}), "");
   EXPECT_EQ(errorOf([](auto& message) { message.rectangles[1].width = 0; }),
             "rectangle 1 [4, 0, 0, 1] holds no cell");
   EXPECT_EQ(errorOf([](auto& message) { message.rectangles[2].height = 2; }),

@@ -73,7 +73,7 @@ TEST_F(Rectangles, ThePictureOfTheMapGivesTheSame) {
   const json object =
       objectOf({"--json", "--output", folder_.path("b.rectangles")}, folder_.path("b.yaml"));
   EXPECT_EQ(object["rectangles"], published_);
-  const RectangleMap read = readRectangleFile(folder_.path("b.rectangles"), Touching::BORDERS);
+  const RectangleGraph read = readRectangleFile(folder_.path("b.rectangles"), Touching::BORDERS);
   EXPECT_EQ(read.rectangles().front(), (CellRect{0, 2, 2, 8})) << "rows as in Cell";
   EXPECT_EQ(read.freeCells(), 62u);
 }

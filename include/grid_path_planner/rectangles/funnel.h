@@ -12,7 +12,7 @@ namespace grid_path_planner {
 // The turning points of the shortest path from `start` to `goal` that crosses the borders of
 // `route` in their order, both ends included. It stays inside the rectangles of the route.
 // Preconditions: `start` lies in the route's first rectangle, `goal` in its last.
-std::vector<SegmentPoint> shortestThrough(const RectangleMap& map, const RectangleRoute& route,
+std::vector<SegmentPoint> shortestThrough(const RectangleGraph& map, const RectangleRoute& route,
                                           SegmentPoint start, SegmentPoint goal);
 
 }  // namespace grid_path_planner

@@ -13,7 +13,7 @@
 
 #include <cstddef>
 
-#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_graph.h"
 
 namespace grid_path_planner {
 
@@ -28,6 +28,6 @@ struct MapSizes {
 };
 
 // Takes some 2 bytes a cell meanwhile. Throws InputError for a map without cells.
-MapSizes mapSizes(const RectangleMap& map);
+MapSizes mapSizes(const RectangleGraph& map);
 
 }  // namespace grid_path_planner

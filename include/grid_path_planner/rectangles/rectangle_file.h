@@ -1,7 +1,7 @@
 // A rectangle map in a compact file.
 //
 //   writeRectangleFile("site.rectangles", map);
-//   RectangleMap same = readRectangleFile("site.rectangles", Touching::BORDERS);
+//   RectangleGraph same = readRectangleFile("site.rectangles", Touching::BORDERS);
 //
 // What is read back has the same geometry to the bit and the same rectangles in the same order, so
 // their numbers, and the weights made of them, are the same. Places without a rectangle, which
@@ -33,19 +33,19 @@
 
 #include <string>
 
-#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_graph.h"
 
 namespace grid_path_planner {
 
 // What the file of `map` holds. Throws InputError for a map without cells.
-std::string rectangleFileContent(const RectangleMap& map);
+std::string rectangleFileContent(const RectangleGraph& map);
 
 // Throws InputError naming the file where it cannot be written; then it is as it was.
-void writeRectangleFile(const std::string& file, const RectangleMap& map);
+void writeRectangleFile(const std::string& file, const RectangleGraph& map);
 
 // Throws InputError naming the file and what is wrong where it cannot be read, is not such a file,
 // has another format number, ends early, goes on after its end, does not fit its checksum, or holds
 // rectangles that leave the map or overlap. What is taken of memory follows the file's size.
-RectangleMap readRectangleFile(const std::string& file, Touching touching);
+RectangleGraph readRectangleFile(const std::string& file, Touching touching);
 
 }  // namespace grid_path_planner

@@ -2,7 +2,7 @@
 //
 //   RectangleKeeper keeper;
 //   keeper.prepare(map, stop);                    // largestFirst
-//   keeper.update(changed_map, changed, stop);    // RectangleMap::edit
+//   keeper.update(changed_map, changed, stop);    // RectangleGraph::edit
 //   search(keeper.rectangles());
 //
 // Edits redo what they touch, so their rectangles get away from those of a decomposition. How many
@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/background.h"
-#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_graph.h"
 #include "grid_path_planner/search/planner.h"
 #include "grid_path_planner/terrain/cost_grid.h"
 
@@ -45,7 +45,7 @@ class RectangleKeeper {
   void update(std::shared_ptr<const CostGrid> map, const CellRect& changed, const StopToken& stop,
               std::size_t memory = std::numeric_limits<std::size_t>::max());
 
-  const RectangleMap& rectangles() const { return rectangles_; }
+  const RectangleGraph& rectangles() const { return rectangles_; }
 
   BackgroundWork work() const;
   // Returns when nothing is made any more and what was made is in use. Throws Stopped.
@@ -53,7 +53,7 @@ class RectangleKeeper {
 
  private:
   struct Made {
-    std::unique_ptr<RectangleMap> rectangles;
+    std::unique_ptr<RectangleGraph> rectangles;
     double time_s = 0.0;
   };
 
@@ -62,7 +62,7 @@ class RectangleKeeper {
   void takeOver(const StopToken& stop);
 
   std::shared_ptr<const CostGrid> map_;
-  RectangleMap rectangles_;
+  RectangleGraph rectangles_;
   std::size_t decomposed_ = 0;  // rectangles that the last decomposition had
   std::size_t edited_ = 0;      // rectangles that edits have put in since
   double time_s_ = 0.0;         // that the last one in the background took

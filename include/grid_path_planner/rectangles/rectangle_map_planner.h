@@ -26,7 +26,7 @@ class RectangleMapPlanner : public Planner {
   std::size_t bytesFor(const GridGeometry& geometry) const override;
 
   // Of the prepared map.
-  const RectangleMap& rectangles() const { return keeper_.rectangles(); }
+  const RectangleGraph& rectangles() const { return keeper_.rectangles(); }
 
   BackgroundWork backgroundWork() override { return keeper_.work(); }
   void finishBackgroundWork(const StopToken& stop) override;

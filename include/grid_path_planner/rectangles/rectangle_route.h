@@ -18,13 +18,13 @@
 
 #include "grid_path_planner/base/statistics.h"
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_graph.h"
 #include "grid_path_planner/search/search_options.h"
 
 namespace grid_path_planner {
 
 // Weight of a step by one of the published four. Precondition: `weight` is not LENGTH.
-double stepWeight(const RectangleMap& map, RectangleWeight weight, std::uint32_t from,
+double stepWeight(const RectangleGraph& map, RectangleWeight weight, std::uint32_t from,
                   const Connection& step);
 
 // The cells on both sides of the middle of a border: the outward one in `from`, the inward one in
@@ -46,7 +46,7 @@ class RectangleSearch {
  public:
   // Preconditions: `map` holds both cells in rectangles, and its corners are no connections. Throws
   // Stopped.
-  RectangleRoute find(const RectangleMap& map, RectangleWeight weight, Cell start, Cell goal,
+  RectangleRoute find(const RectangleGraph& map, RectangleWeight weight, Cell start, Cell goal,
                       const StopToken& stop);
 
   std::size_t bytes() const;
@@ -64,9 +64,9 @@ class RectangleSearch {
     std::uint32_t node;
   };
 
-  RectangleRoute findOverRectangles(const RectangleMap& map, RectangleWeight weight, Cell start,
+  RectangleRoute findOverRectangles(const RectangleGraph& map, RectangleWeight weight, Cell start,
                                     Cell goal, const StopToken& stop);
-  RectangleRoute findOverBorders(const RectangleMap& map, Cell start, Cell goal,
+  RectangleRoute findOverBorders(const RectangleGraph& map, Cell start, Cell goal,
                                  const StopToken& stop);
   void begin(std::size_t nodes);
   void reach(std::uint32_t node, double g, double h, std::uint32_t parent, std::uint32_t step,

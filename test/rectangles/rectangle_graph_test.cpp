@@ -1,4 +1,4 @@
-#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_graph.h"
 
 #include <gtest/gtest.h>
 
@@ -16,12 +16,12 @@ namespace {
 using test::bitMapsOf;
 using test::FreeCells;
 
-TEST(RectangleMap, KnowsWhichRectangleHoldsACell) {
+TEST(RectangleGraph, KnowsWhichRectangleHoldsACell) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 100; ++trial) {
     const FreeCells free = test::randomBlocks(random, 50);
-    const RectangleMap map(free.geometry(), largestFirst(bitMapsOf(free), {}, StopToken()),
-                           Touching::BORDERS);
+    const RectangleGraph map(free.geometry(), largestFirst(bitMapsOf(free), {}, StopToken()),
+                             Touching::BORDERS);
     std::size_t count = 0;
     for (int row = 0; row < free.height(); ++row)
       for (int column = 0; column < free.width(); ++column) {
@@ -36,10 +36,10 @@ TEST(RectangleMap, KnowsWhichRectangleHoldsACell) {
   }
 }
 
-TEST(RectangleMap, RefusesRectanglesThatCannotBe) {
+TEST(RectangleGraph, RefusesRectanglesThatCannotBe) {
   const GridGeometry geometry(10, 6, 1.0);
   const auto refusal = [&geometry](const std::vector<CellRect>& rectangles) {
-    return test::errorText([&] { RectangleMap(geometry, rectangles, Touching::BORDERS); });
+    return test::errorText([&] { RectangleGraph(geometry, rectangles, Touching::BORDERS); });
   };
   EXPECT_EQ(refusal({{0, 0, 2, 2}, {3, 3, 0, 1}}), "rectangle 1 [3, 3, 0, 1] holds no cell");
   EXPECT_EQ(refusal({{9, 0, 2, 1}}), "rectangle 0 [9, 0, 2, 1] leaves the map of 10x6 cells");
@@ -48,13 +48,13 @@ TEST(RectangleMap, RefusesRectanglesThatCannotBe) {
             "rectangle 0 [0, 0, 3, 3] overlaps rectangle 2 [2, 2, 2, 2]");
 }
 
-TEST(RectangleMap, StopsWhenAsked) {
+TEST(RectangleGraph, StopsWhenAsked) {
   StopSource stop;
   stop.cancel();
   std::vector<CellRect> rectangles;
   for (int i = 0; i < 5000; ++i) rectangles.push_back({i, 0, 1, 1});
   const GridGeometry geometry(5000, 1, 1.0);
-  EXPECT_THROW(RectangleMap(geometry, rectangles, Touching::BORDERS, stop.token()), Stopped);
+  EXPECT_THROW(RectangleGraph(geometry, rectangles, Touching::BORDERS, stop.token()), Stopped);
   EXPECT_THROW(RectangleIndex(rectangles, stop.token()), Stopped);
   EXPECT_THROW(Connections(rectangles, Touching::BORDERS, stop.token()), Stopped);
 }

@@ -1,4 +1,4 @@
-#include "grid_path_planner/rectangles/rectangle_map.h"
+#include "grid_path_planner/rectangles/rectangle_graph.h"
 
 #include <algorithm>
 #include <sstream>
@@ -70,9 +70,9 @@ bool holds(const std::vector<std::uint32_t>& ascending, std::uint32_t number) {
 }  // namespace
 
 // Takes rectangles out of a map and puts others in, and remembers which.
-class RectangleMap::Replacement {
+class RectangleGraph::Replacement {
  public:
-  explicit Replacement(RectangleMap& map) : map_(map) {}
+  explicit Replacement(RectangleGraph& map) : map_(map) {}
 
   // `old`: numbers, ascending. `around`: all rectangles that touch one of `fresh` are among these,
   // the old ones and what these touch.
@@ -152,15 +152,15 @@ class RectangleMap::Replacement {
     return number;
   }
 
-  RectangleMap& map_;
+  RectangleGraph& map_;
   std::vector<Event> events_;
   std::vector<Connection> touching_;
 };
 
-RectangleMap::RectangleMap() : index_(std::make_unique<RectangleIndex>()) {}
+RectangleGraph::RectangleGraph() : index_(std::make_unique<RectangleIndex>()) {}
 
-RectangleMap::RectangleMap(const GridGeometry& geometry, std::vector<CellRect> rectangles,
-                           Touching touching, const StopToken& stop)
+RectangleGraph::RectangleGraph(const GridGeometry& geometry, std::vector<CellRect> rectangles,
+                               Touching touching, const StopToken& stop)
     : geometry_(geometry), touching_(touching), rectangles_(std::move(rectangles)) {
   checkInside(geometry_, rectangles_);
   index_ = std::make_unique<RectangleIndex>(rectangles_, stop);
@@ -168,20 +168,20 @@ RectangleMap::RectangleMap(const GridGeometry& geometry, std::vector<CellRect> r
   connections_ = Connections(rectangles_, touching, stop);
 }
 
-RectangleMap::~RectangleMap() = default;
-RectangleMap::RectangleMap(RectangleMap&&) noexcept = default;
-RectangleMap& RectangleMap::operator=(RectangleMap&&) noexcept = default;
+RectangleGraph::~RectangleGraph() = default;
+RectangleGraph::RectangleGraph(RectangleGraph&&) noexcept = default;
+RectangleGraph& RectangleGraph::operator=(RectangleGraph&&) noexcept = default;
 
-std::optional<std::uint32_t> RectangleMap::at(Cell cell) const {
+std::optional<std::uint32_t> RectangleGraph::at(Cell cell) const {
   return index_->at(cell);
 }
 
-std::size_t RectangleMap::count() const {
+std::size_t RectangleGraph::count() const {
   return rectangles_.size() - vacant_.size();
 }
 
-RectangleEdit RectangleMap::edit(const BitMap& free, const CellRect& changed,
-                                 const StopToken& stop) {
+RectangleEdit RectangleGraph::edit(const BitMap& free, const CellRect& changed,
+                                   const StopToken& stop) {
   const CellRect inside = changed.intersection(geometry_.rect());
   std::vector<CellRect> met;
   for (const std::uint32_t number : index_->meeting(inside)) met.push_back(rectangles_[number]);
@@ -194,8 +194,8 @@ RectangleEdit RectangleMap::edit(const BitMap& free, const CellRect& changed,
   return replacement.edit();
 }
 
-void RectangleMap::repair(const FreeChanges& changes, Replacement& replacement,
-                          const StopToken& stop) {
+void RectangleGraph::repair(const FreeChanges& changes, Replacement& replacement,
+                            const StopToken& stop) {
   std::vector<std::uint32_t> touched, around;
   const auto append = [this](const CellRect& rect, std::vector<std::uint32_t>& numbers) {
     for (const std::uint32_t number : index_->meeting(rect)) numbers.push_back(number);
@@ -225,8 +225,8 @@ void RectangleMap::repair(const FreeChanges& changes, Replacement& replacement,
   replacement.replace(std::move(touched), std::move(fresh), std::move(around));
 }
 
-std::vector<std::uint32_t> RectangleMap::nearby(const CellRect& changed,
-                                                const std::vector<std::uint32_t>& touched) const {
+std::vector<std::uint32_t> RectangleGraph::nearby(const CellRect& changed,
+                                                  const std::vector<std::uint32_t>& touched) const {
   std::vector<std::uint32_t> numbers = index_->meeting(changed.grown(kNear));
   if (numbers.size() < kFew) numbers = index_->meeting(changed.grown(kFar));
   const auto isTouched = [&touched](std::uint32_t number) { return holds(touched, number); };
@@ -236,18 +236,18 @@ std::vector<std::uint32_t> RectangleMap::nearby(const CellRect& changed,
   return numbers;
 }
 
-std::size_t RectangleMap::freeCells() const {
+std::size_t RectangleGraph::freeCells() const {
   std::size_t cells = 0;
   for (const CellRect& rect : rectangles_) cells += static_cast<std::size_t>(areaOf(rect));
   return cells;
 }
 
-std::size_t RectangleMap::bytes() const {
+std::size_t RectangleGraph::bytes() const {
   return rectangles_.capacity() * sizeof(CellRect) + vacant_.capacity() * sizeof(std::uint32_t) +
          connections_.bytes() + index_->bytes();
 }
 
-std::size_t RectangleMap::bytesFor(std::size_t rectangles) {
+std::size_t RectangleGraph::bytesFor(std::size_t rectangles) {
   return rectangles * (sizeof(CellRect) + RectangleIndex::kBytes + Connections::kMakingBytes);
 }
 

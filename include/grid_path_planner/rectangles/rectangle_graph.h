@@ -1,6 +1,6 @@
 // A map's free space as rectangles: which one holds a cell, and which touch.
 //
-//   RectangleMap map(geometry, largestFirst(bits, {}, stop), Touching::BORDERS);
+//   RectangleGraph map(geometry, largestFirst(bits, {}, stop), Touching::BORDERS);
 //   std::optional<std::uint32_t> here = map.at(cell);
 //
 //   RectangleEdit edit = map.edit(bits.rows, changed, stop);  // cells became free or blocked
@@ -36,17 +36,17 @@ struct RectangleEdit {
   std::vector<std::uint32_t> added;
 };
 
-class RectangleMap {
+class RectangleGraph {
  public:
   // No cells, no rectangles.
-  RectangleMap();
+  RectangleGraph();
   // Throws InputError naming the first rectangle that is empty, leaves the map or overlaps another,
   // and Stopped.
-  RectangleMap(const GridGeometry& geometry, std::vector<CellRect> rectangles, Touching touching,
-               const StopToken& stop = StopToken());
-  ~RectangleMap();
-  RectangleMap(RectangleMap&&) noexcept;
-  RectangleMap& operator=(RectangleMap&&) noexcept;
+  RectangleGraph(const GridGeometry& geometry, std::vector<CellRect> rectangles, Touching touching,
+                 const StopToken& stop = StopToken());
+  ~RectangleGraph();
+  RectangleGraph(RectangleGraph&&) noexcept;
+  RectangleGraph& operator=(RectangleGraph&&) noexcept;
 
   const GridGeometry& geometry() const { return geometry_; }
   // By number. After edits some numbers may be vacant: theirs are empty, until they are used again.
