@@ -8,7 +8,7 @@ namespace {
 
 // A cone that nothing splits is not put back into the open list at every border, but it may not run
 // away from more promising ones either.
-constexpr int kBordersUnjudged = 16;
+constexpr int kBordersUnjudged = 32;
 
 // Sides with more borders than these are bisected.
 constexpr std::uint32_t kFewBorders = 8;
