@@ -91,20 +91,28 @@ double ConeSearch::promise(const Node& cone) const {
   return root.g + lengthOf(crossing, lines) + lengthOf(columns - crossing, beyond);
 }
 
-// A root at the corner for an arrival from `parent`, -1 where a better or wider one was there.
-std::int32_t ConeSearch::relax(std::int32_t parent, std::uint32_t corner, Sense sense) {
+// The length of a way that turns at the corner, none where a shorter one is known or it cannot be
+// part of a shorter way to the goal.
+inline std::optional<double> ConeSearch::lengthTo(std::int32_t parent, std::uint32_t corner) const {
   const Root& from = roots_[parent];
   const MeshPoint at = mesh_->corner(corner).at;
   const double g = from.g + distance(from.at, at);
-  if (g + distance(at, goal_.at) >= best_) return -1;
+  const Known& known = corners_[corner];
+  if (known.query == query_ && g > roots_[known.root].g * (1.0 + kTie)) return std::nullopt;
+  if (g + distance(at, goal_.at) >= best_) return std::nullopt;
+  return g;
+}
+
+// A root at the corner for an arrival from `parent` of length g, -1 where a wider one was there.
+std::int32_t ConeSearch::rootAt(std::int32_t parent, std::uint32_t corner, double g, Sense sense) {
+  const MeshPoint at = mesh_->corner(corner).at;
   Known& known = corners_[corner];
   if (known.query == query_) {
     Root& root = roots_[known.root];
-    if (g > root.g * (1.0 + kTie)) return -1;
     if (g >= root.g * (1.0 - kTie)) {
       std::int32_t& widest = root.widest[sense];
       if (widest >= 0) {
-        const std::int64_t side = cross(at - roots_[widest].at, at - from.at);
+        const std::int64_t side = cross(at - roots_[widest].at, at - roots_[parent].at);
         if (sense == ANTICLOCKWISE ? side >= 0 : side <= 0) return -1;
       }
       widest = parent;
@@ -241,8 +249,10 @@ void ConeSearch::expandCorner(const Node& node) {
   const bool blocked_east = corner.quarter == 0 || corner.quarter == 3;
   if (blocked_east != east && block_queries_[corner.block] == query_) {
     const bool north = corner.quarter < 2;  // towards the obstacle's rows
+    const std::optional<double> g = lengthTo(node.root, node.place);
+    if (!g) return;
     const std::int32_t root =
-        relax(node.root, node.place, east == north ? ANTICLOCKWISE : CLOCKWISE);
+        rootAt(node.root, node.place, *g, east == north ? ANTICLOCKWISE : CLOCKWISE);
     if (root < 0) return;
     Node cone{{{-1, 0}, {0, 1}}, root, corner.rectangle[north], Heading(north), kCone};
     if (east) {
@@ -257,6 +267,8 @@ void ConeSearch::expandCorner(const Node& node) {
 // Round the corner at one end of a border, if that leads anywhere.
 void ConeSearch::turn(const Node& cone, const RectangleMesh::Border& border, Way way) {
   const std::uint32_t corner = border.corner[way];
+  const std::optional<double> g = lengthTo(cone.root, corner);
+  if (!g) return;
   const MeshPoint at = mesh_->corner(corner).at;
   const MeshPoint arrival = at - roots_[cone.root].at;
   const bool north = cone.heading == Heading::NORTHWARDS, east = way == Way::EAST;
@@ -270,7 +282,8 @@ void ConeSearch::turn(const Node& cone, const RectangleMesh::Border& border, Way
   int borders = kBordersUnjudged;
   const Meets meets = glide(at, turned, far, borders);
   if (meets == Meets::END && !border.leads_on[way]) return;
-  const std::int32_t root = relax(cone.root, corner, east == north ? CLOCKWISE : ANTICLOCKWISE);
+  const std::int32_t root =
+      rootAt(cone.root, corner, *g, east == north ? CLOCKWISE : ANTICLOCKWISE);
   if (root < 0) return;
   turned.root = root;
   if (meets == Meets::GOAL)

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "grid_path_planner/base/statistics.h"
@@ -94,7 +95,8 @@ class ConeSearch {
   void turn(const Node& cone, const RectangleMesh::Border& border, Way way);
   void follow(std::int32_t root, std::uint32_t corner, Way way);
   void lookForGoal(const Node& cone);
-  std::int32_t relax(std::int32_t parent, std::uint32_t corner, Sense sense);
+  std::optional<double> lengthTo(std::int32_t parent, std::uint32_t corner) const;
+  std::int32_t rootAt(std::int32_t parent, std::uint32_t corner, double g, Sense sense);
   void see(std::int32_t root);
   double promise(const Node& cone) const;
   void offer(double f, const Node& node);
