@@ -74,8 +74,9 @@ void DetourSearch::expand(const GoalLabels& labels, Index index, Cell cell, cons
       // 2. A cheaper one: the tree goes on from here, or the cell is opened, perhaps again.
       if (next.closed()) ++counts.reopened;
       next.reach(g, step);
-      const bool leads_back = labels.stepOf(to) == oppositeStep(step) && to != labels.root();
-      if (!leads_back && sound(labels, to, to_cell)) {
+      if (next.note() == 0 && labels.stepOf(to) == oppositeStep(step) && to != labels.root())
+        next.setNote(kUnsound);  // its way leads back here
+      if (next.note() != kUnsound && sound(labels, to, to_cell)) {
         cost_ = f;
         last_ = to;
         continue;

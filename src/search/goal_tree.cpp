@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "grid_path_planner/search/bucket_queue.h"
+#include "label_lines.h"
 
 namespace grid_path_planner {
 namespace {
@@ -282,20 +283,22 @@ void GoalTree::takeDearer(const CellRect& rect) {
 
 // Where a label exceeds a neighbour's and the step there, the neighbour waits from now on.
 void GoalTree::takeCheaper(const CellRect& rect) {
-  for (int row = rect.row; row < rect.row + rect.height; ++row) {
-    Index index = static_cast<Index>(labels_.geometry().index({rect.column, row}).value());
-    for (int column = rect.column; column < rect.column + rect.width; ++column, ++index) {
-      const bool east = column + 1 < rect.column + rect.width;
-      const bool west = column > rect.column, north = row + 1 < rect.row + rect.height;
-      if (east) compare(index, 0);
-      if (north) compare(index, 1);
-      if (north && east) compare(index, 4);
-      if (north && west) compare(index, 5);
+  if (rect.empty()) return;
+  LabelLines lines(labels_, rect);
+  lines.forEachSuspect([&](Cell cell) {
+    const auto index = static_cast<Index>(labels_.geometry().index(cell).value());
+    const bool east = cell.column + 1 < rect.column + rect.width;
+    const bool north = cell.row + 1 < rect.row + rect.height;
+    if (east) compare(index, 0);
+    if (north) compare(index, 1);
+    if (east && north) {
+      compare(index, 4);
+      compare(index + 1, 5);
     }
-  }
+  });
 }
 
-inline void GoalTree::compare(Index index, std::uint32_t step) {
+void GoalTree::compare(Index index, std::uint32_t step) {
   const Index other = labels_.along(index, step);
   const SearchKey length = labels_.stepKey(index, other, step);
   const bool known = labels_.state(index) != GoalLabels::UNLABELLED;

@@ -97,11 +97,18 @@ void CostGrid::finishEdit(const CellRect& rect) {
   if (bit_maps_->made) bit_maps_->maps.update(weights_, rect, StopToken());
 }
 
+void CostGrid::catchUp(const CostGrid& with, const CellRect& rect) {
+  copyCells(with.weights_, rect, weights_);
+  copyCells(with.classes_, rect, classes_);
+  counts_ = with.counts_;
+  cheapest_ = with.cheapest_;
+  dearest_ = with.dearest_;
+  if (bit_maps_.use_count() > 1) bit_maps_ = bit_maps_->copy();
+  if (bit_maps_->made) bit_maps_->maps.update(weights_, rect, StopToken());
+}
+
 void copyCells(const CostGrid& from, const CellRect& rect, CostGrid& to) {
-  to.edit(rect, [&](auto& weights, auto& classes) {
-    copyCells(from.weights(), rect, weights);
-    copyCells(from.classes(), rect, classes);
-  });
+  to.catchUp(from, rect);
 }
 
 bool stepAllowed(const CostGrid& map, Cell from, Cell to) {

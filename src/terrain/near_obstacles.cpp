@@ -7,9 +7,7 @@
 namespace grid_path_planner {
 namespace {
 
-// Eight distances, handled by one instruction where the machine has such.
-using Eight = std::int16_t __attribute__((vector_size(16)));
-constexpr std::size_t kTogether = 8;
+constexpr std::size_t kTogether = 8;  // an Eight
 
 // No obstacle in the row: far enough even in the next row but one, and no overflow in the last.
 constexpr std::int16_t kBeyond = 16900;
@@ -19,15 +17,11 @@ static_assert(kBeyond +
                   (2 * NearObstacles::kLargestReach - 1) * (2 * NearObstacles::kLargestReach - 1) <
               NearObstacles::kFar);
 
-Eight load(const std::int16_t* from) {
-  Eight eight;
-  std::memcpy(&eight, from, sizeof eight);
-  return eight;
-}
-
-bool hasOccupied(const Occupancy* cells, int count) {
-  return std::memchr(cells, static_cast<int>(Occupancy::OCCUPIED),
-                     static_cast<std::size_t>(count)) != nullptr;
+// The first occupied one of cells[at] up to cells[count], `count` where there is none.
+int occupiedFrom(const Occupancy* cells, int at, int count) {
+  const void* found = std::memchr(cells + at, static_cast<int>(Occupancy::OCCUPIED),
+                                  static_cast<std::size_t>(count - at));
+  return found == nullptr ? count : static_cast<int>(static_cast<const Occupancy*>(found) - cells);
 }
 
 }  // namespace
@@ -41,12 +35,13 @@ NearObstacles::NearObstacles(const Grid<Occupancy>& classes, const CellRect& rec
       next_(std::max(0, rect.row - reach)),
       lines_(stride_ * period_, kBeyond),
       empty_(period_, true),
-      least_(stride_, kFar),
-      apart_(static_cast<std::size_t>(rect.width) + 2 * reach) {
+      least_(stride_, kFar) {
   assert(reach > 0 && reach <= kLargestReach);
+  rising_.assign(static_cast<std::size_t>(rect.width) + 2 * reach + 1, kBeyond);
   for (int apart = 0; apart <= reach; ++apart)
-    squares_.push_back(static_cast<Distance>(squared(apart)));
-  squares_.push_back(kBeyond);
+    rising_[static_cast<std::size_t>(apart)] = static_cast<Distance>(squared(apart));
+  falling_.assign(rising_.rbegin(), rising_.rend());
+  sources_.reserve(static_cast<std::size_t>(period_));
 }
 
 const std::int16_t* NearObstacles::row(int row) {
@@ -54,49 +49,56 @@ const std::int16_t* NearObstacles::row(int row) {
   const int last = std::min(classes_.height() - 1, row + reach_);
   for (; next_ <= last; ++next_) measure(next_);
 
-  bool lowered = false;
-  for (int other = first; other <= last; ++other) {
-    if (empty_[other % period_]) continue;
-    if (!lowered) std::fill(least_.begin(), least_.end(), kFar);
-    lowered = true;
-    lower(lineOf(other), squared(std::abs(other - row)));
-  }
-  return lowered ? least_.data() : nullptr;
-}
-
-void NearObstacles::lower(const Distance* line, int offset) {
-  const auto added = static_cast<Distance>(offset);
-  const Eight step = {added, added, added, added, added, added, added, added};
+  sources_.clear();
+  for (int other = first; other <= last; ++other)
+    if (!empty_[other % period_])
+      sources_.push_back(
+          {lineOf(other), Eight{} + static_cast<Distance>(squared(std::abs(other - row)))});
+  if (sources_.empty()) return nullptr;
   for (std::size_t i = 0; i < stride_; i += kTogether) {
-    const Eight before = load(least_.data() + i);
-    const Eight here = load(line + i) + step;
-    const Eight least = here < before ? here : before;
+    Eight least = Eight{} + kFar;
+    for (const Source& source : sources_) {
+      Eight here;
+      std::memcpy(&here, source.line + i, sizeof here);
+      here += source.added;
+      least = here < least ? here : least;
+    }
     std::memcpy(least_.data() + i, &least, sizeof least);
   }
+  return least_.data();
 }
 
 void NearObstacles::measure(int row) {
   const int begin = std::max(0, rect_.column - reach_);
-  const int end = std::min(classes_.width(), rect_.column + rect_.width + reach_);
+  const int count = std::min(classes_.width(), rect_.column + rect_.width + reach_) - begin;
   const Occupancy* cells = classes_.row(row) + begin;
-  const int count = end - begin;
-  const bool empty = !hasOccupied(cells, count);
-  empty_[row % period_] = empty;
-  if (empty) return;
+  const int first = occupiedFrom(cells, 0, count);
+  empty_[row % period_] = first == count;
+  if (first == count) return;
 
-  int apart = reach_ + 1;
-  for (int i = 0; i < count; ++i) {
-    apart = cells[i] == Occupancy::OCCUPIED ? 0 : std::min(apart + 1, reach_ + 1);
-    apart_[i] = static_cast<std::uint8_t>(apart);
-  }
-  apart = reach_ + 1;
   Distance* line = lineOf(row);
-  const int skipped = rect_.column - begin;
-  for (int i = count - 1; i >= skipped; --i) {
-    apart = cells[i] == Occupancy::OCCUPIED ? 0 : std::min(apart + 1, reach_ + 1);
-    if (i - skipped < rect_.width)
-      line[i - skipped] = squares_[std::min<std::size_t>(apart, apart_[i])];
+  constexpr int kNone = 1 << 29;
+  int before = -kNone;
+  for (int next = first;; next = occupiedFrom(cells, before + 1, count)) {
+    fillBetween(before, next == count ? kNone : next, begin, line);
+    if (next == count) return;
+    const int skipped = next + begin - rect_.column;
+    if (skipped >= 0 && skipped < rect_.width) line[skipped] = 0;
+    before = next;
   }
+}
+
+void NearObstacles::fillBetween(int before, int next, int begin, Distance* line) const {
+  const int skipped = rect_.column - begin;
+  const int low = std::max(before + 1, skipped);
+  const int high = std::min(next, skipped + rect_.width);
+  if (low >= high) return;
+  const int middle = std::clamp((before + next) / 2 + 1, low, high);
+  if (low < middle)
+    std::copy_n(rising_.data() + (low - before), middle - low, line + low - skipped);
+  const auto last = static_cast<std::ptrdiff_t>(falling_.size()) - 1;
+  if (middle < high)
+    std::copy_n(falling_.data() + (last - (next - middle)), high - middle, line + middle - skipped);
 }
 
 }  // namespace grid_path_planner

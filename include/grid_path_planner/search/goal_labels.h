@@ -71,9 +71,14 @@ class GoalLabels {
   Index along(Index index, std::uint32_t step) const {
     return static_cast<Index>(index + offsets_[step]);
   }
+  CostGrid::Weight weight(Index index) const { return weights_[index]; }
   // What a step between neighbours costs.
   SearchKey stepKey(Index from, Index to, std::uint32_t step) const {
-    return (step < 4 ? kStraightKey : diagonal_step_) * std::max(weights_[from], weights_[to]);
+    return stepLength(step) * std::max(weights_[from], weights_[to]);
+  }
+  // Where all weighs 1.
+  SearchKey stepLength(std::uint32_t step) const {
+    return step < 4 ? kStraightKey : diagonal_step_;
   }
 
  private:

@@ -2,7 +2,9 @@
 // read a cell, no bounds looked at.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
@@ -14,6 +16,42 @@ namespace grid_path_planner {
 constexpr unsigned neighbourBit(int columns, int rows) {
   return static_cast<unsigned>((columns + 1) * 3 + rows + 1);
 }
+
+// Of eight cells that lie side by side, handled together where the machine has instructions for it.
+struct EightNeighbourhoods {
+  using Eight = std::uint16_t __attribute__((vector_size(16)));
+  Eight bits = {};
+  Eight equal = ~Eight{};  // 0 where not
+
+  // `below`, `at` and `above` point to the first cell's column in its row and those around it.
+  EightNeighbourhoods(const std::uint16_t* below, const std::uint16_t* at,
+                      const std::uint16_t* above)
+      : middle_(from(at)) {
+    takeColumn<-1>(below, at, above);
+    takeColumn<0>(below, at, above);
+    takeColumn<1>(below, at, above);
+  }
+
+ private:
+  static Eight from(const std::uint16_t* weights) {
+    Eight eight;
+    std::memcpy(&eight, weights, sizeof eight);
+    return eight;
+  }
+  template <int kColumns>
+  void takeColumn(const std::uint16_t* below, const std::uint16_t* at, const std::uint16_t* above) {
+    take<neighbourBit(kColumns, -1)>(from(below + kColumns));
+    take<neighbourBit(kColumns, 0)>(from(at + kColumns));
+    take<neighbourBit(kColumns, 1)>(from(above + kColumns));
+  }
+  template <unsigned kBit>
+  void take(const Eight& weights) {
+    bits |= reinterpret_cast<Eight>(weights != 0) & static_cast<std::uint16_t>(1U << kBit);
+    equal &= reinterpret_cast<Eight>(weights == middle_);
+  }
+
+  Eight middle_;
+};
 
 // Calls visit(index, bits, equal) for every cell of `rect`, row by row: bit neighbourBit() is set
 // where the neighbour is passable, outside the map nothing is; `equal` says whether all nine weigh
@@ -27,6 +65,7 @@ void forEachNeighbourhood(const CostGrid& map, const CellRect& rect, const StopT
     Weight middle;
     bool equal;
   };
+  constexpr int kTogether = 8;
   const int width = map.geometry().width(), height = map.geometry().height();
   const std::vector<Weight> outside(static_cast<std::size_t>(width), CostGrid::kBlocked);
   StopPoll poll(stop, 64);
@@ -41,9 +80,17 @@ void forEachNeighbourhood(const CostGrid& map, const CellRect& rect, const StopT
       return Column{unsigned(a != 0) | unsigned(b != 0) << 1 | unsigned(c != 0) << 2, b,
                     a == b && b == c};
     };
-    Column west = columnAt(rect.column - 1), middle = columnAt(rect.column);
     std::size_t index = map.geometry().index({rect.column, row}).value();
-    for (int column = rect.column; column < rect.column + rect.width; ++column, ++index) {
+    int column = rect.column;
+    const int end = rect.column + rect.width;
+    for (; column > 0 && column < end && column + kTogether < width; column += kTogether) {
+      const EightNeighbourhoods eight(below + column, at + column, above + column);
+      const int number = std::min(kTogether, end - column);
+      for (int i = 0; i < number; ++i, ++index) visit(index, eight.bits[i], eight.equal[i] != 0);
+    }
+    if (column >= end) continue;
+    Column west = columnAt(column - 1), middle = columnAt(column);
+    for (; column < end; ++column, ++index) {
       const Column east = columnAt(column + 1);
       const bool equal = west.equal && middle.equal && east.equal && west.middle == middle.middle &&
                          middle.middle == east.middle;

@@ -78,6 +78,10 @@ class CostGrid {
     finishEdit(rect);
   }
 
+  // Makes the map what `with` is, which differs from it in cells of `rect` only, in time
+  // proportional to `rect`; the revision stays.
+  void catchUp(const CostGrid& with, const CellRect& rect);
+
  private:
   struct LazyBitMaps;
 
@@ -96,7 +100,7 @@ class CostGrid {
   WeightCounts counts_;                    // made by the first edit
 };
 
-// For MapTurns<CostGrid>: edits `to`. Precondition: the maps have the same geometry and kernel.
+// For MapTurns<CostGrid>: catchUp().
 void copyCells(const CostGrid& from, const CellRect& rect, CostGrid& to);
 
 // Whether one step leads from `from` to `to`: neighbours by the motion model, both passable, no

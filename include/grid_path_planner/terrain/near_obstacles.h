@@ -35,6 +35,8 @@ class NearObstacles {
 
  private:
   using Distance = std::int16_t;
+  // Eight distances, handled by one instruction where the machine has such.
+  using Eight = Distance __attribute__((vector_size(16)));
 
   // The squared distance of two cells that are `cells` columns or rows apart.
   static constexpr int squared(int cells) {
@@ -45,7 +47,9 @@ class NearObstacles {
     return lines_.data() + static_cast<std::size_t>(row % period_) * stride_;
   }
   void measure(int row);
-  void lower(const Distance* line, int offset);
+  // Distances along a row to the cells `before` and `next`, for those between, as far as they are
+  // of the rectangle. Columns are told from `begin`.
+  void fillBetween(int before, int next, int begin, Distance* line) const;
 
   const Grid<Occupancy>& classes_;
   CellRect rect_;
@@ -53,11 +57,16 @@ class NearObstacles {
   int period_;                     // lines that are kept
   std::size_t stride_;             // of a line, a multiple of eight
   int next_;                       // the row that is measured next
-  std::vector<Distance> squares_;  // by columns apart, up to reach + 1: kBeyond
+  std::vector<Distance> rising_;   // squares by columns apart, kBeyond where out of reach
+  std::vector<Distance> falling_;  // the same backwards
   std::vector<Distance> lines_;    // the rows around, along the rows only
   std::vector<bool> empty_;        // whether a line has no occupied cell in reach
   std::vector<Distance> least_;
-  std::vector<std::uint8_t> apart_;  // of one line: columns to the nearest occupied cell
+  struct Source {
+    const Distance* line;
+    Eight added;
+  };
+  std::vector<Source> sources_;  // of one row: the lines around it
 };
 
 }  // namespace grid_path_planner
