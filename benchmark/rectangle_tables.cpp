@@ -23,6 +23,7 @@
 #include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/rectangles/decomposition.h"
 #include "grid_path_planner/rectangles/map_sizes.h"
+#include "grid_path_planner/rectangles/polyanya.h"
 #include "grid_path_planner/rectangles/rectangle_map_planner.h"
 #include "grid_path_planner/terrain/terrain.h"
 
@@ -66,19 +67,6 @@ RectangleGraph rectanglesOf(const OccupancyGrid& map) {
   return RectangleGraph(map.geometry(),
                         largestFirst(terrain->bitMaps(StopToken()), {}, StopToken()),
                         Touching::BORDERS);
-}
-
-// Pairs of free cells that share a side.
-std::size_t sharedSides(const CostGrid& map) {
-  std::size_t sides = 0;
-  for (int row = 0; row < map.geometry().height(); ++row)
-    for (int column = 0; column < map.geometry().width(); ++column) {
-      const Cell cell{column, row}, east{column + 1, row}, north{column, row + 1};
-      if (!map.passable(cell)) continue;
-      sides += map.geometry().contains(east) && map.passable(east) ? 1 : 0;
-      sides += map.geometry().contains(north) && map.passable(north) ? 1 : 0;
-    }
-  return sides;
 }
 
 // ---- Counts and bytes
@@ -185,10 +173,41 @@ struct Contender {
 
 struct Measured {
   double prepare_ms = 0.0;
+  std::size_t elements = 0;
+  std::size_t connections = 0;
   std::vector<double> lengths;  // cells; of each query, -1 where there is no path
   std::vector<double> plan_ms;
   std::size_t expanded = 0;  // on the way across
 };
+
+// Pairs of free cells that share a side.
+std::size_t sharedSides(const CostGrid& map) {
+  std::size_t sides = 0;
+  for (int row = 0; row < map.geometry().height(); ++row)
+    for (int column = 0; column < map.geometry().width(); ++column) {
+      const Cell cell{column, row}, east{column + 1, row}, north{column, row + 1};
+      if (!map.passable(cell)) continue;
+      sides += map.geometry().contains(east) && map.passable(east) ? 1 : 0;
+      sides += map.geometry().contains(north) && map.passable(north) ? 1 : 0;
+    }
+  return sides;
+}
+
+// What the planner searches: polyanya cuts rectangles of its own.
+void count(const Planner& planner, const CostGrid& map, Measured& measured) {
+  if (const auto* mesh = dynamic_cast<const Polyanya*>(&planner)) {
+    measured.elements = mesh->mesh().rectangles();
+    measured.connections = mesh->mesh().borders() / 2;
+  } else if (const auto* rectangles = dynamic_cast<const RectangleMapPlanner*>(&planner)) {
+    measured.elements = rectangles->rectangles().count();
+    measured.connections = rectangles->rectangles().connections().count() / 2;
+  } else {
+    const auto& weights = map.weights().values();
+    measured.elements = weights.size() - static_cast<std::size_t>(std::count(
+                                             weights.begin(), weights.end(), CostGrid::kBlocked));
+    measured.connections = sharedSides(map);
+  }
+}
 
 Measured measure(const Contender& contender, const OccupancyGrid& map,
                  const std::vector<Query>& queries) {
@@ -203,6 +222,7 @@ Measured measure(const Contender& contender, const OccupancyGrid& map,
     const double taken = threadMilliseconds() - begin;
     measured.prepare_ms = round == 0 ? taken : std::min(measured.prepare_ms, taken);
   }
+  count(*planner, *terrain, measured);
   for (const Query& query : queries) {
     PlanResult result;
     double least = 0.0;
@@ -268,8 +288,6 @@ void printPlanning(const std::string& folder, const Drawing& drawing, int cells,
   const OccupancyGrid map = render(folder, drawing, cells);
   const auto terrain = terrainOf(map);
   const std::vector<Query> queries = queriesOn(*terrain, drawing);
-  const RectangleGraph rectangles = rectanglesOf(map);
-  const std::size_t free_cells = rectangles.freeCells(), sides = sharedSides(*terrain);
   const Measured shortest = measure({"", "anya", {}}, map, queries);
 
   std::printf("### %s, %d×%d\n\n", drawing.name, cells, cells);
@@ -279,12 +297,9 @@ void printPlanning(const std::string& folder, const Drawing& drawing, int cells,
       "|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Contender& contender : contenders) {
     const Measured measured = measure(contender, map, queries);
-    const bool on_rectangles =
-        contender.planner == "rectangle_map" || contender.planner == "polyanya";
     std::printf("| %s | %zu | %zu | %.3f ms | %zu | %.1f µs | %.1f | ", contender.name.c_str(),
-                on_rectangles ? rectangles.count() : free_cells,
-                on_rectangles ? rectangles.connections().count() / 2 : sides, measured.prepare_ms,
-                measured.expanded, 1e3 * measured.plan_ms.front(), measured.lengths.front());
+                measured.elements, measured.connections, measured.prepare_ms, measured.expanded,
+                1e3 * measured.plan_ms.front(), measured.lengths.front());
     std::optional<Measured> plain;
     if (contender.planner == "rectangle_map")
       plain = measure(throughTheMiddles(contender), map, queries);
