@@ -2,9 +2,9 @@
 //
 // A cone is all that one root sees, between two rays, of what lies north (or south) of it. It
 // crosses a rectangle and is split by the borders on the far side. Where it touches a corner round
-// which a taut way can turn, the corner becomes a root of its own, with a cone for what lies beyond
-// the ray; and where the wall that it turned along is one of the line, with the corners that follow
-// on the line.
+// which a taut way can turn and which shows anything beyond, the corner becomes a root of its own,
+// with a cone for what lies beyond the ray; and where the wall that it turned along is one of the
+// line, with the corners that follow on the line.
 //
 // Points and rays are whole numbers and every decision is the sign of a difference of two products
 // of them, so all are exact; only lengths are rounded.

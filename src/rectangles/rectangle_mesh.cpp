@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "grid_path_planner/rectangles/connections.h"
 
@@ -13,6 +14,77 @@ constexpr std::int32_t kUnit = static_cast<std::int32_t>(SegmentPoint::kUnitsPer
 bool fromTheWest(const RectangleMesh::Border& a, const RectangleMesh::Border& b) {
   return a.west < b.west;
 }
+
+// A depth-first search over the rectangles. `low` is the earliest one that a rectangle reaches past
+// the one above it; where that is the one above, a block ends.
+class BlockSearch {
+ public:
+  explicit BlockSearch(const RectangleMesh& mesh)
+      : block_above(mesh.rectangles(), RectangleMesh::kNone),
+        mesh_(mesh),
+        order_(mesh.rectangles(), 0),
+        low_(mesh.rectangles(), 0),
+        next_(mesh.rectangles(), 0),
+        above_(mesh.rectangles(), RectangleMesh::kNone) {}
+
+  // All that can be reached from `root` and was not visited before.
+  void visitFrom(std::uint32_t root, StopPoll& poll) {
+    if (order_[root] == 0) enter(root);
+    while (!way_.empty()) {
+      poll();
+      const std::uint32_t rect = way_.back();
+      if (next_[rect] == mesh_.rectangle(rect).first[2])
+        leave(rect);
+      else
+        look(rect, mesh_.border(next_[rect]++).to);
+    }
+  }
+
+  std::vector<std::uint32_t> visited;       // in order
+  std::vector<std::uint32_t> block_above;   // of a rectangle
+  std::vector<std::uint32_t> block_parent;  // the rectangle that a block hangs on
+
+ private:
+  void enter(std::uint32_t rect) {
+    visited.push_back(rect);
+    order_[rect] = low_[rect] = static_cast<std::uint32_t>(visited.size());
+    next_[rect] = mesh_.rectangle(rect).first[0];
+    way_.push_back(rect);
+    open_.push_back(rect);
+  }
+
+  void look(std::uint32_t rect, std::uint32_t to) {
+    if (order_[to] == 0) {
+      above_[to] = rect;
+      enter(to);
+    } else if (to != above_[rect]) {
+      low_[rect] = std::min(low_[rect], order_[to]);
+    }
+  }
+
+  void leave(std::uint32_t rect) {
+    const std::uint32_t parent = above_[rect];
+    way_.pop_back();
+    if (parent == RectangleMesh::kNone) return open_.clear();
+    low_[parent] = std::min(low_[parent], low_[rect]);
+    if (low_[rect] < order_[parent]) return;
+    const auto block = static_cast<std::uint32_t>(block_parent.size());
+    block_parent.push_back(parent);
+    for (std::uint32_t last = RectangleMesh::kNone; last != rect;) {
+      last = open_.back();
+      open_.pop_back();
+      block_above[last] = block;
+    }
+  }
+
+  const RectangleMesh& mesh_;
+  std::vector<std::uint32_t> order_;  // of the visit, 0 before it
+  std::vector<std::uint32_t> low_;
+  std::vector<std::uint32_t> next_;   // border to look through
+  std::vector<std::uint32_t> above_;  // the rectangle that it was entered from
+  std::vector<std::uint32_t> way_;
+  std::vector<std::uint32_t> open_;  // visited, and in no block yet
+};
 
 }  // namespace
 
@@ -57,61 +129,22 @@ void RectangleMesh::addBorders(const std::vector<CellRect>& rectangles, const St
   }
 }
 
-// A depth-first search over the rectangles. `low` is the earliest one that a rectangle reaches
-// past the one above it; where that is the one above, a block ends.
 void RectangleMesh::findBlocks(const StopToken& stop) {
   StopPoll poll(stop);
-  const std::size_t count = rectangles_.size();
-  block_above_.assign(count, kNone);
-  std::vector<std::uint32_t> order(count, 0), low(count, 0), next(count, 0), above(count, kNone);
-  std::vector<std::uint32_t> by_order, way, open;
-  by_order.reserve(count);
-  const auto enter = [&](std::uint32_t rect) {
-    by_order.push_back(rect);
-    order[rect] = low[rect] = static_cast<std::uint32_t>(by_order.size());
-    next[rect] = rectangles_[rect].first[0];
-    way.push_back(rect);
-    open.push_back(rect);
-  };
-  const auto leave = [&](std::uint32_t rect) {
-    const std::uint32_t parent = above[rect];
-    way.pop_back();
-    if (parent == kNone) return open.clear();
-    low[parent] = std::min(low[parent], low[rect]);
-    if (low[rect] < order[parent]) return;
-    const auto block = static_cast<std::uint32_t>(block_parent_.size());
-    block_parent_.push_back(parent);
-    for (std::uint32_t last = kNone; last != rect;) {
-      last = open.back();
-      open.pop_back();
-      block_above_[last] = block;
-    }
-  };
-  for (std::uint32_t root = 0; root < count; ++root) {
-    if (order[root] != 0) continue;
-    enter(root);
-    while (!way.empty()) {
-      poll();
-      const std::uint32_t rect = way.back();
-      if (next[rect] == rectangles_[rect].first[2]) {
-        leave(rect);
-        continue;
-      }
-      const std::uint32_t to = borders_[next[rect]++].to;
-      if (order[to] == 0) {
-        above[to] = rect;
-        enter(to);
-      } else if (to != above[rect]) {
-        low[rect] = std::min(low[rect], order[to]);
-      }
-    }
-  }
-  depth_.assign(count, 0);
-  for (const std::uint32_t rect : by_order)
+  BlockSearch search(*this);
+  for (std::uint32_t i = 0; i < rectangles_.size(); ++i) search.visitFrom(i, poll);
+  block_above_ = std::move(search.block_above);
+  block_parent_ = std::move(search.block_parent);
+  depth_.assign(rectangles_.size(), 0);
+  for (const std::uint32_t rect : search.visited) {
+    poll();
     if (block_above_[rect] != kNone) depth_[rect] = depth_[block_parent_[block_above_[rect]]] + 1;
-  for (std::uint32_t from = 0; from < count; ++from)
+  }
+  for (std::uint32_t from = 0; from < rectangles_.size(); ++from) {
+    poll();
     for (std::uint32_t i = rectangles_[from].first[0]; i < rectangles_[from].first[2]; ++i)
       borders_[i].block = blockOf(from, borders_[i].to);
+  }
 }
 
 std::uint32_t RectangleMesh::blockOf(std::uint32_t from, std::uint32_t to) const {
@@ -176,13 +209,15 @@ void RectangleMesh::addCorners(const StopToken& stop) {
     linkAlong(rect.first[0], rect.first[1]);
     linkAlong(rect.first[1], rect.first[2]);
   }
-  for (const Rectangle& rect : rectangles_)
+  for (const Rectangle& rect : rectangles_) {
+    poll();
     for (std::uint32_t i = rect.first[0]; i < rect.first[2]; ++i)
       for (const Way way : {WEST, EAST}) {
         Border& border = borders_[i];
         border.leads_on[way] = border.corner[way] != kNone && behind(rect, border, way) &&
                                corners_[border.corner[way]].along[way] != kNone;
       }
+  }
 }
 
 bool RectangleMesh::blocksBetween(std::uint32_t start, std::uint32_t goal,
