@@ -15,6 +15,17 @@ bool fromTheWest(const RectangleMesh::Border& a, const RectangleMesh::Border& b)
   return a.west < b.west;
 }
 
+// Its block and corners are found later.
+RectangleMesh::Border borderOf(const Connection& connection) {
+  RectangleMesh::Border border{};
+  border.west = connection.first * kUnit;
+  border.east = (connection.first + connection.length) * kUnit;
+  border.to = connection.to;
+  border.block = RectangleMesh::kNone;
+  border.corner = {RectangleMesh::kNone, RectangleMesh::kNone};
+  return border;
+}
+
 // A depth-first search over the rectangles. `low` is the earliest one that a rectangle reaches past
 // the one above it; where that is the one above, a block ends.
 class BlockSearch {
@@ -99,32 +110,25 @@ void RectangleMesh::addBorders(const std::vector<CellRect>& rectangles, const St
   const Connections connections(rectangles, Touching::BORDERS, stop);
   rectangles_.reserve(rectangles.size());
   borders_.reserve(connections.size());
-  std::vector<Border> below, above;
+  std::array<std::vector<const Connection*>, 2> sides;  // by Heading
   for (std::uint32_t i = 0; i < rectangles.size(); ++i) {
     poll();
-    below.clear();
-    above.clear();
     for (const Connection& connection : connections.of(i)) {
       assert(connection.side != Side::EAST && connection.side != Side::WEST);
-      (connection.side == Side::NORTH ? above : below)
-          .push_back({connection.first * kUnit,
-                      (connection.first + connection.length) * kUnit,
-                      connection.to,
-                      kNone,
-                      {kNone, kNone},
-                      {false, false}});
+      sides[connection.side == Side::NORTH ? NORTHWARDS : SOUTHWARDS].push_back(&connection);
     }
     const CellRect& cells = rectangles[i];
     Rectangle rect{cells.column * kUnit,
                    (cells.column + cells.width) * kUnit,
                    {cells.row * kUnit, (cells.row + cells.height) * kUnit},
                    {static_cast<std::uint32_t>(borders_.size()), 0, 0}};
-    std::sort(below.begin(), below.end(), fromTheWest);
-    std::sort(above.begin(), above.end(), fromTheWest);
-    borders_.insert(borders_.end(), below.begin(), below.end());
-    rect.first[1] = static_cast<std::uint32_t>(borders_.size());
-    borders_.insert(borders_.end(), above.begin(), above.end());
-    rect.first[2] = static_cast<std::uint32_t>(borders_.size());
+    for (const Heading heading : {SOUTHWARDS, NORTHWARDS}) {
+      std::sort(sides[heading].begin(), sides[heading].end(),
+                [](const Connection* a, const Connection* b) { return a->first < b->first; });
+      for (const Connection* connection : sides[heading]) borders_.push_back(borderOf(*connection));
+      rect.first[heading + 1] = static_cast<std::uint32_t>(borders_.size());
+      sides[heading].clear();
+    }
     rectangles_.push_back(rect);
   }
 }
