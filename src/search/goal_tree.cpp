@@ -94,6 +94,7 @@ void GoalTree::setRoot(const CostGrid& map, Cell goal) {
 Status GoalTree::begin(const CostGrid& map, Cell goal, Cell start, double ahead, bool record,
                        PlanResult& result, const StopToken& stop) {
   begun_ = false;
+  way_.clear();
   labels_.look(map);
   setRoot(map, goal);
   start_ = start;
@@ -220,6 +221,7 @@ Status GoalTree::plan(const CostGrid& map, Cell start, bool record, PlanResult& 
   StopPoll poll(stop);
   raised_ += estimate(start_, start);
   start_ = start;
+  if (keepsTheWay(map, result)) return Status::FOUND;
   const auto everything = [] { return kInfiniteKey; };
   const auto below_start = [&] {
     const bool labelled = labels_.state(from) != GoalLabels::UNLABELLED;
@@ -246,6 +248,7 @@ Status GoalTree::plan(const CostGrid& map, Cell start, bool record, PlanResult& 
       if (concerned) continue;
       result.cells = detour_.way(labels_);
       result.cost = costOfSteps(map, result.cells);
+      way_ = result.cells;
       return Status::FOUND;
     }
 
@@ -255,6 +258,14 @@ Status GoalTree::plan(const CostGrid& map, Cell start, bool record, PlanResult& 
     if (advance(everything, nobody, further, record, result, poll) == 0) return unreachable();
     further *= 2;
   }
+}
+
+bool GoalTree::keepsTheWay(const CostGrid& map, PlanResult& result) const {
+  const auto at = std::find(way_.begin(), way_.end(), start_);
+  if (at == way_.end()) return false;
+  result.cells.assign(at, way_.end());
+  result.cost = costOfSteps(map, result.cells);
+  return true;
 }
 
 Status GoalTree::unreachable() const {
@@ -267,6 +278,10 @@ void GoalTree::update(const CostGrid& before, const CostGrid& after, const CellR
   labels_.look(after);
   const Changes changes = changesBetween(before.weights(), after.weights(), changed);
   const CellRect all = after.geometry().rect();
+  const CellRect touched = changes.dearer.empty() ? CellRect() : changes.dearer.grown(1);
+  const auto changed_there = [&](Cell cell) { return touched.contains(cell); };
+  if (!changes.cheaper.empty() || std::any_of(way_.begin(), way_.end(), changed_there))
+    way_.clear();
   takeDearer(changes.dearer.empty() ? CellRect() : changes.dearer.grown(1).intersection(all));
   takeCheaper(changes.cheaper.empty() ? CellRect() : changes.cheaper.grown(1).intersection(all));
 }

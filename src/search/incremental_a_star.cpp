@@ -1,5 +1,7 @@
 #include "grid_path_planner/search/incremental_a_star.h"
 
+#include "grid_path_planner/search/bucket_queue.h"
+
 namespace grid_path_planner {
 namespace {
 
@@ -40,7 +42,8 @@ PlanResult IncrementalAStar::doPlan(const PlanRequest& request, const StopToken&
   } catch (const Stopped& stopped) {
     result.status = stopped.status();
   }
-  result.statistics.search_bytes = bytesFor(map().geometry()) + tree_.searchBytes();
+  result.statistics.search_bytes = bytesFor(map().geometry()) + tree_.searchBytes() +
+                                   result.statistics.peak_open * sizeof(BucketQueue::Index);
   return result;
 }
 

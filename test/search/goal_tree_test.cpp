@@ -253,6 +253,10 @@ TEST(IncrementalAStar, ExpandsAroundAChangeOnly) {
   EXPECT_LT(crossing.expanded(), first / 20);
   crossing.change(block, 1);
   EXPECT_LT(crossing.expanded(), first / 20);
+  crossing.change({200, 0, 2, 215}, CostGrid::kBlocked);
+  EXPECT_GT(crossing.expanded(), 100U);
+  crossing.change({2, 390, 3, 3}, CostGrid::kBlocked);
+  EXPECT_EQ(crossing.expanded(), 0U);
 }
 
 // A door that stays closed: a tree that has none of the ways around it is given up in time.
@@ -261,7 +265,10 @@ TEST(IncrementalAStar, ATreeThatIsOfNoUseAnyMoreIsGivenUp) {
   const std::uint64_t first = crossing.expanded();
   crossing.change({385, 0, 2, 399}, CostGrid::kBlocked);  // but for one row
   std::uint64_t detours = 0;
-  for (int plan = 0; plan < 20; ++plan) detours += crossing.expanded();
+  for (int plan = 0; plan < 40; ++plan) {
+    crossing.change({398, 2, 1, 1}, plan % 2 == 0 ? 2 : 1);  // so that it may not keep the last way
+    detours += crossing.expanded();
+  }
   EXPECT_GT(detours, 2 * first);
   EXPECT_LT(detours, 6 * first);
   EXPECT_EQ(crossing.expanded(), 0U);

@@ -7,13 +7,14 @@
 //   tree.update(old_map, new_map, changed);               // cells of `changed` have new weights
 //   tree.plan(new_map, moved_start, false, result, stop);
 //
-// What got dearer is not repaired: a label that a way no longer bears out is a lower bound still,
-// and the search forward from the start (detour_search.h) goes around it. What got cheaper is
-// passed on, as D* Lite does it (Koenig & Likhachev, AAAI 2002): cells whose neighbours may take a
-// better way wait in a queue by label + estimate of the way from the start, together with the
-// border of the tree, and those behind the cost of the way that is found are never looked at. When
-// the start moves, the queue's keys stay lower bounds once new ones are raised by the estimate
-// between the old and the new start.
+// Where the start is on the last way found, nothing got dearer there and nothing cheaper anywhere,
+// the rest of that way is the answer. What got dearer elsewhere is not repaired: a label that a way
+// no longer bears out is a lower bound still, and the search forward from the start
+// (detour_search.h) goes around it. What got cheaper is passed on, as D* Lite does it (Koenig &
+// Likhachev, AAAI 2002): cells whose neighbours may take a better way wait in a queue by label +
+// estimate of the way from the start, together with the border of the tree, and those behind the
+// cost of the way that is found are never looked at. When the start moves, the queue's keys stay
+// lower bounds once new ones are raised by the estimate between the old and the new start.
 //
 // The invariant behind it all: where a label exceeds a neighbour's label and the step there, or is
 // missing, the neighbour waits.
@@ -24,6 +25,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "grid_path_planner/search/detour_search.h"
 #include "grid_path_planner/search/goal_labels.h"
@@ -101,6 +103,8 @@ class GoalTree {
   void compare(Index index, std::uint32_t step);
   // The cell's neighbour by `step` may take a better way.
   void wake(Index index, std::uint32_t step);
+  // Whether the start lies on the last way and nothing changed that since: it is the answer then.
+  bool keepsTheWay(const CostGrid& map, PlanResult& result) const;
   Status unreachable() const;
 
   GoalLabels labels_;
@@ -110,6 +114,8 @@ class GoalTree {
   bool too_dear_ = false;  // a label was left out that the keys do not hold
   Cell goal_;
   Cell start_;
+  // The last one found; none where it got dearer since, or anything got cheaper.
+  std::vector<Cell> way_;
   std::uint64_t expanded_ = 0;            // by the tree
   std::uint64_t detoured_ = 0;            // and by detours since it was begun
   SearchKey sound_below_ = kInfiniteKey;  // labels below this are supported, all the way
