@@ -103,6 +103,13 @@ OccupancyGrid readMapServerMap(const YAML::Node& root, const std::string& file,
                                const MapFileOptions& options) {
   const std::string image = imagePath(root, file);
   const double resolution = options.resolution ? *options.resolution : readResolution(root, file);
+  double own = resolution;
+  if (root["resolution"]) YAML::convert<double>::decode(root["resolution"], own);
+  if (resolution != own)
+    warnAbout(file,
+              "its cells of " + decimalText(own) + " m are taken for cells of " +
+                  decimalText(resolution) + " m",
+              options);
   const Origin origin = options.origin ? *options.origin : readOrigin(root, file);
   return readImageFile(image, readRule(root, file), resolution, origin, options);
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -20,6 +22,7 @@ constexpr const char* kPoint = "a list of x and y in metres";
 
 struct Obstacle {
   Vector2d low, high;  // holds all of it, m
+  double thickness;    // of a part that must not have gaps, m
   std::function<bool(const Vector2d&)> contains;
 };
 
@@ -54,7 +57,8 @@ bool polygonContains(const std::vector<Vector2d>& corners, const Vector2d& point
 
 Obstacle around(const std::vector<Vector2d>& points, double reach,
                 std::function<bool(const Vector2d&)> contains) {
-  Obstacle obstacle{points.front(), points.front(), std::move(contains)};
+  const double thickness = reach > 0.0 ? 2.0 * reach : std::numeric_limits<double>::infinity();
+  Obstacle obstacle{points.front(), points.front(), thickness, std::move(contains)};
   for (const Vector2d& point : points) {
     obstacle.low = obstacle.low.cwiseMin(point);
     obstacle.high = obstacle.high.cwiseMax(point);
@@ -74,9 +78,13 @@ double lengthOf(const YAML::Node& parent, const char* key, const std::string& fi
   return length;
 }
 
+std::string counted(const YAML::Node& node) {
+  return node.IsSequence() ? "a list of " + std::to_string(node.size()) : describeYaml(node);
+}
+
 Vector2d pointOf(const YAML::Node& node, const std::string& name, const std::string& file) {
   if (!node.IsSequence() || node.size() != 2)
-    throw yamlError(node, file, name + " must be " + kPoint + ", got " + describeYaml(node));
+    throw yamlError(node, file, name + " must be " + kPoint + ", got " + counted(node));
   return {yamlAs<double>(node[0], name, file, "a number of metres"),
           yamlAs<double>(node[1], name, file, "a number of metres")};
 }
@@ -86,7 +94,7 @@ std::vector<Vector2d> pointsOf(const YAML::Node& node, const char* name, std::si
   if (!node.IsSequence() || node.size() < fewest)
     throw yamlError(node, file,
                     std::string(name) + " must be a list of at least " + std::to_string(fewest) +
-                        " points, got " + describeYaml(node));
+                        " points, got " + counted(node));
   std::vector<Vector2d> points;
   for (const YAML::Node& point : node) points.push_back(pointOf(point, name, file));
   return points;
@@ -117,11 +125,23 @@ Obstacle readWall(const YAML::Node& node, const std::string& file) {
   });
 }
 
+void checkKeys(const YAML::Node& drawing, const std::string& file) {
+  if (!drawing.IsMap()) return;  // told by whoever looks for a key
+  for (const auto& entry : drawing) {
+    const auto key = entry.first.as<std::string>();
+    if (key != "size" && key != "resolution" && key != "obstacles")
+      throw yamlError(entry.first, file,
+                      "a vector_map has size, resolution and obstacles, got '" + key + "'");
+  }
+}
+
 Obstacle readObstacle(const YAML::Node& node, const std::string& file) {
   constexpr const char* kShape = "one of polygon, circle and wall";
   if (!node.IsMap() || node.size() != 1)
-    throw yamlError(node, file,
-                    std::string("an obstacle must be ") + kShape + ", got " + describeYaml(node));
+    throw yamlError(
+        node, file,
+        std::string("an obstacle must be ") + kShape + ", got " +
+            (node.IsMap() ? std::to_string(node.size()) + " entries" : describeYaml(node)));
   if (node["polygon"]) return readPolygon(node["polygon"], file);
   if (node["circle"]) return readCircle(node["circle"], file);
   if (node["wall"]) return readWall(node["wall"], file);
@@ -132,11 +152,17 @@ Obstacle readObstacle(const YAML::Node& node, const std::string& file) {
 
 // ---- drawing
 
+std::string metres(double length) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << length << " m";
+  return out.str();
+}
+
 int cellsAlong(double length, double resolution, const std::string& file) {
   const double cells = std::round(length / resolution);
   if (!(cells >= 1.0 && cells <= 1e9))
-    throw InputError(file, decimalText(length) + " m do not make a map of cells of " +
-                               decimalText(resolution) + " m");
+    throw InputError(file, metres(length) + " do not make a map of cells of " + metres(resolution));
   return static_cast<int>(cells);
 }
 
@@ -164,6 +190,7 @@ bool looksLikeVectorMap(const YAML::Node& root) {
 OccupancyGrid readVectorMap(const YAML::Node& root, const std::string& file,
                             const MapFileOptions& options) {
   const YAML::Node drawing = root["vector_map"];
+  checkKeys(drawing, file);
   const Vector2d size = pointOf(
       yamlNode(drawing, "size", file, "a list of width and height in metres"), "size", file);
   const double resolution =
@@ -174,7 +201,19 @@ OccupancyGrid readVectorMap(const YAML::Node& root, const std::string& file,
   OccupancyGrid map(mapGeometry(file, cellsAlong(size.x(), resolution, file),
                                 cellsAlong(size.y(), resolution, file), resolution, {}, options),
                     0);
-  for (const YAML::Node& obstacle : obstacles) draw(readObstacle(obstacle, file), resolution, map);
+  std::size_t thin = 0;
+  for (const YAML::Node& node : obstacles) {
+    const Obstacle obstacle = readObstacle(node, file);
+    thin += obstacle.thickness < std::sqrt(2.0) * resolution ? 1 : 0;
+    draw(obstacle, resolution, map);
+  }
+  if (thin > 0)
+    warnAbout(file,
+              std::to_string(thin) +
+                  " of its walls and circles are thinner than the diagonal of a "
+                  "cell of " +
+                  metres(resolution) + " and may have gaps or be missing: use a finer resolution",
+              options);
   return map;
 }
 

@@ -72,10 +72,13 @@ void drawNumbers(Canvas& canvas, const PictureLayout& layout, const GridGeometry
 
 void drawLinks(Canvas& canvas, const PictureLayout& layout,
                const std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>& links) {
-  const double stroke = std::clamp(layout.mapArea().width / 600.0, 1.0, 3.0);
+  constexpr std::size_t kMostDotted = 1000;  // more would hide the map
+  const double stroke =
+      links.size() > kMostDotted ? 1.0 : std::clamp(layout.mapArea().width / 600.0, 1.0, 3.0);
   for (const auto& [from, to] : links) {
     const Eigen::Vector2d a = layout.pixelAt(from), b = layout.pixelAt(to);
     canvas.line(a, b, kLink, stroke);
+    if (links.size() > kMostDotted) continue;
     canvas.disc(a, 1.6 * stroke, kLink);
     canvas.disc(b, 1.6 * stroke, kLink);
   }

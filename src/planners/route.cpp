@@ -74,7 +74,8 @@ Route RouteFinder::find(Cell start, Cell goal, bool retry_finer, bool record_exp
   if (searched_->kernel() == 1) {
     Route route;
     append(route, searched_, planner_->plan({start, {goal}, record_expanded}, stop));
-    route.optimal = route.status == Status::FOUND && planner_->optimalFor(*searched_);
+    route.optimal = route.status == Status::FOUND &&
+                    (planner_->optimalFor(*searched_) || planner_->traits().shortest);
     return route;
   }
   Route route = findOverBlocks(start, goal, record_expanded, stop);

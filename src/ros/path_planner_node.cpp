@@ -138,13 +138,13 @@ void PathPlannerNode::publishSearchedMap(const PathPlannerNodeOptions& options,
 }
 
 void PathPlannerNode::publishRectangles(const PathPlannerNodeOptions& options, bool map_changed) {
-  const bool wanted_before = rectangles_ != nullptr;
+  const bool shown = rectangles_ && rectangles_->shown();
   if (!options.publish_rectangles) {
-    rectangles_.reset();
+    if (shown) rectangles_->clear();
     return;
   }
-  if (!wanted_before) rectangles_ = std::make_unique<RectanglePublisher>(nh_);
-  if (published_costs_ && (map_changed || !wanted_before))
+  if (!rectangles_) rectangles_ = std::make_unique<RectanglePublisher>(nh_);
+  if (published_costs_ && (map_changed || !shown))
     rectangles_->publish(published_costs_, desk_->engine().frame(options), memoryLimitOf(options));
 }
 

@@ -6,16 +6,34 @@
 
 #include "grid_path_planner/rectangles/decomposition.h"
 #include "grid_path_planner/ros/rectangle_markers.h"
-#include "grid_path_planner/ros/rectangle_messages.h"
 
 namespace grid_path_planner {
+namespace {
+
+constexpr char kSlot[] = "rectangles";
+
+}  // namespace
 
 RectanglePublisher::RectanglePublisher(ros::NodeHandle nh)
-    : map_(nh.advertise<RectangleMap>("rectangle_map", 1, true)),
-      markers_(nh.advertise<visualization_msgs::MarkerArray>("rectangle_markers", 1, true)) {}
+    : nh_(nh),
+      markers_(nh.advertise<visualization_msgs::MarkerArray>("rectangle_markers", 1, true)) {
+  advertiseMap();
+}
+
+void RectanglePublisher::clear() {
+  shown_ = false;
+  worker_.cancel(kSlot);
+  worker_.post(
+      [this](const StopSource&) {
+        map_.shutdown();
+        markers_.publish(rectangleMarkers({}, {}, "map", ros::Time::now()));
+      },
+      kSlot);
+}
 
 void RectanglePublisher::publish(std::shared_ptr<const CostGrid> costs, const std::string& frame_id,
                                  std::size_t memory_limit) {
+  shown_ = true;
   worker_.post(
       [this, costs = std::move(costs), frame_id, memory_limit](const StopSource& stop) mutable {
         try {
@@ -29,12 +47,12 @@ void RectanglePublisher::publish(std::shared_ptr<const CostGrid> costs, const st
               memory_limit / 1000000);
         }
       },
-      "rectangles");
+      kSlot);
 }
 
 void RectanglePublisher::cutAndTell(std::shared_ptr<const CostGrid> costs,
                                     const std::string& frame_id, std::size_t memory_limit,
-                                    const StopToken& stop) const {
+                                    const StopToken& stop) {
   const GridGeometry geometry = costs->geometry();
   const BitMaps free = costs->bitMaps(stop);
   costs.reset();  // while somebody holds it, the map cannot take its turn to be changed
@@ -42,6 +60,7 @@ void RectanglePublisher::cutAndTell(std::shared_ptr<const CostGrid> costs,
   limits.bytes = memory_limit;
   const std::vector<CellRect> rectangles = largestFirst(free, limits, stop);
   const ros::Time now = ros::Time::now();
+  if (!map_) advertiseMap();
   map_.publish(rectanglesToMessage(geometry, rectangles, frame_id, now));
   markers_.publish(rectangleMarkers(geometry, rectangles, frame_id, now));
 }

@@ -28,7 +28,7 @@ po::options_description describe() {
       "goal", po::value<std::string>()->required(), "the same")(
       "cells", "start and goal are COLUMN,ROW of cells")(
       "resolution", po::value<double>(),
-      "side of the map's cells, where it has none of its own [m]")(
+      "side of the map's cells instead of its own: the map grows or shrinks by it [m]")(
       "image", po::value<std::string>(), "write a picture of map and path")(
       "waypoints", po::value<std::string>(), "write the path as a waypoint file")(
       "json", "print one JSON object instead of a sentence");

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -27,7 +28,7 @@ po::options_description describe() {
   po::options_description known("Options");
   known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
       "resolution", po::value<std::string>(),
-      "side of the map's cells, where it has none of its own [m]")(
+      "side of the map's cells instead of its own; of a drawing, how finely it is read [m]")(
       "unknown-is-free", "cut unknown cells into rectangles too")(
       "partition", po::value<std::string>(),
       "largest_first: the published R-map; merged_runs: quicker, in no such order; default "
@@ -75,10 +76,10 @@ bool asksForMergedRuns(const po::variables_map& values) {
 
 // Length is none of a connection: it depends on where the vehicle comes from.
 RectangleWeight weightFrom(const std::string& name) {
-  const auto weight = choiceFromName<RectangleWeight>("--weight", name);
-  if (weight == RectangleWeight::LENGTH)
-    throw InputError("--weight must be one of area, border, distance, connections, got 'length'");
-  return weight;
+  for (const auto& [known, weight] : choicesOf(RectangleWeight{}))
+    if (name == known && weight != RectangleWeight::LENGTH) return weight;
+  throw InputError("--weight must be one of area, border, distance, connections, got '" + name +
+                   "'");
 }
 
 Question questionOf(const po::variables_map& values) {
@@ -204,17 +205,23 @@ nlohmann::json jsonOf(const Question& question, const Answer& answer) {
   return object;
 }
 
+std::string counted(std::size_t number, const std::string& thing) {
+  return std::to_string(number) + " " + thing + (number == 1 ? "" : "s");
+}
+
 void print(const Question& question, const Answer& answer) {
   const GridGeometry& geometry = answer.map.geometry();
   const MapSizes& sizes = answer.sizes;
   std::cout << question.map << ": " << geometry.width() << "x" << geometry.height() << " cells, "
-            << answer.map.freeCells() << " of them in " << answer.in_file.size()
-            << " rectangles with " << answer.map.connections().count() / 2
-            << " connections, cut in " << answer.time_ms << " ms\n"
+            << answer.map.freeCells() << " of them in "
+            << counted(answer.in_file.size(), "rectangle") << " with "
+            << counted(answer.map.connections().count() / 2, "connection") << ", cut in "
+            << std::setprecision(3) << answer.time_ms << " ms\n"
             << "bytes: " << sizes.file << " as a file, " << sizes.rectangles
             << " as a list of rectangles, " << sizes.empty_cells << " as a list of free cells; "
             << sizes.entire_map << " as bits, " << sizes.png << " as PNG, " << sizes.zlib
-            << " as bits in zlib\n";
+            << " as bits in zlib\n"
+            << std::setprecision(6);
   if (!question.weight) return;
   visitConnections(answer.map, [&](std::uint32_t from, const Connection& step) {
     std::cout << from + 1 << " -> " << step.to + 1 << ": "

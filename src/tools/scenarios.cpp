@@ -38,8 +38,16 @@ struct Totals {
   std::size_t wrong = 0;
   std::uint64_t expanded = 0;
   double time_s = 0.0;
+  double cost = 0.0;            // of the solved ones
+  double reference_cost = 0.0;  // of the same
 
-  void add(const PlanResult& result) {
+  double costOverReference() const { return reference_cost > 0.0 ? cost / reference_cost : 1.0; }
+
+  void add(const PlanResult& result, double least) {
+    if (result.status == Status::FOUND) {
+      cost += result.costValue();
+      reference_cost += least;
+    }
     ++queries;
     solved += result.status == Status::FOUND ? 1 : 0;
     expanded += result.statistics.expanded;
@@ -242,7 +250,7 @@ int runScenarios(int argc, char** argv) {
     totals.wrong += wrong ? 1 : 0;
     if (least) ratios.add(result, *least, reference.tolerance());
     if (least)
-      totals.add(result);
+      totals.add(result, *least);
     else
       ++totals.unsolvable;
     if (least || wrong) csv += csvLine(query, result, least.value_or(-1.0), wrong);
@@ -251,9 +259,11 @@ int runScenarios(int argc, char** argv) {
   if (values.count("csv") != 0) writeFileAtomically(values["csv"].as<std::string>(), csv);
 
   const BackgroundWork work = planner->backgroundWork();
-  std::printf("map=%s planner=%s preparation_ms=%.3f reference=%s unsolvable=%zu\n",
-              map_file.c_str(), options.planner.c_str(), preparation.count() * 1e3,
-              reference.name().c_str(), totals.unsolvable);
+  std::printf(
+      "map=%s planner=%s preparation_ms=%.3f reference=%s unsolvable=%zu "
+      "cost_over_reference=%.6f\n",
+      map_file.c_str(), options.planner.c_str(), preparation.count() * 1e3,
+      reference.name().c_str(), totals.unsolvable, totals.costOverReference());
   if (work.bytes > 0)
     std::printf("background_ms=%.3f background_bytes=%zu\n", work.time_s * 1e3, work.bytes);
   ratios.print();

@@ -1,8 +1,12 @@
 #include "grid_path_planner/base/atomic_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <thread>
 #include <utility>
 
@@ -28,6 +32,31 @@ TEST(AtomicFile, WritesAndOverwrites) {
   writeFileAtomically(file, "second, longer");
   EXPECT_EQ(contentOf(file), "second, longer");
   EXPECT_EQ(folder.names(), (Names{"a.yaml"}));
+}
+
+TEST(AtomicFile, ALinkStaysALink) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("a.yaml", "first"), link = folder.path("link.yaml");
+  std::filesystem::create_symlink("a.yaml", link);
+  writeFileAtomically(link, "second");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(contentOf(file), "second");
+}
+
+// From a newcomer, whose --output /dev/full became a file.
+TEST(AtomicFile, APipeIsWrittenToAndNotReplaced) {
+  const test::TemporaryFolder folder;
+  const std::string pipe = folder.path("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDWR | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  writeFileAtomically(pipe, "content");
+  char read[16] = {};
+  EXPECT_EQ(::read(reader, read, sizeof read), 7);
+  EXPECT_EQ(std::string(read), "content");
+  ::close(reader);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_EQ(folder.names(), (Names{"pipe"}));
 }
 
 TEST(AtomicFile, AFileForAParentIsNamed) {

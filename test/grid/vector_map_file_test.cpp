@@ -86,6 +86,22 @@ TEST_F(VectorMapFile, TheResolutionIsTheReaders) {
   EXPECT_EQ(read("    []\n", options).geometry(), GridGeometry(3, 2, 3.0));
 }
 
+// From a newcomer, whose path led through a thin wall.
+TEST_F(VectorMapFile, WallsThatMayHaveGapsAreWarnedOf) {
+  std::string warning;
+  MapFileOptions options;
+  options.warn = [&warning](const std::string& text) { warning += text; };
+  const std::string obstacles =
+      "    - wall: {points: [[0, 1], [8, 3]], thickness: 0.6}\n"
+      "    - circle: {centre: [4, 2], radius: 0.8}\n";
+  read(obstacles, options);
+  EXPECT_TRUE(contains(warning, "1 of its walls and circles are thinner")) << warning;
+  warning.clear();
+  options.resolution = 0.25;
+  read(obstacles, options);
+  EXPECT_EQ(warning, "");
+}
+
 TEST_F(VectorMapFile, MistakesAreToldWithFileAndLine) {
   const auto expect = [](const std::string& error, const char* text) {
     EXPECT_TRUE(contains(error, text)) << error;
@@ -100,6 +116,8 @@ TEST_F(VectorMapFile, MistakesAreToldWithFileAndLine) {
   expect(errorOfObstacle("wall: {points: [[1, 1], [2, 2]]}"), "thickness");
   expect(errorOfObstacle("square: 3"), "one of polygon, circle and wall, got 'square'");
   expect(errorOfObstacle("3"), "an obstacle must be one of polygon");
+  expect(errorOfObstacle("{polygon: [[0, 0], [1, 1], [2, 0]], circle: 3}"), "got 2 entries");
+  expect(errorOf("vector_map: {size: [8, 5], origin: [0, 0], obstacles: []}\n"), "got 'origin'");
   expect(errorOf("vector_map: 3\n"), "size");
   expect(errorOf("vector_map: {size: [8, 5], obstacles: []}\n"), "resolution");
   expect(errorOf("vector_map: {size: [8, 5], resolution: 0, obstacles: []}\n"), "resolution");

@@ -89,8 +89,15 @@ TEST_F(PathPlannerRectanglesTest, NothingIsAdvertisedUnlessWantedAndThatMayChang
   EXPECT_FALSE(markers_.connected());
   setWanted(true);
   expectRectanglesOf(kRoom, 0);
+  const std::size_t maps = maps_told_.count(), markers = markers_.count();
   setWanted(false);
-  EXPECT_TRUE(test::waitFor([&] { return !maps_told_.connected() && !markers_.connected(); }));
+  EXPECT_TRUE(test::waitFor([&] { return !maps_told_.connected(); }));
+  const auto cleared = markers_.waitForMoreThan(markers);
+  ASSERT_TRUE(cleared) << "rviz would keep them";
+  ASSERT_EQ(cleared->markers.size(), 1u);
+  EXPECT_EQ(cleared->markers[0].action, visualization_msgs::Marker::DELETEALL);
+  setWanted(true);
+  expectRectanglesOf(kRoom, maps);
 }
 
 // Noise takes many times as long to cut as a path to find: the answer is there before.

@@ -70,12 +70,12 @@ TEST_F(Scenarios, WhatInflationChangesIsComparedWithDijkstra) {
   const std::string file = scenario("5");
   const Outcome inflated = scenarios({"--scen", file, "--radius", "0.6"});  // closes both ways
   EXPECT_EQ(inflated.code, 0) << inflated.error;
-  EXPECT_TRUE(contains(inflated.printed, " reference=dijkstra unsolvable=2\n")) << inflated.printed;
+  EXPECT_TRUE(contains(inflated.printed, " reference=dijkstra unsolvable=2 ")) << inflated.printed;
   EXPECT_TRUE(contains(lastLine(inflated), "queries=1 solved=1 wrong=0 ")) << lastLine(inflated);
 
   const Outcome weighted = scenarios({"--scen", file, "--decay", "0.5"});
   EXPECT_EQ(weighted.code, 0) << weighted.error;
-  EXPECT_TRUE(contains(weighted.printed, " reference=dijkstra unsolvable=0\n")) << weighted.printed;
+  EXPECT_TRUE(contains(weighted.printed, " reference=dijkstra unsolvable=0 ")) << weighted.printed;
   EXPECT_TRUE(contains(lastLine(weighted), "queries=3 solved=3 wrong=0 ")) << lastLine(weighted);
   EXPECT_EQ(scenarios({"--scen", file, "--decay", "0.5", "--reference", "file"}).code, 1);
   EXPECT_EQ(scenarios({"--scen", file, "--connectivity", "4"}).code, 0);

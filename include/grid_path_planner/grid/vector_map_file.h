@@ -9,7 +9,8 @@
 //       - wall: {points: [[0, 12], [20, 12], [20, 24]], thickness: 0.5}
 //
 // A cell is occupied where its centre lies in an obstacle or on its rim, and free elsewhere. A wall
-// is all that is no further than half its thickness from the line through its points. Users include
+// is all that is no further than half its thickness from the line through its points. Walls and
+// circles thinner than the diagonal of a cell may have gaps, which is warned about. Users include
 // grid/map_file.h.
 #pragma once
 

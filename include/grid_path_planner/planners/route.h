@@ -33,7 +33,8 @@ struct Route {
   ExactCost cost;         // as in PlanResult
   double segment_cost = 0.0;
   double lower_bound = 0.0;  // as in PlanResult; 0 where legs are joined
-  bool optimal = false;      // the planner promises that none costs less on the map searched
+  bool optimal = false;      // the planner promises that none of its kind (over the
+                             // grid, or at any angle) costs less on the map searched
   int kernel = 1;            // of the map that the longest part was searched on
   Statistics statistics;
   std::vector<Eigen::Vector2d> expanded;  // centres, metres

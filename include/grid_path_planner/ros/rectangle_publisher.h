@@ -16,6 +16,7 @@
 #include <string>
 
 #include "grid_path_planner/ros/plan_worker.h"
+#include "grid_path_planner/ros/rectangle_messages.h"
 #include "grid_path_planner/terrain/cost_grid.h"
 
 namespace grid_path_planner {
@@ -27,16 +28,24 @@ class RectanglePublisher {
   // Stops what is under way and takes the topics back.
   ~RectanglePublisher() { worker_.stop(); }
 
+  // Takes rectangle_map back and deletes what rviz shows, which it keeps otherwise.
+  void clear();
+  // Whether publish() was called after the last clear().
+  bool shown() const { return shown_; }
+
   // The passable cells of `costs`, in this frame. `memory_limit` in bytes.
   void publish(std::shared_ptr<const CostGrid> costs, const std::string& frame_id,
                std::size_t memory_limit);
 
  private:
   void cutAndTell(std::shared_ptr<const CostGrid> costs, const std::string& frame_id,
-                  std::size_t memory_limit, const StopToken& stop) const;
+                  std::size_t memory_limit, const StopToken& stop);
+  void advertiseMap() { map_ = nh_.advertise<RectangleMap>("rectangle_map", 1, true); }
 
-  ros::Publisher map_;
+  ros::NodeHandle nh_;
+  ros::Publisher map_;  // of the worker's thread, as is markers_
   ros::Publisher markers_;
+  bool shown_ = false;
   PlanWorker worker_;
 };
 
