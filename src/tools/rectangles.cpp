@@ -36,7 +36,7 @@ po::options_description describe() {
       "min-area", po::value<std::string>(), "no rectangle smaller than this [cells]")(
       "weight", po::value<std::string>(),
       "tell the connections too, and what a step over each weighs "
-      "(area|border|distance|connections)")(
+      "(area|border|distance|connections, or length: through the middle of the border)")(
       "corners", "rectangles that touch at a corner only are connected too")(
       "image", po::value<std::string>(),
       "write a picture: rectangles with their numbers from 1, connections with --weight")(
@@ -74,14 +74,6 @@ bool asksForMergedRuns(const po::variables_map& values) {
   return name == "merged_runs";
 }
 
-// Length is none of a connection: it depends on where the vehicle comes from.
-RectangleWeight weightFrom(const std::string& name) {
-  for (const auto& [known, weight] : choicesOf(RectangleWeight{}))
-    if (name == known && weight != RectangleWeight::LENGTH) return weight;
-  throw InputError("--weight must be one of area, border, distance, connections, got '" + name +
-                   "'");
-}
-
 Question questionOf(const po::variables_map& values) {
   Question question;
   question.map = values["map"].as<std::string>();
@@ -100,7 +92,9 @@ Question questionOf(const po::variables_map& values) {
   if (values.count("limit") != 0)
     question.limits.count = static_cast<std::size_t>(countFrom(values, "limit"));
   if (values.count("min-area") != 0) question.limits.smallest_area = countFrom(values, "min-area");
-  if (values.count("weight") != 0) question.weight = weightFrom(values["weight"].as<std::string>());
+  if (values.count("weight") != 0)
+    question.weight =
+        choiceFromName<RectangleWeight>("--weight", values["weight"].as<std::string>());
   if (values.count("memory-limit") != 0) question.memory_limit = countFrom(values, "memory-limit");
   if (values.count("corners") != 0) question.touching = Touching::BORDERS_AND_CORNERS;
   return question;
@@ -167,6 +161,27 @@ Answer answerOf(const Question& question, const OccupancyGrid& map) {
   return answer;
 }
 
+Eigen::Vector2d centreOf(const CellRect& rect) {
+  return {rect.column + 0.5 * rect.width, rect.row + 0.5 * rect.height};
+}
+
+// From centre to centre through the cells on both sides of the border's middle, in cells. A planner
+// measures the same from where it crossed into `from`.
+double lengthThrough(const RectangleGraph& map, std::uint32_t from, const Connection& step) {
+  const Eigen::Vector2d a = centreOf(map.rectangles()[from]),
+                        b = centreOf(map.rectangles()[step.to]);
+  if (step.side == Side::CORNER) return (a - b).norm();
+  const auto [outward, inward] = middleOf(map.rectangles()[from], step);
+  const auto centre = [](Cell cell) { return Eigen::Vector2d(cell.column + 0.5, cell.row + 0.5); };
+  return (centre(outward) - a).norm() + 1.0 + (centre(inward) - b).norm();
+}
+
+double weightOf(const RectangleGraph& map, RectangleWeight weight, std::uint32_t from,
+                const Connection& step) {
+  return weight == RectangleWeight::LENGTH ? lengthThrough(map, from, step)
+                                           : stepWeight(map, weight, from, step);
+}
+
 template <class Visit>
 void visitConnections(const RectangleGraph& map, Visit&& visit) {
   for (std::uint32_t from = 0; from < map.rectangles().size(); ++from)
@@ -199,7 +214,7 @@ nlohmann::json jsonOf(const Question& question, const Answer& answer) {
   if (!question.weight) return object;
   nlohmann::json weights = nlohmann::json::array();
   visitConnections(answer.map, [&](std::uint32_t from, const Connection& step) {
-    weights.push_back({from, step.to, stepWeight(answer.map, *question.weight, from, step)});
+    weights.push_back({from, step.to, weightOf(answer.map, *question.weight, from, step)});
   });
   object["weights"] = std::move(weights);
   return object;
@@ -225,7 +240,7 @@ void print(const Question& question, const Answer& answer) {
   if (!question.weight) return;
   visitConnections(answer.map, [&](std::uint32_t from, const Connection& step) {
     std::cout << from + 1 << " -> " << step.to + 1 << ": "
-              << stepWeight(answer.map, *question.weight, from, step) << '\n';
+              << weightOf(answer.map, *question.weight, from, step) << '\n';
   });
 }
 
@@ -235,11 +250,8 @@ std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> linksOf(const Rectangle
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> links;
   visitConnections(map, [&](std::uint32_t from, const Connection& step) {
     const CellRect &a = map.rectangles()[from], &b = map.rectangles()[step.to];
-    const auto centre = [](const CellRect& rect) {
-      return Eigen::Vector2d(rect.column + 0.5 * rect.width, rect.row + 0.5 * rect.height);
-    };
     if (from < step.to)
-      links.emplace_back(geometry.worldFromGrid(centre(a)), geometry.worldFromGrid(centre(b)));
+      links.emplace_back(geometry.worldFromGrid(centreOf(a)), geometry.worldFromGrid(centreOf(b)));
   });
   return links;
 }

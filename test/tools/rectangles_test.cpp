@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "grid_path_planner/grid/map_file.h"
@@ -99,7 +100,12 @@ TEST_F(Rectangles, WeightsAreThoseOfTheConnections) {
   EXPECT_NEAR(distances[0][2].get<double>(), 2.0616, 5e-5);
   EXPECT_EQ(objectOf({"--json", "--weight", "area"})["weights"][1], json({0, 7, 8.0}));
   EXPECT_TRUE(contains(run({"--weight", "connections"}).printed, "\n1 -> 7: 0.333333\n"));
-  EXPECT_TRUE(contains(run({"--weight", "length"}).error, "must be one of area, border"));
+  const json lengths = objectOf({"--json", "--weight", "length"})["weights"];
+  ASSERT_EQ(lengths.size(), distances.size());
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    EXPECT_GE(lengths[i][2].get<double>(), distances[i][2].get<double>() - 1e-9) << i;
+  // 1 to 7: from (1, 4) to cell (1, 3), into (2, 3) and to (3, 3.5).
+  EXPECT_NEAR(lengths[0][2].get<double>(), std::hypot(0.5, 0.5) + 1.0 + 0.5, 1e-9);
   EXPECT_TRUE(contains(run({"--weight", "colour"}).error, "colour"));
   const std::string diagonal =
       folder_.write("diagonal.map", "type octile\nheight 2\nwidth 2\nmap\n.@\n@.\n");
