@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <locale>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -166,16 +167,16 @@ int cellsAlong(double length, double resolution, const std::string& file) {
   return static_cast<int>(cells);
 }
 
-// The first of `number` cells whose centre is not below `metres`.
-int firstCell(double metres, double resolution, int number) {
-  return static_cast<int>(std::clamp(std::floor(metres / resolution), 0.0, double(number)));
+// The cell along an axis that holds `metres`, at least 0 and at most `most`.
+int cellHolding(double metres, double resolution, int most) {
+  return static_cast<int>(std::clamp(std::floor(metres / resolution), 0.0, double(most)));
 }
 
 void draw(const Obstacle& obstacle, double resolution, OccupancyGrid& map) {
-  const int first_column = firstCell(obstacle.low.x(), resolution, map.width());
-  const int last_column = firstCell(obstacle.high.x(), resolution, map.width() - 1);
-  const int last_row = firstCell(obstacle.high.y(), resolution, map.height() - 1);
-  for (int row = firstCell(obstacle.low.y(), resolution, map.height()); row <= last_row; ++row)
+  const int first_column = cellHolding(obstacle.low.x(), resolution, map.width());
+  const int last_column = cellHolding(obstacle.high.x(), resolution, map.width() - 1);
+  const int last_row = cellHolding(obstacle.high.y(), resolution, map.height() - 1);
+  for (int row = cellHolding(obstacle.low.y(), resolution, map.height()); row <= last_row; ++row)
     for (int column = first_column; column <= last_column; ++column)
       if (obstacle.contains(resolution * Vector2d(column + 0.5, row + 0.5)))
         map[{column, row}] = 100;

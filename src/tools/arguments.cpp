@@ -87,6 +87,14 @@ std::vector<double> numbersOf(const std::string& name, const std::string& text, 
                    " numbers separated by commas, got '" + text + "'");
 }
 
+MapFileOptions readingOptionsFrom(const po::variables_map& values) {
+  MapFileOptions options;
+  options.warn = [](const std::string& warning) { std::cerr << "warning: " << warning << '\n'; };
+  if (values.count("resolution") != 0)
+    options.resolution = numbersOf("resolution", values["resolution"].as<std::string>(), 1, 1)[0];
+  return options;
+}
+
 void describePlannerOptions(po::options_description& known) {
   PlannerOptions defaults;
   visitOptions(defaults, [&known](const char* name, auto& value, const OptionInfo& info) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/planners/map_planner.h"
 
 namespace grid_path_planner::tools {
@@ -24,6 +25,9 @@ bool parseArguments(int argc, char** argv, const boost::program_options::options
 // finite numbers.
 std::vector<double> numbersOf(const std::string& name, const std::string& text, std::size_t fewest,
                               std::size_t most);
+
+// What --resolution asks for, and warnings to the standard error. Throws InputError.
+MapFileOptions readingOptionsFrom(const boost::program_options::variables_map& values);
 
 // Adds an option --some-name for every option some_name of PlannerOptions, and --weights F,U,O.
 void describePlannerOptions(boost::program_options::options_description& known);

@@ -34,11 +34,8 @@ po::options_description describe() {
   return known;
 }
 
-MapFileOptions readingOptions(const po::variables_map& values) {
-  MapFileOptions options;
-  options.warn = [](const std::string& warning) { std::cerr << "warning: " << warning << '\n'; };
-  if (values.count("resolution") != 0)
-    options.resolution = numbersOf("resolution", values["resolution"].as<std::string>(), 1, 1)[0];
+MapFileOptions optionsWithOrigin(const po::variables_map& values) {
+  MapFileOptions options = readingOptionsFrom(values);
   if (values.count("origin") != 0) {
     const auto numbers = numbersOf("origin", values["origin"].as<std::string>(), 3, 3);
     options.origin = Origin{numbers[0], numbers[1], numbers[2]};
@@ -130,8 +127,8 @@ int runConvert(int argc, char** argv) {
     return 0;
   const Target target = targetOf(values);
   const TerrainOptions kernel = kernelOptions(values);
-  const OccupancyGrid map =
-      withKernel(readAnyMapFile(values["map"].as<std::string>(), readingOptions(values)), kernel);
+  const OccupancyGrid map = withKernel(
+      readAnyMapFile(values["map"].as<std::string>(), optionsWithOrigin(values)), kernel);
   write(target, map);
   reportMap(target.file, map);
   return 0;

@@ -27,7 +27,7 @@ po::options_description describe() {
       "start", po::value<std::string>()->required(), "X,Y[,Z[,YAW]] in metres, YAW in radians")(
       "goal", po::value<std::string>()->required(), "the same")(
       "cells", "start and goal are COLUMN,ROW of cells")(
-      "resolution", po::value<double>(),
+      "resolution", po::value<std::string>(),
       "side of the map's cells instead of its own: the map grows or shrinks by it [m]")(
       "image", po::value<std::string>(), "write a picture of map and path")(
       "waypoints", po::value<std::string>(), "write the path as a waypoint file")(
@@ -114,11 +114,8 @@ int runPlan(int argc, char** argv) {
   const PlannerOptions options = plannerOptionsFrom(values);
   warnAboutUnusedOptions(options);
 
-  MapFileOptions reading;
-  reading.warn = [](const std::string& warning) { std::cerr << "warning: " << warning << '\n'; };
-  if (values.count("resolution") != 0) reading.resolution = values["resolution"].as<double>();
   const auto map = std::make_shared<const OccupancyGrid>(
-      readAnyMapFile(values["map"].as<std::string>(), reading));
+      readAnyMapFile(values["map"].as<std::string>(), readingOptionsFrom(values)));
 
   const bool cells = values.count("cells") != 0;
   PoseRequest request;

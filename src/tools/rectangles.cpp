@@ -77,12 +77,7 @@ bool asksForMergedRuns(const po::variables_map& values) {
 Question questionOf(const po::variables_map& values) {
   Question question;
   question.map = values["map"].as<std::string>();
-  question.reading.warn = [](const std::string& warning) {
-    std::cerr << "warning: " << warning << '\n';
-  };
-  if (values.count("resolution") != 0)
-    question.reading.resolution =
-        numbersOf("resolution", values["resolution"].as<std::string>(), 1, 1)[0];
+  question.reading = readingOptionsFrom(values);
   question.unknown_is_free = values.count("unknown-is-free") != 0;
   question.merged_runs = asksForMergedRuns(values);
   if (values.count("limit") != 0 && values.count("min-area") != 0)

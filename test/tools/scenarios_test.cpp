@@ -123,6 +123,15 @@ TEST_F(Scenarios, APathOfAnyAngleMayBeShorterThanTheGrids) {
   };
   EXPECT_TRUE(contains(wrongOf("5"), " wrong=0 ")) << wrongOf("5");
   EXPECT_TRUE(contains(wrongOf("3.5"), " wrong=1 ")) << wrongOf("3.5");
+  const std::vector<std::string> dearer = {"--scen", scenario("3.5"), "--planner"};
+  const auto codeOf = [&dearer](const char* planner) {
+    std::vector<std::string> arguments = dearer;
+    arguments.emplace_back(planner);
+    return scenarios(arguments).code;
+  };
+  EXPECT_EQ(codeOf("anya"), 1) << "it promises the shortest";
+  EXPECT_EQ(codeOf("polyanya"), 1);
+  EXPECT_EQ(codeOf("theta_star"), 0) << "it promises nothing";
 }
 
 TEST_F(Scenarios, BadFilesAreNamedWithTheirLine) {

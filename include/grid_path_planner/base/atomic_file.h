@@ -5,7 +5,8 @@
 
 namespace grid_path_planner {
 
-// Writes `content` beside `file` and renames it over `file`. Throws InputError naming the file and
+// Writes `content` beside `file`, or what a link of that name leads to, and renames it over that.
+// Devices and pipes are written to as they are. Throws InputError naming the file and
 // the reason; then `file` is as it was and nothing is left beside it. Several threads or processes
 // may write the same file: one of them wins.
 void writeFileAtomically(const std::string& file, const std::string& content);

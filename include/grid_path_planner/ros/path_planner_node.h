@@ -58,7 +58,7 @@ class PathPlannerNode {
   ros::NodeHandle nh_;
   GoalKeeper goals_;
   std::shared_ptr<const CostGrid> published_costs_;  // the worker's
-  std::unique_ptr<RectanglePublisher> rectangles_;   // the worker's; null unless wanted
+  std::unique_ptr<RectanglePublisher> rectangles_;   // the worker's; null until wanted
   std::unique_ptr<PlanDesk> desk_;
   std::unique_ptr<PlanServices> services_;
   std::unique_ptr<PlanAction> action_;
