@@ -185,8 +185,9 @@ double drawScaleBar(Canvas& canvas, const PictureLayout& layout, double resoluti
 }
 
 // What the symbols mean, from `at` on; what has no room is left out.
-void drawLegend(Canvas& canvas, const PictureLayout& layout, Eigen::Vector2d at, bool with_path,
-                bool with_expanded) {
+void drawLegend(Canvas& canvas, const PictureLayout& layout, Eigen::Vector2d at,
+                const PictureContent& content) {
+  const bool with_path = !content.path.empty();
   const double size = layout.margin() / 5.5, scale = textScale(layout);
   const Eigen::Vector2d half(1.5 * size, 0.0);
   const auto item = [&](bool shown, const std::string& name, const auto& drawSymbol) {
@@ -205,17 +206,25 @@ void drawLegend(Canvas& canvas, const PictureLayout& layout, Eigen::Vector2d at,
        [&](const auto& middle) { drawGoal(canvas, middle, M_PI / 4, 0.55 * size); });
   item(with_path, "path",
        [&](const auto& middle) { canvas.line(middle - half, middle + half, kPath, 0.6 * size); });
-  item(with_expanded, "expanded", swatch(mixed(kEarly, kLate, 0.5)));
+  item(!content.expanded.empty(), "expanded, first to last", [&](const auto& middle) {
+    const Eigen::Vector2d aside(0.8 * size, 0.0);
+    canvas.swatch(middle - aside, size, kEarly, kInk);
+    canvas.swatch(middle + aside, size, kLate, kInk);
+  });
+  item(!content.rectangles.empty(), "rectangles",
+       [&](const auto& middle) { drawRectangleSymbol(canvas, middle, size); });
+  item(!content.links.empty(), "connections",
+       [&](const auto& middle) { drawLinkSymbol(canvas, middle, size); });
   item(true, "occupied", swatch(kOccupied));
   item(true, "unknown", swatch(kUnknown));
   item(true, "free", swatch(kFree));
 }
 
-void drawMargin(Canvas& canvas, const PictureLayout& layout, double resolution, bool with_path,
-                bool with_expanded) {
+void drawMargin(Canvas& canvas, const PictureLayout& layout, double resolution,
+                const PictureContent& content) {
   const double margin = layout.margin(), y = layout.height() - 0.95 * margin;
   const double end = drawScaleBar(canvas, layout, resolution, {margin, y});
-  drawLegend(canvas, layout, {end + margin, y}, with_path, with_expanded);
+  drawLegend(canvas, layout, {end + margin, y}, content);
 }
 
 // ---- Everything
@@ -233,7 +242,7 @@ Canvas drawn(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
   drawLinks(canvas, layout, content.links);
   drawNumbers(canvas, layout, map.geometry(), content.rectangles);
   drawPath(canvas, layout, path, map.geometry().origin().yaw);
-  drawMargin(canvas, layout, map.geometry().resolution(), !path.empty(), !content.expanded.empty());
+  drawMargin(canvas, layout, map.geometry().resolution(), content);
   return canvas;
 }
 

@@ -84,4 +84,17 @@ void drawLinks(Canvas& canvas, const PictureLayout& layout,
   }
 }
 
+void drawRectangleSymbol(Canvas& canvas, const Eigen::Vector2d& at, double size) {
+  const Eigen::Vector2d aside(0.8 * size, 0.0);
+  canvas.swatch(at - aside, size, kTints[0], kOutline);
+  canvas.swatch(at + aside, size, kTints[1], kOutline);
+}
+
+void drawLinkSymbol(Canvas& canvas, const Eigen::Vector2d& at, double size) {
+  const Eigen::Vector2d aside(1.5 * size, 0.0);
+  canvas.line(at - aside, at + aside, kLink, 0.3 * size);
+  canvas.disc(at - aside, 0.5 * size, kLink);
+  canvas.disc(at + aside, 0.5 * size, kLink);
+}
+
 }  // namespace grid_path_planner

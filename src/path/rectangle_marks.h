@@ -22,4 +22,8 @@ void drawNumbers(Canvas& canvas, const PictureLayout& layout, const GridGeometry
 void drawLinks(Canvas& canvas, const PictureLayout& layout,
                const std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>& links);
 
+// What a legend shows for them: 2 `size` high, 4 wide at most.
+void drawRectangleSymbol(Canvas& canvas, const Eigen::Vector2d& at, double size);
+void drawLinkSymbol(Canvas& canvas, const Eigen::Vector2d& at, double size);
+
 }  // namespace grid_path_planner

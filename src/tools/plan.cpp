@@ -29,7 +29,8 @@ po::options_description describe() {
       "cells", "start and goal are COLUMN,ROW of cells")(
       "resolution", po::value<std::string>(),
       "side of the map's cells instead of its own: the map grows or shrinks by it [m]")(
-      "image", po::value<std::string>(), "write a picture of map and path")(
+      "image", po::value<std::string>(),
+      "write a picture of map, expanded cells and path, with a legend")(
       "waypoints", po::value<std::string>(), "write the path as a waypoint file")(
       "json", "print one JSON object instead of a sentence");
   describePlannerOptions(known);

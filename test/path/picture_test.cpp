@@ -62,6 +62,15 @@ struct Drawn {
                  const std::vector<Cell>& expanded = {}, const PictureOptions& options = {})
       : Drawn(map, along(path, expanded), options) {}
   Colour at(double x, double y) const { return pixelAt(picture, layout.pixelAt({x, y})); }
+  // Whether the legend, the margin below the map, has a pixel like this.
+  template <class Like>
+  bool legendShows(Like&& like) const {
+    const CellRect area = layout.mapArea();
+    for (int y = area.row + area.height + 2; y < layout.height(); ++y)
+      for (int x = 0; x < layout.width(); ++x)
+        if (like(pixelAt(picture, Eigen::Vector2d(x, y)))) return true;
+    return false;
+  }
 
   PictureLayout layout;
   Picture picture;
@@ -152,6 +161,32 @@ TEST(Picture, ExpandedCellsAreTintedAndLaterOnesStronger) {
   // An unknown cell stays darker than the free ones, though it was expanded first.
   EXPECT_GT(yellowness(0.5), 5);
   EXPECT_LT(lightness(drawn.at(0.5, 0.5)), lightness(drawn.at(1.5, 0.5)) - 10);
+}
+
+TEST(Picture, TheLegendShowsWhatIsDrawnAndNothingElse) {
+  const AsciiMap map({"....", "...."});
+  const auto isRed = [](const Colour& c) { return c[0] > c[1] + 60 && c[2] > c[1] + 10; };
+  PictureContent content;
+  const auto shown = [&] {
+    const Drawn drawn(map.map, content);
+    const Colour rectangle = drawn.at(0.3, 0.3), early = drawn.at(1.5, 1.5);
+    const auto is = [](const Colour& colour) {
+      return [colour](const Colour& each) { return each == colour; };
+    };
+    const Colour free = Drawn(map.map).at(0.3, 0.3);
+    return std::array<bool, 4>{
+        drawn.legendShows(isBlue), early != free && drawn.legendShows(is(early)),
+        rectangle != free && drawn.legendShows(is(rectangle)), drawn.legendShows(isRed)};
+  };
+  EXPECT_EQ(shown(), (std::array<bool, 4>{false, false, false, false}));
+  content.expanded = {{1, 1}};
+  EXPECT_EQ(shown(), (std::array<bool, 4>{false, true, false, false}));
+  content.rectangles = {{0, 0, 1, 1}};
+  EXPECT_EQ(shown(), (std::array<bool, 4>{false, true, true, false}));
+  content.links = {{{2.5, 0.5}, {3.5, 0.5}}};
+  EXPECT_EQ(shown(), (std::array<bool, 4>{false, true, true, true}));
+  content.path = pathThrough({{2.5, 1.5}, {3.5, 1.5}});
+  EXPECT_TRUE(shown()[0]);
 }
 
 TEST(Picture, SmallMapsAreEnlargedByAWholeFactor) {

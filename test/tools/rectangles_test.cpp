@@ -114,6 +114,18 @@ TEST_F(Rectangles, WeightsAreThoseOfTheConnections) {
             json::parse("[[0,1,2.0],[1,0,1.0]]"));
 }
 
+// Thousands of lines scrolled the answer away.
+TEST_F(Rectangles, OfManyConnectionsAFewAreTold) {
+  std::string checkered = "type octile\nheight 9\nwidth 9\nmap\n";
+  for (int row = 0; row < 9; ++row) checkered += row % 2 == 0 ? ".........\n" : ".@.@.@.@.\n";
+  const std::string map = folder_.write("checkered.map", checkered);
+  const std::size_t all = objectOf({"--json", "--weight", "area"}, map)["weights"].size();
+  ASSERT_GT(all, 40u);
+  const std::string told = run({"--weight", "area"}, map).printed;
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 2 + 10 + 1) << told;
+  EXPECT_TRUE(contains(told, "... and " + std::to_string(all - 10) + " more: --json")) << told;
+}
+
 TEST_F(Rectangles, UnknownCellsAreFreeIfAskedFor) {
   OccupancyGrid map(GridGeometry(4, 1, 1.0), 0);
   map[Cell{1, 0}] = -1;

@@ -6,9 +6,10 @@
 // (early) to strong (late); the path is a blue line, its start a green disc and its goal an orange
 // arrowhead that points where the vehicle looks. Rectangles are tinted in turning colours, outlined
 // and numbered from 1 where they are large enough for that; links are lines between dots. A margin
-// holds a scale bar in metres and a legend. The colours differ in lightness and are chosen to be
-// told apart by colour-blind eyes. +x is to the right and +y up, in the map's own axes: the picture
-// of a turned map is not turned. The same input gives the same file, byte for byte.
+// holds a scale bar in metres and a legend of what is drawn. The colours differ in lightness and
+// are chosen to be told apart by colour-blind eyes. +x is to the right and +y up, in the map's own
+// axes: the picture of a turned map is not turned. The same input gives the same file, byte for
+// byte.
 //
 // Where several cells share a pixel, occupied wins over unknown and unknown over free.
 #pragma once
