@@ -74,8 +74,9 @@ Route RouteFinder::find(Cell start, Cell goal, bool retry_finer, bool record_exp
   if (searched_->kernel() == 1) {
     Route route;
     append(route, searched_, planner_->plan({start, {goal}, record_expanded}, stop));
-    route.optimal = route.status == Status::FOUND &&
-                    (planner_->optimalFor(*searched_) || planner_->traits().shortest);
+    route.taut = route.status == Status::FOUND && planner_->traits().shortest;
+    route.optimal =
+        route.taut || (route.status == Status::FOUND && planner_->optimalFor(*searched_));
     return route;
   }
   Route route = findOverBlocks(start, goal, record_expanded, stop);

@@ -51,6 +51,7 @@ void smoothResult(const CostGrid& map, PlanResult& result, const StopToken& stop
 }
 
 void smoothRoute(Route& route, const StopToken& stop) {
+  if (route.taut) return;
   const Stopwatch watch;
   std::vector<Leg> legs = route.legs;
   double cost = 0.0;

@@ -1,8 +1,11 @@
 #include "grid_path_planner/ros/path_planner_node.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "grid_path_planner/PathPlannerConfig.h"
+#include "grid_path_planner/planners/unused_options.h"
 #include "grid_path_planner/ros/clock.h"
 #include "grid_path_planner/ros/parameters.h"
 #include "grid_path_planner/ros/replan_policy.h"
@@ -23,6 +26,14 @@ PathPlannerNodeOptions loadOptions(const ros::NodeHandle& private_nh) {
   return options;
 }
 
+// Says of each option once that it was set in vain.
+void warnUnusedOptions(const PlannerOptions& options, const PlannerOptions& before = {}) {
+  const std::vector<UnusedOption> told = unusedOptions(before);
+  for (const UnusedOption& each : unusedOptions(options))
+    if (std::find(told.begin(), told.end(), each) == told.end())
+      ROS_WARN_STREAM(each.name << " changes nothing with " << each.with);
+}
+
 std::size_t memoryLimitOf(const PathPlannerNodeOptions& options) {
   return static_cast<std::size_t>(options.planner.search.memory_limit) * 1000000;
 }
@@ -31,6 +42,7 @@ std::size_t memoryLimitOf(const PathPlannerNodeOptions& options) {
 
 PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh) : nh_(nh) {
   const PathPlannerNodeOptions options = loadOptions(private_nh);
+  warnUnusedOptions(options.planner);
   desk_ = std::make_unique<PlanDesk>(nh, options, [this] { goals_.forgetStart(); });
   services_ = std::make_unique<PlanServices>(private_nh, *desk_);
   action_ = std::make_unique<PlanAction>(nh, *desk_);
@@ -71,9 +83,10 @@ void PathPlannerNode::onInitialPose(const geometry_msgs::PoseWithCovarianceStamp
 
 void PathPlannerNode::onOptions(const PathPlannerNodeOptions& options) {
   checkPathPlannerNodeOptions(options);
-  const double old_period = desk_->settings().options.replan_period;
+  const PathPlannerNodeOptions before = desk_->settings().options;
+  warnUnusedOptions(options.planner, before.planner);
   desk_->setOptions(options);
-  if (options.replan_period != old_period) startReplanTimer(options.replan_period);
+  if (options.replan_period != before.replan_period) startReplanTimer(options.replan_period);
   onMapChange();
 }
 

@@ -104,7 +104,7 @@ void describePlannerOptions(po::options_description& known) {
     if constexpr (std::is_enum_v<Value>) {
       text += " (";
       for (const auto& choice : choicesOf(Value{}))
-        text += std::string(&choice == &choicesOf(Value{}).front() ? "" : "|") + choice.first;
+        text += std::string(&choice == &choicesOf(Value{}).front() ? "" : ", ") + choice.first;
       text += ")";
     }
     text += "; default " + shown(value);
@@ -131,11 +131,13 @@ PlannerOptions plannerOptionsFrom(const po::variables_map& values, const Planner
   return options;
 }
 
+void warnAboutUnusedOption(const std::string& option, const std::string& with) {
+  std::cerr << "warning: --" << flagOf(option) << " changes nothing with " << with << '\n';
+}
+
 void warnAboutUnusedOptions(const PlannerOptions& options) {
-  for (const std::string& name : unusedOptions(options))
-    std::cerr << "warning: --" << flagOf(name) << " changes nothing with planner "
-              << options.planner << " and heuristic " << choiceName(options.search.heuristic)
-              << '\n';
+  for (const UnusedOption& each : unusedOptions(options))
+    warnAboutUnusedOption(each.name, each.with);
 }
 
 }  // namespace grid_path_planner::tools

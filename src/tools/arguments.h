@@ -36,7 +36,9 @@ void describePlannerOptions(boost::program_options::options_description& known);
 PlannerOptions plannerOptionsFrom(const boost::program_options::variables_map& values,
                                   const PlannerOptions& defaults = {});
 
-// On the standard error, of what changes nothing with this planner.
+// On the standard error: the option changes nothing with that.
+void warnAboutUnusedOption(const std::string& option, const std::string& with);
+// Of all that change nothing with the others.
 void warnAboutUnusedOptions(const PlannerOptions& options);
 
 }  // namespace grid_path_planner::tools

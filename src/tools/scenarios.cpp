@@ -16,6 +16,7 @@
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/planners/smooth_route.h"
+#include "grid_path_planner/planners/unused_options.h"
 #include "grid_path_planner/study/scenario_file.h"
 #include "grid_path_planner/terrain/terrain.h"
 #include "progress_bar.h"
@@ -86,6 +87,15 @@ std::size_t limitOf(const po::variables_map& values) {
 bool fileOptimaHold(const TerrainOptions& terrain) {
   return terrain.radius == 0.0 && terrain.decay == 0.0 && terrain.kernel == 1 &&
          terrain.free_weight == 1 && terrain.motion == MotionModel();
+}
+
+// Queries are asked of the planner alone, cell to cell: what belongs to poses and to the time
+// around the search has no effect here.
+void warnAboutOptionsOfPoses(const PlannerOptions& options) {
+  for (const std::string& name : changedOptions(options))
+    for (const char* idle : {"tolerance", "start_escape_radius", "retry_finer", "timeout",
+                             "heading", "path_z", "fixed_z"})
+      if (name == idle) warnAboutUnusedOption(name, "scenarios");
 }
 
 std::string referenceNameOf(const po::variables_map& values, const TerrainOptions& terrain) {
@@ -218,6 +228,7 @@ int runScenarios(int argc, char** argv) {
   const std::string file = values["scen"].as<std::string>();
   const PlannerOptions options = plannerOptionsFrom(values);
   warnAboutUnusedOptions(options);
+  warnAboutOptionsOfPoses(options);
   const std::vector<ScenarioQuery> all = readScenarioFile(file);
   const std::vector<ScenarioQuery> queries = spreadOver(all, limitOf(values));
   const std::string map_file = values.count("map") != 0 ? values["map"].as<std::string>()

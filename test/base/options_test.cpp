@@ -101,7 +101,7 @@ TEST(Options, UnknownChoicesNameTheKnownOnes) {
 
 TEST(Options, AsText) {
   EXPECT_EQ(optionText(PaintOptions()),
-            "width: 0.5\nlayers: 2\nglossy: 0\nname: wall\ncolour: green\n");
+            "width: 0.5\nlayers: 2\nglossy: false\nname: wall\ncolour: green\n");
 }
 
 TEST(Options, AreTheSameOnlyWhereEveryValueIs) {

@@ -117,5 +117,19 @@ TEST(SmoothOption, StraightensThePathAndRefusesWhatItContradicts) {
   EXPECT_THROW(planner.setOptions(options), InputError);
 }
 
+TEST(SmoothOption, LeavesThePromiseOfPathsThatAreTautAlready) {
+  OccupancyGrid map(GridGeometry(20, 10, 1.0), 0);
+  map[{9, 4}] = 100;
+  PlannerOptions options;
+  options.planner = "polyanya";
+  options.smooth = true;
+  MapPlanner planner(options);
+  planner.setMap(std::make_shared<const OccupancyGrid>(map));
+  PoseRequest request;
+  request.start.position << 0.5, 0.5, 0.0;
+  request.goal.position << 18.5, 8.5, 0.0;
+  EXPECT_TRUE(planner.plan(request).optimal);
+}
+
 }  // namespace
 }  // namespace grid_path_planner

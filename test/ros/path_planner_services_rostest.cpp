@@ -140,6 +140,18 @@ TEST_F(ServicesTest, AContradictionIsRevertedAndAGoodChangeIsInForce) {
   EXPECT_EQ(answer_.status, "FOUND") << answer_.message;
 }
 
+// smooth was ignored with polyanya without a word.
+TEST_F(ServicesTest, OptionsThatChangeNothingAreWarnedOf) {
+  startPlanner({"_planner:=polyanya", "_smooth:=true"});
+  EXPECT_TRUE(planner_->says("smooth changes nothing with planner polyanya"));
+  dynamic_reconfigure::Config wanted;
+  ConfigTools::appendParameter(wanted, "inflation_weight", 30);
+  reconfigure(wanted);
+  EXPECT_TRUE(planner_->says("inflation_weight changes nothing with decay 0"));
+  const std::string output = planner_->output();
+  EXPECT_EQ(output.find("smooth changes"), output.rfind("smooth changes")) << "once is enough";
+}
+
 TEST_F(ServicesTest, DiagnosticsNameTheMapAndTheLastPlanning) {
   test::Latest<diagnostic_msgs::DiagnosticArray> diagnostics(nh_, "/diagnostics");
   startPlanner();

@@ -57,6 +57,14 @@ TEST_F(Scenarios, AWrongCostFailsWhereOptimalityIsClaimed) {
   EXPECT_EQ(scenarios({"--scen", scenario("5.00004")}).code, 0);  // within 1e-5 of it
 }
 
+TEST_F(Scenarios, OptionsOfPosesAreSaidToChangeNothing) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(scenarios({"--scen", scenario("5"), "--tolerance", "3", "--timeout", "1"}).code, 0);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "warning: --tolerance changes nothing with scenarios\n"
+            "warning: --timeout changes nothing with scenarios\n");
+}
+
 TEST_F(Scenarios, LimitSpreadsAndCsvHasALineAQuery) {
   const std::string csv = folder_.path("out.csv");
   const Outcome outcome = scenarios({"--scen", scenario("5"), "--limit", "2", "--csv", csv});

@@ -14,6 +14,7 @@ template <class Options>
 std::string optionText(Options options) {
   std::ostringstream out;
   out.precision(17);
+  out << std::boolalpha;
   visitOptions(options, [&out](const char* name, auto& value, const OptionInfo&) {
     out << name << ": ";
     if constexpr (std::is_enum_v<std::decay_t<decltype(value)>>)
