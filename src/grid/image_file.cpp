@@ -11,6 +11,7 @@
 #include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/base/text_file.h"
 #include "grid_path_planner/grid/map_format.h"
+#include "image_check.h"
 
 namespace grid_path_planner {
 namespace {
@@ -35,6 +36,7 @@ std::optional<int> whiteOf(const std::string& content) {
 
 cv::Mat decode(const std::string& file) {
   const std::string content = readWholeFile(file, kLargestMapFile);
+  checkImageIsWhole(content, file);
   cv::Mat image;
   try {
     const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8UC1,
