@@ -90,14 +90,45 @@ Header readHeader(Lines& lines, const std::string& file) {
   return header;
 }
 
+// The letters that the format defines as occupied: out of bounds, trees, swamp, water.
+constexpr std::string_view kOccupied = "@OTSW";
+
+// The first letter that the format does not define, and how many there are.
+struct Strangers {
+  char letter = 0;
+  int line = 0;
+  std::size_t column = 0;  // from 1
+  std::size_t count = 0;
+};
+
 void readRow(std::string_view line, int number, const std::string& file, OccupancyGrid& map,
-             int row) {
+             int row, Strangers& strangers) {
   if (line.size() != static_cast<std::size_t>(map.width()))
     throw InputError(file, number,
                      "a row of the map has " + std::to_string(map.width()) + " cells, got " +
                          std::to_string(line.size()));
   std::int8_t* values = map.row(row);
-  for (const char letter : line) *values++ = letter == '.' || letter == 'G' ? 0 : 100;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char letter = line[i];
+    const bool free = letter == '.' || letter == 'G';
+    values[i] = free ? 0 : 100;
+    if (free || kOccupied.find(letter) != std::string_view::npos) continue;
+    if (strangers.count++ == 0) strangers = {letter, number, i + 1, 1};
+  }
+}
+
+void warnAboutStrangers(const Strangers& strangers, const std::string& file,
+                        const MapFileOptions& options) {
+  if (strangers.count == 0) return;
+  const std::string where = file + ":" + std::to_string(strangers.line);
+  const std::size_t others = strangers.count - 1;
+  warnAbout(where,
+            "'" + std::string(1, strangers.letter) + "' in column " +
+                std::to_string(strangers.column) +
+                " is no letter of a MovingAI map (. and G are free; @, O, T, S and W occupied): " +
+                (others == 0 ? "it is" : "it and " + std::to_string(others) + " more are") +
+                " taken for occupied",
+            options);
 }
 
 }  // namespace
@@ -113,17 +144,19 @@ OccupancyGrid parseMovingAi(const std::string& text, const std::string& file,
                                std::to_string(header.height) + " cells");
   OccupancyGrid map(geometry);
   std::string_view line;
+  Strangers strangers;
   for (int row = 0; row < map.height(); ++row) {
     if (!lines.next(line))
       throw InputError(file, lines.number(),
                        "ends after " + std::to_string(row) + " rows of the map, expected " +
                            std::to_string(map.height()));
-    readRow(line, lines.number(), file, map, row);
+    readRow(line, lines.number(), file, map, row, strangers);
   }
   while (lines.next(line))
     if (!line.empty())
       throw InputError(file, lines.number(),
                        "has more than the " + std::to_string(map.height()) + " rows of its header");
+  warnAboutStrangers(strangers, file, options);
   return map;
 }
 

@@ -13,10 +13,10 @@
 #include "arguments.h"
 #include "commands.h"
 #include "grid_path_planner/base/atomic_file.h"
-#include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/planners/smooth_route.h"
 #include "grid_path_planner/planners/unused_options.h"
+#include "grid_path_planner/ros/bag.h"
 #include "grid_path_planner/study/scenario_file.h"
 #include "grid_path_planner/terrain/terrain.h"
 #include "progress_bar.h"
@@ -235,7 +235,8 @@ int runScenarios(int argc, char** argv) {
                                                         : besideFile(file, all.front().map);
 
   Terrain terrain(options.terrain);
-  terrain.setMap(std::make_shared<const OccupancyGrid>(readMapFile(map_file)));
+  terrain.setMap(
+      std::make_shared<const OccupancyGrid>(readAnyMapFile(map_file, readingOptionsFrom(values))));
   const auto begin = std::chrono::steady_clock::now();
   const std::shared_ptr<const CostGrid> map = terrain.searched(StopToken());
   const std::unique_ptr<Planner> planner = makePlanner(options.planner, options.search);

@@ -35,6 +35,23 @@ TEST_F(MovingAiFile, FirstLineIsRowZeroAndOnlyDotAndGAreFree) {
   EXPECT_EQ(rowOrderOf(folder_.path("a.map")), RowOrder::FIRST_ROW_FIRST);
 }
 
+// A comma for a dot was a wall, and nothing said so.
+TEST_F(MovingAiFile, LettersThatTheFormatDoesNotDefineAreWarnedOfOnce) {
+  const std::string head = "type octile\nheight 2\nwidth 4\nmap\n";
+  std::vector<std::string> warnings;
+  MapFileOptions options;
+  options.warn = [&warnings](const std::string& warning) { warnings.push_back(warning); };
+  read(head + "..@O\nTGSW\n", options);
+  EXPECT_EQ(warnings, std::vector<std::string>());
+  EXPECT_EQ(read(head + "..@.\n.,..\n", options), AsciiMap({"..#.", ".#.."}).map);
+  EXPECT_EQ(read(head + "..@.\n.,#1\n", options), AsciiMap({"..#.", ".###"}).map);
+  const std::string where = folder_.path("a.map") +
+                            ":6: ',' in column 2 is no letter of a MovingAI "
+                            "map (. and G are free; @, O, T, S and W occupied): ";
+  EXPECT_EQ(warnings, (std::vector<std::string>{where + "it is taken for occupied",
+                                                where + "it and 2 more are taken for occupied"}));
+}
+
 TEST_F(MovingAiFile, GeometryIsOverridable) {
   MapFileOptions options;
   options.resolution = 0.05;

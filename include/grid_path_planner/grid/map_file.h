@@ -26,7 +26,7 @@ struct MapFileOptions {
   // others they override.
   std::optional<double> resolution;
   std::optional<Origin> origin;
-  // Told about what was read with a doubt: a colour image, values clamped by the format.
+  // Told about what was read with a doubt: a colour image, letters that the format does not define.
   std::function<void(const std::string&)> warn;
 };
 

@@ -7,7 +7,8 @@
 //   ..@
 //   TG.
 //
-// '.' and 'G' are free, every other letter is occupied. The first line of the map is row 0.
+// '.' and 'G' are free; '@', 'O', 'T', 'S' and 'W' are occupied, and so is every other letter, with
+// a warning. The first line of the map is row 0.
 #pragma once
 
 #include <string>
