@@ -10,9 +10,10 @@
 namespace grid_path_planner {
 namespace {
 
-MapPublisherOptions loadOptions(const ros::NodeHandle& private_nh) {
+MapPublisherOptions loadOptions(const ros::NodeHandle& private_nh, const std::string& filename) {
   MapPublisherOptions options;
   loadParameters(private_nh, options);
+  if (!filename.empty()) options.filename = filename;
   checkMapPublisherOptions(options);
   warnUnknownParameters(private_nh, optionNames<MapPublisherOptions>());
   return options;
@@ -29,13 +30,18 @@ OccupancyGrid readMap(const std::string& filename) {
 }  // namespace
 
 void checkMapPublisherOptions(const MapPublisherOptions& options) {
-  if (options.filename.empty()) throw InputError("filename must name a map file, got ''");
+  if (options.filename.empty())
+    throw InputError(
+        "filename must name a map file, got '': give it as `map_publisher FILE`, or as the "
+        "parameter "
+        "~filename (_filename:=FILE)");
   if (options.frame_id.empty()) throw InputError("frame_id must name a frame, got ''");
   if (options.topic.empty()) throw InputError("topic must name a topic, got ''");
 }
 
-MapPublisherNode::MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
-    : options_(loadOptions(private_nh)), nh_(nh) {
+MapPublisherNode::MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                                   const std::string& filename)
+    : options_(loadOptions(private_nh, filename)), nh_(nh) {
   map_ = readMap(options_.filename);
   map_publisher_ = nh.advertise<nav_msgs::OccupancyGrid>(options_.topic, 1, true);
   metadata_publisher_ = nh.advertise<nav_msgs::MapMetaData>("map_metadata", 1, true);

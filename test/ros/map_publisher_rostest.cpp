@@ -70,10 +70,32 @@ TEST_F(MapPublisherTest, ReadsBagsToo) {
   EXPECT_EQ(message->info.width, 80u);
 }
 
+// As with map_server.
+TEST_F(MapPublisherTest, TakesTheFileAsItsArgument) {
+  const test::Process process("map_publisher", {fileOf("gpp_a.map", map_), "_frame_id:=site"});
+  test::Latest<nav_msgs::OccupancyGrid> maps(nh_, "projected_map");
+  const auto message = maps.waitForMoreThan(0);
+  ASSERT_TRUE(message);
+  EXPECT_EQ(message->header.frame_id, "site");
+  EXPECT_EQ(occupancyFromMessage(*message), map_);
+}
+
+TEST_F(MapPublisherTest, OtherArgumentsAreRefused) {
+  const std::string usage = "usage: map_publisher [MAP_FILE] [_parameter:=value]";
+  for (const char* arguments : {"a.map b.map", "--frame=map"}) {
+    const auto [code, said] = refusal(arguments);
+    EXPECT_EQ(code, 2) << arguments;
+    EXPECT_NE(said.find(usage), std::string::npos) << said;
+  }
+  EXPECT_EQ(refusal("--help").first, 0);
+  EXPECT_NE(refusal("--help").second.find(usage), std::string::npos);
+}
+
 TEST_F(MapPublisherTest, WithoutAMapItFailsLoudly) {
   const auto [no_name, first] = refusal("");
   EXPECT_EQ(no_name, 1);
   EXPECT_NE(first.find("filename must name a map file"), std::string::npos) << first;
+  EXPECT_NE(first.find("`map_publisher FILE`"), std::string::npos) << "and how: " << first;
   const auto [missing, second] = refusal("_filename:=/no/such/map.yaml");
   EXPECT_EQ(missing, 1);
   EXPECT_NE(second.find("/no/such/map.yaml"), std::string::npos) << second;

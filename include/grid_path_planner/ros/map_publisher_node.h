@@ -16,6 +16,7 @@
 #include <ros/wall_timer.h>
 
 #include <memory>
+#include <string>
 
 #include "grid_path_planner/grid/occupancy.h"
 #include "grid_path_planner/ros/map_publisher_options.h"
@@ -28,8 +29,10 @@ class Reconfigurable;
 
 class MapPublisherNode {
  public:
-  // Throws InputError for parameters and files that cannot be used.
-  MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
+  // `filename`, unless empty, stands for the parameter: map_server's way to be given a file. Throws
+  // InputError for parameters and files that cannot be used.
+  MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                   const std::string& filename = "");
   ~MapPublisherNode();
 
  private:

@@ -16,6 +16,8 @@
 #include <memory>
 #include <string>
 
+#include "grid_path_planner/ros/node_arguments.h"
+
 namespace grid_path_planner {
 
 using NodeMaker =
@@ -25,11 +27,24 @@ using NodeMaker =
 // 0, or 1 after an exception of the node's construction or of a callback.
 int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make);
 
-// `Node` is constructed from a node handle and a private one.
+// `Node` is constructed from a node handle and a private one. Returns 2 for arguments that are not
+// ROS's.
 template <class Node>
 int runNode(int argc, char** argv, const std::string& name) {
+  if (const auto exit_code = nodeArguments(argc, argv, name).exit_code) return *exit_code;
   return runNode(argc, argv, name, [](ros::NodeHandle& nh, ros::NodeHandle& private_nh) {
     return std::make_shared<Node>(nh, private_nh);
+  });
+}
+
+// The same for a node that takes a file, `file_kind` in its usage: as its third argument, empty
+// where none is given.
+template <class Node>
+int runNodeWithFile(int argc, char** argv, const std::string& name, const std::string& file_kind) {
+  const NodeArguments given = nodeArguments(argc, argv, name, file_kind);
+  if (given.exit_code) return *given.exit_code;
+  return runNode(argc, argv, name, [&given](ros::NodeHandle& nh, ros::NodeHandle& private_nh) {
+    return std::make_shared<Node>(nh, private_nh, given.file);
   });
 }
 
