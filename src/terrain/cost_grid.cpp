@@ -83,32 +83,33 @@ std::size_t CostGrid::bytes() const {
   return geometry().size() * (sizeof(Weight) + sizeof(Occupancy)) + counts_.bytes() + bits;
 }
 
-void CostGrid::beginEdit(const CellRect& rect) {
+void CostGrid::finishEdit(const CostGrid& before, const CellRect& rect) {
   assert(geometry().rect().intersection(rect) == rect);
-  if (counts_.empty()) counts_.add(weights_, geometry().rect());
-  counts_.remove(weights_, rect);
-  if (bit_maps_.use_count() > 1) bit_maps_ = bit_maps_->copy();
-}
-
-void CostGrid::finishEdit(const CellRect& rect) {
-  counts_.add(weights_, rect);
+  if (counts_.empty())
+    counts_.add(weights_);
+  else
+    counts_.replace(before.weights_, weights_, rect);
   cheapest_ = counts_.cheapest();
   dearest_ = counts_.dearest();
-  if (bit_maps_->made) bit_maps_->maps.update(weights_, rect, StopToken());
+  updateBitMaps(rect);
 }
 
-void CostGrid::catchUp(const CostGrid& with, const CellRect& rect) {
-  copyCells(with.weights_, rect, weights_);
-  copyCells(with.classes_, rect, classes_);
+void CostGrid::catchUp(const CostGrid& with, const Change& change) {
+  copyCells(with.weights_, change.weights, weights_);
+  copyCells(with.classes_, change.classes, classes_);
   counts_ = with.counts_;
   cheapest_ = with.cheapest_;
   dearest_ = with.dearest_;
+  updateBitMaps(change.weights);
+}
+
+void CostGrid::updateBitMaps(const CellRect& rect) {
   if (bit_maps_.use_count() > 1) bit_maps_ = bit_maps_->copy();
   if (bit_maps_->made) bit_maps_->maps.update(weights_, rect, StopToken());
 }
 
-void copyCells(const CostGrid& from, const CellRect& rect, CostGrid& to) {
-  to.catchUp(from, rect);
+void copyCells(const CostGrid& from, const CostGrid::Change& change, CostGrid& to) {
+  to.catchUp(from, change);
 }
 
 bool stepAllowed(const CostGrid& map, Cell from, Cell to) {

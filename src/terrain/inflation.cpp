@@ -11,6 +11,8 @@ namespace {
 
 // Resolutions arrive as 32-bit floats: a radius of whole cells must not fall to their rounding.
 constexpr double kResolutionSlack = 1e-6;
+// Of cells, for what logarithms round.
+constexpr double kReachSlack = 1e-6;
 constexpr int kLargestReach = 1 << 19;
 constexpr HalfCellsSquared kLargestTable = 1 << 20;
 // Columns that are inflated together: the distances of a whole large map would take more memory
@@ -157,15 +159,17 @@ Inflation::Inflation(const TerrainOptions& options, double resolution)
   double half_cells = radius_;
   if (decay_ > 0.0 && rise_ > 0.5) half_cells = radius_ + std::log(2.0 * rise_) / decay_;
   if (half_cells > 0.0)
-    reach_ = static_cast<int>(std::min<double>(kLargestReach, std::ceil(half_cells / 2.0) + 1.0));
-  farthest_ = 4 * HalfCellsSquared{reach_} * reach_;
-  const HalfCellsSquared entries = std::min(kLargestTable, farthest_ + 1);
+    reach_ = static_cast<int>(
+        std::min<double>(kLargestReach, std::floor((half_cells + 1.0) / 2.0 + kReachSlack)));
+  const HalfCellsSquared across = 2 * HalfCellsSquared{reach_} + 1;  // of the first out of reach
+  farthest_ = across * across - 1;
+  const HalfCellsSquared entries = std::min(kLargestTable, farthest_ + 2);
   table_.reserve(static_cast<std::size_t>(entries));
   for (HalfCellsSquared distance = 0; distance < entries; ++distance)
-    table_.push_back(ringWeight(distance));
+    table_.push_back(dearnessOf(distance));
 }
 
-void Inflation::apply(const Grid<Occupancy>& classes, const CellRect& rect,
+void Inflation::apply(const Grid<Occupancy>& classes, const CellRect& sources, const CellRect& rect,
                       Grid<CostGrid::Weight>& weights, const StopToken& stop) const {
   if (none()) return;
   const bool near = reach_ <= NearObstacles::kLargestReach;
@@ -173,20 +177,25 @@ void Inflation::apply(const Grid<Occupancy>& classes, const CellRect& rect,
   for (int column = rect.column; column < rect.column + rect.width; column += strip_width) {
     const int width = std::min(strip_width, rect.column + rect.width - column);
     const CellRect strip = {column, rect.row, width, rect.height};
-    near ? applyNear(classes, strip, weights, stop) : applyFar(classes, strip, weights, stop);
+    near ? applyNear(classes, sources, strip, weights, stop)
+         : applyFar(classes, strip, weights, stop);
   }
 }
 
-void Inflation::applyNear(const Grid<Occupancy>& classes, const CellRect& rect,
-                          Grid<CostGrid::Weight>& weights, const StopToken& stop) const {
-  NearObstacles near(classes, rect, reach_);
+void Inflation::applyNear(const Grid<Occupancy>& classes, const CellRect& sources,
+                          const CellRect& rect, Grid<CostGrid::Weight>& weights,
+                          const StopToken& stop) const {
+  NearObstacles near(classes, sources, rect, reach_);
+  const Dearness* const dearness = table_.data();
+  const int beyond = static_cast<int>(farthest_) + 1;
   StopPoll poll(stop, 64);
   for (int row = rect.row; row < rect.row + rect.height; ++row) {
     poll();
     const std::int16_t* distances = near.row(row);
     if (distances == nullptr) continue;
     CostGrid::Weight* weight = weights.row(row) + rect.column;
-    for (int i = 0; i < rect.width; ++i) weight[i] = inflated(weight[i], distances[i]);
+    for (int i = 0; i < rect.width; ++i)
+      weight[i] = atLeast(dearness[std::min<int>(distances[i], beyond)], weight[i]);
   }
 }
 
@@ -196,26 +205,23 @@ void Inflation::applyFar(const Grid<Occupancy>& classes, const CellRect& rect,
   for (int row = 0; row < rect.height; ++row) {
     const HalfCellsSquared* distance = distances.data() + std::size_t(row) * rect.width;
     CostGrid::Weight* weight = weights.row(rect.row + row) + rect.column;
-    for (int i = 0; i < rect.width; ++i) weight[i] = inflated(weight[i], distance[i]);
+    for (int i = 0; i < rect.width; ++i)
+      if (distance[i] != kNoObstacle) weight[i] = atLeast(dearnessAt(distance[i]), weight[i]);
   }
 }
 
-CostGrid::Weight Inflation::inflated(CostGrid::Weight class_weight,
-                                     HalfCellsSquared distance) const {
-  if (class_weight == CostGrid::kBlocked || distance == kNoObstacle || distance > farthest_)
-    return class_weight;
+Inflation::Dearness Inflation::dearnessAt(HalfCellsSquared distance) const {
   const bool tabled = distance < static_cast<HalfCellsSquared>(table_.size());
-  const CostGrid::Weight ring =
-      tabled ? table_[static_cast<std::size_t>(distance)] : ringWeight(distance);
-  return ring == CostGrid::kBlocked ? CostGrid::kBlocked : std::max(class_weight, ring);
+  return tabled ? table_[static_cast<std::size_t>(distance)] : dearnessOf(distance);
 }
 
-CostGrid::Weight Inflation::ringWeight(HalfCellsSquared distance) const {
+Inflation::Dearness Inflation::dearnessOf(HalfCellsSquared distance) const {
+  if (distance > farthest_) return 0;
   const double half_cells = std::sqrt(static_cast<double>(distance));
-  if (half_cells < radius_) return CostGrid::kBlocked;
-  if (decay_ <= 0.0 || rise_ <= 0.0) return static_cast<CostGrid::Weight>(free_);
-  return static_cast<CostGrid::Weight>(
-      std::lround(free_ + rise_ * std::exp(-decay_ * (half_cells - radius_))));
+  if (half_cells < radius_) return static_cast<Dearness>(CostGrid::kBlocked - 1);
+  if (decay_ <= 0.0 || rise_ <= 0.0) return static_cast<Dearness>(free_ - 1.0);
+  return static_cast<Dearness>(
+      std::lround(free_ + rise_ * std::exp(-decay_ * (half_cells - radius_))) - 1);
 }
 
 }  // namespace grid_path_planner

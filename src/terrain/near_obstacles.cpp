@@ -11,11 +11,11 @@ constexpr std::size_t kTogether = 8;  // an Eight
 
 // No obstacle in the row: far enough even in the next row but one, and no overflow in the last.
 constexpr std::int16_t kBeyond = 16900;
+constexpr std::int16_t kFar = 32767;
 
-static_assert(kBeyond > 4 * NearObstacles::kLargestReach * NearObstacles::kLargestReach);
-static_assert(kBeyond +
-                  (2 * NearObstacles::kLargestReach - 1) * (2 * NearObstacles::kLargestReach - 1) <
-              NearObstacles::kFar);
+constexpr int kLargestAcross = 2 * NearObstacles::kLargestReach;  // half cells
+static_assert(kBeyond > (kLargestAcross + 1) * (kLargestAcross + 1));
+static_assert(kBeyond + (kLargestAcross - 1) * (kLargestAcross - 1) < kFar);
 
 // The first occupied one of cells[at] up to cells[count], `count` where there is none.
 int occupiedFrom(const Occupancy* cells, int at, int count) {
@@ -26,70 +26,83 @@ int occupiedFrom(const Occupancy* cells, int at, int count) {
 
 }  // namespace
 
-NearObstacles::NearObstacles(const Grid<Occupancy>& classes, const CellRect& rect, int reach)
+NearObstacles::NearObstacles(const Grid<Occupancy>& classes, const CellRect& sources,
+                             const CellRect& rect, int reach)
     : classes_(classes),
       rect_(rect),
+      window_(rect.grown(reach).intersection(sources)),
       reach_(reach),
-      period_(2 * reach + 1),
+      period_(std::max(1, std::min(2 * reach + 1, window_.height))),
       stride_((static_cast<std::size_t>(rect.width) + kTogether - 1) / kTogether * kTogether),
-      next_(std::max(0, rect.row - reach)),
-      lines_(stride_ * period_, kBeyond),
-      empty_(period_, true),
-      least_(stride_, kFar) {
+      next_(window_.row),
+      memory_(stride_ * static_cast<std::size_t>(period_)),
+      least_(stride_) {
   assert(reach > 0 && reach <= kLargestReach);
   rising_.assign(static_cast<std::size_t>(rect.width) + 2 * reach + 1, kBeyond);
-  for (int apart = 0; apart <= reach; ++apart)
+  for (int apart = 0; apart <= reach; ++apart) {
     rising_[static_cast<std::size_t>(apart)] = static_cast<Distance>(squared(apart));
+    apart_.push_back(Eight{} + static_cast<Distance>(squared(apart)));
+  }
   falling_.assign(rising_.rbegin(), rising_.rend());
-  sources_.reserve(static_cast<std::size_t>(period_));
 }
 
 const std::int16_t* NearObstacles::row(int row) {
-  const int first = std::max(0, row - reach_);
-  const int last = std::min(classes_.height() - 1, row + reach_);
-  for (; next_ <= last; ++next_) measure(next_);
-
-  sources_.clear();
-  for (int other = first; other <= last; ++other)
-    if (!empty_[other % period_])
-      sources_.push_back(
-          {lineOf(other), Eight{} + static_cast<Distance>(squared(std::abs(other - row)))});
-  if (sources_.empty()) return nullptr;
+  const auto beforeRow = [](const Line& line, int row) { return line.row < row; };
+  lines_.erase(lines_.begin(),
+               std::lower_bound(lines_.begin(), lines_.end(), row - reach_, beforeRow));
+  const int end = std::min(window_.row + window_.height, row + reach_ + 1);
+  for (; next_ < end; ++next_) measure(next_);
+  if (lines_.empty()) return nullptr;
+  const auto above = std::lower_bound(lines_.begin(), lines_.end(), row, beforeRow);
   for (std::size_t i = 0; i < stride_; i += kTogether) {
-    Eight least = Eight{} + kFar;
-    for (const Source& source : sources_) {
-      Eight here;
-      std::memcpy(&here, source.line + i, sizeof here);
-      here += source.added;
-      least = here < least ? here : least;
-    }
-    std::memcpy(least_.data() + i, &least, sizeof least);
+    const Eight eight = least(row, static_cast<std::size_t>(above - lines_.begin()), i);
+    std::memcpy(least_.data() + i, &eight, sizeof eight);
   }
   return least_.data();
 }
 
-void NearObstacles::measure(int row) {
-  const int begin = std::max(0, rect_.column - reach_);
-  const int count = std::min(classes_.width(), rect_.column + rect_.width + reach_) - begin;
-  const Occupancy* cells = classes_.row(row) + begin;
-  const int first = occupiedFrom(cells, 0, count);
-  empty_[row % period_] = first == count;
-  if (first == count) return;
+// From the row on up and down, until no line can be less.
+NearObstacles::Eight NearObstacles::least(int row, std::size_t above, std::size_t first) const {
+  Eight least = Eight{} + kFar;
+  const auto take = [&](const Line& line, const Eight& apart) {
+    Eight here;
+    std::memcpy(&here, line.distances + first, sizeof here);
+    here += apart;
+    least = here < least ? here : least;
+  };
+  for (std::size_t i = above; i < lines_.size(); ++i) {
+    const Eight& apart = apart_[static_cast<std::size_t>(lines_[i].row - row)];
+    if (!any(least > apart)) break;
+    take(lines_[i], apart);
+  }
+  for (std::size_t i = above; i-- > 0;) {
+    const Eight& apart = apart_[static_cast<std::size_t>(row - lines_[i].row)];
+    if (!any(least > apart)) break;
+    take(lines_[i], apart);
+  }
+  return least;
+}
 
-  Distance* line = lineOf(row);
+void NearObstacles::measure(int row) {
+  const Occupancy* cells = classes_.row(row) + window_.column;
+  const int first = occupiedFrom(cells, 0, window_.width);
+  if (first == window_.width) return;
+
+  Distance* line = memory_.data() + static_cast<std::size_t>(row % period_) * stride_;
+  lines_.push_back({row, line});
   constexpr int kNone = 1 << 29;
+  const int skipped = rect_.column - window_.column;
   int before = -kNone;
-  for (int next = first;; next = occupiedFrom(cells, before + 1, count)) {
-    fillBetween(before, next == count ? kNone : next, begin, line);
-    if (next == count) return;
-    const int skipped = next + begin - rect_.column;
-    if (skipped >= 0 && skipped < rect_.width) line[skipped] = 0;
+  for (int next = first;; next = occupiedFrom(cells, before + 1, window_.width)) {
+    fillBetween(before, next == window_.width ? kNone : next, line);
+    if (next == window_.width) return;
+    if (next >= skipped && next < skipped + rect_.width) line[next - skipped] = 0;
     before = next;
   }
 }
 
-void NearObstacles::fillBetween(int before, int next, int begin, Distance* line) const {
-  const int skipped = rect_.column - begin;
+void NearObstacles::fillBetween(int before, int next, Distance* line) const {
+  const int skipped = rect_.column - window_.column;
   const int low = std::max(before + 1, skipped);
   const int high = std::min(next, skipped + rect_.width);
   if (low >= high) return;

@@ -21,27 +21,52 @@ void classify(const OccupancyGrid& map, const OccupancyThresholds& thresholds, c
   }
 }
 
-// The cells of `rect` whose class is no longer that of `map`: the smallest rectangle around them.
-CellRect changedClasses(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
-                        const CellRect& rect, const Grid<Occupancy>& classes,
-                        const StopToken& stop) {
+// The smallest rectangle around the cells of `rect` whose value and class before changed(value,
+// before) holds for.
+template <class Changed>
+CellRect hullOf(const OccupancyGrid& map, const Grid<Occupancy>& classes, const CellRect& rect,
+                const StopToken& stop, const Changed& changed) {
   StopPoll poll(stop, 64);
-  CellRect changed;
+  CellRect hull;
   for (int row = rect.row; row < rect.row + rect.height; ++row) {
     poll();
     const std::int8_t* values = map.row(row);
     const Occupancy* before = classes.row(row);
-    const auto same = [&](int column) {
-      return thresholds.classify(values[column]) == before[column];
-    };
     int first = rect.column;
     int end = rect.column + rect.width;
-    while (first < end && same(first)) ++first;
+    while (first < end && !changed(values[first], before[first])) ++first;
     if (first == end) continue;
-    while (same(end - 1)) --end;
-    changed = changed.hull({first, row, end - first, 1});
+    while (!changed(values[end - 1], before[end - 1])) --end;
+    hull = hull.hull({first, row, end - first, 1});
   }
-  return changed;
+  return hull;
+}
+
+// Around the cells whose class is no longer that of the map.
+struct ClassChanges {
+  CellRect all;
+  CellRect filled;   // occupied now
+  CellRect opened;   // not occupied now
+  CellRect vacated;  // and were before
+};
+
+ClassChanges changesOf(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
+                       const CellRect& rect, const Grid<Occupancy>& classes,
+                       const StopToken& stop) {
+  const auto around = [&](const CellRect& within, const auto& is) {
+    return hullOf(map, classes, within, stop, [&](std::int8_t value, Occupancy before) {
+      const Occupancy now = thresholds.classify(value);
+      return now != before && is(now, before);
+    });
+  };
+  constexpr Occupancy kOccupied = Occupancy::OCCUPIED;
+  ClassChanges changes;
+  changes.all = around(rect, [](Occupancy, Occupancy) { return true; });
+  changes.filled = around(changes.all, [](Occupancy now, Occupancy) { return now == kOccupied; });
+  changes.opened = around(changes.all, [](Occupancy now, Occupancy) { return now != kOccupied; });
+  changes.vacated =
+      around(changes.opened, [](Occupancy, Occupancy before) { return before == kOccupied; });
+  return changes;
 }
 
 void weigh(const Grid<Occupancy>& classes, const TerrainOptions& options, const CellRect& rect,
@@ -56,6 +81,18 @@ void weigh(const Grid<Occupancy>& classes, const TerrainOptions& options, const 
     CostGrid::Weight* to = weights.row(row);
     for (int column = rect.column; column < rect.column + rect.width; ++column)
       to[column] = by_class[static_cast<std::size_t>(from[column])];
+  }
+}
+
+// Of the occupied cells, as weigh() does of all.
+void weighOccupied(const Grid<Occupancy>& classes, const TerrainOptions& options,
+                   const CellRect& rect, Grid<CostGrid::Weight>& weights, const StopToken& stop) {
+  const CostGrid::Weight weight = classWeight(Occupancy::OCCUPIED, options);
+  StopPoll poll(stop, 64);
+  for (int row = rect.row; row < rect.row + rect.height; ++row) {
+    poll();
+    for (int column = rect.column; column < rect.column + rect.width; ++column)
+      if (classes.row(row)[column] == Occupancy::OCCUPIED) weights.row(row)[column] = weight;
   }
 }
 
@@ -111,7 +148,7 @@ void Terrain::makeAnew(const StopToken& stop) {
   Grid<CostGrid::Weight> weights(map_->geometry());
   classify(*map_, options_.thresholds, all, classes, stop);
   weigh(classes, options_, all, weights, stop);
-  inflation_->apply(classes, all, weights, stop);
+  inflation_->apply(classes, all, all, weights, stop);
   auto fine = std::make_shared<CostGrid>(std::move(weights), std::move(classes), options_.motion);
   fine->setRevision(++revision_);
 
@@ -131,17 +168,26 @@ void Terrain::makeAnew(const StopToken& stop) {
   fine_dirty_ = {};
 }
 
+// Cells around what is occupied no more are made from the ground up; those around what is occupied
+// now become dearer, by that alone.
 void Terrain::updateFine(const StopToken& stop) {
-  const CellRect changed =
-      changedClasses(*map_, options_.thresholds, fine_dirty_, fine_.current()->classes(), stop);
-  if (!changed.empty()) {
-    const CellRect rewritten =
-        changed.grown(inflation_->reach()).intersection(map_->geometry().rect());
-    fine_.advance(rewritten, [&](CostGrid& next) {
-      next.edit(rewritten, [&](auto& weights, auto& classes) {
-        classify(*map_, options_.thresholds, changed, classes, stop);
-        weigh(classes, options_, rewritten, weights, stop);
-        inflation_->apply(classes, rewritten, weights, stop);
+  const CellRect everything = map_->geometry().rect();
+  const ClassChanges changes =
+      changesOf(*map_, options_.thresholds, fine_dirty_, fine_.current()->classes(), stop);
+  if (!changes.all.empty()) {
+    const auto around = [&](const CellRect& rect) {
+      return rect.empty() ? rect : rect.grown(inflation_->reach()).intersection(everything);
+    };
+    const CellRect anew = changes.opened.hull(around(changes.vacated));
+    const CellRect dearer = around(changes.filled);
+    const CellRect rewritten = anew.hull(dearer);
+    fine_.advance({rewritten, changes.all}, [&](CostGrid& next) {
+      next.edit(*fine_.current(), rewritten, [&](auto& weights, auto& classes) {
+        classify(*map_, options_.thresholds, changes.all, classes, stop);
+        weigh(classes, options_, anew, weights, stop);
+        inflation_->apply(classes, everything, anew, weights, stop);
+        weighOccupied(classes, options_, changes.filled, weights, stop);
+        inflation_->apply(classes, changes.filled, dearer, weights, stop);
       });
       next.setRevision(revision_ + 1);
     });
@@ -155,8 +201,8 @@ void Terrain::updateFine(const StopToken& stop) {
 void Terrain::updateSearched(const StopToken& stop) {
   const CellRect blocks = blocksOf(searched_dirty_, options_.kernel);
   if (options_.kernel > 1)
-    searched_.advance(blocks, [&](CostGrid& next) {
-      next.edit(blocks, [&](auto& weights, auto& classes) {
+    searched_.advance({blocks, blocks}, [&](CostGrid& next) {
+      next.edit(*searched_.current(), blocks, [&](auto& weights, auto& classes) {
         applyKernel(*fine_.current(), options_, searched_dirty_, weights, classes, stop);
       });
       next.setRevision(revision_);

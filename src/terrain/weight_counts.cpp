@@ -1,39 +1,60 @@
 #include "grid_path_planner/terrain/weight_counts.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cstring>
 
 namespace grid_path_planner {
 namespace {
 
-// Calls visit(weight, length) for every run of equal weights along the rows.
-template <class Visit>
-void forEachRun(const Grid<WeightCounts::Weight>& weights, const CellRect& rect, Visit&& visit) {
-  if (rect.empty()) return;
-  for (int row = rect.row; row < rect.row + rect.height; ++row) {
-    const WeightCounts::Weight* at = weights.row(row) + rect.column;
-    const WeightCounts::Weight* const end = at + rect.width;
-    while (at != end) {
-      const WeightCounts::Weight* const first = at;
-      while (at != end && *at == *first) ++at;
-      visit(*first, static_cast<std::uint32_t>(at - first));
-    }
-  }
+// Cells that are looked at together.
+constexpr int kTogether = 4;
+using Together = std::uint64_t;
+
+Together from(const WeightCounts::Weight* weights) {
+  Together together;
+  static_assert(sizeof together == kTogether * sizeof *weights);
+  std::memcpy(&together, weights, sizeof together);
+  return together;
 }
 
 }  // namespace
 
-void WeightCounts::add(const Grid<Weight>& weights, const CellRect& rect) {
-  forEachRun(weights, rect, [this](Weight weight, std::uint32_t length) {
-    if (weight >= counts_.size()) counts_.resize(std::size_t{weight} + 1);
-    counts_[weight] += length;
-  });
+void WeightCounts::makeRoomFor(Weight weight) {
+  while (counts_.size() <= weight) counts_.resize(std::max<std::size_t>(64, 2 * counts_.size()));
 }
 
-void WeightCounts::remove(const Grid<Weight>& weights, const CellRect& rect) {
-  forEachRun(weights, rect, [this](Weight weight, std::uint32_t length) {
-    assert(weight < counts_.size() && counts_[weight] >= length);
-    counts_[weight] -= length;
-  });
+void WeightCounts::add(const Grid<Weight>& weights) {
+  const std::vector<Weight>& values = weights.values();
+  for (auto at = values.begin(); at != values.end();) {
+    const auto first = at;
+    while (at != values.end() && *at == *first) ++at;
+    makeRoomFor(*first);
+    counts_[*first] += static_cast<std::uint32_t>(at - first);
+  }
+}
+
+void WeightCounts::replace(const Grid<Weight>& before, const Grid<Weight>& after,
+                           const CellRect& rect) {
+  for (int row = rect.row; row < rect.row + rect.height; ++row) {
+    const Weight* old = before.row(row) + rect.column;
+    const Weight* now = after.row(row) + rect.column;
+    const Weight* const end = old + rect.width;
+    for (; old + kTogether <= end; old += kTogether, now += kTogether)
+      if (from(old) != from(now)) replace(old, now, kTogether);
+    replace(old, now, static_cast<int>(end - old));
+  }
+}
+
+inline void WeightCounts::replace(const Weight* before, const Weight* after, int number) {
+  unsigned all = 0;
+  for (int i = 0; i < number; ++i) all |= after[i];
+  if (all >= counts_.size()) makeRoomFor(static_cast<Weight>(all));
+  std::uint32_t* const counts = counts_.data();
+  for (int i = 0; i < number; ++i) {
+    --counts[before[i]];
+    ++counts[after[i]];
+  }
 }
 
 WeightCounts::Weight WeightCounts::cheapest() const {

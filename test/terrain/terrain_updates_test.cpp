@@ -2,6 +2,7 @@
 // handed out before stay as they were.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <random>
@@ -29,6 +30,7 @@ void expectSame(const CostGrid& updated, const CostGrid& fresh) {
   ASSERT_EQ(updated.weights(), fresh.weights());
   ASSERT_EQ(updated.classes(), fresh.classes());
   EXPECT_EQ(updated.cheapest(), fresh.cheapest());
+  EXPECT_EQ(updated.dearest(), fresh.dearest());
   EXPECT_EQ(updated.uniform(), fresh.uniform());
   EXPECT_EQ(updated.bitMaps(StopToken()).rows, fresh.bitMaps(StopToken()).rows);
   EXPECT_EQ(updated.bitMaps(StopToken()).columns, fresh.bitMaps(StopToken()).columns);
@@ -107,6 +109,89 @@ TEST(TerrainUpdates, AStoppedUpdateLosesNothing) {
   EXPECT_THROW(terrain.searched(source.token()), Stopped);
   EXPECT_TRUE(before->passable({0, 0}));
   expectSame(*terrain.searched(StopToken()), *freshlySearched(map, options));
+}
+
+// What a sensor sees change: everything in a rectangle becomes `to`, where it was one of `from`.
+struct Seen {
+  std::vector<std::int8_t> from;
+  std::int8_t to;
+};
+
+CellRect see(std::mt19937& random, const Seen& seen, OccupancyGrid& map) {
+  const Cell low = test::randomCell(random, map.geometry());
+  const CellRect rect = CellRect{low.column - 3, low.row - 3, 1 + static_cast<int>(random() % 10),
+                                 1 + static_cast<int>(random() % 10)}
+                            .intersection(map.geometry().rect());
+  for (int row = rect.row; row < rect.row + rect.height; ++row)
+    for (int column = rect.column; column < rect.column + rect.width; ++column) {
+      std::int8_t& value = map[Cell{column, row}];
+      if (std::find(seen.from.begin(), seen.from.end(), value) != seen.from.end()) value = seen.to;
+    }
+  return rect;
+}
+
+TEST(TerrainUpdatesLaw, WhatAppearsVanishesOrIsSeenLeavesAGridLikeAFreshOne) {
+  const std::vector<Seen> kinds = {{{0, -1}, 100}, {{0}, 100}, {{100}, 0},     {{100, -1}, 0},
+                                   {{-1}, 0},      {{0}, -1},  {{100, 0}, -1}, {{100}, -1}};
+  struct Rings {
+    double radius;
+    double decay;
+    int inflation_weight;
+  };
+  std::mt19937 random(17);
+  for (const Rings& rings : {Rings{0, 0, 40}, Rings{0, 0.4, 40}, Rings{3.5, 0, 40},
+                             Rings{2, 0.5, 40}, Rings{1, 0.3, 90}, Rings{0.5, 30, 40}}) {
+    SCOPED_TRACE("radius " + std::to_string(rings.radius) + " decay " +
+                 std::to_string(rings.decay));
+    for (int trial = 0; trial < 24; ++trial) {
+      OccupancyGrid map = test::randomOccupancy(random, 60, trial % 3 * 0.02, 0.1);
+      TerrainOptions options;
+      options.radius = rings.radius;
+      options.decay = rings.decay;
+      options.inflation_weight = rings.inflation_weight;
+      options.occupied_is_passable = rings.radius == 0.0 && trial % 4 == 3;
+      options.unknown_is_passable = trial % 2 == 0;
+      options.unknown_weight = trial % 5 == 0 ? 1 : 50;
+      options.free_weight = trial % 7 == 0 ? 45 : 1;
+      options.kernel = 1 + trial % 3 / 2;
+      Terrain terrain(options);
+      terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+      for (int edit = 0; edit < 12; ++edit) {
+        const Costs before = terrain.searched(StopToken());
+        for (unsigned i = 0; i <= random() % 4 / 3; ++i) {
+          const CellRect changed = see(random, kinds[random() % kinds.size()], map);
+          terrain.updateMap(std::make_shared<const OccupancyGrid>(map), changed);
+        }
+        const Costs after = terrain.searched(StopToken());
+        expectSame(*after, *freshlySearched(map, options));
+        if (HasFatalFailure()) return;
+        for (std::uint32_t i = 0; i < after->geometry().size(); ++i)
+          if (after->weights()[CellIndex(i)] != before->weights()[CellIndex(i)]) {
+            ASSERT_TRUE(terrain.searchedChange().contains(after->geometry().cell(CellIndex(i))));
+          }
+      }
+    }
+  }
+}
+
+// Only what a sensor makes occupied, or no longer so, reaches farther than it.
+TEST(TerrainUpdates, AChangeReachesNoFartherThanItMust) {
+  TerrainOptions options;
+  options.radius = 2.0;
+  Terrain terrain(options);
+  OccupancyGrid map(GridGeometry(20, 20, 1.0), -1);
+  const auto changeAfter = [&](std::int8_t value) {
+    map[Cell{10, 10}] = value;
+    terrain.updateMap(std::make_shared<const OccupancyGrid>(map), map.geometry().rect());
+    terrain.searched(StopToken());
+    return terrain.searchedChange();
+  };
+  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+  terrain.searched(StopToken());
+  EXPECT_EQ(changeAfter(0), (CellRect{10, 10, 1, 1}));
+  EXPECT_EQ(changeAfter(-1), (CellRect{10, 10, 1, 1}));
+  EXPECT_EQ(changeAfter(100), (CellRect{8, 8, 5, 5}));
+  EXPECT_EQ(changeAfter(0), (CellRect{8, 8, 5, 5}));
 }
 
 TEST(TerrainUpdatesLaw, AGridAfterUpdatesIsLikeAFreshOneAndTheOthersStay) {

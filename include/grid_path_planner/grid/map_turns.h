@@ -1,5 +1,6 @@
 // The newest map of a series in which each differs from the one before in a rectangle, made in time
-// proportional to the rectangles. Map: a Grid<T>, or what has a copyCells() of its own.
+// proportional to the rectangles. Map: a Grid<T>, or what has a copyCells() of its own, which may
+// ask for another kind of Change than a rectangle.
 //
 //   MapTurns<OccupancyGrid> turns;
 //   turns.begin(std::make_shared<OccupancyGrid>(...));
@@ -31,7 +32,7 @@ void copyCells(const Grid<T>& from, const CellRect& rect, Grid<T>& to) {
     std::copy_n(from.row(row) + rect.column, rect.width, to.row(row) + rect.column);
 }
 
-template <class Map>
+template <class Map, class Change = CellRect>
 class MapTurns {
  public:
   // Null before begin().
@@ -42,15 +43,15 @@ class MapTurns {
     spare_.reset();
   }
 
-  // Makes the map that differs from the current one in the cells of `rect`: change(next) is given
-  // one that is like the current. What `change` throws leaves the current one as it is.
-  // Precondition: begin() gave a map, in which `rect` lies.
-  template <class Change>
-  void advance(const CellRect& rect, Change&& change) {
+  // Makes the map that differs from the current one by `change`: write(next) is given one that is
+  // like the current. What `write` throws leaves the current one as it is.
+  // Precondition: begin() gave a map, in which the change lies.
+  template <class Write>
+  void advance(const Change& change, Write&& write) {
     std::shared_ptr<Map> next = likeCurrent();
-    change(*next);
+    write(*next);
     spare_ = std::exchange(current_, std::move(next));
-    missed_ = rect;
+    missed_ = change;
   }
 
  private:
@@ -64,7 +65,7 @@ class MapTurns {
 
   std::shared_ptr<Map> current_;
   std::shared_ptr<Map> spare_;  // the one before
-  CellRect missed_;             // the cells in which the two differ
+  Change missed_;               // in which the two differ
 };
 
 }  // namespace grid_path_planner

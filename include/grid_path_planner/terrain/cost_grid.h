@@ -68,25 +68,31 @@ class CostGrid {
   // The bit maps too, where they were made, and the counts of weights from the first edit on.
   std::size_t bytes() const;
 
-  // Changes the map in place, in time proportional to `rect` (the first time, to the map): for who
-  // made it and has not handed it out, or holds it alone again. write(weights, classes) writes
-  // cells of `rect` and no others; if it throws, the map is of no further use.
+  // The cells in which a map differs from another; the classes differ only in some of them.
+  struct Change {
+    CellRect weights;
+    CellRect classes;
+  };
+
+  // Changes the map, which is like `before`, in place, in time proportional to `rect` (the first
+  // time, to the map): for who made it and has not handed it out, or holds it alone again.
+  // write(weights, classes) writes cells of `rect` and no others; if it throws, the map is of no
+  // further use.
   template <class Write>
-  void edit(const CellRect& rect, Write&& write) {
-    beginEdit(rect);
+  void edit(const CostGrid& before, const CellRect& rect, Write&& write) {
     write(weights_, classes_);
-    finishEdit(rect);
+    finishEdit(before, rect);
   }
 
-  // Makes the map what `with` is, which differs from it in cells of `rect` only, in time
-  // proportional to `rect`; the revision stays.
-  void catchUp(const CostGrid& with, const CellRect& rect);
+  // Makes the map what `with` is, which differs from it by `change`, in time proportional to that;
+  // the revision stays.
+  void catchUp(const CostGrid& with, const Change& change);
 
  private:
   struct LazyBitMaps;
 
-  void beginEdit(const CellRect& rect);
-  void finishEdit(const CellRect& rect);
+  void finishEdit(const CostGrid& before, const CellRect& rect);
+  void updateBitMaps(const CellRect& rect);
 
   Grid<Weight> weights_;
   Grid<Occupancy> classes_;
@@ -100,8 +106,8 @@ class CostGrid {
   WeightCounts counts_;                    // made by the first edit
 };
 
-// For MapTurns<CostGrid>: catchUp().
-void copyCells(const CostGrid& from, const CellRect& rect, CostGrid& to);
+// For MapTurns<CostGrid, CostGrid::Change>: catchUp().
+void copyCells(const CostGrid& from, const CostGrid::Change& change, CostGrid& to);
 
 // Whether one step leads from `from` to `to`: neighbours by the motion model, both passable, no
 // corner cut unless that is allowed.

@@ -10,6 +10,7 @@
 // cells near_obstacles.h is faster.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -40,26 +41,35 @@ class Inflation {
   // Occupied cells farther than this many columns or rows change nothing.
   int reach() const { return reach_; }
 
-  // Inflates the cells of `rect`, whose weights are those of their classes. Throws Stopped.
-  void apply(const Grid<Occupancy>& classes, const CellRect& rect, Grid<CostGrid::Weight>& weights,
-             const StopToken& stop) const;
+  // Makes the cells of `rect` as dear as the occupied cells of `sources` ask for, and none cheaper;
+  // those outside `sources` may count or not. So weights of classes become inflated ones where
+  // `sources` is the map, and what was inflated takes in cells that have become occupied since
+  // where `sources` holds those. Throws Stopped. Precondition: both lie in the map.
+  void apply(const Grid<Occupancy>& classes, const CellRect& sources, const CellRect& rect,
+             Grid<CostGrid::Weight>& weights, const StopToken& stop) const;
 
  private:
-  CostGrid::Weight inflated(CostGrid::Weight class_weight, HalfCellsSquared distance) const;
-  void applyNear(const Grid<Occupancy>& classes, const CellRect& rect,
+  // A weight less one: blocked, which is 0, is the dearest then.
+  using Dearness = std::uint16_t;
+  static CostGrid::Weight atLeast(Dearness dearness, CostGrid::Weight weight) {
+    return static_cast<CostGrid::Weight>(std::max(dearness, static_cast<Dearness>(weight - 1)) + 1);
+  }
+
+  void applyNear(const Grid<Occupancy>& classes, const CellRect& sources, const CellRect& rect,
                  Grid<CostGrid::Weight>& weights, const StopToken& stop) const;
   void applyFar(const Grid<Occupancy>& classes, const CellRect& rect,
                 Grid<CostGrid::Weight>& weights, const StopToken& stop) const;
-  // kBlocked inside the radius, the ring's weight beyond.
-  CostGrid::Weight ringWeight(HalfCellsSquared distance) const;
+  Dearness dearnessAt(HalfCellsSquared distance) const;
+  // Of a blocked cell inside the radius, of the ring's weight beyond, least beyond the reach.
+  Dearness dearnessOf(HalfCellsSquared distance) const;
 
   double radius_;  // half cells
   double decay_;   // 1 / half cell
   double free_;
   double rise_;  // inflation_weight - free_weight
   int reach_ = 0;
-  HalfCellsSquared farthest_ = 0;        // beyond it nothing changes
-  std::vector<CostGrid::Weight> table_;  // ringWeight by distance
+  HalfCellsSquared farthest_ = 0;  // beyond it nothing changes
+  std::vector<Dearness> table_;    // dearnessOf(), up to farthest_ + 1 if that is not too long
 };
 
 }  // namespace grid_path_planner

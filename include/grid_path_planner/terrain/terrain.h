@@ -4,10 +4,10 @@
 //   terrain.setMap(map);
 //   std::shared_ptr<const CostGrid> costs = terrain.searched(stop);
 //
-// Made when asked for. After updateMap() only the cells whose class changed, grown by what
-// inflation reaches, are computed again and nothing is done in proportion to the map
-// (grid/map_turns.h says when). The grids handed out stay as they are; a changed map gives new
-// ones with a higher revision. The caller's map is never changed.
+// Made when asked for. After updateMap() only the cells whose class changed are computed again,
+// and those that inflation reaches from where a cell became occupied or is no longer; nothing is
+// done in proportion to the map (grid/map_turns.h says when). The grids handed out stay as they
+// are; a changed map gives new ones with a higher revision. The caller's map is never changed.
 #pragma once
 
 #include <memory>
@@ -54,8 +54,8 @@ class Terrain {
   CellRect searched_dirty_;             // cells of fine_ that changed since searched_ was made
   CellRect fine_change_;
   CellRect searched_change_;
-  MapTurns<CostGrid> fine_;
-  MapTurns<CostGrid> searched_;  // empty where the kernel is 1
+  MapTurns<CostGrid, CostGrid::Change> fine_;
+  MapTurns<CostGrid, CostGrid::Change> searched_;  // empty where the kernel is 1
   std::uint64_t revision_ = 0;
 };
 

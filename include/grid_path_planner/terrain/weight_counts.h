@@ -2,13 +2,12 @@
 // after a change without a pass over the map.
 //
 //   WeightCounts counts;
-//   counts.add(weights, weights.geometry().rect());
-//   counts.remove(weights, changed);   // before its cells are written,
-//   counts.add(weights, changed);      // and after
+//   counts.add(weights);
+//   counts.replace(weights, next_weights, changed);
 //   counts.cheapest();
 //
-// add() and remove() take time in proportion to the rectangle, the questions in proportion to the
-// weights that are possible, whatever the map's size.
+// replace() takes time in proportion to the rectangle, the questions in proportion to the weights
+// that are possible, whatever the map's size.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +21,10 @@ class WeightCounts {
  public:
   using Weight = std::uint16_t;
 
-  // Precondition of both: `rect` lies in the map.
-  void add(const Grid<Weight>& weights, const CellRect& rect);
-  // Precondition: its cells were added.
-  void remove(const Grid<Weight>& weights, const CellRect& rect);
+  void add(const Grid<Weight>& weights);
+  // The cells of `rect` are no longer those of `before`, which were added, but those of `after`.
+  // Precondition: `rect` lies in both, which are of the same size.
+  void replace(const Grid<Weight>& before, const Grid<Weight>& after, const CellRect& rect);
 
   // The smallest and the largest weight but 0 (a blocked cell); 0 where there is none.
   Weight cheapest() const;
@@ -35,7 +34,10 @@ class WeightCounts {
   std::size_t bytes() const { return counts_.size() * sizeof(std::uint32_t); }
 
  private:
-  std::vector<std::uint32_t> counts_;  // by weight, as long as the largest that was added asks for
+  void makeRoomFor(Weight weight);
+  void replace(const Weight* before, const Weight* after, int number);
+
+  std::vector<std::uint32_t> counts_;  // by weight, at least as many as the largest asks for
 };
 
 }  // namespace grid_path_planner
