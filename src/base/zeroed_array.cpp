@@ -10,7 +10,7 @@ namespace grid_path_planner {
 namespace {
 
 // Below, small pages are quick to look up, and large ones would make a short query wait for zeros.
-constexpr std::size_t kLargePagesFrom = std::size_t{64} << 20;
+constexpr std::size_t kLargePagesFrom = std::size_t{16} << 20;
 
 }  // namespace
 

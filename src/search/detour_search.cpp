@@ -6,7 +6,7 @@ namespace grid_path_planner {
 
 void DetourSearch::prepare(const CostGrid& map) {
   nodes_.prepare(map.geometry());
-  const SearchKey width = kStraightKey * std::max<SearchKey>(map.cheapest(), 1) / 2;
+  const SearchKey width = kPackedScale.straight * std::max<SearchKey>(map.cheapest(), 1) / 2;
   bucket_shift_ = 63U - static_cast<unsigned>(__builtin_clzll(width));  // see bucket_search.cpp
 }
 
@@ -17,12 +17,13 @@ bool DetourSearch::run(const GoalLabels& labels, Index start, SearchKey sound_be
   expanded_ = 0;
   saw_the_end_ = too_dear_ = false;
   nodes_.beginQuery();
-  if (sound(labels, start, labels.cell(start))) {
+  Node& first = nodes_.at(labels.cell(start));
+  if (sound(labels, start, labels.cell(start), first)) {
     cost_ = labels.label(start);
     return true;
   }
   cost_ = kInfiniteKey;
-  nodes_.at(labels.cell(start)).g = 0;
+  first.begin();
   open_.begin(labels.label(start), bucket_shift_);
   open_.push(labels.label(start), start);
   std::size_t& peak = result.statistics.peak_open;
@@ -32,7 +33,8 @@ bool DetourSearch::run(const GoalLabels& labels, Index start, SearchKey sound_be
     const Index index = open_.pop();
     const Cell cell = labels.cell(index);
     Node& node = nodes_.at(cell);
-    if (node.closed() || node.g + labels.label(index) >= cost_) continue;
+    if (node.closed()) continue;
+    if (cost_ != kInfiniteKey && node.g() + labels.label(index) >= cost_) continue;
     node.close();
     ++expanded_;
     if (record) result.expanded.emplace_back(index);
@@ -42,29 +44,25 @@ bool DetourSearch::run(const GoalLabels& labels, Index start, SearchKey sound_be
   return cost_ != kInfiniteKey;
 }
 
-void DetourSearch::expand(const GoalLabels& labels, Index index, Cell cell, const Node& node,
+void DetourSearch::expand(const GoalLabels& labels, Index index, Cell cell, Node& node,
                           Statistics& counts) {
   const Moves& moves = labels.moves();
   for (std::uint32_t tried = moves.after(node.steps(), index); tried != 0; tried &= tried - 1) {
     const auto step = static_cast<std::uint32_t>(__builtin_ctz(tried));
     const Index to = labels.along(index, step);
-    const Cell to_cell{cell.column + kSteps[step].column, cell.row + kSteps[step].row};
+    const SearchKey g = node.g() + labels.stepKey(index, to, step);
+    Node& next = nodes_.along(node, cell, step);
+    if (g > next.g()) continue;
     if (labels.state(to) == GoalLabels::UNLABELLED) {
       saw_the_end_ = true;
       continue;
     }
-    const SearchKey g = node.g + labels.stepKey(index, to, step);
-    if (g > kLargestKey - labels.label(to)) {
-      too_dear_ = true;
-      continue;
-    }
     const SearchKey f = g + labels.label(to);
-    if (f >= cost_) continue;
-    Node& next = nodes_.at(to_cell);
-    if (g > next.g) continue;
+    if (f >= GoalLabels::kLargest) too_dear_ = true;
+    if (f >= cost_ || f >= GoalLabels::kLargest) continue;
 
     // 1. Another way as cheap: it may leave open what the known one does not.
-    if (g == next.g) {
+    if (g == next.g()) {
       if (!moves.missing(next.steps(), step, to)) continue;
       next.addStep(step);
       if (!next.closed()) continue;
@@ -74,9 +72,10 @@ void DetourSearch::expand(const GoalLabels& labels, Index index, Cell cell, cons
       // 2. A cheaper one: the tree goes on from here, or the cell is opened, perhaps again.
       if (next.closed()) ++counts.reopened;
       next.reach(g, step);
-      if (next.note() == 0 && labels.stepOf(to) == oppositeStep(step) && to != labels.root())
-        next.setNote(kUnsound);  // its way leads back here
-      if (next.note() != kUnsound && sound(labels, to, to_cell)) {
+      const Cell to_cell{cell.column + kSteps[step].column, cell.row + kSteps[step].row};
+      if (to != labels.root() && nodes_.along(next, to_cell, labels.stepOf(to)).note() == kUnsound)
+        next.setNote(kUnsound);
+      if (next.note() != kUnsound && sound(labels, to, to_cell, next)) {
         cost_ = f;
         last_ = to;
         continue;
@@ -87,26 +86,29 @@ void DetourSearch::expand(const GoalLabels& labels, Index index, Cell cell, cons
   }
 }
 
-// Every cell of the ways that are followed here is looked at once.
-bool DetourSearch::sound(const GoalLabels& labels, Index index, Cell cell) {
+// Every cell of the ways that are followed here is looked at once. What is expanded is unsound, and
+// so is what leads there.
+bool DetourSearch::sound(const GoalLabels& labels, Index index, Cell cell, Node& first) {
   bool sound = true;
   asked_.clear();
+  Node* node = &first;
   while (labels.label(index) >= sound_below_ && index != labels.root()) {
-    Node& node = nodes_.at(cell);
-    if (node.note() != 0) {
-      sound = node.note() == kSound;
+    if (node->note() != 0) {
+      sound = node->note() == kSound;
       break;
     }
-    asked_.push_back(&node);
-    if (!labels.supported(index)) {
+    asked_.push_back(node);
+    const std::uint32_t step = labels.stepOf(index);
+    Node& ahead = nodes_.along(*node, cell, step);
+    if (ahead.note() == kUnsound || !labels.supported(index)) {
       sound = false;
       break;
     }
-    const std::uint32_t step = labels.stepOf(index);
+    node = &ahead;
     index = labels.along(index, step);
     cell = {cell.column + kSteps[step].column, cell.row + kSteps[step].row};
   }
-  for (Node* node : asked_) node->setNote(sound ? kSound : kUnsound);
+  for (Node* each : asked_) each->setNote(sound ? kSound : kUnsound);
   return sound;
 }
 

@@ -11,16 +11,16 @@ void GoalLabels::prepare(const CostGrid& map, const Moves& moves) {
   moves_ = &moves;
   geometry_ = map.geometry();
   cell_of_ = CellOfIndex(geometry_);
-  diagonal_step_ = diagonalKey(map.motion().diagonal_cost);
+  diagonal_step_ = diagonalKey(kPackedScale, map.motion().diagonal_cost);
   offsets_ = moves.offsets();
-  if (entries_.size() == geometry_.size()) return;
-  entries_ = ZeroedArray<Entry>(geometry_.size());
+  if (words_.size() == geometry_.size()) return;
+  words_ = ZeroedArray<Word>(geometry_.size());
   tree_ = 0;
 }
 
 void GoalLabels::begin(Index root) {
-  if (++tree_ == std::uint32_t{1} << (32 - kTreeShift)) {
-    entries_.clear();
+  if (++tree_ == Word{1} << (64 - kTreeShift)) {
+    words_.clear();
     tree_ = 1;
   }
   root_ = root;

@@ -10,19 +10,11 @@
 namespace grid_path_planner {
 namespace {
 
-// Labels, estimates and what keys are raised by must not overflow together.
-constexpr SearchKey kLargestEstimate = kLargestKey / 8;
-constexpr SearchKey kLargestRaise = kLargestKey / 8;
-static_assert(kInfiniteKey - kLargestKey > kLargestEstimate + kLargestRaise);
-
-// What is left of the largest label fits 32 bits.
-constexpr unsigned kLabelShift = 32;
-static_assert(kLargestKey >> kLabelShift < ~std::uint32_t{0});
 // Half a straight step: see bucket_queue.h.
-constexpr unsigned kBucketShift = 30;
+constexpr unsigned kBucketShift = 20;
 
 // Of the buckets of what waits for repairs, times the cheapest weight.
-constexpr SearchKey kQueueWidth = 2 * kStraightKey;
+constexpr SearchKey kQueueWidth = 2 * kPackedScale.straight;
 
 // See serves().
 constexpr std::uint64_t kWorn = 2;
@@ -73,22 +65,12 @@ void GoalTree::prepare(const CostGrid& map, const Moves& moves) {
   detour_.prepare(map);
 }
 
-void GoalTree::setRoot(const CostGrid& map, Cell goal) {
-  const GridGeometry& geometry = map.geometry();
-  raised_ = 0;
+void GoalTree::setRoot(const CostGrid& map, Cell goal, Cell start) {
   too_dear_ = false;
   sound_below_ = kInfiniteKey;
   goal_ = goal;
-
-  const MotionModel& motion = map.motion();
-  const auto longest = static_cast<SearchKey>(geometry.width()) + geometry.height();
-  const bool fits = longest * 2 * kStraightKey <= kLargestEstimate / map.cheapest();
-  scale_ = fits ? map.cheapest() : CostGrid::kBlocked;
-  straight_ = kStraightKey * scale_;
-  diagonal_ = motion.connectivity == Connectivity::FOUR
-                  ? 2 * straight_
-                  : diagonalKey(motion.diagonal_cost) * scale_;
-  labels_.begin(geometry.index(goal).value());
+  labels_.begin(map.geometry().index(goal).value());
+  keys_.begin(labels_, map, start);
 }
 
 Status GoalTree::begin(const CostGrid& map, Cell goal, Cell start, double ahead, bool record,
@@ -96,29 +78,28 @@ Status GoalTree::begin(const CostGrid& map, Cell goal, Cell start, double ahead,
   begun_ = false;
   way_.clear();
   labels_.look(map);
-  setRoot(map, goal);
-  start_ = start;
+  setRoot(map, goal, start);
   const Index from = map.geometry().index(start).value();
   Statistics& counts = result.statistics;
   StopPoll poll(stop);
-  BucketQueue waiting;
-  waiting.begin(keyOf(labels_.root()), kBucketShift);
-  const auto wait = [&](Index index) { waiting.push(keyOf(index), index); };
+  BucketQueue open;
+  open.begin(keys_.of(labels_.root()), kBucketShift);
+  const auto wait = [&](Index index) { open.push(keys_.of(index), index); };
   wait(labels_.root());
 
   // 1. Until nothing that waits can make the way from the start cheaper; 2. and some more.
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
   bool found = false;
-  while (!waiting.empty() && counts.expanded < limit) {
+  while (!open.empty() && counts.expanded < limit) {
     poll();
-    counts.peak_open = std::max(counts.peak_open, waiting.size());
+    counts.peak_open = std::max(counts.peak_open, open.size());
     if (!found && labels_.state(from) != GoalLabels::UNLABELLED &&
-        waiting.lowest() >= labels_.label(from)) {
+        open.lowest() >= labels_.label(from)) {
       found = true;
       limit = counts.expanded +
               static_cast<std::uint64_t>(ahead * static_cast<double>(counts.expanded));
     }
-    const Index index = waiting.pop();
+    const Index index = open.pop();
     if (labels_.state(index) != GoalLabels::OPEN) continue;
     ++counts.expanded;
     if (record) result.expanded.emplace_back(index);
@@ -130,31 +111,19 @@ Status GoalTree::begin(const CostGrid& map, Cell goal, Cell start, double ahead,
 
   // 3. What still waits does so for later plans.
   const bool reached = labels_.state(from) != GoalLabels::UNLABELLED;
-  queue_.begin(reached ? labels_.label(from) : 0, kQueueWidth * std::max<SearchKey>(scale_, 1));
-  while (!waiting.empty()) {
-    const Index index = waiting.pop();
-    if (labels_.state(index) == GoalLabels::OPEN) push(index);
+  waiting_.begin(map.geometry(), reached ? labels_.label(from) : 0,
+                 kQueueWidth * std::max<SearchKey>(keys_.scale(), 1));
+  while (!open.empty()) {
+    const Index index = open.pop();
+    if (labels_.state(index) == GoalLabels::OPEN) waiting_.push(keys_, index);
   }
   begun_ = true;
   return plan(map, start, record, result, stop);
 }
 
 bool GoalTree::serves(const CostGrid& map, Cell goal) const {
-  return begun_ && goal_ == goal && scale_ <= map.cheapest() && raised_ <= kLargestRaise &&
+  return begun_ && goal_ == goal && keys_.scale() <= map.cheapest() && keys_.hold() &&
          detoured_ <= kWorn * expanded_;
-}
-
-void GoalTree::push(Index index) {
-  queue_.push(
-      {keyOf(index), static_cast<std::uint32_t>(labels_.label(index) >> kLabelShift), index});
-}
-
-bool GoalTree::renew(PatientQueue::Entry& entry) const {
-  if (labels_.state(entry.index) != GoalLabels::OPEN) return false;
-  const SearchKey key = keyOf(entry.index);
-  if (key < entry.key) return false;  // another entry came with the lower key
-  entry.key = key;
-  return true;
 }
 
 template <class Wait>
@@ -163,7 +132,7 @@ void GoalTree::relax(Index from, Index to, std::uint32_t step, Statistics& count
   const SearchKey label = labels_.label(from) + labels_.stepKey(from, to, step);
   const State is = labels_.state(to);
   if (is != GoalLabels::UNLABELLED && labels_.label(to) <= label) return;
-  if (label > kLargestKey) {
+  if (label > GoalLabels::kLargest) {
     too_dear_ = true;
     return;
   }
@@ -185,24 +154,20 @@ void GoalTree::expand(Index index, Statistics& counts, const Wait& wait) {
 template <class Bound, class Lowered>
 std::uint64_t GoalTree::advance(const Bound& bound, const Lowered& lowered, std::uint64_t limit,
                                 bool record, PlanResult& result, StopPoll& poll) {
-  const auto renewed = [this](PatientQueue::Entry& entry) { return renew(entry); };
   const auto wait = [&](Index index) {
-    push(index);
+    waiting_.push(keys_, index);
     lowered(index);
   };
   Statistics& counts = result.statistics;
   std::uint64_t taken = 0;
   while (taken < limit) {
     poll();
-    const SearchKey below = bound();
-    const PatientQueue::Entry* next = queue_.first(below, renewed);
-    if (next == nullptr || next->key >= below) break;
-    counts.peak_open = std::max(counts.peak_open, queue_.size());
-    const PatientQueue::Entry old = queue_.pop();
-    PatientQueue::Entry entry = old;
-    if (!renew(entry)) continue;
-    if (entry.key > old.key) {
-      queue_.push(entry);
+    if (waiting_.first(bound(), keys_) == nullptr) break;
+    counts.peak_open = std::max(counts.peak_open, waiting_.size());
+    const WaitingCells::Entry entry = waiting_.pop();
+    if (labels_.state(entry.index) != GoalLabels::OPEN) continue;
+    if (keys_.of(entry.index) > entry.key) {
+      waiting_.push(keys_, entry.index);
       continue;
     }
     ++taken;
@@ -219,15 +184,14 @@ Status GoalTree::plan(const CostGrid& map, Cell start, bool record, PlanResult& 
   labels_.look(map);
   const Index from = map.geometry().index(start).value();
   StopPoll poll(stop);
-  raised_ += estimate(start_, start);
-  start_ = start;
+  keys_.move(start);
   if (keepsTheWay(map, result)) return Status::FOUND;
   const auto everything = [] { return kInfiniteKey; };
   const auto below_start = [&] {
     const bool labelled = labels_.state(from) != GoalLabels::UNLABELLED;
-    return labelled ? labels_.label(from) + raised_ : kInfiniteKey;
+    return labelled ? keys_.raised(labels_.label(from)) : kInfiniteKey;
   };
-  const auto below_way = [this] { return detour_.cost() + raised_; };
+  const auto below_way = [this] { return keys_.raised(detour_.cost()); };
   const auto nobody = [](Index) {};
   bool concerned = false;
   const auto theDetour = [&](Index index) {
@@ -246,9 +210,10 @@ Status GoalTree::plan(const CostGrid& map, Cell start, bool record, PlanResult& 
       concerned = false;
       advance(below_way, theDetour, kUnlimited, record, result, poll);
       if (concerned) continue;
-      result.cells = detour_.way(labels_);
-      result.cost = costOfSteps(map, result.cells);
-      way_ = result.cells;
+      way_ = detour_.way(labels_);
+      way_cost_ = exactCostOf(detour_.cost()) * map.kernel();
+      result.cells = way_;
+      result.cost = way_cost_;
       return Status::FOUND;
     }
 
@@ -260,11 +225,13 @@ Status GoalTree::plan(const CostGrid& map, Cell start, bool record, PlanResult& 
   }
 }
 
-bool GoalTree::keepsTheWay(const CostGrid& map, PlanResult& result) const {
-  const auto at = std::find(way_.begin(), way_.end(), start_);
+bool GoalTree::keepsTheWay(const CostGrid& map, PlanResult& result) {
+  const auto at = std::find(way_.begin(), way_.end(), keys_.start());
   if (at == way_.end()) return false;
-  result.cells.assign(at, way_.end());
-  result.cost = costOfSteps(map, result.cells);
+  way_cost_ = way_cost_ - costOfSteps(map, {way_.begin(), at + 1});
+  way_.erase(way_.begin(), at);
+  result.cells = way_;
+  result.cost = way_cost_;
   return true;
 }
 
@@ -328,7 +295,7 @@ void GoalTree::wake(Index index, std::uint32_t step) {
   if (labels_.state(index) != GoalLabels::CLOSED || (labels_.stepsFrom(index) >> step & 1U) == 0)
     return;
   labels_.setState(index, GoalLabels::OPEN);
-  push(index);
+  waiting_.push(keys_, index);
 }
 
 }  // namespace grid_path_planner

@@ -1,5 +1,8 @@
 #include "grid_path_planner/search/incremental_a_star.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "grid_path_planner/search/bucket_queue.h"
 
 namespace grid_path_planner {
@@ -22,37 +25,56 @@ constexpr double kAhead = 3.0;
 IncrementalAStar::IncrementalAStar() : Planner(traitsOfIncrementalAStar()) {}
 
 std::size_t IncrementalAStar::bytesFor(const GridGeometry& geometry) const {
+  return std::max(treeBytes(geometry), AStar().bytesFor(geometry));
+}
+
+std::size_t IncrementalAStar::treeBytes(const GridGeometry& geometry) {
   return GoalTree::bytesFor(geometry) + geometry.size();
 }
 
 void IncrementalAStar::doPrepare(const StopToken& stop) {
+  a_star_.reset();
   moves_.build(map(), stop);
-  tree_.prepare(map(), moves_);
+  if (!tree_) tree_.emplace();
+  tree_->prepare(map(), moves_);
 }
 
 void IncrementalAStar::doUpdate(const CellRect& changed, const StopToken& stop) {
+  if (a_star_) return a_star_->update(sharedMap(), changed, stop);
   moves_.update(map(), changed, stop);
-  tree_.update(mapBefore(), map(), changed);
+  tree_->update(mapBefore(), map(), changed);
 }
 
 PlanResult IncrementalAStar::doPlan(const PlanRequest& request, const StopToken& stop) {
+  if (a_star_) return a_star_->plan(request, stop);
   PlanResult result;
   try {
     result.status = planByTree(request, result, stop);
   } catch (const Stopped& stopped) {
     result.status = stopped.status();
+  } catch (const CostOverflow&) {
+    handOver(stop);
+    return a_star_->plan(request, stop);
   }
-  result.statistics.search_bytes = bytesFor(map().geometry()) + tree_.searchBytes() +
+  result.statistics.search_bytes = treeBytes(map().geometry()) + tree_->searchBytes() +
                                    result.statistics.peak_open * sizeof(BucketQueue::Index);
   return result;
+}
+
+void IncrementalAStar::handOver(const StopToken& stop) {
+  auto a_star = std::make_unique<AStar>();
+  a_star->prepare(sharedMap(), stop);
+  a_star_ = std::move(a_star);
+  tree_.reset();
+  moves_ = Moves();
 }
 
 Status IncrementalAStar::planByTree(const PlanRequest& request, PlanResult& result,
                                     const StopToken& stop) {
   const Cell goal = request.goals.front();
   const bool record = request.record_expanded;
-  if (tree_.serves(map(), goal)) return tree_.plan(map(), request.start, record, result, stop);
-  return tree_.begin(map(), goal, request.start, kAhead, record, result, stop);
+  if (tree_->serves(map(), goal)) return tree_->plan(map(), request.start, record, result, stop);
+  return tree_->begin(map(), goal, request.start, kAhead, record, result, stop);
 }
 
 }  // namespace grid_path_planner

@@ -1,7 +1,6 @@
 #include "label_lines.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -14,8 +13,7 @@ using TwoSigns = std::int64_t __attribute__((vector_size(16)));
 constexpr double kNoLabel = std::numeric_limits<double>::infinity();
 constexpr double kNoCell = std::numeric_limits<double>::quiet_NaN();
 
-// Up to here doubles hold the differences of labels exactly.
-constexpr double kLargestExact = static_cast<double>(std::uint64_t{1} << 51);
+static_assert(GoalLabels::kLargest < SearchKey{1} << 51, "doubles hold labels exactly");
 
 Two from(const double* values) {
   Two two;
@@ -42,7 +40,6 @@ LabelLines::LabelLines(const GoalLabels& labels, const CellRect& rect)
 }
 
 void LabelLines::fill(Line& line, int row) {
-  line.largest = 0.0;
   const bool inside = row < rect_.row + rect_.height;
   if (!inside) return std::fill(line.labels.begin(), line.labels.end(), kNoCell);
   auto index =
@@ -53,14 +50,11 @@ void LabelLines::fill(Line& line, int row) {
     double& label = line.labels[static_cast<std::size_t>(i)];
     label = weight == CostGrid::kBlocked ? kNoCell : kNoLabel;
     if (weight == CostGrid::kBlocked || labels_.state(index) == GoalLabels::UNLABELLED) continue;
-    if (base_ == 0) base_ = labels_.label(index);
-    label = static_cast<double>(static_cast<std::int64_t>(labels_.label(index) - base_));
-    line.largest = std::max(line.largest, std::abs(label));
+    label = static_cast<double>(static_cast<std::int64_t>(labels_.label(index)));
   }
 }
 
 bool LabelLines::suspect(std::size_t first) const {
-  if (std::max(lines_[0].largest, lines_[1].largest) > kLargestExact) return true;
   const double* labels = lines_[0].labels.data() + first;
   const double* weights = lines_[0].weights.data() + first;
   const double* north_labels = lines_[1].labels.data() + first;

@@ -5,8 +5,7 @@
 //
 // Tells of every cell of `rect` from which a step to the east, the north or the north-east, or one
 // from its eastern neighbour to its northern one, may be less than the labels of its ends differ,
-// or lead where there is no label; and of a few others. Compares four cells at a time, in rounded
-// numbers that err to the safe side.
+// or lead where there is no label; and of a few others. Compares two cells at a time.
 #pragma once
 
 #include <array>
@@ -41,7 +40,6 @@ class LabelLines {
   struct Line {
     std::vector<double> labels;   // not a number: blocked or outside; infinite: not labelled
     std::vector<double> weights;  // 0 where blocked or outside
-    double largest = 0.0;         // of the finite labels, regardless of the sign
   };
 
   void fill(Line& line, int row);
@@ -51,7 +49,6 @@ class LabelLines {
   const GoalLabels& labels_;
   CellRect rect_;
   std::array<Line, 2> lines_;  // a row and the one to the north of it
-  SearchKey base_ = 0;         // what labels are told from, one of them
 };
 
 }  // namespace grid_path_planner

@@ -16,10 +16,12 @@ void TileNodes::prepare(const GridGeometry& geometry) {
 void TileNodes::beginQuery() {
   for (const std::size_t place : used_) tile_at_[place] = 0;
   used_.clear();
-  if (++query_ == std::uint32_t{1} << (32 - Node::kQueryShift)) {
-    tiles_.clear();
-    query_ = 1;
+  constexpr Node::Word kOne = Node::Word{1} << Node::kQueryShift;
+  if (query_ + kOne < query_) {
+    for (const std::unique_ptr<Tile>& tile : tiles_) tile->fill(Node());
+    query_ = 0;
   }
+  query_ += kOne;
 }
 
 void TileNodes::use(std::size_t place) {

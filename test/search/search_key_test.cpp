@@ -38,5 +38,25 @@ TEST(SearchKeyLaw, OrdersAsTheExactCostsDo) {
   }
 }
 
+TEST(SearchKeyLaw, PackedKeysTellTheirExactCost) {
+  std::mt19937_64 random(3);
+  const auto expectTold = [](SearchKey straight, SearchKey diagonal) {
+    const SearchKey key = straight * kPackedScale.straight + diagonal * kPackedScale.diagonal;
+    ASSERT_LE(key, kPackedScale.largest);
+    const ExactCost told = exactCostOf(key);
+    ASSERT_EQ(told.straight, static_cast<std::int64_t>(straight));
+    ASSERT_EQ(told.diagonal, static_cast<std::int64_t>(diagonal));
+  };
+  const SearchKey most = kPackedScale.largest / kPackedScale.diagonal;
+  expectTold(0, 0);
+  expectTold(0, most);
+  expectTold(kPackedScale.largest / kPackedScale.straight, 0);
+  for (int trial = 0; trial < 100000; ++trial) {
+    const SearchKey diagonal = random() % (most + 1);
+    const SearchKey rest = kPackedScale.largest - diagonal * kPackedScale.diagonal;
+    expectTold(random() % (rest / kPackedScale.straight + 1), diagonal);
+  }
+}
+
 }  // namespace
 }  // namespace grid_path_planner

@@ -23,12 +23,12 @@ TEST(TileNodesLaw, AQueryKnowsWhatItWroteAndNothingElse) {
       const auto known = written.find({cell.column, cell.row});
       TileNodes::Node& node = nodes.at(cell);
       if (known == written.end()) {
-        ASSERT_EQ(node.g, kInfiniteKey);
+        ASSERT_EQ(node.g(), TileNodes::Node::kUnknown);
         ASSERT_EQ(node.steps(), 0U);
         ASSERT_EQ(node.note(), 0U);
         ASSERT_FALSE(nodes.closed(cell));
       } else {
-        ASSERT_EQ(node.g, known->second.first);
+        ASSERT_EQ(node.g(), known->second.first);
         ASSERT_EQ(node.steps(), 1U << known->second.second);
         ASSERT_EQ(node.note(), 2U);
         ASSERT_TRUE(nodes.closed(cell));
@@ -42,7 +42,7 @@ TEST(TileNodesLaw, AQueryKnowsWhatItWroteAndNothingElse) {
       written[{cell.column, cell.row}] = {g, step};
     }
   }
-  EXPECT_LE(nodes.bytes(), 5 * 3 * (4 + 1024 * 16));
+  EXPECT_LE(nodes.bytes(), 5 * 3 * (4 + 1024 * 8));
 }
 
 }  // namespace

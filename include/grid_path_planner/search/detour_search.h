@@ -56,9 +56,8 @@ class DetourSearch {
   // Notes of a node: whether its way is sound, once known.
   static constexpr std::uint32_t kSound = 1, kUnsound = 2;
 
-  bool sound(const GoalLabels& labels, Index index, Cell cell);
-  void expand(const GoalLabels& labels, Index index, Cell cell, const Node& node,
-              Statistics& counts);
+  bool sound(const GoalLabels& labels, Index index, Cell cell, Node& first);
+  void expand(const GoalLabels& labels, Index index, Cell cell, Node& node, Statistics& counts);
 
   TileNodes nodes_;
   BucketQueue open_;

@@ -5,7 +5,7 @@
 //
 // A label is the cost of a way to the goal at the time when it was written. It holds still where
 // every step of the way is supported: legal, and no dearer than the labels of its two ends differ.
-// 12 bytes a cell; nothing is cleared between trees.
+// Labels are keys of kPackedScale. 8 bytes a cell; nothing is cleared between trees.
 #pragma once
 
 #include <algorithm>
@@ -24,11 +24,12 @@ namespace grid_path_planner {
 class GoalLabels {
  public:
   using Index = std::uint32_t;
+  static constexpr SearchKey kLargest = kPackedScale.largest;
   // Of a cell that is CLOSED its neighbours know the label; of one that is OPEN not yet.
   enum State : std::uint32_t { UNLABELLED, OPEN, CLOSED };
 
   static std::size_t bytesFor(const GridGeometry& geometry) {
-    return geometry.size() * sizeof(Entry);
+    return geometry.size() * sizeof(Word);
   }
 
   // `moves` are those of the map of every call, and outlive this.
@@ -43,12 +44,14 @@ class GoalLabels {
   Cell cell(Index index) const { return cell_of_(index); }
 
   State state(Index index) const {
-    const std::uint32_t word = entries_[index].word;
+    const Word word = words_[index];
     return word >> kTreeShift == tree_ ? static_cast<State>(word & kStateMask) : UNLABELLED;
   }
   // Preconditions from here on: the cell has a label.
-  SearchKey label(Index index) const { return entries_[index].label; }
-  std::uint32_t stepOf(Index index) const { return entries_[index].word >> kStepShift & 7U; }
+  SearchKey label(Index index) const { return words_[index] >> kLabelShift & kLargest; }
+  std::uint32_t stepOf(Index index) const {
+    return static_cast<std::uint32_t>(words_[index] >> kStepShift) & 7U;
+  }
   // Where the way leads next. Precondition: not the root.
   Index next(Index index) const { return along(index, stepOf(index)); }
   bool supported(Index index) const {
@@ -58,11 +61,13 @@ class GoalLabels {
     return label(index) >= label(next) + stepKey(index, next, step) || index == root_;
   }
 
+  // Precondition: the label is at most kLargest.
   void set(Index index, SearchKey label, std::uint32_t step, State state) {
-    entries_[index] = {label, tree_ << kTreeShift | step << kStepShift | state};
+    words_[index] =
+        tree_ << kTreeShift | label << kLabelShift | Word{step} << kStepShift | Word{state};
   }
   void setState(Index index, State state) {
-    entries_[index].word = (entries_[index].word & ~kStateMask) | state;
+    words_[index] = (words_[index] & ~kStateMask) | Word{state};
   }
 
   const Moves& moves() const { return *moves_; }
@@ -78,19 +83,16 @@ class GoalLabels {
   }
   // Where all weighs 1.
   SearchKey stepLength(std::uint32_t step) const {
-    return step < 4 ? kStraightKey : diagonal_step_;
+    return step < 4 ? kPackedScale.straight : diagonal_step_;
   }
 
  private:
-  // A word: number of the tree, step towards the goal, state.
-  static constexpr std::uint32_t kStepShift = 2;
-  static constexpr std::uint32_t kTreeShift = 5;
-  static constexpr std::uint32_t kStateMask = (1U << kStepShift) - 1;
-
-  struct __attribute__((packed, aligned(4))) Entry {
-    SearchKey label;
-    std::uint32_t word;
-  };
+  // 16 bits of the tree's number, 43 of label, 3 of the step towards the goal, 2 of state.
+  using Word = std::uint64_t;
+  static constexpr unsigned kStepShift = 2;
+  static constexpr unsigned kLabelShift = 5;
+  static constexpr unsigned kTreeShift = 48;
+  static constexpr Word kStateMask = (Word{1} << kStepShift) - 1;
 
   GridGeometry geometry_;
   CellOfIndex cell_of_{GridGeometry(1, 1, 1.0)};
@@ -98,8 +100,8 @@ class GoalLabels {
   SearchKey diagonal_step_ = 0;
   const Moves* moves_ = nullptr;
   std::array<std::ptrdiff_t, 8> offsets_{};
-  ZeroedArray<Entry> entries_;
-  std::uint32_t tree_ = 0;
+  ZeroedArray<Word> words_;
+  Word tree_ = 0;
   Index root_ = 0;
 };
 

@@ -11,10 +11,9 @@
 // the rest of that way is the answer. What got dearer elsewhere is not repaired: a label that a way
 // no longer bears out is a lower bound still, and the search forward from the start
 // (detour_search.h) goes around it. What got cheaper is passed on, as D* Lite does it (Koenig &
-// Likhachev, AAAI 2002): cells whose neighbours may take a better way wait in a queue by label +
-// estimate of the way from the start, together with the border of the tree, and those behind the
-// cost of the way that is found are never looked at. When the start moves, the queue's keys stay
-// lower bounds once new ones are raised by the estimate between the old and the new start.
+// Likhachev, AAAI 2002): cells whose neighbours may take a better way wait by label + estimate of
+// the way from the start (rising_keys.h, waiting_cells.h), together with the border of the tree,
+// and those behind the cost of the way that is found are never looked at.
 //
 // The invariant behind it all: where a label exceeds a neighbour's label and the step there, or is
 // missing, the neighbour waits.
@@ -29,15 +28,20 @@
 
 #include "grid_path_planner/search/detour_search.h"
 #include "grid_path_planner/search/goal_labels.h"
-#include "grid_path_planner/search/patient_queue.h"
 #include "grid_path_planner/search/planner.h"
+#include "grid_path_planner/search/rising_keys.h"
 #include "grid_path_planner/search/search_key.h"
+#include "grid_path_planner/search/waiting_cells.h"
 
 namespace grid_path_planner {
 
 class GoalTree {
  public:
-  // What grows with a search excluded: its queue and its detours.
+  GoalTree() = default;
+  GoalTree(const GoalTree&) = delete;
+  GoalTree& operator=(const GoalTree&) = delete;
+
+  // What grows with a search excluded: what waits, and its detours.
   static std::size_t bytesFor(const GridGeometry& geometry) {
     return GoalLabels::bytesFor(geometry);
   }
@@ -67,26 +71,14 @@ class GoalTree {
   Status plan(const CostGrid& map, Cell start, bool record, PlanResult& result,
               const StopToken& stop);
 
-  // Of the queue, and of the last detour.
-  std::size_t searchBytes() const { return queue_.bytes() + detour_.bytes(); }
+  // Of what waits, and of the last detour.
+  std::size_t searchBytes() const { return waiting_.bytes() + detour_.bytes(); }
 
  private:
   using Index = GoalLabels::Index;
   using State = GoalLabels::State;
 
-  SearchKey estimate(Cell from, Cell to) const {
-    const auto columns = static_cast<SearchKey>(std::abs(from.column - to.column));
-    const auto rows = static_cast<SearchKey>(std::abs(from.row - to.row));
-    const SearchKey both = std::min(columns, rows);
-    return both * diagonal_ + (std::max(columns, rows) - both) * straight_;
-  }
-  SearchKey keyOf(Index index) const {
-    return labels_.label(index) + estimate(labels_.cell(index), start_) + raised_;
-  }
-  void push(Index index);
-  // Whether the entry means anything still; its key brought up to date.
-  bool renew(PatientQueue::Entry& entry) const;
-  void setRoot(const CostGrid& map, Cell goal);
+  void setRoot(const CostGrid& map, Cell goal, Cell start);
 
   // wait(index) puts a cell that got a label where it waits.
   template <class Wait>
@@ -103,27 +95,24 @@ class GoalTree {
   void compare(Index index, std::uint32_t step);
   // The cell's neighbour by `step` may take a better way.
   void wake(Index index, std::uint32_t step);
-  // Whether the start lies on the last way and nothing changed that since: it is the answer then.
-  bool keepsTheWay(const CostGrid& map, PlanResult& result) const;
+  // Whether the start lies on the last way and nothing changed that since: what is left of it is
+  // the answer then.
+  bool keepsTheWay(const CostGrid& map, PlanResult& result);
   Status unreachable() const;
 
   GoalLabels labels_;
   DetourSearch detour_;
-  PatientQueue queue_;
+  RisingKeys keys_;
+  WaitingCells waiting_;
   bool begun_ = false;
   bool too_dear_ = false;  // a label was left out that the keys do not hold
   Cell goal_;
-  Cell start_;
   // The last one found; none where it got dearer since, or anything got cheaper.
   std::vector<Cell> way_;
+  ExactCost way_cost_;
   std::uint64_t expanded_ = 0;            // by the tree
   std::uint64_t detoured_ = 0;            // and by detours since it was begun
   SearchKey sound_below_ = kInfiniteKey;  // labels below this are supported, all the way
-  SearchKey raised_ = 0;                  // what new keys are raised by, as the start moved
-  // The estimate's straight and diagonal lengths, by the weight that was cheapest when it began.
-  CostGrid::Weight scale_ = 0;
-  SearchKey straight_ = 0;
-  SearchKey diagonal_ = 0;
 };
 
 }  // namespace grid_path_planner

@@ -14,11 +14,18 @@
 // passed on in the labels as far as it may matter. How far that is, the costs decide, never a
 // clock.
 //
+// Where a way costs more than the tree's labels hold, 3.2 million cell lengths x weight, a_star
+// takes over until the next prepare().
+//
 // Guaranteed: the least cost, exactly, on every map and motion model. Not guaranteed: which of
 // equally cheap paths, as that depends on the plans before. A single plan for a new goal takes
 // longer than a_star's: without replanning this is not the planner to choose.
 #pragma once
 
+#include <memory>
+#include <optional>
+
+#include "grid_path_planner/search/a_star.h"
 #include "grid_path_planner/search/goal_tree.h"
 #include "grid_path_planner/search/moves.h"
 #include "grid_path_planner/search/planner.h"
@@ -37,10 +44,13 @@ class IncrementalAStar : public Planner {
   PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
 
  private:
+  static std::size_t treeBytes(const GridGeometry& geometry);
   Status planByTree(const PlanRequest& request, PlanResult& result, const StopToken& stop);
+  void handOver(const StopToken& stop);
 
   Moves moves_;
-  GoalTree tree_;
+  std::optional<GoalTree> tree_;
+  std::unique_ptr<AStar> a_star_;  // instead of both
 };
 
 }  // namespace grid_path_planner

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "grid_path_planner/terrain/exact_cost.h"
 #include "grid_path_planner/terrain/motion_model.h"
 
 namespace grid_path_planner {
@@ -38,6 +39,32 @@ constexpr SearchKey diagonalKey(DiagonalCost cost) {
 
 constexpr SearchKey diagonalKey(const KeyScale& scale, DiagonalCost cost) {
   return cost == DiagonalCost::SQRT2 ? scale.diagonal : scale.straight;
+}
+
+// The number of which `of` times it leaves 1 modulo `modulus`. Precondition: they have no common
+// divisor.
+constexpr SearchKey inverseOf(SearchKey of, SearchKey modulus) {
+  std::int64_t rest = static_cast<std::int64_t>(modulus), factor = 0;
+  std::int64_t next_rest = static_cast<std::int64_t>(of % modulus), next_factor = 1;
+  while (next_rest != 0) {
+    const std::int64_t times = rest / next_rest;
+    const std::int64_t last_rest = rest - times * next_rest;
+    const std::int64_t last_factor = factor - times * next_factor;
+    rest = next_rest;
+    factor = next_factor;
+    next_rest = last_rest;
+    next_factor = last_factor;
+  }
+  return static_cast<SearchKey>(factor < 0 ? factor + static_cast<std::int64_t>(modulus) : factor);
+}
+
+// The A and B of a key of kPackedScale up to its largest, in cells x weight.
+constexpr ExactCost exactCostOf(SearchKey packed_key) {
+  constexpr SearchKey inverse = inverseOf(kPackedScale.diagonal, kPackedScale.straight);
+  const SearchKey diagonal = packed_key % kPackedScale.straight * inverse % kPackedScale.straight;
+  const SearchKey straight =
+      (packed_key - diagonal * kPackedScale.diagonal) / kPackedScale.straight;
+  return {static_cast<std::int64_t>(straight), static_cast<std::int64_t>(diagonal)};
 }
 
 constexpr SearchKey saturatingSum(SearchKey a, SearchKey b) {

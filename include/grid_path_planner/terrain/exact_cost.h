@@ -22,6 +22,7 @@ struct ExactCost {
     return *this;
   }
   friend ExactCost operator+(ExactCost a, const ExactCost& b) { return a += b; }
+  friend ExactCost operator-(const ExactCost& a, const ExactCost& b) { return a + b * -1; }
   friend ExactCost operator*(ExactCost a, std::int64_t factor) {
     return {a.straight * factor, a.diagonal * factor};
   }

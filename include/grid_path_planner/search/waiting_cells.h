@@ -1,0 +1,70 @@
+// An open list for repairs, where most of what waits will never be asked for: cells by the tile of
+// the map that they lie in, and tiles by what the best of their cells may promise.
+//
+//   WaitingCells waiting;
+//   waiting.begin(geometry, first, width);
+//   waiting.push(keys, index);
+//   while (const WaitingCells::Entry* next = waiting.first(below, keys)) use(waiting.pop());
+//
+// Keys grow while a cell waits (rising_keys.h), so what is kept of them are lower bounds. When the
+// bound of a tile is reached, it is told anew from the tile's place and its least label; only where
+// it is still below what was asked for, its cells are looked at, and those with keys below that
+// are put into order. So a border of many thousand cells that a rising bound comes by costs some
+// nanoseconds a tile.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "grid_path_planner/search/patient_queue.h"
+#include "grid_path_planner/search/rising_keys.h"
+
+namespace grid_path_planner {
+
+class WaitingCells {
+ public:
+  using Entry = PatientQueue::Entry;
+  using Index = RisingKeys::Index;
+
+  // Forgets everything. Keys from about `first` on, of which those within `width` of each other
+  // are alike.
+  void begin(const GridGeometry& geometry, SearchKey first, SearchKey width);
+
+  std::size_t size() const { return size_; }
+  std::size_t bytes() const;
+
+  void push(const RisingKeys& keys, Index index);
+  // The cell with the least key, which is below `below`; null where there is none. Every cell comes
+  // once, unless it is pushed again.
+  const Entry* first(SearchKey below, const RisingKeys& keys);
+  // Takes what first() gave.
+  Entry pop();
+
+ private:
+  struct Tile {
+    std::vector<Index> cells;
+    SearchKey least_label = kInfiniteKey;
+    SearchKey queued = kInfiniteKey;  // its key in tiles_; larger ones there are out of date
+  };
+
+  static constexpr int kSideBits = 5;
+
+  std::uint32_t placeOf(Cell cell) const {
+    return static_cast<std::uint32_t>(cell.row >> kSideBits) * across_ +
+           static_cast<std::uint32_t>(cell.column >> kSideBits);
+  }
+  CellRect rectOf(std::uint32_t place) const;
+  void queue(std::uint32_t place, SearchKey key);
+  void sort(const Entry& entry);
+  // Takes the cells with keys below `below` out of the tile.
+  void open(std::uint32_t place, SearchKey below, const RisingKeys& keys);
+
+  std::uint32_t across_ = 0;
+  std::vector<Tile> tile_at_;
+  PatientQueue tiles_;
+  std::vector<Entry> sorted_;  // a heap
+  std::size_t size_ = 0;
+};
+
+}  // namespace grid_path_planner

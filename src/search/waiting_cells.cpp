@@ -1,0 +1,112 @@
+#include "grid_path_planner/search/waiting_cells.h"
+
+#include <algorithm>
+
+namespace grid_path_planner {
+namespace {
+
+constexpr auto kLater = [](const WaitingCells::Entry& a, const WaitingCells::Entry& b) {
+  return a.key != b.key ? a.key > b.key : a.order < b.order;
+};
+
+}  // namespace
+
+void WaitingCells::begin(const GridGeometry& geometry, SearchKey first, SearchKey width) {
+  const auto tiles = [](int cells) {
+    return static_cast<std::uint32_t>((cells - 1) >> kSideBits) + 1;
+  };
+  across_ = tiles(geometry.width());
+  tile_at_.assign(std::size_t{across_} * tiles(geometry.height()), Tile());
+  tiles_.begin(first, width);
+  sorted_.clear();
+  size_ = 0;
+}
+
+std::size_t WaitingCells::bytes() const {
+  std::size_t cells = 0;
+  for (const Tile& tile : tile_at_) cells += tile.cells.capacity();
+  return tile_at_.size() * sizeof(Tile) + cells * sizeof(Index) + tiles_.bytes() +
+         sorted_.capacity() * sizeof(Entry);
+}
+
+CellRect WaitingCells::rectOf(std::uint32_t place) const {
+  constexpr int kSide = 1 << kSideBits;
+  return {static_cast<int>(place % across_) * kSide, static_cast<int>(place / across_) * kSide,
+          kSide, kSide};
+}
+
+void WaitingCells::push(const RisingKeys& keys, Index index) {
+  ++size_;
+  const std::uint32_t place = placeOf(keys.labels().cell(index));
+  Tile& tile = tile_at_[place];
+  tile.cells.push_back(index);
+  tile.least_label = std::min(tile.least_label, keys.labels().label(index));
+  const SearchKey key = keys.of(index);
+  if (key < tile.queued) queue(place, key);
+}
+
+void WaitingCells::queue(std::uint32_t place, SearchKey key) {
+  tile_at_[place].queued = key;
+  tiles_.push({key, 0, place});
+}
+
+void WaitingCells::sort(const Entry& entry) {
+  sorted_.push_back(entry);
+  std::push_heap(sorted_.begin(), sorted_.end(), kLater);
+}
+
+const WaitingCells::Entry* WaitingCells::first(SearchKey below, const RisingKeys& keys) {
+  const auto renew = [&](PatientQueue::Entry& entry) {
+    Tile& tile = tile_at_[entry.index];
+    if (entry.key != tile.queued) return false;
+    tile.queued = std::max(tile.queued, keys.leastOf(rectOf(entry.index), tile.least_label));
+    entry.key = tile.queued;
+    return true;
+  };
+  while (true) {
+    const SearchKey nearer = sorted_.empty() ? below : std::min(below, sorted_.front().key);
+    const PatientQueue::Entry* next = tiles_.first(nearer, renew);
+    if (next == nullptr || next->key >= nearer) break;
+    PatientQueue::Entry entry = tiles_.pop();
+    const SearchKey old = entry.key;
+    if (!renew(entry)) continue;
+    if (entry.key > old)
+      tiles_.push(entry);
+    else
+      open(entry.index, below, keys);
+  }
+  return sorted_.empty() || sorted_.front().key >= below ? nullptr : &sorted_.front();
+}
+
+WaitingCells::Entry WaitingCells::pop() {
+  std::pop_heap(sorted_.begin(), sorted_.end(), kLater);
+  const Entry entry = sorted_.back();
+  sorted_.pop_back();
+  --size_;
+  return entry;
+}
+
+void WaitingCells::open(std::uint32_t place, SearchKey below, const RisingKeys& keys) {
+  Tile& tile = tile_at_[place];
+  SearchKey least = kInfiniteKey;
+  tile.least_label = tile.queued = kInfiniteKey;
+  std::size_t kept = 0;
+  for (const Index index : tile.cells) {
+    if (keys.labels().state(index) != GoalLabels::OPEN) {
+      --size_;
+      continue;
+    }
+    const SearchKey key = keys.of(index);
+    if (key < below) {
+      sort({key, keys.order(index), index});
+      continue;
+    }
+    tile.cells[kept++] = index;
+    tile.least_label = std::min(tile.least_label, keys.labels().label(index));
+    least = std::min(least, key);
+  }
+  tile.cells.resize(kept);
+  if (kept > 0) queue(place, least);
+}
+
+}  // namespace grid_path_planner
