@@ -3,6 +3,7 @@
 #include <string>
 
 #include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/decimal_text.h"
 
 namespace grid_path_planner {
 
@@ -28,8 +29,8 @@ void checkFollowerOptions(const FollowerOptions& options) {
   checkOptionLimits(options);
   if (options.position_tolerance > options.acceptance_radius)
     throw InputError("position_tolerance must not be above acceptance_radius, got " +
-                     std::to_string(options.position_tolerance) + " m and " +
-                     std::to_string(options.acceptance_radius) + " m");
+                     decimalText(options.position_tolerance) + " m and " +
+                     decimalText(options.acceptance_radius) + " m");
 }
 
 }  // namespace grid_path_planner

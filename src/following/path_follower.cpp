@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/following/check_waypoints.h"
 #include "route.h"
@@ -362,7 +363,7 @@ void PathFollower::watchProgress(const Pose& vehicle, double time) {
   }
   if (options_.no_progress_timeout > 0.0 && time - *progress_since_ >= options_.no_progress_timeout)
     end(FollowState::FAILED, DriveStatus::NO_PROGRESS,
-        "no progress for " + std::to_string(options_.no_progress_timeout) + " s on the way to " +
+        "no progress for " + decimalText(options_.no_progress_timeout) + " s on the way to " +
             nameOf(current_waypoint_));
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 
 namespace grid_path_planner {
@@ -30,10 +31,10 @@ GridGeometry::GridGeometry(int width, int height, double resolution, const Origi
     throw InputError("a map of " + size + " cells is larger than 2^31 - 1 cells or 2^19 a side");
   if (!std::isfinite(resolution) || resolution <= 0.0)
     throw InputError("resolution must be a positive, finite number of metres, got " +
-                     std::to_string(resolution));
+                     decimalText(resolution));
   if (!std::isfinite(origin.x) || !std::isfinite(origin.y) || !std::isfinite(origin.yaw))
-    throw InputError("a map's origin must be finite, got " + std::to_string(origin.x) + " " +
-                     std::to_string(origin.y) + " " + std::to_string(origin.yaw));
+    throw InputError("a map's origin must be finite, got " + decimalText(origin.x) + " " +
+                     decimalText(origin.y) + " " + decimalText(origin.yaw));
   cos_yaw_ = std::cos(origin.yaw);
   sin_yaw_ = std::sin(origin.yaw);
 }

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <limits>
-#include <locale>
-#include <sstream>
 
 namespace grid_path_planner {
 
@@ -33,20 +30,6 @@ std::string extensionOf(const std::string& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   return extension;
-}
-
-std::string decimalText(double value) {
-  for (int digits = 1;; ++digits) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text.precision(digits);
-    text << value;
-    std::istringstream back(text.str());
-    back.imbue(std::locale::classic());
-    double read = 0.0;
-    back >> read;
-    if (read == value || digits >= std::numeric_limits<double>::max_digits10) return text.str();
-  }
 }
 
 }  // namespace grid_path_planner

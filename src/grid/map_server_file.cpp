@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "grid_path_planner/base/atomic_file.h"
+#include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/option_visitor.h"
 #include "grid_path_planner/grid/image_file.h"
 #include "grid_path_planner/grid/map_format.h"
@@ -111,7 +112,12 @@ OccupancyGrid readMapServerMap(const YAML::Node& root, const std::string& file,
                   decimalText(resolution) + " m",
               options);
   const Origin origin = options.origin ? *options.origin : readOrigin(root, file);
-  return readImageFile(image, readRule(root, file), resolution, origin, options);
+  const PixelRule rule = readRule(root, file);
+  try {
+    return readImageFile(image, rule, resolution, origin, options);
+  } catch (const InputError& error) {
+    throw yamlError(root["image"], file, std::string("its image ") + error.what());
+  }
 }
 
 void writeMapServerFile(const std::string& file, const OccupancyGrid& map, MapMode mode,

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/yaml_file.h"
 #include "grid_path_planner/grid/map_format.h"
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/decimal_text.h"
 
 namespace grid_path_planner {
 namespace {
@@ -15,7 +16,7 @@ bool inBox(const Eigen::Vector3d& p, const CloudFilterOptions& o) {
 void checkSide(const std::string& axis, double min, double max) {
   if (min <= max) return;
   throw InputError("pointcloud_min_" + axis + " must not be above pointcloud_max_" + axis +
-                   ", got " + std::to_string(min) + " and " + std::to_string(max));
+                   ", got " + decimalText(min) + " and " + decimalText(max));
 }
 
 GroundSplit groundOf(const std::vector<Eigen::Vector3d>& points,

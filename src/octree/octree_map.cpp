@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "map_tree.h"
 #include "mirror.h"
@@ -47,9 +48,8 @@ const octomap::OcTree& OctreeMap::tree() const {
 void OctreeMap::setOptions(const OctreeOptions& options) {
   checkOctreeOptions(options);
   if (options.resolution != options_.resolution)
-    throw InputError("resolution is " + std::to_string(options_.resolution) +
-                     " m and cannot become " + std::to_string(options.resolution) +
-                     " m in a map that exists");
+    throw InputError("resolution is " + decimalText(options_.resolution) + " m and cannot become " +
+                     decimalText(options.resolution) + " m in a map that exists");
   const bool judged_anew = options.occupancy_threshold != options_.occupancy_threshold;
   options_ = options;
   tree_->setModel(options);
@@ -84,7 +84,7 @@ void OctreeMap::reset() {
 
 void OctreeMap::decay(double seconds) {
   if (!(seconds >= 0.0 && std::isfinite(seconds)))
-    throw InputError("a map decays by a time of 0 s or more, got " + std::to_string(seconds));
+    throw InputError("a map decays by a time of 0 s or more, got " + decimalText(seconds));
   if (options_.decay_time == 0.0) return;
   const double range = tree_->getClampingThresMaxLog() - tree_->getOccupancyThresLog();
   fadeOccupied(*tree_, bricks_, static_cast<float>(range * seconds / options_.decay_time));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/decimal_text.h"
 
 namespace grid_path_planner {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 // use.
 void require(bool holds, const char* name, const char* expected, double value) {
   if (!holds)
-    throw InputError(std::string(name) + " must be " + expected + ", got " + std::to_string(value));
+    throw InputError(std::string(name) + " must be " + expected + ", got " + decimalText(value));
 }
 
 bool isFinite(double probability) {

@@ -1,6 +1,7 @@
 #include "grid_path_planner/octree/projection_options.h"
 
 #include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/decimal_text.h"
 
 namespace grid_path_planner {
 
@@ -16,12 +17,12 @@ void checkProjectionOptions(const ProjectionOptions& o) {
   checkOptionLimits(o);
   if (!(o.min_z < o.max_z))
     throw InputError("the band of the projection must have a min_z below its max_z, got " +
-                     std::to_string(o.min_z) + " and " + std::to_string(o.max_z));
+                     decimalText(o.min_z) + " and " + decimalText(o.max_z));
   const ProjectionBounds& b = o.bounds;
   if (b.given() && !(b.min_x < b.max_x && b.min_y < b.max_y))
     throw InputError("projection_bounds must be a rectangle or all 0, got x from " +
-                     std::to_string(b.min_x) + " to " + std::to_string(b.max_x) + ", y from " +
-                     std::to_string(b.min_y) + " to " + std::to_string(b.max_y));
+                     decimalText(b.min_x) + " to " + decimalText(b.max_x) + ", y from " +
+                     decimalText(b.min_y) + " to " + decimalText(b.max_y));
 }
 
 }  // namespace grid_path_planner

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
@@ -17,7 +18,7 @@ void checkPosition(const geometry_msgs::Point& point) {
   for (const double coordinate : coordinates)
     if (!(std::abs(coordinate) <= kLargestCoordinate))  // NaN fails it
       throw InputError("a coordinate must be a finite number of metres within 1e6, got " +
-                       std::to_string(coordinate));
+                       decimalText(coordinate));
 }
 
 void checkLevel(const geometry_msgs::Quaternion& q) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/grid/map_file.h"
 
@@ -37,7 +38,7 @@ void MapKeeper::setOptions(const ProjectedMapOptions& options) {
     throw InputError("latch cannot be changed while the node runs");
   if (options.octree.resolution != options_.octree.resolution)
     throw InputError("resolution cannot be changed while the node runs, it is " +
-                     std::to_string(options_.octree.resolution) + " m");
+                     decimalText(options_.octree.resolution) + " m");
   if (options.filename != options_.filename && !options.filename.empty()) {
     replaceMap(options);
   } else {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/decimal_text.h"
 
 namespace grid_path_planner {
 namespace {
@@ -47,8 +48,7 @@ void checkProjectedMapOptions(const ProjectedMapOptions& o) {
   checkCloudFilterOptions(o.cloud);
   if (!(o.occupancy_min_z < o.occupancy_max_z))
     throw InputError("occupancy_min_z must be below occupancy_max_z, got " +
-                     std::to_string(o.occupancy_min_z) + " and " +
-                     std::to_string(o.occupancy_max_z));
+                     decimalText(o.occupancy_min_z) + " and " + decimalText(o.occupancy_max_z));
   checkProjectionOptions(projectionOptions(o));
   if (o.frame_id.empty()) throw InputError("frame_id must name a frame, got ''");
   if (o.base_frame_id.empty()) throw InputError("base_frame_id must name a frame, got ''");

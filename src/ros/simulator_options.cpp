@@ -1,6 +1,7 @@
 #include "grid_path_planner/ros/simulator_options.h"
 
 #include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/decimal_text.h"
 
 #include <set>
 #include <string>
@@ -26,7 +27,7 @@ void checkSimulatorOptions(const SimulatorOptions& o) {
   checkDepthCameraOptions(o.camera);
   if (!o.publish_clock && o.real_time_factor != 1.0)
     throw InputError("real_time_factor other than 1 needs publish_clock, got " +
-                     std::to_string(o.real_time_factor));
+                     decimalText(o.real_time_factor));
   checkFrames(o);
 }
 

@@ -3,14 +3,15 @@
 #include <string>
 
 #include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/decimal_text.h"
 
 namespace grid_path_planner {
 
 void checkDepthCameraOptions(const DepthCameraOptions& options) {
   checkOptionLimits(options);
   if (options.range_min >= options.range_max)
-    throw InputError("range_min must be below range_max, got " + std::to_string(options.range_min) +
-                     " m and " + std::to_string(options.range_max) + " m");
+    throw InputError("range_min must be below range_max, got " + decimalText(options.range_min) +
+                     " m and " + decimalText(options.range_max) + " m");
 }
 
 }  // namespace grid_path_planner

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 
 namespace grid_path_planner {
@@ -11,7 +12,7 @@ namespace {
 void checkLength(const std::string& name, const char* what, double length) {
   if (!(length > 0.0 && std::isfinite(length)))
     throw InputError(name + ": " + what + " must be a positive number of metres, got " +
-                     std::to_string(length));
+                     decimalText(length));
 }
 
 // How far the facets of a shape with this radius may be off.

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/decimal_text.h"
 
 namespace grid_path_planner {
 
@@ -10,8 +11,8 @@ void checkVehicleOptions(const VehicleOptions& options) {
   checkOptionLimits(options);
   if (options.time_step > options.cmd_vel_timeout)
     throw InputError("time_step must not be longer than cmd_vel_timeout, got " +
-                     std::to_string(options.time_step) + " s and " +
-                     std::to_string(options.cmd_vel_timeout) + " s");
+                     decimalText(options.time_step) + " s and " +
+                     decimalText(options.cmd_vel_timeout) + " s");
 }
 
 }  // namespace grid_path_planner

@@ -1,13 +1,15 @@
 #include "grid_path_planner/study/scenario_file.h"
 
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/text_file.h"
 
 namespace grid_path_planner {
 namespace {
+
+constexpr std::size_t kLargestScenarioFile = std::size_t{1} << 28;  // bytes
 
 ScenarioQuery queryOf(const std::string& file, int line, const std::string& text) {
   ScenarioQuery query;
@@ -29,8 +31,7 @@ ScenarioQuery queryOf(const std::string& file, int line, const std::string& text
 }  // namespace
 
 std::vector<ScenarioQuery> readScenarioFile(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file, "cannot be read");
+  std::istringstream in(readWholeFile(file, kLargestScenarioFile));
   std::vector<ScenarioQuery> queries;
   int line = 0;
   for (std::string text; std::getline(in, text);) {

@@ -43,6 +43,18 @@ std::vector<std::string> hyphenated(int argc, char** argv) {
   return arguments;
 }
 
+// "--start and --goal are", of the required options; empty: all are there.
+std::string missingOf(const po::options_description& known, const po::variables_map& values) {
+  std::vector<std::string> missing;
+  for (const auto& option : known.options())
+    if (option->semantic()->is_required() && values.count(option->long_name()) == 0)
+      missing.push_back("--" + option->long_name());
+  std::string list;
+  for (std::size_t i = 0; i < missing.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == missing.size() ? " and " : ", ") + missing[i];
+  return list + (missing.empty() ? "" : missing.size() == 1 ? " is" : " are");
+}
+
 template <class Value>
 std::string shown(const Value& value) {
   std::ostringstream out;
@@ -65,12 +77,14 @@ bool parseArguments(int argc, char** argv, const po::options_description& known,
       po::command_line_parser(hyphenated(argc, argv)).options(all).style(long_only).run();
   for (const po::option& option : parsed.options)
     if (option.position_key >= 0)
-      throw InputError("'" + option.value.front() + "' follows no option");
+      throw InputError("what is '" + option.value.front() + "'? Options are given as --name VALUE");
   po::store(parsed, values);
   if (values.count("help") != 0) {
     std::cout << "usage: " << usage << "\n\n" << all << '\n';
     return false;
   }
+  const std::string missing = missingOf(all, values);
+  if (!missing.empty()) throw InputError(missing + " missing; usage: " + usage);
   po::notify(values);
   return true;
 }
@@ -90,8 +104,11 @@ std::vector<double> numbersOf(const std::string& name, const std::string& text, 
 MapFileOptions readingOptionsFrom(const po::variables_map& values) {
   MapFileOptions options;
   options.warn = [](const std::string& warning) { std::cerr << "warning: " << warning << '\n'; };
-  if (values.count("resolution") != 0)
-    options.resolution = numbersOf("resolution", values["resolution"].as<std::string>(), 1, 1)[0];
+  if (values.count("resolution") == 0) return options;
+  const std::string& text = values["resolution"].as<std::string>();
+  options.resolution = numbersOf("resolution", text, 1, 1)[0];
+  if (*options.resolution <= 0.0)
+    throw InputError("--resolution must be a positive number of metres, got " + text);
   return options;
 }
 

@@ -257,6 +257,7 @@ TEST_F(MapServerFile, ImagesThatCannotBeReadAreNamed) {
   };
   EXPECT_TRUE(contains(errorOf("image: none.pgm" + rest),
                        "none.pgm: cannot be read: No such file or directory"));
+  EXPECT_TRUE(contains(errorOf("image: none.pgm" + rest), "a.yaml:1: its image "));
   EXPECT_TRUE(contains(errorOf("image: ." + rest), "is a directory"));
   EXPECT_TRUE(contains(errorOfImage("b.pgm", ""), "b.pgm: is empty"));
   EXPECT_TRUE(contains(errorOfImage("b.pgm", "hello"), "b.pgm: is not an image"));

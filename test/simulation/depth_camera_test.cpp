@@ -66,7 +66,7 @@ TEST(DepthCameraOptions, TheNearestRangeIsBelowTheFarthest) {
   DepthCameraOptions options;
   options.range_min = options.range_max;
   EXPECT_EQ(test::errorText([&] { DepthCamera(World({}), options); }),
-            "range_min must be below range_max, got 10.000000 m and 10.000000 m");
+            "range_min must be below range_max, got 10 m and 10 m");
 }
 
 TEST(DepthCamera, AWallAcrossTheViewHasOneDepthAndItsPixelsLieOnThePinholesRays) {

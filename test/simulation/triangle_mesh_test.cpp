@@ -68,7 +68,7 @@ TEST(TriangleMesh, RefusesLengthsThatAreNone) {
     EXPECT_THROW(planeMesh("plane", Eigen::Vector3d::UnitZ(), {1.0, bad}), InputError);
   }
   EXPECT_EQ(test::errorText([] { sphereMesh("buoy", -1.0); }),
-            "buoy: the radius of a sphere must be a positive number of metres, got -1.000000");
+            "buoy: the radius of a sphere must be a positive number of metres, got -1");
   EXPECT_THROW(planeMesh("plane", Eigen::Vector3d::Zero(), {1.0, 1.0}), InputError);
 }
 

@@ -143,7 +143,10 @@ TEST_F(Plan, BadInputIsNamed) {
   EXPECT_TRUE(contains(errorWith({"--start", "1", "--goal", "1,1"}), "--start"));
   EXPECT_TRUE(contains(errorWith({"--start", "1,x", "--goal", "1,1"}), "'x'"));
   EXPECT_TRUE(contains(errorWith({"--cells", "--start", "1.5,1", "--goal", "1,1"}), "whole"));
-  EXPECT_TRUE(contains(errorWith({"--start", "1,1"}), "goal"));
+  EXPECT_TRUE(contains(errorWith({"--start", "1,1"}), "--goal is missing; usage: grid_path plan"));
+  EXPECT_TRUE(contains(errorWith({}), "--start and --goal are missing"));
+  EXPECT_EQ(errorWith(with({"--resolution", "-0.1"})),
+            "--resolution must be a positive number of metres, got -0.1");
   EXPECT_TRUE(contains(errorWith(with({"--planner", "fastest"})), "a_star"));
   EXPECT_TRUE(contains(errorWith(with({"--heuristic", "best"})), "octile"));
   EXPECT_TRUE(contains(errorWith(with({"--kernel", "0"})), "kernel"));

@@ -23,7 +23,4 @@ std::string withoutExtension(const std::string& file);
 // The last extension in lower case, without the dot: "pgm"; "" where there is none.
 std::string extensionOf(const std::string& file);
 
-// The shortest decimal that reads back as the same double; the same in every locale.
-std::string decimalText(double value);
-
 }  // namespace grid_path_planner
