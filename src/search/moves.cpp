@@ -2,8 +2,6 @@
 
 #include <cstdlib>
 
-#include "grid_path_planner/search/neighbourhoods.h"
-
 namespace grid_path_planner {
 namespace {
 
@@ -53,7 +51,7 @@ bool canonicalHolds(const MotionModel& motion) {
 MoveRules::MoveRules(const CostGrid& map)
     : motion_(map.motion()),
       map_uniform_(map.uniform()),
-      masks_(map.motion()),
+      steps_(map.motion()),
       canonical_(canonicalHolds(map.motion())),
       uniform_(canonical_ && map.uniform()) {
   for (std::size_t step = 0; step < kSteps.size(); ++step) {
@@ -86,10 +84,10 @@ void Moves::build(const CostGrid& map, const StopToken& stop) {
 
 void Moves::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
   if (!rules_.fit(map)) rules_ = MoveRules(map);
-  forEachNeighbourhood(map, changed.grown(1).intersection(map.geometry().rect()), stop,
-                       [this](std::size_t index, unsigned bits, bool equal) {
-                         kinds_[index] = rules_.kindOf(bits, equal);
-                       });
+  forEachEight(map, changed.grown(1).intersection(map.geometry().rect()), stop,
+               [this](std::size_t index, int number, const EightCells& cells) {
+                 storeBytes(rules_.kindsOf(cells), number, kinds_.data() + index);
+               });
 }
 
 }  // namespace grid_path_planner

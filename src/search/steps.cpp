@@ -1,7 +1,5 @@
 #include "grid_path_planner/search/steps.h"
 
-#include "grid_path_planner/search/neighbourhoods.h"
-
 namespace grid_path_planner {
 
 std::array<std::ptrdiff_t, 8> stepOffsets(int width) {
@@ -11,23 +9,9 @@ std::array<std::ptrdiff_t, 8> stepOffsets(int width) {
   return offsets;
 }
 
-NeighbourhoodMasks::NeighbourhoodMasks(const MotionModel& motion) {
-  const bool eight = motion.connectivity == Connectivity::EIGHT;
-  for (unsigned bits = 0; bits < masks_.size(); ++bits) {
-    const auto open = [bits](int columns, int rows) {
-      return (bits >> neighbourBit(columns, rows) & 1U) != 0;
-    };
-    unsigned mask = 0;
-    for (std::size_t step = 0; step < kSteps.size(); ++step) {
-      const Cell to = kSteps[step];
-      const bool straight = to.column == 0 || to.row == 0;
-      const bool corner = motion.cut_corners || (open(to.column, 0) && open(0, to.row));
-      if (open(0, 0) && open(to.column, to.row) && (straight || (eight && corner)))
-        mask |= 1U << step;
-    }
-    masks_[bits] = static_cast<std::uint8_t>(mask);
-  }
-}
+StepRules::StepRules(const MotionModel& motion)
+    : steps_(motion.connectivity == Connectivity::EIGHT ? Eight{} + 0xFF : Eight{} + 0x0F),
+      corners_(motion.cut_corners ? Eight{} : ~Eight{}) {}
 
 void StepMasks::build(const CostGrid& map, const StopToken& stop) {
   masks_.resize(map.geometry().size());
@@ -36,10 +20,11 @@ void StepMasks::build(const CostGrid& map, const StopToken& stop) {
 }
 
 void StepMasks::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
-  const NeighbourhoodMasks masks(map.motion());
-  forEachNeighbourhood(
-      map, changed.grown(1).intersection(map.geometry().rect()), stop,
-      [&](std::size_t index, unsigned bits, bool) { masks_[index] = masks[bits]; });
+  const StepRules rules(map.motion());
+  forEachEight(map, changed.grown(1).intersection(map.geometry().rect()), stop,
+               [&](std::size_t index, int number, const EightCells& cells) {
+                 storeBytes(rules.allowed(cells), number, masks_.data() + index);
+               });
 }
 
 std::vector<std::uint8_t> reachableFrom(const CostGrid& map, Cell start, const StopToken& stop) {

@@ -113,16 +113,21 @@ void TileFlood<Label>::make(std::size_t index) {
   const CostGrid::Weight* weights = map_.weights().values().data();
   std::size_t at = 0, passable = 0, sum = 0;
   int column = 0;
-  forEachNeighbourhood(map_, rect, StopToken(), [&](std::size_t i, unsigned bits, bool equal) {
-    view.kinds[at] = rules_.kindOf(bits, equal);
-    if (view.weights != nullptr) view.weights[at] = weights[i];
-    passable += weights[i] != CostGrid::kBlocked ? 1 : 0;
-    sum += weights[i];
-    ++at;
-    if (++column < rect.width) return;
-    at += kSide - static_cast<std::size_t>(column);
-    column = 0;
-  });
+  forEachEight(map_, rect, StopToken(),
+               [&](std::size_t first, int number, const EightCells& cells) {
+                 storeBytes(rules_.kindsOf(cells), number, view.kinds + at);
+                 if (view.weights != nullptr)
+                   std::copy_n(weights + first, number, view.weights + at);
+                 for (std::size_t i = first; i < first + static_cast<std::size_t>(number); ++i) {
+                   passable += weights[i] != CostGrid::kBlocked ? 1 : 0;
+                   sum += weights[i];
+                 }
+                 at += static_cast<std::size_t>(number);
+                 column += number;
+                 if (column < rect.width) return;
+                 at += kSide - static_cast<std::size_t>(column);
+                 column = 0;
+               });
   const SearchKey width = scale_.straight * (sum / std::max<std::size_t>(passable, 1)) / 2;
   tiles_[index].bucket_shift = 63U - static_cast<unsigned>(__builtin_clzll(width));
   tiles_[index].made = true;

@@ -50,7 +50,11 @@ TEST(Moves, TurnAroundWhatIsBlocked) {
 }
 
 TEST(Moves, TryMoreWhereWeightsDiffer) {
-  EXPECT_EQ(afterInTheMiddle({"...", "...", "?.."}, kEast), bits({kEast, kNorth, kSouth, 4, 7}));
+  for (const Cell step : kSteps) {
+    std::vector<std::string> lines(3, "...");
+    lines[static_cast<std::size_t>(1 + step.row)][static_cast<std::size_t>(1 + step.column)] = '?';
+    EXPECT_EQ(afterInTheMiddle(lines, kEast), bits({kEast, kNorth, kSouth, 4, 7})) << step;
+  }
 }
 
 TEST(Moves, TryAllFromTheStart) {
@@ -69,11 +73,75 @@ TEST(Moves, KnowWhatAnotherStepLeavesOpen) {
   EXPECT_FALSE(moves.missing(bits({kEast}), kWest, 4)) << "back is never worth it";
 }
 
+CostGrid randomTerrain(std::mt19937& random, int largest_side) {
+  MotionModel motion;
+  motion.connectivity = random() % 3 == 0 ? Connectivity::FOUR : Connectivity::EIGHT;
+  motion.diagonal_cost = random() % 3 == 0 ? DiagonalCost::UNIT : DiagonalCost::SQRT2;
+  motion.cut_corners = random() % 3 == 0;
+  const GridGeometry geometry(1 + static_cast<int>(random() % largest_side),
+                              1 + static_cast<int>(random() % largest_side), 1.0);
+  Grid<CostGrid::Weight> weights(geometry, 3);
+  const unsigned rarity = 2 + random() % 30;
+  for (CostGrid::Weight& weight : weights.values())
+    if (random() % rarity == 0) weight = static_cast<CostGrid::Weight>(random() % 3 * 32700);
+  return CostGrid(weights, Grid<Occupancy>(geometry, Occupancy::FREE), motion);
+}
+
+TEST(MovesLaw, TheStepsFromACellAreThoseThatAreAllowed) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 300; ++trial) {
+    const CostGrid map = randomTerrain(random, 30);
+    Moves moves;
+    moves.build(map, StopToken());
+    StepMasks masks;
+    masks.build(map, StopToken());
+    for (std::uint32_t index = 0; index < map.geometry().size(); ++index) {
+      const Cell cell = map.geometry().cell(CellIndex(index));
+      std::uint32_t allowed = 0;
+      for (unsigned step = 0; step < kSteps.size(); ++step)
+        if (stepAllowed(map, cell,
+                        {cell.column + kSteps[step].column, cell.row + kSteps[step].row}))
+          allowed |= 1U << step;
+      ASSERT_EQ(moves.from(index), allowed) << "trial " << trial << " cell " << cell;
+      ASSERT_EQ(masks[index], allowed) << "trial " << trial << " cell " << cell;
+    }
+  }
+}
+
+// Wherever a cell lies among the eight that are looked at together, and at the border.
+TEST(MovesLaw, BlockedCellsAroundTheMapChangeNothing) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 300; ++trial) {
+    const CostGrid map = randomTerrain(random, 30);
+    const Cell shift{1 + static_cast<int>(random() % 9), 1 + static_cast<int>(random() % 3)};
+    const GridGeometry larger(map.geometry().width() + 18, map.geometry().height() + 4, 1.0);
+    Grid<CostGrid::Weight> weights(larger, CostGrid::kBlocked);
+    const auto inLarger = [&](Cell cell) {
+      return Cell{cell.column + shift.column, cell.row + shift.row};
+    };
+    for (std::uint32_t index = 0; index < map.geometry().size(); ++index) {
+      const Cell cell = map.geometry().cell(CellIndex(index));
+      weights[inLarger(cell)] = map.weight(cell);
+    }
+    Moves moves, larger_moves;
+    moves.build(map, StopToken());
+    larger_moves.build(CostGrid(weights, Grid<Occupancy>(larger, Occupancy::FREE), map.motion()),
+                       StopToken());
+    for (std::uint32_t index = 0; index < map.geometry().size(); ++index) {
+      const Cell cell = map.geometry().cell(CellIndex(index));
+      for (std::uint32_t step = 0; step < 8; ++step)
+        ASSERT_EQ(moves.after(1U << step, index),
+                  larger_moves.after(1U << step, larger.index(inLarger(cell)).value()))
+            << "trial " << trial << " cell " << cell;
+    }
+  }
+}
+
 // A cell whose weight changes, changes the kinds around it, at the border of the map too.
 TEST(MovesLaw, AnUpdateIsLikeABuild) {
   std::mt19937 random(8);
   for (int trial = 0; trial < 200; ++trial) {
-    const CostGrid before = test::randomCosts(random, 12, {});
+    const CostGrid before = randomTerrain(random, 30);
     Grid<CostGrid::Weight> weights = before.weights();
     const Cell changed = test::randomCell(random, before.geometry());
     weights[changed] = static_cast<CostGrid::Weight>(random() % 3);

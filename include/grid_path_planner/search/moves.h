@@ -32,11 +32,13 @@ class MoveRules {
     return motion_ == map.motion() && map_uniform_ == map.uniform();
   }
 
-  // Of a cell by the nine bits of its 3x3 and whether it weighs the same all over, as
-  // forEachNeighbourhood() gives them.
-  Kind kindOf(unsigned bits, bool equal) const {
-    const std::uint8_t mask = masks_[bits];
-    return canonical_ && equal && mask == 0xFF ? kAllEqual : mask;
+  EightCells::Eight kindsOf(const EightCells& cells) const {
+    using Eight = EightCells::Eight;
+    constexpr Eight kAll = Eight{} + kAllEqual;
+    if (!canonical_) return steps_.allowed(cells);
+    const Eight alike = cells.alike() & ~cells.blocked(0, 0);
+    if (all(alike)) return kAll;
+    return (alike & kAll) | (~alike & steps_.allowed(cells));
   }
 
   // The steps to try from a cell that was reached by any of `steps`; all for the start, which no
@@ -61,7 +63,7 @@ class MoveRules {
 
   MotionModel motion_;
   bool map_uniform_ = false;
-  NeighbourhoodMasks masks_;
+  StepRules steps_;
   std::array<std::array<std::uint8_t, 256>, 8> tried_{};  // by step, by kind
   std::array<std::uint8_t, 8> never_{};                   // by step: what is dearer than around
   bool canonical_ = false;                                // the motion model allows canonical moves

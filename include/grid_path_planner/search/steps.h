@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/search/neighbourhoods.h"
 #include "grid_path_planner/terrain/cost_grid.h"
 
 namespace grid_path_planner {
@@ -18,15 +19,31 @@ constexpr std::array<Cell, 8> kSteps = {Cell{1, 0}, Cell{0, 1},  Cell{-1, 0},  C
 // What each step adds to a cell's index.
 std::array<std::ptrdiff_t, 8> stepOffsets(int width);
 
-// The steps that are allowed from the middle of a 3x3, by its nine bits (neighbourhoods.h).
-class NeighbourhoodMasks {
+// The steps that a motion model allows, from eight cells together.
+class StepRules {
  public:
-  NeighbourhoodMasks() = default;
-  explicit NeighbourhoodMasks(const MotionModel& motion);
-  std::uint8_t operator[](unsigned bits) const { return masks_[bits]; }
+  using Eight = EightCells::Eight;
+
+  StepRules() = default;
+  explicit StepRules(const MotionModel& motion);
+
+  // Bit n for step n.
+  Eight allowed(const EightCells& cells) const {
+    const Eight east = cells.blocked(1, 0), north = cells.blocked(0, 1);
+    const Eight west = cells.blocked(-1, 0), south = cells.blocked(0, -1);
+    const Eight north_east = cells.blocked(1, 1) | (corners_ & (north | east));
+    const Eight north_west = cells.blocked(-1, 1) | (corners_ & (north | west));
+    const Eight south_west = cells.blocked(-1, -1) | (corners_ & (south | west));
+    const Eight south_east = cells.blocked(1, -1) | (corners_ & (south | east));
+    const Eight blocked = cells.blocked(0, 0) | (east & 1) | (north & 2) | (west & 4) |
+                          (south & 8) | (north_east & 16) | (north_west & 32) | (south_west & 64) |
+                          (south_east & 128);
+    return steps_ & ~blocked;
+  }
 
  private:
-  std::array<std::uint8_t, 512> masks_{};
+  Eight steps_ = {};    // of the motion model
+  Eight corners_ = {};  // all bits where a blocked corner stops a diagonal step
 };
 
 // One byte a cell, bit n for step n.
