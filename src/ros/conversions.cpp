@@ -24,8 +24,9 @@ void checkPosition(const geometry_msgs::Point& point) {
 void checkLevel(const geometry_msgs::Quaternion& q) {
   const double length = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   if (!(std::abs(length - 1.0) <= kQuaternionSlack))
-    throw InputError("an orientation must be a quaternion of length 1, got length " +
-                     std::to_string(length));
+    throw InputError(
+        "an orientation must be a quaternion of length 1 (w: 1 alone looks along x), got length " +
+        decimalText(length));
   // The angle between the pose's z axis and the frame's.
   const double tilt = 2.0 * std::asin(std::min(1.0, std::hypot(q.x, q.y) / length));
   if (tilt > kQuaternionSlack)

@@ -22,6 +22,15 @@ std::string sentence(const std::string& target, const std::string& source, const
   return text.str();
 }
 
+// tf2's reason for a frame that nobody publishes speaks of the arguments of a function.
+std::string reasonOf(const tf2_ros::Buffer& buffer, const std::string& target,
+                     const std::string& source, const std::string& otherwise) {
+  std::string missing;
+  for (const std::string& frame : {source, target})
+    if (!buffer._frameExists(frame)) missing += (missing.empty() ? "'" : " or '") + frame + "'";
+  return missing.empty() ? otherwise : "nothing on /tf names the frame " + missing;
+}
+
 }  // namespace
 
 FrameTransforms::FrameTransforms(const ros::NodeHandle& nh) : listener_(buffer_, nh, true) {}
@@ -60,7 +69,8 @@ geometry_msgs::TransformStamped FrameTransforms::lookup(const std::string& targe
       return buffer_.lookupTransform(target, source, stamp);
     } catch (const tf2::TransformException& error) {
       if (std::chrono::steady_clock::now() >= end)
-        throw TransformError(sentence(target, source, stamp, error.what()));
+        throw TransformError(
+            sentence(target, source, stamp, reasonOf(buffer_, target, source, error.what())));
     }
     if (stop.reason() != StopReason::NONE) throw Stopped(stop.reason());
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

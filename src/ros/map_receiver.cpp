@@ -72,6 +72,13 @@ void MapReceiver::start(ros::NodeHandle nh, std::function<void()> on_change) {
   on_change_ = std::move(on_change);
   map_subscriber_ = nh.subscribe("projected_map", 1, &MapReceiver::onMap, this);
   update_subscriber_ = nh.subscribe("projected_map_updates", 100, &MapReceiver::onUpdate, this);
+  std::lock_guard<std::mutex> lock(mutex_);
+  topic_ = map_subscriber_.getTopic();
+}
+
+std::string MapReceiver::topic() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return topic_;
 }
 
 ReceivedMap MapReceiver::latest() const {

@@ -77,7 +77,8 @@ PlanReport PlanEngine::report(const PlanQuestion& question, const PathPlannerNod
   if (on_phase) on_phase(Phase::PREPARING);
   takeMap();
   planner_.setOptions(optionsFor(question, options.planner));
-  if (!planner_.hasMap()) return failure(Status::NO_MAP, "no map has come on projected_map yet");
+  if (!planner_.hasMap())
+    return failure(Status::NO_MAP, "no map has come on " + maps_.topic() + " yet");
   PoseRequest request = resolve(question, options, stop.token());
   request.record_expanded = options.record_search;
   if (on_phase) on_phase(Phase::SEARCHING);

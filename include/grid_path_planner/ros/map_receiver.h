@@ -51,6 +51,9 @@ class MapReceiver {
   // Listens from here on. `on_change` is called after every change, in the subscriber's thread.
   void start(ros::NodeHandle nh, std::function<void()> on_change);
 
+  // Where maps are listened for, as the topic is called in the graph; empty before start().
+  std::string topic() const;
+
   // The newest map; its grid is null before the first.
   ReceivedMap latest() const;
   // The newest map if it changed since the last call. For one caller.
@@ -70,6 +73,7 @@ class MapReceiver {
 
   std::function<void()> on_change_;
   mutable std::mutex mutex_;
+  std::string topic_;
   MapTurns<OccupancyGrid> grids_;  // the subscribers'
   ReceivedMap map_;
   std::optional<MapChange> untaken_;
