@@ -6,6 +6,7 @@
 
 #include "grid_path_planner/search/bucket_queue.h"
 #include "label_lines.h"
+#include "weight_changes.h"
 
 namespace grid_path_planner {
 namespace {
@@ -21,41 +22,6 @@ constexpr std::uint64_t kWorn = 2;
 
 // Of cells by which the tree grows at first where it holds no way from the start.
 constexpr std::uint64_t kFirstFurther = 4096;
-
-// The smallest rectangles around the cells of `changed` that weigh more, or are blocked now, and
-// around those that weigh less.
-struct Changes {
-  CellRect dearer;
-  CellRect cheaper;
-};
-
-template <class Is>
-CellRect hullOf(const CellRect& rect, const Is& is) {
-  CellRect hull;
-  for (int row = rect.row; row < rect.row + rect.height; ++row) {
-    int first = rect.column, end = rect.column + rect.width;
-    while (first < end && !is(first, row)) ++first;
-    if (first == end) continue;
-    while (!is(end - 1, row)) --end;
-    hull = hull.hull({first, row, end - first, 1});
-  }
-  return hull;
-}
-
-Changes changesBetween(const Grid<CostGrid::Weight>& before, const Grid<CostGrid::Weight>& after,
-                       const CellRect& changed) {
-  const CellRect rect = changed.intersection(after.geometry().rect());
-  // Blocked is 0: one below it is dearer than anything.
-  const auto value = [](const Grid<CostGrid::Weight>& weights, int column, int row) {
-    return static_cast<CostGrid::Weight>(weights.row(row)[column] - 1);
-  };
-  return {
-      hullOf(rect, [&](int column,
-                       int row) { return value(after, column, row) > value(before, column, row); }),
-      hullOf(rect, [&](int column, int row) {
-        return value(after, column, row) < value(before, column, row);
-      })};
-}
 
 }  // namespace
 
@@ -243,23 +209,37 @@ Status GoalTree::unreachable() const {
 void GoalTree::update(const CostGrid& before, const CostGrid& after, const CellRect& changed) {
   if (!begun_) return;
   labels_.look(after);
-  const Changes changes = changesBetween(before.weights(), after.weights(), changed);
   const CellRect all = after.geometry().rect();
-  const CellRect touched = changes.dearer.empty() ? CellRect() : changes.dearer.grown(1);
-  const auto changed_there = [&](Cell cell) { return touched.contains(cell); };
-  if (!changes.cheaper.empty() || std::any_of(way_.begin(), way_.end(), changed_there))
-    way_.clear();
-  takeDearer(changes.dearer.empty() ? CellRect() : changes.dearer.grown(1).intersection(all));
-  takeCheaper(changes.cheaper.empty() ? CellRect() : changes.cheaper.grown(1).intersection(all));
+  const auto around = [&all](const CellRect& rect) {
+    return rect.empty() ? rect : rect.grown(1).intersection(all);
+  };
+  const WeightChanges changes =
+      changesBetween(before.weights(), after.weights(), changed.intersection(all));
+  const CellRect dearer = around(changes.dearer), cheaper = around(changes.cheaper);
+  const auto got_dearer = [&](Cell cell) { return dearer.contains(cell); };
+  if (!cheaper.empty() || std::any_of(way_.begin(), way_.end(), got_dearer)) way_.clear();
+  takeDearer(dearer);
+  takeCheaper(cheaper);
 }
 
+// Along a way labels fall, and it leaves the rectangle over a cell of its border: those that are
+// lower than the labels there are of ways that come nowhere near.
 void GoalTree::takeDearer(const CellRect& rect) {
-  for (int row = rect.row; row < rect.row + rect.height; ++row) {
-    Index index = static_cast<Index>(labels_.geometry().index({rect.column, row}).value());
-    for (int column = 0; column < rect.width; ++column, ++index)
-      if (labels_.state(index) != GoalLabels::UNLABELLED && labels_.label(index) < sound_below_ &&
-          !labels_.supported(index))
-        sound_below_ = labels_.label(index);
+  if (rect.empty()) return;
+  if (rect.contains(goal_)) sound_below_ = 0;
+  const auto take = [this](int column, int row) {
+    const auto index = static_cast<Index>(labels_.geometry().index({column, row}).value());
+    if (labels_.state(index) != GoalLabels::UNLABELLED)
+      sound_below_ = std::min(sound_below_, labels_.label(index));
+  };
+  const Cell last{rect.column + rect.width - 1, rect.row + rect.height - 1};
+  for (int row = rect.row; row <= last.row; ++row) {
+    take(rect.column, row);
+    take(last.column, row);
+  }
+  for (int column = rect.column; column <= last.column; ++column) {
+    take(column, rect.row);
+    take(column, last.row);
   }
 }
 
