@@ -1,5 +1,7 @@
 #include "grid_path_planner/search/goal_labels.h"
 
+#include "grid_path_planner/grid/touch.h"
+
 namespace grid_path_planner {
 
 static_assert(kSteps[oppositeStep(0)].column == -kSteps[0].column &&
@@ -25,6 +27,12 @@ void GoalLabels::begin(Index root) {
   }
   root_ = root;
   set(root, 0, 0, OPEN);
+}
+
+void GoalLabels::touch(const CellRect& rect) const {
+  if (rect.empty()) return;
+  grid_path_planner::touch(&words_[geometry_.index({rect.column, rect.row}).value()],
+                           static_cast<std::size_t>(geometry_.width()), rect.width, rect.height);
 }
 
 }  // namespace grid_path_planner

@@ -246,6 +246,7 @@ void GoalTree::takeDearer(const CellRect& rect) {
 // Where a label exceeds a neighbour's and the step there, the neighbour waits from now on.
 void GoalTree::takeCheaper(const CellRect& rect) {
   if (rect.empty()) return;
+  labels_.touch(rect);
   LabelLines lines(labels_, rect);
   lines.forEachSuspect([&](Cell cell) {
     const auto index = static_cast<Index>(labels_.geometry().index(cell).value());

@@ -2,6 +2,8 @@
 
 #include <cstdlib>
 
+#include "grid_path_planner/grid/touch.h"
+
 namespace grid_path_planner {
 namespace {
 
@@ -84,10 +86,13 @@ void Moves::build(const CostGrid& map, const StopToken& stop) {
 
 void Moves::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
   if (!rules_.fit(map)) rules_ = MoveRules(map);
-  forEachEight(map, changed.grown(1).intersection(map.geometry().rect()), stop,
-               [this](std::size_t index, int number, const EightCells& cells) {
-                 storeBytes(rules_.kindsOf(cells), number, kinds_.data() + index);
-               });
+  const CellRect rect = changed.grown(1).intersection(map.geometry().rect());
+  const auto width = static_cast<std::size_t>(map.geometry().width());
+  touch(kinds_.data() + map.geometry().index({rect.column, rect.row}).value(), width, rect.width,
+        rect.height);
+  forEachEight(map, rect, stop, [this](std::size_t index, int number, const EightCells& cells) {
+    storeBytes(rules_.kindsOf(cells), number, kinds_.data() + index);
+  });
 }
 
 }  // namespace grid_path_planner

@@ -10,7 +10,8 @@
 
 namespace grid_path_planner {
 
-// The smallest rectangles around the cells that became dearer, and around those that became cheaper.
+// The smallest rectangles around the cells that became dearer, and around those that became
+// cheaper.
 struct WeightChanges {
   CellRect dearer;
   CellRect cheaper;

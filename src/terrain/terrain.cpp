@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "grid_path_planner/grid/touch.h"
 #include "grid_path_planner/terrain/kernel.h"
 
 namespace grid_path_planner {
@@ -181,7 +182,10 @@ void Terrain::updateFine(const StopToken& stop) {
     const CellRect anew = changes.opened.hull(around(changes.vacated));
     const CellRect dearer = around(changes.filled);
     const CellRect rewritten = anew.hull(dearer);
+    touch(fine_.current()->weights(), rewritten);
     fine_.advance({rewritten, changes.all}, [&](CostGrid& next) {
+      touch(next.weights(), rewritten);
+      touch(next.classes(), around(anew));
       next.edit(*fine_.current(), rewritten, [&](auto& weights, auto& classes) {
         classify(*map_, options_.thresholds, changes.all, classes, stop);
         weigh(classes, options_, anew, weights, stop);

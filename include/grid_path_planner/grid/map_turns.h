@@ -22,12 +22,15 @@
 #include <utility>
 
 #include "grid_path_planner/grid/grid.h"
+#include "grid_path_planner/grid/touch.h"
 
 namespace grid_path_planner {
 
 // Precondition: `rect` lies in both, which are of the same size.
 template <class T>
 void copyCells(const Grid<T>& from, const CellRect& rect, Grid<T>& to) {
+  touch(from, rect);
+  touch(to, rect);
   for (int row = rect.row; row < rect.row + rect.height; ++row)
     std::copy_n(from.row(row) + rect.column, rect.width, to.row(row) + rect.column);
 }

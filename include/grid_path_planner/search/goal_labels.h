@@ -39,6 +39,9 @@ class GoalLabels {
   // To be called before anything that asks for steps, after every change of the map.
   void look(const CostGrid& map) { weights_ = map.weights().values().data(); }
 
+  // Of the cells of `rect`, which are asked for next. Precondition: it lies in the map.
+  void touch(const CellRect& rect) const;
+
   Index root() const { return root_; }
   const GridGeometry& geometry() const { return geometry_; }
   Cell cell(Index index) const { return cell_of_(index); }
