@@ -65,17 +65,17 @@ const std::int16_t* NearObstacles::row(int row) {
 NearObstacles::Eight NearObstacles::least(int row, std::size_t above, std::size_t first) const {
   Eight least = Eight{} + kFar;
   const auto take = [&](const Line& line, const Eight& apart) {
-    Eight here;
-    std::memcpy(&here, line.distances + first, sizeof here);
-    here += apart;
+    const Eight here = from(line.distances + first) + apart;
     least = here < least ? here : least;
   };
   for (std::size_t i = above; i < lines_.size(); ++i) {
+    if (lines_[i].behind_the_one_before && i > above) continue;
     const Eight& apart = apart_[static_cast<std::size_t>(lines_[i].row - row)];
     if (!any(least > apart)) break;
     take(lines_[i], apart);
   }
   for (std::size_t i = above; i-- > 0;) {
+    if (lines_[i].behind_the_one_after && i + 1 < above) continue;
     const Eight& apart = apart_[static_cast<std::size_t>(row - lines_[i].row)];
     if (!any(least > apart)) break;
     take(lines_[i], apart);
@@ -89,16 +89,31 @@ void NearObstacles::measure(int row) {
   if (first == window_.width) return;
 
   Distance* line = memory_.data() + static_cast<std::size_t>(row % period_) * stride_;
-  lines_.push_back({row, line});
   constexpr int kNone = 1 << 29;
   const int skipped = rect_.column - window_.column;
   int before = -kNone;
   for (int next = first;; next = occupiedFrom(cells, before + 1, window_.width)) {
     fillBetween(before, next == window_.width ? kNone : next, line);
-    if (next == window_.width) return;
+    if (next == window_.width) return append(row, line);
     if (next >= skipped && next < skipped + rect_.width) line[next - skipped] = 0;
     before = next;
   }
+}
+
+void NearObstacles::append(int row, const Distance* distances) {
+  Line line{row, distances};
+  if (!lines_.empty()) {
+    Line& last = lines_.back();
+    Eight nearer = {}, farther = {};  // than the last
+    for (std::size_t i = 0; i < stride_; i += kTogether) {
+      const Eight here = from(distances + i), there = from(last.distances + i);
+      nearer |= here < there;
+      farther |= here > there;
+    }
+    line.behind_the_one_before = !any(nearer);
+    last.behind_the_one_after = !any(farther);
+  }
+  lines_.push_back(line);
 }
 
 void NearObstacles::fillBetween(int before, int next, Distance* line) const {

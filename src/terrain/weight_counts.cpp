@@ -7,13 +7,10 @@
 namespace grid_path_planner {
 namespace {
 
-// Cells that are looked at together.
-constexpr int kTogether = 4;
 using Together = std::uint64_t;
 
 Together from(const WeightCounts::Weight* weights) {
   Together together;
-  static_assert(sizeof together == kTogether * sizeof *weights);
   std::memcpy(&together, weights, sizeof together);
   return together;
 }
@@ -22,6 +19,7 @@ Together from(const WeightCounts::Weight* weights) {
 
 void WeightCounts::makeRoomFor(Weight weight) {
   while (counts_.size() <= weight) counts_.resize(std::max<std::size_t>(64, 2 * counts_.size()));
+  static_assert(sizeof(Together) == kTogether * sizeof(Weight));
 }
 
 void WeightCounts::add(const Grid<Weight>& weights) {
@@ -30,7 +28,7 @@ void WeightCounts::add(const Grid<Weight>& weights) {
     const auto first = at;
     while (at != values.end() && *at == *first) ++at;
     makeRoomFor(*first);
-    counts_[*first] += static_cast<std::uint32_t>(at - first);
+    counts_[*first][0] += static_cast<std::uint32_t>(at - first);
   }
 }
 
@@ -50,22 +48,22 @@ inline void WeightCounts::replace(const Weight* before, const Weight* after, int
   unsigned all = 0;
   for (int i = 0; i < number; ++i) all |= after[i];
   if (all >= counts_.size()) makeRoomFor(static_cast<Weight>(all));
-  std::uint32_t* const counts = counts_.data();
+  Parts* const counts = counts_.data();
   for (int i = 0; i < number; ++i) {
-    --counts[before[i]];
-    ++counts[after[i]];
+    --counts[before[i]][i];
+    ++counts[after[i]][i];
   }
 }
 
 WeightCounts::Weight WeightCounts::cheapest() const {
   for (std::size_t weight = 1; weight < counts_.size(); ++weight)
-    if (counts_[weight] != 0) return static_cast<Weight>(weight);
+    if (number(weight) != 0) return static_cast<Weight>(weight);
   return 0;
 }
 
 WeightCounts::Weight WeightCounts::dearest() const {
   for (std::size_t weight = counts_.size(); weight-- > 1;)
-    if (counts_[weight] != 0) return static_cast<Weight>(weight);
+    if (number(weight) != 0) return static_cast<Weight>(weight);
   return 0;
 }
 

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "grid_path_planner/grid/occupancy.h"
@@ -39,6 +40,11 @@ class NearObstacles {
   // Eight distances, handled by one instruction where the machine has such.
   using Eight = Distance __attribute__((vector_size(16)));
 
+  static Eight from(const Distance* distances) {
+    Eight eight;
+    std::memcpy(&eight, distances, sizeof eight);
+    return eight;
+  }
   static bool any(Eight signs) {
     using Halves = std::int64_t __attribute__((vector_size(16)));
     const auto halves = reinterpret_cast<Halves>(signs);
@@ -51,6 +57,7 @@ class NearObstacles {
   }
 
   void measure(int row);
+  void append(int row, const Distance* distances);
   // Distances along a row to the cells `before` and `next`, for those between, as far as they are
   // of the rectangle. Columns are told from the window's first.
   void fillBetween(int before, int next, Distance* line) const;
@@ -71,6 +78,10 @@ class NearObstacles {
   struct Line {
     int row;
     const Distance* distances;  // along the row only
+    // Whether no cell is nearer by this line than by the one before, or after: from beyond that one
+    // this line need not be looked at.
+    bool behind_the_one_before = false;
+    bool behind_the_one_after = false;
   };
   std::vector<Line> lines_;   // of the rows around that have an occupied cell in reach
   std::vector<Eight> apart_;  // the squares of rows apart

@@ -10,6 +10,7 @@
 // that are possible, whatever the map's size.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -31,13 +32,23 @@ class WeightCounts {
   Weight dearest() const;
 
   bool empty() const { return counts_.empty(); }
-  std::size_t bytes() const { return counts_.size() * sizeof(std::uint32_t); }
+  std::size_t bytes() const { return counts_.size() * sizeof(Parts); }
 
  private:
   void makeRoomFor(Weight weight);
   void replace(const Weight* before, const Weight* after, int number);
 
-  std::vector<std::uint32_t> counts_;  // by weight, at least as many as the largest asks for
+  // Cells that are looked at together.
+  static constexpr int kTogether = 4;
+  // Each of them is counted in a part of its own, as counting many cells of one weight in one place
+  // would wait for it. Only the sum, which may wrap around, means something.
+  using Parts = std::array<std::uint32_t, kTogether>;
+  std::uint32_t number(std::size_t weight) const {
+    const Parts& parts = counts_[weight];
+    return parts[0] + parts[1] + parts[2] + parts[3];
+  }
+
+  std::vector<Parts> counts_;  // by weight, at least as many as the largest asks for
 };
 
 }  // namespace grid_path_planner
