@@ -29,6 +29,7 @@ void GoalTree::prepare(const CostGrid& map, const Moves& moves) {
   begun_ = false;
   labels_.prepare(map, moves);
   detour_.prepare(map);
+  waiting_.prepare(map.geometry());
 }
 
 void GoalTree::setRoot(const CostGrid& map, Cell goal, Cell start) {
@@ -77,7 +78,7 @@ Status GoalTree::begin(const CostGrid& map, Cell goal, Cell start, double ahead,
 
   // 3. What still waits does so for later plans.
   const bool reached = labels_.state(from) != GoalLabels::UNLABELLED;
-  waiting_.begin(map.geometry(), reached ? labels_.label(from) : 0,
+  waiting_.begin(reached ? labels_.label(from) : 0,
                  kQueueWidth * std::max<SearchKey>(keys_.scale(), 1));
   while (!open.empty()) {
     const Index index = open.pop();

@@ -11,22 +11,27 @@ constexpr auto kLater = [](const WaitingCells::Entry& a, const WaitingCells::Ent
 
 }  // namespace
 
-void WaitingCells::begin(const GridGeometry& geometry, SearchKey first, SearchKey width) {
+void WaitingCells::prepare(const GridGeometry& geometry) {
   const auto tiles = [](int cells) {
     return static_cast<std::uint32_t>((cells - 1) >> kSideBits) + 1;
   };
   across_ = tiles(geometry.width());
   tile_at_.assign(std::size_t{across_} * tiles(geometry.height()), Tile());
+  used_.clear();
+}
+
+void WaitingCells::begin(SearchKey first, SearchKey width) {
+  for (const std::uint32_t place : used_) tile_at_[place] = Tile();
+  used_.clear();
+  reserved_ = 0;
   tiles_.begin(first, width);
   sorted_.clear();
   size_ = 0;
 }
 
 std::size_t WaitingCells::bytes() const {
-  std::size_t cells = 0;
-  for (const Tile& tile : tile_at_) cells += tile.cells.capacity();
-  return tile_at_.size() * sizeof(Tile) + cells * sizeof(Index) + tiles_.bytes() +
-         sorted_.capacity() * sizeof(Entry);
+  return tile_at_.size() * sizeof(Tile) + used_.capacity() * sizeof(std::uint32_t) +
+         reserved_ * sizeof(Index) + tiles_.bytes() + sorted_.capacity() * sizeof(Entry);
 }
 
 CellRect WaitingCells::rectOf(std::uint32_t place) const {
@@ -39,7 +44,10 @@ void WaitingCells::push(const RisingKeys& keys, Index index) {
   ++size_;
   const std::uint32_t place = placeOf(keys.labels().cell(index));
   Tile& tile = tile_at_[place];
+  const std::size_t reserved = tile.cells.capacity();
+  if (reserved == 0) used_.push_back(place);
   tile.cells.push_back(index);
+  reserved_ += tile.cells.capacity() - reserved;
   tile.least_label = std::min(tile.least_label, keys.labels().label(index));
   const SearchKey key = keys.of(index);
   if (key < tile.queued) queue(place, key);

@@ -24,7 +24,8 @@ class Labelled {
     labels_.begin(0);
     labels_.setState(0, GoalLabels::CLOSED);
     keys_.begin(labels_, map_, test::randomCell(random_, map_.geometry()));
-    waiting_.begin(map_.geometry(), 40 * kPackedScale.straight, 2 * kPackedScale.straight);
+    waiting_.prepare(map_.geometry());
+    waiting_.begin(40 * kPackedScale.straight, 2 * kPackedScale.straight);
   }
 
   GoalLabels& labels() { return labels_; }

@@ -53,6 +53,7 @@ class DetourSearch {
  private:
   using Index = GoalLabels::Index;
   using Node = TileNodes::Node;
+  static constexpr SearchKey kNoCost = GoalLabels::kLargest;
   // Notes of a node: whether its way is sound, once known.
   static constexpr std::uint32_t kSound = 1, kUnsound = 2;
 
@@ -65,7 +66,7 @@ class DetourSearch {
   Index start_ = 0;
   Index last_ = 0;  // where the tree's way begins
   SearchKey sound_below_ = 0;
-  SearchKey cost_ = kInfiniteKey;
+  SearchKey cost_ = kNoCost;
   std::uint64_t expanded_ = 0;
   unsigned bucket_shift_ = 0;
   bool saw_the_end_ = false;

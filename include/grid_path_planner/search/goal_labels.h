@@ -50,6 +50,7 @@ class GoalLabels {
     const Word word = words_[index];
     return word >> kTreeShift == tree_ ? static_cast<State>(word & kStateMask) : UNLABELLED;
   }
+  bool known(Index index) const { return words_[index] >> kTreeShift == tree_; }
   // Preconditions from here on: the cell has a label.
   SearchKey label(Index index) const { return words_[index] >> kLabelShift & kLargest; }
   std::uint32_t stepOf(Index index) const {

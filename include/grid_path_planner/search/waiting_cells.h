@@ -2,7 +2,8 @@
 // the map that they lie in, and tiles by what the best of their cells may promise.
 //
 //   WaitingCells waiting;
-//   waiting.begin(geometry, first, width);
+//   waiting.prepare(geometry);
+//   waiting.begin(first, width);
 //   waiting.push(keys, index);
 //   while (const WaitingCells::Entry* next = waiting.first(below, keys)) use(waiting.pop());
 //
@@ -27,9 +28,11 @@ class WaitingCells {
   using Entry = PatientQueue::Entry;
   using Index = RisingKeys::Index;
 
-  // Forgets everything. Keys from about `first` on, of which those within `width` of each other
-  // are alike.
-  void begin(const GridGeometry& geometry, SearchKey first, SearchKey width);
+  // Takes time in proportion to the map.
+  void prepare(const GridGeometry& geometry);
+  // Forgets everything, in time proportional to what it was. Keys from about `first` on, of which
+  // those within `width` of each other are alike. Precondition: prepare() was called.
+  void begin(SearchKey first, SearchKey width);
 
   std::size_t size() const { return size_; }
   std::size_t bytes() const;
@@ -62,6 +65,8 @@ class WaitingCells {
 
   std::uint32_t across_ = 0;
   std::vector<Tile> tile_at_;
+  std::vector<std::uint32_t> used_;  // the places of tiles that have memory
+  std::size_t reserved_ = 0;         // cells that they have memory for
   PatientQueue tiles_;
   std::vector<Entry> sorted_;  // a heap
   std::size_t size_ = 0;
