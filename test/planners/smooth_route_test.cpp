@@ -99,16 +99,21 @@ TEST(SmoothRouteLaw, AnyaIsNoLongerThanTheOthers) {
   EXPECT_LT(smooth_ones, 1.03 * shortest);
 }
 
+// A map of 20x10 cells of one metre.
+PoseRequest across() {
+  PoseRequest request;
+  request.start.position << 0.5, 0.5, 0.0;
+  request.goal.position << 18.5, 8.5, 0.0;
+  return request;
+}
+
 TEST(SmoothOption, StraightensThePathAndRefusesWhatItContradicts) {
   OccupancyGrid map(GridGeometry(20, 10, 1.0), 0);
   PlannerOptions options;
   options.smooth = true;
   MapPlanner planner(options);
   planner.setMap(std::make_shared<const OccupancyGrid>(map));
-  PoseRequest request;
-  request.start.position << 0.5, 0.5, 0.0;
-  request.goal.position << 18.5, 8.5, 0.0;
-  const PlanReport report = planner.plan(request);
+  const PlanReport report = planner.plan(across());
   ASSERT_EQ(report.status, Status::FOUND);
   EXPECT_EQ(report.path.poses.size(), 2U);
   EXPECT_NEAR(report.length_m, std::hypot(18, 8), 1e-9);
@@ -125,10 +130,7 @@ TEST(SmoothOption, LeavesThePromiseOfPathsThatAreTautAlready) {
   options.smooth = true;
   MapPlanner planner(options);
   planner.setMap(std::make_shared<const OccupancyGrid>(map));
-  PoseRequest request;
-  request.start.position << 0.5, 0.5, 0.0;
-  request.goal.position << 18.5, 8.5, 0.0;
-  EXPECT_TRUE(planner.plan(request).optimal);
+  EXPECT_TRUE(planner.plan(across()).optimal);
 }
 
 }  // namespace

@@ -155,6 +155,39 @@ TEST(GoalTreeLaw, KeptWaysCostTheLeast) {
   EXPECT_GT(plans, 1000);
 }
 
+// A tree for `goal` that was asked for one plan.
+struct Asked {
+  Asked(const CostGrid& map, Cell goal, Cell start, double ahead) {
+    moves.build(map, StopToken());
+    tree.prepare(map, moves);
+    tree.begin(map, goal, start, ahead, false, result, StopToken());
+  }
+  void update(const CostGrid& before, const CostGrid& after, const CellRect& changed) {
+    moves.update(after, changed, StopToken());
+    tree.update(before, after, changed);
+    result = {};
+  }
+
+  Moves moves;
+  GoalTree tree;
+  PlanResult result;
+};
+
+TEST(GoalLabels, NothingIsLeftOfATreeWhenItsNumberComesAgain) {
+  const Grid<CostGrid::Weight> weights(GridGeometry(3, 1, 1.0), 1);
+  const CostGrid map(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), MotionModel());
+  Moves moves;
+  moves.build(map, StopToken());
+  GoalLabels labels;
+  labels.prepare(map, moves);
+  for (int tree = 0; tree < 70000; ++tree) {
+    labels.begin(0);
+    ASSERT_EQ(labels.state(0), GoalLabels::OPEN);
+    ASSERT_EQ(labels.state(1), GoalLabels::UNLABELLED) << "tree " << tree;
+    if (tree == 0) labels.set(1, 5, 2, GoalLabels::CLOSED);
+  }
+}
+
 TEST(GoalTree, NothingIsDoneForAChangeThatDoesNotMatter) {
   const Grid<CostGrid::Weight> weights(GridGeometry(40, 40, 1.0), 1);
   const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
@@ -162,19 +195,12 @@ TEST(GoalTree, NothingIsDoneForAChangeThatDoesNotMatter) {
   Grid<CostGrid::Weight> changed = weights;
   changed[Cell{2, 37}] = CostGrid::kBlocked;
   const CostGrid after(changed, classes, MotionModel());
-  Moves moves;
-  moves.build(before, StopToken());
-  GoalTree tree;
-  tree.prepare(before, moves);
-  PlanResult result;
-  tree.begin(before, {35, 3}, {3, 3}, 3, false, result, StopToken());
-  const std::vector<Cell> path = result.cells;
-  moves.update(after, {2, 37, 1, 1}, StopToken());
-  tree.update(before, after, {2, 37, 1, 1});
-  result = {};
-  EXPECT_EQ(tree.plan(after, {3, 3}, false, result, StopToken()), Status::FOUND);
-  EXPECT_EQ(result.statistics.expanded, 0U);
-  EXPECT_EQ(result.cells, path);
+  Asked asked(before, {35, 3}, {3, 3}, 3);
+  const std::vector<Cell> path = asked.result.cells;
+  asked.update(before, after, {2, 37, 1, 1});
+  EXPECT_EQ(asked.tree.plan(after, {3, 3}, false, asked.result, StopToken()), Status::FOUND);
+  EXPECT_EQ(asked.result.statistics.expanded, 0U);
+  EXPECT_EQ(asked.result.cells, path);
 }
 
 // The goal's label is 0, which once stood for "none yet" where labels are compared.
@@ -185,17 +211,10 @@ TEST(GoalTree, ACheaperCellBesideTheGoalIsSeen) {
   const CostGrid before(weights, classes, MotionModel());
   weights[Cell{1, 1}] = 2;
   const CostGrid after(weights, classes, MotionModel());
-  Moves moves;
-  moves.build(before, StopToken());
-  GoalTree tree;
-  tree.prepare(before, moves);
-  PlanResult result;
-  tree.begin(before, {0, 0}, {3, 1}, 3, false, result, StopToken());
-  moves.update(after, {1, 1, 1, 1}, StopToken());
-  tree.update(before, after, {1, 1, 1, 1});
-  result = {};
-  const Status status = tree.plan(after, {3, 1}, false, result, StopToken());
-  expectLeast(after, {3, 1}, {0, 0}, status == Status::FOUND, result);
+  Asked asked(before, {0, 0}, {3, 1}, 3);
+  asked.update(before, after, {1, 1, 1, 1});
+  const Status status = asked.tree.plan(after, {3, 1}, false, asked.result, StopToken());
+  expectLeast(after, {3, 1}, {0, 0}, status == Status::FOUND, asked.result);
 }
 
 TEST(GoalTree, AStoppedPlanGoesOn) {
@@ -206,20 +225,14 @@ TEST(GoalTree, AStoppedPlanGoesOn) {
   for (int row = wall.row; row < wall.row + wall.height; ++row)
     weights[Cell{75, row}] = CostGrid::kBlocked;
   const CostGrid after(weights, classes, MotionModel());
-  Moves moves;
-  moves.build(before, StopToken());
-  GoalTree tree;
-  tree.prepare(before, moves);
-  PlanResult result;
-  tree.begin(before, {140, 75}, {10, 75}, 0, false, result, StopToken());
-  moves.update(after, wall, StopToken());
-  tree.update(before, after, wall);
+  Asked asked(before, {140, 75}, {10, 75}, 0);
+  asked.update(before, after, wall);
   StopSource source;
   source.cancel();
-  EXPECT_THROW(tree.plan(after, {10, 75}, false, result, source.token()), Stopped);
-  result = {};
-  const Status status = tree.plan(after, {10, 75}, false, result, StopToken());
-  expectLeast(after, {10, 75}, {140, 75}, status == Status::FOUND, result);
+  EXPECT_THROW(asked.tree.plan(after, {10, 75}, false, asked.result, source.token()), Stopped);
+  asked.result = {};
+  const Status status = asked.tree.plan(after, {10, 75}, false, asked.result, StopToken());
+  expectLeast(after, {10, 75}, {140, 75}, status == Status::FOUND, asked.result);
 }
 
 TEST(IncrementalAStarLaw, PlansOnTheWayCostTheLeast) {

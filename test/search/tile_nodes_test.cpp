@@ -15,10 +15,11 @@ TEST(TileNodesLaw, AQueryKnowsWhatItWroteAndNothingElse) {
   const GridGeometry geometry(150, 70, 1.0);
   TileNodes nodes;
   nodes.prepare(geometry);
-  for (int query = 0; query < 40; ++query) {
+  // A node's ten bits of query are used up twice.
+  for (int query = 0; query < 2500; ++query) {
     nodes.beginQuery();
     std::map<std::pair<int, int>, std::pair<SearchKey, unsigned>> written;
-    for (int call = 0; call < 400; ++call) {
+    for (int call = 0; call < 60; ++call) {
       const Cell cell{static_cast<int>(random() % 150), static_cast<int>(random() % 70)};
       const auto known = written.find({cell.column, cell.row});
       TileNodes::Node& node = nodes.at(cell);

@@ -21,11 +21,16 @@ class Labelled {
     moves_.build(map_, StopToken());
     labels_.prepare(map_, moves_);
     labels_.look(map_);
+    waiting_.prepare(map_.geometry());
+    begin();
+  }
+
+  void begin() {
     labels_.begin(0);
     labels_.setState(0, GoalLabels::CLOSED);
     keys_.begin(labels_, map_, test::randomCell(random_, map_.geometry()));
-    waiting_.prepare(map_.geometry());
     waiting_.begin(40 * kPackedScale.straight, 2 * kPackedScale.straight);
+    open_.clear();
   }
 
   GoalLabels& labels() { return labels_; }
@@ -81,6 +86,11 @@ TEST(WaitingCellsLaw, WhatIsBelowABoundComesInOrderAndNothingElse) {
   for (int trial = 0; trial < 20; ++trial) {
     Labelled map(random);
     for (int round = 0; round < 60; ++round) {
+      if (round % 25 == 24) {
+        map.begin();
+        ASSERT_EQ(map.waiting().size(), 0U);
+        ASSERT_EQ(map.waiting().first(kInfiniteKey, map.keys()), nullptr);
+      }
       for (int i = 0; i < 80; ++i) map.wait();
       for (int i = 0; i < 9; ++i) map.closeAny();
       map.move();

@@ -46,11 +46,10 @@ class GoalLabels {
   const GridGeometry& geometry() const { return geometry_; }
   Cell cell(Index index) const { return cell_of_(index); }
 
-  State state(Index index) const {
-    const Word word = words_[index];
-    return word >> kTreeShift == tree_ ? static_cast<State>(word & kStateMask) : UNLABELLED;
-  }
   bool known(Index index) const { return words_[index] >> kTreeShift == tree_; }
+  State state(Index index) const {
+    return known(index) ? static_cast<State>(words_[index] & kStateMask) : UNLABELLED;
+  }
   // Preconditions from here on: the cell has a label.
   SearchKey label(Index index) const { return words_[index] >> kLabelShift & kLargest; }
   std::uint32_t stepOf(Index index) const {
