@@ -19,6 +19,7 @@
 #include "grid_path_planner/ros/bag.h"
 #include "grid_path_planner/study/scenario_file.h"
 #include "grid_path_planner/terrain/terrain.h"
+#include "path_hash.h"
 #include "progress_bar.h"
 
 namespace grid_path_planner::tools {
@@ -62,6 +63,7 @@ po::options_description describe() {
       "map", po::value<std::string>(), "map file; default: the one the scenario names, beside it")(
       "limit", po::value<std::int64_t>(), "how many queries, spread evenly over the file")(
       "csv", po::value<std::string>(), "write a line a query")(
+      "hash-paths", "print a hash of every query's status, path and cost, before the last line")(
       "reference", po::value<std::string>(),
       "what costs are compared with: file, or a planner's answers; default: file where its optima "
       "hold, dijkstra where inflation, a kernel, weights or other steps change them");
@@ -249,6 +251,7 @@ int runScenarios(int argc, char** argv) {
 
   Totals totals;
   Ratios ratios;
+  PathHash paths;
   std::string csv =
       "start_x,start_y,goal_x,goal_y,status,cost,optimum,wrong,cells,expanded,generated,time_ms,"
       "search_bytes,lower_bound\n";
@@ -257,6 +260,7 @@ int runScenarios(int argc, char** argv) {
     checkScenarioQuery(query, terrain.fine(StopToken())->geometry(), file);
     PlanResult result = answerOf(*planner, requestOf(query, map->kernel()));
     if (result.status == Status::FOUND && options.smooth) smoothResult(*map, result, StopToken());
+    paths.add(result);
     const std::optional<double> least = reference.costOf(query);
     const bool wrong = reference.contradicts(result, least);
     totals.wrong += wrong ? 1 : 0;
@@ -279,6 +283,7 @@ int runScenarios(int argc, char** argv) {
   if (work.bytes > 0)
     std::printf("background_ms=%.3f background_bytes=%zu\n", work.time_s * 1e3, work.bytes);
   ratios.print();
+  if (values.count("hash-paths") != 0) std::printf("path_hash=%s\n", paths.text().c_str());
   std::printf("queries=%zu solved=%zu wrong=%zu total_s=%.6f mean_ms=%.6f expanded=%llu\n",
               totals.queries, totals.solved, totals.wrong, totals.time_s,
               totals.time_s * 1e3 / static_cast<double>(std::max<std::size_t>(totals.queries, 1)),

@@ -74,6 +74,31 @@ TEST_F(Scenarios, LimitSpreadsAndCsvHasALineAQuery) {
   EXPECT_TRUE(contains(text, "0,0,0,0,FOUND,0,0,0,1,")) << text;
 }
 
+// The line before the last.
+TEST_F(Scenarios, TheHashOfPathsChangesWithAPathOnly) {
+  const std::string file = scenario("5");
+  const auto hashOf = [&file](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"--scen", file, "--hash-paths"});
+    const std::string printed = scenarios(arguments).printed;
+    const std::size_t at = printed.rfind("\npath_hash=");
+    EXPECT_NE(at, std::string::npos) << printed;
+    EXPECT_EQ(printed.find("\nqueries=", at + 1), at + std::string("\npath_hash=").size() + 16)
+        << printed;
+    return printed.substr(at, std::string("\npath_hash=").size() + 16);
+  };
+  const std::string hash = hashOf({});
+  EXPECT_EQ(hashOf({}), hash);
+  EXPECT_EQ(hashOf({"--planner", "dijkstra", "--reference", "a_star"}), hash)
+      << "costs and ways are the same, only the work differs";
+  EXPECT_NE(hashOf({"--limit", "2"}), hash) << "fewer queries";
+  EXPECT_NE(hashOf({"--decay", "0.5"}), hash) << "the same cells, other costs";
+  EXPECT_NE(hashOf({"--radius", "0.6"}), hash) << "other statuses";
+  EXPECT_NE(hashOf({"--connectivity", "4"}), hash) << "other cells";
+  EXPECT_NE(hashOf({"--planner", "anya"}), hash) << "points";
+  EXPECT_NE(hashOf({"--planner", "anya"}), hashOf({"--planner", "anya", "--kernel", "2"}));
+  EXPECT_FALSE(contains(scenarios({"--scen", file}).printed, "path_hash")) << "not asked for";
+}
+
 TEST_F(Scenarios, WhatInflationChangesIsComparedWithDijkstra) {
   const std::string file = scenario("5");
   const Outcome inflated = scenarios({"--scen", file, "--radius", "0.6"});  // closes both ways
