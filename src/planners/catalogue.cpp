@@ -5,7 +5,6 @@
 #include "grid_path_planner/rectangles/rectangle_map_planner.h"
 #include "grid_path_planner/search/a_star.h"
 #include "grid_path_planner/search/anya.h"
-#include "grid_path_planner/search/coarse_to_fine.h"
 #include "grid_path_planner/search/dijkstra.h"
 #include "grid_path_planner/search/incremental_a_star.h"
 #include "grid_path_planner/search/jump_point.h"
@@ -45,7 +44,6 @@ constexpr std::initializer_list<const char*> kNone = {};
 constexpr std::initializer_list<const char*> kGuided = {"heuristic", "heuristic_scale", "epsilon",
                                                         "tie_break", "landmarks"};
 constexpr std::initializer_list<const char*> kOrder = {"tie_break"};
-constexpr std::initializer_list<const char*> kAccuracy = {"accuracy"};
 constexpr std::initializer_list<const char*> kRectangles = {"rectangle_weight", "rectangle_funnel"};
 
 constexpr Row kCatalogue[] = {
@@ -59,13 +57,24 @@ constexpr Row kCatalogue[] = {
     {"anya", plain<Anya>, kNone},
     {"polyanya", plain<Polyanya>, kNone},
     {"rectangle_map", withOptions<RectangleMapPlanner>, kRectangles},
-    {"coarse_to_fine", withOptions<CoarseToFine>, kAccuracy},
     {"a_star_published", publishedAStar, kGuided},
+};
+
+// Names that were planners once, and what to take instead.
+struct Retired {
+  const char* name;
+  const char* advice;
+};
+
+constexpr Retired kRetired[] = {
+    {"coarse_to_fine", "is retired: take a_star or weighted_jump_point"},
 };
 
 const Row& rowOf(const std::string& name) {
   for (const Row& row : kCatalogue)
     if (name == row.name) return row;
+  for (const Retired& each : kRetired)
+    if (name == each.name) throw InputError("planner '" + name + "' " + each.advice);
   throw InputError("planner must be one of " + listOfPlanners() + ", got '" + name + "'");
 }
 

@@ -20,7 +20,6 @@ void append(Route& route, const std::shared_ptr<const CostGrid>& map, PlanResult
   if (result.status != Status::FOUND) return;
   route.cost += result.cost;
   route.segment_cost += result.segment_cost;
-  route.lower_bound = route.legs.empty() ? result.lower_bound : 0.0;
   route.legs.push_back({map, std::move(result.cells), std::move(result.points)});
 }
 

@@ -10,6 +10,7 @@
 #include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/search/heuristic.h"
 #include "grid_path_planner/terrain/segment.h"
+#include "support/error_text.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
 
@@ -407,6 +408,11 @@ TEST(Catalogue, RefusesUnknownNamesAndOptions) {
   options.heuristic_scale = "cheapest";
   options.epsilon = 0.5;
   EXPECT_THROW(makePlanner("a_star", options), InputError);
+}
+
+TEST(Catalogue, SaysWhatToTakeInsteadOfARetiredPlanner) {
+  EXPECT_EQ(test::errorText([] { makePlanner("coarse_to_fine"); }),
+            "planner 'coarse_to_fine' is retired: take a_star or weighted_jump_point");
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ const std::vector<std::string>& plannerNames();
 // The names as a list for people: "a_star, dijkstra, ...".
 std::string listOfPlanners();
 
-// Both throw InputError naming the known planners for any other name.
+// Both throw InputError for any other name: with the known ones, or what to take where it was a
+// planner once.
 std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOptions& options = {});
 // The names of the SearchOptions that it looks at.
 std::vector<std::string> optionsUsedBy(const std::string& name);

@@ -87,9 +87,8 @@ struct PlanReport {
   ExactCost cost;  // between the end cells, as in PlanResult
   double segment_cost = 0.0;
   double costValue() const { return cost.toDouble() + segment_cost; }
-  double lower_bound = 0.0;  // as in PlanResult
-  bool optimal = false;      // the planner promises that no path of its kind (over the grid, or at
-                             // any angle) costs less; never of a kernel or a smoothed path
+  bool optimal = false;  // the planner promises that no path of its kind (over the grid, or at
+                         // any angle) costs less; never of a kernel or a smoothed path
   double length_m = 0.0;
   std::size_t cells = 0;  // of the path on the map that was searched
   int kernel = 1;         // of the map that was searched

@@ -32,11 +32,10 @@ struct Route {
   std::vector<Leg> legs;  // a leg's last cell and the next one's first are the same place or block
   ExactCost cost;         // as in PlanResult
   double segment_cost = 0.0;
-  double lower_bound = 0.0;  // as in PlanResult; 0 where legs are joined
-  bool optimal = false;      // the planner promises that none of its kind (over the
-                             // grid, or at any angle) costs less on the map searched
-  bool taut = false;         // of any angle, and none is shorter: smoothing has nothing left to do
-  int kernel = 1;            // of the map that the longest part was searched on
+  bool optimal = false;  // the planner promises that none of its kind (over the
+                         // grid, or at any angle) costs less on the map searched
+  bool taut = false;     // of any angle, and none is shorter: smoothing has nothing left to do
+  int kernel = 1;        // of the map that the longest part was searched on
   Statistics statistics;
   std::vector<Eigen::Vector2d> expanded;  // centres, metres
 };

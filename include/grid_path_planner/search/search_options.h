@@ -26,7 +26,6 @@ struct SearchOptions {
   double epsilon = 1.0;                      // >= 1
   TieBreak tie_break = TieBreak::NONE;
   int landmarks = 16;
-  double accuracy = 1.05;   // >= 1
   int memory_limit = 6000;  // MB
   RectangleWeight rectangle_weight = RectangleWeight::LENGTH;
   bool rectangle_funnel = true;
@@ -53,10 +52,6 @@ void visitOptions(SearchOptions& o, Visitor&& visit) {
         OptionInfo{"Cells from which heuristic landmark knows all costs; more: fewer cells "
                    "expanded, 4 bytes a cell of the map and 2 whole-map searches each",
                    "", 1, 64});
-  visit("accuracy", o.accuracy,
-        OptionInfo{"What coarse_to_fine aims at: cost over lower bound; lower: a longer search for "
-                   "a better bound",
-                   "", 1, 1000000});
   visit("memory_limit", o.memory_limit,
         OptionInfo{"What a planner may take for itself, the map not counted: it refuses a map that "
                    "needs more, before it takes anything",
