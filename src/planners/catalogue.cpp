@@ -32,14 +32,6 @@ Made withOptions(const SearchOptions& options) {
   return std::make_unique<T>(options);
 }
 
-Made lazyThetaStar(const SearchOptions&) {
-  return std::make_unique<ThetaStar>(ThetaStar::lazy());
-}
-
-Made publishedAStar(const SearchOptions& options) {
-  return std::make_unique<AStar>(AStar::published(options));
-}
-
 constexpr std::initializer_list<const char*> kNone = {};
 constexpr std::initializer_list<const char*> kGuided = {"heuristic", "heuristic_scale", "epsilon",
                                                         "tie_break", "landmarks"};
@@ -52,12 +44,10 @@ constexpr Row kCatalogue[] = {
     {"jump_point", plain<JumpPoint>, kNone},
     {"dijkstra", withOptions<Dijkstra>, kOrder},
     {"incremental_a_star", plain<IncrementalAStar>, kNone},
-    {"theta_star", plain<ThetaStar>, kNone},
-    {"lazy_theta_star", lazyThetaStar, kNone},
+    {"lazy_theta_star", plain<LazyThetaStar>, kNone},
     {"anya", plain<Anya>, kNone},
     {"polyanya", plain<Polyanya>, kNone},
     {"rectangle_map", withOptions<RectangleMapPlanner>, kRectangles},
-    {"a_star_published", publishedAStar, kGuided},
 };
 
 // Names that were planners once, and what to take instead.
@@ -68,6 +58,8 @@ struct Retired {
 
 constexpr Retired kRetired[] = {
     {"coarse_to_fine", "is retired: take a_star or weighted_jump_point"},
+    {"theta_star", "is in `grid_path study` only: take lazy_theta_star"},
+    {"a_star_published", "is in `grid_path study` only: take a_star"},
 };
 
 const Row& rowOf(const std::string& name) {
@@ -98,7 +90,7 @@ std::string listOfPlanners() {
 std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOptions& options) {
   checkSearchOptions(options);
   std::unique_ptr<Planner> planner = rowOf(name).make(options);
-  planner->limitMemory(static_cast<std::size_t>(options.memory_limit) * 1000000);
+  planner->limitMemory(memoryLimitOf(options));
   return planner;
 }
 

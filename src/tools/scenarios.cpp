@@ -166,11 +166,11 @@ class Reference {
   enum class Right { EQUAL, NOT_MORE, NOT_LESS };
 
   static std::unique_ptr<Planner> plannerNamed(const std::string& name) {
-    const std::vector<std::string>& known = plannerNames();
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError("--reference must be file or a planner (" + listOfPlanners() + "), got '" +
-                       name + "'");
-    return makePlanner(name);
+    try {
+      return makePlanner(name);
+    } catch (const InputError& error) {
+      throw InputError(std::string("--reference must be file or a planner; ") + error.what());
+    }
   }
 
   std::string name_;

@@ -77,7 +77,7 @@ TEST(UnusedOptions, WhatThePathLeavesWithoutEffect) {
   for (const char* planner : {"anya", "polyanya"})
     EXPECT_EQ(unusedWith({{"planner", planner}, {"smooth", "true"}}),
               (Lines{std::string("smooth: planner ") + planner}));
-  for (const char* planner : {"theta_star", "rectangle_map", "a_star"})
+  for (const char* planner : {"lazy_theta_star", "rectangle_map", "a_star"})
     EXPECT_EQ(unusedWith({{"planner", planner}, {"smooth", "true"}}), Lines()) << planner;
   EXPECT_EQ(unusedWith({{"planner", "anya"}, {"smooth", "true"}, {"kernel", "2"}}), Lines())
       << "the ways out of blocked blocks are paths over the grid";

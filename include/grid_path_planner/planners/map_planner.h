@@ -71,7 +71,8 @@ void visitOptions(PlannerOptions& o, Visitor&& visit) {
 
 // Throws InputError naming the option for a value outside its limits and for combinations that
 // contradict each other: smooth with connectivity 4 or unit diagonals.
-void checkPlannerOptions(const PlannerOptions& options);
+void checkPlannerOptions(const PlannerOptions& options,
+                         const PlannerMaker& make_planner = makePlanner);
 
 // Both in the map's frame.
 struct PoseRequest {
@@ -101,7 +102,7 @@ struct PlanReport {
 class MapPlanner {
  public:
   // Throws InputError for options that cannot be used.
-  explicit MapPlanner(const PlannerOptions& options = {});
+  explicit MapPlanner(const PlannerOptions& options = {}, PlannerMaker make_planner = makePlanner);
   ~MapPlanner();
   MapPlanner(MapPlanner&&) noexcept;
   MapPlanner& operator=(MapPlanner&&) noexcept;
@@ -138,6 +139,7 @@ class MapPlanner {
   // The same, and what was made of them keeps up.
   RouteMaps followedMaps(const StopToken& stop);
 
+  PlannerMaker make_planner_;
   PlannerOptions options_;
   std::shared_ptr<const OccupancyGrid> map_;
   std::unique_ptr<Terrain> terrain_;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/search/bucket_search.h"
 #include "grid_path_planner/search/planner.h"
 #include "grid_path_planner/search/search_options.h"
@@ -52,7 +53,7 @@ struct RouteMaps {
 class RouteFinder {
  public:
   // Throws InputError for an unknown planner or options that cannot be used.
-  RouteFinder(std::string planner, const SearchOptions& options);
+  RouteFinder(std::string planner, const SearchOptions& options, PlannerMaker make_planner);
 
   // Takes the maps. Where they follow those of the last call by one revision, what was made of
   // those is repaired. Throws Stopped.
@@ -90,6 +91,7 @@ class RouteFinder {
   Route findOverBlocks(Cell start, Cell goal, bool record_expanded, const StopToken& stop);
   Route findFine(Cell start, Cell goal, bool record_expanded, const StopToken& stop);
 
+  PlannerMaker make_planner_;
   std::string planner_name_;
   SearchOptions options_;
   std::shared_ptr<const CostGrid> fine_;

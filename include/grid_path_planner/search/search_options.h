@@ -13,8 +13,9 @@ namespace grid_path_planner {
 enum class Heuristic { ZERO, MANHATTAN, CHEBYSHEV, OCTILE, EUCLIDEAN, LANDMARK, EXACT };
 const std::vector<std::pair<const char*, Heuristic>>& choicesOf(Heuristic);
 
-enum class TieBreak { NONE, LARGER_G, CROSS_PRODUCT, CROSS_PRODUCT_PUBLISHED };
+enum class TieBreak { NONE, LARGER_G, CROSS_PRODUCT };
 const std::vector<std::pair<const char*, TieBreak>>& choicesOf(TieBreak);
+std::string adviceFor(TieBreak, const std::string& name);
 
 // What rectangle_map's search adds up (rectangles/rectangle_route.h).
 enum class RectangleWeight { AREA, BORDER, DISTANCE, CONNECTIONS, LENGTH };
@@ -68,6 +69,9 @@ void visitOptions(SearchOptions& o, Visitor&& visit) {
 
 // The number that heuristic_scale gives; none for "cheapest". Throws InputError for anything else.
 std::optional<double> heuristicScale(const SearchOptions& options);
+
+// memory_limit in bytes.
+std::size_t memoryLimitOf(const SearchOptions& options);
 
 // Throws InputError naming the option.
 void checkSearchOptions(const SearchOptions& options);
