@@ -45,18 +45,11 @@ constexpr int kFreeCorner = 40;                      // cells; so that both ends
 constexpr int kRingWidth = 20;                       // cells
 constexpr double kLong = 10.0;                       // s; a plan that is faster is measured again
 
-// All but the original study's, which searches as a_star does.
-std::vector<std::string> ownPlanners() {
-  std::vector<std::string> names = plannerNames();
-  names.erase(std::remove(names.begin(), names.end(), "a_star_published"), names.end());
-  return names;
-}
-
 struct Options {
   std::vector<double> sides = {256, 512, 1024, 2048, 4096, 8192, 16384};
   std::vector<double> densities = {0.02, 0.05, 0.1, 0.2, 0.3, 0.4};
   double density_side = 1024;
-  std::vector<std::string> planners = ownPlanners();
+  std::vector<std::string> planners = plannerNames();
   std::string weights = "uniform";
   double limit_s = 60.0;
   std::string csv;

@@ -5,7 +5,6 @@
 #include "grid_path_planner/rectangles/rectangle_map_planner.h"
 #include "grid_path_planner/search/a_star.h"
 #include "grid_path_planner/search/anya.h"
-#include "grid_path_planner/search/coarse_to_fine.h"
 #include "grid_path_planner/search/dijkstra.h"
 #include "grid_path_planner/search/incremental_a_star.h"
 #include "grid_path_planner/search/jump_point.h"
@@ -33,19 +32,10 @@ Made withOptions(const SearchOptions& options) {
   return std::make_unique<T>(options);
 }
 
-Made lazyThetaStar(const SearchOptions&) {
-  return std::make_unique<ThetaStar>(ThetaStar::lazy());
-}
-
-Made publishedAStar(const SearchOptions& options) {
-  return std::make_unique<AStar>(AStar::published(options));
-}
-
 constexpr std::initializer_list<const char*> kNone = {};
 constexpr std::initializer_list<const char*> kGuided = {"heuristic", "heuristic_scale", "epsilon",
                                                         "tie_break", "landmarks"};
 constexpr std::initializer_list<const char*> kOrder = {"tie_break"};
-constexpr std::initializer_list<const char*> kAccuracy = {"accuracy"};
 constexpr std::initializer_list<const char*> kRectangles = {"rectangle_weight", "rectangle_funnel"};
 
 constexpr Row kCatalogue[] = {
@@ -54,18 +44,29 @@ constexpr Row kCatalogue[] = {
     {"jump_point", plain<JumpPoint>, kNone},
     {"dijkstra", withOptions<Dijkstra>, kOrder},
     {"incremental_a_star", plain<IncrementalAStar>, kNone},
-    {"theta_star", plain<ThetaStar>, kNone},
-    {"lazy_theta_star", lazyThetaStar, kNone},
+    {"lazy_theta_star", plain<LazyThetaStar>, kNone},
     {"anya", plain<Anya>, kNone},
     {"polyanya", plain<Polyanya>, kNone},
     {"rectangle_map", withOptions<RectangleMapPlanner>, kRectangles},
-    {"coarse_to_fine", withOptions<CoarseToFine>, kAccuracy},
-    {"a_star_published", publishedAStar, kGuided},
+};
+
+// Names that were planners once, and what to take instead.
+struct Retired {
+  const char* name;
+  const char* advice;
+};
+
+constexpr Retired kRetired[] = {
+    {"coarse_to_fine", "is retired: take a_star or weighted_jump_point"},
+    {"theta_star", "is in `grid_path study` only: take lazy_theta_star"},
+    {"a_star_published", "is in `grid_path study` only: take a_star"},
 };
 
 const Row& rowOf(const std::string& name) {
   for (const Row& row : kCatalogue)
     if (name == row.name) return row;
+  for (const Retired& each : kRetired)
+    if (name == each.name) throw InputError("planner '" + name + "' " + each.advice);
   throw InputError("planner must be one of " + listOfPlanners() + ", got '" + name + "'");
 }
 
@@ -89,7 +90,7 @@ std::string listOfPlanners() {
 std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOptions& options) {
   checkSearchOptions(options);
   std::unique_ptr<Planner> planner = rowOf(name).make(options);
-  planner->limitMemory(static_cast<std::size_t>(options.memory_limit) * 1000000);
+  planner->limitMemory(memoryLimitOf(options));
   return planner;
 }
 

@@ -39,11 +39,11 @@ StopToken limited(const StopSource& stop, double timeout) {
 
 }  // namespace
 
-void checkPlannerOptions(const PlannerOptions& options) {
+void checkPlannerOptions(const PlannerOptions& options, const PlannerMaker& make_planner) {
   checkOptionLimits(options);
   checkTerrainOptions(options.terrain);
   checkSearchOptions(options.search);
-  makePlanner(options.planner, options.search);
+  make_planner(options.planner, options.search);
   const MotionModel& motion = options.terrain.motion;
   if (options.smooth &&
       (motion.connectivity != Connectivity::EIGHT || motion.diagonal_cost != DiagonalCost::SQRT2))
@@ -52,7 +52,8 @@ void checkPlannerOptions(const PlannerOptions& options) {
                      choiceName(motion.diagonal_cost));
 }
 
-MapPlanner::MapPlanner(const PlannerOptions& options) {
+MapPlanner::MapPlanner(const PlannerOptions& options, PlannerMaker make_planner)
+    : make_planner_(std::move(make_planner)) {
   setOptions(options);
 }
 MapPlanner::~MapPlanner() = default;
@@ -60,11 +61,12 @@ MapPlanner::MapPlanner(MapPlanner&&) noexcept = default;
 MapPlanner& MapPlanner::operator=(MapPlanner&&) noexcept = default;
 
 void MapPlanner::setOptions(const PlannerOptions& options) {
-  checkPlannerOptions(options);
+  checkPlannerOptions(options, make_planner_);
   const bool new_terrain = !terrain_ || !sameOptions(options.terrain, options_.terrain);
   const bool new_routes = new_terrain || options.planner != options_.planner ||
                           !sameOptions(options.search, options_.search);
-  if (new_routes) routes_ = std::make_unique<RouteFinder>(options.planner, options.search);
+  if (new_routes)
+    routes_ = std::make_unique<RouteFinder>(options.planner, options.search, make_planner_);
   if (new_terrain) {
     terrain_ = std::make_unique<Terrain>(options.terrain);
     if (map_) terrain_->setMap(map_);

@@ -196,7 +196,6 @@ void PlanAttempt::fill(PlanReport& report, const End& start, const End& goal, Ro
 
   report.cost = route.cost;
   report.segment_cost = route.segment_cost;
-  report.lower_bound = route.lower_bound;
   report.optimal = route.optimal;
   for (const Leg& leg : route.legs) report.cells += leg.cells.size();
   report.cells -= route.legs.size() - 1;

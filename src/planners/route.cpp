@@ -4,7 +4,6 @@
 #include <cassert>
 #include <utility>
 
-#include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/search/steps.h"
 
 namespace grid_path_planner {
@@ -20,16 +19,17 @@ void append(Route& route, const std::shared_ptr<const CostGrid>& map, PlanResult
   if (result.status != Status::FOUND) return;
   route.cost += result.cost;
   route.segment_cost += result.segment_cost;
-  route.lower_bound = route.legs.empty() ? result.lower_bound : 0.0;
   route.legs.push_back({map, std::move(result.cells), std::move(result.points)});
 }
 
 }  // namespace
 
-RouteFinder::RouteFinder(std::string planner, const SearchOptions& options)
-    : planner_name_(std::move(planner)),
+RouteFinder::RouteFinder(std::string planner, const SearchOptions& options,
+                         PlannerMaker make_planner)
+    : make_planner_(std::move(make_planner)),
+      planner_name_(std::move(planner)),
       options_(options),
-      planner_(makePlanner(planner_name_, options)) {}
+      planner_(make_planner_(planner_name_, options)) {}
 
 void RouteFinder::prepare(const RouteMaps& maps, const StopToken& stop) {
   if (fine_ != maps.fine) followFine(maps, stop);
@@ -160,7 +160,7 @@ Route RouteFinder::findOverBlocks(Cell start, Cell goal, bool record_expanded,
 }
 
 Route RouteFinder::findFine(Cell start, Cell goal, bool record_expanded, const StopToken& stop) {
-  if (!finer_) finer_ = makePlanner(planner_name_, options_);
+  if (!finer_) finer_ = make_planner_(planner_name_, options_);
   if (finer_map_ != fine_) {
     finer_map_.reset();
     finer_->prepare(fine_, stop);

@@ -26,6 +26,16 @@ std::size_t bytesForRuns(const GridGeometry& geometry, std::size_t runs) {
   return std::max(largestFirstBytes(geometry, runs), RectangleGraph::bytesFor(runs));
 }
 
+// Throws Stopped, and DecompositionTooLarge before it takes more than `memory`.
+RectangleGraph decomposed(const CostGrid& map, std::size_t memory, const StopToken& stop) {
+  DecompositionLimits limits;
+  limits.bytes = memory;
+  std::vector<CellRect> rectangles = largestFirst(map.bitMaps(stop), limits, stop);
+  rectangles.shrink_to_fit();
+  if (RectangleGraph::bytesFor(rectangles.size()) > memory) throw DecompositionTooLarge();
+  return RectangleGraph(map.geometry(), std::move(rectangles), Touching::BORDERS, stop);
+}
+
 Cell middleOf(const CellRect& rect) {
   return {rect.column + rect.width / 2, rect.row + rect.height / 2};
 }
@@ -59,6 +69,7 @@ std::size_t RectangleMapPlanner::bytesFor(const GridGeometry& geometry) const {
 }
 
 void RectangleMapPlanner::doPrepare(const StopToken& stop) {
+  rectangles_ = RectangleGraph();
   const std::size_t bytes = bytesForRuns(map().geometry(), countRuns(map().bitMaps(stop).rows));
   const auto megabytes = [](std::size_t number) { return std::to_string(number / 1000000 + 1); };
   const std::string too_much =
@@ -66,18 +77,14 @@ void RectangleMapPlanner::doPrepare(const StopToken& stop) {
       std::to_string(memoryLimit() / 1000000) + " MB";
   if (bytes > memoryLimit()) return refuse("needs up to " + megabytes(bytes) + too_much);
   try {
-    keeper_.prepare(sharedMap(), stop, memoryLimit());
+    rectangles_ = decomposed(map(), memoryLimit(), stop);
   } catch (const DecompositionTooLarge&) {
     refuse("needs more than " + megabytes(memoryLimit()) + too_much);
   }
 }
 
 void RectangleMapPlanner::doUpdate(const CellRect& changed, const StopToken& stop) {
-  keeper_.update(sharedMap(), changed, stop, memoryLimit());
-}
-
-void RectangleMapPlanner::finishBackgroundWork(const StopToken& stop) {
-  keeper_.finish(stop);
+  rectangles_.edit(map().bitMaps(stop).rows, changed, stop);
 }
 
 void RectangleMapPlanner::keep(const RectangleRoute& route, const PlanRequest& request,

@@ -34,10 +34,6 @@ void warnUnusedOptions(const PlannerOptions& options, const PlannerOptions& befo
       ROS_WARN_STREAM(each.name << " changes nothing with " << each.with);
 }
 
-std::size_t memoryLimitOf(const PathPlannerNodeOptions& options) {
-  return static_cast<std::size_t>(options.planner.search.memory_limit) * 1000000;
-}
-
 }  // namespace
 
 PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh) : nh_(nh) {
@@ -158,7 +154,8 @@ void PathPlannerNode::publishRectangles(const PathPlannerNodeOptions& options, b
   }
   if (!rectangles_) rectangles_ = std::make_unique<RectanglePublisher>(nh_);
   if (published_costs_ && (map_changed || !shown))
-    rectangles_->publish(published_costs_, desk_->engine().frame(options), memoryLimitOf(options));
+    rectangles_->publish(published_costs_, desk_->engine().frame(options),
+                         memoryLimitOf(options.planner.search));
 }
 
 bool PathPlannerNode::goalPathBlocked(const PathPlannerNodeOptions& options,

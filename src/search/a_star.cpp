@@ -8,12 +8,17 @@
 namespace grid_path_planner {
 namespace {
 
-Traits traitsOf(const char* name, bool optimal) {
+Traits guidedTraits(const char* name) {
   Traits traits;
   traits.name = name;
-  traits.optimal = optimal;
   traits.heuristic = true;
   traits.repairs = true;
+  return traits;
+}
+
+Traits aStarTraits() {
+  Traits traits = guidedTraits("a_star");
+  traits.optimal = true;
   return traits;
 }
 
@@ -25,7 +30,6 @@ SearchKey tieKey(TieBreak tie_break, SearchKey g, const Estimate& estimate, Cell
     case TieBreak::CROSS_PRODUCT:
       return estimate.cross(cell);
     case TieBreak::NONE:
-    case TieBreak::CROSS_PRODUCT_PUBLISHED:
       break;
   }
   return 0;
@@ -40,21 +44,25 @@ SearchKey stretched(SearchKey bound, double epsilon) {
 }  // namespace
 
 AStar::AStar(const SearchOptions& options)
-    : AStar(traitsOf("a_star", true), options, BestFirstSearch::GoalTest::WHEN_EXPANDED) {}
-
-AStar AStar::published(const SearchOptions& options) {
-  return AStar(traitsOf("a_star_published", false), options,
-               BestFirstSearch::GoalTest::WHEN_GENERATED);
+    : Planner(aStarTraits()),
+      options_(options),
+      strictly_ordered_(options.tie_break != TieBreak::NONE),
+      tables_(options) {
+  checkSearchOptions(options);
 }
 
-AStar::AStar(Traits traits, const SearchOptions& options, BestFirstSearch::GoalTest goal_test)
-    : Planner(std::move(traits)), options_(options), goal_test_(goal_test), tables_(options) {
+AStar::AStar(const char* name, const SearchOptions& options, const Variation& variation)
+    : Planner(guidedTraits(name)),
+      options_(options),
+      strictly_ordered_(true),
+      variation_(variation),
+      tables_(options) {
   checkSearchOptions(options);
 }
 
 std::size_t AStar::bytesFor(const GridGeometry& geometry) const {
   const std::size_t search =
-      strictlyOrdered() ? BestFirstSearch::bytesFor(geometry) : BucketSearch::bytesFor(geometry);
+      strictly_ordered_ ? BestFirstSearch::bytesFor(geometry) : BucketSearch::bytesFor(geometry);
   return search + PreparedHeuristic::bytesFor(options_, geometry);
 }
 
@@ -68,7 +76,7 @@ bool AStar::optimalFor(const CostGrid& map) const {
 }
 
 void AStar::doPrepare(const StopToken& stop) {
-  if (strictlyOrdered())
+  if (strictly_ordered_)
     in_order_.prepare(map(), stop);
   else
     by_buckets_.prepare(map(), stop);
@@ -76,7 +84,7 @@ void AStar::doPrepare(const StopToken& stop) {
 }
 
 void AStar::doUpdate(const CellRect& changed, const StopToken& stop) {
-  if (strictlyOrdered())
+  if (strictly_ordered_)
     in_order_.update(map(), changed, stop);
   else
     by_buckets_.update(map(), changed, stop);
@@ -84,7 +92,7 @@ void AStar::doUpdate(const CellRect& changed, const StopToken& stop) {
 }
 
 PlanResult AStar::doPlan(const PlanRequest& request, const StopToken& stop) {
-  PlanResult result = strictlyOrdered() ? planInOrder(request, stop)
+  PlanResult result = strictly_ordered_ ? planInOrder(request, stop)
                       : tables_.ready() ? planWithTables(request, stop)
                                         : planByBuckets(request, stop);
   result.statistics.search_bytes += tables_.work().bytes;
@@ -130,17 +138,19 @@ PlanResult AStar::planInOrder(const PlanRequest& request, const StopToken& stop)
   const std::uint32_t goal_index = map().geometry().index(goal).value();
   const Estimate estimate(options_, map(), request.start, goal);
   const TieBreak tie_break = options_.tie_break;
+  const long double cross_share = variation_.cross_share;
   const GridGeometry& geometry = map().geometry();
   const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
   return tables_.withBound(goal_index, [&](const auto& boundIn) {
     const auto bound = boundIn(kWideScale);
     const auto promise = [&](SearchKey g, Cell cell) {
       const SearchKey least = stretched(bound(geometry.index(cell).value()), options_.epsilon);
-      return BestFirstSearch::Promise{saturatingSum(g, std::max(estimate(cell), least)),
+      const SearchKey to_go = cross_share == 0.0L ? estimate(cell) : estimate(cell, cross_share);
+      return BestFirstSearch::Promise{saturatingSum(g, std::max(to_go, least)),
                                       tieKey(tie_break, g, estimate, cell)};
     };
     return in_order_.run(map(), request.start, isGoal, promise, request.record_expanded, stop,
-                         goal_test_);
+                         variation_.goal_test);
   });
 }
 

@@ -18,9 +18,6 @@ Heuristic closedForm(Heuristic heuristic, const MotionModel& motion) {
   return motion.diagonal_cost == DiagonalCost::UNIT ? Heuristic::CHEBYSHEV : Heuristic::OCTILE;
 }
 
-// What the original added to h for every cell off the straight line.
-constexpr long double kPublishedCrossFactor = 0.001L;
-
 }  // namespace
 
 bool prepared(Heuristic heuristic) {
@@ -48,15 +45,13 @@ bool admissible(Heuristic heuristic, const MotionModel& motion) {
 bool optimalWith(const SearchOptions& options, const CostGrid& map) {
   const std::optional<double> scale = heuristicScale(options);
   const bool scale_bounds = !scale || *scale <= map.cheapest();
-  return options.epsilon == 1.0 && scale_bounds && admissible(options.heuristic, map.motion()) &&
-         options.tie_break != TieBreak::CROSS_PRODUCT_PUBLISHED;
+  return options.epsilon == 1.0 && scale_bounds && admissible(options.heuristic, map.motion());
 }
 
 Estimate::Estimate(const SearchOptions& options, const CostGrid& map, Cell start, Cell goal,
                    const KeyScale& scale)
     : scale_(scale),
       heuristic_(closedForm(options.heuristic, map.motion())),
-      published_cross_(options.tie_break == TieBreak::CROSS_PRODUCT_PUBLISHED),
       start_(start),
       goal_(goal),
       weight_(map.cheapest()),
@@ -65,7 +60,7 @@ Estimate::Estimate(const SearchOptions& options, const CostGrid& map, Cell start
   const std::uint64_t longest =
       static_cast<std::uint64_t>(map.geometry().width()) + map.geometry().height();
   const bool fits = weight_ == 0 || longest <= kInfiniteKey / (2 * scale_.straight * weight_);
-  integral_ = fits && options.epsilon == 1.0 && !published_cross_ && !heuristicScale(options);
+  integral_ = fits && options.epsilon == 1.0 && !heuristicScale(options);
 }
 
 std::uint64_t Estimate::cross(Cell cell) const {
@@ -97,14 +92,19 @@ SearchKey Estimate::distance(std::uint64_t columns, std::uint64_t rows) const {
   return key > 0 ? key - 1 : 0;
 }
 
-SearchKey Estimate::general(Cell cell, std::uint64_t columns, std::uint64_t rows) const {
+SearchKey Estimate::general(std::uint64_t columns, std::uint64_t rows) const {
   const SearchKey cells = distance(columns, rows);
   if (integral_) return cells * weight_;
-  long double key = static_cast<long double>(cells) * static_cast<long double>(factor_);
-  if (published_cross_)
-    key += kPublishedCrossFactor * static_cast<long double>(cross(cell)) *
-           static_cast<long double>(scale_.straight);
-  return roundedDown(key);
+  return roundedDown(static_cast<long double>(cells) * static_cast<long double>(factor_));
+}
+
+SearchKey Estimate::operator()(Cell cell, long double cross_share) const {
+  const auto columns = static_cast<std::uint64_t>(std::abs(cell.column - goal_.column));
+  const auto rows = static_cast<std::uint64_t>(std::abs(cell.row - goal_.row));
+  return roundedDown(static_cast<long double>(distance(columns, rows)) *
+                         static_cast<long double>(factor_) +
+                     cross_share * static_cast<long double>(cross(cell)) *
+                         static_cast<long double>(scale_.straight));
 }
 
 }  // namespace grid_path_planner

@@ -19,9 +19,13 @@ const std::vector<std::pair<const char*, TieBreak>>& choicesOf(TieBreak) {
   static const std::vector<std::pair<const char*, TieBreak>> choices = {
       {"none", TieBreak::NONE},
       {"larger_g", TieBreak::LARGER_G},
-      {"cross_product", TieBreak::CROSS_PRODUCT},
-      {"cross_product_published", TieBreak::CROSS_PRODUCT_PUBLISHED}};
+      {"cross_product", TieBreak::CROSS_PRODUCT}};
   return choices;
+}
+
+std::string adviceFor(TieBreak, const std::string& name) {
+  if (name != "cross_product_published") return "";
+  return "is in `grid_path study` only: take cross_product";
 }
 
 const std::vector<std::pair<const char*, RectangleWeight>>& choicesOf(RectangleWeight) {
@@ -48,6 +52,10 @@ std::optional<double> heuristicScale(const SearchOptions& options) {
     throw InputError("heuristic_scale must be 'cheapest' or a number from 0 to 65535, got '" +
                      options.heuristic_scale + "'");
   return scale;
+}
+
+std::size_t memoryLimitOf(const SearchOptions& options) {
+  return static_cast<std::size_t>(options.memory_limit) * 1000000;
 }
 
 void checkSearchOptions(const SearchOptions& options) {

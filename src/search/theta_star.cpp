@@ -13,9 +13,6 @@ namespace {
 constexpr std::uint32_t kExpansionsBetweenPolls = 32;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Sums of the same lengths in another order differ by less, relatively.
-constexpr double kRounding = 1e-12;
-
 Traits thetaStarTraits(const char* name) {
   Traits traits;
   traits.name = name;
@@ -28,13 +25,7 @@ Traits thetaStarTraits(const char* name) {
 
 }  // namespace
 
-ThetaStar::ThetaStar() : ThetaStar("theta_star", Sight::WHEN_REACHED) {}
-ThetaStar::ThetaStar(const char* name, Sight sight)
-    : Planner(thetaStarTraits(name)), sight_(sight) {}
-
-ThetaStar ThetaStar::lazy() {
-  return ThetaStar("lazy_theta_star", Sight::WHEN_EXPANDED);
-}
+ThetaStar::ThetaStar(const char* name) : Planner(thetaStarTraits(name)) {}
 
 std::size_t ThetaStar::bytesFor(const GridGeometry& geometry) const {
   return geometry.size() * (sizeof(Node) + sizeof(std::uint8_t)) + BitMaps::bytesFor(geometry);
@@ -101,54 +92,6 @@ void ThetaStar::reach(std::uint32_t index, Cell at, std::uint32_t parent, double
   ++counts.generated;
 }
 
-// Calls visit(index, cell) for every neighbour that a step leads to.
-template <class Visit>
-void ThetaStar::forNeighbours(std::uint32_t index, Cell at, Visit&& visit) const {
-  for (unsigned mask = masks_[index]; mask != 0; mask &= mask - 1) {
-    const auto step = static_cast<std::size_t>(__builtin_ctz(mask));
-    visit(static_cast<std::uint32_t>(index + masks_.offsets()[step]),
-          Cell{at.column + kSteps[step].column, at.row + kSteps[step].row});
-  }
-}
-
-// Theta*: each neighbour by the segment from the parent, or by the step.
-void ThetaStar::expand(std::uint32_t from, Statistics& counts) {
-  const Node node = nodes_[from];
-  const double parent_g = nodes_[node.parent].g;
-  const Cell at = cell(from), parent = cell(node.parent);
-  forNeighbours(from, at, [&](std::uint32_t index, Cell to) {
-    if (closed(index)) return;
-    const double by_step = node.g + stepTo(at, to);
-    if (node.parent != from) {
-      const double least = (parent_g + leastCost(parent, to)) * (1.0 - kRounding);
-      if (known(index) && nodes_[index].g <= least) return;
-      const auto cost = straight(parent, to, by_step - parent_g);
-      if (cost && parent_g + *cost <= by_step)
-        return reach(index, to, node.parent, parent_g + *cost, false, counts);
-    }
-    reach(index, to, from, by_step, false, counts);
-  });
-}
-
-// Lazy Theta*: each neighbour by the segment from the parent, taken on trust. On maps of several
-// weights it is thought to be as much cheaper than the step as it is shorter.
-void ThetaStar::expandTrusting(std::uint32_t from, Statistics& counts) {
-  const Node node = nodes_[from];
-  const double parent_g = nodes_[node.parent].g;
-  const Cell at = cell(from), parent = cell(node.parent);
-  const double to_parent = leastCost(parent, at);
-  forNeighbours(from, at, [&](std::uint32_t index, Cell to) {
-    if (closed(index)) return;
-    double g = parent_g + leastCost(parent, to);
-    if (!bits_) {
-      const double shorter = to_parent + leastCost(at, to) - (g - parent_g);
-      const double dearer = std::max(map().weight(at), map().weight(to)) / double(map().cheapest());
-      g = node.g + stepTo(at, to) - dearer * shorter;
-    }
-    reach(index, to, node.parent, g, true, counts);
-  });
-}
-
 // The cheapest step to a cell from a neighbour that was expanded.
 ThetaStar::Arrival ThetaStar::byStep(std::uint32_t index, Cell at) const {
   Arrival best{kInfinity, index};
@@ -206,10 +149,7 @@ PlanResult ThetaStar::doPlan(const PlanRequest& request, const StopToken& stop) 
     ++counts.expanded;
     if (request.record_expanded) result.expanded.emplace_back(from);
     if (from == goal) return found(std::move(result));
-    if (sight_ == Sight::WHEN_REACHED)
-      expand(from, counts);
-    else
-      expandTrusting(from, counts);
+    expand(from, counts);
   }
   return withStatus(Status::UNREACHABLE, result);
 }
@@ -232,6 +172,25 @@ PlanResult ThetaStar::withStatus(Status status, PlanResult result) const {
   result.statistics.search_bytes =
       bytesFor(map().geometry()) + result.statistics.peak_open * sizeof(Entry);
   return result;
+}
+
+// Each neighbour by the segment from the parent, taken on trust. On maps of several
+// weights it is thought to be as much cheaper than the step as it is shorter.
+void LazyThetaStar::expand(std::uint32_t from, Statistics& counts) {
+  const Node here = node(from);
+  const double parent_g = node(here.parent).g;
+  const Cell at = cell(from), parent = cell(here.parent);
+  const double to_parent = leastCost(parent, at);
+  forNeighbours(from, at, [&](std::uint32_t index, Cell to) {
+    if (closed(index)) return;
+    double g = parent_g + leastCost(parent, to);
+    if (!oneWeight()) {
+      const double shorter = to_parent + leastCost(at, to) - (g - parent_g);
+      const double dearer = std::max(map().weight(at), map().weight(to)) / double(map().cheapest());
+      g = here.g + stepTo(at, to) - dearer * shorter;
+    }
+    reach(index, to, here.parent, g, true, counts);
+  });
 }
 
 }  // namespace grid_path_planner

@@ -73,7 +73,9 @@ std::string dijkstraAnswer(const StudyData& data, const Gaps& gaps) {
 std::string correctAnswer(const StudyData& data, const StudyVariant& published, const Gaps& gaps) {
   for (std::size_t variant = 0; variant < data.study().variants.size(); ++variant) {
     const StudyVariant& each = data.study().variants[variant];
-    if (each.planner != "a_star" || !sameOptions(each.search, published.search)) continue;
+    if (each.planner != "a_star" || !sameOptions(each.search, published.search) ||
+        each.published_cross != published.published_cross)
+      continue;
     const Gaps correct = gapsOf(data, variant);
     const std::size_t by_heuristic = correct.found - correct.optimal;
     const std::size_t missed = gaps.found - gaps.optimal;

@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "grid_path_planner/study/report.h"
+#include "grid_path_planner/study/study_planners.h"
 
 namespace grid_path_planner {
 namespace {
@@ -54,6 +55,7 @@ std::string cellArgument(Cell cell) {
 std::string planCommand(const StudyData& data, const StudyRun& run) {
   const StudySetting& setting = data.settingOf(run);
   const StudyVariant& variant = data.study().variants[run.variant];
+  if (inStudiesOnly(variant.planner, variant.published_cross)) return "";
   PlannerOptions options = data.study().base;
   options.terrain = setting.terrain;
   options.planner = variant.planner;

@@ -81,7 +81,7 @@ if (data.pictures.length > 0) {
           const line = document.createElement("li"), code = document.createElement("code");
           line.textContent = `${data.variants[path.variant].name}: ${path.text} `;
           code.textContent = path.command;
-          line.append(document.createElement("br"), code);
+          if (path.command) line.append(document.createElement("br"), code);
           list.append(line);
         }
       item.append(list);

@@ -5,8 +5,8 @@
 
 #include "grid_path_planner/base/option_parsing.h"
 #include "grid_path_planner/base/yaml_file.h"
-#include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/study/study.h"
+#include "grid_path_planner/study/study_planners.h"
 
 namespace grid_path_planner {
 namespace {
@@ -22,6 +22,10 @@ std::string weightsLabel(const Weights& weights) {
 std::string folderOf(const std::string& file) {
   const std::size_t slash = file.rfind('/');
   return slash == std::string::npos ? "" : file.substr(0, slash + 1);
+}
+
+bool published(StudyTieBreak tie_break) {
+  return tie_break == StudyTieBreak::CROSS_PRODUCT_PUBLISHED;
 }
 
 std::string stemOf(const std::string& file) {
@@ -121,6 +125,11 @@ class StudyReader {
     for (const auto& entry : node) {
       const auto key = yamlAs<std::string>(entry.first, "an option", file_, "a name");
       const auto text = yamlAs<std::string>(entry.second, key, file_, "a value");
+      if (key == "tie_break") {
+        atLine(entry.second, [&] { tie_break_ = choiceFromName<StudyTieBreak>(key, text); });
+        study_.base.search.tie_break = orderOf(tie_break_);
+        continue;
+      }
       bool known = false;
       visitOptions(study_.base, [&](const char* name, auto& value, const OptionInfo& info) {
         if (key != name) return;
@@ -229,34 +238,35 @@ class StudyReader {
     return choices;
   }
 
-  void addVariant(const YAML::Node& node, const std::string& planner, const SearchOptions& search,
-                  const std::string& label) {
-    atLine(node, [&] { makePlanner(planner, search); });
-    study_.variants.push_back({label, planner, search});
+  void addVariant(const YAML::Node& node, const StudyVariant& variant) {
+    atLine(node,
+           [&] { makeStudyPlanner(variant.planner, variant.search, variant.published_cross); });
+    study_.variants.push_back(variant);
   }
 
   void readVariants(const YAML::Node& root) {
     const auto heuristics = choicesUnder(root, "heuristics", study_.base.search.heuristic);
-    const auto tie_breaks = choicesUnder(root, "tie_breaks", study_.base.search.tie_break);
+    const auto tie_breaks = choicesUnder(root, "tie_breaks", tie_break_);
     std::set<std::string> seen;
     for (const YAML::Node& entry :
          entriesOf(yamlNode(root, "planners", file_, "a list of planners"), "planners")) {
       const auto planner = yamlAs<std::string>(entry, "planners", file_, "a name");
       refuseTwice(entry, seen, planner, "planners");
       bool guided = false;
-      atLine(entry, [&] { guided = makePlanner(planner)->traits().heuristic; });
+      atLine(entry, [&] { guided = makeStudyPlanner(planner, {}, false)->traits().heuristic; });
       if (!guided) {
-        addVariant(entry, planner, study_.base.search, planner);
+        addVariant(entry, {planner, planner, study_.base.search, published(tie_break_)});
         continue;
       }
       for (const Heuristic heuristic : heuristics)
-        for (const TieBreak tie_break : tie_breaks) {
+        for (const StudyTieBreak tie_break : tie_breaks) {
           SearchOptions search = study_.base.search;
           search.heuristic = heuristic;
-          search.tie_break = tie_break;
-          addVariant(entry, planner, search,
-                     planner + ' ' + choiceName(heuristic) +
-                         (tie_breaks.size() > 1 ? std::string(", ") + choiceName(tie_break) : ""));
+          search.tie_break = orderOf(tie_break);
+          addVariant(entry,
+                     {planner + ' ' + choiceName(heuristic) +
+                          (tie_breaks.size() > 1 ? std::string(", ") + choiceName(tie_break) : ""),
+                      planner, search, published(tie_break)});
         }
     }
   }
@@ -356,6 +366,7 @@ class StudyReader {
   std::string file_;
   Study study_;
   QuerySource common_queries_;
+  StudyTieBreak tie_break_ = StudyTieBreak::NONE;  // of the options
 };
 
 }  // namespace

@@ -71,6 +71,7 @@ std::uint64_t StudyPlan::fingerprint() const {
   for (const StudyVariant& variant : study_.variants) {
     hash.add(variant.planner);
     addOptions(hash, variant.search);
+    if (variant.published_cross) hash.add("cross_product_published");
   }
   for (std::size_t map = 0; map < maps_.size(); ++map) {
     addMap(hash, *maps_[map]);

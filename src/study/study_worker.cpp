@@ -2,6 +2,7 @@
 
 #include "grid_path_planner/path/crossing.h"
 #include "grid_path_planner/path/metrics.h"
+#include "grid_path_planner/study/study_planners.h"
 
 namespace grid_path_planner {
 namespace {
@@ -49,14 +50,16 @@ void fillPath(const PlanReport& report, const OccupancyGrid& map,
 
 }  // namespace
 
-MapPlanner StudyWorker::plannerFor(const StudySetting& setting, const std::string& planner,
-                                   const SearchOptions& search) const {
+MapPlanner StudyWorker::plannerFor(const StudySetting& setting, const StudyVariant& variant) const {
   PlannerOptions options = plan_.study().base;
   options.terrain = setting.terrain;
-  options.planner = planner;
-  options.search = search;
+  options.planner = variant.planner;
+  options.search = variant.search;
   options.retry_finer = false;  // what a kernel closes is a result here
-  MapPlanner made(options);
+  MapPlanner made(options, [cross = variant.published_cross](const std::string& name,
+                                                             const SearchOptions& search) {
+    return makeStudyPlanner(name, search, cross);
+  });
   made.setMap(plan_.map(setting.map));
   return made;
 }
@@ -66,8 +69,8 @@ void StudyWorker::prepare(std::size_t setting) {
   planners_.clear();
   const StudySetting& chosen = plan_.study().settings[setting];
   for (const StudyVariant& variant : plan_.study().variants)
-    planners_.push_back(plannerFor(chosen, variant.planner, variant.search));
-  exact_ = std::make_unique<MapPlanner>(plannerFor(chosen, "dijkstra", {}));
+    planners_.push_back(plannerFor(chosen, variant));
+  exact_ = std::make_unique<MapPlanner>(plannerFor(chosen, {"", "dijkstra", {}}));
   prepared_ = setting;
 }
 

@@ -62,7 +62,6 @@ nlohmann::json jsonOf(const PlanReport& report, double preparation_ms) {
       {"status", std::string(toString(report.status))},
       {"message", report.message},
       {"cost", nullptr},
-      {"lower_bound", nullptr},
       {"optimal", report.optimal},
       {"length_m", nullptr},
       {"cells", report.cells},
@@ -77,7 +76,6 @@ nlohmann::json jsonOf(const PlanReport& report, double preparation_ms) {
       {"path", poses},
   };
   if (found) object["cost"] = report.costValue();
-  if (found && report.lower_bound > 0.0) object["lower_bound"] = report.lower_bound;
   if (found) object["length_m"] = report.length_m;
   return object;
 }

@@ -40,9 +40,8 @@ TEST(UnusedOptions, DefaultsAreNeverUnused) {
 }
 
 TEST(UnusedOptions, WhatThePlannerDoesNotLookAt) {
-  EXPECT_EQ(unusedWith({{"planner", "jump_point"}, {"heuristic", "zero"}, {"accuracy", "1.2"}}),
-            (Lines{"heuristic: planner jump_point", "accuracy: planner jump_point"}));
-  EXPECT_EQ(unusedWith({{"planner", "coarse_to_fine"}, {"accuracy", "1.2"}}), Lines());
+  EXPECT_EQ(unusedWith({{"planner", "jump_point"}, {"heuristic", "zero"}, {"landmarks", "4"}}),
+            (Lines{"heuristic: planner jump_point", "landmarks: planner jump_point"}));
   EXPECT_EQ(unusedWith({{"planner", "dijkstra"}, {"tie_break", "larger_g"}}), Lines());
   EXPECT_EQ(unusedWith({{"planner", "dijkstra"}, {"memory_limit", "100"}}), Lines());
   EXPECT_EQ(unusedWith({{"rectangle_funnel", "false"}}),
@@ -78,7 +77,7 @@ TEST(UnusedOptions, WhatThePathLeavesWithoutEffect) {
   for (const char* planner : {"anya", "polyanya"})
     EXPECT_EQ(unusedWith({{"planner", planner}, {"smooth", "true"}}),
               (Lines{std::string("smooth: planner ") + planner}));
-  for (const char* planner : {"theta_star", "rectangle_map", "a_star"})
+  for (const char* planner : {"lazy_theta_star", "rectangle_map", "a_star"})
     EXPECT_EQ(unusedWith({{"planner", planner}, {"smooth", "true"}}), Lines()) << planner;
   EXPECT_EQ(unusedWith({{"planner", "anya"}, {"smooth", "true"}, {"kernel", "2"}}), Lines())
       << "the ways out of blocked blocks are paths over the grid";
@@ -96,7 +95,6 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kValues = {
     {"epsilon", {"2"}},
     {"tie_break", {"larger_g"}},
     {"landmarks", {"3"}},
-    {"accuracy", {"1.3"}},
     {"rectangle_weight", {"area"}},
     {"rectangle_funnel", {"false"}},
     {"unknown_weight", {"1", "7"}},

@@ -3,12 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <random>
-#include <thread>
 
 #include "grid_path_planner/rectangles/decomposition.h"
-#include "grid_path_planner/rectangles/rectangle_keeper.h"
 #include "grid_path_planner/terrain/segment.h"
 #include "support/changing_map.h"
 #include "support/free_cells.h"
@@ -165,99 +162,6 @@ TEST(RectangleMapPlanner, FindsPathsAfterUpdatesWhereAFreshOneDoes) {
     }
   }
   EXPECT_GT(found, 50);
-}
-
-// --- The rectangles in the long run --------------------------------------------------------------
-
-// Toggles cells of a map and tells a keeper; remembers what a reader of the map would.
-class Toggling {
- public:
-  explicit Toggling(unsigned seed) : random_(seed), free_(GridGeometry(64, 48, 1.0), 1) {
-    keeper.prepare(costsOf(free_), StopToken());
-  }
-
-  void run(int updates) {
-    for (int i = 0; i < updates; ++i) {
-      const Cell cell = randomCell(random_, free_);
-      free_[cell] ^= 1;
-      keeper.update(costsOf(free_, ++revision_), {cell.column, cell.row, 1, 1}, StopToken());
-    }
-  }
-
-  void runUntilPending() {
-    for (int i = 0; i < 5000 && !keeper.work().pending; ++i) run(1);
-    ASSERT_TRUE(keeper.work().pending);
-  }
-
-  bool isRight() const {
-    std::vector<CellRect> rectangles;
-    for (const CellRect& rect : keeper.rectangles().rectangles())
-      if (!rect.empty()) rectangles.push_back(rect);
-    return test::isPartition(free_, rectangles);
-  }
-
-  const FreeCells& free() const { return free_; }
-
-  RectangleKeeper keeper;
-
- private:
-  std::mt19937 random_;
-  FreeCells free_;
-  std::uint64_t revision_ = 0;
-};
-
-TEST(RectangleKeeper, CutsTheMapAnewAfterManyEdits) {
-  Toggling toggling(7);
-  toggling.runUntilPending();
-  toggling.keeper.finish(StopToken());
-  EXPECT_FALSE(toggling.keeper.work().pending);
-  EXPECT_GT(toggling.keeper.work().time_s, 0.0);
-  EXPECT_EQ(toggling.keeper.rectangles().rectangles(),
-            largestFirst(test::bitMapsOf(toggling.free()), {}, StopToken()));
-}
-
-TEST(RectangleKeeper, KeepsTheEditsThatCameMeanwhile) {
-  Toggling toggling(8);
-  toggling.runUntilPending();
-  toggling.run(20);
-  EXPECT_TRUE(toggling.keeper.work().pending);
-  EXPECT_TRUE(toggling.isRight());
-  toggling.keeper.finish(StopToken());
-  EXPECT_TRUE(toggling.isRight());
-  toggling.runUntilPending();
-  toggling.run(63);
-  EXPECT_TRUE(toggling.keeper.work().pending);
-  toggling.run(1);
-  EXPECT_FALSE(toggling.keeper.work().pending);
-  EXPECT_TRUE(toggling.isRight());
-}
-
-TEST(RectangleKeeper, GivesTheSameRectanglesHoweverLongTheWorkTakes) {
-  Toggling hasty(9), patient(9);
-  for (int i = 0; i < 40; ++i) {
-    hasty.run(100);
-    for (int j = 0; j < 10; ++j) {
-      patient.run(10);
-      if (patient.keeper.work().pending) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    ASSERT_EQ(hasty.keeper.rectangles().rectangles(), patient.keeper.rectangles().rectangles());
-  }
-  EXPECT_GT(hasty.keeper.work().time_s, 0.0);
-}
-
-TEST(RectangleKeeper, GoesOnWithItsRectanglesWhereThereIsNoMemoryForOthers) {
-  FreeCells free(GridGeometry(40, 40, 1.0), 1);
-  RectangleKeeper keeper;
-  keeper.prepare(costsOf(free), StopToken());
-  for (std::uint64_t i = 1; i < 5000; ++i) {
-    const Cell cell{static_cast<int>(i * 7 % 40), static_cast<int>(i * 11 % 37)};
-    free[cell] ^= 1;
-    keeper.update(costsOf(free, i), {cell.column, cell.row, 1, 1}, StopToken(), 1);
-  }
-  keeper.finish(StopToken());
-  EXPECT_EQ(keeper.work().time_s, 0.0);
-  EXPECT_EQ(keeper.rectangles().freeCells(),
-            static_cast<std::size_t>(std::count(free.values().begin(), free.values().end(), 1)));
 }
 
 }  // namespace

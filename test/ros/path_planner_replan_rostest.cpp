@@ -112,14 +112,14 @@ TEST_F(ReplanTest, APathIsKeptWhileItIsAboutAsGoodAndReplacedWhenItIsNot) {
 
 // navigation #949, navigation2 #2002: the old goal's plan for the new goal.
 TEST_F(ReplanTest, ALateResultForAnOldGoalIsDropped) {
-  startPlanner({"_timeout:=0", "_planner:=theta_star"});
+  startPlanner({"_timeout:=0", "_planner:=lazy_theta_star"});
   OccupancyGrid map(GridGeometry(2500, 2500, 1.0), 0);
   for (int row = 0; row < 2500; ++row) map[Cell{2498, row}] = 100;
   publishMap(map);
   placeVehicleAndWait(0.5, 0.5);
   const std::size_t statistics = statistics_.count();
-  // No way: theta_star searches all of the map, for a minute, where a jump planner sees at once
-  // that there is none and rightly answers before the second goal comes.
+  // No way: lazy_theta_star searches all of the map, for seconds, where a jump planner sees at
+  // once that there is none and rightly answers before the second goal comes.
   goals_.publish(poseAt(2499.5, 1.5));
   goals_.publish(poseAt(5.5, 0.5));
   const auto answered = statistics_.waitFor(

@@ -188,8 +188,8 @@ class ActionTest : public ServicesTest {
     message.planner = planner;
     return message;
   }
-  // Asked of theta_star, a question that takes a minute: 9 million cells in vain. The jump planners
-  // see at once that the goal is walled in.
+  // Asked of lazy_theta_star, a question that takes many seconds: 9 million cells in vain. The jump
+  // planners see at once that the goal is walled in.
   void publishHugeMap() {
     OccupancyGrid map(GridGeometry(3000, 3000, 1.0), 0);
     for (int row = 0; row < 3000; ++row) map[Cell{2998, row}] = 100;
@@ -229,7 +229,7 @@ TEST_F(ActionTest, AbortsWithTheStatusAndAnEmptyStampedPath) {
 
 // navigation2 #4139, #2584: cancel waits for the search.
 TEST_F(ActionTest, CancelEndsTheSearchAndTheNextGoalSucceeds) {
-  startPlanner({"_timeout:=0", "_planner:=theta_star"});
+  startPlanner({"_timeout:=0", "_planner:=lazy_theta_star"});
   publishHugeMap();
   connect();
   std::atomic<bool> searching{false};
@@ -255,7 +255,7 @@ TEST_F(ActionTest, CancelEndsTheSearchAndTheNextGoalSucceeds) {
 }
 
 TEST_F(ActionTest, TheTimeLimitEndsTheSearch) {
-  startPlanner({"_timeout:=0.05", "_planner:=theta_star"});
+  startPlanner({"_timeout:=0.05", "_planner:=lazy_theta_star"});
   publishHugeMap();
   connect();
   client_.sendGoal(goal(poseAt(0.5, 0.5), poseAt(2999.5, 1.5)));

@@ -94,6 +94,19 @@ TEST_F(StudyFileTest, TheTwoThatComeWithThePackageAreRead) {
   EXPECT_TRUE(thesis.settings[0].terrain.occupied_is_passable);
 }
 
+TEST_F(StudyFileTest, KnowsTheProgramsThatAreInStudiesOnly) {
+  const Study study = read(with("planners: [dijkstra, a_star]",
+                                "planners: [theta_star, a_star, a_star_published]\n"
+                                "tie_breaks: [larger_g, cross_product_published]"));
+  ASSERT_EQ(study.variants.size(), 9u) << "theta_star is not guided by a heuristic";
+  EXPECT_EQ(study.variants[1].label, "a_star octile, larger_g");
+  EXPECT_FALSE(study.variants[1].published_cross);
+  EXPECT_EQ(study.variants[2].label, "a_star octile, cross_product_published");
+  EXPECT_TRUE(study.variants[2].published_cross);
+  const Study by_option = read(with("radius: 0", "tie_break: cross_product_published"));
+  EXPECT_TRUE(by_option.variants[1].published_cross);
+}
+
 struct BadLine {
   const char* line;
   const char* instead;
@@ -108,6 +121,8 @@ TEST_F(StudyFileTest, ABadLineIsNamed) {
       {"maps: [site.yaml]", "maps: [site.yaml, site.yaml]", ":3: maps names 'site.yaml' twice"},
       {"planners: [dijkstra, a_star]", "planners: [dijkstra, b_star]",
        ":4: planner must be one of"},
+      {"planners: [dijkstra, a_star]", "planners: [coarse_to_fine]",
+       ":4: planner 'coarse_to_fine' is retired: take a_star or weighted_jump_point"},
       {"planners: [dijkstra, a_star]", "planners: []", ":4: planners is an empty list"},
       {"heuristics: [octile, zero]", "heuristics: [octal]", ":5: heuristics must be one of"},
       {"kernels: [1, 2]", "kernels: [0]", ":6: a kernel must be a whole number"},

@@ -105,7 +105,7 @@ TEST_F(Plan, SaysWhetherThePathIsTheCheapest) {
   };
   EXPECT_TRUE(optimalWith({}));
   EXPECT_TRUE(optimalWith({"--planner", "dijkstra"}));
-  EXPECT_FALSE(optimalWith({"--planner", "theta_star"}));
+  EXPECT_FALSE(optimalWith({"--planner", "lazy_theta_star"}));
   EXPECT_FALSE(optimalWith({"--smooth", "true"}));
   EXPECT_FALSE(optimalWith({"--epsilon", "2"}));
   EXPECT_FALSE(optimalWith({"--heuristic", "manhattan"}));

@@ -52,7 +52,7 @@ TEST_F(Scenarios, AWrongCostFailsWhereOptimalityIsClaimed) {
   const Outcome optimal = scenarios({"--scen", file});
   EXPECT_EQ(optimal.code, 1);
   EXPECT_TRUE(contains(lastLine(optimal), "wrong=1")) << lastLine(optimal);
-  EXPECT_EQ(scenarios({"--scen", file, "--planner", "a_star_published"}).code, 0);
+  EXPECT_EQ(scenarios({"--scen", file, "--planner", "lazy_theta_star"}).code, 0);
   EXPECT_EQ(scenarios({"--scen", file, "--epsilon", "2"}).code, 0);
   EXPECT_EQ(scenarios({"--scen", scenario("5.00004")}).code, 0);  // within 1e-5 of it
 }
@@ -132,12 +132,12 @@ TEST_F(Scenarios, AReferenceOfAnyAngleJudgesPathsOfAnyAngle) {
     return scenarios({"--scen", file, "--planner", planner, "--reference", reference}).error;
   };
   EXPECT_TRUE(contains(errorOf("a_star", "anya"), "no path over the grid can be as short"));
-  EXPECT_TRUE(contains(errorOf("anya", "theta_star"), "does not promise the least cost"));
-  EXPECT_TRUE(contains(errorOf("a_star", "a_star_published"), "does not promise the least cost"));
+  EXPECT_TRUE(contains(errorOf("anya", "lazy_theta_star"), "does not promise the least cost"));
+  EXPECT_TRUE(contains(errorOf("anya", "theta_star"), "take lazy_theta_star"));
   const Outcome same = scenarios({"--scen", file, "--planner", "anya", "--reference", "anya"});
   EXPECT_TRUE(contains(lastLine(same), "queries=3 solved=3 wrong=0 ")) << same.error;
   const Outcome longer =
-      scenarios({"--scen", file, "--planner", "theta_star", "--reference", "anya"});
+      scenarios({"--scen", file, "--planner", "lazy_theta_star", "--reference", "anya"});
   EXPECT_TRUE(contains(lastLine(longer), "queries=3 solved=3 wrong=0 ")) << longer.error;
 }
 
@@ -152,7 +152,7 @@ TEST_F(Scenarios, APlannerThatRefusesTheMapSaysWhy) {
 
 TEST_F(Scenarios, APathOfAnyAngleMayBeShorterThanTheGrids) {
   const auto wrongOf = [&](const std::string& optimum) {
-    return lastLine(scenarios({"--scen", scenario(optimum), "--planner", "theta_star"}));
+    return lastLine(scenarios({"--scen", scenario(optimum), "--planner", "lazy_theta_star"}));
   };
   EXPECT_TRUE(contains(wrongOf("5"), " wrong=0 ")) << wrongOf("5");
   EXPECT_TRUE(contains(wrongOf("3.5"), " wrong=1 ")) << wrongOf("3.5");
@@ -164,7 +164,7 @@ TEST_F(Scenarios, APathOfAnyAngleMayBeShorterThanTheGrids) {
   };
   EXPECT_EQ(codeOf("anya"), 1) << "it promises the shortest";
   EXPECT_EQ(codeOf("polyanya"), 1);
-  EXPECT_EQ(codeOf("theta_star"), 0) << "it promises nothing";
+  EXPECT_EQ(codeOf("lazy_theta_star"), 0) << "it promises nothing";
 }
 
 TEST_F(Scenarios, BadFilesAreNamedWithTheirLine) {

@@ -13,6 +13,10 @@
 //
 //   const std::vector<std::pair<const char*, E>>& choicesOf(E);
 //
+// and, where names were choices once, by another that says what to take instead of them:
+//
+//   std::string adviceFor(E, const std::string& name);  // "" for any other name
+//
 // Numbers outside [minimum, maximum] and unknown choices are refused by assignOption, never
 // clamped.
 #pragma once
@@ -45,12 +49,19 @@ const char* choiceName(E value) {
 }
 
 template <class E>
+std::string adviceFor(E, const std::string&) {
+  return "";
+}
+
+template <class E>
 E choiceFromName(const std::string& name, const std::string& text) {
   std::string known;
   for (const auto& choice : choicesOf(E{})) {
     if (text == choice.first) return choice.second;
     known += (known.empty() ? "" : ", ") + std::string(choice.first);
   }
+  const std::string advice = adviceFor(E{}, text);
+  if (!advice.empty()) throw InputError(name + " '" + text + "' " + advice);
   throw InputError(name + " must be one of " + known + ", got '" + text + "'");
 }
 

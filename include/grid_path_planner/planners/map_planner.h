@@ -71,7 +71,8 @@ void visitOptions(PlannerOptions& o, Visitor&& visit) {
 
 // Throws InputError naming the option for a value outside its limits and for combinations that
 // contradict each other: smooth with connectivity 4 or unit diagonals.
-void checkPlannerOptions(const PlannerOptions& options);
+void checkPlannerOptions(const PlannerOptions& options,
+                         const PlannerMaker& make_planner = makePlanner);
 
 // Both in the map's frame.
 struct PoseRequest {
@@ -87,9 +88,8 @@ struct PlanReport {
   ExactCost cost;  // between the end cells, as in PlanResult
   double segment_cost = 0.0;
   double costValue() const { return cost.toDouble() + segment_cost; }
-  double lower_bound = 0.0;  // as in PlanResult
-  bool optimal = false;      // the planner promises that no path of its kind (over the grid, or at
-                             // any angle) costs less; never of a kernel or a smoothed path
+  bool optimal = false;  // the planner promises that no path of its kind (over the grid, or at
+                         // any angle) costs less; never of a kernel or a smoothed path
   double length_m = 0.0;
   std::size_t cells = 0;  // of the path on the map that was searched
   int kernel = 1;         // of the map that was searched
@@ -102,7 +102,7 @@ struct PlanReport {
 class MapPlanner {
  public:
   // Throws InputError for options that cannot be used.
-  explicit MapPlanner(const PlannerOptions& options = {});
+  explicit MapPlanner(const PlannerOptions& options = {}, PlannerMaker make_planner = makePlanner);
   ~MapPlanner();
   MapPlanner(MapPlanner&&) noexcept;
   MapPlanner& operator=(MapPlanner&&) noexcept;
@@ -139,6 +139,7 @@ class MapPlanner {
   // The same, and what was made of them keeps up.
   RouteMaps followedMaps(const StopToken& stop);
 
+  PlannerMaker make_planner_;
   PlannerOptions options_;
   std::shared_ptr<const OccupancyGrid> map_;
   std::unique_ptr<Terrain> terrain_;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/search/bucket_search.h"
 #include "grid_path_planner/search/planner.h"
 #include "grid_path_planner/search/search_options.h"
@@ -32,11 +33,10 @@ struct Route {
   std::vector<Leg> legs;  // a leg's last cell and the next one's first are the same place or block
   ExactCost cost;         // as in PlanResult
   double segment_cost = 0.0;
-  double lower_bound = 0.0;  // as in PlanResult; 0 where legs are joined
-  bool optimal = false;      // the planner promises that none of its kind (over the
-                             // grid, or at any angle) costs less on the map searched
-  bool taut = false;         // of any angle, and none is shorter: smoothing has nothing left to do
-  int kernel = 1;            // of the map that the longest part was searched on
+  bool optimal = false;  // the planner promises that none of its kind (over the
+                         // grid, or at any angle) costs less on the map searched
+  bool taut = false;     // of any angle, and none is shorter: smoothing has nothing left to do
+  int kernel = 1;        // of the map that the longest part was searched on
   Statistics statistics;
   std::vector<Eigen::Vector2d> expanded;  // centres, metres
 };
@@ -53,7 +53,7 @@ struct RouteMaps {
 class RouteFinder {
  public:
   // Throws InputError for an unknown planner or options that cannot be used.
-  RouteFinder(std::string planner, const SearchOptions& options);
+  RouteFinder(std::string planner, const SearchOptions& options, PlannerMaker make_planner);
 
   // Takes the maps. Where they follow those of the last call by one revision, what was made of
   // those is repaired. Throws Stopped.
@@ -91,6 +91,7 @@ class RouteFinder {
   Route findOverBlocks(Cell start, Cell goal, bool record_expanded, const StopToken& stop);
   Route findFine(Cell start, Cell goal, bool record_expanded, const StopToken& stop);
 
+  PlannerMaker make_planner_;
   std::string planner_name_;
   SearchOptions options_;
   std::shared_ptr<const CostGrid> fine_;

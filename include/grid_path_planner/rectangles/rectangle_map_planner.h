@@ -2,8 +2,9 @@
 //
 // prepare() cuts the map into rectangles (largestFirst); a plan is a search over them by
 // SearchOptions::rectangle_weight, whose path runs through the middles of the shared borders and is
-// then pulled taut (rectangle_funnel). update() redoes the rectangles that a change touches; after
-// many of them the map is cut anew in the background (RectangleKeeper).
+// then pulled taut (rectangle_funnel). update() redoes the rectangles that a change touches, and no
+// others, however many updates came before: their number stays near that of a map cut anew
+// (benchmark/rectangle_repair.cpp).
 //
 // Guaranteed: a legal path, and one where there is one: rectangles are connected where a vehicle
 // can drive. With `length` the sequence of rectangles is the one whose path through the middles is
@@ -12,7 +13,7 @@
 // after updates the path that a fresh planner finds.
 #pragma once
 
-#include "grid_path_planner/rectangles/rectangle_keeper.h"
+#include "grid_path_planner/rectangles/rectangle_graph.h"
 #include "grid_path_planner/rectangles/rectangle_route.h"
 #include "grid_path_planner/search/planner.h"
 #include "grid_path_planner/search/search_options.h"
@@ -26,10 +27,7 @@ class RectangleMapPlanner : public Planner {
   std::size_t bytesFor(const GridGeometry& geometry) const override;
 
   // Of the prepared map.
-  const RectangleGraph& rectangles() const { return keeper_.rectangles(); }
-
-  BackgroundWork backgroundWork() override { return keeper_.work(); }
-  void finishBackgroundWork(const StopToken& stop) override;
+  const RectangleGraph& rectangles() const { return rectangles_; }
 
  protected:
   void doPrepare(const StopToken& stop) override;
@@ -40,7 +38,7 @@ class RectangleMapPlanner : public Planner {
   void keep(const RectangleRoute& route, const PlanRequest& request, PlanResult& result) const;
 
   SearchOptions options_;
-  RectangleKeeper keeper_;
+  RectangleGraph rectangles_;
   RectangleSearch search_;
 };
 

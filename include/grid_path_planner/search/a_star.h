@@ -1,17 +1,13 @@
 // A* over the cells of a grid (Hart, Nilsson & Raphael 1968), weighted A* for epsilon > 1 (Pohl
 // 1970).
 //
-// Guaranteed: with an admissible heuristic, epsilon 1 and no published tie-break the cost is the
-// least there is, without tolerance; `optimalFor` says whether that is so on a map. With epsilon >
-// 1 and an admissible heuristic it is at most epsilon times the least. Otherwise nothing but a
-// legal path.
+// Guaranteed: with an admissible heuristic and epsilon 1 the cost is the least there is, without
+// tolerance; `optimalFor` says whether that is so on a map. With epsilon > 1 and an admissible
+// heuristic it is at most epsilon times the least. Otherwise nothing but a legal path.
 //
 // tie_break none leaves the order of nearly equally promising cells to the quickest open list
 // (bucket_search.h); the others order strictly by promise, then by what they are named for
 // (best_first_search.h), at several times the cost.
-//
-// `a_star_published` is the original study's program: it stops when the goal is generated, not when
-// it is expanded, and claims nothing. It exists so that the study can be repeated.
 #pragma once
 
 #include "grid_path_planner/search/best_first_search.h"
@@ -26,7 +22,6 @@ class AStar : public Planner {
  public:
   // Throws InputError for options that cannot be used.
   explicit AStar(const SearchOptions& options = {});
-  static AStar published(const SearchOptions& options = {});
 
   std::size_t bytesFor(const GridGeometry& geometry) const override;
   bool optimalFor(const CostGrid& map) const override;
@@ -34,24 +29,27 @@ class AStar : public Planner {
   void finishBackgroundWork(const StopToken& stop) override { tables_.wait(stop); }
 
  protected:
+  // How a program that a study repeats differs from A*.
+  struct Variation {
+    BestFirstSearch::GoalTest goal_test = BestFirstSearch::GoalTest::WHEN_EXPANDED;
+    long double cross_share = 0.0L;  // of Estimate::cross(), added to every estimate
+  };
+  // Such a program: it keeps a strict order whatever the tie-break, and promises no least cost.
+  AStar(const char* name, const SearchOptions& options, const Variation& variation);
+
   std::string waysToLessMemory() const override;
   void doPrepare(const StopToken& stop) override;
   void doUpdate(const CellRect& changed, const StopToken& stop) override;
   PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
 
  private:
-  AStar(Traits traits, const SearchOptions& options, BestFirstSearch::GoalTest goal_test);
-
-  bool strictlyOrdered() const {
-    return options_.tie_break != TieBreak::NONE ||
-           goal_test_ == BestFirstSearch::GoalTest::WHEN_GENERATED;
-  }
   PlanResult planByBuckets(const PlanRequest& request, const StopToken& stop);
   PlanResult planWithTables(const PlanRequest& request, const StopToken& stop);
   PlanResult planInOrder(const PlanRequest& request, const StopToken& stop);
 
   SearchOptions options_;
-  BestFirstSearch::GoalTest goal_test_;
+  bool strictly_ordered_;
+  Variation variation_;
   BucketSearch by_buckets_;  // one of the two is used
   BestFirstSearch in_order_;
   PreparedHeuristic tables_;

@@ -34,8 +34,11 @@ class Estimate {
     const auto columns = static_cast<std::uint64_t>(std::abs(cell.column - goal_.column));
     const auto rows = static_cast<std::uint64_t>(std::abs(cell.row - goal_.row));
     if (integral_ && heuristic_ == Heuristic::OCTILE) return octile(columns, rows) * weight_;
-    return general(cell, columns, rows);
+    return general(columns, rows);
   }
+
+  // With `cross_share` cell lengths more for each unit of cross(): no lower bound of anything.
+  SearchKey operator()(Cell cell, long double cross_share) const;
 
   // Whether OctileEstimate gives the same.
   bool plainOctile() const { return integral_ && heuristic_ == Heuristic::OCTILE; }
@@ -49,12 +52,11 @@ class Estimate {
     return columns < rows ? (rows - columns) * scale_.straight + columns * scale_.diagonal
                           : (columns - rows) * scale_.straight + rows * scale_.diagonal;
   }
-  SearchKey general(Cell cell, std::uint64_t columns, std::uint64_t rows) const;
+  SearchKey general(std::uint64_t columns, std::uint64_t rows) const;
   SearchKey distance(std::uint64_t columns, std::uint64_t rows) const;
 
   KeyScale scale_;
   Heuristic heuristic_;
-  bool published_cross_;
   Cell start_;
   Cell goal_;
   SearchKey weight_;  // the scale where it is the cheapest weight

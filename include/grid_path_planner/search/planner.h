@@ -62,9 +62,6 @@ struct PlanResult {
   double segment_cost = 0.0;
   double costValue() const { return cost.toDouble() + segment_cost; }
 
-  // No path costs less, as far as a planner that is not optimal can tell; 0 where it cannot.
-  double lower_bound = 0.0;
-
   Statistics statistics;
   std::vector<CellIndex> expanded;  // in order, where the request asks for it
 };

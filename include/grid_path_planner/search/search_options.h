@@ -13,8 +13,9 @@ namespace grid_path_planner {
 enum class Heuristic { ZERO, MANHATTAN, CHEBYSHEV, OCTILE, EUCLIDEAN, LANDMARK, EXACT };
 const std::vector<std::pair<const char*, Heuristic>>& choicesOf(Heuristic);
 
-enum class TieBreak { NONE, LARGER_G, CROSS_PRODUCT, CROSS_PRODUCT_PUBLISHED };
+enum class TieBreak { NONE, LARGER_G, CROSS_PRODUCT };
 const std::vector<std::pair<const char*, TieBreak>>& choicesOf(TieBreak);
+std::string adviceFor(TieBreak, const std::string& name);
 
 // What rectangle_map's search adds up (rectangles/rectangle_route.h).
 enum class RectangleWeight { AREA, BORDER, DISTANCE, CONNECTIONS, LENGTH };
@@ -26,7 +27,6 @@ struct SearchOptions {
   double epsilon = 1.0;                      // >= 1
   TieBreak tie_break = TieBreak::NONE;
   int landmarks = 16;
-  double accuracy = 1.05;   // >= 1
   int memory_limit = 6000;  // MB
   RectangleWeight rectangle_weight = RectangleWeight::LENGTH;
   bool rectangle_funnel = true;
@@ -53,10 +53,6 @@ void visitOptions(SearchOptions& o, Visitor&& visit) {
         OptionInfo{"Cells from which heuristic landmark knows all costs; more: fewer cells "
                    "expanded, 4 bytes a cell of the map and 2 whole-map searches each",
                    "", 1, 64});
-  visit("accuracy", o.accuracy,
-        OptionInfo{"What coarse_to_fine aims at: cost over lower bound; lower: a longer search for "
-                   "a better bound",
-                   "", 1, 1000000});
   visit("memory_limit", o.memory_limit,
         OptionInfo{"What a planner may take for itself, the map not counted: it refuses a map that "
                    "needs more, before it takes anything",
@@ -73,6 +69,9 @@ void visitOptions(SearchOptions& o, Visitor&& visit) {
 
 // The number that heuristic_scale gives; none for "cheapest". Throws InputError for anything else.
 std::optional<double> heuristicScale(const SearchOptions& options);
+
+// memory_limit in bytes.
+std::size_t memoryLimitOf(const SearchOptions& options);
 
 // Throws InputError naming the option.
 void checkSearchOptions(const SearchOptions& options);

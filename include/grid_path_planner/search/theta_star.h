@@ -1,13 +1,11 @@
 // Theta*: A* whose paths leave the grid's directions (Daniel, Nash, Koenig & Felner, "Theta*:
-// Any-angle path planning on grids", JAIR 39, 2010), and Lazy Theta* (Nash, Koenig & Tovey, "Lazy
-// Theta*: Any-angle path planning and path length analysis in 3D", AAAI 2010), on weighted maps by
-// the cost of segments.
+// Any-angle path planning on grids", JAIR 39, 2010), on weighted maps by the cost of segments.
 //
-// Where theta_star reaches a cell, the straight segment from its parent's parent is tried too, and
-// taken where it is legal and no dearer; not where even at the cheapest weight it could not better
-// what is known. lazy_theta_star takes that segment on trust and looks at it only when the cell's
-// turn has come, so at one segment a cell; what turns out dearer than was thought waits for its
-// turn again. The turning points are the middles of cells, or of what the original map has of them.
+// Where a cell is reached, the straight segment from its parent's parent is tried too. Lazy Theta*
+// (Nash, Koenig & Tovey, "Lazy Theta*: Any-angle path planning and path length analysis in 3D",
+// AAAI 2010) takes that segment on trust and looks at it only when the cell's turn has come, so at
+// one segment a cell; what turns out dearer than was thought waits for its turn again. The turning
+// points are the middles of cells, or of what the original map has of them.
 //
 // Guaranteed: every segment is legal, the cost is the sum of the segments' (terrain/segment.h).
 // Not guaranteed: that it is the least an any-angle path can cost, or even as low as that of a grid
@@ -25,21 +23,12 @@
 
 namespace grid_path_planner {
 
+// What Theta* and Lazy Theta* share: all but how a cell's neighbours are reached.
 class ThetaStar : public Planner {
  public:
-  ThetaStar();
-  static ThetaStar lazy();
-
   std::size_t bytesFor(const GridGeometry& geometry) const override;
 
  protected:
-  void doPrepare(const StopToken& stop) override;
-  void doUpdate(const CellRect& changed, const StopToken& stop) override;
-  PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
-
- private:
-  enum class Sight { WHEN_REACHED, WHEN_EXPANDED };
-
   // What is known of a cell in the query of its number: 14 bytes, unaligned, since large maps wait
   // for memory. Every 2^14 queries the numbers begin anew and all nodes are cleared.
   struct __attribute__((packed)) Node {
@@ -49,6 +38,47 @@ class ThetaStar : public Planner {
     std::uint16_t closed : 1;
     std::uint16_t trusted : 1;  // g is a guess: nobody has looked along the segment
   };
+
+  explicit ThetaStar(const char* name);
+
+  void doPrepare(const StopToken& stop) override;
+  void doUpdate(const CellRect& changed, const StopToken& stop) override;
+  PlanResult doPlan(const PlanRequest& request, const StopToken& stop) override;
+
+  // Reaches the neighbours of a cell whose way is a true one.
+  virtual void expand(std::uint32_t from, Statistics& counts) = 0;
+
+  // Calls visit(index, cell) for every neighbour that a step leads to.
+  template <class Visit>
+  void forNeighbours(std::uint32_t index, Cell at, Visit&& visit) const {
+    for (unsigned mask = masks_[index]; mask != 0; mask &= mask - 1) {
+      const auto step = static_cast<std::size_t>(__builtin_ctz(mask));
+      visit(static_cast<std::uint32_t>(index + masks_.offsets()[step]),
+            Cell{at.column + kSteps[step].column, at.row + kSteps[step].row});
+    }
+  }
+  // Opens a cell, where that is cheaper than what is known.
+  void reach(std::uint32_t index, Cell at, std::uint32_t parent, double g, bool trusted,
+             Statistics& counts);
+
+  Cell cell(std::uint32_t index) const { return map().geometry().cell(CellIndex(index)); }
+  const Node& node(std::uint32_t index) const { return nodes_[index]; }
+  bool known(std::uint32_t index) const { return nodes_[index].query == query_; }
+  bool closed(std::uint32_t index) const { return known(index) && nodes_[index].closed != 0; }
+
+  // Of the straight segment between the middles of two cells: the least that it can cost, and what
+  // it costs, none where it is not legal or costs more than `limit`.
+  double leastCost(Cell from, Cell to) const;
+  std::optional<double> straight(Cell from, Cell to, double limit) const;
+  double stepTo(Cell from, Cell to) const;
+
+  // Whether the map has one weight, so that sight is all that matters.
+  bool oneWeight() const { return bits_ != nullptr; }
+
+  // Sums of the same lengths in another order differ by less, relatively.
+  static constexpr double kRounding = 1e-12;
+
+ private:
   static constexpr std::uint16_t kQueries = 1 << 14;
   struct Entry {
     double f;
@@ -67,41 +97,31 @@ class ThetaStar : public Planner {
     std::uint32_t parent;
   };
 
-  ThetaStar(const char* name, Sight sight);
-
   void begin(std::uint32_t start);
-  void expand(std::uint32_t from, Statistics& counts);
-  void expandTrusting(std::uint32_t from, Statistics& counts);
   Arrival byStep(std::uint32_t index, Cell at) const;
   bool verify(std::uint32_t index, Statistics& counts);
-  template <class Visit>
-  void forNeighbours(std::uint32_t index, Cell at, Visit&& visit) const;
-  void reach(std::uint32_t index, Cell at, std::uint32_t parent, double g, bool trusted,
-             Statistics& counts);
-  bool known(std::uint32_t index) const { return nodes_[index].query == query_; }
-  bool closed(std::uint32_t index) const { return known(index) && nodes_[index].closed != 0; }
-
-  // Of the straight segment between the middles of two cells: the least that it can cost, and what
-  // it costs, none where it is not legal or costs more than `limit`.
-  double leastCost(Cell from, Cell to) const;
-  std::optional<double> straight(Cell from, Cell to, double limit) const;
-  double stepTo(Cell from, Cell to) const;
-
-  SegmentPoint point(Cell cell) const;
-  Cell cell(std::uint32_t index) const { return map().geometry().cell(CellIndex(index)); }
-  // Whether paths pass through its centre.
-  bool centred(Cell cell) const { return cell.column < centred_.column && cell.row < centred_.row; }
   PlanResult withStatus(Status status, PlanResult result) const;
   PlanResult found(PlanResult result) const;
 
-  Sight sight_;
+  SegmentPoint point(Cell cell) const;
+  // Whether paths pass through its centre.
+  bool centred(Cell cell) const { return cell.column < centred_.column && cell.row < centred_.row; }
+
   StepMasks masks_;
   ZeroedArray<Node> nodes_;
   std::vector<Entry> heap_;
   std::uint16_t query_ = 0;
   Cell goal_;
   Cell centred_;                   // see centred()
-  const BitMaps* bits_ = nullptr;  // of a map of one weight: sight is all that matters
+  const BitMaps* bits_ = nullptr;  // of a map of one weight
+};
+
+class LazyThetaStar : public ThetaStar {
+ public:
+  LazyThetaStar() : ThetaStar("lazy_theta_star") {}
+
+ protected:
+  void expand(std::uint32_t from, Statistics& counts) override;
 };
 
 }  // namespace grid_path_planner

@@ -23,7 +23,7 @@ std::string csvOf(const Table& table);
 std::string jsonReport(const StudyData& data, const std::vector<Finding>& findings,
                        const std::vector<StudyFailure>& failures);
 
-// The options of grid_path plan that make `run` again, map and ends included.
+// The command that makes `run` again, map and ends included; "" for what is in studies only.
 std::string planCommand(const StudyData& data, const StudyRun& run);
 
 }  // namespace grid_path_planner

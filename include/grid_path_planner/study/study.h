@@ -51,6 +51,7 @@ struct StudyVariant {
   std::string label;  // "a_star octile"
   std::string planner;
   SearchOptions search;
+  bool published_cross = false;  // as of makeStudyPlanner()
 };
 
 struct StudySetting {

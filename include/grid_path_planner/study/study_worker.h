@@ -27,8 +27,7 @@ class StudyWorker {
 
  private:
   void prepare(std::size_t setting);
-  MapPlanner plannerFor(const StudySetting& setting, const std::string& planner,
-                        const SearchOptions& search) const;
+  MapPlanner plannerFor(const StudySetting& setting, const StudyVariant& variant) const;
 
   const StudyPlan& plan_;
   std::size_t prepared_ = static_cast<std::size_t>(-1);  // the setting that the planners are for

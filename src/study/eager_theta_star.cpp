@@ -1,0 +1,23 @@
+#include "eager_theta_star.h"
+
+namespace grid_path_planner {
+
+void EagerThetaStar::expand(std::uint32_t from, Statistics& counts) {
+  const Node here = node(from);
+  const double parent_g = node(here.parent).g;
+  const Cell at = cell(from), parent = cell(here.parent);
+  forNeighbours(from, at, [&](std::uint32_t index, Cell to) {
+    if (closed(index)) return;
+    const double by_step = here.g + stepTo(at, to);
+    if (here.parent != from) {
+      const double least = (parent_g + leastCost(parent, to)) * (1.0 - kRounding);
+      if (known(index) && node(index).g <= least) return;
+      const auto cost = straight(parent, to, by_step - parent_g);
+      if (cost && parent_g + *cost <= by_step)
+        return reach(index, to, here.parent, parent_g + *cost, false, counts);
+    }
+    reach(index, to, from, by_step, false, counts);
+  });
+}
+
+}  // namespace grid_path_planner

@@ -1,0 +1,25 @@
+// The original study's programs, so that it can be repeated: A* that stops when the goal is
+// generated, not when it is expanded, and A* that adds to its estimate a thousandth of the cross
+// product for every cell off the straight line. Both claim nothing.
+#pragma once
+
+#include "grid_path_planner/search/a_star.h"
+
+namespace grid_path_planner {
+
+class PublishedAStar : public AStar {
+ public:
+  // `a_star_published`. Both throw InputError for options that cannot be used.
+  PublishedAStar(const SearchOptions& options, bool published_cross)
+      : AStar("a_star_published", options,
+              {BestFirstSearch::GoalTest::WHEN_GENERATED, shareOf(published_cross)}) {}
+
+  // `a_star` with tie_break cross_product_published.
+  explicit PublishedAStar(const SearchOptions& options)
+      : AStar("a_star", options, {BestFirstSearch::GoalTest::WHEN_EXPANDED, shareOf(true)}) {}
+
+ private:
+  static long double shareOf(bool published_cross) { return published_cross ? 0.001L : 0.0L; }
+};
+
+}  // namespace grid_path_planner
