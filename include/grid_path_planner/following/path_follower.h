@@ -3,8 +3,8 @@
 //   PathFollower follower(options);
 //   follower.start(path, Join::NEAREST);                   // throws InputError
 //   // at any rate:
-//   BodyVelocity velocity = follower.update({time, pose, way_is_free});
-//   for (const FollowEvent& event : follower.takeEvents()) log(event.message);
+//   BodyVelocity velocity = follower.update({time, pose, check});
+//   for (const FollowEvent& event : follower.takeEvents()) use(event.message);
 //
 //             start               pose lost, way occupied
 //   any state ------> DRIVING <---------------------------> BLOCKED ----> FAILED (blocked_timeout)
