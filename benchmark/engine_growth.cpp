@@ -1,8 +1,8 @@
 // How time and memory grow with the map's side and with obstacle density, for every planner.
 //
-//   grid_path_planner_engine_growth [--sides 256,512,…] [--densities 0.05,0.1,…] [--density-side
-//   1024]
-//       [--planners a_star,…] [--weights uniform|rings] [--limit-s 60] [--csv OUT] [--html OUT]
+//   grid_path_planner_engine_growth [--sides 256,512,…] [--densities 0.05,0.1,…]
+//       [--density-side 1024] [--planners a_star,…] [--weights uniform|rings] [--limit-s 60]
+//       [--csv OUT] [--html OUT]
 //   grid_path_planner_engine_growth --from CSV,CSV --html OUT    draws what such runs wrote
 //
 // Each planner plans from corner to corner among random rectangles (10 % of the area while the side

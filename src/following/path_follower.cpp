@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "driven_route.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/following/check_waypoints.h"
-#include "route.h"
 
 namespace grid_path_planner {
 namespace {
@@ -200,7 +200,7 @@ void PathFollower::join(const Pose& vehicle) {
     report(Kind::JOINED, static_cast<int>(first),
            "joins the path before " + nameOf(static_cast<int>(first)) + ": " +
                std::to_string(first) + " before it are not driven");
-  route_ = std::make_unique<Route>(std::move(knots), options_);
+  route_ = std::make_unique<DrivenRoute>(std::move(knots), options_);
   beginSegment(0);
 }
 
@@ -310,7 +310,7 @@ bool PathFollower::isMissedButGoesOn(const Pose& vehicle) {
     std::vector<Knot> knots{{vehicle}};
     knots.insert(knots.end(), route_->knots().begin() + static_cast<long>(segment_) + 1,
                  route_->knots().end());
-    route_ = std::make_unique<Route>(std::move(knots), options_);
+    route_ = std::make_unique<DrivenRoute>(std::move(knots), options_);
     beginSegment(0);
     return false;
   }
@@ -348,7 +348,7 @@ void PathFollower::appendLap() {
                           route_->knots().end());
   const std::vector<Knot> lap = knotsOf(path_, 0, loop_);
   knots.insert(knots.end(), lap.begin(), lap.end());
-  route_ = std::make_unique<Route>(std::move(knots), options_);
+  route_ = std::make_unique<DrivenRoute>(std::move(knots), options_);
   segment_ = 0;
 }
 

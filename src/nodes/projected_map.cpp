@@ -1,7 +1,7 @@
 // projected_map as a process of its own.
 //
 //   projected_map [FILE]      FILE: an octree (.bt or .ot) to begin with, as octomap_server_node
-//   has it
+//                             has it
 #include "grid_path_planner/ros/projected_map_node.h"
 #include "grid_path_planner/ros/run_node.h"
 

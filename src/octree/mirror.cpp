@@ -1,6 +1,7 @@
 #include "mirror.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace grid_path_planner {
 namespace {
@@ -59,6 +60,7 @@ void mirrorTree(const MapTree& tree, OccupancyBricks& bricks) {
 }
 
 void setCube(Brick::Words& words, const Cube& cube) {
+  assert(cube.edge <= kBrickEdge);
   const std::uint64_t row = ((1u << cube.edge) - 1) << (cube.z & 7);
   std::uint64_t bits = 0;
   for (std::uint32_t x = 0; x < cube.edge; ++x) bits |= row << (8 * ((cube.x & 7) + x));

@@ -1,7 +1,7 @@
 // A quick look at labels side by side, for those that differ by more than the step between them.
 //
 //   LabelLines lines(labels, rect);
-//   lines.forEachSuspect([&](Cell cell) { look closer });
+//   lines.forEachSuspect([&](Cell cell) { use(cell); });  // look closer
 //
 // Tells of every cell of `rect` from which a step to the east, the north or the north-east, or one
 // from its eastern neighbour to its northern one, may be less than the labels of its ends differ,

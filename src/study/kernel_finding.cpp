@@ -44,6 +44,7 @@ std::vector<int> kernelsOf(const StudyData& data) {
   std::map<int, bool> kernels;
   for (const StudySetting& setting : data.study().settings) kernels[setting.terrain.kernel] = true;
   std::vector<int> sorted;
+  sorted.reserve(kernels.size());
   for (const auto& kernel : kernels) sorted.push_back(kernel.first);
   return sorted;
 }

@@ -1,4 +1,5 @@
 """The checks see what they are there for: each finds nothing in a good tree and what is planted."""
+import json
 import os
 import subprocess
 import sys
@@ -17,7 +18,13 @@ def complaints(check, name=None, text=None):
                 "include/grid_path_planner/base/errors.h": HEADER % "#include <string>",
                 "include/grid_path_planner/grid/cell.h":
                     HEADER % '#include "grid_path_planner/base/errors.h"',
-                "src/ros/node.cpp": "#include <ros/ros.h>\nnamespace grid_path_planner {}\n"}
+                "src/ros/node.cpp": "#include <ros/ros.h>\nnamespace grid_path_planner {}\n",
+                "src/grid/halved.cpp": "namespace grid_path_planner {\nint halved(int all) {\n"
+                                       "  return all / 2;\n}\n}\n",
+                "include/grid_path_planner/base/stop_token.h":
+                    "// When to stop.\n//\n//   StopToken token;\n//   use(token);\n"
+                    "#pragma once\nnamespace grid_path_planner { class StopToken {}; }\n",
+                "build/compile_commands.json": json.dumps([{"command": "g++ -Iinclude -std=c++17"}])}
         if name:
             tree[name] = text
         for file, content in tree.items():
@@ -78,6 +85,114 @@ class Files(unittest.TestCase):
         for name in ("a_star_v2.h", "a_star_new.h", "AStar.h", "a_star_2.h", "a-star.h"):
             name = "include/grid_path_planner/grid/" + name
             self.assertEqual(len(self.planted(HEADER % "", name)), 1, name)
+
+
+class Examples(unittest.TestCase):
+    def planted(self, essay):
+        """The complaints; those of the compiler without their columns and sentences."""
+        name = "include/grid_path_planner/grid/x.h"
+        header = "// Of x.\n//\n%s#pragma once\nnamespace grid_path_planner::grid {\nvoid f(int);\n}\n"
+        found = complaints("check_examples.py", name, header % essay)
+        return [line.split(": error:")[0].rsplit(":", 1)[0] if ": error:" in line else line
+                for line in found]
+
+    def test_good_ones_are_left_alone(self):
+        self.assertEqual(self.planted("//   f(1);  // in the header's namespace\n"), [])
+        self.assertEqual(self.planted("//   int n = 2;\n//\n// And then:\n//   f(n);\n"), [])
+        self.assertEqual(self.planted("//   template <class T> void g(T t) { f(t); }\n//   void h();\n"),
+                         [])
+
+    def test_tables_are_no_code(self):
+        self.assertEqual(self.planted("//   topic   what f(1) sends; and when\n//   data: {...}\n"), [])
+
+    def test_code_that_does_not_compile(self):
+        header = "include/grid_path_planner/grid/x.h"
+        self.assertEqual(self.planted("//   f(1);\n//   f(\"1\");\n"), [header + ":4"])
+        self.assertEqual(self.planted("//   f(1, 2);\n"), [header + ":3"])
+        self.assertEqual(self.planted("//   unheard(1);\n"), [header + ":3"])
+
+    def test_abbreviations(self):
+        self.assertIn("'...' is no code", self.planted("//   f(1);\n//   f(...);\n")[0])
+        self.assertIn("without a statement", self.planted("//   f(1)  // sends\n")[0])
+
+
+class House(unittest.TestCase):
+    def planted(self, text, name="src/grid/x.cpp"):
+        return complaints("check_house.py", name, "namespace grid_path_planner {\n%s}\n" % text)
+
+    def test_good_ones_are_left_alone(self):
+        self.assertEqual(self.planted("void f() {\n}\n"), [])
+
+    def test_long_functions(self):
+        # Half of the functions of so small a tree may not be long either.
+        few = "".join("void f%d() {\n}\n" % i for i in range(99))
+        self.assertEqual(self.planted(few + "void g() {\n" + "//\n" * 58 + "}\n"), [])
+        self.assertEqual(len(self.planted(few + "void g() {\n" + "//\n" * 59 + "}\n")), 1)
+        self.assertEqual(len(self.planted("void g() {\n" + "//\n" * 18 + "}\n")), 1)
+
+    def test_long_files_and_full_folders(self):
+        self.assertEqual(len(self.planted("//\n" * 1000)), 1)
+        with tempfile.TemporaryDirectory() as root:
+            for i in range(100):
+                path = os.path.join(root, "src", "grid", "x%d.cpp" % i)
+                os.makedirs(os.path.dirname(path), exist_ok=True)
+                with open(path, "w", encoding="utf-8") as out:
+                    out.write("void f%d() {}\n" % i)
+            answer = subprocess.run([sys.executable, os.path.join(HERE, "check_house.py")], check=False,
+                                    env=dict(os.environ, STYLE_ROOT=root), capture_output=True, text=True)
+        self.assertIn("files in the largest folder: 100", answer.stdout)
+        self.assertEqual(answer.returncode, 1)
+
+    def test_types_twice(self):
+        other = "class StopToken { int state; };\n"
+        self.assertEqual(self.planted(other),
+                         ["grid_path_planner::StopToken is defined in include/grid_path_planner/base/"
+                          "stop_token.h and in src/grid/x.cpp"])
+        self.assertEqual(self.planted("class StopToken;\n"), [])
+        self.assertEqual(self.planted("namespace grid {\n%s}\n" % other), [])
+        self.assertEqual(self.planted("namespace {\n%s}\n" % other), [])
+
+
+class Words(unittest.TestCase):
+    def planted(self, text, name="src/grid/x.cpp"):
+        return complaints("check_words.py", name, text)
+
+    def test_good_ones_are_left_alone(self):
+        self.assertEqual(self.planted("// Always away from the second one: secondary, waypoint, always.\n"
+                                      "int waypoints; class Waypoint; class Desktop;\n"), [])
+
+    def test_private_words(self):
+        for text in ("// the way", "// ways", "goal_tree", "GoalTree", "goalTree", "kGoalTree", "GOAL_TREE",
+                     "PlanDesk", "a_desk", "desk_", "dearest()", "dearestOf()"):
+            self.assertGreaterEqual(len(self.planted(text + "\n")), 1, text)
+        self.assertEqual(self.planted("\n", "src/grid/goal_tree.cpp"),
+                         ["src/grid/goal_tree.cpp:0: 'goal_tree': the field says backward search tree"])
+
+
+class NoeticCalls(unittest.TestCase):
+    def planted(self, text, name):
+        return complaints("check_noetic_calls.py", name, text)
+
+    def test_good_ones_are_left_alone(self):
+        self.assertEqual(self.planted("cv::imread(file); Eigen::Vector2d v; YAML::Load(text);\n",
+                                      "src/grid/x.cpp"), [])
+        self.assertEqual(self.planted("if (n := f()) is None:\n    pass\n", "scripts/x.py"), [])
+
+    def test_calls_of_later_libraries(self):
+        for text in ("v(Eigen::seq(0, 2));", "m.reshaped();", "cv::hasNonZero(m);", "#include <boost/json.hpp>",
+                     "rtcCollide(a, b);", "std::from_chars(a, b, x);", "node.as<std::string_view>();",
+                     "root.Model();", "#include <span>"):
+            self.assertEqual(len(self.planted("\n" + text + "\n", "src/grid/x.cpp")), 1, text)
+
+    def test_cmake_and_shell(self):
+        for text in ("cmake_path(GET x y)", "file(REAL_PATH a b)", "find_program(X x\n REQUIRED)"):
+            self.assertEqual(len(self.planted(text + "\n", "cmake/x.cmake")), 1, text)
+        self.assertEqual(len(self.planted("#!/bin/sh\nctest --test-dir build\n", "scripts/x")), 1)
+
+    def test_python(self):
+        for text in ("match x:\n    case 1:\n        pass", "'a'.removeprefix('b')", "def f(a: list[int]): pass",
+                     "def f() -> int | None: pass"):
+            self.assertEqual(len(self.planted(text + "\n", "scripts/x.py")), 1, text)
 
 
 unittest.main()

@@ -6,6 +6,7 @@ import sys
 # The checks are themselves checked on other folders (check_checks.py).
 ROOT = os.environ.get("STYLE_ROOT") or os.path.abspath(
     os.path.join(os.path.dirname(__file__), "..", ".."))
+PLANTED = "STYLE_ROOT" in os.environ
 SKIPPED = 77
 
 

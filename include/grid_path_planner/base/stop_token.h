@@ -3,8 +3,8 @@
 //
 //   StopSource source;
 //   StopToken token = source.token(std::chrono::milliseconds(500));
-//   // elsewhere, in any thread:  source.cancel();
-//   // in the loop:               if (token.reason() != StopReason::NONE) return ...;
+//   source.cancel();                                  // elsewhere, in any thread
+//   if (token.reason() != StopReason::NONE) return;   // in the loop
 //
 // Asking costs a clock read: loops ask every few thousand steps (see StopPoll).
 #pragma once

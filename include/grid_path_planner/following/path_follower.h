@@ -3,8 +3,8 @@
 //   PathFollower follower(options);
 //   follower.start(path, Join::NEAREST);                   // throws InputError
 //   // at any rate:
-//   BodyVelocity velocity = follower.update({time, pose, way_is_free});
-//   for (const FollowEvent& event : follower.takeEvents()) log(event.message);
+//   BodyVelocity velocity = follower.update({time, pose, check});
+//   for (const FollowEvent& event : follower.takeEvents()) use(event.message);
 //
 //             start               pose lost, way occupied
 //   any state ------> DRIVING <---------------------------> BLOCKED ----> FAILED (blocked_timeout)
@@ -36,7 +36,7 @@
 
 namespace grid_path_planner {
 
-class Route;
+class DrivenRoute;
 
 enum class FollowState { IDLE, DRIVING, PAUSED, BLOCKED, ARRIVED, CANCELLED, FAILED };
 // In small letters, e.g. "driving".
@@ -158,7 +158,7 @@ class PathFollower {
   Path path_;
   Join join_ = Join::FIRST;
   bool loop_ = false;
-  std::unique_ptr<Route> route_;  // none until the path is joined
+  std::unique_ptr<DrivenRoute> route_;  // none until the path is joined
   std::size_t segment_ = 0;
   double closest_ = std::numeric_limits<double>::infinity();  // m, to the end of the segment so far
   bool at_stop_ = false;  // came near to the end of the segment, where it stops

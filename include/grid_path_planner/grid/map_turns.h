@@ -3,9 +3,9 @@
 // ask for another kind of Change than a rectangle.
 //
 //   MapTurns<OccupancyGrid> turns;
-//   turns.begin(std::make_shared<OccupancyGrid>(...));
+//   turns.begin(std::make_shared<OccupancyGrid>(map));
 //   reader = turns.current();                              // stays as it is
-//   turns.advance(changed, [&](OccupancyGrid& next) { ... });
+//   turns.advance(changed, [&](OccupancyGrid& next) { next[cell] = 100; });
 //   reader = turns.current();                              // the next one
 //
 // Two maps take turns: the one before the current is written if nobody else holds it any more, once

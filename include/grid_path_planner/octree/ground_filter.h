@@ -1,7 +1,6 @@
 // Which points of a scan are the floor that a vehicle drives on: a plane found by RANSAC.
 //
-//   const GroundSplit split = splitGround(points, options);     // points in the vehicle's base
-//   frame
+//   const GroundSplit split = splitGround(points, options);  // points in the vehicle's base frame
 //
 // octomap_server's rule: the plane must lean less than `angle` from level and pass within
 // `plane_distance` of the base frame's origin (a table does not); the points within `distance` of

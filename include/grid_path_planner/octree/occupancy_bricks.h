@@ -5,7 +5,7 @@
 //
 //   bricks.setBrick({x, y, z}, content);                       // by whoever changes the tree
 //   for (BrickColumn column : bricks.drainChangedColumns())
-//     bricks.forEachBrick(column, [&](std::uint16_t z, const Brick& brick) { ... });
+//     bricks.forEachBrick(column, [&](std::uint16_t z, const Brick& brick) { use(z, brick); });
 //
 // Coordinates are keys of OctoMap: voxel (x, y, z) is in brick (x >> 3, y >> 3, z >> 3), and the
 // lower corner of voxel x lies at (x - 32768) * resolution metres.

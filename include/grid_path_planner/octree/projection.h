@@ -1,8 +1,8 @@
 // The 3-D map seen from above: what of it lies in a band of heights, as an OccupancyGrid.
 //
-//   Projection projection(tree.resolution(), options);
-//   tree.insert(scan);
-//   const ProjectionChange change = projection.update(tree.bricks());
+//   Projection projection(0.05, options);  // the resolution of the map, m
+//   map.insert(scan);
+//   const ProjectionChange change = projection.update(map.bricks());
 //   if (change.geometry) sendWhole(projection.grid());
 //   else if (!change.cells.empty()) send(projection.grid(), change.cells);
 //

@@ -1,6 +1,6 @@
 // The height of the seabed under every column of the 3-D map, by a slope filter (Vosselman 2000).
 //
-//   Seabed seabed({1.0, 0.5}, 0.05);
+//   Seabed seabed(1.0, 0.5, 0.05);  // radius, max_slope, resolution
 //   for (BrickColumn column : changed) seabed.update(bricks, column);
 //   const Seabed::Heights heights = seabed.heightsAt(column);
 //

@@ -2,7 +2,7 @@
 //
 //   MapPlanner planner(options);
 //   planner.setMap(std::make_shared<const OccupancyGrid>(readMapFile("site.yaml")));
-//   PlanReport report = planner.plan({start, goal}, StopToken());
+//   PlanReport report = planner.plan({start, goal}, StopSource());
 //
 // The ends of the path are the poses asked for. They are judged on the inflated map at full
 // resolution; where only their block of the kernel is blocked, the search runs at full resolution

@@ -1,7 +1,7 @@
 // Which rectangles touch, and the border that they share.
 //
 //   Connections connections(rectangles, Touching::BORDERS);
-//   for (const Connection& connection : connections.of(3)) ...   // by ascending `to`
+//   for (const Connection& connection : connections.of(3)) use(connection);  // by ascending `to`
 //
 // The rectangles are disjoint. Borders are found by sorting the rectangles along each axis and
 // walking both sides of every grid line once: n log n for n rectangles. Afterwards single

@@ -1,10 +1,11 @@
 // Rectangles as wide as the free space lets them (mergedRuns), as a convex mesh laid out for a
 // search that sees through borders.
 //
-//   RectangleMesh mesh(mergedRuns(free, stop), stop);
+//   RectangleMesh mesh(mergedRuns(free_cells, stop), stop);
 //   const RectangleMesh::Rectangle& rect = mesh.rectangle(7);
-//   const auto first = rect.first[NORTHWARDS], end = rect.first[NORTHWARDS + 1];
-//   for (std::uint32_t i = first; i < end; ++i) mesh.border(i) ...  // of its north side, eastwards
+//   const std::uint32_t end = rect.first[RectangleMesh::NORTHWARDS + 1];
+//   for (std::uint32_t i = rect.first[RectangleMesh::NORTHWARDS]; i < end; ++i)
+//     use(mesh.border(i));  // of its north side, eastwards
 //
 // Such rectangles have no neighbours to the east and west, so a border ends only where there is a
 // blocked cell, and nothing that is seen through borders is split but by obstacles. Where one

@@ -1,6 +1,6 @@
 // Cells that are given as rectangles, cut into rectangles anew.
 //
-//   fewestRectangles({{0, 0, 500, 30}}, {{77, 12, 1, 1}}, stop)  // four
+//   fewestRectangles({{0, 0, 500, 30}}, {{77, 12, 1, 1}}, stop);  // four
 //
 // The work follows the lines along which the rectangles begin and end, not the cells between them:
 // a large rectangle that loses one cell is a patch of three lines by three.

@@ -1,8 +1,8 @@
 // The first message of a topic in a bag (format 2.0), read so that a damaged bag is refused.
 //
 //   const BagReader bag("run.bag");
-//   for (const BagConnection& connection : bag.connections()) ...
-//   std::optional<std::string> bytes = bag.firstMessage({connection.id});
+//   for (const BagConnection& connection : bag.connections())
+//     std::optional<std::string> bytes = bag.firstMessage({connection.id});
 //
 // rosbag_storage trusts the lengths that stand in a file: one wrong byte of a bag's header makes it
 // read beyond its buffer and can end the process. Here every length is checked against what is

@@ -4,7 +4,7 @@
 //   queue.setOptions(options);
 //   queue.add(cloud);                       // in the subscriber's thread
 //   queue.sortOut();                        // there too, every few milliseconds
-//   while (auto ready = queue.take()) ...   // in the thread that maps
+//   while (auto ready = queue.take()) use(*ready);  // in the thread that maps
 //
 // Guaranteed: the order of stamps does not matter; a cloud whose frame tf does not know waits for
 // tf_timeout (steady clock) and holds up no other; no more than queue_size wait for tf, and no more

@@ -6,9 +6,8 @@
 //     camera.take(vehicle.state(), time_ns, stamp);
 //   }
 //
-//   depth_camera/points       sensor_msgs/PointCloud2, organised, x y z in the optical frame (REP
-//   103),
-//                             NaN where nothing was measured
+//   depth_camera/points       sensor_msgs/PointCloud2, organised, x y z in the optical frame
+//                             (REP 103), NaN where nothing was measured
 //   depth_camera/camera_info  sensor_msgs/CameraInfo
 //
 // Guaranteed: nothing is rendered that nobody subscribes to; rendering is done in a thread of its

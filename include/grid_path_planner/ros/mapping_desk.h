@@ -2,8 +2,8 @@
 // publications and changed parameters take turns there, so that none meets half of another's work.
 //
 //   MappingDesk desk(options);
-//   desk.post("publish", [](MapKeeper& map) { ... });           // later, not twice in the queue
-//   desk.ask([](MapKeeper& map) { map.reset(); });              // next, and waits for it
+//   desk.post("publish", [](MapKeeper& map) { use(map); });  // later, not twice in the queue
+//   desk.ask([](MapKeeper& map) { map.reset(); });           // next, and waits for it
 //
 // Who asks waits for what runs at the moment (one insertion, one publication) and for who asked
 // before, never for the clouds that wait.

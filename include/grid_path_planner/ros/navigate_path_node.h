@@ -1,9 +1,9 @@
 // The node `navigate_path`: drives a path, a waypoint file or the goals of an action.
 //
 //   subscribes  path             nav_msgs/Path; not with ~config_filename. An empty one stops the
-//   vehicle
-//               projected_map    nav_msgs/OccupancyGrid; the vehicle stops before its occupied
-//               cells tf               where the vehicle is; it stops while that is not known
+//                                vehicle
+//               projected_map    nav_msgs/OccupancyGrid; the vehicle stops before occupied cells
+//               tf               where the vehicle is; it stops while that is not known
 //   publishes   cmd_vel          geometry_msgs/Twist in base_link
 //               current_waypoint geometry_msgs/PoseStamped, latched; the one that is driven to
 //               /diagnostics

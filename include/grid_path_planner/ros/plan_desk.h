@@ -1,6 +1,6 @@
 // Where questions about ways are handed in, from any thread, and answered in the worker's.
 //
-//   PlanDesk desk(nh, options);
+//   PlanDesk desk(nh, options, [] {});  // nothing to do where ROS time jumps back
 //   auto inquiry = desk.ask(question, PlanDesk::Announce::YES);
 //   inquiry->wait();
 //   use(inquiry->answer());

@@ -2,7 +2,7 @@
 // services and the action of path_planner have in common.
 //
 //   PlanEngine engine(maps, transforms);
-//   PlanAnswer answer = engine.answer(question, options, stop);
+//   PlanAnswer answer = engine.answer(question, options, source);
 //
 // For one thread at a time. Whatever goes wrong with a question is a status with a sentence.
 #pragma once

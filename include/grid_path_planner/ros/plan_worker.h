@@ -1,9 +1,9 @@
 // The one thread in which a node plans, so that its callbacks stay live.
 //
 //   PlanWorker worker;
-//   worker.cancel("goal");                                     // what runs and waits for the old
-//   goal worker.post([=](const StopSource& stop) { plan(stop); }, "goal", PlanWorker::Turn::NEXT);
-//   auto task = worker.post([=](const StopSource& stop) { ... });
+//   worker.cancel("goal");  // the task that runs, and those that wait in the slot "goal"
+//   worker.post([=](const StopSource& stop) { plan(stop); }, "goal", PlanWorker::Turn::NEXT);
+//   auto task = worker.post([=](const StopSource& stop) { save(stop); });
 //   task->wait();
 //
 // Tasks run one at a time. A task that was cancelled before its turn is run too, with a stop source

@@ -4,8 +4,8 @@
 //   publishes   projected_map                nav_msgs/OccupancyGrid
 //               projected_map_updates        map_msgs/OccupancyGridUpdate
 //               occupied_cells_vis_array     visualization_msgs/MarkerArray
-//               free_cells_vis_array         visualization_msgs/MarkerArray, with
-//               publish_free_space octomap_point_cloud_centers  sensor_msgs/PointCloud2
+//               free_cells_vis_array         visualization_msgs/MarkerArray (publish_free_space)
+//               octomap_point_cloud_centers  sensor_msgs/PointCloud2
 //               octomap_binary, octomap_full octomap_msgs/Octomap, where there is octomap_msgs
 //   serves      ~reset, ~clear_bbx, ~save_map, ~save_octree (mapping_services.h)
 //               octomap_binary, octomap_full octomap_msgs/GetOctomap, where there is octomap_msgs

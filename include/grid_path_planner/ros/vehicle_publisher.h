@@ -5,8 +5,7 @@
 //
 //   ground_truth  nav_msgs/Odometry in the frame of the map
 //   odom          nav_msgs/Odometry in the frame of the odometry
-//   tf            odometry -> vehicle as measured; map -> odometry (the identity) where it is asked
-//                 for
+//   tf            odometry -> vehicle as measured; map -> odometry (the identity) where asked for
 //
 // Where the odometry errs, tf from map to vehicle errs with it, as on a vehicle without a
 // localisation. No transform is static: a listener that clears its buffer as time jumps back would

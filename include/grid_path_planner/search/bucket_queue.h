@@ -1,7 +1,7 @@
 // An open list that costs a few nanoseconds an entry: cell indices in buckets of nearly equal keys.
 //
 //   BucketQueue open;
-//   open.begin(f_of_the_start, widthShift);
+//   open.begin(f_of_the_start, width_shift);
 //   open.push(f, index);
 //   while (!open.empty()) index = open.pop();
 //

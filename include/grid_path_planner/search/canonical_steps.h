@@ -7,7 +7,7 @@
 // x.
 //
 //   const NaturalSteps steps = naturalSteps(window);  // nine weights, row by row, x in the middle
-//   stepsAfter(steps, 1U << d)                        // a bit for every step natural after d
+//   stepsAfter(steps, 1U << d);                       // a bit for every step natural after d
 //
 // Guaranteed: a search that only takes natural steps, at every cell those of all steps that reached
 // it at its least cost, finds the least cost to every cell: a canonical path consists of them,

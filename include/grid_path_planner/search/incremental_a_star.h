@@ -4,7 +4,7 @@
 //   IncrementalAStar planner;
 //   planner.prepare(map, stop);
 //   planner.plan({start, {goal}}, stop);           // a whole search, backwards from the goal
-//   planner.update(changed_map, rectangle, stop);
+//   planner.update(changed_map, changed, stop);
 //   planner.plan({moved_start, {goal}}, stop);     // a search around the change
 //
 // The labels of the first search are kept (goal_tree.h). Where the map changed so that the way of

@@ -1,8 +1,8 @@
 // Straight runs over the cells of all rows, or of all columns, of a map, 64 cells in one word.
 //
-//   lanes.blind<true>(row, column)                   // does running forwards from here find
-//   anything? Run run = lanes.run<true>(row, column, weights, 1);  // where, and how dear is the
-//   way?
+//   if (lanes.blind<true>(row, column)) return;  // a run forwards from here finds nothing
+//   JumpLanes::Run run = lanes.run<true>(row, column, weights, 1);
+//   use(run.to, run.weights);  // the cell where the run ends, and the cost of its steps
 //
 // A run goes on until the first cell that is a stop in its direction. A stop is dead where nothing
 // leads on; a cell is blind in a direction where the run that leaves it that way ends at a dead

@@ -3,7 +3,7 @@
 //
 //   JumpMaps maps;
 //   maps.build(map.bitMaps(stop), stop);
-//   if (maps.leads(0, cell)) next = maps.stop(0, cell);  // the jump point to the east
+//   if (maps.leads(0, cell)) use(maps.stop(0, cell));  // the jump point to the east
 //
 // Going straight, one stops before a cell that is blocked and at a turn: a free cell beside which
 // an obstacle ends, so that the shortest way around the obstacle may turn there. With p the cell

@@ -32,7 +32,7 @@ class EightCells {
   // Of the neighbours that are so many columns and rows away, each -1, 0 or 1.
   Eight weights(int columns, int rows) const {
     Eight eight;
-    std::memcpy(&eight, rows_[static_cast<std::size_t>(rows + 1)] + columns, sizeof eight);
+    std::memcpy(&eight, rows_[static_cast<std::size_t>(rows) + 1] + columns, sizeof eight);
     return eight;
   }
   Eight blocked(int columns, int rows) const {
@@ -94,8 +94,8 @@ void forEachEight(const CostGrid& map, const CellRect& rect, const StopToken& st
           CellRect{column - 1, row - 1, kEightCells + 2, 3}.intersection(map.geometry().rect());
       for (int i = known.row; i < known.row + known.height; ++i)
         std::copy_n(weights.row(i) + known.column, known.width,
-                    &around[static_cast<std::size_t>(i - row + 1)]
-                           [static_cast<std::size_t>(known.column - column + 1)]);
+                    &around[static_cast<std::size_t>(i - row) + 1]
+                           [static_cast<std::size_t>(known.column - column) + 1]);
       visit(index, number, EightCells(&around[0][1], &around[1][1], &around[2][1]));
     }
   }

@@ -4,8 +4,8 @@
 //   PreparedHeuristic tables(options);
 //   tables.prepare(map);
 //   PlanResult result = tables.withBound(goal, [&](const auto& boundIn) {
-//     const auto bound = boundIn(scale);  // bound(index): a key of that scale
-//     return search.run(...);
+//     const auto bound = boundIn(scale);
+//     return search(bound(index));  // a key of that scale
 //   });
 //
 // A bound is 0 everywhere where the options ask for no table and while it is being made.

@@ -5,8 +5,8 @@
 //     return LandmarkTable(map, 16, stop);
 //   });
 //   tables.prepare(map);
-//   if (const LandmarkTable* table = tables.ready()) LandmarkBound bound(*table, tables.cheaper(),
-//   goal);
+//   if (const LandmarkTable* table = tables.ready())
+//     LandmarkBound bound(*table, tables.cheaper(), goal_index);
 //
 // Where the map gets dearer a bound stays a bound. Where it gets cheaper the table's
 // Table::Cheaper is told, which repairs the bounds in time proportional to the change, or makes the

@@ -5,9 +5,8 @@
 //   jumps.build(map, stop);
 //   {
 //     const WeightedJumpMap::Target target(jumps, map, goal);
-//     NaturalSteps steps = jumps.steps(map, index);  // search/canonical_steps.h, less dead
-//     branches if (!jumps.blind(step, cell)) WeightedJumpMap::Run run = jumps.run(step, cell,
-//     weights);
+//     NaturalSteps steps = jumps.steps(map, index);  // without those into dead branches
+//     if (!jumps.blind<kEast>(cell)) WeightedJumpMap::Run run = jumps.run<kEast>(cell, weights);
 //   }
 //
 // Dead branches: a step after which the natural steps all end within kDepth steps leads nowhere

@@ -2,7 +2,7 @@
 //
 //   JoystickOptions options;                        // axes and scales of a usual game pad
 //   if (const auto velocity = joystickVelocity(options, {axes, buttons}))
-//   vehicle.command(*velocity);
+//     vehicle.command(*velocity);
 //
 // Guaranteed: without its deadman button held there is no command at all, so that others may
 // command the vehicle; a stick inside the dead zone commands exactly zero, and beyond it the speed

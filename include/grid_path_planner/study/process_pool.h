@@ -1,8 +1,9 @@
 // Work done by child processes, so that one that crashes or is killed takes nothing with it but
 // the task it was at.
 //
-//   ProcessPool pool(2, [&](std::size_t task) { return lines(worker.run(units[task])); });
-//   while (...) { if (pool.idle() > 0) pool.start(task); for (auto& end : pool.wait(100)) ...; }
+//   ProcessPool pool(2, [&](std::size_t number) { return done(units[number]); });
+//   if (pool.idle() > 0) pool.start(task);
+//   for (const TaskEnd& end : pool.wait(100)) use(end.task, end.text);
 //
 // The children are forks: they see all that was in memory when the pool was made. A child that is
 // lost is replaced by a new fork. Not thread-safe; make it before other threads are started.

@@ -1,4 +1,4 @@
-#include "route.h"
+#include "driven_route.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,13 +28,14 @@ double angleBetween(double from, double to) {
   return std::remainder(to - from, 2.0 * M_PI);
 }
 
-Route::Route(std::vector<Knot> knots, const FollowerOptions& options) : knots_(std::move(knots)) {
+DrivenRoute::DrivenRoute(std::vector<Knot> knots, const FollowerOptions& options)
+    : knots_(std::move(knots)) {
   for (std::size_t i = 1; i < knots_.size(); ++i)
     knots_[i].s = knots_[i - 1].s + (knots_[i].pose.position - knots_[i - 1].pose.position).norm();
   update(options);
 }
 
-void Route::update(const FollowerOptions& options) {
+void DrivenRoute::update(const FollowerOptions& options) {
   double stop_s = kInfinity;
   for (std::size_t i = knots_.size(); i-- > 0;) {
     Knot& knot = knots_[i];
@@ -46,7 +47,8 @@ void Route::update(const FollowerOptions& options) {
   }
 }
 
-double Route::speedBefore(std::size_t knot, double distance, const FollowerOptions& options) const {
+double DrivenRoute::speedBefore(std::size_t knot, double distance,
+                                const FollowerOptions& options) const {
   const Knot& next = knots_[knot];
   const auto braked = [&](double speed, double way) {
     return std::sqrt(speed * speed + 2.0 * braking(options) * std::max(0.0, way));
@@ -55,26 +57,26 @@ double Route::speedBefore(std::size_t knot, double distance, const FollowerOptio
   return std::min(braked(next.corner_speed, distance - lead), braked(next.speed_beyond, distance));
 }
 
-double Route::share(std::size_t i, const Vector3d& position) const {
+double DrivenRoute::share(std::size_t i, const Vector3d& position) const {
   const Vector3d way = knots_[i + 1].pose.position - knots_[i].pose.position;
   const double square = way.squaredNorm();
   return square > 0.0 ? (position - knots_[i].pose.position).dot(way) / square : 1.0;
 }
 
-Vector3d Route::point(std::size_t i, double share) const {
+Vector3d DrivenRoute::point(std::size_t i, double share) const {
   const Vector3d& from = knots_[i].pose.position;
   return from + share * (knots_[i + 1].pose.position - from);
 }
 
-double Route::distance(std::size_t i, const Vector3d& position) const {
+double DrivenRoute::distance(std::size_t i, const Vector3d& position) const {
   return (point(i, std::clamp(share(i, position), 0.0, 1.0)) - position).norm();
 }
 
-bool Route::turnsBack(std::size_t i) const {
+bool DrivenRoute::turnsBack(std::size_t i) const {
   return i + 1 < segments() && direction(i).dot(direction(i + 1)) < 0.0;
 }
 
-Vector3d Route::ahead(std::size_t i, double share, double distance) const {
+Vector3d DrivenRoute::ahead(std::size_t i, double share, double distance) const {
   const Vector3d heading = direction(i);
   double s = knots_[i].s + share * length(i) + distance;
   while (s > knots_[i + 1].s) {
@@ -85,7 +87,7 @@ Vector3d Route::ahead(std::size_t i, double share, double distance) const {
   return at(s);
 }
 
-std::vector<Vector3d> Route::piece(std::size_t i, double share, double distance) const {
+std::vector<Vector3d> DrivenRoute::piece(std::size_t i, double share, double distance) const {
   std::vector<Vector3d> points{point(i, share)};
   const double end = knots_[i].s + share * length(i) + distance;
   for (; i < segments() && knots_[i + 1].s < end; ++i)
@@ -94,20 +96,20 @@ std::vector<Vector3d> Route::piece(std::size_t i, double share, double distance)
   return points;
 }
 
-double Route::speed(std::size_t i, double share, const FollowerOptions& options) const {
+double DrivenRoute::speed(std::size_t i, double share, const FollowerOptions& options) const {
   const Knot& next = knots_[i + 1];
   const double left = (1.0 - share) * length(i);
   const double before_stop = options.position_gain * (next.stop_s - next.s + left);
   return std::min({options.max_speed, speedBefore(i + 1, left, options), before_stop});
 }
 
-Vector3d Route::direction(std::size_t i) const {
+Vector3d DrivenRoute::direction(std::size_t i) const {
   const Vector3d way = knots_[i + 1].pose.position - knots_[i].pose.position;
   const double size = way.norm();
   return size > 0.0 ? Vector3d(way / size) : Vector3d(Vector3d::Zero());
 }
 
-Vector3d Route::at(double s) const {
+Vector3d DrivenRoute::at(double s) const {
   const auto after =
       std::upper_bound(knots_.begin(), knots_.end(), s,
                        [](double value, const Knot& knot) { return value < knot.s; });
@@ -120,7 +122,7 @@ Vector3d Route::at(double s) const {
 
 // Rounding a turn of an angle within the pursuit distance takes speed^2 x angle / distance of
 // acceleration; where the route turns back, the vehicle must brake inside the acceptance radius.
-double Route::cornerSpeed(std::size_t knot, const FollowerOptions& options) const {
+double DrivenRoute::cornerSpeed(std::size_t knot, const FollowerOptions& options) const {
   const Knot& corner = knots_[knot];
   const Vector3d in = corner.pose.position - at(corner.s - options.pursuit_distance);
   const Vector3d out = at(corner.s + options.pursuit_distance) - corner.pose.position;

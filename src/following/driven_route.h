@@ -23,11 +23,11 @@ struct Knot {
   double stop_s = 0.0;        // m, along the route, of the next stop; infinite without one
 };
 
-class Route {
+class DrivenRoute {
  public:
-  Route() = default;
+  DrivenRoute() = default;
   // The knots with their pose, waypoint and last; the rest is computed, also by `update`.
-  Route(std::vector<Knot> knots, const FollowerOptions& options);
+  DrivenRoute(std::vector<Knot> knots, const FollowerOptions& options);
   void update(const FollowerOptions& options);
 
   const std::vector<Knot>& knots() const { return knots_; }

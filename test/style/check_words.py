@@ -1,0 +1,121 @@
+"""Words of our own that do not come back where the field has a term: in names, identifiers and comments
+of C++ files. doc/glossary.md says what the terms mean.
+"""
+import os
+import re
+
+from common import PLANTED, files, finish, read
+
+# Words as written with underscores; CamelCase is found too. Single words are found as wholes.
+WORDS = {
+    "brick_marks": "scan marks",
+    "brick_walk": "sparse ray traversal",
+    "canonical_steps": "natural moves",
+    "catalogue": "factory",
+    "centre_segment": "line of sight",
+    "cheaper_places": "cost decreases",
+    "cheapest": "minimum weight, least cost",
+    "cone": "interval node",
+    "cone_search": "Polyanya search",
+    "costs_from": "shortest-path tree",
+    "dearer": "more expensive",
+    "dearest": "maximum weight",
+    "desk": "server",
+    "detour": "repair search",
+    "eight_cells": "SIMD neighbourhood",
+    "follow_way": "swept sphere",
+    "glide": "flat successors",
+    "goal_labels": "backward nodes",
+    "goal_tree": "backward search tree",
+    "inquiry": "ticket",
+    "jump_lanes": "straight jump table",
+    "jump_maps": "jump-point bitmaps",
+    "jump_nodes": "hashed nodes, radix heap",
+    "jump_tiles": "diagonal jump bits",
+    "keeper": "model",
+    "kept_goal": "active goal",
+    "label_lines": "inconsistency scan",
+    "map_keeper": "map model",
+    "map_turns": "double buffering",
+    "mapping_desk": "mapping thread",
+    "natural_steps": "natural moves",
+    "near_obstacles": "bounded distance transform",
+    "needless": "unnecessary",
+    "patient_queue": "heap-on-top queue",
+    "plan_attempt": "path planner",
+    "plan_desk": "planning server",
+    "plan_engine": "planning backend",
+    "plan_worker": "task queue",
+    "prepared_table": "precomputed table",
+    "rectangle_answer": "rectangles result",
+    "rectangle_question": "rectangles request",
+    "rectangle_telling": "rectangles output",
+    "rising_keys": "D* keys with key modifier",
+    "route_finder": "multi-resolution planner",
+    "saw_the_end": "left the tree",
+    "segment_legal": "line of sight",
+    "sphere_way": "swept sphere",
+    "straight_cost": "line cost",
+    "symmetry_sample": "pruning estimate",
+    "table_entry": "compact cost",
+    "take_cheaper": "on cost decrease",
+    "take_dearer": "on cost increase",
+    "taut_search": "Anya search",
+    "terrain": "costmap",
+    "tile_flood": "tiled Dijkstra",
+    "too_dear": "too expensive",
+    "undo_float": "float round trip",
+    "waiting_cells": "tiled open list",
+    "wake": "mark inconsistent",
+    "way": "path, direction, means",
+    "window_walk": "dense ray traversal",
+}
+
+# Those that still stand somewhere; to be emptied. One that is gone is struck here and stays away.
+ALLOWED = set("""
+    brick_marks brick_walk canonical_steps catalogue centre_segment cheaper_places cheapest cone
+    cone_search costs_from dearer dearest desk detour eight_cells follow_way glide goal_labels
+    goal_tree inquiry jump_lanes jump_maps jump_nodes jump_tiles keeper kept_goal label_lines
+    map_keeper map_turns mapping_desk natural_steps near_obstacles needless patient_queue
+    plan_attempt plan_desk plan_engine plan_worker prepared_table rectangle_answer
+    rectangle_question rectangle_telling rising_keys route_finder saw_the_end segment_legal
+    sphere_way straight_cost symmetry_sample table_entry take_cheaper take_dearer taut_search
+    terrain tile_flood too_dear undo_float waiting_cells wake way window_walk
+""".split())
+
+FOLDERS = ("include", "src", "test", "benchmark", "examples")
+
+
+def pattern(word):
+    """As goal_tree, GOAL_TREE, goalTree, GoalTree; a single word alone or as a part of such a name."""
+    parts = word.split("_")
+    camel = "".join(part.capitalize() for part in parts)
+    start = "(?<![A-Za-z])" if len(parts) == 1 else ""
+    plural = "s?"
+    return re.compile("%s(%s|%s)%s(?![a-z])|%s%s(?![a-z])" % (
+        start, word, word.upper(), plural, camel, plural)
+        + ("" if len(parts) == 1 else "|%s(?![a-z])" % (camel[0].lower() + camel[1:] + plural)))
+
+
+def occurrences():
+    """(word, file, line number) of all."""
+    patterns = [(word, pattern(word)) for word in sorted(WORDS)]
+    for name in files(FOLDERS, (".h", ".cpp")):
+        for number, line in enumerate([os.path.basename(name)] + read(name).splitlines()):
+            for word, expression in patterns:
+                if expression.search(line):
+                    yield word, name, number
+
+
+def main():
+    found = list(occurrences())
+    complaints = ["%s:%d: '%s': the field says %s" % (name, number, word, WORDS[word])
+                  for word, name, number in found if PLANTED or word not in ALLOWED]
+    if not PLANTED:
+        complaints += ["'%s' is gone: strike it from ALLOWED in check_words.py" % word
+                       for word in sorted(ALLOWED - {word for word, _, _ in found})]
+    finish(complaints, "%d words (%d of them still allowed: %d places)"
+           % (len(WORDS), len(ALLOWED), sum(1 for word, _, _ in found if word in ALLOWED)))
+
+
+main()

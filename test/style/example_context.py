@@ -1,0 +1,140 @@
+"""What the examples in the headers' essays use and do not declare: C++ declarations, by the end of the
+header's name. They stand in the header's namespace; a line with #include goes to the top."""
+
+# For all of them: a token that nobody cancels, and something to do with a result.
+COMMON = "extern const StopToken stop; template <class... T> void use(const T&...);"
+
+CONTEXT = {
+    "background.h": "struct Table { Table(int, const StopToken&); }; extern std::shared_ptr<int> map;",
+    "bit_maps.h": "extern const CostGrid& map;",
+    "bucket_queue.h": "extern SearchKey f, f_of_the_start; extern unsigned width_shift;"
+                      "extern BucketQueue::Index index;",
+    "canonical_steps.h": "extern Window window; extern unsigned d;",
+    "cloud_filter.h": """#include "grid_path_planner/octree/octree_map.h"
+        extern OctreeMap map; extern Eigen::Isometry3d map_from_sensor, base_from_map;
+        extern std::vector<Eigen::Vector3d> points; extern CloudFilterOptions options;""",
+    "cloud_queue.h": "extern const tf2_ros::Buffer buffer; extern CloudQueueOptions options;"
+                     "extern sensor_msgs::PointCloud2::ConstPtr cloud;",
+    "cloud_reader.h": "extern sensor_msgs::PointCloud2::ConstPtr message;",
+    "connections.h": "extern std::vector<CellRect> rectangles;",
+    "conversions.h": "extern geometry_msgs::PoseStamped message; extern Path path;"
+                     "extern ros::Publisher publisher;",
+    "cost_to_go.h": "extern std::shared_ptr<const CostGrid> map; extern Cell cell;",
+    "dead_reckoning.h": """#include "grid_path_planner/simulation/vehicle.h"
+        extern DeadReckoningOptions options; extern Vehicle vehicle;""",
+    "decomposition.h": "extern const CostGrid& map;",
+    "depth_camera.h": "extern const World& world; extern DepthCameraOptions options;"
+                      "extern Eigen::Isometry3d map_from_base; extern int row, column, frame_number;",
+    "depth_camera_publisher.h": """#include "grid_path_planner/simulation/vehicle.h"
+        extern ros::NodeHandle nh; extern const World& world; extern DepthCameraOptions options;
+        extern CameraFrameNames frames; extern Vehicle vehicle; extern std::int64_t time_ns;
+        extern ros::Time stamp;""",
+    "detour_search.h": "extern const CostGrid& map; extern const GoalLabels& labels;"
+                       "extern GoalLabels::Index start; extern SearchKey sound_below;"
+                       "extern PlanResult result; extern StopPoll poll;",
+    "frame_transforms.h": "extern ros::NodeHandle nh; extern double limit;",
+    "goal_labels.h": "extern const GoalLabels& labels; extern GoalLabels::Index index;",
+    "goal_tree.h": "extern const CostGrid &map, &old_map, &new_map; extern const Moves& moves;"
+                   "extern Cell goal, start, moved_start; extern double ahead; extern PlanResult result;"
+                   "extern CellRect changed;",
+    "ground_filter.h": "extern std::vector<Eigen::Vector3d> points; extern GroundFilterOptions options;",
+    "headings.h": "extern Path path; extern Pose start, goal;",
+    "incremental_a_star.h": "extern std::shared_ptr<const CostGrid> map, changed_map;"
+                            "extern CellRect changed; extern Cell start, moved_start, goal;",
+    "joystick.h": """#include "grid_path_planner/simulation/vehicle.h"
+        extern std::vector<double> axes; extern std::vector<bool> buttons; extern Vehicle vehicle;""",
+    "jump_lanes.h": "extern const JumpLanes& lanes; extern std::size_t row; extern unsigned column;"
+                    "extern const CostGrid::Weight* weights;",
+    "jump_maps.h": "extern const CostGrid& map; extern Cell cell;",
+    "label_lines.h": "extern const GoalLabels& labels; extern CellRect rect;",
+    "landmark_table.h": "extern const CostGrid& map; extern std::uint32_t index, goal_index;",
+    "map_keeper.h": "extern ProjectedMapOptions options; extern std::vector<Eigen::Vector3d> points;"
+                    "extern CloudFrames frames;",
+    "map_planner.h": """#include "grid_path_planner/grid/map_file.h"
+        extern PlannerOptions options; extern Pose start, goal;""",
+    "map_sizes.h": "extern const RectangleGraph& map;",
+    "map_turns.h": """#include "grid_path_planner/grid/occupancy.h"
+        extern std::shared_ptr<const OccupancyGrid> reader; extern OccupancyGrid map;
+        extern CellRect changed; extern Cell cell;""",
+    "mapping_desk.h": "extern ProjectedMapOptions options;",
+    "near_obstacles.h": "extern const Grid<Occupancy>& classes; extern CellRect sources, rect;"
+                        "extern int reach;",
+    "neighbourhoods.h": """#include "grid_path_planner/search/steps.h"
+        extern const CostGrid& map; extern CellRect rect; extern const StepRules& rules;
+        extern std::vector<std::uint8_t> masks;""",
+    "node_arguments.h": "extern int argc; extern char** argv;",
+    "node_heap.h": "struct Node {}; extern Node node; extern double f, limit;",
+    "occupancy_bricks.h": "extern OccupancyBricks bricks; extern std::uint16_t x, y, z;"
+                          "extern Brick content;",
+    "occupancy_conversion.h": "extern nav_msgs::OccupancyGrid::ConstPtr message;"
+                              "extern ros::Publisher publisher;",
+    "octree_map.h": "extern OctreeOptions options; extern octomap::point3d origin;"
+                    "extern std::vector<octomap::point3d> hits, clear_only;",
+    "option_parsing.h": """#include "grid_path_planner/planners/map_planner.h"
+        extern OptionInfo info; extern PlannerOptions options;""",
+    "option_visitor.h": "enum class E {}; struct O { double radius; E kernel_rule; };",
+    "parameters.h": """#include <grid_path_planner/PathPlannerConfig.h>
+        #include "grid_path_planner/planners/map_planner.h\"""",
+    "path_follower.h": "extern FollowerOptions options; extern Path path; extern double time;"
+                       "extern Pose pose; extern WayCheck check;",
+    "patient_queue.h": "extern SearchKey first, width, key, bound; extern std::uint32_t order, index;"
+                       "extern bool (*renew)(PatientQueue::Entry&);",
+    "picture.h": "extern OccupancyGrid map; extern OccupancyThresholds thresholds; extern Path path;"
+                 "extern std::vector<Cell> expanded;",
+    "plan_desk.h": "extern ros::NodeHandle nh; extern PathPlannerNodeOptions options;"
+                   "extern PlanQuestion question;",
+    "plan_engine.h": "extern MapReceiver maps; extern FrameTransforms transforms;"
+                     "extern PlanQuestion question; extern PathPlannerNodeOptions options;"
+                     "extern StopSource source;",
+    "plan_worker.h": "void plan(const StopSource&); void save(const StopSource&);",
+    "planner.h": """#include "grid_path_planner/planners/catalogue.h"
+        extern SearchOptions options; extern std::shared_ptr<const CostGrid> map;
+        extern StopSource source;""",
+    "prepared_heuristic.h": "extern SearchOptions options; extern std::shared_ptr<const CostGrid> map;"
+                            "extern std::uint32_t goal; PlanResult search(SearchKey);"
+                            "extern KeyScale scale; extern std::uint32_t index;",
+    "prepared_table.h": """#include "grid_path_planner/search/landmark_table.h"
+        extern std::shared_ptr<const CostGrid> map; extern std::uint32_t goal_index;""",
+    "process_pool.h": "extern std::vector<int> units; std::string done(int); extern std::size_t task;",
+    "projection.h": """#include "grid_path_planner/octree/octree_map.h"
+        extern OctreeMap map; extern ProjectionOptions options; extern Scan scan;
+        void send(const OccupancyGrid&, const CellRect&); void sendWhole(const OccupancyGrid&);""",
+    "rectangle_file.h": "extern RectangleGraph map;",
+    "rectangle_graph.h": """#include "grid_path_planner/rectangles/decomposition.h"
+        extern GridGeometry geometry; extern const BitMaps& bits; extern Cell cell;
+        extern CellRect changed;""",
+    "rectangle_keeper.h": "extern std::shared_ptr<const CostGrid> map, changed_map;"
+                          "extern CellRect changed; void search(const RectangleGraph&);",
+    "rectangle_mesh.h": """#include "grid_path_planner/rectangles/decomposition.h"
+        extern const BitMap& free_cells;""",
+    "rectangle_messages.h": "extern GridGeometry geometry; extern std::vector<CellRect> rectangles;"
+                            "extern RectangleMap message; extern ros::Publisher publisher;",
+    "rectangle_publisher.h": "extern ros::NodeHandle nh; extern std::shared_ptr<const CostGrid> costs;"
+                             "extern std::size_t memory_limit;",
+    "rising_keys.h": "extern const GoalLabels& labels; extern const CostGrid& map;"
+                     "extern Cell start, next_start; extern SearchKey cost; extern RisingKeys::Index index;",
+    "run_node.h": '#include "grid_path_planner/ros/simulator_node.h"',
+    "seabed.h": "extern const OccupancyBricks& bricks; extern std::vector<BrickColumn> changed;"
+                "extern BrickColumn column;",
+    "smoothing.h": "extern const CostGrid& map; extern std::vector<SegmentPoint> points;",
+    "terrain.h": "extern TerrainOptions options; extern std::shared_ptr<const OccupancyGrid> map;",
+    "tile_nodes.h": "extern GridGeometry geometry; extern Cell cell;",
+    "touch.h": """#include "grid_path_planner/grid/occupancy.h"
+        extern const OccupancyGrid& map; extern CellRect changed;""",
+    "triangle_mesh.h": "extern Eigen::Isometry3d pose;",
+    "unused_options.h": "extern PlannerOptions options; void warn(const std::string&);",
+    "vehicle.h": "extern VehicleOptions options; extern std::shared_ptr<const World> world;",
+    "vehicle_publisher.h": "extern ros::NodeHandle nh; extern VehicleState truth, measured;"
+                           "extern ros::Time stamp; extern VehicleFrameNames frames;",
+    "waiting_cells.h": "extern GridGeometry geometry; extern SearchKey first, width, below;"
+                       "extern RisingKeys keys; extern WaitingCells::Index index;",
+    "waypoint_file.h": "extern Path path;",
+    "weight_changes.h": "extern const CostGrid &before, &after; extern CellRect changed;",
+    "weight_counts.h": "extern Grid<WeightCounts::Weight> weights, next_weights; extern CellRect changed;",
+    "weighted_jump_map.h": "extern const CostGrid& map; extern Cell cell, goal; extern std::uint32_t index;"
+                           "extern const CostGrid::Weight* weights; constexpr unsigned kEast = 0;",
+    "weighted_jump_search.h": "extern const CostGrid& map; extern PlanRequest request;",
+    "world.h": """#include "grid_path_planner/simulation/world_file.h"
+        #include <iostream>
+        extern Eigen::Vector3d position;""",
+}
