@@ -1,57 +1,39 @@
 #include "grid_path_planner/grid/image_file.h"
 
 #include <cstdint>
-#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <optional>
-#include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/text_file.h"
 #include "grid_path_planner/grid/map_format.h"
-#include "image_check.h"
+#include "image_formats.h"
 
 namespace grid_path_planner {
 namespace {
 
 constexpr int kAlphaChannel = 3;
 
-// The value that stands for white by the header of a binary PGM or PPM. OpenCV spreads the values
-// of a text PGM to the full range, as map_server's SDL does for both, but not those of a binary
-// one.
-std::optional<int> whiteOf(const std::string& content) {
-  if (content.compare(0, 2, "P5") != 0 && content.compare(0, 2, "P6") != 0) return std::nullopt;
-  std::istringstream header(content.substr(2, 4096));
-  int numbers[3] = {};  // width, height, white
-  for (int& number : numbers) {
-    while ((header >> std::ws).peek() == '#')
-      header.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-    header >> number;
-  }
-  if (!header || numbers[2] <= 0) return std::nullopt;
-  return numbers[2];
+constexpr std::size_t kMostPixels = std::size_t{1} << 30;
+
+bool startsWith(const std::string& content, std::string_view start) {
+  return content.compare(0, start.size(), start) == 0;
 }
 
-cv::Mat decode(const std::string& file) {
+bool isPnm(const std::string& content) {
+  return content.size() > 1 && content[0] == 'P' && content[1] >= '1' && content[1] <= '6';
+}
+
+cv::Mat decode(const std::string& file, const SizeCheck& checkSize) {
   const std::string content = readWholeFile(file, kLargestMapFile);
-  checkImageIsWhole(content, file);
-  cv::Mat image;
-  try {
-    const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8UC1,
-                        const_cast<char*>(content.data()));
-    image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception& error) {
-    throw InputError(file, "is not an image that can be read: " + error.err);
-  }
-  if (image.empty()) throw InputError(file, "is not an image that can be read");
-  if (image.depth() != CV_8U && image.depth() != CV_16U)
-    throw InputError(file, "must be an image of 8 or 16 bits a channel");
-  const int white = whiteOf(content).value_or(image.depth() == CV_8U ? 255 : 65535);
-  if (white != 255) image.convertTo(image, CV_8U, 255.0 / white);
-  return image;
+  if (startsWith(content, "\x89PNG\r\n\x1a\n")) return decodePng(content, file, checkSize);
+  if (startsWith(content, "\xff\xd8\xff")) return decodeJpeg(content, file, checkSize);
+  if (startsWith(content, "BM")) return decodeBmp(content, file, checkSize);
+  if (isPnm(content)) return decodePnm(content, file, checkSize);
+  return decodeWithOpenCv(content, file);
 }
 
 // What a pixel means, by the sum of its channels.
@@ -134,7 +116,11 @@ std::string greyRows(const OccupancyGrid& map, MapMode mode,
 
 OccupancyGrid readImageFile(const std::string& file, const PixelRule& rule, double resolution,
                             const Origin& origin, const MapFileOptions& options) {
-  const cv::Mat image = decode(file);
+  const cv::Mat image = decode(file, [&](int width, int height) {
+    if (mapGeometry(file, width, height, resolution, origin, options).size() > kMostPixels)
+      throw InputError(file, "is an image of " + std::to_string(width) + "x" +
+                                 std::to_string(height) + " pixels, more than 2^30");
+  });
   const int channels = image.channels();
   const bool has_alpha = channels > kAlphaChannel;
   const int averaged = has_alpha && rule.mode != MapMode::TRINARY ? kAlphaChannel : channels;

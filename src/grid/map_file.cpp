@@ -11,6 +11,7 @@
 #include "grid_path_planner/grid/map_server_file.h"
 #include "grid_path_planner/grid/moving_ai_file.h"
 #include "grid_path_planner/grid/occupancy_dump.h"
+#include "grid_path_planner/grid/rectangle_map_file.h"
 #include "grid_path_planner/grid/vector_map_file.h"
 
 namespace grid_path_planner {
@@ -35,6 +36,10 @@ bool isImage(const std::string& content, const std::string& extension) {
 
 bool isMovingAi(const std::string& content, const std::string& extension) {
   return startsWith(content, "type ") || extension == "map";
+}
+
+bool isRectangleMap(const std::string& content, const std::string& extension) {
+  return looksLikeRectangleMap(content) || extension == "rectangles";
 }
 
 bool isBag(const std::string& content, const std::string& extension) {
@@ -66,6 +71,7 @@ OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options
     throw InputError(file, "is a bag, which is read with ROS (grid_path_planner/ros/bag.h)");
   if (isImage(content, extension)) return readImageFile(file, {}, 1.0, {}, options);
   if (isMovingAi(content, extension)) return parseMovingAi(content, file, options);
+  if (isRectangleMap(content, extension)) return parseRectangleMap(content, file, options);
   return readYamlMap(content, file, options);
 }
 
@@ -74,8 +80,8 @@ RowOrder rowOrderOf(const std::string& file) {
   const std::string extension = extensionOf(file);
   if (isBag(content, extension)) return RowOrder::FIRST_ROW_FIRST;
   if (isImage(content, extension)) return RowOrder::LAST_ROW_FIRST;
-  if (isMovingAi(content, extension) || looksLikeOccupancyDump(content) ||
-      content.size() > kLargestYaml)
+  if (isMovingAi(content, extension) || isRectangleMap(content, extension) ||
+      looksLikeOccupancyDump(content) || content.size() > kLargestYaml)
     return RowOrder::FIRST_ROW_FIRST;
   return isMapServerYaml(parseYaml(content, file)) ? RowOrder::LAST_ROW_FIRST
                                                    : RowOrder::FIRST_ROW_FIRST;

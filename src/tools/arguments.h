@@ -13,7 +13,8 @@ namespace grid_path_planner::tools {
 
 // What --map reads, for its help.
 constexpr const char* kMapFiles =
-    "map_server YAML, MovingAI .map, image, drawing (vector_map YAML), rostopic echo dump or bag";
+    "map_server YAML, MovingAI .map, image, drawing (vector_map YAML), rectangles, rostopic echo "
+    "dump or bag";
 
 // Long options only, so that negative numbers parse as values. Prints the help and returns false
 // where

@@ -77,6 +77,8 @@ TEST_F(Rectangles, ThePictureOfTheMapGivesTheSame) {
   const RectangleGraph read = readRectangleFile(folder_.path("b.rectangles"), Touching::BORDERS);
   EXPECT_EQ(read.rectangles().front(), (CellRect{0, 2, 2, 8})) << "rows as in Cell";
   EXPECT_EQ(read.freeCells(), 62u);
+  EXPECT_EQ(readMapFile(folder_.path("b.rectangles")), turned);
+  EXPECT_EQ(objectOf({"--json"}, folder_.path("b.rectangles"))["cells_in_rectangles"], 62);
 }
 
 TEST_F(Rectangles, ALimitEndsTheWorkEarlier) {

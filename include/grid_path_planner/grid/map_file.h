@@ -1,6 +1,6 @@
 // Occupancy maps in files: map_server YAML with its image, MovingAI .map, a plain image, a drawing
-// (grid/vector_map_file.h), and the text that `rostopic echo` prints of a nav_msgs/OccupancyGrid.
-// Bags are read by ros/bag.h, which needs ROS.
+// (grid/vector_map_file.h), rectangles (grid/rectangle_map_file.h), and the text that `rostopic
+// echo` prints of a nav_msgs/OccupancyGrid. Bags are read by ros/bag.h, which needs ROS.
 //
 //   OccupancyGrid map = readMapFile("maps/site.yaml");
 //

@@ -16,7 +16,7 @@ struct MapPublisherOptions {
 template <class Visitor>
 void visitOptions(MapPublisherOptions& o, Visitor&& visit) {
   visit("filename", o.filename,
-        OptionInfo{"Map file: map_server YAML, MovingAI, image, rostopic dump or bag", ""});
+        OptionInfo{"Map file: map_server YAML, MovingAI, image, rectangles, rostopic dump or bag", ""});
   visit("frame_id", o.frame_id, OptionInfo{"Frame that the map is published in", ""});
   visit("topic", o.topic, OptionInfo{"Topic that the map is published on", ""});
 }

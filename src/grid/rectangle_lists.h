@@ -1,5 +1,5 @@
 // Disjoint rectangles as lists of small numbers, which deflate well: the body of a rectangle file.
-// rectangles/rectangle_file.h says how they are counted.
+// grid/rectangle_map_file.h says how they are counted.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "deflate.h"
+#include "grid_path_planner/base/deflate.h"
 
 #include <zlib.h>
 
