@@ -10,9 +10,8 @@
 
 #include "byte_order.h"
 #include "deflate.h"
-#include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/base/text_file.h"
+#include "grid_path_planner/base/files.h"
 #include "rectangle_lists.h"
 
 namespace grid_path_planner {
