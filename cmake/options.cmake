@@ -6,6 +6,7 @@
 function(gpp_make_configurations variable)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/cfg)
   file(MAKE_DIRECTORY ${folder})
+  set(configurations)
   foreach(config ${ARGN})
     list(APPEND configurations ${folder}/${config}.cfg)
   endforeach()
@@ -25,6 +26,8 @@ function(gpp_add_option_files)
   set(target ${PROJECT_NAME}_option_files)
   add_executable(${target} src/option_files/main.cpp src/octree/projection_options.cpp
     src/ros/path_planner_options.cpp)
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME option_files
+    RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})  # not beside the nodes: it is a tool of the build
   target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_option_texts)
   foreach(room ${ARGN})
     target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_${room})
