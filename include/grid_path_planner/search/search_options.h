@@ -51,8 +51,8 @@ void visitOptions(SearchOptions& o, Visitor&& visit) {
             "", 1, 1000});
   visit("tie_break", o.tie_break,
         OptionInfo{"Which of equally promising cells is expanded first, at the same cost of the "
-                   "path: none leaves it to the "
-                   "quickest order, the others cost several times as much a cell",
+                   "path: none leaves it to the quickest order, the others cost several times as "
+                   "much a cell",
                    ""});
   visit("landmarks", o.landmarks,
         OptionInfo{"Cells from which heuristic landmark knows all costs; more: fewer cells "
