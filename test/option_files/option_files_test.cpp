@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "grid_path_planner/base/yaml_file.h"
 #include "support/error_text.h"
 
