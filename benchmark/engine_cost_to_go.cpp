@@ -19,7 +19,7 @@
 #include <string>
 
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/base/option_parsing.h"
+#include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/search/cost_to_go.h"
 #include "grid_path_planner/search/steps.h"
 

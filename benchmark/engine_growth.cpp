@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/base/option_parsing.h"
+#include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/study/svg_chart.h"
 

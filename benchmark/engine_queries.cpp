@@ -27,7 +27,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/base/option_parsing.h"
+#include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/planners/map_planner.h"

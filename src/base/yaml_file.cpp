@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <sstream>
 
-#include "grid_path_planner/base/text_file.h"
+#include "grid_path_planner/base/files.h"
 
 namespace grid_path_planner {
 namespace {

@@ -6,9 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/base/decimal_text.h"
-#include "grid_path_planner/base/text_file.h"
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/grid/map_format.h"
 #include "image_formats.h"
 

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "grid_path_planner/base/text_file.h"
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/yaml_file.h"
 #include "grid_path_planner/grid/image_file.h"
 #include "grid_path_planner/grid/map_format.h"

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/base/decimal_text.h"
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/files.h"
+#include "grid_path_planner/base/options.h"
 #include "grid_path_planner/grid/image_file.h"
 #include "grid_path_planner/grid/map_format.h"
 

@@ -2,8 +2,7 @@
 
 #include <string_view>
 
-#include "grid_path_planner/base/atomic_file.h"
-#include "grid_path_planner/base/text_file.h"
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/grid/map_format.h"
 
 namespace grid_path_planner {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/level_quaternion.h"
-#include "grid_path_planner/base/text_file.h"
 #include "grid_path_planner/base/yaml_file.h"
 #include "grid_path_planner/grid/map_format.h"
 #include "grid_path_planner/grid/resolution.h"

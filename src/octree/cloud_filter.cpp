@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "grid_path_planner/base/check_options.h"
 #include "grid_path_planner/base/decimal_text.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 namespace {

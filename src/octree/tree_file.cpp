@@ -5,9 +5,8 @@
 #include <locale>
 #include <sstream>
 
-#include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/base/text_file.h"
+#include "grid_path_planner/base/files.h"
 
 namespace grid_path_planner {
 namespace {

@@ -7,8 +7,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "canvas.h"
-#include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/files.h"
 #include "rectangle_marks.h"
 #include "segment.h"
 

@@ -7,8 +7,8 @@
 #include <locale>
 #include <sstream>
 
-#include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/base/yaml_file.h"
 

@@ -6,8 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "grid_path_planner/base/check_options.h"
-#include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/base/options.h"
 #include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/planners/plan_attempt.h"
 #include "grid_path_planner/planners/route.h"

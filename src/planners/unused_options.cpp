@@ -1,8 +1,6 @@
 #include "grid_path_planner/planners/unused_options.h"
 
 #include <algorithm>
-#include <map>
-#include <sstream>
 
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/planners/catalogue.h"
@@ -50,30 +48,20 @@ constexpr Rule kRules[] = {
     {"fixed_z", "path_z", [](const PlannerOptions& o) { return o.path_z != PathZ::FIXED; }},
 };
 
-using NamesAndValues = std::vector<std::pair<std::string, std::string>>;
-
-// From the lines "name: value" of optionText().
-template <class Options>
-NamesAndValues valuesOf(const Options& options) {
-  std::istringstream text(optionText(options));
-  NamesAndValues values;
-  for (std::string line; std::getline(text, line);) {
-    const std::size_t colon = line.find(':');
-    values.emplace_back(line.substr(0, colon), line.substr(colon + 2));
-  }
-  return values;
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 bool concernsSearch(const std::string& option) {
-  const NamesAndValues all = valuesOf(SearchOptions());
-  return std::any_of(all.begin(), all.end(),
-                     [&option](const auto& each) { return each.first == option; });
+  bool found = false;
+  SearchOptions search;
+  visitOptions(search,
+               [&](const char* name, auto&, const OptionInfo&) { found |= option == name; });
+  return found;
 }
 
 bool lookedAt(const std::string& option, const std::string& planner) {
-  if (!concernsSearch(option)) return true;
-  const std::vector<std::string> known = optionsUsedBy(planner);
-  return std::find(known.begin(), known.end(), option) != known.end();
+  return !concernsSearch(option) || contains(optionsUsedBy(planner), option);
 }
 
 // The option that leaves this one without effect; empty: it has one.
@@ -84,23 +72,25 @@ std::string idleWith(const std::string& option, const PlannerOptions& options) {
   return "";
 }
 
+std::string valueOf(const std::string& option, PlannerOptions options) {
+  std::string text;
+  visitOptions(options, [&](const char* name, auto& value, const OptionInfo&) {
+    if (option == name) text = valueText(value);
+  });
+  return text;
+}
+
 }  // namespace
 
 std::vector<std::string> changedOptions(const PlannerOptions& options) {
-  const NamesAndValues now = valuesOf(options), usual = valuesOf(PlannerOptions());
-  std::vector<std::string> changed;
-  for (std::size_t i = 0; i < now.size(); ++i)
-    if (now[i] != usual[i]) changed.push_back(now[i].first);
-  return changed;
+  return differingOptions(PlannerOptions(), options);
 }
 
 std::vector<UnusedOption> unusedOptions(const PlannerOptions& options) {
-  const NamesAndValues all = valuesOf(options);
-  std::map<std::string, std::string> values(all.begin(), all.end());
   std::vector<UnusedOption> unused;
   for (const std::string& name : changedOptions(options)) {
     const std::string with = idleWith(name, options);
-    if (!with.empty()) unused.push_back({name, with + " " + values[with]});
+    if (!with.empty()) unused.push_back({name, with + " " + valueOf(with, options)});
   }
   return unused;
 }

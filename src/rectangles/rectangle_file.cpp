@@ -2,9 +2,8 @@
 
 #include <utility>
 
-#include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/base/text_file.h"
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/grid/map_format.h"
 #include "grid_path_planner/grid/rectangle_map_file.h"
 

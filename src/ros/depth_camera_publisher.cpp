@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 namespace {

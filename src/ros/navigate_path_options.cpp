@@ -1,6 +1,6 @@
 #include "grid_path_planner/ros/navigate_path_options.h"
 
-#include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 

@@ -118,11 +118,6 @@ void assignParameter(const std::string& name, XmlRpcValue value, std::string& ta
     refuse(name, "a string", value);
 }
 
-std::string configName(std::string name) {
-  std::replace(name.begin(), name.end(), '/', '_');
-  return name;
-}
-
 std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
                                            const std::vector<std::string>& known) {
   std::vector<std::string> set_names;

@@ -1,7 +1,7 @@
 #include "grid_path_planner/ros/simulator_options.h"
 
-#include "grid_path_planner/base/check_options.h"
 #include "grid_path_planner/base/decimal_text.h"
+#include "grid_path_planner/base/options.h"
 
 #include <set>
 #include <string>

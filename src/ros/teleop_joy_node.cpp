@@ -4,7 +4,7 @@
 #include <ros/console.h>
 
 #include "grid_path_planner/TeleopJoyConfig.h"
-#include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/options.h"
 #include "grid_path_planner/ros/parameters.h"
 
 namespace grid_path_planner {

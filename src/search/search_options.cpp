@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "finding_text.h"
-#include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/base/options.h"
 #include "grid_path_planner/study/findings.h"
 
 namespace grid_path_planner {

@@ -1,22 +1,12 @@
 #include <algorithm>
-#include <sstream>
+#include <cctype>
 
+#include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/study/report.h"
 #include "grid_path_planner/study/study_planners.h"
 
 namespace grid_path_planner {
 namespace {
-
-template <class Value>
-std::string shown(const Value& value) {
-  std::ostringstream out;
-  out.precision(12);
-  if constexpr (std::is_enum_v<Value>)
-    out << choiceName(value);
-  else
-    out << std::boolalpha << value;
-  return out.str();
-}
 
 std::string quoted(const std::string& text) {
   const bool plain = std::all_of(text.begin(), text.end(), [](unsigned char letter) {
@@ -31,18 +21,14 @@ std::string quoted(const std::string& text) {
 
 // --name value for every option that is not as by default.
 std::string optionArguments(PlannerOptions options) {
-  std::vector<std::string> defaults;
-  PlannerOptions standard;
-  visitOptions(standard, [&](const char*, auto& value, const OptionInfo&) {
-    defaults.push_back(shown(value));
-  });
+  const std::vector<std::string> changed = differingOptions(PlannerOptions(), options);
   std::string arguments;
-  std::size_t i = 0;
-  visitOptions(options, [&](const char* name, auto& value, const OptionInfo&) {
-    std::string flag(name);
+  for (const OptionDescription& option : describeOptions(options)) {
+    if (std::find(changed.begin(), changed.end(), option.name) == changed.end()) continue;
+    std::string flag = option.name;
     std::replace(flag.begin(), flag.end(), '_', '-');
-    if (shown(value) != defaults[i++]) arguments += " --" + flag + ' ' + quoted(shown(value));
-  });
+    arguments += " --" + flag + ' ' + quoted(option.value);
+  }
   return arguments;
 }
 

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/base/text_file.h"
+#include "grid_path_planner/base/files.h"
 
 namespace grid_path_planner {
 namespace {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <set>
 
-#include "grid_path_planner/base/option_parsing.h"
+#include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/base/yaml_file.h"
 #include "grid_path_planner/study/study.h"
 #include "grid_path_planner/study/study_planners.h"

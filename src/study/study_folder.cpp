@@ -10,10 +10,8 @@
 #include <sstream>
 #include <utility>
 
-#include "grid_path_planner/base/atomic_file.h"
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/base/file_size_signal.h"
-#include "grid_path_planner/base/text_file.h"
+#include "grid_path_planner/base/files.h"
 
 namespace grid_path_planner {
 namespace {

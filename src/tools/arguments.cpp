@@ -6,7 +6,7 @@
 #include <sstream>
 #include <type_traits>
 
-#include "grid_path_planner/base/option_parsing.h"
+#include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/planners/unused_options.h"
 
 namespace grid_path_planner::tools {
@@ -53,16 +53,6 @@ std::string missingOf(const po::options_description& known, const po::variables_
   for (std::size_t i = 0; i < missing.size(); ++i)
     list += (i == 0 ? "" : i + 1 == missing.size() ? " and " : ", ") + missing[i];
   return list + (missing.empty() ? "" : missing.size() == 1 ? " is" : " are");
-}
-
-template <class Value>
-std::string shown(const Value& value) {
-  std::ostringstream out;
-  if constexpr (std::is_enum_v<Value>)
-    out << choiceName(value);
-  else
-    out << std::boolalpha << value;
-  return out.str();
 }
 
 }  // namespace
@@ -113,20 +103,16 @@ MapFileOptions readingOptionsFrom(const po::variables_map& values) {
 }
 
 void describePlannerOptions(po::options_description& known) {
-  PlannerOptions defaults;
-  visitOptions(defaults, [&known](const char* name, auto& value, const OptionInfo& info) {
-    std::string text = info.description;
-    if (*info.unit) text += std::string(" [") + info.unit + "]";
-    using Value = std::decay_t<decltype(value)>;
-    if constexpr (std::is_enum_v<Value>) {
-      text += " (";
-      for (const auto& choice : choicesOf(Value{}))
-        text += std::string(&choice == &choicesOf(Value{}).front() ? "" : ", ") + choice.first;
-      text += ")";
-    }
-    text += "; default " + shown(value);
-    known.add_options()(flagOf(name).c_str(), po::value<std::string>(), text.c_str());
-  });
+  for (const OptionDescription& option : describeOptions(PlannerOptions())) {
+    std::string text = option.description;
+    if (!option.unit.empty()) text += " [" + option.unit + "]";
+    std::string choices;
+    for (const std::string& choice : option.choices)
+      choices += (choices.empty() ? "" : ", ") + choice;
+    if (!choices.empty()) text += " (" + choices + ")";
+    text += "; default " + option.value;
+    known.add_options()(flagOf(option.name).c_str(), po::value<std::string>(), text.c_str());
+  }
   known.add_options()("weights", po::value<std::string>(),
                       "weights of free, unknown and occupied cells as F,U,O");
 }

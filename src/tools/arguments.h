@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/planners/map_planner.h"
 

@@ -12,7 +12,7 @@
 
 #include "arguments.h"
 #include "commands.h"
-#include "grid_path_planner/base/atomic_file.h"
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/planners/catalogue.h"
 #include "grid_path_planner/planners/smooth_route.h"
 #include "grid_path_planner/planners/unused_options.h"

@@ -6,7 +6,7 @@
 
 #include "arguments.h"
 #include "commands.h"
-#include "grid_path_planner/base/atomic_file.h"
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/ros/bag.h"
 #include "grid_path_planner/study/process_pool.h"
 #include "grid_path_planner/study/report.h"

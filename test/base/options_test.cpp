@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/base/check_options.h"
 #include "grid_path_planner/base/option_text.h"
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 #include "support/error_text.h"
 #include "support/option_laws.h"
 
@@ -38,7 +37,7 @@ void visitOptions(PaintOptions& o, Visitor&& visit) {
   visit("layers", o.layers, OptionInfo{"How many times it is painted over", "", 1, 10});
   visit("glossy", o.glossy, OptionInfo{"Whether it shines afterwards", ""});
   visit("name", o.name, OptionInfo{"What is painted", ""});
-  visit("colour", o.colour, OptionInfo{"Colour of the paint", ""});
+  visit("colour", o.colour, OptionInfo{"Colour of the paint", ""}.under("Looks"));
 }
 
 TEST(Options, AllHoldToTheLaws) {
@@ -102,6 +101,50 @@ TEST(Options, UnknownChoicesNameTheKnownOnes) {
 TEST(Options, AsText) {
   EXPECT_EQ(optionText(PaintOptions()),
             "width: 0.5\nlayers: 2\nglossy: false\nname: wall\ncolour: green\n");
+}
+
+TEST(Options, Described) {
+  const std::vector<OptionDescription> all = describeOptions(PaintOptions());
+  ASSERT_EQ(all.size(), 5u);
+  EXPECT_EQ(all[0].name, "width");
+  EXPECT_EQ(all[0].type, OptionType::NUMBER);
+  EXPECT_EQ(all[0].value, "0.5");
+  EXPECT_EQ(all[0].description, "Width of the brush");
+  EXPECT_EQ(all[0].unit, "m");
+  EXPECT_EQ(all[0].minimum, 0.001);
+  EXPECT_EQ(all[0].maximum, 1.0);
+  EXPECT_EQ(all[1].type, OptionType::WHOLE_NUMBER);
+  EXPECT_EQ(all[2].type, OptionType::TRUTH);
+  EXPECT_EQ(all[3].type, OptionType::TEXT);
+  EXPECT_TRUE(all[3].choices.empty());
+  EXPECT_EQ(all[4].type, OptionType::TEXT);
+  EXPECT_EQ(all[4].value, "green");
+  EXPECT_EQ(all[4].choices, (std::vector<std::string>{"red", "green"}));
+  EXPECT_EQ(all[3].heading, "");
+  EXPECT_EQ(all[4].heading, "Looks");
+}
+
+TEST(Options, TextReadsBackAsTheSameValues) {
+  PaintOptions painted;
+  painted.width = std::nextafter(0.1, 1.0);
+  painted.layers = 7;
+  painted.glossy = true;
+  painted.name = "a wall: green";
+  painted.colour = Colour::RED;
+  PaintOptions read;
+  for (const OptionDescription& option : describeOptions(painted))
+    visitOptions(read, [&](const char* name, auto& value, const OptionInfo& info) {
+      if (option.name == name) parseOption(name, option.value, info, value);
+    });
+  EXPECT_EQ(differingOptions(painted, read), std::vector<std::string>());
+}
+
+TEST(Options, ThoseThatDifferAreNamedInTheirOrder) {
+  PaintOptions other;
+  other.colour = Colour::RED;
+  other.layers = 3;
+  EXPECT_EQ(differingOptions(PaintOptions(), other),
+            (std::vector<std::string>{"layers", "colour"}));
 }
 
 TEST(Options, AreTheSameOnlyWhereEveryValueIs) {

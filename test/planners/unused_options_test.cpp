@@ -7,7 +7,7 @@
 #include <random>
 #include <sstream>
 
-#include "grid_path_planner/base/option_parsing.h"
+#include "grid_path_planner/base/option_text.h"
 
 namespace grid_path_planner {
 namespace {

@@ -1,4 +1,4 @@
-"""Includes only point down the floors of the rooms, and ROS is seen in ros/, nodes/ and tools/ only.
+"""Includes only point down the floors of the rooms, and ROS is seen in ros/ and the programs only.
 
 One include/ tree cannot stop a wrong include; this reads every #include instead. What stands below a
 room is read from the link lines of CMakeLists.txt, the one place that says it.
@@ -8,7 +8,7 @@ import re
 from common import files, finish, read
 
 PACKAGE = "grid_path_planner"
-OUTERMOST = {"nodes", "tools"}  # programs: may use every room
+OUTERMOST = {"nodes", "option_files", "tools"}  # programs: may use every room
 ROS_ROOMS = {"ros"} | OUTERMOST
 ROS_HEADER = re.compile(
     r"(ros|tf2\w*|nodelet|pluginlib|rosbag|actionlib|dynamic_reconfigure|diagnostic_updater|topic_tools"

@@ -1,7 +1,7 @@
-"""README.md keeps up with the code: its tables of parameters and launch arguments are made from config/
-and launch/, and it names every status, every topic type of ours and every script.
+"""README.md keeps up with the code: its table of launch arguments is made from launch/, and it names every
+status, every topic type of ours and every script. (The tables of parameters are made by option_files.)
 
-    check_readme.py --write    makes the tables anew
+    check_readme.py --write    makes the table anew
 """
 import os
 import re
@@ -10,28 +10,9 @@ import xml.etree.ElementTree
 
 from common import ROOT, files, finish, read
 
-PARAMETER = re.compile(r"^( *)(\w+):\s*(\S+?)\s*(?:#\s*(.*))?$")
-GROUP = re.compile(r"^(\w+):\s*(?:#.*)?$")
-
 
 def row(*cells):
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
-
-
-def parameter_table(node):
-    """From the lines `name: value  # comment` of config/<node>.yaml, indented ones below their group."""
-    rows = [row("parameter", "default", ""), "|---|---|---|"]
-    group = ""
-    for line in read("config/%s.yaml" % node).splitlines():
-        match = PARAMETER.match(line)
-        if match:
-            name = group + "/" + match.group(2) if match.group(1) else match.group(2)
-            rows.append(row("`%s`" % name, "`%s`" % match.group(3), match.group(4) or ""))
-        elif GROUP.match(line):
-            group = GROUP.match(line).group(1)
-        elif line and not line.startswith("#"):
-            raise ValueError("config/%s.yaml: not `name: value  # comment`: %s" % (node, line))
-    return "\n".join(rows)
 
 
 def launch_table():
@@ -45,13 +26,9 @@ def launch_table():
     return "\n".join(rows)
 
 
-def with_tables(text):
-    def parameters(match):
-        return "%s\n%s\n<!-- end -->" % (match.group(1), parameter_table(match.group(2)))
-
+def with_table(text):
     def launch(match):
         return "%s\n%s\n<!-- end -->" % (match.group(1), launch_table())
-    text = re.sub(r"(<!-- parameters: (\w+) -->).*?<!-- end -->", parameters, text, flags=re.S)
     return re.sub(r"(<!-- launch files -->).*?<!-- end -->", launch, text, flags=re.S)
 
 
@@ -83,14 +60,14 @@ def unknown_options(text):
 
 def main():
     text = read("README.md")
-    made = with_tables(text)
+    made = with_table(text)
     if "--write" in sys.argv:
         with open(os.path.join(ROOT, "README.md"), "w", encoding="utf-8") as file:
             file.write(made)
         text = made
     complaints = []
     if made != text:
-        complaints.append("README.md: tables are out of date: test/style/check_readme.py --write")
+        complaints.append("README.md: the table of launch files is out of date: test/style/check_readme.py --write")
     names = list(promised_names())
     complaints += ["README.md: %s of %s is missing" % pair for pair in names if pair[0] not in text]
     complaints += ["README.md: there is no %s" % path for path in missing_paths(text)]

@@ -9,7 +9,7 @@
 #include <string>
 #include <type_traits>
 
-#include "grid_path_planner/base/check_options.h"
+#include "grid_path_planner/base/option_text.h"
 #include "support/error_text.h"
 
 namespace grid_path_planner::test {
@@ -26,21 +26,33 @@ inline void expectDocumented(const std::string& name, const OptionInfo& info) {
       << name;
   const std::string description = info.description;
   EXPECT_GE(description.size(), 10u) << name << " needs a description";
-  EXPECT_EQ(description.find_first_of("\n\"\\"), std::string::npos) << name;
+  EXPECT_EQ((description + info.heading).find_first_of("\n\"\\|"), std::string::npos) << name;
   EXPECT_LE(info.minimum, info.maximum) << name;
 }
 
-// Defaults lie inside their limits, numbers just outside are refused by name, names differ, choices
-// come back from their own names and other names are refused.
+// "sensor_model" of "sensor_model/hit"; empty: in no group.
+inline std::string groupOf(const std::string& name) {
+  const std::size_t slash = name.find('/');
+  return slash == std::string::npos ? "" : name.substr(0, slash);
+}
+
+// Defaults lie inside their limits, numbers just outside are refused by name, names differ, those
+// of a group stand together, choices come back from their own names and other names are refused,
+// and a default is among the names that it is one of.
 template <class Options>
 void expectOptionLaws() {
   EXPECT_EQ(errorText([] { checkOptionLimits(Options{}); }), "") << "of the defaults";
-  std::set<std::string> names;
+  std::set<std::string> names, groups;
+  std::string group;
   Options options;
   visitOptions(options, [&](const char* name, auto& value, const OptionInfo& info) {
     using Value = std::decay_t<decltype(value)>;
     expectDocumented(name, info);
     EXPECT_TRUE(names.insert(name).second) << name << " is there twice";
+    if (groupOf(name) != group) {
+      group = groupOf(name);
+      EXPECT_TRUE(group.empty() || groups.insert(group).second) << group << " is torn apart";
+    }
     if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>) {
       const Value before = value;
       for (const double outside : {beyond(info.minimum, -1), beyond(info.maximum, +1)}) {
@@ -51,6 +63,10 @@ void expectOptionLaws() {
             << name << " = " << outside;
       }
       value = before;
+    }
+    if (info.names) {
+      const auto& known = info.names();
+      EXPECT_EQ(std::count(known.begin(), known.end(), valueText(value)), 1) << name;
     }
     if constexpr (std::is_enum_v<Value>) {
       for (const auto& choice : choicesOf(Value{})) {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 
@@ -47,7 +47,7 @@ struct FollowerOptions {
 template <class Visitor>
 void visitOptions(FollowerOptions& o, Visitor&& visit) {
   visit("max_speed", o.max_speed,
-        OptionInfo{"Speed along the path in the plane", "m/s", 0.01, 100.0});
+        OptionInfo{"Speed along the path in the plane", "m/s", 0.01, 100.0}.under("Speeds"));
   visit("max_vertical_speed", o.max_vertical_speed,
         OptionInfo{"Speed up and down; steep parts are driven slower for it", "m/s", 0.01, 100.0});
   visit("max_yaw_rate", o.max_yaw_rate, OptionInfo{"Fastest turn", "rad/s", 0.01, 100.0});
@@ -55,17 +55,22 @@ void visitOptions(FollowerOptions& o, Visitor&& visit) {
         OptionInfo{"Change of speed; not above the vehicle's own, or it overshoots", "m/s^2", 0.01,
                    100.0});
   visit("max_yaw_acceleration", o.max_yaw_acceleration,
-        OptionInfo{"Change of the yaw rate; not above the vehicle's own", "rad/s^2", 0.01, 100.0});
+        OptionInfo{"Change of the yaw rate; not above the vehicle's own, or it overshoots",
+                   "rad/s^2", 0.01, 100.0});
   visit("position_gain", o.position_gain,
         OptionInfo{"Speed per metre off the path or before a stop; higher: stiffer, less stable",
                    "1/s", 0.05, 20.0});
   visit(
       "yaw_gain", o.yaw_gain,
       OptionInfo{"Yaw rate per radian of error; higher: stiffer, less stable", "1/s", 0.05, 20.0});
-  visit("mode", o.mode,
-        OptionInfo{"continuous passes intermediate waypoints, stop_at_each stops at them", ""});
+  visit(
+      "mode", o.mode,
+      OptionInfo{"continuous passes intermediate waypoints, stop_at_each stops at them", ""}.under(
+          "How waypoints are driven"));
   visit("facing", o.facing,
-        OptionInfo{"path_yaw looks as the waypoints say, along looks where it drives", ""});
+        OptionInfo{"Where the vehicle looks; path_yaw: as the waypoints say, turning evenly "
+                   "between them; along: where it drives",
+                   ""});
   visit("acceptance_radius", o.acceptance_radius,
         OptionInfo{"A waypoint counts as reached this near; farther off the path the vehicle first "
                    "returns to it",
@@ -78,22 +83,30 @@ void visitOptions(FollowerOptions& o, Visitor&& visit) {
   visit("settle_time", o.settle_time,
         OptionInfo{"How long it must stay inside both tolerances for a stop", "s", 0.0, 3600.0});
   visit("hold_pose", o.hold_pose,
-        OptionInfo{"Whether a vehicle that drifts off after its arrival is brought back", ""});
+        OptionInfo{"Whether a vehicle that drifts off after its arrival is brought back; false: it "
+                   "is left alone",
+                   ""});
   visit("pursuit_distance", o.pursuit_distance,
         OptionInfo{"How far ahead on the path it steers to; longer: smoother, rounder corners", "m",
                    0.01, 100.0});
   visit("lookahead", o.lookahead,
-        OptionInfo{"How much of the path ahead must be free in the map", "m", 0.0, 1000.0});
+        OptionInfo{
+            "How much of the path ahead must be free in the map; longer than it needs to brake",
+            "m", 0.0, 1000.0});
   visit("loop", o.loop,
-        OptionInfo{"Whether the path is driven again and again; for the next path", ""});
-  visit("missed_waypoint", o.missed_waypoint,
-        OptionInfo{"At a waypoint that was not reached: stop, skip or retry", ""});
+        OptionInfo{"Whether the path is driven again and again; a change counts for the next path",
+                   ""});
+  visit(
+      "missed_waypoint", o.missed_waypoint,
+      OptionInfo{"What happens at a waypoint that was not reached; each one is reported", ""}.under(
+          "What goes wrong"));
   visit("max_retries", o.max_retries,
         OptionInfo{"How often one drive may retry before it fails", "", 0, 1000000});
   visit("no_progress_timeout", o.no_progress_timeout,
         OptionInfo{"The drive fails this long after the last progress; 0: never", "s", 0.0, 1e6});
   visit("blocked_timeout", o.blocked_timeout,
-        OptionInfo{"The drive fails when it has been blocked this long; 0: never", "s", 0.0, 1e6});
+        OptionInfo{"The drive fails when it has been blocked this long; 0: it waits for ever", "s",
+                   0.0, 1e6});
 }
 
 // Throws InputError naming the option for a value outside its limits, for a position_tolerance

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 #include "grid_path_planner/octree/ground_filter.h"
 #include "grid_path_planner/octree/scan.h"
 
@@ -34,14 +34,18 @@ struct CloudFilterOptions {
 template <class Visitor>
 void visitOptions(CloudFilterOptions& o, Visitor&& visit) {
   const auto side = [](const char* description) { return OptionInfo{description, "m", -1e9, 1e9}; };
-  visit("pointcloud_min_x", o.min_x, side("Points with a smaller x only clear the way to them"));
-  visit("pointcloud_max_x", o.max_x, side("Points with a larger x only clear the way to them"));
-  visit("pointcloud_min_y", o.min_y, side("Points with a smaller y only clear the way to them"));
-  visit("pointcloud_max_y", o.max_y, side("Points with a larger y only clear the way to them"));
-  visit("pointcloud_min_z", o.min_z, side("Points with a smaller z only clear the way to them"));
-  visit("pointcloud_max_z", o.max_z, side("Points with a larger z only clear the way to them"));
+  visit("pointcloud_min_x", o.min_x,
+        side("Points with a smaller x, in the frame of the map, are no obstacles: they only clear "
+             "the ray to them")
+            .under("What of a cloud becomes an obstacle"));
+  visit("pointcloud_max_x", o.max_x, side("Points with a larger x are no obstacles"));
+  visit("pointcloud_min_y", o.min_y, side("Points with a smaller y are no obstacles"));
+  visit("pointcloud_max_y", o.max_y, side("Points with a larger y are no obstacles"));
+  visit("pointcloud_min_z", o.min_z, side("Points with a smaller z are no obstacles"));
+  visit("pointcloud_max_z", o.max_z, side("Points with a larger z are no obstacles"));
   visit("filter_ground", o.filter_ground,
-        OptionInfo{"Whether points of the ground plane only clear the way to them", ""});
+        OptionInfo{"Whether points of the ground plane are no obstacles; needs tf to base_frame_id",
+                   ""});
   visit("ground_filter/distance", o.ground.distance,
         OptionInfo{"How far from the ground plane a point is ground", "m", 0.0, 100.0});
   visit("ground_filter/angle", o.ground.angle,

@@ -2,7 +2,7 @@
 // defaults.
 #pragma once
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 
@@ -19,9 +19,12 @@ struct OctreeOptions {
 
 template <class Visitor>
 void visitOptions(OctreeOptions& o, Visitor&& visit) {
-  visit("resolution", o.resolution, OptionInfo{"Edge of a voxel", "m", 0.001, 100.0});
+  visit("resolution", o.resolution,
+        OptionInfo{"Edge of a voxel and of a cell; an octree file has its own; read at the start",
+                   "m", 0.001, 100.0}
+            .under("The 3-D map"));
   visit("sensor_model/max_range", o.max_range,
-        OptionInfo{"Points farther away only clear the way up to this range; negative: no limit",
+        OptionInfo{"Points farther away only clear the ray up to this range; negative: no limit",
                    "m", -1e6, 1e6});
   visit("sensor_model/hit", o.hit,
         OptionInfo{"Probability that a voxel seen occupied is; above 0.5", "", 0.0, 1.0});
@@ -29,14 +32,17 @@ void visitOptions(OctreeOptions& o, Visitor&& visit) {
         OptionInfo{"Probability that a voxel seen free is occupied; below 0.5", "", 0.0, 1.0});
   visit("sensor_model/min", o.min,
         OptionInfo{"A voxel seen free often stays at this probability", "", 0.0, 1.0});
-  visit("sensor_model/max", o.max,
-        OptionInfo{"A voxel seen occupied often stays at this probability", "", 0.0, 1.0});
+  visit(
+      "sensor_model/max", o.max,
+      OptionInfo{"A voxel seen occupied often stays at this probability; lower: it is freed sooner",
+                 "", 0.0, 1.0});
   visit("occupancy_threshold", o.occupancy_threshold,
         OptionInfo{"A voxel is occupied from this probability on", "", 0.0, 1.0});
   visit("decay_time", o.decay_time,
-        OptionInfo{"A voxel surely occupied is forgotten when it has not been seen for this long; "
-                   "0: never",
-                   "s", 0.0, 1e9});
+        OptionInfo{
+            "A voxel surely occupied is unknown again when it has not been seen for this long; "
+            "0: never",
+            "s", 0.0, 1e9});
 }
 
 // Throws InputError naming the option for a value outside its limits, a max_range of 0, a hit that

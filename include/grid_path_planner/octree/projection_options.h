@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 
@@ -39,7 +39,9 @@ struct ProjectionOptions {
 template <class Visitor>
 void visitOptions(ProjectionOptions& o, Visitor&& visit) {
   visit("projection_reference", o.reference,
-        OptionInfo{"What the band's heights are measured from", ""});
+        OptionInfo{"What the heights of the band are measured from; fixed: z = 0; vehicle: its "
+                   "depth (tf); seabed: the ground below",
+                   ""});
   visit("seabed_radius", o.seabed_radius,
         OptionInfo{"How far around a cell the seabed is looked for", "m", 0.0, 100.0});
   visit(

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 #include "grid_path_planner/base/statistics.h"
 #include "grid_path_planner/base/status.h"
 #include "grid_path_planner/base/stop_token.h"
@@ -46,25 +46,29 @@ struct PlannerOptions {
 
 template <class Visitor>
 void visitOptions(PlannerOptions& o, Visitor&& visit) {
-  static const std::string names = "Name of the algorithm: " + listOfPlanners();
-  visit("planner", o.planner, OptionInfo{names.c_str(), ""});
+  visit("planner", o.planner,
+        OptionInfo{"Name of the algorithm", ""}.under("The search").oneOf(plannerNames));
   visitOptions(o.search, visit);
   visitOptions(o.terrain, visit);
   visit("tolerance", o.tolerance,
         OptionInfo{"How far from an occupied or unreachable goal a path may end; 0: no path then",
-                   "m", 0, 10000});
+                   "m", 0, 10000}
+            .under("What is asked for"));
   visit(
       "start_escape_radius", o.start_escape_radius,
       OptionInfo{"How far the nearest passable cell may be from an occupied start; 0: no path then",
                  "m", 0, 10000});
   visit("retry_finer", o.retry_finer,
-        OptionInfo{"Whether a way that the kernel closes is searched for again at kernel 1", ""});
+        OptionInfo{"Whether the search is repeated at kernel 1 where the kernel closes every path; "
+                   "false: UNREACHABLE",
+                   ""});
   visit("smooth", o.smooth,
-        OptionInfo{"Whether a path over the grid is straightened where that costs nothing; needs "
+        OptionInfo{"Whether a path over the grid is straightened where that is legal and costs "
+                   "nothing; needs "
                    "connectivity 8 and diagonal_cost sqrt2",
                    ""});
   visit("timeout", o.timeout, OptionInfo{"Limit of one planning; 0: none", "s", 0, 86400});
-  visit("heading", o.heading, OptionInfo{"Which way the vehicle looks along the path", ""});
+  visit("heading", o.heading, OptionInfo{"Where the vehicle looks along the path", ""});
   visit("path_z", o.path_z, OptionInfo{"Where the z of the path comes from", ""});
   visit("fixed_z", o.fixed_z, OptionInfo{"z of the path with path_z fixed", "m", -1e6, 1e6});
 }

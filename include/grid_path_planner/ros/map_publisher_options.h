@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 
@@ -16,9 +16,12 @@ struct MapPublisherOptions {
 template <class Visitor>
 void visitOptions(MapPublisherOptions& o, Visitor&& visit) {
   visit("filename", o.filename,
-        OptionInfo{"Map file: map_server YAML, MovingAI, image, rectangles, rostopic dump or bag", ""});
+        OptionInfo{"Map file: map_server YAML, MovingAI .map, image, rostopic dump or bag; "
+                   "required, unless the node's argument names it",
+                   ""});
   visit("frame_id", o.frame_id, OptionInfo{"Frame that the map is published in", ""});
-  visit("topic", o.topic, OptionInfo{"Topic that the map is published on", ""});
+  visit("topic", o.topic,
+        OptionInfo{"Latched topic that the map is published on; fixed while the node runs", ""});
 }
 
 // Throws InputError naming the option.

@@ -22,28 +22,38 @@ struct NavigatePathOptions {
 
 template <class Visitor>
 void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
-  visit(
-      "config_filename", o.config_filename,
-      OptionInfo{"Waypoint file to drive; then the topic path is ignored; read at the start", ""});
+  visit("config_filename", o.config_filename,
+        OptionInfo{"Absolute name of a waypoint file to drive; then the topic path is ignored; "
+                   "read at the start",
+                   ""}
+            .under("What is driven"));
   visit("join_nearest", o.join_nearest,
         OptionInfo{"Whether a file is joined at its nearest point instead of its first waypoint",
                    ""});
   visit("follow_latched", o.follow_latched,
-        OptionInfo{"Whether a path stamped before the node started is driven too", ""});
+        OptionInfo{
+            "Whether a path stamped before the node started is driven too, however old it is", ""});
   visitOptions(o.follower, visit);
   visit("check_map", o.check_map,
-        OptionInfo{"Whether the vehicle stops before occupied cells of projected_map", ""});
+        OptionInfo{"Whether the vehicle stops before occupied cells of projected_map; false: "
+                   "obstacles are ignored",
+                   ""}
+            .under("The map"));
   visit("check_radius", o.check_radius,
         OptionInfo{"How far from the path cells count too; not above the planner's radius", "m",
                    0.0, 100.0});
   visit("occupied_min", o.occupied_min,
-        OptionInfo{"Cells with at least this occupancy are occupied", "%", 1, 100});
+        OptionInfo{"Cells with at least this occupancy are occupied; lower: more obstacles", "%", 1,
+                   100});
   visit("base_frame", o.base_frame,
-        OptionInfo{"Frame of the vehicle, whose pose tf gives and in which it is commanded", ""});
+        OptionInfo{"Frame of the vehicle, whose pose tf gives and in which it is commanded", ""}
+            .under("The vehicle's pose"));
   visit("tf_timeout", o.tf_timeout,
         OptionInfo{"The vehicle stops while its newest pose is older", "s", 0.01, 3600.0});
   visit("control_rate", o.control_rate,
-        OptionInfo{"How often the velocity is computed, by the wall clock", "Hz", 1.0, 1000.0});
+        OptionInfo{"How often the velocity is computed, by the wall clock; simulated time that "
+                   "runs faster needs more",
+                   "Hz", 1.0, 1000.0});
 }
 
 // Throws InputError naming the option for a value outside its limits, options that

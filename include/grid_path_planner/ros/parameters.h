@@ -30,9 +30,9 @@
 #include <utility>
 #include <vector>
 
-#include "grid_path_planner/base/check_options.h"
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 
@@ -42,9 +42,6 @@ void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, bool& t
 void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, int& target);
 void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, double& target);
 void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, std::string& target);
-
-// The name of an option in dynamic_reconfigure.
-std::string configName(std::string name);
 
 // Names under the namespace of `private_nh` that are not in `known`; of a nested one the first
 // part, unless known names begin with that too. What dynamic_reconfigure calls a known one is

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 #include "grid_path_planner/planners/map_planner.h"
 
 namespace grid_path_planner {
@@ -30,19 +30,25 @@ template <class Visitor>
 void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
   visitOptions(o.planner, visit);
   visit("map_frame", o.map_frame,
-        OptionInfo{"Frame of maps that name none, and of results before there is a map", ""});
-  visit("base_frame", o.base_frame, OptionInfo{"Frame of the vehicle, where paths start", ""});
+        OptionInfo{"Frame of maps that name none, and of results before there is a map", ""}.under(
+            "The node"));
+  visit(
+      "base_frame", o.base_frame,
+      OptionInfo{"Frame of the vehicle, where paths start, unless initialpose said otherwise", ""});
   visit("tf_timeout", o.tf_timeout,
         OptionInfo{"How long a transform is waited for before TRANSFORM_ERROR", "s", 0, 60});
   visit("goal_z_from", o.goal_z_from,
-        OptionInfo{"Whether the z of a goal is the message's or where the path starts", ""});
-  visit(
-      "replan_period", o.replan_period,
-      OptionInfo{"Time between two plannings for the same goal; 0: only where the path is blocked",
-                 "s", 0, 86400});
+        OptionInfo{"Where the z of a goal comes from; vehicle: it is that of the start, for goals "
+                   "of rviz have z = 0",
+                   ""});
+  visit("replan_period", o.replan_period,
+        OptionInfo{"Time between two plannings for the same goal; 0: only a new goal or a blocked "
+                   "path is planned for",
+                   "s", 0, 86400});
   visit("replan_hysteresis", o.replan_hysteresis,
-        OptionInfo{"By which part of its own cost a new path must be cheaper than the old one to "
-                   "replace it",
+        OptionInfo{"By which part of its own cost a new path must be cheaper than the old one, "
+                   "while that is passable, to "
+                   "replace it; 0.1: the old one costs more than 1.1 times as much",
                    "", 0, 1000});
   visit("waypoints_file", o.waypoints_file,
         OptionInfo{"Waypoint file that every found plan is written to; empty: none", ""});
@@ -50,8 +56,9 @@ void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
         OptionInfo{"Whether search_markers show the expanded cells; false saves 16 bytes for each",
                    ""});
   visit("publish_rectangles", o.publish_rectangles,
-        OptionInfo{
-            "Whether rectangle_map and rectangle_markers tell the searched map as rectangles", ""});
+        OptionInfo{"Whether rectangle_map and rectangle_markers show the searched map as "
+                   "rectangles, cut anew whenever it changes",
+                   ""});
 }
 
 // Throws InputError naming the option.

@@ -23,7 +23,7 @@ template <class Visitor>
 void visitOptions(VoxelColors& o, Visitor&& visit) {
   const auto part = [](const char* description) { return OptionInfo{description, "", 0.0, 1.0}; };
   visit("height_map", o.height_map,
-        OptionInfo{"Whether occupied_cells_vis_array is coloured by height", ""});
+        OptionInfo{"Whether occupied_cells_vis_array is coloured by height; false: by color", ""});
   visit("color_factor", o.color_factor,
         OptionInfo{"How much of the colours' circle the heights take", "", 0.0, 1.0});
   visit("color/r", o.r, part("Red of occupied voxels without height_map"));
@@ -65,39 +65,56 @@ struct ProjectedMapOptions {
 template <class Visitor>
 void visitOptions(ProjectedMapOptions& o, Visitor&& visit) {
   visit("filename", o.filename,
-        OptionInfo{"Octree file (.bt or .ot) to begin with; empty: none", ""});
-  visit("frame_id", o.frame_id, OptionInfo{"Frame of the map; fixed while the node runs", ""});
+        OptionInfo{"Octree file (.bt or .ot) to begin with, a new one replaces the map; one that "
+                   "cannot be read ends the node; empty: none",
+                   ""});
+  visit("frame_id", o.frame_id, OptionInfo{"Frame of the map; read at the start", ""});
   visit("base_frame_id", o.base_frame_id,
         OptionInfo{"Frame of the vehicle: for filter_ground and projection_reference vehicle", ""});
   visitOptions(o.octree, visit);
   visitOptions(o.cloud, visit);
   visit("tf_timeout", o.tf_timeout,
-        OptionInfo{"How long a cloud waits for its transform", "s", 0.0, 1000.0});
+        OptionInfo{"How long a cloud waits for its transform; it holds up no other", "s", 0.0,
+                   1000.0});
   visit("queue_size", o.queue_size,
-        OptionInfo{"How many clouds wait for their transforms or their turn", "", 1, 10000});
+        OptionInfo{"How many clouds wait for their transforms or their turn; the oldest of more "
+                   "are dropped, and counted",
+                   "", 1, 10000});
   visit("occupancy_min_z", o.occupancy_min_z,
-        OptionInfo{"Lowest voxels that are shown and projected", "m", -1e9, 1e9});
+        OptionInfo{"Lowest voxels that are shown, and projected unless projection_min_z is set",
+                   "m", -1e9, 1e9}
+            .under("The 2-D map"));
   visit("occupancy_max_z", o.occupancy_max_z,
-        OptionInfo{"Highest voxels that are shown and projected", "m", -1e9, 1e9});
+        OptionInfo{"Highest voxels that are shown, and projected unless projection_max_z is set",
+                   "m", -1e9, 1e9});
   visit("projection_min_z", o.projection_min_z,
-        OptionInfo{"Lower end of the 2-D map's band in m; occupancy: as occupancy_min_z", ""});
+        OptionInfo{"Lower end of the 2-D map's band in m, from projection_reference; occupancy: as "
+                   "occupancy_min_z",
+                   ""});
   visit("projection_max_z", o.projection_max_z,
-        OptionInfo{"Upper end of the 2-D map's band in m; occupancy: as occupancy_max_z", ""});
+        OptionInfo{"Upper end of the 2-D map's band in m, from projection_reference; occupancy: as "
+                   "occupancy_max_z",
+                   ""});
   visitOptions(o.projection, visit);
-  visit(
-      "publish_rate", o.publish_rate,
-      OptionInfo{"How often changes are published at most, by the wall clock", "Hz", 0.01, 100.0});
+  visit("publish_rate", o.publish_rate,
+        OptionInfo{"How often changes are published at most, by the wall clock", "Hz", 0.01, 100.0}
+            .under("What is published"));
   visit("latch", o.latch,
-        OptionInfo{"Whether a new subscriber gets what there is without waiting for a change", ""});
+        OptionInfo{"Whether a new subscriber gets what there is; false: only what changes from "
+                   "then on; read at the start",
+                   ""});
   visit("always_send_full_map", o.always_send_full_map,
-        OptionInfo{"Whether every change sends all of projected_map, not only an update", ""});
+        OptionInfo{"Whether every change sends all of projected_map; false: that for new "
+                   "subscribers and new geometry, else projected_map_updates",
+                   ""});
   visit("publish_free_space", o.publish_free_space,
-        OptionInfo{"Whether free_cells_vis_array is published", ""});
+        OptionInfo{"Whether free_cells_vis_array is published, which takes long", ""});
   visitOptions(o.colors, visit);
   visit("map_file", o.map_file,
-        OptionInfo{"Where save_map writes, a map_server YAML, if its request names no file", ""});
+        OptionInfo{"Where ~save_map writes, a map_server YAML, if its request names no file", ""}
+            .under("Files"));
   visit("octree_file", o.octree_file,
-        OptionInfo{"Where save_octree writes, .bt or .ot, if its request names no file", ""});
+        OptionInfo{"Where ~save_octree writes, .bt or .ot, if its request names no file", ""});
 }
 
 // The projection's options with their band. Throws InputError for a projection_min_z or

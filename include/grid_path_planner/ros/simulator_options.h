@@ -44,30 +44,35 @@ struct SimulatorOptions {
 
 template <class Visitor>
 void visitOptions(SimulatorOptions& o, Visitor&& visit) {
-  visit(
-      "world", o.world,
-      OptionInfo{"World file (SDF) that is seen and touched; empty: none; read at the start", ""});
+  visit("world", o.world,
+        OptionInfo{
+            "SDF file that is seen and touched; empty: only the map's obstacles; read at the start",
+            ""});
   visitOptions(o.vehicle, visit);
   visit("initial_x", o.initial_x,
-        OptionInfo{"Where the vehicle starts; a change puts it there", "m", -1e6, 1e6});
+        OptionInfo{"Where the vehicle starts, in map_frame", "m", -1e6, 1e6}.under(
+            "Where it starts; a change puts it there, with contacts at 0"));
   visit("initial_y", o.initial_y,
-        OptionInfo{"Where the vehicle starts; a change puts it there", "m", -1e6, 1e6});
-  visit("initial_z", o.initial_z,
-        OptionInfo{"Where the vehicle starts; a change puts it there", "m", -1e6, 1e6});
+        OptionInfo{"Where the vehicle starts, in map_frame", "m", -1e6, 1e6});
+  visit("initial_z", o.initial_z, OptionInfo{"Where the vehicle starts, upwards", "m", -1e6, 1e6});
   visit("initial_yaw", o.initial_yaw,
-        OptionInfo{"Where the vehicle looks at the start; a change turns it", "rad", -7.0, 7.0});
+        OptionInfo{"Where the vehicle looks at the start, anticlockwise from x", "rad", -7.0, 7.0});
   visit("real_time_factor", o.real_time_factor,
-        OptionInfo{
-            "Simulated seconds in a second of the wall clock; other than 1 needs publish_clock", "",
-            0.01, 100.0});
+        OptionInfo{"Simulated seconds in a second of the wall clock; above 1: time-lapse; other "
+                   "than 1 needs publish_clock",
+                   "", 0.01, 100.0}
+            .under("Time"));
   visit("update_rate", o.update_rate,
-        OptionInfo{"How often odometry, tf and clock are published, by the wall clock", "Hz", 1.0,
+        OptionInfo{"How often odometry, tf and /clock are published, by the wall clock", "Hz", 1.0,
                    1000.0});
   visit("publish_clock", o.publish_clock,
-        OptionInfo{"Whether /clock is published; the other nodes then need use_sim_time", ""});
+        OptionInfo{"Whether /clock is published; the other nodes then need use_sim_time; false: "
+                   "another clock rules; read at the start",
+                   ""});
   visit("start_time", o.start_time,
         OptionInfo{"What /clock begins with; read at the start", "s", 0.001, 2e9});
-  visit("map_frame", o.map_frame, OptionInfo{"Frame of the map, where obstacles are", ""});
+  visit("map_frame", o.map_frame,
+        OptionInfo{"Frame of the map, where obstacles are", ""}.under("Frames"));
   visit("odom_frame", o.odom_frame, OptionInfo{"Frame of the odometry", ""});
   visit("base_frame", o.base_frame,
         OptionInfo{"Frame of the vehicle, in which it is commanded", ""});
@@ -75,10 +80,10 @@ void visitOptions(SimulatorOptions& o, Visitor&& visit) {
       "publish_map_to_odom", o.publish_map_to_odom,
       OptionInfo{
           "Whether tf map to odom (the identity) is published; false: a localisation does it", ""});
-  visitOptions(o.odometry, visit);
   visit("camera_frame", o.camera_frame, OptionInfo{"Frame of the camera: x ahead, z up", ""});
   visit("camera_optical_frame", o.camera_optical_frame,
         OptionInfo{"Frame of the camera's points: z ahead, y down", ""});
+  visitOptions(o.odometry, visit);
   visitOptions(o.camera, [&](const char* name, auto& value, const OptionInfo& info) {
     visit((std::string("camera_") + name).c_str(), value, info);
   });

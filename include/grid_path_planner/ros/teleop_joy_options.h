@@ -15,11 +15,12 @@ template <class Visitor>
 void visitOptions(TeleopJoyOptions& o, Visitor&& visit) {
   visitOptions(o.joystick, visit);
   visit("joy_timeout", o.joy_timeout,
-        OptionInfo{"The vehicle is stopped this long after the joystick's last message, by the "
-                   "wall clock",
-                   "s", 0.01, 60.0});
+        OptionInfo{"The vehicle is stopped when the joystick has been silent for so long", "s",
+                   0.01, 60.0}
+            .under("Time, by the wall clock"));
   visit("command_rate", o.command_rate,
-        OptionInfo{"How often the vehicle is commanded, by the wall clock", "Hz", 1.0, 1000.0});
+        OptionInfo{"How often the vehicle is commanded; simulated time that runs faster needs more",
+                   "Hz", 1.0, 1000.0});
 }
 
 // Throws InputError naming the option for a value outside its limits.

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 
@@ -34,20 +34,25 @@ struct SearchOptions {
 
 template <class Visitor>
 void visitOptions(SearchOptions& o, Visitor&& visit) {
-  visit("heuristic", o.heuristic,
-        OptionInfo{"Lower bound of the cost to go that A* uses; manhattan is one only for "
-                   "connectivity 4, octile and euclidean not for unit diagonals",
-                   ""});
+  visit(
+      "heuristic", o.heuristic,
+      OptionInfo{"Lower bound of the cost to go that A* uses; manhattan is one only for "
+                 "connectivity 4, octile and euclidean not for unit diagonals; landmark and exact "
+                 "(small maps) use tables that are made in the background",
+                 ""});
   visit("heuristic_scale", o.heuristic_scale,
         OptionInfo{"What the heuristic's cell lengths are multiplied by: cheapest (the cheapest "
                    "passable weight) or a number; above the cheapest weight: faster, not optimal",
                    ""});
   visit("epsilon", o.epsilon,
-        OptionInfo{"Weight of the heuristic: above 1 the cost is at most that many times the least",
-                   "", 1, 1000});
+        OptionInfo{
+            "Weight of the heuristic; above 1: faster, the cost is at most that many times the "
+            "least",
+            "", 1, 1000});
   visit("tie_break", o.tie_break,
-        OptionInfo{"Which of equally promising cells is expanded first: none leaves it to the "
-                   "quickest order, the others cost several times as much a cell",
+        OptionInfo{"Which of equally promising cells is expanded first, at the same cost of the "
+                   "path: none leaves it to the quickest order, the others cost several times as "
+                   "much a cell",
                    ""});
   visit("landmarks", o.landmarks,
         OptionInfo{"Cells from which heuristic landmark knows all costs; more: fewer cells "

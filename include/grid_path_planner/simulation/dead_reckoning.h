@@ -13,7 +13,7 @@
 
 #include <random>
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 #include "grid_path_planner/simulation/vehicle.h"
 
 namespace grid_path_planner {
@@ -30,7 +30,8 @@ template <class Visitor>
 void visitOptions(DeadReckoningOptions& o, Visitor&& visit) {
   visit("odometry_noise", o.odometry_noise,
         OptionInfo{"Standard deviation of each coordinate in every measurement of odometry", "m",
-                   0.0, 100.0});
+                   0.0, 100.0}
+            .under("Odometry and tf odom to base_link; all 0: they are the truth"));
   visit("odometry_yaw_noise", o.odometry_yaw_noise,
         OptionInfo{"Standard deviation of the yaw in every measurement of odometry", "rad", 0.0,
                    3.0});

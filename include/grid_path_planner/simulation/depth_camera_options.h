@@ -1,7 +1,7 @@
 // What the simulated depth camera can do, and where the vehicle carries it.
 #pragma once
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 
@@ -28,10 +28,15 @@ template <class Visitor>
 void visitOptions(DepthCameraOptions& o, Visitor&& visit) {
   visit("horizontal_fov", o.horizontal_fov,
         OptionInfo{"Angle between the leftmost and the rightmost rim of the picture", "rad", 0.01,
-                   3.0});
+                   3.0}
+            .under("The depth camera; there is one only with a world, and it works only for "
+                   "subscribers"));
   visit("width", o.width, OptionInfo{"Width of the picture", "pixels", 1, 8192});
   visit("height", o.height, OptionInfo{"Height of the picture", "pixels", 1, 8192});
-  visit("rate", o.rate, OptionInfo{"Pictures in a simulated second", "Hz", 0.01, 1000.0});
+  visit(
+      "rate", o.rate,
+      OptionInfo{"Pictures in a simulated second, which takes longer where pictures take too long",
+                 "Hz", 0.01, 1000.0});
   visit("range_min", o.range_min, OptionInfo{"Nearer surfaces are not measured", "m", 0.0, 1e4});
   visit("range_max", o.range_max, OptionInfo{"Farther surfaces are not measured", "m", 0.01, 1e4});
   visit("noise_base", o.noise_base,
@@ -45,8 +50,10 @@ void visitOptions(DepthCameraOptions& o, Visitor&& visit) {
   visit("y", o.y, OptionInfo{"Where the camera is, left of base_link", "m", -100.0, 100.0});
   visit("z", o.z, OptionInfo{"Where the camera is, above base_link", "m", -100.0, 100.0});
   visit("roll", o.roll, OptionInfo{"Turn of the camera about its axis ahead", "rad", -6.3, 6.3});
-  visit("pitch", o.pitch, OptionInfo{"Turn of the camera; positive looks down", "rad", -6.3, 6.3});
-  visit("yaw", o.yaw, OptionInfo{"Turn of the camera; positive looks left", "rad", -6.3, 6.3});
+  visit("pitch", o.pitch,
+        OptionInfo{"Turn of the camera up or down; positive looks down", "rad", -6.3, 6.3});
+  visit("yaw", o.yaw,
+        OptionInfo{"Turn of the camera left or right; positive looks left", "rad", -6.3, 6.3});
   visit("seed", o.seed, OptionInfo{"Another seed, other noise and dropouts", "", 0, 2147483647});
 }
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/body_velocity.h"
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 
@@ -37,31 +37,34 @@ struct JoystickOptions {
 
 template <class Visitor>
 void visitOptions(JoystickOptions& o, Visitor&& visit) {
-  const auto axis = [&](const char* name, int& value) {
-    visit(name, value, OptionInfo{"Number of the axis, from 0; -1: none", "", -1, 255});
+  const auto axis = [](const char* description) { return OptionInfo{description, "", -1, 255}; };
+  const auto scale = [](const char* description, const char* unit) {
+    return OptionInfo{description, unit, -100.0, 100.0};
   };
-  const auto scale = [&](const char* name, double& value, const char* unit) {
-    visit(name, value,
-          OptionInfo{"Velocity at the end of the stick's way; negative: the other way round", unit,
-                     -100.0, 100.0});
-  };
-  axis("surge_axis", o.surge_axis);
-  axis("sway_axis", o.sway_axis);
-  axis("heave_axis", o.heave_axis);
-  axis("yaw_axis", o.yaw_axis);
-  scale("surge_scale", o.surge_scale, "m/s");
-  scale("sway_scale", o.sway_scale, "m/s");
-  scale("heave_scale", o.heave_scale, "m/s");
-  scale("yaw_scale", o.yaw_scale, "rad/s");
+  visit("surge_axis", o.surge_axis,
+        axis("Axis that drives ahead and astern")
+            .under("Sticks: numbers of the axes, from 0; -1: none. The defaults are those of an "
+                   "Xbox pad under Linux"));
+  visit("sway_axis", o.sway_axis, axis("Axis that drives sideways"));
+  visit("heave_axis", o.heave_axis, axis("Axis that drives up and down"));
+  visit("yaw_axis", o.yaw_axis, axis("Axis that turns"));
+  visit(
+      "surge_scale", o.surge_scale,
+      scale("Speed ahead at the end of the stick's travel; negative: the other way round", "m/s"));
+  visit("sway_scale", o.sway_scale,
+        scale("Speed sideways at the end of the stick's travel", "m/s"));
+  visit("heave_scale", o.heave_scale,
+        scale("Speed upwards at the end of the stick's travel", "m/s"));
+  visit("yaw_scale", o.yaw_scale, scale("Yaw rate at the end of the stick's travel", "rad/s"));
   visit("dead_zone", o.dead_zone,
-        OptionInfo{"Share of a stick's way that counts as its middle", "", 0.0, 0.9});
+        OptionInfo{"Share of a stick's travel that counts as its middle; larger for a worn stick",
+                   "", 0.0, 0.9});
   visit("deadman_button", o.deadman_button,
-        OptionInfo{"Number of the button, from 0, without which nothing is commanded; -1: none "
-                   "is needed, and the joystick always commands",
-                   "", -1, 255});
+        OptionInfo{"Button without which nothing is commanded; -1: the joystick always commands",
+                   "", -1, 255}
+            .under("Buttons: numbers from 0"));
   visit("fast_button", o.fast_button,
-        OptionInfo{"Number of the button, from 0, that multiplies all scales; -1: none", "", -1,
-                   255});
+        OptionInfo{"Button that multiplies all scales while it is held; -1: none", "", -1, 255});
   visit("fast_factor", o.fast_factor,
         OptionInfo{"What the fast button multiplies all scales by", "", 0.01, 100.0});
 }

@@ -1,7 +1,7 @@
 // What the simulated vehicle can do.
 #pragma once
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner {
 
@@ -22,27 +22,34 @@ template <class Visitor>
 void visitOptions(VehicleOptions& o, Visitor&& visit) {
   visit("max_surge_speed", o.max_surge_speed,
         OptionInfo{"Fastest motion ahead and astern; faster commands are held to it", "m/s", 0.001,
-                   100.0});
+                   100.0}
+            .under("The vehicle"));
   visit("max_sway_speed", o.max_sway_speed,
-        OptionInfo{"Fastest motion sideways; faster commands are held to it", "m/s", 0.0, 100.0});
+        OptionInfo{
+            "Fastest motion sideways; faster commands are held to it; 0: a vehicle that cannot",
+            "m/s", 0.0, 100.0});
   visit(
       "max_heave_speed", o.max_heave_speed,
       OptionInfo{"Fastest motion up and down; faster commands are held to it", "m/s", 0.0, 100.0});
   visit("max_yaw_rate", o.max_yaw_rate,
         OptionInfo{"Fastest turn; faster commands are held to it", "rad/s", 0.001, 100.0});
   visit("max_acceleration", o.max_acceleration,
-        OptionInfo{"How fast surge, sway and heave may change; lower: a heavier vehicle", "m/s^2",
-                   0.001, 1000.0});
+        OptionInfo{"How fast surge, sway and heave may change; lower: a heavier vehicle, which "
+                   "overshoots more",
+                   "m/s^2", 0.001, 1000.0});
   visit("max_yaw_acceleration", o.max_yaw_acceleration,
         OptionInfo{"How fast the yaw rate may change; lower: a heavier vehicle", "rad/s^2", 0.001,
                    1000.0});
   visit("cmd_vel_timeout", o.cmd_vel_timeout,
         OptionInfo{"The vehicle stops this long after the last command", "s", 0.01, 3600.0});
   visit("vehicle_radius", o.vehicle_radius,
-        OptionInfo{"Radius of the disc, in a world the sphere, that touches obstacles", "m", 0.001,
-                   100.0});
+        OptionInfo{"Radius of the disc, in a world the sphere, that touches obstacles: each touch "
+                   "counts as a contact",
+                   "m", 0.001, 100.0});
   visit("occupied_min", o.occupied_min,
-        OptionInfo{"Cells of the map with at least this occupancy are obstacles", "%", 1, 100});
+        OptionInfo{"Cells of projected_map with at least this occupancy are obstacles, unless "
+                   "there is a world",
+                   "%", 1, 100});
   visit("time_step", o.time_step,
         OptionInfo{"One step of the integration; shorter: finer and slower", "s", 0.0001, 0.1});
 }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid_path_planner/base/option_visitor.h"
+#include "grid_path_planner/base/options.h"
 #include "grid_path_planner/grid/occupancy.h"
 #include "grid_path_planner/terrain/motion_model.h"
 
@@ -36,14 +36,16 @@ struct TerrainOptions {
 template <class Visitor>
 void visitOptions(TerrainOptions& o, Visitor&& visit) {
   visit("free_max", o.thresholds.free_max,
-        OptionInfo{"Occupancy up to this is free; lower: more cells count as unknown", "%", 0, 99});
+        OptionInfo{"Occupancy up to this is free; lower: more cells count as unknown", "%", 0, 99}
+            .under("What cells cost"));
   visit("occupied_min", o.thresholds.occupied_min,
         OptionInfo{"Occupancy from this on is occupied; lower: more obstacles", "%", 1, 100});
   visit("free_weight", o.free_weight,
         OptionInfo{"Cost of a cell length through free cells", "", 1, 65535});
-  visit("unknown_weight", o.unknown_weight,
-        OptionInfo{"Cost of a cell length through unknown cells; higher: longer ways around", "", 1,
-                   65535});
+  visit(
+      "unknown_weight", o.unknown_weight,
+      OptionInfo{"Cost of a cell length through unknown cells; higher: longer detours around them",
+                 "", 1, 65535});
   visit("occupied_weight", o.occupied_weight,
         OptionInfo{"Cost of a cell length through occupied cells, where they are passable", "", 1,
                    65535});
@@ -52,25 +54,30 @@ void visitOptions(TerrainOptions& o, Visitor&& visit) {
   visit("occupied_is_passable", o.occupied_is_passable,
         OptionInfo{"Whether paths may cross occupied cells; only for studies, needs radius 0", ""});
   visit("radius", o.radius,
-        OptionInfo{"Vehicle radius: cells nearer than this to an occupied cell are blocked", "m", 0,
-                   1000});
+        OptionInfo{"Vehicle radius: cells nearer than this to an occupied cell are blocked; set it "
+                   "to your vehicle's",
+                   "m", 0, 1000}
+            .under("The distance to obstacles"));
   visit("decay", o.decay,
         OptionInfo{"How fast the weight falls beyond the radius; 0: no weight beyond the radius; "
                    "smaller: wider berth",
                    "1/m", 0, 10000});
-  visit(
-      "inflation_weight", o.inflation_weight,
-      OptionInfo{"Weight at the radius, where decay is not 0; higher: wider berth", "", 1, 65535});
+  visit("inflation_weight", o.inflation_weight,
+        OptionInfo{"Weight at the radius, where decay is not 0; higher: wider berth; keep it under "
+                   "unknown_weight",
+                   "", 1, 65535});
   visit("kernel", o.kernel,
-        OptionInfo{"Side of the blocks that are searched instead of cells; higher: faster, coarser",
-                   "cells", 1, 1024});
+        OptionInfo{
+            "Side of the blocks that are searched instead of cells; higher: faster, coarser paths",
+            "cells", 1, 1024}
+            .under("How the map is searched"));
   visit("kernel_rule", o.kernel_rule,
-        OptionInfo{"How a block is judged: conservative is safe, filter2d is the original study's "
-                   "and is not",
+        OptionInfo{"How a block is judged: conservative is safe; filter2d is the original study's, "
+                   "which may overlook obstacles",
                    ""});
   visit("connectivity", o.motion.connectivity, OptionInfo{"Neighbours of a cell: 8 or 4", ""});
   visit("diagonal_cost", o.motion.diagonal_cost,
-        OptionInfo{"Length of a diagonal step: sqrt2, or unit as in the original study", ""});
+        OptionInfo{"Length of a diagonal step: sqrt2, or unit (1) as in the original study", ""});
   visit("cut_corners", o.motion.cut_corners,
         OptionInfo{"Whether a diagonal step may pass a blocked cell's corner", ""});
 }

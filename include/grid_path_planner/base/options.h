@@ -1,5 +1,5 @@
-// The one description of every option, from which YAML, ROS parameters, dynamic_reconfigure and the
-// command line are all filled.
+// The one description of every option, from which YAML, ROS parameters, dynamic_reconfigure, the
+// command line and the tables of the documentation are all filled.
 //
 // An options struct `O` comes with a function template in its own header
 //
@@ -17,13 +17,11 @@
 //
 //   std::string adviceFor(E, const std::string& name);  // "" for any other name
 //
-// Numbers outside [minimum, maximum] and unknown choices are refused by assignOption, never
-// clamped.
+// Numbers outside [minimum, maximum] and unknown choices are refused, never clamped.
 #pragma once
 
+#include <cstddef>
 #include <limits>
-#include <locale>
-#include <sstream>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -34,10 +32,22 @@
 namespace grid_path_planner {
 
 struct OptionInfo {
+  // What it is, and what follows from another value: "Side of a block; higher: faster, coarser".
   const char* description;
   const char* unit;  // "" where there is none
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
+  const char* heading = "";  // of the group of options that begins here
+  // The values of a std::string that has a fixed list of them.
+  const std::vector<std::string>& (*names)() = nullptr;
+
+  // The same for the first option of a group.
+  constexpr OptionInfo under(const char* group) const {
+    return {description, unit, minimum, maximum, group, names};
+  }
+  constexpr OptionInfo oneOf(const std::vector<std::string>& (*known)()) const {
+    return {description, unit, minimum, maximum, heading, known};
+  }
 };
 
 // The name of an enum's value, and back. `name` in the message is the option's.
@@ -66,18 +76,35 @@ E choiceFromName(const std::string& name, const std::string& text) {
 }
 
 // Throws InputError naming the option where `value` is not a number inside its limits.
-inline void checkLimits(const std::string& name, double value, const OptionInfo& info) {
-  if (value >= info.minimum && value <= info.maximum) return;  // NaN fails both
-  const auto number = [](double x) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text.precision(12);
-    text << x;
-    return text.str();
-  };
-  throw InputError(name + " must be a number from " + number(info.minimum) + " to " +
-                   number(info.maximum) + (*info.unit ? std::string(" ") + info.unit : "") +
-                   ", got " + number(value));
+void checkLimits(const std::string& name, double value, const OptionInfo& info);
+
+// Throws InputError naming the first option outside its limits.
+template <class Options>
+void checkOptionLimits(Options options) {
+  visitOptions(options, [](const char* name, auto& value, const OptionInfo& info) {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>)
+      checkLimits(name, static_cast<double>(value), info);
+  });
+}
+
+// The names of the options whose values differ, in their order.
+template <class Options>
+std::vector<std::string> differingOptions(Options a, Options b) {
+  std::vector<const void*> values;  // of a; b is visited in the same order
+  visitOptions(a, [&](const char*, auto& value, const OptionInfo&) { values.push_back(&value); });
+  std::vector<std::string> names;
+  std::size_t i = 0;
+  visitOptions(b, [&](const char* name, auto& value, const OptionInfo&) {
+    using Value = std::decay_t<decltype(value)>;
+    if (*static_cast<const Value*>(values[i++]) != value) names.emplace_back(name);
+  });
+  return names;
+}
+
+template <class Options>
+bool sameOptions(const Options& a, const Options& b) {
+  return differingOptions(a, b).empty();
 }
 
 }  // namespace grid_path_planner

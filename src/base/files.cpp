@@ -1,19 +1,45 @@
-#include "grid_path_planner/base/atomic_file.h"
+#include "grid_path_planner/base/files.h"
 
 #include <fcntl.h>
+#include <pthread.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/base/file_size_signal.h"
 
 namespace grid_path_planner {
 namespace {
+
+class Descriptor {
+ public:
+  explicit Descriptor(int value) : value_(value) {}
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int value() const { return value_; }
+
+ private:
+  int value_;
+};
+
+[[noreturn]] void throwUnreadable(const std::string& file, int error) {
+  throw InputError(file, std::string("cannot be read: ") + std::strerror(error));
+}
+
+bool belongsInText(char letter) {
+  const auto byte = static_cast<unsigned char>(letter);
+  return byte >= 0x20 || byte == '\n' || byte == '\r' || byte == '\t' || byte == '\f';
+}
 
 // A name that no other thread or process writes to.
 std::string nameBeside(const std::string& file) {
@@ -60,6 +86,36 @@ std::string behindLinks(const std::string& file) {
 
 }  // namespace
 
+std::string readWholeFile(const std::string& file, std::size_t largest) {
+  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (descriptor.value() < 0) throwUnreadable(file, errno);
+  struct stat info {};
+  if (::fstat(descriptor.value(), &info) == 0 && S_ISDIR(info.st_mode))
+    throw InputError(file, "is a directory, expected a file");
+  std::string content;
+  if (S_ISREG(info.st_mode)) content.reserve(std::min<std::size_t>(info.st_size, largest));
+  char buffer[1 << 16];
+  while (true) {
+    const ssize_t count = ::read(descriptor.value(), buffer, sizeof buffer);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throwUnreadable(file, errno);
+    if (count == 0) break;
+    content.append(buffer, static_cast<std::size_t>(count));
+    if (content.size() > largest)
+      throw InputError(file, "is larger than " + std::to_string(largest) + " bytes");
+  }
+  if (content.empty()) throw InputError(file, "is empty");
+  return content;
+}
+
+void checkIsText(const std::string& text, const std::string& file) {
+  const auto bad = std::find_if_not(text.begin(), text.end(), belongsInText);
+  if (bad == text.end()) return;
+  const int line = 1 + static_cast<int>(std::count(text.begin(), bad, '\n'));
+  throw InputError(file, line,
+                   "is not text: byte " + std::to_string(static_cast<unsigned char>(*bad)));
+}
+
 void writeFileAtomically(const std::string& file, const std::string& content) {
   const HoldFileSizeSignal hold;
   std::error_code none;
@@ -74,6 +130,18 @@ void writeFileAtomically(const std::string& file, const std::string& content) {
   if (error == 0) error = errno;
   ::unlink(beside.c_str());
   throwUnwritten(file, error);
+}
+
+HoldFileSizeSignal::HoldFileSizeSignal() {
+  sigemptyset(&held_);
+  sigaddset(&held_, SIGXFSZ);
+  pthread_sigmask(SIG_BLOCK, &held_, &before_);
+}
+
+HoldFileSizeSignal::~HoldFileSizeSignal() {
+  const timespec at_once{};
+  while (sigtimedwait(&held_, nullptr, &at_once) > 0) continue;
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
 }  // namespace grid_path_planner

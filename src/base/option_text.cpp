@@ -1,5 +1,6 @@
-#include "grid_path_planner/base/option_parsing.h"
+#include "grid_path_planner/base/option_text.h"
 
+#include <algorithm>
 #include <exception>
 
 namespace grid_path_planner {
@@ -21,6 +22,11 @@ bool truthFromText(const std::string& name, const std::string& text) {
   if (text == "true" || text == "1" || text == "yes") return true;
   if (text == "false" || text == "0" || text == "no") return false;
   throw InputError(name + " needs true or false, got '" + text + "'");
+}
+
+std::string configName(std::string name) {
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
 }
 
 }  // namespace grid_path_planner

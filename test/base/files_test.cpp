@@ -1,4 +1,4 @@
-#include "grid_path_planner/base/atomic_file.h"
+#include "grid_path_planner/base/files.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
