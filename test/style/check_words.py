@@ -99,11 +99,12 @@ def pattern(word):
 
 def occurrences():
     """(word, file, line number) of all."""
-    patterns = [(word, pattern(word)) for word in sorted(WORDS)]
+    patterns = [(word, word.replace("_", ""), pattern(word)) for word in sorted(WORDS)]
     for name in files(FOLDERS, (".h", ".cpp")):
         for number, line in enumerate([os.path.basename(name)] + read(name).splitlines()):
-            for word, expression in patterns:
-                if expression.search(line):
+            letters = line.lower().replace("_", "")
+            for word, its_letters, expression in patterns:
+                if its_letters in letters and expression.search(line):
                     yield word, name, number
 
 
