@@ -5,11 +5,6 @@
 
 namespace grid_path_planner {
 
-bool PlanWorker::Task::started() const {
-  std::lock_guard<std::mutex> lock(mutex_);
-  return started_;
-}
-
 void PlanWorker::Task::wait() const {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait(lock, [this] { return ended_; });
@@ -79,10 +74,6 @@ void PlanWorker::loop() {
 }
 
 void PlanWorker::run(Task& task) {
-  {
-    std::lock_guard<std::mutex> lock(task.mutex_);
-    task.started_ = true;
-  }
   task.work_(task.stop_);
   task.work_ = nullptr;
   std::lock_guard<std::mutex> lock(task.mutex_);

@@ -31,7 +31,6 @@ class PlanWorker {
   class Task {
    public:
     void cancel() { stop_.cancel(); }
-    bool started() const;
     void wait() const;
     // Whether the task ended before `limit` passed (steady clock).
     bool waitFor(std::chrono::duration<double> limit) const;
@@ -43,7 +42,6 @@ class PlanWorker {
     StopSource stop_;
     mutable std::mutex mutex_;
     mutable std::condition_variable changed_;
-    bool started_ = false;
     bool ended_ = false;
   };
 

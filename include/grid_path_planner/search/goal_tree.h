@@ -61,7 +61,6 @@ class GoalTree {
   // CostOverflow where only ways were seen that are too dear.
   Status begin(const CostGrid& map, Cell goal, Cell start, double ahead, bool record,
                PlanResult& result, const StopToken& stop);
-  void forget() { begun_ = false; }
   // Whether a tree for `goal` is there that can be used on `map`, and is worth it: where the
   // detours took twice as many cells as the tree, it is time for another one.
   bool serves(const CostGrid& map, Cell goal) const;
