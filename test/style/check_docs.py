@@ -1,10 +1,10 @@
 """README.md and the pages of doc/ keep up with the code.
 
-The tables of parameters and launch arguments are made from config/ and launch/. Some page names every
-node, status, message type, script and dependency. Links resolve, to files and to headings, and every page
-can be reached from README.md, which stays short.
+The table of launch arguments is made from launch/; option_files makes those of parameters. Some page names
+every node, status, message type, script and dependency. Links resolve, to files and to headings, and every
+page can be reached from README.md, which stays short.
 
-    check_docs.py --write    makes the tables anew
+    check_docs.py --write    makes the table anew
 """
 import os
 import re
@@ -15,30 +15,12 @@ import xml.etree.ElementTree
 from common import ROOT, files, finish, read
 
 README_LINES = 150
-PARAMETER = re.compile(r"^( *)(\w+):\s*(\S+?)\s*(?:#\s*(.*))?$")
-GROUP = re.compile(r"^(\w+):\s*(?:#.*)?$")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE_BLOCK = re.compile(r"^(?: {4,}[^\n]*\n|```.*?^```\n)", re.M | re.S)
 
 
 def row(*cells):
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
-
-
-def parameter_table(node):
-    """From the lines `name: value  # comment` of config/<node>.yaml, indented ones below their group."""
-    rows = [row("parameter", "default", ""), "|---|---|---|"]
-    group = ""
-    for line in read("config/%s.yaml" % node).splitlines():
-        match = PARAMETER.match(line)
-        if match:
-            name = group + "/" + match.group(2) if match.group(1) else match.group(2)
-            rows.append(row("`%s`" % name, "`%s`" % match.group(3), match.group(4) or ""))
-        elif GROUP.match(line):
-            group = GROUP.match(line).group(1)
-        elif line and not line.startswith("#"):
-            raise ValueError("config/%s.yaml: not `name: value  # comment`: %s" % (node, line))
-    return "\n".join(rows)
 
 
 def launch_table():
@@ -52,14 +34,9 @@ def launch_table():
     return "\n".join(rows)
 
 
-def with_tables(text):
-    def parameters(match):
-        return "%s\n%s\n<!-- end -->" % (match.group(1), parameter_table(match.group(2)))
-
-    def launch(match):
-        return "%s\n%s\n<!-- end -->" % (match.group(1), launch_table())
-    text = re.sub(r"(<!-- parameters: (\w+) -->).*?<!-- end -->", parameters, text, flags=re.S)
-    return re.sub(r"(<!-- launch files -->).*?<!-- end -->", launch, text, flags=re.S)
+def with_table(text):
+    return re.sub(r"(<!-- launch files -->).*?<!-- end -->",
+                  lambda match: "%s\n%s\n<!-- end -->" % (match.group(1), launch_table()), text, flags=re.S)
 
 
 def promised_names():
@@ -143,13 +120,13 @@ def unknown_scripts(page, text):
 
 def main():
     pages = {name: read(name) for name in ["README.md"] + files(("doc",), (".md",))}
-    made = {name: with_tables(text) for name, text in pages.items()}
+    made = {name: with_table(text) for name, text in pages.items()}
     if "--write" in sys.argv:
         for name in [name for name in pages if made[name] != pages[name]]:
             with open(os.path.join(ROOT, name), "w", encoding="utf-8") as file:
                 file.write(made[name])
         pages = made
-    complaints = ["%s: tables are out of date: test/style/check_docs.py --write" % name
+    complaints = ["%s: the table of launch files is out of date: test/style/check_docs.py --write" % name
                   for name in pages if made[name] != pages[name]]
     lines = pages["README.md"].count("\n")
     if lines > README_LINES:
