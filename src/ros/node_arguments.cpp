@@ -12,7 +12,7 @@ constexpr int kWrongUsage = 2;
 std::string usageOf(const std::string& name, const std::string& file_kind) {
   return "usage: " + name + (file_kind.empty() ? "" : " [" + file_kind + "]") +
          " [_parameter:=value]... [topic:=other_topic]...\n"
-         "Parameters, topics and services: README.md of grid_path_planner.\n";
+         "Parameters, topics and services: doc/nodes.md of grid_path_planner.\n";
 }
 
 }  // namespace

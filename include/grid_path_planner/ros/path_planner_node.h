@@ -1,9 +1,10 @@
 // The node path_planner: map + start + goal -> path.
 //
-// Topics, services, parameters: README. Planning runs in a thread of its own, so every callback
-// stays live; a new goal stops the planning for the one before, whose result is dropped. The path
-// is planned again when the map comes to block what remains of it, and every replan_period, from
-// where tf has the vehicle; it is kept while it is about as good as the new one (replan_policy.h).
+// Topics, services, parameters: doc/nodes.md. Planning runs in a thread of its own, so every
+// callback stays live; a new goal stops the planning for the one before, whose result is dropped.
+// The path is planned again when the map comes to block what remains of it, and every
+// replan_period, from where tf has the vehicle; it is kept while it is about as good as the new one
+// (replan_policy.h).
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>

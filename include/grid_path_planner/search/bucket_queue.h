@@ -12,7 +12,7 @@
 //
 // Entries are 4 bytes, in chunks that the buckets share. A window of buckets lies before the
 // current one; keys beyond it wait in a list until it is used up, and the buckets grow wider
-// where many were passed for few entries. What was measured: doc/engine_experiments.md.
+// where many were passed for few entries. What was measured: doc/notes/engine_experiments.md.
 #pragma once
 
 #include <array>
