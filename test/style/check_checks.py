@@ -11,8 +11,8 @@ HEADER = "// What it is for.\n#pragma once\n%s\nnamespace grid_path_planner {}\n
 FLOORS = "gpp_add_room(base)\ngpp_add_room(grid ROOMS base LIBRARIES x)\ngpp_add_room(ros ROOMS grid)\n"
 
 
-def complaints(check, name=None, text=None):
-    """What a check says of a good tree into which one file is planted."""
+def complaints(check, name=None, text=None, more=()):
+    """What a check says of a good tree, with `more` files, into which one file is planted."""
     with tempfile.TemporaryDirectory() as root:
         tree = {"CMakeLists.txt": FLOORS,
                 "include/grid_path_planner/base/errors.h": HEADER % "#include <string>",
@@ -27,6 +27,7 @@ def complaints(check, name=None, text=None):
                 "build/compile_commands.json": json.dumps([{"command": "g++ -Iinclude -std=c++17"}])}
         if name:
             tree[name] = text
+        tree.update(more)
         for file, content in tree.items():
             path = os.path.join(root, file)
             os.makedirs(os.path.dirname(path), exist_ok=True)
@@ -63,6 +64,55 @@ class Includes(unittest.TestCase):
     def test_other_folders_and_rooms(self):
         self.assertEqual(len(self.planted("grid", '"../base/private.h"')), 1)
         self.assertEqual(len(self.planted("cellar", "<string>")), 1)
+
+
+class Docs(unittest.TestCase):
+    TREE = {"README.md": "# Package\n[nodes](doc/nodes.md#the-planner), [needs](doc/dependencies.md), [rooms](doc/architecture.md)\n"
+                         "<!-- parameters: planner -->\n<!-- end -->\n<!-- launch files -->\n%s<!-- end -->\n",
+            "doc/nodes.md": "# Nodes\n## The planner\n`FOUND`\n    # no-heading\ngrid_path_planner/Plan `./scripts/run --fast`\n",
+            "doc/architecture.md": "# Rooms\n`grid/` `ros/` `nodes/` `src/nodes/planner.cpp` `src/nodes/x.cpp`\n",
+            "doc/dependencies.md": "# Dependencies\n| Boost | |\n",
+            "package.xml": "<package><depend>libboost-dev</depend></package>",
+            "msg/Plan.msg": "", "scripts/run": "--fast", "src/nodes/planner.cpp": "",
+            "launch/planner.launch": "<launch><arg name='map'/></launch>",
+            "include/grid_path_planner/base/status.h": "enum class Status { FOUND };"}
+    TABLE = "| launch file | argument | default |  |\n|---|---|---|---|\n| `planner.launch` | `map` | required |  |\n"
+
+    def planted(self, name=None, text=None):
+        tree = dict(self.TREE)
+        tree["README.md"] %= self.TABLE
+        if name:
+            tree[name] = text.replace("<README>", tree["README.md"])
+        return complaints("check_docs.py", more=tree)
+
+    def test_good_ones_are_left_alone(self):
+        self.assertEqual(self.planted(), [])
+
+    def test_tables_and_length(self):
+        self.assertEqual(self.planted("launch/planner.launch", "<launch><arg name='goal'/></launch>"),
+                         ["README.md: the table of launch files is out of date: test/style/check_docs.py --write"])
+        self.assertEqual(self.planted("README.md", "<README>" + "\n" * 150), ["README.md: 159 lines are more than 150"])
+
+    def test_names(self):
+        for name, text in (("src/nodes/simulator.cpp", ""), ("msg/Goal.msg", ""), ("scripts/walk", ""),
+                           ("include/grid_path_planner/base/status.h", "enum class Status { FOUND, LOST };"),
+                           ("package.xml", "<package><depend>octomap</depend></package>")):
+            self.assertEqual(len(self.planted(name, text)), 1, name)
+
+    def test_links(self):
+        for link in ("doc/absent.md", "doc/nodes.md#no-heading", "#absent", "scripts/run#x"):
+            self.assertEqual(len(self.planted("README.md", "<README>[x](%s)\n" % link)), 1, link)
+        self.assertEqual(self.planted("README.md", "<README>[x](https://example.org/#y) [y](#package)\n"), [])
+        self.assertEqual(self.planted("doc/lost.md", "# Lost\n"), ["doc/lost.md: no link leads here from README.md"])
+
+    def test_places(self):
+        for text in ("nodes/absent.cpp", "absent/", "src/x/"):
+            self.assertEqual(len(self.planted("doc/architecture.md", "`grid/` `ros/` `nodes/` `%s`\n" % text)), 1, text)
+        self.assertEqual(self.planted("src/cellar/a.cpp", ""), ["doc/architecture.md: src/cellar is missing"])
+
+    def test_scripts(self):
+        self.assertEqual(len(self.planted("README.md", "<README>./scripts/run --slow\n")), 1)
+        self.assertEqual(len(self.planted("README.md", "<README>scripts/jump\n")), 1)
 
 
 class Files(unittest.TestCase):

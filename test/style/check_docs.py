@@ -1,8 +1,9 @@
 """README.md and the pages of doc/ keep up with the code.
 
 The table of launch arguments is made from launch/; option_files makes those of parameters. Some page names
-every node, status, message type, script and dependency. Links resolve, to files and to headings, and every
-page can be reached from README.md, which stays short.
+every node, status, message type, script and dependency. doc/architecture.md names every folder of src/, and
+no file that is not there. Links resolve, to files and to headings, and every page can be reached from
+README.md, which stays short.
 
     check_docs.py --write    makes the table anew
 """
@@ -118,6 +119,20 @@ def unknown_scripts(page, text):
             yield "%s: there is no %s %s" % (page, script, option)
 
 
+def wrong_places():
+    """Files and folders that doc/architecture.md names and that do not exist (x stands for any name), and folders
+    of src/ that it leaves out."""
+    text = read("doc/architecture.md")
+    code = ["/" + name for name in files(("include", "src", "test", "cmake", "benchmark", "doc", "srv", "action"), ("",))]
+    for name in sorted(set(re.findall(r"`((?:\w+/)*\w+\.(?:h|cpp|cmake)|(?:\w+/)+)`", text))):
+        if not re.match(r"x[._]", name.rsplit("/", 1)[-1]) and not any(
+                "/" + name in path if name.endswith("/") else path.endswith("/" + name) for path in code):
+            yield "doc/architecture.md: there is no %s" % name
+    for folder in sorted({os.path.dirname(name) for name in files(("src",), (".cpp",))}):
+        if "`%s/`" % folder[len("src/"):].rsplit("/", 1)[-1] not in text:
+            yield "doc/architecture.md: %s is missing" % folder
+
+
 def main():
     pages = {name: read(name) for name in ["README.md"] + files(("doc",), (".md",))}
     made = {name: with_table(text) for name, text in pages.items()}
@@ -133,6 +148,7 @@ def main():
         complaints.append("README.md: %d lines are more than %d" % (lines, README_LINES))
     complaints += unexplained_dependencies()
     complaints += unreachable(pages)
+    complaints += wrong_places()
     guides = dict(pages, **{name: read(name) for name in ("CONTRIBUTING.md", "maps/README.md", "benchmark/README.md")
                             if os.path.exists(os.path.join(ROOT, name))})
     everything = "\n".join(guides.values())
