@@ -15,11 +15,13 @@
 #include <thread>
 #include <vector>
 
-#include "grid_path_planner/planners/map_planner.h"
+#include "grid_path_planner/planning/path_planner.h"
 
 namespace {
 
-using namespace grid_path_planner;
+using namespace grid_path_planner::base;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::planning;
 using Clock = std::chrono::steady_clock;
 
 std::shared_ptr<const OccupancyGrid> noisyMap() {
@@ -53,7 +55,7 @@ PoseRequest acrossTheMap() {
 
 // Plans and is cancelled after `delay`; the time from the cancelling to the answer, or a negative
 // one where the answer came first.
-double latency(MapPlanner& planner, double delay) {
+double latency(PathPlanner& planner, double delay) {
   StopSource stop;
   Clock::time_point answered;
   std::thread planning([&] {
@@ -74,13 +76,13 @@ int main(int argc, char** argv) {
   const int samples = argc > 2 ? std::atoi(argv[2]) : 20;
   const auto map = noisyMap();
   const auto freshPlanner = [&] {
-    auto planner = std::make_unique<MapPlanner>(optionsWith(kernel));
+    auto planner = std::make_unique<PathPlanner>(optionsWith(kernel));
     planner->setMap(map);
     return planner;
   };
   const auto whole = freshPlanner();
   const Clock::time_point begin = Clock::now();
-  const PlanReport report = whole->plan(acrossTheMap());
+  const Plan report = whole->plan(acrossTheMap());
   const double total = seconds(Clock::now() - begin);
   std::printf("kernel %d: %s after %.2f s (preparation %.2f s, search %.2f s)\n", kernel,
               std::string(toString(report.status)).c_str(), total, report.preparation_time_s,

@@ -14,7 +14,7 @@
 
 namespace {
 
-using namespace grid_path_planner;
+using namespace grid_path_planner::simulation;
 
 double cpuSeconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;

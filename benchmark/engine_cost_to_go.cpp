@@ -20,12 +20,15 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/option_text.h"
-#include "grid_path_planner/search/cost_to_go.h"
-#include "grid_path_planner/search/steps.h"
+#include "grid_path_planner/planners/steps.h"
+#include "planners/tables/cost_to_go.h"
 
 namespace {
 
-using namespace grid_path_planner;
+using namespace grid_path_planner::base;
+using namespace grid_path_planner::costmap;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::planners;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kLethal = 254, kMost = 252;

@@ -30,12 +30,16 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/option_text.h"
-#include "grid_path_planner/planners/catalogue.h"
-#include "grid_path_planner/study/svg_chart.h"
+#include "grid_path_planner/planners/planner_factory.h"
+#include "study/report/svg_chart.h"
 
 namespace {
 
-using namespace grid_path_planner;
+using namespace grid_path_planner::base;
+using namespace grid_path_planner::costmap;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::planners;
+using namespace grid_path_planner::study;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kUsualDensity = 0.1;
@@ -144,18 +148,18 @@ std::string measured(const Case& which, double limit_s) {
   planner->finishBackgroundWork(StopToken());
   const double prepare_s = secondsSince(begin);
 
-  const PlanRequest across{{0, 0}, {{which.side - 1, which.side - 1}}, false};
+  const SearchRequest across{{0, 0}, {{which.side - 1, which.side - 1}}, false};
   const Cell middle = middleOf(*map);
-  const PlanRequest near{middle, {{middle.column + 1, middle.row}}, false};
+  const SearchRequest near{middle, {{middle.column + 1, middle.row}}, false};
   const StopSource stop;
-  PlanResult result;
+  SearchResult result;
   double first_s = 0.0;
   double plan_s = std::numeric_limits<double>::max(), second_s = plan_s;
   for (int i = 0; i < 4; ++i) {  // another query in between, for planners that go on from the last
-    result = planner->plan(across, stop.token(std::chrono::duration<double>(limit_s)));
+    result = planner->search(across, stop.token(std::chrono::duration<double>(limit_s)));
     plan_s = std::min(plan_s, result.statistics.time_s);
     if (i == 0) first_s = plan_s;
-    second_s = std::min(second_s, planner->plan(near, stop.token()).statistics.time_s);
+    second_s = std::min(second_s, planner->search(near, stop.token()).statistics.time_s);
     if (plan_s > kLong || result.status != Status::FOUND) break;
   }
 

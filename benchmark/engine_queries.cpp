@@ -28,15 +28,20 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/grid/map_file.h"
-#include "grid_path_planner/planners/catalogue.h"
-#include "grid_path_planner/planners/map_planner.h"
+#include "grid_path_planner/planners/planner_factory.h"
+#include "grid_path_planner/planning/path_planner.h"
 #include "grid_path_planner/study/scenario_file.h"
-#include "grid_path_planner/terrain/terrain.h"
 
 namespace {
 
-using namespace grid_path_planner;
+using namespace grid_path_planner::base;
+using namespace grid_path_planner::costmap;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::planners;
+using namespace grid_path_planner::planning;
+using namespace grid_path_planner::study;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kInflationWeight = 40;
@@ -71,13 +76,13 @@ int costOf(CostGrid::Weight weight) {
 
 std::shared_ptr<const CostGrid> inflated(const Arguments& arguments) {
   const auto map = std::make_shared<const OccupancyGrid>(readMapFile(arguments.text("--map")));
-  TerrainOptions options;
+  CostmapOptions options;
   options.radius = arguments.number("--radius") * map->geometry().resolution();
   options.decay = arguments.number("--decay") / map->geometry().resolution();
   options.inflation_weight = kInflationWeight;
-  Terrain terrain(options);
+  CostmapBuilder terrain(options);
   terrain.setMap(map);
-  return terrain.searched(StopToken());
+  return terrain.downsampled(StopToken());
 }
 
 std::shared_ptr<const CostGrid> withWeights(const CostGrid& map, const std::string& kind) {
@@ -128,7 +133,7 @@ double repairMilliseconds(Planner& planner, std::shared_ptr<const CostGrid>& map
     for (int row = changed.row; row < changed.row + changed.height; ++row)
       for (int column = changed.column; column < changed.column + changed.width; ++column) {
         auto& weight = weights[Cell{column, row}];
-        weight = weight == CostGrid::kBlocked ? map->cheapest() : CostGrid::kBlocked;
+        weight = weight == CostGrid::kBlocked ? map->minWeight() : CostGrid::kBlocked;
       }
     auto next = std::make_shared<CostGrid>(std::move(weights), map->classes(), map->motion());
     next->setRevision(map->revision() + 1);
@@ -154,8 +159,8 @@ void run(const std::string& subject, std::shared_ptr<const CostGrid> map,
   std::ostringstream lines;
   lines.precision(17);
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const PlanResult result =
-        planner->plan({queries[i].start, {queries[i].goal}, false}, StopToken());
+    const SearchResult result =
+        planner->search({queries[i].start, {queries[i].goal}, false}, StopToken());
     search_bytes = std::max(search_bytes, result.statistics.search_bytes);
     lines << "query " << i << ' ' << std::llround(result.statistics.time_s * 1e9) << ' '
           << toString(result.status) << ' ' << result.costValue() << ' '
@@ -186,7 +191,7 @@ int runAll(const Arguments& arguments) {
   const std::vector<ScenarioQuery> queries =
       spreadOver(readScenarioFile(arguments.text("--scen")),
                  static_cast<std::size_t>(arguments.number("--limit")));
-  std::cout << "map cells " << map->geometry().size() << " cheapest " << map->cheapest() << '\n';
+  std::cout << "map cells " << map->geometry().size() << " cheapest " << map->minWeight() << '\n';
   std::istringstream subjects(arguments.text("--planner"));
   for (std::string subject; std::getline(subjects, subject, ',');) run(subject, map, queries);
   return 0;

@@ -26,13 +26,14 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/octree/octree_map.h"
+#include "grid_path_planner/mapping/octree_map.h"
 #include "grid_path_planner/simulation/depth_camera.h"
 #include "grid_path_planner/simulation/world_file.h"
 
 namespace {
 
-using namespace grid_path_planner;
+using namespace grid_path_planner::mapping;
+using namespace grid_path_planner::simulation;
 
 struct Series {
   std::string name;

@@ -15,12 +15,13 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/octree/octree_map.h"
-#include "grid_path_planner/octree/projection.h"
+#include "grid_path_planner/mapping/octree_map.h"
+#include "grid_path_planner/mapping/projection.h"
 
 namespace {
 
-using namespace grid_path_planner;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::mapping;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kResolution = 0.1;

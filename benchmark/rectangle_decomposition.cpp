@@ -11,13 +11,16 @@
 #include <ctime>
 
 #include "grid_path_planner/grid/map_file.h"
-#include "grid_path_planner/rectangles/decomposition.h"
+#include "grid_path_planner/planners/decomposition.h"
 #include "support/free_cells.h"
 #include "support/rectangle_survey.h"
 
 namespace {
 
-using namespace grid_path_planner;
+using namespace grid_path_planner::base;
+using namespace grid_path_planner::costmap;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::planners;
 
 test::FreeCells freeCellsOf(const OccupancyGrid& map) {
   test::FreeCells free(map.geometry());

@@ -16,12 +16,15 @@
 
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/grid/occupancy.h"
-#include "grid_path_planner/rectangles/decomposition.h"
-#include "grid_path_planner/rectangles/rectangle_graph.h"
+#include "grid_path_planner/planners/decomposition.h"
+#include "grid_path_planner/planners/rectangle_graph.h"
 
 namespace {
 
-using namespace grid_path_planner;
+using namespace grid_path_planner::base;
+using namespace grid_path_planner::costmap;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::planners;
 
 constexpr unsigned kSeed = 20261121;
 

@@ -18,18 +18,22 @@
 #include <string>
 #include <vector>
 
+#include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/grid/map_file.h"
-#include "grid_path_planner/path/picture.h"
-#include "grid_path_planner/planners/catalogue.h"
-#include "grid_path_planner/rectangles/decomposition.h"
-#include "grid_path_planner/rectangles/map_sizes.h"
-#include "grid_path_planner/rectangles/polyanya.h"
-#include "grid_path_planner/rectangles/rectangle_map_planner.h"
-#include "grid_path_planner/terrain/terrain.h"
+#include "grid_path_planner/path/path_image.h"
+#include "grid_path_planner/planners/decomposition.h"
+#include "grid_path_planner/planners/map_sizes.h"
+#include "grid_path_planner/planners/planner_factory.h"
+#include "planners/any_angle/polyanya.h"
+#include "planners/rectangles/rectangle_map_planner.h"
 
 namespace {
 
-using namespace grid_path_planner;
+using namespace grid_path_planner::base;
+using namespace grid_path_planner::costmap;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::path;
+using namespace grid_path_planner::planners;
 
 bool failed = false;
 
@@ -55,11 +59,11 @@ OccupancyGrid render(const std::string& folder, const Drawing& drawing, int cell
 
 std::shared_ptr<const CostGrid> terrainOf(const OccupancyGrid& map,
                                           Connectivity connectivity = Connectivity::EIGHT) {
-  TerrainOptions options;
+  CostmapOptions options;
   options.motion.connectivity = connectivity;
-  Terrain terrain(options);
+  CostmapBuilder terrain(options);
   terrain.setMap(std::make_shared<const OccupancyGrid>(map));
-  return terrain.searched(StopToken());
+  return terrain.downsampled(StopToken());
 }
 
 RectangleGraph rectanglesOf(const OccupancyGrid& map) {
@@ -224,11 +228,11 @@ Measured measure(const Contender& contender, const OccupancyGrid& map,
   }
   count(*planner, *terrain, measured);
   for (const Query& query : queries) {
-    PlanResult result;
+    SearchResult result;
     double least = 0.0;
     for (int round = 0; round < kRounds; ++round) {
       const double begin = threadMilliseconds();
-      result = planner->plan({query.start, {query.goal}}, StopToken());
+      result = planner->search({query.start, {query.goal}}, StopToken());
       const double taken = threadMilliseconds() - begin;
       least = round == 0 ? taken : std::min(least, taken);
     }

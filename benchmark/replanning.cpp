@@ -23,14 +23,17 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/grid/map_turns.h"
-#include "grid_path_planner/search/a_star.h"
-#include "grid_path_planner/search/incremental_a_star.h"
-#include "grid_path_planner/terrain/terrain.h"
+#include "grid_path_planner/costmap/costmap_builder.h"
+#include "grid_path_planner/grid/double_buffered.h"
+#include "grid_path_planner/planners/a_star.h"
+#include "planners/replanning/incremental_a_star.h"
 
 namespace {
 
-using namespace grid_path_planner;
+using namespace grid_path_planner::base;
+using namespace grid_path_planner::costmap;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::planners;
 
 constexpr int kSensorRange = 60;  // cells
 constexpr int kClearOfEnds = 20;  // cells between an obstacle and the vehicle or the goal
@@ -83,8 +86,8 @@ OccupancyGrid world(int side, Draw& draw) {
   return map;
 }
 
-TerrainOptions inflated() {
-  TerrainOptions options;
+CostmapOptions inflated() {
+  CostmapOptions options;
   options.radius = 0.6;
   options.decay = std::log(78.0) / 1.0;  // 1/m: a half above free one metre beyond the radius
   return options;
@@ -188,7 +191,7 @@ class Run {
         goal_{arguments.side - kBorder / 2, arguments.side - kBorder / 2} {
     maps_.begin(std::make_shared<OccupancyGrid>(world_));
     terrain_.setMap(maps_.current());
-    const auto costs = terrain_.searched(StopToken());
+    const auto costs = terrain_.downsampled(StopToken());
     replanner_.prepare(costs, StopToken());
     a_star_.prepare(costs, StopToken());
   }
@@ -202,9 +205,9 @@ class Run {
       Times times;
       times.update = timed([this] { takeEdit(); });
       times.plan = timed([this] { plan(); });
-      a_star_.update(terrain_.searched(StopToken()), terrain_.searchedChange(), StopToken());
-      PlanResult fresh;
-      times.fresh = timed([&] { fresh = a_star_.plan({vehicle_, {goal_}, false}, StopToken()); });
+      a_star_.update(terrain_.downsampled(StopToken()), terrain_.downsampledChange(), StopToken());
+      SearchResult fresh;
+      times.fresh = timed([&] { fresh = a_star_.search({vehicle_, {goal_}, false}, StopToken()); });
       if (fresh.status != result_.status || fresh.cost != result_.cost) {
         std::printf("edit %d: THE COSTS DIFFER\n", edit);
         std::exit(1);
@@ -235,12 +238,12 @@ class Run {
       edit_.appears ? fill(next, edit_.rect, 100) : copyCells(world_, edit_.rect, next);
     });
     terrain_.updateMap(maps_.current(), edit_.rect);
-    const auto costs = terrain_.searched(StopToken());
-    replanner_.update(costs, terrain_.searchedChange(), StopToken());
+    const auto costs = terrain_.downsampled(StopToken());
+    replanner_.update(costs, terrain_.downsampledChange(), StopToken());
   }
 
   void plan() {
-    result_ = replanner_.plan({vehicle_, {goal_}, false}, StopToken());
+    result_ = replanner_.search({vehicle_, {goal_}, false}, StopToken());
     if (result_.status == Status::FOUND) return;
     std::printf("%s: another seed, please\n", result_.message.c_str());
     std::exit(2);
@@ -250,15 +253,15 @@ class Run {
   Draw draw_;
   OccupancyGrid world_;
   Sensor sensor_;
-  Terrain terrain_;
-  MapTurns<OccupancyGrid> maps_;
+  CostmapBuilder terrain_;
+  DoubleBuffered<OccupancyGrid> maps_;
   IncrementalAStar replanner_;
   AStar a_star_;
   Cell vehicle_;
   Cell goal_;
   Cell other_end_{kBorder / 2, kBorder / 2};
   Edit edit_;
-  PlanResult result_;
+  SearchResult result_;
 };
 
 void print(const Arguments& arguments, const std::vector<Times>& all) {

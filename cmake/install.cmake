@@ -1,6 +1,6 @@
 # What an install space gets: everything that `roslaunch grid_path_planner demo.launch` and a package
 # that builds on the libraries need.
-get_property(rooms GLOBAL PROPERTY GPP_ROOMS)
+get_property(rooms GLOBAL PROPERTY GPP_ROOM_TARGETS)
 get_property(executables GLOBAL PROPERTY GPP_EXECUTABLES)
 install(TARGETS ${rooms}
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}

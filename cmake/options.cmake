@@ -17,21 +17,19 @@ function(gpp_make_configurations variable)
   set(${variable} ${configurations} PARENT_SCOPE)
 endfunction()
 
-# gpp_add_option_files(<rooms>...): the program. It is built before the headers of dynamic_reconfigure, so it
-# takes of the rooms above only the sources that name the choices of options.
+# gpp_add_option_files(): the program. It is built before the headers of dynamic_reconfigure, and describes all
+# nodes whatever components are built, so it takes of the rooms above only the sources that name choices.
 function(gpp_add_option_files)
-  add_library(${PROJECT_NAME}_option_texts STATIC src/option_files/option_files.cpp)
-  target_include_directories(${PROJECT_NAME}_option_texts PUBLIC ${PROJECT_SOURCE_DIR}/src/option_files)
+  set(folder ${PROJECT_SOURCE_DIR}/src)
+  add_library(${PROJECT_NAME}_option_texts STATIC ${folder}/option_files/option_files.cpp)
+  target_include_directories(${PROJECT_NAME}_option_texts PUBLIC ${folder})
   target_link_libraries(${PROJECT_NAME}_option_texts PUBLIC ${PROJECT_NAME}_base)
   set(target ${PROJECT_NAME}_option_files)
-  add_executable(${target} src/option_files/main.cpp src/octree/projection_options.cpp
-    src/ros/path_planner_options.cpp)
+  add_executable(${target} ${folder}/option_files/main.cpp ${folder}/following/follower_options.cpp
+    ${folder}/mapping/projection_options.cpp ${folder}/ros/planning/path_planner_options.cpp)
   set_target_properties(${target} PROPERTIES OUTPUT_NAME option_files
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})  # not beside the nodes: it is a tool of the build
-  target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_option_texts)
-  foreach(room ${ARGN})
-    target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_${room})
-  endforeach()
+  target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_option_texts ${PROJECT_NAME}_planning)
   add_custom_target(${PROJECT_NAME}_write_options
     COMMAND ${target} write ${PROJECT_SOURCE_DIR}
     COMMENT "Writing config/ and the tables of the documentation")

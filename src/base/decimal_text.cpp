@@ -4,7 +4,7 @@
 #include <locale>
 #include <sstream>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 namespace {
 
@@ -39,4 +39,4 @@ std::string decimalText(double value) {
   return scientific.empty() ? rounded(value, kMostDigits) : scientific;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

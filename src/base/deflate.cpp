@@ -9,7 +9,7 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 constexpr int kWithoutFrame = -MAX_WBITS;
@@ -94,4 +94,4 @@ std::string inflated(const std::string& packed, std::size_t largest) {
   return Inflater(packed).run(largest);
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -15,7 +15,7 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 class Descriptor {
@@ -144,4 +144,4 @@ HoldFileSizeSignal::~HoldFileSizeSignal() {
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

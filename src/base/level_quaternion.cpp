@@ -6,7 +6,7 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 double yawOfLevelQuaternion(double x, double y, double z, double w) {
   const auto refuse = [&](const std::string& reason) {
@@ -25,4 +25,4 @@ double yawOfLevelQuaternion(double x, double y, double z, double w) {
   return std::remainder(2.0 * std::atan2(z, w), 2.0 * M_PI);
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <exception>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 double numberFromText(const std::string& name, const std::string& text) {
   std::size_t used = 0;
@@ -29,4 +29,4 @@ std::string configName(std::string name) {
   return name;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -3,7 +3,7 @@
 #include <locale>
 #include <sstream>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 std::string shortNumber(double value) {
@@ -23,4 +23,4 @@ void checkLimits(const std::string& name, double value, const OptionInfo& info) 
                    ", got " + shortNumber(value));
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 std::string_view toString(Status status) {
   switch (status) {
@@ -33,4 +33,4 @@ std::string_view toString(Status status) {
   return "INVALID_REQUEST";
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

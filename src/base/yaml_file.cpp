@@ -8,7 +8,7 @@
 
 #include "grid_path_planner/base/files.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 // Listens to a first pass over the text, which builds nothing, and ends it where the nesting gets
@@ -121,4 +121,4 @@ YAML::Node yamlNode(const YAML::Node& parent, const std::string& key, const std:
   return parent[key];
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -6,7 +6,7 @@
 #include <limits>
 #include <new>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 // Below, small pages are quick to look up, and large ones would make a short query wait for zeros.
@@ -35,4 +35,4 @@ void freeZeroedMemory(void* memory, std::size_t bytes) {
     munmap(memory, bytes);
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

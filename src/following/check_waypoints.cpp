@@ -1,4 +1,4 @@
-#include "grid_path_planner/following/check_waypoints.h"
+#include "following/check_waypoints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,13 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/waypoint_file.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::following {
+
+using base::InputError;
+using path::kLargestCoordinate;
+using path::Path;
+using path::Pose;
+
 namespace {
 
 [[noreturn]] void refuse(const Path& path, std::size_t index, const char* what, double value,
@@ -41,4 +47,4 @@ void checkWaypoints(const Path& path, bool loop) {
     throw InputError("a loop needs waypoints in two different places");
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::following

@@ -1,11 +1,11 @@
-#include "driven_route.h"
+#include "following/driven_route.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-namespace grid_path_planner {
+namespace grid_path_planner::following {
 namespace {
 
 using Eigen::Vector3d;
@@ -136,4 +136,4 @@ double DrivenRoute::cornerSpeed(std::size_t knot, const FollowerOptions& options
   return std::min(options.max_speed, std::sqrt(square));
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::following

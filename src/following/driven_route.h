@@ -7,13 +7,13 @@
 #include "grid_path_planner/following/follower_options.h"
 #include "grid_path_planner/path/path.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::following {
 
 // The difference of two angles, in [-pi, pi].
 double angleBetween(double from, double to);
 
 struct Knot {
-  Pose pose;
+  path::Pose pose;
   int waypoint = -1;  // index in the path; -1: a point that is only on the way
   bool last = false;  // of the path, where it is not a loop
   bool stop = false;
@@ -63,4 +63,4 @@ class DrivenRoute {
   std::vector<Knot> knots_;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::following

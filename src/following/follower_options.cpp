@@ -5,7 +5,11 @@
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/options.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::following {
+
+using base::checkOptionLimits;
+using base::decimalText;
+using base::InputError;
 
 const std::vector<std::pair<const char*, FollowMode>>& choicesOf(FollowMode) {
   static const std::vector<std::pair<const char*, FollowMode>> choices = {
@@ -33,4 +37,4 @@ void checkFollowerOptions(const FollowerOptions& options) {
                      decimalText(options.acceptance_radius) + " m");
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::following

@@ -4,12 +4,18 @@
 #include <cmath>
 #include <utility>
 
-#include "driven_route.h"
+#include "following/check_waypoints.h"
+#include "following/driven_route.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/following/check_waypoints.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::following {
+
+using base::BodyVelocity;
+using base::decimalText;
+using path::Path;
+using path::Pose;
+
 namespace {
 
 using Eigen::Vector3d;
@@ -489,4 +495,4 @@ std::vector<FollowEvent> PathFollower::takeEvents() {
   return std::exchange(events_, {});
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::following

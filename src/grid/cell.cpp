@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 
 CellRect CellRect::intersection(const CellRect& other) const {
   const int left = std::max(column, other.column);
@@ -22,4 +22,4 @@ CellRect CellRect::hull(const CellRect& other) const {
   return {left, bottom, right - left, top - bottom};
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

@@ -7,7 +7,11 @@
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
+
+using base::decimalText;
+using base::InputError;
+
 namespace {
 
 constexpr int kMaxSide = 1 << 19;
@@ -65,4 +69,4 @@ bool operator==(const GridGeometry& a, const GridGeometry& b) {
          a.origin_.x == b.origin_.x && a.origin_.y == b.origin_.y && a.origin_.yaw == b.origin_.yaw;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

@@ -4,17 +4,23 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "grid/formats/drawing_file.h"
+#include "grid/formats/image_file.h"
+#include "grid/formats/map_server_file.h"
+#include "grid/formats/moving_ai_file.h"
+#include "grid/formats/occupancy_dump.h"
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/yaml_file.h"
-#include "grid_path_planner/grid/image_file.h"
 #include "grid_path_planner/grid/map_format.h"
-#include "grid_path_planner/grid/map_server_file.h"
-#include "grid_path_planner/grid/moving_ai_file.h"
-#include "grid_path_planner/grid/occupancy_dump.h"
 #include "grid_path_planner/grid/rectangle_map_file.h"
-#include "grid_path_planner/grid/vector_map_file.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
+
+using base::InputError;
+using base::kLargestYaml;
+using base::parseYaml;
+using base::readWholeFile;
+
 namespace {
 
 bool isOneOf(const std::string& text, std::initializer_list<const char*> choices) {
@@ -87,4 +93,4 @@ RowOrder rowOrderOf(const std::string& file) {
                                                    : RowOrder::FIRST_ROW_FIRST;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <string>
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
+
+using base::InputError;
 
 void checkOccupancyValues(const OccupancyGrid& map) {
   checkOccupancyValues(map, map.geometry().rect());
@@ -22,4 +24,4 @@ void checkOccupancyValues(const OccupancyGrid& map, const CellRect& rect) {
   }
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

@@ -1,7 +1,8 @@
 // The simulated vehicle as a process of its own.
-#include "grid_path_planner/ros/run_node.h"
-#include "grid_path_planner/ros/simulator_node.h"
+#include "ros/common/run_node.h"
+#include "ros/simulation/simulator_node.h"
 
 int main(int argc, char** argv) {
-  return grid_path_planner::runNode<grid_path_planner::SimulatorNode>(argc, argv, "simulator");
+  return grid_path_planner::nodes::runNode<grid_path_planner::nodes::SimulatorNode>(argc, argv,
+                                                                                    "simulator");
 }

@@ -1,7 +1,8 @@
 // Joystick control as a process of its own.
-#include "grid_path_planner/ros/run_node.h"
-#include "grid_path_planner/ros/teleop_joy_node.h"
+#include "ros/common/run_node.h"
+#include "ros/driving/teleop_joy_node.h"
 
 int main(int argc, char** argv) {
-  return grid_path_planner::runNode<grid_path_planner::TeleopJoyNode>(argc, argv, "teleop_joy");
+  return grid_path_planner::nodes::runNode<grid_path_planner::nodes::TeleopJoyNode>(argc, argv,
+                                                                                    "teleop_joy");
 }

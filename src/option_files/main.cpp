@@ -10,15 +10,27 @@
 #include <map>
 
 #include "grid_path_planner/base/files.h"
-#include "grid_path_planner/ros/map_publisher_options.h"
-#include "grid_path_planner/ros/navigate_path_options.h"
-#include "grid_path_planner/ros/path_planner_options.h"
-#include "grid_path_planner/ros/projected_map_options.h"
-#include "grid_path_planner/ros/simulator_options.h"
-#include "grid_path_planner/ros/teleop_joy_options.h"
-#include "option_files.h"
+#include "grid_path_planner/mapping/projected_map_options.h"
+#include "grid_path_planner/simulation/simulator_options.h"
+#include "option_files/option_files.h"
+#include "ros/driving/navigate_path_options.h"
+#include "ros/driving/teleop_joy_options.h"
+#include "ros/planning/map_publisher_options.h"
+#include "ros/planning/path_planner_options.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::option_files {
+
+using base::describeOptions;
+using base::InputError;
+using base::readWholeFile;
+using base::writeFileAtomically;
+using mapping::ProjectedMapOptions;
+using nodes::MapPublisherOptions;
+using nodes::NavigatePathOptions;
+using nodes::PathPlannerNodeOptions;
+using nodes::TeleopJoyOptions;
+using simulation::SimulatorOptions;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -87,7 +99,7 @@ int run(const std::string& command, const fs::path& folder) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::option_files
 
 int main(int argc, char** argv) {
   if (argc != 3) {
@@ -95,7 +107,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    return grid_path_planner::run(argv[1], argv[2]);
+    return grid_path_planner::option_files::run(argv[1], argv[2]);
   } catch (const std::exception& error) {
     std::cerr << "option_files: " << error.what() << '\n';
     return 2;

@@ -1,4 +1,4 @@
-#include "option_files.h"
+#include "option_files/option_files.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,7 +6,14 @@
 #include <set>
 #include <sstream>
 
-namespace grid_path_planner {
+namespace grid_path_planner::option_files {
+
+using base::configName;
+using base::decimalText;
+using base::InputError;
+using base::OptionDescription;
+using base::OptionType;
+
 namespace {
 
 constexpr std::size_t kColumns = 120;
@@ -231,4 +238,4 @@ std::string withTables(const std::string& page, const std::vector<NodeOptions>& 
   }
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::option_files

@@ -15,12 +15,12 @@
 
 #include "grid_path_planner/base/option_text.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::option_files {
 
 struct NodeOptions {
   std::string node;    // path_planner
   std::string config;  // PathPlanner, of PathPlanner.cfg and PathPlannerConfig.h
-  std::vector<OptionDescription> options;
+  std::vector<base::OptionDescription> options;
 };
 
 // Parameters for rosparam, with unit, limits and description as a comment. Lines have at most 120
@@ -37,4 +37,4 @@ std::string tableOf(const NodeOptions& node);
 // InputError for a node that is not in `nodes` and for a missing end.
 std::string withTables(const std::string& page, const std::vector<NodeOptions>& nodes);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::option_files

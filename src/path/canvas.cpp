@@ -1,12 +1,12 @@
-#include "canvas.h"
+#include "path/canvas.h"
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "segment.h"
+#include "path/segment.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
 namespace {
 
 constexpr int kSubpixelBits = 4;
@@ -82,4 +82,4 @@ double textWidth(const std::string& text, double scale) {
   return textSize(text, scale).width;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
 
 using Colour = cv::Vec3b;  // blue, green, red
 
@@ -42,4 +42,4 @@ class Canvas {
 // Pixels.
 double textWidth(const std::string& text, double scale);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

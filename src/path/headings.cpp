@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
 namespace {
 
 // Two segments whose directions differ by less belong to one straight stretch, in radians.
@@ -144,4 +144,4 @@ void applyZ(Path& path, double start_z, double goal_z, double fixed_z, PathZ mod
   for (Pose& pose : path.poses) pose.position.z() = z;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

@@ -8,9 +8,17 @@
 #include <utility>
 #include <vector>
 
-#include "segment.h"
+#include "path/segment.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
+
+using grid::Cell;
+using grid::CellRect;
+using grid::GridGeometry;
+using grid::Occupancy;
+using grid::OccupancyGrid;
+using grid::OccupancyThresholds;
+
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -118,4 +126,4 @@ double clearanceOf(const Path& path, const OccupancyGrid& map,
   return least * geometry.resolution();
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

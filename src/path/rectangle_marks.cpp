@@ -1,10 +1,14 @@
-#include "rectangle_marks.h"
+#include "path/rectangle_marks.h"
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
+
+using grid::CellRect;
+using grid::GridGeometry;
+
 namespace {
 
 const Colour kOutline = colourOf(70, 78, 92);
@@ -97,4 +101,4 @@ void drawLinkSymbol(Canvas& canvas, const Eigen::Vector2d& at, double size) {
   canvas.disc(at + aside, 0.5 * size, kLink);
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

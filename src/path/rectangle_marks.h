@@ -5,18 +5,18 @@
 #include <utility>
 #include <vector>
 
-#include "canvas.h"
-#include "grid_path_planner/path/picture.h"
+#include "grid_path_planner/path/path_image.h"
+#include "path/canvas.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
 
 // Tinted and outlined; the outline is left out where there is no room.
-void drawRectangles(Canvas& canvas, const PictureLayout& layout, const GridGeometry& geometry,
-                    const std::vector<CellRect>& rectangles);
+void drawRectangles(Canvas& canvas, const PictureLayout& layout, const grid::GridGeometry& geometry,
+                    const std::vector<grid::CellRect>& rectangles);
 
 // From 1, in the middle of each; left out where there is no room.
-void drawNumbers(Canvas& canvas, const PictureLayout& layout, const GridGeometry& geometry,
-                 const std::vector<CellRect>& rectangles);
+void drawNumbers(Canvas& canvas, const PictureLayout& layout, const grid::GridGeometry& geometry,
+                 const std::vector<grid::CellRect>& rectangles);
 
 // Lines between dots.
 void drawLinks(Canvas& canvas, const PictureLayout& layout,
@@ -26,4 +26,4 @@ void drawLinks(Canvas& canvas, const PictureLayout& layout,
 void drawRectangleSymbol(Canvas& canvas, const Eigen::Vector2d& at, double size);
 void drawLinkSymbol(Canvas& canvas, const Eigen::Vector2d& at, double size);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
 
 struct Segment {
   Eigen::Vector2d from;
@@ -23,4 +23,4 @@ std::optional<Segment> clipped(const Segment& segment, const Box& box);
 // The least distance between the two: 0 where they meet.
 double distanceBetween(const Segment& segment, const Box& box);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

@@ -6,9 +6,17 @@
 #include <numeric>
 #include <optional>
 
-#include "grid_path_planner/terrain/centre_segment.h"
+#include "grid_path_planner/costmap/line_cost.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
+
+using base::StopPoll;
+using base::StopToken;
+using costmap::BitMaps;
+using costmap::CostGrid;
+using costmap::lineCost;
+using costmap::SegmentPoint;
+
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -47,7 +55,7 @@ class Smoother {
 
   std::optional<double> straight(std::size_t from, std::size_t to, double limit) {
     poll_();
-    return straightCost(map_, bits_, points_[from], points_[to], limit);
+    return lineCost(map_, bits_, points_[from], points_[to], limit);
   }
   double along(std::size_t from, std::size_t to) const { return costs_[to] - costs_[from]; }
   bool replaceable(std::size_t from, std::size_t to) {
@@ -135,4 +143,4 @@ SmoothPath smoothed(const CostGrid& map, const std::vector<SegmentPoint>& points
   return Smoother(map, points, stop).run();
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

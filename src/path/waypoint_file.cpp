@@ -12,7 +12,19 @@
 #include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/base/yaml_file.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
+
+using base::describeYaml;
+using base::InputError;
+using base::loadYamlFile;
+using base::writeFileAtomically;
+using base::yamlAs;
+using base::yamlError;
+using base::yamlHas;
+using base::yamlNode;
+using base::yamlValueOr;
+using base::yawOfLevelQuaternion;
+
 namespace {
 
 // One entry of the list, with what an error about it has to say.
@@ -170,4 +182,4 @@ void writeWaypointFile(const std::string& file, const Path& path) {
   writeFileAtomically(file, text);
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

@@ -1,8 +1,8 @@
-#include "closest_point.h"
+#include "simulation/closest_point.h"
 
 #include <algorithm>
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 namespace {
 
 using Eigen::Vector3d;
@@ -39,4 +39,4 @@ Vector3d closestPointOnTriangle(const Vector3d& p, const Vector3d& a, const Vect
   return nearer(p, nearer(p, of_ab, of_bc), closestPointOnSegment(p, a, c));
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

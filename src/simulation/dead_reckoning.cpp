@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 DeadReckoning::DeadReckoning(const DeadReckoningOptions& options)
     : options_(options), random_(static_cast<unsigned>(options.odometry_seed)) {}
@@ -54,4 +54,4 @@ Eigen::Vector3d DeadReckoning::turned(const Eigen::Vector3d& p) const {
   return {c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z()};
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

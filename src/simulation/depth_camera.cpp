@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "range_noise.h"
+#include "simulation/range_noise.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 namespace {
 
 constexpr std::size_t kPacket = 8;
@@ -169,4 +169,4 @@ void DepthCamera::render(const Eigen::Isometry3d& map_from_optical, std::uint64_
   }
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -5,7 +5,11 @@
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/options.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::checkOptionLimits;
+using base::decimalText;
+using base::InputError;
 
 void checkDepthCameraOptions(const DepthCameraOptions& options) {
   checkOptionLimits(options);
@@ -14,4 +18,4 @@ void checkDepthCameraOptions(const DepthCameraOptions& options) {
                      " m and " + decimalText(options.range_max) + " m");
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -1,4 +1,4 @@
-#include "mesh_file.h"
+#include "simulation/mesh_file.h"
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -9,7 +9,10 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::InputError;
+
 namespace {
 
 void append(const aiMesh& part, TriangleMesh& mesh) {
@@ -41,4 +44,4 @@ TriangleMesh readMesh(const std::string& file) {
   return mesh;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -1,9 +1,13 @@
-#include "obstacle_distance.h"
+#include "simulation/obstacle_distance.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using grid::Cell;
+using grid::OccupancyGrid;
+
 namespace {
 
 // How far `x` lies outside of [low, low + 1].
@@ -36,4 +40,4 @@ double obstacleDistance(const OccupancyGrid& map, int occupied_min, const Eigen:
   return nearest * resolution;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -5,11 +5,11 @@
 
 #include "grid_path_planner/grid/occupancy.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 // Metres from `position` (map frame) to the nearest edge of a cell of at least `occupied_min`; 0
 // inside one. Cells farther than `reach` metres are not looked at: `reach` where all are.
-double obstacleDistance(const OccupancyGrid& map, int occupied_min, const Eigen::Vector2d& position,
-                        double reach);
+double obstacleDistance(const grid::OccupancyGrid& map, int occupied_min,
+                        const Eigen::Vector2d& position, double reach);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 // Sebastiano Vigna's splitmix64: as good as independent for neighbouring inputs.
 inline std::uint64_t mixed(std::uint64_t x) {
@@ -36,4 +36,4 @@ class RangeNoise {
   std::uint64_t key_;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -1,11 +1,11 @@
-#include "resource_path.h"
+#include "simulation/resource_path.h"
 
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <vector>
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 namespace {
 
 // The folders of a variable like PATH.
@@ -42,4 +42,4 @@ std::string resourcePath(const std::string& uri, const std::string& folder,
   return firstExisting(folders, name);
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 // The file or folder that `uri` means when it stands in a file of the folder `folder`:
 //   model://NAME/...       below one of the folders world_folder, world_folder/.., those of
@@ -14,4 +14,4 @@ namespace grid_path_planner {
 std::string resourcePath(const std::string& uri, const std::string& folder,
                          const std::string& world_folder);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -1,4 +1,4 @@
-#include "sdf_file.h"
+#include "simulation/sdf_file.h"
 
 #include <iostream>
 #include <regex>
@@ -6,7 +6,10 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::InputError;
+
 namespace {
 
 // What libsdformat prints, kept from the terminal for as long as this lives: of an error of syntax
@@ -71,4 +74,4 @@ sdf::Root loadSdf(const std::string& file,
   throw InputError(file, complaint.str());
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

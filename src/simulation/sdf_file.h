@@ -5,7 +5,7 @@
 #include <sdf/sdf.hh>
 #include <string>
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 // `find` gives the path of an included model for its uri, or "". Throws InputError naming the file,
 // with what libsdformat returned and, where that was nothing better than "unable to read", what it
@@ -13,4 +13,4 @@ namespace grid_path_planner {
 sdf::Root loadSdf(const std::string& file,
                   const std::function<std::string(const std::string&)>& find);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -6,7 +6,11 @@
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::decimalText;
+using base::InputError;
+
 namespace {
 
 void checkLength(const std::string& name, const char* what, double length) {
@@ -127,4 +131,4 @@ TriangleMesh planeMesh(const std::string& name, const Eigen::Vector3d& normal,
   return mesh;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -4,10 +4,15 @@
 #include <cmath>
 #include <utility>
 
-#include "obstacle_distance.h"
-#include "sphere_way.h"
+#include "simulation/obstacle_distance.h"
+#include "simulation/swept_sphere.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::BodyVelocity;
+using base::InputError;
+using grid::OccupancyGrid;
+
 namespace {
 
 constexpr double kContactEnds = 1e-3;  // m, beyond the vehicle's radius
@@ -178,4 +183,4 @@ double Vehicle::clearance(const Eigen::Vector2d& position) const {
                           options_.vehicle_radius + 2.0 * kContactEnds);
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -5,7 +5,11 @@
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/options.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::checkOptionLimits;
+using base::decimalText;
+using base::InputError;
 
 void checkVehicleOptions(const VehicleOptions& options) {
   checkOptionLimits(options);
@@ -15,4 +19,4 @@ void checkVehicleOptions(const VehicleOptions& options) {
                      decimalText(options.cmd_vel_timeout) + " s");
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -6,10 +6,13 @@
 #include <unsupported/Eigen/BVH>
 #include <utility>
 
-#include "closest_point.h"
 #include "grid_path_planner/base/errors.h"
+#include "simulation/closest_point.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::InputError;
+
 namespace {
 
 constexpr float kFarthest = 1e6f;  // m; beyond, a float's steps are longer than 0.06 m
@@ -118,4 +121,4 @@ std::optional<NearestSurface> World::nearest(const Eigen::Vector3d& from, double
   return NearestSurface{best.distance(), best.point(), solid_[best.facet()->mesh].name};
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

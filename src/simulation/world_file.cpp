@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "grid_path_planner/base/errors.h"
-#include "mesh_file.h"
-#include "resource_path.h"
-#include "sdf_file.h"
+#include "simulation/mesh_file.h"
+#include "simulation/resource_path.h"
+#include "simulation/sdf_file.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::InputError;
+
 namespace {
 
 Eigen::Vector3d vectorOf(const ignition::math::Vector3d& v) {
@@ -148,4 +151,4 @@ World readWorld(const std::string& file) {
   return WorldReader(file).read();
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

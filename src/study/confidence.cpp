@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -51,4 +51,4 @@ double quantileOf(std::vector<double> values, double part) {
   return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -1,6 +1,9 @@
-#include "eager_theta_star.h"
+#include "study/eager_theta_star.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::Statistics;
+using grid::Cell;
 
 void EagerThetaStar::expand(std::uint32_t from, Statistics& counts) {
   const Node here = node(from);
@@ -20,4 +23,4 @@ void EagerThetaStar::expand(std::uint32_t from, Statistics& counts) {
   });
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

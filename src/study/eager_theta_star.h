@@ -3,16 +3,16 @@
 // the cheapest weight it could not better what is known.
 #pragma once
 
-#include "grid_path_planner/search/theta_star.h"
+#include "grid_path_planner/planners/theta_star.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
-class EagerThetaStar : public ThetaStar {
+class EagerThetaStar : public planners::ThetaStar {
  public:
-  EagerThetaStar() : ThetaStar("theta_star") {}
+  EagerThetaStar() : planners::ThetaStar("theta_star") {}
 
  protected:
-  void expand(std::uint32_t from, Statistics& counts) override;
+  void expand(std::uint32_t from, base::Statistics& counts) override;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -16,7 +16,10 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::InputError;
+
 namespace {
 
 // Before the text of an answer.
@@ -195,4 +198,4 @@ std::vector<TaskEnd> ProcessPool::wait(int milliseconds) {
   return ends;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -3,23 +3,25 @@
 // product for every cell off the straight line. Both claim nothing.
 #pragma once
 
-#include "grid_path_planner/search/a_star.h"
+#include "grid_path_planner/planners/a_star.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
-class PublishedAStar : public AStar {
+class PublishedAStar : public planners::AStar {
  public:
   // `a_star_published`. Both throw InputError for options that cannot be used.
-  PublishedAStar(const SearchOptions& options, bool published_cross)
-      : AStar("a_star_published", options,
-              {BestFirstSearch::GoalTest::WHEN_GENERATED, shareOf(published_cross)}) {}
+  PublishedAStar(const planners::SearchOptions& options, bool published_cross)
+      : planners::AStar(
+            "a_star_published", options,
+            {planners::BestFirstSearch::GoalTest::WHEN_GENERATED, shareOf(published_cross)}) {}
 
   // `a_star` with tie_break cross_product_published.
-  explicit PublishedAStar(const SearchOptions& options)
-      : AStar("a_star", options, {BestFirstSearch::GoalTest::WHEN_EXPANDED, shareOf(true)}) {}
+  explicit PublishedAStar(const planners::SearchOptions& options)
+      : planners::AStar("a_star", options,
+                        {planners::BestFirstSearch::GoalTest::WHEN_EXPANDED, shareOf(true)}) {}
 
  private:
   static long double shareOf(bool published_cross) { return published_cross ? 0.001L : 0.0L; }
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -6,7 +6,12 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::InputError;
+using base::readWholeFile;
+using grid::GridGeometry;
+
 namespace {
 
 constexpr std::size_t kLargestScenarioFile = std::size_t{1} << 28;  // bytes
@@ -66,4 +71,4 @@ void checkScenarioQuery(const ScenarioQuery& query, const GridGeometry& geometry
                        std::to_string(geometry.width()) + "x" + std::to_string(geometry.height()));
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::Status;
 
 double medianTime(const StudyRun& run) {
   return quantileOf(run.times_ms, 0.5);
@@ -75,4 +77,4 @@ std::vector<double> StudyData::ratios(std::size_t a, std::size_t b, const Proble
   return all.values();
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -6,9 +6,29 @@
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/base/yaml_file.h"
 #include "grid_path_planner/study/study.h"
-#include "grid_path_planner/study/study_planners.h"
+#include "study/study_planners.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::choiceFromName;
+using base::choiceName;
+using base::describeYaml;
+using base::InputError;
+using base::loadYamlFile;
+using base::OptionInfo;
+using base::parseOption;
+using base::yamlAs;
+using base::yamlError;
+using base::yamlNode;
+using base::yamlValue;
+using base::yamlValueOr;
+using costmap::checkCostmapOptions;
+using costmap::CostmapOptions;
+using costmap::KernelRule;
+using grid::Cell;
+using planners::Heuristic;
+using planners::SearchOptions;
+
 namespace {
 
 constexpr int kMostRepeats = 1000;
@@ -283,7 +303,7 @@ class StudyReader {
   }
 
   std::vector<Weights> weightsOf(const YAML::Node& root) const {
-    const TerrainOptions& terrain = study_.base.terrain;
+    const CostmapOptions& terrain = study_.base.terrain;
     if (!root["weights"])
       return {{terrain.free_weight, terrain.unknown_weight, terrain.occupied_weight}};
     std::vector<Weights> weights;
@@ -312,7 +332,7 @@ class StudyReader {
     setting.terrain.occupied_weight = weights.occupied;
     setting.label = study_.maps[map].name + ", kernel " + std::to_string(kernel) + ' ' +
                     choiceName(rule) + ", weights " + setting.weights;
-    atLine(root, [&] { checkTerrainOptions(setting.terrain); });
+    atLine(root, [&] { checkCostmapOptions(setting.terrain); });
     study_.settings.push_back(setting);
   }
 
@@ -375,4 +395,4 @@ Study readStudyFile(const std::string& file) {
   return StudyReader(file).read();
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -13,7 +13,13 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::HoldFileSizeSignal;
+using base::InputError;
+using base::readWholeFile;
+using base::writeFileAtomically;
+
 namespace {
 
 constexpr std::size_t kLargestLog = std::size_t{4} << 30;
@@ -107,4 +113,4 @@ void StudyFolder::add(const std::string& lines) {
   end_ += static_cast<std::int64_t>(lines.size());
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -5,7 +5,12 @@
 
 #include "grid_path_planner/base/option_text.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::optionText;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+
 namespace {
 
 // FNV-1a (Fowler, Noll & Vo 1991).
@@ -80,4 +85,4 @@ std::uint64_t StudyPlan::fingerprint() const {
   return hash.value();
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

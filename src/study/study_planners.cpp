@@ -1,9 +1,17 @@
-#include "grid_path_planner/study/study_planners.h"
+#include "study/study_planners.h"
 
-#include "eager_theta_star.h"
-#include "published_a_star.h"
+#include "study/eager_theta_star.h"
+#include "study/published_a_star.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using planners::checkSearchOptions;
+using planners::makePlanner;
+using planners::memoryLimitOf;
+using planners::Planner;
+using planners::SearchOptions;
+using planners::TieBreak;
+
 namespace {
 
 // The published tie-break orders cells by their estimates alone.
@@ -66,4 +74,4 @@ bool inStudiesOnly(const std::string& planner, bool published_cross) {
   return ownPlanner(planner, {}, published_cross) != nullptr;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -3,12 +3,26 @@
 #include <random>
 #include <sstream>
 
-#include "grid_path_planner/planners/nearest_cell.h"
-#include "grid_path_planner/search/steps.h"
+#include "grid_path_planner/costmap/costmap_builder.h"
+#include "grid_path_planner/planners/steps.h"
+#include "grid_path_planner/planning/nearest_cell.h"
 #include "grid_path_planner/study/scenario_file.h"
-#include "grid_path_planner/terrain/terrain.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::InputError;
+using base::StopToken;
+using costmap::CostGrid;
+using costmap::CostmapBuilder;
+using costmap::CostmapOptions;
+using grid::Cell;
+using grid::GridGeometry;
+using grid::Occupancy;
+using grid::OccupancyGrid;
+using grid::OccupancyThresholds;
+using planners::reachableFrom;
+using planning::nearestCell;
+
 namespace {
 
 constexpr int kMostDraws = 1000;  // of starts from which nothing was reached
@@ -21,17 +35,17 @@ std::string text(Cell cell) {
 
 // The map at full resolution, with occupied cells blocked whatever the study lets pass.
 std::shared_ptr<const CostGrid> strictCosts(const OccupancyGrid& occupancy,
-                                            TerrainOptions options) {
+                                            CostmapOptions options) {
   options.occupied_is_passable = false;
   options.kernel = 1;
-  Terrain terrain(options);
+  CostmapBuilder terrain(options);
   terrain.setMap(std::make_shared<const OccupancyGrid>(occupancy));
-  return terrain.fine(StopToken());
+  return terrain.fullResolution(StopToken());
 }
 
 class QueryMaker {
  public:
-  QueryMaker(const StudyMap& map, const OccupancyGrid& occupancy, const TerrainOptions& terrain)
+  QueryMaker(const StudyMap& map, const OccupancyGrid& occupancy, const CostmapOptions& terrain)
       : map_(map),
         occupancy_(occupancy),
         thresholds_(terrain.thresholds),
@@ -129,8 +143,8 @@ class QueryMaker {
 }  // namespace
 
 std::vector<StudyQuery> studyQueries(const StudyMap& map, const OccupancyGrid& occupancy,
-                                     const TerrainOptions& terrain) {
+                                     const CostmapOptions& terrain) {
   return QueryMaker(map, occupancy, terrain).make();
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -7,7 +7,12 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::InputError;
+using base::Status;
+using grid::Cell;
+
 namespace {
 
 using nlohmann::json;
@@ -94,4 +99,4 @@ StudyRun runFromLine(const std::string& line) {
   }
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -6,7 +6,11 @@
 
 #include "grid_path_planner/study/study_worker.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::StopReason;
+using base::StopToken;
+
 namespace {
 
 constexpr int kWaitMs = 200;  // between two looks at the stop token
@@ -92,4 +96,4 @@ StudyResult runStudy(const StudyPlan& plan, StudyFolder& folder, WorkerGroup& wo
   return result;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -1,10 +1,28 @@
 #include "grid_path_planner/study/study_worker.h"
 
-#include "grid_path_planner/path/crossing.h"
+#include "grid_path_planner/path/length_by_occupancy.h"
 #include "grid_path_planner/path/metrics.h"
-#include "grid_path_planner/study/study_planners.h"
+#include "study/study_planners.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::Statistics;
+using base::Status;
+using grid::Cell;
+using grid::OccupancyGrid;
+using grid::OccupancyThresholds;
+using path::ClassLengths;
+using path::clearanceOf;
+using path::lengthsByClass;
+using path::Path;
+using path::Pose;
+using path::turningOf;
+using planners::SearchOptions;
+using planning::PathPlanner;
+using planning::Plan;
+using planning::PlannerOptions;
+using planning::PoseRequest;
+
 namespace {
 
 Pose poseOf(const OccupancyGrid& map, Cell cell) {
@@ -35,8 +53,8 @@ void fillStatistics(const Statistics& statistics, StudyRun& run) {
   run.bytes = statistics.search_bytes;
 }
 
-void fillPath(const PlanReport& report, const OccupancyGrid& map,
-              const OccupancyThresholds& thresholds, bool keep_path, StudyRun& run) {
+void fillPath(const Plan& report, const OccupancyGrid& map, const OccupancyThresholds& thresholds,
+              bool keep_path, StudyRun& run) {
   run.cost = report.costValue();
   run.length_m = report.length_m;
   run.turning_rad = turningOf(report.path);
@@ -50,14 +68,15 @@ void fillPath(const PlanReport& report, const OccupancyGrid& map,
 
 }  // namespace
 
-MapPlanner StudyWorker::plannerFor(const StudySetting& setting, const StudyVariant& variant) const {
+PathPlanner StudyWorker::plannerFor(const StudySetting& setting,
+                                    const StudyVariant& variant) const {
   PlannerOptions options = plan_.study().base;
   options.terrain = setting.terrain;
   options.planner = variant.planner;
   options.search = variant.search;
   options.retry_finer = false;  // what a kernel closes is a result here
-  MapPlanner made(options, [cross = variant.published_cross](const std::string& name,
-                                                             const SearchOptions& search) {
+  PathPlanner made(options, [cross = variant.published_cross](const std::string& name,
+                                                              const SearchOptions& search) {
     return makeStudyPlanner(name, search, cross);
   });
   made.setMap(plan_.map(setting.map));
@@ -70,7 +89,7 @@ void StudyWorker::prepare(std::size_t setting) {
   const StudySetting& chosen = plan_.study().settings[setting];
   for (const StudyVariant& variant : plan_.study().variants)
     planners_.push_back(plannerFor(chosen, variant));
-  exact_ = std::make_unique<MapPlanner>(plannerFor(chosen, {"", "dijkstra", {}}));
+  exact_ = std::make_unique<PathPlanner>(plannerFor(chosen, {"", "dijkstra", {}}));
   prepared_ = setting;
 }
 
@@ -81,14 +100,14 @@ std::vector<StudyRun> StudyWorker::run(const StudyUnit& unit) {
   const StudyQuery& query = plan_.queries(setting.map)[unit.query];
   const PoseRequest request{poseOf(map, query.start), poseOf(map, query.goal), false};
 
-  const PlanReport exact = exact_->plan(request);
+  const Plan exact = exact_->plan(request);
   const std::size_t variants = planners_.size();
   std::vector<StudyRun> runs(variants);
   for (int repeat = 0; repeat < plan_.study().repeats; ++repeat)
     for (std::size_t turn = 0; turn < variants; ++turn) {
       const std::size_t variant = (turn + static_cast<std::size_t>(repeat)) % variants;
       StudyRun& run = runs[variant];
-      const PlanReport report = planners_[variant].plan(request);
+      const Plan report = planners_[variant].plan(request);
       run.times_ms.push_back(report.statistics.time_s * 1e3);
       if (repeat > 0) continue;
       run.setting = unit.setting;
@@ -107,4 +126,4 @@ std::vector<StudyRun> StudyWorker::run(const StudyUnit& unit) {
   return runs;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 TEST(DecimalText, IsAsShortAsItWasTyped) {
@@ -30,4 +30,4 @@ TEST(DecimalText, ReadsBackAsTheSame) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

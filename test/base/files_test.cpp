@@ -14,7 +14,7 @@
 #include "support/file_size_limit.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 using test::contains;
@@ -119,4 +119,4 @@ TEST(AtomicFile, WhatAProcessDoesAboutSignalsIsLeftAsItWas) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -7,7 +7,7 @@
 
 #include "support/error_text.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 using test::contains;
@@ -39,4 +39,4 @@ TEST(LevelQuaternion, TheNoiseOfAFloatIsLevel) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

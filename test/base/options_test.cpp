@@ -10,7 +10,7 @@
 #include "support/error_text.h"
 #include "support/option_laws.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 using test::contains;
@@ -158,4 +158,4 @@ TEST(Options, AreTheSameOnlyWhereEveryValueIs) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -7,7 +7,7 @@
 
 #include "grid_path_planner/base/statistics.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 // The names are a contract: messages and the command line carry them, in this order.
@@ -32,4 +32,4 @@ TEST(Statistics, OfTwoSearchesCountersAddUpAndSizesDoNot) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

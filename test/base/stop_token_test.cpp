@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 using std::chrono::hours;
@@ -110,4 +110,4 @@ TEST(StopPoll, SaysWhichStatusTheReasonStandsFor) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

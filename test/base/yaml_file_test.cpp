@@ -5,7 +5,7 @@
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 using test::contains;
@@ -94,4 +94,4 @@ TEST(YamlFile, ManyShallowListsAreNotDeep) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

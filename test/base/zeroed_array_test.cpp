@@ -7,7 +7,7 @@
 #include <new>
 #include <utility>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 namespace {
 
 // Small ones, and those that ask for large pages.
@@ -46,4 +46,4 @@ TEST(ZeroedArray, SaysThatThereIsNotEnough) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -12,15 +12,15 @@
 
 namespace grid_path_planner::test {
 
-inline Path pathOf(const std::vector<std::vector<double>>& poses) {
-  Path path;
+inline path::Path pathOf(const std::vector<std::vector<double>>& poses) {
+  path::Path path;
   for (const auto& p : poses)
     path.poses.push_back(
         {Eigen::Vector3d(p.at(0), p.at(1), p.size() > 2 ? p[2] : 0.0), p.size() > 3 ? p[3] : 0.0});
   return path;
 }
 
-inline double distanceTo(const Path& path, const Eigen::Vector3d& position) {
+inline double distanceTo(const path::Path& path, const Eigen::Vector3d& position) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     const Eigen::Vector3d a = path.poses[i].position;
@@ -34,24 +34,24 @@ inline double distanceTo(const Path& path, const Eigen::Vector3d& position) {
 }
 
 struct ClosedLoop {
-  explicit ClosedLoop(const FollowerOptions& options = {}, const Eigen::Vector3d& at = {0, 0, 0},
-                      double yaw = 0.0)
+  explicit ClosedLoop(const following::FollowerOptions& options = {},
+                      const Eigen::Vector3d& at = {0, 0, 0}, double yaw = 0.0)
       : follower(options), vehicle({}, {at, yaw, {}}) {}
 
-  Pose pose() const { return {vehicle.state().position, vehicle.state().yaw}; }
+  path::Pose pose() const { return {vehicle.state().position, vehicle.state().yaw}; }
   double speed() const {
-    const BodyVelocity& v = vehicle.state().velocity;
+    const base::BodyVelocity& v = vehicle.state().velocity;
     return std::sqrt(v.surge * v.surge + v.sway * v.sway + v.heave * v.heave);
   }
 
   // One control step of 0.05 s.
   void step() {
-    FollowInput input{vehicle.time(), pose(), check};
+    following::FollowInput input{vehicle.time(), pose(), check};
     if (!pose_known) input.pose.reset();
     command = follower.update(input);
     vehicle.command(command);
     for (int i = 0; i < 5; ++i) vehicle.step();
-    for (FollowEvent& event : follower.takeEvents()) events.push_back(std::move(event));
+    for (following::FollowEvent& event : follower.takeEvents()) events.push_back(std::move(event));
   }
 
   // Until `condition`, at most `seconds`; whether it came true.
@@ -63,27 +63,27 @@ struct ClosedLoop {
     }
     return condition();
   }
-  bool runUntilState(FollowState state, double seconds = 600.0) {
+  bool runUntilState(following::FollowState state, double seconds = 600.0) {
     return runUntil([&] { return follower.state() == state; }, seconds);
   }
   void run(double seconds) {
     runUntil([] { return false; }, seconds);
   }
 
-  std::vector<int> waypointsOf(FollowEvent::Kind kind) const {
+  std::vector<int> waypointsOf(following::FollowEvent::Kind kind) const {
     std::vector<int> waypoints;
-    for (const FollowEvent& event : events)
+    for (const following::FollowEvent& event : events)
       if (event.kind == kind) waypoints.push_back(event.waypoint);
     return waypoints;
   }
 
-  PathFollower follower;
-  Vehicle vehicle;
-  WayCheck check;
+  following::PathFollower follower;
+  simulation::Vehicle vehicle;
+  following::WayCheck check;
   bool pose_known = true;
   std::function<void()> each_step;
-  BodyVelocity command;
-  std::vector<FollowEvent> events;
+  base::BodyVelocity command;
+  std::vector<following::FollowEvent> events;
 };
 
 }  // namespace grid_path_planner::test

@@ -5,7 +5,11 @@
 
 #include "following/closed_loop.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::following {
+
+using base::BodyVelocity;
+using path::Path;
+
 namespace {
 
 using test::ClosedLoop;
@@ -319,4 +323,4 @@ TEST(DriveLaw, StaysOnThePathInsideTheLimits) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::following

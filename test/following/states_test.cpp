@@ -6,7 +6,11 @@
 #include "following/closed_loop.h"
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::following {
+
+using base::InputError;
+using path::Path;
+
 namespace {
 
 using test::ClosedLoop;
@@ -233,4 +237,4 @@ TEST(States, BadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::following

@@ -1,4 +1,4 @@
-#include "grid_path_planner/following/way_check.h"
+#include "grid_path_planner/following/path_clearance_check.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,12 @@
 
 #include "support/ascii_map.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::following {
+
+using grid::Cell;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+
 namespace {
 
 using Way = std::vector<Eigen::Vector3d>;
@@ -79,4 +84,4 @@ TEST(WayCheckLaw, AgreesWithPointsAlongTheWay) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::following

@@ -9,7 +9,7 @@
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 namespace {
 
 using test::contains;
@@ -74,4 +74,4 @@ TEST_F(DamagedImage, WhatFollowsTheImageDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

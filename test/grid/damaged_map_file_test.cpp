@@ -11,7 +11,10 @@
 #include "support/mutation.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
+
+using base::InputError;
+
 namespace {
 
 constexpr const char* kYaml =
@@ -111,4 +114,4 @@ TEST_F(DamagedMapFile, AnythingUnderAnyName) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

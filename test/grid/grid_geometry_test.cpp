@@ -8,7 +8,10 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
+
+using base::InputError;
+
 namespace {
 
 TEST(GridGeometry, OriginIsTheCornerOfTheFirstCell) {
@@ -71,4 +74,4 @@ TEST(GridGeometryLaw, CellToWorldToCellIsTheIdentity) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

@@ -14,11 +14,11 @@
 #include <random>
 #include <vector>
 
-#include "grid_path_planner/grid/image_file.h"
+#include "grid/formats/image_file.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 namespace {
 
 using test::contains;
@@ -347,4 +347,4 @@ TEST_F(ImageFormats, TextsThatHoldNoNumberAreRefusedAtTheirByte) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

@@ -9,7 +9,7 @@
 #include "support/file_size_limit.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 namespace {
 
 using test::AsciiMap;
@@ -300,4 +300,4 @@ TEST_F(MapServerFile, OnAFullDiskTheOldMapStaysWhole) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

@@ -5,7 +5,7 @@
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 namespace {
 
 using test::AsciiMap;
@@ -97,4 +97,4 @@ TEST_F(MovingAiFile, BadFilesAreRefusedWithTheirLine) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

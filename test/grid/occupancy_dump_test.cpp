@@ -1,4 +1,4 @@
-#include "grid_path_planner/grid/occupancy_dump.h"
+#include "grid/formats/occupancy_dump.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 namespace {
 
 using test::AsciiMap;
@@ -173,4 +173,4 @@ TEST_F(OccupancyDump, FourMillionCellsAreReadAsAStream) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

@@ -11,7 +11,7 @@
 #include "support/mutation.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 namespace {
 
 using test::contains;
@@ -128,4 +128,4 @@ TEST_F(RectangleMapFile, AClaimOfTheHeaderBeyondItsLimitsIsRefused) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

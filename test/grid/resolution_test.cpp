@@ -1,10 +1,10 @@
-#include "grid_path_planner/grid/resolution.h"
+#include "grid_path_planner/grid/float_decimal.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 namespace {
 
 TEST(Resolution, WhatWasMeantComesBackFromAFloat) {
@@ -17,11 +17,11 @@ TEST(Resolution, WhatWasMeantComesBackFromAFloat) {
 }
 
 TEST(Resolution, ANumberThatIsNoFloatStays) {
-  EXPECT_EQ(undoFloat(0.05000000074505806), 0.05);  // as rostopic echo prints it
-  EXPECT_EQ(undoFloat(0.05), 0.05);
-  EXPECT_EQ(undoFloat(0.0500000001), 0.0500000001);
-  EXPECT_EQ(undoFloat(1e300), 1e300);
+  EXPECT_EQ(floatToDecimal(0.05000000074505806), 0.05);  // as rostopic echo prints it
+  EXPECT_EQ(floatToDecimal(0.05), 0.05);
+  EXPECT_EQ(floatToDecimal(0.0500000001), 0.0500000001);
+  EXPECT_EQ(floatToDecimal(1e300), 1e300);
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

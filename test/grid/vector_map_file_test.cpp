@@ -7,7 +7,7 @@
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 namespace {
 
 using test::AsciiMap;
@@ -130,4 +130,4 @@ TEST_F(VectorMapFile, MistakesAreToldWithFileAndLine) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

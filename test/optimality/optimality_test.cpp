@@ -13,11 +13,34 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/planners/planner_factory.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::planning {
+
+using base::choiceName;
+using base::Status;
+using base::StopToken;
+using costmap::Connectivity;
+using costmap::CostGrid;
+using costmap::costOfSteps;
+using costmap::DiagonalCost;
+using costmap::ExactCost;
+using costmap::MotionModel;
+using grid::Cell;
+using grid::CellRect;
+using grid::Grid;
+using grid::GridGeometry;
+using planners::Heuristic;
+using planners::makePlanner;
+using planners::Planner;
+using planners::plannerNames;
+using planners::PlannerTraits;
+using planners::SearchOptions;
+using planners::SearchResult;
+using planners::TieBreak;
+
 namespace {
 
 constexpr int kMaps = 10000;
@@ -30,7 +53,7 @@ struct Subject {
   std::string planner;
   SearchOptions options;
 
-  std::string name(const Traits& traits) const {
+  std::string name(const PlannerTraits& traits) const {
     return traits.heuristic ? planner + ' ' + choiceName(options.heuristic) : planner;
   }
 };
@@ -115,7 +138,7 @@ std::shared_ptr<const CostGrid> changed(const CostGrid& map, std::mt19937& rando
   rect = CellRect{middle.column - 3, middle.row - 3, between(random, 1, 9), between(random, 1, 9)}
              .intersection(map.geometry().rect());
   if (rect.width <= 0 || rect.height <= 0) rect = {middle.column, middle.row, 1, 1};
-  const CostGrid::Weight values[] = {CostGrid::kBlocked, map.cheapest(),
+  const CostGrid::Weight values[] = {CostGrid::kBlocked, map.minWeight(),
                                      static_cast<CostGrid::Weight>(between(random, 1, 60))};
   const bool one_value = between(random, 0, 1) == 0;
   const int value = between(random, 0, 2);
@@ -134,7 +157,7 @@ class Optimality : public ::testing::TestWithParam<int> {
   void ask(Planner& planner, const std::string& name, const Question& question) {
     if (!planner.optimalFor(*question.map)) return;
     for (const Cell goal : question.goals) {
-      const PlanResult result = planner.plan({question.start, {goal}, false}, StopToken());
+      const SearchResult result = planner.search({question.start, {goal}, false}, StopToken());
       if (result.status == Status::INVALID_REQUEST) continue;  // not a map for this planner
       SCOPED_TRACE(name + ": " + result.message);
       const std::optional<ExactCost>& least = question.leastTo(goal);
@@ -205,4 +228,4 @@ TEST(Maps, AreOfTheSizesThatAreClaimed) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::planning

@@ -1,4 +1,4 @@
-#include "option_files.h"
+#include "option_files/option_files.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,12 @@
 #include "grid_path_planner/base/yaml_file.h"
 #include "support/error_text.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::option_files {
+
+using base::describeOptions;
+using base::OptionInfo;
+using base::parseYaml;
+
 namespace {
 
 using test::errorText;
@@ -150,4 +155,4 @@ TEST(OptionFiles, AMarkWithoutAnEndOrANodeIsRefused) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::option_files

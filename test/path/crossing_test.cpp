@@ -1,4 +1,4 @@
-#include "grid_path_planner/path/crossing.h"
+#include "grid_path_planner/path/length_by_occupancy.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,10 @@
 #include "grid_path_planner/path/metrics.h"
 #include "support/ascii_map.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
+
+using grid::OccupancyGrid;
+
 namespace {
 
 Path pathThrough(const std::vector<Eigen::Vector2d>& points) {
@@ -58,4 +61,4 @@ TEST(Crossing, TheClassesSumUpToTheLength) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
 namespace {
 
 Path pathThrough(const std::vector<Eigen::Vector2d>& points) {
@@ -199,4 +199,4 @@ TEST(PathHeight, LengthIsHorizontal) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

@@ -8,7 +8,13 @@
 
 #include "support/ascii_map.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
+
+using grid::Cell;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+using grid::OccupancyThresholds;
+
 namespace {
 
 using test::AsciiMap;
@@ -188,4 +194,4 @@ TEST(ClearanceLaw, LargeMapsAreNoTrouble) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

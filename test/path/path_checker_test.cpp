@@ -8,7 +8,12 @@
 #include "support/ascii_map.h"
 #include "support/error_text.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
+
+using grid::Cell;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+
 namespace {
 
 using test::AsciiMap;
@@ -237,4 +242,4 @@ TEST(PathCheckerLaw, AgreesWithSamplesWhereTheyAreClear) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

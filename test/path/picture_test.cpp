@@ -1,4 +1,4 @@
-#include "grid_path_planner/path/picture.h"
+#include "grid_path_planner/path/path_image.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,13 @@
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
+
+using grid::Cell;
+using grid::CellRect;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+
 namespace {
 
 using test::AsciiMap;
@@ -347,4 +353,4 @@ TEST(Picture, LinksAreLinesBetweenDots) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

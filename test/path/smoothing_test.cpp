@@ -4,16 +4,30 @@
 
 #include <cmath>
 
-#include "grid_path_planner/terrain/terrain.h"
+#include "grid_path_planner/costmap/costmap_builder.h"
 #include "support/ascii_map.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
+
+using base::Stopped;
+using base::StopSource;
+using base::StopToken;
+using costmap::CostGrid;
+using costmap::CostmapBuilder;
+using costmap::CostmapOptions;
+using costmap::SegmentPoint;
+using grid::Cell;
+using grid::Grid;
+using grid::GridGeometry;
+using grid::Occupancy;
+using grid::OccupancyGrid;
+
 namespace {
 
 std::shared_ptr<const CostGrid> costsOf(const test::AsciiMap& picture) {
-  Terrain terrain(TerrainOptions{});
+  CostmapBuilder terrain(CostmapOptions{});
   terrain.setMap(std::make_shared<const OccupancyGrid>(picture.map));
-  return terrain.searched(StopToken());
+  return terrain.downsampled(StopToken());
 }
 
 std::vector<SegmentPoint> centresOf(const std::vector<Cell>& cells) {
@@ -74,4 +88,4 @@ TEST(Smoothing, StopsWhenAsked) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

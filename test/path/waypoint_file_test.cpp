@@ -12,7 +12,10 @@
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
+
+using base::InputError;
+
 namespace {
 
 using test::contains;
@@ -356,4 +359,4 @@ TEST(WaypointFileLaw, RandomDamageIsRefusedOrHarmless) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

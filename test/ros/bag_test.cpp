@@ -9,7 +9,12 @@
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using grid::GridGeometry;
+using grid::MapFileOptions;
+using grid::OccupancyGrid;
+
 namespace {
 
 using test::AsciiMap;
@@ -136,4 +141,4 @@ TEST_F(MapBag, AMapThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

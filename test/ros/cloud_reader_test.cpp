@@ -1,4 +1,4 @@
-#include "grid_path_planner/ros/cloud_reader.h"
+#include "ros/mapping/cloud_reader.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "support/error_text.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 namespace {
 
 using sensor_msgs::PointCloud2;
@@ -121,4 +121,4 @@ TEST(CloudReader, WhatCannotBeReadIsRefusedWithASentence) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -8,7 +8,12 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using path::Path;
+using path::Pose;
+
 namespace {
 
 geometry_msgs::Pose message(double x, double y, double z, double qx, double qy, double qz,
@@ -92,4 +97,4 @@ TEST(PathConversionLaw, ThereAndBackIsTheSame) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -11,7 +11,13 @@
 #include "support/mutation.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using grid::checkOccupancyValues;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+
 namespace {
 
 // Of this process so far.
@@ -90,4 +96,4 @@ TEST_F(DamagedBag, InjuredAnywhereWithoutCompression) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

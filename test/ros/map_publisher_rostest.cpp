@@ -14,7 +14,11 @@
 #include "ros/support/process.h"
 #include "support/ascii_map.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using grid::OccupancyGrid;
+using grid::writeMovingAiFile;
+
 namespace {
 
 class MapPublisherTest : public testing::Test {
@@ -124,4 +128,4 @@ TEST_F(MapPublisherTest, AnotherFileIsPublishedWhileItRunsAndABadOneIsRefused) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

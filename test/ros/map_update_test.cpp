@@ -4,10 +4,17 @@
 #include <random>
 
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/ros/map_receiver.h"
+#include "ros/common/map_receiver.h"
 #include "support/ascii_map.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using grid::CellIndex;
+using grid::CellRect;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+
 namespace {
 
 map_msgs::OccupancyGridUpdate updateOf(int x, int y, unsigned width, unsigned height,
@@ -72,4 +79,4 @@ TEST(ChangedCellsLaw, NothingOutsideDiffers) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -6,7 +6,10 @@
 #include "grid_path_planner/NavigatePathAction.h"
 #include "ros/support/navigate_fixture.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using path::Path;
+
 namespace {
 
 using actionlib::SimpleClientGoalState;
@@ -148,4 +151,4 @@ TEST_F(NavigateAction, GoalsThatCannotBeDrivenAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -7,7 +7,11 @@
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/support/navigate_fixture.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using path::Path;
+using path::writeWaypointFile;
+
 namespace {
 
 using test::Latest;
@@ -133,4 +137,4 @@ TEST_F(NavigateDrive, FilesAndParametersThatCannotBeUsedEndItBeforeItStarts) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -9,7 +9,7 @@
 #include "ros/support/navigate_fixture.h"
 #include "support/ascii_map.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 namespace {
 
 using test::isZero;
@@ -198,4 +198,4 @@ TEST_F(NavigateStops, RunsAsANodeletAndStopsWhenItIsUnloaded) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

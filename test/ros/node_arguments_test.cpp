@@ -1,10 +1,10 @@
-#include "grid_path_planner/ros/node_arguments.h"
+#include "ros/common/node_arguments.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 namespace {
 
 struct Told {
@@ -59,4 +59,4 @@ TEST(NodeArguments, HelpIsPrinted) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

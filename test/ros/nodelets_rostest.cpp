@@ -9,7 +9,7 @@
 #include "ros/support/planner_fixture.h"
 #include "ros/support/wait.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 namespace {
 
 std::vector<std::string> loaded() {
@@ -40,4 +40,4 @@ TEST(Nodelets, PlanTogetherAndAreUnloaded) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -10,7 +10,12 @@
 #include "support/ascii_map.h"
 #include "support/error_text.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+using grid::Origin;
+
 namespace {
 
 using test::AsciiMap;
@@ -89,4 +94,4 @@ TEST(OccupancyConversion, BadMessagesAreRefusedWithTheirValues) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

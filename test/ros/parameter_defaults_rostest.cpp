@@ -6,14 +6,18 @@
 #include "grid_path_planner/ProjectedMapConfig.h"
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/TeleopJoyConfig.h"
-#include "grid_path_planner/ros/map_publisher_options.h"
-#include "grid_path_planner/ros/navigate_path_options.h"
-#include "grid_path_planner/ros/path_planner_options.h"
-#include "grid_path_planner/ros/projected_map_options.h"
-#include "grid_path_planner/ros/simulator_options.h"
-#include "grid_path_planner/ros/teleop_joy_options.h"
+#include "grid_path_planner/mapping/projected_map_options.h"
+#include "grid_path_planner/simulation/simulator_options.h"
+#include "ros/driving/navigate_path_options.h"
+#include "ros/driving/teleop_joy_options.h"
+#include "ros/planning/map_publisher_options.h"
+#include "ros/planning/path_planner_options.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using mapping::ProjectedMapOptions;
+using simulation::SimulatorOptions;
+
 namespace {
 
 TEST(ParameterDefaults, PathPlanner) {
@@ -41,4 +45,4 @@ TEST(ParameterDefaults, ProjectedMap) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -1,4 +1,4 @@
-#include "grid_path_planner/ros/parameters.h"
+#include "ros/common/parameters.h"
 
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
@@ -8,11 +8,18 @@
 #include <memory>
 
 #include "grid_path_planner/PathPlannerConfig.h"
-#include "grid_path_planner/ros/path_planner_options.h"
-#include "grid_path_planner/ros/projected_map_options.h"
+#include "grid_path_planner/mapping/projected_map_options.h"
+#include "ros/planning/path_planner_options.h"
 #include "ros/support/latest.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using costmap::checkCostmapOptions;
+using costmap::Connectivity;
+using mapping::ProjectedMapOptions;
+using planners::Heuristic;
+
 namespace {
 
 using Options = PathPlannerNodeOptions;
@@ -117,7 +124,7 @@ class Reconfiguration : public testing::Test {
     nh_.setParam("connectivity", 8);  // as YAML reads it
     reconfigurable_ = std::make_unique<Reconfigurable<PathPlannerConfig, Options>>(
         nh_, initial_, [this](const Options& options) {
-          checkTerrainOptions(options.planner.terrain);
+          checkCostmapOptions(options.planner.terrain);
           applied_.push_back(options);
         });
   }
@@ -200,4 +207,4 @@ TEST_F(Reconfiguration, AnUnknownChoiceIsReverted) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

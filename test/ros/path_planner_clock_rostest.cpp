@@ -3,7 +3,7 @@
 
 #include "ros/support/planner_fixture.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 namespace {
 
 using test::AsciiMap;
@@ -133,4 +133,4 @@ TEST_F(ClockTest, ABagThatLoopsIsPlannedOn) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -2,12 +2,21 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "grid_path_planner/rectangles/decomposition.h"
-#include "grid_path_planner/ros/rectangle_messages.h"
+#include "grid_path_planner/planners/decomposition.h"
+#include "ros/planning/rectangle_messages.h"
 #include "ros/support/planner_fixture.h"
 #include "support/free_cells.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using base::StopToken;
+using grid::Cell;
+using grid::CellRect;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+using planners::largestFirst;
+using planners::Touching;
+
 namespace {
 
 using test::AsciiMap;
@@ -132,4 +141,4 @@ TEST_F(PathPlannerRectanglesTest, AMapThatWouldTakeTooMuchMemoryIsRefused) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -2,7 +2,12 @@
 
 #include "ros/support/planner_fixture.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using grid::Cell;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+
 namespace {
 
 using test::AsciiMap;
@@ -143,4 +148,4 @@ TEST_F(ReplanTest, AGoalWithoutAPathIsTriedAgainEveryPeriod) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -8,7 +8,13 @@
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/support/planner_fixture.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using grid::OccupancyGrid;
+using grid::Origin;
+using path::Path;
+using path::readWaypointFile;
+
 namespace {
 
 using test::AsciiMap;
@@ -341,4 +347,4 @@ TEST_F(PathPlannerTest, BadParametersEndItBeforeAnythingStarts) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

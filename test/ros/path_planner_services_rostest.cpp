@@ -11,10 +11,18 @@
 #include "grid_path_planner/PlanPathAction.h"
 #include "grid_path_planner/SaveWaypoints.h"
 #include "grid_path_planner/path/waypoint_file.h"
-#include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/planners/planner_factory.h"
 #include "ros/support/planner_fixture.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using grid::Cell;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+using path::Path;
+using path::readWaypointFile;
+using planners::plannerNames;
+
 namespace {
 
 using dynamic_reconfigure::ConfigTools;
@@ -264,4 +272,4 @@ TEST_F(ActionTest, TheTimeLimitEndsTheSearch) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -7,7 +7,7 @@
 
 #include "ros/support/mapping_fixture.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 namespace {
 
 using test::cloudOf;
@@ -168,4 +168,4 @@ TEST_F(HostileClouds, TimeThatJumpsBackClearsWhatWaitsAndKeepsTheMap) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -1,11 +1,16 @@
-#include "grid_path_planner/ros/projected_map_options.h"
+#include "grid_path_planner/mapping/projected_map_options.h"
 
 #include <gtest/gtest.h>
 
 #include "support/error_text.h"
 #include "support/option_laws.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using mapping::checkProjectedMapOptions;
+using mapping::ProjectedMapOptions;
+using mapping::projectionOptions;
+
 namespace {
 
 using test::contains;
@@ -51,4 +56,4 @@ TEST(ProjectedMapOptions, ContradictionsAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -6,7 +6,7 @@
 
 #include "ros/support/mapping_fixture.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 namespace {
 
 using test::CloudPoints;
@@ -208,4 +208,4 @@ TEST_F(Publishing, VoxelsAreShownInsideOfTheOccupancyBand) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -6,12 +6,17 @@
 
 #include "grid_path_planner/SaveFile.h"
 #include "grid_path_planner/grid/map_file.h"
-#include "grid_path_planner/octree/octree_map.h"
-#include "grid_path_planner/ros/mapping_services.h"
+#include "grid_path_planner/mapping/octree_map.h"
+#include "ros/mapping/mapping_services.h"
 #include "ros/support/mapping_fixture.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using grid::readMapFile;
+using mapping::OctreeMap;
+using mapping::OctreeOptions;
+
 namespace {
 
 using test::valueAt;
@@ -162,4 +167,4 @@ TEST_F(ProjectedMapTest, OM90NothingIsClampedAndUnknownNamesAreSaid) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

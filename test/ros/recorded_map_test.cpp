@@ -9,7 +9,12 @@
 #include "grid_path_planner/ros/bag.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using grid::Cell;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+
 namespace {
 
 constexpr const char* kBag = "test/data/projected_map.bag";
@@ -47,4 +52,4 @@ TEST(RecordedMap, LaterMapsKnowMoreHoldACrateAndGrow) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -17,7 +17,14 @@
 #include "ros/support/process.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using grid::Cell;
+using grid::Occupancy;
+using grid::OccupancyGrid;
+using grid::OccupancyThresholds;
+using grid::readMapFile;
+
 namespace {
 
 using diagnostic_msgs::DiagnosticArray;
@@ -153,4 +160,4 @@ TEST_F(RecordedSurvey, APathOnItKeepsClearOfWhatIsReallyThere) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

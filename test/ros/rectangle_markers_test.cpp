@@ -1,4 +1,4 @@
-#include "grid_path_planner/ros/rectangle_markers.h"
+#include "ros/planning/rectangle_markers.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,11 @@
 #include <set>
 #include <tuple>
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using grid::CellRect;
+using grid::GridGeometry;
+
 namespace {
 
 using visualization_msgs::Marker;
@@ -91,4 +95,4 @@ TEST(RectangleMarkers, OfNothingDeleteWhatWasThere) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

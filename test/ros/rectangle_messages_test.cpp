@@ -1,15 +1,22 @@
-#include "grid_path_planner/ros/rectangle_messages.h"
+#include "ros/planning/rectangle_messages.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <random>
 
-#include "grid_path_planner/rectangles/decomposition.h"
+#include "grid_path_planner/planners/decomposition.h"
 #include "support/error_text.h"
 #include "support/free_cells.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using base::StopToken;
+using grid::GridGeometry;
+using planners::largestFirst;
+using planners::RectangleGraph;
+using planners::Touching;
+
 namespace {
 
 using test::errorText;
@@ -84,4 +91,4 @@ TEST(RectangleMessages, BadOnesAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -17,7 +17,7 @@
 #include "ros/support/process.h"
 #include "support/ascii_map.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 namespace {
 
 using nav_msgs::Odometry;
@@ -179,4 +179,4 @@ TEST(Simulator, RunsAsANodelet) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

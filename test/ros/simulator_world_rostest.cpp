@@ -17,7 +17,7 @@
 #include "ros/support/latest.h"
 #include "ros/support/process.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 namespace {
 
 using nav_msgs::Odometry;
@@ -245,4 +245,4 @@ TEST(SimulatorWorld, AWorldThatCannotBeReadEndsItBeforeItStarts) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

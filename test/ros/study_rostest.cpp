@@ -18,7 +18,16 @@
 #include "ros/support/latest.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
+
+using grid::Occupancy;
+using grid::OccupancyGrid;
+using grid::OccupancyThresholds;
+using grid::readMapFile;
+using path::Path;
+using path::readWaypointFile;
+using path::writeWaypointFile;
+
 namespace {
 
 using nav_msgs::Odometry;
@@ -118,4 +127,4 @@ TEST_F(Study, SurveyMapPlanAndDrive) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

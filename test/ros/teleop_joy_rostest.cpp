@@ -7,7 +7,7 @@
 #include "ros/support/latest.h"
 #include "ros/support/process.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 namespace {
 
 using geometry_msgs::Twist;
@@ -117,4 +117,4 @@ TEST_F(TeleopJoyTest, RunsAsANodelet) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -7,7 +7,7 @@
 
 #include "support/option_laws.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 namespace {
 
 VehicleState at(double x, double y, double z, double yaw) {
@@ -108,4 +108,4 @@ TEST(DeadReckoning, TheSameSeedGivesTheSameRun) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

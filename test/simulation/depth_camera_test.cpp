@@ -9,7 +9,7 @@
 #include "support/error_text.h"
 #include "support/option_laws.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 namespace {
 
 using Eigen::Isometry3d;
@@ -287,4 +287,4 @@ TEST(DepthCamera, NoRayPassesASeam) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -7,7 +7,10 @@
 
 #include "support/error_text.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::InputError;
+
 namespace {
 
 double area(const TriangleMesh& mesh) {
@@ -73,4 +76,4 @@ TEST(TriangleMesh, RefusesLengthsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -4,7 +4,7 @@
 
 #include "support/option_laws.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 namespace {
 
 TEST(VehicleOptions, AllHoldToTheLaws) {
@@ -12,4 +12,4 @@ TEST(VehicleOptions, AllHoldToTheLaws) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

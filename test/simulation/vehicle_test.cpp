@@ -10,7 +10,13 @@
 #include "grid_path_planner/base/errors.h"
 #include "support/ascii_map.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::BodyVelocity;
+using base::InputError;
+using grid::OccupancyGrid;
+using grid::Origin;
+
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -233,4 +239,4 @@ TEST(VehicleLaw, LimitsWallsAndRepeatability) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

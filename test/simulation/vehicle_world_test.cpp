@@ -8,7 +8,11 @@
 #include "grid_path_planner/simulation/vehicle.h"
 #include "support/ascii_map.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::BodyVelocity;
+using grid::OccupancyGrid;
+
 namespace {
 
 using Eigen::Vector3d;
@@ -174,4 +178,4 @@ TEST(VehicleInWorldLaw, NothingIsEnteredAndWaysRepeat) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -10,7 +10,10 @@
 #include "support/mutation.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::InputError;
+
 namespace {
 
 using test::contains;
@@ -272,4 +275,4 @@ TEST_F(WorldFile, AfterARefusalTheNextWorldIsRead) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -8,7 +8,10 @@
 
 #include "support/error_text.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::InputError;
+
 namespace {
 
 using Eigen::Vector3d;
@@ -93,4 +96,4 @@ TEST(World, RefusesDamagedMeshes) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -7,12 +7,21 @@
 #include <set>
 #include <string>
 
-#include "grid_path_planner/planners/map_planner.h"
+#include "grid_path_planner/planning/path_planner.h"
 #include "grid_path_planner/simulation/depth_camera.h"
 #include "grid_path_planner/simulation/world_file.h"
 #include "support/free_space.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
+
+using base::Status;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+using planning::PathPlanner;
+using planning::Plan;
+using planning::PlannerOptions;
+using planning::PoseRequest;
+
 namespace {
 
 using Eigen::Vector3d;
@@ -53,14 +62,14 @@ std::set<std::string> modelsBetween(const World& world, const Vector3d& from, co
   return models;
 }
 
-PlanReport route(const OccupancyGrid& map, const Vector3d& from, const Vector3d& to,
-                 double radius = 0.0, int kernel = 1) {
+Plan route(const OccupancyGrid& map, const Vector3d& from, const Vector3d& to, double radius = 0.0,
+           int kernel = 1) {
   PlannerOptions options;
   options.terrain.radius = radius;
   options.terrain.kernel = kernel;
   options.retry_finer = false;
   options.timeout = 0.0;
-  MapPlanner planner(options);
+  PathPlanner planner(options);
   planner.setMap(std::make_shared<const OccupancyGrid>(map));
   PoseRequest request;
   request.start.position = from;
@@ -129,7 +138,7 @@ TEST(DexrovSite, AtTheDepthOfTheSurveyOnlyTheChainIsInTheWay) {
 TEST(DexrovSite, VehiclesOfBothRadiiFindTheirWay) {
   for (const double radius : {0.3, 0.4}) {
     const OccupancyGrid map = test::occupiedAt(site(), siteMap(0.1), {kPlanningDepth}, radius);
-    const PlanReport report = route(map, kStart, kGoal);
+    const Plan report = route(map, kStart, kGoal);
     EXPECT_EQ(report.status, Status::FOUND) << report.message;
     EXPECT_GT(report.length_m, 1.1 * (kGoal - kStart).norm());
   }
@@ -153,7 +162,7 @@ TEST(DexrovSite, KernelsGiveVisiblyDifferentMapsAndWays) {
       test::occupiedAt(site(), siteMap(0.05), {2.45, 2.7, 2.95, 3.2, 3.35}, 0.03);
   std::vector<double> lengths;
   for (const int kernel : {1, 3, 5, 7}) {
-    const PlanReport report = route(map, kStart, kGoal, 0.3, kernel);
+    const Plan report = route(map, kStart, kGoal, 0.3, kernel);
     ASSERT_EQ(report.status, Status::FOUND) << "kernel " << kernel << ": " << report.message;
     lengths.push_back(report.length_m);
   }
@@ -178,7 +187,7 @@ TEST(ForestMaze, AWayLeadsThroughMazeAndGrove) {
   const Vector3d from(1.5, 1.5, 1.5), to(58.0, 28.0, 1.5);
   EXPECT_GE(modelsBetween(forestMaze(), from, to, 0.4).size(), 2u);
   const OccupancyGrid map = test::occupiedAt(forestMaze(), GridGeometry(300, 150, 0.2), {1.5}, 0.4);
-  const PlanReport report = route(map, from, to);
+  const Plan report = route(map, from, to);
   EXPECT_EQ(report.status, Status::FOUND) << report.message;
   EXPECT_GT(report.length_m, 1.2 * (to - from).norm());
 }
@@ -197,4 +206,4 @@ TEST(Worlds, AreSmall) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

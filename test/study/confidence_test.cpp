@@ -7,7 +7,7 @@
 
 #include "grid_path_planner/study/table.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 namespace {
 
 TEST(Confidence, OfAMeanIsStudentsInterval) {
@@ -73,4 +73,4 @@ TEST(ShownNumber, IsForPeople) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

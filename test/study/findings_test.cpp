@@ -8,7 +8,10 @@
 #include "small_study.h"
 #include "support/error_text.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::Status;
+
 namespace {
 
 using test::contains;
@@ -158,4 +161,4 @@ TEST_F(FindingsTest, CsvAndJsonHoldEveryRun) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

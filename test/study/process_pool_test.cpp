@@ -9,7 +9,10 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::InputError;
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -74,4 +77,4 @@ TEST(ProcessPool, EndsItsWorkersWithItself) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -16,14 +16,14 @@
 namespace grid_path_planner::test {
 
 // Two kernels, two sets of weights, three queries, of which one has no answer; Dijkstra and two A*.
-inline StudyPlan smallStudy(const TemporaryFolder& folder) {
-  writeMapServerFile(folder.path("site.yaml"), AsciiMap({".....#.",  //
-                                                         ".##..#.",  //
-                                                         ".?#..##",  //
-                                                         ".??....",  //
-                                                         ".......",  //
-                                                         "......."})
-                                                   .map);
+inline study::StudyPlan smallStudy(const TemporaryFolder& folder) {
+  grid::writeMapServerFile(folder.path("site.yaml"), AsciiMap({".....#.",  //
+                                                               ".##..#.",  //
+                                                               ".?#..##",  //
+                                                               ".??....",  //
+                                                               ".......",  //
+                                                               "......."})
+                                                         .map);
   const std::string file = folder.write("study.yaml", R"(
 title: A small study
 maps: [site.yaml]
@@ -35,14 +35,17 @@ queries:
   pairs: [[[0, 0], [4, 5]], [[0, 5], [6, 0]], [[0, 0], [6, 5]]]
 repeats: 2
 )");
-  return StudyPlan(readStudyFile(file), [](const std::string& map) { return readMapFile(map); });
+  return study::StudyPlan(study::readStudyFile(file),
+                          [](const std::string& map) { return grid::readMapFile(map); });
 }
 
-inline StudyResult runWith(const StudyPlan& plan, StudyFolder& folder, std::size_t processes) {
-  const auto worker = std::make_shared<StudyWorker>(plan);
-  ProcessPool pool(processes,
-                   [&plan, worker](std::size_t task) { return linesOfUnit(*worker, plan, task); });
-  return runStudy(plan, folder, pool, StopToken(), [](std::size_t, std::size_t) {});
+inline study::StudyResult runWith(const study::StudyPlan& plan, study::StudyFolder& folder,
+                                  std::size_t processes) {
+  const auto worker = std::make_shared<study::StudyWorker>(plan);
+  study::ProcessPool pool(processes, [&plan, worker](std::size_t task) {
+    return study::linesOfUnit(*worker, plan, task);
+  });
+  return study::runStudy(plan, folder, pool, base::StopToken(), [](std::size_t, std::size_t) {});
 }
 
 }  // namespace grid_path_planner::test

@@ -7,7 +7,15 @@
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using costmap::CostmapOptions;
+using grid::Cell;
+using grid::OccupancyGrid;
+using grid::readMapFile;
+using grid::writeMapServerFile;
+using planners::Heuristic;
+
 namespace {
 
 using test::AsciiMap;
@@ -76,7 +84,7 @@ TEST_F(StudyFileTest, WhatIsNotThereIsAsThePlannersDefaultsSay) {
   const Study study =
       read("maps: [site.yaml]\nplanners: [a_star]\nqueries: {random: {count: 1}}\n");
   ASSERT_EQ(study.settings.size(), 1u);
-  EXPECT_EQ(study.settings[0].terrain.kernel, TerrainOptions().kernel);
+  EXPECT_EQ(study.settings[0].terrain.kernel, CostmapOptions().kernel);
   EXPECT_EQ(study.settings[0].weights, "1/50/100");
   EXPECT_EQ(study.variants.size(), 1u);
   EXPECT_EQ(study.repeats, 5);
@@ -174,4 +182,4 @@ TEST_F(StudyFileTest, RandomQueriesAreThoseOfTheirSeedAndCanBeAnswered) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

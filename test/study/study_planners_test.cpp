@@ -1,34 +1,48 @@
-#include "grid_path_planner/study/study_planners.h"
+#include "study/study_planners.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "grid_path_planner/planners/catalogue.h"
+#include "grid_path_planner/planners/planner_factory.h"
 #include "support/ascii_map.h"
 #include "support/costs_of.h"
 #include "support/error_text.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::Status;
+using base::StopToken;
+using costmap::CostGrid;
+using grid::Cell;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+using planners::Heuristic;
+using planners::makePlanner;
+using planners::Planner;
+using planners::plannerNames;
+using planners::SearchOptions;
+using planners::SearchResult;
+
 namespace {
 
 using test::costsOf;
 using test::errorText;
 
-PlanResult answerOf(std::unique_ptr<Planner> planner, const std::shared_ptr<const CostGrid>& map,
-                    Cell start, Cell goal) {
+SearchResult answerOf(std::unique_ptr<Planner> planner, const std::shared_ptr<const CostGrid>& map,
+                      Cell start, Cell goal) {
   planner->prepare(map, StopToken());
-  return planner->plan({start, {goal}, false}, StopToken());
+  return planner->search({start, {goal}, false}, StopToken());
 }
 
-PlanResult eager(const std::shared_ptr<const CostGrid>& map, Cell start, Cell goal) {
+SearchResult eager(const std::shared_ptr<const CostGrid>& map, Cell start, Cell goal) {
   return answerOf(makeStudyPlanner("theta_star", {}, false), map, start, goal);
 }
 
-PlanResult eager(const test::AsciiMap& picture) {
+SearchResult eager(const test::AsciiMap& picture) {
   return eager(costsOf(picture.map), picture.start, picture.goal);
 }
 
@@ -77,7 +91,7 @@ Counts countsOf(const char* name, bool published_cross) {
     const auto planner = makeStudyPlanner(name, {}, published_cross);
     EXPECT_FALSE(planner->optimalFor(*map));
     planner->prepare(map, StopToken());
-    const PlanResult result = planner->plan({start, {goal}, false}, StopToken());
+    const SearchResult result = planner->search({start, {goal}, false}, StopToken());
     const auto least = test::referenceCosts(*map, start)[map->geometry().index(goal).value()];
     const bool ways = least && map->passable(start) && map->passable(goal);
     EXPECT_EQ(result.status == Status::FOUND, ways) << "trial " << trial;
@@ -114,17 +128,17 @@ TEST(PublishedAStar, AddsTheCrossProductToItsEstimate) {
 // --- theta_star ----------------------------------------------------------------------------------
 
 TEST(EagerThetaStar, CrossesOpenWaterInOneLine) {
-  const PlanResult result = eager(test::AsciiMap({"S......",  //
-                                                  ".......",  //
-                                                  "......G"}));
+  const SearchResult result = eager(test::AsciiMap({"S......",  //
+                                                    ".......",  //
+                                                    "......G"}));
   EXPECT_EQ(result.cells, (std::vector<Cell>{{0, 0}, {6, 2}}));
   EXPECT_NEAR(result.costValue(), std::hypot(6, 2), 1e-12);
 }
 
 TEST(EagerThetaStar, GoesAroundWhatIsDear) {
-  const PlanResult result = eager(test::AsciiMap({"........",  //
-                                                  "S.????.G",  //
-                                                  "..????.."}));
+  const SearchResult result = eager(test::AsciiMap({"........",  //
+                                                    "S.????.G",  //
+                                                    "..????.."}));
   ASSERT_EQ(result.status, Status::FOUND);
   EXPECT_LT(result.costValue(), 10.0) << "straight through unknown cells: 50 a cell";
 }
@@ -137,8 +151,8 @@ TEST(EagerThetaStarLaw, CostsAboutWhatLazyThetaStarCosts) {
     const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 50, {}));
     const Cell start = test::randomCell(random, map->geometry());
     const Cell goal = test::randomCell(random, map->geometry());
-    const PlanResult a = eager(map, start, goal);
-    const PlanResult b = answerOf(makePlanner("lazy_theta_star"), map, start, goal);
+    const SearchResult a = eager(map, start, goal);
+    const SearchResult b = answerOf(makePlanner("lazy_theta_star"), map, start, goal);
     ASSERT_EQ(a.status, b.status);
     if (a.status != Status::FOUND || a.costValue() == 0.0) continue;
     EXPECT_LT(b.costValue(), 1.2 * a.costValue()) << "trial " << trial;
@@ -158,8 +172,8 @@ TEST(EagerThetaStarLaw, LiesBetweenTheStraightLineAndTheGrid) {
     const auto map = costsOf(test::randomOccupancy(random, 40, 0.1, 0.0));
     const Cell start = test::randomCell(random, map->geometry());
     const Cell goal = test::randomCell(random, map->geometry());
-    const PlanResult result = eager(map, start, goal);
-    const PlanResult steps = answerOf(makePlanner("a_star"), map, start, goal);
+    const SearchResult result = eager(map, start, goal);
+    const SearchResult steps = answerOf(makePlanner("a_star"), map, start, goal);
     ASSERT_EQ(result.status, steps.status);
     if (result.status != Status::FOUND) continue;
     ++found;
@@ -174,4 +188,4 @@ TEST(EagerThetaStarLaw, LiesBetweenTheStraightLineAndTheGrid) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -9,7 +9,12 @@
 #include "support/error_text.h"
 #include "support/file_size_limit.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
+
+using base::Status;
+using base::StopSource;
+using base::StopToken;
+
 namespace {
 
 using test::contains;
@@ -172,4 +177,4 @@ TEST(StudyFolder, AFullDiskIsToldAndLosesNothing) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

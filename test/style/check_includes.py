@@ -1,59 +1,115 @@
-"""Includes only point down the floors of the rooms, and ROS is seen in ros/ and the programs only.
+"""Includes only point down the floors of the rooms, private headers are included by their own room only, and
+ROS is seen in ros/, nodes/ and command_line/ only.
 
-One include/ tree cannot stop a wrong include; this reads every #include instead. What stands below a
-room is read from the link lines of CMakeLists.txt, the one place that says it.
+The rooms below a room are read from the gpp_add_room lines of src/*/CMakeLists.txt. The folders inside
+planners/ have floors too: PLANNER_FLOORS.
 """
+import os
 import re
 
-from common import files, finish, read
+from common import ROOT, files, finish, read
 
 PACKAGE = "grid_path_planner"
-OUTERMOST = {"nodes", "option_files", "tools"}  # programs: may use every room
-ROS_ROOMS = {"ros"} | OUTERMOST
+PROGRAMS = {"nodes", "command_line", "option_files"}  # they may use every room and the private headers of ros/
+ROS_ROOMS = {"ros"} | PROGRAMS
+PLANNER_FLOORS = {
+    "core": set(),
+    "tables": {"core"},
+    "astar": {"core", "tables"},
+    "jump_point": {"core", "tables", "astar"},
+    "replanning": {"core", "tables", "astar"},
+    "rectangles": {"core"},
+    "any_angle": {"core", "rectangles"},
+}
 ROS_HEADER = re.compile(
     r"(ros|tf2\w*|nodelet|pluginlib|rosbag|actionlib|dynamic_reconfigure|diagnostic_updater|topic_tools"
     r"|\w+_msgs|std_srvs|%s/[A-Z]\w*)(/.*|\.h)?$" % PACKAGE)
 
 
 def floors():
-    """Each room with all the rooms below it, itself included."""
-    below = {}
-    for name, arguments in re.findall(r"gpp_add_room\((\w+)([^)]*)\)", read("CMakeLists.txt")):
-        direct = re.search(r"ROOMS((?: +[a-z_]+)+)", arguments)
-        below[name] = {name}
-        for room in direct.group(1).split() if direct else []:
-            below[name] |= below[room]
-    return below
+    """Each library with all the libraries below it, itself included. Those of ros/ are ros_<component>."""
+    direct = {}
+    for name in files(("src",), ("CMakeLists.txt",)):
+        for room, arguments in re.findall(r"gpp_add_room\((\w+)([^)]*)\)", read(name)):
+            rooms = re.search(r"ROOMS((?:\s+(?!LIBRARIES)[a-z_]+)+)", arguments)
+            direct[room] = rooms.group(1).split() if rooms else []
+
+    def closure(room):
+        found = {room}
+        for below in direct[room]:
+            found |= closure(below)
+        return found
+    return {room: closure(room) for room in direct}
 
 
 def room_of(name):
+    """The room of a file; for the folders of ros/ the library."""
     parts = name.split("/")
-    return parts[2] if parts[0] == "include" else parts[1]
+    room = parts[2] if parts[0] == "include" else parts[1]
+    if room == "ros" and parts[0] == "src":
+        return "ros_" + parts[2]
+    return room
+
+
+def folders_of_planners(names):
+    """The folder of src/planners/ that each header of planners/ belongs to; a public one to that of its .cpp."""
+    folders = {}
+    for name in names:
+        match = re.match(r"src/planners/(\w+)/(\w+)\.(?:h|cpp)$", name)
+        if match:
+            folders[match.group(2)] = match.group(1)
+    return folders
+
+
+def planner_complaint(name, header, folders):
+    stem = os.path.splitext(os.path.basename(name))[0]
+    here = folders.get(stem)
+    there = folders.get(os.path.splitext(os.path.basename(header))[0], "core")
+    if here is None or here == there or there in PLANNER_FLOORS.get(here, set()):
+        return None
+    return "planners/%s stands not on planners/%s" % (here, there)
+
+
+def complaint_of(name, header, below, folders):
+    room = room_of(name)
+    if header.startswith("../"):
+        return "reaches into another folder"
+    public = re.match(PACKAGE + r"/([a-z_]+)/", header)
+    target = public.group(1) if public else None
+    if not public and os.path.exists(os.path.join(ROOT, "src", header)):
+        target = room_of("src/" + header)
+        base, target_base = room.split("_")[0], target.split("_")[0]
+        own = room == target or base == target_base == "ros"
+        if not own and not (room in PROGRAMS and target_base == "ros"):
+            return "'%s' is a private header of '%s'" % (header, target)
+    if target is None:
+        if room.split("_")[0] not in ROS_ROOMS and room not in PROGRAMS and ROS_HEADER.match(header):
+            return "ROS in room '%s': %s" % (room, header)
+        return None
+    if room in PROGRAMS or target == "ros":
+        return None
+    if target not in below.get(room, {room}):
+        return "room '%s' stands not on '%s'" % (room, target)
+    if room == target == "planners":
+        return planner_complaint(name, header, folders)
+    return None
 
 
 def main():
     below = floors()
     names = files(("include", "src"), (".h", ".cpp"))
+    folders = folders_of_planners(names)
     complaints = []
     for name in names:
         room = room_of(name)
-        allowed = set(below) if room in OUTERMOST else below.get(room)
-        if allowed is None:
-            complaints.append("%s: room '%s' is not in CMakeLists.txt" % (name, room))
+        if room not in below and room not in PROGRAMS and room != "ros":
+            complaints.append("%s: no CMakeLists.txt makes room '%s'" % (name, room))
             continue
         for number, line in enumerate(read(name).splitlines(), 1):
             match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
-            if not match:
-                continue
-            header = match.group(1)
-            if header.startswith("../"):
-                complaints.append("%s:%d: reaches into another folder" % (name, number))
-            of_room = re.match(PACKAGE + r"/([a-z_]+)/", header)
-            if of_room and of_room.group(1) not in allowed:
-                complaints.append("%s:%d: room '%s' stands not on '%s'"
-                                  % (name, number, room, of_room.group(1)))
-            if not of_room and room not in ROS_ROOMS and ROS_HEADER.match(header):
-                complaints.append("%s:%d: ROS in room '%s': %s" % (name, number, room, header))
+            complaint = complaint_of(name, match.group(1), below, folders) if match else None
+            if complaint:
+                complaints.append("%s:%d: %s" % (name, number, complaint))
     finish(complaints, "%d files of %d rooms" % (len(names), len(below)) if below else "0 rooms")
 
 

@@ -9,8 +9,8 @@ CONTEXT = {
     "bit_maps.h": "extern const CostGrid& map;",
     "bucket_queue.h": "extern SearchKey f, f_of_the_start; extern unsigned width_shift;"
                       "extern BucketQueue::Index index;",
-    "canonical_steps.h": "extern Window window; extern unsigned d;",
-    "cloud_filter.h": """#include "grid_path_planner/octree/octree_map.h"
+    "natural_moves.h": "extern Window window; extern unsigned d;",
+    "cloud_filter.h": """#include "grid_path_planner/mapping/octree_map.h"
         extern OctreeMap map; extern Eigen::Isometry3d map_from_sensor, base_from_map;
         extern std::vector<Eigen::Vector3d> points; extern CloudFilterOptions options;""",
     "cloud_queue.h": "extern const tf2_ros::Buffer buffer; extern CloudQueueOptions options;"
@@ -29,13 +29,13 @@ CONTEXT = {
         extern ros::NodeHandle nh; extern const World& world; extern DepthCameraOptions options;
         extern CameraFrameNames frames; extern Vehicle vehicle; extern std::int64_t time_ns;
         extern ros::Time stamp;""",
-    "detour_search.h": "extern const CostGrid& map; extern const GoalLabels& labels;"
-                       "extern GoalLabels::Index start; extern SearchKey sound_below;"
-                       "extern PlanResult result; extern StopPoll poll;",
+    "repair_search.h": "extern const CostGrid& map; extern const BackwardNodes& labels;"
+                       "extern BackwardNodes::Index start; extern SearchKey sound_below;"
+                       "extern SearchResult result; extern StopPoll poll;",
     "frame_transforms.h": "extern ros::NodeHandle nh; extern double limit;",
-    "goal_labels.h": "extern const GoalLabels& labels; extern GoalLabels::Index index;",
-    "goal_tree.h": "extern const CostGrid &map, &old_map, &new_map; extern const Moves& moves;"
-                   "extern Cell goal, start, moved_start; extern double ahead; extern PlanResult result;"
+    "backward_nodes.h": "extern const BackwardNodes& labels; extern BackwardNodes::Index index;",
+    "backward_search_tree.h": "extern const CostGrid &map, &old_map, &new_map; extern const MovePruning& moves;"
+                   "extern Cell goal, start, moved_start; extern double ahead; extern SearchResult result;"
                    "extern CellRect changed;",
     "ground_filter.h": "extern std::vector<Eigen::Vector3d> points; extern GroundFilterOptions options;",
     "headings.h": "extern Path path; extern Pose start, goal;",
@@ -43,23 +43,23 @@ CONTEXT = {
                             "extern CellRect changed; extern Cell start, moved_start, goal;",
     "joystick.h": """#include "grid_path_planner/simulation/vehicle.h"
         extern std::vector<double> axes; extern std::vector<bool> buttons; extern Vehicle vehicle;""",
-    "jump_lanes.h": "extern const JumpLanes& lanes; extern std::size_t row; extern unsigned column;"
+    "straight_jump_table.h": "extern const StraightJumpTable& lanes; extern std::size_t row; extern unsigned column;"
                     "extern const CostGrid::Weight* weights;",
-    "jump_maps.h": "extern const CostGrid& map; extern Cell cell;",
-    "label_lines.h": "extern const GoalLabels& labels; extern CellRect rect;",
+    "jump_point_bits.h": "extern const CostGrid& map; extern Cell cell;",
+    "inconsistency_scan.h": "extern const BackwardNodes& labels; extern CellRect rect;",
     "landmark_table.h": "extern const CostGrid& map; extern std::uint32_t index, goal_index;",
-    "map_keeper.h": "extern ProjectedMapOptions options; extern std::vector<Eigen::Vector3d> points;"
+    "map_model.h": "extern ProjectedMapOptions options; extern std::vector<Eigen::Vector3d> points;"
                     "extern CloudFrames frames;",
-    "map_planner.h": """#include "grid_path_planner/grid/map_file.h"
+    "path_planner.h": """#include "grid_path_planner/grid/map_file.h"
         extern PlannerOptions options; extern Pose start, goal;""",
     "map_sizes.h": "extern const RectangleGraph& map;",
-    "map_turns.h": """#include "grid_path_planner/grid/occupancy.h"
+    "double_buffered.h": """#include "grid_path_planner/grid/occupancy.h"
         extern std::shared_ptr<const OccupancyGrid> reader; extern OccupancyGrid map;
         extern CellRect changed; extern Cell cell;""",
-    "mapping_desk.h": "extern ProjectedMapOptions options;",
-    "near_obstacles.h": "extern const Grid<Occupancy>& classes; extern CellRect sources, rect;"
+    "mapping_thread.h": "extern ProjectedMapOptions options;",
+    "bounded_distance_transform.h": "extern const Grid<Occupancy>& classes; extern CellRect sources, rect;"
                         "extern int reach;",
-    "neighbourhoods.h": """#include "grid_path_planner/search/steps.h"
+    "simd_neighbourhood.h": """#include "grid_path_planner/planners/steps.h"
         extern const CostGrid& map; extern CellRect rect; extern const StepRules& rules;
         extern std::vector<std::uint8_t> masks;""",
     "node_arguments.h": "extern int argc; extern char** argv;",
@@ -70,70 +70,70 @@ CONTEXT = {
                               "extern ros::Publisher publisher;",
     "octree_map.h": "extern OctreeOptions options; extern octomap::point3d origin;"
                     "extern std::vector<octomap::point3d> hits, clear_only;",
-    "option_parsing.h": """#include "grid_path_planner/planners/map_planner.h"
+    "option_parsing.h": """#include "grid_path_planner/planning/path_planner.h"
         extern OptionInfo info; extern PlannerOptions options;""",
     "option_visitor.h": "enum class E {}; struct O { double radius; E kernel_rule; };",
     "parameters.h": """#include <grid_path_planner/PathPlannerConfig.h>
-        #include "grid_path_planner/planners/map_planner.h\"""",
+        #include "grid_path_planner/planning/path_planner.h\"""",
     "path_follower.h": "extern FollowerOptions options; extern Path path; extern double time;"
                        "extern Pose pose; extern WayCheck check;",
-    "patient_queue.h": "extern SearchKey first, width, key, bound; extern std::uint32_t order, index;"
-                       "extern bool (*renew)(PatientQueue::Entry&);",
-    "picture.h": "extern OccupancyGrid map; extern OccupancyThresholds thresholds; extern Path path;"
+    "heap_on_top_queue.h": "extern SearchKey first, width, key, bound; extern std::uint32_t order, index;"
+                       "extern bool (*renew)(HeapOnTopQueue::Entry&);",
+    "path_image.h": "extern OccupancyGrid map; extern OccupancyThresholds thresholds; extern Path path;"
                  "extern std::vector<Cell> expanded;",
-    "plan_desk.h": "extern ros::NodeHandle nh; extern PathPlannerNodeOptions options;"
-                   "extern PlanQuestion question;",
-    "plan_engine.h": "extern MapReceiver maps; extern FrameTransforms transforms;"
-                     "extern PlanQuestion question; extern PathPlannerNodeOptions options;"
+    "planning_server.h": "extern ros::NodeHandle nh; extern PathPlannerNodeOptions options;"
+                   "extern PlanningRequest question;",
+    "planning_backend.h": "extern MapReceiver maps; extern FrameTransforms transforms;"
+                     "extern PlanningRequest question; extern PathPlannerNodeOptions options;"
                      "extern StopSource source;",
-    "plan_worker.h": "void plan(const StopSource&); void save(const StopSource&);",
-    "planner.h": """#include "grid_path_planner/planners/catalogue.h"
+    "task_queue.h": "void plan(const StopSource&); void save(const StopSource&);",
+    "planner.h": """#include "grid_path_planner/planners/planner_factory.h"
         extern SearchOptions options; extern std::shared_ptr<const CostGrid> map;
         extern StopSource source;""",
-    "prepared_heuristic.h": "extern SearchOptions options; extern std::shared_ptr<const CostGrid> map;"
-                            "extern std::uint32_t goal; PlanResult search(SearchKey);"
+    "precomputed_heuristic.h": "extern SearchOptions options; extern std::shared_ptr<const CostGrid> map;"
+                            "extern std::uint32_t goal; SearchResult search(SearchKey);"
                             "extern KeyScale scale; extern std::uint32_t index;",
-    "prepared_table.h": """#include "grid_path_planner/search/landmark_table.h"
+    "precomputed_table.h": """#include "grid_path_planner/planners/landmark_table.h"
         extern std::shared_ptr<const CostGrid> map; extern std::uint32_t goal_index;""",
     "process_pool.h": "extern std::vector<int> units; std::string done(int); extern std::size_t task;",
-    "projection.h": """#include "grid_path_planner/octree/octree_map.h"
+    "projection.h": """#include "grid_path_planner/mapping/octree_map.h"
         extern OctreeMap map; extern ProjectionOptions options; extern Scan scan;
         void send(const OccupancyGrid&, const CellRect&); void sendWhole(const OccupancyGrid&);""",
     "rectangle_file.h": "extern RectangleGraph map;",
-    "rectangle_graph.h": """#include "grid_path_planner/rectangles/decomposition.h"
+    "rectangle_graph.h": """#include "grid_path_planner/planners/decomposition.h"
         extern GridGeometry geometry; extern const BitMaps& bits; extern Cell cell;
         extern CellRect changed;""",
     "rectangle_keeper.h": "extern std::shared_ptr<const CostGrid> map, changed_map;"
                           "extern CellRect changed; void search(const RectangleGraph&);",
-    "rectangle_mesh.h": """#include "grid_path_planner/rectangles/decomposition.h"
+    "polyanya_mesh.h": """#include "grid_path_planner/planners/decomposition.h"
         extern const BitMap& free_cells;""",
     "rectangle_messages.h": "extern GridGeometry geometry; extern std::vector<CellRect> rectangles;"
                             "extern RectangleMap message; extern ros::Publisher publisher;",
     "rectangle_publisher.h": "extern ros::NodeHandle nh; extern std::shared_ptr<const CostGrid> costs;"
                              "extern std::size_t memory_limit;",
-    "rising_keys.h": "extern const GoalLabels& labels; extern const CostGrid& map;"
-                     "extern Cell start, next_start; extern SearchKey cost; extern RisingKeys::Index index;",
-    "run_node.h": '#include "grid_path_planner/ros/simulator_node.h"',
+    "d_star_keys.h": "extern const BackwardNodes& labels; extern const CostGrid& map;"
+                     "extern Cell start, next_start; extern SearchKey cost; extern DStarKeys::Index index;",
+    "run_node.h": '#include "ros/simulation/simulator_node.h"',
     "seabed.h": "extern const OccupancyBricks& bricks; extern std::vector<BrickColumn> changed;"
                 "extern BrickColumn column;",
     "smoothing.h": "extern const CostGrid& map; extern std::vector<SegmentPoint> points;",
-    "terrain.h": "extern TerrainOptions options; extern std::shared_ptr<const OccupancyGrid> map;",
+    "costmap_builder.h": "extern CostmapOptions options; extern std::shared_ptr<const OccupancyGrid> map;",
     "tile_nodes.h": "extern GridGeometry geometry; extern Cell cell;",
-    "touch.h": """#include "grid_path_planner/grid/occupancy.h"
+    "prefetch.h": """#include "grid_path_planner/grid/occupancy.h"
         extern const OccupancyGrid& map; extern CellRect changed;""",
     "triangle_mesh.h": "extern Eigen::Isometry3d pose;",
     "unused_options.h": "extern PlannerOptions options; void warn(const std::string&);",
     "vehicle.h": "extern VehicleOptions options; extern std::shared_ptr<const World> world;",
     "vehicle_publisher.h": "extern ros::NodeHandle nh; extern VehicleState truth, measured;"
                            "extern ros::Time stamp; extern VehicleFrameNames frames;",
-    "waiting_cells.h": "extern GridGeometry geometry; extern SearchKey first, width, below;"
-                       "extern RisingKeys keys; extern WaitingCells::Index index;",
+    "tiled_open_list.h": "extern GridGeometry geometry; extern SearchKey first, width, below;"
+                       "extern DStarKeys keys; extern TiledOpenList::Index index;",
     "waypoint_file.h": "extern Path path;",
-    "weight_changes.h": "extern const CostGrid &before, &after; extern CellRect changed;",
+    "cost_decreases.h": "extern const CostGrid &before, &after; extern CellRect changed;",
     "weight_counts.h": "extern Grid<WeightCounts::Weight> weights, next_weights; extern CellRect changed;",
     "weighted_jump_map.h": "extern const CostGrid& map; extern Cell cell, goal; extern std::uint32_t index;"
                            "extern const CostGrid::Weight* weights; constexpr unsigned kEast = 0;",
-    "weighted_jump_search.h": "extern const CostGrid& map; extern PlanRequest request;",
+    "weighted_jump_search.h": "extern const CostGrid& map; extern SearchRequest request;",
     "world.h": """#include "grid_path_planner/simulation/world_file.h"
         #include <iostream>
         extern Eigen::Vector3d position;""",

@@ -3,6 +3,11 @@
 #include <stdexcept>
 
 namespace grid_path_planner::test {
+
+using grid::Cell;
+using grid::GridGeometry;
+using grid::Origin;
+
 namespace {
 
 std::int8_t occupancyOf(char letter) {

@@ -16,11 +16,11 @@ namespace grid_path_planner::test {
 struct AsciiMap {
   // Throws std::invalid_argument for lines of different lengths and other letters.
   explicit AsciiMap(const std::vector<std::string>& lines, double resolution = 1.0,
-                    const Origin& origin = {});
+                    const grid::Origin& origin = {});
 
-  OccupancyGrid map;
-  Cell start;
-  Cell goal;
+  grid::OccupancyGrid map;
+  grid::Cell start;
+  grid::Cell goal;
 };
 
 }  // namespace grid_path_planner::test

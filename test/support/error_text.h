@@ -12,7 +12,7 @@ template <class Action>
 std::string errorText(const Action& action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const base::InputError& error) {
     return error.what();
   }
   return "";

@@ -4,6 +4,14 @@
 #include <stdexcept>
 
 namespace grid_path_planner::test {
+
+using base::StopToken;
+using costmap::BitMaps;
+using grid::Cell;
+using grid::CellRect;
+using grid::Grid;
+using grid::GridGeometry;
+
 namespace {
 
 GridGeometry randomGeometry(std::mt19937& random, int largest_side) {

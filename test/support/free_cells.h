@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/terrain/bit_maps.h"
+#include "grid_path_planner/costmap/bit_maps.h"
 #include "support/rectangle_survey.h"
 
 namespace grid_path_planner::test {
@@ -22,13 +22,13 @@ FreeCells randomFreeCells(std::mt19937& random, int largest_side, double free);
 // Blocks of random sizes taken out of free space, as rooms and walls are.
 FreeCells randomBlocks(std::mt19937& random, int largest_side);
 
-BitMaps bitMapsOf(const FreeCells& free);
+costmap::BitMaps bitMapsOf(const FreeCells& free);
 
 // Precondition: `rect` lies in the map.
-void fillCells(FreeCells& cells, const CellRect& rect, std::uint8_t value);
+void fillCells(FreeCells& cells, const grid::CellRect& rect, std::uint8_t value);
 
 // Whether every free cell lies in exactly one of the rectangles and no other does, and none of them
 // is empty.
-bool isPartition(const FreeCells& free, const std::vector<CellRect>& rectangles);
+bool isPartition(const FreeCells& free, const std::vector<grid::CellRect>& rectangles);
 
 }  // namespace grid_path_planner::test

@@ -21,7 +21,7 @@ inline double beyond(double limit, int direction) {
 
 // The name is under_scored, perhaps in a group ("sensor_model/hit"), and the description a sentence
 // that stands on one line.
-inline void expectDocumented(const std::string& name, const OptionInfo& info) {
+inline void expectDocumented(const std::string& name, const base::OptionInfo& info) {
   EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_/"), std::string::npos)
       << name;
   const std::string description = info.description;
@@ -41,11 +41,11 @@ inline std::string groupOf(const std::string& name) {
 // and a default is among the names that it is one of.
 template <class Options>
 void expectOptionLaws() {
-  EXPECT_EQ(errorText([] { checkOptionLimits(Options{}); }), "") << "of the defaults";
+  EXPECT_EQ(errorText([] { base::checkOptionLimits(Options{}); }), "") << "of the defaults";
   std::set<std::string> names, groups;
   std::string group;
   Options options;
-  visitOptions(options, [&](const char* name, auto& value, const OptionInfo& info) {
+  visitOptions(options, [&](const char* name, auto& value, const base::OptionInfo& info) {
     using Value = std::decay_t<decltype(value)>;
     expectDocumented(name, info);
     EXPECT_TRUE(names.insert(name).second) << name << " is there twice";
@@ -58,24 +58,25 @@ void expectOptionLaws() {
       for (const double outside : {beyond(info.minimum, -1), beyond(info.maximum, +1)}) {
         if (std::isinf(outside)) continue;
         value = static_cast<Value>(outside);
-        EXPECT_EQ(errorText([&] { checkOptionLimits(options); }).find(std::string(name) + " must"),
-                  0u)
+        EXPECT_EQ(
+            errorText([&] { base::checkOptionLimits(options); }).find(std::string(name) + " must"),
+            0u)
             << name << " = " << outside;
       }
       value = before;
     }
     if (info.names) {
       const auto& known = info.names();
-      EXPECT_EQ(std::count(known.begin(), known.end(), valueText(value)), 1) << name;
+      EXPECT_EQ(std::count(known.begin(), known.end(), base::valueText(value)), 1) << name;
     }
     if constexpr (std::is_enum_v<Value>) {
       for (const auto& choice : choicesOf(Value{})) {
-        EXPECT_EQ(choiceFromName<Value>(name, choice.first), choice.second);
-        EXPECT_STREQ(choiceName(choice.second), choice.first);
+        EXPECT_EQ(base::choiceFromName<Value>(name, choice.first), choice.second);
+        EXPECT_STREQ(base::choiceName(choice.second), choice.first);
       }
-      EXPECT_STRNE(choiceName(value), "?") << "the default of " << name;
+      EXPECT_STRNE(base::choiceName(value), "?") << "the default of " << name;
       EXPECT_EQ(errorText([&] {
-                  choiceFromName<Value>(name, "no such");
+                  base::choiceFromName<Value>(name, "no such");
                 }).find(std::string(name) + " must be one of"),
                 0u);
     }

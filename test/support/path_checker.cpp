@@ -6,6 +6,14 @@
 #include <sstream>
 
 namespace grid_path_planner::test {
+
+using grid::Cell;
+using grid::Grid;
+using grid::Occupancy;
+using grid::OccupancyGrid;
+using path::Path;
+using path::Pose;
+
 namespace {
 
 constexpr double kSamePlace = 1e-9;  // metres

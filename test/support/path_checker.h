@@ -21,7 +21,7 @@
 namespace grid_path_planner::test {
 
 struct PathRules {
-  OccupancyThresholds thresholds;
+  grid::OccupancyThresholds thresholds;
   double radius = 0.0;  // m
   bool unknown_is_passable = true;
   bool occupied_is_passable = false;
@@ -35,7 +35,8 @@ const std::vector<std::string> kNoViolations;
 
 // The path's yaw at its first pose is a matter of the heading mode and not judged, nor are heights
 // but for being finite.
-std::vector<std::string> pathViolations(const Path& path, const Pose& start, const Pose& goal,
-                                        const OccupancyGrid& map, const PathRules& rules = {});
+std::vector<std::string> pathViolations(const path::Path& path, const path::Pose& start,
+                                        const path::Pose& goal, const grid::OccupancyGrid& map,
+                                        const PathRules& rules = {});
 
 }  // namespace grid_path_planner::test

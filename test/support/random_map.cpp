@@ -5,9 +5,23 @@
 #include <memory>
 #include <utility>
 
-#include "grid_path_planner/terrain/terrain.h"
+#include "grid_path_planner/costmap/costmap_builder.h"
 
 namespace grid_path_planner::test {
+
+using base::StopToken;
+using costmap::CostGrid;
+using costmap::CostmapBuilder;
+using costmap::CostmapOptions;
+using costmap::MotionModel;
+using grid::Cell;
+using grid::CellIndex;
+using grid::CellRect;
+using grid::Grid;
+using grid::GridGeometry;
+using grid::Occupancy;
+using grid::OccupancyGrid;
+
 namespace {
 
 int between(std::mt19937& random, int low, int high) {
@@ -118,14 +132,14 @@ CostGrid randomInflated(std::mt19937& random, const GridGeometry& geometry,
   const auto area = static_cast<int>(geometry.size());
   for (int left = between(random, 0, 4 + area / 300); left > 0; --left)
     fill(random, *map, between(random, 0, 3) == 0 ? -1 : 100);
-  TerrainOptions options;
+  CostmapOptions options;
   options.motion = motion;
   options.radius = between(random, 0, 2);
   options.decay = between(random, 0, 3) * 0.25;
   options.unknown_weight = between(random, 1, 50);
-  Terrain terrain(options);
+  CostmapBuilder terrain(options);
   terrain.setMap(map);
-  return *terrain.searched(StopToken());
+  return *terrain.downsampled(StopToken());
 }
 
 }  // namespace grid_path_planner::test

@@ -3,25 +3,27 @@
 
 #include <random>
 
+#include "grid_path_planner/costmap/cost_grid.h"
 #include "grid_path_planner/grid/occupancy.h"
-#include "grid_path_planner/terrain/cost_grid.h"
 
 namespace grid_path_planner::test {
 
 // Occupied with probability `occupied`, unknown with `unknown`, else free; sides 1..largest_side.
-OccupancyGrid randomOccupancy(std::mt19937& random, int largest_side, double occupied,
-                              double unknown);
+grid::OccupancyGrid randomOccupancy(std::mt19937& random, int largest_side, double occupied,
+                                    double unknown);
 
 // Weights of one of five kinds, drawn anew each time: uniform, few values that tie, plateaus, rings
 // and noise; a share of the cells blocked.
-CostGrid randomCosts(std::mt19937& random, int largest_side, const MotionModel& motion);
-CostGrid randomCosts(std::mt19937& random, const GridGeometry& geometry, const MotionModel& motion);
+costmap::CostGrid randomCosts(std::mt19937& random, int largest_side,
+                              const costmap::MotionModel& motion);
+costmap::CostGrid randomCosts(std::mt19937& random, const grid::GridGeometry& geometry,
+                              const costmap::MotionModel& motion);
 
 // As robots have them: rectangular obstacles, inflated by a few cells with or without a decay,
 // among free and unknown ground.
-CostGrid randomInflated(std::mt19937& random, const GridGeometry& geometry,
-                        const MotionModel& motion);
+costmap::CostGrid randomInflated(std::mt19937& random, const grid::GridGeometry& geometry,
+                                 const costmap::MotionModel& motion);
 
-Cell randomCell(std::mt19937& random, const GridGeometry& geometry);
+grid::Cell randomCell(std::mt19937& random, const grid::GridGeometry& geometry);
 
 }  // namespace grid_path_planner::test

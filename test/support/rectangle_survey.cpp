@@ -3,6 +3,10 @@
 #include <tuple>
 
 namespace grid_path_planner::test {
+
+using grid::Cell;
+using grid::CellRect;
+
 namespace {
 
 // Whether `a` is taken before `b`.

@@ -1,5 +1,5 @@
 // The published decomposition as published: the whole map is surveyed for the largest empty
-// rectangle, which is taken away, again and again. The reference of rectangles/decomposition.h.
+// rectangle, which is taken away, again and again. The reference of planners/decomposition.h.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,15 @@
 namespace grid_path_planner::test {
 
 // A byte a cell, not 0 where it is free.
-using FreeCells = Grid<std::uint8_t>;
+using FreeCells = grid::Grid<std::uint8_t>;
 
 // Of equally large ones: smallest first column, then smallest last row, then greatest width.
-std::optional<CellRect> largestRectangle(const FreeCells& free);
+std::optional<grid::CellRect> largestRectangle(const FreeCells& free);
 
 // The same by trying every rectangle of the map: for small ones.
-std::optional<CellRect> largestRectangleByTrying(const FreeCells& free);
+std::optional<grid::CellRect> largestRectangleByTrying(const FreeCells& free);
 
 // At most `count` rectangles, largest first.
-std::vector<CellRect> surveyRectangles(FreeCells free, std::size_t count);
+std::vector<grid::CellRect> surveyRectangles(FreeCells free, std::size_t count);
 
 }  // namespace grid_path_planner::test

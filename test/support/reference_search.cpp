@@ -6,6 +6,13 @@
 #include <utility>
 
 namespace grid_path_planner::test {
+
+using costmap::Connectivity;
+using costmap::CostGrid;
+using costmap::DiagonalCost;
+using costmap::ExactCost;
+using grid::Cell;
+
 namespace {
 
 struct Step {

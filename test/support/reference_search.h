@@ -5,11 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "grid_path_planner/terrain/cost_grid.h"
+#include "grid_path_planner/costmap/cost_grid.h"
 
 namespace grid_path_planner::test {
 
 // From `start` to every cell, by index; none where no way leads.
-std::vector<std::optional<ExactCost>> referenceCosts(const CostGrid& map, Cell start);
+std::vector<std::optional<costmap::ExactCost>> referenceCosts(const costmap::CostGrid& map,
+                                                              grid::Cell start);
 
 }  // namespace grid_path_planner::test

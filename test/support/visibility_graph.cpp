@@ -4,9 +4,16 @@
 #include <limits>
 #include <vector>
 
-#include "grid_path_planner/terrain/segment.h"
+#include "grid_path_planner/costmap/line_of_sight.h"
 
 namespace grid_path_planner::test {
+
+using costmap::CostGrid;
+using costmap::lineOfSight;
+using costmap::SegmentPoint;
+using costmap::waypointOf;
+using grid::Cell;
+
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -49,7 +56,7 @@ std::optional<double> shortestAnyAngle(const CostGrid& map, Cell start, Cell goa
     for (std::size_t to = 0; to < points.size(); ++to) {
       if (done[to]) continue;
       const double length = lengths[from] + distance(points[from], points[to]);
-      if (length < lengths[to] && segmentLegal(map, points[from], points[to])) lengths[to] = length;
+      if (length < lengths[to] && lineOfSight(map, points[from], points[to])) lengths[to] = length;
     }
   }
 }

@@ -1,15 +1,16 @@
 // Shortest any-angle paths by brute force: Dijkstra over all corners at which a path can turn, with
-// an edge wherever terrain/segment.h allows the straight way.
+// an edge wherever costmap/line_of_sight.h allows the straight way.
 #pragma once
 
 #include <optional>
 
-#include "grid_path_planner/terrain/cost_grid.h"
+#include "grid_path_planner/costmap/cost_grid.h"
 
 namespace grid_path_planner::test {
 
 // The length in cells of the shortest legal path between the waypoints of two passable cells; none
 // where no way leads. Takes time for the square of the number of corners.
-std::optional<double> shortestAnyAngle(const CostGrid& map, Cell start, Cell goal);
+std::optional<double> shortestAnyAngle(const costmap::CostGrid& map, grid::Cell start,
+                                       grid::Cell goal);
 
 }  // namespace grid_path_planner::test

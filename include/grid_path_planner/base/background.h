@@ -21,7 +21,7 @@
 
 #include "grid_path_planner/base/stop_token.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 template <class Result>
 class Background {
@@ -90,4 +90,4 @@ class Background {
   std::thread thread_;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 // In base_link (REP 103): x ahead, y to the left, z up, yaw anticlockwise seen from above.
 struct BodyVelocity {
@@ -19,4 +19,4 @@ struct BodyVelocity {
   }
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 // The shortest decimal that reads back as the same double; the same in every locale.
 std::string decimalText(double value);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 // By the zlib strategy that makes it smallest.
 std::string deflated(const std::string& bytes);
@@ -12,4 +12,4 @@ std::string deflated(const std::string& bytes);
 // to more than `largest` bytes.
 std::string inflated(const std::string& packed, std::size_t largest);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 // Input that cannot be used. `what()` is one sentence for a person: where, what was expected and
 // what was found, e.g. "maps/site.yaml:3: resolution must be a positive number of metres, got
@@ -19,4 +19,4 @@ class InputError : public std::runtime_error {
       : std::runtime_error(file + ":" + std::to_string(line) + ": " + message) {}
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

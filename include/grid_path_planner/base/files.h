@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <string>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 // The bytes of `file`. Throws InputError naming the file where it does not exist, is a directory,
 // cannot be read, is empty or is larger than `largest` bytes.
@@ -42,4 +42,4 @@ class HoldFileSizeSignal {
   sigset_t before_;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -1,7 +1,7 @@
 // The yaw of an orientation that must lie level, as a map's origin and a waypoint do.
 #pragma once
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 constexpr double kLargestTilt = 1e-3;  // radians of roll and pitch together that count as level
 
@@ -10,4 +10,4 @@ constexpr double kLargestTilt = 1e-3;  // radians of roll and pitch together tha
 // by more than kLargestTilt.
 double yawOfLevelQuaternion(double x, double y, double z, double w);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -16,7 +16,7 @@
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/options.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 // Throws InputError naming `name` for anything but one finite number.
 double numberFromText(const std::string& name, const std::string& text);
@@ -108,4 +108,4 @@ std::string optionText(const Options& options) {
 // sensor_model/hit is sensor_model_hit.
 std::string configName(std::string name);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -29,7 +29,7 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 struct OptionInfo {
   // What it is, and what follows from another value: "Side of a block; higher: faster, coarser".
@@ -107,4 +107,4 @@ bool sameOptions(const Options& a, const Options& b) {
   return differingOptions(a, b).empty();
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 struct Statistics {
   std::uint64_t expanded = 0;  // nodes taken from the open list and whose neighbours were looked at
@@ -27,4 +27,4 @@ struct Statistics {
   }
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 enum class Status {
   FOUND,
@@ -25,4 +25,4 @@ enum class Status {
 // The enumerator's own name, e.g. "START_OCCUPIED".
 std::string_view toString(Status status);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -17,7 +17,7 @@
 
 #include "grid_path_planner/base/status.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 enum class StopReason { NONE, TIMEOUT, CANCELLED };
 
@@ -64,7 +64,7 @@ class StopSource {
 };
 
 // Thrown inside a computation whose token asks to stop; the public doors (Planner::plan,
-// MapPlanner) turn it into the status it stands for.
+// PathPlanner) turn it into the status it stands for.
 class Stopped {
  public:
   explicit Stopped(StopReason reason) : reason_(reason) {}
@@ -100,4 +100,4 @@ class StopPoll {
   std::uint32_t calls_ = 0;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

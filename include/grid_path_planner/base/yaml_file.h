@@ -9,7 +9,7 @@
 // the parser say more than a text of its length can.
 //
 // A parsed tree takes about a hundred times the memory of its text. Long lists of numbers (the data
-// of a map) are therefore read by grid/occupancy_dump.h without one.
+// of a map) are therefore read by grid/formats/occupancy_dump.h without one.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -20,7 +20,7 @@
 
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 constexpr int kDeepestYaml = 64;                           // levels
 constexpr std::size_t kLargestYaml = 64u * 1024u * 1024u;  // bytes
@@ -75,4 +75,4 @@ T yamlValueOr(const YAML::Node& parent, const std::string& key, const std::strin
   return yamlHas(parent, key, file) ? yamlValue<T>(parent, key, file, expected) : fallback;
 }
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

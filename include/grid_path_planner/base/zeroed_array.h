@@ -10,7 +10,7 @@
 #include <memory>
 #include <type_traits>
 
-namespace grid_path_planner {
+namespace grid_path_planner::base {
 
 // `count` x `size` bytes of zeros. Throws std::bad_alloc.
 void* zeroedMemory(std::size_t count, std::size_t size);
@@ -42,4 +42,4 @@ class ZeroedArray {
   std::size_t size_ = 0;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::base

@@ -6,7 +6,7 @@
 
 #include "grid_path_planner/base/options.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::following {
 
 enum class FollowMode { CONTINUOUS, STOP_AT_EACH };
 const std::vector<std::pair<const char*, FollowMode>>& choicesOf(FollowMode);
@@ -47,70 +47,77 @@ struct FollowerOptions {
 template <class Visitor>
 void visitOptions(FollowerOptions& o, Visitor&& visit) {
   visit("max_speed", o.max_speed,
-        OptionInfo{"Speed along the path in the plane", "m/s", 0.01, 100.0}.under("Speeds"));
+        base::OptionInfo{"Speed along the path in the plane", "m/s", 0.01, 100.0}.under("Speeds"));
   visit("max_vertical_speed", o.max_vertical_speed,
-        OptionInfo{"Speed up and down; steep parts are driven slower for it", "m/s", 0.01, 100.0});
-  visit("max_yaw_rate", o.max_yaw_rate, OptionInfo{"Fastest turn", "rad/s", 0.01, 100.0});
+        base::OptionInfo{"Speed up and down; steep parts are driven slower for it", "m/s", 0.01,
+                         100.0});
+  visit("max_yaw_rate", o.max_yaw_rate, base::OptionInfo{"Fastest turn", "rad/s", 0.01, 100.0});
   visit("max_acceleration", o.max_acceleration,
-        OptionInfo{"Change of speed; not above the vehicle's own, or it overshoots", "m/s^2", 0.01,
-                   100.0});
+        base::OptionInfo{"Change of speed; not above the vehicle's own, or it overshoots", "m/s^2",
+                         0.01, 100.0});
   visit("max_yaw_acceleration", o.max_yaw_acceleration,
-        OptionInfo{"Change of the yaw rate; not above the vehicle's own, or it overshoots",
-                   "rad/s^2", 0.01, 100.0});
+        base::OptionInfo{"Change of the yaw rate; not above the vehicle's own, or it overshoots",
+                         "rad/s^2", 0.01, 100.0});
   visit("position_gain", o.position_gain,
-        OptionInfo{"Speed per metre off the path or before a stop; higher: stiffer, less stable",
-                   "1/s", 0.05, 20.0});
-  visit(
-      "yaw_gain", o.yaw_gain,
-      OptionInfo{"Yaw rate per radian of error; higher: stiffer, less stable", "1/s", 0.05, 20.0});
-  visit(
-      "mode", o.mode,
-      OptionInfo{"continuous passes intermediate waypoints, stop_at_each stops at them", ""}.under(
-          "How waypoints are driven"));
+        base::OptionInfo{
+            "Speed per metre off the path or before a stop; higher: stiffer, less stable", "1/s",
+            0.05, 20.0});
+  visit("yaw_gain", o.yaw_gain,
+        base::OptionInfo{"Yaw rate per radian of error; higher: stiffer, less stable", "1/s", 0.05,
+                         20.0});
+  visit("mode", o.mode,
+        base::OptionInfo{"continuous passes intermediate waypoints, stop_at_each stops at them", ""}
+            .under("How waypoints are driven"));
   visit("facing", o.facing,
-        OptionInfo{"Where the vehicle looks; path_yaw: as the waypoints say, turning evenly "
-                   "between them; along: where it drives",
-                   ""});
+        base::OptionInfo{"Where the vehicle looks; path_yaw: as the waypoints say, turning evenly "
+                         "between them; along: where it drives",
+                         ""});
   visit("acceptance_radius", o.acceptance_radius,
-        OptionInfo{"A waypoint counts as reached this near; farther off the path the vehicle first "
-                   "returns to it",
-                   "m", 0.01, 100.0});
+        base::OptionInfo{
+            "A waypoint counts as reached this near; farther off the path the vehicle first "
+            "returns to it",
+            "m", 0.01, 100.0});
   visit("position_tolerance", o.position_tolerance,
-        OptionInfo{"How near to the last waypoint, or to one it stops at, the vehicle must come",
-                   "m", 0.001, 100.0});
+        base::OptionInfo{
+            "How near to the last waypoint, or to one it stops at, the vehicle must come", "m",
+            0.001, 100.0});
   visit("yaw_tolerance", o.yaw_tolerance,
-        OptionInfo{"How exactly it must look there as the waypoint says", "rad", 0.001, 3.2});
+        base::OptionInfo{"How exactly it must look there as the waypoint says", "rad", 0.001, 3.2});
   visit("settle_time", o.settle_time,
-        OptionInfo{"How long it must stay inside both tolerances for a stop", "s", 0.0, 3600.0});
+        base::OptionInfo{"How long it must stay inside both tolerances for a stop", "s", 0.0,
+                         3600.0});
   visit("hold_pose", o.hold_pose,
-        OptionInfo{"Whether a vehicle that drifts off after its arrival is brought back; false: it "
-                   "is left alone",
-                   ""});
-  visit("pursuit_distance", o.pursuit_distance,
-        OptionInfo{"How far ahead on the path it steers to; longer: smoother, rounder corners", "m",
-                   0.01, 100.0});
+        base::OptionInfo{
+            "Whether a vehicle that drifts off after its arrival is brought back; false: it "
+            "is left alone",
+            ""});
+  visit(
+      "pursuit_distance", o.pursuit_distance,
+      base::OptionInfo{"How far ahead on the path it steers to; longer: smoother, rounder corners",
+                       "m", 0.01, 100.0});
   visit("lookahead", o.lookahead,
-        OptionInfo{
+        base::OptionInfo{
             "How much of the path ahead must be free in the map; longer than it needs to brake",
             "m", 0.0, 1000.0});
   visit("loop", o.loop,
-        OptionInfo{"Whether the path is driven again and again; a change counts for the next path",
-                   ""});
+        base::OptionInfo{
+            "Whether the path is driven again and again; a change counts for the next path", ""});
   visit(
       "missed_waypoint", o.missed_waypoint,
-      OptionInfo{"What happens at a waypoint that was not reached; each one is reported", ""}.under(
-          "What goes wrong"));
+      base::OptionInfo{"What happens at a waypoint that was not reached; each one is reported", ""}
+          .under("What goes wrong"));
   visit("max_retries", o.max_retries,
-        OptionInfo{"How often one drive may retry before it fails", "", 0, 1000000});
+        base::OptionInfo{"How often one drive may retry before it fails", "", 0, 1000000});
   visit("no_progress_timeout", o.no_progress_timeout,
-        OptionInfo{"The drive fails this long after the last progress; 0: never", "s", 0.0, 1e6});
+        base::OptionInfo{"The drive fails this long after the last progress; 0: never", "s", 0.0,
+                         1e6});
   visit("blocked_timeout", o.blocked_timeout,
-        OptionInfo{"The drive fails when it has been blocked this long; 0: it waits for ever", "s",
-                   0.0, 1e6});
+        base::OptionInfo{"The drive fails when it has been blocked this long; 0: it waits for ever",
+                         "s", 0.0, 1e6});
 }
 
 // Throws InputError naming the option for a value outside its limits, for a position_tolerance
 // above the acceptance_radius.
 void checkFollowerOptions(const FollowerOptions& options);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::following

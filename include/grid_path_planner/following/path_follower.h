@@ -34,7 +34,7 @@
 #include "grid_path_planner/following/follower_options.h"
 #include "grid_path_planner/path/path.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::following {
 
 class DrivenRoute;
 
@@ -69,9 +69,9 @@ struct FollowEvent {
 using WayCheck = std::function<std::string(const std::vector<Eigen::Vector3d>& way)>;
 
 struct FollowInput {
-  double time = 0.0;         // s
-  std::optional<Pose> pose;  // in the path's frame; none where it is not known now
-  WayCheck check = {};       // none: every way is free
+  double time = 0.0;               // s
+  std::optional<path::Pose> pose;  // in the path's frame; none where it is not known now
+  WayCheck check = {};             // none: every way is free
   std::string pose_problem =
       {};  // why there is no pose, in a sentence; empty: nothing more is known
 };
@@ -88,7 +88,7 @@ class PathFollower {
 
   // Drives `path` instead of what was driven before; a paused follower stays paused. Throws
   // InputError for a path that checkWaypoints refuses, then the drive before goes on.
-  void start(const Path& path, Join join);
+  void start(const path::Path& path, Join join);
 
   // Whether the state is now the one asked for, and a sentence about it. Pausing needs a drive,
   // resuming a drive; cancelling is always possible.
@@ -102,7 +102,7 @@ class PathFollower {
   Answer cancel(const std::string& reason);
 
   // The velocity from now on. Times must not decrease; one that does cancels the drive.
-  BodyVelocity update(const FollowInput& input);
+  base::BodyVelocity update(const FollowInput& input);
 
   FollowState state() const { return state_; }
   // DRIVING, PAUSED or BLOCKED.
@@ -112,7 +112,7 @@ class PathFollower {
   // One sentence about how that was, or why the vehicle is blocked.
   const std::string& message() const { return message_; }
 
-  const Path& path() const { return path_; }
+  const path::Path& path() const { return path_; }
   // Index of the waypoint that is driven to, or was last; 0 before the first update.
   int currentWaypoint() const { return current_waypoint_; }
   // Metres along the path to its end, of this lap in a loop; infinity before the first update.
@@ -126,24 +126,24 @@ class PathFollower {
   std::vector<FollowEvent> takeEvents();
 
  private:
-  void join(const Pose& vehicle);
+  void join(const path::Pose& vehicle);
   bool isHindered(const FollowInput& input);
   void block(double time, DriveStatus cause, const std::string& why);
-  BodyVelocity drive(const Pose& vehicle, double time, double seconds);
-  void advance(const Pose& vehicle, double time);
-  bool isSettled(const Pose& vehicle, double time);
+  base::BodyVelocity drive(const path::Pose& vehicle, double time, double seconds);
+  void advance(const path::Pose& vehicle, double time);
+  bool isSettled(const path::Pose& vehicle, double time);
   bool isPassed(const Eigen::Vector3d& position) const;
-  bool isMissedButGoesOn(const Pose& vehicle);
+  bool isMissedButGoesOn(const path::Pose& vehicle);
   void reach(int waypoint);
   void beginSegment(std::size_t segment);
   void appendLap();
-  void watchProgress(const Pose& vehicle, double time);
+  void watchProgress(const path::Pose& vehicle, double time);
   double shareOf(const Eigen::Vector3d& position) const;
   Eigen::Vector3d wantedVelocity(const Eigen::Vector3d& position) const;
-  double wantedYaw(const Pose& vehicle) const;
-  BodyVelocity holdPose(const Pose& vehicle, double seconds);
-  BodyVelocity limited(const Pose& vehicle, Eigen::Vector3d velocity, double yaw_error,
-                       double seconds);
+  double wantedYaw(const path::Pose& vehicle) const;
+  base::BodyVelocity holdPose(const path::Pose& vehicle, double seconds);
+  base::BodyVelocity limited(const path::Pose& vehicle, Eigen::Vector3d velocity, double yaw_error,
+                             double seconds);
   void end(FollowState state, DriveStatus status, const std::string& message);
   void report(FollowEvent::Kind kind, int waypoint, const std::string& message);
   void standStill();
@@ -155,7 +155,7 @@ class PathFollower {
   std::string message_ = "nothing was driven yet";
   std::vector<FollowEvent> events_;
 
-  Path path_;
+  path::Path path_;
   Join join_ = Join::FIRST;
   bool loop_ = false;
   std::unique_ptr<DrivenRoute> route_;  // none until the path is joined
@@ -167,7 +167,7 @@ class PathFollower {
   int retries_ = 0;
 
   std::optional<double> time_;
-  std::optional<Pose> pose_;
+  std::optional<path::Pose> pose_;
   std::optional<double> settled_since_;
   std::optional<double> blocked_since_;
   std::optional<double> progress_since_;
@@ -177,4 +177,4 @@ class PathFollower {
   bool returns_ = false;  // to where it arrived
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::following

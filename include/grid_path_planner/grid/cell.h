@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <ostream>
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 
 // Column grows with the map's x, row with its y, as in nav_msgs/OccupancyGrid.
 struct Cell {
@@ -61,4 +61,4 @@ struct CellRect {
   }
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

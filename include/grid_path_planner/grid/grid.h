@@ -10,7 +10,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/grid/grid_geometry.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 
 template <class T>
 class Grid {
@@ -22,10 +22,10 @@ class Grid {
   Grid(const GridGeometry& geometry, std::vector<T> values)
       : geometry_(geometry), values_(std::move(values)) {
     if (values_.size() != geometry_.size())
-      throw InputError("a map of " + std::to_string(geometry.width()) + "x" +
-                       std::to_string(geometry.height()) + " cells needs " +
-                       std::to_string(geometry.size()) + " values, got " +
-                       std::to_string(values_.size()));
+      throw base::InputError("a map of " + std::to_string(geometry.width()) + "x" +
+                             std::to_string(geometry.height()) + " cells needs " +
+                             std::to_string(geometry.size()) + " values, got " +
+                             std::to_string(values_.size()));
   }
 
   const GridGeometry& geometry() const { return geometry_; }
@@ -59,4 +59,4 @@ class Grid {
   std::vector<T> values_;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

@@ -14,7 +14,7 @@
 
 #include "grid_path_planner/grid/cell.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 
 // Pose of the corner of cell (0, 0) in the map frame: metres and radians, anticlockwise.
 struct Origin {
@@ -77,4 +77,4 @@ class GridGeometry {
   double sin_yaw_ = 0.0;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

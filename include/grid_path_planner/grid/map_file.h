@@ -1,5 +1,5 @@
 // Occupancy maps in files: map_server YAML with its image, MovingAI .map, a plain image, a drawing
-// (grid/vector_map_file.h), rectangles (grid/rectangle_map_file.h), and the text that `rostopic
+// (grid/formats/drawing_file.h), rectangles (grid/rectangle_map_file.h), and the text that `rostopic
 // echo` prints of a nav_msgs/OccupancyGrid. Bags are read by ros/bag.h, which needs ROS.
 //
 //   OccupancyGrid map = readMapFile("maps/site.yaml");
@@ -15,7 +15,7 @@
 
 #include "grid_path_planner/grid/occupancy.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 
 // map_server's three ways of turning a pixel into an occupancy.
 enum class MapMode { TRINARY, SCALE, RAW };
@@ -55,4 +55,4 @@ void writeImageFile(const std::string& file, const OccupancyGrid& map,
 void writeMovingAiFile(const std::string& file, const OccupancyGrid& map,
                        const OccupancyThresholds& thresholds = {});
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

@@ -5,7 +5,7 @@
 
 #include "grid_path_planner/grid/map_file.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 
 constexpr std::size_t kLargestMapFile = std::size_t{1} << 30;  // bytes
 
@@ -23,4 +23,4 @@ std::string withoutExtension(const std::string& file);
 // The last extension in lower case, without the dot: "pgm"; "" where there is none.
 std::string extensionOf(const std::string& file);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

@@ -6,7 +6,7 @@
 
 #include "grid_path_planner/grid/grid.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 
 enum class Occupancy : std::uint8_t { FREE, UNKNOWN, OCCUPIED };
 
@@ -26,4 +26,4 @@ struct OccupancyThresholds {
 void checkOccupancyValues(const OccupancyGrid& map);
 void checkOccupancyValues(const OccupancyGrid& map, const CellRect& rect);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

@@ -27,7 +27,7 @@
 // less 1; and in the order "as listed" all numbers. Each list is its packed length in 5 bytes and
 // itself, deflated (RFC 1951).
 //
-// Largest first is a rule (rectangles/decomposition.h), so that order need not be stored. For a
+// Largest first is a rule (planners/decomposition.h), so that order need not be stored. For a
 // city map of 1024x1024 cells and 15,257 rectangles this takes 18.8 kB; with the lists deflated
 // together 22.7 kB, with columns plainly less those before 27.4 kB, and listed largest first 39.9
 // kB.
@@ -38,7 +38,7 @@
 
 #include "grid_path_planner/grid/map_file.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::grid {
 
 struct RectangleMap {
   GridGeometry geometry;
@@ -63,4 +63,4 @@ RectangleMap parseRectangles(const std::string& content, const std::string& file
 OccupancyGrid parseRectangleMap(const std::string& content, const std::string& file,
                                 const MapFileOptions& options);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::grid

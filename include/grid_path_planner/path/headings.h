@@ -12,7 +12,7 @@
 
 #include "grid_path_planner/path/path.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
 
 // As users of navfn and global_planner know them (global_planner's orientation_mode).
 enum class HeadingMode {
@@ -40,4 +40,4 @@ const std::vector<std::pair<const char*, PathZ>>& choicesOf(PathZ);
 // no segment has a length; a single pose has the goal's), the one or the other, or `fixed_z`.
 void applyZ(Path& path, double start_z, double goal_z, double fixed_z, PathZ mode);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

@@ -4,7 +4,7 @@
 #include "grid_path_planner/grid/occupancy.h"
 #include "grid_path_planner/path/path.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
 
 // Length of the polyline in metres.
 double lengthOf(const Path& path);
@@ -17,7 +17,7 @@ double turningOf(const Path& path);
 // the path meets one or touches its edge, infinity where map or path are empty. Exact but for
 // rounding, not sampled. Takes time for one pass over the map and then a little a segment.
 // Precondition: the positions are finite.
-double clearanceOf(const Path& path, const OccupancyGrid& map,
-                   const OccupancyThresholds& thresholds);
+double clearanceOf(const Path& path, const grid::OccupancyGrid& map,
+                   const grid::OccupancyThresholds& thresholds);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
 
 // Metres and radians (anticlockwise about z).
 struct Pose {
@@ -20,4 +20,4 @@ struct Path {
   bool empty() const { return poses.empty(); }
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

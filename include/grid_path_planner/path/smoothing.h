@@ -3,7 +3,7 @@
 //   SmoothPath smooth = smoothed(map, points, stop);
 //   for (std::size_t i : smooth.kept) use(points[i]);
 //
-// Guaranteed: the ends stay, every segment is legal (terrain/segment.h), and none costs more than
+// Guaranteed: the ends stay, every segment is legal (costmap/line_of_sight.h), and none costs more than
 // what it replaces. No new points: a path of cells' centres keeps its half cell from what is
 // blocked, where the shortest one would graze it. Not guaranteed: that it is the least that the
 // points allow.
@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/terrain/cost_grid.h"
-#include "grid_path_planner/terrain/segment.h"
+#include "grid_path_planner/costmap/cost_grid.h"
+#include "grid_path_planner/costmap/line_of_sight.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
 
 struct SmoothPath {
   std::vector<std::size_t> kept;  // of the points, in order
@@ -25,7 +25,7 @@ struct SmoothPath {
 
 // Where a segment of the polyline is itself not legal all points are kept and the cost is infinite.
 // Throws Stopped. Precondition: at least one point, each inside the map.
-SmoothPath smoothed(const CostGrid& map, const std::vector<SegmentPoint>& points,
-                    const StopToken& stop);
+SmoothPath smoothed(const costmap::CostGrid& map, const std::vector<costmap::SegmentPoint>& points,
+                    const base::StopToken& stop);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

@@ -18,7 +18,7 @@
 
 #include "grid_path_planner/path/path.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::path {
 
 // Largest coordinate that is taken for one, in metres.
 constexpr double kLargestCoordinate = 1e6;
@@ -34,4 +34,4 @@ Path readWaypointFile(const std::string& file);
 // whole where the new one cannot be written (see writeFileAtomically).
 void writeWaypointFile(const std::string& file, const Path& path);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::path

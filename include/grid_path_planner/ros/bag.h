@@ -8,15 +8,17 @@
 
 #include "grid_path_planner/grid/map_file.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 
 // The first nav_msgs/OccupancyGrid on `topic`, a leading slash here or in the bag ignored. Throws
 // InputError naming the file where there is no such bag, it is cut short, it has no map on that
 // topic (then naming the topics that have one) or the message is no good map.
-OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic = "projected_map");
+grid::OccupancyGrid readMapFromBag(const std::string& file,
+                                   const std::string& topic = "projected_map");
 
 // A map from any file: a bag (told by its content, or the extension .bag) or what readMapFile
 // reads. `options` override a bag's resolution and origin too.
-OccupancyGrid readAnyMapFile(const std::string& file, const MapFileOptions& options = {});
+grid::OccupancyGrid readAnyMapFile(const std::string& file,
+                                   const grid::MapFileOptions& options = {});
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

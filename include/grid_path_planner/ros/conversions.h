@@ -14,7 +14,7 @@
 
 #include "grid_path_planner/path/path.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 
 // The angle about z in -pi..pi. Roll and pitch are passed over: for the pose of a vehicle, which
 // tilts. Precondition: not all components are 0.
@@ -23,13 +23,13 @@ double yawOf(const geometry_msgs::Quaternion& quaternion);
 // Throws InputError for a number that is not finite, a coordinate beyond 1e6 m, a quaternion that
 // is zero or not normalised (its length off 1 by more than 0.01) or that is not level (roll or
 // pitch beyond 0.01 rad).
-Pose poseFromMessage(const geometry_msgs::Pose& message);
-geometry_msgs::Pose poseToMessage(const Pose& pose);
+path::Pose poseFromMessage(const geometry_msgs::Pose& message);
+geometry_msgs::Pose poseToMessage(const path::Pose& pose);
 
 // The frame's leading slash is dropped. Throws InputError naming the pose (from 1) for what
 // poseFromMessage refuses.
-Path pathFromMessage(const nav_msgs::Path& message);
+path::Path pathFromMessage(const nav_msgs::Path& message);
 // Every pose carries the path's frame and stamp.
-nav_msgs::Path pathToMessage(const Path& path, const ros::Time& stamp);
+nav_msgs::Path pathToMessage(const path::Path& path, const ros::Time& stamp);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

@@ -16,24 +16,25 @@
 
 #include "grid_path_planner/grid/occupancy.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::nodes {
 
 // A frame's name as tf2 wants it: a leading slash is dropped.
 std::string frameName(const std::string& frame_id);
 
 // The geometry that a message describes, without its cells. Throws InputError for what GridGeometry
 // refuses and for an origin that is not level.
-GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info);
+grid::GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info);
 // The origin's z is 0.
-nav_msgs::MapMetaData geometryToMessage(const GridGeometry& geometry, const ros::Time& load_time);
+nav_msgs::MapMetaData geometryToMessage(const grid::GridGeometry& geometry,
+                                        const ros::Time& load_time);
 
 // Throws InputError for a message that is no map: no cells, a number of values other than width x
 // height, a value outside -1..100, a resolution that is not positive and finite, an origin that is
 // not finite or not level.
-OccupancyGrid occupancyFromMessage(const nav_msgs::OccupancyGrid& message);
+grid::OccupancyGrid occupancyFromMessage(const nav_msgs::OccupancyGrid& message);
 
 // A message of `map`, stamped and with map_load_time `stamp`. The origin's z is 0.
-nav_msgs::OccupancyGrid occupancyToMessage(const OccupancyGrid& map, const std::string& frame_id,
-                                           const ros::Time& stamp);
+nav_msgs::OccupancyGrid occupancyToMessage(const grid::OccupancyGrid& map,
+                                           const std::string& frame_id, const ros::Time& stamp);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::nodes

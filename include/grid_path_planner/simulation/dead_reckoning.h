@@ -16,7 +16,7 @@
 #include "grid_path_planner/base/options.h"
 #include "grid_path_planner/simulation/vehicle.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 struct DeadReckoningOptions {
   double odometry_noise = 0.0;      // m
@@ -29,22 +29,25 @@ struct DeadReckoningOptions {
 template <class Visitor>
 void visitOptions(DeadReckoningOptions& o, Visitor&& visit) {
   visit("odometry_noise", o.odometry_noise,
-        OptionInfo{"Standard deviation of each coordinate in every measurement of odometry", "m",
-                   0.0, 100.0}
+        base::OptionInfo{"Standard deviation of each coordinate in every measurement of odometry",
+                         "m", 0.0, 100.0}
             .under("Odometry and tf odom to base_link; all 0: they are the truth"));
   visit("odometry_yaw_noise", o.odometry_yaw_noise,
-        OptionInfo{"Standard deviation of the yaw in every measurement of odometry", "rad", 0.0,
-                   3.0});
+        base::OptionInfo{"Standard deviation of the yaw in every measurement of odometry", "rad",
+                         0.0, 3.0});
   visit("odometry_drift", o.odometry_drift,
-        OptionInfo{"Standard deviation of each coordinate of odometry after the first metre; it "
-                   "grows with the square root of the distance",
-                   "m", 0.0, 100.0});
+        base::OptionInfo{
+            "Standard deviation of each coordinate of odometry after the first metre; it "
+            "grows with the square root of the distance",
+            "m", 0.0, 100.0});
   visit("odometry_yaw_drift", o.odometry_yaw_drift,
-        OptionInfo{"Standard deviation of the yaw of odometry after the first metre; it grows with "
-                   "the square root of the distance",
-                   "rad", 0.0, 3.0});
-  visit("odometry_seed", o.odometry_seed,
-        OptionInfo{"What all noise is drawn from; another one gives another run", "", 0, 1e9});
+        base::OptionInfo{
+            "Standard deviation of the yaw of odometry after the first metre; it grows with "
+            "the square root of the distance",
+            "rad", 0.0, 3.0});
+  visit(
+      "odometry_seed", o.odometry_seed,
+      base::OptionInfo{"What all noise is drawn from; another one gives another run", "", 0, 1e9});
 }
 
 class DeadReckoning {
@@ -75,4 +78,4 @@ class DeadReckoning {
   Eigen::Vector3d shift_ = Eigen::Vector3d::Zero();  // m, after the turn about the origin
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

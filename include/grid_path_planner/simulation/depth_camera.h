@@ -26,7 +26,7 @@
 #include "grid_path_planner/simulation/depth_camera_options.h"
 #include "grid_path_planner/simulation/world.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 // Of a pinhole: the point x, y, z is seen at column cx + fx x / z, row cy + fy y / z; pixel (0, 0)
 // has its centre at column 0, row 0, as in sensor_msgs/CameraInfo.
@@ -60,4 +60,4 @@ class DepthCamera {
   std::unique_ptr<const Scene> scene_;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -3,7 +3,7 @@
 
 #include "grid_path_planner/base/options.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 struct DepthCameraOptions {
   double horizontal_fov = 1.3;  // rad
@@ -27,38 +27,43 @@ struct DepthCameraOptions {
 template <class Visitor>
 void visitOptions(DepthCameraOptions& o, Visitor&& visit) {
   visit("horizontal_fov", o.horizontal_fov,
-        OptionInfo{"Angle between the leftmost and the rightmost rim of the picture", "rad", 0.01,
-                   3.0}
+        base::OptionInfo{"Angle between the leftmost and the rightmost rim of the picture", "rad",
+                         0.01, 3.0}
             .under("The depth camera; there is one only with a world, and it works only for "
                    "subscribers"));
-  visit("width", o.width, OptionInfo{"Width of the picture", "pixels", 1, 8192});
-  visit("height", o.height, OptionInfo{"Height of the picture", "pixels", 1, 8192});
-  visit(
-      "rate", o.rate,
-      OptionInfo{"Pictures in a simulated second, which takes longer where pictures take too long",
-                 "Hz", 0.01, 1000.0});
-  visit("range_min", o.range_min, OptionInfo{"Nearer surfaces are not measured", "m", 0.0, 1e4});
-  visit("range_max", o.range_max, OptionInfo{"Farther surfaces are not measured", "m", 0.01, 1e4});
+  visit("width", o.width, base::OptionInfo{"Width of the picture", "pixels", 1, 8192});
+  visit("height", o.height, base::OptionInfo{"Height of the picture", "pixels", 1, 8192});
+  visit("rate", o.rate,
+        base::OptionInfo{
+            "Pictures in a simulated second, which takes longer where pictures take too long", "Hz",
+            0.01, 1000.0});
+  visit("range_min", o.range_min,
+        base::OptionInfo{"Nearer surfaces are not measured", "m", 0.0, 1e4});
+  visit("range_max", o.range_max,
+        base::OptionInfo{"Farther surfaces are not measured", "m", 0.01, 1e4});
   visit("noise_base", o.noise_base,
-        OptionInfo{"Standard deviation of a range of 0 m", "m", 0.0, 100.0});
-  visit(
-      "noise_per_m2", o.noise_per_m2,
-      OptionInfo{"How the standard deviation grows with the square of the range", "1/m", 0.0, 1.0});
+        base::OptionInfo{"Standard deviation of a range of 0 m", "m", 0.0, 100.0});
+  visit("noise_per_m2", o.noise_per_m2,
+        base::OptionInfo{"How the standard deviation grows with the square of the range", "1/m",
+                         0.0, 1.0});
   visit("dropout", o.dropout,
-        OptionInfo{"Probability that a pixel measures nothing", "", 0.0, 1.0});
-  visit("x", o.x, OptionInfo{"Where the camera is, ahead of base_link", "m", -100.0, 100.0});
-  visit("y", o.y, OptionInfo{"Where the camera is, left of base_link", "m", -100.0, 100.0});
-  visit("z", o.z, OptionInfo{"Where the camera is, above base_link", "m", -100.0, 100.0});
-  visit("roll", o.roll, OptionInfo{"Turn of the camera about its axis ahead", "rad", -6.3, 6.3});
+        base::OptionInfo{"Probability that a pixel measures nothing", "", 0.0, 1.0});
+  visit("x", o.x, base::OptionInfo{"Where the camera is, ahead of base_link", "m", -100.0, 100.0});
+  visit("y", o.y, base::OptionInfo{"Where the camera is, left of base_link", "m", -100.0, 100.0});
+  visit("z", o.z, base::OptionInfo{"Where the camera is, above base_link", "m", -100.0, 100.0});
+  visit("roll", o.roll,
+        base::OptionInfo{"Turn of the camera about its axis ahead", "rad", -6.3, 6.3});
   visit("pitch", o.pitch,
-        OptionInfo{"Turn of the camera up or down; positive looks down", "rad", -6.3, 6.3});
-  visit("yaw", o.yaw,
-        OptionInfo{"Turn of the camera left or right; positive looks left", "rad", -6.3, 6.3});
-  visit("seed", o.seed, OptionInfo{"Another seed, other noise and dropouts", "", 0, 2147483647});
+        base::OptionInfo{"Turn of the camera up or down; positive looks down", "rad", -6.3, 6.3});
+  visit(
+      "yaw", o.yaw,
+      base::OptionInfo{"Turn of the camera left or right; positive looks left", "rad", -6.3, 6.3});
+  visit("seed", o.seed,
+        base::OptionInfo{"Another seed, other noise and dropouts", "", 0, 2147483647});
 }
 
 // Throws InputError naming the option for a value outside its limits and for a range_min that is
 // not below range_max.
 void checkDepthCameraOptions(const DepthCameraOptions& options);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 struct TriangleMesh {
   std::string name;
@@ -36,4 +36,4 @@ TriangleMesh sphereMesh(const std::string& name, double radius);
 TriangleMesh planeMesh(const std::string& name, const Eigen::Vector3d& normal,
                        const Eigen::Vector2d& size);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

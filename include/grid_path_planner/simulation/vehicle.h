@@ -26,12 +26,12 @@
 #include "grid_path_planner/simulation/vehicle_options.h"
 #include "grid_path_planner/simulation/world.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 struct VehicleState {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // m, map frame
   double yaw = 0.0;                                    // rad, in (-pi, pi]
-  BodyVelocity velocity = {};
+  base::BodyVelocity velocity = {};
 };
 
 class Vehicle {
@@ -44,14 +44,14 @@ class Vehicle {
   const VehicleOptions& options() const { return options_; }
 
   // The obstacles; a null pointer takes them away. Contacts counted so far stay.
-  void setMap(std::shared_ptr<const OccupancyGrid> map);
+  void setMap(std::shared_ptr<const grid::OccupancyGrid> map);
   // The same for the solid surfaces of a world.
   void setWorld(std::shared_ptr<const World> world);
 
   // The velocity to reach, from now until cmd_vel_timeout later or the next command. Faster than
   // the vehicle's limits: held to them, axis by axis. Throws InputError for numbers that are not
   // finite; the command before stays.
-  void command(const BodyVelocity& velocity);
+  void command(const base::BodyVelocity& velocity);
 
   // Puts the vehicle somewhere: no command, contacts 0; time goes on. Throws InputError for a state
   // that is not finite.
@@ -74,9 +74,9 @@ class Vehicle {
   const std::string& touched() const { return touched_; }
 
  private:
-  BodyVelocity setPoint() const;
+  base::BodyVelocity setPoint() const;
   void changeVelocity(double seconds);
-  void move(double seconds, const BodyVelocity& before);
+  void move(double seconds, const base::BodyVelocity& before);
   bool moveInPlane(const Eigen::Vector2d& way);
   bool moveInWorld(const Eigen::Vector3d& from);
   void enterContact(const std::string& name);
@@ -85,14 +85,14 @@ class Vehicle {
 
   VehicleOptions options_;
   VehicleState state_;
-  BodyVelocity commanded_;
+  base::BodyVelocity commanded_;
   std::int64_t command_ends_ns_ = 0;
   std::int64_t time_ns_ = 0;
-  std::shared_ptr<const OccupancyGrid> map_;
+  std::shared_ptr<const grid::OccupancyGrid> map_;
   std::shared_ptr<const World> world_;
   std::string touched_;
   int contacts_ = 0;
   bool in_contact_ = false;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

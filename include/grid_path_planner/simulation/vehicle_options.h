@@ -3,7 +3,7 @@
 
 #include "grid_path_planner/base/options.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 struct VehicleOptions {
   double max_surge_speed = 1.5;       // m/s
@@ -21,41 +21,45 @@ struct VehicleOptions {
 template <class Visitor>
 void visitOptions(VehicleOptions& o, Visitor&& visit) {
   visit("max_surge_speed", o.max_surge_speed,
-        OptionInfo{"Fastest motion ahead and astern; faster commands are held to it", "m/s", 0.001,
-                   100.0}
+        base::OptionInfo{"Fastest motion ahead and astern; faster commands are held to it", "m/s",
+                         0.001, 100.0}
             .under("The vehicle"));
   visit("max_sway_speed", o.max_sway_speed,
-        OptionInfo{
+        base::OptionInfo{
             "Fastest motion sideways; faster commands are held to it; 0: a vehicle that cannot",
             "m/s", 0.0, 100.0});
-  visit(
-      "max_heave_speed", o.max_heave_speed,
-      OptionInfo{"Fastest motion up and down; faster commands are held to it", "m/s", 0.0, 100.0});
+  visit("max_heave_speed", o.max_heave_speed,
+        base::OptionInfo{"Fastest motion up and down; faster commands are held to it", "m/s", 0.0,
+                         100.0});
   visit("max_yaw_rate", o.max_yaw_rate,
-        OptionInfo{"Fastest turn; faster commands are held to it", "rad/s", 0.001, 100.0});
-  visit("max_acceleration", o.max_acceleration,
-        OptionInfo{"How fast surge, sway and heave may change; lower: a heavier vehicle, which "
-                   "overshoots more",
-                   "m/s^2", 0.001, 1000.0});
+        base::OptionInfo{"Fastest turn; faster commands are held to it", "rad/s", 0.001, 100.0});
+  visit(
+      "max_acceleration", o.max_acceleration,
+      base::OptionInfo{"How fast surge, sway and heave may change; lower: a heavier vehicle, which "
+                       "overshoots more",
+                       "m/s^2", 0.001, 1000.0});
   visit("max_yaw_acceleration", o.max_yaw_acceleration,
-        OptionInfo{"How fast the yaw rate may change; lower: a heavier vehicle", "rad/s^2", 0.001,
-                   1000.0});
+        base::OptionInfo{"How fast the yaw rate may change; lower: a heavier vehicle", "rad/s^2",
+                         0.001, 1000.0});
   visit("cmd_vel_timeout", o.cmd_vel_timeout,
-        OptionInfo{"The vehicle stops this long after the last command", "s", 0.01, 3600.0});
+        base::OptionInfo{"The vehicle stops this long after the last command", "s", 0.01, 3600.0});
   visit("vehicle_radius", o.vehicle_radius,
-        OptionInfo{"Radius of the disc, in a world the sphere, that touches obstacles: each touch "
-                   "counts as a contact",
-                   "m", 0.001, 100.0});
-  visit("occupied_min", o.occupied_min,
-        OptionInfo{"Cells of projected_map with at least this occupancy are obstacles, unless "
-                   "there is a world",
-                   "%", 1, 100});
-  visit("time_step", o.time_step,
-        OptionInfo{"One step of the integration; shorter: finer and slower", "s", 0.0001, 0.1});
+        base::OptionInfo{
+            "Radius of the disc, in a world the sphere, that touches obstacles: each touch "
+            "counts as a contact",
+            "m", 0.001, 100.0});
+  visit(
+      "occupied_min", o.occupied_min,
+      base::OptionInfo{"Cells of projected_map with at least this occupancy are obstacles, unless "
+                       "there is a world",
+                       "%", 1, 100});
+  visit(
+      "time_step", o.time_step,
+      base::OptionInfo{"One step of the integration; shorter: finer and slower", "s", 0.0001, 0.1});
 }
 
 // Throws InputError naming the option for a value outside its limits and for a time_step longer
 // than cmd_vel_timeout.
 void checkVehicleOptions(const VehicleOptions& options);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

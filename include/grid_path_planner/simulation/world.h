@@ -17,7 +17,7 @@
 
 #include "grid_path_planner/simulation/triangle_mesh.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 // The point of a world's solid surfaces that is nearest to some other point.
 struct NearestSurface {
@@ -51,4 +51,4 @@ class World {
   std::unique_ptr<const SurfaceTree> tree_;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

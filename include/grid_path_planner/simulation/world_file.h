@@ -18,7 +18,7 @@
 
 #include "grid_path_planner/simulation/world.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::simulation {
 
 // Throws InputError naming the file, with libsdformat's own words (and line, where it gives one)
 // for what it does not accept, and with the name of the collision or visual for a geometry of
@@ -28,4 +28,4 @@ namespace grid_path_planner {
 // meanwhile: where it finds files and where it writes are settings of the whole process.
 World readWorld(const std::string& file);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::simulation

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 struct Interval {
   double value = 0.0;
@@ -39,4 +39,4 @@ Interval share(std::size_t some, std::size_t all, std::size_t samples);
 // Precondition: not empty.
 double quantileOf(std::vector<double> values, double part);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

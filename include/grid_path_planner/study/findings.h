@@ -10,7 +10,7 @@
 #include "grid_path_planner/study/study_data.h"
 #include "grid_path_planner/study/table.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 struct Finding {
   std::string question;
@@ -31,4 +31,4 @@ std::vector<Finding> findingsOf(const StudyData& data);
 // Every run as a row.
 Table runsTable(const StudyData& data);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

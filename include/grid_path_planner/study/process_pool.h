@@ -18,7 +18,7 @@
 
 #include "grid_path_planner/study/worker_group.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 class ProcessPool : public WorkerGroup {
  public:
@@ -54,4 +54,4 @@ class ProcessPool : public WorkerGroup {
   std::vector<Child> children_;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

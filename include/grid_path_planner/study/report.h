@@ -8,7 +8,7 @@
 #include "grid_path_planner/study/study_data.h"
 #include "grid_path_planner/study/study_runner.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 // One file that needs no other and no network: summary, findings with charts and tables that sort,
 // and a picture a map and kernel with the paths of all variants over each other. `command` is what
@@ -26,4 +26,4 @@ std::string jsonReport(const StudyData& data, const std::vector<Finding>& findin
 // The command that makes `run` again, map and ends included; "" for what is in studies only.
 std::string planCommand(const StudyData& data, const StudyRun& run);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -7,14 +7,14 @@
 
 #include "grid_path_planner/grid/grid_geometry.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 struct ScenarioQuery {
   std::string map;
   int width = 0;
   int height = 0;
-  Cell start;
-  Cell goal;
+  grid::Cell start;
+  grid::Cell goal;
   double optimum = 0.0;  // cell lengths, diagonals sqrt 2, corners not cut
   int line = 0;          // in the file, from 1
 };
@@ -26,7 +26,7 @@ std::vector<ScenarioQuery> readScenarioFile(const std::string& file);
 std::vector<ScenarioQuery> spreadOver(const std::vector<ScenarioQuery>& queries, std::size_t limit);
 
 // Throws InputError where the query, of `file`, is for a map of another size.
-void checkScenarioQuery(const ScenarioQuery& query, const GridGeometry& geometry,
+void checkScenarioQuery(const ScenarioQuery& query, const grid::GridGeometry& geometry,
                         const std::string& file);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

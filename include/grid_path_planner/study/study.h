@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "grid_path_planner/grid/cell.h"
-#include "grid_path_planner/planners/map_planner.h"
+#include "grid_path_planner/planning/path_planner.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 struct CellPair {
-  Cell start;
-  Cell goal;
+  grid::Cell start;
+  grid::Cell goal;
 };
 
 // Where the queries on a map come from; all of those given are taken, in this order.
@@ -50,7 +50,7 @@ struct Weights {
 struct StudyVariant {
   std::string label;  // "a_star octile"
   std::string planner;
-  SearchOptions search;
+  planners::SearchOptions search;
   bool published_cross = false;  // as of makeStudyPlanner()
 };
 
@@ -58,7 +58,7 @@ struct StudySetting {
   std::string label;  // "dexrov_site, kernel 3 filter2d, weights 1/50/100"
   std::size_t map = 0;
   std::string weights;  // "1/50/100"
-  TerrainOptions terrain;
+  costmap::CostmapOptions terrain;
 };
 
 // What was published about the same comparison, to stand beside what is found.
@@ -78,8 +78,8 @@ struct Study {
   std::vector<StudyMap> maps;
   std::vector<StudySetting> settings;
   std::vector<StudyVariant> variants;
-  PlannerOptions base;  // what settings and variants do not say
-  int repeats = 5;      // of each run, for its time
+  planning::PlannerOptions base;  // what settings and variants do not say
+  int repeats = 5;                // of each run, for its time
   PublishedFigures published;
 };
 
@@ -87,4 +87,4 @@ struct Study {
 // line: unknown keys, planners and options, empty lists, the same entry twice.
 Study readStudyFile(const std::string& file);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

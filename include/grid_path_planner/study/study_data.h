@@ -12,7 +12,7 @@
 #include "grid_path_planner/study/study_plan.h"
 #include "grid_path_planner/study/study_run.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 double medianTime(const StudyRun& run);  // ms
 
@@ -23,7 +23,7 @@ using UnitRow = std::vector<const StudyRun*>;
 struct ProblemSize {
   std::size_t map = 0;
   int kernel = 1;
-  KernelRule rule = KernelRule::CONSERVATIVE;
+  costmap::KernelRule rule = costmap::KernelRule::CONSERVATIVE;
 
   friend bool operator<(const ProblemSize& a, const ProblemSize& b) {
     return std::tie(a.map, a.kernel, a.rule) < std::tie(b.map, b.kernel, b.rule);
@@ -79,4 +79,4 @@ class StudyData {
   std::vector<UnitRow> units_;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -11,7 +11,7 @@
 
 #include "grid_path_planner/study/study_run.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 class StudyFolder {
  public:
@@ -42,4 +42,4 @@ class StudyFolder {
   std::int64_t end_ = 0;  // bytes of runs.jsonl that are whole
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

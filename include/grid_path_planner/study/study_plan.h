@@ -13,7 +13,7 @@
 #include "grid_path_planner/study/study.h"
 #include "grid_path_planner/study/study_query.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 struct StudyUnit {
   std::size_t setting = 0;
@@ -22,13 +22,13 @@ struct StudyUnit {
 
 class StudyPlan {
  public:
-  using MapReader = std::function<OccupancyGrid(const std::string& file)>;
+  using MapReader = std::function<grid::OccupancyGrid(const std::string& file)>;
 
   // Throws InputError for a map or scenario that cannot be read and for queries outside a map.
   StudyPlan(Study study, const MapReader& read_map);
 
   const Study& study() const { return study_; }
-  const std::shared_ptr<const OccupancyGrid>& map(std::size_t i) const { return maps_[i]; }
+  const std::shared_ptr<const grid::OccupancyGrid>& map(std::size_t i) const { return maps_[i]; }
   const std::vector<StudyQuery>& queries(std::size_t map) const { return queries_[map]; }
   const std::vector<StudyUnit>& units() const { return units_; }
 
@@ -40,9 +40,9 @@ class StudyPlan {
 
  private:
   Study study_;
-  std::vector<std::shared_ptr<const OccupancyGrid>> maps_;
+  std::vector<std::shared_ptr<const grid::OccupancyGrid>> maps_;
   std::vector<std::vector<StudyQuery>> queries_;
   std::vector<StudyUnit> units_;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "grid_path_planner/costmap/cost_grid.h"
 #include "grid_path_planner/study/study.h"
-#include "grid_path_planner/terrain/cost_grid.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 struct StudyQuery {
-  Cell start;
-  Cell goal;
+  grid::Cell start;
+  grid::Cell goal;
   std::string note;  // which end was blocked and what took its place, "" where none was
 };
 
@@ -20,7 +20,7 @@ struct StudyQuery {
 // `terrain`'s radius) are moved to the nearest free cell. Random pairs are connected, and the same
 // for the same seed and map. Throws InputError for a pair outside the map, a scenario of another
 // map, and a map on which no end can be placed.
-std::vector<StudyQuery> studyQueries(const StudyMap& map, const OccupancyGrid& occupancy,
-                                     const TerrainOptions& terrain);
+std::vector<StudyQuery> studyQueries(const StudyMap& map, const grid::OccupancyGrid& occupancy,
+                                     const costmap::CostmapOptions& terrain);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

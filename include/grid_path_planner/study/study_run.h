@@ -8,17 +8,17 @@
 #include "grid_path_planner/base/status.h"
 #include "grid_path_planner/grid/cell.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 struct StudyRun {
   std::size_t setting = 0;
   std::size_t query = 0;
   std::size_t variant = 0;
-  Cell start;  // cells of the full map
-  Cell goal;
+  grid::Cell start;  // cells of the full map
+  grid::Cell goal;
   std::string note;  // what became of the query's ends
 
-  Status status = Status::NO_MAP;
+  base::Status status = base::Status::NO_MAP;
   std::string message;
   double cost = 0.0;     // in cells x weight; with everything below only where FOUND
   double optimum = 0.0;  // the least cost by grid steps on the same setting; 0: there is no way
@@ -40,4 +40,4 @@ struct StudyRun {
 std::string lineOf(const StudyRun& run);
 StudyRun runFromLine(const std::string& line);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

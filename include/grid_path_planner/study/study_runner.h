@@ -10,7 +10,7 @@
 #include "grid_path_planner/study/study_plan.h"
 #include "grid_path_planner/study/worker_group.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 class StudyWorker;
 
@@ -34,7 +34,7 @@ std::string linesOfUnit(StudyWorker& worker, const StudyPlan& plan, std::size_t 
 // tried again when the study is resumed. `progress` hears of the units done, those of before
 // included. Throws InputError where the folder cannot be written.
 StudyResult runStudy(const StudyPlan& plan, StudyFolder& folder, WorkerGroup& workers,
-                     const StopToken& stop,
+                     const base::StopToken& stop,
                      const std::function<void(std::size_t done, std::size_t total)>& progress);
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -8,11 +8,11 @@
 #include <memory>
 #include <vector>
 
-#include "grid_path_planner/planners/map_planner.h"
+#include "grid_path_planner/planning/path_planner.h"
 #include "grid_path_planner/study/study_plan.h"
 #include "grid_path_planner/study/study_run.h"
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 class StudyWorker {
  public:
@@ -27,12 +27,12 @@ class StudyWorker {
 
  private:
   void prepare(std::size_t setting);
-  MapPlanner plannerFor(const StudySetting& setting, const StudyVariant& variant) const;
+  planning::PathPlanner plannerFor(const StudySetting& setting, const StudyVariant& variant) const;
 
   const StudyPlan& plan_;
   std::size_t prepared_ = static_cast<std::size_t>(-1);  // the setting that the planners are for
-  std::vector<MapPlanner> planners_;                     // one a variant
-  std::unique_ptr<MapPlanner> exact_;
+  std::vector<planning::PathPlanner> planners_;          // one a variant
+  std::unique_ptr<planning::PathPlanner> exact_;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

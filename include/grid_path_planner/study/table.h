@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 struct TableCell {
   std::string text;
@@ -27,4 +27,4 @@ struct Table {
   std::vector<std::vector<TableCell>> rows;  // each as long as columns
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace grid_path_planner {
+namespace grid_path_planner::study {
 
 // How a task ended.
 struct TaskEnd {
@@ -30,4 +30,4 @@ class WorkerGroup {
   virtual std::vector<TaskEnd> wait(int milliseconds) = 0;
 };
 
-}  // namespace grid_path_planner
+}  // namespace grid_path_planner::study

@@ -51,7 +51,7 @@ inline CloudPoints wallAt(float x, float low = -0.45F, float high = 0.45F) {
 
 // 100 occupied, 0 free, -1 unknown or outside.
 inline int valueAt(const nav_msgs::OccupancyGrid& map, double x, double y) {
-  const OccupancyGrid grid = occupancyFromMessage(map);
+  const grid::OccupancyGrid grid = nodes::occupancyFromMessage(map);
   const auto cell = grid.geometry().cellAt({x, y});
   return cell ? grid[*cell] : -1;
 }

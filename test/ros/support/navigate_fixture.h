@@ -26,8 +26,8 @@
 namespace grid_path_planner::test {
 
 // Poses of x, y, z, yaw (0 where left out) in the frame map.
-inline Path pathOf(const std::vector<std::vector<double>>& poses) {
-  Path path;
+inline path::Path pathOf(const std::vector<std::vector<double>>& poses) {
+  path::Path path;
   for (const auto& p : poses)
     path.poses.push_back(
         {Eigen::Vector3d(p.at(0), p.at(1), p.size() > 2 ? p[2] : 0.0), p.size() > 3 ? p[3] : 0.0});
@@ -111,7 +111,9 @@ class NavigateTest : public testing::Test {
     }
   }
 
-  void publishPath(const Path& path) { paths_.publish(pathToMessage(path, ros::Time::now())); }
+  void publishPath(const path::Path& path) {
+    paths_.publish(nodes::pathToMessage(path, ros::Time::now()));
+  }
 
   // Whether the service says that it did what was asked for.
   static bool ask(const std::string& service) {
@@ -120,10 +122,10 @@ class NavigateTest : public testing::Test {
     return call.response.success;
   }
 
-  Pose pose() const {
+  path::Pose pose() const {
     const auto all = odom_.all();
     const geometry_msgs::Pose& at = all.back().pose.pose;
-    return {{at.position.x, at.position.y, at.position.z}, yawOf(at.orientation)};
+    return {{at.position.x, at.position.y, at.position.z}, nodes::yawOf(at.orientation)};
   }
   double speed() const {
     const auto all = odom_.all();

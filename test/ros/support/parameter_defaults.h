@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "grid_path_planner/ros/parameters.h"
+#include "ros/common/parameters.h"
 
 namespace grid_path_planner::test {
 
@@ -52,22 +52,23 @@ void expectNoLimits() {
 
 template <class Config, class Options>
 void expectSameDefaults(const std::string& node) {
-  const auto expected = linesOf(configMessage(Options()));
+  const auto expected = linesOf(nodes::configMessage(Options()));
   dynamic_reconfigure::Config from_cfg;
   Config::__getDefault__().__toMessage__(from_cfg);
   EXPECT_EQ(linesOf(from_cfg), expected) << "cfg of " << node;
 
   const ros::NodeHandle nh("/" + node);
-  const auto names = optionNames<Options>();
-  EXPECT_EQ(unknownParameters(nh, names), std::vector<std::string>{}) << "config of " << node;
+  const auto names = nodes::optionNames<Options>();
+  EXPECT_EQ(nodes::unknownParameters(nh, names), std::vector<std::string>{})
+      << "config of " << node;
   for (const std::string& name : names)
     EXPECT_TRUE(nh.hasParam(name)) << "config/" << node << ".yaml lacks " << name;
   Options from_yaml;
-  loadParameters(nh, from_yaml);
-  EXPECT_EQ(linesOf(configMessage(from_yaml)), expected) << "config of " << node;
+  nodes::loadParameters(nh, from_yaml);
+  EXPECT_EQ(linesOf(nodes::configMessage(from_yaml)), expected) << "config of " << node;
 
   Options options;
-  visitOptions(options, [](const char* name, auto& value, const OptionInfo&) {
+  visitOptions(options, [](const char* name, auto& value, const base::OptionInfo&) {
     using Value = std::decay_t<decltype(value)>;
     if constexpr (std::is_enum_v<Value>) {
       std::set<std::string> choices;

@@ -31,10 +31,10 @@ inline geometry_msgs::PoseStamped poseAt(double x, double y, double yaw = 0.0,
                                          const std::string& frame = "map") {
   geometry_msgs::PoseStamped message;
   message.header.frame_id = frame;
-  Pose pose;
+  path::Pose pose;
   pose.position = {x, y, 0.0};
   pose.yaw = yaw;
-  message.pose = poseToMessage(pose);
+  message.pose = nodes::poseToMessage(pose);
   return message;
 }
 
@@ -59,9 +59,9 @@ class PlannerTest : public testing::Test {
     maps_.publish(message);
     ASSERT_TRUE(planning_maps_.waitForMoreThan(seen));
   }
-  void publishMap(const OccupancyGrid& map, const std::string& frame = "map",
+  void publishMap(const grid::OccupancyGrid& map, const std::string& frame = "map",
                   const ros::Time& stamp = ros::Time::now()) {
-    publishMap(occupancyToMessage(map, frame, stamp));
+    publishMap(nodes::occupancyToMessage(map, frame, stamp));
   }
   void publishMap(const std::vector<std::string>& lines) { publishMap(AsciiMap(lines).map); }
 

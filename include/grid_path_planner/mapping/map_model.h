@@ -1,0 +1,76 @@
+// What projected_map keeps: the 3-D map and the 2-D map made of it.
+//
+//   MapModel keeper(options);                 // with options.filename: that file
+//   keeper.insert(points, frames);
+//   const OccupancyGrid& grid = keeper.grid();      // brought up to date with the tree
+//   const ProjectionChange change = keeper.takeChange();
+//
+// For one thread.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/mapping/octree_map.h"
+#include "grid_path_planner/mapping/projected_map_options.h"
+#include "grid_path_planner/mapping/projection.h"
+
+namespace grid_path_planner::mapping {
+
+class MapModel {
+ public:
+  // Throws InputError for options and for a file that cannot be used. The resolution of a file
+  // replaces that of the options.
+  explicit MapModel(const ProjectedMapOptions& options);
+
+  // Throws InputError for options that cannot be used or not be changed (frame_id, resolution,
+  // latch), and for a new filename that cannot be loaded; then nothing has changed.
+  void setOptions(const ProjectedMapOptions& options);
+  const ProjectedMapOptions& options() const { return options_; }
+
+  struct Inserted {
+    std::size_t points = 0;
+    std::size_t left_out = 0;    // too far away for the tree
+    bool ground_missed = false;  // no plane was found
+    double seconds = 0.0;
+  };
+  // `points` in m, in the sensor's frame. Throws InputError where the sensor is outside the tree.
+  Inserted insert(std::vector<Eigen::Vector3d> points, const CloudFrames& frames);
+
+  void reset();
+  // Throws InputError for corners that are no box.
+  void clearBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
+  // Lets `seconds` pass for what is not seen again.
+  void decay(double seconds);
+  // Of the vehicle, m in the frame of the map.
+  void setVehicleHeight(double z) { projection_.setVehicleHeight(z); }
+
+  // Throws InputError where the 2-D map would be too large; it stays as it was then.
+  const grid::OccupancyGrid& grid();
+  // What changed in grid() since the last call.
+  ProjectionChange takeChange();
+  // How often the tree has been projected.
+  std::uint64_t projections() const { return projections_; }
+
+  const OctreeMap& map() const { return map_; }
+  // Grows with whatever may have changed the tree.
+  std::uint64_t revision() const { return revision_; }
+
+  // Throw InputError naming a file that cannot be written.
+  void saveMap(const std::string& file);
+  void saveOctree(const std::string& file) const { map_.save(file); }
+
+ private:
+  void replaceMap(const ProjectedMapOptions& options);
+
+  ProjectedMapOptions options_;
+  OctreeMap map_;
+  Projection projection_;
+  ProjectionChange change_;
+  std::uint64_t revision_ = 1;
+  std::uint64_t projections_ = 0;
+};
+
+}  // namespace grid_path_planner::mapping

@@ -1,0 +1,144 @@
+// The parameters of the node `projected_map`: octomap_server's by their names and with their
+// defaults, and ours.
+#pragma once
+
+#include <string>
+
+#include "grid_path_planner/mapping/cloud_filter.h"
+#include "grid_path_planner/mapping/octree_options.h"
+#include "grid_path_planner/mapping/projection_options.h"
+
+namespace grid_path_planner::mapping {
+
+// How rviz shows the voxels: by their height, or all in one colour. Red, green, blue and opacity
+// are from 0 to 1.
+struct VoxelColors {
+  bool height_map = true;
+  double color_factor = 0.8;
+  double r = 0.0, g = 0.0, b = 1.0, a = 1.0;
+  double free_r = 0.0, free_g = 1.0, free_b = 0.0, free_a = 1.0;
+};
+
+template <class Visitor>
+void visitOptions(VoxelColors& o, Visitor&& visit) {
+  const auto part = [](const char* description) {
+    return base::OptionInfo{description, "", 0.0, 1.0};
+  };
+  visit("height_map", o.height_map,
+        base::OptionInfo{"Whether occupied_cells_vis_array is coloured by height; false: by color",
+                         ""});
+  visit("color_factor", o.color_factor,
+        base::OptionInfo{"How much of the colours' circle the heights take", "", 0.0, 1.0});
+  visit("color/r", o.r, part("Red of occupied voxels without height_map"));
+  visit("color/g", o.g, part("Green of occupied voxels without height_map"));
+  visit("color/b", o.b, part("Blue of occupied voxels without height_map"));
+  visit("color/a", o.a, part("Opacity of occupied voxels without height_map"));
+  visit("color_free/r", o.free_r, part("Red of free voxels"));
+  visit("color_free/g", o.free_g, part("Green of free voxels"));
+  visit("color_free/b", o.free_b, part("Blue of free voxels"));
+  visit("color_free/a", o.free_a, part("Opacity of free voxels"));
+}
+
+struct ProjectedMapOptions {
+  std::string filename;
+  std::string frame_id = "map";
+  std::string base_frame_id = "base_footprint";
+
+  OctreeOptions octree;
+  CloudFilterOptions cloud;
+  double tf_timeout = 1.0;  // s
+  int queue_size = 10;      // clouds
+
+  double occupancy_min_z = -1e6;  // m
+  double occupancy_max_z = 1e6;   // m
+  std::string projection_min_z = "occupancy";
+  std::string projection_max_z = "occupancy";
+  ProjectionOptions projection;  // its band is the two above
+
+  double publish_rate = 5.0;  // Hz
+  bool latch = true;
+  bool always_send_full_map = true;
+  bool publish_free_space = false;
+  VoxelColors colors;
+
+  std::string map_file;
+  std::string octree_file;
+};
+
+template <class Visitor>
+void visitOptions(ProjectedMapOptions& o, Visitor&& visit) {
+  visit("filename", o.filename,
+        base::OptionInfo{
+            "Octree file (.bt or .ot) to begin with, a new one replaces the map; one that "
+            "cannot be read ends the node; empty: none",
+            ""});
+  visit("frame_id", o.frame_id, base::OptionInfo{"Frame of the map; read at the start", ""});
+  visit("base_frame_id", o.base_frame_id,
+        base::OptionInfo{"Frame of the vehicle: for filter_ground and projection_reference vehicle",
+                         ""});
+  visitOptions(o.octree, visit);
+  visitOptions(o.cloud, visit);
+  visit("tf_timeout", o.tf_timeout,
+        base::OptionInfo{"How long a cloud waits for its transform; it holds up no other", "s", 0.0,
+                         1000.0});
+  visit("queue_size", o.queue_size,
+        base::OptionInfo{
+            "How many clouds wait for their transforms or their turn; the oldest of more "
+            "are dropped, and counted",
+            "", 1, 10000});
+  visit(
+      "occupancy_min_z", o.occupancy_min_z,
+      base::OptionInfo{"Lowest voxels that are shown, and projected unless projection_min_z is set",
+                       "m", -1e9, 1e9}
+          .under("The 2-D map"));
+  visit("occupancy_max_z", o.occupancy_max_z,
+        base::OptionInfo{
+            "Highest voxels that are shown, and projected unless projection_max_z is set", "m",
+            -1e9, 1e9});
+  visit("projection_min_z", o.projection_min_z,
+        base::OptionInfo{
+            "Lower end of the 2-D map's band in m, from projection_reference; occupancy: as "
+            "occupancy_min_z",
+            ""});
+  visit("projection_max_z", o.projection_max_z,
+        base::OptionInfo{
+            "Upper end of the 2-D map's band in m, from projection_reference; occupancy: as "
+            "occupancy_max_z",
+            ""});
+  visitOptions(o.projection, visit);
+  visit("publish_rate", o.publish_rate,
+        base::OptionInfo{"How often changes are published at most, by the wall clock", "Hz", 0.01,
+                         100.0}
+            .under("What is published"));
+  visit(
+      "latch", o.latch,
+      base::OptionInfo{"Whether a new subscriber gets what there is; false: only what changes from "
+                       "then on; read at the start",
+                       ""});
+  visit("always_send_full_map", o.always_send_full_map,
+        base::OptionInfo{"Whether every change sends all of projected_map; false: that for new "
+                         "subscribers and new geometry, else projected_map_updates",
+                         ""});
+  visit("publish_free_space", o.publish_free_space,
+        base::OptionInfo{"Whether free_cells_vis_array is published, which takes long", ""});
+  visitOptions(o.colors, visit);
+  visit("map_file", o.map_file,
+        base::OptionInfo{"Where ~save_map writes, a map_server YAML, if its request names no file",
+                         ""}
+            .under("Files"));
+  visit(
+      "octree_file", o.octree_file,
+      base::OptionInfo{"Where ~save_octree writes, .bt or .ot, if its request names no file", ""});
+}
+
+// The projection's options with their band. Throws InputError for a projection_min_z or
+// projection_max_z that is neither a number nor "occupancy".
+ProjectionOptions projectionOptions(const ProjectedMapOptions& options);
+
+// Throws InputError naming the option.
+void checkProjectedMapOptions(const ProjectedMapOptions& options);
+
+// What octomap_server's parameters that have no effect here would have done; "" for other names.
+std::string needlessParameter(const std::string& name);
+
+}  // namespace grid_path_planner::mapping

@@ -1,0 +1,58 @@
+// A* over the cells of a grid (Hart, Nilsson & Raphael 1968), weighted A* for epsilon > 1 (Pohl
+// 1970).
+//
+// Guaranteed: with an admissible heuristic and epsilon 1 the cost is the least there is, without
+// tolerance; `optimalFor` says whether that is so on a map. With epsilon > 1 and an admissible
+// heuristic it is at most epsilon times the least. Otherwise nothing but a legal path.
+//
+// tie_break none leaves the order of nearly equally promising cells to the quickest open list
+// (bucket_search.h); the others order strictly by promise, then by what they are named for
+// (best_first_search.h), at several times the cost.
+#pragma once
+
+#include "grid_path_planner/planners/best_first_search.h"
+#include "grid_path_planner/planners/bucket_search.h"
+#include "grid_path_planner/planners/planner.h"
+#include "grid_path_planner/planners/precomputed_heuristic.h"
+#include "grid_path_planner/planners/search_options.h"
+
+namespace grid_path_planner::planners {
+
+class AStar : public Planner {
+ public:
+  // Throws InputError for options that cannot be used.
+  explicit AStar(const SearchOptions& options = {});
+
+  std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
+  bool optimalFor(const costmap::CostGrid& map) const override;
+  BackgroundWork backgroundWork() override { return tables_.work(); }
+  void finishBackgroundWork(const base::StopToken& stop) override { tables_.wait(stop); }
+
+ protected:
+  // How a program that a study repeats differs from A*.
+  struct Variation {
+    BestFirstSearch::GoalTest goal_test = BestFirstSearch::GoalTest::WHEN_EXPANDED;
+    long double cross_share = 0.0L;  // of Estimate::cross(), added to every estimate
+  };
+  // Such a program: it keeps a strict order whatever the tie-break, and promises no least cost.
+  AStar(const char* name, const SearchOptions& options, const Variation& variation);
+
+  std::string waysToLessMemory() const override;
+  void doPrepare(const base::StopToken& stop) override;
+  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
+  SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
+
+ private:
+  SearchResult planByBuckets(const SearchRequest& request, const base::StopToken& stop);
+  SearchResult planWithTables(const SearchRequest& request, const base::StopToken& stop);
+  SearchResult planInOrder(const SearchRequest& request, const base::StopToken& stop);
+
+  SearchOptions options_;
+  bool strictly_ordered_;
+  Variation variation_;
+  BucketSearch by_buckets_;  // one of the two is used
+  BestFirstSearch in_order_;
+  PrecomputedHeuristic tables_;
+};
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,109 @@
+// An open list that costs a few nanoseconds an entry: cell indices in buckets of nearly equal keys.
+//
+//   BucketQueue open;
+//   open.begin(f_of_the_start, width_shift);
+//   open.push(f, index);
+//   while (!open.empty()) index = open.pop();
+//
+// Guaranteed: what is taken out is of the lowest bucket that holds anything, and of that bucket the
+// one put in last, so the order depends on nothing but the calls. A key below the lowest bucket is
+// put into it. Keys within a bucket (of width 2^shift) are NOT ordered: a search must re-open cells
+// that get cheaper, and may stop only when lowest() has reached the cost of the goal it found.
+//
+// Entries are 4 bytes, in chunks that the buckets share. A window of buckets lies before the
+// current one; keys beyond it wait in a list until it is used up, and the buckets grow wider
+// where many were passed for few entries. What was measured: doc/notes/engine_experiments.md.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "grid_path_planner/planners/keys.h"
+
+namespace grid_path_planner::planners {
+
+class BucketQueue {
+ public:
+  using Index = std::uint32_t;
+
+  // Forgets everything; keys from about `first` on, buckets 2^shift wide. Takes time in proportion
+  // to what was left in the queue.
+  void begin(SearchKey first, unsigned shift);
+
+  void push(SearchKey key, Index index) {
+    ++size_;
+    const SearchKey number = key >> shift_;
+    if (number >= window_end_) {
+      later_.push_back({key, index});
+      return;
+    }
+    put(number <= current_ ? current_ : number, index);
+  }
+
+  // Precondition of both: not empty().
+  Index pop() {
+    if (bucket(current_).chunk == nullptr) advance();
+    --size_;
+    ++taken_;
+    Bucket& lowest = bucket(current_);
+    const Index index = lowest.chunk->entries[--lowest.used];
+    if (lowest.used == 0) giveBack(lowest);
+    return index;
+  }
+  // No key in the queue that was not put below the bucket it was put into is less than this.
+  SearchKey lowest() {
+    if (bucket(current_).chunk == nullptr) advance();
+    return current_ << shift_;
+  }
+
+  bool empty() const { return size_ == 0; }
+  std::size_t size() const { return size_; }
+
+ private:
+  static constexpr std::size_t kBuckets = 1024;
+  static constexpr std::uint32_t kChunkEntries = 62;
+  static constexpr std::size_t kChunksTogether = 64;
+
+  struct Chunk {
+    Chunk* below;  // of the same bucket, full
+    std::array<Index, kChunkEntries> entries;
+  };
+  struct Bucket {
+    Chunk* chunk = nullptr;
+    std::uint32_t used = kChunkEntries;  // entries of chunk
+  };
+  struct Later {
+    SearchKey key;
+    Index index;
+  };
+
+  Bucket& bucket(SearchKey number) { return buckets_[number % kBuckets]; }
+  void put(SearchKey number, Index index) {
+    Bucket& to = bucket(number);
+    if (to.used == kChunkEntries) addChunk(to, number);
+    to.chunk->entries[to.used++] = index;
+  }
+  void setWindow(SearchKey first);
+  void addChunk(Bucket& to, SearchKey number);
+  void giveBack(Bucket& from);  // its uppermost chunk, which is empty
+  void advance();
+  void nextWindow();
+
+  // Bucket n % kBuckets holds the keys with key >> shift_ == n, for n in a window whose end is a
+  // multiple of kBuckets.
+  std::array<Bucket, kBuckets> buckets_;
+  std::array<std::uint64_t, kBuckets / 64> filled_{};  // a bit a bucket: whether it holds any
+  SearchKey current_ = 0;                              // the lowest n that may hold any
+  SearchKey window_end_ = 0;
+  unsigned shift_ = 0;
+  std::size_t size_ = 0;
+  std::size_t taken_ = 0;  // since the window began
+  std::vector<Later> later_;
+  Chunk* spare_ = nullptr;
+  std::vector<std::unique_ptr<std::array<Chunk, kChunksTogether>>> chunks_;
+};
+
+}  // namespace grid_path_planner::planners

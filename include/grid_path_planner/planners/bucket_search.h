@@ -1,0 +1,201 @@
+// The loop that A* and Dijkstra share where speed is what counts: expand a cell of nearly the least
+// promise, try its moves, re-open what got cheaper.
+//
+// The open list is a BucketQueue, which orders roughly; exact it is all the same, since the search
+// goes on until no open cell promises less than the goal costs. On maps of one weight, and inside
+// areas of one weight, only canonical moves are tried (moves.h).
+//
+// State is 9 bytes a cell, 13 where a path may cost more than keys of 43 bits can tell: which of
+// the two is decided by the map's size and weights, and a query whose costs turn out to be too
+// large is begun again with the other. A new query clears nothing in proportion to the map.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "grid_path_planner/planners/bucket_queue.h"
+#include "grid_path_planner/planners/cell_of_index.h"
+#include "grid_path_planner/planners/keys.h"
+#include "grid_path_planner/planners/move_pruning.h"
+#include "grid_path_planner/planners/planner.h"
+#include "grid_path_planner/planners/search_nodes.h"
+
+namespace grid_path_planner::planners {
+
+// For a BucketSearch that knows nothing of the way ahead: Dijkstra's.
+inline auto noEstimate(const KeyScale&) {
+  return [](grid::Cell, std::uint32_t) { return SearchKey{0}; };
+}
+
+class BucketSearch {
+ public:
+  // The larger of the two states.
+  static std::size_t bytesFor(const grid::GridGeometry& geometry) {
+    return geometry.size() * (WideNodes::kBytes + sizeof(std::uint8_t));
+  }
+
+  // Throw Stopped.
+  void prepare(const costmap::CostGrid& map, const base::StopToken& stop);
+  void update(const costmap::CostGrid& map, const grid::CellRect& changed,
+              const base::StopToken& stop);
+
+  // The moves of the prepared map, for searches beside this one.
+  const MovePruning& moves() const { return moves_; }
+
+  // A cheapest path from `start` to a cell of which isGoal(index) holds, if the estimates are lower
+  // bounds of the way to the nearest such cell; at most e times as dear if they are lower bounds
+  // times e. `estimateIn(scale)` gives a function of (cell, index), whose result is a key of that
+  // scale. FOUND with cells and cost, UNREACHABLE, TIMEOUT or CANCELLED. Throws CostOverflow.
+  // Precondition: `map` is the prepared one and `start` is passable.
+  template <class IsGoal, class EstimateIn>
+  SearchResult run(const costmap::CostGrid& map, grid::Cell start, const IsGoal& isGoal,
+                   const EstimateIn& estimateIn, bool record_expanded, const base::StopToken& stop);
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr std::uint32_t kTooDear = kNone - 1;
+
+  // A search on its way: the goal that was found, kNone where there is none, kTooDear where the
+  // keys do not suffice.
+  template <bool kUniform, class Nodes, class IsGoal, class Estimate>
+  std::uint32_t search(Nodes& nodes, const costmap::CostGrid& map, grid::Cell start,
+                       const IsGoal& isGoal, const Estimate& estimate, bool record_expanded,
+                       base::StopPoll& poll, SearchResult& result);
+  template <class Nodes, class IsGoal, class EstimateIn>
+  std::uint32_t searchOn(Nodes& nodes, const costmap::CostGrid& map, grid::Cell start,
+                         const IsGoal& isGoal, const EstimateIn& estimateIn, bool record_expanded,
+                         base::StopPoll& poll, SearchResult& result);
+
+  static bool packedMaySuffice(const costmap::CostGrid& map);
+  static unsigned bucketShift(const costmap::CostGrid& map, const KeyScale& scale);
+  template <class Nodes>
+  void makeNodes(Nodes& nodes, const costmap::CostGrid& map);
+  template <class Nodes>
+  void finish(const Nodes& nodes, const costmap::CostGrid& map, grid::Cell start,
+              std::uint32_t goal, SearchResult& result) const;
+
+  MovePruning moves_;
+  PackedNodes packed_;  // one of the two has memory
+  WideNodes wide_;
+  BucketQueue open_;
+};
+
+template <class IsGoal, class EstimateIn>
+SearchResult BucketSearch::run(const costmap::CostGrid& map, grid::Cell start, const IsGoal& isGoal,
+                               const EstimateIn& estimateIn, bool record_expanded,
+                               const base::StopToken& stop) {
+  SearchResult result;
+  base::StopPoll poll(stop);
+  if (packedMaySuffice(map)) {
+    wide_ = WideNodes();
+    const std::uint32_t goal =
+        searchOn(packed_, map, start, isGoal, estimateIn, record_expanded, poll, result);
+    if (goal != kTooDear) return result;
+  }
+  packed_ = PackedNodes();
+  const std::uint32_t goal =
+      searchOn(wide_, map, start, isGoal, estimateIn, record_expanded, poll, result);
+  if (goal == kTooDear) throw CostOverflow();
+  return result;
+}
+
+template <class Nodes, class IsGoal, class EstimateIn>
+std::uint32_t BucketSearch::searchOn(Nodes& nodes, const costmap::CostGrid& map, grid::Cell start,
+                                     const IsGoal& isGoal, const EstimateIn& estimateIn,
+                                     bool record_expanded, base::StopPoll& poll,
+                                     SearchResult& result) {
+  makeNodes(nodes, map);
+  const auto estimate = estimateIn(Nodes::kScale);
+  result.status = base::Status::UNREACHABLE;
+  const std::uint32_t goal =
+      map.uniform()
+          ? search<true>(nodes, map, start, isGoal, estimate, record_expanded, poll, result)
+          : search<false>(nodes, map, start, isGoal, estimate, record_expanded, poll, result);
+  finish(nodes, map, start, goal, result);
+  return goal;
+}
+
+template <bool kUniform, class Nodes, class IsGoal, class Estimate>
+std::uint32_t BucketSearch::search(Nodes& nodes, const costmap::CostGrid& map, grid::Cell start,
+                                   const IsGoal& isGoal, const Estimate& estimate,
+                                   bool record_expanded, base::StopPoll& poll,
+                                   SearchResult& result) {
+  constexpr KeyScale kScale = Nodes::kScale;
+  const costmap::CostGrid::Weight* weights = map.weights().values().data();
+  const CellOfIndex cellOf(map.geometry());
+  const std::array<std::ptrdiff_t, 8> offsets = moves_.offsets();
+  std::array<SearchKey, 8> lengths{};
+  for (std::size_t step = 0; step < lengths.size(); ++step)
+    lengths[step] = (step < 4 ? kScale.straight : diagonalKey(kScale, map.motion().diagonal_cost)) *
+                    (kUniform ? map.minWeight() : 1);
+  base::Statistics& counts = result.statistics;
+  const std::uint32_t start_index = map.geometry().index(start).value();
+
+  // 1. The start is the only open cell.
+  nodes.beginQuery();
+  nodes.begin(start_index);
+  const SearchKey first = estimate(start, start_index);
+  open_.begin(first, bucketShift(map, kScale));
+  open_.push(first, start_index);
+  ++counts.generated;
+  std::uint32_t goal = kNone;
+  SearchKey goal_cost = kInfiniteKey;
+
+  while (!open_.empty()) {
+    const base::StopReason reason = poll.ask();
+    if (reason != base::StopReason::NONE) {
+      result.status = base::Stopped(reason).status();
+      return kNone;
+    }
+    counts.peak_open = std::max(counts.peak_open, open_.size());
+    if (goal != kNone && open_.lowest() >= goal_cost) break;
+
+    // 2. One of the most promising cells, unless it was expanded since it was put there, or
+    // promises no less than was found.
+    const std::uint32_t from = open_.pop();
+    if (nodes.closed(from)) continue;
+    const SearchKey cost = nodes.cost(from);
+    const grid::Cell cell = cellOf(from);
+    if (goal != kNone && saturatingSum(cost, estimate(cell, from)) >= goal_cost) continue;
+    nodes.close(from);
+    ++counts.expanded;
+    if (record_expanded) result.expanded.emplace_back(from);
+    if (isGoal(from)) {
+      goal = from;
+      goal_cost = cost;
+      continue;
+    }
+
+    // 3. Its moves.
+    for (std::uint32_t moves = moves_.after(nodes.steps(from), from); moves != 0;
+         moves &= moves - 1) {
+      const auto step = static_cast<unsigned>(__builtin_ctz(moves));
+      const auto to = static_cast<std::uint32_t>(from + offsets[step]);
+      const SearchKey to_cost =
+          cost + (kUniform ? lengths[step] : lengths[step] * std::max(weights[from], weights[to]));
+      const Offer offer = nodes.compare(to, to_cost);
+      if (offer == Offer::WORSE) continue;
+      const grid::Cell to_cell{cell.column + kSteps[step].column, cell.row + kSteps[step].row};
+      const SearchKey promise = saturatingSum(to_cost, estimate(to_cell, to));
+
+      // 4. Another way as cheap: it may leave open what the known one does not.
+      if (offer == Offer::EQUAL) {
+        if (!moves_.missing(nodes.steps(to), step, to)) continue;
+        nodes.addStep(to, step);
+        if (!nodes.closed(to)) continue;
+        nodes.reopen(to);
+        ++counts.reopened;
+      } else {
+        // 5. A cheaper one: open the cell, or open it again.
+        if (promise > kScale.largest) return kTooDear;
+        if (nodes.take(to, to_cost, step)) ++counts.reopened;
+      }
+      open_.push(promise, to);
+      ++counts.generated;
+    }
+  }
+  return goal;
+}
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,61 @@
+// Costs in 32 bits, for tables of them, from which keys of any scale come back.
+//
+// A cost A + B sqrt 2 is the integer 33461 A + 47321 B, the two a convergent of sqrt 2 as well. As
+// long as B is small enough A and B come back from it, and from the difference of two: nothing is
+// rounded, so that paths of equal cost remain equal to the last digit and a search that is guided
+// by the table need follow only one of them. Dearer costs, a CompactCostUnit of their own, are kept in
+// multiples of a power of two keys, rounded down.
+#pragma once
+
+#include <cstdint>
+
+#include "grid_path_planner/planners/keys.h"
+
+namespace grid_path_planner::planners {
+
+using CompactCost = std::int32_t;
+constexpr CompactCost kNoCompactCost = 0x7fffffff;  // where no way leads
+
+class CompactCostUnit {
+ public:
+  // Exact.
+  CompactCostUnit() = default;
+  // The finest in which `longest` (a wide key) has an entry.
+  static CompactCostUnit rounding(SearchKey longest);
+
+  bool exact() const { return shift_ < 0; }
+
+  // The entry of a wide key: kNoCompactCost for kInfiniteKey, and where the unit is exact and cannot hold
+  // it. One that rounds gives the largest entry to what is beyond.
+  CompactCost entryOf(SearchKey cost) const;
+
+  // A key of `scale` that is certain where two entries differ by this much: |cost - cost|, or less
+  // by up to two units. Precondition: not negative.
+  SearchKey keyOf(CompactCost difference, const KeyScale& scale) const {
+    return exact() ? exactKey(static_cast<std::uint32_t>(difference), scale)
+                   : roundedKey(difference, scale);
+  }
+
+ private:
+  static constexpr std::uint32_t kStraight = 33461;
+  static constexpr std::uint32_t kDiagonal = 47321;
+  static constexpr std::uint32_t kDiagonalInverse = 19601;  // modulo kStraight
+  static constexpr std::uint32_t kMostDiagonal = kStraight / 2;
+  static_assert(std::uint64_t{kDiagonal} * kDiagonalInverse % kStraight == 1, "");
+
+  static CompactCost exactEntry(SearchKey cost);
+  // The difference is some A * kStraight + B * kDiagonal with |B| at most kMostDiagonal.
+  static SearchKey exactKey(std::uint32_t difference, const KeyScale& scale) {
+    const std::uint32_t modulo = difference % kStraight * kDiagonalInverse % kStraight;
+    const std::int64_t diagonal =
+        std::int64_t{modulo} - (modulo > kMostDiagonal ? std::int64_t{kStraight} : 0);
+    const std::int64_t straight = (difference - diagonal * kDiagonal) / std::int64_t{kStraight};
+    return static_cast<SearchKey>(straight * static_cast<std::int64_t>(scale.straight) +
+                                  diagonal * static_cast<std::int64_t>(scale.diagonal));
+  }
+  SearchKey roundedKey(CompactCost difference, const KeyScale& scale) const;
+
+  int shift_ = -1;  // of a rounding unit
+};
+
+}  // namespace grid_path_planner::planners

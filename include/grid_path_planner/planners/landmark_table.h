@@ -1,0 +1,124 @@
+// Costs from a few cells, the landmarks, to every cell: by the triangle inequality
+// |cost(landmark, a) - cost(landmark, b)| bounds the cost between a and b from below (Goldberg &
+// Harrelson, "Computing the shortest path: A* search meets graph theory", SODA 2005; differential
+// heuristics, Sturtevant et al., IJCAI 2009).
+//
+//   const LandmarkTable table(map, 16, stop);
+//   const CostDecreases cheaper;  // since the table was made: none
+//   const LandmarkBound bound(table, cheaper, goal_index);
+//   SearchKey least = bound(index);  // from that cell to the goal
+//
+// The costs are kept in 32 bits a landmark (table_entry.h), those of one cell side by side: 16
+// landmarks are a cache line. On maps whose costs fit the bounds are exact differences, and
+// consistent. Rounded ones may fall between neighbours by up to two units more than the step costs,
+// so a search must re-open cells to be optimal.
+//
+// Landmarks are chosen where the bounds of those before are worst ("avoid", Goldberg & Werneck
+// 2005), as ends of the tree of cheapest paths from a cell drawn by a fixed seed: the same map
+// gives the same table.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/base/zeroed_array.h"
+#include "grid_path_planner/costmap/cost_grid.h"
+#include "grid_path_planner/planners/compact_cost.h"
+#include "grid_path_planner/planners/keys.h"
+
+namespace grid_path_planner::planners {
+
+class CostDecreases;
+class LandmarkBound;
+
+class LandmarkTable {
+ public:
+  using Cheaper = CostDecreases;
+  using Bound = LandmarkBound;
+  using Entry = CompactCost;
+  static constexpr int kLanes = 4;  // a row's length is a multiple of it
+
+  // Bytes of a table; of one while it is made.
+  static std::size_t bytesFor(const grid::GridGeometry& geometry, int landmarks);
+  static std::size_t makingBytesFor(const grid::GridGeometry& geometry, int landmarks);
+
+  // Throws Stopped. Where costs overflow there are no landmarks, and every bound is 0.
+  LandmarkTable(const costmap::CostGrid& map, int landmarks, const base::StopToken& stop);
+
+  // Entries of a cell, one a landmark, the rest 0: kNoCompactCost where no way leads there.
+  const Entry* row(std::uint32_t index) const { return rows_ + std::size_t{index} * stride_; }
+  int stride() const { return stride_; }
+  const std::vector<grid::Cell>& landmarks() const { return landmarks_; }
+  std::size_t bytes() const { return memory_.size() * sizeof(Entry); }
+
+  const CompactCostUnit& unit() const { return unit_; }
+
+ private:
+  class Making;
+
+  int stride_;
+  CompactCostUnit unit_;
+  base::ZeroedArray<Entry> memory_;
+  Entry* rows_;  // in memory_, where a cache line begins
+  std::vector<grid::Cell> landmarks_;
+};
+
+// Bounds after some places of the map became cheaper than the table knows.
+//
+// A path that uses none of what became cheaper costs at least what the table says. Any other one
+// comes by unchanged steps to the neighbourhood of such a place, and leaves that of one by
+// unchanged steps: it costs at least the way to the nearest of them and from the nearest of them
+// on. A place is kept as the interval of its cells' entries, so it takes no more time than a
+// landmark's row.
+class CostDecreases {
+ public:
+  using Entry = LandmarkTable::Entry;
+
+  // Cells of `rect` became cheaper or passable. Precondition: `rect` lies in the map.
+  void add(const LandmarkTable& table, const grid::GridGeometry& geometry,
+           const grid::CellRect& rect);
+
+  bool empty() const { return places_.empty(); }
+  bool usable() const { return true; }
+  // Around all of them.
+  grid::CellRect hull() const;
+  // What it costs at least from a cell to the nearest of them. Precondition: not empty.
+  SearchKey least(const LandmarkTable& table, std::uint32_t index, const KeyScale& scale) const;
+
+ private:
+  struct Place {
+    grid::CellRect rect;
+    std::vector<Entry> low;   // smallest entry of the rectangle's cells, a landmark
+    std::vector<Entry> high;  // largest; below `low` where the landmark reaches none of them
+
+    void join(const Place& other);
+  };
+
+  static Place placeOf(const LandmarkTable& table, const grid::GridGeometry& geometry,
+                       const grid::CellRect& rect);
+
+  std::vector<Place> places_;
+};
+
+// The bound to one goal, as keys of a scale.
+class LandmarkBound {
+ public:
+  // `table` and `cheaper` outlive the bound.
+  LandmarkBound(const LandmarkTable& table, const CostDecreases& cheaper, std::uint32_t goal,
+                const KeyScale& scale = kWideScale);
+
+  SearchKey operator()(std::uint32_t index) const;
+
+ private:
+  using Entry = LandmarkTable::Entry;
+
+  const LandmarkTable& table_;
+  const CostDecreases& cheaper_;
+  KeyScale scale_;
+  std::vector<Entry> goal_row_;
+  SearchKey goal_to_cheaper_ = 0;
+};
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,143 @@
+// How a path is found: one contract, one file per algorithm.
+//
+//   std::unique_ptr<Planner> planner = makePlanner("a_star", options);
+//   planner->prepare(map, StopToken());
+//   SearchResult result = planner->plan({Cell{1, 2}, {Cell{30, 40}}}, source.token());
+//
+// plan() checks the request once and then computes; it never changes the map, and the same request
+// on the same map gives the same cells, whatever the machine's load. A request that cannot be
+// answered is a status with a sentence; calling plan() before prepare() is NO_MAP.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/base/statistics.h"
+#include "grid_path_planner/base/status.h"
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/costmap/cost_grid.h"
+#include "grid_path_planner/costmap/exact_cost.h"
+#include "grid_path_planner/costmap/line_of_sight.h"
+
+namespace grid_path_planner::planners {
+
+// What a planner can do and what it promises.
+struct PlannerTraits {
+  std::string name;
+  bool four_connected = true;  // understands Connectivity::FOUR
+  bool unit_diagonals = true;  // understands DiagonalCost::UNIT
+  bool cut_corners = true;     // understands cut_corners
+  bool weights = true;         // cells of different weights
+  bool optimal = false;        // can be; optimalFor() says whether it is, on a map with its options
+  bool heuristic = false;      // is guided by SearchOptions::heuristic
+  bool any_angle = false;      // the result is turning points: SearchResult::points
+  bool shortest = false;       // of any angle, and none is shorter, but for rounding
+  bool several_goals = false;  // answers "the nearest of these goals"
+  bool repairs = false;        // update() costs less than prepare()
+  // plan() goes on from the searches before: its statistics are of what it did anew, and which of
+  // equally cheap paths is answered depends on the calls since prepare().
+  bool incremental = false;
+};
+
+struct SearchRequest {
+  grid::Cell start;
+  std::vector<grid::Cell> goals;  // the cheapest to reach is answered; most planners take one only
+  bool record_expanded = false;   // fill SearchResult::expanded, for pictures
+};
+
+struct SearchResult {
+  base::Status status = base::Status::NO_MAP;
+  std::string message;            // one sentence that holds the values
+  std::vector<grid::Cell> cells;  // start and goal included; start = goal: one cell
+  // Of any-angle planners only: the turning points on the searched map, from the waypoint of the
+  // start to that of the goal, which may be corners of cells. `cells` then has as many, each
+  // passable and holding or touching its point.
+  std::vector<costmap::SegmentPoint> points;
+  // In cells of the original map x weight: of the steps, and of the segments of any-angle planners,
+  // which have no exact form.
+  costmap::ExactCost cost;
+  double segment_cost = 0.0;
+  double costValue() const { return cost.toDouble() + segment_cost; }
+
+  base::Statistics statistics;
+  std::vector<grid::CellIndex> expanded;  // in order, where the request asks for it
+};
+
+// What a planner makes in a thread of its own, to be faster when it is there.
+struct BackgroundWork {
+  bool pending = false;   // something is being made
+  double time_s = 0.0;    // that the last one took; 0 where there is none
+  std::size_t bytes = 0;  // that it holds
+};
+
+class Planner {
+ public:
+  virtual ~Planner() = default;
+
+  const PlannerTraits& traits() const { return traits_; }
+
+  // Whether the cost of what is found on `map` is the least there is, exactly.
+  virtual bool optimalFor(const costmap::CostGrid& map) const;
+
+  // Memory that prepare() and plan() will hold for a map of this geometry, the map excluded.
+  virtual std::size_t bytesFor(const grid::GridGeometry& geometry) const = 0;
+
+  // The most that prepare() may take, by bytesFor(). For a map that needs more it takes nothing,
+  // and plan() is INVALID_REQUEST with both figures.
+  void limitMemory(std::size_t bytes) { memory_limit_ = bytes; }
+
+  // Takes the map and makes what the planner needs of it: nothing of a map that it cannot search.
+  // Throws Stopped.
+  void prepare(std::shared_ptr<const costmap::CostGrid> map, const base::StopToken& stop);
+
+  // `map` differs from the prepared one only inside `changed`, and follows it by one revision;
+  // anything else is a full prepare, but for the prepared map itself, which is nothing new.
+  void update(std::shared_ptr<const costmap::CostGrid> map, const grid::CellRect& changed,
+              const base::StopToken& stop);
+
+  // Until background work is done plans take longer. An optimal planner's cost the same before and
+  // after, though of paths of equal cost it may answer another.
+  virtual BackgroundWork backgroundWork() { return {}; }
+  // Returns when it is done. Throws Stopped; it goes on then.
+  virtual void finishBackgroundWork(const base::StopToken&) {}
+
+  SearchResult search(const SearchRequest& request, const base::StopToken& stop);
+
+ protected:
+  explicit Planner(PlannerTraits traits) : traits_(std::move(traits)) {}
+
+  const costmap::CostGrid& map() const { return *map_; }
+  // The same, for a planner inside this one.
+  const std::shared_ptr<const costmap::CostGrid>& sharedMap() const { return map_; }
+  // The map that update() replaces. Precondition: called by doUpdate().
+  const costmap::CostGrid& previousMap() const { return *map_before_; }
+
+  // What a user may do where bytesFor() is more than the limit.
+  virtual std::string waysToLessMemory() const;
+
+  // The reason why this planner cannot search `map`, "" where it can.
+  virtual std::string refusal(const costmap::CostGrid& map) const;
+  virtual void doPrepare(const base::StopToken&) {}
+  // For doPrepare(), where only a look at the map tells that it cannot be searched.
+  void refuse(std::string reason) { refusal_ = std::move(reason); }
+  std::size_t memoryLimit() const { return memory_limit_; }
+  virtual void doUpdate(const grid::CellRect&, const base::StopToken& stop) { doPrepare(stop); }
+  // The request is valid: start and goals in the map and passable. May throw Stopped; TIMEOUT or
+  // CANCELLED with the statistics so far is better.
+  virtual SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) = 0;
+
+ private:
+  PlannerTraits traits_;
+  std::string reasonAgainst(const costmap::CostGrid& map) const;
+
+  std::size_t memory_limit_ = std::numeric_limits<std::size_t>::max();
+  std::shared_ptr<const costmap::CostGrid> map_;
+  std::shared_ptr<const costmap::CostGrid> map_before_;  // during an update
+  std::string refusal_;    // why map_ cannot be searched, "" where it can
+  bool prepared_ = false;  // false where a preparation was stopped half way
+};
+
+}  // namespace grid_path_planner::planners

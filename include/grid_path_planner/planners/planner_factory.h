@@ -1,0 +1,31 @@
+// Every planner by name.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/planners/planner.h"
+#include "grid_path_planner/planners/search_options.h"
+
+namespace grid_path_planner::planners {
+
+// Names in the order in which they should be offered.
+const std::vector<std::string>& plannerNames();
+
+// The names as a list for people: "a_star, dijkstra, ...".
+std::string listOfPlanners();
+
+// Throws InputError for any other name: with the known ones, or what to take where it was a
+// planner once.
+std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOptions& options = {});
+
+// makePlanner(), or what knows more names.
+using PlannerMaker =
+    std::function<std::unique_ptr<Planner>(const std::string& name, const SearchOptions& options)>;
+
+// The names of the SearchOptions that it looks at. Throws as makePlanner() does.
+std::vector<std::string> optionsUsedBy(const std::string& name);
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,70 @@
+// The heuristics that come from tables, landmark and exact, for a search that is guided by either
+// or by none.
+//
+//   PrecomputedHeuristic tables(options);
+//   tables.prepare(map);
+//   SearchResult result = tables.withBound(goal, [&](const auto& boundIn) {
+//     const auto bound = boundIn(scale);
+//     return search(bound(index));  // a key of that scale
+//   });
+//
+// A bound is 0 everywhere where the options ask for no table and while it is being made.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "grid_path_planner/planners/exact_table.h"
+#include "grid_path_planner/planners/landmark_table.h"
+#include "grid_path_planner/planners/precomputed_table.h"
+#include "grid_path_planner/planners/search_options.h"
+
+namespace grid_path_planner::planners {
+
+struct NoBound {
+  SearchKey operator()(std::uint32_t) const { return 0; }
+};
+
+class PrecomputedHeuristic {
+ public:
+  explicit PrecomputedHeuristic(const SearchOptions& options);
+
+  // Two tables at most: one in use while the next is made.
+  static std::size_t bytesFor(const SearchOptions& options, const grid::GridGeometry& geometry);
+  // What a user may do where that is too much; "" where the heuristic takes none.
+  static std::string waysToLessMemory(const SearchOptions& options);
+
+  // As those of PrecomputedTable; nothing where there is no table to make.
+  void prepare(std::shared_ptr<const costmap::CostGrid> map);
+  void update(const costmap::CostGrid& before, std::shared_ptr<const costmap::CostGrid> map,
+              const grid::CellRect& changed);
+  void wait(const base::StopToken& stop) const;
+  BackgroundWork work();
+
+  // Whether there is a table that can be used.
+  bool ready() { return (landmarks_ && landmarks_->ready()) || (exact_ && exact_->ready()); }
+
+  // What `search(boundIn)` gives, with the bounds to the cell `goal`.
+  template <class Search>
+  auto withBound(std::uint32_t goal, Search&& search) {
+    if (landmarks_)
+      if (const LandmarkTable* table = landmarks_->ready())
+        return search([&](const KeyScale& scale) {
+          return LandmarkBound(*table, landmarks_->cheaper(), goal, scale);
+        });
+    if (exact_)
+      if (const ExactTable* table = exact_->ready())
+        return search([&](const KeyScale& scale) {
+          return ExactBound(*table, exact_->cheaper(), goal, scale);
+        });
+    return search([](const KeyScale&) { return NoBound(); });
+  }
+
+ private:
+  std::unique_ptr<PrecomputedTable<LandmarkTable>> landmarks_;
+  std::unique_ptr<PrecomputedTable<ExactTable>> exact_;
+};
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,119 @@
+// What a search knows of every cell: the key of its cost so far, the steps that led there at that
+// cost, and whether it was expanded since.
+//
+// Nothing is cleared between queries: a node carries the number of the query that wrote it, and
+// counts as unknown in any other. Both kinds below have the same functions; PackedNodes are faster
+// and smaller, and serve paths up to a cost of 3.2 million cell lengths x weight.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "grid_path_planner/base/zeroed_array.h"
+#include "grid_path_planner/planners/keys.h"
+
+namespace grid_path_planner::planners {
+
+// What an offered cost was to a node.
+enum class Offer { WORSE, EQUAL, BETTER };
+
+// 8 bytes a cell: 12 bits of query, 43 of largest key - key, 8 of steps, 1 of closed. Written in
+// this order, one comparison tells whether an offer is better: of a later query, or cheaper.
+class PackedNodes {
+ public:
+  static constexpr KeyScale kScale = kPackedScale;
+  static constexpr std::size_t kBytes = sizeof(std::uint64_t);
+
+  PackedNodes() = default;
+  explicit PackedNodes(std::size_t size) : nodes_(size) {}
+  std::size_t size() const { return nodes_.size(); }
+
+  void beginQuery();
+
+  // The following ask of a cell that was reached in this query.
+  SearchKey cost(std::uint32_t index) const {
+    return kScale.largest - (nodes_[index] >> kKeyShift & kScale.largest);
+  }
+  std::uint32_t steps(std::uint32_t index) const { return nodes_[index] >> kStepShift & 0xFFU; }
+  bool closed(std::uint32_t index) const { return (nodes_[index] & 1) != 0; }
+  void close(std::uint32_t index) { nodes_[index] |= 1; }
+  void addStep(std::uint32_t index, unsigned step) { nodes_[index] |= bitOf(step); }
+  void reopen(std::uint32_t index) { nodes_[index] &= ~std::uint64_t{1}; }
+
+  void begin(std::uint32_t start) { nodes_[start] = query_ | kScale.largest << kKeyShift; }
+
+  // A key above the largest is CHEAPER: it must be refused before it is taken.
+  Offer compare(std::uint32_t index, SearchKey key) const {
+    const std::uint64_t offer = valueOf(key), known = nodes_[index];
+    if (offer > (known | kRest)) return Offer::BETTER;
+    return offer == (known & ~kRest) ? Offer::EQUAL : Offer::WORSE;
+  }
+  // Takes a CHEAPER one; whether the cell had been expanded in this query.
+  bool take(std::uint32_t index, SearchKey key, unsigned step) {
+    const std::uint64_t known = nodes_[index];
+    nodes_[index] = valueOf(key) | bitOf(step);
+    return known >= query_ && (known & 1) != 0;
+  }
+
+ private:
+  static constexpr unsigned kStepShift = 1;
+  static constexpr unsigned kKeyShift = 9;
+  static constexpr unsigned kQueryShift = 52;
+  static constexpr std::uint64_t kRest = (std::uint64_t{1} << kKeyShift) - 1;
+
+  static std::uint64_t bitOf(unsigned step) { return std::uint64_t{1} << kStepShift << step; }
+  std::uint64_t valueOf(SearchKey key) const {
+    return query_ | (kScale.largest - key) << kKeyShift;
+  }
+
+  base::ZeroedArray<std::uint64_t> nodes_;
+  std::uint64_t query_ = 0;  // where a node has it
+};
+
+// 12 bytes a cell: any key, and a word of query, steps and closed.
+class WideNodes {
+ public:
+  static constexpr KeyScale kScale = kWideScale;
+  static constexpr std::size_t kBytes = sizeof(SearchKey) + sizeof(std::uint32_t);
+
+  WideNodes() = default;
+  explicit WideNodes(std::size_t size) : costs_(size), words_(size) {}
+  std::size_t size() const { return costs_.size(); }
+
+  void beginQuery();
+
+  SearchKey cost(std::uint32_t index) const { return costs_[index]; }
+  std::uint32_t steps(std::uint32_t index) const { return words_[index] >> kStepShift & 0xFFU; }
+  bool closed(std::uint32_t index) const { return (words_[index] & 1) != 0; }
+  void close(std::uint32_t index) { words_[index] |= 1; }
+  void addStep(std::uint32_t index, unsigned step) { words_[index] |= bitOf(step); }
+  void reopen(std::uint32_t index) { words_[index] &= ~std::uint32_t{1}; }
+
+  void begin(std::uint32_t start) {
+    words_[start] = query_;
+    costs_[start] = 0;
+  }
+
+  Offer compare(std::uint32_t index, SearchKey key) const {
+    if (words_[index] < query_ || key < costs_[index]) return Offer::BETTER;
+    return key == costs_[index] ? Offer::EQUAL : Offer::WORSE;
+  }
+  bool take(std::uint32_t index, SearchKey key, unsigned step) {
+    const std::uint32_t known = words_[index];
+    words_[index] = query_ | bitOf(step);
+    costs_[index] = key;
+    return known >= query_ && (known & 1) != 0;
+  }
+
+ private:
+  static constexpr unsigned kStepShift = 1;
+  static constexpr unsigned kQueryShift = 9;
+
+  static std::uint32_t bitOf(unsigned step) { return std::uint32_t{1} << kStepShift << step; }
+
+  base::ZeroedArray<SearchKey> costs_;
+  base::ZeroedArray<std::uint32_t> words_;
+  std::uint32_t query_ = 0;
+};
+
+}  // namespace grid_path_planner::planners

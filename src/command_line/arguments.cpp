@@ -1,0 +1,159 @@
+#include "command_line/arguments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <sstream>
+#include <type_traits>
+
+#include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/planning/unused_options.h"
+
+namespace grid_path_planner::command_line {
+
+using base::describeOptions;
+using base::InputError;
+using base::numberFromText;
+using base::OptionDescription;
+using base::OptionInfo;
+using base::parseOption;
+using grid::MapFileOptions;
+using planning::checkPlannerOptions;
+using planning::PlannerOptions;
+using planning::UnusedOption;
+using planning::unusedOptions;
+
+namespace {
+
+namespace po = boost::program_options;
+
+std::string flagOf(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+// Writes one option's text into its place.
+struct FromText {
+  const po::variables_map& values;
+
+  template <class Value>
+  void operator()(const char* option, Value& value, const OptionInfo& info) const {
+    const std::string name = flagOf(option);
+    if (values.count(name) == 0) return;
+    parseOption("--" + name, values[name].as<std::string>(), info, value);
+  }
+};
+
+// The arguments with hyphens in the names of options, which messages and parameters spell with
+// underscores.
+std::vector<std::string> hyphenated(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  for (std::string& argument : arguments) {
+    if (argument.compare(0, 2, "--") != 0) continue;
+    const auto end = std::find(argument.begin(), argument.end(), '=');
+    std::replace(argument.begin(), end, '_', '-');
+  }
+  return arguments;
+}
+
+// "--start and --goal are", of the required options; empty: all are there.
+std::string missingOf(const po::options_description& known, const po::variables_map& values) {
+  std::vector<std::string> missing;
+  for (const auto& option : known.options())
+    if (option->semantic()->is_required() && values.count(option->long_name()) == 0)
+      missing.push_back("--" + option->long_name());
+  std::string list;
+  for (std::size_t i = 0; i < missing.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == missing.size() ? " and " : ", ") + missing[i];
+  return list + (missing.empty() ? "" : missing.size() == 1 ? " is" : " are");
+}
+
+}  // namespace
+
+bool parseArguments(int argc, char** argv, const po::options_description& known,
+                    const std::string& usage, po::variables_map& values) {
+  namespace style = po::command_line_style;
+  const int long_only = style::allow_long | style::long_allow_adjacent | style::long_allow_next;
+  po::options_description all(known);
+  all.add_options()("help", "print this");
+  const po::parsed_options parsed =
+      po::command_line_parser(hyphenated(argc, argv)).options(all).style(long_only).run();
+  for (const po::option& option : parsed.options)
+    if (option.position_key >= 0)
+      throw InputError("what is '" + option.value.front() + "'? Options are given as --name VALUE");
+  po::store(parsed, values);
+  if (values.count("help") != 0) {
+    std::cout << "usage: " << usage << "\n\n" << all << '\n';
+    return false;
+  }
+  const std::string missing = missingOf(all, values);
+  if (!missing.empty()) throw InputError(missing + " missing; usage: " + usage);
+  po::notify(values);
+  return true;
+}
+
+std::vector<double> numbersOf(const std::string& name, const std::string& text, std::size_t fewest,
+                              std::size_t most) {
+  std::vector<double> numbers;
+  std::istringstream parts(text + ",");
+  for (std::string part; std::getline(parts, part, ',');)
+    numbers.push_back(numberFromText("--" + name, part));
+  if (numbers.size() >= fewest && numbers.size() <= most) return numbers;
+  throw InputError("--" + name + " needs " + std::to_string(fewest) +
+                   (most > fewest ? " to " + std::to_string(most) : "") +
+                   " numbers separated by commas, got '" + text + "'");
+}
+
+MapFileOptions readingOptionsFrom(const po::variables_map& values) {
+  MapFileOptions options;
+  options.warn = [](const std::string& warning) { std::cerr << "warning: " << warning << '\n'; };
+  if (values.count("resolution") == 0) return options;
+  const std::string& text = values["resolution"].as<std::string>();
+  options.resolution = numbersOf("resolution", text, 1, 1)[0];
+  if (*options.resolution <= 0.0)
+    throw InputError("--resolution must be a positive number of metres, got " + text);
+  return options;
+}
+
+void describePlannerOptions(po::options_description& known) {
+  for (const OptionDescription& option : describeOptions(PlannerOptions())) {
+    std::string text = option.description;
+    if (!option.unit.empty()) text += " [" + option.unit + "]";
+    std::string choices;
+    for (const std::string& choice : option.choices)
+      choices += (choices.empty() ? "" : ", ") + choice;
+    if (!choices.empty()) text += " (" + choices + ")";
+    text += "; default " + option.value;
+    known.add_options()(flagOf(option.name).c_str(), po::value<std::string>(), text.c_str());
+  }
+  known.add_options()("weights", po::value<std::string>(),
+                      "weights of free, unknown and occupied cells as F,U,O");
+}
+
+PlannerOptions plannerOptionsFrom(const po::variables_map& values, const PlannerOptions& defaults) {
+  PlannerOptions options = defaults;
+  if (values.count("weights") != 0) {
+    const std::string text = values["weights"].as<std::string>();
+    const std::vector<double> weights = numbersOf("weights", text, 3, 3);
+    for (const double weight : weights)
+      if (weight != std::floor(weight) || weight < 1 || weight > 65535)
+        throw InputError("--weights must be whole numbers from 1 to 65535, got '" + text + "'");
+    options.terrain.free_weight = static_cast<int>(weights[0]);
+    options.terrain.unknown_weight = static_cast<int>(weights[1]);
+    options.terrain.occupied_weight = static_cast<int>(weights[2]);
+  }
+  visitOptions(options, FromText{values});
+  checkPlannerOptions(options);
+  return options;
+}
+
+void warnAboutUnusedOption(const std::string& option, const std::string& with) {
+  std::cerr << "warning: --" << flagOf(option) << " changes nothing with " << with << '\n';
+}
+
+void warnAboutUnusedOptions(const PlannerOptions& options) {
+  for (const UnusedOption& each : unusedOptions(options))
+    warnAboutUnusedOption(each.name, each.with);
+}
+
+}  // namespace grid_path_planner::command_line

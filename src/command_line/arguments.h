@@ -1,0 +1,45 @@
+// Command lines read with Boost.Program_options, in the one way that all commands share.
+#pragma once
+
+#include <boost/program_options.hpp>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/base/options.h"
+#include "grid_path_planner/grid/map_file.h"
+#include "grid_path_planner/planning/path_planner.h"
+
+namespace grid_path_planner::command_line {
+
+// What --map reads, for its help.
+constexpr const char* kMapFiles =
+    "map_server YAML, MovingAI .map, image, drawing (vector_map YAML), rectangles, rostopic echo "
+    "dump or bag";
+
+// Long options only, so that negative numbers parse as values. Prints the help and returns false
+// where
+// --help is given. Throws boost::program_options::error for what it does not know.
+bool parseArguments(int argc, char** argv, const boost::program_options::options_description& known,
+                    const std::string& usage, boost::program_options::variables_map& values);
+
+// "1.5,-2" as two numbers; throws InputError naming the option for anything but `fewest` to `most`
+// finite numbers.
+std::vector<double> numbersOf(const std::string& name, const std::string& text, std::size_t fewest,
+                              std::size_t most);
+
+// What --resolution asks for, and warnings to the standard error. Throws InputError.
+grid::MapFileOptions readingOptionsFrom(const boost::program_options::variables_map& values);
+
+// Adds an option --some-name for every option some_name of PlannerOptions, and --weights F,U,O.
+void describePlannerOptions(boost::program_options::options_description& known);
+
+// The options given on the command line over `defaults`. Throws InputError naming the option.
+planning::PlannerOptions plannerOptionsFrom(const boost::program_options::variables_map& values,
+                                            const planning::PlannerOptions& defaults = {});
+
+// On the standard error: the option changes nothing with that.
+void warnAboutUnusedOption(const std::string& option, const std::string& with);
+// Of all that change nothing with the others.
+void warnAboutUnusedOptions(const planning::PlannerOptions& options);
+
+}  // namespace grid_path_planner::command_line

@@ -1,0 +1,39 @@
+// grid_path: plans and measures without a roscore.
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "command_line/commands.h"
+
+namespace {
+
+using grid_path_planner::command_line::Command;
+using grid_path_planner::command_line::commands;
+
+int usage(std::ostream& out, int code) {
+  out << "usage: grid_path COMMAND [options]\n\n";
+  for (const Command& command : commands())
+    out << "  " << command.name << std::string(12 - std::strlen(command.name), ' ')
+        << command.purpose << '\n';
+  out << "\n'grid_path COMMAND --help' lists a command's options.\n";
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using grid_path_planner::command_line::kBadInput;
+  if (argc < 2) return usage(std::cerr, kBadInput);
+  const std::string name = argv[1];
+  if (name == "--help" || name == "-h" || name == "help") return usage(std::cout, 0);
+  try {
+    for (const Command& command : commands())
+      if (name == command.name) return command.run(argc - 1, argv + 1);
+  } catch (const std::exception& error) {
+    std::cerr << "grid_path " << name << ": " << error.what() << '\n';
+    return kBadInput;
+  }
+  std::cerr << "grid_path: there is no command '" << name << "'\n\n";
+  return usage(std::cerr, kBadInput);
+}

@@ -1,0 +1,164 @@
+// grid_path plan: one path on one map file.
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "command_line/arguments.h"
+#include "command_line/commands.h"
+#include "grid_path_planner/path/path_image.h"
+#include "grid_path_planner/path/waypoint_file.h"
+#include "grid_path_planner/planning/path_planner.h"
+#include "grid_path_planner/ros/bag.h"
+
+namespace grid_path_planner::command_line {
+
+using base::InputError;
+using base::Status;
+using base::StopToken;
+using grid::Cell;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+using nodes::readAnyMapFile;
+using path::Pose;
+using path::writePicture;
+using path::writeWaypointFile;
+using planners::makePlanner;
+using planning::PathPlanner;
+using planning::Plan;
+using planning::PlannerOptions;
+using planning::PoseRequest;
+
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr int kFound = 0;
+constexpr int kNoPath = 1;
+
+po::options_description describe() {
+  po::options_description known("Options");
+  known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
+      "start", po::value<std::string>()->required(), "X,Y[,Z[,YAW]] in metres, YAW in radians")(
+      "goal", po::value<std::string>()->required(), "the same")(
+      "cells", "start and goal are COLUMN,ROW of cells")(
+      "resolution", po::value<std::string>(),
+      "side of the map's cells instead of its own: the map grows or shrinks by it [m]")(
+      "image", po::value<std::string>(),
+      "write a picture of map, expanded cells and path, with a legend")(
+      "waypoints", po::value<std::string>(), "write the path as a waypoint file")(
+      "json", "print one JSON object instead of a sentence");
+  describePlannerOptions(known);
+  return known;
+}
+
+Pose poseOf(const std::string& name, const std::string& text, bool cells,
+            const GridGeometry& geometry) {
+  const std::vector<double> numbers = numbersOf(name, text, 2, cells ? 2 : 4);
+  Pose pose;
+  if (cells) {
+    if (numbers[0] != std::floor(numbers[0]) || numbers[1] != std::floor(numbers[1]))
+      throw InputError("--" + name + " needs whole numbers with --cells, got '" + text + "'");
+    pose.position << geometry.worldFromGrid({numbers[0] + 0.5, numbers[1] + 0.5}), 0.0;
+    return pose;
+  }
+  pose.position.head<2>() = Eigen::Vector2d(numbers[0], numbers[1]);
+  if (numbers.size() > 2) pose.position.z() = numbers[2];
+  if (numbers.size() > 3) pose.yaw = numbers[3];
+  return pose;
+}
+
+nlohmann::json jsonOf(const Plan& report, double preparation_ms) {
+  const bool found = report.status == Status::FOUND;
+  nlohmann::json poses = nlohmann::json::array();
+  for (const Pose& pose : report.path.poses)
+    poses.push_back({pose.position.x(), pose.position.y(), pose.position.z(), pose.yaw});
+  nlohmann::json object = {
+      {"status", std::string(toString(report.status))},
+      {"message", report.message},
+      {"cost", nullptr},
+      {"optimal", report.optimal},
+      {"length_m", nullptr},
+      {"cells", report.cells},
+      {"kernel", report.kernel},
+      {"expanded", report.statistics.expanded},
+      {"generated", report.statistics.generated},
+      {"reopened", report.statistics.reopened},
+      {"peak_open", report.statistics.peak_open},
+      {"planning_time_ms", report.statistics.time_s * 1e3},
+      {"preparation_time_ms", preparation_ms},
+      {"search_bytes", report.statistics.search_bytes},
+      {"path", poses},
+  };
+  if (found) object["cost"] = report.costValue();
+  if (found) object["length_m"] = report.length_m;
+  return object;
+}
+
+// The cells that a picture tints: those of the blocks whose centres were expanded.
+std::vector<Cell> cellsOf(const Plan& report, const GridGeometry& geometry) {
+  std::vector<Cell> cells;
+  for (const Eigen::Vector2d& centre : report.expanded) {
+    const std::optional<Cell> middle = geometry.cellAt(centre);
+    if (!middle) continue;
+    const Cell block{middle->column / report.kernel, middle->row / report.kernel};
+    for (int row = 0; row < report.kernel; ++row)
+      for (int column = 0; column < report.kernel; ++column)
+        cells.push_back({block.column * report.kernel + column, block.row * report.kernel + row});
+  }
+  return cells;
+}
+
+// Where the planner promises the cheapest path by itself, but not with these options.
+void warnAboutPromise(const PlannerOptions& options) {
+  if (options.terrain.kernel != 1 || options.smooth) return;
+  if (!makePlanner(options.planner)->traits().optimal) return;
+  std::cerr << "warning: the path may not be the cheapest: with this heuristic, heuristic_scale or "
+               "epsilon "
+            << options.planner << " does not promise it\n";
+}
+
+}  // namespace
+
+int runPlan(int argc, char** argv) {
+  po::variables_map values;
+  if (!parseArguments(argc, argv, describe(),
+                      "grid_path plan --map FILE --start X,Y --goal X,Y [options]", values))
+    return kFound;
+  const PlannerOptions options = plannerOptionsFrom(values);
+  warnAboutUnusedOptions(options);
+
+  const auto map = std::make_shared<const OccupancyGrid>(
+      readAnyMapFile(values["map"].as<std::string>(), readingOptionsFrom(values)));
+
+  const bool cells = values.count("cells") != 0;
+  PoseRequest request;
+  request.start = poseOf("start", values["start"].as<std::string>(), cells, map->geometry());
+  request.goal = poseOf("goal", values["goal"].as<std::string>(), cells, map->geometry());
+  request.record_expanded = values.count("image") != 0;
+
+  PathPlanner planner(options);
+  planner.setMap(map);
+  const auto begin = std::chrono::steady_clock::now();
+  planner.finishPreparation(StopToken());
+  const std::chrono::duration<double, std::milli> prepared =
+      std::chrono::steady_clock::now() - begin;
+  const Plan report = planner.plan(request);
+  if (report.status == Status::FOUND && !report.optimal) warnAboutPromise(options);
+
+  if (values.count("image") != 0)
+    writePicture(values["image"].as<std::string>(), *map, options.terrain.thresholds,
+                 {report.path, cellsOf(report, map->geometry()), {}, {}});
+  if (values.count("waypoints") != 0 && report.status == Status::FOUND)
+    writeWaypointFile(values["waypoints"].as<std::string>(), report.path);
+  if (values.count("json") != 0)
+    std::cout << jsonOf(report, prepared.count()).dump() << '\n';
+  else
+    std::cout << toString(report.status) << ": " << report.message << '\n';
+  if (report.status == Status::INVALID_REQUEST) return kBadInput;
+  return report.status == Status::FOUND ? kFound : kNoPath;
+}
+
+}  // namespace grid_path_planner::command_line

@@ -1,0 +1,121 @@
+#include "command_line/rectangles_output.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/path/path_image.h"
+
+namespace grid_path_planner::command_line {
+
+using grid::CellRect;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+using path::PictureContent;
+using path::writePicture;
+using planners::Connection;
+using planners::MapSizes;
+using planners::RectangleGraph;
+using planners::RectangleWeight;
+
+namespace {
+
+// Lines that still are read: of more, only the first few are told.
+constexpr std::size_t kMostTold = 40;
+constexpr std::size_t kFewTold = 10;
+
+nlohmann::json jsonOf(const MapSizes& sizes) {
+  return {{"entire_map", sizes.entire_map},
+          {"empty_cells", sizes.empty_cells},
+          {"rectangles", sizes.rectangles},
+          {"file", sizes.file},
+          {"png", sizes.png},
+          {"zlib", sizes.zlib}};
+}
+
+std::string counted(std::size_t number, const std::string& thing) {
+  return std::to_string(number) + " " + thing + (number == 1 ? "" : "s");
+}
+
+void printConnections(const RectangleGraph& map, RectangleWeight weight) {
+  const std::size_t count = map.connections().count();
+  const std::size_t told = count <= kMostTold ? count : kFewTold;
+  std::size_t number = 0;
+  visitConnections(map, [&](std::uint32_t from, const Connection& step) {
+    if (++number > told) return;
+    std::cout << from + 1 << " -> " << step.to + 1 << ": " << weightOf(map, weight, from, step)
+              << '\n';
+  });
+  if (told < count) std::cout << "... and " << count - told << " more: --json tells them all\n";
+}
+
+// Of the border that two rectangles share, or their corner, in cells.
+Eigen::Vector2d middleOfBorder(const CellRect& a, const CellRect& b) {
+  const auto middle = [](int begin_a, int size_a, int begin_b, int size_b) {
+    return 0.5 * (std::max(begin_a, begin_b) + std::min(begin_a + size_a, begin_b + size_b));
+  };
+  return {middle(a.column, a.width, b.column, b.width), middle(a.row, a.height, b.row, b.height)};
+}
+
+// From each rectangle's centre to the middles of its borders, which never leaves the rectangle.
+std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> linksOf(const RectangleGraph& map) {
+  const GridGeometry& geometry = map.geometry();
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> links;
+  visitConnections(map, [&](std::uint32_t from, const Connection& step) {
+    const CellRect &a = map.rectangles()[from], &b = map.rectangles()[step.to];
+    links.emplace_back(geometry.worldFromGrid(centreOf(a)),
+                       geometry.worldFromGrid(middleOfBorder(a, b)));
+  });
+  return links;
+}
+
+}  // namespace
+
+nlohmann::json jsonOf(const RectangleQuestion& question, const RectangleAnswer& answer) {
+  nlohmann::json rectangles = nlohmann::json::array();
+  for (const CellRect& rect : answer.in_file)
+    rectangles.push_back({rect.column, rect.row, rect.width, rect.height});
+  nlohmann::json object = {{"cells", answer.map.geometry().size()},
+                           {"cells_in_rectangles", answer.map.freeCells()},
+                           {"count", answer.in_file.size()},
+                           {"connections", answer.map.connections().count() / 2},
+                           {"bytes", answer.sizes.file},
+                           {"sizes", jsonOf(answer.sizes)},
+                           {"time_ms", answer.time_ms},
+                           {"rectangles", std::move(rectangles)}};
+  if (!question.weight) return object;
+  nlohmann::json weights = nlohmann::json::array();
+  visitConnections(answer.map, [&](std::uint32_t from, const Connection& step) {
+    weights.push_back({from, step.to, weightOf(answer.map, *question.weight, from, step)});
+  });
+  object["weights"] = std::move(weights);
+  return object;
+}
+
+void print(const RectangleQuestion& question, const RectangleAnswer& answer) {
+  const GridGeometry& geometry = answer.map.geometry();
+  const MapSizes& sizes = answer.sizes;
+  std::cout << question.map << ": " << geometry.width() << "x" << geometry.height() << " cells, "
+            << answer.map.freeCells() << " of them in "
+            << counted(answer.in_file.size(), "rectangle") << " with "
+            << counted(answer.map.connections().count() / 2, "connection") << ", cut in "
+            << std::setprecision(3) << answer.time_ms << " ms\n"
+            << "bytes: " << sizes.file << " as a file, " << sizes.rectangles
+            << " as a list of rectangles, " << sizes.empty_cells << " as a list of free cells; "
+            << sizes.entire_map << " as bits, " << sizes.png << " as PNG, " << sizes.zlib
+            << " as bits in zlib\n"
+            << std::setprecision(6);
+  if (question.weight) printConnections(answer.map, *question.weight);
+}
+
+void draw(const std::string& file, const RectangleQuestion& question, const RectangleAnswer& answer,
+          const OccupancyGrid& map) {
+  PictureContent content;
+  content.rectangles = answer.map.rectangles();
+  if (question.weight) content.links = linksOf(answer.map);
+  writePicture(file, map, {}, content);
+}
+
+}  // namespace grid_path_planner::command_line

@@ -1,0 +1,80 @@
+#include "command_line/rectangles_request.h"
+
+#include <cmath>
+
+#include "command_line/arguments.h"
+
+namespace grid_path_planner::command_line {
+
+using base::choiceFromName;
+using base::InputError;
+using planners::RectangleWeight;
+using planners::Touching;
+
+namespace {
+
+namespace po = boost::program_options;
+
+std::int64_t countFrom(const po::variables_map& values, const std::string& name) {
+  const std::string& text = values[name].as<std::string>();
+  const double number = numbersOf(name, text, 1, 1)[0];
+  if (number != std::floor(number) || number < 1.0 || number > 1e15)
+    throw InputError("--" + name + " must be a whole number from 1, got '" + text + "'");
+  return static_cast<std::int64_t>(number);
+}
+
+bool asksForMergedRuns(const po::variables_map& values) {
+  if (values.count("partition") == 0) return false;
+  const std::string& name = values["partition"].as<std::string>();
+  if (name != "largest_first" && name != "merged_runs")
+    throw InputError("--partition must be largest_first or merged_runs, got '" + name + "'");
+  return name == "merged_runs";
+}
+
+}  // namespace
+
+po::options_description describeRectangles() {
+  po::options_description known("Options");
+  known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
+      "resolution", po::value<std::string>(),
+      "side of the map's cells instead of its own; of a drawing, how finely it is read [m]")(
+      "unknown-is-free", "cut unknown cells into rectangles too")(
+      "partition", po::value<std::string>(),
+      "largest_first: the published R-map; merged_runs: quicker, in no such order; default "
+      "largest_first")("limit", po::value<std::string>(), "no more rectangles than these")(
+      "min-area", po::value<std::string>(), "no rectangle smaller than this [cells]")(
+      "weight", po::value<std::string>(),
+      "tell what a step over each connection weighs, of many the first few, with --json all "
+      "(area, border, distance, connections, or length: through the middle of the border)")(
+      "corners", "rectangles that touch at a corner only are connected too")(
+      "image", po::value<std::string>(),
+      "write a picture with a legend: rectangles with their numbers from 1, connections with "
+      "--weight")("output", po::value<std::string>(), "write the rectangles as a compact file")(
+      "memory-limit", po::value<std::string>(),
+      "refuse a map that may need more, before it is cut [MB]; default 6000")(
+      "json", "print one JSON object instead of sentences");
+  return known;
+}
+
+RectangleQuestion rectangleQuestionFrom(const po::variables_map& values) {
+  RectangleQuestion question;
+  question.map = values["map"].as<std::string>();
+  question.reading = readingOptionsFrom(values);
+  question.unknown_is_free = values.count("unknown-is-free") != 0;
+  question.merged_runs = asksForMergedRuns(values);
+  if (values.count("limit") != 0 && values.count("min-area") != 0)
+    throw InputError("--limit and --min-area do not go together");
+  if (question.merged_runs && values.count("limit") + values.count("min-area") != 0)
+    throw InputError("--limit and --min-area are for --partition largest_first");
+  if (values.count("limit") != 0)
+    question.limits.count = static_cast<std::size_t>(countFrom(values, "limit"));
+  if (values.count("min-area") != 0) question.limits.smallest_area = countFrom(values, "min-area");
+  if (values.count("weight") != 0)
+    question.weight =
+        choiceFromName<RectangleWeight>("--weight", values["weight"].as<std::string>());
+  if (values.count("memory-limit") != 0) question.memory_limit = countFrom(values, "memory-limit");
+  if (values.count("corners") != 0) question.touching = Touching::BORDERS_AND_CORNERS;
+  return question;
+}
+
+}  // namespace grid_path_planner::command_line

@@ -1,0 +1,33 @@
+// What `grid_path rectangles` is asked.
+#pragma once
+
+#include <boost/program_options.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "grid_path_planner/grid/map_file.h"
+#include "grid_path_planner/planners/connections.h"
+#include "grid_path_planner/planners/decomposition.h"
+#include "grid_path_planner/planners/search_options.h"
+
+namespace grid_path_planner::command_line {
+
+struct RectangleQuestion {
+  std::string map;
+  grid::MapFileOptions reading;
+  bool unknown_is_free = false;
+  bool merged_runs = false;
+  planners::DecompositionLimits limits;
+  std::optional<planners::RectangleWeight> weight;
+  planners::Touching touching = planners::Touching::BORDERS;
+  std::int64_t memory_limit = planners::SearchOptions().memory_limit;  // MB
+};
+
+// The options of the command line, those of what it writes among them.
+boost::program_options::options_description describeRectangles();
+
+// Throws InputError naming the option.
+RectangleQuestion rectangleQuestionFrom(const boost::program_options::variables_map& values);
+
+}  // namespace grid_path_planner::command_line

@@ -1,0 +1,290 @@
+// grid_path scenarios: MovingAI queries, each cost compared with the file's, or with another
+// planner's where inflation, weights or other steps make the file's optima wrong.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include "command_line/arguments.h"
+#include "command_line/commands.h"
+#include "command_line/path_hash.h"
+#include "command_line/progress_bar.h"
+#include "grid_path_planner/base/files.h"
+#include "grid_path_planner/costmap/costmap_builder.h"
+#include "grid_path_planner/planners/planner_factory.h"
+#include "grid_path_planner/planning/smooth_route.h"
+#include "grid_path_planner/planning/unused_options.h"
+#include "grid_path_planner/ros/bag.h"
+#include "grid_path_planner/study/scenario_file.h"
+
+namespace grid_path_planner::command_line {
+
+using base::InputError;
+using base::Status;
+using base::StopToken;
+using base::writeFileAtomically;
+using costmap::CostGrid;
+using costmap::CostmapBuilder;
+using costmap::CostmapOptions;
+using costmap::MotionModel;
+using grid::Cell;
+using grid::OccupancyGrid;
+using nodes::readAnyMapFile;
+using planners::BackgroundWork;
+using planners::makePlanner;
+using planners::Planner;
+using planners::PlannerTraits;
+using planners::SearchRequest;
+using planners::SearchResult;
+using planning::changedOptions;
+using planning::PlannerOptions;
+using planning::smoothResult;
+using study::checkScenarioQuery;
+using study::readScenarioFile;
+using study::ScenarioQuery;
+using study::spreadOver;
+
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr double kRelativeError = 1e-5;  // the files' costs are rounded
+constexpr double kRounding = 1e-12;      // a planner's once, by exact integers
+constexpr double kRootsRounding = 1e-9;
+
+constexpr char kFile[] = "file";  // as reference: the file's own costs
+
+struct Totals {
+  std::size_t queries = 0;     // without the unsolvable ones
+  std::size_t unsolvable = 0;  // there is no path, says the reference
+  std::size_t solved = 0;
+  std::size_t wrong = 0;
+  std::uint64_t expanded = 0;
+  double time_s = 0.0;
+  double cost = 0.0;            // of the solved ones
+  double reference_cost = 0.0;  // of the same
+
+  double costOverReference() const { return reference_cost > 0.0 ? cost / reference_cost : 1.0; }
+
+  void add(const SearchResult& result, double least) {
+    if (result.status == Status::FOUND) {
+      cost += result.costValue();
+      reference_cost += least;
+    }
+    ++queries;
+    solved += result.status == Status::FOUND ? 1 : 0;
+    expanded += result.statistics.expanded;
+    time_s += result.statistics.time_s;
+  }
+};
+
+po::options_description describe() {
+  po::options_description known("Options");
+  known.add_options()("scen", po::value<std::string>()->required(), "MovingAI scenario file")(
+      "map", po::value<std::string>(), "map file; default: the one the scenario names, beside it")(
+      "limit", po::value<std::int64_t>(), "how many queries, spread evenly over the file")(
+      "csv", po::value<std::string>(), "write a line a query")(
+      "hash-paths", "print a hash of every query's status, path and cost, before the last line")(
+      "reference", po::value<std::string>(),
+      "what costs are compared with: file, or a planner's answers; default: file where its optima "
+      "hold, dijkstra where inflation, a kernel, weights or other steps change them");
+  describePlannerOptions(known);
+  return known;
+}
+
+std::string besideFile(const std::string& file, const std::string& name) {
+  const std::size_t slash = file.rfind('/');
+  const std::size_t base = name.rfind('/');
+  return (slash == std::string::npos ? "" : file.substr(0, slash + 1)) +
+         (base == std::string::npos ? name : name.substr(base + 1));
+}
+
+std::size_t limitOf(const po::variables_map& values) {
+  if (values.count("limit") == 0) return 0;
+  const auto limit = values["limit"].as<std::int64_t>();
+  if (limit < 1) throw InputError("--limit must be at least 1");
+  return static_cast<std::size_t>(limit);
+}
+
+// Whether the costs of scenario files are the least ones on a map that is made with these options.
+bool fileOptimaHold(const CostmapOptions& terrain) {
+  return terrain.radius == 0.0 && terrain.decay == 0.0 && terrain.kernel == 1 &&
+         terrain.free_weight == 1 && terrain.motion == MotionModel();
+}
+
+// Queries are asked of the planner alone, cell to cell: what belongs to poses and to the time
+// around the search has no effect here.
+void warnAboutOptionsOfPoses(const PlannerOptions& options) {
+  for (const std::string& name : changedOptions(options))
+    for (const char* idle : {"tolerance", "start_escape_radius", "retry_finer", "timeout",
+                             "heading", "path_z", "fixed_z"})
+      if (name == idle) warnAboutUnusedOption(name, "scenarios");
+}
+
+std::string referenceNameOf(const po::variables_map& values, const CostmapOptions& terrain) {
+  if (values.count("reference") != 0) return values["reference"].as<std::string>();
+  return fileOptimaHold(terrain) ? kFile : "dijkstra";
+}
+
+// The query's cells, or their blocks on a map of a kernel.
+SearchRequest requestOf(const ScenarioQuery& query, int kernel) {
+  const auto block = [kernel](Cell cell) { return Cell{cell.column / kernel, cell.row / kernel}; };
+  return {block(query.start), {block(query.goal)}, false};
+}
+
+// A planner that refuses the map refuses every query.
+SearchResult answerOf(Planner& planner, const SearchRequest& request) {
+  SearchResult result = planner.search(request, StopToken());
+  if (result.status == Status::INVALID_REQUEST) throw InputError(result.message);
+  return result;
+}
+
+// Answers what the queries' least costs are.
+class Reference {
+ public:
+  // Throws InputError for a name that is neither "file" nor a planner's, and for a planner whose
+  // answers say nothing about those of `judged`.
+  Reference(const std::string& name, const std::shared_ptr<const CostGrid>& map,
+            const PlannerTraits& judged)
+      : name_(name), kernel_(map->kernel()) {
+    if (name_ != kFile) planner_ = plannerNamed(name_);
+    const bool any_angle = planner_ && planner_->traits().any_angle;
+    if (any_angle && !judged.any_angle)
+      throw InputError("--reference " + name_ +
+                       " finds paths of any angle, which no path over the grid can be as short as");
+    if (planner_ && !(any_angle ? planner_->traits().shortest : planner_->optimalFor(*map)))
+      throw InputError("--reference " + name_ + " does not promise the least cost on this map");
+    right_ = any_angle == judged.any_angle && any_angle == judged.shortest ? Right::EQUAL
+             : any_angle                                                   ? Right::NOT_LESS
+                                                                           : Right::NOT_MORE;
+    if (planner_) planner_->prepare(map, StopToken());
+  }
+
+  const std::string& name() const { return name_; }
+
+  // None where there is no path.
+  std::optional<double> costOf(const ScenarioQuery& query) const {
+    if (!planner_) return query.optimum;
+    const SearchResult result = answerOf(*planner_, requestOf(query, kernel_));
+    if (result.status == Status::FOUND) return result.costValue();
+    return std::nullopt;
+  }
+
+  bool contradicts(const SearchResult& result, const std::optional<double>& least) const {
+    if ((result.status == Status::FOUND) != least.has_value()) return true;
+    if (!least) return false;
+    const double more = result.costValue() - *least, allowed = tolerance() * *least;
+    return (right_ != Right::NOT_MORE && more < -allowed) ||
+           (right_ != Right::NOT_LESS && more > allowed);
+  }
+
+  // Relative: the file's optima are rounded, and the lengths of any angle are sums of roots.
+  double tolerance() const {
+    if (!planner_) return kRelativeError;
+    return planner_->traits().any_angle ? kRootsRounding : kRounding;
+  }
+
+ private:
+  // What a right cost is: paths of any angle may be cheaper than those over the grid.
+  enum class Right { EQUAL, NOT_MORE, NOT_LESS };
+
+  static std::unique_ptr<Planner> plannerNamed(const std::string& name) {
+    try {
+      return makePlanner(name);
+    } catch (const InputError& error) {
+      throw InputError(std::string("--reference must be file or a planner; ") + error.what());
+    }
+  }
+
+  std::string name_;
+  int kernel_;
+  Right right_;
+  std::unique_ptr<Planner> planner_;  // none: the file
+};
+
+std::string csvLine(const ScenarioQuery& query, const SearchResult& result, double least,
+                    bool wrong) {
+  std::ostringstream out;
+  out.precision(12);
+  out << query.start.column << ',' << query.start.row << ',' << query.goal.column << ','
+      << query.goal.row << ',' << toString(result.status) << ',' << result.costValue() << ','
+      << least << ',' << wrong << ',' << result.cells.size() << ',' << result.statistics.expanded
+      << ',' << result.statistics.generated << ',' << result.statistics.time_s * 1e3 << ','
+      << result.statistics.search_bytes << '\n';
+  return out.str();
+}
+
+}  // namespace
+
+int runScenarios(int argc, char** argv) {
+  po::variables_map values;
+  if (!parseArguments(argc, argv, describe(), "grid_path scenarios --scen FILE [options]", values))
+    return 0;
+  const std::string file = values["scen"].as<std::string>();
+  const PlannerOptions options = plannerOptionsFrom(values);
+  warnAboutUnusedOptions(options);
+  warnAboutOptionsOfPoses(options);
+  const std::vector<ScenarioQuery> all = readScenarioFile(file);
+  const std::vector<ScenarioQuery> queries = spreadOver(all, limitOf(values));
+  const std::string map_file = values.count("map") != 0 ? values["map"].as<std::string>()
+                                                        : besideFile(file, all.front().map);
+
+  CostmapBuilder terrain(options.terrain);
+  terrain.setMap(
+      std::make_shared<const OccupancyGrid>(readAnyMapFile(map_file, readingOptionsFrom(values))));
+  const auto begin = std::chrono::steady_clock::now();
+  const std::shared_ptr<const CostGrid> map = terrain.downsampled(StopToken());
+  const std::unique_ptr<Planner> planner = makePlanner(options.planner, options.search);
+  planner->prepare(map, StopToken());
+  planner->finishBackgroundWork(StopToken());
+  const std::chrono::duration<double> preparation = std::chrono::steady_clock::now() - begin;
+  PlannerTraits judged = planner->traits();
+  judged.any_angle |= options.smooth;
+  const Reference reference(referenceNameOf(values, options.terrain), map, judged);
+
+  Totals totals;
+  PathHash paths;
+  std::string csv =
+      "start_x,start_y,goal_x,goal_y,status,cost,optimum,wrong,cells,expanded,generated,time_ms,"
+      "search_bytes\n";
+  ProgressBar bar(queries.size());
+  for (const ScenarioQuery& query : queries) {
+    checkScenarioQuery(query, terrain.fullResolution(StopToken())->geometry(), file);
+    SearchResult result = answerOf(*planner, requestOf(query, map->kernel()));
+    if (result.status == Status::FOUND && options.smooth) smoothResult(*map, result, StopToken());
+    paths.add(result);
+    const std::optional<double> least = reference.costOf(query);
+    const bool wrong = reference.contradicts(result, least);
+    totals.wrong += wrong ? 1 : 0;
+    if (least)
+      totals.add(result, *least);
+    else
+      ++totals.unsolvable;
+    if (least || wrong) csv += csvLine(query, result, least.value_or(-1.0), wrong);
+    bar.done(totals.queries + totals.unsolvable);
+  }
+  if (values.count("csv") != 0) writeFileAtomically(values["csv"].as<std::string>(), csv);
+
+  const BackgroundWork work = planner->backgroundWork();
+  std::printf(
+      "map=%s planner=%s preparation_ms=%.3f reference=%s unsolvable=%zu "
+      "cost_over_reference=%.6f\n",
+      map_file.c_str(), options.planner.c_str(), preparation.count() * 1e3,
+      reference.name().c_str(), totals.unsolvable, totals.costOverReference());
+  if (work.bytes > 0)
+    std::printf("background_ms=%.3f background_bytes=%zu\n", work.time_s * 1e3, work.bytes);
+  if (values.count("hash-paths") != 0) std::printf("path_hash=%s\n", paths.text().c_str());
+  std::printf("queries=%zu solved=%zu wrong=%zu total_s=%.6f mean_ms=%.6f expanded=%llu\n",
+              totals.queries, totals.solved, totals.wrong, totals.time_s,
+              totals.time_s * 1e3 / static_cast<double>(std::max<std::size_t>(totals.queries, 1)),
+              static_cast<unsigned long long>(totals.expanded));
+  const bool promised = planner->optimalFor(*map) || planner->traits().shortest;
+  return totals.wrong > 0 && promised ? 1 : 0;
+}
+
+}  // namespace grid_path_planner::command_line

@@ -1,0 +1,139 @@
+#include "costmap/bounded_distance_transform.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+namespace grid_path_planner::costmap {
+
+using grid::CellRect;
+using grid::Grid;
+using grid::Occupancy;
+
+namespace {
+
+constexpr std::size_t kTogether = 8;  // an Eight
+
+// No obstacle in the row: far enough even in the next row but one, and no overflow in the last.
+constexpr std::int16_t kBeyond = 16900;
+constexpr std::int16_t kFar = 32767;
+
+constexpr int kLargestAcross = 2 * BoundedDistanceTransform::kLargestReach;  // half cells
+static_assert(kBeyond > (kLargestAcross + 1) * (kLargestAcross + 1));
+static_assert(kBeyond + (kLargestAcross - 1) * (kLargestAcross - 1) < kFar);
+
+// The first occupied one of cells[at] up to cells[count], `count` where there is none.
+int occupiedFrom(const Occupancy* cells, int at, int count) {
+  const void* found = std::memchr(cells + at, static_cast<int>(Occupancy::OCCUPIED),
+                                  static_cast<std::size_t>(count - at));
+  return found == nullptr ? count : static_cast<int>(static_cast<const Occupancy*>(found) - cells);
+}
+
+}  // namespace
+
+BoundedDistanceTransform::BoundedDistanceTransform(const Grid<Occupancy>& classes,
+                                                   const CellRect& sources, const CellRect& rect,
+                                                   int reach)
+    : classes_(classes),
+      rect_(rect),
+      window_(rect.grown(reach).intersection(sources)),
+      reach_(reach),
+      period_(std::max(1, std::min(2 * reach + 1, window_.height))),
+      stride_((static_cast<std::size_t>(rect.width) + kTogether - 1) / kTogether * kTogether),
+      next_(window_.row),
+      memory_(stride_ * static_cast<std::size_t>(period_)),
+      least_(stride_) {
+  assert(reach > 0 && reach <= kLargestReach);
+  rising_.assign(static_cast<std::size_t>(rect.width) + 2 * reach + 1, kBeyond);
+  for (int apart = 0; apart <= reach; ++apart) {
+    rising_[static_cast<std::size_t>(apart)] = static_cast<Distance>(squared(apart));
+    apart_.push_back(Eight{} + static_cast<Distance>(squared(apart)));
+  }
+  falling_.assign(rising_.rbegin(), rising_.rend());
+}
+
+const std::int16_t* BoundedDistanceTransform::row(int row) {
+  const auto beforeRow = [](const Line& line, int row) { return line.row < row; };
+  lines_.erase(lines_.begin(),
+               std::lower_bound(lines_.begin(), lines_.end(), row - reach_, beforeRow));
+  const int end = std::min(window_.row + window_.height, row + reach_ + 1);
+  for (; next_ < end; ++next_) measure(next_);
+  if (lines_.empty()) return nullptr;
+  const auto above = std::lower_bound(lines_.begin(), lines_.end(), row, beforeRow);
+  for (std::size_t i = 0; i < stride_; i += kTogether) {
+    const Eight eight = least(row, static_cast<std::size_t>(above - lines_.begin()), i);
+    std::memcpy(least_.data() + i, &eight, sizeof eight);
+  }
+  return least_.data();
+}
+
+// From the row on up and down, until no line can be less.
+BoundedDistanceTransform::Eight BoundedDistanceTransform::least(int row, std::size_t above,
+                                                                std::size_t first) const {
+  Eight least = Eight{} + kFar;
+  const auto take = [&](const Line& line, const Eight& apart) {
+    const Eight here = from(line.distances + first) + apart;
+    least = here < least ? here : least;
+  };
+  for (std::size_t i = above; i < lines_.size(); ++i) {
+    if (lines_[i].behind_the_one_before && i > above) continue;
+    const Eight& apart = apart_[static_cast<std::size_t>(lines_[i].row - row)];
+    if (!any(least > apart)) break;
+    take(lines_[i], apart);
+  }
+  for (std::size_t i = above; i-- > 0;) {
+    if (lines_[i].behind_the_one_after && i + 1 < above) continue;
+    const Eight& apart = apart_[static_cast<std::size_t>(row - lines_[i].row)];
+    if (!any(least > apart)) break;
+    take(lines_[i], apart);
+  }
+  return least;
+}
+
+void BoundedDistanceTransform::measure(int row) {
+  const Occupancy* cells = classes_.row(row) + window_.column;
+  const int first = occupiedFrom(cells, 0, window_.width);
+  if (first == window_.width) return;
+
+  Distance* line = memory_.data() + static_cast<std::size_t>(row % period_) * stride_;
+  constexpr int kNone = 1 << 29;
+  const int skipped = rect_.column - window_.column;
+  int before = -kNone;
+  for (int next = first;; next = occupiedFrom(cells, before + 1, window_.width)) {
+    fillBetween(before, next == window_.width ? kNone : next, line);
+    if (next == window_.width) return append(row, line);
+    if (next >= skipped && next < skipped + rect_.width) line[next - skipped] = 0;
+    before = next;
+  }
+}
+
+void BoundedDistanceTransform::append(int row, const Distance* distances) {
+  Line line{row, distances};
+  if (!lines_.empty()) {
+    Line& last = lines_.back();
+    Eight nearer = {}, farther = {};  // than the last
+    for (std::size_t i = 0; i < stride_; i += kTogether) {
+      const Eight here = from(distances + i), there = from(last.distances + i);
+      nearer |= here < there;
+      farther |= here > there;
+    }
+    line.behind_the_one_before = !any(nearer);
+    last.behind_the_one_after = !any(farther);
+  }
+  lines_.push_back(line);
+}
+
+void BoundedDistanceTransform::fillBetween(int before, int next, Distance* line) const {
+  const int skipped = rect_.column - window_.column;
+  const int low = std::max(before + 1, skipped);
+  const int high = std::min(next, skipped + rect_.width);
+  if (low >= high) return;
+  const int middle = std::clamp((before + next) / 2 + 1, low, high);
+  if (low < middle)
+    std::copy_n(rising_.data() + (low - before), middle - low, line + low - skipped);
+  const auto last = static_cast<std::ptrdiff_t>(falling_.size()) - 1;
+  if (middle < high)
+    std::copy_n(falling_.data() + (last - (next - middle)), high - middle, line + middle - skipped);
+}
+
+}  // namespace grid_path_planner::costmap

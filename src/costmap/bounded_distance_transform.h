@@ -1,0 +1,91 @@
+// Distances to obstacles that are near, for inflation: what obstacleDistances() of inflation.h
+// gives, up to a reach of a few dozen cells, in a fraction of its time.
+//
+//   BoundedDistanceTransform near(classes, sources, rect, reach);
+//   for (int row = rect.row; row < rect.row + rect.height; ++row)
+//     if (const std::int16_t* distances = near.row(row)) use(distances);
+//
+// Distances are in (half cells)^2, from a cell's centre to the nearest edge of an occupied cell of
+// `sources`, exact below (2 reach + 1)^2 and any larger value beyond. Separable: along each row the
+// distance to the nearest occupied cell; then down the columns the least over the 2 reach + 1 rows
+// around, eight columns at once, from the nearest row on until none can be less, rows without an
+// occupied cell left out. Sixteen bits hold it all, so the rows around stay in the cache. That is
+// O(reach) a cell and yet the fastest way measured up to kLargestReach: in open country there is
+// hardly a row to look at.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "grid_path_planner/grid/occupancy.h"
+
+namespace grid_path_planner::costmap {
+
+class BoundedDistanceTransform {
+ public:
+  static constexpr int kLargestReach = 63;
+
+  // Precondition: `rect` and `sources` lie in the map of `classes`, which outlives this; 0 < reach
+  // <= kLargestReach.
+  BoundedDistanceTransform(const grid::Grid<grid::Occupancy>& classes,
+                           const grid::CellRect& sources, const grid::CellRect& rect, int reach);
+
+  // The distances of the rectangle's cells in `row`, until the next call; null where all are large.
+  // Precondition: rows are asked for in order, each once.
+  const std::int16_t* row(int row);
+
+ private:
+  using Distance = std::int16_t;
+  // Eight distances, handled by one instruction where the machine has such.
+  using Eight = Distance __attribute__((vector_size(16)));
+
+  static Eight from(const Distance* distances) {
+    Eight eight;
+    std::memcpy(&eight, distances, sizeof eight);
+    return eight;
+  }
+  static bool any(Eight signs) {
+    using Halves = std::int64_t __attribute__((vector_size(16)));
+    const auto halves = reinterpret_cast<Halves>(signs);
+    return (halves[0] | halves[1]) != 0;
+  }
+
+  // The squared distance of two cells that are `cells` columns or rows apart.
+  static constexpr int squared(int cells) {
+    return cells == 0 ? 0 : (2 * cells - 1) * (2 * cells - 1);
+  }
+
+  void measure(int row);
+  void append(int row, const Distance* distances);
+  // Distances along a row to the cells `before` and `next`, for those between, as far as they are
+  // of the rectangle. Columns are told from the window's first.
+  void fillBetween(int before, int next, Distance* line) const;
+  // Of the eight columns from `first` on. Lines from `above` on are those of `row` and of rows
+  // after it.
+  Eight least(int row, std::size_t above, std::size_t first) const;
+
+  const grid::Grid<grid::Occupancy>& classes_;
+  grid::CellRect rect_;
+  grid::CellRect window_;  // the part of the sources that is in reach of the rectangle
+  int reach_;
+  int period_;                     // lines that are kept
+  std::size_t stride_;             // of a line, a multiple of eight
+  int next_;                       // the row that is measured next
+  std::vector<Distance> rising_;   // squares by columns apart, kBeyond where out of reach
+  std::vector<Distance> falling_;  // the same backwards
+  std::vector<Distance> memory_;   // of the lines
+  struct Line {
+    int row;
+    const Distance* distances;  // along the row only
+    // Whether no cell is nearer by this line than by the one before, or after: from beyond that one
+    // this line need not be looked at.
+    bool behind_the_one_before = false;
+    bool behind_the_one_after = false;
+  };
+  std::vector<Line> lines_;   // of the rows around that have an occupied cell in reach
+  std::vector<Eight> apart_;  // the squares of rows apart
+  std::vector<Distance> least_;
+};
+
+}  // namespace grid_path_planner::costmap

@@ -1,0 +1,29 @@
+#include "grid_path_planner/costmap/costmap_options.h"
+
+#include <string>
+
+#include "grid_path_planner/base/options.h"
+
+namespace grid_path_planner::costmap {
+
+using base::checkOptionLimits;
+using base::InputError;
+
+const std::vector<std::pair<const char*, KernelRule>>& choicesOf(KernelRule) {
+  static const std::vector<std::pair<const char*, KernelRule>> choices = {
+      {"conservative", KernelRule::CONSERVATIVE}, {"filter2d", KernelRule::FILTER2D}};
+  return choices;
+}
+
+void checkCostmapOptions(const CostmapOptions& options) {
+  checkOptionLimits(options);
+  if (options.thresholds.free_max >= options.thresholds.occupied_min)
+    throw InputError("free_max must be below occupied_min, got " +
+                     std::to_string(options.thresholds.free_max) + " and " +
+                     std::to_string(options.thresholds.occupied_min));
+  if (options.occupied_is_passable && options.radius > 0.0)
+    throw InputError("occupied_is_passable needs radius 0, got radius " +
+                     std::to_string(options.radius) + " m");
+}
+
+}  // namespace grid_path_planner::costmap

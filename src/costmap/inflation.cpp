@@ -1,0 +1,234 @@
+#include "grid_path_planner/costmap/inflation.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "costmap/bounded_distance_transform.h"
+
+namespace grid_path_planner::costmap {
+
+using base::StopPoll;
+using base::StopToken;
+using grid::CellRect;
+using grid::Grid;
+using grid::Occupancy;
+
+namespace {
+
+// Resolutions arrive as 32-bit floats: a radius of whole cells must not fall to their rounding.
+constexpr double kResolutionSlack = 1e-6;
+// Of cells, for what logarithms round.
+constexpr double kReachSlack = 1e-6;
+constexpr int kLargestReach = 1 << 19;
+constexpr HalfCellsSquared kLargestTable = 1 << 20;
+// Columns that are inflated together: the distances of a whole large map would take more memory
+// than the map.
+constexpr int kNearStrip = 512;
+constexpr int kFarStrip = 128;
+
+// Distance along the row from each cell to the nearest occupied one, in half cells to its edge,
+// squared: 0 for the cell itself, else (2n - 1)^2.
+void rowDistances(const Occupancy* row, int width, HalfCellsSquared* out) {
+  int last = -1;
+  for (int i = 0; i < width; ++i) {
+    if (row[i] == Occupancy::OCCUPIED) last = i;
+    const HalfCellsSquared edge = 2 * HalfCellsSquared{i - last} - 1;
+    out[i] = last < 0 ? kNoObstacle : last == i ? 0 : edge * edge;
+  }
+  last = -1;
+  for (int i = width - 1; i >= 0; --i) {
+    if (row[i] == Occupancy::OCCUPIED) last = i;
+    if (last < 0 || last == i) continue;
+    const HalfCellsSquared edge = 2 * HalfCellsSquared{last - i} - 1;
+    if (out[i] == kNoObstacle || edge * edge < out[i]) out[i] = edge * edge;
+  }
+}
+
+// Lower envelope of parabolas over the cells' lower and upper edges: along a column an occupied
+// surrounding is entered through an edge, never through a centre.
+class ColumnTransform {
+ public:
+  explicit ColumnTransform(int height) : height_(height), values_(height) {
+    sources_.reserve(height + 1);
+    starts_.reserve(height + 1);
+  }
+
+  HalfCellsSquared* values() { return values_.data(); }
+
+  void run() {
+    buildEnvelope();
+    std::size_t active = 0;
+    if (sources_.empty()) return;
+    for (int row = 0; row < height_; ++row) {
+      const HalfCellsSquared position = 2 * HalfCellsSquared{row};
+      while (active + 1 < sources_.size() && starts_[active + 1] <= position) ++active;
+      const HalfCellsSquared offset = position - sources_[active].position;
+      const HalfCellsSquared through_edge = offset * offset + sources_[active].value;
+      if (values_[row] == kNoObstacle || through_edge < values_[row]) values_[row] = through_edge;
+    }
+  }
+
+ private:
+  struct Source {
+    HalfCellsSquared
+        position;  // half cells: row r's centre is at 2r, its edges at 2r - 1 and 2r + 1
+    HalfCellsSquared value;
+  };
+
+  void buildEnvelope() {
+    sources_.clear();
+    starts_.clear();
+    for (int edge = 0; edge <= height_; ++edge) {
+      const HalfCellsSquared below = edge > 0 ? values_[edge - 1] : kNoObstacle;
+      const HalfCellsSquared above = edge < height_ ? values_[edge] : kNoObstacle;
+      if (below == kNoObstacle && above == kNoObstacle) continue;
+      const HalfCellsSquared value = below == kNoObstacle   ? above
+                                     : above == kNoObstacle ? below
+                                                            : std::min(below, above);
+      push({2 * HalfCellsSquared{edge} - 1, value});
+    }
+  }
+
+  void push(const Source& source) {
+    while (!sources_.empty()) {
+      const HalfCellsSquared start = firstNotWorse(sources_.back(), source);
+      if (sources_.size() == 1 || start > starts_.back()) {
+        sources_.push_back(source);
+        starts_.push_back(start);
+        return;
+      }
+      sources_.pop_back();
+      starts_.pop_back();
+    }
+    sources_.push_back(source);
+    starts_.push_back(0);
+  }
+
+  // The first position at which `right` is no farther than `left`.
+  static HalfCellsSquared firstNotWorse(const Source& left, const Source& right) {
+    const HalfCellsSquared numerator =
+        right.position * right.position + right.value - left.position * left.position - left.value;
+    const HalfCellsSquared denominator = 2 * (right.position - left.position);
+    return numerator <= 0 ? 0 : (numerator + denominator - 1) / denominator;
+  }
+
+  int height_;
+  std::vector<HalfCellsSquared> values_;
+  std::vector<Source> sources_;
+  std::vector<HalfCellsSquared> starts_;
+};
+
+}  // namespace
+
+std::vector<HalfCellsSquared> obstacleDistances(const Grid<Occupancy>& classes,
+                                                const CellRect& rect, int reach,
+                                                const StopToken& stop) {
+  assert(classes.geometry().rect().intersection(rect) == rect);
+  const CellRect window = rect.grown(reach).intersection(classes.geometry().rect());
+  const auto width = static_cast<std::size_t>(rect.width);
+  StopPoll poll(stop, 16);
+
+  // Along the rows of the window, kept for the columns of the rectangle.
+  std::vector<HalfCellsSquared> along_rows(width * window.height);
+  std::vector<HalfCellsSquared> line(window.width);
+  for (int row = 0; row < window.height; ++row) {
+    poll();
+    rowDistances(classes.row(window.row + row) + window.column, window.width, line.data());
+    std::copy_n(line.begin() + (rect.column - window.column), width,
+                along_rows.begin() + row * width);
+  }
+
+  // Then along a few columns together, so that every line of memory that is fetched is used.
+  constexpr int kTogether = 8;
+  const int skipped = rect.row - window.row;
+  std::vector<HalfCellsSquared> distances(width * rect.height);
+  std::vector<ColumnTransform> columns(kTogether, ColumnTransform(window.height));
+  for (int first = 0; first < rect.width; first += kTogether) {
+    poll();
+    const int count = std::min(kTogether, rect.width - first);
+    for (int row = 0; row < window.height; ++row)
+      for (int i = 0; i < count; ++i)
+        columns[i].values()[row] = along_rows[row * width + first + i];
+    for (int i = 0; i < count; ++i) columns[i].run();
+    for (int row = 0; row < rect.height; ++row)
+      for (int i = 0; i < count; ++i)
+        distances[row * width + first + i] = columns[i].values()[skipped + row];
+  }
+  return distances;
+}
+
+Inflation::Inflation(const CostmapOptions& options, double resolution)
+    : radius_(2.0 * options.radius / resolution * (1.0 - kResolutionSlack)),
+      decay_(options.decay * resolution / 2.0),
+      free_(options.free_weight),
+      rise_(options.inflation_weight - options.free_weight) {
+  double half_cells = radius_;
+  if (decay_ > 0.0 && rise_ > 0.5) half_cells = radius_ + std::log(2.0 * rise_) / decay_;
+  if (half_cells > 0.0)
+    reach_ = static_cast<int>(
+        std::min<double>(kLargestReach, std::floor((half_cells + 1.0) / 2.0 + kReachSlack)));
+  const HalfCellsSquared across = 2 * HalfCellsSquared{reach_} + 1;  // of the first out of reach
+  farthest_ = across * across - 1;
+  const HalfCellsSquared entries = std::min(kLargestTable, farthest_ + 2);
+  table_.reserve(static_cast<std::size_t>(entries));
+  for (HalfCellsSquared distance = 0; distance < entries; ++distance)
+    table_.push_back(dearnessOf(distance));
+}
+
+void Inflation::apply(const Grid<Occupancy>& classes, const CellRect& sources, const CellRect& rect,
+                      Grid<CostGrid::Weight>& weights, const StopToken& stop) const {
+  if (none()) return;
+  const bool near = reach_ <= BoundedDistanceTransform::kLargestReach;
+  const int strip_width = near ? kNearStrip : std::max(kFarStrip, 2 * reach_);
+  for (int column = rect.column; column < rect.column + rect.width; column += strip_width) {
+    const int width = std::min(strip_width, rect.column + rect.width - column);
+    const CellRect strip = {column, rect.row, width, rect.height};
+    near ? applyNear(classes, sources, strip, weights, stop)
+         : applyFar(classes, strip, weights, stop);
+  }
+}
+
+void Inflation::applyNear(const Grid<Occupancy>& classes, const CellRect& sources,
+                          const CellRect& rect, Grid<CostGrid::Weight>& weights,
+                          const StopToken& stop) const {
+  BoundedDistanceTransform near(classes, sources, rect, reach_);
+  const Dearness* const dearness = table_.data();
+  const int beyond = static_cast<int>(farthest_) + 1;
+  StopPoll poll(stop, 64);
+  for (int row = rect.row; row < rect.row + rect.height; ++row) {
+    poll();
+    const std::int16_t* distances = near.row(row);
+    if (distances == nullptr) continue;
+    CostGrid::Weight* weight = weights.row(row) + rect.column;
+    for (int i = 0; i < rect.width; ++i)
+      weight[i] = atLeast(dearness[std::min<int>(distances[i], beyond)], weight[i]);
+  }
+}
+
+void Inflation::applyFar(const Grid<Occupancy>& classes, const CellRect& rect,
+                         Grid<CostGrid::Weight>& weights, const StopToken& stop) const {
+  const std::vector<HalfCellsSquared> distances = obstacleDistances(classes, rect, reach_, stop);
+  for (int row = 0; row < rect.height; ++row) {
+    const HalfCellsSquared* distance = distances.data() + std::size_t(row) * rect.width;
+    CostGrid::Weight* weight = weights.row(rect.row + row) + rect.column;
+    for (int i = 0; i < rect.width; ++i)
+      if (distance[i] != kNoObstacle) weight[i] = atLeast(dearnessAt(distance[i]), weight[i]);
+  }
+}
+
+Inflation::Dearness Inflation::dearnessAt(HalfCellsSquared distance) const {
+  const bool tabled = distance < static_cast<HalfCellsSquared>(table_.size());
+  return tabled ? table_[static_cast<std::size_t>(distance)] : dearnessOf(distance);
+}
+
+Inflation::Dearness Inflation::dearnessOf(HalfCellsSquared distance) const {
+  if (distance > farthest_) return 0;
+  const double half_cells = std::sqrt(static_cast<double>(distance));
+  if (half_cells < radius_) return static_cast<Dearness>(CostGrid::kBlocked - 1);
+  if (decay_ <= 0.0 || rise_ <= 0.0) return static_cast<Dearness>(free_ - 1.0);
+  return static_cast<Dearness>(
+      std::lround(free_ + rise_ * std::exp(-decay_ * (half_cells - radius_))) - 1);
+}
+
+}  // namespace grid_path_planner::costmap

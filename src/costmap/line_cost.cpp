@@ -1,0 +1,144 @@
+#include "grid_path_planner/costmap/line_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "grid_path_planner/costmap/bit_scan.h"
+
+namespace grid_path_planner::costmap {
+
+using grid::Cell;
+
+namespace {
+
+int signOf(int value) {
+  return value > 0 ? 1 : value < 0 ? -1 : 0;
+}
+
+constexpr std::int64_t kUnit = SegmentPoint::kUnitsPerCell;
+
+bool isCentre(SegmentPoint point) {
+  return point.x % kUnit == kUnit / 2 && point.y % kUnit == kUnit / 2;
+}
+
+Cell cellOf(SegmentPoint point) {
+  return {static_cast<int>(point.x / kUnit), static_cast<int>(point.y / kUnit)};
+}
+
+}  // namespace
+
+std::optional<double> centreSegmentCost(const CostGrid& map, Cell from, Cell to, double limit) {
+  const std::ptrdiff_t width = map.geometry().width();
+  const int columns = to.column - from.column, rows = to.row - from.row;
+  const bool steep = std::abs(rows) > std::abs(columns);
+  const std::int64_t across = steep ? std::abs(rows) : std::abs(columns);  // the major axis
+  const std::int64_t aside = steep ? std::abs(columns) : std::abs(rows);
+  if (across == 0) return 0.0;
+  const std::ptrdiff_t along_columns = signOf(columns), along_rows = signOf(rows) * width;
+  const std::ptrdiff_t major = steep ? along_rows : along_columns;
+  const std::ptrdiff_t minor = steep ? along_columns : along_rows;
+  const double length_per_unit = std::hypot(double(across), double(aside)) / double(across);
+
+  // What weights above the cheapest may add up to.
+  const double units = limit / (length_per_unit * map.kernel()) + 1e-6;
+  const std::int64_t cheapest = map.minWeight();
+  std::int64_t spare =
+      static_cast<std::int64_t>(std::min(units, 1e18)) - across * std::int64_t{map.minWeight()};
+
+  // The segment's height is counted from the lower edge of the present cell, in 1 / (2 across)
+  // cells: half a column changes it by `aside`.
+  const CostGrid::Weight* at = map.weights().row(from.row) + from.column;
+  const std::int64_t cell = 2 * across;
+  const bool cut_corners = map.motion().cut_corners;
+  std::int64_t height = across;
+  std::int64_t weighted = 0;
+  for (std::int64_t piece = 0; piece < across; ++piece) {
+    // 1. From the centre line of this column to its edge.
+    CostGrid::Weight weight = *at;
+    if (weight == CostGrid::kBlocked) return std::nullopt;
+    height += aside;
+    if (height == cell) {
+      const bool pinch =
+          at[major] == CostGrid::kBlocked && at[minor] == CostGrid::kBlocked && !cut_corners;
+      if (pinch) return std::nullopt;
+      at += minor;
+      height = 0;
+    } else if (height > cell) {
+      at += minor;
+      height -= cell;
+      if (*at == CostGrid::kBlocked) return std::nullopt;
+      weight = std::max(weight, *at);
+    }
+    // 2. From there to the next centre line.
+    at += major;
+    if (*at == CostGrid::kBlocked) return std::nullopt;
+    weight = std::max(weight, *at);
+    height += aside;
+    if (height >= cell) {
+      at += minor;
+      height -= cell;
+      if (height > 0) {
+        if (*at == CostGrid::kBlocked) return std::nullopt;
+        weight = std::max(weight, *at);
+      }
+    }
+    weighted += weight;
+    spare -= weight - cheapest;
+    if (spare < 0) return std::nullopt;
+  }
+  return double(weighted) * length_per_unit * map.kernel();
+}
+
+bool centresInSight(const BitMaps& bits, Cell from, Cell to, bool cut_corners) {
+  const bool steep = std::abs(to.row - from.row) > std::abs(to.column - from.column);
+  const BitMap& map = steep ? bits.columns : bits.rows;
+  if (steep) {
+    std::swap(from.column, from.row);
+    std::swap(to.column, to.row);
+  }
+  if (from.column > to.column) std::swap(from, to);
+  const BitMap::Word* row = map.row(from.row);
+  const int rise = std::abs(to.row - from.row);
+  if (rise == 0) return allOnes(row, from.column, to.column + 1);
+
+  // The columns at which the segment crosses from row to row: whole ones, and 1 / (2 rise) ones.
+  const std::ptrdiff_t stride = (to.row > from.row ? 1 : -1) * map.stride();
+  const int run = to.column - from.column;
+  const int column = 2 * rise;
+  int whole = from.column + (rise + run) / column;
+  int part = (rise + run) % column;
+  const int whole_step = run / rise, part_step = 2 * (run % rise);
+  int first = from.column;
+  for (int crossed = 0; crossed < rise; ++crossed, row += stride) {
+    if (!allOnes(row, first, part == 0 ? whole : whole + 1)) return false;
+    if (part == 0 && !cut_corners && !bitAt(row, whole) && !bitAt(row + stride, whole - 1))
+      return false;
+    first = whole;
+    whole += whole_step;
+    part += part_step;
+    if (part >= column) {
+      ++whole;
+      part -= column;
+    }
+  }
+  return allOnes(row, first, to.column + 1);
+}
+
+std::optional<double> lineCost(const CostGrid& map, const BitMaps* bits, SegmentPoint from,
+                               SegmentPoint to, double limit) {
+  if (!isCentre(from) || !isCentre(to)) {
+    if (!lineOfSight(map, from, to)) return std::nullopt;
+    const double cost = lineCost(map, from, to);
+    return cost <= limit ? std::optional<double>(cost) : std::nullopt;
+  }
+  const Cell a = cellOf(from), b = cellOf(to);
+  if (!bits) return centreSegmentCost(map, a, b, limit);
+  const double columns = a.column - b.column, rows = a.row - b.row;
+  const double cost = std::sqrt(columns * columns + rows * rows) * (map.kernel() * map.minWeight());
+  if (cost > limit || !centresInSight(*bits, a, b, map.motion().cut_corners)) return std::nullopt;
+  return cost;
+}
+
+}  // namespace grid_path_planner::costmap

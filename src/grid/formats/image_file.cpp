@@ -1,0 +1,163 @@
+#include "grid/formats/image_file.h"
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string_view>
+#include <vector>
+
+#include "grid/formats/image_formats.h"
+#include "grid_path_planner/base/decimal_text.h"
+#include "grid_path_planner/base/files.h"
+#include "grid_path_planner/grid/map_format.h"
+
+namespace grid_path_planner::grid {
+
+using base::decimalText;
+using base::InputError;
+using base::readWholeFile;
+using base::writeFileAtomically;
+
+namespace {
+
+constexpr int kAlphaChannel = 3;
+
+constexpr std::size_t kMostPixels = std::size_t{1} << 30;
+
+bool startsWith(const std::string& content, std::string_view start) {
+  return content.compare(0, start.size(), start) == 0;
+}
+
+bool isPnm(const std::string& content) {
+  return content.size() > 1 && content[0] == 'P' && content[1] >= '1' && content[1] <= '6';
+}
+
+cv::Mat decode(const std::string& file, const SizeCheck& checkSize) {
+  const std::string content = readWholeFile(file, kLargestMapFile);
+  if (startsWith(content, "\x89PNG\r\n\x1a\n")) return decodePng(content, file, checkSize);
+  if (startsWith(content, "\xff\xd8\xff")) return decodeJpeg(content, file, checkSize);
+  if (startsWith(content, "BM")) return decodeBmp(content, file, checkSize);
+  if (isPnm(content)) return decodePnm(content, file, checkSize);
+  return decodeWithOpenCv(content, file);
+}
+
+// What a pixel means, by the sum of its channels.
+class PixelTable {
+ public:
+  PixelTable(const PixelRule& rule, int channels) : rule_(rule), opaque_(255 * channels + 1) {
+    for (std::size_t sum = 0; sum < opaque_.size(); ++sum)
+      opaque_[sum] = occupancyOf(static_cast<double>(sum) / channels, false);
+    transparent_ = opaque_;
+    for (std::size_t sum = 0; sum < transparent_.size(); ++sum)
+      transparent_[sum] = occupancyOf(static_cast<double>(sum) / channels, true);
+  }
+
+  std::int8_t operator()(int sum, bool transparent) const {
+    return transparent ? transparent_[sum] : opaque_[sum];
+  }
+
+ private:
+  std::int8_t occupancyOf(double average, bool transparent) const {
+    const double value = rule_.negate ? 255 - average : average;
+    if (rule_.mode == MapMode::RAW)
+      return static_cast<int>(value) <= 100 ? static_cast<std::int8_t>(value) : -1;
+    const double occupied = (255 - value) / 255.0;
+    if (occupied > rule_.occupied_thresh) return 100;
+    if (occupied < rule_.free_thresh) return 0;
+    if (rule_.mode == MapMode::TRINARY || transparent) return -1;
+    const double range = rule_.occupied_thresh - rule_.free_thresh;
+    return range > 0.0 ? static_cast<std::int8_t>(99 * (occupied - rule_.free_thresh) / range) : 0;
+  }
+
+  PixelRule rule_;
+  std::vector<std::int8_t> opaque_;
+  std::vector<std::int8_t> transparent_;
+};
+
+std::int8_t occupancyOfPixel(const std::uint8_t* pixel, int averaged, bool has_alpha,
+                             const PixelTable& table) {
+  int sum = 0;
+  for (int channel = 0; channel < averaged; ++channel) sum += pixel[channel];
+  return table(sum, has_alpha && pixel[kAlphaChannel] == 0);
+}
+
+void warnAboutColour(const std::string& file, int channels, int averaged,
+                     const MapFileOptions& options) {
+  if (channels == 1) return;
+  const std::string with = averaged > kAlphaChannel ? ", the alpha channel among them" : "";
+  warnAbout(file,
+            "is a colour image: the mean of its " + std::to_string(averaged) + " channels" + with +
+                ", is taken for grey",
+            options);
+}
+
+std::uint8_t greyOf(std::int8_t value, MapMode mode, const OccupancyThresholds& thresholds) {
+  if (mode == MapMode::RAW) return value < 0 ? 255 : static_cast<std::uint8_t>(value);
+  switch (thresholds.classify(value)) {
+    case Occupancy::FREE:
+      return 254;
+    case Occupancy::OCCUPIED:
+      return 0;
+    case Occupancy::UNKNOWN:
+      break;
+  }
+  return 205;
+}
+
+// One byte a cell, the image's first line first.
+std::string greyRows(const OccupancyGrid& map, MapMode mode,
+                     const OccupancyThresholds& thresholds) {
+  if (mode == MapMode::SCALE)
+    throw InputError("a map is written in trinary or raw mode, not in scale");
+  std::string grey;
+  grey.reserve(map.values().size());
+  for (int row = map.height() - 1; row >= 0; --row)
+    for (int column = 0; column < map.width(); ++column)
+      grey += static_cast<char>(greyOf(map.row(row)[column], mode, thresholds));
+  return grey;
+}
+
+}  // namespace
+
+OccupancyGrid readImageFile(const std::string& file, const PixelRule& rule, double resolution,
+                            const Origin& origin, const MapFileOptions& options) {
+  const cv::Mat image = decode(file, [&](int width, int height) {
+    if (mapGeometry(file, width, height, resolution, origin, options).size() > kMostPixels)
+      throw InputError(file, "is an image of " + std::to_string(width) + "x" +
+                                 std::to_string(height) + " pixels, more than 2^30");
+  });
+  const int channels = image.channels();
+  const bool has_alpha = channels > kAlphaChannel;
+  const int averaged = has_alpha && rule.mode != MapMode::TRINARY ? kAlphaChannel : channels;
+  warnAboutColour(file, channels, averaged, options);
+  OccupancyGrid map(mapGeometry(file, image.cols, image.rows, resolution, origin, options));
+  const PixelTable table(rule, averaged);
+  for (int row = 0; row < map.height(); ++row) {
+    const std::uint8_t* pixel = image.ptr<std::uint8_t>(map.height() - 1 - row);
+    std::int8_t* values = map.row(row);
+    for (int column = 0; column < map.width(); ++column, pixel += channels)
+      values[column] = occupancyOfPixel(pixel, averaged, has_alpha, table);
+  }
+  return map;
+}
+
+std::string pgmOfMap(const OccupancyGrid& map, MapMode mode,
+                     const OccupancyThresholds& thresholds) {
+  return "P5\n# grid_path_planner " + decimalText(map.geometry().resolution()) + " m/cell\n" +
+         std::to_string(map.width()) + " " + std::to_string(map.height()) + "\n255\n" +
+         greyRows(map, mode, thresholds);
+}
+
+void writeImageFile(const std::string& file, const OccupancyGrid& map, MapMode mode,
+                    const OccupancyThresholds& thresholds) {
+  const std::string extension = extensionOf(file);
+  if (extension == "pgm") return writeFileAtomically(file, pgmOfMap(map, mode, thresholds));
+  if (extension != "png")
+    throw InputError(file, "must end in .pgm or .png to be written as an image");
+  std::string grey = greyRows(map, mode, thresholds);
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", cv::Mat(map.height(), map.width(), CV_8UC1, grey.data()), png);
+  writeFileAtomically(file, std::string(png.begin(), png.end()));
+}
+
+}  // namespace grid_path_planner::grid

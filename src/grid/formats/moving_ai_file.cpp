@@ -1,0 +1,190 @@
+#include "grid/formats/moving_ai_file.h"
+
+#include <string_view>
+
+#include "grid_path_planner/base/files.h"
+#include "grid_path_planner/grid/map_format.h"
+
+namespace grid_path_planner::grid {
+
+using base::checkIsText;
+using base::InputError;
+using base::writeFileAtomically;
+
+namespace {
+
+// The lines of a text, one after the other, without their ends.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text) {}
+
+  // False after the last line.
+  bool next(std::string_view& line) {
+    if (rest_.empty()) return false;
+    const std::size_t end = rest_.find('\n');
+    line = rest_.substr(0, end);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    rest_ = end == std::string_view::npos ? std::string_view() : rest_.substr(end + 1);
+    ++number_;
+    return true;
+  }
+  int number() const { return number_; }
+
+ private:
+  std::string_view rest_;
+  int number_ = 0;
+};
+
+std::string shown(std::string_view line) {
+  constexpr std::size_t kShown = 40;
+  return "'" + std::string(line.substr(0, kShown)) + (line.size() > kShown ? "...'" : "'");
+}
+
+int positiveInteger(std::string_view digits) {
+  constexpr std::size_t kMostDigits = 6;  // GridGeometry allows less
+  if (digits.empty() || digits.size() > kMostDigits) return 0;
+  int value = 0;
+  for (const char digit : digits) {
+    if (digit < '0' || digit > '9') return 0;
+    value = 10 * value + (digit - '0');
+  }
+  return value;
+}
+
+struct Header {
+  int width = 0;
+  int height = 0;
+};
+
+// "height 49": the number behind `key`.
+int sideIn(std::string_view line, std::string_view key, const std::string& file, int number) {
+  std::string_view digits = line.substr(key.size());
+  while (!digits.empty() && digits.front() == ' ') digits.remove_prefix(1);
+  while (!digits.empty() && digits.back() == ' ') digits.remove_suffix(1);
+  const int side = positiveInteger(digits);
+  if (side == 0)
+    throw InputError(
+        file, number,
+        std::string(key) + " must be a number of cells from 1 to 524288, got " + shown(digits));
+  return side;
+}
+
+bool startsWith(std::string_view line, std::string_view key) {
+  return line.substr(0, key.size()) == key;
+}
+
+// Reads up to and with the line "map".
+Header readHeader(Lines& lines, const std::string& file) {
+  Header header;
+  std::string_view line;
+  if (!lines.next(line) || line != "type octile")
+    throw InputError(file, 1, "a MovingAI map begins with 'type octile', got " + shown(line));
+  while (lines.next(line) && line != "map") {
+    if (startsWith(line, "width "))
+      header.width = sideIn(line, "width", file, lines.number());
+    else if (startsWith(line, "height "))
+      header.height = sideIn(line, "height", file, lines.number());
+    else
+      throw InputError(file, lines.number(),
+                       "expected 'height', 'width' or 'map', got " + shown(line));
+  }
+  if (line != "map") throw InputError(file, lines.number(), "ends before the line 'map'");
+  if (header.width == 0 || header.height == 0)
+    throw InputError(file, lines.number(), "has no 'width' or no 'height' before 'map'");
+  return header;
+}
+
+// The letters that the format defines as occupied: out of bounds, trees, swamp, water.
+constexpr std::string_view kOccupied = "@OTSW";
+
+// The first letter that the format does not define, and how many there are.
+struct Strangers {
+  char letter = 0;
+  int line = 0;
+  std::size_t column = 0;  // from 1
+  std::size_t count = 0;
+};
+
+void readRow(std::string_view line, int number, const std::string& file, OccupancyGrid& map,
+             int row, Strangers& strangers) {
+  if (line.size() != static_cast<std::size_t>(map.width()))
+    throw InputError(file, number,
+                     "a row of the map has " + std::to_string(map.width()) + " cells, got " +
+                         std::to_string(line.size()));
+  std::int8_t* values = map.row(row);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char letter = line[i];
+    const bool free = letter == '.' || letter == 'G';
+    values[i] = free ? 0 : 100;
+    if (free || kOccupied.find(letter) != std::string_view::npos) continue;
+    if (strangers.count++ == 0) strangers = {letter, number, i + 1, 1};
+  }
+}
+
+void warnAboutStrangers(const Strangers& strangers, const std::string& file,
+                        const MapFileOptions& options) {
+  if (strangers.count == 0) return;
+  const std::string where = file + ":" + std::to_string(strangers.line);
+  const std::size_t others = strangers.count - 1;
+  warnAbout(where,
+            "'" + std::string(1, strangers.letter) + "' in column " +
+                std::to_string(strangers.column) +
+                " is no letter of a MovingAI map (. and G are free; @, O, T, S and W occupied): " +
+                (others == 0 ? "it is" : "it and " + std::to_string(others) + " more are") +
+                " taken for occupied",
+            options);
+}
+
+}  // namespace
+
+OccupancyGrid parseMovingAi(const std::string& text, const std::string& file,
+                            const MapFileOptions& options) {
+  checkIsText(text, file);
+  Lines lines(text);
+  const Header header = readHeader(lines, file);
+  const auto geometry = mapGeometry(file, header.width, header.height, 1.0, {}, options);
+  if (text.size() < geometry.size())
+    throw InputError(file, "is too short for a map of " + std::to_string(header.width) + "x" +
+                               std::to_string(header.height) + " cells");
+  OccupancyGrid map(geometry);
+  std::string_view line;
+  Strangers strangers;
+  for (int row = 0; row < map.height(); ++row) {
+    if (!lines.next(line))
+      throw InputError(file, lines.number(),
+                       "ends after " + std::to_string(row) + " rows of the map, expected " +
+                           std::to_string(map.height()));
+    readRow(line, lines.number(), file, map, row, strangers);
+  }
+  while (lines.next(line))
+    if (!line.empty())
+      throw InputError(file, lines.number(),
+                       "has more than the " + std::to_string(map.height()) + " rows of its header");
+  warnAboutStrangers(strangers, file, options);
+  return map;
+}
+
+void writeMovingAiFile(const std::string& file, const OccupancyGrid& map,
+                       const OccupancyThresholds& thresholds) {
+  const auto letterOf = [&thresholds](std::int8_t value) {
+    switch (thresholds.classify(value)) {
+      case Occupancy::FREE:
+        return '.';
+      case Occupancy::OCCUPIED:
+        return '@';
+      case Occupancy::UNKNOWN:
+        break;
+    }
+    return 'T';
+  };
+  std::string text = "type octile\nheight " + std::to_string(map.height()) + "\nwidth " +
+                     std::to_string(map.width()) + "\nmap\n";
+  text.reserve(text.size() + map.values().size() + map.height());
+  for (int row = 0; row < map.height(); ++row) {
+    for (int column = 0; column < map.width(); ++column) text += letterOf(map.row(row)[column]);
+    text += '\n';
+  }
+  writeFileAtomically(file, text);
+}
+
+}  // namespace grid_path_planner::grid

@@ -1,0 +1,112 @@
+#include "grid_path_planner/mapping/map_model.h"
+
+#include <chrono>
+#include <utility>
+
+#include "grid_path_planner/base/decimal_text.h"
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/grid/map_file.h"
+
+namespace grid_path_planner::mapping {
+
+using base::decimalText;
+using base::InputError;
+using grid::OccupancyGrid;
+using grid::writeMapServerFile;
+
+namespace {
+
+const ProjectedMapOptions& checked(const ProjectedMapOptions& options) {
+  checkProjectedMapOptions(options);
+  return options;
+}
+
+OctreeMap mapOf(const ProjectedMapOptions& options) {
+  OctreeMap map(options.octree);
+  if (!options.filename.empty()) map.load(options.filename);
+  return map;
+}
+
+}  // namespace
+
+MapModel::MapModel(const ProjectedMapOptions& options)
+    : options_(checked(options)),
+      map_(mapOf(options)),
+      projection_(map_.options().resolution, projectionOptions(options)) {
+  options_.octree.resolution = map_.options().resolution;
+}
+
+void MapModel::setOptions(const ProjectedMapOptions& options) {
+  checkProjectedMapOptions(options);
+  if (options.frame_id != options_.frame_id)
+    throw InputError("frame_id cannot be changed while the node runs, it is " + options_.frame_id);
+  if (options.latch != options_.latch)
+    throw InputError("latch cannot be changed while the node runs");
+  if (options.octree.resolution != options_.octree.resolution)
+    throw InputError("resolution cannot be changed while the node runs, it is " +
+                     decimalText(options_.octree.resolution) + " m");
+  if (options.filename != options_.filename && !options.filename.empty()) {
+    replaceMap(options);
+  } else {
+    projection_.setOptions(projectionOptions(options));
+    map_.setOptions(options.octree);
+    options_ = options;
+  }
+  ++revision_;
+}
+
+// By the map of another file.
+void MapModel::replaceMap(const ProjectedMapOptions& options) {
+  MapModel other(options);
+  options_ = other.options_;
+  map_ = std::move(other.map_);
+  projection_ = std::move(other.projection_);
+  change_ = {true, {}};
+}
+
+MapModel::Inserted MapModel::insert(std::vector<Eigen::Vector3d> points,
+                                    const CloudFrames& frames) {
+  const auto start = std::chrono::steady_clock::now();
+  Inserted inserted;
+  inserted.points = points.size();
+  const FilteredCloud cloud = filterCloud(std::move(points), frames, options_.cloud);
+  inserted.ground_missed = cloud.ground_missed;
+  inserted.left_out = map_.insert(cloud.scan);
+  ++revision_;
+  inserted.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return inserted;
+}
+
+void MapModel::reset() {
+  map_.reset();
+  ++revision_;
+}
+
+void MapModel::clearBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  map_.clearBox(treePoint(low), treePoint(high));
+  ++revision_;
+}
+
+void MapModel::decay(double seconds) {
+  map_.decay(seconds);
+  ++revision_;
+}
+
+const OccupancyGrid& MapModel::grid() {
+  const ProjectionChange change = projection_.update(map_.bricks());
+  ++projections_;
+  change_.geometry = change_.geometry || change.geometry;
+  change_.cells = change_.cells.hull(change.cells);
+  return projection_.grid();
+}
+
+ProjectionChange MapModel::takeChange() {
+  return std::exchange(change_, {});
+}
+
+void MapModel::saveMap(const std::string& file) {
+  writeMapServerFile(file, grid());
+}
+
+}  // namespace grid_path_planner::mapping

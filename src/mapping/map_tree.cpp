@@ -1,0 +1,57 @@
+#include "mapping/map_tree.h"
+
+#include <cassert>
+
+namespace grid_path_planner::mapping {
+
+// Nodes keep their array of children protected, and OctoMap leaves an empty one behind when the
+// last child is deleted.
+struct MapTree::NodeAccess : Node {
+  static octomap::AbstractOcTreeNode**& of(Node* node) { return node->*(&NodeAccess::children); }
+};
+
+MapTree::MapTree(double resolution, const OctreeOptions& model) : octomap::OcTree(resolution) {
+  setModel(model);
+}
+
+MapTree::MapTree(const octomap::OcTree& tree, const OctreeOptions& model) : octomap::OcTree(tree) {
+  setModel(model);
+}
+
+void MapTree::setModel(const OctreeOptions& model) {
+  setOccupancyThres(model.occupancy_threshold);
+  setProbHit(model.hit);
+  setProbMiss(model.miss);
+  setClampingThresMin(model.min);
+  setClampingThresMax(model.max);
+}
+
+bool MapTree::keyOf(double coordinate, octomap::key_type& key) const {
+  const double voxels = resolution_factor * coordinate, half = tree_max_val;
+  if (!(voxels >= -half && voxels < half)) return false;  // NaN fails both
+  const int cut = static_cast<int>(voxels);
+  key = static_cast<octomap::key_type>(cut - (voxels < cut) + static_cast<int>(tree_max_val));
+  return true;
+}
+
+bool MapTree::keyOf(const octomap::point3d& point, octomap::OcTreeKey& key) const {
+  return keyOf(point.x(), key[0]) && keyOf(point.y(), key[1]) && keyOf(point.z(), key[2]);
+}
+
+MapTree::Node* MapTree::createRoot() {
+  assert(!root);
+  root = new Node();
+  ++tree_size;
+  size_changed = true;
+  return root;
+}
+
+void MapTree::deleteLeaf(Node* parent, unsigned index) {
+  deleteNodeChild(parent, index);
+  if (nodeHasChildren(parent)) return;
+  auto& children = NodeAccess::of(parent);
+  delete[] children;
+  children = nullptr;
+}
+
+}  // namespace grid_path_planner::mapping

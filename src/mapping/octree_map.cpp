@@ -1,0 +1,138 @@
+#include "grid_path_planner/mapping/octree_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "grid_path_planner/base/decimal_text.h"
+#include "grid_path_planner/base/errors.h"
+#include "mapping/insertion/scan_insertion.h"
+#include "mapping/insertion/tree_edits.h"
+#include "mapping/map_tree.h"
+#include "mapping/tree_file.h"
+#include "mapping/tree_to_bricks.h"
+
+namespace grid_path_planner::mapping {
+
+using base::decimalText;
+using base::InputError;
+
+namespace {
+
+using octomap::OcTreeKey;
+using octomap::point3d;
+
+std::string text(const point3d& point) {
+  return "(" + std::to_string(point.x()) + ", " + std::to_string(point.y()) + ", " +
+         std::to_string(point.z()) + ")";
+}
+
+const OctreeOptions& checked(const OctreeOptions& options) {
+  checkOctreeOptions(options);
+  return options;
+}
+
+}  // namespace
+
+OctreeMap::OctreeMap(const OctreeOptions& options)
+    : options_(checked(options)),
+      tree_(std::make_unique<MapTree>(options.resolution, options)),
+      bricks_(options.resolution),
+      insertion_(std::make_unique<ScanInsertion>()) {}
+
+OctreeMap::~OctreeMap() = default;
+OctreeMap::OctreeMap(OctreeMap&&) noexcept = default;
+OctreeMap& OctreeMap::operator=(OctreeMap&&) noexcept = default;
+
+const octomap::OcTree& OctreeMap::tree() const {
+  return *tree_;
+}
+
+void OctreeMap::setOptions(const OctreeOptions& options) {
+  checkOctreeOptions(options);
+  if (options.resolution != options_.resolution)
+    throw InputError("resolution is " + decimalText(options_.resolution) + " m and cannot become " +
+                     decimalText(options.resolution) + " m in a map that exists");
+  const bool judged_anew = options.occupancy_threshold != options_.occupancy_threshold;
+  options_ = options;
+  tree_->setModel(options);
+  if (!judged_anew) return;
+  bricks_.clear(tree_->getResolution());
+  mirrorTree(*tree_, bricks_);
+}
+
+std::size_t OctreeMap::insert(const Scan& scan) {
+  OcTreeKey origin_key;
+  if (!tree_->keyOf(scan.origin, origin_key))
+    throw InputError("the origin " + text(scan.origin) + " of a scan is outside the octree");
+  return insertion_->insert(scan, origin_key, options_.max_range, *tree_, bricks_);
+}
+
+void OctreeMap::clearBox(const point3d& low, const point3d& high) {
+  OcTreeKey keys[2];
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    if (!(low(axis) <= high(axis)) || !std::isfinite(low(axis)) || !std::isfinite(high(axis)))
+      throw InputError("a box goes from its low to its high corner, got " + text(low) + " and " +
+                       text(high));
+    keys[0][axis] = nearestKey(low(axis));
+    keys[1][axis] = nearestKey(high(axis));
+  }
+  freeBox(*tree_, bricks_, keys[0], keys[1]);
+}
+
+void OctreeMap::reset() {
+  tree_->clear();
+  bricks_.clear(tree_->getResolution());
+}
+
+void OctreeMap::decay(double seconds) {
+  if (!(seconds >= 0.0 && std::isfinite(seconds)))
+    throw InputError("a map decays by a time of 0 s or more, got " + decimalText(seconds));
+  if (options_.decay_time == 0.0) return;
+  const double range = tree_->getClampingThresMaxLog() - tree_->getOccupancyThresLog();
+  fadeOccupied(*tree_, bricks_, static_cast<float>(range * seconds / options_.decay_time));
+}
+
+void OctreeMap::load(const std::string& file) {
+  auto tree = readTreeFile(file, options_);
+  try {
+    replace(std::move(tree));
+  } catch (const InputError& error) {
+    throw InputError(file, error.what());
+  }
+}
+
+void OctreeMap::assign(const octomap::OcTree& tree) {
+  replace(std::make_unique<MapTree>(tree, options_));
+}
+
+void OctreeMap::save(const std::string& file) const {
+  writeTreeFile(*tree_, file);
+}
+
+std::size_t OctreeMap::memoryUsage() const {
+  return tree_->memoryUsage() + bricks_.memoryUsage() + insertion_->memoryUsage();
+}
+
+octomap::key_type OctreeMap::nearestKey(double coordinate) const {
+  octomap::key_type key;
+  if (tree_->keyOf(coordinate, key)) return key;
+  return coordinate < 0.0 ? 0 : 0xFFFF;
+}
+
+void OctreeMap::replace(std::unique_ptr<MapTree> tree) {
+  if (const std::size_t bricks = countBricks(*tree); bricks > kMostBricks)
+    throw InputError("the tree covers " + std::to_string(bricks) +
+                     " bricks of 8x8x8 voxels, at most " + std::to_string(kMostBricks) +
+                     " can be held");
+  OctreeOptions options = options_;
+  options.resolution = tree->getResolution();
+  checkOctreeOptions(options);
+  options_ = options;
+  tree_ = std::move(tree);
+  bricks_.clear(options_.resolution);
+  mirrorTree(*tree_, bricks_);
+}
+
+}  // namespace grid_path_planner::mapping

@@ -1,0 +1,233 @@
+#include "grid_path_planner/mapping/projection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "mapping/column_values.h"
+#include "mapping/seabed.h"
+
+namespace grid_path_planner::mapping {
+
+using base::InputError;
+using grid::CellRect;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+
+namespace {
+
+constexpr int kKeyOfZero = 32768;   // of the voxel whose lower side is 0
+constexpr int kBricks = 65536 / 8;  // along a side
+constexpr std::int64_t kMostCells = std::int64_t{1} << 28;
+constexpr double kOnTheLattice = 1e-6;  // cells; how near to a cell's side a bound counts as on it
+
+bool inOrder(BrickColumn a, BrickColumn b) {
+  return a.y != b.y ? a.y < b.y : a.x < b.x;
+}
+
+void sortOut(std::vector<BrickColumn>& columns) {
+  std::sort(columns.begin(), columns.end(), inOrder);
+  const auto same = [](BrickColumn a, BrickColumn b) { return a.x == b.x && a.y == b.y; };
+  columns.erase(std::unique(columns.begin(), columns.end(), same), columns.end());
+}
+
+// The cells that the bounds touch with more than a side. Cell 0 begins at 0 m.
+CellRect cellsOf(const ProjectionBounds& bounds, double resolution) {
+  const auto first = [&](double metres) {
+    return static_cast<int>(std::floor(metres / resolution + kOnTheLattice));
+  };
+  const auto end = [&](double metres) {
+    return static_cast<int>(std::ceil(metres / resolution - kOnTheLattice));
+  };
+  const int x = first(bounds.min_x);
+  const int y = first(bounds.min_y);
+  return {x, y, end(bounds.max_x) - x, end(bounds.max_y) - y};
+}
+
+CellRect cellsOf(BrickColumn column) {
+  return {8 * column.x - kKeyOfZero, 8 * column.y - kKeyOfZero, 8, 8};
+}
+
+CellRect cellsOf(const std::vector<BrickColumn>& columns) {
+  CellRect cells;
+  for (const BrickColumn column : columns) cells = cells.hull(cellsOf(column));
+  return cells;
+}
+
+// One side of `present` that must reach `wanted` (both inside the tree's 65536 voxels): the step
+// that it takes, in cells.
+int stepOf(int wanted, int length, int room) {
+  if (wanted <= 0) return 0;
+  const int spare = std::max(length / 64 * 8, 32);
+  return std::min(wanted + spare, room);
+}
+
+// `present` grown so that it holds `wanted`, with some to spare on the sides that grow.
+CellRect grown(const CellRect& present, const CellRect& wanted) {
+  const int left =
+      stepOf(present.column - wanted.column, present.width, present.column + kKeyOfZero);
+  const int below = stepOf(present.row - wanted.row, present.height, present.row + kKeyOfZero);
+  const int right = stepOf(wanted.column + wanted.width - present.column - present.width,
+                           present.width, kKeyOfZero - present.column - present.width);
+  const int above = stepOf(wanted.row + wanted.height - present.row - present.height,
+                           present.height, kKeyOfZero - present.row - present.height);
+  return {present.column - left, present.row - below, present.width + left + right,
+          present.height + below + above};
+}
+
+// Throws InputError for a grid that is too large.
+GridGeometry geometryOf(const CellRect& cells, double resolution) {
+  if (static_cast<std::int64_t>(cells.width) * cells.height > kMostCells)
+    throw InputError("the 2-D map would have " + std::to_string(cells.width) + "x" +
+                     std::to_string(cells.height) +
+                     " cells: give projection_bounds, or a max_range against stray rays");
+  return GridGeometry(cells.width, cells.height, resolution,
+                      {cells.column * resolution, cells.row * resolution, 0.0});
+}
+
+}  // namespace
+
+Projection::Projection(double resolution, const ProjectionOptions& options)
+    : resolution_(resolution) {
+  setOptions(options);
+  place(options_.bounds.given() ? cellsOf(options_.bounds, resolution_) : CellRect{0, 0, 1, 1});
+}
+
+Projection::~Projection() = default;
+Projection::Projection(Projection&&) noexcept = default;
+Projection& Projection::operator=(Projection&&) noexcept = default;
+
+void Projection::setOptions(const ProjectionOptions& options) {
+  checkProjectionOptions(options);
+  if (options.bounds.given()) geometryOf(cellsOf(options.bounds, resolution_), resolution_);
+  if (options.bounds.given() != options_.bounds.given()) sized_ = false;
+  options_ = options;
+  all_ = true;
+}
+
+void Projection::setVehicleHeight(double z) {
+  if (std::abs(z - vehicle_height_) <= resolution_) return;
+  vehicle_height_ = z;
+  if (options_.reference == ProjectionReference::VEHICLE) all_ = true;
+}
+
+ProjectionChange Projection::update(OccupancyBricks& bricks) {
+  collect(bricks);
+  ProjectionChange change;
+  change.geometry = fit();
+  look(bricks, change.cells);
+  return change;
+}
+
+// What is to be looked at stays in to_do_ until it was.
+void Projection::collect(OccupancyBricks& bricks) {
+  const std::vector<BrickColumn> changed = bricks.drainChangedColumns();
+  const bool each_once = to_do_.empty() && !all_;
+  to_do_.insert(to_do_.end(), changed.begin(), changed.end());
+  if (all_) {
+    const std::vector<BrickColumn> columns = bricks.columns();
+    to_do_.insert(to_do_.end(), columns.begin(), columns.end());
+    seabed_.reset();
+    if (options_.reference == ProjectionReference::SEABED)
+      seabed_ =
+          std::make_unique<Seabed>(options_.seabed_radius, options_.seabed_max_slope, resolution_);
+  }
+  all_ = false;
+  if (!each_once) sortOut(to_do_);
+}
+
+// Whether the geometry had to change.
+bool Projection::fit() {
+  const CellRect wanted = wantedCells();
+  if (wanted == cells_) return false;
+  place(wanted);
+  sized_ = true;
+  return true;
+}
+
+CellRect Projection::wantedCells() const {
+  if (options_.bounds.given()) return cellsOf(options_.bounds, resolution_);
+  const CellRect needed = cellsOf(to_do_);
+  if (needed.empty()) return cells_;
+  return sized_ ? grown(cells_, needed.hull(cells_)) : needed;
+}
+
+// A new grid with what the old one knows.
+void Projection::place(const CellRect& cells) {
+  OccupancyGrid grid(geometryOf(cells, resolution_), -1);
+  const CellRect both = cells.intersection(cells_);
+  for (int row = both.row; row < both.row + both.height; ++row)
+    std::copy_n(grid_.row(row - cells_.row) + both.column - cells_.column, both.width,
+                grid.row(row - cells.row) + both.column - cells.column);
+  grid_ = std::move(grid);
+  cells_ = cells;
+}
+
+void Projection::look(const OccupancyBricks& bricks, CellRect& changed) {
+  if (seabed_) addSeabedsReach(bricks);
+  for (const BrickColumn column : to_do_) write(column, valuesOf(bricks, column), changed);
+  to_do_.clear();
+}
+
+// Where the seabed's bottom changed, the columns around may stand differently above it.
+void Projection::addSeabedsReach(const OccupancyBricks& bricks) {
+  const int reach = seabed_->reach();
+  std::vector<BrickColumn> reached;
+  for (const BrickColumn column : to_do_) {
+    if (!seabed_->update(bricks, column)) continue;
+    const CellRect around =
+        CellRect{column.x, column.y, 1, 1}.grown(reach).intersection({0, 0, kBricks, kBricks});
+    for (int y = around.row; y < around.row + around.height; ++y)
+      for (int x = around.column; x < around.column + around.width; ++x)
+        reached.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+  }
+  to_do_.insert(to_do_.end(), reached.begin(), reached.end());
+  sortOut(to_do_);
+}
+
+ColumnValues Projection::valuesOf(const OccupancyBricks& bricks, BrickColumn column) const {
+  if (seabed_) return valuesAbove(seabed_->heightsAt(column), bricks, column);
+  const double reference =
+      options_.reference == ProjectionReference::VEHICLE ? vehicle_height_ : 0.0;
+  return columnValues(
+      bricks, column,
+      voxelBand(reference + options_.min_z, reference + options_.max_z, resolution_));
+}
+
+// Where no seabed is known, whatever is seen is an obstacle, and nothing is free.
+ColumnValues Projection::valuesAbove(const std::array<double, 64>& seabed,
+                                     const OccupancyBricks& bricks, BrickColumn column) const {
+  const VoxelBand everything = voxelBand(-1e9, 1e9, resolution_);
+  std::array<VoxelBand, 64> bands;
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    const double z = (seabed[i] - kKeyOfZero + 0.5) * resolution_;
+    bands[i] = seabed[i] == Seabed::kNone
+                   ? everything
+                   : voxelBand(z + options_.min_z, z + options_.max_z, resolution_);
+  }
+  ColumnValues values = columnValues(bricks, column, bands);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (seabed[i] == Seabed::kNone && values[i] == 0) values[i] = -1;
+  return values;
+}
+
+void Projection::write(BrickColumn column, const ColumnValues& values, CellRect& changed) {
+  const CellRect place = cellsOf(column);
+  const CellRect inside = place.intersection(cells_);
+  const int skipped = inside.column - place.column;
+  for (int row = inside.row; row < inside.row + inside.height; ++row) {
+    const std::int8_t* from = values.data() + 8 * (row - place.row) + skipped;
+    std::int8_t* to = grid_.row(row - cells_.row) + inside.column - cells_.column;
+    if (std::equal(from, from + inside.width, to)) continue;
+    int first = 0;
+    int last = inside.width - 1;
+    while (from[first] == to[first]) ++first;
+    while (from[last] == to[last]) --last;
+    std::copy(from, from + inside.width, to);
+    changed = changed.hull(
+        {inside.column - cells_.column + first, row - cells_.row, last - first + 1, 1});
+  }
+}
+
+}  // namespace grid_path_planner::mapping

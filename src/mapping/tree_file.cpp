@@ -1,0 +1,178 @@
+#include "mapping/tree_file.h"
+
+#include <cmath>
+#include <cstring>
+#include <locale>
+#include <sstream>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/files.h"
+
+namespace grid_path_planner::mapping {
+
+using base::InputError;
+using base::readWholeFile;
+using base::writeFileAtomically;
+
+namespace {
+
+using Node = MapTree::Node;
+
+constexpr std::size_t kLargestFile = std::size_t{1} << 32;
+constexpr char kBinaryFirstLine[] = "# Octomap OcTree binary file";
+constexpr char kFullFirstLine[] = "# Octomap OcTree file";
+
+bool startsWith(const std::string& text, const char* beginning) {
+  return text.compare(0, std::strlen(beginning), beginning) == 0;
+}
+
+bool endsWith(const std::string& text, const std::string& ending) {
+  return text.size() >= ending.size() &&
+         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+struct Header {
+  bool binary;
+  double resolution = 0.0;
+  std::size_t nodes = 0;
+  std::size_t end = 0;  // where the nodes begin
+};
+
+// The value of a header line "NAME VALUE".
+template <class Value>
+Value headerValue(const std::string& file, int line, std::istringstream& words,
+                  const char* expected) {
+  Value value;
+  if (words >> value) return value;
+  throw InputError(file, line, std::string("expected ") + expected);
+}
+
+Header readHeader(const std::string& file, const std::string& content) {
+  Header header;
+  header.binary = startsWith(content, kBinaryFirstLine);
+  if (!header.binary && !startsWith(content, kFullFirstLine))
+    throw InputError(file, 1, "is not an OctoMap tree (.bt or .ot)");
+  std::string id;
+  for (int number = 1;; ++number) {
+    const std::size_t line_end = content.find('\n', header.end);
+    if (line_end == std::string::npos) throw InputError(file, number, "ends inside its header");
+    std::istringstream words(content.substr(header.end, line_end - header.end));
+    words.imbue(std::locale::classic());
+    header.end = line_end + 1;
+    std::string name;
+    words >> name;
+    if (name == "data") break;
+    if (name == "id") id = headerValue<std::string>(file, number, words, "id OcTree");
+    if (name == "size")
+      header.nodes = headerValue<std::size_t>(file, number, words, "size and a number of nodes");
+    if (name == "res")
+      header.resolution = headerValue<double>(file, number, words, "res and a number of metres");
+  }
+  if (id != "OcTree") throw InputError(file, "holds a tree of kind '" + id + "', expected OcTree");
+  if (!(header.resolution > 0.0 && std::isfinite(header.resolution)))
+    throw InputError(file, "has no positive resolution in its header");
+  return header;
+}
+
+class TreeReader {
+ public:
+  TreeReader(const std::string& file, const std::string& content, const Header& header,
+             MapTree& tree)
+      : file_(file), content_(content), header_(header), at_(header.end), tree_(tree) {}
+
+  void read() {
+    if (header_.nodes > 0) {
+      Node* root = tree_.createRoot();
+      if (header_.binary)
+        readBinaryChildren(root, 0);
+      else
+        readFull(root, 0);
+    }
+    if (at_ != content_.size())
+      throw InputError(
+          file_, "goes on for " + std::to_string(content_.size() - at_) + " bytes after the tree");
+    if (tree_.size() != header_.nodes)
+      throw InputError(file_, "holds " + std::to_string(tree_.size()) + " nodes, its header says " +
+                                  std::to_string(header_.nodes));
+  }
+
+ private:
+  // What two bits say of a child.
+  enum Label { UNKNOWN = 0, FREE = 1, OCCUPIED = 2, INNER = 3 };
+
+  void readBinaryChildren(Node* node, int depth) {
+    const unsigned low = readByte(), labels = low | readByte() << 8;
+    if (labels == 0 || depth == kDepth) throwBadNode();
+    for (unsigned i = 0; i < 8; ++i) {
+      const unsigned label = labels >> (2 * i) & 3;
+      if (label == UNKNOWN) continue;
+      tree_.createNodeChild(node, i)->setLogOdds(label == FREE ? tree_.getClampingThresMinLog()
+                                                               : tree_.getClampingThresMaxLog());
+    }
+    for (unsigned i = 0; i < 8; ++i)
+      if ((labels >> (2 * i) & 3) == INNER)
+        readBinaryChildren(tree_.getNodeChild(node, i), depth + 1);
+    node->updateOccupancyChildren();
+  }
+
+  void readFull(Node* node, int depth) {
+    node->setLogOdds(readFloat());
+    const unsigned children = readByte();
+    if (children != 0 && depth == kDepth) throwBadNode();
+    for (unsigned i = 0; i < 8; ++i)
+      if (children >> i & 1) readFull(tree_.createNodeChild(node, i), depth + 1);
+  }
+
+  unsigned readByte() {
+    if (at_ == content_.size())
+      throw InputError(file_, "is truncated after " + std::to_string(tree_.size()) + " of " +
+                                  std::to_string(header_.nodes) + " nodes");
+    return static_cast<unsigned char>(content_[at_++]);
+  }
+
+  float readFloat() {
+    char bytes[sizeof(float)];
+    for (char& byte : bytes) byte = static_cast<char>(readByte());
+    float value;
+    std::memcpy(&value, bytes, sizeof value);
+    if (!std::isfinite(value)) throwBadNode();
+    return value;
+  }
+
+  [[noreturn]] void throwBadNode() const {
+    throw InputError(file_, "is damaged before byte " + std::to_string(at_));
+  }
+
+  static constexpr int kDepth = 16;
+
+  const std::string& file_;
+  const std::string& content_;
+  const Header& header_;
+  std::size_t at_;
+  MapTree& tree_;
+};
+
+}  // namespace
+
+std::unique_ptr<MapTree> readTreeFile(const std::string& file, const OctreeOptions& model) {
+  const std::string content = readWholeFile(file, kLargestFile);
+  const Header header = readHeader(file, content);
+  auto tree = std::make_unique<MapTree>(header.resolution, model);
+  TreeReader(file, content, header, *tree).read();
+  return tree;
+}
+
+void writeTreeFile(const MapTree& tree, const std::string& file) {
+  std::ostringstream content;
+  content.imbue(std::locale::classic());
+  content.precision(17);
+  if (endsWith(file, ".ot"))
+    tree.write(content);
+  else if (endsWith(file, ".bt"))
+    octomap::OcTree(tree).writeBinary(content);  // rounds and prunes what it is given
+  else
+    throw InputError(file, "must end in .bt or .ot");
+  writeFileAtomically(file, content.str());
+}
+
+}  // namespace grid_path_planner::mapping

@@ -1,0 +1,19 @@
+// Trees in OctoMap's two formats: .bt (free, occupied, unknown) and .ot (log odds).
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "mapping/map_tree.h"
+
+namespace grid_path_planner::mapping {
+
+// Told apart by the first line. OctoMap's own readers build a tree of chance from a truncated file;
+// this one throws InputError naming the file where it is missing, is not a tree, is of another kind
+// than OcTree, ends early, goes on after the tree, or its header does not fit.
+std::unique_ptr<MapTree> readTreeFile(const std::string& file, const OctreeOptions& model);
+
+// By the file's ending, atomically. Throws InputError naming the file.
+void writeTreeFile(const MapTree& tree, const std::string& file);
+
+}  // namespace grid_path_planner::mapping

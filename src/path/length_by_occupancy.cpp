@@ -1,0 +1,64 @@
+#include "grid_path_planner/path/length_by_occupancy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace grid_path_planner::path {
+
+using grid::Cell;
+using grid::GridGeometry;
+using grid::Occupancy;
+using grid::OccupancyGrid;
+using grid::OccupancyThresholds;
+
+namespace {
+
+// Where, as shares of the way from `from` to `to`, one coordinate passes from cell to cell.
+void addCrossings(double from, double to, double side, std::vector<double>& shares) {
+  const double low = std::max(0.0, std::ceil(std::min(from, to)));
+  const double high = std::min(side, std::floor(std::max(from, to)));
+  for (double line = low; line <= high; line += 1.0)
+    if (from != to) shares.push_back(std::clamp((line - from) / (to - from), 0.0, 1.0));
+}
+
+double* lengthFor(ClassLengths& lengths, Occupancy occupancy) {
+  switch (occupancy) {
+    case Occupancy::FREE:
+      return &lengths.free_m;
+    case Occupancy::UNKNOWN:
+      return &lengths.unknown_m;
+    case Occupancy::OCCUPIED:
+      break;
+  }
+  return &lengths.occupied_m;
+}
+
+}  // namespace
+
+ClassLengths lengthsByClass(const Path& path, const OccupancyGrid& map,
+                            const OccupancyThresholds& thresholds) {
+  const GridGeometry& geometry = map.geometry();
+  ClassLengths lengths;
+  std::vector<double> shares;
+  for (std::size_t i = 1; i < path.poses.size(); ++i) {
+    const Eigen::Vector2d from = geometry.gridFromWorld(path.poses[i - 1].position.head<2>());
+    const Eigen::Vector2d to = geometry.gridFromWorld(path.poses[i].position.head<2>());
+    shares = {0.0, 1.0};
+    addCrossings(from.x(), to.x(), geometry.width(), shares);
+    addCrossings(from.y(), to.y(), geometry.height(), shares);
+    std::sort(shares.begin(), shares.end());
+    const double metres = (to - from).norm() * geometry.resolution();
+    for (std::size_t piece = 1; piece < shares.size(); ++piece) {
+      const double share = shares[piece] - shares[piece - 1];
+      const Eigen::Vector2d middle = from + 0.5 * (shares[piece - 1] + shares[piece]) * (to - from);
+      const Cell cell{static_cast<int>(std::floor(middle.x())),
+                      static_cast<int>(std::floor(middle.y()))};
+      if (share > 0.0 && geometry.contains(cell))
+        *lengthFor(lengths, thresholds.classify(map[cell])) += share * metres;
+    }
+  }
+  return lengths;
+}
+
+}  // namespace grid_path_planner::path

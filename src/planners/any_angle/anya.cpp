@@ -1,0 +1,88 @@
+#include "planners/any_angle/anya.h"
+
+#include <cmath>
+
+#include "planners/any_angle/anya_search.h"
+
+namespace grid_path_planner::planners {
+
+using base::Status;
+using base::StopToken;
+using costmap::BitMaps;
+using costmap::passableCellAt;
+using costmap::SegmentPoint;
+using costmap::waypointOf;
+using grid::Cell;
+using grid::GridGeometry;
+
+namespace {
+
+// Measured on maps with a quarter of their cells blocked at random.
+constexpr std::size_t kBytesPerCell = 12;
+
+constexpr double kUnit = SegmentPoint::kUnitsPerCell;
+
+PlannerTraits anyaTraits() {
+  PlannerTraits traits;
+  traits.name = "anya";
+  traits.four_connected = false;
+  traits.unit_diagonals = false;
+  traits.cut_corners = false;
+  traits.weights = false;
+  traits.any_angle = true;
+  traits.shortest = true;
+  traits.repairs = true;
+  return traits;
+}
+
+AnyaSearch::Point inCells(SegmentPoint point) {
+  return {double(point.x) / kUnit, double(point.y) / kUnit};
+}
+
+SegmentPoint inUnits(AnyaSearch::Point point) {
+  return {std::llround(point.x * kUnit), std::llround(point.y * kUnit)};
+}
+
+}  // namespace
+
+Anya::Anya() : Planner(anyaTraits()), search_(std::make_unique<AnyaSearch>()) {}
+Anya::~Anya() = default;
+
+std::size_t Anya::bytesFor(const GridGeometry& geometry) const {
+  return BitMaps::bytesFor(geometry) + geometry.size() * kBytesPerCell;
+}
+
+void Anya::doPrepare(const StopToken& stop) {
+  rows_ = &map().bitMaps(stop).rows;
+}
+
+SearchResult Anya::doSearch(const SearchRequest& request, const StopToken& stop) {
+  const Cell start = request.start, goal = request.goals.front();
+  const SegmentPoint from = waypointOf(map(), start), to = waypointOf(map(), goal);
+  SearchResult result;
+  if (start == goal) {
+    result.status = Status::FOUND;
+    result.cells = {start};
+    result.points = {from};
+    return result;
+  }
+  std::vector<Cell> expanded;
+  const AnyaSearch::Answer answer =
+      search_->run(*rows_, inCells(from), inCells(to), stop, result.statistics,
+                   request.record_expanded ? &expanded : nullptr);
+  for (const Cell cell : expanded) result.expanded.push_back(map().geometry().index(cell));
+  result.status = answer.status;
+  result.statistics.search_bytes = search_->bytes();
+  if (answer.status != Status::FOUND) return result;
+
+  result.segment_cost = answer.length * map().minWeight() * map().kernel();
+  for (const AnyaSearch::Point& point : answer.points) {
+    result.points.push_back(inUnits(point));
+    result.cells.push_back(passableCellAt(map(), result.points.back()));
+  }
+  result.cells.front() = start;
+  result.cells.back() = goal;
+  return result;
+}
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,164 @@
+#include "grid_path_planner/planners/a_star.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "planners/astar/heuristic.h"
+
+namespace grid_path_planner::planners {
+
+using base::StopToken;
+using costmap::CostGrid;
+using grid::Cell;
+using grid::CellRect;
+using grid::GridGeometry;
+
+namespace {
+
+PlannerTraits guidedTraits(const char* name) {
+  PlannerTraits traits;
+  traits.name = name;
+  traits.heuristic = true;
+  traits.repairs = true;
+  return traits;
+}
+
+PlannerTraits aStarTraits() {
+  PlannerTraits traits = guidedTraits("a_star");
+  traits.optimal = true;
+  return traits;
+}
+
+// Later cells wait: the second key of the open list.
+SearchKey tieKey(TieBreak tie_break, SearchKey g, const Estimate& estimate, Cell cell) {
+  switch (tie_break) {
+    case TieBreak::LARGER_G:
+      return kInfiniteKey - g;
+    case TieBreak::CROSS_PRODUCT:
+      return estimate.cross(cell);
+    case TieBreak::NONE:
+      break;
+  }
+  return 0;
+}
+
+SearchKey stretched(SearchKey bound, double epsilon) {
+  if (epsilon == 1.0) return bound;
+  const double key = static_cast<double>(bound) * epsilon;
+  return key < static_cast<double>(kInfiniteKey) ? static_cast<SearchKey>(key) : kInfiniteKey;
+}
+
+}  // namespace
+
+AStar::AStar(const SearchOptions& options)
+    : Planner(aStarTraits()),
+      options_(options),
+      strictly_ordered_(options.tie_break != TieBreak::NONE),
+      tables_(options) {
+  checkSearchOptions(options);
+}
+
+AStar::AStar(const char* name, const SearchOptions& options, const Variation& variation)
+    : Planner(guidedTraits(name)),
+      options_(options),
+      strictly_ordered_(true),
+      variation_(variation),
+      tables_(options) {
+  checkSearchOptions(options);
+}
+
+std::size_t AStar::bytesFor(const GridGeometry& geometry) const {
+  const std::size_t search =
+      strictly_ordered_ ? BestFirstSearch::bytesFor(geometry) : BucketSearch::bytesFor(geometry);
+  return search + PrecomputedHeuristic::bytesFor(options_, geometry);
+}
+
+std::string AStar::waysToLessMemory() const {
+  const std::string ways = PrecomputedHeuristic::waysToLessMemory(options_);
+  return ways.empty() ? Planner::waysToLessMemory() : ways;
+}
+
+bool AStar::optimalFor(const CostGrid& map) const {
+  return traits().optimal && optimalWith(options_, map);
+}
+
+void AStar::doPrepare(const StopToken& stop) {
+  if (strictly_ordered_)
+    in_order_.prepare(map(), stop);
+  else
+    by_buckets_.prepare(map(), stop);
+  tables_.prepare(sharedMap());
+}
+
+void AStar::doUpdate(const CellRect& changed, const StopToken& stop) {
+  if (strictly_ordered_)
+    in_order_.update(map(), changed, stop);
+  else
+    by_buckets_.update(map(), changed, stop);
+  tables_.update(previousMap(), sharedMap(), changed);
+}
+
+SearchResult AStar::doSearch(const SearchRequest& request, const StopToken& stop) {
+  SearchResult result = strictly_ordered_ ? planInOrder(request, stop)
+                        : tables_.ready() ? planWithTables(request, stop)
+                                          : planByBuckets(request, stop);
+  result.statistics.search_bytes += tables_.work().bytes;
+  return result;
+}
+
+SearchResult AStar::planWithTables(const SearchRequest& request, const StopToken& stop) {
+  const Cell goal = request.goals.front();
+  const std::uint32_t goal_index = map().geometry().index(goal).value();
+  const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
+  return tables_.withBound(goal_index, [&](const auto& boundIn) {
+    const auto estimateIn = [&](const KeyScale& scale) {
+      return [estimate = Estimate(options_, map(), request.start, goal, scale),
+              bound = boundIn(scale), epsilon = options_.epsilon](Cell cell, std::uint32_t index) {
+        return std::max(estimate(cell), stretched(bound(index), epsilon));
+      };
+    };
+    return by_buckets_.run(map(), request.start, isGoal, estimateIn, request.record_expanded, stop);
+  });
+}
+
+SearchResult AStar::planByBuckets(const SearchRequest& request, const StopToken& stop) {
+  const Cell goal = request.goals.front();
+  const std::uint32_t goal_index = map().geometry().index(goal).value();
+  const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
+  const auto plainOctile = [&](const KeyScale& scale) {
+    return [estimate = OctileEstimate(map(), goal, scale)](Cell cell, std::uint32_t) {
+      return estimate(cell);
+    };
+  };
+  const auto general = [&](const KeyScale& scale) {
+    return [estimate = Estimate(options_, map(), request.start, goal, scale)](
+               Cell cell, std::uint32_t) { return estimate(cell); };
+  };
+  if (Estimate(options_, map(), request.start, goal).plainOctile())
+    return by_buckets_.run(map(), request.start, isGoal, plainOctile, request.record_expanded,
+                           stop);
+  return by_buckets_.run(map(), request.start, isGoal, general, request.record_expanded, stop);
+}
+
+SearchResult AStar::planInOrder(const SearchRequest& request, const StopToken& stop) {
+  const Cell goal = request.goals.front();
+  const std::uint32_t goal_index = map().geometry().index(goal).value();
+  const Estimate estimate(options_, map(), request.start, goal);
+  const TieBreak tie_break = options_.tie_break;
+  const long double cross_share = variation_.cross_share;
+  const GridGeometry& geometry = map().geometry();
+  const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
+  return tables_.withBound(goal_index, [&](const auto& boundIn) {
+    const auto bound = boundIn(kWideScale);
+    const auto promise = [&](SearchKey g, Cell cell) {
+      const SearchKey least = stretched(bound(geometry.index(cell).value()), options_.epsilon);
+      const SearchKey to_go = cross_share == 0.0L ? estimate(cell) : estimate(cell, cross_share);
+      return BestFirstSearch::Promise{saturatingSum(g, std::max(to_go, least)),
+                                      tieKey(tie_break, g, estimate, cell)};
+    };
+    return in_order_.run(map(), request.start, isGoal, promise, request.record_expanded, stop,
+                         variation_.goal_test);
+  });
+}
+
+}  // namespace grid_path_planner::planners

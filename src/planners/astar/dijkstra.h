@@ -1,0 +1,35 @@
+// Dijkstra's algorithm over the cells of a grid (Dijkstra 1959).
+//
+// Guaranteed: the cost is the least there is, on every map and motion model, and of several goals
+// the one that is answered is the cheapest to reach: which is what it is for where A* is not.
+//
+// It has nothing to break ties by. But with a tie-break other than none A* keeps its open list in
+// strict order, which costs several times as much a cell, and Dijkstra then does the same: so that
+// who compares the two compares them and not their open lists.
+#pragma once
+
+#include "grid_path_planner/planners/best_first_search.h"
+#include "grid_path_planner/planners/bucket_search.h"
+#include "grid_path_planner/planners/planner.h"
+#include "grid_path_planner/planners/search_options.h"
+
+namespace grid_path_planner::planners {
+
+class Dijkstra : public Planner {
+ public:
+  explicit Dijkstra(const SearchOptions& options = {});
+
+  std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
+
+ protected:
+  void doPrepare(const base::StopToken& stop) override;
+  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
+  SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
+
+ private:
+  bool strictly_ordered_;
+  BucketSearch by_buckets_;  // one of the two is used
+  BestFirstSearch in_order_;
+};
+
+}  // namespace grid_path_planner::planners

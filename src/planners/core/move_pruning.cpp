@@ -1,0 +1,108 @@
+#include "grid_path_planner/planners/move_pruning.h"
+
+#include <cstdlib>
+
+#include "grid_path_planner/grid/prefetch.h"
+
+namespace grid_path_planner::planners {
+
+using base::StopToken;
+using costmap::Connectivity;
+using costmap::CostGrid;
+using costmap::DiagonalCost;
+using costmap::MotionModel;
+using grid::Cell;
+using grid::CellRect;
+using grid::prefetchRows;
+
+namespace {
+
+bool diagonal(Cell step) {
+  return step.column != 0 && step.row != 0;
+}
+
+std::uint8_t bitOf(Cell step) {
+  for (std::size_t n = 0; n < kSteps.size(); ++n)
+    if (kSteps[n] == step) return static_cast<std::uint8_t>(1U << n);
+  return 0;
+}
+
+// The steps that, after `step`, lead back or to where one straight step would have led: straight
+// from the cell before costs at most the dearer one of the two steps, whatever the weights.
+std::uint8_t dearerAfter(Cell step) {
+  std::uint8_t dearer = 0;
+  for (const Cell next : kSteps) {
+    const Cell sum{step.column + next.column, step.row + next.row};
+    if (std::abs(sum.column) + std::abs(sum.row) <= 1)
+      dearer = static_cast<std::uint8_t>(dearer | bitOf(next));
+  }
+  return dearer;
+}
+
+// Of the `allowed` steps after `step`, where all passable cells weigh the same and corners are not
+// cut: straight on; sideways only around a blocked cell that is left behind; after a diagonal its
+// two parts as well.
+std::uint8_t canonicalAfter(Cell step, std::uint8_t allowed) {
+  if (diagonal(step))
+    return static_cast<std::uint8_t>(
+        allowed & (bitOf(step) | bitOf({step.column, 0}) | bitOf({0, step.row})));
+  unsigned tried = bitOf(step);
+  for (const Cell side : {Cell{step.row, step.column}, Cell{-step.row, -step.column}})
+    if ((allowed & bitOf({side.column - step.column, side.row - step.row})) == 0)
+      tried |= bitOf(side) | bitOf({side.column + step.column, side.row + step.row});
+  return static_cast<std::uint8_t>(allowed & tried);
+}
+
+bool canonicalHolds(const MotionModel& motion) {
+  return motion.connectivity == Connectivity::EIGHT &&
+         motion.diagonal_cost == DiagonalCost::SQRT2 && !motion.cut_corners;
+}
+
+}  // namespace
+
+PruningRules::PruningRules(const CostGrid& map)
+    : motion_(map.motion()),
+      map_uniform_(map.uniform()),
+      steps_(map.motion()),
+      canonical_(canonicalHolds(map.motion())),
+      uniform_(canonical_ && map.uniform()) {
+  for (std::size_t step = 0; step < kSteps.size(); ++step) {
+    never_[step] = dearerAfter(kSteps[step]);
+    for (std::size_t kind = 0; kind < 256; ++kind) {
+      const auto mask = static_cast<std::uint8_t>(allowed(static_cast<NeighbourhoodClass>(kind)));
+      const bool equal = uniform_ || (canonical_ && kind == kAllEqual);
+      tried_[step][kind] = equal ? canonicalAfter(kSteps[step], mask)
+                                 : static_cast<std::uint8_t>(mask & ~never_[step]);
+    }
+  }
+}
+
+bool PruningRules::missing(std::uint32_t steps, unsigned step, NeighbourhoodClass kind) const {
+  if (!uniform_ && !(canonical_ && kind == kAllEqual)) return false;
+  std::uint32_t done = 0;
+  for (; steps != 0; steps &= steps - 1) {
+    const unsigned known = lowest(steps);
+    done |= tried_[known][kind] | never_[known];
+  }
+  return (tried_[step][kind] & ~done) != 0;
+}
+
+void MovePruning::build(const CostGrid& map, const StopToken& stop) {
+  classes_.resize(map.geometry().size());
+  offsets_ = stepOffsets(map.geometry().width());
+  rules_ = PruningRules(map);
+  update(map, map.geometry().rect(), stop);
+}
+
+void MovePruning::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
+  if (!rules_.fit(map)) rules_ = PruningRules(map);
+  const CellRect rect = changed.grown(1).intersection(map.geometry().rect());
+  const auto width = static_cast<std::size_t>(map.geometry().width());
+  prefetchRows(classes_.data() + map.geometry().index({rect.column, rect.row}).value(), width,
+               rect.width, rect.height);
+  forEachEight(map, rect, stop, [this](std::size_t index, int number, const EightCells& cells) {
+    storeBytes(rules_.neighbourhoodClasses(cells), number, classes_.data() + index);
+  });
+}
+
+}  // namespace grid_path_planner::planners

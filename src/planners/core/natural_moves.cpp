@@ -1,0 +1,136 @@
+#include "planners/core/natural_moves.h"
+
+#include <algorithm>
+
+#include "grid_path_planner/planners/steps.h"
+
+namespace grid_path_planner::planners {
+
+using costmap::CostGrid;
+using grid::Cell;
+
+namespace {
+
+constexpr int kMiddle = 4;
+constexpr int kOutside = 9;
+
+// Integers in doubles, whose minimum the compiler takes two at a time: a path inside the window is
+// at most eight steps of 65535, so the convergent orders exactly and stays far below 2^53.
+constexpr double kStraight = 1136689;
+constexpr double kDiagonal = 1607521;
+constexpr double kFar = 1e15;
+
+// Diagonal steps come first.
+constexpr int rankOf(int step) {
+  return (step + 4) & 7;
+}
+
+struct Neighbours {
+  std::array<std::array<std::uint8_t, 8>, 9> to{};
+};
+
+constexpr Neighbours neighboursInside() {
+  Neighbours neighbours;
+  for (int cell = 0; cell < 9; ++cell)
+    for (int step = 0; step < 8; ++step) {
+      const int column = cell % 3 + kSteps[step].column;
+      const int row = cell / 3 + kSteps[step].row;
+      const bool inside = column >= 0 && column < 3 && row >= 0 && row < 3;
+      neighbours.to[cell][step] = static_cast<std::uint8_t>(inside ? 3 * row + column : kOutside);
+    }
+  return neighbours;
+}
+
+constexpr Neighbours kInside = neighboursInside();
+
+// Costs of all steps and least costs of all paths inside a window.
+class WindowPaths {
+ public:
+  explicit WindowPaths(const Window& window) {
+    for (int from = 0; from < 9; ++from)
+      for (int step = 0; step < 8; ++step) steps_[from][step] = costOf(window, from, step);
+    for (int from = 0; from < 9; ++from) {
+      least_[from].fill(kFar);
+      least_[from][from] = 0.0;
+      for (int step = 0; step < 8; ++step)
+        if (kInside.to[from][step] != kOutside)
+          least_[from][kInside.to[from][step]] = steps_[from][step];
+    }
+    for (int by = 0; by < 9; ++by)
+      for (int from = 0; from < 9; ++from)
+        for (int to = 0; to < 9; ++to)
+          least_[from][to] = std::min(least_[from][to], least_[from][by] + least_[by][to]);
+  }
+
+  unsigned naturalAfter(int d) const {
+    const int from = kInside.to[kMiddle][(d & 4) | ((d + 2) & 3)];  // back along d
+    unsigned mask = 0;
+    if (steps_[from][d] >= kFar) return 0;
+    for (int e = 0; e < 8; ++e)
+      if (canonical(from, d, e)) mask |= 1U << e;
+    return mask;
+  }
+
+ private:
+  static double costOf(const Window& window, int from, int step) {
+    const int to = kInside.to[from][step];
+    if (to == kOutside || window[from] == 0 || window[to] == 0) return kFar;
+    const double weight = std::max(window[from], window[to]);
+    if (step < 4) return weight * kStraight;
+    const int column = from + kSteps[step].column;
+    const int row = from + 3 * kSteps[step].row;
+    return window[column] == 0 || window[row] == 0 ? kFar : weight * kDiagonal;
+  }
+
+  // Whether a path of `cost` from `from` to `to` may begin with a step that comes before `step`.
+  bool precededBy(int from, int step, int to, double cost) const {
+    for (int other = 0; other < 8; ++other) {
+      const int by = kInside.to[from][other];
+      if (by == kOutside || rankOf(other) >= rankOf(step)) continue;
+      if (steps_[from][other] + least_[by][to] <= cost) return true;
+    }
+    return false;
+  }
+
+  bool canonical(int from, int d, int e) const {
+    const int to = kInside.to[kMiddle][e];
+    const double second = steps_[kMiddle][e];
+    const double cost = steps_[from][d] + second;
+    if (second >= kFar || least_[from][to] < cost) return false;
+    return !precededBy(from, d, to, cost) && !precededBy(kMiddle, e, to, second);
+  }
+
+  std::array<std::array<double, 8>, 9> steps_;
+  std::array<std::array<double, 9>, 9> least_;
+};
+
+}  // namespace
+
+NaturalMoves naturalSteps(const Window& window) {
+  if (window[kMiddle] == CostGrid::kBlocked) return 0;
+  const WindowPaths paths(window);
+  NaturalMoves steps = 0;
+  for (int d = 0; d < 8; ++d) steps |= NaturalMoves{paths.naturalAfter(d)} << (8 * d);
+  return steps;
+}
+
+Window windowAt(const CostGrid& map, Cell cell) {
+  Window window;
+  const int width = map.geometry().width(), height = map.geometry().height();
+  const bool inner =
+      cell.column > 0 && cell.column + 1 < width && cell.row > 0 && cell.row + 1 < height;
+  for (int row = 0; row < 3; ++row) {
+    const int at_row = cell.row + row - 1;
+    if (inner) {
+      std::copy_n(map.weights().row(at_row) + cell.column - 1, 3, window.begin() + 3 * row);
+      continue;
+    }
+    for (int column = 0; column < 3; ++column) {
+      const Cell at{cell.column + column - 1, at_row};
+      window[3 * row + column] = map.geometry().contains(at) ? map.weight(at) : CostGrid::kBlocked;
+    }
+  }
+  return window;
+}
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,70 @@
+// An open list for nodes that are larger than what orders them: a binary heap of estimates, and the
+// nodes beside it.
+//
+//   NodeHeap<Node> open;
+//   open.push(f, node);
+//   if (!open.empty() && open.least() < limit) node = open.pop();
+//
+// Of equal estimates any may come first; the same calls give the same order.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace grid_path_planner::planners {
+
+template <class Node>
+class NodeHeap {
+ public:
+  bool empty() const { return heap_.empty(); }
+  std::size_t size() const { return heap_.size(); }
+
+  void clear() {
+    nodes_.clear();
+    unused_.clear();
+    heap_.clear();
+  }
+
+  void push(double f, const Node& node) {
+    std::uint32_t place = static_cast<std::uint32_t>(nodes_.size());
+    if (unused_.empty()) {
+      nodes_.push_back(node);
+    } else {
+      place = unused_.back();
+      unused_.pop_back();
+      nodes_[place] = node;
+    }
+    heap_.push_back({f, place});
+    std::push_heap(heap_.begin(), heap_.end());
+  }
+
+  // Precondition of both: it is not empty.
+  double least() const { return heap_.front().f; }
+  Node pop() {
+    std::pop_heap(heap_.begin(), heap_.end());
+    const std::uint32_t place = heap_.back().node;
+    heap_.pop_back();
+    unused_.push_back(place);
+    return nodes_[place];
+  }
+
+  // At its longest since clear().
+  std::size_t bytes() const {
+    return nodes_.size() * (sizeof(Node) + sizeof(Entry) + sizeof(std::uint32_t));
+  }
+
+ private:
+  struct Entry {
+    double f;
+    std::uint32_t node;
+    friend bool operator<(const Entry& a, const Entry& b) { return a.f > b.f; }  // for std's heaps
+  };
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> unused_;  // places in nodes_
+  std::vector<Entry> heap_;
+};
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,70 @@
+#include "planners/jump_point/pruning_estimate.h"
+
+#include <algorithm>
+
+#include "grid_path_planner/planners/steps.h"
+#include "planners/core/natural_moves.h"
+
+namespace grid_path_planner::planners {
+
+using base::StopPoll;
+using base::StopToken;
+using costmap::CostGrid;
+using costmap::stepAllowed;
+using grid::Cell;
+using grid::CellRect;
+using grid::GridGeometry;
+
+namespace {
+
+constexpr std::size_t kCells = 4096;  // a few milliseconds
+
+}  // namespace
+
+PruningEstimate::Count PruningEstimate::countAt(const CostGrid& map, Cell cell) {
+  Count count;
+  const NaturalMoves natural = naturalSteps(windowAt(map, cell));
+  for (unsigned step = 4; step < 8; ++step) {
+    const Cell from{cell.column - kSteps[step].column, cell.row - kSteps[step].row};
+    if (!stepAllowed(map, from, cell)) continue;
+    const unsigned after = natural >> (8 * step) & 255U;
+    ++count.steps;
+    if (after != 0 && (after & ~unsigned(kDefaultSteps[step])) == 0) ++count.plain;
+  }
+  return count;
+}
+
+void PruningEstimate::take(const CostGrid& map, const StopToken& stop) {
+  const GridGeometry& geometry = map.geometry();
+  stride_ = 1;
+  while (geometry.size() / (std::size_t(stride_) * stride_) > kCells) ++stride_;
+  columns_ = (geometry.width() + stride_ - 1) / stride_;
+  const int rows = (geometry.height() + stride_ - 1) / stride_;
+  counts_.assign(std::size_t(columns_) * rows, Count());
+  steps_ = plain_ = 0;
+  StopPoll poll(stop, 256);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns_; ++column) {
+      poll();
+      replace(map, column, row);
+    }
+}
+
+void PruningEstimate::update(const CostGrid& map, const CellRect& changed) {
+  const CellRect near = changed.grown(1).intersection(map.geometry().rect());
+  const auto firstOf = [this](int cell) { return (cell + stride_ - 1) / stride_; };
+  for (int row = firstOf(near.row); row * stride_ < near.row + near.height; ++row)
+    for (int column = firstOf(near.column); column * stride_ < near.column + near.width; ++column)
+      replace(map, column, row);
+}
+
+void PruningEstimate::replace(const CostGrid& map, int column, int row) {
+  Count& count = counts_[std::size_t(row) * columns_ + column];
+  steps_ -= count.steps;
+  plain_ -= count.plain;
+  count = countAt(map, {column * stride_, row * stride_});
+  steps_ += count.steps;
+  plain_ += count.plain;
+}
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,122 @@
+#include "planners/jump_point/weighted_jump_point.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "grid_path_planner/planners/precomputed_heuristic.h"
+#include "planners/astar/heuristic.h"
+
+namespace grid_path_planner::planners {
+
+using base::StopToken;
+using costmap::Connectivity;
+using costmap::CostGrid;
+using costmap::DiagonalCost;
+using costmap::MotionModel;
+using grid::CellRect;
+using grid::GridGeometry;
+
+namespace {
+
+PlannerTraits weightedJumpPointTraits() {
+  PlannerTraits traits;
+  traits.name = "weighted_jump_point";
+  traits.optimal = true;
+  traits.repairs = true;
+  return traits;
+}
+
+bool jumpsUnderstand(const MotionModel& motion) {
+  return motion == MotionModel();
+}
+
+// Whether a search is asked for that differs from what finds the least cost the quickest.
+bool asksForAStar(const SearchOptions& options) {
+  const SearchOptions usual;
+  return options.heuristic != usual.heuristic || options.epsilon != usual.epsilon ||
+         options.heuristic_scale != usual.heuristic_scale || options.tie_break != usual.tie_break;
+}
+
+}  // namespace
+
+WeightedJumpPoint::WeightedJumpPoint(const SearchOptions& options)
+    : Planner(weightedJumpPointTraits()),
+      options_(options),
+      a_star_asked_for_(asksForAStar(options)) {
+  checkSearchOptions(options);
+}
+
+// As asked for, or with the best lower bound of the motion model.
+SearchOptions WeightedJumpPoint::optionsOfAStar(const MotionModel& motion) const {
+  SearchOptions options = options_;
+  if (a_star_asked_for_) return options;
+  if (motion.connectivity == Connectivity::FOUR)
+    options.heuristic = Heuristic::MANHATTAN;
+  else if (motion.diagonal_cost == DiagonalCost::UNIT)
+    options.heuristic = Heuristic::CHEBYSHEV;
+  return options;
+}
+
+bool WeightedJumpPoint::optimalFor(const CostGrid& map) const {
+  return optimalWith(optionsOfAStar(map.motion()), map);
+}
+
+std::size_t WeightedJumpPoint::bytesFor(const GridGeometry& geometry) const {
+  return std::max(WeightedJumpSearch::bytesFor(geometry), AStar(options_).bytesFor(geometry));
+}
+
+std::string WeightedJumpPoint::waysToLessMemory() const {
+  const std::string ways = PrecomputedHeuristic::waysToLessMemory(options_);
+  return ways.empty() ? Planner::waysToLessMemory() : ways;
+}
+
+BackgroundWork WeightedJumpPoint::backgroundWork() {
+  return a_star_ ? a_star_->backgroundWork() : BackgroundWork();
+}
+
+void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
+  if (a_star_) a_star_->finishBackgroundWork(stop);
+}
+
+bool WeightedJumpPoint::worthJumping() const {
+  return !a_star_asked_for_ && jumpsUnderstand(map().motion()) && sample_.symmetric();
+}
+
+void WeightedJumpPoint::doPrepare(const StopToken& stop) {
+  a_star_.reset();
+  jumps_ready_ = false;
+  if (jumpsUnderstand(map().motion())) sample_.take(map(), stop);
+  if (!worthJumping()) {
+    jumps_.release();
+    prepareAStar(stop);
+    return;
+  }
+  jumps_.prepare(map(), stop);
+  jumps_ready_ = true;
+}
+
+void WeightedJumpPoint::doUpdate(const CellRect& changed, const StopToken& stop) {
+  if (jumpsUnderstand(map().motion())) sample_.update(map(), changed);
+  if (worthJumping() != jumps_ready_) return doPrepare(stop);
+  if (jumps_ready_) jumps_.update(map(), changed, stop);
+  if (a_star_) a_star_->update(sharedMap(), changed, stop);
+}
+
+void WeightedJumpPoint::prepareAStar(const StopToken& stop) {
+  auto a_star = std::make_unique<AStar>(optionsOfAStar(map().motion()));
+  a_star->prepare(sharedMap(), stop);
+  a_star_ = std::move(a_star);
+}
+
+SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const StopToken& stop) {
+  if (jumps_ready_) {
+    try {
+      return jumps_.run(map(), request, stop);
+    } catch (const WeightedJumpSearch::TooDear&) {
+      if (!a_star_) prepareAStar(stop);
+    }
+  }
+  return a_star_->search(request, stop);
+}
+
+}  // namespace grid_path_planner::planners

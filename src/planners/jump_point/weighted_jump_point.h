@@ -1,0 +1,55 @@
+// Jump point search over cells of any weight, and A* where that is faster.
+//
+// Guaranteed: the cost is the least there is, on every map and motion model, unless the options ask
+// A* for less.
+//
+// Where diagonals are sqrt 2 long and cut no corners, jumps (planners/jump_point/weighted_jump_search.h) leave
+// out what symmetry makes superfluous: nearly everything on plateaus, much of the slopes around
+// obstacles, little where every cell has another weight. Whether that is worth it is counted when a
+// map is prepared (planners/jump_point/pruning_estimate.h) and kept up with its changes; where it is not, and for
+// other motion models, A* answers, with the heuristic that fits them. So no map is refused: where a
+// path costs more than the keys of the jumps hold, A* is made ready beside them. Nor is
+// an option ignored: with any search option (heuristic, scale, epsilon, tie-break) that is not the
+// default, A* answers with it.
+#pragma once
+
+#include <memory>
+
+#include "grid_path_planner/planners/a_star.h"
+#include "grid_path_planner/planners/planner.h"
+#include "grid_path_planner/planners/search_options.h"
+#include "planners/jump_point/pruning_estimate.h"
+#include "planners/jump_point/weighted_jump_search.h"
+
+namespace grid_path_planner::planners {
+
+class WeightedJumpPoint : public Planner {
+ public:
+  // Throws InputError for options that cannot be used.
+  explicit WeightedJumpPoint(const SearchOptions& options = {});
+
+  std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
+  bool optimalFor(const costmap::CostGrid& map) const override;
+  BackgroundWork backgroundWork() override;
+  void finishBackgroundWork(const base::StopToken& stop) override;
+
+ protected:
+  std::string waysToLessMemory() const override;
+  void doPrepare(const base::StopToken& stop) override;
+  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
+  SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
+
+ private:
+  bool worthJumping() const;
+  void prepareAStar(const base::StopToken& stop);
+  SearchOptions optionsOfAStar(const costmap::MotionModel& motion) const;
+
+  SearchOptions options_;
+  bool a_star_asked_for_;
+  PruningEstimate sample_;
+  bool jumps_ready_ = false;
+  WeightedJumpSearch jumps_;
+  std::unique_ptr<AStar> a_star_;  // if it is ready
+};
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,91 @@
+#include "planners/rectangles/funnel.h"
+
+namespace grid_path_planner::planners {
+
+using costmap::SegmentPoint;
+using grid::CellRect;
+
+namespace {
+
+constexpr std::int64_t kUnit = SegmentPoint::kUnitsPerCell;
+
+// An opening as one sees it who crosses it.
+struct Opening {
+  SegmentPoint left;
+  SegmentPoint right;
+};
+
+Opening openingOf(const CellRect& from, const Connection& step) {
+  const bool upright = step.side == Side::EAST || step.side == Side::WEST;
+  const int line = step.side == Side::EAST    ? from.column + from.width
+                   : step.side == Side::WEST  ? from.column
+                   : step.side == Side::NORTH ? from.row + from.height
+                                              : from.row;
+  const auto point = [upright, line](int along) {
+    return upright ? SegmentPoint{line * kUnit, along * kUnit}
+                   : SegmentPoint{along * kUnit, line * kUnit};
+  };
+  const SegmentPoint low = point(step.first), high = point(step.first + step.length);
+  // Eastwards the greater row is on the left, northwards the smaller column.
+  const bool high_is_left = step.side == Side::EAST || step.side == Side::SOUTH;
+  return high_is_left ? Opening{high, low} : Opening{low, high};
+}
+
+std::vector<Opening> openingsOf(const RectangleGraph& map, const RectangleRoute& route,
+                                SegmentPoint goal) {
+  std::vector<Opening> openings;
+  std::uint32_t rectangle = route.first;
+  for (const Connection& step : route.steps) {
+    openings.push_back(openingOf(map.rectangles()[rectangle], step));
+    rectangle = step.to;
+  }
+  openings.push_back({goal, goal});
+  return openings;
+}
+
+// Positive where c lies to the left of the ray from a through b.
+std::int64_t turn(SegmentPoint a, SegmentPoint b, SegmentPoint c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+}  // namespace
+
+std::vector<SegmentPoint> shortestThrough(const RectangleGraph& map, const RectangleRoute& route,
+                                          SegmentPoint start, SegmentPoint goal) {
+  const std::vector<Opening> openings = openingsOf(map, route, goal);
+  std::vector<SegmentPoint> points = {start};
+  SegmentPoint left = start, right = start;
+  std::size_t left_opening = 0, right_opening = 0;  // where the funnel's sides come from
+  const auto turnAt = [&](SegmentPoint corner, std::size_t opening) {
+    if (corner != points.back()) points.push_back(corner);
+    left = right = corner;
+    left_opening = right_opening = opening;
+    return opening;
+  };
+  for (std::size_t i = 0; i < openings.size(); ++i) {
+    const SegmentPoint apex = points.back();
+    const Opening& next = openings[i];
+    // A side that closes in is moved; one that would cross the other shows where the path turns,
+    // and the openings from there on are looked at again.
+    if (turn(apex, right, next.right) >= 0) {
+      if (right != apex && turn(apex, left, next.right) >= 0) {
+        i = turnAt(left, left_opening);
+        continue;
+      }
+      right = next.right;
+      right_opening = i;
+    }
+    if (turn(apex, left, next.left) <= 0) {
+      if (left != apex && turn(apex, right, next.left) <= 0) {
+        i = turnAt(right, right_opening);
+        continue;
+      }
+      left = next.left;
+      left_opening = i;
+    }
+  }
+  if (points.back() != goal) points.push_back(goal);
+  return points;
+}
+
+}  // namespace grid_path_planner::planners

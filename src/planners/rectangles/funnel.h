@@ -1,0 +1,20 @@
+// The shortest way through a sequence of openings: the funnel algorithm (Lee & Preparata 1984,
+// Chazelle 1982) on lattice points.
+#pragma once
+
+#include <vector>
+
+#include "grid_path_planner/costmap/line_of_sight.h"
+#include "grid_path_planner/planners/rectangle_route.h"
+
+namespace grid_path_planner::planners {
+
+// The turning points of the shortest path from `start` to `goal` that crosses the borders of
+// `route` in their order, both ends included. It stays inside the rectangles of the route.
+// Preconditions: `start` lies in the route's first rectangle, `goal` in its last.
+std::vector<costmap::SegmentPoint> shortestThrough(const RectangleGraph& map,
+                                                   const RectangleRoute& route,
+                                                   costmap::SegmentPoint start,
+                                                   costmap::SegmentPoint goal);
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,75 @@
+#include "grid_path_planner/planners/map_sizes.h"
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/base/deflate.h"
+#include "grid_path_planner/planners/rectangle_file.h"
+
+namespace grid_path_planner::planners {
+
+using base::deflated;
+using grid::CellRect;
+using grid::GridGeometry;
+
+namespace {
+
+// Of numbers 0 ... count - 1.
+std::size_t bitsFor(int count) {
+  std::size_t bits = 1;
+  while (std::size_t{1} << bits < static_cast<std::size_t>(count)) ++bits;
+  return bits;
+}
+
+std::size_t wholeBytes(std::size_t bits) {
+  return (bits + 7) / 8;
+}
+
+// White where it is free.
+cv::Mat pictureOf(const RectangleGraph& map) {
+  cv::Mat picture = cv::Mat::zeros(map.geometry().height(), map.geometry().width(), CV_8UC1);
+  for (const CellRect& rect : map.rectangles())
+    if (!rect.empty()) picture(cv::Rect(rect.column, rect.row, rect.width, rect.height)).setTo(255);
+  return picture;
+}
+
+std::string bitsOf(const cv::Mat& picture) {
+  const std::size_t row_bytes = wholeBytes(static_cast<std::size_t>(picture.cols));
+  std::string bits(row_bytes * static_cast<std::size_t>(picture.rows), '\0');
+  for (int row = 0; row < picture.rows; ++row) {
+    char* bytes = &bits[row_bytes * static_cast<std::size_t>(row)];
+    const std::uint8_t* pixels = picture.ptr<std::uint8_t>(row);
+    for (int column = 0; column < picture.cols; ++column)
+      if (pixels[column] != 0)
+        bytes[column / 8] = static_cast<char>(bytes[column / 8] | 1 << column % 8);
+  }
+  return bits;
+}
+
+std::size_t pngSize(const cv::Mat& picture) {
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", picture, png, {cv::IMWRITE_PNG_BILEVEL, 1, cv::IMWRITE_PNG_COMPRESSION, 9});
+  return png.size();
+}
+
+}  // namespace
+
+MapSizes mapSizes(const RectangleGraph& map) {
+  const GridGeometry& geometry = map.geometry();
+  MapSizes sizes;
+  sizes.file = rectangleFileContent(map).size();
+  sizes.entire_map = wholeBytes(geometry.size());
+  // A width is written less 1, so it needs no more bits than a column.
+  const std::size_t place_bits = bitsFor(geometry.width()) + bitsFor(geometry.height());
+  sizes.empty_cells = wholeBytes(map.freeCells() * place_bits);
+  sizes.rectangles = wholeBytes(map.count() * 2 * place_bits);
+  const cv::Mat picture = pictureOf(map);
+  sizes.png = pngSize(picture);
+  sizes.zlib = deflated(bitsOf(picture)).size();
+  return sizes;
+}
+
+}  // namespace grid_path_planner::planners

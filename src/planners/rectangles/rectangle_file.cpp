@@ -1,0 +1,37 @@
+#include "grid_path_planner/planners/rectangle_file.h"
+
+#include <utility>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/files.h"
+#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/grid/rectangle_map_file.h"
+
+namespace grid_path_planner::planners {
+
+using base::InputError;
+using base::readWholeFile;
+using base::writeFileAtomically;
+using grid::kLargestMapFile;
+using grid::parseRectangles;
+using grid::RectangleMap;
+using grid::rectangleMapContent;
+
+std::string rectangleFileContent(const RectangleGraph& map) {
+  return rectangleMapContent({map.geometry(), map.rectangles()});
+}
+
+void writeRectangleFile(const std::string& file, const RectangleGraph& map) {
+  writeFileAtomically(file, rectangleFileContent(map));
+}
+
+RectangleGraph readRectangleFile(const std::string& file, Touching touching) {
+  RectangleMap map = parseRectangles(readWholeFile(file, kLargestMapFile), file);
+  try {
+    return RectangleGraph(map.geometry, std::move(map.rectangles), touching);
+  } catch (const InputError& error) {
+    throw InputError(file, error.what());
+  }
+}
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,43 @@
+#include "planners/replanning/backward_nodes.h"
+
+#include "grid_path_planner/grid/prefetch.h"
+
+namespace grid_path_planner::planners {
+
+using base::ZeroedArray;
+using costmap::CostGrid;
+using grid::CellRect;
+
+static_assert(kSteps[oppositeStep(0)].column == -kSteps[0].column &&
+              kSteps[oppositeStep(1)].row == -kSteps[1].row &&
+              kSteps[oppositeStep(4)].column == -kSteps[4].column &&
+              kSteps[oppositeStep(5)].column == -kSteps[5].column);
+
+void BackwardNodes::prepare(const CostGrid& map, const MovePruning& moves) {
+  moves_ = &moves;
+  geometry_ = map.geometry();
+  cell_of_ = CellOfIndex(geometry_);
+  diagonal_step_ = diagonalKey(kPackedScale, map.motion().diagonal_cost);
+  offsets_ = moves.offsets();
+  if (words_.size() == geometry_.size()) return;
+  words_ = ZeroedArray<Word>(geometry_.size());
+  tree_ = 0;
+}
+
+void BackwardNodes::begin(Index root) {
+  if (++tree_ == Word{1} << (64 - kTreeShift)) {
+    words_.clear();
+    tree_ = 1;
+  }
+  root_ = root;
+  set(root, 0, 0, OPEN);
+}
+
+void BackwardNodes::prefetchRows(const CellRect& rect) const {
+  if (rect.empty()) return;
+  grid_path_planner::grid::prefetchRows(&words_[geometry_.index({rect.column, rect.row}).value()],
+                                        static_cast<std::size_t>(geometry_.width()), rect.width,
+                                        rect.height);
+}
+
+}  // namespace grid_path_planner::planners

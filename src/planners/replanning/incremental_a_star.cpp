@@ -1,0 +1,88 @@
+#include "planners/replanning/incremental_a_star.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "grid_path_planner/planners/bucket_queue.h"
+
+namespace grid_path_planner::planners {
+
+using base::Status;
+using base::Stopped;
+using base::StopToken;
+using grid::Cell;
+using grid::CellRect;
+using grid::GridGeometry;
+
+namespace {
+
+PlannerTraits traitsOfIncrementalAStar() {
+  PlannerTraits traits;
+  traits.name = "incremental_a_star";
+  traits.optimal = true;
+  traits.repairs = true;
+  traits.incremental = true;
+  return traits;
+}
+
+// How many times as many cells are labelled for a new goal as its first plan takes.
+constexpr double kAhead = 3.0;
+
+}  // namespace
+
+IncrementalAStar::IncrementalAStar() : Planner(traitsOfIncrementalAStar()) {}
+
+std::size_t IncrementalAStar::bytesFor(const GridGeometry& geometry) const {
+  return std::max(treeBytes(geometry), AStar().bytesFor(geometry));
+}
+
+std::size_t IncrementalAStar::treeBytes(const GridGeometry& geometry) {
+  return BackwardSearchTree::bytesFor(geometry) + geometry.size();
+}
+
+void IncrementalAStar::doPrepare(const StopToken& stop) {
+  a_star_.reset();
+  moves_.build(map(), stop);
+  if (!tree_) tree_.emplace();
+  tree_->prepare(map(), moves_);
+}
+
+void IncrementalAStar::doUpdate(const CellRect& changed, const StopToken& stop) {
+  if (a_star_) return a_star_->update(sharedMap(), changed, stop);
+  moves_.update(map(), changed, stop);
+  tree_->update(previousMap(), map(), changed);
+}
+
+SearchResult IncrementalAStar::doSearch(const SearchRequest& request, const StopToken& stop) {
+  if (a_star_) return a_star_->search(request, stop);
+  SearchResult result;
+  try {
+    result.status = planByTree(request, result, stop);
+  } catch (const Stopped& stopped) {
+    result.status = stopped.status();
+  } catch (const CostOverflow&) {
+    handOver(stop);
+    return a_star_->search(request, stop);
+  }
+  result.statistics.search_bytes = treeBytes(map().geometry()) + tree_->searchBytes() +
+                                   result.statistics.peak_open * sizeof(BucketQueue::Index);
+  return result;
+}
+
+void IncrementalAStar::handOver(const StopToken& stop) {
+  auto a_star = std::make_unique<AStar>();
+  a_star->prepare(sharedMap(), stop);
+  a_star_ = std::move(a_star);
+  tree_.reset();
+  moves_ = MovePruning();
+}
+
+Status IncrementalAStar::planByTree(const SearchRequest& request, SearchResult& result,
+                                    const StopToken& stop) {
+  const Cell goal = request.goals.front();
+  const bool record = request.record_expanded;
+  if (tree_->usableFor(map(), goal)) return tree_->plan(map(), request.start, record, result, stop);
+  return tree_->begin(map(), goal, request.start, kAhead, record, result, stop);
+}
+
+}  // namespace grid_path_planner::planners

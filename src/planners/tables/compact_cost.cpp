@@ -1,0 +1,43 @@
+#include "grid_path_planner/planners/compact_cost.h"
+
+#include <algorithm>
+
+namespace grid_path_planner::planners {
+namespace {
+
+constexpr SearchKey kDiagonalKeyInverse = 1311738121U;  // modulo kStraightKey
+static_assert(kDiagonalKey % kStraightKey * kDiagonalKeyInverse % kStraightKey == 1, "");
+
+}  // namespace
+
+CompactCostUnit CompactCostUnit::rounding(SearchKey longest) {
+  CompactCostUnit unit;
+  unit.shift_ = 0;
+  while ((longest >> unit.shift_) >= kNoCompactCost) ++unit.shift_;
+  return unit;
+}
+
+CompactCost CompactCostUnit::entryOf(SearchKey cost) const {
+  if (cost == kInfiniteKey) return kNoCompactCost;
+  if (exact()) return exactEntry(cost);
+  return static_cast<CompactCost>(std::min<SearchKey>(cost >> shift_, kNoCompactCost - 1));
+}
+
+CompactCost CompactCostUnit::exactEntry(SearchKey cost) {
+  const SearchKey diagonal = cost % kStraightKey * kDiagonalKeyInverse % kStraightKey;
+  if (diagonal > kMostDiagonal) return kNoCompactCost;
+  const SearchKey straight = (cost - diagonal * kDiagonalKey) / kStraightKey;
+  if (straight > kNoCompactCost / kStraight) return kNoCompactCost;
+  const SearchKey entry = straight * kStraight + diagonal * kDiagonal;
+  return entry < kNoCompactCost ? static_cast<CompactCost>(entry) : kNoCompactCost;
+}
+
+SearchKey CompactCostUnit::roundedKey(CompactCost difference, const KeyScale& scale) const {
+  if (difference <= 1) return 0;
+  const SearchKey wide = static_cast<SearchKey>(difference - 1) << shift_;
+  // Wide keys are the finer ones: what is less in them is less in any scale, but for the rounding.
+  const double ratio = static_cast<double>(scale.straight) / static_cast<double>(kStraightKey);
+  return static_cast<SearchKey>(static_cast<double>(wide) * ratio * (1.0 - 1e-15));
+}
+
+}  // namespace grid_path_planner::planners

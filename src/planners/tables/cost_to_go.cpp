@@ -1,0 +1,144 @@
+#include "planners/tables/cost_to_go.h"
+
+#include <algorithm>
+#include <cassert>
+#include <sstream>
+#include <utility>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/planners/steps.h"
+#include "planners/tables/tiled_dijkstra.h"
+
+namespace grid_path_planner::planners {
+
+using base::InputError;
+using base::StopToken;
+using base::ZeroedArray;
+using costmap::CostGrid;
+using costmap::ExactCost;
+using costmap::stepAllowed;
+using grid::Cell;
+using grid::GridGeometry;
+
+namespace {
+
+// One bit less than the integers that hold them. Diagonal parts stay below `straight`, so the order
+// is exact.
+constexpr KeyScale kNarrowLabels = {33461, 47321, SearchKey{33461} * 47321 - 1};
+constexpr KeyScale kWideLabels = {kStraightKey, kDiagonalKey, (SearchKey{1} << 63) - 1};
+
+void check(const CostGrid& map, const std::vector<Cell>& goals, int threads) {
+  std::ostringstream complaint;
+  if (goals.empty()) complaint << "a cost-to-go needs a goal, got none";
+  for (const Cell goal : goals)
+    if (!map.geometry().contains(goal) && complaint.str().empty())
+      complaint << "goal " << goal << " lies outside the map of " << map.geometry().width() << "x"
+                << map.geometry().height() << " cells";
+  if (threads < 1) complaint << "threads must be at least 1, got " << threads;
+  if (!complaint.str().empty()) throw InputError(complaint.str());
+}
+
+// Whether costs are likely to fit: a way along both sides at the mean of some of the weights.
+bool narrowLikely(const CostGrid& map) {
+  constexpr std::size_t kEvery = 61;
+  const auto& weights = map.weights().values();
+  std::size_t sum = 0, passable = 0;
+  for (std::size_t i = 0; i < weights.size(); i += kEvery) {
+    sum += weights[i];
+    passable += weights[i] != CostGrid::kBlocked ? 1 : 0;
+  }
+  const std::size_t mean = sum / std::max<std::size_t>(passable, 1);
+  const auto sides = static_cast<std::size_t>(map.geometry().width()) + map.geometry().height();
+  return mean * sides / 2 <= kNarrowLabels.largest / kNarrowLabels.straight;
+}
+
+template <class Label>
+bool flood(const CostGrid& map, const KeyScale& scale, const std::vector<Cell>& goals, int threads,
+           const StopToken& stop, ZeroedArray<Label>& labels) {
+  labels = ZeroedArray<Label>(TileLayout::tiles(map.geometry()) * TileLayout::kCells);
+  TiledDijkstra<Label> flood(map, labels, scale, stop);
+  for (const Cell goal : goals)
+    if (map.passable(goal)) flood.addGoal(goal);
+  return flood.run(threads);
+}
+
+// The inverse of diagonal modulo straight: diagonal^2 = 2 straight^2 + 1, or - 1 for a convergent
+// from below.
+SearchKey inverseOfDiagonal(const KeyScale& scale) {
+  const SearchKey rest = scale.diagonal % scale.straight;
+  const bool from_above = scale.straight == kWideLabels.straight;
+  return from_above ? rest : scale.straight - rest;
+}
+
+}  // namespace
+
+std::size_t CostToGo::bytesFor(const GridGeometry& geometry) {
+  const std::size_t cells = TileLayout::tiles(geometry) * TileLayout::kCells;
+  return cells * (sizeof(std::uint64_t) + 2 * sizeof(std::uint8_t) + sizeof(CostGrid::Weight));
+}
+
+CostToGo::CostToGo(std::shared_ptr<const CostGrid> map, const std::vector<Cell>& goals, int threads,
+                   const StopToken& stop)
+    : map_(std::move(map)),
+      scale_(kNarrowLabels),
+      tiles_across_(TileLayout::along(map_->geometry().width())) {
+  check(*map_, goals, threads);
+  if (narrowLikely(*map_) && flood(*map_, scale_, goals, threads, stop, narrow_)) return;
+  narrow_ = ZeroedArray<std::uint32_t>();
+  scale_ = kWideLabels;
+  if (!flood(*map_, scale_, goals, threads, stop, wide_)) throw CostOverflow();
+}
+
+std::size_t CostToGo::positionOf(Cell cell) const {
+  assert(map_->geometry().contains(cell));
+  const auto column = static_cast<std::uint32_t>(cell.column);
+  const auto row = static_cast<std::uint32_t>(cell.row);
+  const std::size_t tile = row / TileLayout::kSide * tiles_across_ + column / TileLayout::kSide;
+  return tile * TileLayout::kCells + TileLayout::insideOf(column, row);
+}
+
+std::size_t CostToGo::bytes() const {
+  return narrow_.size() * sizeof(std::uint32_t) + wide_.size() * sizeof(std::uint64_t);
+}
+
+// key = A straight + B diagonal has one solution with B < straight.
+ExactCost CostToGo::inCells(Cell cell) const {
+  assert(reached(cell));
+  const SearchKey whole = key(cell);
+  const SearchKey diagonal = whole % scale_.straight * inverseOfDiagonal(scale_) % scale_.straight;
+  return {static_cast<std::int64_t>((whole - diagonal * scale_.diagonal) / scale_.straight),
+          static_cast<std::int64_t>(diagonal)};
+}
+
+SearchKey CostToGo::keyIn(const KeyScale& scale, Cell cell) const {
+  const ExactCost cost = inCells(cell);
+  return static_cast<SearchKey>(cost.straight) * scale.straight +
+         static_cast<SearchKey>(cost.diagonal) * scale.diagonal;
+}
+
+ExactCost CostToGo::cost(Cell cell) const {
+  return inCells(cell) * map_->kernel();
+}
+
+// Always to a neighbour from which what is left and the step add up: that is how the label came
+// about.
+std::vector<Cell> CostToGo::pathFrom(Cell cell) const {
+  assert(reached(cell));
+  std::vector<Cell> path = {cell};
+  while (key(path.back()) != 0) {
+    const Cell at = path.back();
+    for (std::size_t step = 0; step < kSteps.size(); ++step) {
+      const Cell to{at.column + kSteps[step].column, at.row + kSteps[step].row};
+      if (!stepAllowed(*map_, at, to)) continue;
+      const SearchKey length =
+          step < 4 ? scale_.straight : diagonalKey(scale_, map_->motion().diagonal_cost);
+      if (key(to) + length * std::max(map_->weight(at), map_->weight(to)) != key(at)) continue;
+      path.push_back(to);
+      break;
+    }
+    assert(path.back() != at);
+  }
+  return path;
+}
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,324 @@
+#include "grid_path_planner/planners/landmark_table.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <random>
+#include <utility>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "planners/tables/shortest_path_tree.h"
+
+namespace grid_path_planner::planners {
+
+using base::StopPoll;
+using base::StopToken;
+using costmap::CostGrid;
+using grid::Cell;
+using grid::CellIndex;
+using grid::CellRect;
+using grid::GridGeometry;
+
+namespace {
+
+using Entry = LandmarkTable::Entry;
+
+constexpr std::size_t kCacheLine = 64 / sizeof(Entry);  // entries
+constexpr std::uint32_t kNone = 0xffffffffU;
+constexpr int kMergeDistance = 16;  // cells between places that count as one
+constexpr std::size_t kMostPlaces = 4;
+
+int strideFor(int landmarks) {
+  return (landmarks + LandmarkTable::kLanes - 1) / LandmarkTable::kLanes * LandmarkTable::kLanes;
+}
+
+// The largest |a[i] - b[i]|.
+Entry largestDifference(const Entry* a, const Entry* b, int stride) {
+#ifdef __SSE2__
+  __m128i largest = _mm_setzero_si128();
+  for (int i = 0; i < stride; i += LandmarkTable::kLanes) {
+    const __m128i x = _mm_loadu_si128(reinterpret_cast<const __m128i*>(a + i));
+    const __m128i y = _mm_loadu_si128(reinterpret_cast<const __m128i*>(b + i));
+    const __m128i difference = _mm_sub_epi32(x, y);
+    const __m128i sign = _mm_srai_epi32(difference, 31);
+    const __m128i absolute = _mm_sub_epi32(_mm_xor_si128(difference, sign), sign);
+    const __m128i larger = _mm_cmpgt_epi32(absolute, largest);
+    largest = _mm_or_si128(_mm_and_si128(larger, absolute), _mm_andnot_si128(larger, largest));
+  }
+  alignas(16) Entry lanes[LandmarkTable::kLanes];
+  _mm_store_si128(reinterpret_cast<__m128i*>(lanes), largest);
+  return *std::max_element(lanes, lanes + LandmarkTable::kLanes);
+#else
+  Entry largest = 0;
+  for (int i = 0; i < stride; ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+#endif
+}
+
+}  // namespace
+
+// Chooses landmark after landmark.
+class LandmarkTable::Making {
+ public:
+  Making(LandmarkTable& table, const CostGrid& map, const StopToken& stop)
+      : table_(table),
+        map_(map),
+        stop_(stop),
+        from_(map, stop),
+        sizes_(map.geometry().size()),
+        children_(map.geometry().size()) {}
+
+  // Throws Stopped and CostOverflow.
+  void run(int landmarks) {
+    if (choose(landmarks)) return;
+    chooseUnit();
+    table_.landmarks_.clear();
+    table_.memory_.clear();
+    random_ = std::mt19937();
+    choose(landmarks);
+  }
+
+ private:
+  // Whether all costs fit into entries.
+  bool choose(int landmarks);
+  std::uint32_t drawRoot();
+  void chooseUnit();
+  bool write(int number);
+  Entry entryOf(SearchKey cost) const { return table_.unit_.entryOf(cost); }
+  std::uint32_t farthest() const;
+  std::uint32_t worstBounded(std::uint32_t root);
+  void weigh(std::uint32_t root);
+  std::uint32_t heaviest(std::uint32_t root) const;
+  std::uint32_t heaviestChild(std::uint32_t index) const;
+
+  // In sizes_: a landmark stands in the cell or behind it.
+  static constexpr std::uint64_t kCovered = ~std::uint64_t{0};
+  // In children_, which counts those that are not done.
+  static constexpr std::uint8_t kDone = 255;
+
+  LandmarkTable& table_;
+  const CostGrid& map_;
+  const StopToken& stop_;
+  ShortestPathTree from_;
+  std::vector<std::uint64_t> sizes_;
+  std::vector<std::uint8_t> children_;
+  std::mt19937 random_;
+};
+
+bool LandmarkTable::Making::choose(int landmarks) {
+  for (int number = 0; number < landmarks; ++number) {
+    const std::uint32_t root = drawRoot();
+    if (root == kNone) return true;
+    from_.run(root);
+    const std::uint32_t landmark = number == 0 ? farthest() : worstBounded(root);
+    from_.run(landmark);
+    if (!write(number)) return false;
+    table_.landmarks_.push_back(map_.geometry().cell(CellIndex(landmark)));
+  }
+  return true;
+}
+
+std::uint32_t LandmarkTable::Making::drawRoot() {
+  const auto& weights = map_.weights().values();
+  const std::size_t drawn = random_() % weights.size();
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const std::size_t index = (drawn + i) % weights.size();
+    if (weights[index] != CostGrid::kBlocked) return static_cast<std::uint32_t>(index);
+  }
+  return kNone;
+}
+
+// No two cells that the search reached are farther from each other than twice its longest way; what
+// others reach beyond counts as that far.
+void LandmarkTable::Making::chooseUnit() {
+  SearchKey longest = 0;
+  for (const SearchKey cost : from_.costs())
+    if (cost != kInfiniteKey) longest = std::max(longest, cost);
+  table_.unit_ = CompactCostUnit::rounding(saturatingSum(longest, longest));
+}
+
+bool LandmarkTable::Making::write(int number) {
+  StopPoll poll(stop_, 1 << 16);
+  Entry* entry = table_.rows_ + number;
+  for (const SearchKey cost : from_.costs()) {
+    poll();
+    *entry = entryOf(cost);
+    if (*entry == kNoCompactCost && cost != kInfiniteKey) return false;
+    entry += table_.stride_;
+  }
+  return true;
+}
+
+std::uint32_t LandmarkTable::Making::farthest() const {
+  const auto nearer = [](SearchKey a, SearchKey b) { return a + 1 < b + 1; };  // infinite: 0
+  const auto& costs = from_.costs();
+  return static_cast<std::uint32_t>(std::max_element(costs.begin(), costs.end(), nearer) -
+                                    costs.begin());
+}
+
+std::uint32_t LandmarkTable::Making::worstBounded(std::uint32_t root) {
+  weigh(root);
+  std::uint32_t best = heaviest(root);
+  if (best == kNone) return root;
+  for (std::uint32_t next = best; next != kNone; next = heaviestChild(next)) best = next;
+  return best;
+}
+
+// The size of a cell is the sum, over the cells behind it in the tree of cheapest paths from the
+// root, of what the bounds of the present landmarks fall short of the cost.
+void LandmarkTable::Making::weigh(std::uint32_t root) {
+  StopPoll poll(stop_, 1 << 14);
+  const auto& costs = from_.costs();
+  std::fill(children_.begin(), children_.end(), std::uint8_t{0});
+  for (std::uint32_t i = 0; i < costs.size(); ++i) {
+    poll();
+    sizes_[i] = 0;
+    if (costs[i] == kInfiniteKey || i == root) continue;
+    ++children_[from_.parent(i)];
+    const Entry bound = largestDifference(table_.row(i), table_.row(root), table_.stride_);
+    sizes_[i] = static_cast<std::uint64_t>(std::max(entryOf(costs[i]) - bound, 0));
+  }
+  for (const Cell landmark : table_.landmarks_)
+    sizes_[map_.geometry().index(landmark).value()] = kCovered;
+  for (std::uint32_t leaf = 0; leaf < costs.size(); ++leaf) {
+    poll();
+    if (costs[leaf] == kInfiniteKey || children_[leaf] != 0) continue;
+    for (std::uint32_t at = leaf;;) {
+      children_[at] = kDone;
+      if (at == root) break;
+      const std::uint32_t parent = from_.parent(at);
+      const bool covered = sizes_[at] == kCovered || sizes_[parent] == kCovered;
+      sizes_[parent] = covered ? kCovered : sizes_[parent] + sizes_[at];
+      if (--children_[parent] != 0) break;
+      at = parent;
+    }
+  }
+}
+
+std::uint32_t LandmarkTable::Making::heaviest(std::uint32_t root) const {
+  std::uint32_t best = kNone;
+  for (std::uint32_t i = 0; i < sizes_.size(); ++i) {
+    if (i == root || sizes_[i] == kCovered || sizes_[i] == 0) continue;
+    if (best == kNone || sizes_[i] > sizes_[best]) best = i;
+  }
+  return best;
+}
+
+std::uint32_t LandmarkTable::Making::heaviestChild(std::uint32_t index) const {
+  std::uint32_t best = kNone;
+  for (unsigned mask = from_.masks()[index]; mask != 0; mask &= mask - 1) {
+    const auto child =
+        static_cast<std::uint32_t>(index + from_.masks().offsets()[__builtin_ctz(mask)]);
+    if (from_.costs()[child] <= from_.costs()[index] || from_.parent(child) != index) continue;
+    if (best == kNone || sizes_[child] > sizes_[best]) best = child;
+  }
+  return best;
+}
+
+std::size_t LandmarkTable::bytesFor(const GridGeometry& geometry, int landmarks) {
+  return (geometry.size() * static_cast<std::size_t>(strideFor(landmarks)) + kCacheLine) *
+         sizeof(Entry);
+}
+
+std::size_t LandmarkTable::makingBytesFor(const GridGeometry& geometry, int landmarks) {
+  const std::size_t sizes_and_children = geometry.size() * (sizeof(std::uint64_t) + 1);
+  return bytesFor(geometry, landmarks) + sizes_and_children + ShortestPathTree::bytesFor(geometry);
+}
+
+LandmarkTable::LandmarkTable(const CostGrid& map, int landmarks, const StopToken& stop)
+    : stride_(strideFor(landmarks)),
+      memory_(map.geometry().size() * static_cast<std::size_t>(stride_) + kCacheLine) {
+  rows_ = &memory_[0];
+  while (reinterpret_cast<std::uintptr_t>(rows_) % 64 != 0) ++rows_;
+  try {
+    Making(*this, map, stop).run(landmarks);
+  } catch (const CostOverflow&) {
+    memory_.clear();
+    landmarks_.clear();
+  }
+}
+
+CostDecreases::Place CostDecreases::placeOf(const LandmarkTable& table,
+                                            const GridGeometry& geometry, const CellRect& rect) {
+  const auto stride = static_cast<std::size_t>(table.stride());
+  Place place{rect, std::vector<Entry>(stride, kNoCompactCost), std::vector<Entry>(stride, 0)};
+  const CellRect around = rect.grown(1).intersection(geometry.rect());
+  for (int row = around.row; row < around.row + around.height; ++row)
+    for (int column = around.column; column < around.column + around.width; ++column) {
+      const Entry* entries = table.row(geometry.index({column, row}).value());
+      for (std::size_t i = 0; i < stride; ++i) {
+        if (entries[i] == kNoCompactCost) continue;
+        place.low[i] = std::min(place.low[i], entries[i]);
+        place.high[i] = std::max(place.high[i], entries[i]);
+      }
+    }
+  return place;
+}
+
+void CostDecreases::Place::join(const Place& other) {
+  rect = rect.hull(other.rect);
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    low[i] = std::min(low[i], other.low[i]);
+    high[i] = std::max(high[i], other.high[i]);
+  }
+}
+
+void CostDecreases::add(const LandmarkTable& table, const GridGeometry& geometry,
+                        const CellRect& rect) {
+  Place added = placeOf(table, geometry, rect);
+  const auto near = [&added](const Place& place) {
+    return !place.rect.grown(kMergeDistance).intersection(added.rect).empty();
+  };
+  const bool full = places_.size() == kMostPlaces;
+  for (auto place = places_.begin(); place != places_.end();) {
+    if (!full && !near(*place)) {
+      ++place;
+      continue;
+    }
+    added.join(*place);
+    place = places_.erase(place);
+  }
+  places_.push_back(std::move(added));
+}
+
+CellRect CostDecreases::hull() const {
+  CellRect all;
+  for (const Place& place : places_) all = all.hull(place.rect);
+  return all;
+}
+
+SearchKey CostDecreases::least(const LandmarkTable& table, std::uint32_t index,
+                               const KeyScale& scale) const {
+  const Entry* row = table.row(index);
+  SearchKey least = kInfiniteKey;
+  for (const Place& place : places_) {
+    Entry outside = 0;
+    for (std::size_t i = 0; i < place.low.size(); ++i) {
+      const bool silent = row[i] == kNoCompactCost || place.low[i] > place.high[i];
+      if (!silent) outside = std::max({outside, place.low[i] - row[i], row[i] - place.high[i]});
+    }
+    least = std::min(least, table.unit().keyOf(outside, scale));
+  }
+  return least;
+}
+
+LandmarkBound::LandmarkBound(const LandmarkTable& table, const CostDecreases& cheaper,
+                             std::uint32_t goal, const KeyScale& scale)
+    : table_(table),
+      cheaper_(cheaper),
+      scale_(scale),
+      goal_row_(table.row(goal), table.row(goal) + table.stride()) {
+  if (!cheaper_.empty()) goal_to_cheaper_ = cheaper_.least(table_, goal, scale_);
+}
+
+SearchKey LandmarkBound::operator()(std::uint32_t index) const {
+  const Entry difference = largestDifference(table_.row(index), goal_row_.data(), table_.stride());
+  const SearchKey unchanged = table_.unit().keyOf(difference, scale_);
+  if (cheaper_.empty()) return unchanged;
+  return std::min(unchanged, cheaper_.least(table_, index, scale_) + goal_to_cheaper_);
+}
+
+}  // namespace grid_path_planner::planners

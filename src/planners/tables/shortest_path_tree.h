@@ -1,0 +1,48 @@
+// The costs from one cell to all others, and the tree of cheapest paths behind them.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/costmap/cost_grid.h"
+#include "grid_path_planner/planners/keys.h"
+#include "grid_path_planner/planners/steps.h"
+#include "planners/tables/cost_to_go.h"
+
+namespace grid_path_planner::planners {
+
+class ShortestPathTree {
+ public:
+  static std::size_t bytesFor(const grid::GridGeometry& geometry) {
+    return geometry.size() * (sizeof(SearchKey) + 1) + CostToGo::bytesFor(geometry);
+  }
+
+  // Both outlive this. Throws Stopped.
+  ShortestPathTree(const costmap::CostGrid& map, const base::StopToken& stop);
+
+  // Throws Stopped and CostOverflow.
+  void run(std::uint32_t start);
+
+  // Of the last run; kInfiniteKey where no way leads.
+  const std::vector<SearchKey>& costs() const { return costs_; }
+  // The last cell but one of the cheapest path to a cell: the first of those that lie on one.
+  // Itself where there is none.
+  std::uint32_t parent(std::uint32_t index) const;
+  const StepMasks& masks() const { return masks_; }
+
+ private:
+  SearchKey length(std::uint32_t from, std::uint32_t to, std::uint32_t step) const {
+    const costmap::CostGrid::Weight* weights = map_.weights().values().data();
+    return (step < 4 ? kStraightKey : diagonal_) * std::max(weights[from], weights[to]);
+  }
+
+  const costmap::CostGrid& map_;
+  const base::StopToken& stop_;
+  SearchKey diagonal_;
+  StepMasks masks_;
+  std::vector<SearchKey> costs_;
+};
+
+}  // namespace grid_path_planner::planners

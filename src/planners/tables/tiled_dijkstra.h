@@ -1,0 +1,131 @@
+// The computation behind CostToGo: threads that search tiles of a map until no label can fall.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <queue>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/base/zeroed_array.h"
+#include "grid_path_planner/costmap/cost_grid.h"
+#include "grid_path_planner/planners/bucket_queue.h"
+#include "grid_path_planner/planners/keys.h"
+#include "grid_path_planner/planners/move_pruning.h"
+#include "grid_path_planner/planners/simd_neighbourhood.h"
+
+namespace grid_path_planner::planners {
+
+// How a map's cells lie in memory tile by tile, so that a tile's rows do not share the same lines
+// of a cache. Tiles at the right and upper border reach beyond the map.
+struct TileLayout {
+  static constexpr std::uint32_t kSide = 128;
+  static constexpr std::uint32_t kCells = kSide * kSide;
+
+  static std::size_t along(int cells) {
+    return (static_cast<std::size_t>(cells) + kSide - 1) / kSide;
+  }
+  static std::size_t tiles(const grid::GridGeometry& geometry) {
+    return along(geometry.width()) * along(geometry.height());
+  }
+  static std::uint32_t insideOf(std::uint32_t column, std::uint32_t row) {
+    return row % kSide * kSide + column % kSide;
+  }
+};
+
+// Label: an unsigned integer whose uppermost bit marks open cells, the others hold largest key -
+// key; 0: not reached.
+template <class Label>
+class TiledDijkstra {
+ public:
+  // `labels`: zeros, TileLayout::tiles() x kCells. All arguments outlive the object.
+  TiledDijkstra(const costmap::CostGrid& map, base::ZeroedArray<Label>& labels,
+                const KeyScale& scale, const base::StopToken& stop);
+
+  // Precondition: the cell lies in the map and is passable.
+  void addGoal(grid::Cell goal);
+
+  // Labels every cell from which a way leads to a goal. False where a key would reach the largest.
+  // Throws Stopped, and what a thread threw.
+  bool run(int threads);
+
+ private:
+  static constexpr std::uint32_t kSide = TileLayout::kSide;
+  static constexpr Label kOpen = Label{1} << (sizeof(Label) * 8 - 1);
+
+  // A way to a cell, by its number in its tile.
+  struct Offer {
+    SearchKey key;
+    std::uint32_t cell;
+    std::uint32_t step;  // kGoal: none
+  };
+  static constexpr std::uint32_t kGoal = 8;
+  struct Sent {
+    std::size_t tile;
+    Offer offer;
+  };
+  struct Tile {
+    bool made = false;               // kinds and weights are there
+    bool taken = false;              // by a thread
+    SearchKey least = kInfiniteKey;  // of the offers
+    unsigned bucket_shift = 0;
+    std::vector<Offer> offers;
+  };
+  // What a thread has to itself.
+  struct Worker {
+    BucketQueue open;
+    std::vector<Offer> offers;
+    std::vector<Sent> sent;
+    bool too_dear = false;
+  };
+  // The arrays at a tile's first cell.
+  struct View {
+    Label* labels;
+    std::uint8_t* steps;
+    PruningRules::NeighbourhoodClass* kinds;
+    costmap::CostGrid::Weight* weights;  // null where all weigh the same
+  };
+  using Turn = std::pair<SearchKey, std::size_t>;
+
+  View viewOf(std::size_t tile);
+  void deliver(std::size_t tile, const Offer& offer);
+  void workSafely();
+  void work();
+  void make(std::size_t tile);
+  void search(std::size_t tile, Worker& worker);
+  void expand(std::size_t tile, const View& view, std::uint32_t from, Worker& worker);
+  void take(const View& view, const Offer& offer, BucketQueue& open) const;
+  SearchKey keyOf(Label label) const { return scale_.largest - (label & ~kOpen); }
+
+  const costmap::CostGrid& map_;
+  base::ZeroedArray<Label>& labels_;
+  const KeyScale scale_;
+  const base::StopToken& stop_;
+  const PruningRules rules_;
+  const std::size_t across_;
+  std::array<SearchKey, 8> lengths_{};  // of steps, times the weight where all weigh the same
+
+  // Tile by tile, each only touched by the thread that took the tile.
+  base::ZeroedArray<std::uint8_t> steps_;  // that led to a cell at its cost
+  base::ZeroedArray<PruningRules::NeighbourhoodClass> kinds_;
+  base::ZeroedArray<costmap::CostGrid::Weight> weights_;
+
+  std::mutex mutex_;  // of all below
+  std::condition_variable changed_;
+  std::vector<Tile> tiles_;
+  std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;  // outdated ones among them
+  int working_ = 0;
+  bool ended_ = false;
+  bool too_dear_ = false;
+  base::StopReason reason_ = base::StopReason::NONE;
+  std::exception_ptr failure_;
+};
+
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,119 @@
+#include "planning/route_path.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "grid_path_planner/costmap/line_of_sight.h"
+
+namespace grid_path_planner::planning {
+
+using costmap::CostGrid;
+using costmap::lineOfSight;
+using costmap::SegmentPoint;
+using costmap::worldOf;
+using grid::Cell;
+using path::Path;
+using path::Pose;
+
+namespace {
+
+struct RoutePoint {
+  Eigen::Vector2d position;
+  const CostGrid* map;  // on which the segments at this point are judged
+};
+
+bool neighbours(Cell a, Cell b) {
+  return std::abs(a.column - b.column) <= 1 && std::abs(a.row - b.row) <= 1;
+}
+
+bool anyAngle(const Leg& leg) {
+  return !leg.points.empty();
+}
+
+Eigen::Vector2d positionOf(const Leg& leg, std::size_t i) {
+  return anyAngle(leg) ? worldOf(*leg.map, leg.points[i]) : leg.map->waypoint(leg.cells[i]);
+}
+
+// A vehicle cannot tell poses apart that are this near, in metres.
+bool samePlace(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return (a - b).norm() < 1e-9;
+}
+
+// Whether the step passes the corner of a blocked neighbour, which only cut_corners allows. Longer
+// segments are judged where they lie.
+bool cutsCorner(const CostGrid& map, Cell from, Cell to) {
+  if (!map.motion().cut_corners) return false;
+  if (from.column == to.column || from.row == to.row || !neighbours(from, to)) return false;
+  return !map.passable({from.column, to.row}) || !map.passable({to.column, from.row});
+}
+
+Eigen::Vector2d sharedCorner(const CostGrid& map, Cell a, Cell b) {
+  return map.geometry().worldFromGrid(Eigen::Vector2d(std::max(a.column, b.column),  //
+                                                      std::max(a.row, b.row)));
+}
+
+// Two legs meet in the middle of one block: the fine leg's point serves both, unless turning points
+// hold only as they are.
+std::vector<RoutePoint> pointsOf(const Route& route) {
+  std::vector<RoutePoint> points;
+  const bool keep_both = std::any_of(route.legs.begin(), route.legs.end(), anyAngle);
+  for (const Leg& leg : route.legs) {
+    const bool coarse = leg.map->kernel() > 1;
+    for (std::size_t i = 0; i < leg.cells.size(); ++i) {
+      const RoutePoint point{positionOf(leg, i), leg.map.get()};
+      // The middles of blocks are not always their centres: past a blocked one the way leads
+      // exactly over the corner.
+      if (coarse && i > 0 && cutsCorner(*leg.map, leg.cells[i - 1], leg.cells[i])) {
+        const Eigen::Vector2d corner = sharedCorner(*leg.map, leg.cells[i - 1], leg.cells[i]);
+        if (!samePlace(corner, points.back().position) && !samePlace(corner, point.position))
+          points.push_back({corner, leg.map.get()});
+      }
+      if (keep_both && !points.empty() && samePlace(points.back().position, point.position))
+        continue;
+      const bool joins = i == 0 && !points.empty() && !keep_both;
+      if (joins && coarse) continue;
+      if (joins) points.pop_back();
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+bool straightWay(const CostGrid& map, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  return lineOfSight(map, SegmentPoint::nearest(map.geometry().gridFromWorld(from)),
+                     SegmentPoint::nearest(map.geometry().gridFromWorld(to)));
+}
+
+}  // namespace
+
+Path pathOfRoute(const Route& route, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                 bool keep_first) {
+  std::vector<RoutePoint> points = pointsOf(route);
+  assert(!points.empty());
+  const CostGrid* first_map = points.front().map;
+  const CostGrid* last_map = points.back().map;
+  if (!keep_first) {
+    const Eigen::Vector2d& next = points.size() > 1 ? points[1].position : goal;
+    if (straightWay(*first_map, start, next)) points.erase(points.begin());
+  }
+  if (!points.empty()) {
+    const Eigen::Vector2d& previous =
+        points.size() > 1 ? points[points.size() - 2].position : start;
+    const bool only_kept = keep_first && points.size() == 1;
+    if (!only_kept && straightWay(*last_map, previous, goal)) points.pop_back();
+  }
+
+  Path path;
+  const auto add = [&path](const Eigen::Vector2d& position) {
+    Pose pose;
+    pose.position << position, 0.0;
+    path.poses.push_back(pose);
+  };
+  add(start);
+  for (const RoutePoint& point : points)
+    if (!samePlace(point.position, start) && !samePlace(point.position, goal)) add(point.position);
+  add(goal);
+  return path;
+}
+
+}  // namespace grid_path_planner::planning

@@ -1,0 +1,109 @@
+#include "grid_path_planner/planning/unused_options.h"
+
+#include <algorithm>
+
+#include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/planners/planner_factory.h"
+
+namespace grid_path_planner::planning {
+
+using base::differingOptions;
+using base::OptionInfo;
+using base::valueText;
+using costmap::Connectivity;
+using path::PathZ;
+using planners::Heuristic;
+using planners::makePlanner;
+using planners::optionsUsedBy;
+using planners::SearchOptions;
+
+namespace {
+
+// An option that has no effect while another one has certain values.
+struct Rule {
+  const char* option;
+  const char* with;
+  bool (*idle)(const PlannerOptions&);
+};
+
+bool noEstimate(const PlannerOptions& o) {
+  return o.search.heuristic == Heuristic::ZERO;
+}
+bool noKernel(const PlannerOptions& o) {
+  return o.terrain.kernel == 1;
+}
+bool noDiagonals(const PlannerOptions& o) {
+  return o.terrain.motion.connectivity == Connectivity::FOUR;
+}
+
+// The ways out of blocked blocks are paths over the grid whatever the planner.
+bool tautAlready(const PlannerOptions& o) {
+  return noKernel(o) && makePlanner(o.planner)->traits().shortest;
+}
+
+constexpr Rule kRules[] = {
+    {"heuristic_scale", "heuristic", noEstimate},
+    {"epsilon", "heuristic", noEstimate},
+    {"landmarks", "heuristic",
+     [](const PlannerOptions& o) { return o.search.heuristic != Heuristic::LANDMARK; }},
+    {"unknown_weight", "unknown_is_passable",
+     [](const PlannerOptions& o) { return !o.terrain.unknown_is_passable; }},
+    {"occupied_weight", "occupied_is_passable",
+     [](const PlannerOptions& o) { return !o.terrain.occupied_is_passable; }},
+    {"inflation_weight", "decay", [](const PlannerOptions& o) { return o.terrain.decay == 0.0; }},
+    {"kernel_rule", "kernel", noKernel},
+    {"diagonal_cost", "connectivity", noDiagonals},
+    {"cut_corners", "connectivity", noDiagonals},
+    {"retry_finer", "kernel", noKernel},
+    {"smooth", "planner", tautAlready},
+    {"fixed_z", "path_z", [](const PlannerOptions& o) { return o.path_z != PathZ::FIXED; }},
+};
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool concernsSearch(const std::string& option) {
+  bool found = false;
+  SearchOptions search;
+  visitOptions(search,
+               [&](const char* name, auto&, const OptionInfo&) { found |= option == name; });
+  return found;
+}
+
+bool lookedAt(const std::string& option, const std::string& planner) {
+  return !concernsSearch(option) || contains(optionsUsedBy(planner), option);
+}
+
+// The option that leaves this one without effect; empty: it has one.
+std::string idleWith(const std::string& option, const PlannerOptions& options) {
+  if (!lookedAt(option, options.planner)) return "planner";
+  for (const Rule& rule : kRules)
+    if (option == rule.option && rule.idle(options)) return rule.with;
+  return "";
+}
+
+std::string valueOf(const std::string& option, PlannerOptions options) {
+  std::string text;
+  visitOptions(options, [&](const char* name, auto& value, const OptionInfo&) {
+    if (option == name) text = valueText(value);
+  });
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> changedOptions(const PlannerOptions& options) {
+  return differingOptions(PlannerOptions(), options);
+}
+
+std::vector<UnusedOption> unusedOptions(const PlannerOptions& options) {
+  std::vector<UnusedOption> unused;
+  for (const std::string& name : changedOptions(options)) {
+    const std::string with = idleWith(name, options);
+    if (!with.empty()) unused.push_back({name, with + " " + valueOf(with, options)});
+  }
+  return unused;
+}
+
+}  // namespace grid_path_planner::planning

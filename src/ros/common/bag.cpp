@@ -1,0 +1,117 @@
+#include "grid_path_planner/ros/bag.h"
+
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/serialization.h>
+
+#include <fstream>
+#include <set>
+
+#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/bag_reader.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using grid::extensionOf;
+using grid::GridGeometry;
+using grid::MapFileOptions;
+using grid::mapGeometry;
+using grid::OccupancyGrid;
+using grid::readMapFile;
+
+namespace {
+
+constexpr std::string_view kSignature = "#ROSBAG";
+
+// The first bytes of a file; fewer where it is shorter.
+std::string beginningOf(const std::string& file, std::size_t count) {
+  std::string bytes(count, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+bool isMap(const BagConnection& connection) {
+  return connection.type == ros::message_traits::datatype<nav_msgs::OccupancyGrid>() &&
+         connection.md5_sum == ros::message_traits::md5sum<nav_msgs::OccupancyGrid>();
+}
+
+std::string listOf(const std::set<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+// The connections that carry maps on `topic`, with and without a leading slash.
+std::set<std::uint32_t> mapConnections(const BagReader& bag, const std::string& file,
+                                       const std::string& topic) {
+  std::set<std::uint32_t> ids;
+  std::set<std::string> maps;
+  for (const BagConnection& connection : bag.connections()) {
+    if (!isMap(connection)) continue;
+    maps.insert(connection.topic);
+    if (frameName(connection.topic) == frameName(topic)) ids.insert(connection.id);
+  }
+  if (!ids.empty()) return ids;
+  throw InputError(file,
+                   "has no nav_msgs/OccupancyGrid on '" + topic + "'" +
+                       (maps.empty() ? " nor on any other topic" : ", but on " + listOf(maps)));
+}
+
+void skipBlock(ros::serialization::IStream& stream) {
+  std::uint32_t size = 0;
+  stream.next(size);
+  stream.advance(size);
+}
+
+// Throws a StreamOverrunException where the message's own lengths go beyond its end; deserialize
+// would first take the memory that they ask for.
+void checkLengths(ros::serialization::IStream stream) {
+  constexpr std::uint32_t kSequenceAndStamp = 4 + 8;
+  constexpr std::uint32_t kInfo = 8 + 4 + 4 + 4 + 7 * 8;  // load time, resolution, sides, origin
+  stream.advance(kSequenceAndStamp);
+  skipBlock(stream);  // frame_id
+  stream.advance(kInfo);
+  skipBlock(stream);  // data
+}
+
+OccupancyGrid mapFromBytes(std::string bytes) {
+  nav_msgs::OccupancyGrid message;
+  try {
+    ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()),
+                                       static_cast<std::uint32_t>(bytes.size()));
+    checkLengths(stream);
+    ros::serialization::deserialize(stream, message);
+  } catch (const std::exception& error) {
+    throw InputError(std::string("damaged: ") + error.what());
+  }
+  return occupancyFromMessage(message);
+}
+
+}  // namespace
+
+OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic) {
+  const BagReader bag(file);
+  const auto bytes = bag.firstMessage(mapConnections(bag, file, topic));
+  if (!bytes) throw InputError(file, "has no message on '" + topic + "'");
+  try {
+    return mapFromBytes(*bytes);
+  } catch (const InputError& error) {
+    throw InputError(file, "the first map on '" + topic + "': " + error.what());
+  }
+}
+
+OccupancyGrid readAnyMapFile(const std::string& file, const MapFileOptions& options) {
+  const bool is_bag =
+      extensionOf(file) == "bag" || beginningOf(file, kSignature.size()) == kSignature;
+  if (!is_bag) return readMapFile(file, options);
+  OccupancyGrid map = readMapFromBag(file);
+  const GridGeometry& own = map.geometry();
+  const GridGeometry geometry =
+      mapGeometry(file, own.width(), own.height(), own.resolution(), own.origin(), options);
+  return OccupancyGrid(geometry, std::move(map.values()));
+}
+
+}  // namespace grid_path_planner::nodes

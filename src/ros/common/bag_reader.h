@@ -1,0 +1,61 @@
+// The first message of a topic in a bag (format 2.0), read so that a damaged bag is refused.
+//
+//   const BagReader bag("run.bag");
+//   for (const BagConnection& connection : bag.connections())
+//     std::optional<std::string> bytes = bag.firstMessage({connection.id});
+//
+// rosbag_storage trusts the lengths that stand in a file: one wrong byte of a bag's header makes it
+// read beyond its buffer and can end the process. Here every length is checked against what is
+// there. Only compressed chunks are left to it to unpack.
+//
+// Messages come as they were written, not sorted by time; rosbag record writes them as they arrive.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace grid_path_planner::nodes {
+
+struct BagConnection {
+  std::uint32_t id = 0;
+  std::string topic;
+  std::string type;     // "nav_msgs/OccupancyGrid"
+  std::string md5_sum;  // of the type's definition
+};
+
+class BagReader {
+ public:
+  // Where a piece of the file lies that holds messages, packed together.
+  struct Chunk {
+    std::uint64_t begin = 0;     // of its data in the file
+    std::uint32_t packed = 0;    // bytes
+    std::uint32_t unpacked = 0;  // bytes
+    std::string compression;     // "none", "bz2" or "lz4"
+    std::set<std::uint32_t> connections;
+  };
+
+  // Walks over the whole file without unpacking it. Throws InputError naming the file where it
+  // cannot be read, is no bag of format 2.0, is encrypted, was not closed, is cut short or is
+  // damaged.
+  explicit BagReader(const std::string& file);
+
+  // By id.
+  const std::vector<BagConnection>& connections() const { return connections_; }
+
+  // The bytes of the first message of any of the `connections`, none where there is none. Throws
+  // InputError where the chunk that should hold it is damaged.
+  std::optional<std::string> firstMessage(const std::set<std::uint32_t>& connections) const;
+
+ private:
+  void walk();
+  std::string unpack(const Chunk& chunk) const;
+
+  std::string file_;
+  std::vector<BagConnection> connections_;
+  std::vector<Chunk> chunks_;
+};
+
+}  // namespace grid_path_planner::nodes

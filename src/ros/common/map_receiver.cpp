@@ -1,0 +1,175 @@
+#include "ros/common/map_receiver.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+#include <utility>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using grid::CellRect;
+using grid::OccupancyGrid;
+
+namespace {
+
+CellRect rectOf(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update) {
+  const auto end = [](std::int64_t from, std::uint32_t length) { return from + length; };
+  if (update.x < 0 || update.y < 0 || end(update.x, update.width) > map.width() ||
+      end(update.y, update.height) > map.height()) {
+    std::ostringstream text;
+    text << "an update of " << update.width << "x" << update.height << " cells at column "
+         << update.x << ", row " << update.y << " does not lie in the map of " << map.width() << "x"
+         << map.height();
+    throw InputError(text.str());
+  }
+  return {update.x, update.y, static_cast<int>(update.width), static_cast<int>(update.height)};
+}
+
+bool sameRow(const OccupancyGrid& a, const OccupancyGrid& b, int row) {
+  return std::memcmp(a.row(row), b.row(row), static_cast<std::size_t>(a.width())) == 0;
+}
+
+}  // namespace
+
+CellRect checkedRect(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update) {
+  const CellRect rect = rectOf(map, update);
+  const std::size_t expected = static_cast<std::size_t>(rect.width) * rect.height;
+  if (update.data.size() != expected)
+    throw InputError("an update of " + std::to_string(rect.width) + "x" +
+                     std::to_string(rect.height) + " cells needs " + std::to_string(expected) +
+                     " values, got " + std::to_string(update.data.size()));
+  for (const std::int8_t value : update.data)
+    if (value < -1 || value > 100)
+      throw InputError("occupancy must be -1 to 100, got " + std::to_string(value) +
+                       " in an update");
+  return rect;
+}
+
+void applyUpdate(const map_msgs::OccupancyGridUpdate& update, const CellRect& rect,
+                 OccupancyGrid& map) {
+  for (int row = 0; row < rect.height; ++row)
+    std::copy_n(update.data.begin() + static_cast<std::ptrdiff_t>(row) * rect.width, rect.width,
+                map.row(rect.row + row) + rect.column);
+}
+
+CellRect changedCells(const OccupancyGrid& before, const OccupancyGrid& after) {
+  CellRect changed;
+  for (int row = 0; row < after.height(); ++row) {
+    if (sameRow(before, after, row)) continue;
+    const std::int8_t* a = before.row(row);
+    const std::int8_t* b = after.row(row);
+    int first = 0;
+    int last = after.width() - 1;
+    while (a[first] == b[first]) ++first;
+    while (a[last] == b[last]) --last;
+    changed = changed.hull({first, row, last - first + 1, 1});
+  }
+  return changed;
+}
+
+void MapReceiver::start(ros::NodeHandle nh, std::function<void()> on_change) {
+  on_change_ = std::move(on_change);
+  map_subscriber_ = nh.subscribe("projected_map", 1, &MapReceiver::onMap, this);
+  update_subscriber_ = nh.subscribe("projected_map_updates", 100, &MapReceiver::onUpdate, this);
+  std::lock_guard<std::mutex> lock(mutex_);
+  topic_ = map_subscriber_.getTopic();
+}
+
+std::string MapReceiver::topic() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return topic_;
+}
+
+ReceivedMap MapReceiver::latest() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return map_;
+}
+
+std::optional<MapChange> MapReceiver::take() {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(untaken_, std::nullopt);
+}
+
+std::string MapReceiver::refusal() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return refusal_;
+}
+
+void MapReceiver::shutdown() {
+  map_subscriber_.shutdown();
+  update_subscriber_.shutdown();
+}
+
+void MapReceiver::onMap(const nav_msgs::OccupancyGrid& message) {
+  try {
+    auto grid = std::make_shared<OccupancyGrid>(occupancyFromMessage(message));
+    const ReceivedMap before = latest();
+    std::optional<CellRect> changed;
+    const std::string frame_id = frameName(message.header.frame_id);
+    if (before.grid && before.frame_id == frame_id && before.grid->geometry() == grid->geometry())
+      changed = changedCells(*before.grid, *grid);
+    grids_.begin(std::move(grid));
+    store(frame_id, message.header.stamp, changed);
+  } catch (const InputError& error) {
+    refuse(map_subscriber_.getTopic(), error.what());
+    return;
+  }
+  on_change_();
+}
+
+void MapReceiver::onUpdate(const map_msgs::OccupancyGridUpdate& message) {
+  const ReceivedMap before = latest();
+  if (!before.grid) {
+    ROS_WARN_THROTTLE(5.0, "An update of the map was dropped: no map has come yet");
+    return;
+  }
+  // A map from the future is from before the time jumped back, as when a bag loops.
+  const bool newer_map = message.header.stamp < before.stamp && before.stamp <= ros::Time::now();
+  if (newer_map) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "An update of the map stamped "
+                                      << message.header.stamp << " was dropped: the map is newer, "
+                                      << before.stamp);
+    return;
+  }
+  try {
+    apply(message);
+  } catch (const InputError& error) {
+    refuse(update_subscriber_.getTopic(), error.what());
+    return;
+  }
+  on_change_();
+}
+
+void MapReceiver::apply(const map_msgs::OccupancyGridUpdate& message) {
+  const ReceivedMap before = latest();
+  const std::string frame_id = frameName(message.header.frame_id);
+  if (!frame_id.empty() && frame_id != before.frame_id)
+    throw InputError("an update in frame " + frame_id + " for a map in frame " + before.frame_id);
+  const CellRect changed = checkedRect(*before.grid, message);
+  grids_.advance(changed, [&](OccupancyGrid& next) { applyUpdate(message, changed, next); });
+  store(before.frame_id, message.header.stamp, changed);
+}
+
+void MapReceiver::store(const std::string& frame_id, const ros::Time& stamp,
+                        const std::optional<CellRect>& changed) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  map_ = {grids_.current(), frame_id, stamp};
+  refusal_.clear();
+  const bool all = !changed || (untaken_ && !untaken_->changed);
+  const CellRect since = untaken_ && untaken_->changed ? *untaken_->changed : CellRect{};
+  untaken_ = MapChange{map_, all ? std::nullopt : std::make_optional(since.hull(*changed))};
+}
+
+void MapReceiver::refuse(const std::string& topic, const std::string& reason) {
+  ROS_ERROR_STREAM("A message on " << topic << " was refused, the map stays as it was: " << reason);
+  std::lock_guard<std::mutex> lock(mutex_);
+  refusal_ = reason;
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,86 @@
+// The map as it comes in: whole on `projected_map`, in pieces on `projected_map_updates`.
+//
+// A message that is no map is refused with an error that says why, and the map before it stays; so
+// does a piece that does not fit. A piece older than the map is dropped: it is part of the map
+// already (unless the map is stamped later than now: then ROS time has jumped back). Maps handed
+// out never change; a piece makes a new one in time proportional to the piece (grid/double_buffered.h).
+#pragma once
+
+#include <map_msgs/OccupancyGridUpdate.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "grid_path_planner/grid/double_buffered.h"
+#include "grid_path_planner/grid/occupancy.h"
+
+namespace grid_path_planner::nodes {
+
+struct ReceivedMap {
+  std::shared_ptr<const grid::OccupancyGrid> grid;
+  std::string frame_id;  // empty where the message named none
+  ros::Time stamp;       // of the newest message in it
+};
+
+// What changed since the map was last taken.
+struct MapChange {
+  ReceivedMap map;
+  // The cells that may differ from those of the map taken before; none: all may.
+  std::optional<grid::CellRect> changed;
+};
+
+// The cells of `map` that `update` replaces. Throws InputError for an update that does not lie in
+// the map, whose number of values is not width x height, or with a value outside -1..100.
+grid::CellRect checkedRect(const grid::OccupancyGrid& map,
+                           const map_msgs::OccupancyGridUpdate& update);
+
+// Replaces them. Precondition: `rect` is checkedRect(map, update).
+void applyUpdate(const map_msgs::OccupancyGridUpdate& update, const grid::CellRect& rect,
+                 grid::OccupancyGrid& map);
+
+// The smallest rectangle around the cells in which two maps of the same geometry differ.
+grid::CellRect changedCells(const grid::OccupancyGrid& before, const grid::OccupancyGrid& after);
+
+class MapReceiver {
+ public:
+  // Listens from here on. `on_change` is called after every change, in the subscriber's thread.
+  void start(ros::NodeHandle nh, std::function<void()> on_change);
+
+  // Where maps are listened for, as the topic is called in the graph; empty before start().
+  std::string topic() const;
+
+  // The newest map; its grid is null before the first.
+  ReceivedMap latest() const;
+  // The newest map if it changed since the last call. For one caller.
+  std::optional<MapChange> take();
+  // Why the last message was refused; empty after one that was taken.
+  std::string refusal() const;
+
+  void shutdown();
+
+ private:
+  void onMap(const nav_msgs::OccupancyGrid& message);
+  void onUpdate(const map_msgs::OccupancyGridUpdate& message);
+  void apply(const map_msgs::OccupancyGridUpdate& message);
+  void store(const std::string& frame_id, const ros::Time& stamp,
+             const std::optional<grid::CellRect>& changed);
+  void refuse(const std::string& topic, const std::string& reason);
+
+  std::function<void()> on_change_;
+  mutable std::mutex mutex_;
+  std::string topic_;
+  grid::DoubleBuffered<grid::OccupancyGrid> grids_;  // the subscribers'
+  ReceivedMap map_;
+  std::optional<MapChange> untaken_;
+  std::string refusal_;
+  ros::Subscriber map_subscriber_;
+  ros::Subscriber update_subscriber_;
+};
+
+}  // namespace grid_path_planner::nodes

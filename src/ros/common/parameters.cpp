@@ -1,0 +1,149 @@
+#include "ros/common/parameters.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+namespace grid_path_planner::nodes {
+
+using base::configName;
+using base::InputError;
+
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+const char* typeName(XmlRpcValue::Type type) {
+  switch (type) {
+    case XmlRpcValue::TypeBoolean:
+      return "the boolean";
+    case XmlRpcValue::TypeInt:
+      return "the integer";
+    case XmlRpcValue::TypeDouble:
+      return "the number";
+    case XmlRpcValue::TypeString:
+      return "the string";
+    case XmlRpcValue::TypeArray:
+      return "the list";
+    case XmlRpcValue::TypeStruct:
+      return "the dictionary";
+    default:
+      return "the value";
+  }
+}
+
+[[noreturn]] void refuse(const std::string& name, const char* expected, XmlRpcValue& value) {
+  std::ostringstream text;
+  value.write(text);
+  throw InputError(name + " must be " + expected + ", got " + typeName(value.getType()) + " " +
+                   text.str());
+}
+
+std::string shortest(double number) {
+  std::string text;
+  for (int digits = 6; digits <= 17; ++digits) {
+    std::ostringstream out;
+    out.precision(digits);
+    out << number;
+    text = out.str();
+    if (std::strtod(text.c_str(), nullptr) == number) break;
+  }
+  return text;
+}
+
+std::size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+std::string closest(const std::string& name, const std::vector<std::string>& known) {
+  const auto nearer = [&](const std::string& a, const std::string& b) {
+    return editDistance(name, a) < editDistance(name, b);
+  };
+  const auto best = std::min_element(known.begin(), known.end(), nearer);
+  return best != known.end() && editDistance(name, *best) <= name.size() / 2 ? *best : "";
+}
+
+bool isKnown(const std::string& name, const std::vector<std::string>& known) {
+  return std::any_of(known.begin(), known.end(), [&](const std::string& other) {
+    return name == other || name == configName(other);
+  });
+}
+
+// Of an unknown nested name as much as is needed to see what is unknown.
+std::string reportedName(const std::string& name, const std::vector<std::string>& known) {
+  const std::string group = name.substr(0, name.find('/') + 1);
+  const bool group_is_known =
+      !group.empty() && std::any_of(known.begin(), known.end(), [&](const std::string& other) {
+        return other.compare(0, group.size(), group) == 0;
+      });
+  return group_is_known ? name : name.substr(0, name.find('/'));
+}
+
+}  // namespace
+
+void assignParameter(const std::string& name, XmlRpcValue value, bool& target) {
+  if (value.getType() != XmlRpcValue::TypeBoolean) refuse(name, "true or false", value);
+  target = static_cast<bool>(value);
+}
+
+void assignParameter(const std::string& name, XmlRpcValue value, int& target) {
+  if (value.getType() != XmlRpcValue::TypeInt) refuse(name, "an integer", value);
+  target = static_cast<int>(value);
+}
+
+void assignParameter(const std::string& name, XmlRpcValue value, double& target) {
+  if (value.getType() == XmlRpcValue::TypeInt)
+    target = static_cast<int>(value);
+  else if (value.getType() == XmlRpcValue::TypeDouble)
+    target = static_cast<double>(value);
+  else
+    refuse(name, "a number", value);
+}
+
+void assignParameter(const std::string& name, XmlRpcValue value, std::string& target) {
+  if (value.getType() == XmlRpcValue::TypeString)
+    target = static_cast<std::string>(value);
+  else if (value.getType() == XmlRpcValue::TypeInt)
+    target = std::to_string(static_cast<int>(value));
+  else if (value.getType() == XmlRpcValue::TypeDouble)
+    target = shortest(static_cast<double>(value));
+  else
+    refuse(name, "a string", value);
+}
+
+std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
+                                           const std::vector<std::string>& known) {
+  std::vector<std::string> set_names;
+  if (!private_nh.getParamNames(set_names)) return {};
+  const std::string prefix = private_nh.getNamespace() + "/";
+  std::set<std::string> unknown;
+  for (const std::string& full_name : set_names) {
+    if (full_name.compare(0, prefix.size(), prefix) != 0) continue;
+    const std::string name = full_name.substr(prefix.size());
+    if (!isKnown(name, known)) unknown.insert(reportedName(name, known));
+  }
+  return {unknown.begin(), unknown.end()};
+}
+
+void warnUnknownParameters(const ros::NodeHandle& private_nh,
+                           const std::vector<std::string>& known) {
+  for (const std::string& name : unknownParameters(private_nh, known)) {
+    const std::string meant = closest(name, known);
+    ROS_WARN_STREAM("Unknown parameter " << private_nh.getNamespace() << "/" << name
+                                         << " is not used"
+                                         << (meant.empty() ? "" : "; did you mean " + meant + "?"));
+  }
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,205 @@
+// Options from ROS parameters and dynamic_reconfigure, by the visitOptions of their struct.
+//
+//   ros::NodeHandle private_nh("~");
+//   PlannerOptions options;
+//   loadParameters(private_nh, options);             // throws InputError
+//   checkPlannerOptions(options);                    // throws InputError
+//   warnUnknownParameters(private_nh, optionNames<PlannerOptions>());
+//   Reconfigurable<PathPlannerConfig, PlannerOptions> reconfigurable(
+//       private_nh, options, [](const PlannerOptions& o) { use(o); });
+//
+// Nothing is clamped and nothing is half applied: a value of the wrong type, outside its limits or
+// in a contradictory combination is refused with a sentence, and what was in force stays. For that
+// the .cfg of a node states no min and max: dynamic_reconfigure would clamp to them without a word.
+//
+// An option with a nested name, sensor_model/hit, is the parameter ~sensor_model/hit; for
+// dynamic_reconfigure, whose names are C++ names, it is sensor_model_hit.
+#pragma once
+
+#include <XmlRpcValue.h>
+#include <dynamic_reconfigure/Config.h>
+#include <dynamic_reconfigure/config_tools.h>
+#include <dynamic_reconfigure/server.h>
+#include <ros/console.h>
+#include <ros/node_handle.h>
+
+#include <boost/thread/recursive_mutex.hpp>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/base/options.h"
+
+namespace grid_path_planner::nodes {
+
+// `name` in every message is the parameter's full name. An int is taken for a double, a number for
+// a string (YAML reads an unquoted 8 as a number); anything else of another type throws InputError.
+void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, bool& target);
+void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, int& target);
+void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, double& target);
+void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, std::string& target);
+
+// Names under the namespace of `private_nh` that are not in `known`; of a nested one the first
+// part, unless known names begin with that too. What dynamic_reconfigure calls a known one is
+// known.
+std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
+                                           const std::vector<std::string>& known);
+
+// Warns about each of them, naming the closest known one.
+void warnUnknownParameters(const ros::NodeHandle& private_nh,
+                           const std::vector<std::string>& known);
+
+// The names that the visitor of `Options` visits, in its order.
+template <class Options>
+std::vector<std::string> optionNames() {
+  std::vector<std::string> names;
+  Options options;
+  visitOptions(options,
+               [&](const char* name, auto&, const base::OptionInfo&) { names.push_back(name); });
+  return names;
+}
+
+// Fills `options` from the parameters that are set; others keep their value. Throws InputError
+// naming the full parameter name, the value and what was expected; `options` is then as it was.
+template <class Options>
+void loadParameters(const ros::NodeHandle& private_nh, Options& options) {
+  Options loaded = options;
+  visitOptions(loaded, [&](const char* name, auto& value, const base::OptionInfo& info) {
+    using Value = std::decay_t<decltype(value)>;
+    XmlRpc::XmlRpcValue parameter;
+    if (!private_nh.getParam(name, parameter)) return;
+    const std::string full_name = private_nh.resolveName(name);
+    if constexpr (std::is_enum_v<Value>) {
+      std::string text;
+      assignParameter(full_name, parameter, text);
+      value = base::choiceFromName<Value>(full_name, text);
+    } else {
+      assignParameter(full_name, parameter, value);
+      if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>)
+        base::checkLimits(full_name, static_cast<double>(value), info);
+    }
+  });
+  options = std::move(loaded);
+}
+
+enum class Stored { ALL, NESTED };
+
+// Sets every parameter, or every one with a nested name, to what `options` holds, enums by name.
+template <class Options>
+void storeParameters(const ros::NodeHandle& private_nh, Options options,
+                     Stored stored = Stored::ALL) {
+  visitOptions(options, [&](const char* name, auto& value, const base::OptionInfo&) {
+    if (stored == Stored::NESTED && base::configName(name) == name) return;
+    if constexpr (std::is_enum_v<std::decay_t<decltype(value)>>)
+      private_nh.setParam(name, std::string(base::choiceName(value)));
+    else
+      private_nh.setParam(name, value);
+  });
+}
+
+// Every option by name in the message that dynamic_reconfigure sends, enums as strings.
+template <class Options>
+dynamic_reconfigure::Config configMessage(Options options) {
+  dynamic_reconfigure::Config message;
+  visitOptions(options, [&](const char* name, auto& value, const base::OptionInfo&) {
+    using dynamic_reconfigure::ConfigTools;
+    if constexpr (std::is_enum_v<std::decay_t<decltype(value)>>)
+      ConfigTools::appendParameter(message, base::configName(name),
+                                   std::string(base::choiceName(value)));
+    else
+      ConfigTools::appendParameter(message, base::configName(name), value);
+  });
+  return message;
+}
+
+// The options that `message` gives, those it does not name as in `options`. Throws InputError
+// naming an option outside its limits or an unknown choice.
+template <class Options>
+Options withConfigMessage(Options options, const dynamic_reconfigure::Config& message) {
+  visitOptions(options, [&](const char* name, auto& value, const base::OptionInfo& info) {
+    using Value = std::decay_t<decltype(value)>;
+    using dynamic_reconfigure::ConfigTools;
+    if constexpr (std::is_enum_v<Value>) {
+      std::string text;
+      if (ConfigTools::getParameter(message, base::configName(name), text))
+        value = base::choiceFromName<Value>(name, text);
+    } else if (ConfigTools::getParameter(message, base::configName(name), value)) {
+      if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>)
+        base::checkLimits(name, static_cast<double>(value), info);
+    }
+  });
+  return options;
+}
+
+template <class Config, class Options>
+Options optionsFromConfig(const Options& present, const Config& config) {
+  dynamic_reconfigure::Config message;
+  config.__toMessage__(message);
+  return withConfigMessage(present, message);
+}
+
+template <class Config, class Options>
+Config configFromOptions(const Options& options) {
+  Config config = Config::__getDefault__();
+  dynamic_reconfigure::Config message = configMessage(options);
+  for (const auto& parameter : Config::__getParamDescriptions__())
+    parameter->fromMessage(message, config);
+  return config;
+}
+
+// Keeps `Options` open to dynamic_reconfigure. `apply` gets every accepted request once, in the
+// thread that serves the requests, and throws InputError for what it refuses: then the old options
+// stay in force, the reason is logged and the answer to the request holds the old values.
+template <class Config, class Options>
+class Reconfigurable {
+ public:
+  using Apply = std::function<void(const Options&)>;
+
+  // `initial` is in force already: `apply` is not called for it. The parameters are set to it, so
+  // that parameters, server and node agree also where a value was given as another type.
+  Reconfigurable(const ros::NodeHandle& private_nh, const Options& initial, Apply apply)
+      : private_nh_(private_nh),
+        options_(initial),
+        apply_(std::move(apply)),
+        server_(mutex_, agreeing(private_nh, initial)) {
+    server_.setCallback([this](Config& config, uint32_t) { onRequest(config); });
+  }
+
+ private:
+  static const ros::NodeHandle& agreeing(const ros::NodeHandle& private_nh,
+                                         const Options& initial) {
+    storeParameters(private_nh, initial);
+    return private_nh;
+  }
+
+  void onRequest(Config& config) {
+    if (!started_) {  // setCallback calls once with what the parameters say
+      started_ = true;
+      config = configFromOptions<Config>(options_);
+      return;
+    }
+    try {
+      const Options wanted = optionsFromConfig(options_, config);
+      apply_(wanted);
+      options_ = wanted;
+      storeParameters(private_nh_, options_, Stored::NESTED);  // others the server stores
+    } catch (const base::InputError& error) {
+      ROS_ERROR_STREAM("Reconfiguration of " << private_nh_.getNamespace()
+                                             << " refused, the old values stay: " << error.what());
+      config = configFromOptions<Config>(options_);
+    }
+  }
+
+  ros::NodeHandle private_nh_;
+  Options options_;
+  Apply apply_;
+  bool started_ = false;
+  boost::recursive_mutex mutex_;
+  dynamic_reconfigure::Server<Config> server_;
+};
+
+}  // namespace grid_path_planner::nodes

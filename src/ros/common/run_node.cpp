@@ -1,0 +1,106 @@
+#include "ros/common/run_node.h"
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <ros/xmlrpc_manager.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <mutex>
+
+namespace grid_path_planner::nodes {
+namespace {
+
+std::atomic<bool> master_is_there{false};
+std::atomic<bool> node_runs{false};
+std::atomic<int> signal_received{0};
+
+// A node that comes up ends as soon as it is up: roscpp breaks (SIGTRAP) when it is shut down under
+// the makings of publishers and services. Where it waits for a master it may never be up; there,
+// and at the second signal, it just ends: nothing has been driven yet.
+void onSignal(int number) {
+  const bool again = signal_received.exchange(number) != 0;
+  if (!node_runs && (again || !master_is_there)) ::_exit(0);
+}
+
+// What the master asks for: a second node of this name came, or rosnode kill.
+class ShutdownRequest {
+ public:
+  static ShutdownRequest& instance() {
+    static ShutdownRequest request;
+    return request;
+  }
+
+  // Takes the place of roscpp's own answer, which would close the connections.
+  void listen() {
+    const ros::XMLRPCManagerPtr& server = ros::XMLRPCManager::instance();
+    server->unbind("shutdown");
+    server->bind("shutdown", [this](XmlRpc::XmlRpcValue& request, XmlRpc::XmlRpcValue& response) {
+      receive(request);
+      response = ros::xmlrpc::responseInt(1, "", 0);
+    });
+  }
+
+  std::string reason() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return reason_;
+  }
+
+ private:
+  void receive(XmlRpc::XmlRpcValue& request) {
+    const bool has_reason = request.getType() == XmlRpc::XmlRpcValue::TypeArray &&
+                            request.size() > 1 &&
+                            request[1].getType() == XmlRpc::XmlRpcValue::TypeString;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    reason_ = has_reason ? static_cast<std::string>(request[1]) : "asked by the master";
+  }
+
+  std::mutex mutex_;
+  std::string reason_;
+};
+
+// Empty while nothing asks the node to end.
+std::string endReason() {
+  if (signal_received) return "signal " + std::to_string(signal_received);
+  return ShutdownRequest::instance().reason();
+}
+
+void serve(const std::string& name, const NodeMaker& make) {
+  ros::NodeHandle nh;
+  ros::NodeHandle private_nh("~");
+  ShutdownRequest::instance().listen();
+  const std::shared_ptr<void> node = make(nh, private_nh);
+  node_runs = true;
+  // A process registers with the master at its first line of log. Were that the line that says why
+  // it ends, the master would end the new node of this name in favour of the old one.
+  ROS_INFO_STREAM(name << " runs");
+  std::string reason = endReason();
+  while (ros::ok() && reason.empty()) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+    reason = endReason();
+  }
+  ROS_WARN_STREAM(name << " ends: " << (reason.empty() ? "ROS was shut down" : reason));
+}
+
+}  // namespace
+
+int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make) {
+  ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
+  std::signal(SIGINT, onSignal);
+  std::signal(SIGTERM, onSignal);
+  int result = 0;
+  master_is_there = ros::master::check();
+  const ros::NodeHandle keeps_the_log_open;  // the last one to go shuts it, and the reason is lost
+  master_is_there = true;
+  try {
+    serve(name, make);
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM(name << " ends: " << error.what());
+    result = 1;
+  }
+  ros::shutdown();
+  return result;
+}
+
+}  // namespace grid_path_planner::nodes

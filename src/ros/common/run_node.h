@@ -1,0 +1,51 @@
+// The main program of a node: everything around the one class that is the node.
+//
+//   int main(int argc, char** argv) {
+//     return grid_path_planner::runNode<grid_path_planner::SimulatorNode>(argc, argv, "simulator");
+//   }
+//
+// Guaranteed: whatever ends the process in an orderly way (SIGINT, SIGTERM, rosnode kill, a second
+// node of the same name, an exception), the node's destructor runs while its publishers still reach
+// others, and the log says why. roscpp by itself closes all connections first, so that no last
+// message leaves. Not guaranteed: anything after SIGKILL.
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "ros/common/node_arguments.h"
+
+namespace grid_path_planner::nodes {
+
+using NodeMaker =
+    std::function<std::shared_ptr<void>(ros::NodeHandle& nh, ros::NodeHandle& private_nh)>;
+
+// Serves the global callback queue in this thread until something ends it. Returns the exit code:
+// 0, or 1 after an exception of the node's construction or of a callback.
+int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make);
+
+// `Node` is constructed from a node handle and a private one. Returns 2 for arguments that are not
+// ROS's.
+template <class Node>
+int runNode(int argc, char** argv, const std::string& name) {
+  if (const auto exit_code = nodeArguments(argc, argv, name).exit_code) return *exit_code;
+  return runNode(argc, argv, name, [](ros::NodeHandle& nh, ros::NodeHandle& private_nh) {
+    return std::make_shared<Node>(nh, private_nh);
+  });
+}
+
+// The same for a node that takes a file, `file_kind` in its usage: as its third argument, empty
+// where none is given.
+template <class Node>
+int runNodeWithFile(int argc, char** argv, const std::string& name, const std::string& file_kind) {
+  const NodeArguments given = nodeArguments(argc, argv, name, file_kind);
+  if (given.exit_code) return *given.exit_code;
+  return runNode(argc, argv, name, [&given](ros::NodeHandle& nh, ros::NodeHandle& private_nh) {
+    return std::make_shared<Node>(nh, private_nh, given.file);
+  });
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,60 @@
+// The node `teleop_joy`: a vehicle driven by hand.
+//
+//   subscribes  joy      sensor_msgs/Joy; its driver must repeat (joy_node's ~autorepeat_rate)
+//   publishes   cmd_vel  geometry_msgs/Twist in base_link, while the deadman button is held
+//
+// Guaranteed: the vehicle is told to stop when the deadman button is let go, when the joystick
+// falls silent for joy_timeout of the wall clock, when it sends what cannot be used, and when the
+// node ends; after that nothing is sent, so that navigate_path may command the vehicle. ROS time
+// plays no part. Not guaranteed: a zero after SIGKILL.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/steady_timer.h>
+#include <ros/subscriber.h>
+#include <sensor_msgs/Joy.h>
+
+#include <memory>
+#include <optional>
+
+#include "ros/driving/teleop_joy_options.h"
+
+namespace grid_path_planner {
+class TeleopJoyConfig;
+}  // namespace grid_path_planner
+
+namespace grid_path_planner::None {}  // namespace grid_path_planner::None
+
+namespace grid_path_planner::nodes {
+
+template <class Config, class Options>
+class Reconfigurable;
+
+class TeleopJoyNode {
+ public:
+  // Throws InputError for parameters that cannot be used. All callbacks are served by the queue of
+  // `nh`, which must be one thread's.
+  TeleopJoyNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
+  // Stops the vehicle if it is being driven.
+  ~TeleopJoyNode();
+
+ private:
+  void use(const TeleopJoyOptions& options);
+  void startTimer();
+  void onJoy(const sensor_msgs::Joy& message);
+  void onTimer(const ros::SteadyTimerEvent& event);
+  void publish(const base::BodyVelocity& velocity);
+  void release();
+
+  ros::NodeHandle nh_;
+  TeleopJoyOptions options_;
+  std::optional<base::BodyVelocity> velocity_;  // none: the joystick commands nothing
+  ros::SteadyTime heard_;
+  ros::Publisher publisher_;
+  ros::Subscriber subscriber_;
+  ros::SteadyTimer timer_;
+  std::unique_ptr<Reconfigurable<TeleopJoyConfig, TeleopJoyOptions>> reconfigurable_;
+};
+
+}  // namespace grid_path_planner::nodes

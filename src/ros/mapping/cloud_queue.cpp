@@ -1,0 +1,153 @@
+#include "ros/mapping/cloud_queue.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "grid_path_planner/ros/occupancy_conversion.h"
+
+namespace grid_path_planner::nodes {
+
+using mapping::CloudFrames;
+
+namespace {
+
+constexpr std::chrono::seconds kSilence(5);  // between two warnings for the same reason
+constexpr char kNoTransform[] = "no transform";
+constexpr char kTooMany[] = "too many waiting for tf";
+constexpr char kTooSlow[] = "faster than they are mapped";
+constexpr char kTimeJumped[] = "time jumped back";
+
+Eigen::Isometry3d isometryOf(const geometry_msgs::Transform& t) {
+  const Eigen::Quaterniond rotation(t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z);
+  return Eigen::Translation3d(t.translation.x, t.translation.y, t.translation.z) *
+         rotation.normalized();
+}
+
+std::string describe(const sensor_msgs::PointCloud2& cloud) {
+  std::ostringstream text;
+  text << "a cloud in frame '" << cloud.header.frame_id << "' stamped " << cloud.header.stamp;
+  return text.str();
+}
+
+}  // namespace
+
+void CloudQueue::setOptions(const CloudQueueOptions& options) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  options_ = options;
+}
+
+void CloudQueue::add(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  ++counts_.received;
+  if (frameName(cloud->header.frame_id).empty()) {
+    drop("no frame", "a cloud that names no frame");
+    return;
+  }
+  waiting_.push_back({cloud, Clock::now()});
+}
+
+bool CloudQueue::sortOut() {
+  std::lock_guard<std::mutex> lock(mutex_);
+  const auto now = Clock::now();
+  const std::chrono::duration<double> limit(options_.tf_timeout);
+  std::deque<Waiting> still_waiting;
+  for (Waiting& waiting : waiting_) {
+    std::string problem;
+    if (const auto frames = framesOf(*waiting.cloud, problem))
+      ready_.push_back({std::move(waiting.cloud), *frames});
+    else if (now - waiting.since > limit)
+      drop(kNoTransform, describe(*waiting.cloud) + ": " + problem);
+    else
+      still_waiting.push_back(std::move(waiting));
+  }
+  waiting_ = std::move(still_waiting);
+  dropTooMany();
+  return !ready_.empty();
+}
+
+void CloudQueue::dropTooMany() {
+  const auto most = static_cast<std::size_t>(options_.queue_size);
+  while (waiting_.size() > most) dropWaiting();
+  for (; ready_.size() > most; ready_.pop_front())
+    drop(kTooSlow, describe(*ready_.front().cloud) + ": clouds come faster than they are mapped");
+}
+
+// The oldest of the frame that has the most, so that no frame crowds out another.
+void CloudQueue::dropWaiting() {
+  std::map<std::string, int> numbers;
+  for (const Waiting& waiting : waiting_) ++numbers[waiting.cloud->header.frame_id];
+  const auto most = std::max_element(numbers.begin(), numbers.end(),
+                                     [](auto& a, auto& b) { return a.second < b.second; });
+  const auto oldest = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
+    return waiting.cloud->header.frame_id == most->first;
+  });
+  drop(kTooMany, describe(*oldest->cloud) + ": more clouds than queue_size wait for tf");
+  waiting_.erase(oldest);
+}
+
+std::optional<CloudFrames> CloudQueue::framesOf(const sensor_msgs::PointCloud2& cloud,
+                                                std::string& problem) const {
+  const ros::Time stamp = cloud.header.stamp;
+  const std::string source = frameName(cloud.header.frame_id);
+  CloudFrames frames;
+  try {
+    frames.map_from_sensor =
+        isometryOf(buffer_.lookupTransform(options_.frame, source, stamp).transform);
+    if (!options_.base_frame.empty())
+      frames.base_from_map =
+          isometryOf(buffer_.lookupTransform(options_.base_frame, options_.frame, stamp).transform);
+  } catch (const tf2::TransformException& error) {
+    problem = error.what();
+    return std::nullopt;
+  }
+  return frames;
+}
+
+std::optional<CloudQueue::Ready> CloudQueue::take() {
+  std::lock_guard<std::mutex> lock(mutex_);
+  if (ready_.empty()) return std::nullopt;
+  Ready ready = std::move(ready_.front());
+  ready_.pop_front();
+  taken_ = true;
+  return ready;
+}
+
+void CloudQueue::clear() {
+  std::lock_guard<std::mutex> lock(mutex_);
+  counts_.dropped[kTimeJumped] += waiting_.size() + ready_.size();
+  waiting_.clear();
+  ready_.clear();
+}
+
+void CloudQueue::countInserted() {
+  std::lock_guard<std::mutex> lock(mutex_);
+  taken_ = false;
+  ++counts_.inserted;
+}
+
+void CloudQueue::countDropped(const std::string& reason, const std::string& sentence) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  taken_ = false;
+  drop(reason, sentence);
+}
+
+CloudCounts CloudQueue::counts() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  CloudCounts counts = counts_;
+  counts.waiting = waiting_.size() + ready_.size() + (taken_ ? 1 : 0);
+  return counts;
+}
+
+void CloudQueue::drop(const std::string& reason, const std::string& sentence) {
+  const std::uint64_t count = ++counts_.dropped[reason];
+  const auto now = Clock::now();
+  const auto said = said_.find(reason);
+  if (said != said_.end() && now - said->second < kSilence) return;
+  said_[reason] = now;
+  ROS_WARN_STREAM("Dropped " << sentence << "; dropped for this reason so far: " << count);
+}
+
+}  // namespace grid_path_planner::nodes

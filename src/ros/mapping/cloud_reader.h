@@ -1,0 +1,21 @@
+// The points of a sensor_msgs/PointCloud2.
+//
+//   const std::vector<Eigen::Vector3d> points = finitePoints(*message);
+//
+// The fields x, y and z may stand at any offset, among any others and in any order, each as FLOAT32
+// or FLOAT64; the cloud may be organised or not, its rows padded or not.
+#pragma once
+
+#include <sensor_msgs/PointCloud2.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace grid_path_planner::nodes {
+
+// All points without a NaN or infinity, in the cloud's order and frame, m. Throws InputError with a
+// sentence for a big-endian cloud, a missing field or one of another type, and data that is shorter
+// than the fields say.
+std::vector<Eigen::Vector3d> finitePoints(const sensor_msgs::PointCloud2& cloud);
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,91 @@
+#include "ros/mapping/mapping_diagnostics.h"
+
+#include <string>
+
+namespace grid_path_planner::nodes {
+
+using mapping::MapModel;
+
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr int kRest = 50;  // times what counting the memory took
+
+std::uint64_t sumOf(const std::map<std::string, std::uint64_t>& dropped) {
+  std::uint64_t sum = 0;
+  for (const auto& [reason, count] : dropped) sum += count;
+  return sum;
+}
+
+}  // namespace
+
+MappingDiagnostics::MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
+                                       const CloudQueue& queue, MappingThread& desk,
+                                       const OctreePublisher& octree)
+    : queue_(queue),
+      desk_(desk),
+      octree_(octree),
+      updater_(nh, private_nh, private_nh.getNamespace()) {
+  updater_.setHardwareID("none");
+  updater_.add("clouds", this, &MappingDiagnostics::reportClouds);
+  updater_.add("map", this, &MappingDiagnostics::reportMap);
+  timer_ = nh.createWallTimer(ros::WallDuration(updater_.getPeriod()),
+                              [this](const ros::WallTimerEvent&) { onTimer(); });
+}
+
+void MappingDiagnostics::onTimer() {
+  desk_.post("measure", [this](MapModel& map) { measure(map); });
+  if (ros::Time::isValid()) updater_.force_update();
+}
+
+void MappingDiagnostics::measure(const MapModel& map) {
+  const auto start = Clock::now();
+  if (start < measure_not_before_) return;
+  const Figures figures{map.map().tree().size(), map.map().memoryUsage(),
+                        map.map().options().resolution, map.projections()};
+  const auto end = Clock::now();
+  measure_not_before_ = end + kRest * (end - start);
+  std::lock_guard<std::mutex> lock(mutex_);
+  figures_ = figures;
+}
+
+void MappingDiagnostics::noteInsertion(const MapModel::Inserted& inserted) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  last_insertion_ = inserted.seconds;
+  all_insertions_ += inserted.seconds;
+  ++insertions_;
+}
+
+void MappingDiagnostics::reportClouds(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const CloudCounts counts = queue_.counts();
+  const std::uint64_t dropped = sumOf(counts.dropped);
+  std::lock_guard<std::mutex> lock(mutex_);
+  if (dropped > reported_drops_)
+    status.summary(DiagnosticStatus::WARN, "clouds are being dropped");
+  else if (counts.received == 0)
+    status.summary(DiagnosticStatus::OK, "no cloud has come yet");
+  else
+    status.summary(DiagnosticStatus::OK, "clouds are mapped");
+  reported_drops_ = dropped;
+  status.add("received", counts.received);
+  status.add("inserted", counts.inserted);
+  status.add("waiting", counts.waiting);
+  status.add("dropped", dropped);
+  for (const auto& [reason, count] : counts.dropped) status.add("dropped: " + reason, count);
+  status.add("last_insertion_s", last_insertion_);
+  status.add("mean_insertion_s",
+             insertions_ == 0 ? 0.0 : all_insertions_ / static_cast<double>(insertions_));
+}
+
+void MappingDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  status.summary(DiagnosticStatus::OK, figures_.nodes == 0 ? "the map is empty" : "a map is there");
+  status.add("nodes", figures_.nodes);
+  status.add("bytes", figures_.bytes);
+  status.add("resolution", figures_.resolution);
+  status.add("projections", figures_.projections);
+  status.add("tree_messages", octree_.builds());
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,64 @@
+// What projected_map reports on /diagnostics, once a second (~diagnostic_period): the clouds
+// that came and what became of them, and the size of the map.
+//
+//   clouds: received, inserted, waiting, dropped (each with its reason), last_insertion_s,
+//           mean_insertion_s; a warning while clouds are dropped
+//   map:    nodes, bytes and projections (counted seldom where that takes long), resolution,
+//           tree_messages: how often projected_map, and how often the 3-D topics, were built
+//
+// All clouds that came are in the map when waiting is 0 and received is inserted + dropped.
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <ros/wall_timer.h>
+
+#include <chrono>
+#include <mutex>
+
+#include "grid_path_planner/mapping/map_model.h"
+#include "ros/mapping/cloud_queue.h"
+#include "ros/mapping/mapping_thread.h"
+#include "ros/mapping/octree_publisher.h"
+
+namespace grid_path_planner::nodes {
+
+class MappingDiagnostics {
+ public:
+  // `queue`, `desk` and `octree` outlive this.
+  MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, const CloudQueue& queue,
+                     MappingThread& desk, const OctreePublisher& octree);
+  ~MappingDiagnostics() { timer_.stop(); }
+
+  // Takes note of an insertion. Thread-safe.
+  void noteInsertion(const mapping::MapModel::Inserted& inserted);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Figures {
+    std::size_t nodes = 0;
+    std::size_t bytes = 0;
+    double resolution = 0.0;  // m
+    std::uint64_t projections = 0;
+  };
+
+  void onTimer();
+  void measure(const mapping::MapModel& map);
+  void reportClouds(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportMap(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  const CloudQueue& queue_;
+  MappingThread& desk_;
+  const OctreePublisher& octree_;
+  std::mutex mutex_;
+  Figures figures_;
+  double last_insertion_ = 0.0;  // s
+  double all_insertions_ = 0.0;  // s
+  std::uint64_t insertions_ = 0;
+  std::uint64_t reported_drops_ = 0;
+  Clock::time_point measure_not_before_;  // of the map's thread
+  diagnostic_updater::Updater updater_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,90 @@
+#include "ros/mapping/mapping_services.h"
+
+#include <ros/console.h>
+
+#include <string>
+#include <utility>
+
+#include "grid_path_planner/base/errors.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using mapping::MapModel;
+
+namespace {
+
+// Saves by `save` to the request's file, or to the one of parameter `name`.
+template <class Save>
+void answerSaving(const SaveFile::Request& request, const std::string& name,
+                  const std::string& fallback, SaveFile::Response& response, Save save) {
+  const std::string file = request.filename.empty() ? fallback : request.filename;
+  try {
+    if (file.empty())
+      throw InputError("the request names no file, and the parameter " + name + " is empty");
+    save(file);
+    response.success = true;
+    response.message = "written to " + file;
+    ROS_INFO_STREAM("Saved " << file);
+  } catch (const InputError& error) {
+    response.success = false;
+    response.message = error.what();
+    ROS_ERROR_STREAM("Not saved: " << error.what());
+  }
+}
+
+Eigen::Vector3d vectorOf(const geometry_msgs::Point& point) {
+  return {point.x, point.y, point.z};
+}
+
+}  // namespace
+
+MappingServices::MappingServices(ros::NodeHandle private_nh, MappingThread& desk,
+                                 std::function<void()> on_change)
+    : desk_(desk), on_change_(std::move(on_change)) {
+  reset_ = private_nh.advertiseService("reset", &MappingServices::reset, this);
+  clear_box_ = private_nh.advertiseService("clear_bbx", &MappingServices::clearBox, this);
+  save_map_ = private_nh.advertiseService("save_map", &MappingServices::saveMap, this);
+  save_octree_ = private_nh.advertiseService("save_octree", &MappingServices::saveOctree, this);
+}
+
+void MappingServices::shutdown() {
+  for (ros::ServiceServer* service : {&reset_, &clear_box_, &save_map_, &save_octree_})
+    service->shutdown();
+}
+
+bool MappingServices::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+  desk_.ask([](MapModel& map) { map.reset(); });
+  ROS_INFO("The map was reset");
+  on_change_();
+  return true;
+}
+
+bool MappingServices::clearBox(ClearBoxService::Request& request, ClearBoxService::Response&) {
+  try {
+    desk_.ask([&](MapModel& map) { map.clearBox(vectorOf(request.min), vectorOf(request.max)); });
+  } catch (const InputError& error) {
+    ROS_ERROR_STREAM("clear_bbx refused: " << error.what());
+    return false;
+  }
+  on_change_();
+  return true;
+}
+
+bool MappingServices::saveMap(SaveFile::Request& request, SaveFile::Response& response) {
+  desk_.ask([&](MapModel& map) {
+    answerSaving(request, "map_file", map.options().map_file, response,
+                 [&](const std::string& file) { map.saveMap(file); });
+  });
+  return true;
+}
+
+bool MappingServices::saveOctree(SaveFile::Request& request, SaveFile::Response& response) {
+  desk_.ask([&](MapModel& map) {
+    answerSaving(request, "octree_file", map.options().octree_file, response,
+                 [&](const std::string& file) { map.saveOctree(file); });
+  });
+  return true;
+}
+
+}  // namespace grid_path_planner::nodes

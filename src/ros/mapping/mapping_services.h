@@ -1,0 +1,53 @@
+// The services of projected_map that change the map or write it to a file.
+//
+//   ~reset        std_srvs/Empty               forgets everything
+//   ~clear_bbx    octomap_msgs/BoundingBoxQuery where there is octomap_msgs, else
+//                 grid_path_planner/ClearBox, which has the same MD5 sum
+//   ~save_map     grid_path_planner/SaveFile   projected_map as a map_server YAML and its image
+//   ~save_octree  grid_path_planner/SaveFile   .bt or .ot
+//
+// A request that cannot be done is refused with a sentence, and nothing has changed.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+#include <std_srvs/Empty.h>
+
+#include <functional>
+
+#include "grid_path_planner/SaveFile.h"
+#include "ros/mapping/mapping_thread.h"
+
+#ifdef GPP_HAS_OCTOMAP_MSGS
+#include <octomap_msgs/BoundingBoxQuery.h>
+#else
+#include "grid_path_planner/ClearBox.h"
+#endif
+
+namespace grid_path_planner::nodes {
+
+#ifdef GPP_HAS_OCTOMAP_MSGS
+using ClearBoxService = octomap_msgs::BoundingBoxQuery;
+#else
+using ClearBoxService = ClearBox;
+#endif
+
+class MappingServices {
+ public:
+  // `desk` outlives this; `on_change` is called after every change of the map.
+  MappingServices(ros::NodeHandle private_nh, MappingThread& desk, std::function<void()> on_change);
+
+  void shutdown();
+
+ private:
+  bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
+  bool clearBox(ClearBoxService::Request& request, ClearBoxService::Response& response);
+  bool saveMap(SaveFile::Request& request, SaveFile::Response& response);
+  bool saveOctree(SaveFile::Request& request, SaveFile::Response& response);
+
+  MappingThread& desk_;
+  std::function<void()> on_change_;
+  ros::ServiceServer reset_, clear_box_, save_map_, save_octree_;
+};
+
+}  // namespace grid_path_planner::nodes

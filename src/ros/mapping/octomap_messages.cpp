@@ -1,0 +1,109 @@
+#include "ros/mapping/octomap_messages.h"
+
+#ifdef GPP_HAS_OCTOMAP_MSGS
+
+#include <octomap_msgs/GetOctomap.h>
+#include <octomap_msgs/Octomap.h>
+#include <ros/publisher.h>
+#include <ros/service_server.h>
+
+#include <sstream>
+#include <string>
+
+namespace grid_path_planner::nodes {
+
+using mapping::MapModel;
+
+namespace {
+
+octomap_msgs::Octomap messageOf(const MapModel& map, bool binary, const ros::Time& stamp) {
+  const octomap::OcTree& tree = map.map().tree();
+  std::ostringstream data;
+  if (binary)
+    tree.writeBinaryData(data);
+  else
+    tree.writeData(data);
+  const std::string bytes = data.str();
+  octomap_msgs::Octomap message;
+  message.header.frame_id = map.options().frame_id;
+  message.header.stamp = stamp;
+  message.binary = binary;
+  message.id = tree.getTreeType();
+  message.resolution = tree.getResolution();
+  message.data.assign(bytes.begin(), bytes.end());
+  return message;
+}
+
+}  // namespace
+
+struct OctomapMessages::Topics {
+  using Request = octomap_msgs::GetOctomap::Request;
+  using Response = octomap_msgs::GetOctomap::Response;
+
+  explicit Topics(MappingThread& desk_of_map) : desk(desk_of_map) {}
+
+  bool answer(bool binary, Response& response) {
+    desk.ask([&](MapModel& map) { response.map = messageOf(map, binary, ros::Time::now()); });
+    return true;
+  }
+  bool answerBinary(Request&, Response& response) { return answer(true, response); }
+  bool answerFull(Request&, Response& response) { return answer(false, response); }
+
+  MappingThread& desk;
+  ros::Publisher binary, full;
+  ros::ServiceServer binary_service, full_service;
+};
+
+OctomapMessages::OctomapMessages(ros::NodeHandle nh, ros::NodeHandle service_nh, bool latch,
+                                 MappingThread& desk, const std::function<void()>& on_subscriber)
+    : topics_(std::make_unique<Topics>(desk)) {
+  const auto connected = [on_subscriber](const ros::SingleSubscriberPublisher&) {
+    on_subscriber();
+  };
+  topics_->binary =
+      nh.advertise<octomap_msgs::Octomap>("octomap_binary", 1, connected, {}, {}, latch);
+  topics_->full = nh.advertise<octomap_msgs::Octomap>("octomap_full", 1, connected, {}, {}, latch);
+  topics_->binary_service =
+      service_nh.advertiseService("octomap_binary", &Topics::answerBinary, topics_.get());
+  topics_->full_service =
+      service_nh.advertiseService("octomap_full", &Topics::answerFull, topics_.get());
+}
+
+OctomapMessages::~OctomapMessages() = default;
+
+bool OctomapMessages::heard() const {
+  return topics_->binary.getNumSubscribers() > 0 || topics_->full.getNumSubscribers() > 0;
+}
+
+void OctomapMessages::publish(const MapModel& map, const ros::Time& stamp) {
+  if (topics_->binary.getNumSubscribers() > 0) topics_->binary.publish(messageOf(map, true, stamp));
+  if (topics_->full.getNumSubscribers() > 0) topics_->full.publish(messageOf(map, false, stamp));
+}
+
+void OctomapMessages::shutdown() {
+  topics_->binary_service.shutdown();
+  topics_->full_service.shutdown();
+}
+
+}  // namespace grid_path_planner::nodes
+
+#else
+
+namespace grid_path_planner::nodes {
+
+using mapping::MapModel;
+
+struct OctomapMessages::Topics {};
+
+OctomapMessages::OctomapMessages(ros::NodeHandle, ros::NodeHandle, bool, MappingThread&,
+                                 const std::function<void()>&) {}
+OctomapMessages::~OctomapMessages() = default;
+bool OctomapMessages::heard() const {
+  return false;
+}
+void OctomapMessages::publish(const MapModel&, const ros::Time&) {}
+void OctomapMessages::shutdown() {}
+
+}  // namespace grid_path_planner::nodes
+
+#endif

@@ -1,0 +1,203 @@
+#include "ros/mapping/projected_map_node.h"
+
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/ProjectedMapConfig.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/parameters.h"
+#include "ros/mapping/cloud_reader.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using mapping::checkProjectedMapOptions;
+using mapping::MapModel;
+using mapping::needlessParameter;
+using mapping::ProjectedMapOptions;
+using mapping::ProjectionReference;
+
+namespace {
+
+constexpr double kCloudPeriod = 0.01;  // s of the wall clock between two looks for transforms
+constexpr double kDecayPeriod = 1.0;   // s of ROS time; a look at every occupied voxel
+
+void sayNeedless(const ros::NodeHandle& private_nh, std::vector<std::string>& known) {
+  for (const std::string& name : unknownParameters(private_nh, known)) {
+    const std::string reason = needlessParameter(name);
+    if (reason.empty()) continue;
+    ROS_WARN_STREAM(private_nh.resolveName(name) << " has no effect: " << reason);
+    known.push_back(name);
+  }
+}
+
+ProjectedMapOptions loadOptions(const ros::NodeHandle& private_nh, const std::string& filename) {
+  ProjectedMapOptions options;
+  loadParameters(private_nh, options);
+  if (!filename.empty()) options.filename = filename;
+  options.frame_id = frameName(options.frame_id);
+  options.base_frame_id = frameName(options.base_frame_id);
+  checkProjectedMapOptions(options);
+  auto known = optionNames<ProjectedMapOptions>();
+  known.push_back("diagnostic_period");  // diagnostic_updater's
+  sayNeedless(private_nh, known);
+  warnUnknownParameters(private_nh, known);
+  return options;
+}
+
+CloudQueueOptions queueOptions(const ProjectedMapOptions& options) {
+  return {options.frame_id, options.cloud.filter_ground ? options.base_frame_id : "",
+          options.tf_timeout, options.queue_size};
+}
+
+bool followsVehicle(const MapModel& map) {
+  return map.options().projection.reference == ProjectionReference::VEHICLE;
+}
+
+}  // namespace
+
+ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                                   const std::string& filename)
+    : nh_(nh), listener_(buffer_, nh, true), queue_(buffer_), service_spinner_(1, &service_queue_) {
+  ProjectedMapOptions options = loadOptions(private_nh, filename);
+  desk_ = std::make_unique<MappingThread>(options);
+  desk_->ask([&](MapModel& map) { options = map.options(); });  // a file has its own resolution
+  queue_.setOptions(queueOptions(options));
+
+  ros::NodeHandle service_nh(nh);
+  service_nh.setCallbackQueue(&service_queue_);
+  ros::NodeHandle private_service_nh(private_nh);
+  private_service_nh.setCallbackQueue(&service_queue_);
+  const auto on_change = [this] { postPublishing(); };
+  map_publisher_ = std::make_unique<ProjectedMapPublisher>(nh, options.latch, on_change);
+  octree_publisher_ =
+      std::make_unique<OctreePublisher>(nh, service_nh, options.latch, *desk_, on_change);
+  services_ = std::make_unique<MappingServices>(private_service_nh, *desk_, on_change);
+  diagnostics_ =
+      std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *desk_, *octree_publisher_);
+  service_spinner_.start();
+
+  cloud_subscriber_ = nh.subscribe<sensor_msgs::PointCloud2>(
+      "cloud_in", static_cast<std::uint32_t>(options.queue_size), &ProjectedMapNode::onCloud, this);
+  cloud_timer_ = nh.createWallTimer(ros::WallDuration(kCloudPeriod),
+                                    [this](const ros::WallTimerEvent&) { sortOutClouds(); });
+  startPublishing(options.publish_rate);
+  complete_ = true;
+  reconfigurable_ = std::make_unique<Reconfigurable<ProjectedMapConfig, ProjectedMapOptions>>(
+      private_nh, options, [this](const ProjectedMapOptions& wanted) { use(wanted); });
+}
+
+ProjectedMapNode::~ProjectedMapNode() {
+  cloud_subscriber_.shutdown();
+  cloud_timer_.stop();
+  publish_timer_.stop();
+  reconfigurable_.reset();
+  services_->shutdown();
+  octree_publisher_->shutdown();
+  service_spinner_.stop();
+  desk_->stop();
+}
+
+void ProjectedMapNode::use(const ProjectedMapOptions& options) {
+  desk_->ask([&](MapModel& map) { map.setOptions(options); });
+  queue_.setOptions(queueOptions(options));
+  startPublishing(options.publish_rate);
+  postPublishing();
+}
+
+void ProjectedMapNode::startPublishing(double rate) {
+  publish_timer_ = nh_.createWallTimer(ros::WallDuration(1.0 / rate),
+                                       [this](const ros::WallTimerEvent&) { postPublishing(); });
+}
+
+void ProjectedMapNode::onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
+  checkClock();
+  queue_.add(cloud);
+  sortOutClouds();
+}
+
+void ProjectedMapNode::checkClock() {
+  if (!clock_.jumpedBack()) return;
+  ROS_WARN("ROS time jumped back: tf and the clouds that wait are forgotten, the map stays");
+  buffer_.clear();
+  queue_.clear();
+}
+
+void ProjectedMapNode::sortOutClouds() {
+  checkClock();
+  if (queue_.sortOut()) postInsertion();
+}
+
+void ProjectedMapNode::postInsertion() {
+  desk_->post("insert", [this](MapModel& map) { insertNext(map); });
+}
+
+// A nodelet's subscribers may be there, in another thread, before it is complete.
+void ProjectedMapNode::postPublishing() {
+  if (!complete_) return;
+  desk_->post("publish", [this](MapModel& map) { publish(map); });
+}
+
+// One cloud a turn, so that services and publications come in between.
+void ProjectedMapNode::insertNext(MapModel& map) {
+  const auto ready = queue_.take();
+  if (!ready) return;
+  try {
+    insert(map, *ready);
+    queue_.countInserted();
+  } catch (const InputError& error) {
+    queue_.countDropped("cannot be used", error.what());
+  }
+  postInsertion();
+}
+
+void ProjectedMapNode::insert(MapModel& map, const CloudQueue::Ready& ready) {
+  const MapModel::Inserted inserted = map.insert(finitePoints(*ready.cloud), ready.frames);
+  diagnostics_->noteInsertion(inserted);
+  if (inserted.ground_missed)
+    ROS_WARN_THROTTLE(10.0,
+                      "No ground plane found in a cloud: points near z = 0 of %s were taken "
+                      "for ground",
+                      map.options().base_frame_id.c_str());
+  if (inserted.left_out > 0)
+    ROS_WARN_STREAM_THROTTLE(10.0, inserted.left_out << " of " << inserted.points
+                                                     << " points of a cloud lie outside the tree");
+}
+
+void ProjectedMapNode::publish(MapModel& map) {
+  if (!ros::Time::isValid()) return;
+  decay(map);
+  const ros::Time stamp = ros::Time::now();
+  try {
+    if (findVehicle(map)) map_publisher_->publish(map, stamp);
+  } catch (const InputError& error) {
+    ROS_ERROR_STREAM_THROTTLE(10.0, "projected_map stays as it was: " << error.what());
+  }
+  octree_publisher_->publish(map, stamp);
+}
+
+void ProjectedMapNode::decay(MapModel& map) {
+  const ros::Time now = ros::Time::now();
+  const double passed = (now - decayed_until_).toSec();
+  if (passed >= 0.0 && passed < kDecayPeriod) return;
+  if (map.options().octree.decay_time > 0.0 && passed > 0.0 && !decayed_until_.isZero())
+    map.decay(passed);
+  decayed_until_ = now;
+}
+
+// Whether the band's reference is known.
+bool ProjectedMapNode::findVehicle(MapModel& map) {
+  if (!followsVehicle(map)) return true;
+  const ProjectedMapOptions& options = map.options();
+  try {
+    map.setVehicleHeight(
+        buffer_.lookupTransform(options.frame_id, options.base_frame_id, ros::Time(0))
+            .transform.translation.z);
+    return true;
+  } catch (const tf2::TransformException& error) {
+    ROS_WARN_STREAM_THROTTLE(10.0, "projected_map waits for the vehicle's depth: " << error.what());
+    return false;
+  }
+}
+
+}  // namespace grid_path_planner::nodes

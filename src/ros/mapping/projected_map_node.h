@@ -1,0 +1,99 @@
+// The node `projected_map`: point clouds or an octree file to a 3-D map, and that to a 2-D map.
+//
+//   subscribes  cloud_in                     sensor_msgs/PointCloud2
+//   publishes   projected_map                nav_msgs/OccupancyGrid
+//               projected_map_updates        map_msgs/OccupancyGridUpdate
+//               occupied_cells_vis_array     visualization_msgs/MarkerArray
+//               free_cells_vis_array         visualization_msgs/MarkerArray (publish_free_space)
+//               octomap_point_cloud_centers  sensor_msgs/PointCloud2
+//               octomap_binary, octomap_full octomap_msgs/Octomap, where there is octomap_msgs
+//   serves      ~reset, ~clear_bbx, ~save_map, ~save_octree (mapping_services.h)
+//               octomap_binary, octomap_full octomap_msgs/GetOctomap, where there is octomap_msgs
+//   listens to  tf                           frame_id -> the clouds' frames, -> base_frame_id
+//
+// The names are octomap_server's. Clouds are inserted, one after the other, as soon as tf knows
+// where they were taken (cloud_queue.h); a cloud that cannot be used is dropped with its reason,
+// and loses nothing else. Where ROS time jumps back, as when a bag loops, tf and the clouds that
+// wait are forgotten; the map stays.
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <ros/subscriber.h>
+#include <ros/wall_timer.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "ros/common/clock.h"
+#include "ros/mapping/cloud_queue.h"
+#include "ros/mapping/mapping_diagnostics.h"
+#include "ros/mapping/mapping_services.h"
+#include "ros/mapping/mapping_thread.h"
+#include "ros/mapping/octree_publisher.h"
+#include "ros/mapping/projected_map_publisher.h"
+
+namespace grid_path_planner {
+class ProjectedMapConfig;
+}  // namespace grid_path_planner
+
+namespace grid_path_planner::None {}  // namespace grid_path_planner::None
+
+namespace grid_path_planner::nodes {
+
+template <class Config, class Options>
+class Reconfigurable;
+
+class ProjectedMapNode {
+ public:
+  // `filename`, unless empty, stands for the parameter: octomap_server's way to be given a file.
+  // Throws InputError for parameters and files that cannot be used. Callbacks are served by the
+  // queue of `nh`, services by a thread of their own.
+  ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                   const std::string& filename = "");
+  ~ProjectedMapNode();
+
+ private:
+  void use(const mapping::ProjectedMapOptions& options);
+  void apply(const mapping::ProjectedMapOptions& options);
+  void startPublishing(double rate);
+  void onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud);
+  void checkClock();
+  void sortOutClouds();
+  void postInsertion();
+  void postPublishing();
+
+  // In the map's thread
+  void insertNext(mapping::MapModel& map);
+  void insert(mapping::MapModel& map, const CloudQueue::Ready& ready);
+  void publish(mapping::MapModel& map);
+  void decay(mapping::MapModel& map);
+  bool findVehicle(mapping::MapModel& map);
+
+  ros::NodeHandle nh_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  ClockWatch clock_;
+  CloudQueue queue_;
+  std::unique_ptr<MappingThread> desk_;
+  ros::Time decayed_until_;  // of the map's thread
+  std::atomic<bool> complete_{false};
+
+  ros::CallbackQueue service_queue_;
+  ros::AsyncSpinner service_spinner_;
+  std::unique_ptr<ProjectedMapPublisher> map_publisher_;
+  std::unique_ptr<OctreePublisher> octree_publisher_;
+  std::unique_ptr<MappingServices> services_;
+  std::unique_ptr<MappingDiagnostics> diagnostics_;
+  std::unique_ptr<Reconfigurable<ProjectedMapConfig, mapping::ProjectedMapOptions>> reconfigurable_;
+  ros::Subscriber cloud_subscriber_;
+  ros::WallTimer cloud_timer_;
+  ros::WallTimer publish_timer_;
+};
+
+}  // namespace grid_path_planner::nodes

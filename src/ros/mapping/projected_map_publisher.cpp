@@ -1,0 +1,71 @@
+#include "ros/mapping/projected_map_publisher.h"
+
+#include <map_msgs/OccupancyGridUpdate.h>
+#include <nav_msgs/OccupancyGrid.h>
+
+#include <utility>
+
+#include "grid_path_planner/ros/occupancy_conversion.h"
+
+namespace grid_path_planner::nodes {
+
+using grid::CellRect;
+using grid::OccupancyGrid;
+using mapping::MapModel;
+using mapping::ProjectedMapOptions;
+using mapping::ProjectionChange;
+
+namespace {
+
+map_msgs::OccupancyGridUpdate updateMessage(const OccupancyGrid& grid, const CellRect& cells) {
+  map_msgs::OccupancyGridUpdate message;
+  message.x = cells.column;
+  message.y = cells.row;
+  message.width = static_cast<std::uint32_t>(cells.width);
+  message.height = static_cast<std::uint32_t>(cells.height);
+  message.data.reserve(static_cast<std::size_t>(cells.width) * cells.height);
+  for (int row = cells.row; row < cells.row + cells.height; ++row) {
+    const std::int8_t* first = grid.row(row) + cells.column;
+    message.data.insert(message.data.end(), first, first + cells.width);
+  }
+  return message;
+}
+
+}  // namespace
+
+ProjectedMapPublisher::ProjectedMapPublisher(ros::NodeHandle nh, bool latch,
+                                             std::function<void()> on_subscriber) {
+  const auto connected =
+      [this, on_subscriber = std::move(on_subscriber)](const ros::SingleSubscriberPublisher&) {
+        someone_new_ = true;
+        on_subscriber();
+      };
+  map_publisher_ =
+      nh.advertise<nav_msgs::OccupancyGrid>("projected_map", 5, connected, {}, {}, latch);
+  update_publisher_ = nh.advertise<map_msgs::OccupancyGridUpdate>("projected_map_updates", 100);
+}
+
+bool ProjectedMapPublisher::heard() const {
+  return map_publisher_.getNumSubscribers() > 0 || update_publisher_.getNumSubscribers() > 0;
+}
+
+void ProjectedMapPublisher::publish(MapModel& map, const ros::Time& stamp) {
+  if (!heard()) return;
+  const OccupancyGrid& grid = map.grid();
+  const ProjectionChange change = map.takeChange();
+  const ProjectedMapOptions& options = map.options();
+  const bool for_someone_new =
+      someone_new_.exchange(false) && (options.latch || !options.always_send_full_map);
+  const bool changed = change.geometry || !change.cells.empty();
+  if (for_someone_new || change.geometry || (changed && (options.always_send_full_map || !sent_))) {
+    map_publisher_.publish(occupancyToMessage(grid, options.frame_id, stamp));
+    sent_ = true;
+  } else if (changed) {
+    map_msgs::OccupancyGridUpdate update = updateMessage(grid, change.cells);
+    update.header.frame_id = options.frame_id;
+    update.header.stamp = stamp;
+    update_publisher_.publish(update);
+  }
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,98 @@
+#include "ros/planning/map_publisher_node.h"
+
+#include <utility>
+
+#include "grid_path_planner/MapPublisherConfig.h"
+#include "grid_path_planner/ros/bag.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/parameters.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using grid::checkOccupancyValues;
+using grid::MapFileOptions;
+using grid::OccupancyGrid;
+
+namespace {
+
+MapPublisherOptions loadOptions(const ros::NodeHandle& private_nh, const std::string& filename) {
+  MapPublisherOptions options;
+  loadParameters(private_nh, options);
+  if (!filename.empty()) options.filename = filename;
+  checkMapPublisherOptions(options);
+  warnUnknownParameters(private_nh, optionNames<MapPublisherOptions>());
+  return options;
+}
+
+OccupancyGrid readMap(const std::string& filename) {
+  MapFileOptions options;
+  options.warn = [](const std::string& warning) { ROS_WARN_STREAM(warning); };
+  OccupancyGrid map = readAnyMapFile(filename, options);
+  checkOccupancyValues(map);
+  return map;
+}
+
+}  // namespace
+
+void checkMapPublisherOptions(const MapPublisherOptions& options) {
+  if (options.filename.empty())
+    throw InputError(
+        "filename must name a map file, got '': give it as `map_publisher FILE`, or as the "
+        "parameter "
+        "~filename (_filename:=FILE)");
+  if (options.frame_id.empty()) throw InputError("frame_id must name a frame, got ''");
+  if (options.topic.empty()) throw InputError("topic must name a topic, got ''");
+}
+
+MapPublisherNode::MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                                   const std::string& filename)
+    : options_(loadOptions(private_nh, filename)), nh_(nh) {
+  map_ = readMap(options_.filename);
+  map_publisher_ = nh.advertise<nav_msgs::OccupancyGrid>(options_.topic, 1, true);
+  metadata_publisher_ = nh.advertise<nav_msgs::MapMetaData>("map_metadata", 1, true);
+  service_ = nh.advertiseService("static_map", &MapPublisherNode::getMap, this);
+  reconfigurable_ = std::make_unique<Reconfigurable<MapPublisherConfig, MapPublisherOptions>>(
+      private_nh, options_, [this](const MapPublisherOptions& options) { use(options); });
+  timer_ = nh.createWallTimer(ros::WallDuration(0.02),
+                              [this](const ros::WallTimerEvent&) { publishOnceThereIsTime(); });
+}
+
+MapPublisherNode::~MapPublisherNode() {
+  timer_.stop();
+  service_.shutdown();
+}
+
+void MapPublisherNode::use(const MapPublisherOptions& options) {
+  checkMapPublisherOptions(options);
+  if (options.topic != options_.topic)
+    throw InputError("topic cannot be changed while the node runs, it is " + options_.topic);
+  map_ = readMap(options.filename);
+  options_ = options;
+  timer_.start();
+}
+
+void MapPublisherNode::publishOnceThereIsTime() {
+  if (!ros::Time::isValid()) {
+    ROS_WARN_THROTTLE(5.0, "use_sim_time is set and no /clock has come yet: waiting for it");
+    return;
+  }
+  timer_.stop();
+  message_ = occupancyToMessage(map_, frameName(options_.frame_id), ros::Time::now());
+  map_publisher_.publish(message_);
+  metadata_publisher_.publish(message_.info);
+  ROS_INFO_STREAM("Published " << options_.filename << ": " << map_.width() << "x" << map_.height()
+                               << " cells of " << map_.geometry().resolution() << " m on "
+                               << map_publisher_.getTopic());
+}
+
+bool MapPublisherNode::getMap(nav_msgs::GetMap::Request&, nav_msgs::GetMap::Response& response) {
+  if (message_.header.stamp.isZero()) {
+    ROS_ERROR("static_map was asked for before there was a ROS time to stamp the map with");
+    return false;
+  }
+  response.map = message_;
+  return true;
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,59 @@
+// The node map_publisher: a map file, latched.
+//
+//   publishes  projected_map (~topic)  nav_msgs/OccupancyGrid
+//              map_metadata            nav_msgs/MapMetaData
+//   serves     static_map              nav_msgs/GetMap
+//
+// The file is read once, at the start and again where ~filename is changed by dynamic_reconfigure;
+// one that cannot be read ends the node, or leaves the map as it is. Nothing is published before
+// there is a ROS time to stamp it with.
+#pragma once
+
+#include <nav_msgs/GetMap.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/service_server.h>
+#include <ros/wall_timer.h>
+
+#include <memory>
+#include <string>
+
+#include "grid_path_planner/grid/occupancy.h"
+#include "ros/planning/map_publisher_options.h"
+
+namespace grid_path_planner {
+class MapPublisherConfig;
+}  // namespace grid_path_planner
+
+namespace grid_path_planner::None {}  // namespace grid_path_planner::None
+
+namespace grid_path_planner::nodes {
+
+template <class Config, class Options>
+class Reconfigurable;
+
+class MapPublisherNode {
+ public:
+  // `filename`, unless empty, stands for the parameter: map_server's way to be given a file. Throws
+  // InputError for parameters and files that cannot be used.
+  MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                   const std::string& filename = "");
+  ~MapPublisherNode();
+
+ private:
+  void use(const MapPublisherOptions& options);
+  void publishOnceThereIsTime();
+  bool getMap(nav_msgs::GetMap::Request& request, nav_msgs::GetMap::Response& response);
+
+  MapPublisherOptions options_;
+  grid::OccupancyGrid map_;
+  nav_msgs::OccupancyGrid message_;  // stamp 0 until it is published
+  ros::NodeHandle nh_;
+  ros::Publisher map_publisher_;
+  ros::Publisher metadata_publisher_;
+  ros::ServiceServer service_;
+  ros::WallTimer timer_;
+  std::unique_ptr<Reconfigurable<MapPublisherConfig, MapPublisherOptions>> reconfigurable_;
+};
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,31 @@
+// Options of the node map_publisher.
+#pragma once
+
+#include <string>
+
+#include "grid_path_planner/base/options.h"
+
+namespace grid_path_planner::nodes {
+
+struct MapPublisherOptions {
+  std::string filename;  // required
+  std::string frame_id = "map";
+  std::string topic = "projected_map";
+};
+
+template <class Visitor>
+void visitOptions(MapPublisherOptions& o, Visitor&& visit) {
+  visit("filename", o.filename,
+        base::OptionInfo{"Map file: map_server YAML, MovingAI .map, image, rostopic dump or bag; "
+                         "required, unless the node's argument names it",
+                         ""});
+  visit("frame_id", o.frame_id, base::OptionInfo{"Frame that the map is published in", ""});
+  visit("topic", o.topic,
+        base::OptionInfo{"Latched topic that the map is published on; fixed while the node runs",
+                         ""});
+}
+
+// Throws InputError naming the option.
+void checkMapPublisherOptions(const MapPublisherOptions& options);
+
+}  // namespace grid_path_planner::nodes

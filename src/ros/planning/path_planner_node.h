@@ -1,0 +1,79 @@
+// The node path_planner: map + start + goal -> path.
+//
+// Topics, services, parameters: doc/nodes.md. Planning runs in a thread of its own, so every
+// callback stays live; a new goal stops the planning for the one before, whose result is dropped.
+// The path is planned again when the map comes to block what remains of it, and every
+// replan_period, from where tf has the vehicle; it is kept while it is about as good as the new one
+// (replan_policy.h).
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <ros/timer.h>
+#include <ros/wall_timer.h>
+
+#include <memory>
+
+#include "ros/planning/active_goal.h"
+#include "ros/planning/plan_action.h"
+#include "ros/planning/plan_diagnostics.h"
+#include "ros/planning/plan_services.h"
+#include "ros/planning/planning_server.h"
+#include "ros/planning/rectangle_publisher.h"
+
+namespace grid_path_planner {
+class PathPlannerConfig;
+}  // namespace grid_path_planner
+
+namespace grid_path_planner::None {}  // namespace grid_path_planner::None
+
+namespace grid_path_planner::nodes {
+
+template <class Config, class Options>
+class Reconfigurable;
+
+class PathPlannerNode {
+ public:
+  // Throws InputError for parameters that cannot be used. Its callbacks are served by the queue of
+  // `nh`, the services' by their own threads.
+  PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
+  // Stops what is under way; who waits for it is answered CANCELLED.
+  ~PathPlannerNode();
+
+ private:
+  // Callbacks
+  void onGoal(const geometry_msgs::PoseStamped& message);
+  void onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message);
+  void onOptions(const PathPlannerNodeOptions& options);
+  void onMapChange();
+  void startReplanTimer(double period);
+
+  // In the worker's thread
+  void planForGoal(const base::StopSource& stop);
+  bool keepsOldPath(const GoalState& goal, const PlanningResult& answer,
+                    const PlanningServer::Settings& settings, const base::StopSource& stop);
+  void useMap(const base::StopSource& stop);
+  void publishSearchedMap(const PathPlannerNodeOptions& options, const base::StopSource& stop);
+  void publishRectangles(const PathPlannerNodeOptions& options, bool map_changed);
+  bool goalPathBlocked(const PathPlannerNodeOptions& options, const base::StopSource& stop);
+
+  void postPlanForGoal();
+
+  ros::NodeHandle nh_;
+  ActiveGoal goals_;
+  std::shared_ptr<const costmap::CostGrid> published_costs_;  // the worker's
+  std::unique_ptr<RectanglePublisher> rectangles_;            // the worker's; null until wanted
+  std::unique_ptr<PlanningServer> desk_;
+  std::unique_ptr<PlanServices> services_;
+  std::unique_ptr<PlanAction> action_;
+  std::unique_ptr<PlanDiagnostics> diagnostics_;
+  std::unique_ptr<Reconfigurable<PathPlannerConfig, PathPlannerNodeOptions>> reconfigurable_;
+  ros::Subscriber goal_subscriber_;
+  ros::Subscriber initial_pose_subscriber_;
+  ros::Timer replan_timer_;
+  ros::WallTimer clock_timer_;
+};
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,24 @@
+#include "ros/planning/path_planner_options.h"
+
+#include "grid_path_planner/base/options.h"
+
+namespace grid_path_planner::nodes {
+
+using base::checkOptionLimits;
+using base::InputError;
+using planning::checkPlannerOptions;
+
+const std::vector<std::pair<const char*, GoalZ>>& choicesOf(GoalZ) {
+  static const std::vector<std::pair<const char*, GoalZ>> choices = {{"message", GoalZ::MESSAGE},
+                                                                     {"vehicle", GoalZ::VEHICLE}};
+  return choices;
+}
+
+void checkPathPlannerNodeOptions(const PathPlannerNodeOptions& options) {
+  checkOptionLimits(options);
+  checkPlannerOptions(options.planner);
+  if (options.map_frame.empty()) throw InputError("map_frame must name a frame, got ''");
+  if (options.base_frame.empty()) throw InputError("base_frame must name a frame, got ''");
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,70 @@
+// Options of the node path_planner: those of the planning itself and those of the node around it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/base/options.h"
+#include "grid_path_planner/planning/path_planner.h"
+
+namespace grid_path_planner::nodes {
+
+enum class GoalZ { MESSAGE, VEHICLE };
+const std::vector<std::pair<const char*, GoalZ>>& choicesOf(GoalZ);
+
+struct PathPlannerNodeOptions {
+  planning::PlannerOptions planner;
+  std::string map_frame = "map";
+  std::string base_frame = "base_link";
+  double tf_timeout = 0.5;  // s, steady clock
+  GoalZ goal_z_from = GoalZ::MESSAGE;
+  double replan_period = 0.0;      // s, ROS time; 0: never
+  double replan_hysteresis = 0.1;  // of the new path's cost
+  std::string waypoints_file;      // "": none
+  bool record_search = true;
+  bool publish_rectangles = false;
+};
+
+template <class Visitor>
+void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
+  visitOptions(o.planner, visit);
+  visit("map_frame", o.map_frame,
+        base::OptionInfo{"Frame of maps that name none, and of results before there is a map", ""}
+            .under("The node"));
+  visit("base_frame", o.base_frame,
+        base::OptionInfo{
+            "Frame of the vehicle, where paths start, unless initialpose said otherwise", ""});
+  visit("tf_timeout", o.tf_timeout,
+        base::OptionInfo{"How long a transform is waited for before TRANSFORM_ERROR", "s", 0, 60});
+  visit("goal_z_from", o.goal_z_from,
+        base::OptionInfo{
+            "Where the z of a goal comes from; vehicle: it is that of the start, for goals "
+            "of rviz have z = 0",
+            ""});
+  visit("replan_period", o.replan_period,
+        base::OptionInfo{
+            "Time between two plannings for the same goal; 0: only a new goal or a blocked "
+            "path is planned for",
+            "s", 0, 86400});
+  visit(
+      "replan_hysteresis", o.replan_hysteresis,
+      base::OptionInfo{"By which part of its own cost a new path must be cheaper than the old one, "
+                       "while that is passable, to "
+                       "replace it; 0.1: the old one costs more than 1.1 times as much",
+                       "", 0, 1000});
+  visit("waypoints_file", o.waypoints_file,
+        base::OptionInfo{"Waypoint file that every found plan is written to; empty: none", ""});
+  visit("record_search", o.record_search,
+        base::OptionInfo{
+            "Whether search_markers show the expanded cells; false saves 16 bytes for each", ""});
+  visit("publish_rectangles", o.publish_rectangles,
+        base::OptionInfo{"Whether rectangle_map and rectangle_markers show the searched map as "
+                         "rectangles, cut anew whenever it changes",
+                         ""});
+}
+
+// Throws InputError naming the option.
+void checkPathPlannerNodeOptions(const PathPlannerNodeOptions& options);
+
+}  // namespace grid_path_planner::nodes

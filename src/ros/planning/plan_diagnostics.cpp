@@ -1,0 +1,50 @@
+#include "ros/planning/plan_diagnostics.h"
+
+#include <optional>
+#include <string>
+
+namespace grid_path_planner::nodes {
+
+using base::Status;
+
+using diagnostic_msgs::DiagnosticStatus;
+
+PlanDiagnostics::PlanDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
+                                 PlanningServer& desk)
+    : desk_(desk), updater_(nh, private_nh, private_nh.getNamespace()) {
+  updater_.setHardwareID("none");
+  updater_.add("map", this, &PlanDiagnostics::reportMap);
+  updater_.add("plan", this, &PlanDiagnostics::reportPlan);
+  timer_ = nh.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
+    if (ros::Time::isValid()) updater_.force_update();
+  });
+}
+
+void PlanDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const ReceivedMap map = desk_.maps().latest();
+  const std::string refusal = desk_.maps().refusal();
+  if (!map.grid)
+    status.summary(DiagnosticStatus::WARN, "no map has come yet");
+  else
+    status.summary(DiagnosticStatus::OK, "a map is there");
+  if (!refusal.empty())
+    status.summary(DiagnosticStatus::ERROR, "the last message was refused: " + refusal);
+  if (!map.grid) return;
+  status.add("frame", map.frame_id);
+  status.add("width", map.grid->width());
+  status.add("height", map.grid->height());
+  status.add("resolution", map.grid->geometry().resolution());
+  status.add("age_s", (ros::Time::now() - map.stamp).toSec());
+}
+
+void PlanDiagnostics::reportPlan(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::optional<PlanningServer::Outcome> outcome = desk_.lastOutcome();
+  if (!outcome) {
+    status.summary(DiagnosticStatus::OK, "nothing has been asked yet");
+    return;
+  }
+  status.summary(outcome->status == Status::FOUND ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                 std::string(toString(outcome->status)) + ": " + outcome->message);
+}
+
+}  // namespace grid_path_planner::nodes

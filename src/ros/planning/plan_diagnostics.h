@@ -1,0 +1,26 @@
+// What path_planner reports on /diagnostics, once a second: the map and the last planning.
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <ros/wall_timer.h>
+
+#include "ros/planning/planning_server.h"
+
+namespace grid_path_planner::nodes {
+
+class PlanDiagnostics {
+ public:
+  // `desk` outlives this.
+  PlanDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, PlanningServer& desk);
+
+ private:
+  void reportMap(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportPlan(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  PlanningServer& desk_;
+  diagnostic_updater::Updater updater_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace grid_path_planner::nodes

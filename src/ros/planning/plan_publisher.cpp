@@ -1,0 +1,144 @@
+#include "ros/planning/plan_publisher.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid_path_planner/ros/conversions.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+
+namespace grid_path_planner::nodes {
+
+using costmap::CostGrid;
+using grid::CellIndex;
+using grid::Occupancy;
+using grid::OccupancyGrid;
+using path::Pose;
+using planning::Plan;
+
+namespace {
+
+constexpr std::size_t kMostMarkers = 50000;
+
+using visualization_msgs::Marker;
+
+Marker marker(const PlanningResult& answer, const char* name, int type, double size,
+              const ros::Time& stamp) {
+  Marker marker;
+  marker.header.frame_id = answer.report.path.frame_id;
+  marker.header.stamp = stamp;
+  marker.ns = name;
+  marker.type = type;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = marker.scale.y = size;
+  marker.scale.z = type == Marker::SPHERE_LIST ? size : 0.01;
+  marker.color.a = 1.0F;
+  return marker;
+}
+
+geometry_msgs::Point point(double x, double y, double z) {
+  geometry_msgs::Point point;
+  point.x = x;
+  point.y = y;
+  point.z = z;
+  return point;
+}
+
+// rviz shows the markers of an action only where there are points.
+void deleteIfEmpty(Marker& marker) {
+  if (marker.points.empty()) marker.action = Marker::DELETE;
+}
+
+}  // namespace
+
+PlanStatistics statisticsMessage(const PlanningResult& answer,
+                                 const geometry_msgs::PoseStamped& goal, const ros::Time& stamp) {
+  const Plan& report = answer.report;
+  PlanStatistics message;
+  message.header.frame_id = report.path.frame_id;
+  message.header.stamp = stamp;
+  message.status = std::string(toString(report.status));
+  message.message = report.message;
+  message.goal = goal;
+  message.planner = answer.planner;
+  message.heuristic = answer.heuristic;
+  message.kernel = report.kernel;
+  message.cost = report.costValue();
+  message.length_m = report.length_m;
+  message.turning_rad = answer.turning_rad;
+  message.clearance_m = answer.clearance_m;
+  message.cells = static_cast<std::uint32_t>(report.cells);
+  message.expanded = report.statistics.expanded;
+  message.generated = report.statistics.generated;
+  message.reopened = report.statistics.reopened;
+  message.peak_open = report.statistics.peak_open;
+  message.search_bytes = report.statistics.search_bytes;
+  message.planning_time_ms = report.statistics.time_s * 1000.0;
+  message.preparation_time_ms = report.preparation_time_s * 1000.0;
+  return message;
+}
+
+nav_msgs::OccupancyGrid planningMapMessage(const CostGrid& costs, const std::string& frame_id,
+                                           const ros::Time& stamp) {
+  const auto& weights = costs.weights().values();
+  const int largest = weights.empty() ? 1 : *std::max_element(weights.begin(), weights.end());
+  OccupancyGrid shown(costs.geometry());
+  for (std::uint32_t i = 0; i < shown.values().size(); ++i) {
+    const CellIndex index(i);
+    const int weight = costs.weights()[index];
+    if (weight == CostGrid::kBlocked)
+      shown[index] = 100;
+    else if (costs.classes()[index] == Occupancy::UNKNOWN)
+      shown[index] = -1;
+    else if (largest > 1)
+      shown[index] = static_cast<std::int8_t>(std::lround(99.0 * (weight - 1) / (largest - 1)));
+  }
+  return occupancyToMessage(shown, frame_id, stamp);
+}
+
+visualization_msgs::MarkerArray searchMarkers(const PlanningResult& answer, double cell_size,
+                                              const ros::Time& stamp) {
+  visualization_msgs::MarkerArray array;
+  const auto& cells = answer.report.expanded;
+  Marker expanded = marker(answer, "expanded", Marker::CUBE_LIST, cell_size, stamp);
+  expanded.color.g = 0.6F;
+  expanded.color.b = 0.9F;
+  expanded.color.a = 0.4F;
+  const std::size_t stride = cells.size() / kMostMarkers + 1;
+  for (std::size_t i = 0; i < cells.size(); i += stride)
+    expanded.points.push_back(point(cells[i].x(), cells[i].y(), 0.0));
+
+  Marker waypoints = marker(answer, "waypoints", Marker::SPHERE_LIST, cell_size * 0.6, stamp);
+  waypoints.color.r = 1.0F;
+  waypoints.color.g = 0.5F;
+  for (const Pose& pose : answer.report.path.poses)
+    waypoints.points.push_back(point(pose.position.x(), pose.position.y(), pose.position.z()));
+
+  for (Marker* each : {&expanded, &waypoints}) {
+    deleteIfEmpty(*each);
+    array.markers.push_back(*each);
+  }
+  return array;
+}
+
+PlanPublisher::PlanPublisher(ros::NodeHandle nh)
+    : path_(nh.advertise<nav_msgs::Path>("path", 1, true)),
+      map_(nh.advertise<nav_msgs::OccupancyGrid>("planning_map", 1, true)),
+      statistics_(nh.advertise<PlanStatistics>("plan_statistics", 1, true)),
+      markers_(nh.advertise<visualization_msgs::MarkerArray>("search_markers", 1, true)) {}
+
+void PlanPublisher::publishPath(const PlanningResult& answer) {
+  path_.publish(pathToMessage(answer.report.path, ros::Time::now()));
+}
+
+void PlanPublisher::publishSearch(const PlanningResult& answer,
+                                  const geometry_msgs::PoseStamped& goal, double cell_size) {
+  const ros::Time now = ros::Time::now();
+  statistics_.publish(statisticsMessage(answer, goal, now));
+  markers_.publish(searchMarkers(answer, cell_size, now));
+}
+
+void PlanPublisher::publishMap(const CostGrid& costs, const std::string& frame_id) {
+  map_.publish(planningMapMessage(costs, frame_id, ros::Time::now()));
+}
+
+}  // namespace grid_path_planner::nodes

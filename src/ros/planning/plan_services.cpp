@@ -1,0 +1,107 @@
+#include "ros/planning/plan_services.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/path/waypoint_file.h"
+#include "grid_path_planner/planners/planner_factory.h"
+#include "grid_path_planner/ros/conversions.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using path::Path;
+using path::writeWaypointFile;
+using planners::plannerNames;
+
+namespace {
+
+// A start without a frame stands for the vehicle's pose.
+std::optional<geometry_msgs::PoseStamped> startOf(const geometry_msgs::PoseStamped& start) {
+  return start.header.frame_id.empty() ? std::nullopt : std::make_optional(start);
+}
+
+// Every planner with each of the heuristics that it can use; one question for each.
+std::vector<PlanningRequest> questionsOf(const ComparePlans::Request& request) {
+  std::vector<PlanningRequest> questions;
+  PlanningRequest question;
+  question.start = startOf(request.start);
+  question.goal = request.goal;
+  for (const std::string& planner : request.planners.empty() ? plannerNames() : request.planners) {
+    question.planner = planner;
+    const bool several = usesHeuristic(planner) && !request.heuristics.empty();
+    for (const std::string& heuristic :
+         several ? request.heuristics : std::vector<std::string>{""}) {
+      question.heuristic = heuristic;
+      questions.push_back(question);
+    }
+  }
+  return questions;
+}
+
+}  // namespace
+
+PlanServices::PlanServices(ros::NodeHandle private_nh, PlanningServer& desk)
+    : desk_(desk), spinner_(2, &queue_) {
+  private_nh.setCallbackQueue(&queue_);
+  make_plan_ = private_nh.advertiseService("make_plan", &PlanServices::makePlan, this);
+  compare_plans_ = private_nh.advertiseService("compare_plans", &PlanServices::comparePlans, this);
+  save_waypoints_ =
+      private_nh.advertiseService("save_waypoints", &PlanServices::saveWaypoints, this);
+  spinner_.start();
+}
+
+PlanServices::~PlanServices() {
+  make_plan_.shutdown();
+  compare_plans_.shutdown();
+  save_waypoints_.shutdown();
+  spinner_.stop();
+}
+
+bool PlanServices::makePlan(nav_msgs::GetPlan::Request& request,
+                            nav_msgs::GetPlan::Response& response) {
+  PlanningRequest question;
+  question.start = startOf(request.start);
+  question.goal = request.goal;
+  if (request.tolerance != 0.0F) question.tolerance = request.tolerance;
+  const auto inquiry = desk_.ask(question, PlanningServer::Publish::YES);
+  inquiry->wait();
+  response.plan = pathToMessage(inquiry->answer().report.path, ros::Time::now());
+  return true;
+}
+
+bool PlanServices::comparePlans(ComparePlans::Request& request, ComparePlans::Response& response) {
+  for (const PlanningRequest& question : questionsOf(request)) {
+    const auto inquiry = desk_.ask(question, PlanningServer::Publish::NO);
+    inquiry->wait();
+    const ros::Time now = ros::Time::now();
+    response.results.push_back(statisticsMessage(inquiry->answer(), request.goal, now));
+    response.paths.push_back(pathToMessage(inquiry->answer().report.path, now));
+  }
+  return true;
+}
+
+bool PlanServices::saveWaypoints(SaveWaypoints::Request& request,
+                                 SaveWaypoints::Response& response) {
+  const std::string file =
+      request.filename.empty() ? desk_.settings().options.waypoints_file : request.filename;
+  const std::optional<Path> path = desk_.lastPath();
+  if (file.empty()) {
+    response.message = "no filename was given and ~waypoints_file is empty";
+  } else if (!path) {
+    response.message = "no path has been found yet";
+  } else {
+    try {
+      writeWaypointFile(file, *path);
+      response.success = true;
+      response.message = std::to_string(path->poses.size()) + " waypoints in " + file;
+    } catch (const InputError& error) {
+      response.message = error.what();
+    }
+  }
+  return true;
+}
+
+}  // namespace grid_path_planner::nodes

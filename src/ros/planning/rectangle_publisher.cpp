@@ -1,0 +1,80 @@
+#include "ros/planning/rectangle_publisher.h"
+
+#include <ros/console.h>
+
+#include <utility>
+
+#include "grid_path_planner/planners/decomposition.h"
+#include "ros/planning/rectangle_markers.h"
+
+namespace grid_path_planner::nodes {
+
+using base::Stopped;
+using base::StopSource;
+using base::StopToken;
+using costmap::BitMaps;
+using costmap::CostGrid;
+using grid::CellRect;
+using grid::GridGeometry;
+using planners::DecompositionLimits;
+using planners::DecompositionTooLarge;
+using planners::largestFirst;
+
+namespace {
+
+constexpr char kSlot[] = "rectangles";
+
+}  // namespace
+
+RectanglePublisher::RectanglePublisher(ros::NodeHandle nh)
+    : nh_(nh),
+      markers_(nh.advertise<visualization_msgs::MarkerArray>("rectangle_markers", 1, true)) {
+  advertiseMap();
+}
+
+void RectanglePublisher::clear() {
+  shown_ = false;
+  worker_.cancel(kSlot);
+  worker_.post(
+      [this](const StopSource&) {
+        map_.shutdown();
+        markers_.publish(rectangleMarkers({}, {}, "map", ros::Time::now()));
+      },
+      kSlot);
+}
+
+void RectanglePublisher::publish(std::shared_ptr<const CostGrid> costs, const std::string& frame_id,
+                                 std::size_t memory_limit) {
+  shown_ = true;
+  worker_.post(
+      [this, costs = std::move(costs), frame_id, memory_limit](const StopSource& stop) mutable {
+        try {
+          cutAndTell(std::move(costs), frame_id, memory_limit, stop.token());
+        } catch (const Stopped&) {
+          // Nobody wants the rectangles any more.
+        } catch (const DecompositionTooLarge&) {
+          ROS_ERROR(
+              "To cut this map into rectangles takes more than memory_limit, %zu MB: "
+              "they are not published",
+              memory_limit / 1000000);
+        }
+      },
+      kSlot);
+}
+
+void RectanglePublisher::cutAndTell(std::shared_ptr<const CostGrid> costs,
+                                    const std::string& frame_id, std::size_t memory_limit,
+                                    const StopToken& stop) {
+  const GridGeometry geometry = costs->geometry();
+  const BitMaps free = costs->bitMaps(stop);
+  costs.reset();  // while somebody holds it, the map cannot take its turn to be changed
+  DecompositionLimits limits;
+  limits.bytes = memory_limit;
+  const std::vector<CellRect> rectangles = largestFirst(free, limits, stop);
+  const ros::Time now = ros::Time::now();
+  if (!map_) advertiseMap();
+  map_.publish(rectanglesToMessage(geometry, rectangles, frame_id, now));
+  markers_.publish(rectangleMarkers(geometry, rectangles, frame_id, now));
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,52 @@
+// Tells the map that is searched as rectangles: `rectangle_map` and `rectangle_markers`, latched.
+//
+//   RectanglePublisher publisher(nh);
+//   publisher.publish(costs, "map", memory_limit);     // returns at once
+//
+// Maps are cut in a thread of their own, so nobody waits for that; where maps come faster than they
+// are cut, those in between are left out, and the last is always told. A map that would take more
+// than the limit to cut is refused with an error in the log, and the rectangles before it stay.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "grid_path_planner/base/task_queue.h"
+#include "grid_path_planner/costmap/cost_grid.h"
+#include "ros/planning/rectangle_messages.h"
+
+namespace grid_path_planner::nodes {
+
+class RectanglePublisher {
+ public:
+  // Advertises both topics.
+  explicit RectanglePublisher(ros::NodeHandle nh);
+  // Stops what is under way and takes the topics back.
+  ~RectanglePublisher() { worker_.stop(); }
+
+  // Takes rectangle_map back and deletes what rviz shows, which it keeps otherwise.
+  void clear();
+  // Whether publish() was called after the last clear().
+  bool shown() const { return shown_; }
+
+  // The passable cells of `costs`, in this frame. `memory_limit` in bytes.
+  void publish(std::shared_ptr<const costmap::CostGrid> costs, const std::string& frame_id,
+               std::size_t memory_limit);
+
+ private:
+  void cutAndTell(std::shared_ptr<const costmap::CostGrid> costs, const std::string& frame_id,
+                  std::size_t memory_limit, const base::StopToken& stop);
+  void advertiseMap() { map_ = nh_.advertise<RectangleMap>("rectangle_map", 1, true); }
+
+  ros::NodeHandle nh_;
+  ros::Publisher map_;  // of the worker's thread, as is markers_
+  ros::Publisher markers_;
+  bool shown_ = false;
+  base::TaskQueue worker_;
+};
+
+}  // namespace grid_path_planner::nodes

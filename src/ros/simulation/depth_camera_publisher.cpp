@@ -1,0 +1,157 @@
+#include "ros/simulation/depth_camera_publisher.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "grid_path_planner/base/options.h"
+
+namespace grid_path_planner::nodes {
+
+using base::sameOptions;
+using simulation::CameraIntrinsics;
+using simulation::DepthCameraOptions;
+using simulation::VehicleState;
+using simulation::World;
+
+namespace {
+
+Eigen::Isometry3d mapFromBase(const VehicleState& state) {
+  return Eigen::Translation3d(state.position) *
+         Eigen::AngleAxisd(state.yaw, Eigen::Vector3d::UnitZ());
+}
+
+Eigen::Isometry3d baseFromCamera(const DepthCameraOptions& o) {
+  return Eigen::Translation3d(o.x, o.y, o.z) * Eigen::AngleAxisd(o.yaw, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(o.pitch, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(o.roll, Eigen::Vector3d::UnitX());
+}
+
+geometry_msgs::TransformStamped transformOf(const std::string& frame, const std::string& child,
+                                            const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond q(pose.rotation());
+  geometry_msgs::TransformStamped transform;
+  transform.header.frame_id = frame;
+  transform.child_frame_id = child;
+  transform.transform.translation.x = pose.translation().x();
+  transform.transform.translation.y = pose.translation().y();
+  transform.transform.translation.z = pose.translation().z();
+  transform.transform.rotation.x = q.x();
+  transform.transform.rotation.y = q.y();
+  transform.transform.rotation.z = q.z();
+  transform.transform.rotation.w = q.w();
+  return transform;
+}
+
+sensor_msgs::PointCloud2 emptyCloud(const DepthCameraOptions& options) {
+  sensor_msgs::PointCloud2 cloud;
+  cloud.width = static_cast<std::uint32_t>(options.width);
+  cloud.height = static_cast<std::uint32_t>(options.height);
+  for (const char* name : {"x", "y", "z"}) {
+    sensor_msgs::PointField field;
+    field.name = name;
+    field.offset = static_cast<std::uint32_t>(cloud.fields.size() * sizeof(float));
+    field.datatype = sensor_msgs::PointField::FLOAT32;
+    field.count = 1;
+    cloud.fields.push_back(field);
+  }
+  cloud.point_step = 3 * sizeof(float);
+  cloud.row_step = cloud.point_step * cloud.width;
+  cloud.is_dense = false;
+  return cloud;
+}
+
+}  // namespace
+
+std::vector<geometry_msgs::TransformStamped> cameraTransforms(const DepthCameraOptions& options,
+                                                              const CameraFrameNames& frames) {
+  Eigen::Isometry3d camera_from_optical = Eigen::Isometry3d::Identity();
+  camera_from_optical.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // columns: right, down, ahead
+  return {transformOf(frames.base, frames.camera, baseFromCamera(options)),
+          transformOf(frames.camera, frames.optical, camera_from_optical)};
+}
+
+DepthCameraPublisher::DepthCameraPublisher(ros::NodeHandle& nh, const World& world,
+                                           const DepthCameraOptions& options,
+                                           const CameraFrameNames& frames)
+    : camera_(world, options), frames_(frames), period_ns_(std::llround(1e9 / options.rate)) {
+  points_publisher_ = nh.advertise<sensor_msgs::PointCloud2>("depth_camera/points", 10);
+  info_publisher_ = nh.advertise<sensor_msgs::CameraInfo>("depth_camera/camera_info", 10);
+  thread_ = std::thread([this] { work(); });
+}
+
+DepthCameraPublisher::~DepthCameraPublisher() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ends_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+bool DepthCameraPublisher::same(const DepthCameraOptions& options,
+                                const CameraFrameNames& frames) const {
+  return sameOptions(options, camera_.options()) && frames.base == frames_.base &&
+         frames.camera == frames_.camera && frames.optical == frames_.optical;
+}
+
+bool DepthCameraPublisher::busy() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return shot_.has_value();
+}
+
+void DepthCameraPublisher::take(const VehicleState& state, std::int64_t time_ns,
+                                const ros::Time& stamp) {
+  const std::int64_t frame = time_ns / period_ns_;
+  next_ns_ = (frame + 1) * period_ns_;
+  if (points_publisher_.getNumSubscribers() == 0 && info_publisher_.getNumSubscribers() == 0)
+    return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    shot_ = Shot{mapFromBase(state) * camera_.baseFromOptical(), static_cast<std::uint64_t>(frame),
+                 stamp};
+  }
+  changed_.notify_all();
+}
+
+void DepthCameraPublisher::work() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return ends_ || shot_; });
+    if (ends_) return;
+    const Shot shot = *shot_;
+    lock.unlock();
+    render(shot);
+    lock.lock();
+    shot_.reset();
+  }
+}
+
+void DepthCameraPublisher::render(const Shot& shot) {
+  sensor_msgs::CameraInfo info = cameraInfo();
+  info.header.stamp = shot.stamp;
+  info_publisher_.publish(info);
+  if (points_publisher_.getNumSubscribers() == 0) return;
+  std::vector<float> points;
+  camera_.render(shot.map_from_optical, shot.frame, points);
+  const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(emptyCloud(camera_.options()));
+  cloud->header = info.header;
+  cloud->data.resize(points.size() * sizeof(float));
+  std::memcpy(cloud->data.data(), points.data(), cloud->data.size());
+  points_publisher_.publish(cloud);
+}
+
+sensor_msgs::CameraInfo DepthCameraPublisher::cameraInfo() const {
+  const CameraIntrinsics k = camera_.intrinsics();
+  sensor_msgs::CameraInfo info;
+  info.header.frame_id = frames_.optical;
+  info.width = static_cast<std::uint32_t>(camera_.options().width);
+  info.height = static_cast<std::uint32_t>(camera_.options().height);
+  info.distortion_model = "plumb_bob";
+  info.D.assign(5, 0.0);
+  info.K = {k.fx, 0.0, k.cx, 0.0, k.fy, k.cy, 0.0, 0.0, 1.0};
+  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  info.P = {k.fx, 0.0, k.cx, 0.0, 0.0, k.fy, k.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return info;
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,93 @@
+// The depth camera of a simulated vehicle as topics.
+//
+//   DepthCameraPublisher camera(nh, world, options, frames);
+//   if (camera.due(time_ns)) {
+//     if (camera.busy()) return;            // simulated time waits
+//     camera.take(vehicle.state(), time_ns, stamp);
+//   }
+//
+//   depth_camera/points       sensor_msgs/PointCloud2, organised, x y z in the optical frame
+//                             (REP 103), NaN where nothing was measured
+//   depth_camera/camera_info  sensor_msgs/CameraInfo
+//
+// Guaranteed: nothing is rendered that nobody subscribes to; rendering is done in a thread of its
+// own, one picture at a time, in the order of the stamps; pictures are due at whole multiples of
+// 1 / rate of simulated time. Not guaranteed: that tf at the stamp is there before the picture; the
+// caller sends it before `take`.
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "grid_path_planner/simulation/depth_camera.h"
+#include "grid_path_planner/simulation/vehicle.h"
+
+namespace grid_path_planner::nodes {
+
+struct CameraFrameNames {
+  std::string base;
+  std::string camera;   // x ahead, z up
+  std::string optical;  // z ahead, y down
+};
+
+// base -> camera -> optical, without stamps.
+std::vector<geometry_msgs::TransformStamped> cameraTransforms(
+    const simulation::DepthCameraOptions& options, const CameraFrameNames& frames);
+
+class DepthCameraPublisher {
+ public:
+  // Throws InputError as DepthCamera's constructor does.
+  DepthCameraPublisher(ros::NodeHandle& nh, const simulation::World& world,
+                       const simulation::DepthCameraOptions& options,
+                       const CameraFrameNames& frames);
+  // Waits for the picture that is being rendered.
+  ~DepthCameraPublisher();
+
+  // Whether this is the camera that these would give.
+  bool same(const simulation::DepthCameraOptions& options, const CameraFrameNames& frames) const;
+
+  // Whether a picture is to be taken at this simulated time, which never goes back.
+  bool due(std::int64_t time_ns) const { return time_ns >= next_ns_; }
+  // Whether the last picture is still being rendered.
+  bool busy() const;
+  // Takes a picture from the vehicle at `state`, if anybody wants one. Only when not busy.
+  void take(const simulation::VehicleState& state, std::int64_t time_ns, const ros::Time& stamp);
+
+ private:
+  struct Shot {
+    Eigen::Isometry3d map_from_optical;
+    std::uint64_t frame;
+    ros::Time stamp;
+  };
+
+  void work();
+  void render(const Shot& shot);
+  sensor_msgs::CameraInfo cameraInfo() const;
+
+  simulation::DepthCamera camera_;
+  CameraFrameNames frames_;
+  std::int64_t period_ns_;
+  std::int64_t next_ns_ = 0;
+  ros::Publisher points_publisher_;
+  ros::Publisher info_publisher_;
+
+  mutable std::mutex mutex_;  // of the following
+  std::condition_variable changed_;
+  std::optional<Shot> shot_;  // until it is published
+  bool ends_ = false;
+  std::thread thread_;
+};
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,92 @@
+// The node `simulator`: a vehicle that follows cmd_vel in a world of its own, for trying the other
+// nodes without one.
+//
+//   subscribes  cmd_vel        geometry_msgs/Twist in base_link; zeroed cmd_vel_timeout after the
+//                              last
+//               projected_map  nav_msgs/OccupancyGrid; without ~world its occupied cells hold the
+//                              vehicle up
+//   publishes   ground_truth   nav_msgs/Odometry in map: where the vehicle is
+//               odom           nav_msgs/Odometry: where it believes to be
+//               tf             map -> odom (the identity) -> base_link -> camera_link
+//                              -> camera_optical_frame
+//               /clock         at real_time_factor; only with publish_clock
+//               contacts, contact     what the vehicle ran into (contact_publisher.h)
+//               depth_camera/points, depth_camera/camera_info     with ~world
+//                              (depth_camera_publisher.h)
+//
+// Guaranteed: the steps follow the wall clock, never the clock that they make. Where the machine is
+// too slow for the steps or for the pictures, simulated time goes slower; no step is left out, and
+// no picture that somebody subscribes to.
+#pragma once
+
+#include <geometry_msgs/Twist.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/steady_timer.h>
+#include <ros/subscriber.h>
+
+#include <memory>
+
+#include "grid_path_planner/simulation/dead_reckoning.h"
+#include "grid_path_planner/simulation/simulator_options.h"
+#include "grid_path_planner/simulation/vehicle.h"
+#include "ros/simulation/contact_publisher.h"
+#include "ros/simulation/depth_camera_publisher.h"
+#include "ros/simulation/vehicle_publisher.h"
+
+namespace grid_path_planner {
+class SimulatorConfig;
+}  // namespace grid_path_planner
+
+namespace grid_path_planner::None {}  // namespace grid_path_planner::None
+
+namespace grid_path_planner::nodes {
+
+template <class Config, class Options>
+class Reconfigurable;
+
+class SimulatorNode {
+ public:
+  // Throws InputError for parameters and a world that cannot be used. All callbacks are served by
+  // the queue of `nh`, which must be one thread's.
+  SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
+  ~SimulatorNode();
+
+ private:
+  void enterWorld();
+  void use(const simulation::SimulatorOptions& options);
+  void useCamera(const simulation::SimulatorOptions& options);
+  void putVehicle(const simulation::SimulatorOptions& options);
+  void startTimer();
+
+  void onCommand(const geometry_msgs::Twist& message);
+  void onMap(const nav_msgs::OccupancyGrid& message);
+  void onTimer(const ros::SteadyTimerEvent& event);
+  void collectTime();
+  void step();
+  bool timeMustWait() const;
+  void takePicture();
+  void publishState();
+  ros::Time now() const;
+
+  ros::NodeHandle nh_;
+  simulation::SimulatorOptions options_;
+  std::unique_ptr<simulation::Vehicle> vehicle_;
+  simulation::DeadReckoning odometry_;
+  std::shared_ptr<const simulation::World> world_;  // none: only the map's obstacles
+  double owed_ = 0.0;                               // s of simulated time that are due
+  ros::SteadyTime last_tick_;
+  ros::Time last_stamp_;
+
+  VehiclePublisher vehicle_publisher_;
+  ContactPublisher contact_publisher_;
+  std::unique_ptr<DepthCameraPublisher> camera_;  // with a world
+  ros::Publisher clock_publisher_;
+  ros::Subscriber command_subscriber_;
+  ros::Subscriber map_subscriber_;
+  ros::SteadyTimer timer_;
+  std::unique_ptr<Reconfigurable<SimulatorConfig, simulation::SimulatorOptions>> reconfigurable_;
+};
+
+}  // namespace grid_path_planner::nodes

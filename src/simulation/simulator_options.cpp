@@ -1,0 +1,39 @@
+#include "grid_path_planner/simulation/simulator_options.h"
+
+#include "grid_path_planner/base/decimal_text.h"
+#include "grid_path_planner/base/options.h"
+
+#include <set>
+#include <string>
+
+namespace grid_path_planner::simulation {
+
+using base::checkOptionLimits;
+using base::decimalText;
+using base::InputError;
+
+namespace {
+
+void checkFrames(const SimulatorOptions& o) {
+  std::set<std::string> names;
+  for (const std::string& name :
+       {o.map_frame, o.odom_frame, o.base_frame, o.camera_frame, o.camera_optical_frame}) {
+    if (name.empty()) throw InputError("the name of a frame must not be empty");
+    if (!names.insert(name).second)
+      throw InputError("frames must have different names, two are called " + name);
+  }
+}
+
+}  // namespace
+
+void checkSimulatorOptions(const SimulatorOptions& o) {
+  checkOptionLimits(o);
+  checkVehicleOptions(o.vehicle);
+  checkDepthCameraOptions(o.camera);
+  if (!o.publish_clock && o.real_time_factor != 1.0)
+    throw InputError("real_time_factor other than 1 needs publish_clock, got " +
+                     decimalText(o.real_time_factor));
+  checkFrames(o);
+}
+
+}  // namespace grid_path_planner::simulation

@@ -1,0 +1,72 @@
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "grid_path_planner/study/report.h"
+
+namespace grid_path_planner::study {
+namespace {
+
+using nlohmann::json;
+
+std::string csvCell(const TableCell& cell) {
+  if (cell.number) {
+    std::ostringstream out;
+    out.precision(12);
+    out << *cell.number;
+    return out.str();
+  }
+  if (cell.text.find_first_of(",\"\n") == std::string::npos) return cell.text;
+  std::string quoted = "\"";
+  for (const char letter : cell.text)
+    quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return quoted + '"';
+}
+
+json jsonOf(const Table& table) {
+  json rows = json::array();
+  for (const auto& row : table.rows) {
+    json object = json::object();
+    for (std::size_t i = 0; i < row.size(); ++i)
+      object[table.columns[i]] = row[i].number ? json(*row[i].number) : json(row[i].text);
+    rows.push_back(object);
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string csvOf(const Table& table) {
+  std::string out;
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    out += (i > 0 ? "," : "") + csvCell(table.columns[i]);
+  out += "\r\n";
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) out += (i > 0 ? "," : "") + csvCell(row[i]);
+    out += "\r\n";
+  }
+  return out;
+}
+
+std::string jsonReport(const StudyData& data, const std::vector<Finding>& findings,
+                       const std::vector<StudyFailure>& failures) {
+  json report = {{"title", data.study().title}, {"maps", json::array()},
+                 {"variants", json::array()},   {"settings", json::array()},
+                 {"findings", json::array()},   {"failures", json::array()},
+                 {"runs", json::array()}};
+  for (const StudyMap& map : data.study().maps)
+    report["maps"].push_back({{"name", map.name}, {"file", map.file}});
+  for (const StudyVariant& variant : data.study().variants)
+    report["variants"].push_back(variant.label);
+  for (const StudySetting& setting : data.study().settings)
+    report["settings"].push_back(setting.label);
+  for (const Finding& finding : findings)
+    report["findings"].push_back({{"question", finding.question},
+                                  {"answers", finding.answers},
+                                  {"table", jsonOf(finding.table)}});
+  for (const StudyFailure& failure : failures)
+    report["failures"].push_back({{"unit", failure.unit}, {"reason", failure.reason}});
+  for (const StudyRun& run : data.runs()) report["runs"].push_back(json::parse(lineOf(run)));
+  return report.dump(1) + '\n';
+}
+
+}  // namespace grid_path_planner::study

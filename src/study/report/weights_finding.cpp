@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <map>
+
+#include "grid_path_planner/study/findings.h"
+#include "study/report/finding_text.h"
+
+namespace grid_path_planner::study {
+
+using base::Status;
+
+namespace {
+
+struct Crossing {
+  std::string weights;
+  int kernel = 1;
+  std::string map;
+  std::size_t paths = 0;
+  std::size_t unknown = 0;   // paths that cross unknown cells
+  std::size_t occupied = 0;  // paths that cross occupied cells
+  std::vector<double> unknown_m, occupied_m, length_m;
+};
+
+// By the baseline's paths, which cost the least.
+std::vector<Crossing> crossingsOf(const StudyData& data) {
+  std::vector<Crossing> all;
+  for (const UnitRow& unit : data.units()) {
+    const StudyRun* run = unit[data.baseline()];
+    if (run == nullptr || run->status != Status::FOUND) continue;
+    const StudySetting& setting = data.settingOf(*run);
+    const std::string& map = data.study().maps[setting.map].name;
+    auto crossing = std::find_if(all.begin(), all.end(), [&](const Crossing& each) {
+      return each.weights == setting.weights && each.kernel == setting.terrain.kernel &&
+             each.map == map;
+    });
+    if (crossing == all.end()) {
+      all.push_back({setting.weights, setting.terrain.kernel, map, 0, 0, 0, {}, {}, {}});
+      crossing = all.end() - 1;
+    }
+    ++crossing->paths;
+    crossing->unknown += run->unknown_m > 0.0 ? 1 : 0;
+    crossing->occupied += run->occupied_m > 0.0 ? 1 : 0;
+    crossing->unknown_m.push_back(run->unknown_m);
+    crossing->occupied_m.push_back(run->occupied_m);
+    crossing->length_m.push_back(run->length_m);
+  }
+  return all;
+}
+
+// For every query, the share of the kernels at which its path crosses such cells.
+std::map<QueryKey, double> crossingShares(const StudyData& data, const std::string& weights,
+                                          double StudyRun::*metres) {
+  std::map<QueryKey, std::pair<int, int>> counts;
+  for (const UnitRow& unit : data.units()) {
+    const StudyRun* run = unit[data.baseline()];
+    if (run == nullptr || run->status != Status::FOUND || data.settingOf(*run).weights != weights)
+      continue;
+    auto& [crossing, all] = counts[data.queryOf(*run)];
+    crossing += run->*metres > 0.0 ? 1 : 0;
+    ++all;
+  }
+  std::map<QueryKey, double> shares;
+  for (const auto& count : counts)
+    shares[count.first] = static_cast<double>(count.second.first) / count.second.second;
+  return shares;
+}
+
+// "" where one of the two weights has no paths.
+std::string publishedAnswer(const StudyData& data, const std::string& what,
+                            const std::string& weights, const std::string& others) {
+  const auto metres = what == "unknown" ? &StudyRun::unknown_m : &StudyRun::occupied_m;
+  const auto here = crossingShares(data, weights, metres);
+  const auto there = crossingShares(data, others, metres);
+  std::vector<double> differences;
+  double sum_here = 0.0, sum_there = 0.0;
+  for (const auto& share : here) {
+    const auto other = there.find(share.first);
+    if (other == there.end()) continue;
+    differences.push_back(share.second - other->second);
+    sum_here += share.second;
+    sum_there += other->second;
+  }
+  if (differences.empty()) return "";
+  const auto n = static_cast<double>(differences.size());
+  const Interval more = meanDifference(differences);
+  std::string text = "Published: weights " + weights + " send paths through " + what +
+                     " cells. Here " + percentText(sum_here / n) + " of those paths cross them, " +
+                     percentText(sum_there / n) + " with weights " + others;
+  text += " (by query " + percentText(more.low) + " to " + percentText(more.high) + " more)";
+  if (more.low > 0.0) return text + ": it holds.";
+  if (sum_here == 0.0) return text + ": it does not hold on this map.";
+  return text +
+         "; the difference is inside the noise, so no such effect of the weights can be "
+         "claimed.";
+}
+
+}  // namespace
+
+Finding weightsFinding(const StudyData& data) {
+  Finding finding;
+  finding.question = "Where do the weights send the paths?";
+  finding.table = {"weights",
+                   "Paths of " + data.study().variants[data.baseline()].label +
+                       " that cross unknown or occupied cells of the full map, with 95 % "
+                       "intervals, and metres in them (mean).",
+                   {"map", "kernel", "weights", "paths", "cross unknown", "metres unknown",
+                    "cross occupied", "metres occupied", "length [m]"},
+                   {}};
+  const std::vector<Crossing> all = crossingsOf(data);
+  const auto mean = [](const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    return TableCell(sum / static_cast<double>(values.size()), 3);
+  };
+  for (const Crossing& each : all)
+    finding.table.rows.push_back({each.map, TableCell(each.kernel, 3), each.weights,
+                                  TableCell(static_cast<double>(each.paths), 3),
+                                  shareCell(each.unknown, each.paths, each.paths),
+                                  mean(each.unknown_m),
+                                  shareCell(each.occupied, each.paths, each.paths),
+                                  mean(each.occupied_m), mean(each.length_m)});
+  for (const auto& published : data.study().published.crossing) {
+    const std::string answer = publishedAnswer(data, published.second, published.first,
+                                               data.study().settings.front().weights);
+    if (!answer.empty()) finding.answers.push_back(answer);
+  }
+  return finding;
+}
+
+}  // namespace grid_path_planner::study

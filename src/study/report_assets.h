@@ -1,9 +1,0 @@
-// Style and script of the report.
-#pragma once
-
-namespace grid_path_planner {
-
-extern const char* const kReportStyle;
-extern const char* const kReportScript;
-
-}  // namespace grid_path_planner

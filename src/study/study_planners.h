@@ -1,0 +1,35 @@
+// The planners of a study: those of the package, and programs that exist to be compared with.
+//
+//   std::unique_ptr<Planner> planner = makeStudyPlanner("a_star_published", options, false);
+//
+// `theta_star` is Theta* as first published, which lazy_theta_star does better; `a_star_published`
+// is the original study's program, and tie-break `cross_product_published` what it added to its
+// estimates. None of the three is for driving, so path_planner and `grid_path plan` know none.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/planners/planner_factory.h"
+
+namespace grid_path_planner::study {
+
+// TieBreak, and the published one.
+enum class StudyTieBreak { NONE, LARGER_G, CROSS_PRODUCT, CROSS_PRODUCT_PUBLISHED };
+const std::vector<std::pair<const char*, StudyTieBreak>>& choicesOf(StudyTieBreak);
+
+// What planners that know no published tie-break are given: one that keeps as strict an order.
+planners::TieBreak orderOf(StudyTieBreak tie_break);
+
+// With `published_cross`, tie-break cross_product_published takes the place of options.tie_break.
+// Throws InputError for options that cannot be used, and as makePlanner() does for unknown names.
+std::unique_ptr<planners::Planner> makeStudyPlanner(const std::string& name,
+                                                    const planners::SearchOptions& options,
+                                                    bool published_cross);
+
+// Whether the package's planners lack it.
+bool inStudiesOnly(const std::string& planner, bool published_cross);
+
+}  // namespace grid_path_planner::study

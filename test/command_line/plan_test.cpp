@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "grid_path_planner/path/waypoint_file.h"
+#include "run_command.h"
+#include "support/error_text.h"
+#include "support/temporary_folder.h"
+
+namespace grid_path_planner::command_line {
+
+using path::Path;
+using path::readWaypointFile;
+
+namespace {
+
+using test::contains;
+
+class Plan : public testing::Test {
+ protected:
+  Outcome plan(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"plan", "--map", map_});
+    return runCommand(runPlan, arguments);
+  }
+
+  const test::TemporaryFolder folder_;
+  const std::string map_ = folder_.write("small.map",
+                                         "type octile\nheight 3\nwidth 4\nmap\n"
+                                         "....\n"
+                                         ".@@.\n"
+                                         "....\n");
+};
+
+TEST_F(Plan, PrintsOneObjectWithTheContractsFields) {
+  const Outcome outcome = plan({"--cells", "--start", "0,0", "--goal", "3,2", "--json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  const auto object = nlohmann::json::parse(outcome.printed);
+  for (const char* field : {"status", "message", "cost", "length_m", "cells", "expanded",
+                            "generated", "planning_time_ms", "search_bytes"})
+    EXPECT_TRUE(object.contains(field)) << field;
+  EXPECT_EQ(object["status"], "FOUND");
+  EXPECT_EQ(object["cost"], 5.0);
+  EXPECT_EQ(object["cells"], 6);
+}
+
+TEST_F(Plan, NoPathIsExitCodeOneAndHasItsReason) {
+  const Outcome outcome = plan({"--cells", "--start", "1,1", "--goal", "3,2", "--json"});
+  EXPECT_EQ(outcome.code, 1);
+  const auto object = nlohmann::json::parse(outcome.printed);
+  EXPECT_EQ(object["status"], "START_OCCUPIED");
+  EXPECT_TRUE(object["cost"].is_null());
+}
+
+TEST_F(Plan, NegativeNumbersParse) {
+  const Outcome outside = plan({"--start", "-1.5,2", "--goal", "0.5,0.5"});
+  EXPECT_EQ(outside.code, 1) << outside.error;
+  EXPECT_TRUE(contains(outside.printed, "START_OUTSIDE_MAP")) << outside.printed;
+  EXPECT_TRUE(contains(outside.printed, "(-1.5, 2)")) << outside.printed;
+  EXPECT_EQ(plan({"--start=-1.5,2", "--goal=0.5,0.5"}).code, 1);
+}
+
+// As the parameters of the nodes and the messages spell them.
+TEST_F(Plan, NamesOfOptionsMayHaveUnderscores) {
+  EXPECT_EQ(plan({"--start", "0.5,0.5", "--goal=3.5,2.5", "--heuristic_scale", "1"}).code, 0);
+  EXPECT_EQ(plan({"--start", "0.5,0.5", "--goal=3.5,2.5", "--heading=along_me"}).error,
+            plan({"--start", "0.5,0.5", "--goal=3.5,2.5", "--heading", "along_me"}).error);
+}
+
+TEST_F(Plan, WritesPictureAndWaypoints) {
+  const std::string picture = folder_.path("path.png");
+  const std::string waypoints = folder_.path("waypoints.yaml");
+  const Outcome outcome = plan({"--start", "0.5,0.5,3", "--goal", "3.5,2.5,5,1.5", "--image",
+                                picture, "--waypoints", waypoints});
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(test::contentOf(picture).substr(1, 3), "PNG");
+  const Path path = readWaypointFile(waypoints);
+  EXPECT_EQ(path.poses.front().position, Eigen::Vector3d(0.5, 0.5, 3.0));
+  EXPECT_EQ(path.poses.back().position, Eigen::Vector3d(3.5, 2.5, 5.0));
+  EXPECT_NEAR(path.poses.back().yaw, 1.5, 1e-12);
+}
+
+TEST_F(Plan, OptionsReachThePlanner) {
+  const std::vector<std::string> ends = {"--cells", "--start", "0,0", "--goal", "3,2", "--json"};
+  const auto costWith = [&](std::vector<std::string> more) {
+    more.insert(more.end(), ends.begin(), ends.end());
+    const Outcome outcome = plan(more);
+    EXPECT_EQ(outcome.code, 0) << outcome.error << outcome.printed;
+    return nlohmann::json::parse(outcome.printed)["cost"].get<double>();
+  };
+  EXPECT_EQ(costWith({"--weights", "3,50,100"}), 15.0);
+  EXPECT_EQ(costWith({"--planner", "dijkstra", "--connectivity", "4"}), 5.0);
+  EXPECT_EQ(
+      costWith({"--occupied-is-passable", "true", "--weights", "1,1,1", "--diagonal-cost", "unit"}),
+      3.0);
+}
+
+TEST_F(Plan, SaysWhetherThePathIsTheCheapest) {
+  const auto optimalWith = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--cells", "--start", "0,0", "--goal", "3,2", "--json"});
+    testing::internal::CaptureStderr();
+    const Outcome outcome = plan(more);
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    const std::string warning = testing::internal::GetCapturedStderr();
+    const bool optimal = nlohmann::json::parse(outcome.printed)["optimal"];
+    EXPECT_EQ(contains(warning, "may not be the cheapest"),
+              !optimal && more[0] != "--planner" && more[0] != "--smooth")
+        << warning;
+    return optimal;
+  };
+  EXPECT_TRUE(optimalWith({}));
+  EXPECT_TRUE(optimalWith({"--planner", "dijkstra"}));
+  EXPECT_FALSE(optimalWith({"--planner", "lazy_theta_star"}));
+  EXPECT_FALSE(optimalWith({"--smooth", "true"}));
+  EXPECT_FALSE(optimalWith({"--epsilon", "2"}));
+  EXPECT_FALSE(optimalWith({"--heuristic", "manhattan"}));
+}
+
+TEST_F(Plan, OptionsThatChangeNothingAreTold) {
+  const auto warningsWith = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--start", "0.5,0.5", "--goal", "3.5,2.5"});
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(plan(more).code, 0);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(warningsWith({"--planner", "jump_point", "--epsilon", "2"}),
+            "warning: --epsilon changes nothing with planner jump_point\n");
+  EXPECT_EQ(warningsWith({"--landmarks", "4"}),
+            "warning: --landmarks changes nothing with heuristic octile\n");
+  EXPECT_EQ(warningsWith({"--planner", "polyanya", "--smooth", "true"}),
+            "warning: --smooth changes nothing with planner polyanya\n");
+  EXPECT_EQ(warningsWith({"--landmarks", "4", "--heuristic", "landmark"}), "");
+  EXPECT_EQ(warningsWith({"--planner", "rectangle_map", "--rectangle-weight", "area"}), "");
+}
+
+TEST_F(Plan, BadInputIsNamed) {
+  const auto errorWith = [&](std::vector<std::string> arguments) {
+    const Outcome outcome = plan(std::move(arguments));
+    EXPECT_EQ(outcome.code, kBadInput) << outcome.printed;
+    return outcome.error;
+  };
+  const std::vector<std::string> ends = {"--start", "0.5,0.5", "--goal", "3.5,0.5"};
+  const auto with = [&ends](std::vector<std::string> more) {
+    more.insert(more.end(), ends.begin(), ends.end());
+    return more;
+  };
+  EXPECT_TRUE(contains(errorWith({"--start", "nan,1", "--goal", "1,1"}), "--start"));
+  EXPECT_TRUE(contains(errorWith({"--start", "1", "--goal", "1,1"}), "--start"));
+  EXPECT_TRUE(contains(errorWith({"--start", "1,x", "--goal", "1,1"}), "'x'"));
+  EXPECT_TRUE(contains(errorWith({"--cells", "--start", "1.5,1", "--goal", "1,1"}), "whole"));
+  EXPECT_TRUE(contains(errorWith({"--start", "1,1"}), "--goal is missing; usage: grid_path plan"));
+  EXPECT_TRUE(contains(errorWith({}), "--start and --goal are missing"));
+  EXPECT_EQ(errorWith(with({"--resolution", "-0.1"})),
+            "--resolution must be a positive number of metres, got -0.1");
+  EXPECT_TRUE(contains(errorWith(with({"--planner", "fastest"})), "a_star"));
+  EXPECT_TRUE(contains(errorWith(with({"--heuristic", "best"})), "octile"));
+  EXPECT_TRUE(contains(errorWith(with({"--kernel", "0"})), "kernel"));
+  EXPECT_TRUE(contains(errorWith(with({"--kernel", "2.5"})), "kernel"));
+  EXPECT_TRUE(contains(errorWith(with({"--weights", "0,1,2"})), "--weights"));
+  EXPECT_TRUE(contains(errorWith(with({"--weights", "1,nan,2"})), "--weights"));
+  EXPECT_TRUE(contains(errorWith(with({"--radius", "-1"})), "radius"));
+  EXPECT_TRUE(contains(errorWith(with({"--no-such-option"})), "no-such-option"));
+  EXPECT_TRUE(contains(errorWith(with({"stray"})), "stray"));
+  EXPECT_TRUE(contains(errorWith(with({"--waypoints", map_ + "/w.yaml"})), "w.yaml"));
+  EXPECT_TRUE(contains(errorWith(with({"--image", map_ + "/p.png"})), "p.png"));
+}
+
+}  // namespace
+}  // namespace grid_path_planner::command_line

@@ -1,0 +1,74 @@
+// Between centres the fast walks say the same as the general ones, to the last bit.
+#include "grid_path_planner/costmap/line_cost.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "grid_path_planner/costmap/line_of_sight.h"
+#include "support/random_map.h"
+
+namespace grid_path_planner::costmap {
+
+using base::StopToken;
+using grid::Cell;
+using grid::Grid;
+using grid::GridGeometry;
+using grid::Occupancy;
+
+namespace {
+
+void expectTheSame(const CostGrid& map, Cell from, Cell to, int& legal) {
+  const SegmentPoint a = SegmentPoint::centreOf(from), b = SegmentPoint::centreOf(to);
+  const bool expected = lineOfSight(map, a, b);
+  const bool cut_corners = map.motion().cut_corners;
+  ASSERT_EQ(centresInSight(map.bitMaps(StopToken()), from, to, cut_corners), expected);
+  const std::optional<double> cost = centreSegmentCost(map, from, to);
+  ASSERT_EQ(cost.has_value(), expected);
+  if (!expected) return;
+  ++legal;
+  ASSERT_EQ(*cost, lineCost(map, a, b));
+  EXPECT_EQ(centreSegmentCost(map, from, to, *cost), cost);
+  EXPECT_FALSE(*cost > 0.0 && centreSegmentCost(map, from, to, *cost * (1.0 - 1e-9) - 1e-5));
+}
+
+TEST(CentreSegmentLaw, IsTheGeneralSegment) {
+  std::mt19937 random(2010);
+  int legal = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    MotionModel motion;
+    motion.cut_corners = trial % 4 == 0;
+    const CostGrid map = test::randomCosts(random, trial % 3 == 0 ? 150 : 16, motion);
+    for (int i = 0; i < 60; ++i) {
+      const Cell from = test::randomCell(random, map.geometry());
+      const Cell near{from.column + static_cast<int>(random() % 13) - 6,
+                      from.row + static_cast<int>(random() % 13) - 6};
+      const bool local = i % 2 == 0 && map.geometry().contains(near);
+      const Cell to = local ? near : test::randomCell(random, map.geometry());
+      if (map.passable(from)) expectTheSame(map, from, to, legal);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(legal, 3000);
+}
+
+TEST(CentreSegmentLaw, LongSightIsTheGeneralSegment) {
+  std::mt19937 random(64);
+  int legal = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    Grid<CostGrid::Weight> weights(GridGeometry(300, 200, 1.0), 1);
+    for (int i = 0; i < 300; ++i) weights[test::randomCell(random, weights.geometry())] = 0;
+    const CostGrid map(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), {});
+    for (int i = 0; i < 60; ++i) {
+      const Cell from = test::randomCell(random, map.geometry());
+      const Cell to = test::randomCell(random, map.geometry());
+      if (map.passable(from)) expectTheSame(map, from, to, legal);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(legal, 500);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::costmap

@@ -1,0 +1,249 @@
+// What becomes of cost grids when the map changes: the newest is like a freshly made one, the ones
+// handed out before stay as they were.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+#include <random>
+
+#include "grid_path_planner/costmap/costmap_builder.h"
+#include "support/ascii_map.h"
+#include "support/random_map.h"
+
+namespace grid_path_planner::costmap {
+
+using base::Stopped;
+using base::StopSource;
+using base::StopToken;
+using grid::Cell;
+using grid::CellIndex;
+using grid::CellRect;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+
+namespace {
+
+using Costs = std::shared_ptr<const CostGrid>;
+
+std::shared_ptr<const OccupancyGrid> shared(const std::vector<std::string>& lines) {
+  return std::make_shared<const OccupancyGrid>(test::AsciiMap(lines).map);
+}
+
+Costs freshlySearched(const OccupancyGrid& map, const CostmapOptions& options) {
+  CostmapBuilder fresh(options);
+  fresh.setMap(std::make_shared<const OccupancyGrid>(map));
+  return fresh.downsampled(StopToken());
+}
+
+void expectSame(const CostGrid& updated, const CostGrid& fresh) {
+  ASSERT_EQ(updated.weights(), fresh.weights());
+  ASSERT_EQ(updated.classes(), fresh.classes());
+  EXPECT_EQ(updated.minWeight(), fresh.minWeight());
+  EXPECT_EQ(updated.maxWeight(), fresh.maxWeight());
+  EXPECT_EQ(updated.uniform(), fresh.uniform());
+  EXPECT_EQ(updated.bitMaps(StopToken()).rows, fresh.bitMaps(StopToken()).rows);
+  EXPECT_EQ(updated.bitMaps(StopToken()).columns, fresh.bitMaps(StopToken()).columns);
+  EXPECT_EQ(updated.original(), fresh.original());
+  EXPECT_EQ(updated.kernel(), fresh.kernel());
+}
+
+CostmapOptions randomOptions(std::mt19937& random) {
+  CostmapOptions options;
+  options.kernel = 1 + static_cast<int>(random() % 4);
+  options.kernel_rule = random() % 3 == 0 ? KernelRule::FILTER2D : KernelRule::CONSERVATIVE;
+  options.radius = static_cast<double>(random() % 3) * 0.8;
+  options.decay = static_cast<double>(random() % 2) * 0.7;
+  options.free_weight = random() % 4 == 0 ? 60 : 1;
+  return options;
+}
+
+// Draws new values in a rectangle of the map and gives it.
+CellRect scribble(std::mt19937& random, OccupancyGrid& map) {
+  const Cell low = test::randomCell(random, map.geometry());
+  const CellRect rect = CellRect{low.column, low.row, 1 + static_cast<int>(random() % 6),
+                                 1 + static_cast<int>(random() % 6)}
+                            .intersection(map.geometry().rect());
+  const std::int8_t values[] = {0, 0, 0, 100, -1, 10};
+  for (int row = rect.row; row < rect.row + rect.height; ++row)
+    for (int column = rect.column; column < rect.column + rect.width; ++column)
+      map[Cell{column, row}] = values[random() % 6];
+  return rect;
+}
+
+TEST(TerrainUpdates, TheGridBeforeStaysAsItWas) {
+  CostmapBuilder terrain({});
+  terrain.setMap(shared({"...", "..."}));
+  const Costs first = terrain.fullResolution(StopToken());
+  terrain.updateMap(shared({"...", ".#."}), {1, 1, 1, 1});
+  const Costs second = terrain.fullResolution(StopToken());
+  EXPECT_TRUE(first->passable({1, 1}));
+  EXPECT_FALSE(second->passable({1, 1}));
+  EXPECT_EQ(second->revision(), first->revision() + 1);
+}
+
+TEST(TerrainUpdates, TwoGridsTakeTurnsOnceNobodyHoldsThem) {
+  CostmapBuilder terrain({});
+  terrain.setMap(shared({"...", "..."}));
+  const CostGrid* first = terrain.fullResolution(StopToken()).get();
+  terrain.updateMap(shared({"..#", "..."}), {2, 0, 1, 1});
+  Costs second = terrain.fullResolution(StopToken());
+  terrain.updateMap(shared({"..#", "#.."}), {0, 1, 1, 1});
+  EXPECT_EQ(terrain.fullResolution(StopToken()).get(), first);
+  terrain.updateMap(shared({"...", "#.."}), {2, 0, 1, 1});
+  EXPECT_NE(terrain.fullResolution(StopToken()), second);  // somebody holds it
+}
+
+TEST(TerrainUpdates, WhatChangesNoClassMakesNoNewGrid) {
+  CostmapBuilder terrain({});
+  auto map = std::make_shared<OccupancyGrid>(test::AsciiMap({"...", "..."}).map);
+  terrain.setMap(map);
+  const Costs before = terrain.downsampled(StopToken());
+  (*map)[Cell{1, 1}] = 7;  // free as before
+  terrain.updateMap(map, map->geometry().rect());
+  EXPECT_EQ(terrain.downsampled(StopToken()), before);
+}
+
+TEST(TerrainUpdates, AStoppedUpdateLosesNothing) {
+  CostmapOptions options;
+  options.radius = 3.0;
+  options.kernel = 2;
+  OccupancyGrid map(GridGeometry(300, 300, 1.0), 0);
+  CostmapBuilder terrain(options);
+  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+  const Costs before = terrain.downsampled(StopToken());
+  for (std::uint32_t i = 0; i < map.values().size(); i += 900) map[CellIndex(i)] = 100;
+  terrain.updateMap(std::make_shared<const OccupancyGrid>(map), map.geometry().rect());
+  StopSource source;
+  source.cancel();
+  EXPECT_THROW(terrain.downsampled(source.token()), Stopped);
+  EXPECT_TRUE(before->passable({0, 0}));
+  expectSame(*terrain.downsampled(StopToken()), *freshlySearched(map, options));
+}
+
+// What a sensor sees change: everything in a rectangle becomes `to`, where it was one of `from`.
+struct Seen {
+  std::vector<std::int8_t> from;
+  std::int8_t to;
+};
+
+CellRect see(std::mt19937& random, const Seen& seen, OccupancyGrid& map) {
+  const Cell low = test::randomCell(random, map.geometry());
+  const CellRect rect = CellRect{low.column - 3, low.row - 3, 1 + static_cast<int>(random() % 10),
+                                 1 + static_cast<int>(random() % 10)}
+                            .intersection(map.geometry().rect());
+  for (int row = rect.row; row < rect.row + rect.height; ++row)
+    for (int column = rect.column; column < rect.column + rect.width; ++column) {
+      std::int8_t& value = map[Cell{column, row}];
+      if (std::find(seen.from.begin(), seen.from.end(), value) != seen.from.end()) value = seen.to;
+    }
+  return rect;
+}
+
+TEST(TerrainUpdatesLaw, WhatAppearsVanishesOrIsSeenLeavesAGridLikeAFreshOne) {
+  const std::vector<Seen> kinds = {{{0, -1}, 100}, {{0}, 100}, {{100}, 0},     {{100, -1}, 0},
+                                   {{-1}, 0},      {{0}, -1},  {{100, 0}, -1}, {{100}, -1}};
+  struct Rings {
+    double radius;
+    double decay;
+    int inflation_weight;
+  };
+  std::mt19937 random(17);
+  for (const Rings& rings : {Rings{0, 0, 40}, Rings{0, 0.4, 40}, Rings{3.5, 0, 40},
+                             Rings{2, 0.5, 40}, Rings{1, 0.3, 90}, Rings{0.5, 30, 40}}) {
+    SCOPED_TRACE("radius " + std::to_string(rings.radius) + " decay " +
+                 std::to_string(rings.decay));
+    for (int trial = 0; trial < 24; ++trial) {
+      OccupancyGrid map = test::randomOccupancy(random, 60, trial % 3 * 0.02, 0.1);
+      CostmapOptions options;
+      options.radius = rings.radius;
+      options.decay = rings.decay;
+      options.inflation_weight = rings.inflation_weight;
+      options.occupied_is_passable = rings.radius == 0.0 && trial % 4 == 3;
+      options.unknown_is_passable = trial % 2 == 0;
+      options.unknown_weight = trial % 5 == 0 ? 1 : 50;
+      options.free_weight = trial % 7 == 0 ? 45 : 1;
+      options.kernel = 1 + trial % 3 / 2;
+      CostmapBuilder terrain(options);
+      terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+      for (int edit = 0; edit < 12; ++edit) {
+        const Costs before = terrain.downsampled(StopToken());
+        for (unsigned i = 0; i <= random() % 4 / 3; ++i) {
+          const CellRect changed = see(random, kinds[random() % kinds.size()], map);
+          terrain.updateMap(std::make_shared<const OccupancyGrid>(map), changed);
+        }
+        const Costs after = terrain.downsampled(StopToken());
+        expectSame(*after, *freshlySearched(map, options));
+        if (HasFatalFailure()) return;
+        for (std::uint32_t i = 0; i < after->geometry().size(); ++i)
+          if (after->weights()[CellIndex(i)] != before->weights()[CellIndex(i)]) {
+            ASSERT_TRUE(terrain.downsampledChange().contains(after->geometry().cell(CellIndex(i))));
+          }
+      }
+    }
+  }
+}
+
+// Only what a sensor makes occupied, or no longer so, reaches farther than it.
+TEST(TerrainUpdates, AChangeReachesNoFartherThanItMust) {
+  CostmapOptions options;
+  options.radius = 2.0;
+  CostmapBuilder terrain(options);
+  OccupancyGrid map(GridGeometry(20, 20, 1.0), -1);
+  const auto changeAfter = [&](std::int8_t value) {
+    map[Cell{10, 10}] = value;
+    terrain.updateMap(std::make_shared<const OccupancyGrid>(map), map.geometry().rect());
+    terrain.downsampled(StopToken());
+    return terrain.downsampledChange();
+  };
+  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+  terrain.downsampled(StopToken());
+  EXPECT_EQ(changeAfter(0), (CellRect{10, 10, 1, 1}));
+  EXPECT_EQ(changeAfter(-1), (CellRect{10, 10, 1, 1}));
+  EXPECT_EQ(changeAfter(100), (CellRect{8, 8, 5, 5}));
+  EXPECT_EQ(changeAfter(0), (CellRect{8, 8, 5, 5}));
+}
+
+TEST(TerrainUpdatesLaw, AGridAfterUpdatesIsLikeAFreshOneAndTheOthersStay) {
+  struct Held {
+    Costs costs;
+    CostGrid copy;
+  };
+  std::mt19937 random(9);
+  for (int trial = 0; trial < 80; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    OccupancyGrid map = test::randomOccupancy(random, 50, 0.04, 0.1);
+    const CostmapOptions options = randomOptions(random);
+    CostmapBuilder terrain(options);
+    terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+    std::deque<Held> held;
+    for (int edit = 0; edit < 12; ++edit) {
+      const Costs before = terrain.downsampled(StopToken());
+      held.push_back({before, *before});
+      while (random() % 2 == 0 && !held.empty()) held.pop_front();
+
+      for (unsigned i = 0; i <= random() % 3; ++i) {
+        const CellRect changed = scribble(random, map);
+        terrain.updateMap(std::make_shared<const OccupancyGrid>(map), changed);
+      }
+      const Costs after = terrain.downsampled(StopToken());
+      expectSame(*after, *freshlySearched(map, options));
+      for (const Held& each : held) {
+        ASSERT_EQ(each.costs->weights(), each.copy.weights());
+        ASSERT_EQ(each.costs->classes(), each.copy.classes());
+        ASSERT_EQ(each.costs->revision(), each.copy.revision());
+        ASSERT_EQ(each.costs->bitMaps(StopToken()).rows,
+                  BitMaps(each.copy.weights(), StopToken()).rows);
+      }
+      if (after == before) continue;
+      EXPECT_EQ(after->revision(), before->revision() + 1);
+      for (std::uint32_t i = 0; i < after->weights().values().size(); ++i)
+        if (after->weights().values()[i] != before->weights().values()[i]) {
+          ASSERT_TRUE(terrain.downsampledChange().contains(after->geometry().cell(CellIndex(i))));
+        }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner::costmap

@@ -1,0 +1,398 @@
+// The tree of least-cost ways to a goal, repaired while the map changes and the start moves: every
+// cost is compared with a search that shares no code with it.
+#include "planners/replanning/backward_search_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <random>
+#include <set>
+
+#include "planners/astar/dijkstra.h"
+#include "planners/replanning/incremental_a_star.h"
+#include "support/random_map.h"
+#include "support/reference_search.h"
+
+namespace grid_path_planner::planners {
+
+using base::Status;
+using base::Stopped;
+using base::StopSource;
+using base::StopToken;
+using costmap::Connectivity;
+using costmap::CostGrid;
+using costmap::costOfSteps;
+using costmap::DiagonalCost;
+using costmap::ExactCost;
+using costmap::MotionModel;
+using costmap::stepAllowed;
+using grid::Cell;
+using grid::CellIndex;
+using grid::CellRect;
+using grid::Grid;
+using grid::GridGeometry;
+using grid::Occupancy;
+
+namespace {
+
+using Map = std::shared_ptr<const CostGrid>;
+
+MotionModel motionOf(std::mt19937& random) {
+  MotionModel motion;
+  if (random() % 3 != 0) return motion;
+  motion.connectivity = random() % 2 == 0 ? Connectivity::EIGHT : Connectivity::FOUR;
+  motion.diagonal_cost = random() % 2 == 0 ? DiagonalCost::SQRT2 : DiagonalCost::UNIT;
+  motion.cut_corners = random() % 2 == 0;
+  return motion;
+}
+
+struct Edited {
+  Map map;
+  CellRect changed;
+};
+
+// New weights in a small rectangle: blocked, open, as it was when the world began, or any.
+Edited edited(std::mt19937& random, const CostGrid& before, const CostGrid& world) {
+  Grid<CostGrid::Weight> weights = before.weights();
+  const Cell low = test::randomCell(random, before.geometry());
+  const int side = 1 + static_cast<int>(random() % 7);
+  const CellRect changed =
+      CellRect{low.column, low.row, side, side}.intersection(before.geometry().rect());
+  const unsigned kind = random() % 4;
+  for (int row = changed.row; row < changed.row + changed.height; ++row)
+    for (int column = changed.column; column < changed.column + changed.width; ++column) {
+      const Cell cell{column, row};
+      const CostGrid::Weight choices[] = {CostGrid::kBlocked, before.minWeight(),
+                                          world.weight(cell),
+                                          static_cast<CostGrid::Weight>(random() % 40)};
+      weights[cell] = choices[kind];
+    }
+  auto map = std::make_shared<CostGrid>(weights, before.classes(), before.motion());
+  map->setRevision(before.revision() + 1);
+  return {map, changed};
+}
+
+std::optional<ExactCost> leastCost(const CostGrid& map, Cell start, Cell goal) {
+  return test::referenceCosts(map, goal)[map.geometry().index(start).value()];
+}
+
+void expectLeast(const CostGrid& map, Cell start, Cell goal, bool found,
+                 const SearchResult& result) {
+  const auto least = leastCost(map, start, goal);
+  ASSERT_EQ(found, least.has_value());
+  if (!least) return;
+  ASSERT_FALSE(result.cells.empty());
+  EXPECT_EQ(result.cells.front(), start);
+  EXPECT_EQ(result.cells.back(), goal);
+  for (std::size_t i = 1; i < result.cells.size(); ++i)
+    ASSERT_TRUE(stepAllowed(map, result.cells[i - 1], result.cells[i]));
+  ASSERT_EQ(result.cost, *least);
+  EXPECT_EQ(costOfSteps(map, result.cells), *least);
+}
+
+// One way to a goal over a changing world.
+class Journey {
+ public:
+  Journey(std::mt19937& random, int largest_side)
+      : random_(random),
+        world_(std::make_shared<const CostGrid>(
+            test::randomCosts(random, largest_side, motionOf(random)))),
+        map_(world_),
+        start_(test::randomCell(random, map_->geometry())),
+        goal_(test::randomCell(random, map_->geometry())) {}
+
+  bool possible() const { return map_->passable(start_) && map_->passable(goal_); }
+  const Map& map() const { return map_; }
+  Cell start() const { return start_; }
+  Cell goal() const { return goal_; }
+
+  CellRect edit() {
+    const Edited next = edited(random_, *map_, *world_);
+    map_ = next.map;
+    return next.changed;
+  }
+  // Along the path, or to anywhere.
+  void move(const std::vector<Cell>& path) {
+    if (random_() % 6 == 0 || path.empty())
+      start_ = test::randomCell(random_, map_->geometry());
+    else
+      start_ = path[std::min<std::size_t>(path.size() - 1, random_() % 4)];
+  }
+
+ private:
+  std::mt19937& random_;
+  Map world_;
+  Map map_;
+  Cell start_;
+  Cell goal_;
+};
+
+// The status that `search` gives; none where labels do not hold the cost.
+template <class Search>
+std::optional<Status> unlessTooDear(const Search& search) {
+  try {
+    return search();
+  } catch (const CostOverflow&) {
+    return std::nullopt;
+  }
+}
+
+TEST(GoalTreeLaw, KeptWaysCostTheLeast) {
+  std::mt19937 random(2002);
+  int plans = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    Journey journey(random, trial % 8 == 0 ? 100 : 28);
+    if (!journey.possible()) continue;
+    MovePruning moves;
+    moves.build(*journey.map(), StopToken());
+    BackwardSearchTree tree;
+    tree.prepare(*journey.map(), moves);
+    SearchResult result;
+    const auto begun = unlessTooDear([&] {
+      return tree.begin(*journey.map(), journey.goal(), journey.start(), trial % 3, false, result,
+                        StopToken());
+    });
+    if (!begun) continue;
+    expectLeast(*journey.map(), journey.start(), journey.goal(), begun == Status::FOUND, result);
+    for (int edit = 0; edit < 14; ++edit) {
+      const Map before = journey.map();
+      const CellRect changed = journey.edit();
+      moves.update(*journey.map(), changed, StopToken());
+      tree.update(*before, *journey.map(), changed);
+      journey.move(result.cells);
+      if (!journey.possible() || random() % 4 == 0) continue;
+      if (!tree.usableFor(*journey.map(), journey.goal())) break;  // something cheaper than all
+      result = {};
+      const auto status = unlessTooDear(
+          [&] { return tree.plan(*journey.map(), journey.start(), false, result, StopToken()); });
+      if (!status) break;
+      ++plans;
+      expectLeast(*journey.map(), journey.start(), journey.goal(), status == Status::FOUND, result);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(plans, 1000);
+}
+
+// A tree for `goal` that was asked for one plan.
+struct Asked {
+  Asked(const CostGrid& map, Cell goal, Cell start, double ahead) {
+    moves.build(map, StopToken());
+    tree.prepare(map, moves);
+    tree.begin(map, goal, start, ahead, false, result, StopToken());
+  }
+  void update(const CostGrid& before, const CostGrid& after, const CellRect& changed) {
+    moves.update(after, changed, StopToken());
+    tree.update(before, after, changed);
+    result = {};
+  }
+
+  MovePruning moves;
+  BackwardSearchTree tree;
+  SearchResult result;
+};
+
+TEST(BackwardNodes, NothingIsLeftOfATreeWhenItsNumberComesAgain) {
+  const Grid<CostGrid::Weight> weights(GridGeometry(3, 1, 1.0), 1);
+  const CostGrid map(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), MotionModel());
+  MovePruning moves;
+  moves.build(map, StopToken());
+  BackwardNodes labels;
+  labels.prepare(map, moves);
+  for (int tree = 0; tree < 70000; ++tree) {
+    labels.begin(0);
+    ASSERT_EQ(labels.state(0), BackwardNodes::OPEN);
+    ASSERT_EQ(labels.state(1), BackwardNodes::UNLABELLED) << "tree " << tree;
+    if (tree == 0) labels.set(1, 5, 2, BackwardNodes::CLOSED);
+  }
+}
+
+TEST(BackwardSearchTree, NothingIsDoneForAChangeThatDoesNotMatter) {
+  const Grid<CostGrid::Weight> weights(GridGeometry(40, 40, 1.0), 1);
+  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  const CostGrid before(weights, classes, MotionModel());
+  Grid<CostGrid::Weight> changed = weights;
+  changed[Cell{2, 37}] = CostGrid::kBlocked;
+  const CostGrid after(changed, classes, MotionModel());
+  Asked asked(before, {35, 3}, {3, 3}, 3);
+  const std::vector<Cell> path = asked.result.cells;
+  asked.update(before, after, {2, 37, 1, 1});
+  EXPECT_EQ(asked.tree.plan(after, {3, 3}, false, asked.result, StopToken()), Status::FOUND);
+  EXPECT_EQ(asked.result.statistics.expanded, 0U);
+  EXPECT_EQ(asked.result.cells, path);
+}
+
+// The goal's label is 0, which once stood for "none yet" where labels are compared.
+TEST(BackwardSearchTree, ACheaperCellBesideTheGoalIsSeen) {
+  Grid<CostGrid::Weight> weights(GridGeometry(4, 3, 1.0), 2);
+  for (const Cell cell : {Cell{1, 0}, Cell{1, 1}, Cell{1, 2}}) weights[cell] = 3;
+  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  const CostGrid before(weights, classes, MotionModel());
+  weights[Cell{1, 1}] = 2;
+  const CostGrid after(weights, classes, MotionModel());
+  Asked asked(before, {0, 0}, {3, 1}, 3);
+  asked.update(before, after, {1, 1, 1, 1});
+  const Status status = asked.tree.plan(after, {3, 1}, false, asked.result, StopToken());
+  expectLeast(after, {3, 1}, {0, 0}, status == Status::FOUND, asked.result);
+}
+
+TEST(BackwardSearchTree, AStoppedPlanGoesOn) {
+  Grid<CostGrid::Weight> weights(GridGeometry(150, 150, 1.0), 1);
+  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  const CostGrid before(weights, classes, MotionModel());
+  const CellRect wall{75, 5, 1, 140};
+  for (int row = wall.row; row < wall.row + wall.height; ++row)
+    weights[Cell{75, row}] = CostGrid::kBlocked;
+  const CostGrid after(weights, classes, MotionModel());
+  Asked asked(before, {140, 75}, {10, 75}, 0);
+  asked.update(before, after, wall);
+  StopSource source;
+  source.cancel();
+  EXPECT_THROW(asked.tree.plan(after, {10, 75}, false, asked.result, source.token()), Stopped);
+  asked.result = {};
+  const Status status = asked.tree.plan(after, {10, 75}, false, asked.result, StopToken());
+  expectLeast(after, {10, 75}, {140, 75}, status == Status::FOUND, asked.result);
+}
+
+TEST(IncrementalAStarLaw, PlansOnTheWayCostTheLeast) {
+  std::mt19937 random(1968);
+  for (int trial = 0; trial < 1000; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    Journey journey(random, trial % 8 == 0 ? 100 : 28);
+    IncrementalAStar planner;
+    planner.prepare(journey.map(), StopToken());
+    SearchResult result;
+    for (int edit = 0; edit < 12; ++edit) {
+      if (journey.possible()) {
+        result = planner.search({journey.start(), {journey.goal()}, false}, StopToken());
+        expectLeast(*journey.map(), journey.start(), journey.goal(), result.status == Status::FOUND,
+                    result);
+        if (HasFatalFailure()) return;
+      }
+      const CellRect changed = journey.edit();
+      planner.update(journey.map(), changed, StopToken());
+      journey.move(result.cells);
+    }
+  }
+}
+
+// A large map with a post here and there, across which every plan leads.
+class Crossing {
+ public:
+  Crossing() : weights_(GridGeometry(400, 400, 1.0), 1) {
+    for (int i = 0; i < 400 * 400; i += 97) weights_[CellIndex(i)] = 30;
+    planner_.prepare(map(), StopToken());
+  }
+
+  void change(const CellRect& rect, CostGrid::Weight weight) {
+    for (int row = rect.row; row < rect.row + rect.height; ++row)
+      for (int column = rect.column; column < rect.column + rect.width; ++column)
+        weights_[Cell{column, row}] = weight;
+    ++revision_;
+    planner_.update(map(), rect, StopToken());
+  }
+  // The cells that a plan took, which costs the least.
+  std::uint64_t expanded() {
+    const SearchRequest request{{20, 20}, {{390, 200}}, false};
+    Dijkstra dijkstra;
+    dijkstra.prepare(map(), StopToken());
+    const SearchResult result = planner_.search(request, StopToken());
+    EXPECT_EQ(result.cost, dijkstra.search(request, StopToken()).cost);
+    return result.statistics.expanded;
+  }
+
+ private:
+  Map map() const {
+    const Grid<Occupancy> classes(weights_.geometry(), Occupancy::FREE);
+    auto map = std::make_shared<CostGrid>(weights_, classes, MotionModel());
+    map->setRevision(revision_);
+    return map;
+  }
+
+  Grid<CostGrid::Weight> weights_;
+  std::uint64_t revision_ = 0;
+  IncrementalAStar planner_;
+};
+
+// A search follows the change: not the map, and not the way that is left.
+TEST(IncrementalAStar, ExpandsAroundAChangeOnly) {
+  Crossing crossing;
+  const std::uint64_t first = crossing.expanded();
+  const CellRect block{25, 15, 3, 12};
+  crossing.change(block, CostGrid::kBlocked);
+  EXPECT_LT(crossing.expanded(), first / 20);
+  crossing.change(block, 1);
+  EXPECT_LT(crossing.expanded(), first / 20);
+  crossing.change({200, 0, 2, 215}, CostGrid::kBlocked);
+  EXPECT_GT(crossing.expanded(), 100U);
+  crossing.change({2, 390, 3, 3}, CostGrid::kBlocked);
+  EXPECT_EQ(crossing.expanded(), 0U);
+}
+
+// A door that stays closed: a tree that has none of the ways around it is given up in time.
+TEST(IncrementalAStar, ATreeThatIsOfNoUseAnyMoreIsGivenUp) {
+  Crossing crossing;
+  const std::uint64_t first = crossing.expanded();
+  crossing.change({385, 0, 2, 399}, CostGrid::kBlocked);  // but for one row
+  std::uint64_t detours = 0;
+  for (int plan = 0; plan < 40; ++plan) {
+    crossing.change({398, 2, 1, 1}, plan % 2 == 0 ? 2 : 1);  // so that it may not keep the last way
+    detours += crossing.expanded();
+  }
+  EXPECT_GT(detours, 2 * first);
+  EXPECT_LT(detours, 6 * first);
+  EXPECT_EQ(crossing.expanded(), 0U);
+}
+
+TEST(HeapOnTopQueue, GivesTheLeastKeyWhateverTheOrderOfItsCalls) {
+  std::mt19937 random(17);
+  for (int trial = 0; trial < 50; ++trial) {
+    HeapOnTopQueue queue;
+    queue.begin(random() % 1000, 1 + random() % 50);
+    std::multiset<SearchKey> reference;
+    const auto renew = [](HeapOnTopQueue::Entry&) { return true; };
+    for (int call = 0; call < 2000; ++call) {
+      if (random() % 3 != 0) {
+        const SearchKey key = random() % (trial % 2 == 0 ? 3000 : 3000000);
+        queue.push({key, 0, 0});
+        reference.insert(key);
+        continue;
+      }
+      const SearchKey bound = random() % 4000;
+      const HeapOnTopQueue::Entry* first = queue.first(bound, renew);
+      ASSERT_EQ(first != nullptr, !reference.empty() && *reference.begin() <= bound);
+      if (first == nullptr) continue;
+      ASSERT_EQ(first->key, *reference.begin());
+      queue.pop();
+      reference.erase(reference.begin());
+      ASSERT_EQ(queue.size(), reference.size());
+    }
+  }
+}
+
+// The tree's labels end at 3.2 million cells x weight.
+TEST(IncrementalAStar, WaysDearerThanLabelsHoldAreFoundAllTheSame) {
+  Grid<CostGrid::Weight> weights(GridGeometry(60, 60, 1.0), 65535);
+  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  const MotionModel motion;
+  IncrementalAStar planner;
+  planner.prepare(std::make_shared<CostGrid>(weights, classes, motion), StopToken());
+  const auto planned = [&](Cell goal) {
+    return planner.search({{0, 0}, {goal}, false}, StopToken());
+  };
+  EXPECT_EQ(planned({20, 0}).cost, (ExactCost{20 * 65535, 0}));
+  EXPECT_EQ(planned({59, 59}).cost, (ExactCost{0, 59 * 65535}));
+
+  const CellRect wall{30, 0, 1, 59};
+  for (int row = 0; row < 59; ++row) weights[Cell{30, row}] = CostGrid::kBlocked;
+  auto changed = std::make_shared<CostGrid>(weights, classes, motion);
+  changed->setRevision(1);
+  planner.update(changed, wall, StopToken());
+  const SearchResult around = planned({59, 0});
+  expectLeast(*changed, {0, 0}, {59, 0}, around.status == Status::FOUND, around);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::planners

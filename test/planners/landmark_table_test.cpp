@@ -1,0 +1,182 @@
+#include "grid_path_planner/planners/landmark_table.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "grid_path_planner/planners/exact_table.h"
+#include "grid_path_planner/planners/precomputed_table.h"
+#include "support/random_map.h"
+#include "support/reference_search.h"
+
+namespace grid_path_planner::planners {
+
+using base::Stopped;
+using base::StopSource;
+using base::StopToken;
+using costmap::CostGrid;
+using costmap::ExactCost;
+using grid::Cell;
+using grid::CellIndex;
+using grid::CellRect;
+using grid::Grid;
+using grid::GridGeometry;
+using grid::Occupancy;
+
+namespace {
+
+SearchKey keyOf(const ExactCost& cost) {
+  return static_cast<SearchKey>(cost.straight) * kStraightKey +
+         static_cast<SearchKey>(cost.diagonal) * kDiagonalKey;
+}
+
+std::uint32_t drawPassable(std::mt19937& random, const CostGrid& map) {
+  for (int i = 0; i < 1000; ++i) {
+    const Cell cell = test::randomCell(random, map.geometry());
+    if (map.passable(cell)) return map.geometry().index(cell).value();
+  }
+  return 0;
+}
+
+// `map` with some cells of a random rectangle, which is given too, weighing something else.
+CostGrid edited(std::mt19937& random, const CostGrid& map, CellRect& changed) {
+  const Cell low = test::randomCell(random, map.geometry());
+  changed = CellRect{low.column, low.row, 4, 3}.intersection(map.geometry().rect());
+  Grid<CostGrid::Weight> weights = map.weights();
+  for (int row = changed.row; row < changed.row + changed.height; ++row)
+    for (int column = changed.column; column < changed.column + changed.width; ++column)
+      weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 4);
+  return CostGrid(weights, map.classes(), map.motion());
+}
+
+template <class Bound>
+void expectBounds(const Bound& bound, const CostGrid& map, std::uint32_t goal) {
+  const auto costs = test::referenceCosts(map, map.geometry().cell(CellIndex(goal)));
+  EXPECT_EQ(bound(goal), 0U);
+  for (std::uint32_t i = 0; i < costs.size(); ++i)
+    if (costs[i]) {
+      ASSERT_LE(bound(i), keyOf(*costs[i])) << "from " << map.geometry().cell(CellIndex(i));
+    }
+}
+
+TEST(LandmarkTable, BoundsAreNoLargerThanTheCost) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 60; ++trial) {
+    const CostGrid map = test::randomCosts(random, 24, {});
+    const LandmarkTable table(map, 1 + trial % 20, StopToken());
+    const std::uint32_t goal = drawPassable(random, map);
+    expectBounds(LandmarkBound(table, {}, goal), map, goal);
+  }
+}
+
+// To a landmark the bound is the cost, but for the rounding of dear maps.
+TEST(LandmarkTable, KnowsTheCostsOfItsLandmarks) {
+  std::mt19937 random(2);
+  int exact = 0;
+  int rounded = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const CostGrid map = test::randomCosts(random, 24, {});
+    const LandmarkTable table(map, 4, StopToken());
+    const CostDecreases unchanged;
+    for (const Cell landmark : table.landmarks()) {
+      const std::uint32_t goal = map.geometry().index(landmark).value();
+      const LandmarkBound bound(table, unchanged, goal);
+      const auto costs = test::referenceCosts(map, landmark);
+      for (std::uint32_t i = 0; i < costs.size(); ++i)
+        if (costs[i] && table.unit().exact()) {
+          EXPECT_EQ(bound(i), keyOf(*costs[i]));
+        } else if (costs[i]) {
+          EXPECT_GE(static_cast<double>(bound(i)), 0.999 * static_cast<double>(keyOf(*costs[i])));
+        }
+    }
+    (table.unit().exact() ? exact : rounded) += 1;
+  }
+  EXPECT_GT(exact, 0);
+  EXPECT_GT(rounded, 0);
+}
+
+TEST(LandmarkTable, SameMapSameTable) {
+  std::mt19937 random(3);
+  const CostGrid map = test::randomCosts(random, 40, {});
+  const LandmarkTable a(map, 8, StopToken());
+  const LandmarkTable b(map, 8, StopToken());
+  EXPECT_EQ(a.landmarks(), b.landmarks());
+  for (std::uint32_t i = 0; i < map.geometry().size(); ++i)
+    EXPECT_TRUE(std::equal(a.row(i), a.row(i) + a.stride(), b.row(i)));
+}
+
+TEST(LandmarkTable, TheFirstLiesAtAnEnd) {
+  const CostGrid map(Grid<CostGrid::Weight>(GridGeometry(30, 1, 1.0), 1),
+                     Grid<Occupancy>(GridGeometry(30, 1, 1.0), Occupancy::FREE), {});
+  const LandmarkTable table(map, 2, StopToken());
+  ASSERT_EQ(table.landmarks().size(), 2U);
+  EXPECT_EQ(table.landmarks().front().column % 29, 0);
+}
+
+TEST(LandmarkTable, StopsWhenAsked) {
+  std::mt19937 random(4);
+  const CostGrid map = test::randomCosts(random, 200, {});
+  StopSource stop;
+  stop.cancel();
+  EXPECT_THROW(LandmarkTable(map, 16, stop.token()), Stopped);
+  EXPECT_THROW(ExactTable(map, stop.token()), Stopped);
+}
+
+// One change after the other, with the table of the first map: the cells that got cheaper are told,
+// the dearer ones need not be.
+TEST(CostDecreases, BoundsStayBoundsWhileTheMapChanges) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 60; ++trial) {
+    CostGrid map = test::randomCosts(random, 30, {});
+    const LandmarkTable table(map, 6, StopToken());
+    CostDecreases cheaper;
+    for (int change = 0; change < 8; ++change) {
+      CellRect changed;
+      CostGrid next = edited(random, map, changed);
+      const CellRect rect = cheaperCells(map, next, changed);
+      map = std::move(next);
+      if (!rect.empty()) cheaper.add(table, map.geometry(), rect);
+      const std::uint32_t goal = drawPassable(random, map);
+      if (map.passable(map.geometry().cell(CellIndex(goal))))
+        expectBounds(LandmarkBound(table, cheaper, goal), map, goal);
+    }
+  }
+}
+
+TEST(CheaperCells, AreThoseOfASmallerWeight) {
+  const Grid<Occupancy> classes(GridGeometry(6, 5, 1.0), Occupancy::FREE);
+  Grid<CostGrid::Weight> weights(classes.geometry(), 5);
+  weights[Cell{4, 1}] = CostGrid::kBlocked;
+  const CostGrid before(weights, classes, {});
+  weights[Cell{0, 0}] = 6;                   // dearer
+  weights[Cell{1, 3}] = CostGrid::kBlocked;  // dearer
+  const CellRect all = classes.geometry().rect();
+  EXPECT_TRUE(cheaperCells(before, CostGrid(weights, classes, {}), all).empty());
+  weights[Cell{2, 2}] = 4;
+  weights[Cell{4, 1}] = 60000;
+  EXPECT_EQ(cheaperCells(before, CostGrid(weights, classes, {}), all), (CellRect{2, 1, 3, 2}));
+  EXPECT_EQ(cheaperCells(before, CostGrid(weights, classes, {}), (CellRect{0, 2, 6, 3})),
+            (CellRect{2, 2, 1, 1}));
+}
+
+TEST(ExactTable, BoundsAreTheCost) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 30; ++trial) {
+    const CostGrid map = test::randomCosts(random, 16, {});
+    const ExactTable table(map, StopToken());
+    const std::uint32_t goal = drawPassable(random, map);
+    if (!map.passable(map.geometry().cell(CellIndex(goal)))) continue;
+    const ExactBound bound(table, {}, goal);
+    expectBounds(bound, map, goal);
+    const auto costs = test::referenceCosts(map, map.geometry().cell(CellIndex(goal)));
+    for (std::uint32_t i = 0; i < costs.size(); ++i) {
+      if (costs[i])
+        EXPECT_GE(static_cast<double>(bound(i)), 0.999999 * static_cast<double>(keyOf(*costs[i])));
+      else
+        EXPECT_TRUE(bound(i) == kInfiniteKey || !map.passable(map.geometry().cell(CellIndex(i))));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,173 @@
+#include "grid_path_planner/planners/move_pruning.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/ascii_map.h"
+#include "support/random_map.h"
+
+namespace grid_path_planner::planners {
+
+using base::StopToken;
+using costmap::Connectivity;
+using costmap::CostGrid;
+using costmap::DiagonalCost;
+using costmap::MotionModel;
+using costmap::stepAllowed;
+using grid::Cell;
+using grid::CellIndex;
+using grid::Grid;
+using grid::GridGeometry;
+using grid::Occupancy;
+
+namespace {
+
+constexpr unsigned kEast = 0, kNorth = 1, kWest = 2, kSouth = 3, kNorthEast = 4, kSouthEast = 7;
+
+std::uint32_t bits(const std::vector<unsigned>& steps) {
+  std::uint32_t all = 0;
+  for (const unsigned step : steps) all |= 1U << step;
+  return all;
+}
+
+// Free cells weigh 2, '?' 9; north is the next line.
+CostGrid costsOf(const std::vector<std::string>& lines) {
+  const test::AsciiMap picture(lines);
+  Grid<CostGrid::Weight> weights(picture.map.geometry(), 2);
+  for (std::size_t i = 0; i < weights.values().size(); ++i) {
+    if (picture.map.values()[i] == 100) weights.values()[i] = CostGrid::kBlocked;
+    if (picture.map.values()[i] == -1) weights.values()[i] = 9;
+  }
+  Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
+  return CostGrid(std::move(weights), std::move(classes), MotionModel());
+}
+
+std::uint32_t afterInTheMiddle(const std::vector<std::string>& lines, unsigned step) {
+  MovePruning moves;
+  moves.build(costsOf(lines), StopToken());
+  return moves.after(1U << step, 4);
+}
+
+TEST(Moves, GoStraightOnInTheOpen) {
+  const std::vector<std::string> open = {"...", "...", "..."};
+  EXPECT_EQ(afterInTheMiddle(open, kEast), bits({kEast}));
+  EXPECT_EQ(afterInTheMiddle(open, kSouth), bits({kSouth}));
+  EXPECT_EQ(afterInTheMiddle(open, kNorthEast), bits({kNorthEast, kNorth, kEast}));
+}
+
+TEST(Moves, TurnAroundWhatIsBlocked) {
+  EXPECT_EQ(afterInTheMiddle({"...", "...", "#.."}, kEast), bits({kEast, kNorth, 4}));
+  EXPECT_EQ(afterInTheMiddle({"#..", "...", "..."}, kEast), bits({kEast, kSouth, kSouthEast}));
+  EXPECT_EQ(afterInTheMiddle({"...", "..#", "#.."}, kEast), bits({kNorth}));
+}
+
+TEST(Moves, TryMoreWhereWeightsDiffer) {
+  for (const Cell step : kSteps) {
+    std::vector<std::string> lines(3, "...");
+    lines[static_cast<std::size_t>(1 + step.row)][static_cast<std::size_t>(1 + step.column)] = '?';
+    EXPECT_EQ(afterInTheMiddle(lines, kEast), bits({kEast, kNorth, kSouth, 4, 7})) << step;
+  }
+}
+
+TEST(Moves, TryAllFromTheStart) {
+  MovePruning moves;
+  moves.build(costsOf({"...", "...", "..."}), StopToken());
+  EXPECT_EQ(moves.after(0, 4), 0xFFu);
+  moves.build(costsOf({"...", "..?", "..."}), StopToken());
+  EXPECT_EQ(moves.after(0, 4), 0xFFu);
+}
+
+TEST(Moves, KnowWhatAnotherStepLeavesOpen) {
+  MovePruning moves;
+  moves.build(costsOf({"...", "...", "..."}), StopToken());
+  EXPECT_TRUE(moves.missing(bits({kEast}), kNorth, 4));
+  EXPECT_FALSE(moves.missing(bits({kNorthEast}), kNorth, 4));
+  EXPECT_FALSE(moves.missing(bits({kEast}), kWest, 4)) << "back is never worth it";
+}
+
+CostGrid randomTerrain(std::mt19937& random, int largest_side) {
+  MotionModel motion;
+  motion.connectivity = random() % 3 == 0 ? Connectivity::FOUR : Connectivity::EIGHT;
+  motion.diagonal_cost = random() % 3 == 0 ? DiagonalCost::UNIT : DiagonalCost::SQRT2;
+  motion.cut_corners = random() % 3 == 0;
+  const GridGeometry geometry(1 + static_cast<int>(random() % largest_side),
+                              1 + static_cast<int>(random() % largest_side), 1.0);
+  Grid<CostGrid::Weight> weights(geometry, 3);
+  const unsigned rarity = 2 + random() % 30;
+  for (CostGrid::Weight& weight : weights.values())
+    if (random() % rarity == 0) weight = static_cast<CostGrid::Weight>(random() % 3 * 32700);
+  return CostGrid(weights, Grid<Occupancy>(geometry, Occupancy::FREE), motion);
+}
+
+TEST(MovesLaw, TheStepsFromACellAreThoseThatAreAllowed) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 300; ++trial) {
+    const CostGrid map = randomTerrain(random, 30);
+    MovePruning moves;
+    moves.build(map, StopToken());
+    StepMasks masks;
+    masks.build(map, StopToken());
+    for (std::uint32_t index = 0; index < map.geometry().size(); ++index) {
+      const Cell cell = map.geometry().cell(CellIndex(index));
+      std::uint32_t allowed = 0;
+      for (unsigned step = 0; step < kSteps.size(); ++step)
+        if (stepAllowed(map, cell,
+                        {cell.column + kSteps[step].column, cell.row + kSteps[step].row}))
+          allowed |= 1U << step;
+      ASSERT_EQ(moves.from(index), allowed) << "trial " << trial << " cell " << cell;
+      ASSERT_EQ(masks[index], allowed) << "trial " << trial << " cell " << cell;
+    }
+  }
+}
+
+// Wherever a cell lies among the eight that are looked at together, and at the border.
+TEST(MovesLaw, BlockedCellsAroundTheMapChangeNothing) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 300; ++trial) {
+    const CostGrid map = randomTerrain(random, 30);
+    const Cell shift{1 + static_cast<int>(random() % 9), 1 + static_cast<int>(random() % 3)};
+    const GridGeometry larger(map.geometry().width() + 18, map.geometry().height() + 4, 1.0);
+    Grid<CostGrid::Weight> weights(larger, CostGrid::kBlocked);
+    const auto inLarger = [&](Cell cell) {
+      return Cell{cell.column + shift.column, cell.row + shift.row};
+    };
+    for (std::uint32_t index = 0; index < map.geometry().size(); ++index) {
+      const Cell cell = map.geometry().cell(CellIndex(index));
+      weights[inLarger(cell)] = map.weight(cell);
+    }
+    MovePruning moves, larger_moves;
+    moves.build(map, StopToken());
+    larger_moves.build(CostGrid(weights, Grid<Occupancy>(larger, Occupancy::FREE), map.motion()),
+                       StopToken());
+    for (std::uint32_t index = 0; index < map.geometry().size(); ++index) {
+      const Cell cell = map.geometry().cell(CellIndex(index));
+      for (std::uint32_t step = 0; step < 8; ++step)
+        ASSERT_EQ(moves.after(1U << step, index),
+                  larger_moves.after(1U << step, larger.index(inLarger(cell)).value()))
+            << "trial " << trial << " cell " << cell;
+    }
+  }
+}
+
+// A cell whose weight changes, changes the kinds around it, at the border of the map too.
+TEST(MovesLaw, AnUpdateIsLikeABuild) {
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 200; ++trial) {
+    const CostGrid before = randomTerrain(random, 30);
+    Grid<CostGrid::Weight> weights = before.weights();
+    const Cell changed = test::randomCell(random, before.geometry());
+    weights[changed] = static_cast<CostGrid::Weight>(random() % 3);
+    const CostGrid after(weights, before.classes(), before.motion());
+    MovePruning updated, fresh;
+    updated.build(before, StopToken());
+    updated.update(after, {changed.column, changed.row, 1, 1}, StopToken());
+    fresh.build(after, StopToken());
+    for (std::uint32_t index = 0; index < weights.values().size(); ++index)
+      for (std::uint32_t step = 0; step < 8; ++step)
+        ASSERT_EQ(updated.after(1U << step, index), fresh.after(1U << step, index));
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner::planners

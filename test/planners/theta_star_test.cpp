@@ -1,0 +1,98 @@
+#include "grid_path_planner/planners/theta_star.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/ascii_map.h"
+#include "support/costs_of.h"
+
+namespace grid_path_planner::planners {
+
+using base::Status;
+using base::StopToken;
+using costmap::Connectivity;
+using costmap::CostGrid;
+using costmap::CostmapOptions;
+using grid::Cell;
+
+namespace {
+
+using test::costsOf;
+
+SearchResult planOn(const std::shared_ptr<const CostGrid>& map, Cell start, Cell goal) {
+  LazyThetaStar planner;
+  planner.prepare(map, StopToken());
+  return planner.search({start, {goal}, false}, StopToken());
+}
+
+SearchResult planOn(const test::AsciiMap& picture) {
+  return planOn(costsOf(picture.map), picture.start, picture.goal);
+}
+
+TEST(LazyThetaStar, CrossesOpenWaterInOneLine) {
+  const SearchResult result = planOn(test::AsciiMap({"S......",  //
+                                                     ".......",  //
+                                                     "......G"}));
+  EXPECT_EQ(result.cells, (std::vector<Cell>{{0, 0}, {6, 2}}));
+  EXPECT_NEAR(result.costValue(), std::hypot(6, 2), 1e-12);
+}
+
+TEST(LazyThetaStar, TurnsOnlyAtCorners) {
+  const SearchResult result = planOn(test::AsciiMap({"S..#...",  //
+                                                     "...#...",  //
+                                                     ".......",  //
+                                                     "......G"}));
+  ASSERT_EQ(result.status, Status::FOUND);
+  EXPECT_LE(result.cells.size(), 4u);
+  EXPECT_LT(result.costValue(), 3.0 + 3.0 * std::sqrt(2.0)) << "what a grid path costs";
+}
+
+// navigation2#2520, #2690: crosses dear cells despite a cheaper detour.
+TEST(LazyThetaStar, GoesAroundWhatIsDear) {
+  const test::AsciiMap picture({"........",  //
+                                "S.????.G",  //
+                                "..????.."});
+  const SearchResult result = planOn(picture);
+  ASSERT_EQ(result.status, Status::FOUND);
+  EXPECT_LT(result.costValue(), 10.0) << "straight through unknown cells: 50 a cell";
+}
+
+// navigation2#5863: a segment squeezes between two obstacles that touch at a corner.
+TEST(LazyThetaStar, DoesNotSqueezeThroughACorner) {
+  EXPECT_EQ(planOn(test::AsciiMap({"S#",  //
+                                   "#G"}))
+                .status,
+            Status::UNREACHABLE);
+}
+
+// The numbers of queries begin anew after 16,383.
+TEST(LazyThetaStar, ALateQueryIsAnsweredLikeTheFirst) {
+  const test::AsciiMap picture({"S.#.",  //
+                                "...G"});
+  const auto map = costsOf(picture.map);
+  LazyThetaStar planner;
+  planner.prepare(map, StopToken());
+  const SearchRequest there{picture.start, {picture.goal}, false};
+  const SearchRequest back{picture.goal, {picture.start}, false};
+  const SearchResult first = planner.search(there, StopToken());
+  for (int i = 0; i < 17000; ++i) {
+    const SearchResult again = planner.search(i % 2 == 0 ? back : there, StopToken());
+    ASSERT_EQ(again.status, Status::FOUND) << "query " << i;
+    ASSERT_NEAR(again.costValue(), first.costValue(), 1e-12);
+    if (i % 2 == 1) {
+      ASSERT_EQ(again.cells, first.cells) << "query " << i;
+    }
+  }
+}
+
+TEST(LazyThetaStar, SaysWhatItCannotPlanWith) {
+  CostmapOptions options;
+  options.motion.connectivity = Connectivity::FOUR;
+  const SearchResult result = planOn(costsOf(test::AsciiMap({"S.G"}).map, options), {0, 0}, {2, 0});
+  EXPECT_EQ(result.status, Status::INVALID_REQUEST);
+  EXPECT_EQ(result.message, "lazy_theta_star does not plan with connectivity 4, which a_star does");
+}
+
+}  // namespace
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,177 @@
+#include "planners/jump_point/weighted_jump_map.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "grid_path_planner/planners/steps.h"
+#include "support/random_map.h"
+
+namespace grid_path_planner::planners {
+
+using base::StopToken;
+using costmap::CostGrid;
+using costmap::stepAllowed;
+using grid::Cell;
+using grid::CellIndex;
+using grid::CellRect;
+using grid::Grid;
+using grid::GridGeometry;
+using grid::Occupancy;
+
+namespace {
+
+Cell after(Cell cell, unsigned step) {
+  return {cell.column + kSteps[step].column, cell.row + kSteps[step].row};
+}
+
+NaturalMoves stepsAt(const WeightedJumpMap& jumps, const CostGrid& map, Cell cell) {
+  return jumps.steps(map, map.geometry().index(cell).value());
+}
+
+WeightedJumpMap::Run runOf(const WeightedJumpMap& jumps, const CostGrid& map, unsigned step,
+                           Cell cell) {
+  const CostGrid::Weight* weights = map.weights().values().data();
+  return step == 0   ? jumps.run<0>(cell, weights)
+         : step == 1 ? jumps.run<1>(cell, weights)
+         : step == 2 ? jumps.run<2>(cell, weights)
+                     : jumps.run<3>(cell, weights);
+}
+
+bool blindTo(const WeightedJumpMap& jumps, unsigned step, Cell cell) {
+  return step == 0   ? jumps.blind<0>(cell)
+         : step == 1 ? jumps.blind<1>(cell)
+         : step == 2 ? jumps.blind<2>(cell)
+                     : jumps.blind<3>(cell);
+}
+
+// The runs are what following the steps cell by cell gives.
+void expectRunsFollowSteps(const WeightedJumpMap& jumps, const CostGrid& map, Cell from) {
+  for (unsigned step = 0; step < 4; ++step) {
+    if (!stepAllowed(map, from, after(from, step))) continue;
+    std::uint64_t weights = 0;
+    Cell at = from;
+    unsigned steps = 0;
+    do {
+      const Cell next = after(at, step);
+      weights += std::max(map.weight(at), map.weight(next));
+      at = next;
+      steps = stepsAt(jumps, map, at) >> (8 * step) & 255U;
+    } while (steps == kDefaultSteps[step]);
+    const WeightedJumpMap::Run run = runOf(jumps, map, step, from);
+    ASSERT_EQ(run.to, at) << from << " step " << step;
+    ASSERT_EQ(run.weights, weights) << from << " step " << step;
+    ASSERT_EQ(blindTo(jumps, step, from), steps == 0) << from << " step " << step;
+  }
+}
+
+std::vector<Cell> cellsOf(const CostGrid& map) {
+  std::vector<Cell> cells;
+  for (std::uint32_t i = 0; i < map.geometry().size(); ++i)
+    cells.push_back(map.geometry().cell(CellIndex(i)));
+  return cells;
+}
+
+void expectAlike(const WeightedJumpMap& a, const WeightedJumpMap& b, const CostGrid& map) {
+  for (const Cell cell : cellsOf(map)) {
+    ASSERT_EQ(a.open(cell), b.open(cell)) << cell;
+    ASSERT_EQ(stepsAt(a, map, cell), stepsAt(b, map, cell)) << cell;
+    for (unsigned step = 0; step < 4; ++step) {
+      if (stepAllowed(map, cell, after(cell, step))) {
+        ASSERT_EQ(blindTo(a, step, cell), blindTo(b, step, cell)) << cell << " step " << step;
+      }
+    }
+  }
+}
+
+WeightedJumpMap built(const CostGrid& map) {
+  WeightedJumpMap jumps;
+  jumps.build(map, StopToken());
+  return jumps;
+}
+
+TEST(WeightedJumpMap, RunsPastSlopesThatLeadNowhere) {
+  // A corridor whose walls are dear to brush: in its middle nothing but the way on is worth taking.
+  Grid<CostGrid::Weight> weights(GridGeometry(100, 9, 1.0), 1);
+  const CostGrid::Weight slope[] = {9, 5, 2, 1, 1, 1, 2, 5, 9};
+  for (int row = 0; row < 9; ++row)
+    for (int column = 0; column < 100; ++column) weights[Cell{column, row}] = slope[row];
+  const CostGrid map(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), {});
+  WeightedJumpMap jumps = built(map);
+  EXPECT_GE(runOf(jumps, map, 0, {20, 6}).to.column, 100 - WeightedJumpMap::kDepth - 5);
+  EXPECT_TRUE(blindTo(jumps, 1, {20, 6})) << "up the slope";
+  const WeightedJumpMap::Target target(jumps, map, {20, 8});
+  EXPECT_FALSE(blindTo(jumps, 1, {20, 6})) << "but there is the goal";
+}
+
+TEST(WeightedJumpMapLaw, RunsFollowTheSteps) {
+  std::mt19937 random(31);
+  for (int trial = 0; trial < 60; ++trial) {
+    const CostGrid map = test::randomCosts(random, trial % 4 == 0 ? 140 : 30, {});
+    const WeightedJumpMap jumps = built(map);
+    for (const Cell cell : cellsOf(map)) expectRunsFollowSteps(jumps, map, cell);
+    if (HasFatalFailure()) FAIL() << "trial " << trial;
+  }
+}
+
+TEST(WeightedJumpMapLaw, StepsAreNaturalOnes) {
+  std::mt19937 random(33);
+  for (int trial = 0; trial < 20; ++trial) {
+    const CostGrid map = test::randomCosts(random, 30, {});
+    const WeightedJumpMap jumps = built(map);
+    for (const Cell cell : cellsOf(map)) {
+      const NaturalMoves natural = naturalSteps(windowAt(map, cell));
+      EXPECT_EQ(jumps.natural(map, map.geometry().index(cell).value()), natural);
+      EXPECT_EQ(stepsAt(jumps, map, cell) & ~natural, 0U);
+    }
+  }
+}
+
+TEST(WeightedJumpMapLaw, AfterEditsIsWhatAFreshOneWouldBe) {
+  std::mt19937 random(32);
+  for (int trial = 0; trial < 30; ++trial) {
+    CostGrid map = test::randomCosts(random, 80, {});
+    WeightedJumpMap jumps = built(map);
+    for (int edit = 0; edit < 6; ++edit) {
+      const Cell low = test::randomCell(random, map.geometry());
+      const CellRect changed =
+          CellRect{low.column, low.row, 1 + int(random() % 4), 1 + int(random() % 4)}.intersection(
+              map.geometry().rect());
+      Grid<CostGrid::Weight> weights = map.weights();
+      for (int row = changed.row; row < changed.row + changed.height; ++row)
+        for (int column = changed.column; column < changed.column + changed.width; ++column)
+          weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 4);
+      map = CostGrid(weights, map.classes(), map.motion());
+      jumps.update(map, changed, StopToken());
+    }
+    expectAlike(jumps, built(map), map);
+    for (const Cell cell : cellsOf(map)) expectRunsFollowSteps(jumps, map, cell);
+    if (HasFatalFailure()) FAIL() << "trial " << trial;
+  }
+}
+
+TEST(WeightedJumpMapLaw, ATargetStopsEveryRunAndLeavesNoTrace) {
+  std::mt19937 random(34);
+  for (int trial = 0; trial < 60; ++trial) {
+    const CostGrid map = test::randomCosts(random, 60, {});
+    const WeightedJumpMap fresh = built(map);
+    WeightedJumpMap jumps = fresh;
+    for (int query = 0; query < 5; ++query) {
+      const Cell goal = test::randomCell(random, map.geometry());
+      if (!map.passable(goal)) continue;
+      const WeightedJumpMap::Target target(jumps, map, goal);
+      EXPECT_FALSE(jumps.open(goal));
+      for (unsigned step = 0; step < 4; ++step) {
+        const Cell before{goal.column - kSteps[step].column, goal.row - kSteps[step].row};
+        if (!stepAllowed(map, before, goal)) continue;
+        EXPECT_EQ(runOf(jumps, map, step, before).to, goal);
+        EXPECT_FALSE(blindTo(jumps, step, before));
+      }
+    }
+    expectAlike(jumps, fresh, map);
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner::planners

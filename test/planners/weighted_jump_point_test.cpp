@@ -1,0 +1,152 @@
+#include "planners/jump_point/weighted_jump_point.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+
+#include "support/random_map.h"
+#include "support/reference_search.h"
+
+namespace grid_path_planner::planners {
+
+using base::Status;
+using base::StopToken;
+using costmap::Connectivity;
+using costmap::CostGrid;
+using costmap::DiagonalCost;
+using costmap::ExactCost;
+using costmap::MotionModel;
+using grid::Cell;
+using grid::CellIndex;
+using grid::CellRect;
+using grid::Grid;
+using grid::GridGeometry;
+using grid::Occupancy;
+
+namespace {
+
+std::shared_ptr<const CostGrid> shared(const Grid<CostGrid::Weight>& weights,
+                                       const MotionModel& motion = {}, std::uint64_t revision = 0) {
+  auto map = std::make_shared<CostGrid>(
+      weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), motion);
+  map->setRevision(revision);
+  return map;
+}
+
+void expectLeast(WeightedJumpPoint& planner, const CostGrid& map, std::mt19937& random,
+                 int queries) {
+  const Cell start = test::randomCell(random, map.geometry());
+  if (!map.passable(start)) return;
+  const auto costs = test::referenceCosts(map, start);
+  for (int query = 0; query < queries; ++query) {
+    const Cell goal = test::randomCell(random, map.geometry());
+    if (!map.passable(goal)) continue;
+    const SearchResult result = planner.search({start, {goal}, false}, StopToken());
+    const auto least = costs[map.geometry().index(goal).value()];
+    ASSERT_EQ(result.status, least ? Status::FOUND : Status::UNREACHABLE);
+    if (least) {
+      ASSERT_EQ(result.cost, *least) << start << " to " << goal;
+    }
+  }
+}
+
+Grid<CostGrid::Weight> noise(std::mt19937& random, int side) {
+  Grid<CostGrid::Weight> weights(GridGeometry(side, side, 1.0), 1);
+  for (auto& weight : weights.values()) weight = static_cast<CostGrid::Weight>(1 + random() % 99);
+  return weights;
+}
+
+TEST(PruningEstimate, TellsPlateausAndSlopesFromNoise) {
+  std::mt19937 random(2);
+  PruningEstimate sample;
+  Grid<CostGrid::Weight> weights(GridGeometry(200, 150, 1.0), 1);
+  sample.take(*shared(weights), StopToken());
+  EXPECT_TRUE(sample.symmetric());
+  for (std::uint32_t i = 0; i < weights.values().size(); ++i)
+    weights[CellIndex(i)] = static_cast<CostGrid::Weight>(1 + i % 200 / 3);
+  sample.take(*shared(weights), StopToken());
+  EXPECT_TRUE(sample.symmetric());
+  sample.take(*shared(noise(random, 200)), StopToken());
+  EXPECT_FALSE(sample.symmetric());
+}
+
+// Each search counts its own kind of cells: noise is expanded cell by cell.
+TEST(WeightedJumpPoint, LeavesNoiseToAStarAndTakesPlateausItself) {
+  std::mt19937 random(3);
+  WeightedJumpPoint planner;
+  AStar a_star;
+  const SearchRequest request{{3, 3}, {{90, 80}}, false};
+  auto map = shared(noise(random, 100));
+  planner.prepare(map, StopToken());
+  a_star.prepare(map, StopToken());
+  EXPECT_EQ(planner.search(request, StopToken()).statistics.expanded,
+            a_star.search(request, StopToken()).statistics.expanded);
+  map = shared(Grid<CostGrid::Weight>(map->geometry(), 5), {}, 1);
+  planner.update(map, map->geometry().rect(), StopToken());
+  EXPECT_EQ(planner.search(request, StopToken()).statistics.expanded, 1U);
+}
+
+TEST(WeightedJumpPointLaw, FindsTheLeastCostInEveryMotionModel) {
+  std::mt19937 random(20261121);
+  for (int trial = 0; trial < 1200; ++trial) {
+    const MotionModel motion{trial % 2 == 0 ? Connectivity::EIGHT : Connectivity::FOUR,
+                             trial / 2 % 2 == 0 ? DiagonalCost::SQRT2 : DiagonalCost::UNIT,
+                             trial / 4 % 2 == 0};
+    const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 20, motion));
+    WeightedJumpPoint planner;
+    planner.prepare(map, StopToken());
+    expectLeast(planner, *map, random, 6);
+    if (HasFatalFailure()) FAIL() << "trial " << trial;
+  }
+}
+
+TEST(WeightedJumpPointLaw, AfterEditsPlansLikeAFreshOne) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 40; ++trial) {
+    auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 40, {}));
+    WeightedJumpPoint edited;
+    edited.prepare(map, StopToken());
+    for (int edit = 0; edit < 8; ++edit) {
+      const Cell low = test::randomCell(random, map->geometry());
+      const CellRect changed =
+          CellRect{low.column, low.row, 1 + int(random() % 12), 1 + int(random() % 12)}
+              .intersection(map->geometry().rect());
+      Grid<CostGrid::Weight> weights = map->weights();
+      for (int row = changed.row; row < changed.row + changed.height; ++row)
+        for (int column = changed.column; column < changed.column + changed.width; ++column)
+          weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 5);
+      map = shared(weights, {}, map->revision() + 1);
+      edited.update(map, changed, StopToken());
+      WeightedJumpPoint fresh;
+      fresh.prepare(map, StopToken());
+      for (int query = 0; query < 5; ++query) {
+        const SearchRequest request{test::randomCell(random, map->geometry()),
+                                    {test::randomCell(random, map->geometry())},
+                                    true};
+        const SearchResult a = edited.search(request, StopToken());
+        const SearchResult b = fresh.search(request, StopToken());
+        ASSERT_EQ(a.status, b.status);
+        ASSERT_EQ(a.cells, b.cells);
+        ASSERT_EQ(a.expanded, b.expanded);
+      }
+      expectLeast(edited, *map, random, 5);
+      if (HasFatalFailure()) FAIL() << "trial " << trial;
+    }
+  }
+}
+
+TEST(WeightedJumpPoint, LeavesDearPathsToAStar) {
+  const auto map = shared(Grid<CostGrid::Weight>(GridGeometry(400, 3, 1.0), 65535));
+  WeightedJumpPoint planner;
+  planner.prepare(map, StopToken());
+  for (int query = 0; query < 2; ++query) {
+    const SearchResult result = planner.search({{0, 0}, {{399, 2}}, false}, StopToken());
+    EXPECT_EQ(result.cost, (ExactCost{397LL * 65535, 2LL * 65535}));
+    const SearchResult near = planner.search({{0, 0}, {{99, 2}}, false}, StopToken());
+    EXPECT_EQ(near.cost, (ExactCost{97LL * 65535, 2LL * 65535}));
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner::planners

@@ -1,0 +1,148 @@
+#include "planners/jump_point/weighted_jump_search.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/random_map.h"
+#include "support/reference_search.h"
+
+namespace grid_path_planner::planners {
+
+using base::Status;
+using base::StopToken;
+using costmap::CostGrid;
+using costmap::costOfSteps;
+using costmap::ExactCost;
+using grid::Cell;
+using grid::CellIndex;
+using grid::Grid;
+using grid::GridGeometry;
+using grid::Occupancy;
+
+namespace {
+
+CostGrid costsOf(const Grid<CostGrid::Weight>& weights) {
+  return CostGrid(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), {});
+}
+
+WeightedJumpSearch prepared(const CostGrid& map) {
+  WeightedJumpSearch search;
+  search.prepare(map, StopToken());
+  return search;
+}
+
+void expectLeast(WeightedJumpSearch& search, const CostGrid& map, std::mt19937& random,
+                 int queries) {
+  const Cell start = test::randomCell(random, map.geometry());
+  if (!map.passable(start)) return;
+  const auto costs = test::referenceCosts(map, start);
+  for (int query = 0; query < queries; ++query) {
+    const Cell goal = test::randomCell(random, map.geometry());
+    if (!map.passable(goal)) continue;
+    const SearchResult result = search.run(map, {start, {goal}, false}, StopToken());
+    const auto least = costs[map.geometry().index(goal).value()];
+    ASSERT_EQ(result.status, least ? Status::FOUND : Status::UNREACHABLE);
+    if (!least) continue;
+    ASSERT_EQ(result.cost, *least) << start << " to " << goal;
+    ASSERT_EQ(result.cells.front(), start);
+    ASSERT_EQ(result.cells.back(), goal);
+    ASSERT_EQ(result.cost, costOfSteps(map, result.cells));
+  }
+}
+
+TEST(WeightedJumpSearch, QueuesNothingInTheOpen) {
+  const CostGrid map = costsOf(Grid<CostGrid::Weight>(GridGeometry(300, 200, 1.0), 7));
+  WeightedJumpSearch search = prepared(map);
+  const SearchResult result = search.run(map, {{5, 5}, {{290, 150}}, false}, StopToken());
+  EXPECT_EQ(result.cost, (ExactCost{140 * 7, 145 * 7}));
+  EXPECT_EQ(result.statistics.expanded, 1U);
+  EXPECT_EQ(result.statistics.generated, 0U);
+}
+
+TEST(WeightedJumpSearch, CrossesWhatIsDearWhereTheDetourIsDearer) {
+  Grid<CostGrid::Weight> weights(GridGeometry(9, 30, 1.0), 1);
+  for (int row = 0; row < 29; ++row) weights[Cell{4, row}] = 10;
+  const CostGrid map = costsOf(weights);
+  WeightedJumpSearch search = prepared(map);
+  const SearchResult across = search.run(map, {{0, 5}, {{8, 5}}, false}, StopToken());
+  EXPECT_EQ(across.cost, (ExactCost{6 + 20, 0}));
+  const SearchResult around = search.run(map, {{0, 25}, {{8, 25}}, false}, StopToken());
+  EXPECT_EQ(around.cost, (ExactCost{0, 4 + 4})) << "four rows up and down, past its end";
+}
+
+TEST(WeightedJumpSearchLaw, FindsTheLeastCost) {
+  std::mt19937 random(20261121);
+  for (int trial = 0; trial < 400; ++trial) {
+    const CostGrid map = test::randomCosts(random, trial % 10 == 0 ? 90 : 20, {});
+    WeightedJumpSearch search = prepared(map);
+    expectLeast(search, map, random, 12);
+    if (HasFatalFailure()) FAIL() << "trial " << trial;
+  }
+}
+
+// Few values make many equal costs, which reach a cell from several sides.
+TEST(WeightedJumpSearchLaw, FindsTheLeastCostWhereManyTie) {
+  std::mt19937 random(77);
+  for (int trial = 0; trial < 400; ++trial) {
+    Grid<CostGrid::Weight> weights(
+        GridGeometry(1 + int(random() % 16), 1 + int(random() % 16), 1.0), 1);
+    const unsigned values = 2 + trial % 3, blocked = trial % 5;
+    for (auto& weight : weights.values())
+      weight = static_cast<CostGrid::Weight>(random() % 10 < blocked ? 0 : 1 + random() % values);
+    const CostGrid map = costsOf(weights);
+    WeightedJumpSearch search = prepared(map);
+    expectLeast(search, map, random, 20);
+    if (HasFatalFailure()) FAIL() << "trial " << trial;
+  }
+}
+
+// Slopes are full of dead branches, and the goals lie in them.
+TEST(WeightedJumpSearchLaw, FindsTheLeastCostOnSlopes) {
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 60; ++trial) {
+    Grid<CostGrid::Weight> weights(GridGeometry(20 + int(random() % 50), 40, 1.0), 1);
+    for (int i = 0; i < 3; ++i) {
+      const Cell middle = test::randomCell(random, weights.geometry());
+      const int top = 4 + int(random() % 20);
+      for (std::uint32_t j = 0; j < weights.values().size(); ++j) {
+        const Cell cell = weights.geometry().cell(CellIndex(j));
+        const int away =
+            std::max(std::abs(cell.column - middle.column), std::abs(cell.row - middle.row));
+        const int weight = top + 1 - away;
+        if (away < 3) weights[cell] = CostGrid::kBlocked;
+        if (weights[cell] != CostGrid::kBlocked && weight > weights[cell])
+          weights[cell] = static_cast<CostGrid::Weight>(weight);
+      }
+    }
+    const CostGrid map = costsOf(weights);
+    WeightedJumpSearch search = prepared(map);
+    expectLeast(search, map, random, 60);
+    if (HasFatalFailure()) FAIL() << "trial " << trial;
+  }
+}
+
+// Its labels number the queries with 16 bits.
+TEST(WeightedJumpSearch, AnswersManyQueries) {
+  std::mt19937 random(9);
+  Grid<CostGrid::Weight> weights(GridGeometry(4, 4, 1.0), 1);
+  for (auto& weight : weights.values()) weight = static_cast<CostGrid::Weight>(1 + random() % 9);
+  const CostGrid map = costsOf(weights);
+  WeightedJumpSearch search = prepared(map);
+  const SearchRequest request{{0, 0}, {{3, 3}}, false};
+  const SearchResult first = search.run(map, request, StopToken());
+  for (int query = 0; query < 66000; ++query)
+    ASSERT_EQ(search.run(map, request, StopToken()).cells, first.cells) << "query " << query;
+}
+
+TEST(WeightedJumpSearch, SaysWhereItsKeysEnd) {
+  const CostGrid map = costsOf(Grid<CostGrid::Weight>(GridGeometry(400, 3, 1.0), 65535));
+  WeightedJumpSearch search = prepared(map);
+  EXPECT_THROW(search.run(map, {{0, 0}, {{399, 2}}, false}, StopToken()),
+               WeightedJumpSearch::TooDear);
+  const SearchResult near = search.run(map, {{0, 0}, {{99, 2}}, false}, StopToken());
+  EXPECT_EQ(near.cost, (ExactCost{97LL * 65535, 2LL * 65535}));
+}
+
+}  // namespace
+}  // namespace grid_path_planner::planners
