@@ -8,23 +8,27 @@ import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 HEADER = "// What it is for.\n#pragma once\n%s\nnamespace grid_path_planner {}\n"
-FLOORS = "gpp_add_room(base)\ngpp_add_room(grid ROOMS base LIBRARIES x)\ngpp_add_room(ros ROOMS grid)\n"
+FLOORS = {"base": "gpp_add_room(base)", "grid": "gpp_add_room(grid ROOMS base LIBRARIES x)",
+          "planners": "gpp_add_room(planners ROOMS grid)",
+          "ros/common": "gpp_add_room(ros_common FOLDER ros/common ROOMS grid)"}
 
 
 def complaints(check, name=None, text=None, more=()):
     """What a check says of a good tree, with `more` files, into which one file is planted."""
     with tempfile.TemporaryDirectory() as root:
-        tree = {"CMakeLists.txt": FLOORS,
-                "include/grid_path_planner/base/errors.h": HEADER % "#include <string>",
-                "include/grid_path_planner/grid/cell.h":
+        tree = {"src/%s/CMakeLists.txt" % folder: line for folder, line in FLOORS.items()}
+        tree.update({
+            "CMakeLists.txt": "project(package)\n",
+            "include/grid_path_planner/base/errors.h": HEADER % "#include <string>",
+            "include/grid_path_planner/grid/cell.h":
                     HEADER % '#include "grid_path_planner/base/errors.h"',
-                "src/ros/node.cpp": "#include <ros/ros.h>\nnamespace grid_path_planner {}\n",
-                "src/grid/halved.cpp": "namespace grid_path_planner {\nint halved(int all) {\n"
+            "src/ros/common/node.cpp": "#include <ros/ros.h>\nnamespace grid_path_planner {}\n",
+            "src/grid/halved.cpp": "namespace grid_path_planner {\nint halved(int all) {\n"
                                        "  return all / 2;\n}\n}\n",
-                "include/grid_path_planner/base/stop_token.h":
+            "include/grid_path_planner/base/stop_token.h":
                     "// When to stop.\n//\n//   StopToken token;\n//   use(token);\n"
                     "#pragma once\nnamespace grid_path_planner { class StopToken {}; }\n",
-                "build/compile_commands.json": json.dumps([{"command": "g++ -Iinclude -std=c++17"}])}
+            "build/compile_commands.json": json.dumps([{"command": "g++ -Iinclude -std=c++17"}])})
         if name:
             tree[name] = text
         tree.update(more)
@@ -48,18 +52,33 @@ class Includes(unittest.TestCase):
     def test_good_ones_are_left_alone(self):
         self.assertEqual(complaints("check_includes.py"), [])
         self.assertEqual(self.planted("grid", '"grid_path_planner/base/errors.h"'), [])
-        self.assertEqual(self.planted("tools", '"grid_path_planner/ros/node.h"'), [])
+        self.assertEqual(self.planted("command_line", '"grid_path_planner/grid/cell.h"'), [])
 
     def test_upwards(self):
         self.assertEqual(self.planted("base", '"grid_path_planner/grid/cell.h"'),
                          ["src/base/x.cpp:2: room 'base' stands not on 'grid'"])
-        self.assertEqual(len(self.planted("grid", '<grid_path_planner/ros/node.h>')), 1)
+        self.assertEqual(len(self.planted("grid", '<grid_path_planner/planners/planner.h>')), 1)
+
+    def test_folders_of_planners(self):
+        core, astar = {"src/planners/core/queue.h": HEADER % ""}, {"src/planners/astar/search.h": HEADER % ""}
+        upwards = '#include "planners/astar/search.h"\nnamespace grid_path_planner {}\n'
+        self.assertEqual(complaints("check_includes.py", "src/planners/core/x.cpp", upwards, astar),
+                         ["src/planners/core/x.cpp:1: planners/core stands not on planners/astar"])
+        downwards = upwards.replace("astar/search", "core/queue")
+        self.assertEqual(complaints("check_includes.py", "src/planners/astar/x.cpp", downwards, core), [])
+
+    def test_private_headers(self):
+        private = {"src/base/clock.h": HEADER % ""}
+        source = '#include "base/clock.h"\nnamespace grid_path_planner {}\n'
+        self.assertEqual(complaints("check_includes.py", "src/base/x.cpp", source, private), [])
+        self.assertEqual(complaints("check_includes.py", "src/grid/x.cpp", source, private),
+                         ["src/grid/x.cpp:1: 'base/clock.h' is a private header of 'base'"])
 
     def test_ros_below_its_floor(self):
         for header in ("<ros/ros.h>", "<nav_msgs/Path.h>", "<tf2_ros/buffer.h>",
                        "<grid_path_planner/PlanStatistics.h>"):
             self.assertEqual(len(self.planted("grid", header)), 1, header)
-            self.assertEqual(self.planted("ros", header), [], header)
+            self.assertEqual(self.planted("ros/common", header), [], header)
 
     def test_other_folders_and_rooms(self):
         self.assertEqual(len(self.planted("grid", '"../base/private.h"')), 1)
@@ -70,7 +89,7 @@ class Docs(unittest.TestCase):
     TREE = {"README.md": "# Package\n[nodes](doc/nodes.md#the-planner), [needs](doc/dependencies.md), [rooms](doc/architecture.md)\n"
                          "<!-- parameters: planner -->\n<!-- end -->\n<!-- launch files -->\n%s<!-- end -->\n",
             "doc/nodes.md": "# Nodes\n## The planner\n`FOUND`\n    # no-heading\ngrid_path_planner/Plan `./scripts/run --fast`\n",
-            "doc/architecture.md": "# Rooms\n`grid/` `ros/` `nodes/` `src/nodes/planner.cpp` `src/nodes/x.cpp`\n",
+            "doc/architecture.md": "# Rooms\n`grid/` `ros/common/` `nodes/` `src/nodes/planner.cpp` `src/nodes/x.cpp`\n",
             "doc/dependencies.md": "# Dependencies\n| Boost | |\n",
             "package.xml": "<package><depend>libboost-dev</depend></package>",
             "msg/Plan.msg": "", "scripts/run": "--fast", "src/nodes/planner.cpp": "",
@@ -107,7 +126,7 @@ class Docs(unittest.TestCase):
 
     def test_places(self):
         for text in ("nodes/absent.cpp", "absent/", "src/x/"):
-            self.assertEqual(len(self.planted("doc/architecture.md", "`grid/` `ros/` `nodes/` `%s`\n" % text)), 1, text)
+            self.assertEqual(len(self.planted("doc/architecture.md", "`grid/` `ros/common/` `nodes/` `%s`\n" % text)), 1, text)
         self.assertEqual(self.planted("src/cellar/a.cpp", ""), ["doc/architecture.md: src/cellar is missing"])
 
     def test_scripts(self):

@@ -73,23 +73,25 @@ def context_of(name):
     return max(keys, key=len) if keys else None
 
 
-def example(name, namespace, code):
-    """The C++ of one header's example; errors name the header's own lines."""
+def example(name, namespace, code, others=()):
+    """The C++ of one header's example; errors name the header's own lines. It sees the names of the
+    namespaces `others`, as a reader does who knows where they come from."""
     scope = "example_of_" + re.sub(r"\W", "_", name)
     body = "".join('#line %d "%s"\n%s\n' % (number, name, "\n".join(lines)) for number, lines in code)
     if not OWN_SCOPE.match(code[0][1][0]):
         body = "auto example() {\n%s}\n" % body
     declarations = INCLUDE.sub("", CONTEXT.get(context_of(name), ""))
     declared = '#line 1 "context of %s"\n%s' % (name, declarations)
-    return "namespace %s::%s {\n%s\n%s\n%s}\n" % (namespace, scope, COMMON, declared, body)
+    seen = "".join("using namespace %s;\n" % other for other in others if other != namespace)
+    return "namespace %s::%s {\n%s%s\n%s\n%s}\n" % (namespace, scope, seen, COMMON, declared, body)
 
 
-def translation_unit(examples):
-    includes = ['#include "%s"' % name.replace("include/", "", 1) for name in sorted(examples)]
+def translation_unit(examples, others):
+    includes = ['#include "%s"' % re.sub("^(include|src)/", "", name) for name in sorted(examples)]
     includes += [line for name in examples
                  for line in INCLUDE.findall(CONTEXT.get(context_of(name), ""))]
-    return "\n".join(includes + [""]) + "\n".join(
-        example(name, *parts) for name, parts in sorted(examples.items()))
+    return "\n".join(includes + [""]) + "".join("namespace %s {}\n" % other for other in others) + "\n".join(
+        example(name, *parts, others) for name, parts in sorted(examples.items()))
 
 
 def compiler_and_flags(build):
@@ -97,7 +99,7 @@ def compiler_and_flags(build):
     path = os.path.join(ROOT, build, "compile_commands.json")
     if not os.path.exists(path):
         skip("no " + path)
-    flags = {"-I" + ROOT: None}
+    flags = {"-I" + ROOT: None, "-I" + os.path.join(ROOT, "src"): None}
     with open(path, encoding="utf-8") as file:
         commands = [shlex.split(entry["command"]) for entry in json.load(file)]
     for words in commands:
@@ -136,10 +138,11 @@ def main():
         print("\n".join(example(name, *parts) for name, parts in sorted(examples.items())))
         finish(complaints, "%d examples" % len(examples))
     compiler, flags = compiler_and_flags(sys.argv[1] if len(sys.argv) > 1 else "build")
+    others = sorted({namespace for namespace, _ in examples.values()})
     halves = {"ros": {name: parts for name, parts in examples.items() if has_ros(name)},
               "core": {name: parts for name, parts in examples.items() if not has_ros(name)}}
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
-        jobs = [pool.submit(compile_all, translation_unit(half), compiler, flags, folder, name)
+        jobs = [pool.submit(compile_all, translation_unit(half, others), compiler, flags, folder, name)
                 for name, half in halves.items() if half]
         complaints += [text for job in jobs for text in job.result()]
     finish(complaints, "%d examples" % len(examples))

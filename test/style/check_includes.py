@@ -46,8 +46,8 @@ def room_of(name):
     """The room of a file; for the folders of ros/ the library."""
     parts = name.split("/")
     room = parts[2] if parts[0] == "include" else parts[1]
-    if room == "ros" and parts[0] == "src":
-        return "ros_" + parts[2]
+    if room == "ros":
+        return "ros_" + (parts[2] if parts[0] == "src" else "common")
     return room
 
 
@@ -102,7 +102,7 @@ def main():
     complaints = []
     for name in names:
         room = room_of(name)
-        if room not in below and room not in PROGRAMS and room != "ros":
+        if room not in below and room not in PROGRAMS:
             complaints.append("%s: no CMakeLists.txt makes room '%s'" % (name, room))
             continue
         for number, line in enumerate(read(name).splitlines(), 1):

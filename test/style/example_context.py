@@ -70,9 +70,9 @@ CONTEXT = {
                               "extern ros::Publisher publisher;",
     "octree_map.h": "extern OctreeOptions options; extern octomap::point3d origin;"
                     "extern std::vector<octomap::point3d> hits, clear_only;",
-    "option_parsing.h": """#include "grid_path_planner/planning/path_planner.h"
+    "option_text.h": """#include "grid_path_planner/planning/path_planner.h"
         extern OptionInfo info; extern PlannerOptions options;""",
-    "option_visitor.h": "enum class E {}; struct O { double radius; E kernel_rule; };",
+    "base/options.h": "enum class E {}; struct O { double radius; E kernel_rule; };",
     "parameters.h": """#include <grid_path_planner/PathPlannerConfig.h>
         #include "grid_path_planner/planning/path_planner.h\"""",
     "path_follower.h": "extern FollowerOptions options; extern Path path; extern double time;"
@@ -103,8 +103,6 @@ CONTEXT = {
     "rectangle_graph.h": """#include "grid_path_planner/planners/decomposition.h"
         extern GridGeometry geometry; extern const BitMaps& bits; extern Cell cell;
         extern CellRect changed;""",
-    "rectangle_keeper.h": "extern std::shared_ptr<const CostGrid> map, changed_map;"
-                          "extern CellRect changed; void search(const RectangleGraph&);",
     "polyanya_mesh.h": """#include "grid_path_planner/planners/decomposition.h"
         extern const BitMap& free_cells;""",
     "rectangle_messages.h": "extern GridGeometry geometry; extern std::vector<CellRect> rectangles;"
@@ -124,6 +122,10 @@ CONTEXT = {
     "triangle_mesh.h": "extern Eigen::Isometry3d pose;",
     "unused_options.h": "extern PlannerOptions options; void warn(const std::string&);",
     "vehicle.h": "extern VehicleOptions options; extern std::shared_ptr<const World> world;",
+    "path_hash.h": "extern Planner& planner; extern SearchRequest request;",
+    "rectangle_map_file.h": "extern GridGeometry geometry;",
+    "option_files.h": '#include "ros/planning/path_planner_options.h"',
+    "study_planners.h": "extern SearchOptions options;",
     "vehicle_publisher.h": "extern ros::NodeHandle nh; extern VehicleState truth, measured;"
                            "extern ros::Time stamp; extern VehicleFrameNames frames;",
     "tiled_open_list.h": "extern GridGeometry geometry; extern SearchKey first, width, below;"

@@ -1,8 +1,8 @@
 // From an occupancy map to the cost grids that are searched: classes, weights, inflation, kernel.
 //
-//   Terrain terrain(options);
-//   terrain.setMap(map);
-//   std::shared_ptr<const CostGrid> costs = terrain.searched(stop);
+//   CostmapBuilder builder(options);
+//   builder.setMap(map);
+//   std::shared_ptr<const CostGrid> costs = builder.downsampled(stop);
 //
 // Made when asked for. After updateMap() only the cells whose class changed are computed again,
 // and those that inflation reaches from where a cell became occupied or is no longer; nothing is

@@ -1,6 +1,6 @@
 // Cells that are needed soon, looked at together.
 //
-//   touch(map, changed);
+//   prefetchRows(map, changed);
 //
 // Rows of a large map lie in different pages of memory. One after the other each would be waited
 // for; loads that depend on nothing are waited for together. Loads, as processors drop what is only

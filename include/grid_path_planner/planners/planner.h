@@ -2,11 +2,11 @@
 //
 //   std::unique_ptr<Planner> planner = makePlanner("a_star", options);
 //   planner->prepare(map, StopToken());
-//   SearchResult result = planner->plan({Cell{1, 2}, {Cell{30, 40}}}, source.token());
+//   SearchResult result = planner->search({Cell{1, 2}, {Cell{30, 40}}}, source.token());
 //
-// plan() checks the request once and then computes; it never changes the map, and the same request
+// search() checks the request once and then computes; it never changes the map, and the same request
 // on the same map gives the same cells, whatever the machine's load. A request that cannot be
-// answered is a status with a sentence; calling plan() before prepare() is NO_MAP.
+// answered is a status with a sentence; calling search() before prepare() is NO_MAP.
 #pragma once
 
 #include <limits>

@@ -1,6 +1,6 @@
 // Straight runs over the cells of all rows, or of all columns, of a map, 64 cells in one word.
 //
-//   if (lanes.blind<true>(row, column)) return;  // a run forwards from here finds nothing
+//   if (lanes.deadEnd<true>(row, column)) return;  // a run forwards from here finds nothing
 //   StraightJumpTable::Run run = lanes.run<true>(row, column, weights, 1);
 //   use(run.to, run.weights);  // the cell where the run ends, and the cost of its steps
 //

@@ -1,8 +1,8 @@
 // What a tree of ways to one goal says of every cell: a label, the step that it came by, and
 // whether the neighbours were told.
 //
-//   if (labels.state(index) != BackwardNodes::UNLABELLED && labels.supported(index))
-//     use(labels.label(index));
+//   if (labels.state(index) != BackwardNodes::UNLABELLED && labels.consistent(index))
+//     use(labels.g(index));
 //
 // A label is the cost of a way to the goal at the time when it was written. It holds still where
 // every step of the way is supported: legal, and no dearer than the labels of its two ends differ.

@@ -4,7 +4,7 @@
 //   DStarKeys keys;
 //   keys.begin(labels, map, start);
 //   keys.move(next_start);
-//   if (keys.of(index) < keys.raised(cost)) use(index);  // it may matter to a way of that cost
+//   if (keys.of(index) < keys.withKeyModifier(cost)) use(index);  // it may matter to a way of that cost
 //
 // When the start moves, all new keys are raised by the estimate between the old and the new start:
 // so a key told before is a lower bound of the one that would be told now.

@@ -3,9 +3,9 @@
 //
 //   IncrementalAStar planner;
 //   planner.prepare(map, stop);
-//   planner.plan({start, {goal}}, stop);           // a whole search, backwards from the goal
+//   planner.search({start, {goal}}, stop);           // a whole search, backwards from the goal
 //   planner.update(changed_map, changed, stop);
-//   planner.plan({moved_start, {goal}}, stop);     // a search around the change
+//   planner.search({moved_start, {goal}}, stop);     // a search around the change
 //
 // The labels of the first search are kept (goal_tree.h). Where the map changed so that the way of
 // the start still holds and none can be cheaper, it is the answer; else A* goes from the start as

@@ -3,7 +3,7 @@
 //
 //   RepairSearch detour;
 //   detour.prepare(map);
-//   if (detour.run(labels, start, sound_below, false, result, poll)) use(detour.way(labels));
+//   if (detour.run(labels, start, sound_below, false, result, poll)) use(detour.path(labels));
 //
 // After changes on a map a label is a lower bound of what a way from its cell costs (goal_tree.h
 // sees to that), and exactly that cost where every step of the cell's way is supported: it is

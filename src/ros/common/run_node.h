@@ -1,7 +1,7 @@
 // The main program of a node: everything around the one class that is the node.
 //
 //   int main(int argc, char** argv) {
-//     return grid_path_planner::runNode<grid_path_planner::SimulatorNode>(argc, argv, "simulator");
+//     return grid_path_planner::nodes::runNode<grid_path_planner::nodes::SimulatorNode>(argc, argv, "simulator");
 //   }
 //
 // Guaranteed: whatever ends the process in an orderly way (SIGINT, SIGTERM, rosnode kill, a second

@@ -1,7 +1,7 @@
 // Where questions about ways are handed in, from any thread, and answered in the worker's.
 //
 //   PlanningServer desk(nh, options, [] {});  // nothing to do where ROS time jumps back
-//   auto inquiry = desk.ask(question, PlanningServer::Announce::YES);
+//   auto inquiry = desk.ask(question, PlanningServer::Publish::YES);
 //   inquiry->wait();
 //   use(inquiry->answer());
 //
