@@ -89,7 +89,7 @@ class Docs(unittest.TestCase):
     TREE = {"README.md": "# Package\n[nodes](doc/nodes.md#the-planner), [needs](doc/dependencies.md), [rooms](doc/architecture.md)\n"
                          "<!-- parameters: planner -->\n<!-- end -->\n<!-- launch files -->\n%s<!-- end -->\n",
             "doc/nodes.md": "# Nodes\n## The planner\n`FOUND`\n    # no-heading\ngrid_path_planner/Plan `./scripts/run --fast`\n",
-            "doc/architecture.md": "# Rooms\n`grid/` `ros/common/` `nodes/` `src/nodes/planner.cpp` `src/nodes/x.cpp`\n",
+            "doc/architecture.md": "# Rooms\n`grid/` `common/` `nodes/` `src/nodes/planner.cpp` `src/nodes/x.cpp`\n",
             "doc/dependencies.md": "# Dependencies\n| Boost | |\n",
             "package.xml": "<package><depend>libboost-dev</depend></package>",
             "msg/Plan.msg": "", "scripts/run": "--fast", "src/nodes/planner.cpp": "",
@@ -126,7 +126,7 @@ class Docs(unittest.TestCase):
 
     def test_places(self):
         for text in ("nodes/absent.cpp", "absent/", "src/x/"):
-            self.assertEqual(len(self.planted("doc/architecture.md", "`grid/` `ros/common/` `nodes/` `%s`\n" % text)), 1, text)
+            self.assertEqual(len(self.planted("doc/architecture.md", "`grid/` `common/` `nodes/` `%s`\n" % text)), 1, text)
         self.assertEqual(self.planted("src/cellar/a.cpp", ""), ["doc/architecture.md: src/cellar is missing"])
 
     def test_scripts(self):
