@@ -17,7 +17,7 @@
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/planners/planner_factory.h"
-#include "grid_path_planner/planning/smooth_route.h"
+#include "grid_path_planner/planning/smooth_result.h"
 #include "grid_path_planner/planning/unused_options.h"
 #include "grid_path_planner/ros/bag.h"
 #include "grid_path_planner/study/scenario_file.h"

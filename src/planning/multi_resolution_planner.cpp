@@ -1,4 +1,4 @@
-#include "grid_path_planner/planning/multi_resolution_planner.h"
+#include "planning/multi_resolution_planner.h"
 
 #include <algorithm>
 #include <cassert>
@@ -23,17 +23,19 @@ using planners::SearchResult;
 
 namespace {
 
-// Adds a search's answer to the route; its cells only where it found some.
+// Adds the result of a search to the route's plan, and a leg where it found a path.
 void append(Route& route, const std::shared_ptr<const CostGrid>& map, SearchResult result) {
-  route.status = result.status;
-  route.message = std::move(result.message);
-  route.statistics += result.statistics;
+  Plan& plan = route.plan;
+  plan.status = result.status;
+  plan.message = std::move(result.message);
+  plan.statistics += result.statistics;
   for (const CellIndex index : result.expanded)
-    route.expanded.push_back(map->waypoint(map->geometry().cell(index)));
-  if (result.status != Status::FOUND) return;
-  route.cost += result.cost;
-  route.segment_cost += result.segment_cost;
-  route.legs.push_back({map, std::move(result.cells), std::move(result.points)});
+    plan.expanded.push_back(map->waypoint(map->geometry().cell(index)));
+  if (!plan.found()) return;
+  plan.cost += result.cost;
+  plan.segment_cost += result.segment_cost;
+  result.expanded = {};
+  route.legs.push_back({map, std::move(result)});
 }
 
 }  // namespace
@@ -46,85 +48,92 @@ MultiResolutionPlanner::MultiResolutionPlanner(std::string planner, const Search
       planner_(make_planner_(planner_name_, options)) {}
 
 void MultiResolutionPlanner::prepare(const CostmapPair& maps, const StopToken& stop) {
-  if (fine_ != maps.full_resolution) followFine(maps, stop);
-  if (searched_ == maps.downsampled) return;
-  searched_.reset();  // a stopped preparation begins anew
+  if (full_resolution_ != maps.full_resolution) followFullResolution(maps, stop);
+  if (downsampled_ == maps.downsampled) return;
+  downsampled_.reset();  // a stopped preparation begins anew
   planner_->update(maps.downsampled, maps.downsampled_change, stop);
-  searched_ = maps.downsampled;
+  downsampled_ = maps.downsampled;
 }
 
 void MultiResolutionPlanner::follow(const CostmapPair& maps, const StopToken& stop) {
-  if (searched_ && planner_->traits().repairs) prepare(maps, stop);
+  if (downsampled_ && planner_->traits().repairs) prepare(maps, stop);
 }
 
-void MultiResolutionPlanner::followFine(const CostmapPair& maps, const StopToken& stop) {
-  const std::shared_ptr<const CostGrid> before = std::exchange(fine_, maps.full_resolution);
-  const bool next = before && before->geometry() == fine_->geometry() &&
-                    before->revision() + 1 == fine_->revision();
-  const bool finer_follows = next && finer_map_ == before && finer_->traits().repairs;
-  const bool leaver_follows = next && leaver_map_ == before;
+void MultiResolutionPlanner::followFullResolution(const CostmapPair& maps, const StopToken& stop) {
+  const std::shared_ptr<const CostGrid> before =
+      std::exchange(full_resolution_, maps.full_resolution);
+  const bool next = before && before->geometry() == full_resolution_->geometry() &&
+                    before->revision() + 1 == full_resolution_->revision();
+  const bool update_finer = next && finer_map_ == before && finer_planner_->traits().repairs;
+  const bool update_open_block = next && open_block_map_ == before;
   finer_map_.reset();
-  leaver_map_.reset();
-  if (finer_follows) {
-    finer_->update(fine_, maps.full_resolution_change, stop);
-    finer_map_ = fine_;
+  open_block_map_.reset();
+  if (update_finer) {
+    finer_planner_->update(full_resolution_, maps.full_resolution_change, stop);
+    finer_map_ = full_resolution_;
   }
-  if (leaver_follows) {
-    leaver_->update(*fine_, maps.full_resolution_change, stop);
-    leaver_map_ = fine_;
+  if (update_open_block) {
+    open_block_search_->update(*full_resolution_, maps.full_resolution_change, stop);
+    open_block_map_ = full_resolution_;
   }
 }
 
 Cell MultiResolutionPlanner::middleOf(Cell block) const {
-  const int k = searched_->kernel();
+  const int k = downsampled_->kernel();
   const auto middle = [k](int first, int side) { return first + std::min(k, side - first) / 2; };
-  return {middle(block.column * k, fine_->geometry().width()),
-          middle(block.row * k, fine_->geometry().height())};
+  return {middle(block.column * k, full_resolution_->geometry().width()),
+          middle(block.row * k, full_resolution_->geometry().height())};
 }
 
 Route MultiResolutionPlanner::find(Cell start, Cell goal, bool retry_finer, bool record_expanded,
                                    const StopToken& stop) {
-  assert(fine_ && searched_ && fine_->passable(start) && fine_->passable(goal));
-  if (searched_->kernel() == 1) {
-    Route route;
-    append(route, searched_, planner_->search({start, {goal}, record_expanded}, stop));
-    route.taut = route.status == Status::FOUND && planner_->traits().shortest;
-    route.optimal =
-        route.taut || (route.status == Status::FOUND && planner_->optimalFor(*searched_));
-    return route;
-  }
+  assert(full_resolution_ && downsampled_);
+  assert(full_resolution_->passable(start) && full_resolution_->passable(goal));
+  if (downsampled_->kernel() == 1) return findOnKernelOne(start, goal, record_expanded, stop);
   Route route = findOverBlocks(start, goal, record_expanded, stop);
-  if (route.status != Status::UNREACHABLE || !retry_finer) return route;
+  if (route.plan.status != Status::UNREACHABLE || !retry_finer) return route;
 
-  Route finer = findFine(start, goal, record_expanded, stop);
-  finer.statistics += route.statistics;
-  finer.expanded.insert(finer.expanded.begin(), route.expanded.begin(), route.expanded.end());
-  if (finer.status == Status::FOUND)
-    finer.message = "kernel " + std::to_string(searched_->kernel()) +
-                    " closes the way: planned again at kernel 1";
+  Route finer = findAtFullResolution(start, goal, record_expanded, stop);
+  finer.plan.statistics += route.plan.statistics;
+  finer.plan.expanded.insert(finer.plan.expanded.begin(), route.plan.expanded.begin(),
+                             route.plan.expanded.end());
+  if (finer.plan.found())
+    finer.plan.message = "kernel " + std::to_string(downsampled_->kernel()) +
+                         " closes the way: planned again at kernel 1";
   return finer;
 }
 
-SearchResult MultiResolutionPlanner::leave(Cell from, Cell other, const Blocks& wanted,
-                                           bool record_expanded, const StopToken& stop) {
-  if (!leaver_) leaver_ = std::make_unique<BucketSearch>();
-  if (leaver_map_ != fine_) {
-    leaver_map_.reset();
-    leaver_->prepare(*fine_, stop);
-    leaver_map_ = fine_;
+Route MultiResolutionPlanner::findOnKernelOne(Cell start, Cell goal, bool record_expanded,
+                                              const StopToken& stop) {
+  Route route;
+  append(route, downsampled_, planner_->search({start, {goal}, record_expanded}, stop));
+  route.shortest = route.plan.found() && planner_->traits().shortest;
+  route.plan.optimal =
+      route.shortest || (route.plan.found() && planner_->optimalFor(*downsampled_));
+  return route;
+}
+
+SearchResult MultiResolutionPlanner::searchOpenBlock(Cell from, Cell other, const Blocks& wanted,
+                                                     bool record_expanded, const StopToken& stop) {
+  if (!open_block_search_) open_block_search_ = std::make_unique<BucketSearch>();
+  if (open_block_map_ != full_resolution_) {
+    open_block_map_.reset();
+    open_block_search_->prepare(*full_resolution_, stop);
+    open_block_map_ = full_resolution_;
   }
   const auto arrived = [&](std::uint32_t index) {
-    const Cell cell = fine_->geometry().cell(CellIndex(index));
+    const Cell cell = full_resolution_->geometry().cell(CellIndex(index));
     if (cell == other) return true;
     const Cell block = blockOf(cell);
-    return wanted[searched_->geometry().index(block).value()] != 0 && middleOf(block) == cell;
+    return wanted[downsampled_->geometry().index(block).value()] != 0 && middleOf(block) == cell;
   };
-  return leaver_->run(*fine_, from, arrived, noEstimate, record_expanded, stop);
+  return open_block_search_->run(*full_resolution_, from, arrived, noEstimate, record_expanded,
+                                 stop);
 }
 
 MultiResolutionPlanner::Blocks MultiResolutionPlanner::openBlocks() const {
   Blocks open;
-  for (const CostGrid::Weight weight : searched_->weights().values())
+  for (const CostGrid::Weight weight : downsampled_->weights().values())
     open.push_back(weight != CostGrid::kBlocked ? 1 : 0);
   return open;
 }
@@ -132,16 +141,17 @@ MultiResolutionPlanner::Blocks MultiResolutionPlanner::openBlocks() const {
 Route MultiResolutionPlanner::findOverBlocks(Cell start, Cell goal, bool record_expanded,
                                              const StopToken& stop) {
   Route route;
-  route.kernel = searched_->kernel();
+  Plan& plan = route.plan;
+  plan.kernel = downsampled_->kernel();
 
   // 1. From a start in a blocked block to an open one from which the goal's block can be reached.
   Cell first = start;
   if (!blockOpen(start)) {
     const Blocks wanted =
-        blockOpen(goal) ? reachableFrom(*searched_, blockOf(goal), stop) : openBlocks();
-    append(route, fine_, leave(start, goal, wanted, record_expanded, stop));
-    if (route.status != Status::FOUND) return route;
-    first = route.legs.back().cells.back();
+        blockOpen(goal) ? reachableFrom(*downsampled_, blockOf(goal), stop) : openBlocks();
+    append(route, full_resolution_, searchOpenBlock(start, goal, wanted, record_expanded, stop));
+    if (!plan.found()) return route;
+    first = route.legs.back().result.cells.back();
     if (first == goal) return route;
   }
 
@@ -149,53 +159,54 @@ Route MultiResolutionPlanner::findOverBlocks(Cell start, Cell goal, bool record_
   Route last_leg;
   Cell last = goal;
   if (!blockOpen(goal)) {
-    const Blocks wanted = reachableFrom(*searched_, blockOf(first), stop);
-    append(last_leg, fine_, leave(goal, start, wanted, record_expanded, stop));
-    route.statistics += last_leg.statistics;
-    route.expanded.insert(route.expanded.end(), last_leg.expanded.begin(), last_leg.expanded.end());
-    route.status = last_leg.status;
-    if (last_leg.status != Status::FOUND) return route;
-    auto& cells = last_leg.legs.back().cells;
+    const Blocks wanted = reachableFrom(*downsampled_, blockOf(first), stop);
+    append(last_leg, full_resolution_, searchOpenBlock(goal, start, wanted, record_expanded, stop));
+    const Plan& last_plan = last_leg.plan;
+    plan.statistics += last_plan.statistics;
+    plan.expanded.insert(plan.expanded.end(), last_plan.expanded.begin(), last_plan.expanded.end());
+    plan.status = last_plan.status;
+    if (!plan.found()) return route;
+    auto& cells = last_leg.legs.back().result.cells;
     std::reverse(cells.begin(), cells.end());
     last = cells.front();
     if (last == start) {
-      last_leg.statistics = route.statistics;
+      last_leg.plan.statistics = plan.statistics;
       return last_leg;
     }
   }
 
   // 3. Over the blocks between.
-  append(route, searched_,
+  append(route, downsampled_,
          planner_->search({blockOf(first), {blockOf(last)}, record_expanded}, stop));
-  if (route.status != Status::FOUND || last_leg.legs.empty()) return route;
-  route.cost += last_leg.cost;
+  if (!plan.found() || last_leg.legs.empty()) return route;
+  plan.cost += last_leg.plan.cost;
   route.legs.push_back(std::move(last_leg.legs.back()));
   return route;
 }
 
-Route MultiResolutionPlanner::findFine(Cell start, Cell goal, bool record_expanded,
-                                       const StopToken& stop) {
-  if (!finer_) finer_ = make_planner_(planner_name_, options_);
-  if (finer_map_ != fine_) {
+Route MultiResolutionPlanner::findAtFullResolution(Cell start, Cell goal, bool record_expanded,
+                                                   const StopToken& stop) {
+  if (!finer_planner_) finer_planner_ = make_planner_(planner_name_, options_);
+  if (finer_map_ != full_resolution_) {
     finer_map_.reset();
-    finer_->prepare(fine_, stop);
-    finer_map_ = fine_;
+    finer_planner_->prepare(full_resolution_, stop);
+    finer_map_ = full_resolution_;
   }
   Route route;
-  append(route, fine_, finer_->search({start, {goal}, record_expanded}, stop));
+  append(route, full_resolution_, finer_planner_->search({start, {goal}, record_expanded}, stop));
   return route;
 }
 
 std::vector<std::uint8_t> MultiResolutionPlanner::reachable(Cell start, bool retry_finer,
                                                             const StopToken& stop) {
-  std::vector<std::uint8_t> cells = reachableFrom(*fine_, start, stop);
-  if (retry_finer || searched_->kernel() == 1 || !blockOpen(start)) return cells;
-  const Blocks blocks = reachableFrom(*searched_, blockOf(start), stop);
+  std::vector<std::uint8_t> cells = reachableFrom(*full_resolution_, start, stop);
+  if (retry_finer || downsampled_->kernel() == 1 || !blockOpen(start)) return cells;
+  const Blocks blocks = reachableFrom(*downsampled_, blockOf(start), stop);
   StopPoll poll(stop, 1 << 18);
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
     poll();
-    const Cell cell = fine_->geometry().cell(CellIndex(i));
-    if (blockOpen(cell) && blocks[searched_->geometry().index(blockOf(cell)).value()] == 0)
+    const Cell cell = full_resolution_->geometry().cell(CellIndex(i));
+    if (blockOpen(cell) && blocks[downsampled_->geometry().index(blockOf(cell)).value()] == 0)
       cells[i] = 0;
   }
   return cells;

@@ -1,12 +1,13 @@
-// From two poses on an occupancy map to a path: terrain, search, and what becomes of the two ends.
+// Plans a path between two poses on an occupancy map: costmap, end cells, search, path.
 //
 //   PathPlanner planner(options);
 //   planner.setMap(std::make_shared<const OccupancyGrid>(readMapFile("site.yaml")));
-//   Plan report = planner.plan({start, goal}, StopSource());
+//   Plan plan = planner.plan({start, goal}, StopSource());
 //
-// The ends of the path are the poses asked for. They are judged on the inflated map at full
-// resolution; where only their block of the kernel is blocked, the search runs at full resolution
-// until it reaches open blocks. No call changes the caller's map. Not thread-safe: one at a time.
+// The path starts and ends at the requested poses. Whether these are passable is decided on the
+// inflated map at full resolution; where only the block of the kernel around one is blocked, the
+// search runs at full resolution until it reaches an open block. No call changes the caller's map.
+// Not thread-safe: one call at a time.
 #pragma once
 
 #include <memory>
@@ -14,15 +15,13 @@
 #include <vector>
 
 #include "grid_path_planner/base/options.h"
-#include "grid_path_planner/base/statistics.h"
-#include "grid_path_planner/base/status.h"
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/costmap/costmap_options.h"
 #include "grid_path_planner/path/headings.h"
 #include "grid_path_planner/path/path.h"
-#include "grid_path_planner/planners/planner.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "grid_path_planner/planners/search_options.h"
+#include "grid_path_planner/planning/plan.h"
 
 namespace grid_path_planner::costmap {
 class CostmapBuilder;
@@ -32,6 +31,8 @@ namespace grid_path_planner::planning {
 
 class MultiResolutionPlanner;
 struct CostmapPair;
+struct PathEnd;
+struct Route;
 
 struct PlannerOptions {
   costmap::CostmapOptions terrain;
@@ -81,34 +82,15 @@ void visitOptions(PlannerOptions& o, Visitor&& visit) {
   visit("fixed_z", o.fixed_z, base::OptionInfo{"z of the path with path_z fixed", "m", -1e6, 1e6});
 }
 
-// Throws InputError naming the option for a value outside its limits and for combinations that
-// contradict each other: smooth with connectivity 4 or unit diagonals.
-void checkPlannerOptions(const PlannerOptions& options,
-                         const planners::PlannerMaker& make_planner = planners::makePlanner);
+// Throws InputError naming the option for a value outside its limits, for an unknown planner and for
+// combinations that contradict each other: smooth with connectivity 4 or unit diagonals.
+void checkPlannerOptions(const PlannerOptions& options);
 
 // Both in the map's frame.
 struct PoseRequest {
   path::Pose start;
   path::Pose goal;
   bool record_expanded = false;
-};
-
-struct Plan {
-  base::Status status = base::Status::NO_MAP;
-  std::string message;
-  path::Path path;          // empty unless FOUND
-  costmap::ExactCost cost;  // between the end cells, as in SearchResult
-  double segment_cost = 0.0;
-  double costValue() const { return cost.toDouble() + segment_cost; }
-  bool optimal = false;  // the planner promises that no path of its kind (over the grid, or at
-                         // any angle) costs less; never of a kernel or a smoothed path
-  double length_m = 0.0;
-  std::size_t cells = 0;  // of the path on the map that was searched
-  int kernel = 1;         // of the map that was searched
-  base::Statistics statistics;
-  double preparation_time_s =
-      0.0;  // terrain and what the planner makes of it; 0 if nothing changed
-  std::vector<Eigen::Vector2d> expanded;  // centres of the expanded cells, metres
 };
 
 class PathPlanner {
@@ -127,38 +109,41 @@ class PathPlanner {
   // Throws InputError for a map without cells or with values outside -1..100 and keeps the old map.
   void setMap(std::shared_ptr<const grid::OccupancyGrid> map);
   // `map` has the geometry of the present one and differs from it only inside `changed`. Takes time
-  // in proportion to `changed`, as does what the next call makes of it.
+  // in proportion to `changed`, as does the update of the costmaps by the next call.
   void updateMap(std::shared_ptr<const grid::OccupancyGrid> map, const grid::CellRect& changed);
   bool hasMap() const { return map_ != nullptr; }
   const std::shared_ptr<const grid::OccupancyGrid>& map() const { return map_; }
 
-  // The maps that plan() works on, made if the map or the options changed. Throws Stopped.
+  // The costmaps that plan() works on, made if the map or the options changed. Throw Stopped.
   // Precondition: hasMap().
   std::shared_ptr<const costmap::CostGrid> fullResolutionCosts(
       const base::StopToken& stop);  // kernel 1, inflated
   std::shared_ptr<const costmap::CostGrid> downsampledCosts(
       const base::StopToken& stop);  // options().terrain.kernel
 
-  // Returns when all is made that plan() uses, the planner's background work too, without which the
-  // first plans take longer. Throws Stopped. Precondition: hasMap().
+  // Returns when everything that plan() uses is computed, the planner's background work included,
+  // without which the first plans take longer. Throws Stopped. Precondition: hasMap().
   void finishPreparation(const base::StopToken& stop);
 
   // Every failure but a bug is a status; options().timeout runs beside the token's own limit.
   Plan plan(const PoseRequest& request, const base::StopSource& stop = {});
 
  private:
-  friend class PlanAttempt;
-
-  // The maps brought up to date.
-  CostmapPair maps(const base::StopToken& stop);
-  // The same, and what was made of them keeps up.
-  CostmapPair followedMaps(const base::StopToken& stop);
+  // The costmaps, brought up to date.
+  CostmapPair costmaps(const base::StopToken& stop);
+  // The same, after the planner was updated to them where that is cheap.
+  CostmapPair followedCostmaps(const base::StopToken& stop);
+  // Precondition: the search is prepared, and `costs` is the costmap at full resolution.
+  Plan planOn(const costmap::CostGrid& costs, const PoseRequest& request,
+              const base::StopToken& stop);
+  Route search(const PathEnd& start, const PathEnd& goal, bool record_expanded,
+               const base::StopToken& stop);
 
   planners::PlannerMaker make_planner_;
   PlannerOptions options_;
   std::shared_ptr<const grid::OccupancyGrid> map_;
-  std::unique_ptr<costmap::CostmapBuilder> terrain_;
-  std::unique_ptr<MultiResolutionPlanner> routes_;
+  std::unique_ptr<costmap::CostmapBuilder> costmap_;
+  std::unique_ptr<MultiResolutionPlanner> search_;
 };
 
 }  // namespace grid_path_planner::planning

@@ -1,12 +1,15 @@
-#include "planning/route_path.h"
+#include "planning/route.h"
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "grid_path_planner/costmap/line_of_sight.h"
+#include "grid_path_planner/planning/smooth_result.h"
 
 namespace grid_path_planner::planning {
 
+using base::StopToken;
 using costmap::CostGrid;
 using costmap::lineOfSight;
 using costmap::SegmentPoint;
@@ -27,11 +30,12 @@ bool neighbours(Cell a, Cell b) {
 }
 
 bool anyAngle(const Leg& leg) {
-  return !leg.points.empty();
+  return !leg.result.points.empty();
 }
 
 Eigen::Vector2d positionOf(const Leg& leg, std::size_t i) {
-  return anyAngle(leg) ? worldOf(*leg.map, leg.points[i]) : leg.map->waypoint(leg.cells[i]);
+  return anyAngle(leg) ? worldOf(*leg.map, leg.result.points[i])
+                       : leg.map->waypoint(leg.result.cells[i]);
 }
 
 // A vehicle cannot tell poses apart that are this near, in metres.
@@ -52,19 +56,20 @@ Eigen::Vector2d sharedCorner(const CostGrid& map, Cell a, Cell b) {
                                                       std::max(a.row, b.row)));
 }
 
-// Two legs meet in the middle of one block: the fine leg's point serves both, unless turning points
-// hold only as they are.
+// Two legs meet in the middle of one block: the point of the leg at full resolution stands for
+// both, except where turning points are legal only as they are.
 std::vector<RoutePoint> pointsOf(const Route& route) {
   std::vector<RoutePoint> points;
   const bool keep_both = std::any_of(route.legs.begin(), route.legs.end(), anyAngle);
   for (const Leg& leg : route.legs) {
+    const std::vector<Cell>& cells = leg.result.cells;
     const bool coarse = leg.map->kernel() > 1;
-    for (std::size_t i = 0; i < leg.cells.size(); ++i) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
       const RoutePoint point{positionOf(leg, i), leg.map.get()};
-      // The middles of blocks are not always their centres: past a blocked one the way leads
+      // The middles of blocks are not always their centres: past a blocked one the path leads
       // exactly over the corner.
-      if (coarse && i > 0 && cutsCorner(*leg.map, leg.cells[i - 1], leg.cells[i])) {
-        const Eigen::Vector2d corner = sharedCorner(*leg.map, leg.cells[i - 1], leg.cells[i]);
+      if (coarse && i > 0 && cutsCorner(*leg.map, cells[i - 1], cells[i])) {
+        const Eigen::Vector2d corner = sharedCorner(*leg.map, cells[i - 1], cells[i]);
         if (!samePlace(corner, points.back().position) && !samePlace(corner, point.position))
           points.push_back({corner, leg.map.get()});
       }
@@ -79,12 +84,31 @@ std::vector<RoutePoint> pointsOf(const Route& route) {
   return points;
 }
 
-bool straightWay(const CostGrid& map, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+bool straightLineLegal(const CostGrid& map, const Eigen::Vector2d& from,
+                       const Eigen::Vector2d& to) {
   return lineOfSight(map, SegmentPoint::nearest(map.geometry().gridFromWorld(from)),
                      SegmentPoint::nearest(map.geometry().gridFromWorld(to)));
 }
 
 }  // namespace
+
+void smoothRoute(Route& route, const StopToken& stop) {
+  if (route.shortest) return;
+  std::vector<Leg> legs = route.legs;
+  bool smooth = true;
+  double cost = 0.0;
+  for (Leg& leg : legs) {
+    leg.result.statistics.time_s = 0.0;
+    smooth = smoothResult(*leg.map, leg.result, stop) && smooth;
+    cost += leg.result.segment_cost;
+    route.plan.statistics.time_s += leg.result.statistics.time_s;
+  }
+  if (!smooth) return;
+  route.legs = std::move(legs);
+  route.plan.optimal = false;
+  route.plan.cost = {};
+  route.plan.segment_cost = cost;
+}
 
 Path pathOfRoute(const Route& route, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
                  bool keep_first) {
@@ -94,13 +118,13 @@ Path pathOfRoute(const Route& route, const Eigen::Vector2d& start, const Eigen::
   const CostGrid* last_map = points.back().map;
   if (!keep_first) {
     const Eigen::Vector2d& next = points.size() > 1 ? points[1].position : goal;
-    if (straightWay(*first_map, start, next)) points.erase(points.begin());
+    if (straightLineLegal(*first_map, start, next)) points.erase(points.begin());
   }
   if (!points.empty()) {
     const Eigen::Vector2d& previous =
         points.size() > 1 ? points[points.size() - 2].position : start;
     const bool only_kept = keep_first && points.size() == 1;
-    if (!only_kept && straightWay(*last_map, previous, goal)) points.pop_back();
+    if (!only_kept && straightLineLegal(*last_map, previous, goal)) points.pop_back();
   }
 
   Path path;

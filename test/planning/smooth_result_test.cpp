@@ -1,4 +1,4 @@
-#include "grid_path_planner/planning/smooth_route.h"
+#include "grid_path_planner/planning/smooth_result.h"
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ double costOf(const CostGrid& map, const std::vector<SegmentPoint>& points) {
   return cost;
 }
 
-TEST(SmoothRouteLaw, SegmentsAreLegalAndNoCostRises) {
+TEST(SmoothResultLaw, SegmentsAreLegalAndNoCostRises) {
   std::mt19937 random(9);
   double before = 0.0, after = 0.0;
   int found = 0;
@@ -81,7 +81,7 @@ TEST(SmoothRouteLaw, SegmentsAreLegalAndNoCostRises) {
 }
 
 // On maps of one weight nothing is shorter than anya, and none of the others far from it.
-TEST(SmoothRouteLaw, AnyaIsNoLongerThanTheOthers) {
+TEST(SmoothResultLaw, AnyaIsNoLongerThanTheOthers) {
   std::mt19937 random(10);
   double shortest = 0.0, smooth_ones = 0.0;
   int found = 0;

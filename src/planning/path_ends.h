@@ -1,0 +1,55 @@
+// The cells between which a path is searched for the two poses of a request, and the reason where
+// there is none.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "grid_path_planner/planning/path_planner.h"
+#include "planning/multi_resolution_planner.h"
+
+namespace grid_path_planner::planning {
+
+// One end of a path: the cell that is searched from, and the position where the path ends.
+struct PathEnd {
+  grid::Cell cell;
+  Eigen::Vector2d position;
+  std::string note;    // what the plan's message adds about it, "" if nothing
+  bool moved = false;  // the cell is not that of the requested pose
+};
+
+class PathEnds {
+ public:
+  // `costs` is the costmap at full resolution, for which `search` is prepared. All outlive this.
+  PathEnds(const PoseRequest& request, const PlannerOptions& options,
+           const costmap::CostGrid& costs, MultiResolutionPlanner& search,
+           const base::StopToken& stop)
+      : request_(request), options_(options), costs_(costs), search_(search), stop_(stop) {}
+
+  // None where `failure` says why. A blocked start is replaced by the nearest passable cell within
+  // start_escape_radius, a blocked goal by substituteGoal(). Throw Stopped.
+  std::optional<PathEnd> start(Plan& failure) const;
+  std::optional<PathEnd> goal(const PathEnd& start, Plan& failure) const;
+
+  // For a blocked start: the nearest cell within start_escape_radius from which `goal` can be
+  // reached.
+  std::optional<PathEnd> escapeTowards(const PathEnd& goal) const;
+  // The cell nearest the goal, within the tolerance, that can be reached from `start`. `why` the
+  // goal itself is not used goes into the note.
+  std::optional<PathEnd> substituteGoal(const PathEnd& start, const std::string& why) const;
+
+ private:
+  template <class Usable>
+  std::optional<PathEnd> escapeStart(Usable&& usable) const;
+  std::string whyBlocked(grid::Cell cell) const;
+  std::string outsideMap() const;
+
+  const PoseRequest& request_;
+  const PlannerOptions& options_;
+  const costmap::CostGrid& costs_;
+  MultiResolutionPlanner& search_;
+  const base::StopToken& stop_;
+};
+
+}  // namespace grid_path_planner::planning

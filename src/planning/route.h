@@ -1,0 +1,36 @@
+// A path over cells in one to three legs, and the path between two poses that it becomes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/costmap/cost_grid.h"
+#include "grid_path_planner/planners/planner.h"
+#include "grid_path_planner/planning/plan.h"
+
+namespace grid_path_planner::planning {
+
+// The part of a route on one costmap.
+struct Leg {
+  std::shared_ptr<const costmap::CostGrid> map;
+  planners::SearchResult result;  // FOUND; its expanded cells are in the route's plan
+};
+
+struct Route {
+  Plan plan;              // without path, length and cells yet
+  std::vector<Leg> legs;  // a leg's last cell and the next one's first are the same place or block
+  bool shortest = false;  // of any angle, and none is shorter: smoothing cannot improve it
+};
+
+// Smooths every leg by itself. Preconditions as for smoothResult().
+void smoothRoute(Route& route, const base::StopToken& stop);
+
+// The positions (z 0) and no headings yet. The ends are `start` and `goal`, in metres. The centre
+// of the first or last cell stays between an end and the rest only where the straight line past it
+// is not legal, or where `keep_first` asks for it (a start that is itself blocked). start = goal:
+// one pose. Precondition: the route was found.
+path::Path pathOfRoute(const Route& route, const Eigen::Vector2d& start,
+                       const Eigen::Vector2d& goal, bool keep_first);
+
+}  // namespace grid_path_planner::planning
