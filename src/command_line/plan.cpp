@@ -25,7 +25,7 @@ using nodes::readAnyMapFile;
 using path::Pose;
 using path::writePicture;
 using path::writeWaypointFile;
-using planners::makePlanner;
+using planners::traitsOf;
 using planning::PathPlanner;
 using planning::Plan;
 using planning::PlannerOptions;
@@ -114,7 +114,7 @@ std::vector<Cell> cellsOf(const Plan& report, const GridGeometry& geometry) {
 // Where the planner promises the cheapest path by itself, but not with these options.
 void warnAboutPromise(const PlannerOptions& options) {
   if (options.terrain.kernel != 1 || options.smooth) return;
-  if (!makePlanner(options.planner)->traits().optimal) return;
+  if (!traitsOf(options.planner).optimal) return;
   std::cerr << "warning: the path may not be the cheapest: with this heuristic, heuristic_scale or "
                "epsilon "
             << options.planner << " does not promise it\n";

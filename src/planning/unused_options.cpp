@@ -13,9 +13,9 @@ using base::valueText;
 using costmap::Connectivity;
 using path::PathZ;
 using planners::Heuristic;
-using planners::makePlanner;
 using planners::optionsUsedBy;
 using planners::SearchOptions;
+using planners::traitsOf;
 
 namespace {
 
@@ -23,7 +23,7 @@ namespace {
 struct Rule {
   const char* option;
   const char* with;
-  bool (*idle)(const PlannerOptions&);
+  bool (*unused)(const PlannerOptions&);
 };
 
 bool noEstimate(const PlannerOptions& o) {
@@ -36,9 +36,9 @@ bool noDiagonals(const PlannerOptions& o) {
   return o.terrain.motion.connectivity == Connectivity::FOUR;
 }
 
-// The ways out of blocked blocks are paths over the grid whatever the planner.
-bool tautAlready(const PlannerOptions& o) {
-  return noKernel(o) && makePlanner(o.planner)->traits().shortest;
+// With a kernel the legs out of blocked blocks are paths over the grid whatever the planner.
+bool shortestAlready(const PlannerOptions& o) {
+  return noKernel(o) && traitsOf(o.planner).shortest;
 }
 
 constexpr Rule kRules[] = {
@@ -55,7 +55,7 @@ constexpr Rule kRules[] = {
     {"diagonal_cost", "connectivity", noDiagonals},
     {"cut_corners", "connectivity", noDiagonals},
     {"retry_finer", "kernel", noKernel},
-    {"smooth", "planner", tautAlready},
+    {"smooth", "planner", shortestAlready},
     {"fixed_z", "path_z", [](const PlannerOptions& o) { return o.path_z != PathZ::FIXED; }},
 };
 
@@ -63,7 +63,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool concernsSearch(const std::string& option) {
+bool isSearchOption(const std::string& option) {
   bool found = false;
   SearchOptions search;
   visitOptions(search,
@@ -71,15 +71,15 @@ bool concernsSearch(const std::string& option) {
   return found;
 }
 
-bool lookedAt(const std::string& option, const std::string& planner) {
-  return !concernsSearch(option) || contains(optionsUsedBy(planner), option);
+bool usedBy(const std::string& option, const std::string& planner) {
+  return !isSearchOption(option) || contains(optionsUsedBy(planner), option);
 }
 
-// The option that leaves this one without effect; empty: it has one.
-std::string idleWith(const std::string& option, const PlannerOptions& options) {
-  if (!lookedAt(option, options.planner)) return "planner";
+// The option because of which this one has no effect; empty: it has one.
+std::string unusedBecauseOf(const std::string& option, const PlannerOptions& options) {
+  if (!usedBy(option, options.planner)) return "planner";
   for (const Rule& rule : kRules)
-    if (option == rule.option && rule.idle(options)) return rule.with;
+    if (option == rule.option && rule.unused(options)) return rule.with;
   return "";
 }
 
@@ -100,7 +100,7 @@ std::vector<std::string> changedOptions(const PlannerOptions& options) {
 std::vector<UnusedOption> unusedOptions(const PlannerOptions& options) {
   std::vector<UnusedOption> unused;
   for (const std::string& name : changedOptions(options)) {
-    const std::string with = idleWith(name, options);
+    const std::string with = unusedBecauseOf(name, options);
     if (!with.empty()) unused.push_back({name, with + " " + valueOf(with, options)});
   }
   return unused;

@@ -1,12 +1,11 @@
-// Which options were set in vain: those that the chosen planner does not look at, or that other
-// options leave without effect. An option that does nothing is easily taken for one that made no
-// difference.
+// Finds options that have no effect: the chosen planner does not use them, or other options disable
+// them.
 //
 //   for (const UnusedOption& each : unusedOptions(options))
 //     warn(each.name + " changes nothing with " + each.with);   // "planner jump_point"
 //
-// Guaranteed: no path would differ if an option that is named had its default. Not guaranteed: that
-// an option that is not named makes a difference on a given map.
+// Guaranteed: no path would differ if a reported option had its default. Not guaranteed: that an
+// option that is not reported makes a difference on a given map.
 #pragma once
 
 #include <string>
@@ -18,18 +17,18 @@ namespace grid_path_planner::planning {
 
 struct UnusedOption {
   std::string name;
-  std::string with;  // name and value of the option that leaves it without effect
+  std::string with;  // name and value of the option that disables it
 
   friend bool operator==(const UnusedOption& a, const UnusedOption& b) {
     return a.name == b.name && a.with == b.with;
   }
 };
 
-// Those that differ from their defaults and change nothing, in their order. Precondition:
-// checkPlannerOptions() takes the options.
+// The options that differ from their defaults and have no effect, in order of declaration.
+// Precondition: checkPlannerOptions() accepts the options.
 std::vector<UnusedOption> unusedOptions(const PlannerOptions& options);
 
-// The names of all that differ from their defaults, in their order.
+// The names of all options that differ from their defaults, in order of declaration.
 std::vector<std::string> changedOptions(const PlannerOptions& options);
 
 }  // namespace grid_path_planner::planning
