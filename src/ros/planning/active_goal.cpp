@@ -14,15 +14,15 @@ void ActiveGoal::setStart(const geometry_msgs::PoseStamped& start) {
 void ActiveGoal::forgetStart() {
   std::lock_guard<std::mutex> lock(mutex_);
   start_.reset();
-  if (goal_) goal_->question.start.reset();
+  if (goal_) goal_->request.start.reset();
 }
 
 void ActiveGoal::setGoal(const geometry_msgs::PoseStamped& goal) {
   std::lock_guard<std::mutex> lock(mutex_);
   GoalState next;
   next.id = next_id_++;
-  next.question.goal = goal;
-  next.question.start = std::exchange(start_, std::nullopt);
+  next.request.goal = goal;
+  next.request.start = std::exchange(start_, std::nullopt);
   goal_ = std::move(next);
 }
 
@@ -32,14 +32,14 @@ std::optional<GoalState> ActiveGoal::goal() const {
 }
 
 bool ActiveGoal::commit(std::uint64_t id, const Path& path, unsigned path_settings,
-                        const std::function<void()>& tell) {
+                        const std::function<void()>& publish) {
   std::lock_guard<std::mutex> lock(mutex_);
   if (!goal_ || goal_->id != id) return false;
   goal_->answered = true;
-  goal_->question.start.reset();  // every replan starts from tf
+  goal_->request.start.reset();  // every replan starts from tf
   goal_->path = path;
   goal_->path_settings = path_settings;
-  tell();
+  publish();
   return true;
 }
 

@@ -1,5 +1,5 @@
-// The goal that path_planner is after, the path it has for it, and the pose that the next one
-// starts from. A result belongs to its goal: what comes for an older one is dropped.
+// The goal that path_planner plans for, its present path, and the start pose of the next goal. A
+// result belongs to its goal: one for an older goal is dropped.
 #pragma once
 
 #include <cstdint>
@@ -7,32 +7,33 @@
 #include <mutex>
 #include <optional>
 
-#include "ros/planning/planning_backend.h"
+#include "grid_path_planner/path/path.h"
+#include "ros/planning/planning_request.h"
 
 namespace grid_path_planner::nodes {
 
 struct GoalState {
   std::uint64_t id = 0;
-  PlanningRequest question;
-  bool answered = false;       // the start of the question holds until then
-  path::Path path;             // empty where the last answer was none
+  PlanningRequest request;
+  bool answered = false;       // the start of the request holds until then
+  path::Path path;             // empty where the last planning found none
   unsigned path_settings = 0;  // revision of the settings that it was planned with
 };
 
 class ActiveGoal {
  public:
-  // A pose for the next new goal to start from.
+  // The pose from which the next new goal starts.
   void setStart(const geometry_msgs::PoseStamped& start);
   void forgetStart();
 
-  // Takes the place of the goal before, and the start with it.
+  // Replaces the goal and uses up the start.
   void setGoal(const geometry_msgs::PoseStamped& goal);
   std::optional<GoalState> goal() const;
 
-  // If `id` is still the goal's: keeps the path and calls `tell` before any new goal is taken.
+  // If `id` is still the goal's: stores the path and calls `publish` before any new goal is accepted.
   // Returns whether it was.
   bool commit(std::uint64_t id, const path::Path& path, unsigned path_settings,
-              const std::function<void()>& tell);
+              const std::function<void()>& publish);
 
  private:
   mutable std::mutex mutex_;

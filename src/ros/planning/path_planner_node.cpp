@@ -18,6 +18,7 @@ using base::TaskQueue;
 using planners::memoryLimitOf;
 using planning::keepsPath;
 using planning::pathBlocked;
+using planning::Plan;
 using planning::PlannerOptions;
 using planning::UnusedOption;
 using planning::unusedOptions;
@@ -37,12 +38,12 @@ PathPlannerNodeOptions loadOptions(const ros::NodeHandle& private_nh) {
   return options;
 }
 
-// Says of each option once that it was set in vain.
+// Warns once of each option that has no effect.
 void warnUnusedOptions(const PlannerOptions& options, const PlannerOptions& before = {}) {
-  const std::vector<UnusedOption> told = unusedOptions(before);
-  for (const UnusedOption& each : unusedOptions(options))
-    if (std::find(told.begin(), told.end(), each) == told.end())
-      ROS_WARN_STREAM(each.name << " changes nothing with " << each.with);
+  const std::vector<UnusedOption> known = unusedOptions(before);
+  for (const UnusedOption& option : unusedOptions(options))
+    if (std::find(known.begin(), known.end(), option) == known.end())
+      ROS_WARN_STREAM(option.name << " changes nothing with " << option.with);
 }
 
 }  // namespace
@@ -50,17 +51,17 @@ void warnUnusedOptions(const PlannerOptions& options, const PlannerOptions& befo
 PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh) : nh_(nh) {
   const PathPlannerNodeOptions options = loadOptions(private_nh);
   warnUnusedOptions(options.planner);
-  desk_ = std::make_unique<PlanningServer>(nh, options, [this] { goals_.forgetStart(); });
-  services_ = std::make_unique<PlanServices>(private_nh, *desk_);
-  action_ = std::make_unique<PlanAction>(nh, *desk_);
-  diagnostics_ = std::make_unique<PlanDiagnostics>(nh, private_nh, *desk_);
+  server_ = std::make_unique<PlanningServer>(nh, options, [this] { active_goal_.forgetStart(); });
+  services_ = std::make_unique<PlanServices>(private_nh, *server_);
+  action_ = std::make_unique<PlanAction>(nh, *server_);
+  diagnostics_ = std::make_unique<PlanDiagnostics>(nh, private_nh, *server_);
   reconfigurable_ = std::make_unique<Reconfigurable<PathPlannerConfig, PathPlannerNodeOptions>>(
       private_nh, options, [this](const PathPlannerNodeOptions& wanted) { onOptions(wanted); });
-  desk_->maps().start(nh, [this] { onMapChange(); });
+  server_->maps().start(nh, [this] { onMapChange(); });
   goal_subscriber_ = nh.subscribe("goal", 1, &PathPlannerNode::onGoal, this);
   initial_pose_subscriber_ = nh.subscribe("initialpose", 1, &PathPlannerNode::onInitialPose, this);
   clock_timer_ = nh.createWallTimer(ros::WallDuration(0.05),
-                                    [this](const ros::WallTimerEvent&) { desk_->checkClock(); });
+                                    [this](const ros::WallTimerEvent&) { server_->checkClock(); });
   startReplanTimer(options.replan_period);
 }
 
@@ -70,76 +71,77 @@ PathPlannerNode::~PathPlannerNode() {
   replan_timer_.stop();
   clock_timer_.stop();
   reconfigurable_.reset();
-  desk_->stop();
+  server_->stop();
 }
 
 void PathPlannerNode::onGoal(const geometry_msgs::PoseStamped& message) {
-  desk_->checkClock();
-  goals_.setGoal(message);
-  desk_->worker().cancel(kGoalSlot);
+  server_->checkClock();
+  active_goal_.setGoal(message);
+  server_->worker().cancel(kGoalSlot);
   postPlanForGoal();
 }
 
 void PathPlannerNode::onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  desk_->checkClock();
+  server_->checkClock();
   geometry_msgs::PoseStamped start;
   start.header = message.header;
   start.pose = message.pose.pose;
-  goals_.setStart(start);
+  active_goal_.setStart(start);
 }
 
 void PathPlannerNode::onOptions(const PathPlannerNodeOptions& options) {
   checkPathPlannerNodeOptions(options);
-  const PathPlannerNodeOptions before = desk_->settings().options;
+  const PathPlannerNodeOptions before = server_->settings().options;
   warnUnusedOptions(options.planner, before.planner);
-  desk_->setOptions(options);
+  server_->setOptions(options);
   if (options.replan_period != before.replan_period) startReplanTimer(options.replan_period);
   onMapChange();
 }
 
 void PathPlannerNode::onMapChange() {
-  desk_->worker().post([this](const StopSource& stop) { useMap(stop); }, kMapSlot);
+  server_->worker().post([this](const StopSource& stop) { processMap(stop); }, kMapSlot);
 }
 
 void PathPlannerNode::startReplanTimer(double period) {
   replan_timer_.stop();
   if (period <= 0.0) return;
   replan_timer_ = nh_.createTimer(ros::Duration(period), [this](const ros::TimerEvent&) {
-    const std::optional<GoalState> goal = goals_.goal();
+    const std::optional<GoalState> goal = active_goal_.goal();
     if (goal && goal->answered) postPlanForGoal();
   });
 }
 
 void PathPlannerNode::postPlanForGoal() {
-  desk_->worker().post([this](const StopSource& stop) { planForGoal(stop); }, kGoalSlot,
-                       TaskQueue::Turn::NEXT);
+  server_->worker().post([this](const StopSource& stop) { planForGoal(stop); }, kGoalSlot,
+                         TaskQueue::Turn::NEXT);
 }
 
 void PathPlannerNode::planForGoal(const StopSource& stop) {
-  const std::optional<GoalState> goal = goals_.goal();
-  const PlanningServer::Settings settings = desk_->settings();
-  const PlanningResult answer = desk_->answer(goal->question, settings.options, stop);
-  if (stop.cancelled() || keepsOldPath(*goal, answer, settings, stop)) return;
-  goals_.commit(goal->id, answer.report.path, settings.revision, [&] {
-    desk_->publisher().publishPath(answer);
-    desk_->publish(answer, goal->question.goal);
+  const std::optional<GoalState> goal = active_goal_.goal();
+  const PlanningServer::Settings settings = server_->settings();
+  const Plan plan = server_->plan(goal->request, settings.options, stop);
+  const PlanStatistics statistics = server_->statistics(plan, goal->request, settings.options);
+  if (stop.cancelled() || keepsOldPath(*goal, plan, settings, stop)) return;
+  active_goal_.commit(goal->id, plan.path, settings.revision, [&] {
+    server_->publisher().publishPath(plan);
+    server_->publish(plan, statistics);
   });
 }
 
-bool PathPlannerNode::keepsOldPath(const GoalState& goal, const PlanningResult& answer,
+bool PathPlannerNode::keepsOldPath(const GoalState& goal, const Plan& plan,
                                    const PlanningServer::Settings& settings,
                                    const StopSource& stop) {
-  if (goal.path.empty() || !answer.found() || goal.path_settings != settings.revision) return false;
+  if (goal.path.empty() || !plan.found() || goal.path_settings != settings.revision) return false;
   try {
-    const auto costs = desk_->engine().fineCosts(settings.options, stop.token());
-    return keepsPath(goal.path, answer.report.path, *costs, settings.options.replan_hysteresis);
+    const auto costs = server_->fullResolutionCosts(settings.options, stop.token());
+    return keepsPath(goal.path, plan.path, *costs, settings.options.replan_hysteresis);
   } catch (const Stopped&) {
-    return true;  // a new goal is there
+    return true;  // a new goal has come
   }
 }
 
-void PathPlannerNode::useMap(const StopSource& stop) {
-  const PathPlannerNodeOptions options = desk_->settings().options;
+void PathPlannerNode::processMap(const StopSource& stop) {
+  const PathPlannerNodeOptions options = server_->settings().options;
   try {
     waitForClock(stop.token());
     publishSearchedMap(options, stop);
@@ -151,9 +153,9 @@ void PathPlannerNode::useMap(const StopSource& stop) {
 
 void PathPlannerNode::publishSearchedMap(const PathPlannerNodeOptions& options,
                                          const StopSource& stop) {
-  const auto costs = desk_->engine().searchedCosts(options, stop.token());
+  const auto costs = server_->downsampledCosts(options, stop.token());
   const bool changed = costs && costs != published_costs_;
-  if (changed) desk_->publisher().publishMap(*costs, desk_->engine().frame(options));
+  if (changed) server_->publisher().publishMap(*costs, server_->frame(options));
   published_costs_ = costs;
   publishRectangles(options, changed);
 }
@@ -166,16 +168,16 @@ void PathPlannerNode::publishRectangles(const PathPlannerNodeOptions& options, b
   }
   if (!rectangles_) rectangles_ = std::make_unique<RectanglePublisher>(nh_);
   if (published_costs_ && (map_changed || !shown))
-    rectangles_->publish(published_costs_, desk_->engine().frame(options),
+    rectangles_->publish(published_costs_, server_->frame(options),
                          memoryLimitOf(options.planner.search));
 }
 
 bool PathPlannerNode::goalPathBlocked(const PathPlannerNodeOptions& options,
                                       const StopSource& stop) {
-  const std::optional<GoalState> goal = goals_.goal();
+  const std::optional<GoalState> goal = active_goal_.goal();
   if (!goal || goal->path.empty()) return false;
-  const auto costs = desk_->engine().fineCosts(options, stop.token());
-  if (!pathBlocked(goal->path, desk_->engine().vehicle(options), *costs)) return false;
+  const auto costs = server_->fullResolutionCosts(options, stop.token());
+  if (!pathBlocked(goal->path, server_->vehicle(options), *costs)) return false;
   ROS_INFO("What remains of the path is blocked: planning again");
   return true;
 }

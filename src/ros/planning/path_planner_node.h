@@ -1,10 +1,9 @@
 // The node path_planner: map + start + goal -> path.
 //
-// Topics, services, parameters: doc/nodes.md. Planning runs in a thread of its own, so every
-// callback stays live; a new goal stops the planning for the one before, whose result is dropped.
-// The path is planned again when the map comes to block what remains of it, and every
-// replan_period, from where tf has the vehicle; it is kept while it is about as good as the new one
-// (replan_policy.h).
+// Topics, services, parameters: doc/nodes.md. Planning runs in a thread of its own, so no callback
+// waits for it; a new goal stops the planning for the one before, whose result is dropped. The path
+// is planned again, from the vehicle's pose in tf, when a map blocks the remainder of it and every
+// replan_period; it is kept while it is about as good as the new one (replan_policy.h).
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
@@ -36,10 +35,10 @@ class Reconfigurable;
 
 class PathPlannerNode {
  public:
-  // Throws InputError for parameters that cannot be used. Its callbacks are served by the queue of
-  // `nh`, the services' by their own threads.
+  // Throws InputError for parameters that cannot be used. Callbacks are called from the queue of
+  // `nh`, those of the services from their own threads.
   PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
-  // Stops what is under way; who waits for it is answered CANCELLED.
+  // Stops all planning; requests that wait are answered CANCELLED.
   ~PathPlannerNode();
 
  private:
@@ -52,9 +51,9 @@ class PathPlannerNode {
 
   // In the worker's thread
   void planForGoal(const base::StopSource& stop);
-  bool keepsOldPath(const GoalState& goal, const PlanningResult& answer,
+  bool keepsOldPath(const GoalState& goal, const planning::Plan& plan,
                     const PlanningServer::Settings& settings, const base::StopSource& stop);
-  void useMap(const base::StopSource& stop);
+  void processMap(const base::StopSource& stop);
   void publishSearchedMap(const PathPlannerNodeOptions& options, const base::StopSource& stop);
   void publishRectangles(const PathPlannerNodeOptions& options, bool map_changed);
   bool goalPathBlocked(const PathPlannerNodeOptions& options, const base::StopSource& stop);
@@ -62,10 +61,10 @@ class PathPlannerNode {
   void postPlanForGoal();
 
   ros::NodeHandle nh_;
-  ActiveGoal goals_;
+  ActiveGoal active_goal_;
   std::shared_ptr<const costmap::CostGrid> published_costs_;  // the worker's
   std::unique_ptr<RectanglePublisher> rectangles_;            // the worker's; null until wanted
-  std::unique_ptr<PlanningServer> desk_;
+  std::unique_ptr<PlanningServer> server_;
   std::unique_ptr<PlanServices> services_;
   std::unique_ptr<PlanAction> action_;
   std::unique_ptr<PlanDiagnostics> diagnostics_;

@@ -1,8 +1,8 @@
-// The action `plan_path`: a way asked for by a program that wants to hear how it goes, or to
-// cancel.
+// The action `plan_path`: a path for a program that wants feedback while it is planned, or to cancel
+// it.
 //
 // One goal at a time: a new one cancels the one before. A cancelled goal is answered within 100 ms,
-// whatever the planning thread is busy with. FOUND succeeds, CANCELLED is preempted, every other
+// whatever the planning thread is doing. FOUND succeeds, CANCELLED is preempted, every other
 // status is aborted with its sentence.
 #pragma once
 
@@ -16,16 +16,16 @@ namespace grid_path_planner::nodes {
 
 class PlanAction {
  public:
-  // `desk` outlives this, and its stop() comes before the destructor.
-  PlanAction(const ros::NodeHandle& nh, PlanningServer& desk);
+  // `server` outlives this, and its stop() is called before the destructor.
+  PlanAction(const ros::NodeHandle& nh, PlanningServer& server);
 
  private:
   void execute(const PlanPathGoalConstPtr& goal);
-  bool answeredUncancelled(PlanTicket& inquiry);
-  void finish(const PlanningResult& answer, const geometry_msgs::PoseStamped& goal);
+  bool answeredUncancelled(PlanTicket& ticket);
+  void finish(const planning::Plan& plan, const PlanStatistics& statistics);
 
-  PlanningServer& desk_;
-  actionlib::SimpleActionServer<PlanPathAction> server_;
+  PlanningServer& server_;
+  actionlib::SimpleActionServer<PlanPathAction> action_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -10,8 +10,8 @@ using base::Status;
 using diagnostic_msgs::DiagnosticStatus;
 
 PlanDiagnostics::PlanDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
-                                 PlanningServer& desk)
-    : desk_(desk), updater_(nh, private_nh, private_nh.getNamespace()) {
+                                 PlanningServer& server)
+    : server_(server), updater_(nh, private_nh, private_nh.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("map", this, &PlanDiagnostics::reportMap);
   updater_.add("plan", this, &PlanDiagnostics::reportPlan);
@@ -21,8 +21,8 @@ PlanDiagnostics::PlanDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
 }
 
 void PlanDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const ReceivedMap map = desk_.maps().latest();
-  const std::string refusal = desk_.maps().refusal();
+  const ReceivedMap map = server_.maps().latest();
+  const std::string refusal = server_.maps().refusal();
   if (!map.grid)
     status.summary(DiagnosticStatus::WARN, "no map has come yet");
   else
@@ -38,7 +38,7 @@ void PlanDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& sta
 }
 
 void PlanDiagnostics::reportPlan(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const std::optional<PlanningServer::Outcome> outcome = desk_.lastOutcome();
+  const std::optional<PlanningServer::Outcome> outcome = server_.lastOutcome();
   if (!outcome) {
     status.summary(DiagnosticStatus::OK, "nothing has been asked yet");
     return;

@@ -1,4 +1,4 @@
-// What path_planner reports on /diagnostics, once a second: the map and the last planning.
+// The diagnostics of path_planner, published once a second: the map and the last planning.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -11,14 +11,14 @@ namespace grid_path_planner::nodes {
 
 class PlanDiagnostics {
  public:
-  // `desk` outlives this.
-  PlanDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, PlanningServer& desk);
+  // `server` outlives this.
+  PlanDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, PlanningServer& server);
 
  private:
   void reportMap(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportPlan(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  PlanningServer& desk_;
+  PlanningServer& server_;
   diagnostic_updater::Updater updater_;
   ros::WallTimer timer_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 
@@ -13,6 +14,7 @@ using grid::CellIndex;
 using grid::Occupancy;
 using grid::OccupancyGrid;
 using path::Pose;
+using path::turningOf;
 using planning::Plan;
 
 namespace {
@@ -21,10 +23,9 @@ constexpr std::size_t kMostMarkers = 50000;
 
 using visualization_msgs::Marker;
 
-Marker marker(const PlanningResult& answer, const char* name, int type, double size,
-              const ros::Time& stamp) {
+Marker marker(const Plan& plan, const char* name, int type, double size, const ros::Time& stamp) {
   Marker marker;
-  marker.header.frame_id = answer.report.path.frame_id;
+  marker.header.frame_id = plan.path.frame_id;
   marker.header.stamp = stamp;
   marker.ns = name;
   marker.type = type;
@@ -50,30 +51,23 @@ void deleteIfEmpty(Marker& marker) {
 
 }  // namespace
 
-PlanStatistics statisticsMessage(const PlanningResult& answer,
-                                 const geometry_msgs::PoseStamped& goal, const ros::Time& stamp) {
-  const Plan& report = answer.report;
+PlanStatistics statisticsMessage(const Plan& plan) {
   PlanStatistics message;
-  message.header.frame_id = report.path.frame_id;
-  message.header.stamp = stamp;
-  message.status = std::string(toString(report.status));
-  message.message = report.message;
-  message.goal = goal;
-  message.planner = answer.planner;
-  message.heuristic = answer.heuristic;
-  message.kernel = report.kernel;
-  message.cost = report.costValue();
-  message.length_m = report.length_m;
-  message.turning_rad = answer.turning_rad;
-  message.clearance_m = answer.clearance_m;
-  message.cells = static_cast<std::uint32_t>(report.cells);
-  message.expanded = report.statistics.expanded;
-  message.generated = report.statistics.generated;
-  message.reopened = report.statistics.reopened;
-  message.peak_open = report.statistics.peak_open;
-  message.search_bytes = report.statistics.search_bytes;
-  message.planning_time_ms = report.statistics.time_s * 1000.0;
-  message.preparation_time_ms = report.preparation_time_s * 1000.0;
+  message.header.frame_id = plan.path.frame_id;
+  message.status = std::string(toString(plan.status));
+  message.message = plan.message;
+  message.kernel = plan.kernel;
+  message.cost = plan.costValue();
+  message.length_m = plan.length_m;
+  message.turning_rad = turningOf(plan.path);
+  message.cells = static_cast<std::uint32_t>(plan.cells);
+  message.expanded = plan.statistics.expanded;
+  message.generated = plan.statistics.generated;
+  message.reopened = plan.statistics.reopened;
+  message.peak_open = plan.statistics.peak_open;
+  message.search_bytes = plan.statistics.search_bytes;
+  message.planning_time_ms = plan.statistics.time_s * 1000.0;
+  message.preparation_time_ms = plan.preparation_time_s * 1000.0;
   return message;
 }
 
@@ -95,11 +89,11 @@ nav_msgs::OccupancyGrid planningMapMessage(const CostGrid& costs, const std::str
   return occupancyToMessage(shown, frame_id, stamp);
 }
 
-visualization_msgs::MarkerArray searchMarkers(const PlanningResult& answer, double cell_size,
+visualization_msgs::MarkerArray searchMarkers(const Plan& plan, double cell_size,
                                               const ros::Time& stamp) {
   visualization_msgs::MarkerArray array;
-  const auto& cells = answer.report.expanded;
-  Marker expanded = marker(answer, "expanded", Marker::CUBE_LIST, cell_size, stamp);
+  const auto& cells = plan.expanded;
+  Marker expanded = marker(plan, "expanded", Marker::CUBE_LIST, cell_size, stamp);
   expanded.color.g = 0.6F;
   expanded.color.b = 0.9F;
   expanded.color.a = 0.4F;
@@ -107,15 +101,15 @@ visualization_msgs::MarkerArray searchMarkers(const PlanningResult& answer, doub
   for (std::size_t i = 0; i < cells.size(); i += stride)
     expanded.points.push_back(point(cells[i].x(), cells[i].y(), 0.0));
 
-  Marker waypoints = marker(answer, "waypoints", Marker::SPHERE_LIST, cell_size * 0.6, stamp);
+  Marker waypoints = marker(plan, "waypoints", Marker::SPHERE_LIST, cell_size * 0.6, stamp);
   waypoints.color.r = 1.0F;
   waypoints.color.g = 0.5F;
-  for (const Pose& pose : answer.report.path.poses)
+  for (const Pose& pose : plan.path.poses)
     waypoints.points.push_back(point(pose.position.x(), pose.position.y(), pose.position.z()));
 
-  for (Marker* each : {&expanded, &waypoints}) {
-    deleteIfEmpty(*each);
-    array.markers.push_back(*each);
+  for (Marker* marker : {&expanded, &waypoints}) {
+    deleteIfEmpty(*marker);
+    array.markers.push_back(*marker);
   }
   return array;
 }
@@ -126,15 +120,15 @@ PlanPublisher::PlanPublisher(ros::NodeHandle nh)
       statistics_(nh.advertise<PlanStatistics>("plan_statistics", 1, true)),
       markers_(nh.advertise<visualization_msgs::MarkerArray>("search_markers", 1, true)) {}
 
-void PlanPublisher::publishPath(const PlanningResult& answer) {
-  path_.publish(pathToMessage(answer.report.path, ros::Time::now()));
+void PlanPublisher::publishPath(const Plan& plan) {
+  path_.publish(pathToMessage(plan.path, ros::Time::now()));
 }
 
-void PlanPublisher::publishSearch(const PlanningResult& answer,
-                                  const geometry_msgs::PoseStamped& goal, double cell_size) {
+void PlanPublisher::publishSearch(const Plan& plan, PlanStatistics statistics, double cell_size) {
   const ros::Time now = ros::Time::now();
-  statistics_.publish(statisticsMessage(answer, goal, now));
-  markers_.publish(searchMarkers(answer, cell_size, now));
+  statistics.header.stamp = now;
+  statistics_.publish(statistics);
+  markers_.publish(searchMarkers(plan, cell_size, now));
 }
 
 void PlanPublisher::publishMap(const CostGrid& costs, const std::string& frame_id) {

@@ -23,28 +23,29 @@ std::optional<geometry_msgs::PoseStamped> startOf(const geometry_msgs::PoseStamp
   return start.header.frame_id.empty() ? std::nullopt : std::make_optional(start);
 }
 
-// Every planner with each of the heuristics that it can use; one question for each.
-std::vector<PlanningRequest> questionsOf(const ComparePlans::Request& request) {
-  std::vector<PlanningRequest> questions;
-  PlanningRequest question;
-  question.start = startOf(request.start);
-  question.goal = request.goal;
-  for (const std::string& planner : request.planners.empty() ? plannerNames() : request.planners) {
-    question.planner = planner;
-    const bool several = usesHeuristic(planner) && !request.heuristics.empty();
+// One request for every planner with each of the heuristics that it can use.
+std::vector<PlanningRequest> requestsOf(const ComparePlans::Request& compared) {
+  std::vector<PlanningRequest> requests;
+  PlanningRequest request;
+  request.start = startOf(compared.start);
+  request.goal = compared.goal;
+  for (const std::string& planner :
+       compared.planners.empty() ? plannerNames() : compared.planners) {
+    request.planner = planner;
+    const bool several = usesHeuristic(planner) && !compared.heuristics.empty();
     for (const std::string& heuristic :
-         several ? request.heuristics : std::vector<std::string>{""}) {
-      question.heuristic = heuristic;
-      questions.push_back(question);
+         several ? compared.heuristics : std::vector<std::string>{""}) {
+      request.heuristic = heuristic;
+      requests.push_back(request);
     }
   }
-  return questions;
+  return requests;
 }
 
 }  // namespace
 
-PlanServices::PlanServices(ros::NodeHandle private_nh, PlanningServer& desk)
-    : desk_(desk), spinner_(2, &queue_) {
+PlanServices::PlanServices(ros::NodeHandle private_nh, PlanningServer& server)
+    : server_(server), spinner_(2, &queue_) {
   private_nh.setCallbackQueue(&queue_);
   make_plan_ = private_nh.advertiseService("make_plan", &PlanServices::makePlan, this);
   compare_plans_ = private_nh.advertiseService("compare_plans", &PlanServices::comparePlans, this);
@@ -62,23 +63,24 @@ PlanServices::~PlanServices() {
 
 bool PlanServices::makePlan(nav_msgs::GetPlan::Request& request,
                             nav_msgs::GetPlan::Response& response) {
-  PlanningRequest question;
-  question.start = startOf(request.start);
-  question.goal = request.goal;
-  if (request.tolerance != 0.0F) question.tolerance = request.tolerance;
-  const auto inquiry = desk_.ask(question, PlanningServer::Publish::YES);
-  inquiry->wait();
-  response.plan = pathToMessage(inquiry->answer().report.path, ros::Time::now());
+  PlanningRequest plan_request;
+  plan_request.start = startOf(request.start);
+  plan_request.goal = request.goal;
+  if (request.tolerance != 0.0F) plan_request.tolerance = request.tolerance;
+  const auto ticket = server_.ask(plan_request, PlanningServer::Publish::YES);
+  ticket->wait();
+  response.plan = pathToMessage(ticket->plan().path, ros::Time::now());
   return true;
 }
 
 bool PlanServices::comparePlans(ComparePlans::Request& request, ComparePlans::Response& response) {
-  for (const PlanningRequest& question : questionsOf(request)) {
-    const auto inquiry = desk_.ask(question, PlanningServer::Publish::NO);
-    inquiry->wait();
+  for (const PlanningRequest& plan_request : requestsOf(request)) {
+    const auto ticket = server_.ask(plan_request, PlanningServer::Publish::NO);
+    ticket->wait();
     const ros::Time now = ros::Time::now();
-    response.results.push_back(statisticsMessage(inquiry->answer(), request.goal, now));
-    response.paths.push_back(pathToMessage(inquiry->answer().report.path, now));
+    response.results.push_back(ticket->statistics());
+    response.results.back().header.stamp = now;
+    response.paths.push_back(pathToMessage(ticket->plan().path, now));
   }
   return true;
 }
@@ -86,8 +88,8 @@ bool PlanServices::comparePlans(ComparePlans::Request& request, ComparePlans::Re
 bool PlanServices::saveWaypoints(SaveWaypoints::Request& request,
                                  SaveWaypoints::Response& response) {
   const std::string file =
-      request.filename.empty() ? desk_.settings().options.waypoints_file : request.filename;
-  const std::optional<Path> path = desk_.lastPath();
+      request.filename.empty() ? server_.settings().options.waypoints_file : request.filename;
+  const std::optional<Path> path = server_.lastPath();
   if (file.empty()) {
     response.message = "no filename was given and ~waypoints_file is empty";
   } else if (!path) {

@@ -1,7 +1,7 @@
 // The services of path_planner: ~make_plan, ~compare_plans, ~save_waypoints.
 //
-// Served in two threads of their own, so that a long question holds up neither the node's other
-// callbacks nor a second question's arrival.
+// Two threads of their own call them, so that a request that takes long delays neither the node's
+// other callbacks nor the arrival of a second request.
 #pragma once
 
 #include <nav_msgs/GetPlan.h>
@@ -18,8 +18,8 @@ namespace grid_path_planner::nodes {
 
 class PlanServices {
  public:
-  // `desk` outlives this, and its stop() comes before the destructor.
-  PlanServices(ros::NodeHandle private_nh, PlanningServer& desk);
+  // `server` outlives this, and its stop() is called before the destructor.
+  PlanServices(ros::NodeHandle private_nh, PlanningServer& server);
   ~PlanServices();
 
  private:
@@ -27,7 +27,7 @@ class PlanServices {
   bool comparePlans(ComparePlans::Request& request, ComparePlans::Response& response);
   bool saveWaypoints(SaveWaypoints::Request& request, SaveWaypoints::Response& response);
 
-  PlanningServer& desk_;
+  PlanningServer& server_;
   ros::CallbackQueue queue_;
   ros::ServiceServer make_plan_;
   ros::ServiceServer compare_plans_;

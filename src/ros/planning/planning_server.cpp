@@ -5,23 +5,44 @@
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/path/waypoint_file.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
 
 namespace grid_path_planner::nodes {
 
 using base::InputError;
+using base::Status;
+using base::Stopped;
 using base::StopSource;
+using base::StopToken;
+using costmap::CostGrid;
+using path::clearanceOf;
 using path::Path;
+using path::Pose;
 using path::writeWaypointFile;
+using planning::failedPlan;
 using planning::Plan;
+using planning::PoseRequest;
+
+namespace {
+
+Pose named(const char* which, const std::function<Pose()>& pose) {
+  try {
+    return pose();
+  } catch (const InputError& error) {
+    throw InputError(std::string("the ") + which + ": " + error.what());
+  }
+}
+
+}  // namespace
 
 PlanningServer::PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions& options,
                                std::function<void()> on_time_jump)
     : on_time_jump_(std::move(on_time_jump)),
       settings_{options, 0},
       transforms_(nh),
-      publisher_(nh),
-      engine_(maps_, transforms_) {}
+      publisher_(nh) {}
 
 PlanningServer::Settings PlanningServer::settings() const {
   std::lock_guard<std::mutex> lock(mutex_);
@@ -33,24 +54,118 @@ void PlanningServer::setOptions(const PathPlannerNodeOptions& options) {
   settings_ = {options, settings_.revision + 1};
 }
 
-std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& question, Publish announce) {
-  auto inquiry = std::make_shared<PlanTicket>();
-  inquiry->task_ = worker_.post([this, inquiry, question, announce](const StopSource& stop) {
-    const auto on_phase = [&](PlanningBackend::Phase phase) {
-      inquiry->phase_ = phase == PlanningBackend::Phase::PREPARING ? "preparing" : "searching";
-    };
-    inquiry->answer_ = answer(question, settings().options, stop, on_phase);
-    if (announce == Publish::YES && !stop.cancelled())
-      this->publish(inquiry->answer_, question.goal);
+std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& request, Publish publish) {
+  auto ticket = std::make_shared<PlanTicket>();
+  ticket->task_ = worker_.post([this, ticket, request, publish](const StopSource& stop) {
+    const PathPlannerNodeOptions options = settings().options;
+    ticket->plan_ =
+        plan(request, options, stop, [&](const char* phase) { ticket->phase_ = phase; });
+    ticket->statistics_ = statistics(ticket->plan_, request, options);
+    if (publish == Publish::YES && !stop.cancelled())
+      this->publish(ticket->plan_, ticket->statistics_);
   });
-  return inquiry;
+  return ticket;
 }
 
-PlanningResult PlanningServer::answer(const PlanningRequest& question,
-                                      const PathPlannerNodeOptions& options, const StopSource& stop,
-                                      const PlanningBackend::PhaseListener& on_phase) {
+Plan PlanningServer::plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
+                          const StopSource& stop, const PhaseListener& on_phase) {
   checkClock();
-  return engine_.answer(question, options, stop, on_phase);
+  Plan plan = tryToPlan(request, options, stop, on_phase);
+  plan.path.frame_id = frame(options);
+  if (!plan.found()) plan.path.poses.clear();
+  return plan;
+}
+
+Plan PlanningServer::tryToPlan(const PlanningRequest& request,
+                               const PathPlannerNodeOptions& options, const StopSource& stop,
+                               const PhaseListener& on_phase) {
+  try {
+    waitForClock(stop.token());
+    if (on_phase) on_phase("preparing");
+    updateMap();
+    planner_.setOptions(optionsFor(request, options));
+    if (!planner_.hasMap())
+      return failedPlan(Status::NO_MAP, "no map has come on " + maps_.topic() + " yet");
+    PoseRequest poses = posesOf(request, options, stop.token());
+    poses.record_expanded = options.record_search;
+    if (on_phase) on_phase("searching");
+    return planner_.plan(poses, stop);
+  } catch (const InputError& error) {
+    return failedPlan(Status::INVALID_REQUEST, error.what());
+  } catch (const TransformError& error) {
+    return failedPlan(Status::TRANSFORM_ERROR, error.what());
+  } catch (const Stopped& stopped) {
+    return failedPlan(stopped.status(), stopped.status() == Status::TIMEOUT
+                                            ? "planning reached its time limit"
+                                            : "planning was cancelled");
+  }
+}
+
+PoseRequest PlanningServer::posesOf(const PlanningRequest& request,
+                                    const PathPlannerNodeOptions& options,
+                                    const StopToken& stop) const {
+  const std::string map_frame = frame(options);
+  PoseRequest poses;
+  poses.goal = named("goal", [&] {
+    return transforms_.poseIn(map_frame, request.goal, options.tf_timeout, stop);
+  });
+  poses.start = named("start", [&] {
+    return request.start
+               ? transforms_.poseIn(map_frame, *request.start, options.tf_timeout, stop)
+               : transforms_.poseOf(options.base_frame, map_frame, options.tf_timeout, stop);
+  });
+  if (options.goal_z_from == GoalZ::VEHICLE) poses.goal.position.z() = poses.start.position.z();
+  return poses;
+}
+
+PlanStatistics PlanningServer::statistics(const Plan& plan, const PlanningRequest& request,
+                                          const PathPlannerNodeOptions& options) const {
+  PlanStatistics message = statisticsMessage(plan);
+  message.goal = request.goal;
+  message.planner = plannerOf(request, options);
+  message.heuristic = heuristicOf(request, options);
+  if (plan.found())
+    message.clearance_m =
+        clearanceOf(plan.path, *planner_.map(), options.planner.terrain.thresholds);
+  return message;
+}
+
+void PlanningServer::updateMap() {
+  const std::optional<MapChange> change = maps_.take();
+  if (!change) return;
+  map_frame_id_ = change->map.frame_id;
+  if (!change->changed || !planner_.hasMap())
+    planner_.setMap(change->map.grid);
+  else if (!change->changed->empty())
+    planner_.updateMap(change->map.grid, *change->changed);
+}
+
+std::shared_ptr<const CostGrid> PlanningServer::downsampledCosts(
+    const PathPlannerNodeOptions& options, const StopToken& stop) {
+  updateMap();
+  planner_.setOptions(options.planner);
+  return planner_.hasMap() ? planner_.downsampledCosts(stop) : nullptr;
+}
+
+std::shared_ptr<const CostGrid> PlanningServer::fullResolutionCosts(
+    const PathPlannerNodeOptions& options, const StopToken& stop) {
+  updateMap();
+  planner_.setOptions(options.planner);
+  return planner_.hasMap() ? planner_.fullResolutionCosts(stop) : nullptr;
+}
+
+std::string PlanningServer::frame(const PathPlannerNodeOptions& options) const {
+  return map_frame_id_.empty() ? frameName(options.map_frame) : map_frame_id_;
+}
+
+std::optional<Eigen::Vector2d> PlanningServer::vehicle(
+    const PathPlannerNodeOptions& options) const {
+  try {
+    return transforms_.poseOf(options.base_frame, frame(options), 0.0, StopToken())
+        .position.head<2>();
+  } catch (const TransformError&) {
+    return std::nullopt;
+  }
 }
 
 void PlanningServer::checkClock() {
@@ -65,18 +180,18 @@ void PlanningServer::stop() {
   worker_.stop();
 }
 
-void PlanningServer::publish(const PlanningResult& answer, const geometry_msgs::PoseStamped& goal) {
-  const Plan& report = answer.report;
-  if (answer.found())
-    ROS_INFO_STREAM("FOUND: " << report.message);
+void PlanningServer::publish(const Plan& plan, const PlanStatistics& statistics) {
+  if (plan.found())
+    ROS_INFO_STREAM("FOUND: " << plan.message);
   else
-    ROS_WARN_STREAM(toString(report.status) << ": " << report.message);
-  publisher_.publishSearch(answer, goal,
-                           engine_.hasMap() ? engine_.resolution() * report.kernel : 1.0);
-  if (answer.found()) writeWaypoints(report.path);
+    ROS_WARN_STREAM(toString(plan.status) << ": " << plan.message);
+  const double resolution =
+      planner_.hasMap() ? planner_.map()->geometry().resolution() * plan.kernel : 1.0;
+  publisher_.publishSearch(plan, statistics, resolution);
+  if (plan.found()) writeWaypoints(plan.path);
   std::lock_guard<std::mutex> lock(mutex_);
-  outcome_ = Outcome{report.status, report.message};
-  if (answer.found()) last_path_ = report.path;
+  outcome_ = Outcome{plan.status, plan.message};
+  if (plan.found()) last_path_ = plan.path;
 }
 
 void PlanningServer::writeWaypoints(const Path& path) {

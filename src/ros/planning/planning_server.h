@@ -1,49 +1,58 @@
-// Where questions about ways are handed in, from any thread, and answered in the worker's.
+// Takes requests for paths from any thread and answers them, one after the other, in a thread of
+// its own, on the newest map with the node's options.
 //
-//   PlanningServer desk(nh, options, [] {});  // nothing to do where ROS time jumps back
-//   auto inquiry = desk.ask(question, PlanningServer::Publish::YES);
-//   inquiry->wait();
-//   use(inquiry->answer());
+//   PlanningServer server(nh, options, [] {});  // nothing to do where ROS time jumps back
+//   auto ticket = server.ask(request, PlanningServer::Publish::YES);
+//   ticket->wait();
+//   use(ticket->plan());
 //
-// What is announced is seen by everyone: statistics, markers, ~waypoints_file, the last found path.
+// Whatever goes wrong with a request is a status with a sentence. Publish::YES publishes statistics
+// and markers, writes ~waypoints_file and stores the plan for lastOutcome() and lastPath().
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
 #include "grid_path_planner/base/task_queue.h"
+#include "grid_path_planner/planning/path_planner.h"
 #include "ros/common/clock.h"
+#include "ros/common/frame_transforms.h"
 #include "ros/common/map_receiver.h"
 #include "ros/planning/plan_publisher.h"
-#include "ros/planning/planning_backend.h"
+#include "ros/planning/planning_request.h"
 
 namespace grid_path_planner::nodes {
 
-// A question on its way.
+// A request that was handed in, and its answer once there is one.
 class PlanTicket {
  public:
   void cancel() { task_->cancel(); }
   void wait() const { task_->wait(); }
   // Whether the answer is there before `limit` passed (steady clock).
   bool waitFor(std::chrono::duration<double> limit) const { return task_->waitFor(limit); }
-  // Precondition: the wait is over.
-  const PlanningResult& answer() const { return answer_; }
+  // Precondition of both: the wait is over. The path's frame is that of the map; the statistics
+  // have no stamp.
+  const planning::Plan& plan() const { return plan_; }
+  const PlanStatistics& statistics() const { return statistics_; }
   // "waiting", "preparing" or "searching".
   const char* phase() const { return phase_; }
 
  private:
   friend class PlanningServer;
   std::atomic<const char*> phase_{"waiting"};
-  PlanningResult answer_;
+  planning::Plan plan_;
+  PlanStatistics statistics_;
   std::shared_ptr<base::TaskQueue::Task> task_;
 };
 
 class PlanningServer {
  public:
   enum class Publish { NO, YES };
+  using PhaseListener = std::function<void(const char* phase)>;
 
   // Options and how often they were changed.
   struct Settings {
@@ -60,19 +69,19 @@ class PlanningServer {
                  std::function<void()> on_time_jump);
 
   Settings settings() const;
-  // For the questions whose turn comes after this. Precondition: the options are checked.
+  // For the requests that are answered after this. Precondition: the options are checked.
   void setOptions(const PathPlannerNodeOptions& options);
 
-  std::shared_ptr<PlanTicket> ask(const PlanningRequest& question, Publish announce);
+  std::shared_ptr<PlanTicket> ask(const PlanningRequest& request, Publish publish);
 
-  // Ends everything that is under way and takes nothing more.
+  // Cancels all requests and accepts no more.
   void stop();
 
-  // Forgets the transforms where ROS time went back since the last call. Called before every
-  // answer, and as often as a node likes.
+  // Clears the transforms where ROS time went back since the last call. Called before every answer;
+  // a node may call it as often as it likes.
   void checkClock();
 
-  // What was announced last, and the last found path among it.
+  // Of the plan that was published last, and the last found path among those published.
   std::optional<Outcome> lastOutcome() const;
   std::optional<path::Path> lastPath() const;
 
@@ -81,13 +90,33 @@ class PlanningServer {
   PlanPublisher& publisher() { return publisher_; }
 
   // In the worker's thread only:
-  PlanningBackend& engine() { return engine_; }
-  PlanningResult answer(const PlanningRequest& question, const PathPlannerNodeOptions& options,
-                        const base::StopSource& stop,
-                        const PlanningBackend::PhaseListener& on_phase = {});
-  void publish(const PlanningResult& answer, const geometry_msgs::PoseStamped& goal);
+
+  planning::Plan plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
+                      const base::StopSource& stop, const PhaseListener& on_phase = {});
+  // Of a plan just made for this request; no stamp yet.
+  PlanStatistics statistics(const planning::Plan& plan, const PlanningRequest& request,
+                            const PathPlannerNodeOptions& options) const;
+  void publish(const planning::Plan& plan, const PlanStatistics& statistics);
+
+  // The costmaps of the newest map; null before the first. Throw Stopped.
+  std::shared_ptr<const costmap::CostGrid> downsampledCosts(const PathPlannerNodeOptions& options,
+                                                            const base::StopToken& stop);
+  std::shared_ptr<const costmap::CostGrid> fullResolutionCosts(
+      const PathPlannerNodeOptions& options, const base::StopToken& stop);
+
+  // Of the newest map; map_frame where there is none or it names none.
+  std::string frame(const PathPlannerNodeOptions& options) const;
+
+  // The vehicle's position from tf, without waiting; none where tf has none.
+  std::optional<Eigen::Vector2d> vehicle(const PathPlannerNodeOptions& options) const;
 
  private:
+  planning::Plan tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
+                           const base::StopSource& stop, const PhaseListener& on_phase);
+  planning::PoseRequest posesOf(const PlanningRequest& request,
+                                const PathPlannerNodeOptions& options,
+                                const base::StopToken& stop) const;
+  void updateMap();
   void writeWaypoints(const path::Path& path);
 
   std::function<void()> on_time_jump_;
@@ -100,7 +129,8 @@ class PlanningServer {
   FrameTransforms transforms_;
   PlanPublisher publisher_;
   MapReceiver maps_;
-  PlanningBackend engine_;
+  planning::PathPlanner planner_;  // the worker's, as is the next
+  std::string map_frame_id_;
   base::TaskQueue worker_;
 };
 

@@ -1,0 +1,42 @@
+#include "ros/planning/planning_request.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "grid_path_planner/planners/planner_factory.h"
+
+namespace grid_path_planner::nodes {
+
+using base::choiceFromName;
+using base::choiceName;
+using planners::Heuristic;
+using planners::plannerNames;
+using planners::traitsOf;
+using planning::PlannerOptions;
+
+bool usesHeuristic(const std::string& planner) {
+  const std::vector<std::string>& known = plannerNames();
+  const bool exists = std::find(known.begin(), known.end(), planner) != known.end();
+  return exists && traitsOf(planner).heuristic;
+}
+
+std::string plannerOf(const PlanningRequest& request, const PathPlannerNodeOptions& options) {
+  return request.planner.empty() ? options.planner.planner : request.planner;
+}
+
+std::string heuristicOf(const PlanningRequest& request, const PathPlannerNodeOptions& options) {
+  if (!usesHeuristic(plannerOf(request, options))) return "";
+  return request.heuristic.empty() ? choiceName(options.planner.search.heuristic)
+                                   : request.heuristic;
+}
+
+PlannerOptions optionsFor(const PlanningRequest& request, const PathPlannerNodeOptions& options) {
+  PlannerOptions merged = options.planner;
+  merged.planner = plannerOf(request, options);
+  if (!request.heuristic.empty())
+    merged.search.heuristic = choiceFromName<Heuristic>("heuristic", request.heuristic);
+  if (request.tolerance) merged.tolerance = *request.tolerance;
+  return merged;
+}
+
+}  // namespace grid_path_planner::nodes
