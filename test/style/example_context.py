@@ -13,7 +13,7 @@ CONTEXT = {
     "cloud_filter.h": """#include "grid_path_planner/mapping/octree_map.h"
         extern OctreeMap map; extern Eigen::Isometry3d map_from_sensor, base_from_map;
         extern std::vector<Eigen::Vector3d> points; extern CloudFilterOptions options;""",
-    "cloud_queue.h": "extern const tf2_ros::Buffer buffer; extern CloudQueueOptions options;"
+    "cloud_queue.h": "extern const FrameTransforms transforms; extern CloudQueueOptions options;"
                      "extern sensor_msgs::PointCloud2::ConstPtr cloud;",
     "cloud_reader.h": "extern sensor_msgs::PointCloud2::ConstPtr message;",
     "connections.h": "extern std::vector<CellRect> rectangles;",
@@ -82,10 +82,7 @@ CONTEXT = {
     "path_image.h": "extern OccupancyGrid map; extern OccupancyThresholds thresholds; extern Path path;"
                  "extern std::vector<Cell> expanded;",
     "planning_server.h": "extern ros::NodeHandle nh; extern PathPlannerNodeOptions options;"
-                   "extern PlanningRequest question;",
-    "planning_backend.h": "extern MapReceiver maps; extern FrameTransforms transforms;"
-                     "extern PlanningRequest question; extern PathPlannerNodeOptions options;"
-                     "extern StopSource source;",
+                   "extern PlanningRequest request;",
     "task_queue.h": "void plan(const StopSource&); void save(const StopSource&);",
     "planner.h": """#include "grid_path_planner/planners/planner_factory.h"
         extern SearchOptions options; extern std::shared_ptr<const CostGrid> map;

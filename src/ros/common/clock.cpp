@@ -2,8 +2,8 @@
 
 #include <ros/console.h>
 
-#include <chrono>
 #include <thread>
+#include <utility>
 
 namespace grid_path_planner::nodes {
 
@@ -11,24 +11,28 @@ using base::Stopped;
 using base::StopReason;
 using base::StopToken;
 
-void waitForClock(const StopToken& stop) {
-  auto next_warning = std::chrono::steady_clock::now();
-  while (!ros::Time::isValid()) {
-    if (stop.reason() != StopReason::NONE) throw Stopped(stop.reason());
-    if (std::chrono::steady_clock::now() >= next_warning) {
-      ROS_WARN("use_sim_time is set and no /clock has come yet: waiting for it");
-      next_warning += std::chrono::seconds(5);
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+bool ClockWatch::hasTime() {
+  if (ros::Time::isValid()) return true;
+  const auto now = std::chrono::steady_clock::now();
+  std::lock_guard<std::mutex> lock(mutex_);
+  if (now >= next_warning_) {
+    ROS_WARN("use_sim_time is set and no /clock has come yet: waiting for it");
+    next_warning_ = now + std::chrono::seconds(5);
   }
+  return false;
 }
 
-bool ClockWatch::jumpedBack() {
-  const ros::Time now = ros::Time::now();
+std::optional<double> ClockWatch::jumpedBack(const ros::Time& now) {
   std::lock_guard<std::mutex> lock(mutex_);
-  const bool back = now < latest_;
-  latest_ = now;
-  return back;
+  const ros::Time before = std::exchange(latest_, now);
+  return now < before ? std::make_optional((before - now).toSec()) : std::nullopt;
+}
+
+void waitForClock(const StopToken& stop) {
+  for (ClockWatch clock; !clock.hasTime();) {
+    if (stop.reason() != StopReason::NONE) throw Stopped(stop.reason());
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 }  // namespace grid_path_planner::nodes

@@ -1,27 +1,34 @@
-// ROS time that is not there yet, and ROS time that jumps back.
+// ROS time that has not come yet, and ROS time that jumps back.
 #pragma once
 
 #include <ros/time.h>
 
+#include <chrono>
 #include <mutex>
+#include <optional>
 
 #include "grid_path_planner/base/stop_token.h"
 
 namespace grid_path_planner::nodes {
 
-// With use_sim_time and no /clock yet every stamp would be 0: waits until there is one, with a
-// warning every 5 s. Throws Stopped.
-void waitForClock(const base::StopToken& stop);
-
-// Notices that ROS time went back, as when a bag loops. Thread-safe.
+// Thread-safe.
 class ClockWatch {
  public:
-  // Whether ROS time is before that of an earlier call; once for each jump.
-  bool jumpedBack();
+  // Whether there is a ROS time. With use_sim_time and no /clock yet there is none, every stamp
+  // would be 0, and every 5 s a warning says so.
+  bool hasTime();
+
+  // By how many seconds `now` is before that of an earlier call, as when a bag loops; none where it
+  // is not. Reported once for each jump.
+  std::optional<double> jumpedBack(const ros::Time& now = ros::Time::now());
 
  private:
   std::mutex mutex_;
   ros::Time latest_;
+  std::chrono::steady_clock::time_point next_warning_{};
 };
+
+// Waits until there is a ROS time. Throws Stopped.
+void waitForClock(const base::StopToken& stop);
 
 }  // namespace grid_path_planner::nodes

@@ -3,6 +3,7 @@
 #include <tf2_geometry_msgs/tf2_geometry_msgs.h>
 
 #include <chrono>
+#include <cmath>
 #include <sstream>
 #include <thread>
 
@@ -16,9 +17,15 @@ using base::InputError;
 using base::Stopped;
 using base::StopReason;
 using base::StopToken;
+using path::Path;
 using path::Pose;
 
 namespace {
+
+Pose poseOfTransform(const geometry_msgs::Transform& transform) {
+  const auto& position = transform.translation;
+  return Pose{{position.x, position.y, position.z}, yawOf(transform.rotation)};
+}
 
 std::string sentence(const std::string& target, const std::string& source, const ros::Time& stamp,
                      const std::string& reason) {
@@ -48,7 +55,7 @@ Pose FrameTransforms::poseIn(const std::string& frame, const geometry_msgs::Pose
   if (source.empty()) throw InputError("a pose must name its frame");
   const Pose level = poseFromMessage(pose.pose);
   if (source == frame) return level;
-  const auto transform = lookup(frame, source, pose.header.stamp, limit, stop);
+  const auto transform = waitFor(frame, source, pose.header.stamp, limit, stop);
   geometry_msgs::PoseStamped moved;
   tf2::doTransform(pose, moved, transform);
   Pose result;
@@ -59,28 +66,98 @@ Pose FrameTransforms::poseIn(const std::string& frame, const geometry_msgs::Pose
 
 Pose FrameTransforms::poseOf(const std::string& vehicle, const std::string& frame, double limit,
                              const StopToken& stop) const {
-  const auto transform = lookup(frame, frameName(vehicle), ros::Time(0), limit, stop).transform;
-  Pose pose;
-  pose.position = {transform.translation.x, transform.translation.y, transform.translation.z};
-  pose.yaw = yawOf(transform.rotation);
-  return pose;
+  return poseOfTransform(waitFor(frame, frameName(vehicle), ros::Time(0), limit, stop).transform);
 }
 
-geometry_msgs::TransformStamped FrameTransforms::lookup(const std::string& target,
-                                                        const std::string& source,
-                                                        const ros::Time& stamp, double limit,
-                                                        const StopToken& stop) const {
+geometry_msgs::TransformStamped FrameTransforms::waitFor(const std::string& target,
+                                                         const std::string& source,
+                                                         const ros::Time& stamp, double limit,
+                                                         const StopToken& stop) const {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
   while (true) {
     try {
-      return buffer_.lookupTransform(target, source, stamp);
-    } catch (const tf2::TransformException& error) {
+      return transform(target, source, stamp);
+    } catch (const TransformError& error) {
       if (std::chrono::steady_clock::now() >= end)
         throw TransformError(
             sentence(target, source, stamp, reasonOf(buffer_, target, source, error.what())));
     }
     if (stop.reason() != StopReason::NONE) throw Stopped(stop.reason());
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+geometry_msgs::TransformStamped FrameTransforms::transform(const std::string& target,
+                                                           const std::string& source,
+                                                           const ros::Time& stamp) const {
+  try {
+    return buffer_.lookupTransform(target, source, stamp);
+  } catch (const tf2::TransformException& error) {
+    throw TransformError(error.what());
+  }
+}
+
+Pose FrameTransforms::recentPoseOf(const std::string& vehicle, const std::string& frame,
+                                   const ros::Time& now, double max_age) const {
+  const std::string pose = "the pose of " + vehicle + " in " + frame;
+  geometry_msgs::TransformStamped found;
+  try {
+    found = transform(frame, vehicle);
+  } catch (const TransformError& error) {
+    throw TransformError(pose + " is not known: " + error.what());
+  }
+  const double age = (now - found.header.stamp).toSec();
+  if (!found.header.stamp.isZero() && std::abs(age) > max_age)  // 0: all of it is static
+    throw TransformError(pose + " is " + std::to_string(age) + " s old");
+  return poseOfTransform(found.transform);
+}
+
+void FrameTransforms::checkKnown(const std::string& frame, const std::string& vehicle) const {
+  if (frame.empty()) throw InputError("a path must name its frame, got an empty frame_id");
+  if (!buffer_._frameExists(frame) && buffer_._frameExists(vehicle))
+    throw InputError("the frame '" + frame + "' is not known to tf");
+}
+
+Path FrameTransforms::pathIn(const nav_msgs::Path& message, const std::string& vehicle) const {
+  const std::string frame = frameName(message.header.frame_id);
+  checkKnown(frame, vehicle);
+  nav_msgs::Path path = message;
+  path.header.frame_id = frame;
+  for (std::size_t i = 0; i < path.poses.size(); ++i) {
+    geometry_msgs::PoseStamped& pose = path.poses[i];
+    const std::string own = frameName(pose.header.frame_id);
+    if (own.empty() || own == frame) continue;
+    try {
+      poseFromMessage(pose.pose);
+      tf2::doTransform(pose.pose, pose.pose, transform(frame, own));
+    } catch (const TransformError& error) {
+      throw InputError("pose " + std::to_string(i + 1) +
+                       " of the path cannot be transformed from '" + own + "' to '" + frame +
+                       "': " + error.what());
+    } catch (const InputError& error) {
+      throw InputError("pose " + std::to_string(i + 1) + " of the path: " + error.what());
+    }
+  }
+  return pathFromMessage(path);
+}
+
+std::vector<Eigen::Vector3d> FrameTransforms::pointsIn(const std::string& to,
+                                                       const std::string& from,
+                                                       std::vector<Eigen::Vector3d> points) const {
+  if (from == to) return points;
+  try {
+    const geometry_msgs::TransformStamped moving = transform(to, from);
+    for (Eigen::Vector3d& point : points) {
+      geometry_msgs::Point message;
+      message.x = point.x();
+      message.y = point.y();
+      message.z = point.z();
+      tf2::doTransform(message, message, moving);
+      point = {message.x, message.y, message.z};
+    }
+    return points;
+  } catch (const TransformError& error) {
+    throw TransformError("no transform from '" + from + "' to '" + to + "': " + error.what());
   }
 }
 

@@ -1,19 +1,25 @@
-// Poses from one frame into another through tf, with a sentence where that fails.
+// The one access to tf: poses, paths and points of one frame in another, with a sentence where tf
+// knows no transform.
 //
 //   FrameTransforms transforms(nh);
 //   const Pose vehicle = transforms.poseOf("base_link", "map", limit, stop);
 //
-// Waits on the steady clock, so that a ROS clock that stands still does not hold it up, and asks
-// the stop token while waiting.
+// poseIn() and poseOf() wait for a transform: on the steady clock, so that a ROS clock that stands
+// still does not delay them, and they ask the stop token while they wait. The other functions
+// answer from what tf knows at once.
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/path/path.h"
@@ -39,13 +45,32 @@ class FrameTransforms {
   path::Pose poseOf(const std::string& vehicle, const std::string& frame, double limit,
                     const base::StopToken& stop) const;
 
+  // The latest transform, or that at `stamp`. Throws TransformError with tf2's reason.
+  geometry_msgs::TransformStamped transform(const std::string& target, const std::string& source,
+                                            const ros::Time& stamp = ros::Time(0)) const;
+
+  // The latest pose of `vehicle` in `frame`, if it is within `max_age` seconds of `now`. Throws
+  // TransformError for an older one, or none.
+  path::Pose recentPoseOf(const std::string& vehicle, const std::string& frame,
+                          const ros::Time& now, double max_age) const;
+
+  // The path in the frame of its header; poses that name another frame are transformed. Throws
+  // InputError for a path without a frame, a frame that tf does not know (while it knows
+  // `vehicle`), poses that cannot be transformed, and what pathFromMessage refuses.
+  path::Path pathIn(const nav_msgs::Path& message, const std::string& vehicle) const;
+
+  // Points of the frame `from` in the frame `to`. Throws TransformError.
+  std::vector<Eigen::Vector3d> pointsIn(const std::string& to, const std::string& from,
+                                        std::vector<Eigen::Vector3d> points) const;
+
   // Forgets everything but static transforms.
   void clear() { buffer_.clear(); }
 
  private:
-  geometry_msgs::TransformStamped lookup(const std::string& target, const std::string& source,
-                                         const ros::Time& stamp, double limit,
-                                         const base::StopToken& stop) const;
+  geometry_msgs::TransformStamped waitFor(const std::string& target, const std::string& source,
+                                          const ros::Time& stamp, double limit,
+                                          const base::StopToken& stop) const;
+  void checkKnown(const std::string& frame, const std::string& vehicle) const;
 
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;

@@ -4,7 +4,9 @@
 #include <geometry_msgs/Twist.h>
 #include <ros/console.h>
 
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "grid_path_planner/NavigatePathConfig.h"
 #include "grid_path_planner/following/path_clearance_check.h"
@@ -29,7 +31,6 @@ namespace {
 
 constexpr double kFeedbackPeriod = 0.2;     // s, wall time
 constexpr double kDiagnosticsPeriod = 1.0;  // s, wall time
-constexpr double kClockWarning = 5.0;       // s, between two
 
 NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh) {
   NavigatePathOptions options;
@@ -50,7 +51,7 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
     : nh_(nh),
       options_(loadOptions(private_nh)),
       follower_(options_.follower),
-      frames_(nh),
+      transforms_(nh),
       action_(nh, "navigate_path", false),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   if (!options_.config_filename.empty()) file_ = readWaypointFile(options_.config_filename);
@@ -112,40 +113,30 @@ void NavigatePathNode::startTimer() {
 }
 
 void NavigatePathNode::onTimer(const ros::SteadyTimerEvent&) {
-  if (!clockIsThere()) return;
+  if (!clock_.hasTime()) {
+    waits_for_clock_ = true;
+    return;
+  }
+  if (std::exchange(waits_for_clock_, false)) ROS_INFO("/clock is there");
   const ros::Time now = ros::Time::now();
   if (now == now_) return;  // a clock that stands still
   if (started_.isZero()) begin(now);
-  watchTime(now);
+  cancelOnTimeJump(now);
   now_ = now;
   control(now);
 }
 
 // Time that goes back: paths from before the jump are not of this time.
-void NavigatePathNode::watchTime(const ros::Time& now) {
-  if (now >= now_) return;
-  ROS_WARN_STREAM("ROS time went back by " << (now_ - now).toSec()
-                                           << " s: tf is cleared and the drive cancelled");
-  frames_.clear();
+void NavigatePathNode::cancelOnTimeJump(const ros::Time& now) {
+  const std::optional<double> back = clock_.jumpedBack(now);
+  if (!back) return;
+  ROS_WARN_STREAM("ROS time went back by " << *back << " s: tf is cleared and the drive cancelled");
+  transforms_.clear();
   FollowInput without_pose;
   without_pose.time = now.toSec();
   publishVelocity(follower_.update(without_pose));  // sees it too, and cancels
   reportEvents();
   started_ = now_ = now;
-}
-
-bool NavigatePathNode::clockIsThere() {
-  if (ros::Time::isValid()) {
-    if (warned_about_clock_) ROS_INFO("/clock is there");
-    warned_about_clock_ = false;
-    return true;
-  }
-  const ros::SteadyTime now = ros::SteadyTime::now();
-  if (now < next_clock_warning_) return false;
-  ROS_WARN("use_sim_time is set and no /clock has come yet: waiting for it");
-  warned_about_clock_ = true;
-  next_clock_warning_ = now + ros::WallDuration(kClockWarning);
-  return false;
 }
 
 // Only now is it known which paths are from before.
@@ -162,9 +153,7 @@ void NavigatePathNode::begin(const ros::Time& now) {
 void NavigatePathNode::control(const ros::Time& now) {
   FollowInput input;
   input.time = now.toSec();
-  if (!follower_.path().empty())
-    input.pose = frames_.pose(options_.base_frame, follower_.path().frame_id, now,
-                              options_.tf_timeout, input.pose_problem);
+  if (!follower_.path().empty()) findVehicle(now, input);
   if (options_.check_map)
     input.check = [this](const std::vector<Eigen::Vector3d>& way) { return whyOccupied(way); };
   publishVelocity(follower_.update(input));
@@ -172,11 +161,20 @@ void NavigatePathNode::control(const ros::Time& now) {
   publishWaypoint(now);
 }
 
+void NavigatePathNode::findVehicle(const ros::Time& now, FollowInput& input) const {
+  try {
+    input.pose = transforms_.recentPoseOf(options_.base_frame, follower_.path().frame_id, now,
+                                          options_.tf_timeout);
+  } catch (const TransformError& error) {
+    input.pose_problem = error.what();
+  }
+}
+
 std::string NavigatePathNode::whyOccupied(const std::vector<Eigen::Vector3d>& way) const {
   const ReceivedMap map = map_.latest();
   if (!map.grid) return "";
   try {
-    const auto points = frames_.points(way, follower_.path().frame_id, map.frame_id);
+    const auto points = transforms_.pointsIn(map.frame_id, follower_.path().frame_id, way);
     const auto cell =
         firstOccupied(*map.grid, options_.occupied_min, points, options_.check_radius);
     if (!cell) return "";
@@ -184,13 +182,13 @@ std::string NavigatePathNode::whyOccupied(const std::vector<Eigen::Vector3d>& wa
     std::ostringstream text;
     text << "projected_map is occupied ahead, at x " << at.x() << ", y " << at.y() << " m";
     return text.str();
-  } catch (const InputError& error) {
+  } catch (const TransformError& error) {
     return std::string("projected_map cannot be compared with the path: ") + error.what();
   }
 }
 
 void NavigatePathNode::onPath(const nav_msgs::Path& message) {
-  watchTime(ros::Time::now());
+  cancelOnTimeJump(ros::Time::now());
   if (message.header.stamp < started_ && !options_.follow_latched) {
     ROS_WARN_STREAM("A path stamped " << message.header.stamp << " is not driven: navigate_path "
                                       << "started at " << started_
@@ -207,7 +205,7 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   try {
-    follower_.start(frames_.pathIn(message, options_.base_frame), Join::NEAREST);
+    follower_.start(transforms_.pathIn(message, options_.base_frame), Join::NEAREST);
     published_waypoint_ = -1;
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
@@ -234,7 +232,7 @@ void NavigatePathNode::onGoal() {
 Path NavigatePathNode::pathOf(const NavigatePathGoal& goal) const {
   if (!goal.path.poses.empty() && !goal.filename.empty())
     throw InputError("a goal must give a path or a filename, got both");
-  if (!goal.path.poses.empty()) return frames_.pathIn(goal.path, options_.base_frame);
+  if (!goal.path.poses.empty()) return transforms_.pathIn(goal.path, options_.base_frame);
   if (goal.filename.empty())
     throw InputError("a goal must give a path of at least one waypoint, or a filename");
   return readWaypointFile(goal.filename);

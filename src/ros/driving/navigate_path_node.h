@@ -33,9 +33,10 @@
 
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/following/path_follower.h"
+#include "ros/common/clock.h"
+#include "ros/common/frame_transforms.h"
 #include "ros/common/map_receiver.h"
 #include "ros/driving/navigate_path_options.h"
-#include "ros/driving/vehicle_frames.h"
 
 namespace grid_path_planner {
 class NavigatePathConfig;
@@ -60,10 +61,10 @@ class NavigatePathNode {
   void use(const NavigatePathOptions& options);
   void startTimer();
   void onTimer(const ros::SteadyTimerEvent& event);
-  bool clockIsThere();
   void begin(const ros::Time& now);
-  void watchTime(const ros::Time& now);
+  void cancelOnTimeJump(const ros::Time& now);
   void control(const ros::Time& now);
+  void findVehicle(const ros::Time& now, following::FollowInput& input) const;
   std::string whyOccupied(const std::vector<Eigen::Vector3d>& way) const;
 
   void onPath(const nav_msgs::Path& message);
@@ -83,12 +84,12 @@ class NavigatePathNode {
   ros::NodeHandle nh_;
   NavigatePathOptions options_;
   following::PathFollower follower_;
-  VehicleFrames frames_;
+  FrameTransforms transforms_;
+  ClockWatch clock_;
   path::Path file_;  // of config_filename
   ros::Time started_;
   ros::Time now_;
-  ros::SteadyTime next_clock_warning_;
-  bool warned_about_clock_ = false;
+  bool waits_for_clock_ = false;
   bool silent_ = true;  // nothing, or a zero, was sent last and there is no drive
   bool goal_active_ = false;
   int published_waypoint_ = -1;

@@ -95,11 +95,11 @@ std::optional<CloudFrames> CloudQueue::framesOf(const sensor_msgs::PointCloud2& 
   CloudFrames frames;
   try {
     frames.map_from_sensor =
-        isometryOf(buffer_.lookupTransform(options_.frame, source, stamp).transform);
+        isometryOf(transforms_.transform(options_.frame, source, stamp).transform);
     if (!options_.base_frame.empty())
       frames.base_from_map =
-          isometryOf(buffer_.lookupTransform(options_.base_frame, options_.frame, stamp).transform);
-  } catch (const tf2::TransformException& error) {
+          isometryOf(transforms_.transform(options_.base_frame, options_.frame, stamp).transform);
+  } catch (const TransformError& error) {
     problem = error.what();
     return std::nullopt;
   }

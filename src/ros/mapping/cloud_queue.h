@@ -1,6 +1,6 @@
 // Clouds between their arrival and their turn: each waits for its own transform, none for another.
 //
-//   CloudQueue queue(buffer);
+//   CloudQueue queue(transforms);
 //   queue.setOptions(options);
 //   queue.add(cloud);                       // in the subscriber's thread
 //   queue.sortOut();                        // there too, every few milliseconds
@@ -14,7 +14,6 @@
 #pragma once
 
 #include <sensor_msgs/PointCloud2.h>
-#include <tf2_ros/buffer.h>
 
 #include <chrono>
 #include <cstdint>
@@ -25,6 +24,7 @@
 #include <string>
 
 #include "grid_path_planner/mapping/cloud_filter.h"
+#include "ros/common/frame_transforms.h"
 
 namespace grid_path_planner::nodes {
 
@@ -49,8 +49,8 @@ class CloudQueue {
     mapping::CloudFrames frames;
   };
 
-  // `buffer` outlives this.
-  explicit CloudQueue(const tf2_ros::Buffer& buffer) : buffer_(buffer) {}
+  // `transforms` outlives this.
+  explicit CloudQueue(const FrameTransforms& transforms) : transforms_(transforms) {}
 
   void setOptions(const CloudQueueOptions& options);
 
@@ -80,7 +80,7 @@ class CloudQueue {
   void dropWaiting();
   void drop(const std::string& reason, const std::string& sentence);
 
-  const tf2_ros::Buffer& buffer_;
+  const FrameTransforms& transforms_;
   mutable std::mutex mutex_;
   CloudQueueOptions options_;
   std::deque<Waiting> waiting_;

@@ -58,7 +58,7 @@ bool followsVehicle(const MapModel& map) {
 
 ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
                                    const std::string& filename)
-    : nh_(nh), listener_(buffer_, nh, true), queue_(buffer_), service_spinner_(1, &service_queue_) {
+    : nh_(nh), transforms_(nh), queue_(transforms_), service_spinner_(1, &service_queue_) {
   ProjectedMapOptions options = loadOptions(private_nh, filename);
   desk_ = std::make_unique<MappingThread>(options);
   desk_->ask([&](MapModel& map) { options = map.options(); });  // a file has its own resolution
@@ -119,7 +119,7 @@ void ProjectedMapNode::onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud) 
 void ProjectedMapNode::checkClock() {
   if (!clock_.jumpedBack()) return;
   ROS_WARN("ROS time jumped back: tf and the clouds that wait are forgotten, the map stays");
-  buffer_.clear();
+  transforms_.clear();
   queue_.clear();
 }
 
@@ -191,10 +191,9 @@ bool ProjectedMapNode::findVehicle(MapModel& map) {
   const ProjectedMapOptions& options = map.options();
   try {
     map.setVehicleHeight(
-        buffer_.lookupTransform(options.frame_id, options.base_frame_id, ros::Time(0))
-            .transform.translation.z);
+        transforms_.transform(options.frame_id, options.base_frame_id).transform.translation.z);
     return true;
-  } catch (const tf2::TransformException& error) {
+  } catch (const TransformError& error) {
     ROS_WARN_STREAM_THROTTLE(10.0, "projected_map waits for the vehicle's depth: " << error.what());
     return false;
   }

@@ -23,14 +23,13 @@
 #include <ros/subscriber.h>
 #include <ros/wall_timer.h>
 #include <sensor_msgs/PointCloud2.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <atomic>
 #include <memory>
 #include <string>
 
 #include "ros/common/clock.h"
+#include "ros/common/frame_transforms.h"
 #include "ros/mapping/cloud_queue.h"
 #include "ros/mapping/mapping_diagnostics.h"
 #include "ros/mapping/mapping_services.h"
@@ -76,8 +75,7 @@ class ProjectedMapNode {
   bool findVehicle(mapping::MapModel& map);
 
   ros::NodeHandle nh_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  FrameTransforms transforms_;
   ClockWatch clock_;
   CloudQueue queue_;
   std::unique_ptr<MappingThread> desk_;
