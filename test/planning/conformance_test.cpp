@@ -356,7 +356,7 @@ TEST_P(Conformance, StopsWhenAsked) {
   EXPECT_EQ(planner->search(request, StopToken()).status, Status::FOUND);
 }
 
-// A search that is stopped on its way says how far it came.
+// A stopped search returns its statistics so far.
 TEST_P(Conformance, StoppedSearchesKeepTheirStatistics) {
   const int side = sideFor(GetParam(), 160);
   const int middle = side / 2;

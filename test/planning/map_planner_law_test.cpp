@@ -97,7 +97,7 @@ TEST(MapPlannerLaw, PathsAreLegalAtFullResolutionAndEndWhereTheyWereAsked) {
   EXPECT_GT(found, 500);
 }
 
-// With retry_finer a kernel never loses a way that full resolution has.
+// With retry_finer a kernel never loses a path that full resolution has.
 TEST(MapPlannerLaw, AKernelLosesNoWay) {
   std::mt19937 random(5884);
   for (int trial = 0; trial < 300; ++trial) {

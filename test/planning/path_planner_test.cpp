@@ -128,7 +128,7 @@ TEST(PathPlanner, EndsAreThePosesAskedFor) {
   EXPECT_LT(half, 4.5);
 }
 
-// A cell's centre stays beside an end only where the straight way past it is not legal.
+// A cell's centre stays beside an end only where the straight line past it is not legal.
 TEST(PathPlanner, CentreOfTheFirstCellStaysOnlyWhereItIsNeeded) {
   const OccupancyGrid map = AsciiMap({".#",  //
                                       ".."})
@@ -136,7 +136,7 @@ TEST(PathPlanner, CentreOfTheFirstCellStaysOnlyWhereItIsNeeded) {
   // Seen from the lower edge of cell (0, 0) the centre of (0, 1) is straight ahead.
   const Plan open = planBetween(map, poseAt({0.9, 0.1}), poseAt({1.5, 1.5}));
   ASSERT_EQ(open.path.poses.size(), 3U);
-  // Cell (1, 1) from (0, 0) by way of (0, 1): the goal at its far edge is seen from there.
+  // Cell (1, 1) from (0, 0) through (0, 1): the goal at its far edge is visible from there.
   const OccupancyGrid corner = AsciiMap({"..#",  //
                                          "#..",  //
                                          "..."})

@@ -1,4 +1,4 @@
-// The map that was recorded in a bag.
+// Reads the map that was recorded in a bag.
 //
 //   OccupancyGrid map = readMapFromBag("run.bag");  // first message of projected_map
 //   OccupancyGrid any = readAnyMapFile("run.bag");  // or any format of readMapFile
@@ -12,11 +12,11 @@ namespace grid_path_planner::nodes {
 
 // The first nav_msgs/OccupancyGrid on `topic`, a leading slash here or in the bag ignored. Throws
 // InputError naming the file where there is no such bag, it is cut short, it has no map on that
-// topic (then naming the topics that have one) or the message is no good map.
+// topic (then naming the topics that have one) or the message is no valid map.
 grid::OccupancyGrid readMapFromBag(const std::string& file,
                                    const std::string& topic = "projected_map");
 
-// A map from any file: a bag (told by its content, or the extension .bag) or what readMapFile
+// A map from any file: a bag (known by its content, or the extension .bag) or what readMapFile
 // reads. `options` override a bag's resolution and origin too.
 grid::OccupancyGrid readAnyMapFile(const std::string& file,
                                    const grid::MapFileOptions& options = {});

@@ -43,7 +43,7 @@ std::uint64_t littleEndian(std::string_view bytes) {
   return value;
 }
 
-// Takes pieces from the front of some bytes, never more than there are.
+// Reads from the front of some bytes, never more than there are.
 class Cursor {
  public:
   explicit Cursor(std::string_view bytes) : rest_(bytes) {}

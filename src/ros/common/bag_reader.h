@@ -1,14 +1,14 @@
-// The first message of a topic in a bag (format 2.0), read so that a damaged bag is refused.
+// Reads the first message of a topic in a bag (format 2.0); a damaged bag is refused.
 //
 //   const BagReader bag("run.bag");
 //   for (const BagConnection& connection : bag.connections())
 //     std::optional<std::string> bytes = bag.firstMessage({connection.id});
 //
-// rosbag_storage trusts the lengths that stand in a file: one wrong byte of a bag's header makes it
-// read beyond its buffer and can end the process. Here every length is checked against what is
-// there. Only compressed chunks are left to it to unpack.
+// rosbag_storage trusts the lengths in a file: one wrong byte of a bag's header makes it read beyond
+// its buffer and can end the process. Here every length is checked against the bytes that are left.
+// Only the decompression of chunks uses rosbag_storage.
 //
-// Messages come as they were written, not sorted by time; rosbag record writes them as they arrive.
+// The first message is the first in the file, not by time; rosbag record writes them as they arrive.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct BagConnection {
 
 class BagReader {
  public:
-  // Where a piece of the file lies that holds messages, packed together.
+  // Position of a chunk: messages that are compressed together.
   struct Chunk {
     std::uint64_t begin = 0;     // of its data in the file
     std::uint32_t packed = 0;    // bytes
@@ -37,9 +37,9 @@ class BagReader {
     std::set<std::uint32_t> connections;
   };
 
-  // Walks over the whole file without unpacking it. Throws InputError naming the file where it
-  // cannot be read, is no bag of format 2.0, is encrypted, was not closed, is cut short or is
-  // damaged.
+  // Reads the records of the whole file, without decompression. Throws InputError naming the file
+  // where it cannot be read, is no bag of format 2.0, is encrypted, was not closed, is cut short or
+  // is damaged.
   explicit BagReader(const std::string& file);
 
   // By id.

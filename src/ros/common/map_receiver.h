@@ -1,9 +1,9 @@
-// The map as it comes in: whole on `projected_map`, in pieces on `projected_map_updates`.
+// Receives the map: whole on `projected_map`, in pieces on `projected_map_updates`.
 //
-// A message that is no map is refused with an error that says why, and the map before it stays; so
-// does a piece that does not fit. A piece older than the map is dropped: it is part of the map
-// already (unless the map is stamped later than now: then ROS time has jumped back). Maps handed
-// out never change; a piece makes a new one in time proportional to the piece (grid/double_buffered.h).
+// An invalid message is refused with an error that says why, and the map before it stays; so is a
+// piece outside the map. A piece older than the map is dropped: it is part of the map already
+// (unless the map is stamped later than now: then ROS time has jumped back). Maps handed out never
+// change; a piece makes a new one in time proportional to the piece (grid/double_buffered.h).
 #pragma once
 
 #include <map_msgs/OccupancyGridUpdate.h>
@@ -28,10 +28,10 @@ struct ReceivedMap {
   ros::Time stamp;       // of the newest message in it
 };
 
-// What changed since the map was last taken.
+// What changed since the last call of take().
 struct MapChange {
   ReceivedMap map;
-  // The cells that may differ from those of the map taken before; none: all may.
+  // The cells that may differ from those of the map before; none: all may.
   std::optional<grid::CellRect> changed;
 };
 
@@ -49,17 +49,17 @@ grid::CellRect changedCells(const grid::OccupancyGrid& before, const grid::Occup
 
 class MapReceiver {
  public:
-  // Listens from here on. `on_change` is called after every change, in the subscriber's thread.
+  // Subscribes. `on_change` is called after every change, in the subscriber's thread.
   void start(ros::NodeHandle nh, std::function<void()> on_change);
 
-  // Where maps are listened for, as the topic is called in the graph; empty before start().
+  // The resolved name of the topic of maps; empty before start().
   std::string topic() const;
 
   // The newest map; its grid is null before the first.
   ReceivedMap latest() const;
   // The newest map if it changed since the last call. For one caller.
   std::optional<MapChange> take();
-  // Why the last message was refused; empty after one that was taken.
+  // Why the last message was refused; empty after one that was accepted.
   std::string refusal() const;
 
   void shutdown();

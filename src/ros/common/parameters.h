@@ -1,4 +1,4 @@
-// Options from ROS parameters and dynamic_reconfigure, by the visitOptions of their struct.
+// Reads options from ROS parameters and dynamic_reconfigure, by the visitOptions of their struct.
 //
 //   ros::NodeHandle private_nh("~");
 //   PlannerOptions options;
@@ -8,9 +8,9 @@
 //   Reconfigurable<PathPlannerConfig, PlannerOptions> reconfigurable(
 //       private_nh, options, [](const PlannerOptions& o) { use(o); });
 //
-// Nothing is clamped and nothing is half applied: a value of the wrong type, outside its limits or
-// in a contradictory combination is refused with a sentence, and what was in force stays. For that
-// the .cfg of a node states no min and max: dynamic_reconfigure would clamp to them without a word.
+// No value is clamped and no change is applied in part: a value of the wrong type, outside its
+// limits or in a contradictory combination is refused with a sentence, and the old values stay. The
+// .cfg of a node states no min and max, to which dynamic_reconfigure would clamp without a warning.
 //
 // An option with a nested name, sensor_model/hit, is the parameter ~sensor_model/hit; for
 // dynamic_reconfigure, whose names are C++ names, it is sensor_model_hit.
@@ -43,9 +43,9 @@ void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, int& ta
 void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, double& target);
 void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, std::string& target);
 
-// Names under the namespace of `private_nh` that are not in `known`; of a nested one the first
-// part, unless known names begin with that too. What dynamic_reconfigure calls a known one is
-// known.
+// Names under the namespace of `private_nh` that are not in `known`; of a nested name the first
+// part, unless a known name begins with it. The name that dynamic_reconfigure uses for a known name
+// is known.
 std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
                                            const std::vector<std::string>& known);
 
@@ -152,8 +152,8 @@ Config configFromOptions(const Options& options) {
 }
 
 // Keeps `Options` open to dynamic_reconfigure. `apply` gets every accepted request once, in the
-// thread that serves the requests, and throws InputError for what it refuses: then the old options
-// stay in force, the reason is logged and the answer to the request holds the old values.
+// thread of the requests, and throws InputError to refuse one: then the old options stay in force,
+// the reason is logged and the answer to the request holds the old values.
 template <class Config, class Options>
 class Reconfigurable {
  public:
@@ -177,7 +177,7 @@ class Reconfigurable {
   }
 
   void onRequest(Config& config) {
-    if (!started_) {  // setCallback calls once with what the parameters say
+    if (!started_) {  // setCallback calls once with the values of the parameters
       started_ = true;
       config = configFromOptions<Config>(options_);
       return;
@@ -186,7 +186,7 @@ class Reconfigurable {
       const Options wanted = optionsFromConfig(options_, config);
       apply_(wanted);
       options_ = wanted;
-      storeParameters(private_nh_, options_, Stored::NESTED);  // others the server stores
+      storeParameters(private_nh_, options_, Stored::NESTED);  // the server stores the others
     } catch (const base::InputError& error) {
       ROS_ERROR_STREAM("Reconfiguration of " << private_nh_.getNamespace()
                                              << " refused, the old values stay: " << error.what());

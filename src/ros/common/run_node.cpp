@@ -32,7 +32,7 @@ class ShutdownRequest {
     return request;
   }
 
-  // Takes the place of roscpp's own answer, which would close the connections.
+  // Replaces roscpp's own handler, which would close the connections.
   void listen() {
     const ros::XMLRPCManagerPtr& server = ros::XMLRPCManager::instance();
     server->unbind("shutdown");

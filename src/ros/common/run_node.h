@@ -23,7 +23,7 @@ namespace grid_path_planner::nodes {
 using NodeMaker =
     std::function<std::shared_ptr<void>(ros::NodeHandle& nh, ros::NodeHandle& private_nh)>;
 
-// Serves the global callback queue in this thread until something ends it. Returns the exit code:
+// Calls the global callback queue in this thread until the node ends. Returns the exit code:
 // 0, or 1 after an exception of the node's construction or of a callback.
 int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make);
 
@@ -37,7 +37,7 @@ int runNode(int argc, char** argv, const std::string& name) {
   });
 }
 
-// The same for a node that takes a file, `file_kind` in its usage: as its third argument, empty
+// The same for a node that reads a file, `file_kind` in its usage: as its third argument, empty
 // where none is given.
 template <class Node>
 int runNodeWithFile(int argc, char** argv, const std::string& name, const std::string& file_kind) {

@@ -1,12 +1,12 @@
-// The node map_publisher: a map file, latched.
+// The node map_publisher: publishes a map file, latched.
 //
 //   publishes  projected_map (~topic)  nav_msgs/OccupancyGrid
 //              map_metadata            nav_msgs/MapMetaData
-//   serves     static_map              nav_msgs/GetMap
+//   services   static_map              nav_msgs/GetMap
 //
-// The file is read once, at the start and again where ~filename is changed by dynamic_reconfigure;
-// one that cannot be read ends the node, or leaves the map as it is. Nothing is published before
-// there is a ROS time to stamp it with.
+// The file is read at the start, and again when dynamic_reconfigure changes ~filename. A file that
+// cannot be read ends the node at the start, and leaves the map as it is later. Nothing is published
+// before there is a ROS time for the stamp.
 #pragma once
 
 #include <nav_msgs/GetMap.h>
@@ -34,7 +34,7 @@ class Reconfigurable;
 
 class MapPublisherNode {
  public:
-  // `filename`, unless empty, stands for the parameter: map_server's way to be given a file. Throws
+  // `filename`, unless empty, replaces the parameter, as on the command line of map_server. Throws
   // InputError for parameters and files that cannot be used.
   MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
                    const std::string& filename = "");

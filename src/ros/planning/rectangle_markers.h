@@ -1,4 +1,4 @@
-// Rectangle maps to look at in rviz.
+// Rectangle maps as markers for rviz.
 #pragma once
 
 #include <ros/time.h>
@@ -11,13 +11,13 @@
 
 namespace grid_path_planner::nodes {
 
-// What rviz draws without trouble; the first rectangles are the largest.
+// As many as rviz draws without delay; the first rectangles are the largest.
 constexpr std::size_t kMostShownRectangles = 50000;
 constexpr std::size_t kMostNumberedRectangles = 200;
 
 // Namespaces "rectangles" (filled, a colour a number), "outlines" and "numbers" (from 1, of the
-// first kMostNumberedRectangles, as large as they fit). Begins with a marker that deletes all that
-// the topic showed before.
+// first kMostNumberedRectangles, as large as they fit). The first marker deletes all that the
+// topic showed before.
 visualization_msgs::MarkerArray rectangleMarkers(const grid::GridGeometry& geometry,
                                                  const std::vector<grid::CellRect>& rectangles,
                                                  const std::string& frame_id,

@@ -3,7 +3,7 @@
 //   publisher.publish(rectanglesToMessage(geometry, rectangles, "map", ros::Time::now()));
 //   const RectangleGraph map = rectanglesFromMessage(message, Touching::BORDERS);   // InputError
 //
-// Rectangles -> message -> rectangles is the identity; of the geometry see occupancy_conversion.h.
+// Rectangles -> message -> rectangles is the identity; for the geometry see occupancy_conversion.h.
 #pragma once
 
 #include <grid_path_planner/RectangleMap.h>
@@ -21,8 +21,8 @@ RectangleMap rectanglesToMessage(const grid::GridGeometry& geometry,
                                  const std::vector<grid::CellRect>& rectangles,
                                  const std::string& frame_id, const ros::Time& stamp);
 
-// Throws InputError for a geometry that cannot be, and naming the first rectangle that is empty,
-// leaves the map or overlaps another.
+// Throws InputError for an invalid geometry, and one that names the first rectangle that is empty,
+// reaches outside the map or overlaps another.
 planners::RectangleGraph rectanglesFromMessage(const RectangleMap& message,
                                                planners::Touching touching);
 

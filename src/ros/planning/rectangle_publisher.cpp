@@ -51,7 +51,7 @@ void RectanglePublisher::publish(std::shared_ptr<const CostGrid> costs, const st
         try {
           cutAndTell(std::move(costs), frame_id, memory_limit, stop.token());
         } catch (const Stopped&) {
-          // Nobody wants the rectangles any more.
+          // clear() or the destructor was called.
         } catch (const DecompositionTooLarge&) {
           ROS_ERROR(
               "To cut this map into rectangles takes more than memory_limit, %zu MB: "
@@ -67,7 +67,7 @@ void RectanglePublisher::cutAndTell(std::shared_ptr<const CostGrid> costs,
                                     const StopToken& stop) {
   const GridGeometry geometry = costs->geometry();
   const BitMaps free = costs->bitMaps(stop);
-  costs.reset();  // while somebody holds it, the map cannot take its turn to be changed
+  costs.reset();  // while it is held, its buffer cannot be reused (double_buffered.h)
   DecompositionLimits limits;
   limits.bytes = memory_limit;
   const std::vector<CellRect> rectangles = largestFirst(free, limits, stop);

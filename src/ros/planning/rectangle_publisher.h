@@ -1,11 +1,11 @@
-// Tells the map that is searched as rectangles: `rectangle_map` and `rectangle_markers`, latched.
+// Publishes the searched map as rectangles: `rectangle_map` and `rectangle_markers`, latched.
 //
 //   RectanglePublisher publisher(nh);
 //   publisher.publish(costs, "map", memory_limit);     // returns at once
 //
-// Maps are cut in a thread of their own, so nobody waits for that; where maps come faster than they
-// are cut, those in between are left out, and the last is always told. A map that would take more
-// than the limit to cut is refused with an error in the log, and the rectangles before it stay.
+// A thread of its own decomposes the maps, so no caller waits for it; where maps come faster, those
+// in between are left out, and the last is always published. A map whose decomposition needs more
+// than the memory limit is refused with an error in the log, and the old rectangles stay.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -25,10 +25,10 @@ class RectanglePublisher {
  public:
   // Advertises both topics.
   explicit RectanglePublisher(ros::NodeHandle nh);
-  // Stops what is under way and takes the topics back.
+  // Cancels the decomposition and unadvertises both topics.
   ~RectanglePublisher() { worker_.stop(); }
 
-  // Takes rectangle_map back and deletes what rviz shows, which it keeps otherwise.
+  // Unadvertises rectangle_map and deletes the markers, which rviz shows on otherwise.
   void clear();
   // Whether publish() was called after the last clear().
   bool shown() const { return shown_; }
@@ -43,7 +43,7 @@ class RectanglePublisher {
   void advertiseMap() { map_ = nh_.advertise<RectangleMap>("rectangle_map", 1, true); }
 
   ros::NodeHandle nh_;
-  ros::Publisher map_;  // of the worker's thread, as is markers_
+  ros::Publisher map_;  // the worker's, as is markers_
   ros::Publisher markers_;
   bool shown_ = false;
   base::TaskQueue worker_;
