@@ -44,7 +44,7 @@ WORDS = {
     "patient_queue": "heap-on-top queue",
     "plan_attempt": "path planner",
     "plan_desk": "planning server",
-    "plan_engine": "planning backend",
+    "plan_engine": "planning server",
     "plan_worker": "task queue",
     "prepared_table": "precomputed table",
     "rectangle_answer": "rectangles result",
@@ -77,7 +77,7 @@ ALLOWED = set("""
     dearer dearest desk detour eight_cells follow_way
     goal_tree inquiry jump_lanes keeper
     natural_steps near_obstacles needless
-    plan_attempt rectangle_answer
+    rectangle_answer
     rectangle_question rising_keys
     sphere_way table_entry
     terrain too_dear waiting_cells way window_walk
