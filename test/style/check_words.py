@@ -75,7 +75,7 @@ WORDS = {
 ALLOWED = set("""
     brick_walk canonical_steps catalogue centre_segment cheapest cone
     dearer dearest desk detour eight_cells follow_way
-    goal_tree inquiry jump_lanes keeper
+    goal_tree jump_lanes keeper
     natural_steps near_obstacles needless
     rectangle_answer
     rectangle_question rising_keys
