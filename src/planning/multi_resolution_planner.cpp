@@ -38,6 +38,13 @@ void append(Route& route, const std::shared_ptr<const CostGrid>& map, SearchResu
   route.legs.push_back({map, std::move(result)});
 }
 
+// Adds what another search did and how it ended, but not its path.
+void addSearch(Plan& plan, const Plan& other) {
+  plan.status = other.status;
+  plan.statistics += other.statistics;
+  plan.expanded.insert(plan.expanded.end(), other.expanded.begin(), other.expanded.end());
+}
+
 }  // namespace
 
 MultiResolutionPlanner::MultiResolutionPlanner(std::string planner, const SearchOptions& options,
@@ -161,10 +168,7 @@ Route MultiResolutionPlanner::findOverBlocks(Cell start, Cell goal, bool record_
   if (!blockOpen(goal)) {
     const Blocks wanted = reachableFrom(*downsampled_, blockOf(first), stop);
     append(last_leg, full_resolution_, searchOpenBlock(goal, start, wanted, record_expanded, stop));
-    const Plan& last_plan = last_leg.plan;
-    plan.statistics += last_plan.statistics;
-    plan.expanded.insert(plan.expanded.end(), last_plan.expanded.begin(), last_plan.expanded.end());
-    plan.status = last_plan.status;
+    addSearch(plan, last_leg.plan);
     if (!plan.found()) return route;
     auto& cells = last_leg.legs.back().result.cells;
     std::reverse(cells.begin(), cells.end());
