@@ -21,6 +21,7 @@ using Made = std::unique_ptr<Planner>;
 
 struct Row {
   const char* name;
+  PlannerTraits (*traits)();
   Made (*make)(const SearchOptions&);
   std::initializer_list<const char*> options;  // of SearchOptions, beside memory_limit
 };
@@ -41,16 +42,18 @@ constexpr std::initializer_list<const char*> kGuided = {"heuristic", "heuristic_
 constexpr std::initializer_list<const char*> kOrder = {"tie_break"};
 constexpr std::initializer_list<const char*> kRectangles = {"rectangle_weight", "rectangle_funnel"};
 
-constexpr Row kCatalogue[] = {
-    {"a_star", withOptions<AStar>, kGuided},
-    {"weighted_jump_point", withOptions<WeightedJumpPoint>, kGuided},
-    {"jump_point", plain<JumpPoint>, kNone},
-    {"dijkstra", withOptions<Dijkstra>, kOrder},
-    {"incremental_a_star", plain<IncrementalAStar>, kNone},
-    {"lazy_theta_star", plain<LazyThetaStar>, kNone},
-    {"anya", plain<Anya>, kNone},
-    {"polyanya", plain<Polyanya>, kNone},
-    {"rectangle_map", withOptions<RectangleMapPlanner>, kRectangles},
+constexpr Row kRows[] = {
+    {"a_star", AStar::declaredTraits, withOptions<AStar>, kGuided},
+    {"weighted_jump_point", WeightedJumpPoint::declaredTraits, withOptions<WeightedJumpPoint>,
+     kGuided},
+    {"jump_point", JumpPoint::declaredTraits, plain<JumpPoint>, kNone},
+    {"dijkstra", Dijkstra::declaredTraits, withOptions<Dijkstra>, kOrder},
+    {"incremental_a_star", IncrementalAStar::declaredTraits, plain<IncrementalAStar>, kNone},
+    {"lazy_theta_star", LazyThetaStar::declaredTraits, plain<LazyThetaStar>, kNone},
+    {"anya", Anya::declaredTraits, plain<Anya>, kNone},
+    {"polyanya", Polyanya::declaredTraits, plain<Polyanya>, kNone},
+    {"rectangle_map", RectangleMapPlanner::declaredTraits, withOptions<RectangleMapPlanner>,
+     kRectangles},
 };
 
 // Names that were planners once, and what to take instead.
@@ -66,7 +69,7 @@ constexpr Retired kRetired[] = {
 };
 
 const Row& rowOf(const std::string& name) {
-  for (const Row& row : kCatalogue)
+  for (const Row& row : kRows)
     if (name == row.name) return row;
   for (const Retired& each : kRetired)
     if (name == each.name) throw InputError("planner '" + name + "' " + each.advice);
@@ -78,7 +81,7 @@ const Row& rowOf(const std::string& name) {
 const std::vector<std::string>& plannerNames() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const Row& row : kCatalogue) all.emplace_back(row.name);
+    for (const Row& row : kRows) all.emplace_back(row.name);
     return all;
   }();
   return names;
@@ -95,6 +98,10 @@ std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOption
   std::unique_ptr<Planner> planner = rowOf(name).make(options);
   planner->limitMemory(memoryLimitOf(options));
   return planner;
+}
+
+PlannerTraits traitsOf(const std::string& name) {
+  return rowOf(name).traits();
 }
 
 std::vector<std::string> optionsUsedBy(const std::string& name) {

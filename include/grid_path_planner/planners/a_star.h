@@ -20,6 +20,8 @@ namespace grid_path_planner::planners {
 
 class AStar : public Planner {
  public:
+  static PlannerTraits declaredTraits();
+
   // Throws InputError for options that cannot be used.
   explicit AStar(const SearchOptions& options = {});
 

@@ -25,6 +25,9 @@ std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOption
 using PlannerMaker =
     std::function<std::unique_ptr<Planner>(const std::string& name, const SearchOptions& options)>;
 
+// What the planner of this name can do, without making one. Throws as makePlanner() does.
+PlannerTraits traitsOf(const std::string& name);
+
 // The names of the SearchOptions that it looks at. Throws as makePlanner() does.
 std::vector<std::string> optionsUsedBy(const std::string& name);
 

@@ -122,10 +122,15 @@ class ThetaStar : public Planner {
 
 class LazyThetaStar : public ThetaStar {
  public:
-  LazyThetaStar() : ThetaStar("lazy_theta_star") {}
+  static PlannerTraits declaredTraits();
+
+  LazyThetaStar() : ThetaStar(kName) {}
 
  protected:
   void expand(std::uint32_t from, base::Statistics& counts) override;
+
+ private:
+  static constexpr const char* kName = "lazy_theta_star";
 };
 
 }  // namespace grid_path_planner::planners

@@ -22,7 +22,17 @@ constexpr std::size_t kBytesPerCell = 12;
 
 constexpr double kUnit = SegmentPoint::kUnitsPerCell;
 
-PlannerTraits anyaTraits() {
+AnyaSearch::Point inCells(SegmentPoint point) {
+  return {double(point.x) / kUnit, double(point.y) / kUnit};
+}
+
+SegmentPoint inUnits(AnyaSearch::Point point) {
+  return {std::llround(point.x * kUnit), std::llround(point.y * kUnit)};
+}
+
+}  // namespace
+
+PlannerTraits Anya::declaredTraits() {
   PlannerTraits traits;
   traits.name = "anya";
   traits.four_connected = false;
@@ -35,17 +45,7 @@ PlannerTraits anyaTraits() {
   return traits;
 }
 
-AnyaSearch::Point inCells(SegmentPoint point) {
-  return {double(point.x) / kUnit, double(point.y) / kUnit};
-}
-
-SegmentPoint inUnits(AnyaSearch::Point point) {
-  return {std::llround(point.x * kUnit), std::llround(point.y * kUnit)};
-}
-
-}  // namespace
-
-Anya::Anya() : Planner(anyaTraits()), search_(std::make_unique<AnyaSearch>()) {}
+Anya::Anya() : Planner(declaredTraits()), search_(std::make_unique<AnyaSearch>()) {}
 Anya::~Anya() = default;
 
 std::size_t Anya::bytesFor(const GridGeometry& geometry) const {

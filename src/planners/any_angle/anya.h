@@ -20,6 +20,8 @@ class AnyaSearch;
 
 class Anya : public Planner {
  public:
+  static PlannerTraits declaredTraits();
+
   Anya();
   ~Anya() override;
 

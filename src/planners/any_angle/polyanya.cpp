@@ -26,18 +26,6 @@ constexpr double kUnit = SegmentPoint::kUnitsPerCell;
 // measured on a map with a quarter of its cells blocked at random.
 constexpr std::size_t kBytesPerRectangle = 600;
 
-PlannerTraits polyanyaTraits() {
-  PlannerTraits traits;
-  traits.name = "polyanya";
-  traits.four_connected = false;
-  traits.unit_diagonals = false;
-  traits.cut_corners = false;
-  traits.weights = false;
-  traits.any_angle = true;
-  traits.shortest = true;
-  return traits;
-}
-
 MeshPoint inMesh(SegmentPoint point) {
   return {static_cast<std::int32_t>(point.x), static_cast<std::int32_t>(point.y)};
 }
@@ -56,7 +44,19 @@ Cell middleOf(const CellRect& rect) {
 
 }  // namespace
 
-Polyanya::Polyanya() : Planner(polyanyaTraits()), search_(std::make_unique<PolyanyaSearch>()) {}
+PlannerTraits Polyanya::declaredTraits() {
+  PlannerTraits traits;
+  traits.name = "polyanya";
+  traits.four_connected = false;
+  traits.unit_diagonals = false;
+  traits.cut_corners = false;
+  traits.weights = false;
+  traits.any_angle = true;
+  traits.shortest = true;
+  return traits;
+}
+
+Polyanya::Polyanya() : Planner(declaredTraits()), search_(std::make_unique<PolyanyaSearch>()) {}
 Polyanya::~Polyanya() = default;
 
 // Of a map without obstacles, the least there is; doPrepare() looks at the map.

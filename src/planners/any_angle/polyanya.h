@@ -26,6 +26,8 @@ class PolyanyaSearch;
 
 class Polyanya : public Planner {
  public:
+  static PlannerTraits declaredTraits();
+
   Polyanya();
   ~Polyanya() override;
 

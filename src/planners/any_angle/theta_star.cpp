@@ -43,6 +43,10 @@ PlannerTraits thetaStarTraits(const char* name) {
 
 ThetaStar::ThetaStar(const char* name) : Planner(thetaStarTraits(name)) {}
 
+PlannerTraits LazyThetaStar::declaredTraits() {
+  return thetaStarTraits(kName);
+}
+
 std::size_t ThetaStar::bytesFor(const GridGeometry& geometry) const {
   return geometry.size() * (sizeof(Node) + sizeof(std::uint8_t)) + BitMaps::bytesFor(geometry);
 }

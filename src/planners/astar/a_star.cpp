@@ -23,12 +23,6 @@ PlannerTraits guidedTraits(const char* name) {
   return traits;
 }
 
-PlannerTraits aStarTraits() {
-  PlannerTraits traits = guidedTraits("a_star");
-  traits.optimal = true;
-  return traits;
-}
-
 // Later cells wait: the second key of the open list.
 SearchKey tieKey(TieBreak tie_break, SearchKey g, const Estimate& estimate, Cell cell) {
   switch (tie_break) {
@@ -50,8 +44,14 @@ SearchKey stretched(SearchKey bound, double epsilon) {
 
 }  // namespace
 
+PlannerTraits AStar::declaredTraits() {
+  PlannerTraits traits = guidedTraits("a_star");
+  traits.optimal = true;
+  return traits;
+}
+
 AStar::AStar(const SearchOptions& options)
-    : Planner(aStarTraits()),
+    : Planner(declaredTraits()),
       options_(options),
       strictly_ordered_(options.tie_break != TieBreak::NONE),
       tables_(options) {

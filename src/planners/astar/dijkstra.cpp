@@ -9,9 +9,7 @@ using grid::Cell;
 using grid::CellRect;
 using grid::GridGeometry;
 
-namespace {
-
-PlannerTraits dijkstraTraits() {
+PlannerTraits Dijkstra::declaredTraits() {
   PlannerTraits traits;
   traits.name = "dijkstra";
   traits.optimal = true;
@@ -20,10 +18,8 @@ PlannerTraits dijkstraTraits() {
   return traits;
 }
 
-}  // namespace
-
 Dijkstra::Dijkstra(const SearchOptions& options)
-    : Planner(dijkstraTraits()), strictly_ordered_(options.tie_break != TieBreak::NONE) {}
+    : Planner(declaredTraits()), strictly_ordered_(options.tie_break != TieBreak::NONE) {}
 
 std::size_t Dijkstra::bytesFor(const GridGeometry& geometry) const {
   return strictly_ordered_ ? BestFirstSearch::bytesFor(geometry) : BucketSearch::bytesFor(geometry);

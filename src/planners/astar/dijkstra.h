@@ -17,6 +17,8 @@ namespace grid_path_planner::planners {
 
 class Dijkstra : public Planner {
  public:
+  static PlannerTraits declaredTraits();
+
   explicit Dijkstra(const SearchOptions& options = {});
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;

@@ -28,18 +28,6 @@ namespace {
 // An expansion may cross the map several times.
 constexpr std::uint32_t kExpansionsBetweenPolls = 64;
 
-PlannerTraits jumpPointTraits() {
-  PlannerTraits traits;
-  traits.name = "jump_point";
-  traits.four_connected = false;
-  traits.unit_diagonals = false;
-  traits.cut_corners = false;
-  traits.weights = false;
-  traits.optimal = true;
-  traits.repairs = true;
-  return traits;
-}
-
 // Keys of one cell length and one diagonal, neighbouring convergents of sqrt 2: the order of keys
 // below kLargest is that of costs (see costmap/exact_cost.h).
 struct SmallScale {
@@ -357,7 +345,19 @@ std::size_t mapBytes(const GridGeometry& geometry) {
 
 }  // namespace
 
-JumpPoint::JumpPoint() : Planner(jumpPointTraits()) {}
+PlannerTraits JumpPoint::declaredTraits() {
+  PlannerTraits traits;
+  traits.name = "jump_point";
+  traits.four_connected = false;
+  traits.unit_diagonals = false;
+  traits.cut_corners = false;
+  traits.weights = false;
+  traits.optimal = true;
+  traits.repairs = true;
+  return traits;
+}
+
+JumpPoint::JumpPoint() : Planner(declaredTraits()) {}
 
 // On noise up to half of the cells are turns, and a search that looks at all of them needs a node,
 // two places in the table and a share of the open list for each.

@@ -23,6 +23,8 @@ namespace grid_path_planner::planners {
 
 class JumpPoint : public Planner {
  public:
+  static PlannerTraits declaredTraits();
+
   JumpPoint();
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;

@@ -18,14 +18,6 @@ using grid::GridGeometry;
 
 namespace {
 
-PlannerTraits weightedJumpPointTraits() {
-  PlannerTraits traits;
-  traits.name = "weighted_jump_point";
-  traits.optimal = true;
-  traits.repairs = true;
-  return traits;
-}
-
 bool jumpsUnderstand(const MotionModel& motion) {
   return motion == MotionModel();
 }
@@ -39,10 +31,16 @@ bool asksForAStar(const SearchOptions& options) {
 
 }  // namespace
 
+PlannerTraits WeightedJumpPoint::declaredTraits() {
+  PlannerTraits traits;
+  traits.name = "weighted_jump_point";
+  traits.optimal = true;
+  traits.repairs = true;
+  return traits;
+}
+
 WeightedJumpPoint::WeightedJumpPoint(const SearchOptions& options)
-    : Planner(weightedJumpPointTraits()),
-      options_(options),
-      a_star_asked_for_(asksForAStar(options)) {
+    : Planner(declaredTraits()), options_(options), a_star_asked_for_(asksForAStar(options)) {
   checkSearchOptions(options);
 }
 

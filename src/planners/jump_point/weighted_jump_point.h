@@ -25,6 +25,8 @@ namespace grid_path_planner::planners {
 
 class WeightedJumpPoint : public Planner {
  public:
+  static PlannerTraits declaredTraits();
+
   // Throws InputError for options that cannot be used.
   explicit WeightedJumpPoint(const SearchOptions& options = {});
 

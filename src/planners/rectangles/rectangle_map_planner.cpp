@@ -22,17 +22,6 @@ using grid::GridGeometry;
 
 namespace {
 
-PlannerTraits rectangleMapTraits() {
-  PlannerTraits traits;
-  traits.name = "rectangle_map";
-  traits.four_connected = false;
-  traits.unit_diagonals = false;
-  traits.weights = false;
-  traits.any_angle = true;
-  traits.repairs = true;
-  return traits;
-}
-
 // Maps have about as many rectangles as their rows have runs of free cells.
 std::size_t bytesForRuns(const GridGeometry& geometry, std::size_t runs) {
   return std::max(largestFirstBytes(geometry, runs), RectangleGraph::bytesFor(runs));
@@ -72,8 +61,19 @@ std::vector<Cell> throughTheMiddles(const RectangleGraph& map, const RectangleRo
 
 }  // namespace
 
+PlannerTraits RectangleMapPlanner::declaredTraits() {
+  PlannerTraits traits;
+  traits.name = "rectangle_map";
+  traits.four_connected = false;
+  traits.unit_diagonals = false;
+  traits.weights = false;
+  traits.any_angle = true;
+  traits.repairs = true;
+  return traits;
+}
+
 RectangleMapPlanner::RectangleMapPlanner(const SearchOptions& options)
-    : Planner(rectangleMapTraits()), options_(options) {}
+    : Planner(declaredTraits()), options_(options) {}
 
 // Of a map without obstacles, the least there is; doPrepare() looks at the map.
 std::size_t RectangleMapPlanner::bytesFor(const GridGeometry& geometry) const {

@@ -22,6 +22,8 @@ namespace grid_path_planner::planners {
 
 class RectangleMapPlanner : public Planner {
  public:
+  static PlannerTraits declaredTraits();
+
   explicit RectangleMapPlanner(const SearchOptions& options = {});
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;

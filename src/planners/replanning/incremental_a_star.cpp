@@ -16,7 +16,12 @@ using grid::GridGeometry;
 
 namespace {
 
-PlannerTraits traitsOfIncrementalAStar() {
+// How many times as many cells are labelled for a new goal as its first plan takes.
+constexpr double kAhead = 3.0;
+
+}  // namespace
+
+PlannerTraits IncrementalAStar::declaredTraits() {
   PlannerTraits traits;
   traits.name = "incremental_a_star";
   traits.optimal = true;
@@ -25,12 +30,7 @@ PlannerTraits traitsOfIncrementalAStar() {
   return traits;
 }
 
-// How many times as many cells are labelled for a new goal as its first plan takes.
-constexpr double kAhead = 3.0;
-
-}  // namespace
-
-IncrementalAStar::IncrementalAStar() : Planner(traitsOfIncrementalAStar()) {}
+IncrementalAStar::IncrementalAStar() : Planner(declaredTraits()) {}
 
 std::size_t IncrementalAStar::bytesFor(const GridGeometry& geometry) const {
   return std::max(treeBytes(geometry), AStar().bytesFor(geometry));

@@ -34,6 +34,8 @@ namespace grid_path_planner::planners {
 
 class IncrementalAStar : public Planner {
  public:
+  static PlannerTraits declaredTraits();
+
   IncrementalAStar();
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
