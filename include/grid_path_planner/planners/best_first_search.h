@@ -17,6 +17,7 @@
 #include "grid_path_planner/base/zeroed_array.h"
 #include "grid_path_planner/planners/keys.h"
 #include "grid_path_planner/planners/planner.h"
+#include "grid_path_planner/planners/stamped_array.h"
 #include "grid_path_planner/planners/steps.h"
 
 namespace grid_path_planner::planners {
@@ -64,10 +65,10 @@ class BestFirstSearch {
   static constexpr std::uint32_t kQueryShift = 4;
 
   void beginQuery();
-  bool touched(std::uint32_t index) const { return words_[index] >> kQueryShift == query_; }
+  bool touched(std::uint32_t index) const { return stamp_.wrote(words_[index]); }
   bool closed(std::uint32_t index) const { return (words_[index] & kClosed) != 0; }
   void open(std::uint32_t index, std::uint32_t step, SearchKey g) {
-    words_[index] = query_ << kQueryShift | step << kStepShift;
+    words_[index] = stamp_.word() | step << kStepShift;
     costs_[index] = g;
   }
   void push(const Entry& entry) {
@@ -91,7 +92,7 @@ class BestFirstSearch {
   base::ZeroedArray<SearchKey> costs_;
   base::ZeroedArray<std::uint32_t> words_;
   std::vector<Entry> heap_;
-  std::uint32_t query_ = 0;
+  QueryStamp<std::uint32_t, kQueryShift> stamp_;
 };
 
 template <class IsGoal, class PromiseOf>
