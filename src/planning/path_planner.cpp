@@ -33,8 +33,8 @@ using grid::checkOccupancyValues;
 using grid::OccupancyGrid;
 using path::Pose;
 using planners::checkSearchOptions;
-using planners::CostOverflow;
 using planners::PlannerMaker;
+using planners::TooExpensive;
 
 namespace {
 
@@ -151,9 +151,8 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     report.preparation_time_s = std::chrono::duration<double>(prepared - begin).count();
   } catch (const Stopped& stopped) {
     report = failure(stopped.status(), "");
-  } catch (const CostOverflow&) {
-    report = failure(Status::INVALID_REQUEST,
-                     "a path may cost more than 4.4e9 cell lengths x weight: use smaller weights");
+  } catch (const TooExpensive&) {
+    report = failure(Status::INVALID_REQUEST, TooExpensive::kMessage);
   }
   if (report.status == Status::TIMEOUT)
     report.message = "planning reached its time limit of " + number(options_.timeout) + " s";

@@ -14,7 +14,7 @@ class PlanAttempt {
   // The planner is prepared. All three outlive the attempt.
   PlanAttempt(PathPlanner& planner, const PoseRequest& request, const base::StopToken& stop);
 
-  // Throws Stopped and CostOverflow.
+  // Throws Stopped and TooExpensive.
   Plan run();
 
  private:

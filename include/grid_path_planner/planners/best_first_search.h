@@ -42,7 +42,7 @@ class BestFirstSearch {
 
   // Searches from `start` until `isGoal(index)` holds of the cell that is expanded (or generated).
   // `promise(g, cell)` orders the open list. FOUND with cells and cost, or UNREACHABLE. Throws
-  // Stopped and CostOverflow. Precondition: `map` is the prepared one and `start` is passable.
+  // Stopped and TooExpensive. Precondition: `map` is the prepared one and `start` is passable.
   template <class IsGoal, class PromiseOf>
   SearchResult run(const costmap::CostGrid& map, grid::Cell start, IsGoal&& isGoal,
                    PromiseOf&& promise, bool record_expanded, const base::StopToken& stop,
@@ -139,7 +139,7 @@ SearchResult BestFirstSearch::run(const costmap::CostGrid& map, grid::Cell start
       const SearchKey to_g = g + length * std::max(weights[from], weights[to]);
       const bool known = touched(to);
       if (known && costs_[to] <= to_g) continue;
-      if (to_g > kLargestKey) throw CostOverflow();
+      if (to_g > kLargestKey) throw TooExpensive();
 
       // 4. A cheaper way to a cell: open it, or open it again.
       if (known && closed(to)) ++counts.reopened;
