@@ -113,7 +113,7 @@ void AnyaSearch::pushInterval(std::int32_t root, int line, int rows, double left
 }
 
 // The next corner along the line on which the root lies, if it is visible.
-void AnyaSearch::flatSuccessor(std::int32_t root, int column, int line, int columns) {
+void AnyaSearch::flatSuccessors(std::int32_t root, int column, int line, int columns) {
   const Word* above = map_->row(line);
   const Word* below = map_->row(line - 1);
   const int next =
@@ -138,7 +138,7 @@ void AnyaSearch::expandFlat(const AnyaNode& node) {
   if (leadsToGoal(node.line, rows) && (goal_.x - column) * (goal_.x - end) <= 0.0)
     updateIncumbent(root);
   pushInterval(root, node.line + rows, rows, std::min(0, end - column), std::max(0, end - column));
-  flatSuccessor(node.root, column, node.line, node.columns);
+  flatSuccessors(node.root, column, node.line, node.columns);
 }
 
 AnyaSearch::Projection AnyaSearch::project(const AnyaNode& node, const double* near,
@@ -204,7 +204,7 @@ void AnyaSearch::turningSuccessors(const AnyaNode& node, const Projection& proje
     updateIncumbentIfVisible(from, beyond);
   }
   if (room) pushInterval(root, node.line + node.rows, node.rows, left, right);
-  if (ahead_open) flatSuccessor(root, column, node.line, side == LEFT ? -1 : 1);
+  if (ahead_open) flatSuccessors(root, column, node.line, side == LEFT ? -1 : 1);
 }
 
 // Projects the interval from line to line while no blocked cell splits it and no corner touches it:

@@ -82,7 +82,7 @@ class AnyaSearch : private IntervalSearch<AnyaPoint, AnyaNode> {
                      int last) const;
   void updateIncumbentIfVisible(const AnyaNode& node, const Projection& projection);
   void turningSuccessors(const AnyaNode& node, const Projection& projection, Side side);
-  void flatSuccessor(std::int32_t root, int column, int line, int columns);
+  void flatSuccessors(std::int32_t root, int column, int line, int columns);
   void pushInterval(std::int32_t root, int line, int rows, double left, double right);
   void pushBelowIncumbent(double f, const AnyaNode& node);
   std::int32_t rootAt(std::int32_t parent, int column, int line, Sense sense);

@@ -94,7 +94,7 @@ void PolyanyaSearch::updateIncumbentIfVisible(const PolyanyaNode& node) {
 }
 
 // The next corner along the line on which the root lies.
-void PolyanyaSearch::flatSuccessor(std::int32_t root, std::uint32_t corner, Direction direction) {
+void PolyanyaSearch::flatSuccessors(std::int32_t root, std::uint32_t corner, Direction direction) {
   const std::uint32_t next = mesh_->corner(corner).along[direction];
   if (next == PolyanyaMesh::kNone) return;
   const MeshPoint at = mesh_->corner(next).at;
@@ -131,7 +131,7 @@ void PolyanyaSearch::expandFlat(const PolyanyaNode& node) {
     }
     keepProjectedSuccessor(interval);
   }
-  flatSuccessor(node.root, node.place, static_cast<Direction>(node.along));
+  flatSuccessors(node.root, node.place, static_cast<Direction>(node.along));
 }
 
 // Round the corner at one end of a border, if that has a successor.
@@ -159,7 +159,7 @@ void PolyanyaSearch::turningSuccessors(const PolyanyaNode& node, const PolyanyaM
     updateIncumbentIfVisible(turned);
   else if (end != Projection::End::NO_SUCCESSOR)
     keepBestSuccessor(fValue(turned), turned);
-  if (border.leads_on[direction]) flatSuccessor(turned.root, corner, direction);
+  if (border.leads_on[direction]) flatSuccessors(turned.root, corner, direction);
 }
 
 // The successor through a border. Those round the corners at the border's ends are kept.

@@ -58,7 +58,7 @@ class PolyanyaSearch : private IntervalSearch<MeshPoint, PolyanyaNode> {
                                const PolyanyaMesh::Border& border);
   void turningSuccessors(const PolyanyaNode& node, const PolyanyaMesh::Border& border,
                          Direction direction);
-  void flatSuccessor(std::int32_t root, std::uint32_t corner, Direction direction);
+  void flatSuccessors(std::int32_t root, std::uint32_t corner, Direction direction);
   void updateIncumbentIfVisible(const PolyanyaNode& node);
   void keepProjectedSuccessor(PolyanyaNode node);
   void keepBestSuccessor(double f, const PolyanyaNode& node);
