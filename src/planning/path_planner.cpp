@@ -41,8 +41,8 @@ using path::lengthOf;
 using path::Path;
 using path::Pose;
 using planners::checkSearchOptions;
-using planners::CostOverflow;
 using planners::PlannerMaker;
+using planners::TooExpensive;
 using planners::traitsOf;
 
 namespace {
@@ -219,9 +219,8 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     plan.preparation_time_s = std::chrono::duration<double>(prepared - begin).count();
   } catch (const Stopped& stopped) {
     plan = failedPlan(stopped.status(), "");
-  } catch (const CostOverflow&) {
-    plan = failedPlan(Status::INVALID_REQUEST,
-                      "a path may cost more than 4.4e9 cell lengths x weight: use smaller weights");
+  } catch (const TooExpensive&) {
+    plan = failedPlan(Status::INVALID_REQUEST, TooExpensive::kMessage);
   }
   if (plan.status == Status::TIMEOUT)
     plan.message = "planning reached its time limit of " + number(options_.timeout) + " s";

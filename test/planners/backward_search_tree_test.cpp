@@ -130,10 +130,10 @@ class Journey {
 
 // The status that `search` gives; none where labels do not hold the cost.
 template <class Search>
-std::optional<Status> unlessTooDear(const Search& search) {
+std::optional<Status> unlessTooExpensive(const Search& search) {
   try {
     return search();
-  } catch (const CostOverflow&) {
+  } catch (const TooExpensive&) {
     return std::nullopt;
   }
 }
@@ -150,7 +150,7 @@ TEST(GoalTreeLaw, KeptWaysCostTheLeast) {
     BackwardSearchTree tree;
     tree.prepare(*journey.map(), moves);
     SearchResult result;
-    const auto begun = unlessTooDear([&] {
+    const auto begun = unlessTooExpensive([&] {
       return tree.begin(*journey.map(), journey.goal(), journey.start(), trial % 3, false, result,
                         StopToken());
     });
@@ -165,7 +165,7 @@ TEST(GoalTreeLaw, KeptWaysCostTheLeast) {
       if (!journey.possible() || random() % 4 == 0) continue;
       if (!tree.usableFor(*journey.map(), journey.goal())) break;  // something cheaper than all
       result = {};
-      const auto status = unlessTooDear(
+      const auto status = unlessTooExpensive(
           [&] { return tree.plan(*journey.map(), journey.start(), false, result, StopToken()); });
       if (!status) break;
       ++plans;

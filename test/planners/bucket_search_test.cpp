@@ -63,7 +63,7 @@ TEST(BucketSearch, BeginsAgainWithWideKeysWhereTheCostIsTooLarge) {
   EXPECT_EQ(again.statistics.search_bytes, near.statistics.search_bytes);
 }
 
-TEST(BucketSearch, UsesWideKeysFromTheStartWhereTheSidesAloneAreTooDear) {
+TEST(BucketSearch, UsesWideKeysFromTheStartWhereTheSidesAloneAreTooExpensive) {
   const auto map = snake(60, 65535);
   Dijkstra planner;
   planner.prepare(map, StopToken());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <random>
 
@@ -19,8 +20,16 @@ Wide keyOf(const ExactCost& cost) {
   return Wide(cost.straight) * kStraightKey + Wide(cost.diagonal) * kDiagonalKey;
 }
 
-TEST(SearchKey, IsAConvergentOfRootTwoFromAbove) {
-  EXPECT_EQ(Wide(kDiagonalKey) * kDiagonalKey - 2 * Wide(kStraightKey) * kStraightKey, 1);
+constexpr KeyScale kScales[] = {kWideScale,   kLabelScale, kMediumScale,
+                                kPackedScale, kSmallScale, kWindowScale};
+
+TEST(KeyScale, IsAConvergentOfRootTwo) {
+  for (const KeyScale& scale : kScales) {
+    const Wide error =
+        Wide(scale.diagonal) * scale.diagonal - 2 * Wide(scale.straight) * scale.straight;
+    EXPECT_TRUE(error == 1 || error == -1) << scale.diagonal << '/' << scale.straight;
+    EXPECT_EQ(Wide(scale.diagonal) * inverseOfDiagonal(scale) % scale.straight, 1);
+  }
 }
 
 // As long as a path's diagonal part stays below kStraightKey, which kLargestKey guarantees.
@@ -41,23 +50,25 @@ TEST(SearchKeyLaw, OrdersAsTheExactCostsDo) {
   }
 }
 
-TEST(SearchKeyLaw, PackedKeysTellTheirExactCost) {
+TEST(KeyScaleLaw, KeysTellTheirExactCost) {
   std::mt19937_64 random(3);
-  const auto expectTold = [](SearchKey straight, SearchKey diagonal) {
-    const SearchKey key = straight * kPackedScale.straight + diagonal * kPackedScale.diagonal;
-    ASSERT_LE(key, kPackedScale.largest);
-    const ExactCost told = exactCostOf(key);
-    ASSERT_EQ(told.straight, static_cast<std::int64_t>(straight));
-    ASSERT_EQ(told.diagonal, static_cast<std::int64_t>(diagonal));
-  };
-  const SearchKey most = kPackedScale.largest / kPackedScale.diagonal;
-  expectTold(0, 0);
-  expectTold(0, most);
-  expectTold(kPackedScale.largest / kPackedScale.straight, 0);
-  for (int trial = 0; trial < 100000; ++trial) {
-    const SearchKey diagonal = random() % (most + 1);
-    const SearchKey rest = kPackedScale.largest - diagonal * kPackedScale.diagonal;
-    expectTold(random() % (rest / kPackedScale.straight + 1), diagonal);
+  for (const KeyScale& scale : kScales) {
+    const auto expectTold = [&scale](SearchKey straight, SearchKey diagonal) {
+      const SearchKey key = straight * scale.straight + diagonal * scale.diagonal;
+      ASSERT_LE(key, scale.largest);
+      const ExactCost told = exactCostOf(key, scale);
+      ASSERT_EQ(told.straight, static_cast<std::int64_t>(straight));
+      ASSERT_EQ(told.diagonal, static_cast<std::int64_t>(diagonal));
+    };
+    const SearchKey most = std::min(scale.largest / scale.diagonal, scale.straight - 1);
+    expectTold(0, 0);
+    expectTold(0, most);
+    expectTold(scale.largest / scale.straight, 0);
+    for (int trial = 0; trial < 20000; ++trial) {
+      const SearchKey diagonal = random() % (most + 1);
+      const SearchKey rest = scale.largest - diagonal * scale.diagonal;
+      expectTold(random() % (rest / scale.straight + 1), diagonal);
+    }
   }
 }
 

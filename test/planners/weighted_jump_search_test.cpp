@@ -138,8 +138,7 @@ TEST(WeightedJumpSearch, AnswersManyQueries) {
 TEST(WeightedJumpSearch, SaysWhereItsKeysEnd) {
   const CostGrid map = costsOf(Grid<CostGrid::Weight>(GridGeometry(400, 3, 1.0), 65535));
   WeightedJumpSearch search = prepared(map);
-  EXPECT_THROW(search.run(map, {{0, 0}, {{399, 2}}, false}, StopToken()),
-               WeightedJumpSearch::TooDear);
+  EXPECT_THROW(search.run(map, {{0, 0}, {{399, 2}}, false}, StopToken()), TooExpensive);
   const SearchResult near = search.run(map, {{0, 0}, {{99, 2}}, false}, StopToken());
   EXPECT_EQ(near.cost, (ExactCost{97LL * 65535, 2LL * 65535}));
 }

@@ -17,6 +17,7 @@
 #include "grid_path_planner/base/zeroed_array.h"
 #include "grid_path_planner/planners/keys.h"
 #include "grid_path_planner/planners/planner.h"
+#include "grid_path_planner/planners/stamped_array.h"
 #include "grid_path_planner/planners/steps.h"
 
 namespace grid_path_planner::planners {
@@ -41,7 +42,7 @@ class BestFirstSearch {
 
   // Searches from `start` until `isGoal(index)` holds of the cell that is expanded (or generated).
   // `promise(g, cell)` orders the open list. FOUND with cells and cost, or UNREACHABLE. Throws
-  // Stopped and CostOverflow. Precondition: `map` is the prepared one and `start` is passable.
+  // Stopped and TooExpensive. Precondition: `map` is the prepared one and `start` is passable.
   template <class IsGoal, class PromiseOf>
   SearchResult run(const costmap::CostGrid& map, grid::Cell start, IsGoal&& isGoal,
                    PromiseOf&& promise, bool record_expanded, const base::StopToken& stop,
@@ -64,10 +65,10 @@ class BestFirstSearch {
   static constexpr std::uint32_t kQueryShift = 4;
 
   void beginQuery();
-  bool touched(std::uint32_t index) const { return words_[index] >> kQueryShift == query_; }
+  bool touched(std::uint32_t index) const { return stamp_.wrote(words_[index]); }
   bool closed(std::uint32_t index) const { return (words_[index] & kClosed) != 0; }
   void open(std::uint32_t index, std::uint32_t step, SearchKey g) {
-    words_[index] = query_ << kQueryShift | step << kStepShift;
+    words_[index] = stamp_.word() | step << kStepShift;
     costs_[index] = g;
   }
   void push(const Entry& entry) {
@@ -91,7 +92,7 @@ class BestFirstSearch {
   base::ZeroedArray<SearchKey> costs_;
   base::ZeroedArray<std::uint32_t> words_;
   std::vector<Entry> heap_;
-  std::uint32_t query_ = 0;
+  QueryStamp<std::uint32_t, kQueryShift> stamp_;
 };
 
 template <class IsGoal, class PromiseOf>
@@ -138,7 +139,7 @@ SearchResult BestFirstSearch::run(const costmap::CostGrid& map, grid::Cell start
       const SearchKey to_g = g + length * std::max(weights[from], weights[to]);
       const bool known = touched(to);
       if (known && costs_[to] <= to_g) continue;
-      if (to_g > kLargestKey) throw CostOverflow();
+      if (to_g > kLargestKey) throw TooExpensive();
 
       // 4. A cheaper way to a cell: open it, or open it again.
       if (known && closed(to)) ++counts.reopened;

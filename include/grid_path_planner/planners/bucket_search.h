@@ -46,7 +46,7 @@ class BucketSearch {
   // A cheapest path from `start` to a cell of which isGoal(index) holds, if the estimates are lower
   // bounds of the way to the nearest such cell; at most e times as dear if they are lower bounds
   // times e. `estimateIn(scale)` gives a function of (cell, index), whose result is a key of that
-  // scale. FOUND with cells and cost, UNREACHABLE, TIMEOUT or CANCELLED. Throws CostOverflow.
+  // scale. FOUND with cells and cost, UNREACHABLE, TIMEOUT or CANCELLED. Throws TooExpensive.
   // Precondition: `map` is the prepared one and `start` is passable.
   template <class IsGoal, class EstimateIn>
   SearchResult run(const costmap::CostGrid& map, grid::Cell start, const IsGoal& isGoal,
@@ -54,9 +54,9 @@ class BucketSearch {
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  static constexpr std::uint32_t kTooDear = kNone - 1;
+  static constexpr std::uint32_t kTooExpensive = kNone - 1;
 
-  // A search on its way: the goal that was found, kNone where there is none, kTooDear where the
+  // A search on its way: the goal that was found, kNone where there is none, kTooExpensive where the
   // keys do not suffice.
   template <bool kUniform, class Nodes, class IsGoal, class Estimate>
   std::uint32_t search(Nodes& nodes, const costmap::CostGrid& map, grid::Cell start,
@@ -91,12 +91,12 @@ SearchResult BucketSearch::run(const costmap::CostGrid& map, grid::Cell start, c
     wide_ = WideNodes();
     const std::uint32_t goal =
         searchOn(packed_, map, start, isGoal, estimateIn, record_expanded, poll, result);
-    if (goal != kTooDear) return result;
+    if (goal != kTooExpensive) return result;
   }
   packed_ = PackedNodes();
   const std::uint32_t goal =
       searchOn(wide_, map, start, isGoal, estimateIn, record_expanded, poll, result);
-  if (goal == kTooDear) throw CostOverflow();
+  if (goal == kTooExpensive) throw TooExpensive();
   return result;
 }
 
@@ -188,7 +188,7 @@ std::uint32_t BucketSearch::search(Nodes& nodes, const costmap::CostGrid& map, g
         ++counts.reopened;
       } else {
         // 5. A cheaper one: open the cell, or open it again.
-        if (promise > kScale.largest) return kTooDear;
+        if (promise > kScale.largest) return kTooExpensive;
         if (nodes.take(to, to_cost, step)) ++counts.reopened;
       }
       open_.push(promise, to);

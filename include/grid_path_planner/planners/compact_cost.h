@@ -37,11 +37,10 @@ class CompactCostUnit {
   }
 
  private:
-  static constexpr std::uint32_t kStraight = 33461;
-  static constexpr std::uint32_t kDiagonal = 47321;
-  static constexpr std::uint32_t kDiagonalInverse = 19601;  // modulo kStraight
+  static constexpr std::uint32_t kStraight = kSmallScale.straight;
+  static constexpr std::uint32_t kDiagonal = kSmallScale.diagonal;
+  static constexpr std::uint32_t kDiagonalInverse = inverseOfDiagonal(kSmallScale);
   static constexpr std::uint32_t kMostDiagonal = kStraight / 2;
-  static_assert(std::uint64_t{kDiagonal} * kDiagonalInverse % kStraight == 1, "");
 
   static CompactCost exactEntry(SearchKey cost);
   // The difference is some A * kStraight + B * kDiagonal with |B| at most kMostDiagonal.

@@ -1,6 +1,13 @@
-// Costs as one integer, for ordering: A * kStraightKey + B * kDiagonalKey for A + B sqrt 2, where
-// kDiagonalKey / kStraightKey is a convergent of sqrt 2. See costmap/exact_cost.h for why the order
-// is exact as long as B < kStraightKey, which kLargestKey guarantees.
+// Costs as one integer, the key, by which searches order them, and what is too large for one.
+//
+//   SearchKey key = 3 * kPackedScale.straight + 2 * kPackedScale.diagonal;  // 3 + 2 sqrt 2
+//   ExactCost cost = exactCostOf(key, kPackedScale);                        // 3, 2
+//
+// The key of A + B sqrt 2 is A * straight + B * diagonal, where diagonal / straight is a convergent
+// of sqrt 2. Guaranteed: keys up to `largest` of a scale are in the order of their costs, ties
+// included, since B is below `straight` (costmap/exact_cost.h says why that is enough).
+//
+// All scales of the planners are here; a static_assert checks that each is a convergent.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +20,51 @@ namespace grid_path_planner::planners {
 
 using SearchKey = std::uint64_t;
 
-constexpr SearchKey kStraightKey = 3166815962U;
-constexpr SearchKey kDiagonalKey = 4478554083U;
-// A path of this cost is refused: 4.4e9 cell lengths x weight.
-constexpr SearchKey kLargestKey = kStraightKey * kDiagonalKey;
 constexpr SearchKey kInfiniteKey = std::numeric_limits<SearchKey>::max();
 
-// A unit of length as keys: of a straight step of weight 1, of a diagonal one, and the largest key
-// up to which the order is exact.
+// Keys of a straight and a diagonal step of weight 1, and the largest key up to which the order is
+// exact.
 struct KeyScale {
   SearchKey straight;
   SearchKey diagonal;
   SearchKey largest;
 };
-constexpr KeyScale kWideScale = {kStraightKey, kDiagonalKey, kLargestKey};
-// Keys of 43 bits, by an earlier convergent from above: costs up to 3.2e6 cell lengths x weight.
-constexpr KeyScale kPackedScale = {2744210, 3880899, (SearchKey{1} << 43) - 1};
 
-// Thrown by a search whose costs reach it; Planner::plan makes INVALID_REQUEST of it.
-struct CostOverflow {};
+constexpr SearchKey kStraightKey = 3166815962U;
+constexpr SearchKey kDiagonalKey = 4478554083U;
+// Costs up to 4.4e9 cell lengths x weight; more is refused.
+constexpr SearchKey kLargestKey = kStraightKey * kDiagonalKey;
+constexpr KeyScale kWideScale = {kStraightKey, kDiagonalKey, kLargestKey};
+// 63 bits: costs up to 2.9e9.
+constexpr KeyScale kLabelScale = {kStraightKey, kDiagonalKey, (SearchKey{1} << 63) - 1};
+// 48 bits: costs up to 17.6e6.
+constexpr KeyScale kMediumScale = {15994428, 22619537, (SearchKey{1} << 48) - 1};
+// 43 bits: costs up to 3.2e6.
+constexpr KeyScale kPackedScale = {2744210, 3880899, (SearchKey{1} << 43) - 1};
+// 31 bits: costs up to 47,321.
+constexpr KeyScale kSmallScale = {33461, 47321, SearchKey{33461} * 47321};
+// For sums of eight steps of any weight, in doubles.
+constexpr KeyScale kWindowScale = {1136689, 1607521, SearchKey{1136689} * 1607521};
+
+// diagonal^2 - 2 straight^2, modulo 2^64: 1 for a convergent from above, -1 for one from below.
+constexpr SearchKey convergentError(const KeyScale& scale) {
+  return scale.diagonal * scale.diagonal - 2 * scale.straight * scale.straight;
+}
+
+constexpr bool isConvergent(const KeyScale& scale) {
+  const SearchKey error = convergentError(scale);
+  return (error == 1 || error == kInfiniteKey) && scale.largest / scale.diagonal <= scale.straight;
+}
+
+static_assert(isConvergent(kWideScale) && isConvergent(kLabelScale) && isConvergent(kMediumScale) &&
+              isConvergent(kPackedScale) && isConvergent(kSmallScale) &&
+              isConvergent(kWindowScale));
+
+// Thrown where a path may cost more than keys can hold; Planner::search() answers INVALID_REQUEST.
+struct TooExpensive {
+  static constexpr const char* kMessage =
+      "a path may cost more than 4.4e9 cell lengths x weight: use smaller weights";
+};
 
 constexpr SearchKey diagonalKey(costmap::DiagonalCost cost) {
   return cost == costmap::DiagonalCost::SQRT2 ? kDiagonalKey : kStraightKey;
@@ -41,29 +74,16 @@ constexpr SearchKey diagonalKey(const KeyScale& scale, costmap::DiagonalCost cos
   return cost == costmap::DiagonalCost::SQRT2 ? scale.diagonal : scale.straight;
 }
 
-// The number of which `of` times it leaves 1 modulo `modulus`. Precondition: they have no common
-// divisor.
-constexpr SearchKey inverseOf(SearchKey of, SearchKey modulus) {
-  std::int64_t rest = static_cast<std::int64_t>(modulus), factor = 0;
-  std::int64_t next_rest = static_cast<std::int64_t>(of % modulus), next_factor = 1;
-  while (next_rest != 0) {
-    const std::int64_t times = rest / next_rest;
-    const std::int64_t last_rest = rest - times * next_rest;
-    const std::int64_t last_factor = factor - times * next_factor;
-    rest = next_rest;
-    factor = next_factor;
-    next_rest = last_rest;
-    next_factor = last_factor;
-  }
-  return static_cast<SearchKey>(factor < 0 ? factor + static_cast<std::int64_t>(modulus) : factor);
+// The inverse of `diagonal` modulo `straight`: diagonal^2 is 1 more, or less, than 2 straight^2.
+constexpr SearchKey inverseOfDiagonal(const KeyScale& scale) {
+  const SearchKey rest = scale.diagonal % scale.straight;
+  return convergentError(scale) == 1 ? rest : scale.straight - rest;
 }
 
-// The A and B of a key of kPackedScale up to its largest, in cells x weight.
-constexpr costmap::ExactCost exactCostOf(SearchKey packed_key) {
-  constexpr SearchKey inverse = inverseOf(kPackedScale.diagonal, kPackedScale.straight);
-  const SearchKey diagonal = packed_key % kPackedScale.straight * inverse % kPackedScale.straight;
-  const SearchKey straight =
-      (packed_key - diagonal * kPackedScale.diagonal) / kPackedScale.straight;
+// A and B of a key, in cells x weight. Precondition: it is at most scale.largest.
+constexpr costmap::ExactCost exactCostOf(SearchKey key, const KeyScale& scale) {
+  const SearchKey diagonal = key % scale.straight * inverseOfDiagonal(scale) % scale.straight;
+  const SearchKey straight = (key - diagonal * scale.diagonal) / scale.straight;
   return {static_cast<std::int64_t>(straight), static_cast<std::int64_t>(diagonal)};
 }
 

@@ -11,6 +11,7 @@
 
 #include "grid_path_planner/base/zeroed_array.h"
 #include "grid_path_planner/planners/keys.h"
+#include "grid_path_planner/planners/stamped_array.h"
 
 namespace grid_path_planner::planners {
 
@@ -40,7 +41,7 @@ class PackedNodes {
   void addStep(std::uint32_t index, unsigned step) { nodes_[index] |= bitOf(step); }
   void reopen(std::uint32_t index) { nodes_[index] &= ~std::uint64_t{1}; }
 
-  void begin(std::uint32_t start) { nodes_[start] = query_ | kScale.largest << kKeyShift; }
+  void begin(std::uint32_t start) { nodes_[start] = stamp_.word() | kScale.largest << kKeyShift; }
 
   // A key above the largest is CHEAPER: it must be refused before it is taken.
   Offer compare(std::uint32_t index, SearchKey key) const {
@@ -52,7 +53,7 @@ class PackedNodes {
   bool take(std::uint32_t index, SearchKey key, unsigned step) {
     const std::uint64_t known = nodes_[index];
     nodes_[index] = valueOf(key) | bitOf(step);
-    return known >= query_ && (known & 1) != 0;
+    return stamp_.wrote(known) && (known & 1) != 0;
   }
 
  private:
@@ -63,11 +64,11 @@ class PackedNodes {
 
   static std::uint64_t bitOf(unsigned step) { return std::uint64_t{1} << kStepShift << step; }
   std::uint64_t valueOf(SearchKey key) const {
-    return query_ | (kScale.largest - key) << kKeyShift;
+    return stamp_.word() | (kScale.largest - key) << kKeyShift;
   }
 
   base::ZeroedArray<std::uint64_t> nodes_;
-  std::uint64_t query_ = 0;  // where a node has it
+  QueryStamp<std::uint64_t, kQueryShift> stamp_;
 };
 
 // 12 bytes a cell: any key, and a word of query, steps and closed.
@@ -90,19 +91,19 @@ class WideNodes {
   void reopen(std::uint32_t index) { words_[index] &= ~std::uint32_t{1}; }
 
   void begin(std::uint32_t start) {
-    words_[start] = query_;
+    words_[start] = stamp_.word();
     costs_[start] = 0;
   }
 
   Offer compare(std::uint32_t index, SearchKey key) const {
-    if (words_[index] < query_ || key < costs_[index]) return Offer::BETTER;
+    if (!stamp_.wrote(words_[index]) || key < costs_[index]) return Offer::BETTER;
     return key == costs_[index] ? Offer::EQUAL : Offer::WORSE;
   }
   bool take(std::uint32_t index, SearchKey key, unsigned step) {
     const std::uint32_t known = words_[index];
-    words_[index] = query_ | bitOf(step);
+    words_[index] = stamp_.word() | bitOf(step);
     costs_[index] = key;
-    return known >= query_ && (known & 1) != 0;
+    return stamp_.wrote(known) && (known & 1) != 0;
   }
 
  private:
@@ -113,7 +114,7 @@ class WideNodes {
 
   base::ZeroedArray<SearchKey> costs_;
   base::ZeroedArray<std::uint32_t> words_;
-  std::uint32_t query_ = 0;
+  QueryStamp<std::uint32_t, kQueryShift> stamp_;
 };
 
 }  // namespace grid_path_planner::planners

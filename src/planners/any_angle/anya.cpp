@@ -22,11 +22,11 @@ constexpr std::size_t kBytesPerCell = 12;
 
 constexpr double kUnit = SegmentPoint::kUnitsPerCell;
 
-AnyaSearch::Point inCells(SegmentPoint point) {
+AnyaPoint inCells(SegmentPoint point) {
   return {double(point.x) / kUnit, double(point.y) / kUnit};
 }
 
-SegmentPoint inUnits(AnyaSearch::Point point) {
+SegmentPoint inUnits(AnyaPoint point) {
   return {std::llround(point.x * kUnit), std::llround(point.y * kUnit)};
 }
 
@@ -76,7 +76,7 @@ SearchResult Anya::doSearch(const SearchRequest& request, const StopToken& stop)
   if (answer.status != Status::FOUND) return result;
 
   result.segment_cost = answer.length * map().minWeight() * map().kernel();
-  for (const AnyaSearch::Point& point : answer.points) {
+  for (const AnyaPoint& point : answer.points) {
     result.points.push_back(inUnits(point));
     result.cells.push_back(passableCellAt(map(), result.points.back()));
   }

@@ -6,10 +6,6 @@
 namespace grid_path_planner::planners {
 
 using base::Statistics;
-using base::Status;
-using base::Stopped;
-using base::StopPoll;
-using base::StopReason;
 using base::StopToken;
 using costmap::allOnes;
 using costmap::bitAt;
@@ -21,11 +17,11 @@ using grid::Cell;
 
 namespace {
 
-// A cone that goes on alone is not put back into the open list row by row, but it may not run away
-// from more promising ones either.
-constexpr int kRowsUnjudged = 32;
+// A single successor is expanded at once, without the open list; after so many rows its f-value is
+// compared with those of the open list.
+constexpr int kRowsBetweenComparisons = 32;
 
-constexpr double kTie = 1e-12;  // relative: sums of the same lengths in another order
+constexpr std::uint32_t kExpansionsBetweenPolls = 16;  // an expansion may cross the whole map
 
 // Whole where it is nearer than 2^-31 to a whole number. Precondition: |x| < 2^31.
 double snapped(double x) {
@@ -42,8 +38,8 @@ int ceilOf(double x) {  // of x >= 0
   return below + (below < x ? 1 : 0);
 }
 
-// Which of the bits of the word are corners or ends of a walk along a line towards the lower (or
-// higher) cells: `a`, `b` are the rows beside the line, `a_past`, `b_past` the cells before these.
+// The bits of the word at which a flat successor along a line towards the lower (or higher) cells
+// stands or ends: `a`, `b` are the rows beside the line, `a_past`, `b_past` the cells before these.
 BitMap::Word events(BitMap::Word a, BitMap::Word b, BitMap::Word a_past, BitMap::Word b_past) {
   const BitMap::Word closed = ~a & ~b;
   const BitMap::Word pinch = (~a & ~b_past & a_past & b) | (~b & ~a_past & b_past & a);
@@ -51,133 +47,93 @@ BitMap::Word events(BitMap::Word a, BitMap::Word b, BitMap::Word a_past, BitMap:
   return closed | pinch | corner;
 }
 
+// The column of the next event along the line between the two rows, to the left of `column`.
+int eventBefore(const BitMap::Word* above, const BitMap::Word* below, int column) {
+  int word = (column - 2) >> 6;
+  const int shift = 63 - ((column - 2) & 63);
+  for (BitMap::Word mask = ~BitMap::Word{0} >> shift;; --word, mask = ~BitMap::Word{0}) {
+    const BitMap::Word a = above[word], b = below[word];
+    const BitMap::Word found =
+        mask & events(a, b, a >> 1 | above[word + 1] << 63, b >> 1 | below[word + 1] << 63);
+    if (found != 0) return word * 64 + 63 - __builtin_clzll(found) + 1;
+  }
+}
+
+// The same to the right.
+int eventFrom(const BitMap::Word* above, const BitMap::Word* below, int column) {
+  int word = (column + 1) >> 6;
+  const int shift = (column + 1) & 63;
+  for (BitMap::Word mask = ~BitMap::Word{0} << shift;; ++word, mask = ~BitMap::Word{0}) {
+    const BitMap::Word a = above[word], b = below[word];
+    const BitMap::Word found =
+        mask & events(a, b, a << 1 | above[word - 1] >> 63, b << 1 | below[word - 1] >> 63);
+    if (found != 0) return word * 64 + __builtin_ctzll(found);
+  }
+}
+
 }  // namespace
 
-// Where a ray is after so many lines; off the map it does not matter where.
-inline double AnyaSearch::reach(const Point& root, double ray, double lines) const {
+// The column of a ray after so many lines. Columns off the map are all the same.
+inline double AnyaSearch::columnOf(AnyaPoint root, double ray, double lines) const {
   const double x = root.x + ray * lines;
   return snapped(std::min(std::max(x, -2.0), map_->width() + 2.0));
 }
 
-inline double AnyaSearch::distance(const Point& a, double x, double y) const {
-  return std::sqrt((a.x - x) * (a.x - x) + (a.y - y) * (a.y - y));
+void AnyaSearch::pushBelowIncumbent(double f, const AnyaNode& node) {
+  if (f < incumbent_) push(f, node);
 }
 
-std::size_t AnyaSearch::bytes() const {
-  return roots_.size() * sizeof(Root) + corners_.bytes() + open_.bytes();
-}
-
-void AnyaSearch::push(double f, const Node& node) {
-  if (f >= incumbent_) return;
-  open_.push(f, node);
-  ++counts_->generated;
-}
-
-void AnyaSearch::updateIncumbent(std::int32_t root) {
-  const double length = roots_[root].g + distance(roots_[root].at, goal_.x, goal_.y);
-  if (length >= incumbent_) return;
-  incumbent_ = length;
-  incumbent_root_ = root;
-}
-
-// The least length of a way through the cone to the goal: straight, or round an end of the
-// interval; a goal on the root's side of the line is as far as its mirror image.
-double AnyaSearch::fValue(const Node& cone) const {
-  const Root& root = roots_[cone.root];
-  const double lines = cone.rows * (cone.line - root.at.y);
-  const double beyond = std::abs(cone.line - goal_.y);
+// A lower bound of the length of a path through the interval to the goal: straight, or by an end of
+// the interval. A goal on the root's side of the line is as far as its mirror image.
+double AnyaSearch::fValue(const AnyaNode& node) const {
+  const Root& root = roots_[node.root];
+  const double lines = node.rows * (node.line - root.at.y);
+  const double beyond = std::abs(node.line - goal_.y);
   const double slope = (goal_.x - root.at.x) / (lines + beyond);
-  const bool left = slope<cone.ray[LEFT], right = slope> cone.ray[RIGHT];
+  const bool left = slope < node.ray[LEFT];
+  const bool right = slope > node.ray[RIGHT];
   const double across = goal_.x - root.at.x;
-  if (!left && !right)
-    return root.g + std::sqrt(across * across + (lines + beyond) * (lines + beyond));
-  const double turn = cone.ray[left ? LEFT : RIGHT] * lines;
-  return root.g + std::sqrt(turn * turn + lines * lines) +
-         std::sqrt((across - turn) * (across - turn) + beyond * beyond);
+  if (!left && !right) return root.g + lengthOf(across, lines + beyond);
+  const double turn = node.ray[left ? LEFT : RIGHT] * lines;
+  return root.g + lengthOf(turn, lines) + lengthOf(across - turn, beyond);
 }
 
-// A root at the corner for an arrival from `parent`, -1 where a better or wider one was there.
-std::int32_t AnyaSearch::relax(std::int32_t parent, int column, int line, Sense sense) {
-  const Root& from = roots_[parent];
-  const Point corner{double(column), double(line)};
-  const double g = from.g + distance(from.at, corner.x, corner.y);
-  if (g + distance(corner, goal_.x, goal_.y) >= incumbent_) return -1;
+// The root at the corner for an arrival from `parent`, -1 where the arrival is pruned.
+std::int32_t AnyaSearch::rootAt(std::int32_t parent, int column, int line, Sense sense) {
+  const AnyaPoint corner{double(column), double(line)};
+  const double g = gThrough(parent, corner);
+  if (g + distance(corner, goal_) >= incumbent_) return -1;
   const auto key = static_cast<std::uint64_t>(line) << 32 | static_cast<std::uint32_t>(column);
-  std::int32_t& known = corners_[key];
-  if (known >= 0) {
-    Root& root = roots_[known];
-    if (g > root.g * (1.0 + kTie)) return -1;
-    if (g >= root.g * (1.0 - kTie)) {
-      std::int32_t& widest = root.widest[sense];
-      if (widest >= 0) {
-        const Point& other = roots_[widest].at;
-        const double cross = (corner.x - other.x) * (corner.y - from.at.y) -
-                             (corner.y - other.y) * (corner.x - from.at.x);
-        if (sense == ANTICLOCKWISE ? cross >= 0.0 : cross <= 0.0) return -1;
-      }
-      widest = parent;
-      return known;
-    }
-    root.beaten = true;
-    ++counts_->reopened;
-  }
-  known = static_cast<std::int32_t>(roots_.size());
-  Root root{corner, g, parent, {-1, -1}, false};
-  root.widest[sense] = parent;
-  roots_.push_back(root);
-  return known;
+  return relax(corners_[key], parent, corner, g, sense);
 }
 
 void AnyaSearch::pushInterval(std::int32_t root, int line, int rows, double left, double right) {
-  const Node cone{{left, right}, root, line, static_cast<std::int8_t>(rows), 0};
-  push(fValue(cone), cone);
+  const AnyaNode node{{left, right}, root, line, static_cast<std::int8_t>(rows), 0};
+  pushBelowIncumbent(fValue(node), node);
 }
 
-// The next corner along the line, seen from the root, which lies on it.
+// The next corner along the line on which the root lies, if it is visible.
 void AnyaSearch::flatSuccessors(std::int32_t root, int column, int line, int columns) {
   const Word* above = map_->row(line);
   const Word* below = map_->row(line - 1);
-  int next = 0;
-  if (columns < 0) {
-    int word = (column - 2) >> 6;
-    const int shift = 63 - ((column - 2) & 63);
-    Word mask = ~Word{0} >> shift;
-    for (;; --word, mask = ~Word{0}) {
-      const Word a = above[word], b = below[word];
-      const Word found =
-          mask & events(a, b, a >> 1 | above[word + 1] << 63, b >> 1 | below[word + 1] << 63);
-      if (found == 0) continue;
-      next = word * 64 + 63 - __builtin_clzll(found) + 1;
-      break;
-    }
-  } else {
-    int word = (column + 1) >> 6;
-    Word mask = ~Word{0} << ((column + 1) & 63);
-    for (;; ++word, mask = ~Word{0}) {
-      const Word a = above[word], b = below[word];
-      const Word found =
-          mask & events(a, b, a << 1 | above[word - 1] >> 63, b << 1 | below[word - 1] >> 63);
-      if (found == 0) continue;
-      next = word * 64 + __builtin_ctzll(found);
-      break;
-    }
-  }
+  const int next =
+      columns < 0 ? eventBefore(above, below, column) : eventFrom(above, below, column);
   const int beyond = columns < 0 ? next - 1 : next;
   if (!bitAt(above, beyond) || !bitAt(below, beyond)) return;  // closed, or a pinch
-  const double f =
-      roots_[root].g + std::abs(roots_[root].at.x - next) + distance(goal_, next, line);
-  push(f, {{double(next), 0.0}, root, line, 0, static_cast<std::int8_t>(columns)});
+  const AnyaPoint corner{double(next), double(line)};
+  const double f = roots_[root].g + std::abs(roots_[root].at.x - next) + distance(goal_, corner);
+  pushBelowIncumbent(f, {{corner.x, 0.0}, root, line, 0, static_cast<std::int8_t>(columns)});
 }
 
-// A corner met along the line: round it, and on along the line.
-void AnyaSearch::expandCorner(const Node& node) {
+// A corner on the root's line: the interval round it, and the next corner along the line.
+void AnyaSearch::expandFlat(const AnyaNode& node) {
   const int column = static_cast<int>(node.ray[0]);
   const int passed = node.columns < 0 ? column : column - 1;
   const int rows = bitAt(map_->row(node.line), passed) ? -1 : 1;  // towards the obstacle's row
   const Sense sense = (node.columns < 0) == (rows < 0) ? ANTICLOCKWISE : CLOCKWISE;
-  const std::int32_t root = relax(node.root, column, node.line, sense);
+  const std::int32_t root = rootAt(node.root, column, node.line, sense);
   if (root < 0) return;
-  const Word* row = ahead(node.line, rows);
+  const Word* row = rowAhead(node.line, rows);
   const int end = node.columns < 0 ? zeroBefore(row, column) + 1 : zeroFrom(row, column);
   if (leadsToGoal(node.line, rows) && (goal_.x - column) * (goal_.x - end) <= 0.0)
     updateIncumbent(root);
@@ -185,85 +141,88 @@ void AnyaSearch::expandCorner(const Node& node) {
   flatSuccessors(node.root, column, node.line, node.columns);
 }
 
-AnyaSearch::Projection AnyaSearch::project(const Node& cone, const double* near, const double* far,
-                                           int first, int last) const {
-  Projection gate{{near[LEFT], near[RIGHT]},
-                  {cone.ray[LEFT], cone.ray[RIGHT]},
-                  {far[LEFT], far[RIGHT]},
-                  {first, last}};
-  const Point& root = roots_[cone.root].at;
-  const double lines = cone.rows * (cone.line - root.y);
+AnyaSearch::Projection AnyaSearch::project(const AnyaNode& node, const double* near,
+                                           const double* far, int first, int last) const {
+  Projection projection{{near[LEFT], near[RIGHT]},
+                        {node.ray[LEFT], node.ray[RIGHT]},
+                        {far[LEFT], far[RIGHT]},
+                        {first, last}};
+  const AnyaPoint root = roots_[node.root].at;
+  const double lines = node.rows * (node.line - root.y);
   const auto narrow = [&](Side side) {
-    gate.near[side] = gate.run[side];
-    gate.ray[side] = (gate.run[side] - root.x) / lines;
-    gate.far[side] = reach(root, gate.ray[side], lines + 1.0);
+    projection.near[side] = projection.run[side];
+    projection.ray[side] = (projection.run[side] - root.x) / lines;
+    projection.far[side] = columnOf(root, projection.ray[side], lines + 1.0);
   };
   if (first > near[LEFT]) narrow(LEFT);
   if (last < near[RIGHT]) narrow(RIGHT);
-  return gate;
+  return projection;
 }
 
-void AnyaSearch::reachGoal(const Node& cone, const Projection& gate) {
-  const Point& root = roots_[cone.root].at;
+// Precondition: the next row is the goal's.
+void AnyaSearch::updateIncumbentIfVisible(const AnyaNode& node, const Projection& projection) {
+  const AnyaPoint root = roots_[node.root].at;
   const double lines = std::abs(goal_.y - root.y);
-  if (goal_.x < gate.run[LEFT] || goal_.x > gate.run[RIGHT]) return;
+  if (goal_.x < projection.run[LEFT] || goal_.x > projection.run[RIGHT]) return;
   const double slack = 0x1p-31;
-  if (goal_.x < root.x + gate.ray[LEFT] * lines - slack) return;
-  if (goal_.x > root.x + gate.ray[RIGHT] * lines + slack) return;
-  updateIncumbent(cone.root);
+  if (goal_.x < root.x + projection.ray[LEFT] * lines - slack) return;
+  if (goal_.x > root.x + projection.ray[RIGHT] * lines + slack) return;
+  updateIncumbent(node.root);
 }
 
-// Round the corner at one end of the gate, if there is one: to what lies in the run beyond the ray,
-// and along the line.
-void AnyaSearch::turningSuccessors(const Node& cone, const Projection& gate, Side side) {
-  const int column = static_cast<int>(gate.near[side]);
-  if (column != gate.near[side]) return;
+// Round the corner at one end of the projection, if there is one: the part of the run that lies
+// beyond the ray, and the next corner along the line.
+void AnyaSearch::turningSuccessors(const AnyaNode& node, const Projection& projection, Side side) {
+  const int column = static_cast<int>(projection.near[side]);
+  if (column != projection.near[side]) return;
   const int outer = side == LEFT ? column - 1 : column;
-  const bool behind_open = bitAt(ahead(cone.line, -cone.rows), outer);
-  const bool ahead_open = bitAt(ahead(cone.line, cone.rows), outer);
+  const bool behind_open = bitAt(rowAhead(node.line, -node.rows), outer);
+  const bool ahead_open = bitAt(rowAhead(node.line, node.rows), outer);
   if (behind_open == ahead_open) return;
 
-  // What the ray leaves of the run on the far line.
-  const double inner = side == LEFT ? std::min(gate.far[LEFT], double(gate.run[RIGHT]))
-                                    : std::max(gate.far[RIGHT], double(gate.run[LEFT]));
-  const bool room = side == LEFT ? inner > gate.run[LEFT] : inner < gate.run[RIGHT];
+  // The part of the run on the far line that lies beyond the ray.
+  const double inner = side == LEFT ? std::min(projection.far[LEFT], double(projection.run[RIGHT]))
+                                    : std::max(projection.far[RIGHT], double(projection.run[LEFT]));
+  const bool room = side == LEFT ? inner > projection.run[LEFT] : inner < projection.run[RIGHT];
   if (!ahead_open && !room) return;
-  const Sense sense = (side == LEFT) == (cone.rows > 0) ? ANTICLOCKWISE : CLOCKWISE;
-  const std::int32_t root = relax(cone.root, column, cone.line, sense);
+  const Sense sense = (side == LEFT) == (node.rows > 0) ? ANTICLOCKWISE : CLOCKWISE;
+  const std::int32_t root = rootAt(node.root, column, node.line, sense);
   if (root < 0) return;
-  const double outer_ray = gate.run[side] - column;
-  const double inner_ray = inner == gate.far[side] ? gate.ray[side] : inner - column;
+  const double outer_ray = projection.run[side] - column;
+  const double inner_ray = inner == projection.far[side] ? projection.ray[side] : inner - column;
   const double left = side == LEFT ? outer_ray : inner_ray;
   const double right = side == LEFT ? inner_ray : outer_ray;
-  if (leadsToGoal(cone.line, cone.rows)) {
-    // The cell beside the line is whole: only the ray of the arrival limits what is seen in it.
-    Projection beyond = gate;
-    beyond.ray[LEFT] = side == LEFT ? -std::numeric_limits<double>::infinity() : gate.ray[RIGHT];
-    beyond.ray[RIGHT] = side == LEFT ? gate.ray[LEFT] : std::numeric_limits<double>::infinity();
-    Node from = cone;
+  if (leadsToGoal(node.line, node.rows)) {
+    // The cell beside the line is free: in it only the ray of the arrival limits what is visible.
+    Projection beyond = projection;
+    beyond.ray[LEFT] =
+        side == LEFT ? -std::numeric_limits<double>::infinity() : projection.ray[RIGHT];
+    beyond.ray[RIGHT] =
+        side == LEFT ? projection.ray[LEFT] : std::numeric_limits<double>::infinity();
+    AnyaNode from = node;
     from.root = root;
-    reachGoal(from, beyond);
+    updateIncumbentIfVisible(from, beyond);
   }
-  if (room) pushInterval(root, cone.line + cone.rows, cone.rows, left, right);
-  if (ahead_open) flatSuccessors(root, column, cone.line, side == LEFT ? -1 : 1);
+  if (room) pushInterval(root, node.line + node.rows, node.rows, left, right);
+  if (ahead_open) flatSuccessors(root, column, node.line, side == LEFT ? -1 : 1);
 }
 
-// Moves the cone on for as long as nothing splits it and no corner touches it: open rows, and walls
-// along which an end stays in its column.
-void AnyaSearch::projectThroughOpenRows(Node& cone, double* near, double* far) const {
-  const Point root = roots_[cone.root].at;
-  const int rows = cone.rows, width = map_->width();
+// Projects the interval from line to line while no blocked cell splits it and no corner touches it:
+// through free rows, and along walls that hold an end in its column.
+void AnyaSearch::projectThroughFreeRows(AnyaNode& node, double* near, double* far) const {
+  const AnyaPoint root = roots_[node.root].at;
+  const int rows = node.rows, width = map_->width();
   const int goal_line = rows > 0 ? goal_row_ : goal_row_ + 1;
-  int line = cone.line;
+  int line = node.line;
   double lines = rows * (line - root.y);
-  double left_ray = cone.ray[LEFT], right_ray = cone.ray[RIGHT];
-  double left = reach(root, left_ray, lines), right = reach(root, right_ray, lines);
-  const Word* behind = ahead(line, -rows);
+  double left_ray = node.ray[LEFT], right_ray = node.ray[RIGHT];
+  double left = columnOf(root, left_ray, lines), right = columnOf(root, right_ray, lines);
+  const Word* behind = rowAhead(line, -rows);
   const std::ptrdiff_t stride = rows * map_->stride();
   for (;;) {
     const Word* row = behind + stride;
-    double far_left = reach(root, left_ray, lines + 1.0);
-    double far_right = reach(root, right_ray, lines + 1.0);
+    double far_left = columnOf(root, left_ray, lines + 1.0);
+    double far_right = columnOf(root, right_ray, lines + 1.0);
     double next_left_ray = left_ray, next_right_ray = right_ray;
     bool clear = line != goal_line;
     const int left_column = static_cast<int>(left), right_column = static_cast<int>(right);
@@ -296,114 +255,106 @@ void AnyaSearch::projectThroughOpenRows(Node& cone, double* near, double* far) c
     line += rows;
     lines += 1.0;
   }
-  cone.line = line;
-  cone.ray[LEFT] = left_ray;
-  cone.ray[RIGHT] = right_ray;
+  node.line = line;
+  node.ray[LEFT] = left_ray;
+  node.ray[RIGHT] = right_ray;
   near[LEFT] = left;
   near[RIGHT] = right;
-  far[LEFT] = reach(root, left_ray, lines + 1.0);
-  far[RIGHT] = reach(root, right_ray, lines + 1.0);
+  far[LEFT] = columnOf(root, left_ray, lines + 1.0);
+  far[RIGHT] = columnOf(root, right_ray, lines + 1.0);
 }
 
-void AnyaSearch::expandCone(Node cone) {
-  const Point root = roots_[cone.root].at;
-  int judged = cone.line;
+// One for each run of free cells of the next row that the interval touches. All but the last, which
+// is in `last`, are pushed. Returns their number.
+inline int AnyaSearch::observableSuccessors(const AnyaNode& node, const double* near,
+                                            const double* far, AnyaNode& last) {
+  const AnyaPoint root = roots_[node.root].at;
+  const Word* row = rowAhead(node.line, node.rows);
+  const double lines = node.rows * (node.line - root.y);
+  const bool goal_row = leadsToGoal(node.line, node.rows);
+  int found = 0;
+  for (int column = oneFrom(row, floorOf(near[LEFT]), ceilOf(near[RIGHT])); column < near[RIGHT];) {
+    const int first = zeroBefore(row, column) + 1;
+    const int end = zeroFrom(row, column);
+    const Projection projection = project(node, near, far, first, end);
+    if (goal_row) updateIncumbentIfVisible(node, projection);
+    turningSuccessors(node, projection, LEFT);
+    turningSuccessors(node, projection, RIGHT);
+    const double left = std::max(projection.far[LEFT], double(first));
+    const double right = std::min(projection.far[RIGHT], double(end));
+    if (left < right) {
+      if (found++ > 0) pushBelowIncumbent(fValue(last), last);
+      last = node;
+      last.line += node.rows;
+      last.ray[LEFT] =
+          left == projection.far[LEFT] ? projection.ray[LEFT] : (left - root.x) / (lines + 1.0);
+      last.ray[RIGHT] =
+          right == projection.far[RIGHT] ? projection.ray[RIGHT] : (right - root.x) / (lines + 1.0);
+    }
+    column = oneFrom(row, end, ceilOf(near[RIGHT]));
+  }
+  return found;
+}
+
+void AnyaSearch::expandInterval(AnyaNode node) {
+  int compared = node.line;
   for (;;) {
     double near[2], far[2];
-    projectThroughOpenRows(cone, near, far);
-    if (std::abs(cone.line - judged) >= kRowsUnjudged) {
-      const double f = fValue(cone);
-      if (f >= incumbent_ || (!open_.empty() && f > open_.least())) return push(f, cone);
-      judged = cone.line;
+    projectThroughFreeRows(node, near, far);
+    if (std::abs(node.line - compared) >= kRowsBetweenComparisons) {
+      const double f = fValue(node);
+      if (f >= incumbent_ || (!open_.empty() && f > open_.least()))
+        return pushBelowIncumbent(f, node);
+      compared = node.line;
     }
-    const Word* row = ahead(cone.line, cone.rows);
-    const double lines = cone.rows * (cone.line - root.y);
-    Node next{};
-    int found = 0;
-    const bool goal_row = leadsToGoal(cone.line, cone.rows);
-    for (int column = oneFrom(row, floorOf(near[LEFT]), ceilOf(near[RIGHT]));
-         column < near[RIGHT];) {
-      const int first = zeroBefore(row, column) + 1;
-      const int last = zeroFrom(row, column);
-      const Projection gate = project(cone, near, far, first, last);
-      if (goal_row) reachGoal(cone, gate);
-      turningSuccessors(cone, gate, LEFT);
-      turningSuccessors(cone, gate, RIGHT);
-      const double left = std::max(gate.far[LEFT], double(first));
-      const double right = std::min(gate.far[RIGHT], double(last));
-      if (left < right) {
-        if (found++ > 0) push(fValue(next), next);
-        next = cone;
-        next.line += cone.rows;
-        next.ray[LEFT] = left == gate.far[LEFT] ? gate.ray[LEFT] : (left - root.x) / (lines + 1.0);
-        next.ray[RIGHT] =
-            right == gate.far[RIGHT] ? gate.ray[RIGHT] : (right - root.x) / (lines + 1.0);
-      }
-      column = oneFrom(row, last, ceilOf(near[RIGHT]));
-    }
+    AnyaNode successor{};
+    const int found = observableSuccessors(node, near, far, successor);
     if (found == 0) return;
-    if (found > 1) return push(fValue(next), next);
-    cone = next;
+    if (found > 1) return pushBelowIncumbent(fValue(successor), successor);
+    node = successor;
   }
 }
 
-AnyaSearch::Answer AnyaSearch::run(const BitMap& rows, Point start, Point goal,
-                                   const StopToken& stop, Statistics& counts,
-                                   std::vector<Cell>* expanded) {
-  map_ = &rows;
-  counts_ = &counts;
-  goal_ = goal;
-  goal_row_ = floorOf(goal.y);
-  incumbent_ = std::numeric_limits<double>::infinity();
-  incumbent_root_ = -1;
-  roots_.clear();
-  open_.clear();
-  corners_.clear();
+void AnyaSearch::expand(const AnyaNode& node) {
+  if (node.rows == 0)
+    expandFlat(node);
+  else
+    expandInterval(node);
+}
 
-  // 1. The start sees its run of cells, and through its upper and lower edge.
+// The cell of an expansion in pictures.
+Cell AnyaSearch::cellOf(const AnyaNode& node) const {
+  const int column = static_cast<int>(roots_[node.root].at.x);
+  return {std::min(column, map_->width() - 1),
+          std::min(std::max(node.line, 0), map_->height() - 1)};
+}
+
+// The start's run of cells is visible, and the rows above and below through its edges.
+void AnyaSearch::pushStartIntervals(AnyaPoint start) {
   const int start_row = floorOf(start.y);
-  const Word* row = rows.row(start_row);
+  const Word* row = map_->row(start_row);
   const int first = zeroBefore(row, floorOf(start.x)) + 1;
   const int last = zeroFrom(row, floorOf(start.x));
-  roots_.push_back({start, 0.0, -1, {-1, -1}, false});
-  if (goal_row_ == start_row && first < goal.x && goal.x < last) updateIncumbent(0);
+  if (goal_row_ == start_row && first < goal_.x && goal_.x < last) updateIncumbent(0);
   const double up = start_row + 1 - start.y, down = start.y - start_row;
   pushInterval(0, start_row + 1, 1, (first - start.x) / up, (last - start.x) / up);
   pushInterval(0, start_row, -1, (first - start.x) / down, (last - start.x) / down);
+}
 
-  // 2. The most promising cone or corner, until none can lead to a shorter way.
-  StopPoll poll(stop, 16);  // an expansion may cross the whole map
-  Answer answer;
-  while (!open_.empty() && open_.least() < incumbent_) {
-    const StopReason reason = poll.ask();
-    if (reason != StopReason::NONE) {
-      answer.status = Stopped(reason).status();
-      return answer;
-    }
-    counts.peak_open = std::max(counts.peak_open, open_.size());
-    const Node node = open_.pop();
-    if (roots_[node.root].beaten) continue;
-    ++counts.expanded;
-    if (expanded) {
-      const int column = static_cast<int>(roots_[node.root].at.x);
-      expanded->push_back({std::min(column, rows.width() - 1),
-                           std::min(std::max(node.line, 0), rows.height() - 1)});
-    }
-    if (node.rows == 0)
-      expandCorner(node);
-    else
-      expandCone(node);
-  }
-  if (incumbent_root_ < 0) return answer;
-
-  // 3. The way back over the roots.
-  answer.status = Status::FOUND;
-  answer.length = incumbent_;
-  answer.points.push_back(goal);
-  for (std::int32_t at = incumbent_root_; at >= 0; at = roots_[at].parent)
-    answer.points.push_back(roots_[at].at);
-  std::reverse(answer.points.begin(), answer.points.end());
-  return answer;
+AnyaSearch::Answer AnyaSearch::run(const BitMap& rows, AnyaPoint start, AnyaPoint goal,
+                                   const StopToken& stop, Statistics& counts,
+                                   std::vector<Cell>* expanded) {
+  startQuery(start, goal, counts);
+  map_ = &rows;
+  goal_row_ = floorOf(goal.y);
+  corners_.clear();
+  pushStartIntervals(start);
+  return expandAll(
+      stop, kExpansionsBetweenPolls, [this](AnyaNode& node) { return popNode(node); },
+      [this, expanded](const AnyaNode& node) {
+        if (expanded) expanded->push_back(cellOf(node));
+        expand(node);
+      });
 }
 
 }  // namespace grid_path_planner::planners

@@ -16,7 +16,7 @@ void BestFirstSearch::prepare(const CostGrid& map, const StopToken& stop) {
   if (words_.size() == map.geometry().size()) return;
   costs_ = ZeroedArray<SearchKey>(map.geometry().size());
   words_ = ZeroedArray<std::uint32_t>(map.geometry().size());
-  query_ = 0;
+  stamp_.restart();
 }
 
 void BestFirstSearch::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
@@ -25,12 +25,7 @@ void BestFirstSearch::update(const CostGrid& map, const CellRect& changed, const
 
 void BestFirstSearch::beginQuery() {
   heap_.clear();
-  const std::uint32_t last = (std::uint32_t{1} << (32 - kQueryShift)) - 1;
-  if (query_ == last) {
-    words_.clear();
-    query_ = 0;
-  }
-  ++query_;
+  stamp_.next([this] { words_.clear(); });
 }
 
 std::vector<Cell> BestFirstSearch::pathTo(const CostGrid& map, std::uint32_t start,

@@ -49,7 +49,7 @@ void BucketSearch::finish(const Nodes& nodes, const CostGrid& map, Cell start, s
   Statistics& counts = result.statistics;
   counts.search_bytes = map.geometry().size() * (Nodes::kBytes + sizeof(std::uint8_t)) +
                         counts.peak_open * sizeof(BucketQueue::Index);
-  if (goal == kNone || goal == kTooDear) return;
+  if (goal == kNone || goal == kTooExpensive) return;
   const std::uint32_t first = map.geometry().index(start).value();
   for (std::uint32_t at = goal;;) {
     result.cells.push_back(map.geometry().cell(CellIndex(at)));

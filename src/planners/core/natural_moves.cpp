@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "grid_path_planner/planners/keys.h"
 #include "grid_path_planner/planners/steps.h"
 
 namespace grid_path_planner::planners {
@@ -16,8 +17,8 @@ constexpr int kOutside = 9;
 
 // Integers in doubles, whose minimum the compiler takes two at a time: a path inside the window is
 // at most eight steps of 65535, so the convergent orders exactly and stays far below 2^53.
-constexpr double kStraight = 1136689;
-constexpr double kDiagonal = 1607521;
+constexpr double kStraight = kWindowScale.straight;
+constexpr double kDiagonal = kWindowScale.diagonal;
 constexpr double kFar = 1e15;
 
 // Diagonal steps come first.

@@ -171,9 +171,8 @@ SearchResult Planner::search(const SearchRequest& request, const StopToken& stop
     const StopReason reason_to_stop = stop.reason();
     if (reason_to_stop != StopReason::NONE) throw Stopped(reason_to_stop);
     result = doSearch(withoutBlockedGoals(request, *map_), stop);
-  } catch (const CostOverflow&) {
-    result = failure(Status::INVALID_REQUEST,
-                     "a path may cost more than 4.4e9 cell lengths x weight: use smaller weights");
+  } catch (const TooExpensive&) {
+    result = failure(Status::INVALID_REQUEST, TooExpensive::kMessage);
   } catch (const Stopped& stopped) {
     result = failure(stopped.status(), "");
   }

@@ -32,9 +32,9 @@ constexpr std::uint32_t kExpansionsBetweenPolls = 64;
 // below kLargest is that of costs (see costmap/exact_cost.h).
 struct SmallScale {
   using Key = std::uint32_t;
-  static constexpr Key kStraight = 33461;
-  static constexpr Key kDiagonal = 47321;
-  static constexpr Key kLargest = kStraight * kDiagonal;
+  static constexpr Key kStraight = kSmallScale.straight;
+  static constexpr Key kDiagonal = kSmallScale.diagonal;
+  static constexpr Key kLargest = kSmallScale.largest;
 };
 struct LargeScale {
   using Key = std::uint64_t;
@@ -400,7 +400,7 @@ SearchResult JumpPoint::doSearch(const SearchRequest& request, const StopToken& 
   if (std::max(geometry.width(), geometry.height()) <= 1 << 15)
     if (auto result = searchFrom<SmallScale>(nodes_, request, stop)) return std::move(*result);
   if (auto result = searchFrom<LargeScale>(large_nodes_, request, stop)) return std::move(*result);
-  throw CostOverflow();
+  throw TooExpensive();
 }
 
 }  // namespace grid_path_planner::planners

@@ -110,7 +110,7 @@ SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const Sto
   if (jumps_ready_) {
     try {
       return jumps_.run(map(), request, stop);
-    } catch (const WeightedJumpSearch::TooDear&) {
+    } catch (const TooExpensive&) {
       if (!a_star_) prepareAStar(stop);
     }
   }

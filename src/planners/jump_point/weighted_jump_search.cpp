@@ -79,7 +79,7 @@ void WeightedJumpSearch::beginQuery(const CostGrid& map, const SearchRequest& re
   saving_ = map.minWeight() * (2 * kStraight - kDiagonal);
   fresh_ = query_ << kKeyBits | kLargest;
   bound_ = kLargest;
-  goal_reached_ = too_dear_ = false;
+  goal_reached_ = too_expensive_ = false;
   counts_ = Statistics();
   const Key bucket = straight_ / kBucketsPerStep;
   open_.begin(estimate(request.start), 63U - unsigned(__builtin_clzll(bucket)));
@@ -103,7 +103,7 @@ SearchResult WeightedJumpSearch::search(const SearchRequest& request, const Stop
     if (request.record_expanded) result.expanded.emplace_back(index);
     expand(index, cell, g);
   }
-  if (!goal_reached_ && too_dear_) throw TooDear();
+  if (!goal_reached_ && too_expensive_) throw TooExpensive();
   if (!goal_reached_) return withStatus(Status::UNREACHABLE, std::move(result));
   trace(request.start, result);
   return withStatus(Status::FOUND, std::move(result));
@@ -146,7 +146,7 @@ void WeightedJumpSearch::take(unsigned steps, std::uint32_t index, Cell cell, Ke
 // Whether a path that costs f at least is of no use.
 inline bool WeightedJumpSearch::hopeless(Key f) {
   if (f < bound_) return false;
-  too_dear_ = true;  // which is asked only if the goal was not reached
+  too_expensive_ = true;  // which is asked only if the goal was not reached
   return true;
 }
 

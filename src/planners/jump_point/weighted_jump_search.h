@@ -25,6 +25,7 @@
 
 #include "grid_path_planner/base/zeroed_array.h"
 #include "grid_path_planner/planners/bucket_queue.h"
+#include "grid_path_planner/planners/keys.h"
 #include "grid_path_planner/planners/planner.h"
 #include "planners/jump_point/weighted_jump_map.h"
 
@@ -43,24 +44,19 @@ class WeightedJumpSearch {
   // Nothing is prepared any more, no memory is held.
   void release();
 
-  // Thrown by run() where no path was found among those that cost less than its keys hold, 17.6e6
-  // cell lengths x weight, but there may be a dearer one.
-  struct TooDear {};
-
-  // FOUND, UNREACHABLE, TIMEOUT or CANCELLED. Throws TooDear.
+  // FOUND, UNREACHABLE, TIMEOUT or CANCELLED. Throws TooExpensive where no path costs less than its
+  // keys hold, 17.6e6 cell lengths x weight, but a more expensive one may exist.
   // Precondition: `map` is the prepared one, start and goal are passable.
   SearchResult run(const costmap::CostGrid& map, const SearchRequest& request,
                    const base::StopToken& stop);
 
  private:
-  // The cost of a path as one integer, A * kStraight + B * kDiagonal for A + B sqrt 2. While 48
-  // bits hold it B is below the convergent's denominator, so the order is exact
-  // (costmap/exact_cost.h).
-  using Key = std::uint64_t;
-  static constexpr Key kStraight = 15994428;
-  static constexpr Key kDiagonal = 22619537;
+  using Key = SearchKey;
+  static constexpr Key kStraight = kMediumScale.straight;
+  static constexpr Key kDiagonal = kMediumScale.diagonal;
+  static constexpr Key kLargest = kMediumScale.largest;
   static constexpr int kKeyBits = 48;
-  static constexpr Key kLargest = (Key{1} << kKeyBits) - 1;
+  static_assert(kLargest == (Key{1} << kKeyBits) - 1);
 
   // Number of the query, then kLargest - g: a larger label is a better one, and any label of this
   // query is better than any of an earlier one.
@@ -105,7 +101,7 @@ class WeightedJumpSearch {
   Label fresh_ = 0;   // label of cost 0
   Key bound_ = 0;     // what costs as much is of no use: the goal's cost, once it is known
   bool goal_reached_ = false;
-  bool too_dear_ = false;  // something was left out that the keys do not hold
+  bool too_expensive_ = false;  // something was left out that the keys do not hold
   base::Statistics counts_;
 };
 

@@ -21,14 +21,11 @@ void BackwardNodes::prepare(const CostGrid& map, const MovePruning& moves) {
   offsets_ = moves.offsets();
   if (words_.size() == geometry_.size()) return;
   words_ = ZeroedArray<Word>(geometry_.size());
-  tree_ = 0;
+  stamp_.restart();
 }
 
 void BackwardNodes::begin(Index root) {
-  if (++tree_ == Word{1} << (64 - kTreeShift)) {
-    words_.clear();
-    tree_ = 1;
-  }
+  stamp_.next([this] { words_.clear(); });
   root_ = root;
   set(root, 0, 0, OPEN);
 }

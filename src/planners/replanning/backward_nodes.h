@@ -19,6 +19,7 @@
 #include "grid_path_planner/planners/cell_of_index.h"
 #include "grid_path_planner/planners/keys.h"
 #include "grid_path_planner/planners/move_pruning.h"
+#include "grid_path_planner/planners/stamped_array.h"
 
 namespace grid_path_planner::planners {
 
@@ -47,7 +48,7 @@ class BackwardNodes {
   const grid::GridGeometry& geometry() const { return geometry_; }
   grid::Cell cell(Index index) const { return cell_of_(index); }
 
-  bool known(Index index) const { return words_[index] >> kTreeShift == tree_; }
+  bool known(Index index) const { return stamp_.wrote(words_[index]); }
   State state(Index index) const {
     return known(index) ? static_cast<State>(words_[index] & kStateMask) : UNLABELLED;
   }
@@ -67,8 +68,7 @@ class BackwardNodes {
 
   // Precondition: the label is at most kLargest.
   void set(Index index, SearchKey label, std::uint32_t step, State state) {
-    words_[index] =
-        tree_ << kTreeShift | label << kLabelShift | Word{step} << kStepShift | Word{state};
+    words_[index] = stamp_.word() | label << kLabelShift | Word{step} << kStepShift | Word{state};
   }
   void setState(Index index, State state) {
     words_[index] = (words_[index] & ~kStateMask) | Word{state};
@@ -105,7 +105,7 @@ class BackwardNodes {
   const MovePruning* moves_ = nullptr;
   std::array<std::ptrdiff_t, 8> offsets_{};
   base::ZeroedArray<Word> words_;
-  Word tree_ = 0;
+  QueryStamp<Word, kTreeShift> stamp_;
   Index root_ = 0;
 };
 

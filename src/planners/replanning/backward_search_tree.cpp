@@ -188,7 +188,7 @@ Status BackwardSearchTree::plan(const CostGrid& map, Cell start, bool record, Se
       advance(below_way, theDetour, kUnlimited, record, result, poll);
       if (concerned) continue;
       path_ = repair_search_.path(nodes_);
-      path_cost_ = exactCostOf(repair_search_.cost()) * map.kernel();
+      path_cost_ = exactCostOf(repair_search_.cost(), kPackedScale) * map.kernel();
       result.cells = path_;
       result.cost = path_cost_;
       return Status::FOUND;
@@ -213,7 +213,7 @@ bool BackwardSearchTree::lastPathHolds(const CostGrid& map, SearchResult& result
 }
 
 Status BackwardSearchTree::unreachable() const {
-  if (overflowed_) throw CostOverflow();
+  if (overflowed_) throw TooExpensive();
   return Status::UNREACHABLE;
 }
 

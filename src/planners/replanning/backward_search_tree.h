@@ -59,7 +59,7 @@ class BackwardSearchTree {
   // known, then labels `ahead` times as many cells more, so that later plans need not. Both are
   // passable. Puts what it does into `result`: cells and cost where FOUND, statistics, and the
   // cells it took where `record` asks for them. Throws Stopped, and leaves no tree then, and
-  // CostOverflow where only ways were seen that are too dear.
+  // TooExpensive where only ways were seen that are too dear.
   base::Status begin(const costmap::CostGrid& map, grid::Cell goal, grid::Cell start, double ahead,
                      bool record, SearchResult& result, const base::StopToken& stop);
   // Whether a tree for `goal` is there that can be used on `map`, and is worth it: where the

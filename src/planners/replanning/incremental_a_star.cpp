@@ -60,7 +60,7 @@ SearchResult IncrementalAStar::doSearch(const SearchRequest& request, const Stop
     result.status = planByTree(request, result, stop);
   } catch (const Stopped& stopped) {
     result.status = stopped.status();
-  } catch (const CostOverflow&) {
+  } catch (const TooExpensive&) {
     handOver(stop);
     return a_star_->search(request, stop);
   }

@@ -12,18 +12,15 @@ void TileNodes::prepare(const GridGeometry& geometry) {
   tile_at_.assign(across_ * tiles(geometry.height()), 0);
   tiles_.clear();
   used_.clear();
-  query_ = 0;
+  stamp_.restart();
 }
 
 void TileNodes::beginQuery() {
   for (const std::size_t place : used_) tile_at_[place] = 0;
   used_.clear();
-  constexpr Node::Word kOne = Node::Word{1} << Node::kQueryShift;
-  if (query_ + kOne < query_) {
+  stamp_.next([this] {
     for (const std::unique_ptr<Tile>& tile : tiles_) tile->fill(Node());
-    query_ = 0;
-  }
-  query_ += kOne;
+  });
 }
 
 void TileNodes::use(std::size_t place) {

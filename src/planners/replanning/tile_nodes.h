@@ -19,6 +19,7 @@
 
 #include "grid_path_planner/grid/grid_geometry.h"
 #include "grid_path_planner/planners/keys.h"
+#include "grid_path_planner/planners/stamped_array.h"
 #include "grid_path_planner/planners/steps.h"
 
 namespace grid_path_planner::planners {
@@ -84,7 +85,7 @@ class TileNodes {
     const std::uint32_t tile = tile_at_[placeOf(cell)];
     if (tile == 0) return false;
     const Node& node = (*tiles_[tile - 1])[numberIn(cell)];
-    return node.word_ >= query_ && node.closed();
+    return stamp_.wrote(node.word_) && node.closed();
   }
 
   std::size_t bytes() const {
@@ -113,13 +114,13 @@ class TileNodes {
     return static_cast<std::size_t>((cell.row & kMask) << kSideBits | (cell.column & kMask));
   }
   Node& ofThisQuery(Node& node) const {
-    if (node.word_ < query_) node.word_ = query_;
+    if (!stamp_.wrote(node.word_)) node.word_ = stamp_.word();
     return node;
   }
   void use(std::size_t place);
 
   std::size_t across_ = 0;
-  Node::Word query_ = 0;                // where a node has it
+  QueryStamp<Node::Word, Node::kQueryShift> stamp_;
   std::vector<std::uint32_t> tile_at_;  // by place: number of a tile + 1, 0 where there is none
   std::vector<std::unique_ptr<Tile>> tiles_;  // the first ones are used, in the order of used_
   std::vector<std::size_t> used_;             // places

@@ -3,12 +3,6 @@
 #include <algorithm>
 
 namespace grid_path_planner::planners {
-namespace {
-
-constexpr SearchKey kDiagonalKeyInverse = 1311738121U;  // modulo kStraightKey
-static_assert(kDiagonalKey % kStraightKey * kDiagonalKeyInverse % kStraightKey == 1, "");
-
-}  // namespace
 
 CompactCostUnit CompactCostUnit::rounding(SearchKey longest) {
   CompactCostUnit unit;
@@ -24,11 +18,10 @@ CompactCost CompactCostUnit::entryOf(SearchKey cost) const {
 }
 
 CompactCost CompactCostUnit::exactEntry(SearchKey cost) {
-  const SearchKey diagonal = cost % kStraightKey * kDiagonalKeyInverse % kStraightKey;
-  if (diagonal > kMostDiagonal) return kNoCompactCost;
-  const SearchKey straight = (cost - diagonal * kDiagonalKey) / kStraightKey;
-  if (straight > kNoCompactCost / kStraight) return kNoCompactCost;
-  const SearchKey entry = straight * kStraight + diagonal * kDiagonal;
+  const costmap::ExactCost exact = exactCostOf(cost, kWideScale);
+  if (exact.diagonal > kMostDiagonal) return kNoCompactCost;
+  if (exact.straight > kNoCompactCost / kStraight) return kNoCompactCost;
+  const std::int64_t entry = exact.straight * kStraight + exact.diagonal * kDiagonal;
   return entry < kNoCompactCost ? static_cast<CompactCost>(entry) : kNoCompactCost;
 }
 

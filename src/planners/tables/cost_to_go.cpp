@@ -22,11 +22,6 @@ using grid::GridGeometry;
 
 namespace {
 
-// One bit less than the integers that hold them. Diagonal parts stay below `straight`, so the order
-// is exact.
-constexpr KeyScale kNarrowLabels = {33461, 47321, SearchKey{33461} * 47321 - 1};
-constexpr KeyScale kWideLabels = {kStraightKey, kDiagonalKey, (SearchKey{1} << 63) - 1};
-
 void check(const CostGrid& map, const std::vector<Cell>& goals, int threads) {
   std::ostringstream complaint;
   if (goals.empty()) complaint << "a cost-to-go needs a goal, got none";
@@ -49,25 +44,18 @@ bool narrowLikely(const CostGrid& map) {
   }
   const std::size_t mean = sum / std::max<std::size_t>(passable, 1);
   const auto sides = static_cast<std::size_t>(map.geometry().width()) + map.geometry().height();
-  return mean * sides / 2 <= kNarrowLabels.largest / kNarrowLabels.straight;
+  return mean * sides / 2 <= kSmallScale.largest / kSmallScale.straight;
 }
 
+// Throws Stopped and TooExpensive.
 template <class Label>
-bool flood(const CostGrid& map, const KeyScale& scale, const std::vector<Cell>& goals, int threads,
+void flood(const CostGrid& map, const KeyScale& scale, const std::vector<Cell>& goals, int threads,
            const StopToken& stop, ZeroedArray<Label>& labels) {
   labels = ZeroedArray<Label>(TileLayout::tiles(map.geometry()) * TileLayout::kCells);
   TiledDijkstra<Label> flood(map, labels, scale, stop);
   for (const Cell goal : goals)
     if (map.passable(goal)) flood.addGoal(goal);
-  return flood.run(threads);
-}
-
-// The inverse of diagonal modulo straight: diagonal^2 = 2 straight^2 + 1, or - 1 for a convergent
-// from below.
-SearchKey inverseOfDiagonal(const KeyScale& scale) {
-  const SearchKey rest = scale.diagonal % scale.straight;
-  const bool from_above = scale.straight == kWideLabels.straight;
-  return from_above ? rest : scale.straight - rest;
+  flood.run(threads);
 }
 
 }  // namespace
@@ -80,13 +68,19 @@ std::size_t CostToGo::bytesFor(const GridGeometry& geometry) {
 CostToGo::CostToGo(std::shared_ptr<const CostGrid> map, const std::vector<Cell>& goals, int threads,
                    const StopToken& stop)
     : map_(std::move(map)),
-      scale_(kNarrowLabels),
+      scale_(kSmallScale),
       tiles_across_(TileLayout::along(map_->geometry().width())) {
   check(*map_, goals, threads);
-  if (narrowLikely(*map_) && flood(*map_, scale_, goals, threads, stop, narrow_)) return;
-  narrow_ = ZeroedArray<std::uint32_t>();
-  scale_ = kWideLabels;
-  if (!flood(*map_, scale_, goals, threads, stop, wide_)) throw CostOverflow();
+  if (narrowLikely(*map_)) {
+    try {
+      flood(*map_, scale_, goals, threads, stop, narrow_);
+      return;
+    } catch (const TooExpensive&) {
+      narrow_ = ZeroedArray<std::uint32_t>();
+    }
+  }
+  scale_ = kLabelScale;
+  flood(*map_, scale_, goals, threads, stop, wide_);
 }
 
 std::size_t CostToGo::positionOf(Cell cell) const {
@@ -101,13 +95,9 @@ std::size_t CostToGo::bytes() const {
   return narrow_.size() * sizeof(std::uint32_t) + wide_.size() * sizeof(std::uint64_t);
 }
 
-// key = A straight + B diagonal has one solution with B < straight.
 ExactCost CostToGo::inCells(Cell cell) const {
   assert(reached(cell));
-  const SearchKey whole = key(cell);
-  const SearchKey diagonal = whole % scale_.straight * inverseOfDiagonal(scale_) % scale_.straight;
-  return {static_cast<std::int64_t>((whole - diagonal * scale_.diagonal) / scale_.straight),
-          static_cast<std::int64_t>(diagonal)};
+  return exactCostOf(key(cell), scale_);
 }
 
 SearchKey CostToGo::keyIn(const KeyScale& scale, Cell cell) const {

@@ -33,7 +33,7 @@ class CostToGo {
   static std::size_t bytesFor(const grid::GridGeometry& geometry);
 
   // Goals that are blocked are reached from nowhere. Throws InputError for no goal, one outside the
-  // map and threads < 1; Stopped; CostOverflow for costs from 2.9e9 on.
+  // map and threads < 1; Stopped; TooExpensive for costs from 2.9e9 on.
   CostToGo(std::shared_ptr<const costmap::CostGrid> map, const std::vector<grid::Cell>& goals,
            int threads, const base::StopToken& stop);
 

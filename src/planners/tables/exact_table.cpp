@@ -25,7 +25,7 @@ ExactTable::ExactTable(const CostGrid& map, const StopToken& stop)
     if (map.weights().values()[goal] == CostGrid::kBlocked) continue;
     try {
       from.run(static_cast<std::uint32_t>(goal));
-    } catch (const CostOverflow&) {
+    } catch (const TooExpensive&) {
       continue;  // the row stays 0
     }
     if (write(from.costs(), goal)) continue;

@@ -71,7 +71,7 @@ class LandmarkTable::Making {
         sizes_(map.geometry().size()),
         children_(map.geometry().size()) {}
 
-  // Throws Stopped and CostOverflow.
+  // Throws Stopped and TooExpensive.
   void run(int landmarks) {
     if (choose(landmarks)) return;
     chooseUnit();
@@ -235,7 +235,7 @@ LandmarkTable::LandmarkTable(const CostGrid& map, int landmarks, const StopToken
   while (reinterpret_cast<std::uintptr_t>(rows_) % 64 != 0) ++rows_;
   try {
     Making(*this, map, stop).run(landmarks);
-  } catch (const CostOverflow&) {
+  } catch (const TooExpensive&) {
     memory_.clear();
     landmarks_.clear();
   }

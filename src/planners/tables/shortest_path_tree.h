@@ -22,7 +22,7 @@ class ShortestPathTree {
   // Both outlive this. Throws Stopped.
   ShortestPathTree(const costmap::CostGrid& map, const base::StopToken& stop);
 
-  // Throws Stopped and CostOverflow.
+  // Throws Stopped and TooExpensive.
   void run(std::uint32_t start);
 
   // Of the last run; kInfiniteKey where no way leads.

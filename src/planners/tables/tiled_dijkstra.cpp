@@ -36,14 +36,14 @@ void TiledDijkstra<Label>::addGoal(Cell goal) {
 }
 
 template <class Label>
-bool TiledDijkstra<Label>::run(int threads) {
+void TiledDijkstra<Label>::run(int threads) {
   std::vector<std::thread> others;
   for (int i = 1; i < threads; ++i) others.emplace_back([this] { workSafely(); });
   workSafely();
   for (std::thread& other : others) other.join();
   if (failure_) std::rethrow_exception(failure_);
   if (reason_ != StopReason::NONE) throw Stopped(reason_);
-  return !too_dear_;
+  if (too_expensive_) throw TooExpensive();
 }
 
 template <class Label>
@@ -96,9 +96,9 @@ void TiledDijkstra<Label>::work() {
     if (tile.least != kInfiniteKey) turns_.push({tile.least, index});
     for (const Sent& sent : worker.sent) deliver(sent.tile, sent.offer);
     worker.sent.clear();
-    too_dear_ = too_dear_ || worker.too_dear;
+    too_expensive_ = too_expensive_ || worker.too_expensive;
     if (reason != StopReason::NONE) reason_ = reason;
-    ended_ = ended_ || too_dear_ || reason_ != StopReason::NONE;
+    ended_ = ended_ || too_expensive_ || reason_ != StopReason::NONE;
     changed_.notify_all();
   }
   changed_.notify_all();
@@ -150,7 +150,7 @@ void TiledDijkstra<Label>::search(std::size_t index, Worker& worker) {
   worker.open.begin(least, tiles_[index].bucket_shift);
   for (const Offer& offer : worker.offers) take(view, offer, worker.open);
   worker.offers.clear();
-  while (!worker.open.empty() && !worker.too_dear) {
+  while (!worker.open.empty() && !worker.too_expensive) {
     const std::uint32_t from = worker.open.pop();
     if ((view.labels[from] & kOpen) != 0) expand(index, view, from, worker);
   }
@@ -205,7 +205,7 @@ void TiledDijkstra<Label>::expand(std::size_t index, const View& view, std::uint
     }
     const Offer offer{cost + length, to, step};
     if (offer.key >= scale_.largest) {
-      worker.too_dear = true;
+      worker.too_expensive = true;
       return;
     }
     if (inside)

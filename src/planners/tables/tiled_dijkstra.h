@@ -52,9 +52,9 @@ class TiledDijkstra {
   // Precondition: the cell lies in the map and is passable.
   void addGoal(grid::Cell goal);
 
-  // Labels every cell from which a way leads to a goal. False where a key would reach the largest.
-  // Throws Stopped, and what a thread threw.
-  bool run(int threads);
+  // Labels every cell from which a path leads to a goal. Throws TooExpensive where a key would
+  // reach the largest, Stopped, and what a thread threw.
+  void run(int threads);
 
  private:
   static constexpr std::uint32_t kSide = TileLayout::kSide;
@@ -83,7 +83,7 @@ class TiledDijkstra {
     BucketQueue open;
     std::vector<Offer> offers;
     std::vector<Sent> sent;
-    bool too_dear = false;
+    bool too_expensive = false;
   };
   // The arrays at a tile's first cell.
   struct View {
@@ -123,7 +123,7 @@ class TiledDijkstra {
   std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;  // outdated ones among them
   int working_ = 0;
   bool ended_ = false;
-  bool too_dear_ = false;
+  bool too_expensive_ = false;
   base::StopReason reason_ = base::StopReason::NONE;
   std::exception_ptr failure_;
 };
