@@ -1,4 +1,4 @@
-// Every state and every way from one to another.
+// Every state and every transition between two.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -25,7 +25,7 @@ Path somePath() {
   return pathOf({{0, 0}, {4, 0, 0, 1}});
 }
 
-// A follower brought into `state`, its vehicle on the way.
+// A follower brought into `state`, its vehicle between two waypoints.
 std::unique_ptr<ClosedLoop> in(FollowState state) {
   FollowerOptions options;
   options.missed_waypoint = MissedPolicy::STOP;

@@ -76,7 +76,7 @@ CONTEXT = {
     "parameters.h": """#include <grid_path_planner/PathPlannerConfig.h>
         #include "grid_path_planner/planning/path_planner.h\"""",
     "path_follower.h": "extern FollowerOptions options; extern Path path; extern double time;"
-                       "extern Pose pose; extern WayCheck check;",
+                       "extern Pose pose; extern PathClearanceCheck check;",
     "heap_on_top_queue.h": "extern SearchKey first, width, key, bound; extern std::uint32_t order, index;"
                        "extern bool (*renew)(HeapOnTopQueue::Entry&);",
     "path_image.h": "extern OccupancyGrid map; extern OccupancyThresholds thresholds; extern Path path;"

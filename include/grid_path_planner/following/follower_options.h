@@ -15,7 +15,7 @@ const std::vector<std::pair<const char*, FollowMode>>& choicesOf(FollowMode);
 enum class MissedPolicy { STOP, SKIP, RETRY };
 const std::vector<std::pair<const char*, MissedPolicy>>& choicesOf(MissedPolicy);
 
-// Where the vehicle looks: as the waypoints say, turning evenly between them, or along the way and
+// Where the vehicle faces: as the waypoints say, turning evenly between them; or along the path, and
 // at a stop as the waypoint says.
 enum class FacingMode { PATH_YAW, ALONG };
 const std::vector<std::pair<const char*, FacingMode>>& choicesOf(FacingMode);
