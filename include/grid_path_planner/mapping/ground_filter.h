@@ -1,4 +1,4 @@
-// Which points of a scan are the floor that a vehicle drives on: a plane found by RANSAC.
+// Which points of a scan are ground: a plane found by RANSAC.
 //
 //   const GroundSplit split = splitGround(points, options);  // points in the vehicle's base frame
 //

@@ -138,7 +138,7 @@ ProjectionOptions projectionOptions(const ProjectedMapOptions& options);
 // Throws InputError naming the option.
 void checkProjectedMapOptions(const ProjectedMapOptions& options);
 
-// What octomap_server's parameters that have no effect here would have done; "" for other names.
-std::string needlessParameter(const std::string& name);
+// Why octomap_server's parameter `name` has no effect here; "" for other names.
+std::string ignoredParameter(const std::string& name);
 
 }  // namespace grid_path_planner::mapping

@@ -1,4 +1,4 @@
-// The fixed surroundings of a simulated vehicle: what it can touch and what its camera sees.
+// The static world of a simulated vehicle: solid surfaces, and surfaces visible to its camera.
 //
 //   const auto world = std::make_shared<const World>(readWorld("worlds/dexrov_site.sdf"));
 //   if (const auto surface = world->nearest(position, 0.3))

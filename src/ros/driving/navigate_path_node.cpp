@@ -56,7 +56,7 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
   if (!options_.config_filename.empty()) file_ = readWaypointFile(options_.config_filename);
   velocity_publisher_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10);
   waypoint_publisher_ = nh_.advertise<geometry_msgs::PoseStamped>("current_waypoint", 1, true);
-  map_.start(nh_, [] {});  // looked at whenever the way ahead is
+  map_.start(nh_, [] {});  // read by every check of the path ahead
 
   using Request = std_srvs::Trigger::Request;
   using Response = std_srvs::Trigger::Response;
@@ -80,7 +80,7 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
   feedback_timer_ =
       nh_.createSteadyTimer(ros::WallDuration(kFeedbackPeriod),
                             [this](const ros::SteadyTimerEvent&) { publishFeedback(); });
-  // By force: the updater's own clock is ROS time, which may jump back.
+  // force_update: the updater's own clock is ROS time, which may jump back.
   diagnostics_timer_ =
       nh_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
                             [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
@@ -112,29 +112,29 @@ void NavigatePathNode::startTimer() {
 }
 
 void NavigatePathNode::onTimer(const ros::SteadyTimerEvent&) {
-  if (!clockIsThere()) return;
+  if (!hasClock()) return;
   const ros::Time now = ros::Time::now();
   if (now == now_) return;  // a clock that stands still
-  if (started_.isZero()) begin(now);
-  watchTime(now);
+  if (started_.isZero()) startDriving(now);
+  checkTimeJump(now);
   now_ = now;
   control(now);
 }
 
-// Time that goes back: paths from before the jump are not of this time.
-void NavigatePathNode::watchTime(const ros::Time& now) {
+// Where time went back, paths from before the jump are out of date.
+void NavigatePathNode::checkTimeJump(const ros::Time& now) {
   if (now >= now_) return;
   ROS_WARN_STREAM("ROS time went back by " << (now_ - now).toSec()
                                            << " s: tf is cleared and the drive cancelled");
   frames_.clear();
   FollowInput without_pose;
   without_pose.time = now.toSec();
-  publishVelocity(follower_.update(without_pose));  // sees it too, and cancels
+  publishVelocity(follower_.update(without_pose));  // cancels, since time went back
   reportEvents();
   started_ = now_ = now;
 }
 
-bool NavigatePathNode::clockIsThere() {
+bool NavigatePathNode::hasClock() {
   if (ros::Time::isValid()) {
     if (warned_about_clock_) ROS_INFO("/clock is there");
     warned_about_clock_ = false;
@@ -148,8 +148,8 @@ bool NavigatePathNode::clockIsThere() {
   return false;
 }
 
-// Only now is it known which paths are from before.
-void NavigatePathNode::begin(const ros::Time& now) {
+// With the first ROS time, which tells older paths from newer ones.
+void NavigatePathNode::startDriving(const ros::Time& now) {
   started_ = now;
   if (options_.config_filename.empty()) {
     path_subscriber_ = nh_.subscribe("path", 1, &NavigatePathNode::onPath, this);
@@ -166,17 +166,17 @@ void NavigatePathNode::control(const ros::Time& now) {
     input.pose = frames_.pose(options_.base_frame, follower_.path().frame_id, now,
                               options_.tf_timeout, input.pose_problem);
   if (options_.check_map)
-    input.check = [this](const std::vector<Eigen::Vector3d>& way) { return whyOccupied(way); };
+    input.check = [this](const std::vector<Eigen::Vector3d>& ahead) { return whyOccupied(ahead); };
   publishVelocity(follower_.update(input));
   reportEvents();
   publishWaypoint(now);
 }
 
-std::string NavigatePathNode::whyOccupied(const std::vector<Eigen::Vector3d>& way) const {
+std::string NavigatePathNode::whyOccupied(const std::vector<Eigen::Vector3d>& ahead) const {
   const ReceivedMap map = map_.latest();
   if (!map.grid) return "";
   try {
-    const auto points = frames_.points(way, follower_.path().frame_id, map.frame_id);
+    const auto points = frames_.points(ahead, follower_.path().frame_id, map.frame_id);
     const auto cell =
         firstOccupied(*map.grid, options_.occupied_min, points, options_.check_radius);
     if (!cell) return "";
@@ -190,7 +190,7 @@ std::string NavigatePathNode::whyOccupied(const std::vector<Eigen::Vector3d>& wa
 }
 
 void NavigatePathNode::onPath(const nav_msgs::Path& message) {
-  watchTime(ros::Time::now());
+  checkTimeJump(ros::Time::now());
   if (message.header.stamp < started_ && !options_.follow_latched) {
     ROS_WARN_STREAM("A path stamped " << message.header.stamp << " is not driven: navigate_path "
                                       << "started at " << started_

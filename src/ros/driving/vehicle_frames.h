@@ -1,4 +1,4 @@
-// What navigate_path asks tf: where the vehicle is, and poses of one frame in another.
+// The transforms of navigate_path: the vehicle's pose, and poses of one frame in another.
 #pragma once
 
 #include <nav_msgs/Path.h>
@@ -18,8 +18,8 @@ class VehicleFrames {
  public:
   explicit VehicleFrames(const ros::NodeHandle& nh);
 
-  // The newest pose of `vehicle` in `frame`; none where tf has none, or none that is within
-  // `timeout` seconds of `now`: then `why` says so.
+  // The newest pose of `vehicle` in `frame`; none where tf has no pose within `timeout` seconds of
+  // `now`: then `why` is the reason.
   std::optional<path::Pose> pose(const std::string& vehicle, const std::string& frame,
                                  const ros::Time& now, double timeout, std::string& why) const;
 
@@ -28,7 +28,7 @@ class VehicleFrames {
   // it knows `vehicle`), poses that cannot be transformed, and what pathFromMessage refuses.
   path::Path pathIn(const nav_msgs::Path& message, const std::string& vehicle) const;
 
-  // Points of the frame `from` in the frame `to`. Throws InputError where tf has no way.
+  // Points of the frame `from` in the frame `to`. Throws InputError where tf has no transform.
   std::vector<Eigen::Vector3d> points(std::vector<Eigen::Vector3d> points, const std::string& from,
                                       const std::string& to) const;
 
