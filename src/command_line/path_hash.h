@@ -1,7 +1,7 @@
 // One number for the answers of a run of queries: equal where every status, path and cost is equal.
 //
 //   PathHash hash;
-//   hash.add(planner.plan(request, stop));
+//   hash.add(planner.search(request, stop));
 //   std::puts(hash.text().c_str());  // 16 hexadecimal digits
 //
 // Hashes integers, by FNV-1a: cells, points in units of SegmentPoint, exact costs. The cost of

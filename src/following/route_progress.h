@@ -2,7 +2,7 @@
 //
 //   RouteProgress progress(path, Join::NEAREST, options, events);
 //   progress.join(pose);                               // the route starts at the vehicle
-//   if (const auto ending = progress.advance(pose, time)) ...  // arrived, or failed
+//   if (const auto ending = progress.advance(pose, time)) use(*ending);  // arrived, or failed
 //   controller.follow(progress.position(pose.position), pose, seconds);
 //
 // Guaranteed: every waypoint is reported as reached or as missed, once in a lap, or lies before the
@@ -39,7 +39,7 @@ class RouteProgress {
   const std::vector<int>& missed() const { return missed_; }
 
   bool joined() const { return route_ != nullptr; }
-  // Begins the route at `vehicle`.
+  // Starts the route at `vehicle`.
   void join(const path::Pose& vehicle);
   // After a change of the options.
   void updateRoute();
@@ -49,9 +49,9 @@ class RouteProgress {
   // Goes to the next segment as often as the end of the present one has been reached or passed, and
   // watches for progress.
   std::optional<DriveEnd> advance(const path::Pose& vehicle, double time);
-  // The vehicle does not drive: the time that it takes counts as no lack of progress.
+  // The vehicle does not drive: this time does not count as lack of progress ...
   void restartProgress() { progress_since_.reset(); }
-  // Nor as time that it stood at a stop.
+  // ... nor as time spent at a stop.
   void restartSettling() { settled_since_.reset(); }
 
   RoutePosition position(const Eigen::Vector3d& vehicle) const;

@@ -88,7 +88,7 @@ TEST(Drive, LooksAsTheWaypointsSay) {
   EXPECT_NEAR(loop.pose().yaw, 1.2, 0.06);
 }
 
-TEST(Drive, LooksAlongTheWayAndAtTheEndAsTheWaypointSays) {
+TEST(Drive, FacesAlongThePathAndAtTheEndAsTheWaypointSays) {
   FollowerOptions options;
   options.facing = FacingMode::ALONG;
   ClosedLoop loop(options);
@@ -266,7 +266,7 @@ TEST(Drive, LeavesAVehicleAloneThatItNeedNotHold) {
   EXPECT_EQ(loop.pose().position.x(), 2.5);
 }
 
-TEST(Drive, TheWayAheadIsWhatIsStillToBeDriven) {
+TEST(Drive, ThePathAheadIsWhatIsStillToBeDriven) {
   FollowerOptions options;
   options.lookahead = 2.5;
   ClosedLoop loop(options);

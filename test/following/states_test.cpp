@@ -138,7 +138,7 @@ TEST(States, ALostPoseStopsAndAPoseThatIsBackGoesOn) {
   EXPECT_EQ(loop->waypointsOf(Kind::UNBLOCKED).size(), 1u);
 }
 
-TEST(States, AnOccupiedWayStopsAndAFreeOneGoesOn) {
+TEST(States, AnOccupiedPathStopsAndAFreeOneGoesOn) {
   const auto loop = in(FollowState::DRIVING);
   std::string why = "a crate at 2, 0";
   loop->check = [&](const std::vector<Eigen::Vector3d>&) { return why; };
@@ -150,7 +150,7 @@ TEST(States, AnOccupiedWayStopsAndAFreeOneGoesOn) {
   EXPECT_TRUE(loop->runUntilState(FollowState::ARRIVED));
 }
 
-TEST(States, AnOccupiedWayIsSeenBeforeTheFirstMotion) {
+TEST(States, AnOccupiedPathIsFoundBeforeTheFirstMotion) {
   ClosedLoop loop;
   loop.check = [](const std::vector<Eigen::Vector3d>&) { return std::string("a crate"); };
   loop.follower.start(somePath(), Join::NEAREST);

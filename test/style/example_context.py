@@ -134,7 +134,7 @@ CONTEXT = {
     "weighted_jump_map.h": "extern const CostGrid& map; extern Cell cell, goal; extern std::uint32_t index;"
                            "extern const CostGrid::Weight* weights; constexpr unsigned kEast = 0;",
     "weighted_jump_search.h": "extern const CostGrid& map; extern SearchRequest request;",
-    "world.h": """#include "grid_path_planner/simulation/world_file.h"
+    "world.h": """
         #include <iostream>
         extern Eigen::Vector3d position;""",
 }

@@ -15,10 +15,15 @@
 #include <vector>
 
 #include "grid_path_planner/base/options.h"
-#include "grid_path_planner/mapping/ground_filter.h"
 #include "grid_path_planner/mapping/scan.h"
 
 namespace grid_path_planner::mapping {
+
+struct GroundFilterOptions {
+  double distance = 0.04;        // m
+  double angle = 0.15;           // rad
+  double plane_distance = 0.07;  // m
+};
 
 struct CloudFilterOptions {
   double min_x = -1e6;  // m, frame of the tree

@@ -1,4 +1,4 @@
-#include "grid_path_planner/mapping/ground_filter.h"
+#include "mapping/insertion/ground_filter.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

@@ -7,16 +7,14 @@
 
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "grid_path_planner/simulation/world_file.h"
+#include "grid_path_planner/simulation/world.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
 
 using base::InputError;
 using grid::OccupancyGrid;
-using simulation::checkSimulatorOptions;
 using simulation::readWorld;
-using simulation::SimulatorOptions;
 using simulation::Vehicle;
 using simulation::VehicleState;
 using simulation::World;

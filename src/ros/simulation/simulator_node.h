@@ -29,10 +29,10 @@
 #include <memory>
 
 #include "grid_path_planner/simulation/dead_reckoning.h"
-#include "grid_path_planner/simulation/simulator_options.h"
 #include "grid_path_planner/simulation/vehicle.h"
 #include "ros/simulation/contact_publisher.h"
 #include "ros/simulation/depth_camera_publisher.h"
+#include "ros/simulation/simulator_options.h"
 #include "ros/simulation/vehicle_publisher.h"
 
 namespace grid_path_planner {
@@ -55,9 +55,9 @@ class SimulatorNode {
 
  private:
   void loadWorld();
-  void use(const simulation::SimulatorOptions& options);
-  void updateCamera(const simulation::SimulatorOptions& options);
-  void resetVehicle(const simulation::SimulatorOptions& options);
+  void use(const SimulatorOptions& options);
+  void updateCamera(const SimulatorOptions& options);
+  void resetVehicle(const SimulatorOptions& options);
   void startTimer();
 
   void onCommand(const geometry_msgs::Twist& message);
@@ -71,7 +71,7 @@ class SimulatorNode {
   ros::Time now() const;
 
   ros::NodeHandle nh_;
-  simulation::SimulatorOptions options_;
+  SimulatorOptions options_;
   std::unique_ptr<simulation::Vehicle> vehicle_;
   simulation::DeadReckoning odometry_;
   std::shared_ptr<const simulation::World> world_;  // none: only the map's obstacles
@@ -86,7 +86,7 @@ class SimulatorNode {
   ros::Subscriber command_subscriber_;
   ros::Subscriber map_subscriber_;
   ros::SteadyTimer timer_;
-  std::unique_ptr<Reconfigurable<SimulatorConfig, simulation::SimulatorOptions>> reconfigurable_;
+  std::unique_ptr<Reconfigurable<SimulatorConfig, SimulatorOptions>> reconfigurable_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -11,16 +11,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <vector>
 
-namespace grid_path_planner::mapping {
+#include "grid_path_planner/mapping/cloud_filter.h"
 
-struct GroundFilterOptions {
-  double distance = 0.04;        // m
-  double angle = 0.15;           // rad
-  double plane_distance = 0.07;  // m
-};
+namespace grid_path_planner::mapping {
 
 struct GroundSplit {
   std::vector<bool> is_ground;  // one a point
