@@ -10,11 +10,14 @@
 #include <vector>
 
 #include "grid_path_planner/simulation/depth_camera.h"
-#include "grid_path_planner/simulation/world_file.h"
+#include "grid_path_planner/simulation/world.h"
 
 namespace {
 
-using namespace grid_path_planner::simulation;
+using grid_path_planner::simulation::DepthCamera;
+using grid_path_planner::simulation::DepthCameraOptions;
+using grid_path_planner::simulation::readWorld;
+using grid_path_planner::simulation::World;
 
 double cpuSeconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;

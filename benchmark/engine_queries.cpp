@@ -36,12 +36,32 @@
 
 namespace {
 
-using namespace grid_path_planner::base;
-using namespace grid_path_planner::costmap;
-using namespace grid_path_planner::grid;
-using namespace grid_path_planner::planners;
-using namespace grid_path_planner::planning;
-using namespace grid_path_planner::study;
+using grid_path_planner::base::choiceFromName;
+using grid_path_planner::base::inflated;
+using grid_path_planner::base::InputError;
+using grid_path_planner::base::numberFromText;
+using grid_path_planner::base::StopToken;
+using grid_path_planner::costmap::CostGrid;
+using grid_path_planner::costmap::CostmapBuilder;
+using grid_path_planner::costmap::CostmapOptions;
+using grid_path_planner::grid::Cell;
+using grid_path_planner::grid::CellRect;
+using grid_path_planner::grid::Grid;
+using grid_path_planner::grid::GridGeometry;
+using grid_path_planner::grid::OccupancyGrid;
+using grid_path_planner::grid::readMapFile;
+using grid_path_planner::planners::BackgroundWork;
+using grid_path_planner::planners::Heuristic;
+using grid_path_planner::planners::makePlanner;
+using grid_path_planner::planners::Planner;
+using grid_path_planner::planners::plannerNames;
+using grid_path_planner::planners::prepared;
+using grid_path_planner::planners::SearchOptions;
+using grid_path_planner::planners::SearchResult;
+using grid_path_planner::planning::PlannerOptions;
+using grid_path_planner::study::readScenarioFile;
+using grid_path_planner::study::ScenarioQuery;
+using grid_path_planner::study::spreadOver;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kInflationWeight = 40;
@@ -191,7 +211,7 @@ int runAll(const Arguments& arguments) {
   const std::vector<ScenarioQuery> queries =
       spreadOver(readScenarioFile(arguments.text("--scen")),
                  static_cast<std::size_t>(arguments.number("--limit")));
-  std::cout << "map cells " << map->geometry().size() << " cheapest " << map->minWeight() << '\n';
+  std::cout << "map cells " << map->geometry().size() << " min weight " << map->minWeight() << '\n';
   std::istringstream subjects(arguments.text("--planner"));
   for (std::string subject; std::getline(subjects, subject, ',');) run(subject, map, queries);
   return 0;

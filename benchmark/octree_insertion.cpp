@@ -28,12 +28,17 @@
 
 #include "grid_path_planner/mapping/octree_map.h"
 #include "grid_path_planner/simulation/depth_camera.h"
-#include "grid_path_planner/simulation/world_file.h"
+#include "grid_path_planner/simulation/world.h"
 
 namespace {
 
-using namespace grid_path_planner::mapping;
-using namespace grid_path_planner::simulation;
+using grid_path_planner::mapping::OctreeMap;
+using grid_path_planner::mapping::OctreeOptions;
+using grid_path_planner::mapping::Scan;
+using grid_path_planner::simulation::DepthCamera;
+using grid_path_planner::simulation::DepthCameraOptions;
+using grid_path_planner::simulation::readWorld;
+using grid_path_planner::simulation::World;
 
 struct Series {
   std::string name;

@@ -4,7 +4,7 @@
 //
 // Without a file on a seabed with posts that is mapped here. In every round 1 % of the known
 // columns get one voxel more or less: those of one patch, as a sensor's frame has it, or scattered
-// over the map. Both ways then make the grid, which is compared cell by cell; the times are taken
+// over the map. Both programs then make the grid, which is compared cell by cell; the times are taken
 // by turns. Prints the medians; exit code 1 where a cell differs.
 #include <algorithm>
 #include <chrono>
@@ -20,8 +20,17 @@
 
 namespace {
 
-using namespace grid_path_planner::grid;
-using namespace grid_path_planner::mapping;
+using grid_path_planner::grid::Cell;
+using grid_path_planner::grid::GridGeometry;
+using grid_path_planner::grid::OccupancyGrid;
+using grid_path_planner::mapping::Brick;
+using grid_path_planner::mapping::BrickColumn;
+using grid_path_planner::mapping::OctreeMap;
+using grid_path_planner::mapping::OctreeOptions;
+using grid_path_planner::mapping::Projection;
+using grid_path_planner::mapping::ProjectionOptions;
+using grid_path_planner::mapping::Scan;
+using grid_path_planner::mapping::Voxel;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kResolution = 0.1;
@@ -62,7 +71,7 @@ OctreeMap mappedSeabed() {
   return map;
 }
 
-// ---- octomap_server's way
+// ---- as octomap_server does it
 
 void write(OccupancyGrid& grid, const Column& first, int x, int y, bool occupied) {
   const Cell cell{x - first.x, y - first.y};

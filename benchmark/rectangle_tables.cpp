@@ -29,11 +29,28 @@
 
 namespace {
 
-using namespace grid_path_planner::base;
-using namespace grid_path_planner::costmap;
-using namespace grid_path_planner::grid;
-using namespace grid_path_planner::path;
-using namespace grid_path_planner::planners;
+using grid_path_planner::base::Status;
+using grid_path_planner::base::StopToken;
+using grid_path_planner::costmap::Connectivity;
+using grid_path_planner::costmap::CostGrid;
+using grid_path_planner::costmap::CostmapBuilder;
+using grid_path_planner::costmap::CostmapOptions;
+using grid_path_planner::grid::Cell;
+using grid_path_planner::grid::MapFileOptions;
+using grid_path_planner::grid::OccupancyGrid;
+using grid_path_planner::grid::readMapFile;
+using grid_path_planner::path::PictureContent;
+using grid_path_planner::path::writePicture;
+using grid_path_planner::planners::largestFirst;
+using grid_path_planner::planners::makePlanner;
+using grid_path_planner::planners::MapSizes;
+using grid_path_planner::planners::mapSizes;
+using grid_path_planner::planners::Planner;
+using grid_path_planner::planners::RectangleGraph;
+using grid_path_planner::planners::RectangleWeight;
+using grid_path_planner::planners::SearchOptions;
+using grid_path_planner::planners::SearchResult;
+using grid_path_planner::planners::Touching;
 
 bool failed = false;
 
@@ -42,7 +59,7 @@ bool failed = false;
 struct Drawing {
   const char* name;
   double side;            // m
-  double from_x, from_y;  // m; the way across
+  double from_x, from_y;  // m; the path across the map
   double to_x, to_y;
 };
 
@@ -148,7 +165,7 @@ Cell nearestFree(const CostGrid& map, double x, double y) {
   return nearest.value();
 }
 
-// The way across, and pairs of free cells drawn at random.
+// The path across the map, and pairs of free cells drawn at random.
 std::vector<Query> queriesOn(const CostGrid& map, const Drawing& drawing) {
   constexpr int kRandom = 100;
   std::vector<Query> queries = {{nearestFree(map, drawing.from_x, drawing.from_y),
@@ -181,7 +198,7 @@ struct Measured {
   std::size_t connections = 0;
   std::vector<double> lengths;  // cells; of each query, -1 where there is no path
   std::vector<double> plan_ms;
-  std::size_t expanded = 0;  // on the way across
+  std::size_t expanded = 0;  // for the path across the map
 };
 
 // Pairs of free cells that share a side.
@@ -277,7 +294,7 @@ double meanOf(const std::vector<double>& values, const Measured& measured) {
 }
 
 // The mean of length over the shortest.
-double meanDetour(const Measured& measured, const Measured& shortest) {
+double meanExcess(const Measured& measured, const Measured& shortest) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < measured.lengths.size(); ++i) {
     if ((measured.lengths[i] < 0.0) != (shortest.lengths[i] < 0.0)) failed = true;
@@ -296,7 +313,7 @@ void printPlanning(const std::string& folder, const Drawing& drawing, int cells,
 
   std::printf("### %s, %d×%d\n\n", drawing.name, cells, cells);
   std::printf(
-      "| | elements | connections | prepared | way across: expanded | time | length | through the "
+      "| | elements | connections | prepared | across: expanded | time | length | through the "
       "middles | 100 pairs: mean time | length ÷ shortest | through the middles |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Contender& contender : contenders) {
@@ -309,8 +326,8 @@ void printPlanning(const std::string& folder, const Drawing& drawing, int cells,
       plain = measure(throughTheMiddles(contender), map, queries);
     if (plain) std::printf("%.1f", plain->lengths.front());
     std::printf(" | %.1f µs | %.3f | ", 1e3 * meanOf(measured.plan_ms, measured),
-                meanDetour(measured, shortest));
-    if (plain) std::printf("%.3f", meanDetour(*plain, shortest));
+                meanExcess(measured, shortest));
+    if (plain) std::printf("%.3f", meanExcess(*plain, shortest));
     std::printf(" |\n");
   }
   std::printf("\n");

@@ -1,4 +1,4 @@
-// Replanning on the way: update, inflation and plan after a sensed change, against a fresh A*.
+// Replanning while driving: update, inflation and plan after a sensed change, against a fresh A*.
 //
 //   grid_path_planner_replanning [--side N] [--edits N] [--seed N] [--rounds N] [--csv FILE]
 //
@@ -30,10 +30,18 @@
 
 namespace {
 
-using namespace grid_path_planner::base;
-using namespace grid_path_planner::costmap;
-using namespace grid_path_planner::grid;
-using namespace grid_path_planner::planners;
+using grid_path_planner::base::Status;
+using grid_path_planner::base::StopToken;
+using grid_path_planner::costmap::CostmapBuilder;
+using grid_path_planner::costmap::CostmapOptions;
+using grid_path_planner::grid::Cell;
+using grid_path_planner::grid::CellRect;
+using grid_path_planner::grid::copyCells;
+using grid_path_planner::grid::DoubleBuffered;
+using grid_path_planner::grid::GridGeometry;
+using grid_path_planner::grid::OccupancyGrid;
+using grid_path_planner::planners::AStar;
+using grid_path_planner::planners::SearchResult;
 
 constexpr int kSensorRange = 60;  // cells
 constexpr int kClearOfEnds = 20;  // cells between an obstacle and the vehicle or the goal

@@ -32,7 +32,7 @@ std::string flagOf(std::string name) {
   return name;
 }
 
-// Writes one option's text into its place.
+// Parses the text of one option into its value.
 struct FromText {
   const po::variables_map& values;
 
@@ -56,7 +56,7 @@ std::vector<std::string> hyphenated(int argc, char** argv) {
   return arguments;
 }
 
-// "--start and --goal are", of the required options; empty: all are there.
+// "--start and --goal are" for the required options that are missing; empty: none is.
 std::string missingOf(const po::options_description& known, const po::variables_map& values) {
   std::vector<std::string> missing;
   for (const auto& option : known.options())
@@ -152,8 +152,8 @@ void warnAboutUnusedOption(const std::string& option, const std::string& with) {
 }
 
 void warnAboutUnusedOptions(const PlannerOptions& options) {
-  for (const UnusedOption& each : unusedOptions(options))
-    warnAboutUnusedOption(each.name, each.with);
+  for (const UnusedOption& unused : unusedOptions(options))
+    warnAboutUnusedOption(unused.name, unused.with);
 }
 
 }  // namespace grid_path_planner::command_line

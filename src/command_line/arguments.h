@@ -1,4 +1,4 @@
-// Command lines read with Boost.Program_options, in the one way that all commands share.
+// Command lines read with Boost.Program_options, for all commands.
 #pragma once
 
 #include <boost/program_options.hpp>
@@ -11,14 +11,13 @@
 
 namespace grid_path_planner::command_line {
 
-// What --map reads, for its help.
+// The formats that --map reads, for its help.
 constexpr const char* kMapFiles =
     "map_server YAML, MovingAI .map, image, drawing (vector_map YAML), rectangles, rostopic echo "
     "dump or bag";
 
 // Long options only, so that negative numbers parse as values. Prints the help and returns false
-// where
-// --help is given. Throws boost::program_options::error for what it does not know.
+// for --help. Throws boost::program_options::error for unknown options.
 bool parseArguments(int argc, char** argv, const boost::program_options::options_description& known,
                     const std::string& usage, boost::program_options::variables_map& values);
 
@@ -27,7 +26,7 @@ bool parseArguments(int argc, char** argv, const boost::program_options::options
 std::vector<double> numbersOf(const std::string& name, const std::string& text, std::size_t fewest,
                               std::size_t most);
 
-// What --resolution asks for, and warnings to the standard error. Throws InputError.
+// Options by --resolution, with warnings to the standard error. Throws InputError.
 grid::MapFileOptions readingOptionsFrom(const boost::program_options::variables_map& values);
 
 // Adds an option --some-name for every option some_name of PlannerOptions, and --weights F,U,O.
@@ -37,9 +36,9 @@ void describePlannerOptions(boost::program_options::options_description& known);
 planning::PlannerOptions plannerOptionsFrom(const boost::program_options::variables_map& values,
                                             const planning::PlannerOptions& defaults = {});
 
-// On the standard error: the option changes nothing with that.
+// Prints on the standard error that `option` has no effect with `with`.
 void warnAboutUnusedOption(const std::string& option, const std::string& with);
-// Of all that change nothing with the others.
+// Prints this for every option that has no effect with the others.
 void warnAboutUnusedOptions(const planning::PlannerOptions& options);
 
 }  // namespace grid_path_planner::command_line

@@ -41,7 +41,7 @@ void sleepShortly() {
   std::this_thread::sleep_for(std::chrono::milliseconds(kPollMs));
 }
 
-// Whether a message waits, of any kind from any rank.
+// Whether a message of any tag from any rank has arrived.
 bool waiting(MPI_Status& status) {
   int there = 0;
   const int result = MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
@@ -111,7 +111,7 @@ std::size_t MpiWorkers::busy() const {
 
 void MpiWorkers::start(std::size_t task) {
   const auto rank = std::find_if(others_.begin(), others_.end(),
-                                 [](const Rank& each) { return !each.busy && !each.lost; });
+                                 [](const Rank& other) { return !other.busy && !other.lost; });
   if (rank == others_.end()) {
     local_.start(task);
     return;
@@ -135,7 +135,7 @@ bool MpiWorkers::receive(std::vector<TaskEnd>& ends) {
   return true;
 }
 
-void MpiWorkers::noticeLost(std::vector<TaskEnd>& ends) {
+void MpiWorkers::dropLostRanks(std::vector<TaskEnd>& ends) {
   for (Rank& rank : others_) {
     if (!rank.busy || Clock::now() - rank.heard < kLostAfter) continue;
     rank.busy = false;
@@ -150,7 +150,7 @@ std::vector<TaskEnd> MpiWorkers::wait(int milliseconds) {
   do {
     while (receive(ends)) continue;
     for (TaskEnd& local : local_.wait(local_.busy() > 0 ? kPollMs : 0)) ends.push_back(local);
-    noticeLost(ends);
+    dropLostRanks(ends);
     if (ends.empty() && local_.busy() == 0) sleepShortly();
   } while (ends.empty() && busy() > 0 && Clock::now() < end);
   return ends;

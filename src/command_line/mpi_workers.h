@@ -60,7 +60,7 @@ class MpiWorkers : public study::WorkerGroup {
   };
 
   bool receive(std::vector<study::TaskEnd>& ends);
-  void noticeLost(std::vector<study::TaskEnd>& ends);
+  void dropLostRanks(std::vector<study::TaskEnd>& ends);
 
   study::ProcessPool& local_;
   std::vector<Rank> others_;

@@ -97,7 +97,7 @@ nlohmann::json jsonOf(const Plan& report, double preparation_ms) {
   return object;
 }
 
-// The cells that a picture tints: those of the blocks whose centres were expanded.
+// The cells that a picture tints: those of the expanded blocks.
 std::vector<Cell> cellsOf(const Plan& report, const GridGeometry& geometry) {
   std::vector<Cell> cells;
   for (const Eigen::Vector2d& centre : report.expanded) {
@@ -111,8 +111,8 @@ std::vector<Cell> cellsOf(const Plan& report, const GridGeometry& geometry) {
   return cells;
 }
 
-// Where the planner promises the cheapest path by itself, but not with these options.
-void warnAboutPromise(const PlannerOptions& options) {
+// Where the planner guarantees the least cost by default, but not with these options.
+void warnIfNotOptimal(const PlannerOptions& options) {
   if (options.terrain.kernel != 1 || options.smooth) return;
   if (!traitsOf(options.planner).optimal) return;
   std::cerr << "warning: the path may not be the cheapest: with this heuristic, heuristic_scale or "
@@ -146,7 +146,7 @@ int runPlan(int argc, char** argv) {
   const std::chrono::duration<double, std::milli> prepared =
       std::chrono::steady_clock::now() - begin;
   const Plan report = planner.plan(request);
-  if (report.status == Status::FOUND && !report.optimal) warnAboutPromise(options);
+  if (report.status == Status::FOUND && !report.optimal) warnIfNotOptimal(options);
 
   if (values.count("image") != 0)
     writePicture(values["image"].as<std::string>(), *map, options.terrain.thresholds,

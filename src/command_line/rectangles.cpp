@@ -20,16 +20,16 @@ int runRectangles(int argc, char** argv) {
   if (!parseArguments(argc, argv, describeRectangles(), "grid_path rectangles --map FILE [options]",
                       values))
     return 0;
-  const RectangleQuestion question = rectangleQuestionFrom(values);
-  const OccupancyGrid map = readAnyMapFile(question.map, question.reading);
-  const RectangleAnswer answer = answerOf(question, map);
-  if (values.count("image") != 0) draw(values["image"].as<std::string>(), question, answer, map);
+  const RectanglesRequest request = rectanglesRequestFrom(values);
+  const OccupancyGrid map = readAnyMapFile(request.map, request.reading);
+  const RectanglesResult result = cutIntoRectangles(request, map);
+  if (values.count("image") != 0) draw(values["image"].as<std::string>(), request, result, map);
   if (values.count("output") != 0)
-    writeRectangleFile(values["output"].as<std::string>(), answer.map);
+    writeRectangleFile(values["output"].as<std::string>(), result.map);
   if (values.count("json") != 0)
-    std::cout << jsonOf(question, answer).dump() << '\n';
+    std::cout << jsonOf(request, result).dump() << '\n';
   else
-    print(question, answer);
+    print(request, result);
   return 0;
 }
 

@@ -22,9 +22,9 @@ using planners::RectangleWeight;
 
 namespace {
 
-// Lines that still are read: of more, only the first few are told.
-constexpr std::size_t kMostTold = 40;
-constexpr std::size_t kFewTold = 10;
+// Up to kMostLines connections are printed; of more, the first kFewLines.
+constexpr std::size_t kMostLines = 40;
+constexpr std::size_t kFewLines = 10;
 
 nlohmann::json jsonOf(const MapSizes& sizes) {
   return {{"entire_map", sizes.entire_map},
@@ -41,17 +41,17 @@ std::string counted(std::size_t number, const std::string& thing) {
 
 void printConnections(const RectangleGraph& map, RectangleWeight weight) {
   const std::size_t count = map.connections().count();
-  const std::size_t told = count <= kMostTold ? count : kFewTold;
+  const std::size_t shown = count <= kMostLines ? count : kFewLines;
   std::size_t number = 0;
   visitConnections(map, [&](std::uint32_t from, const Connection& step) {
-    if (++number > told) return;
+    if (++number > shown) return;
     std::cout << from + 1 << " -> " << step.to + 1 << ": " << weightOf(map, weight, from, step)
               << '\n';
   });
-  if (told < count) std::cout << "... and " << count - told << " more: --json tells them all\n";
+  if (shown < count) std::cout << "... and " << count - shown << " more: --json tells them all\n";
 }
 
-// Of the border that two rectangles share, or their corner, in cells.
+// The middle of the border that two rectangles share, or their corner, in cells.
 Eigen::Vector2d middleOfBorder(const CellRect& a, const CellRect& b) {
   const auto middle = [](int begin_a, int size_a, int begin_b, int size_b) {
     return 0.5 * (std::max(begin_a, begin_b) + std::min(begin_a + size_a, begin_b + size_b));
@@ -73,48 +73,48 @@ std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> linksOf(const Rectangle
 
 }  // namespace
 
-nlohmann::json jsonOf(const RectangleQuestion& question, const RectangleAnswer& answer) {
+nlohmann::json jsonOf(const RectanglesRequest& request, const RectanglesResult& result) {
   nlohmann::json rectangles = nlohmann::json::array();
-  for (const CellRect& rect : answer.in_file)
+  for (const CellRect& rect : result.in_file)
     rectangles.push_back({rect.column, rect.row, rect.width, rect.height});
-  nlohmann::json object = {{"cells", answer.map.geometry().size()},
-                           {"cells_in_rectangles", answer.map.freeCells()},
-                           {"count", answer.in_file.size()},
-                           {"connections", answer.map.connections().count() / 2},
-                           {"bytes", answer.sizes.file},
-                           {"sizes", jsonOf(answer.sizes)},
-                           {"time_ms", answer.time_ms},
+  nlohmann::json object = {{"cells", result.map.geometry().size()},
+                           {"cells_in_rectangles", result.map.freeCells()},
+                           {"count", result.in_file.size()},
+                           {"connections", result.map.connections().count() / 2},
+                           {"bytes", result.sizes.file},
+                           {"sizes", jsonOf(result.sizes)},
+                           {"time_ms", result.time_ms},
                            {"rectangles", std::move(rectangles)}};
-  if (!question.weight) return object;
+  if (!request.weight) return object;
   nlohmann::json weights = nlohmann::json::array();
-  visitConnections(answer.map, [&](std::uint32_t from, const Connection& step) {
-    weights.push_back({from, step.to, weightOf(answer.map, *question.weight, from, step)});
+  visitConnections(result.map, [&](std::uint32_t from, const Connection& step) {
+    weights.push_back({from, step.to, weightOf(result.map, *request.weight, from, step)});
   });
   object["weights"] = std::move(weights);
   return object;
 }
 
-void print(const RectangleQuestion& question, const RectangleAnswer& answer) {
-  const GridGeometry& geometry = answer.map.geometry();
-  const MapSizes& sizes = answer.sizes;
-  std::cout << question.map << ": " << geometry.width() << "x" << geometry.height() << " cells, "
-            << answer.map.freeCells() << " of them in "
-            << counted(answer.in_file.size(), "rectangle") << " with "
-            << counted(answer.map.connections().count() / 2, "connection") << ", cut in "
-            << std::setprecision(3) << answer.time_ms << " ms\n"
+void print(const RectanglesRequest& request, const RectanglesResult& result) {
+  const GridGeometry& geometry = result.map.geometry();
+  const MapSizes& sizes = result.sizes;
+  std::cout << request.map << ": " << geometry.width() << "x" << geometry.height() << " cells, "
+            << result.map.freeCells() << " of them in "
+            << counted(result.in_file.size(), "rectangle") << " with "
+            << counted(result.map.connections().count() / 2, "connection") << ", cut in "
+            << std::setprecision(3) << result.time_ms << " ms\n"
             << "bytes: " << sizes.file << " as a file, " << sizes.rectangles
             << " as a list of rectangles, " << sizes.empty_cells << " as a list of free cells; "
             << sizes.entire_map << " as bits, " << sizes.png << " as PNG, " << sizes.zlib
             << " as bits in zlib\n"
             << std::setprecision(6);
-  if (question.weight) printConnections(answer.map, *question.weight);
+  if (request.weight) printConnections(result.map, *request.weight);
 }
 
-void draw(const std::string& file, const RectangleQuestion& question, const RectangleAnswer& answer,
+void draw(const std::string& file, const RectanglesRequest& request, const RectanglesResult& result,
           const OccupancyGrid& map) {
   PictureContent content;
-  content.rectangles = answer.map.rectangles();
-  if (question.weight) content.links = linksOf(answer.map);
+  content.rectangles = result.map.rectangles();
+  if (request.weight) content.links = linksOf(result.map);
   writePicture(file, map, {}, content);
 }
 

@@ -1,4 +1,4 @@
-// What `grid_path rectangles` says and draws.
+// The output of `grid_path rectangles`: JSON, text and picture.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,15 +8,15 @@
 
 namespace grid_path_planner::command_line {
 
-// All of it: rectangles, sizes, and with question.weight the weight of every connection.
-nlohmann::json jsonOf(const RectangleQuestion& question, const RectangleAnswer& answer);
+// Rectangles, sizes, and with request.weight the weight of every connection.
+nlohmann::json jsonOf(const RectanglesRequest& request, const RectanglesResult& result);
 
-// Sentences on the standard output; of the connections a few, unless there are no more.
-void print(const RectangleQuestion& question, const RectangleAnswer& answer);
+// Text on the standard output, with the first few connections where there are many.
+void print(const RectanglesRequest& request, const RectanglesResult& result);
 
-// The rectangles on `map`, with question.weight the connections too. Throws InputError naming the
+// The rectangles on `map`, with request.weight the connections too. Throws InputError naming the
 // file.
-void draw(const std::string& file, const RectangleQuestion& question, const RectangleAnswer& answer,
+void draw(const std::string& file, const RectanglesRequest& request, const RectanglesResult& result,
           const grid::OccupancyGrid& map);
 
 }  // namespace grid_path_planner::command_line

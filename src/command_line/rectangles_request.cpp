@@ -56,25 +56,25 @@ po::options_description describeRectangles() {
   return known;
 }
 
-RectangleQuestion rectangleQuestionFrom(const po::variables_map& values) {
-  RectangleQuestion question;
-  question.map = values["map"].as<std::string>();
-  question.reading = readingOptionsFrom(values);
-  question.unknown_is_free = values.count("unknown-is-free") != 0;
-  question.merged_runs = asksForMergedRuns(values);
+RectanglesRequest rectanglesRequestFrom(const po::variables_map& values) {
+  RectanglesRequest request;
+  request.map = values["map"].as<std::string>();
+  request.reading = readingOptionsFrom(values);
+  request.unknown_is_free = values.count("unknown-is-free") != 0;
+  request.merged_runs = asksForMergedRuns(values);
   if (values.count("limit") != 0 && values.count("min-area") != 0)
     throw InputError("--limit and --min-area do not go together");
-  if (question.merged_runs && values.count("limit") + values.count("min-area") != 0)
+  if (request.merged_runs && values.count("limit") + values.count("min-area") != 0)
     throw InputError("--limit and --min-area are for --partition largest_first");
   if (values.count("limit") != 0)
-    question.limits.count = static_cast<std::size_t>(countFrom(values, "limit"));
-  if (values.count("min-area") != 0) question.limits.smallest_area = countFrom(values, "min-area");
+    request.limits.count = static_cast<std::size_t>(countFrom(values, "limit"));
+  if (values.count("min-area") != 0) request.limits.smallest_area = countFrom(values, "min-area");
   if (values.count("weight") != 0)
-    question.weight =
+    request.weight =
         choiceFromName<RectangleWeight>("--weight", values["weight"].as<std::string>());
-  if (values.count("memory-limit") != 0) question.memory_limit = countFrom(values, "memory-limit");
-  if (values.count("corners") != 0) question.touching = Touching::BORDERS_AND_CORNERS;
-  return question;
+  if (values.count("memory-limit") != 0) request.memory_limit = countFrom(values, "memory-limit");
+  if (values.count("corners") != 0) request.touching = Touching::BORDERS_AND_CORNERS;
+  return request;
 }
 
 }  // namespace grid_path_planner::command_line

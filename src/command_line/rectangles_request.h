@@ -1,4 +1,4 @@
-// What `grid_path rectangles` is asked.
+// The options of `grid_path rectangles`.
 #pragma once
 
 #include <boost/program_options.hpp>
@@ -13,7 +13,7 @@
 
 namespace grid_path_planner::command_line {
 
-struct RectangleQuestion {
+struct RectanglesRequest {
   std::string map;
   grid::MapFileOptions reading;
   bool unknown_is_free = false;
@@ -24,10 +24,10 @@ struct RectangleQuestion {
   std::int64_t memory_limit = planners::SearchOptions().memory_limit;  // MB
 };
 
-// The options of the command line, those of what it writes among them.
+// The options of the command line, with those of the output.
 boost::program_options::options_description describeRectangles();
 
 // Throws InputError naming the option.
-RectangleQuestion rectangleQuestionFrom(const boost::program_options::variables_map& values);
+RectanglesRequest rectanglesRequestFrom(const boost::program_options::variables_map& values);
 
 }  // namespace grid_path_planner::command_line

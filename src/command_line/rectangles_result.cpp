@@ -37,36 +37,36 @@ using planners::stepWeight;
 namespace {
 
 // The map with its last row first.
-OccupancyGrid turnedOver(const OccupancyGrid& map) {
+OccupancyGrid withRowsReversed(const OccupancyGrid& map) {
   OccupancyGrid turned(map.geometry());
   for (int row = 0; row < map.height(); ++row)
     std::copy_n(map.row(row), map.width(), turned.row(map.height() - 1 - row));
   return turned;
 }
 
-std::size_t bytesAllowed(const RectangleQuestion& question) {
-  return static_cast<std::size_t>(question.memory_limit) * 1000000;
+std::size_t bytesAllowed(const RectanglesRequest& request) {
+  return static_cast<std::size_t>(request.memory_limit) * 1000000;
 }
 
-// `bytes` are needed, or more.
-[[noreturn]] void refuse(const RectangleQuestion& question, std::size_t bytes) {
-  throw InputError(question.map, "needs " + std::to_string(bytes / 1000000 + 1) +
-                                     " MB or more to be cut into rectangles, more than "
-                                     "--memory-limit " +
-                                     std::to_string(question.memory_limit));
+// `bytes`: what is needed at least.
+[[noreturn]] void refuse(const RectanglesRequest& request, std::size_t bytes) {
+  throw InputError(request.map, "needs " + std::to_string(bytes / 1000000 + 1) +
+                                    " MB or more to be cut into rectangles, more than "
+                                    "--memory-limit " +
+                                    std::to_string(request.memory_limit));
 }
 
-// Throws InputError before memory is taken.
-std::vector<CellRect> cutWithinMemory(const RectangleQuestion& question,
+// Throws InputError before memory is allocated.
+std::vector<CellRect> cutWithinMemory(const RectanglesRequest& request,
                                       const GridGeometry& geometry, const BitMaps& free) {
   const std::size_t expected = largestFirstBytes(geometry, countRuns(free.rows));
-  if (expected > bytesAllowed(question)) refuse(question, expected);
-  DecompositionLimits limits = question.limits;
-  limits.bytes = bytesAllowed(question);
+  if (expected > bytesAllowed(request)) refuse(request, expected);
+  DecompositionLimits limits = request.limits;
+  limits.bytes = bytesAllowed(request);
   try {
-    return question.merged_runs ? mergedRuns(free.rows, {}) : largestFirst(free, limits, {});
+    return request.merged_runs ? mergedRuns(free.rows, {}) : largestFirst(free, limits, {});
   } catch (const DecompositionTooLarge&) {
-    refuse(question, limits.bytes);
+    refuse(request, limits.bytes);
   }
 }
 
@@ -83,22 +83,23 @@ double lengthThrough(const RectangleGraph& map, std::uint32_t from, const Connec
 
 }  // namespace
 
-RectangleAnswer answerOf(const RectangleQuestion& question, const OccupancyGrid& map) {
-  const bool over = rowOrderOf(question.map) == RowOrder::LAST_ROW_FIRST;
-  const BitMaps free = freeCellsOf(over ? turnedOver(map) : map, {}, question.unknown_is_free, {});
-  RectangleAnswer answer;
+RectanglesResult cutIntoRectangles(const RectanglesRequest& request, const OccupancyGrid& map) {
+  const bool reversed = rowOrderOf(request.map) == RowOrder::LAST_ROW_FIRST;
+  const BitMaps free =
+      freeCellsOf(reversed ? withRowsReversed(map) : map, {}, request.unknown_is_free, {});
+  RectanglesResult result;
   const auto begin = std::chrono::steady_clock::now();
-  answer.in_file = cutWithinMemory(question, map.geometry(), free);
+  result.in_file = cutWithinMemory(request, map.geometry(), free);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
-  answer.time_ms = time.count();
-  const std::size_t needed = RectangleGraph::bytesFor(answer.in_file.size());
-  if (needed > bytesAllowed(question)) refuse(question, needed);
-  std::vector<CellRect> rectangles = answer.in_file;
-  if (over)
+  result.time_ms = time.count();
+  const std::size_t needed = RectangleGraph::bytesFor(result.in_file.size());
+  if (needed > bytesAllowed(request)) refuse(request, needed);
+  std::vector<CellRect> rectangles = result.in_file;
+  if (reversed)
     for (CellRect& rect : rectangles) rect.row = map.height() - rect.row - rect.height;
-  answer.map = RectangleGraph(map.geometry(), std::move(rectangles), question.touching);
-  answer.sizes = mapSizes(answer.map);
-  return answer;
+  result.map = RectangleGraph(map.geometry(), std::move(rectangles), request.touching);
+  result.sizes = mapSizes(result.map);
+  return result;
 }
 
 Eigen::Vector2d centreOf(const CellRect& rect) {

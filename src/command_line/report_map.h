@@ -1,4 +1,4 @@
-// What a command says of a map that it wrote.
+// The line that a command prints about a map it has written.
 #pragma once
 
 #include <string>

@@ -33,6 +33,7 @@ using costmap::CostmapBuilder;
 using costmap::CostmapOptions;
 using costmap::MotionModel;
 using grid::Cell;
+using grid::GridGeometry;
 using grid::OccupancyGrid;
 using nodes::readAnyMapFile;
 using planners::BackgroundWork;
@@ -117,13 +118,12 @@ bool fileOptimaHold(const CostmapOptions& terrain) {
          terrain.free_weight == 1 && terrain.motion == MotionModel();
 }
 
-// Queries are asked of the planner alone, cell to cell: what belongs to poses and to the time
-// around the search has no effect here.
+// Queries are from cell to cell: options of poses and of the time around the search have no effect.
 void warnAboutOptionsOfPoses(const PlannerOptions& options) {
   for (const std::string& name : changedOptions(options))
-    for (const char* idle : {"tolerance", "start_escape_radius", "retry_finer", "timeout",
-                             "heading", "path_z", "fixed_z"})
-      if (name == idle) warnAboutUnusedOption(name, "scenarios");
+    for (const char* unused : {"tolerance", "start_escape_radius", "retry_finer", "timeout",
+                               "heading", "path_z", "fixed_z"})
+      if (name == unused) warnAboutUnusedOption(name, "scenarios");
 }
 
 std::string referenceNameOf(const po::variables_map& values, const CostmapOptions& terrain) {
@@ -137,18 +137,18 @@ SearchRequest requestOf(const ScenarioQuery& query, int kernel) {
   return {block(query.start), {block(query.goal)}, false};
 }
 
-// A planner that refuses the map refuses every query.
-SearchResult answerOf(Planner& planner, const SearchRequest& request) {
+// Throws InputError for an invalid request: a planner that refuses the map refuses every query.
+SearchResult searchOrThrow(Planner& planner, const SearchRequest& request) {
   SearchResult result = planner.search(request, StopToken());
   if (result.status == Status::INVALID_REQUEST) throw InputError(result.message);
   return result;
 }
 
-// Answers what the queries' least costs are.
+// The least costs of the queries, from the scenario file or by a planner.
 class Reference {
  public:
   // Throws InputError for a name that is neither "file" nor a planner's, and for a planner whose
-  // answers say nothing about those of `judged`.
+  // costs cannot be compared with those of `judged`.
   Reference(const std::string& name, const std::shared_ptr<const CostGrid>& map,
             const PlannerTraits& judged)
       : name_(name), kernel_(map->kernel()) {
@@ -159,9 +159,9 @@ class Reference {
                        " finds paths of any angle, which no path over the grid can be as short as");
     if (planner_ && !(any_angle ? planner_->traits().shortest : planner_->optimalFor(*map)))
       throw InputError("--reference " + name_ + " does not promise the least cost on this map");
-    right_ = any_angle == judged.any_angle && any_angle == judged.shortest ? Right::EQUAL
-             : any_angle                                                   ? Right::NOT_LESS
-                                                                           : Right::NOT_MORE;
+    correct_ = any_angle == judged.any_angle && any_angle == judged.shortest ? Comparison::EQUAL
+               : any_angle                                                   ? Comparison::NOT_LESS
+                                                                             : Comparison::NOT_MORE;
     if (planner_) planner_->prepare(map, StopToken());
   }
 
@@ -170,7 +170,7 @@ class Reference {
   // None where there is no path.
   std::optional<double> costOf(const ScenarioQuery& query) const {
     if (!planner_) return query.optimum;
-    const SearchResult result = answerOf(*planner_, requestOf(query, kernel_));
+    const SearchResult result = searchOrThrow(*planner_, requestOf(query, kernel_));
     if (result.status == Status::FOUND) return result.costValue();
     return std::nullopt;
   }
@@ -179,8 +179,8 @@ class Reference {
     if ((result.status == Status::FOUND) != least.has_value()) return true;
     if (!least) return false;
     const double more = result.costValue() - *least, allowed = tolerance() * *least;
-    return (right_ != Right::NOT_MORE && more < -allowed) ||
-           (right_ != Right::NOT_LESS && more > allowed);
+    return (correct_ != Comparison::NOT_MORE && more < -allowed) ||
+           (correct_ != Comparison::NOT_LESS && more > allowed);
   }
 
   // Relative: the file's optima are rounded, and the lengths of any angle are sums of roots.
@@ -190,8 +190,8 @@ class Reference {
   }
 
  private:
-  // What a right cost is: paths of any angle may be cheaper than those over the grid.
-  enum class Right { EQUAL, NOT_MORE, NOT_LESS };
+  // How a correct cost compares: any-angle paths may cost less than paths over the grid.
+  enum class Comparison { EQUAL, NOT_MORE, NOT_LESS };
 
   static std::unique_ptr<Planner> plannerNamed(const std::string& name) {
     try {
@@ -203,7 +203,7 @@ class Reference {
 
   std::string name_;
   int kernel_;
-  Right right_;
+  Comparison correct_;
   std::unique_ptr<Planner> planner_;  // none: the file
 };
 
@@ -219,6 +219,79 @@ std::string csvLine(const ScenarioQuery& query, const SearchResult& result, doub
   return out.str();
 }
 
+// The map and the planner of a run, ready for queries.
+struct PreparedPlanner {
+  GridGeometry geometry;  // of the full map
+  std::shared_ptr<const CostGrid> costs;
+  std::unique_ptr<Planner> planner;
+  double preparation_ms = 0.0;
+};
+
+PreparedPlanner prepare(const OccupancyGrid& map, const PlannerOptions& options) {
+  PreparedPlanner prepared;
+  prepared.geometry = map.geometry();
+  CostmapBuilder terrain(options.terrain);
+  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+  const auto begin = std::chrono::steady_clock::now();
+  prepared.costs = terrain.downsampled(StopToken());
+  prepared.planner = makePlanner(options.planner, options.search);
+  prepared.planner->prepare(prepared.costs, StopToken());
+  prepared.planner->finishBackgroundWork(StopToken());
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
+  prepared.preparation_ms = time.count();
+  return prepared;
+}
+
+// What all queries gave.
+struct Results {
+  Totals totals;
+  PathHash paths;
+  std::string csv =
+      "start_x,start_y,goal_x,goal_y,status,cost,optimum,wrong,cells,expanded,generated,time_ms,"
+      "search_bytes\n";
+
+  void add(const ScenarioQuery& query, const SearchResult& result, const Reference& reference) {
+    paths.add(result);
+    const std::optional<double> least = reference.costOf(query);
+    const bool wrong = reference.contradicts(result, least);
+    totals.wrong += wrong ? 1 : 0;
+    if (least)
+      totals.add(result, *least);
+    else
+      ++totals.unsolvable;
+    if (least || wrong) csv += csvLine(query, result, least.value_or(-1.0), wrong);
+  }
+};
+
+Results runQueries(const std::vector<ScenarioQuery>& queries, const std::string& file,
+                   const PreparedPlanner& prepared, bool smooth, const Reference& reference) {
+  Results results;
+  ProgressBar bar(queries.size());
+  for (const ScenarioQuery& query : queries) {
+    checkScenarioQuery(query, prepared.geometry, file);
+    SearchResult result =
+        searchOrThrow(*prepared.planner, requestOf(query, prepared.costs->kernel()));
+    if (result.status == Status::FOUND && smooth)
+      smoothResult(*prepared.costs, result, StopToken());
+    results.add(query, result, reference);
+    bar.done(results.totals.queries + results.totals.unsolvable);
+  }
+  return results;
+}
+
+void printTotals(const Totals& totals) {
+  std::printf("queries=%zu solved=%zu wrong=%zu total_s=%.6f mean_ms=%.6f expanded=%llu\n",
+              totals.queries, totals.solved, totals.wrong, totals.time_s,
+              totals.time_s * 1e3 / static_cast<double>(std::max<std::size_t>(totals.queries, 1)),
+              static_cast<unsigned long long>(totals.expanded));
+}
+
+std::string mapFileOf(const po::variables_map& values, const std::string& scenario_file,
+                      const ScenarioQuery& query) {
+  if (values.count("map") != 0) return values["map"].as<std::string>();
+  return besideFile(scenario_file, query.map);
+}
+
 }  // namespace
 
 int runScenarios(int argc, char** argv) {
@@ -231,60 +304,30 @@ int runScenarios(int argc, char** argv) {
   warnAboutOptionsOfPoses(options);
   const std::vector<ScenarioQuery> all = readScenarioFile(file);
   const std::vector<ScenarioQuery> queries = spreadOver(all, limitOf(values));
-  const std::string map_file = values.count("map") != 0 ? values["map"].as<std::string>()
-                                                        : besideFile(file, all.front().map);
+  const std::string map_file = mapFileOf(values, file, all.front());
 
-  CostmapBuilder terrain(options.terrain);
-  terrain.setMap(
-      std::make_shared<const OccupancyGrid>(readAnyMapFile(map_file, readingOptionsFrom(values))));
-  const auto begin = std::chrono::steady_clock::now();
-  const std::shared_ptr<const CostGrid> map = terrain.downsampled(StopToken());
-  const std::unique_ptr<Planner> planner = makePlanner(options.planner, options.search);
-  planner->prepare(map, StopToken());
-  planner->finishBackgroundWork(StopToken());
-  const std::chrono::duration<double> preparation = std::chrono::steady_clock::now() - begin;
-  PlannerTraits judged = planner->traits();
+  const PreparedPlanner prepared =
+      prepare(readAnyMapFile(map_file, readingOptionsFrom(values)), options);
+  PlannerTraits judged = prepared.planner->traits();
   judged.any_angle |= options.smooth;
-  const Reference reference(referenceNameOf(values, options.terrain), map, judged);
+  const Reference reference(referenceNameOf(values, options.terrain), prepared.costs, judged);
+  const Results results = runQueries(queries, file, prepared, options.smooth, reference);
+  const Totals& totals = results.totals;
+  if (values.count("csv") != 0) writeFileAtomically(values["csv"].as<std::string>(), results.csv);
 
-  Totals totals;
-  PathHash paths;
-  std::string csv =
-      "start_x,start_y,goal_x,goal_y,status,cost,optimum,wrong,cells,expanded,generated,time_ms,"
-      "search_bytes\n";
-  ProgressBar bar(queries.size());
-  for (const ScenarioQuery& query : queries) {
-    checkScenarioQuery(query, terrain.fullResolution(StopToken())->geometry(), file);
-    SearchResult result = answerOf(*planner, requestOf(query, map->kernel()));
-    if (result.status == Status::FOUND && options.smooth) smoothResult(*map, result, StopToken());
-    paths.add(result);
-    const std::optional<double> least = reference.costOf(query);
-    const bool wrong = reference.contradicts(result, least);
-    totals.wrong += wrong ? 1 : 0;
-    if (least)
-      totals.add(result, *least);
-    else
-      ++totals.unsolvable;
-    if (least || wrong) csv += csvLine(query, result, least.value_or(-1.0), wrong);
-    bar.done(totals.queries + totals.unsolvable);
-  }
-  if (values.count("csv") != 0) writeFileAtomically(values["csv"].as<std::string>(), csv);
-
-  const BackgroundWork work = planner->backgroundWork();
+  const BackgroundWork work = prepared.planner->backgroundWork();
   std::printf(
       "map=%s planner=%s preparation_ms=%.3f reference=%s unsolvable=%zu "
       "cost_over_reference=%.6f\n",
-      map_file.c_str(), options.planner.c_str(), preparation.count() * 1e3,
-      reference.name().c_str(), totals.unsolvable, totals.costOverReference());
+      map_file.c_str(), options.planner.c_str(), prepared.preparation_ms, reference.name().c_str(),
+      totals.unsolvable, totals.costOverReference());
   if (work.bytes > 0)
     std::printf("background_ms=%.3f background_bytes=%zu\n", work.time_s * 1e3, work.bytes);
-  if (values.count("hash-paths") != 0) std::printf("path_hash=%s\n", paths.text().c_str());
-  std::printf("queries=%zu solved=%zu wrong=%zu total_s=%.6f mean_ms=%.6f expanded=%llu\n",
-              totals.queries, totals.solved, totals.wrong, totals.time_s,
-              totals.time_s * 1e3 / static_cast<double>(std::max<std::size_t>(totals.queries, 1)),
-              static_cast<unsigned long long>(totals.expanded));
-  const bool promised = planner->optimalFor(*map) || planner->traits().shortest;
-  return totals.wrong > 0 && promised ? 1 : 0;
+  if (values.count("hash-paths") != 0) std::printf("path_hash=%s\n", results.paths.text().c_str());
+  printTotals(totals);
+  const bool guaranteed =
+      prepared.planner->optimalFor(*prepared.costs) || prepared.planner->traits().shortest;
+  return totals.wrong > 0 && guaranteed ? 1 : 0;
 }
 
 }  // namespace grid_path_planner::command_line

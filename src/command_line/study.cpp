@@ -7,12 +7,9 @@
 #include "command_line/arguments.h"
 #include "command_line/commands.h"
 #include "command_line/progress_bar.h"
-#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/ros/bag.h"
 #include "grid_path_planner/study/process_pool.h"
-#include "grid_path_planner/study/report.h"
-#include "grid_path_planner/study/study_runner.h"
-#include "grid_path_planner/study/study_worker.h"
+#include "grid_path_planner/study/study_job.h"
 
 #ifdef GPP_HAVE_MPI
 #include "command_line/mpi_workers.h"
@@ -22,26 +19,13 @@ namespace grid_path_planner::command_line {
 
 using base::InputError;
 using base::StopSource;
-using base::writeFileAtomically;
 using grid::MapFileOptions;
 using grid::OccupancyGrid;
 using nodes::readAnyMapFile;
-using study::csvOf;
-using study::Finding;
-using study::findingsOf;
-using study::jsonReport;
-using study::linesOfUnit;
 using study::ProcessPool;
-using study::readStudyFile;
-using study::reportHtml;
-using study::runsTable;
-using study::runStudy;
-using study::StudyData;
 using study::StudyFailure;
-using study::StudyFolder;
-using study::StudyPlan;
-using study::StudyResult;
-using study::StudyWorker;
+using study::StudyJob;
+using study::StudyOutcome;
 using study::WorkerGroup;
 
 namespace {
@@ -57,7 +41,7 @@ void onInterrupt(int) {
   interrupted.cancel();
 }
 
-// While one of these lives, Ctrl-C asks the study to end instead of ending the program.
+// For its lifetime Ctrl-C stops the study instead of ending the program.
 class CatchInterrupt {
  public:
   CatchInterrupt() : before_(std::signal(SIGINT, onInterrupt)) {}
@@ -86,45 +70,38 @@ OccupancyGrid readMap(const std::string& file) {
   return readAnyMapFile(file, reading);
 }
 
-void writeReport(const StudyPlan& plan, const StudyFolder& folder, const StudyResult& result,
-                 const std::string& command) {
-  const StudyData data(plan, result.runs);
-  const std::vector<Finding> findings = findingsOf(data);
-  writeFileAtomically(folder.file("runs.csv"), csvOf(runsTable(data)));
-  for (const Finding& finding : findings)
-    writeFileAtomically(folder.file(finding.table.name + ".csv"), csvOf(finding.table));
-  writeFileAtomically(folder.file("study.json"), jsonReport(data, findings, result.failures));
-  writeFileAtomically(folder.file("report.html"),
-                      reportHtml(data, findings, result.failures, command));
-}
-
-int tell(const StudyResult& result, const StudyPlan& plan, const std::string& folder) {
-  for (const StudyFailure& failure : result.failures)
+int printOutcome(const StudyOutcome& outcome, std::size_t units, const std::string& folder) {
+  for (const StudyFailure& failure : outcome.failures)
     std::cerr << "not done: " << failure.unit << ": " << failure.reason << '\n';
-  if (result.interrupted) std::cerr << "interrupted: the same command goes on from here\n";
-  std::printf("questions=%zu resumed=%zu runs=%zu failed=%zu report=%s/report.html\n",
-              plan.units().size(), result.resumed, result.runs.size(), result.failures.size(),
-              folder.c_str());
-  return result.failures.empty() && !result.interrupted ? 0 : kIncomplete;
+  if (outcome.interrupted) std::cerr << "interrupted: the same command goes on from here\n";
+  std::printf("questions=%zu resumed=%zu runs=%zu failed=%zu report=%s/report.html\n", units,
+              outcome.resumed, outcome.runs, outcome.failures.size(), folder.c_str());
+  return outcome.failures.empty() && !outcome.interrupted ? 0 : kIncomplete;
 }
 
-int runAndReport(const StudyPlan& plan, const std::string& out, WorkerGroup& workers,
+int runAndReport(const StudyJob& job, const std::string& out, WorkerGroup& workers,
                  const std::string& command) {
-  StudyFolder folder(out, plan.fingerprint());
   const CatchInterrupt catching;
-  ProgressBar bar(plan.units().size());
-  const StudyResult result = runStudy(plan, folder, workers, interrupted.token(),
-                                      [&bar](std::size_t done, std::size_t) { bar.done(done); });
-  writeReport(plan, folder, result, command);
-  return tell(result, plan, out);
+  ProgressBar bar(job.units());
+  const StudyOutcome outcome = job.run(out, command, workers, interrupted.token(),
+                                       [&bar](std::size_t done) { bar.done(done); });
+  return printOutcome(outcome, job.units(), out);
 }
 
-// `grid_path study FILE --out DIR` for `grid_path study --study FILE --out DIR`.
+// Turns `grid_path study FILE --out DIR` into `grid_path study --study FILE --out DIR`.
 std::vector<char*> withNamedFile(int argc, char** argv) {
   static char flag[] = "--study";
   std::vector<char*> arguments(argv, argv + argc);
   if (argc > 1 && argv[1][0] != '-') arguments.insert(arguments.begin() + 1, flag);
   return arguments;
+}
+
+int jobsFrom(const po::variables_map& values) {
+  const int jobs = values["jobs"].as<int>();
+  if (jobs < 1 || jobs > kMostJobs)
+    throw InputError("--jobs must be from 1 to " + std::to_string(kMostJobs) + ", got " +
+                     std::to_string(jobs));
+  return jobs;
 }
 
 }  // namespace
@@ -137,15 +114,9 @@ int runStudyCommand(int argc, char** argv) {
     return 0;
   const std::string file = values["study"].as<std::string>();
   const std::string out = values["out"].as<std::string>();
-  const int jobs = values["jobs"].as<int>();
-  if (jobs < 1 || jobs > kMostJobs)
-    throw InputError("--jobs must be from 1 to " + std::to_string(kMostJobs) + ", got " +
-                     std::to_string(jobs));
-
-  const StudyPlan plan(readStudyFile(file), readMap);
-  const auto worker = std::make_shared<StudyWorker>(plan);
-  ProcessPool pool(static_cast<std::size_t>(jobs),
-                   [&plan, worker](std::size_t task) { return linesOfUnit(*worker, plan, task); });
+  const int jobs = jobsFrom(values);
+  const StudyJob job(file, readMap);
+  ProcessPool pool(static_cast<std::size_t>(jobs), job.work());
   const std::string command = "rosrun grid_path_planner grid_path study " + file + " --out " + out;
 #ifdef GPP_HAVE_MPI
   if (startedByMpi()) {
@@ -155,10 +126,10 @@ int runStudyCommand(int argc, char** argv) {
       return 0;
     }
     MpiWorkers workers(session, pool);
-    return runAndReport(plan, out, workers, command);
+    return runAndReport(job, out, workers, command);
   }
 #endif
-  return runAndReport(plan, out, pool, command);
+  return runAndReport(job, out, pool, command);
 }
 
 }  // namespace grid_path_planner::command_line

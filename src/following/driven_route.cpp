@@ -17,7 +17,7 @@ double braking(const FollowerOptions& options) {
   return kBraking * options.max_acceleration;
 }
 
-// From which distance before a corner it is rounded.
+// How far before a corner its rounding begins, in metres.
 double cornerLead(const FollowerOptions& options) {
   return 0.5 * options.pursuit_distance;
 }
@@ -50,17 +50,17 @@ void DrivenRoute::update(const FollowerOptions& options) {
 double DrivenRoute::speedBefore(std::size_t knot, double distance,
                                 const FollowerOptions& options) const {
   const Knot& next = knots_[knot];
-  const auto braked = [&](double speed, double way) {
-    return std::sqrt(speed * speed + 2.0 * braking(options) * std::max(0.0, way));
+  const auto braked = [&](double speed, double metres) {
+    return std::sqrt(speed * speed + 2.0 * braking(options) * std::max(0.0, metres));
   };
   const double lead = next.stop ? 0.0 : cornerLead(options);
   return std::min(braked(next.corner_speed, distance - lead), braked(next.speed_beyond, distance));
 }
 
 double DrivenRoute::share(std::size_t i, const Vector3d& position) const {
-  const Vector3d way = knots_[i + 1].pose.position - knots_[i].pose.position;
-  const double square = way.squaredNorm();
-  return square > 0.0 ? (position - knots_[i].pose.position).dot(way) / square : 1.0;
+  const Vector3d segment = knots_[i + 1].pose.position - knots_[i].pose.position;
+  const double square = segment.squaredNorm();
+  return square > 0.0 ? (position - knots_[i].pose.position).dot(segment) / square : 1.0;
 }
 
 Vector3d DrivenRoute::point(std::size_t i, double share) const {
@@ -104,9 +104,9 @@ double DrivenRoute::speed(std::size_t i, double share, const FollowerOptions& op
 }
 
 Vector3d DrivenRoute::direction(std::size_t i) const {
-  const Vector3d way = knots_[i + 1].pose.position - knots_[i].pose.position;
-  const double size = way.norm();
-  return size > 0.0 ? Vector3d(way / size) : Vector3d(Vector3d::Zero());
+  const Vector3d segment = knots_[i + 1].pose.position - knots_[i].pose.position;
+  const double size = segment.norm();
+  return size > 0.0 ? Vector3d(segment / size) : Vector3d(Vector3d::Zero());
 }
 
 Vector3d DrivenRoute::at(double s) const {

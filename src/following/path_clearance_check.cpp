@@ -19,15 +19,15 @@ constexpr double kGraze = 1e-9;         // cells
 bool meets(const Vector2d& a, const Vector2d& b, Cell cell) {
   const Vector2d low(cell.column + kGraze, cell.row + kGraze);
   const Vector2d high(cell.column + 1 - kGraze, cell.row + 1 - kGraze);
-  const Vector2d way = b - a;
+  const Vector2d segment = b - a;
   double enter = 0.0, leave = 1.0;
   for (int axis = 0; axis < 2; ++axis) {
-    if (way[axis] == 0.0) {
+    if (segment[axis] == 0.0) {
       if (a[axis] <= low[axis] || a[axis] >= high[axis]) return false;
       continue;
     }
-    const double first = (low[axis] - a[axis]) / way[axis];
-    const double second = (high[axis] - a[axis]) / way[axis];
+    const double first = (low[axis] - a[axis]) / segment[axis];
+    const double second = (high[axis] - a[axis]) / segment[axis];
     enter = std::max(enter, std::min(first, second));
     leave = std::min(leave, std::max(first, second));
   }
@@ -41,10 +41,10 @@ double distanceToCell(const Vector2d& point, Cell cell) {
 }
 
 double distanceToSegment(const Vector2d& point, const Vector2d& a, const Vector2d& b) {
-  const Vector2d way = b - a;
-  const double square = way.squaredNorm();
-  const double share = square > 0.0 ? std::clamp((point - a).dot(way) / square, 0.0, 1.0) : 0.0;
-  return (a + share * way - point).norm();
+  const Vector2d segment = b - a;
+  const double square = segment.squaredNorm();
+  const double share = square > 0.0 ? std::clamp((point - a).dot(segment) / square, 0.0, 1.0) : 0.0;
+  return (a + share * segment - point).norm();
 }
 
 bool tooNear(const Vector2d& a, const Vector2d& b, Cell cell, double radius) {
@@ -81,11 +81,12 @@ std::optional<Cell> firstOnPiece(const OccupancyGrid& map, int occupied_min, con
 }  // namespace
 
 std::optional<Cell> firstOccupied(const OccupancyGrid& map, int occupied_min,
-                                  const std::vector<Eigen::Vector3d>& way, double radius) {
+                                  const std::vector<Eigen::Vector3d>& ahead, double radius) {
   const double radius_cells = radius / map.geometry().resolution();
-  for (std::size_t i = 0; i < way.size(); ++i) {
-    const Vector2d a = map.geometry().gridFromWorld(way[i].head<2>());
-    const Vector2d b = map.geometry().gridFromWorld(way[std::min(i + 1, way.size() - 1)].head<2>());
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    const Vector2d a = map.geometry().gridFromWorld(ahead[i].head<2>());
+    const Vector2d b =
+        map.geometry().gridFromWorld(ahead[std::min(i + 1, ahead.size() - 1)].head<2>());
     const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kLongestPiece)));
     for (int piece = 0; piece < pieces; ++piece) {
       const Vector2d from = a + (b - a) * (static_cast<double>(piece) / pieces);

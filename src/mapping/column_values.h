@@ -1,4 +1,4 @@
-// The cells of one brick column: what its voxels inside a band of heights say.
+// Occupancy values for the cells of one brick column, from its voxels inside a band of heights.
 #pragma once
 
 #include <array>

@@ -4,8 +4,8 @@
 
 namespace grid_path_planner::mapping {
 
-// Nodes keep their array of children protected, and OctoMap leaves an empty one behind when the
-// last child is deleted.
+// A node's array of children is protected, and OctoMap does not delete the array with the last
+// child.
 struct MapTree::NodeAccess : Node {
   static octomap::AbstractOcTreeNode**& of(Node* node) { return node->*(&NodeAccess::children); }
 };

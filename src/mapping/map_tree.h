@@ -1,8 +1,8 @@
-// OctoMap's tree, opened for changing many voxels at once.
+// octomap::OcTree with access to its nodes, for changing many voxels at once.
 //
-// What octomap::OcTree says of itself stays true as long as every change goes through its public
-// functions and these: size() counts the nodes, the extent is computed anew after a change of
-// structure, and a node without children has no array of them.
+// The invariants of octomap::OcTree hold as long as every change is made by its public functions and
+// these: size() counts the nodes, the extent is computed again after a change of structure, and a
+// node without children has no array of children.
 #pragma once
 
 #include <octomap/OcTree.h>

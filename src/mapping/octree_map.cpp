@@ -59,7 +59,7 @@ void OctreeMap::setOptions(const OctreeOptions& options) {
   tree_->setModel(options);
   if (!judged_anew) return;
   bricks_.clear(tree_->getResolution());
-  mirrorTree(*tree_, bricks_);
+  treeToBricks(*tree_, bricks_);
 }
 
 std::size_t OctreeMap::insert(const Scan& scan) {
@@ -132,7 +132,7 @@ void OctreeMap::replace(std::unique_ptr<MapTree> tree) {
   options_ = options;
   tree_ = std::move(tree);
   bricks_.clear(options_.resolution);
-  mirrorTree(*tree_, bricks_);
+  treeToBricks(*tree_, bricks_);
 }
 
 }  // namespace grid_path_planner::mapping

@@ -16,8 +16,8 @@ using base::InputError;
 
 namespace {
 
-// OctoMap counts in log odds of single precision: a probability that is 0, 0.5 or 1 there is no
-// use.
+// OctoMap computes with log odds of single precision: a probability that is 0, 0.5 or 1 there
+// cannot be used.
 void require(bool holds, const char* name, const char* expected, double value) {
   if (!holds)
     throw InputError(std::string(name) + " must be " + expected + ", got " + decimalText(value));

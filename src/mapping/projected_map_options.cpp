@@ -61,7 +61,7 @@ void checkProjectedMapOptions(const ProjectedMapOptions& o) {
   checkEnding("octree_file", o.octree_file, {".bt", ".ot"});
 }
 
-std::string needlessParameter(const std::string& name) {
+std::string ignoredParameter(const std::string& name) {
   static const std::map<std::string, std::string> sentences = {
       {"incremental_2D_projection", "the projection is always incremental"},
       {"compress_map", "the tree is kept pruned wherever voxels change"},

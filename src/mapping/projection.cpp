@@ -26,7 +26,7 @@ bool inOrder(BrickColumn a, BrickColumn b) {
   return a.y != b.y ? a.y < b.y : a.x < b.x;
 }
 
-void sortOut(std::vector<BrickColumn>& columns) {
+void sortUnique(std::vector<BrickColumn>& columns) {
   std::sort(columns.begin(), columns.end(), inOrder);
   const auto same = [](BrickColumn a, BrickColumn b) { return a.x == b.x && a.y == b.y; };
   columns.erase(std::unique(columns.begin(), columns.end(), same), columns.end());
@@ -55,23 +55,22 @@ CellRect cellsOf(const std::vector<BrickColumn>& columns) {
   return cells;
 }
 
-// One side of `present` that must reach `wanted` (both inside the tree's 65536 voxels): the step
-// that it takes, in cells.
-int stepOf(int wanted, int length, int room) {
+// By how many cells one side grows that lacks `wanted` cells: with spare ones, at most `room`.
+int growthOf(int wanted, int length, int room) {
   if (wanted <= 0) return 0;
   const int spare = std::max(length / 64 * 8, 32);
   return std::min(wanted + spare, room);
 }
 
-// `present` grown so that it holds `wanted`, with some to spare on the sides that grow.
+// `present` grown so that it holds `wanted`, with spare cells on the sides that grow.
 CellRect grown(const CellRect& present, const CellRect& wanted) {
   const int left =
-      stepOf(present.column - wanted.column, present.width, present.column + kKeyOfZero);
-  const int below = stepOf(present.row - wanted.row, present.height, present.row + kKeyOfZero);
-  const int right = stepOf(wanted.column + wanted.width - present.column - present.width,
-                           present.width, kKeyOfZero - present.column - present.width);
-  const int above = stepOf(wanted.row + wanted.height - present.row - present.height,
-                           present.height, kKeyOfZero - present.row - present.height);
+      growthOf(present.column - wanted.column, present.width, present.column + kKeyOfZero);
+  const int below = growthOf(present.row - wanted.row, present.height, present.row + kKeyOfZero);
+  const int right = growthOf(wanted.column + wanted.width - present.column - present.width,
+                             present.width, kKeyOfZero - present.column - present.width);
+  const int above = growthOf(wanted.row + wanted.height - present.row - present.height,
+                             present.height, kKeyOfZero - present.row - present.height);
   return {present.column - left, present.row - below, present.width + left + right,
           present.height + below + above};
 }
@@ -91,7 +90,8 @@ GridGeometry geometryOf(const CellRect& cells, double resolution) {
 Projection::Projection(double resolution, const ProjectionOptions& options)
     : resolution_(resolution) {
   setOptions(options);
-  place(options_.bounds.given() ? cellsOf(options_.bounds, resolution_) : CellRect{0, 0, 1, 1});
+  setGeometry(options_.bounds.given() ? cellsOf(options_.bounds, resolution_)
+                                      : CellRect{0, 0, 1, 1});
 }
 
 Projection::~Projection() = default;
@@ -103,58 +103,58 @@ void Projection::setOptions(const ProjectionOptions& options) {
   if (options.bounds.given()) geometryOf(cellsOf(options.bounds, resolution_), resolution_);
   if (options.bounds.given() != options_.bounds.given()) sized_ = false;
   options_ = options;
-  all_ = true;
+  all_columns_pending_ = true;
 }
 
 void Projection::setVehicleHeight(double z) {
   if (std::abs(z - vehicle_height_) <= resolution_) return;
   vehicle_height_ = z;
-  if (options_.reference == ProjectionReference::VEHICLE) all_ = true;
+  if (options_.reference == ProjectionReference::VEHICLE) all_columns_pending_ = true;
 }
 
 ProjectionChange Projection::update(OccupancyBricks& bricks) {
-  collect(bricks);
+  collectColumns(bricks);
   ProjectionChange change;
-  change.geometry = fit();
-  look(bricks, change.cells);
+  change.geometry = fitGeometry();
+  projectColumns(bricks, change.cells);
   return change;
 }
 
-// What is to be looked at stays in to_do_ until it was.
-void Projection::collect(OccupancyBricks& bricks) {
+// Columns stay in pending_columns_ until they are projected.
+void Projection::collectColumns(OccupancyBricks& bricks) {
   const std::vector<BrickColumn> changed = bricks.drainChangedColumns();
-  const bool each_once = to_do_.empty() && !all_;
-  to_do_.insert(to_do_.end(), changed.begin(), changed.end());
-  if (all_) {
+  const bool each_once = pending_columns_.empty() && !all_columns_pending_;
+  pending_columns_.insert(pending_columns_.end(), changed.begin(), changed.end());
+  if (all_columns_pending_) {
     const std::vector<BrickColumn> columns = bricks.columns();
-    to_do_.insert(to_do_.end(), columns.begin(), columns.end());
+    pending_columns_.insert(pending_columns_.end(), columns.begin(), columns.end());
     seabed_.reset();
     if (options_.reference == ProjectionReference::SEABED)
       seabed_ =
           std::make_unique<Seabed>(options_.seabed_radius, options_.seabed_max_slope, resolution_);
   }
-  all_ = false;
-  if (!each_once) sortOut(to_do_);
+  all_columns_pending_ = false;
+  if (!each_once) sortUnique(pending_columns_);
 }
 
-// Whether the geometry had to change.
-bool Projection::fit() {
+// Returns whether the geometry had to change.
+bool Projection::fitGeometry() {
   const CellRect wanted = wantedCells();
   if (wanted == cells_) return false;
-  place(wanted);
+  setGeometry(wanted);
   sized_ = true;
   return true;
 }
 
 CellRect Projection::wantedCells() const {
   if (options_.bounds.given()) return cellsOf(options_.bounds, resolution_);
-  const CellRect needed = cellsOf(to_do_);
+  const CellRect needed = cellsOf(pending_columns_);
   if (needed.empty()) return cells_;
   return sized_ ? grown(cells_, needed.hull(cells_)) : needed;
 }
 
-// A new grid with what the old one knows.
-void Projection::place(const CellRect& cells) {
+// A new grid with the values of the old one.
+void Projection::setGeometry(const CellRect& cells) {
   OccupancyGrid grid(geometryOf(cells, resolution_), -1);
   const CellRect both = cells.intersection(cells_);
   for (int row = both.row; row < both.row + both.height; ++row)
@@ -164,17 +164,18 @@ void Projection::place(const CellRect& cells) {
   cells_ = cells;
 }
 
-void Projection::look(const OccupancyBricks& bricks, CellRect& changed) {
-  if (seabed_) addSeabedsReach(bricks);
-  for (const BrickColumn column : to_do_) write(column, valuesOf(bricks, column), changed);
-  to_do_.clear();
+void Projection::projectColumns(const OccupancyBricks& bricks, CellRect& changed) {
+  if (seabed_) addSeabedNeighbours(bricks);
+  for (const BrickColumn column : pending_columns_)
+    write(column, valuesOf(bricks, column), changed);
+  pending_columns_.clear();
 }
 
-// Where the seabed's bottom changed, the columns around may stand differently above it.
-void Projection::addSeabedsReach(const OccupancyBricks& bricks) {
+// Where the bottom of the seabed changed, the seabed's height may change in the columns around it.
+void Projection::addSeabedNeighbours(const OccupancyBricks& bricks) {
   const int reach = seabed_->reach();
   std::vector<BrickColumn> reached;
-  for (const BrickColumn column : to_do_) {
+  for (const BrickColumn column : pending_columns_) {
     if (!seabed_->update(bricks, column)) continue;
     const CellRect around =
         CellRect{column.x, column.y, 1, 1}.grown(reach).intersection({0, 0, kBricks, kBricks});
@@ -182,8 +183,8 @@ void Projection::addSeabedsReach(const OccupancyBricks& bricks) {
       for (int x = around.column; x < around.column + around.width; ++x)
         reached.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
   }
-  to_do_.insert(to_do_.end(), reached.begin(), reached.end());
-  sortOut(to_do_);
+  pending_columns_.insert(pending_columns_.end(), reached.begin(), reached.end());
+  sortUnique(pending_columns_);
 }
 
 ColumnValues Projection::valuesOf(const OccupancyBricks& bricks, BrickColumn column) const {
@@ -195,7 +196,7 @@ ColumnValues Projection::valuesOf(const OccupancyBricks& bricks, BrickColumn col
       voxelBand(reference + options_.min_z, reference + options_.max_z, resolution_));
 }
 
-// Where no seabed is known, whatever is seen is an obstacle, and nothing is free.
+// Where no seabed is known, every occupied voxel is an obstacle, and no cell is free.
 ColumnValues Projection::valuesAbove(const std::array<double, 64>& seabed,
                                      const OccupancyBricks& bricks, BrickColumn column) const {
   const VoxelBand everything = voxelBand(-1e9, 1e9, resolution_);

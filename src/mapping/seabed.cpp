@@ -30,15 +30,15 @@ Seabed::Seabed(double radius, double max_slope, double resolution)
 Seabed::Bottoms Seabed::bottomsOf(const OccupancyBricks& bricks, BrickColumn column) {
   Bottoms bottoms;
   bottoms.z.fill(kNoBottom);
-  std::array<bool, 64> looked_at{};
+  std::array<bool, 64> lowest_seen{};
   std::array<bool, 64> free_below{};  // of the topmost voxels of the brick below
   int brick_below = -2;
   bricks.forEachBrick(column, [&](int z, const Brick& brick) {
-    for (unsigned i = 0; i < looked_at.size(); ++i) {
+    for (unsigned i = 0; i < lowest_seen.size(); ++i) {
       const unsigned occupied = Brick::column(brick.occupied, i % 8, i / 8);
       const unsigned free = Brick::column(brick.known, i % 8, i / 8) & ~occupied;
-      if (!looked_at[i] && occupied != 0) {
-        looked_at[i] = true;
+      if (!lowest_seen[i] && occupied != 0) {
+        lowest_seen[i] = true;
         const int bit = __builtin_ctz(occupied);
         const bool hangs =
             bit > 0 ? (free >> (bit - 1) & 1u) != 0 : brick_below == z - 1 && free_below[i];
@@ -79,7 +79,7 @@ std::vector<Seabed::Neighbour> Seabed::neighboursOf(BrickColumn column) const {
           bottoms_.find(hashKey({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)}));
       if (found != bottoms_.end()) neighbours.push_back({8 * dx, 8 * dy, &found->second});
     }
-  // The nearest first: they bring the height down, and most others need no look then.
+  // The nearest first: they lower the height, so that most others can be skipped.
   std::stable_sort(neighbours.begin(), neighbours.end(),
                    [](const Neighbour& a, const Neighbour& b) {
                      return a.dx * a.dx + a.dy * a.dy < b.dx * b.dx + b.dy * b.dy;

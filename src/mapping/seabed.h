@@ -5,9 +5,9 @@
 //   const Seabed::Heights heights = seabed.heightsAt(column);
 //
 // The seabed at column c is the least of bottom(c') + max_slope * distance(c, c') over the columns
-// c' within `radius`, where bottom(c') is the lowest occupied voxel. So ground that rises at most
-// at max_slope is seabed all the way, and what stands on it is not. A lowest voxel under which free
-// space was seen hangs over the ground (a hull) and is no bottom.
+// c' within `radius`, where bottom(c') is the lowest occupied voxel. So ground that rises by at most
+// max_slope is seabed throughout, and objects standing on it are not. A lowest voxel under which
+// free space was seen hangs over the ground (a hull) and is no bottom.
 //
 // Guaranteed: exact, and a function of the tree alone. Not guaranteed: a seabed that was not seen.
 // A wall whose foot was never seen, with nothing else seen within the radius, counts as seabed from
@@ -28,8 +28,8 @@ class Seabed {
   // `radius` in m, `max_slope` in metres up per metre along, `resolution`: a voxel's side, m.
   Seabed(double radius, double max_slope, double resolution);
 
-  // Looks at a brick column anew. Whether the bottom of one of its columns changed; then heights
-  // within reach() brick columns of it may have.
+  // Reads a brick column again. Returns whether the bottom of one of its columns changed; then
+  // heights within reach() brick columns of it may have changed.
   bool update(const OccupancyBricks& bricks, BrickColumn column);
 
   // In brick columns along x and y.

@@ -97,7 +97,7 @@ class TreeReader {
   }
 
  private:
-  // What two bits say of a child.
+  // The meaning of a child's two bits.
   enum Label { UNKNOWN = 0, FREE = 1, OCCUPIED = 2, INNER = 3 };
 
   void readBinaryChildren(Node* node, int depth) {

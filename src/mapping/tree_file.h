@@ -8,9 +8,9 @@
 
 namespace grid_path_planner::mapping {
 
-// Told apart by the first line. OctoMap's own readers build a tree of chance from a truncated file;
-// this one throws InputError naming the file where it is missing, is not a tree, is of another kind
-// than OcTree, ends early, goes on after the tree, or its header does not fit.
+// The format is recognised by the first line. OctoMap's own readers build an arbitrary tree from a
+// truncated file; this one throws InputError naming the file where it is missing, is not a tree, is
+// of another kind than OcTree, ends early, goes on after the tree, or contradicts its header.
 std::unique_ptr<MapTree> readTreeFile(const std::string& file, const OctreeOptions& model);
 
 // By the file's ending, atomically. Throws InputError naming the file.

@@ -47,16 +47,16 @@ std::size_t countBricks(const MapTree& tree) {
   return count;
 }
 
-void mirrorTree(const MapTree& tree, OccupancyBricks& bricks) {
+void treeToBricks(const MapTree& tree, OccupancyBricks& bricks) {
   if (!tree.getRoot()) return;
-  const auto mirror = [&](const Node* node, const Cube& cube) {
+  const auto add = [&](const Node* node, const Cube& cube) {
     if (!tree.nodeHasChildren(node))
       return fillCube(bricks, cube, tree.isNodeOccupied(node) ? Voxel::OCCUPIED : Voxel::FREE);
     Brick brick;
     addLeaves(tree, node, cube, brick);
     bricks.setBrick(brickKey(cube.x, cube.y, cube.z), brick);
   };
-  forEachBrickNode(tree, tree.getRoot(), MapTree::kSpace, mirror);
+  forEachBrickNode(tree, tree.getRoot(), MapTree::kSpace, add);
 }
 
 void setCube(Brick::Words& words, const Cube& cube) {

@@ -8,13 +8,13 @@
 
 namespace grid_path_planner::mapping {
 
-// How many bricks hold a known voxel. Costs a walk over the nodes of 8 voxels and more.
+// How many bricks hold a known voxel. Visits the nodes with an edge of 8 voxels and more.
 std::size_t countBricks(const MapTree& tree);
 
-// Sets in `bricks`, which are empty, every voxel that the tree knows.
-void mirrorTree(const MapTree& tree, OccupancyBricks& bricks);
+// Sets every known voxel of the tree in `bricks`, which are empty.
+void treeToBricks(const MapTree& tree, OccupancyBricks& bricks);
 
-// The bits of a cube with an edge of 1, 2, 4 or 8 voxels set in those of its brick.
+// Sets the bits of a cube with an edge of 1, 2, 4 or 8 voxels in `words` of its brick.
 void setCube(Brick::Words& words, const Cube& cube);
 
 // Sets the voxels of a cube in the bricks.

@@ -1,6 +1,6 @@
 // map_publisher as a process of its own.
 //
-//   map_publisher [FILE]      FILE: the map, as map_server has it
+//   map_publisher [FILE]      FILE: the map, as for map_server
 #include "ros/common/run_node.h"
 #include "ros/planning/map_publisher_node.h"
 

@@ -1,7 +1,6 @@
 // projected_map as a process of its own.
 //
-//   projected_map [FILE]      FILE: an octree (.bt or .ot) to begin with, as octomap_server_node
-//                             has it
+//   projected_map [FILE]      FILE: an octree (.bt or .ot) to load, as for octomap_server_node
 #include "ros/common/run_node.h"
 #include "ros/mapping/projected_map_node.h"
 

@@ -11,12 +11,12 @@
 
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
-#include "grid_path_planner/simulation/simulator_options.h"
 #include "option_files/option_files.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
 #include "ros/planning/map_publisher_options.h"
 #include "ros/planning/path_planner_options.h"
+#include "ros/simulation/simulator_options.h"
 
 namespace grid_path_planner::option_files {
 
@@ -28,8 +28,8 @@ using mapping::ProjectedMapOptions;
 using nodes::MapPublisherOptions;
 using nodes::NavigatePathOptions;
 using nodes::PathPlannerNodeOptions;
+using nodes::SimulatorOptions;
 using nodes::TeleopJoyOptions;
-using simulation::SimulatorOptions;
 
 namespace {
 

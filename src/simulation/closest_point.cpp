@@ -8,10 +8,10 @@ namespace {
 using Eigen::Vector3d;
 
 Vector3d closestPointOnSegment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-  const Vector3d way = b - a;
-  const double length_squared = way.squaredNorm();
+  const Vector3d segment = b - a;
+  const double length_squared = segment.squaredNorm();
   if (length_squared == 0.0) return a;
-  return a + std::clamp(way.dot(p - a) / length_squared, 0.0, 1.0) * way;
+  return a + std::clamp(segment.dot(p - a) / length_squared, 0.0, 1.0) * segment;
 }
 
 const Vector3d& nearer(const Vector3d& p, const Vector3d& first, const Vector3d& second) {

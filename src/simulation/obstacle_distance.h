@@ -8,7 +8,7 @@
 namespace grid_path_planner::simulation {
 
 // Metres from `position` (map frame) to the nearest edge of a cell of at least `occupied_min`; 0
-// inside one. Cells farther than `reach` metres are not looked at: `reach` where all are.
+// inside one. Cells farther than `reach` metres do not count: `reach` where all are.
 double obstacleDistance(const grid::OccupancyGrid& map, int occupied_min,
                         const Eigen::Vector2d& position, double reach);
 

@@ -1,5 +1,5 @@
 // Noise of a simulated range sensor: a function of seed, frame and pixel instead of a sequence, so
-// that a picture depends on nothing that was drawn before it.
+// that an image does not depend on numbers drawn before it.
 #pragma once
 
 #include <cstdint>

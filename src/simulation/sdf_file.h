@@ -1,4 +1,4 @@
-// Loading an SDF file with libsdformat so that what it complains about becomes an InputError.
+// Loads an SDF file with libsdformat; its errors become InputError.
 #pragma once
 
 #include <functional>

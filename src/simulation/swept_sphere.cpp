@@ -7,18 +7,19 @@ namespace {
 
 constexpr double kTouch = 1e-9;  // m; a surface this little inside the sphere does not stop it
 constexpr double kCut = 1e-6;    // m; a surface this far inside was there from the beginning
-constexpr double kPiece = 1e-3;  // m; along a near surface the way is looked at in such pieces
-constexpr int kHalvings = 24;    // of a piece, to find the touch: 1e-10 m
+constexpr double kPiece = 1e-3;  // m; along a near surface the motion is checked in such pieces
+constexpr int kHalvings = 24;    // of a piece, to find the contact: 1e-10 m
 
 }  // namespace
 
-// The sphere may always go as far as its clearance, so most ways take one look at the world.
-SphereWay followWay(const World& world, double radius, const Eigen::Vector3d& from,
-                    const Eigen::Vector3d& to) {
+// The sphere may always move by its clearance (conservative advancement), so most motions take one
+// query of the world.
+SweptSphere sweptSphere(const World& world, double radius, const Eigen::Vector3d& from,
+                        const Eigen::Vector3d& to) {
   const double length = (to - from).norm();
   if (length == 0.0) return {to, std::nullopt};
-  const auto place = [&](double way) -> Eigen::Vector3d {
-    return from + (way / length) * (to - from);
+  const auto place = [&](double distance) -> Eigen::Vector3d {
+    return from + (distance / length) * (to - from);
   };
   const auto surfaceNear = [&](const Eigen::Vector3d& centre, double reach) {
     return world.nearest(centre, radius + reach);

@@ -1,4 +1,4 @@
-// A sphere on a straight way through a world of surfaces.
+// A sphere that moves along a segment through a world of surfaces (swept-sphere collision).
 #pragma once
 
 #include <Eigen/Core>
@@ -8,15 +8,15 @@
 
 namespace grid_path_planner::simulation {
 
-struct SphereWay {
-  Eigen::Vector3d end;                    // where the sphere's centre gets to
-  std::optional<NearestSurface> touched;  // what stops it there; nothing: it gets all the way
+struct SweptSphere {
+  Eigen::Vector3d end;                    // of the sphere's centre
+  std::optional<NearestSurface> touched;  // the surface that stops it; none: it reaches the target
 };
 
-// How far a sphere of `radius` metres gets from `from` towards `to`: it stops a billionth of a
-// metre before a surface would cut it, at the latest. A sphere that a surface cuts already, since
-// it was put there, is not held by anything.
-SphereWay followWay(const World& world, double radius, const Eigen::Vector3d& from,
-                    const Eigen::Vector3d& to);
+// How far a sphere of `radius` metres gets from `from` towards `to`: a surface is at most a billionth
+// of a metre inside the sphere where it stops. A sphere that a surface intersects at the start, where
+// it has been put, is not stopped by anything.
+SweptSphere sweptSphere(const World& world, double radius, const Eigen::Vector3d& from,
+                        const Eigen::Vector3d& to);
 
 }  // namespace grid_path_planner::simulation

@@ -110,10 +110,10 @@ void Vehicle::move(double seconds, const BodyVelocity& before) {
   const double surge = 0.5 * (before.surge + v.surge) * seconds;
   const double sway = 0.5 * (before.sway + v.sway) * seconds;
   const double yaw = state_.yaw + 0.5 * turn;
-  const Eigen::Vector2d way(std::cos(yaw) * surge - std::sin(yaw) * sway,
-                            std::sin(yaw) * surge + std::cos(yaw) * sway);
+  const Eigen::Vector2d motion(std::cos(yaw) * surge - std::sin(yaw) * sway,
+                               std::sin(yaw) * surge + std::cos(yaw) * sway);
   const Eigen::Vector3d from = state_.position;
-  const bool free_in_plane = moveInPlane(way);
+  const bool free_in_plane = moveInPlane(motion);
   if (!free_in_plane) state_.velocity.surge = state_.velocity.sway = 0.0;
   state_.position.z() += 0.5 * (before.heave + state_.velocity.heave) * seconds;
   const bool free_in_world = moveInWorld(from);
@@ -122,26 +122,26 @@ void Vehicle::move(double seconds, const BodyVelocity& before) {
   state_.yaw = normalized(state_.yaw + turn);
 }
 
-// Moves as far along `way` as nothing is touched, in pieces so short that no cell is jumped over.
-// Whether all of it was driven.
-bool Vehicle::moveInPlane(const Eigen::Vector2d& way) {
+// Moves along `motion` up to the first contact, in pieces so short that no cell is skipped. Returns
+// whether all of it was driven.
+bool Vehicle::moveInPlane(const Eigen::Vector2d& motion) {
   if (!map_) {
-    state_.position.head<2>() += way;
+    state_.position.head<2>() += motion;
     return true;
   }
   const double longest = std::min(0.5 * map_->geometry().resolution(), options_.vehicle_radius);
-  const int pieces = std::max(1, static_cast<int>(std::ceil(way.norm() / longest)));
+  const int pieces = std::max(1, static_cast<int>(std::ceil(motion.norm() / longest)));
   const Eigen::Vector2d from = state_.position.head<2>();
   double distance = clearance(from);
   const auto blocked = [&](double share) {
-    const double there = clearance(from + share * way);
+    const double there = clearance(from + share * motion);
     return there < options_.vehicle_radius - kTouch && there < distance;
   };
   for (int i = 1; i <= pieces; ++i) {
     double free = static_cast<double>(i - 1) / pieces;
     double closed = static_cast<double>(i) / pieces;
     if (!blocked(closed)) {
-      state_.position.head<2>() = from + closed * way;
+      state_.position.head<2>() = from + closed * motion;
       distance = clearance(state_.position.head<2>());
       continue;
     }
@@ -149,24 +149,25 @@ bool Vehicle::moveInPlane(const Eigen::Vector2d& way) {
       const double middle = 0.5 * (free + closed);
       (blocked(middle) ? closed : free) = middle;
     }
-    state_.position.head<2>() = from + free * way;
-    enterContact("projected_map");
+    state_.position.head<2>() = from + free * motion;
+    startContact("projected_map");
     return false;
   }
   return true;
 }
 
-// Takes back what the step that began at `from` did after the first touch. Whether there was none.
+// Undoes what the step that began at `from` did after the first contact. Returns whether there was
+// none.
 bool Vehicle::moveInWorld(const Eigen::Vector3d& from) {
   if (!world_) return true;
-  const SphereWay way = followWay(*world_, options_.vehicle_radius, from, state_.position);
-  state_.position = way.end;
-  if (!way.touched) return true;
-  enterContact(std::string(way.touched->name));
+  const SweptSphere swept = sweptSphere(*world_, options_.vehicle_radius, from, state_.position);
+  state_.position = swept.end;
+  if (!swept.touched) return true;
+  startContact(std::string(swept.touched->name));
   return false;
 }
 
-void Vehicle::enterContact(const std::string& name) {
+void Vehicle::startContact(const std::string& name) {
   if (!in_contact_) ++contacts_;
   in_contact_ = true;
   touched_ = name;

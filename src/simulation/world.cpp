@@ -27,7 +27,7 @@ Eigen::AlignedBox3d bounding_box(const Facet& facet) {  // the name by which Eig
   return box.extend(facet.b).extend(facet.c);
 }
 
-// Keeps the best facet yet; tells the tree that whatever cannot beat it is out of reach.
+// The minimizer for Eigen's BVH: holds the nearest facet so far and prunes volumes beyond it.
 class Nearest {
  public:
   using Scalar = double;

@@ -1,4 +1,4 @@
-#include "grid_path_planner/study/confidence.h"
+#include "study/confidence.h"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>

@@ -1,4 +1,4 @@
-#include "grid_path_planner/study/study_data.h"
+#include "study/study_data.h"
 
 #include <algorithm>
 #include <cmath>

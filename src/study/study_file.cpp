@@ -5,7 +5,7 @@
 
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/base/yaml_file.h"
-#include "grid_path_planner/study/study.h"
+#include "study/study.h"
 #include "study/study_planners.h"
 
 namespace grid_path_planner::study {

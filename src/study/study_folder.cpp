@@ -1,4 +1,4 @@
-#include "grid_path_planner/study/study_folder.h"
+#include "study/study_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -1,4 +1,4 @@
-#include "grid_path_planner/study/study_plan.h"
+#include "study/study_plan.h"
 
 #include <sstream>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "grid_path_planner/study/study_query.h"
+#include "study/study_query.h"
 
 #include <random>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "grid_path_planner/study/study_run.h"
+#include "study/study_run.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "grid_path_planner/study/study_runner.h"
+#include "study/study_runner.h"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
-#include "grid_path_planner/study/study_worker.h"
+#include "study/study_worker.h"
 
 namespace grid_path_planner::study {
 

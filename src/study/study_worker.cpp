@@ -1,4 +1,4 @@
-#include "grid_path_planner/study/study_worker.h"
+#include "study/study_worker.h"
 
 #include "grid_path_planner/path/length_by_occupancy.h"
 #include "grid_path_planner/path/metrics.h"

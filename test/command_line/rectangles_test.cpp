@@ -108,7 +108,7 @@ TEST_F(Rectangles, ALimitEndsTheWorkEarlier) {
 
 TEST_F(Rectangles, WeightsAreThoseOfTheConnections) {
   const json distances = objectOf({"--json", "--weight", "distance"})["weights"];
-  ASSERT_EQ(distances.size(), 22u) << "both ways";
+  ASSERT_EQ(distances.size(), 22u) << "both directions";
   EXPECT_EQ(distances[0][0], 0);
   EXPECT_EQ(distances[0][1], 6);
   EXPECT_NEAR(distances[0][2].get<double>(), 2.0616, 5e-5);

@@ -89,7 +89,7 @@ TEST_F(Scenarios, TheHashOfPathsChangesWithAPathOnly) {
   const std::string hash = hashOf({});
   EXPECT_EQ(hashOf({}), hash);
   EXPECT_EQ(hashOf({"--reference", "dijkstra"}), hash) << "only what costs are compared with";
-  EXPECT_NE(hashOf({"--planner", "dijkstra"}), hash) << "equal costs, the other way around";
+  EXPECT_NE(hashOf({"--planner", "dijkstra"}), hash) << "equal costs, other paths";
   EXPECT_NE(hashOf({"--limit", "2"}), hash) << "fewer queries";
   EXPECT_NE(hashOf({"--decay", "0.5"}), hash) << "the same cells, other costs";
   EXPECT_NE(hashOf({"--radius", "0.6"}), hash) << "other statuses";
@@ -100,7 +100,7 @@ TEST_F(Scenarios, TheHashOfPathsChangesWithAPathOnly) {
 
 TEST_F(Scenarios, WhatInflationChangesIsComparedWithDijkstra) {
   const std::string file = scenario("5");
-  const Outcome inflated = scenarios({"--scen", file, "--radius", "0.6"});  // closes both ways
+  const Outcome inflated = scenarios({"--scen", file, "--radius", "0.6"});  // closes both passages
   EXPECT_EQ(inflated.code, 0) << inflated.error;
   EXPECT_TRUE(contains(inflated.printed, " reference=dijkstra unsolvable=2 ")) << inflated.printed;
   EXPECT_TRUE(contains(lastLine(inflated), "queries=1 solved=1 wrong=0 ")) << lastLine(inflated);
@@ -155,9 +155,9 @@ TEST_F(Scenarios, APathOfAnyAngleMayBeShorterThanTheGrids) {
   };
   EXPECT_TRUE(contains(wrongOf("5"), " wrong=0 ")) << wrongOf("5");
   EXPECT_TRUE(contains(wrongOf("3.5"), " wrong=1 ")) << wrongOf("3.5");
-  const std::vector<std::string> dearer = {"--scen", scenario("3.5"), "--planner"};
-  const auto codeOf = [&dearer](const char* planner) {
-    std::vector<std::string> arguments = dearer;
+  const std::vector<std::string> expensive = {"--scen", scenario("3.5"), "--planner"};
+  const auto codeOf = [&expensive](const char* planner) {
+    std::vector<std::string> arguments = expensive;
     arguments.emplace_back(planner);
     return scenarios(arguments).code;
   };

@@ -24,11 +24,11 @@ inline double distanceTo(const path::Path& path, const Eigen::Vector3d& position
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     const Eigen::Vector3d a = path.poses[i].position;
-    const Eigen::Vector3d way = path.poses[std::min(i + 1, path.poses.size() - 1)].position - a;
-    const double square = way.squaredNorm();
+    const Eigen::Vector3d segment = path.poses[std::min(i + 1, path.poses.size() - 1)].position - a;
+    const double square = segment.squaredNorm();
     const double share =
-        square > 0.0 ? std::clamp((position - a).dot(way) / square, 0.0, 1.0) : 0.0;
-    least = std::min(least, (a + share * way - position).norm());
+        square > 0.0 ? std::clamp((position - a).dot(segment) / square, 0.0, 1.0) : 0.0;
+    least = std::min(least, (a + share * segment - position).norm());
   }
   return least;
 }
@@ -79,7 +79,7 @@ struct ClosedLoop {
 
   following::PathFollower follower;
   simulation::Vehicle vehicle;
-  following::WayCheck check;
+  following::PathClearanceCheck check;
   bool pose_known = true;
   std::function<void()> each_step;
   base::BodyVelocity command;

@@ -88,7 +88,7 @@ TEST(Drive, LooksAsTheWaypointsSay) {
   EXPECT_NEAR(loop.pose().yaw, 1.2, 0.06);
 }
 
-TEST(Drive, LooksAlongTheWayAndAtTheEndAsTheWaypointSays) {
+TEST(Drive, FacesAlongThePathAndAtTheEndAsTheWaypointSays) {
   FollowerOptions options;
   options.facing = FacingMode::ALONG;
   ClosedLoop loop(options);
@@ -113,7 +113,7 @@ TEST(Drive, PushedFarOffThePathItComesStraightBackBeforeItGoesOn) {
   EXPECT_GT(lowest, -0.15) << "it does not swing over to the other side";
 }
 
-// With a way to look ahead that reaches round the turn, the point to steer to lies beside or
+// With a lookahead that reaches round the turn, the point to steer to lies beside or
 // behind.
 TEST(Drive, ThereAndBackWithAFarPursuitAndASmallAcceptanceRadius) {
   FollowerOptions options;
@@ -266,15 +266,15 @@ TEST(Drive, LeavesAVehicleAloneThatItNeedNotHold) {
   EXPECT_EQ(loop.pose().position.x(), 2.5);
 }
 
-TEST(Drive, TheWayAheadIsWhatIsStillToBeDriven) {
+TEST(Drive, ThePathAheadIsWhatIsStillToBeDriven) {
   FollowerOptions options;
   options.lookahead = 2.5;
   ClosedLoop loop(options);
   loop.follower.start(pathOf({{0, 0}, {3, 0}, {3, 3}}), Join::FIRST);
   ASSERT_TRUE(loop.runUntil([&] { return loop.pose().position.x() > 1.5; }));
   std::vector<Eigen::Vector3d> seen;
-  loop.check = [&](const std::vector<Eigen::Vector3d>& way) {
-    seen = way;
+  loop.check = [&](const std::vector<Eigen::Vector3d>& ahead) {
+    seen = ahead;
     return std::string();
   };
   const double x = loop.pose().position.x();
@@ -286,7 +286,7 @@ TEST(Drive, TheWayAheadIsWhatIsStillToBeDriven) {
 }
 
 // Over random paths, dense and sparse: arrives, reaches every waypoint, stays near the path, keeps
-// the limits, and drives the same way twice.
+// the limits, and drives the same twice.
 TEST(DriveLaw, StaysOnThePathInsideTheLimits) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     std::mt19937 random(seed);

@@ -1,4 +1,4 @@
-// Every state and every way from one to another.
+// Every state and every transition between two.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -25,7 +25,7 @@ Path somePath() {
   return pathOf({{0, 0}, {4, 0, 0, 1}});
 }
 
-// A follower brought into `state`, its vehicle on the way.
+// A follower brought into `state`, its vehicle between two waypoints.
 std::unique_ptr<ClosedLoop> in(FollowState state) {
   FollowerOptions options;
   options.missed_waypoint = MissedPolicy::STOP;
@@ -138,7 +138,7 @@ TEST(States, ALostPoseStopsAndAPoseThatIsBackGoesOn) {
   EXPECT_EQ(loop->waypointsOf(Kind::UNBLOCKED).size(), 1u);
 }
 
-TEST(States, AnOccupiedWayStopsAndAFreeOneGoesOn) {
+TEST(States, AnOccupiedPathStopsAndAFreeOneGoesOn) {
   const auto loop = in(FollowState::DRIVING);
   std::string why = "a crate at 2, 0";
   loop->check = [&](const std::vector<Eigen::Vector3d>&) { return why; };
@@ -150,7 +150,7 @@ TEST(States, AnOccupiedWayStopsAndAFreeOneGoesOn) {
   EXPECT_TRUE(loop->runUntilState(FollowState::ARRIVED));
 }
 
-TEST(States, AnOccupiedWayIsSeenBeforeTheFirstMotion) {
+TEST(States, AnOccupiedPathIsFoundBeforeTheFirstMotion) {
   ClosedLoop loop;
   loop.check = [](const std::vector<Eigen::Vector3d>&) { return std::string("a crate"); };
   loop.follower.start(somePath(), Join::NEAREST);

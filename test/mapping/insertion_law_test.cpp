@@ -85,7 +85,7 @@ TEST_P(InsertionLaw, clearOnlyPointsCountAsOctomapServersGround) {
   }
 }
 
-// Rays that fill their box are marked in another way than a few long ones.
+// Rays that fill their box use the dense traversal, a few long ones the sparse one.
 TEST_P(InsertionLaw, densePicturesCountAsSparseOnes) {
   octomap::OcTree expected = emptyTree(options_);
   OctreeMap map(options_);

@@ -71,7 +71,7 @@ TEST(OctreeOptions, aModelThatCannotLearnIsRefusedByName) {
   EXPECT_TRUE(contains(refusal(&OctreeOptions::occupancy_threshold, kNan), "occupancy_threshold"));
 }
 
-TEST(OctreeMap, seesTheEndOfARayOccupiedAndTheWayFree) {
+TEST(OctreeMap, marksTheEndOfARayOccupiedAndTheRayFree) {
   OctreeMap map(tenthOfAMetre());
   EXPECT_EQ(map.insert({{0.05f, 0.05f, 0.05f}, {{1.05f, 0.05f, 0.05f}}, {}}), 0u);
   EXPECT_EQ(at(map, 0.05f, 0.05f, 0.05f), Voxel::FREE);
@@ -80,7 +80,7 @@ TEST(OctreeMap, seesTheEndOfARayOccupiedAndTheWayFree) {
   EXPECT_EQ(at(map, 1.15f, 0.05f, 0.05f), Voxel::UNKNOWN);
 }
 
-TEST(OctreeMap, clearOnlyPointsClearTheWayButNotTheirVoxel) {
+TEST(OctreeMap, clearOnlyPointsClearTheRayButNotTheirVoxel) {
   OctreeMap map(tenthOfAMetre());
   map.insert({{0.05f, 0.05f, 0.05f}, {}, {{1.05f, 0.05f, 0.05f}}});
   EXPECT_EQ(at(map, 0.95f, 0.05f, 0.05f), Voxel::FREE);

@@ -7,16 +7,15 @@
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/TeleopJoyConfig.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
-#include "grid_path_planner/simulation/simulator_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
 #include "ros/planning/map_publisher_options.h"
 #include "ros/planning/path_planner_options.h"
+#include "ros/simulation/simulator_options.h"
 
 namespace grid_path_planner::nodes {
 
 using mapping::ProjectedMapOptions;
-using simulation::SimulatorOptions;
 
 namespace {
 

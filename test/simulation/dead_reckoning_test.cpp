@@ -68,7 +68,7 @@ TEST(DeadReckoning, NoiseIsTheSameHoweverFarItDrove) {
   EXPECT_NEAR(deviation(options, 160), 0.05, 0.01);
 }
 
-TEST(DeadReckoning, AnErrorOfTheYawBendsTheWayThatFollows) {
+TEST(DeadReckoning, AnErrorOfTheYawBendsThePathThatFollows) {
   DeadReckoningOptions options;
   options.odometry_yaw_drift = 0.05;
   const std::vector<VehicleState> measured = drive(options, 200);

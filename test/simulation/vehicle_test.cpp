@@ -188,7 +188,7 @@ TEST(VehicleContact, AFastVehicleDoesNotJumpOverAWall) {
   EXPECT_NEAR(vehicle.state().position.x(), 3.7, 1e-6);
 }
 
-TEST(VehicleContact, OutsideTheMapNothingIsInTheWay) {
+TEST(VehicleContact, OutsideTheMapThereAreNoObstacles) {
   Vehicle vehicle({}, {Eigen::Vector3d(-1e9, 1e9, 0.0), 0.0});
   vehicle.setMap(mapOf({"###"}));
   run(vehicle, {1.0, 0.0, 0.0, 0.0}, 1.0);
@@ -196,7 +196,7 @@ TEST(VehicleContact, OutsideTheMapNothingIsInTheWay) {
 }
 
 // Whatever is commanded on whatever map: speeds and accelerations inside the limits, the disc never
-// in an occupied cell, and the same commands give the same way.
+// in an occupied cell, and the same commands give the same path.
 TEST(VehicleLaw, LimitsWallsAndRepeatability) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     std::mt19937 random(seed);

@@ -104,11 +104,11 @@ TEST(VehicleInWorld, FastOnesDoNotJumpThroughThinSurfaces) {
 }
 
 TEST(VehicleInWorld, WhereItWasPutIntoSomethingItMayLeaveInAnyDirection) {
-  for (const BodyVelocity& way :
+  for (const BodyVelocity& velocity :
        {BodyVelocity{0.5, 0.0, 0.0, 0.0}, BodyVelocity{0.0, -0.5, 0.0, 0.0},
         BodyVelocity{0.0, 0.0, 0.5, 0.0}}) {
     Vehicle vehicle = vehicleIn(postAndFloor(), {2.9, 0.1, 0.0});
-    run(vehicle, way, 5.0);
+    run(vehicle, velocity, 5.0);
     EXPECT_EQ(vehicle.contacts(), 0);
     EXPECT_FALSE(postAndFloor()->nearest(vehicle.state().position, 0.3));
   }
@@ -139,8 +139,8 @@ TEST(VehicleInWorld, AWorldThatIsTakenAwayHoldsNothing) {
 }
 
 // Whatever is commanded among boxes and balls at every angle: no surface ever inside the sphere,
-// and the same commands give the same way.
-TEST(VehicleInWorldLaw, NothingIsEnteredAndWaysRepeat) {
+// and the same commands give the same path.
+TEST(VehicleInWorldLaw, NothingIsEnteredAndPathsRepeat) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> number(-1.0, 1.0);

@@ -1,4 +1,4 @@
-#include "grid_path_planner/simulation/world_file.h"
+#include "grid_path_planner/simulation/world.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "grid_path_planner/planning/path_planner.h"
 #include "grid_path_planner/simulation/depth_camera.h"
-#include "grid_path_planner/simulation/world_file.h"
+#include "grid_path_planner/simulation/world.h"
 #include "support/free_space.h"
 
 namespace grid_path_planner::simulation {
@@ -52,7 +52,7 @@ std::string modelOf(std::string_view mesh) {
   return std::string(mesh.substr(0, mesh.find("::")));
 }
 
-// What a ball of `radius` would cut on the straight way.
+// What a ball of `radius` would cut on the straight line.
 std::set<std::string> modelsBetween(const World& world, const Vector3d& from, const Vector3d& to,
                                     double radius) {
   std::set<std::string> models;
@@ -117,13 +117,13 @@ TEST(DexrovSite, BothEndsOfThePlanAreFree) {
       ADD_FAILURE() << surface->name << " is " << surface->distance << " m from an end";
 }
 
-TEST(DexrovSite, TheStraightWayIsBlockedBySeveralThings) {
+TEST(DexrovSite, TheStraightLineIsBlockedBySeveralThings) {
   const std::set<std::string> models = modelsBetween(site(), kStart, kGoal, 0.3);
   EXPECT_GE(models.size(), 3u);
   EXPECT_EQ(models.count("wreck"), 1u);
 }
 
-TEST(DexrovSite, AtTheDepthOfTheSurveyOnlyTheChainIsInTheWay) {
+TEST(DexrovSite, AtTheDepthOfTheSurveyOnlyTheChainIsAnObstacle) {
   const GridGeometry map = siteMap(0.1);
   for (int row = 0; row < map.height(); ++row)
     for (int column = 0; column < map.width(); ++column) {
@@ -135,7 +135,7 @@ TEST(DexrovSite, AtTheDepthOfTheSurveyOnlyTheChainIsInTheWay) {
     }
 }
 
-TEST(DexrovSite, VehiclesOfBothRadiiFindTheirWay) {
+TEST(DexrovSite, VehiclesOfBothRadiiFindAPath) {
   for (const double radius : {0.3, 0.4}) {
     const OccupancyGrid map = test::occupiedAt(site(), siteMap(0.1), {kPlanningDepth}, radius);
     const Plan report = route(map, kStart, kGoal);
@@ -151,13 +151,13 @@ TEST(DexrovSite, ThePassageThroughTheWreckIsWideEnoughForOneVehicle) {
     return route(test::occupiedAt(site(), around, {kPlanningDepth}, radius), south, north).length_m;
   };
   const double through = length(0.4);
-  EXPECT_GT(through, 0.0) << "no way";
+  EXPECT_GT(through, 0.0) << "no path";
   EXPECT_LT(through, 5.5);
-  EXPECT_EQ(length(0.65), 0.0) << "it is no broad way";
+  EXPECT_EQ(length(0.65), 0.0) << "the passage is narrow";
 }
 
 // The study's three kernels, on what a perfect survey would map.
-TEST(DexrovSite, KernelsGiveVisiblyDifferentMapsAndWays) {
+TEST(DexrovSite, KernelsGiveVisiblyDifferentMapsAndPaths) {
   const OccupancyGrid map =
       test::occupiedAt(site(), siteMap(0.05), {2.45, 2.7, 2.95, 3.2, 3.35}, 0.03);
   std::vector<double> lengths;
@@ -183,7 +183,7 @@ TEST(DexrovSite, ACameraThatLooksAheadAndDownSeesTheSeabed) {
   EXPECT_GT(3.0 * measured / points.size(), 0.9);
 }
 
-TEST(ForestMaze, AWayLeadsThroughMazeAndGrove) {
+TEST(ForestMaze, APathLeadsThroughMazeAndGrove) {
   const Vector3d from(1.5, 1.5, 1.5), to(58.0, 28.0, 1.5);
   EXPECT_GE(modelsBetween(forestMaze(), from, to, 0.4).size(), 2u);
   const OccupancyGrid map = test::occupiedAt(forestMaze(), GridGeometry(300, 150, 0.2), {1.5}, 0.4);

@@ -1,11 +1,11 @@
-#include "grid_path_planner/study/confidence.h"
+#include "study/confidence.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "grid_path_planner/study/table.h"
+#include "study/report/table.h"
 
 namespace grid_path_planner::study {
 namespace {

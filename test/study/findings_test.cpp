@@ -1,11 +1,11 @@
-#include "grid_path_planner/study/findings.h"
+#include "study/report/findings.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "grid_path_planner/study/report.h"
 #include "small_study.h"
+#include "study/report/report.h"
 #include "support/error_text.h"
 
 namespace grid_path_planner::study {
@@ -69,7 +69,7 @@ TEST_F(FindingsTest, NothingIsClaimedFromADifferenceInsideTheNoise) {
   EXPECT_FALSE(contains(words, "times as long as"));
 }
 
-TEST_F(FindingsTest, ADearerPathIsNotOptimal) {
+TEST_F(FindingsTest, APathThatCostsMoreIsNotOptimal) {
   change(2, [](StudyRun& run) { run.cost = run.query == 0 ? 11.0 : 10.0; });
   const Table table = optimalFinding(StudyData(plan_, runs_)).table;
   ASSERT_EQ(table.rows.size(), 3u);

@@ -6,10 +6,10 @@
 
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/study/process_pool.h"
-#include "grid_path_planner/study/study_folder.h"
-#include "grid_path_planner/study/study_plan.h"
-#include "grid_path_planner/study/study_runner.h"
-#include "grid_path_planner/study/study_worker.h"
+#include "study/study_folder.h"
+#include "study/study_plan.h"
+#include "study/study_runner.h"
+#include "study/study_worker.h"
 #include "support/ascii_map.h"
 #include "support/temporary_folder.h"
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "grid_path_planner/grid/map_file.h"
-#include "grid_path_planner/study/study.h"
-#include "grid_path_planner/study/study_plan.h"
+#include "study/study.h"
+#include "study/study_plan.h"
 #include "support/ascii_map.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"

@@ -1,11 +1,11 @@
-#include "grid_path_planner/study/study_runner.h"
+#include "study/study_runner.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
 
-#include "grid_path_planner/study/report.h"
 #include "small_study.h"
+#include "study/report/report.h"
 #include "support/error_text.h"
 #include "support/file_size_limit.h"
 

@@ -76,7 +76,7 @@ CONTEXT = {
     "parameters.h": """#include <grid_path_planner/PathPlannerConfig.h>
         #include "grid_path_planner/planning/path_planner.h\"""",
     "path_follower.h": "extern FollowerOptions options; extern Path path; extern double time;"
-                       "extern Pose pose; extern WayCheck check;",
+                       "extern Pose pose; extern PathClearanceCheck check;",
     "heap_on_top_queue.h": "extern SearchKey first, width, key, bound; extern std::uint32_t order, index;"
                        "extern bool (*renew)(HeapOnTopQueue::Entry&);",
     "path_image.h": "extern OccupancyGrid map; extern OccupancyThresholds thresholds; extern Path path;"
@@ -133,7 +133,7 @@ CONTEXT = {
     "weighted_jump_map.h": "extern const CostGrid& map; extern Cell cell, goal; extern std::uint32_t index;"
                            "extern const CostGrid::Weight* weights; constexpr unsigned kEast = 0;",
     "weighted_jump_search.h": "extern const CostGrid& map; extern SearchRequest request;",
-    "world.h": """#include "grid_path_planner/simulation/world_file.h"
+    "world.h": """
         #include <iostream>
         extern Eigen::Vector3d position;""",
 }

@@ -15,7 +15,7 @@ const std::vector<std::pair<const char*, FollowMode>>& choicesOf(FollowMode);
 enum class MissedPolicy { STOP, SKIP, RETRY };
 const std::vector<std::pair<const char*, MissedPolicy>>& choicesOf(MissedPolicy);
 
-// Where the vehicle looks: as the waypoints say, turning evenly between them, or along the way and
+// Where the vehicle faces: as the waypoints say, turning evenly between them; or along the path, and
 // at a stop as the waypoint says.
 enum class FacingMode { PATH_YAW, ALONG };
 const std::vector<std::pair<const char*, FacingMode>>& choicesOf(FacingMode);
@@ -44,8 +44,9 @@ struct FollowerOptions {
   double blocked_timeout = 0.0;       // s
 };
 
+// Groups of the options, in the order of visitOptions.
 template <class Visitor>
-void visitOptions(FollowerOptions& o, Visitor&& visit) {
+void visitSpeedOptions(FollowerOptions& o, Visitor&& visit) {
   visit("max_speed", o.max_speed,
         base::OptionInfo{"Speed along the path in the plane", "m/s", 0.01, 100.0}.under("Speeds"));
   visit("max_vertical_speed", o.max_vertical_speed,
@@ -65,6 +66,10 @@ void visitOptions(FollowerOptions& o, Visitor&& visit) {
   visit("yaw_gain", o.yaw_gain,
         base::OptionInfo{"Yaw rate per radian of error; higher: stiffer, less stable", "1/s", 0.05,
                          20.0});
+}
+
+template <class Visitor>
+void visitWaypointOptions(FollowerOptions& o, Visitor&& visit) {
   visit("mode", o.mode,
         base::OptionInfo{"continuous passes intermediate waypoints, stop_at_each stops at them", ""}
             .under("How waypoints are driven"));
@@ -102,6 +107,10 @@ void visitOptions(FollowerOptions& o, Visitor&& visit) {
   visit("loop", o.loop,
         base::OptionInfo{
             "Whether the path is driven again and again; a change counts for the next path", ""});
+}
+
+template <class Visitor>
+void visitFailureOptions(FollowerOptions& o, Visitor&& visit) {
   visit(
       "missed_waypoint", o.missed_waypoint,
       base::OptionInfo{"What happens at a waypoint that was not reached; each one is reported", ""}
@@ -114,6 +123,13 @@ void visitOptions(FollowerOptions& o, Visitor&& visit) {
   visit("blocked_timeout", o.blocked_timeout,
         base::OptionInfo{"The drive fails when it has been blocked this long; 0: it waits for ever",
                          "s", 0.0, 1e6});
+}
+
+template <class Visitor>
+void visitOptions(FollowerOptions& o, Visitor&& visit) {
+  visitSpeedOptions(o, visit);
+  visitWaypointOptions(o, visit);
+  visitFailureOptions(o, visit);
 }
 
 // Throws InputError naming the option for a value outside its limits, for a position_tolerance

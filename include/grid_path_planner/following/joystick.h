@@ -25,11 +25,11 @@ struct JoystickOptions {
   int sway_axis = 0;
   int heave_axis = 4;
   int yaw_axis = 3;
-  double surge_scale = 0.8;  // m/s at the end of the stick's way; negative: the other way round
+  double surge_scale = 0.8;  // m/s at the end of the stick's travel; negative: reversed
   double sway_scale = 0.5;   // m/s
   double heave_scale = 0.4;  // m/s
   double yaw_scale = 0.8;    // rad/s
-  double dead_zone = 0.05;   // share of the stick's way
+  double dead_zone = 0.05;   // share of the stick's travel
   int deadman_button = 4;
   int fast_button = 5;
   double fast_factor = 1.5;

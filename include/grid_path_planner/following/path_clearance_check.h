@@ -1,4 +1,4 @@
-// Whether the way ahead is free in a map.
+// Whether the path ahead is free in a map.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,11 +9,11 @@
 
 namespace grid_path_planner::following {
 
-// The first cell along `way` (map frame, metres; the z does not count) of at least `occupied_min`
-// that the polyline meets, or comes nearer to than `radius` metres; none where all is free. "First"
-// by pieces of the way of at most ten cells. Grazing a cell's edge or corner meets nothing; unknown
-// cells and what lies outside the map are free.
+// The first cell along the polyline `ahead` (map frame, metres; the z does not count) of at least
+// `occupied_min` that the polyline meets, or comes nearer to than `radius` metres; none where all
+// is free. "First" by pieces of the polyline of at most ten cells. Grazing a cell's edge or corner
+// meets nothing; unknown cells and what lies outside the map are free.
 std::optional<grid::Cell> firstOccupied(const grid::OccupancyGrid& map, int occupied_min,
-                                        const std::vector<Eigen::Vector3d>& way, double radius);
+                                        const std::vector<Eigen::Vector3d>& ahead, double radius);
 
 }  // namespace grid_path_planner::following

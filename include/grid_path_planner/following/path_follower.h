@@ -6,7 +6,7 @@
 //   BodyVelocity velocity = follower.update({time, pose, check});
 //   for (const FollowEvent& event : follower.takeEvents()) use(event.message);
 //
-//             start               pose lost, way occupied
+//             start               pose lost, path occupied
 //   any state ------> DRIVING <---------------------------> BLOCKED ----> FAILED (blocked_timeout)
 //                      |  ^ |                                 |
 //                pause |  | +--> ARRIVED, FAILED              | pause
@@ -24,7 +24,6 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,7 +35,10 @@
 
 namespace grid_path_planner::following {
 
-class DrivenRoute;
+class FollowEvents;
+class RouteProgress;
+class VelocityController;
+struct DriveEnd;
 
 enum class FollowState { IDLE, DRIVING, PAUSED, BLOCKED, ARRIVED, CANCELLED, FAILED };
 // In small letters, e.g. "driving".
@@ -65,13 +67,14 @@ struct FollowEvent {
   std::string message;  // counts waypoints from 1
 };
 
-// Says in a sentence why the way (points in the path's frame) cannot be driven; empty where it can.
-using WayCheck = std::function<std::string(const std::vector<Eigen::Vector3d>& way)>;
+// Why the path ahead (points in the path's frame) cannot be driven, in a sentence; empty where it
+// can.
+using PathClearanceCheck = std::function<std::string(const std::vector<Eigen::Vector3d>& ahead)>;
 
 struct FollowInput {
   double time = 0.0;               // s
   std::optional<path::Pose> pose;  // in the path's frame; none where it is not known now
-  WayCheck check = {};             // none: every way is free
+  PathClearanceCheck check = {};   // none: every path is free
   std::string pose_problem =
       {};  // why there is no pose, in a sentence; empty: nothing more is known
 };
@@ -112,12 +115,12 @@ class PathFollower {
   // One sentence about how that was, or why the vehicle is blocked.
   const std::string& message() const { return message_; }
 
-  const path::Path& path() const { return path_; }
+  const path::Path& path() const;
   // Index of the waypoint that is driven to, or was last; 0 before the first update.
-  int currentWaypoint() const { return current_waypoint_; }
+  int currentWaypoint() const;
   // Metres along the path to its end, of this lap in a loop; infinity before the first update.
   double distanceRemaining() const;
-  const std::vector<int>& missedWaypoints() const { return missed_; }
+  const std::vector<int>& missedWaypoints() const;
   // From the last pose to the current waypoint's; NaN before there is one.
   double positionError() const;
   double yawError() const;
@@ -126,55 +129,23 @@ class PathFollower {
   std::vector<FollowEvent> takeEvents();
 
  private:
-  void join(const path::Pose& vehicle);
-  bool isHindered(const FollowInput& input);
+  bool isBlocked(const FollowInput& input);
   void block(double time, DriveStatus cause, const std::string& why);
   base::BodyVelocity drive(const path::Pose& vehicle, double time, double seconds);
-  void advance(const path::Pose& vehicle, double time);
-  bool isSettled(const path::Pose& vehicle, double time);
-  bool isPassed(const Eigen::Vector3d& position) const;
-  bool isMissedButGoesOn(const path::Pose& vehicle);
-  void reach(int waypoint);
-  void beginSegment(std::size_t segment);
-  void appendLap();
-  void watchProgress(const path::Pose& vehicle, double time);
-  double shareOf(const Eigen::Vector3d& position) const;
-  Eigen::Vector3d wantedVelocity(const Eigen::Vector3d& position) const;
-  double wantedYaw(const path::Pose& vehicle) const;
-  base::BodyVelocity holdPose(const path::Pose& vehicle, double seconds);
-  base::BodyVelocity limited(const path::Pose& vehicle, Eigen::Vector3d velocity, double yaw_error,
-                             double seconds);
-  void end(FollowState state, DriveStatus status, const std::string& message);
-  void report(FollowEvent::Kind kind, int waypoint, const std::string& message);
+  void end(const DriveEnd& ending);
   void standStill();
-  std::string nameOf(int waypoint) const;
 
   FollowerOptions options_;
   FollowState state_ = FollowState::IDLE;
   DriveStatus status_ = DriveStatus::NONE;
   std::string message_ = "nothing was driven yet";
-  std::vector<FollowEvent> events_;
-
-  path::Path path_;
-  Join join_ = Join::FIRST;
-  bool loop_ = false;
-  std::unique_ptr<DrivenRoute> route_;  // none until the path is joined
-  std::size_t segment_ = 0;
-  double closest_ = std::numeric_limits<double>::infinity();  // m, to the end of the segment so far
-  bool at_stop_ = false;  // came near to the end of the segment, where it stops
-  int current_waypoint_ = 0;
-  std::vector<int> missed_;
-  int retries_ = 0;
+  const std::unique_ptr<FollowEvents> events_;
+  std::unique_ptr<RouteProgress> progress_;  // of the present path, or of the last
+  const std::unique_ptr<VelocityController> controller_;
 
   std::optional<double> time_;
   std::optional<path::Pose> pose_;
-  std::optional<double> settled_since_;
   std::optional<double> blocked_since_;
-  std::optional<double> progress_since_;
-  double least_left_ = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // commanded last, path frame
-  double yaw_rate_ = 0.0;
-  bool returns_ = false;  // to where it arrived
 };
 
 }  // namespace grid_path_planner::following

@@ -1,11 +1,11 @@
-// From the points of a sensor to a Scan: moved into the frame of the tree, with those that are no
-// obstacles told apart.
+// From the points of a sensor to a Scan: points in the frame of the tree, split into obstacles and
+// others.
 //
 //   CloudFrames frames{map_from_sensor, base_from_map};
 //   map.insert(filterCloud(points, frames, options).scan);
 //
 // A point outside the box of pointcloud_min/max, and one of the ground where filter_ground is set,
-// makes no obstacle, but the way to it was seen through: it goes to Scan::clear_only. The box
+// is no obstacle, but the ray to it is free: it goes to Scan::clear_only. The box
 // stands in the frame of the tree whether ground is filtered or not (octomap_server filters in the
 // base frame then).
 #pragma once
@@ -15,10 +15,15 @@
 #include <vector>
 
 #include "grid_path_planner/base/options.h"
-#include "grid_path_planner/mapping/ground_filter.h"
 #include "grid_path_planner/mapping/scan.h"
 
 namespace grid_path_planner::mapping {
+
+struct GroundFilterOptions {
+  double distance = 0.04;        // m
+  double angle = 0.15;           // rad
+  double plane_distance = 0.07;  // m
+};
 
 struct CloudFilterOptions {
   double min_x = -1e6;  // m, frame of the tree

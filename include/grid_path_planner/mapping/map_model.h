@@ -1,9 +1,9 @@
-// What projected_map keeps: the 3-D map and the 2-D map made of it.
+// The state of projected_map: the 3-D map and the 2-D map projected from it.
 //
-//   MapModel keeper(options);                 // with options.filename: that file
-//   keeper.insert(points, frames);
-//   const OccupancyGrid& grid = keeper.grid();      // brought up to date with the tree
-//   const ProjectionChange change = keeper.takeChange();
+//   MapModel model(options);                   // with options.filename: that file
+//   model.insert(points, frames);
+//   const OccupancyGrid& grid = model.grid();  // brought up to date with the tree
+//   const ProjectionChange change = model.takeChange();
 //
 // For one thread.
 #pragma once
@@ -42,7 +42,7 @@ class MapModel {
   void reset();
   // Throws InputError for corners that are no box.
   void clearBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
-  // Lets `seconds` pass for what is not seen again.
+  // Lets `seconds` pass for occupied voxels (OctreeMap::decay).
   void decay(double seconds);
   // Of the vehicle, m in the frame of the map.
   void setVehicleHeight(double z) { projection_.setVehicleHeight(z); }
@@ -55,7 +55,7 @@ class MapModel {
   std::uint64_t projections() const { return projections_; }
 
   const OctreeMap& map() const { return map_; }
-  // Grows with whatever may have changed the tree.
+  // Increases with every call that may have changed the tree.
   std::uint64_t revision() const { return revision_; }
 
   // Throw InputError naming a file that cannot be written.

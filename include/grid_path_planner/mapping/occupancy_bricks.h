@@ -1,7 +1,7 @@
 // Which voxels of an octree are known and which of them are occupied, as bits in bricks of 8x8x8.
 //
-// The tree answers "what is at this point"; a brick answers "what is in this column" for 64 columns
-// at once, and a set of changed brick columns says where to look again after a scan.
+// The tree is for queries of a point; a brick gives the voxels of 64 columns at once, and the set of
+// changed brick columns is what is to be projected again after a scan.
 //
 //   bricks.setBrick({x, y, z}, content);                       // by whoever changes the tree
 //   for (BrickColumn column : bricks.drainChangedColumns())
@@ -13,7 +13,7 @@
 // Guaranteed: an occupied voxel is known; a brick without a known voxel does not exist; a column is
 // drained if a bit of it has changed since the last draining, and once at most. Uniform bricks
 // (wholly free or wholly occupied) take four bytes.
-// Not guaranteed: that a drained column differs from what it was, as changes may undo each other.
+// Not guaranteed: that a drained column differs from before, as changes may undo each other.
 #pragma once
 
 #include <array>
@@ -91,8 +91,8 @@ class OccupancyBricks {
   std::size_t memoryUsage() const;
 
  private:
-  // What a handle names: a number below kFirstMixed says it all, others are kFirstMixed + the index
-  // of a brick in mixed_.
+  // A number below kFirstMixed is a uniform brick, others are kFirstMixed + the index of a brick in
+  // mixed_.
   using Handle = std::uint32_t;
   static constexpr Handle kUnknown = 0, kFree = 1, kOccupied = 2, kFirstMixed = 3;
 

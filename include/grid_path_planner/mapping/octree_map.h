@@ -1,16 +1,16 @@
-// The 3-D map: an OctoMap tree that depth frames fill, and the bricks that mirror it.
+// The 3-D map: an OctoMap tree filled by depth frames, and the same voxels as bricks.
 //
 //   OctreeMap map(options);
 //   map.insert({origin, hits, clear_only});
 //   map.tree();                          // octomap::OcTree, to be saved and published
-//   map.bricks().drainChangedColumns();  // where a projection must look again
+//   map.bricks().drainChangedColumns();  // what is to be projected again
 //
 // Guaranteed: after insert() the tree is the one that octomap::OcTree::insertPointCloud makes of
 // the same scans: the same nodes with bit-identical log odds, each voxel updated once a scan, a hit
-// winning over a ray that passes. The bricks know and hold occupied exactly the voxels that the
-// tree does, after every call. A call that throws InputError has changed nothing. Not guaranteed:
-// safe use by several threads at once, the const calls excepted; OctoMap's answer where it has none
-// to give (rays shorter than single precision can tell, rays that rounding leads out of space).
+// winning over a ray that passes. After every call exactly the voxels that are known and occupied in
+// the tree are so in the bricks. A call that throws InputError has changed nothing. Not guaranteed:
+// safe use by several threads at once, except for const calls; OctoMap's result where it is
+// undefined (rays too short for single precision, rays that rounding leads out of space).
 //
 // A. Hornung et al., "OctoMap: an efficient probabilistic 3D mapping framework based on octrees",
 // Autonomous Robots 34 (2013).
@@ -40,11 +40,11 @@ class OctreeMap {
   OctreeMap& operator=(OctreeMap&&) noexcept;
 
   const OctreeOptions& options() const { return options_; }
-  // What counts from the next call on; the bricks follow a new occupancy_threshold at once. Throws
+  // Takes effect with the next call; a new occupancy_threshold changes the bricks at once. Throws
   // InputError where checkOctreeOptions does and for another resolution.
   void setOptions(const OctreeOptions& options);
 
-  // Points beyond max_range clear the way up to it, as do clear_only points up to themselves. A
+  // Points beyond max_range clear their ray up to it, clear_only points up to themselves. A
   // point that is not finite or lies outside the tree's range (32768 voxels either way, of a point
   // beyond max_range where its ray is cut) is left out; returns how many were. Throws InputError
   // where the origin itself is such a point.

@@ -1,4 +1,4 @@
-// How an octree takes measurements: octomap_server's parameters, by their names and with their
+// The sensor model of an octree: octomap_server's parameters, by their names and with their
 // defaults.
 #pragma once
 

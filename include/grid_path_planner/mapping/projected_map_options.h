@@ -65,19 +65,9 @@ struct ProjectedMapOptions {
   std::string octree_file;
 };
 
+// Groups of the options, in the order of visitOptions.
 template <class Visitor>
-void visitOptions(ProjectedMapOptions& o, Visitor&& visit) {
-  visit("filename", o.filename,
-        base::OptionInfo{
-            "Octree file (.bt or .ot) to begin with, a new one replaces the map; one that "
-            "cannot be read ends the node; empty: none",
-            ""});
-  visit("frame_id", o.frame_id, base::OptionInfo{"Frame of the map; read at the start", ""});
-  visit("base_frame_id", o.base_frame_id,
-        base::OptionInfo{"Frame of the vehicle: for filter_ground and projection_reference vehicle",
-                         ""});
-  visitOptions(o.octree, visit);
-  visitOptions(o.cloud, visit);
+void visitCloudQueueOptions(ProjectedMapOptions& o, Visitor&& visit) {
   visit("tf_timeout", o.tf_timeout,
         base::OptionInfo{"How long a cloud waits for its transform; it holds up no other", "s", 0.0,
                          1000.0});
@@ -86,6 +76,10 @@ void visitOptions(ProjectedMapOptions& o, Visitor&& visit) {
             "How many clouds wait for their transforms or their turn; the oldest of more "
             "are dropped, and counted",
             "", 1, 10000});
+}
+
+template <class Visitor>
+void visitBandOptions(ProjectedMapOptions& o, Visitor&& visit) {
   visit(
       "occupancy_min_z", o.occupancy_min_z,
       base::OptionInfo{"Lowest voxels that are shown, and projected unless projection_min_z is set",
@@ -105,7 +99,10 @@ void visitOptions(ProjectedMapOptions& o, Visitor&& visit) {
             "Upper end of the 2-D map's band in m, from projection_reference; occupancy: as "
             "occupancy_max_z",
             ""});
-  visitOptions(o.projection, visit);
+}
+
+template <class Visitor>
+void visitPublishingOptions(ProjectedMapOptions& o, Visitor&& visit) {
   visit("publish_rate", o.publish_rate,
         base::OptionInfo{"How often changes are published at most, by the wall clock", "Hz", 0.01,
                          100.0}
@@ -121,6 +118,25 @@ void visitOptions(ProjectedMapOptions& o, Visitor&& visit) {
                          ""});
   visit("publish_free_space", o.publish_free_space,
         base::OptionInfo{"Whether free_cells_vis_array is published, which takes long", ""});
+}
+
+template <class Visitor>
+void visitOptions(ProjectedMapOptions& o, Visitor&& visit) {
+  visit("filename", o.filename,
+        base::OptionInfo{
+            "Octree file (.bt or .ot) to begin with, a new one replaces the map; one that "
+            "cannot be read ends the node; empty: none",
+            ""});
+  visit("frame_id", o.frame_id, base::OptionInfo{"Frame of the map; read at the start", ""});
+  visit("base_frame_id", o.base_frame_id,
+        base::OptionInfo{"Frame of the vehicle: for filter_ground and projection_reference vehicle",
+                         ""});
+  visitOptions(o.octree, visit);
+  visitOptions(o.cloud, visit);
+  visitCloudQueueOptions(o, visit);
+  visitBandOptions(o, visit);
+  visitOptions(o.projection, visit);
+  visitPublishingOptions(o, visit);
   visitOptions(o.colors, visit);
   visit("map_file", o.map_file,
         base::OptionInfo{"Where ~save_map writes, a map_server YAML, if its request names no file",
@@ -138,7 +154,7 @@ ProjectionOptions projectionOptions(const ProjectedMapOptions& options);
 // Throws InputError naming the option.
 void checkProjectedMapOptions(const ProjectedMapOptions& options);
 
-// What octomap_server's parameters that have no effect here would have done; "" for other names.
-std::string needlessParameter(const std::string& name);
+// Why octomap_server's parameter `name` has no effect here; "" for other names.
+std::string ignoredParameter(const std::string& name);
 
 }  // namespace grid_path_planner::mapping

@@ -11,14 +11,14 @@
 // band; one that only touches it does not.
 //
 // Guaranteed: after update() the grid is what a new Projection with the same geometry would make of
-// the same tree, whatever the order of changes. Only brick columns that changed are looked at (with
-// the reference SEABED also those in seabed_radius of them). The band never changes the tree. The
-// origin lies on the voxel lattice, so cells stay the same places as the grid grows. The grid never
+// the same tree, whatever the order of changes. Only brick columns that changed are projected (with
+// the reference SEABED also those within seabed_radius of them). The band never changes the tree.
+// The origin lies on the voxel lattice, so cells keep their places as the grid grows. The grid never
 // shrinks; a tree that was emptied gives the same geometry, all unknown.
 //
-// Not guaranteed: the tightest extent. It is made of whole brick columns, and a side that grows
-// takes an eighth of its length (or four bricks) more than it needs, so that a vehicle that
-// explores does not change the geometry with every scan.
+// Not guaranteed: the tightest extent. It consists of whole brick columns, and a side that grows
+// takes an eighth of its length (or four bricks) more than it needs, so that an exploring vehicle
+// does not change the geometry with every scan.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ namespace grid_path_planner::mapping {
 class Seabed;
 
 struct ProjectionChange {
-  bool geometry = false;  // origin or size are new: all cells may be
+  bool geometry = false;  // origin or size changed: all cells may differ
   grid::CellRect cells;   // the smallest rectangle around the cells that have a new value
 };
 
@@ -48,18 +48,18 @@ class Projection {
   Projection(Projection&&) noexcept;
   Projection& operator=(Projection&&) noexcept;
 
-  // In force from the next update() on, which then looks at every column. Throws InputError for
+  // Takes effect in the next update(), which then projects every column. Throws InputError for
   // options that cannot be used; the old ones stay.
   void setOptions(const ProjectionOptions& options);
   const ProjectionOptions& options() const { return options_; }
 
-  // Where the vehicle is, m in the map frame; 0 until then. Only with the reference VEHICLE, and
-  // only where it moved by more than a voxel, the next update() looks at every column again.
+  // The vehicle's z, m in the map frame; 0 until then. Only with the reference VEHICLE, and only
+  // where it moved by more than a voxel, the next update() projects every column again.
   void setVehicleHeight(double z);
 
-  // Takes what changed in `bricks`, always the same ones. Throws InputError where the grid would
-  // have more than 2^28 cells (stray rays: give bounds); the grid is then as it was and nothing is
-  // lost.
+  // Drains the changed columns of `bricks`, which are always the same ones. Throws InputError where
+  // the grid would have more than 2^28 cells (stray rays: give bounds); the grid is then as it was
+  // and no change is lost.
   ProjectionChange update(OccupancyBricks& bricks);
 
   const grid::OccupancyGrid& grid() const { return grid_; }
@@ -68,12 +68,12 @@ class Projection {
   // A value for each of the 8x8 cells of a brick column; cell (x, y) stands at y * 8 + x.
   using ColumnValues = std::array<std::int8_t, 64>;
 
-  void collect(OccupancyBricks& bricks);
-  bool fit();
+  void collectColumns(OccupancyBricks& bricks);
+  bool fitGeometry();
   grid::CellRect wantedCells() const;
-  void place(const grid::CellRect& cells);
-  void look(const OccupancyBricks& bricks, grid::CellRect& changed);
-  void addSeabedsReach(const OccupancyBricks& bricks);
+  void setGeometry(const grid::CellRect& cells);
+  void projectColumns(const OccupancyBricks& bricks, grid::CellRect& changed);
+  void addSeabedNeighbours(const OccupancyBricks& bricks);
   ColumnValues valuesOf(const OccupancyBricks& bricks, BrickColumn column) const;
   ColumnValues valuesAbove(const std::array<double, 64>& seabed, const OccupancyBricks& bricks,
                            BrickColumn column) const;
@@ -83,10 +83,10 @@ class Projection {
   ProjectionOptions options_;
   double vehicle_height_ = 0.0;  // m, as the grid has it
   grid::OccupancyGrid grid_;
-  grid::CellRect cells_;  // of the grid, counted from the cell that begins at (0, 0) m
-  bool sized_ = false;    // by what was seen, not only to have a cell
-  bool all_ = true;       // every column is to be looked at
-  std::vector<BrickColumn> to_do_;
+  grid::CellRect cells_;             // of the grid, counted from the cell that begins at (0, 0) m
+  bool sized_ = false;               // by columns of the tree, not only to have a cell
+  bool all_columns_pending_ = true;  // every column is to be projected
+  std::vector<BrickColumn> pending_columns_;
   std::unique_ptr<Seabed> seabed_;  // with the reference SEABED
 };
 

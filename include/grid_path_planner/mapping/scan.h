@@ -16,8 +16,8 @@ inline octomap::point3d treePoint(const Eigen::Vector3d& point) {
 
 struct Scan {
   octomap::point3d origin;                   // m, frame of the tree
-  std::vector<octomap::point3d> hits;        // m: what was seen; the way to it is free
-  std::vector<octomap::point3d> clear_only;  // m: points filtered out; the way to them is free
+  std::vector<octomap::point3d> hits;        // m: surface points; the ray to each is free
+  std::vector<octomap::point3d> clear_only;  // m: points filtered out; only the ray to each is free
 };
 
 }  // namespace grid_path_planner::mapping

@@ -1,12 +1,12 @@
-// Odometry as a real vehicle has it: the truth, turned and shifted by errors that grow on the way.
+// Odometry with errors: the true pose, turned and shifted by drift that grows with the distance.
 //
 //   DeadReckoning odometry(options);
 //   odometry.advance(vehicle.state());                   // after every step
-//   const VehicleState measured = odometry.measured();   // what the vehicle believes
+//   const VehicleState measured = odometry.measured();
 //
 // Drift is a random walk: its standard deviation grows with the square root of the distance driven,
-// so that a vehicle that stands still stays where it believes to be. Noise is independent in every
-// measurement and never adds up. Guaranteed: with all options 0 the measured state is the true one,
+// so that the measured pose of a standing vehicle does not drift. Noise is independent in every
+// measurement and does not accumulate. Guaranteed: with all options 0 the measured state is the true one,
 // bit for bit; the same options and states give the same measurements. The velocity is always the
 // true one.
 #pragma once
@@ -57,7 +57,7 @@ class DeadReckoning {
   // From the next `advance` on; the drift so far stays, and a new seed begins a new series.
   void setOptions(const DeadReckoningOptions& options);
 
-  // No drift, and `truth` is where the vehicle is: the way there was not driven.
+  // No drift, and the vehicle is at `truth` without having driven there.
   void reset(const VehicleState& truth);
 
   // The vehicle has driven from the state before to `truth`.

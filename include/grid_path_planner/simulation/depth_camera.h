@@ -1,4 +1,4 @@
-// A depth camera that looks at a simulated world: one ray for each pixel.
+// A depth camera in a simulated world: one ray for each pixel.
 //
 //   DepthCamera camera(world, options);
 //   std::vector<float> points;
@@ -37,7 +37,7 @@ struct CameraIntrinsics {
 class DepthCamera {
  public:
   // Prepares the visible surfaces for rays: some 0.1 s for 100,000 triangles. Throws InputError for
-  // options that checkDepthCameraOptions refuses. The world is not needed any longer afterwards.
+  // options that checkDepthCameraOptions refuses. The world is not needed afterwards.
   explicit DepthCamera(const World& world, const DepthCameraOptions& options = {});
   ~DepthCamera();
   DepthCamera(DepthCamera&&) noexcept;

@@ -1,4 +1,4 @@
-// What the simulated depth camera can do, and where the vehicle carries it.
+// Resolution, range, noise and mounting of the simulated depth camera.
 #pragma once
 
 #include "grid_path_planner/base/options.h"

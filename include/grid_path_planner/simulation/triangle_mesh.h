@@ -1,4 +1,4 @@
-// What the simulated world is made of: named surfaces of triangles, and the shapes they come from.
+// Named triangle meshes, of which the simulated world consists, and the shapes of SDF as meshes.
 //
 //   const TriangleMesh post = cylinderMesh("post", 0.1, 2.0).moved(pose);
 //
@@ -22,7 +22,7 @@ struct TriangleMesh {
   std::vector<Eigen::Vector3f> vertices;                // m
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices of vertices
 
-  // The same mesh seen from outside of the frame whose `pose` is given.
+  // The mesh transformed by `pose`.
   TriangleMesh moved(const Eigen::Isometry3d& pose) const;
   Eigen::AlignedBox3f bounds() const;
 };

@@ -1,6 +1,6 @@
 // An underwater vehicle with four degrees of freedom (surge, sway, heave, yaw) that follows
-// velocity commands as fast as its accelerations allow, and that obstacles hold up: the cells of a
-// map, the surfaces of a world, or both.
+// velocity commands as fast as its accelerations allow, and that obstacles stop: the cells of a map,
+// the surfaces of a world, or both.
 //
 //   Vehicle vehicle(options, {Eigen::Vector3d(1.0, 2.0, -3.0), 0.0});
 //   vehicle.setWorld(world);
@@ -10,9 +10,9 @@
 //
 // Guaranteed: the same calls give the same states, bit for bit; no clock is read, time is the sum
 // of the steps. The vehicle stops by itself cmd_vel_timeout after the last command. Its disc does
-// not enter an occupied cell: the motion in the plane ends at the first touch. Its sphere does not
-// enter a surface of the world: the whole motion but the turning ends at the first touch. Where it
-// has been put into an obstacle it may leave. Not modelled: water, currents, roll and pitch; the
+// not enter an occupied cell: the motion in the plane ends at the first contact. Its sphere does not
+// enter a surface of the world: all motion but the turn ends at the first contact. A vehicle that
+// was put into an obstacle may leave it. Not modelled: water, currents, roll and pitch; the
 // map is flat, so its obstacles stand at every depth. Outside map and world there are no obstacles.
 #pragma once
 
@@ -43,14 +43,14 @@ class Vehicle {
   void setOptions(const VehicleOptions& options);
   const VehicleOptions& options() const { return options_; }
 
-  // The obstacles; a null pointer takes them away. Contacts counted so far stay.
+  // The obstacles; a null pointer removes them. Contacts counted so far stay.
   void setMap(std::shared_ptr<const grid::OccupancyGrid> map);
   // The same for the solid surfaces of a world.
   void setWorld(std::shared_ptr<const World> world);
 
-  // The velocity to reach, from now until cmd_vel_timeout later or the next command. Faster than
-  // the vehicle's limits: held to them, axis by axis. Throws InputError for numbers that are not
-  // finite; the command before stays.
+  // The velocity to reach, from now until cmd_vel_timeout later or the next command. Clamped to the
+  // vehicle's limits, axis by axis. Throws InputError for numbers that are not finite; the command
+  // before stays.
   void command(const base::BodyVelocity& velocity);
 
   // Puts the vehicle somewhere: no command, contacts 0; time goes on. Throws InputError for a state
@@ -77,9 +77,9 @@ class Vehicle {
   base::BodyVelocity setPoint() const;
   void changeVelocity(double seconds);
   void move(double seconds, const base::BodyVelocity& before);
-  bool moveInPlane(const Eigen::Vector2d& way);
+  bool moveInPlane(const Eigen::Vector2d& motion);
   bool moveInWorld(const Eigen::Vector3d& from);
-  void enterContact(const std::string& name);
+  void startContact(const std::string& name);
   bool isClear() const;
   double clearance(const Eigen::Vector2d& position) const;
 

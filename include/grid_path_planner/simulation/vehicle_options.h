@@ -1,4 +1,4 @@
-// What the simulated vehicle can do.
+// Limits and size of the simulated vehicle.
 #pragma once
 
 #include "grid_path_planner/base/options.h"

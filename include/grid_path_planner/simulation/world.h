@@ -1,4 +1,4 @@
-// The fixed surroundings of a simulated vehicle: what it can touch and what its camera sees.
+// The static world of a simulated vehicle: solid surfaces, and surfaces visible to its camera.
 //
 //   const auto world = std::make_shared<const World>(readWorld("worlds/dexrov_site.sdf"));
 //   if (const auto surface = world->nearest(position, 0.3))
@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -50,5 +51,24 @@ class World {
   std::vector<TriangleMesh> visible_;
   std::unique_ptr<const SurfaceTree> tree_;
 };
+
+// The world of an SDF file, the same that Gazebo opens. Read are the first <world> of the file, its
+// models, nested and included ones too, with their links, collisions and visuals: <box>, <cylinder>, <sphere>, <plane> (as large as its <size>) and
+// <mesh> (whatever Assimp reads, with <scale>). A link's collisions are what can be touched, its
+// visuals what is seen; where it has only one kind, that is both. A mesh is called
+// model::link::collision, as in Gazebo. Everything stands still, <static> or not. Lights, sensors,
+// joints, plugins, materials and physics are passed over.
+//
+// Meshes and included models are found by file:// or plain names relative to the file that names
+// them, and by model:// next to the world file and in the folders of GAZEBO_MODEL_PATH and
+// SDF_PATH.
+//
+// Throws InputError naming the file, with libsdformat's own words (and line, where it gives one)
+// for what it does not accept, and with the name of the collision or visual for a geometry of
+// another kind, for a mesh that is missing or damaged, and for a world without anything in it.
+//
+// libsdformat's warnings go to std::cerr. It is not safe to use libsdformat in another thread
+// meanwhile: where it finds files and where it writes are settings of the whole process.
+World readWorld(const std::string& file);
 
 }  // namespace grid_path_planner::simulation

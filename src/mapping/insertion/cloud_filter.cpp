@@ -4,6 +4,7 @@
 
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/options.h"
+#include "mapping/insertion/ground_filter.h"
 
 namespace grid_path_planner::mapping {
 

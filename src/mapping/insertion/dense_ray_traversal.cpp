@@ -6,20 +6,18 @@
 namespace grid_path_planner::mapping {
 namespace {
 
-// Two of something at once, in a register where the machine has such.
+// Two numbers at once, in a SIMD register where the machine has one.
 using Times = double __attribute__((vector_size(16)));
 using Pair = std::int64_t __attribute__((vector_size(16)));
 
-// By bit: `a` where the mask is set, else `b`. (Of `mask ? a : b`, GCC 12 makes
-// branches here.)
+// By bit: `a` where the mask is set, else `b`. (GCC 12 compiles `mask ? a : b` to branches here.)
 template <class Bits>
 Bits either(Bits mask, Bits a, Bits b) {
   return b ^ ((a ^ b) & mask);
 }
 
-// Which of two crossings at `next` come before that of the major axis at `exit`
-// > 0. Of crossings at the same time that of the higher axis is first: `kA` >
-// `kB`.
+// Which of two crossings at `next` come before the crossing of the major axis at `exit` > 0. Of
+// crossings at the same time the higher axis comes first: `kA` > `kB`.
 template <unsigned kMajor, unsigned kA, unsigned kB>
 Pair before(Times next, double exit) {
   const Times exits{exit, exit};
@@ -41,7 +39,7 @@ struct WindowCursor {
 
 }  // namespace
 
-void WindowWalk::mark(Ray& ray, const octomap::OcTreeKey& end) const {
+void DenseRayTraversal::mark(Ray& ray, const octomap::OcTreeKey& end) const {
   const auto& between = ray.between;
   const std::int64_t end_place = window_.place(end);
   const auto slabs = [&](unsigned axis) {
@@ -54,13 +52,12 @@ void WindowWalk::mark(Ray& ray, const octomap::OcTreeKey& end) const {
 }
 
 template <unsigned kMajor>
-void WindowWalk::markSlabs(Ray& ray, std::int64_t slabs, std::int64_t end) const {
+void DenseRayTraversal::markSlabs(Ray& ray, std::int64_t slabs, std::int64_t end) const {
   constexpr unsigned kA = kMajor == 2 ? 1 : 2,
                      kB = kMajor == 0 ? 1 : 0;  // kA > kB
-  // Else rounding might let a ray cross two borders of another axis in one
-  // slab.
+  // Otherwise rounding might let a ray cross two borders of another axis in one slab.
   constexpr double kClearly = 1.0 + 1e-9;
-  // Sums of up to 65536 times may be off by so much.
+  // The relative error of a sum of up to 65536 crossing times.
   constexpr double kSurely = 1.0 + 1e-11;
   const double between_major = ray.between[kMajor];
   double exit = ray.next[kMajor];
@@ -97,9 +94,8 @@ void WindowWalk::markSlabs(Ray& ray, std::int64_t slabs, std::int64_t end) const
     ray.next[kMajor] = exit;
     return markVoxels(ray, place, end, false);
   }
-  // The last slab: each other axis is crossed if its time comes before the
-  // ray's length; the voxel entered by the last crossing stays unmarked, as
-  // does the end and all behind.
+  // The last slab: a border of another axis is crossed if its time comes before the ray's length.
+  // The voxel entered by the last crossing stays unmarked, and so do the end and all voxels after it.
   const Times lengths{ray.length, ray.length}, swapped{next[1], next[0]};
   const Pair crosses = next <= lengths, moves = crosses & steps;
   const std::int64_t second = place + either((next <= swapped)[0], moves[0], moves[1]);
@@ -109,11 +105,12 @@ void WindowWalk::markSlabs(Ray& ray, std::int64_t slabs, std::int64_t end) const
   cells[either(crosses[0] & crosses[1] & second_counts, second, window_.sink())] = Mark::FREE;
 }
 
-void WindowWalk::markVoxels(Ray& ray, std::int64_t place, std::int64_t end, bool at_origin) const {
+void DenseRayTraversal::markVoxels(Ray& ray, std::int64_t place, std::int64_t end,
+                                   bool at_origin) const {
   WindowCursor cursor{window_.cells(), place, end, window_.strides()};
   for (unsigned axis = 0; axis < 3; ++axis)
     if (!ray.forward[axis]) cursor.steps[axis] = -cursor.steps[axis];
-  walkVoxels(ray, cursor, at_origin);
+  traverseVoxels(ray, cursor, at_origin);
 }
 
 }  // namespace grid_path_planner::mapping

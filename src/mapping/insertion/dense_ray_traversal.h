@@ -1,9 +1,9 @@
-// Marks the voxels of a ray in a window, slab by slab.
+// Marks the voxels of a ray in a window: ray traversal by slabs along the major axis.
 //
-// A ray runs along the axis it advances fastest on. Between two borders of this axis it crosses at
-// most one border of each other axis, so a slab is up to three voxels, found without a branch that
-// depends on the ray; so is the last one. Rays very near to a diagonal, and those that errors of
-// rounding lead past their end, go voxel by voxel.
+// A ray's major axis is the one along which it advances fastest. Between two borders of this axis
+// the ray crosses at most one border of each other axis, so a slab is up to three voxels, found
+// without a branch that depends on the ray; so is the last slab. Rays very near to a diagonal, and
+// rays that rounding errors lead past their end, go voxel by voxel (traverseVoxels).
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@
 
 namespace grid_path_planner::mapping {
 
-class WindowWalk {
+class DenseRayTraversal {
  public:
   // Rays begin in the voxel `origin`. `window` covers it and every end.
-  WindowWalk(VoxelWindow& window, const octomap::OcTreeKey& origin)
+  DenseRayTraversal(VoxelWindow& window, const octomap::OcTreeKey& origin)
       : window_(window), origin_(window.place(origin)) {
     key_ = origin;
   }

@@ -1,4 +1,4 @@
-#include "grid_path_planner/mapping/ground_filter.h"
+#include "mapping/insertion/ground_filter.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@ using Plane = Eigen::Hyperplane<double, 3>;
 
 constexpr std::size_t kFewestPoints = 50;
 constexpr int kTrials = 200;
-constexpr std::size_t kJudges = 5000;  // points that a trial is judged by, evenly chosen
+constexpr std::size_t kSampleSize = 5000;  // points that count inliers of a trial, evenly chosen
 
 bool isGround(const Plane& plane, const GroundFilterOptions& options) {
   return std::abs(plane.normal().z()) >= std::cos(options.angle) &&
@@ -44,22 +44,22 @@ std::ptrdiff_t pointsOn(const Plane& plane, const Points& points, double distanc
   });
 }
 
-std::optional<Plane> bestPlane(const Points& judges, const GroundFilterOptions& options) {
+std::optional<Plane> bestPlane(const Points& sample, const GroundFilterOptions& options) {
   std::mt19937 random(1);  // the same draws for every scan
-  const auto draw = [&] { return judges[random() % judges.size()]; };
+  const auto draw = [&] { return sample[random() % sample.size()]; };
   std::optional<Plane> best;
   std::ptrdiff_t most = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const Eigen::Vector3d a = draw(), b = draw(), c = draw();
     const std::optional<Plane> plane = planeThrough(a, b, c);
     if (!plane || !isGround(*plane, options)) continue;
-    const std::ptrdiff_t count = pointsOn(*plane, judges, options.distance);
+    const std::ptrdiff_t count = pointsOn(*plane, sample, options.distance);
     if (count > most) {
       most = count;
       best = plane;
     }
   }
-  return static_cast<std::size_t>(most) >= judges.size() / 20 ? best : std::nullopt;
+  return static_cast<std::size_t>(most) >= sample.size() / 20 ? best : std::nullopt;
 }
 
 // The plane of least squares through the points that lie on `plane`.
@@ -92,11 +92,11 @@ GroundSplit splitGround(const Points& points, const GroundFilterOptions& options
     split.is_ground.assign(points.size(), false);
     return split;
   }
-  const Points judges = evenly(points, kJudges);
-  const std::optional<Plane> found = bestPlane(judges, options);
+  const Points sample = evenly(points, kSampleSize);
+  const std::optional<Plane> found = bestPlane(sample, options);
   split.plane_found = found.has_value();
   split.is_ground =
-      found ? pointsNear(refined(*found, judges, options.distance), points, options.distance)
+      found ? pointsNear(refined(*found, sample, options.distance), points, options.distance)
             : pointsNear(Plane(Eigen::Vector3d::UnitZ(), 0.0), points, options.plane_distance);
   return split;
 }

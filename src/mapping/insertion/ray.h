@@ -1,5 +1,6 @@
-// A ray through voxels, with the arithmetic of octomap::OcTree::computeRayKeys: the same sums in
-// the same order and precision, so that ties and errors of rounding fall alike.
+// Ray traversal of a voxel grid (Amanatides & Woo, "A fast voxel traversal algorithm for ray
+// tracing", 1987), with the arithmetic of octomap::OcTree::computeRayKeys: the same sums in the same
+// order and precision, so that ties and rounding errors are the same.
 #pragma once
 
 #include <octomap/octomap_types.h>
@@ -15,8 +16,8 @@
 
 namespace grid_path_planner::mapping {
 
-// By axis: when the ray next crosses a border and how long it goes from one to the next, as lengths
-// along the ray in metres.
+// By axis: where the ray next crosses a border (tMax of Amanatides & Woo) and the distance from one
+// border to the next (tDelta), as lengths along the ray in metres.
 struct Ray {
   std::array<double, 3> next, between;
   std::array<bool, 3> forward;
@@ -36,8 +37,8 @@ class RaySource {
       }
   }
 
-  // To a point in another voxel. False where it is so near that single precision has no direction
-  // for it.
+  // The ray to a point in another voxel. False where the point is so near that single precision has
+  // no direction for it.
   bool rayTo(const octomap::point3d& end, Ray& ray) const {
     octomap::point3d direction = end - origin_;
     const float length = static_cast<float>(direction.norm());
@@ -57,15 +58,15 @@ class RaySource {
  private:
   octomap::point3d origin_;
   double resolution_;
-  // Of the origin's voxel along each axis, backward and forward: distance of its border.
+  // Distance of the borders of the origin's voxel, along each axis backward and forward.
   std::array<std::array<double, 2>, 3> border_;
 };
 
-// Goes from where `cursor` is to the last voxel before the end, border by border. `cursor` can
-// mark() its voxel, step(axis) and say whether it is atEnd(). `at_origin`: the first voxel is
-// marked however short the ray.
+// Moves `cursor` from its voxel to the last voxel before the end, border by border. `cursor` has
+// mark() for its voxel, step(axis) and atEnd(). `at_origin`: the first voxel is marked however short
+// the ray.
 template <class Cursor>
-void walkVoxels(Ray& ray, Cursor& cursor, bool at_origin) {
+void traverseVoxels(Ray& ray, Cursor& cursor, bool at_origin) {
   auto& next = ray.next;
   while (at_origin || (!cursor.atEnd() && !(std::min({next[0], next[1], next[2]}) > ray.length))) {
     at_origin = false;

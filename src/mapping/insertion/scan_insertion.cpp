@@ -37,7 +37,7 @@ std::size_t ScanInsertion::memoryUsage() const {
          marks_.capacity() * sizeof(ScanMarks);
 }
 
-// Gives how many points were left out.
+// Returns how many points were left out.
 std::size_t ScanInsertion::collectEnds(const Scan& scan, double max_range, const MapTree& tree) {
   std::size_t left_out = 0;
   ends_.clear();
@@ -94,10 +94,10 @@ void ScanInsertion::forEachRay(const RaySource& rays, const OcTreeKey& origin, M
 void ScanInsertion::markWindow(const RaySource& rays, const OcTreeKey& origin,
                                const VoxelWindow::Box& box) {
   window_.cover(box);
-  const WindowWalk walk(window_, origin);
+  const DenseRayTraversal traversal(window_, origin);
   forEachRay(
-      rays, origin, [&](Ray& ray, const OcTreeKey& key) { walk.mark(ray, key); },
-      [&] { walk.markOrigin(); });
+      rays, origin, [&](Ray& ray, const OcTreeKey& key) { traversal.mark(ray, key); },
+      [&] { traversal.markOrigin(); });
   for (const End& end : ends_)  // after all rays: a hit wins
     if (end.is_hit) window_.cells()[window_.place(end.key)] = Mark::HIT;
   collectMarks(window_, marks_);
@@ -105,12 +105,12 @@ void ScanInsertion::markWindow(const RaySource& rays, const OcTreeKey& origin,
 
 void ScanInsertion::markBricks(const RaySource& rays, const OcTreeKey& origin) {
   marks_.clear();
-  BrickWalk walk(marks_, origin);
+  SparseRayTraversal traversal(marks_, origin);
   forEachRay(
-      rays, origin, [&](Ray& ray, const OcTreeKey& key) { walk.mark(ray, key); },
-      [&] { walk.markFree(origin); });
+      rays, origin, [&](Ray& ray, const OcTreeKey& key) { traversal.mark(ray, key); },
+      [&] { traversal.markFree(origin); });
   for (const End& end : ends_)
-    if (end.is_hit) walk.markHit(end.key);
+    if (end.is_hit) traversal.markHit(end.key);
   std::sort(marks_.begin(), marks_.end(),
             [](const ScanMarks& a, const ScanMarks& b) { return a.order < b.order; });
 }

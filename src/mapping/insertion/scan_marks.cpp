@@ -9,7 +9,7 @@ namespace {
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "rows of cells are read as words");
 
 constexpr std::uint64_t kEveryByte = 0x0101010101010101;
-// Makes room for two bits above each of up to 16.
+// Two zero bits after each of up to 16 bits (one axis of a Morton code).
 std::uint64_t spread(std::uint64_t bits) {
   bits = (bits | bits << 16) & 0x0000FF0000FF;
   bits = (bits | bits << 8) & 0x00F00F00F00F;
@@ -41,7 +41,7 @@ void collectBrick(Mark* cells, std::int64_t stride_x, std::int64_t stride_y, Bri
       any |= row;
     }
   if (any == 0) return;
-  bricks.push_back({key, childrenDownTo(key), {}, {}});
+  bricks.push_back({key, mortonCode(key), {}, {}});
   ScanMarks& marks = bricks.back();
   for (unsigned x = 0; x < 8; ++x)
     for (unsigned y = 0; y < 8; ++y) {
@@ -76,7 +76,7 @@ void collectCube(VoxelWindow& window, std::int32_t x, std::int32_t y, std::int32
 
 }  // namespace
 
-std::uint64_t childrenDownTo(BrickKey key) {
+std::uint64_t mortonCode(BrickKey key) {
   return spread(key.x) | spread(key.y) << 1 | spread(key.z) << 2;
 }
 

@@ -78,9 +78,9 @@ One united(One a, One b) {
   return a || b;
 }
 
-class Update {
+class TreeUpdate {
  public:
-  Update(MapTree& tree, OccupancyBricks& bricks)
+  TreeUpdate(MapTree& tree, OccupancyBricks& bricks)
       : tree_(tree),
         bricks_(bricks),
         hit_(tree.getProbHitLog()),
@@ -89,7 +89,7 @@ class Update {
         most_(tree.getClampingThresMaxLog()) {}
 
   // `node` has an edge of 1 << level voxels, holds the marked bricks [begin, end) and is `fresh` if
-  // it was made for them. Whether something changed, as of all functions below.
+  // it was made for them. Returns whether something changed, as do all functions below.
   bool updateBricks(Node* node, bool fresh, unsigned level, const ScanMarks* begin,
                     const ScanMarks* end) {
     if (level == kBrickLevel) return updateBrick(node, fresh, *begin);
@@ -130,7 +130,7 @@ class Update {
     return true;
   }
 
-  // Adds to `occupied` the marked voxels that are so afterwards.
+  // Adds to `occupied` the marked voxels that are occupied afterwards.
   template <class Voxels>
   bool update(Node* node, bool fresh, const Voxels& free, const Voxels& hit, Voxels& occupied) {
     if (fresh || !tree_.nodeHasChildren(node)) {
@@ -196,7 +196,7 @@ void updateTree(MapTree& tree, OccupancyBricks& bricks, const std::vector<ScanMa
   if (marks.empty()) return;
   const bool fresh = !tree.getRoot();
   MapTree::Node* root = fresh ? tree.createRoot() : tree.getRoot();
-  Update(tree, bricks).updateBricks(root, fresh, 16, marks.data(), marks.data() + marks.size());
+  TreeUpdate(tree, bricks).updateBricks(root, fresh, 16, marks.data(), marks.data() + marks.size());
 }
 
 }  // namespace grid_path_planner::mapping

@@ -1,4 +1,4 @@
-// Brings a tree and its bricks up to date with what a scan saw.
+// Updates a tree and its bricks with the marks of a scan.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace grid_path_planner::mapping {
 
-// Every marked voxel once, as octomap::OcTree::updateNode does: a leaf that is as sure as can be of
-// what was seen stays untouched, others change by the tree's hit or miss, equal leaves are pruned.
-// One walk over the tree: a node above several voxels is looked at once and not once for each.
+// Updates every marked voxel once, as octomap::OcTree::updateNode does: a leaf at its clamping
+// threshold stays untouched, others change by the tree's hit or miss, equal leaves are pruned. One
+// traversal of the tree: a node above several voxels is visited once and not once for each.
 void updateTree(MapTree& tree, OccupancyBricks& bricks, const std::vector<ScanMarks>& marks);
 
 }  // namespace grid_path_planner::mapping

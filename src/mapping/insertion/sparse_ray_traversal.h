@@ -1,7 +1,7 @@
-// Marks the voxels of a ray in the bricks that it touches, one by one.
+// Marks the voxels of a ray in the bricks that it touches, one by one (Amanatides & Woo 1987).
 //
-// For scans whose rays leave most of the box around them alone, a few long ones say: memory grows
-// with what the rays touch. WindowWalk is faster where a window fits.
+// For scans whose rays touch few voxels of the box around them, such as a few long rays: memory is
+// proportional to the bricks touched. DenseRayTraversal is faster where a window fits.
 #pragma once
 
 #include <octomap/octomap_types.h>
@@ -19,16 +19,16 @@
 
 namespace grid_path_planner::mapping {
 
-class BrickWalk {
+class SparseRayTraversal {
  public:
   // Adds to `bricks`, which is empty, in no order.
-  BrickWalk(std::vector<ScanMarks>& bricks, const octomap::OcTreeKey& origin)
+  SparseRayTraversal(std::vector<ScanMarks>& bricks, const octomap::OcTreeKey& origin)
       : bricks_(bricks), origin_(origin) {}
 
   // Marks free from the origin's voxel up to that before `end`, another one.
   void mark(Ray& ray, const octomap::OcTreeKey& end) {
     Cursor cursor{*this, origin_, end, ray.forward};
-    walkVoxels(ray, cursor, true);
+    traverseVoxels(ray, cursor, true);
   }
 
   void markFree(const octomap::OcTreeKey& key) {
@@ -46,11 +46,11 @@ class BrickWalk {
 
  private:
   struct Cursor {
-    BrickWalk& walk;
+    SparseRayTraversal& traversal;
     octomap::OcTreeKey key, end;
     std::array<bool, 3> forward;
 
-    void mark() { walk.markFree(key); }
+    void mark() { traversal.markFree(key); }
     void step(unsigned axis) {
       key[axis] = static_cast<octomap::key_type>(key[axis] + (forward[axis] ? 1 : -1));
     }
@@ -70,7 +70,7 @@ class BrickWalk {
 
   ScanMarks& brickOf(const octomap::OcTreeKey& voxel) {
     const BrickKey key = BrickKey::of(voxel);
-    const std::uint64_t order = childrenDownTo(key);
+    const std::uint64_t order = mortonCode(key);
     if (!bricks_.empty() && bricks_[last_].order == order) return bricks_[last_];
     const auto entry = by_order_.emplace(order, bricks_.size());
     if (entry.second) bricks_.push_back({key, order, {}, {}});

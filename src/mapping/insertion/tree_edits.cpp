@@ -74,9 +74,9 @@ void freeColumn(OccupancyBricks& bricks, BrickColumn column, const KeyBox& box) 
 
 enum class Fate { SAME, CHANGED, GONE };
 
-class Fading {
+class Decay {
  public:
-  Fading(MapTree& tree, OccupancyBricks& bricks, float loss)
+  Decay(MapTree& tree, OccupancyBricks& bricks, float loss)
       : tree_(tree), bricks_(bricks), loss_(loss) {}
 
   Fate fade(Node* node, const Cube& cube) {
@@ -122,7 +122,7 @@ void freeBox(MapTree& tree, OccupancyBricks& bricks, const OcTreeKey& low, const
 
 void fadeOccupied(MapTree& tree, OccupancyBricks& bricks, float loss) {
   if (!tree.getRoot()) return;
-  if (Fading(tree, bricks, loss).fade(tree.getRoot(), MapTree::kSpace) == Fate::GONE) tree.clear();
+  if (Decay(tree, bricks, loss).fade(tree.getRoot(), MapTree::kSpace) == Fate::GONE) tree.clear();
 }
 
 }  // namespace grid_path_planner::mapping

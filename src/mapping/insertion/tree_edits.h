@@ -1,4 +1,4 @@
-// Changes to many voxels of a tree that are not measurements.
+// Changes to many voxels of a tree other than by scans: clearing a box, decay.
 #pragma once
 
 #include "grid_path_planner/mapping/occupancy_bricks.h"
@@ -6,11 +6,12 @@
 
 namespace grid_path_planner::mapping {
 
-// Known voxels from `low` to `high`, both included, get the smallest log odds there are.
+// Sets known voxels from `low` to `high`, both included, to the smallest log odds (clamping
+// threshold).
 void freeBox(MapTree& tree, OccupancyBricks& bricks, const octomap::OcTreeKey& low,
              const octomap::OcTreeKey& high);
 
-// Occupied leaves lose `loss` of their log odds; those no longer occupied then are forgotten.
+// Lowers the log odds of occupied leaves by `loss`; leaves no longer occupied become unknown.
 void fadeOccupied(MapTree& tree, OccupancyBricks& bricks, float loss);
 
 }  // namespace grid_path_planner::mapping

@@ -1,4 +1,4 @@
-// What one scan says of a voxel.
+// How one scan observed a voxel.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
-// What a scan saw, voxel by voxel: a byte for each of a box around the scan.
+// The marks of a scan, voxel by voxel: a byte for each voxel of a box around the scan.
 //
-// A byte and not a bit, since marking one is then a single store that waits for nothing. For scans
-// that fill their box; see BrickWalk for the others.
+// A byte and not a bit, since marking a voxel is then a single store without a load before it. For
+// scans that fill their box; see SparseRayTraversal for the others.
 #pragma once
 
 #include <octomap/octomap_types.h>
@@ -27,10 +27,10 @@ class VoxelWindow {
   // How many cells a window over `box` has.
   static std::size_t cellsFor(const Box& box);
 
-  // Covers `box` and at least two voxels around it, for rays that overshoot by an error of
-  // rounding. Requires that all cells of bricks in space are NONE: who reads them last clears them.
+  // Covers `box` and at least two voxels around it, for rays that overshoot by a rounding error.
+  // Requires that all cells of bricks in space are NONE: their last reader clears them.
   void cover(const Box& box);
-  // Sets the cells NONE that belong to no brick in space, among them the sink.
+  // Sets cells to NONE that belong to no brick in space, among them the sink.
   void clearOutside();
 
   // Steps of one voxel along each axis, in cells.
@@ -42,7 +42,7 @@ class VoxelWindow {
     return place;
   }
   Mark* cells() { return cells_.data(); }
-  // A cell of no voxel, for marks that shall go nowhere.
+  // A cell of no voxel: the target of marks that are to have no effect.
   std::int64_t sink() const { return sink_; }
 
   // Bricks of the window, in keys >> 3; the first may lie outside of space.

@@ -57,7 +57,7 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
   if (!options_.config_filename.empty()) file_ = readWaypointFile(options_.config_filename);
   velocity_publisher_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10);
   waypoint_publisher_ = nh_.advertise<geometry_msgs::PoseStamped>("current_waypoint", 1, true);
-  map_.start(nh_, [] {});  // looked at whenever the way ahead is
+  map_.start(nh_, [] {});  // read by every check of the path ahead
 
   using Request = std_srvs::Trigger::Request;
   using Response = std_srvs::Trigger::Response;
@@ -81,7 +81,7 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
   feedback_timer_ =
       nh_.createSteadyTimer(ros::WallDuration(kFeedbackPeriod),
                             [this](const ros::SteadyTimerEvent&) { publishFeedback(); });
-  // By force: the updater's own clock is ROS time, which may jump back.
+  // force_update: the updater's own clock is ROS time, which may jump back.
   diagnostics_timer_ =
       nh_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
                             [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
@@ -120,7 +120,7 @@ void NavigatePathNode::onTimer(const ros::SteadyTimerEvent&) {
   if (std::exchange(waits_for_clock_, false)) ROS_INFO("/clock is there");
   const ros::Time now = ros::Time::now();
   if (now == now_) return;  // a clock that stands still
-  if (started_.isZero()) begin(now);
+  if (started_.isZero()) startDriving(now);
   cancelOnTimeJump(now);
   now_ = now;
   control(now);
@@ -134,13 +134,13 @@ void NavigatePathNode::cancelOnTimeJump(const ros::Time& now) {
   transforms_.clear();
   FollowInput without_pose;
   without_pose.time = now.toSec();
-  publishVelocity(follower_.update(without_pose));  // sees it too, and cancels
+  publishVelocity(follower_.update(without_pose));  // cancels, since time went back
   reportEvents();
   started_ = now_ = now;
 }
 
 // Only now is it known which paths are from before.
-void NavigatePathNode::begin(const ros::Time& now) {
+void NavigatePathNode::startDriving(const ros::Time& now) {
   started_ = now;
   if (options_.config_filename.empty()) {
     path_subscriber_ = nh_.subscribe("path", 1, &NavigatePathNode::onPath, this);
@@ -155,7 +155,7 @@ void NavigatePathNode::control(const ros::Time& now) {
   input.time = now.toSec();
   if (!follower_.path().empty()) findVehicle(now, input);
   if (options_.check_map)
-    input.check = [this](const std::vector<Eigen::Vector3d>& way) { return whyOccupied(way); };
+    input.check = [this](const std::vector<Eigen::Vector3d>& ahead) { return whyOccupied(ahead); };
   publishVelocity(follower_.update(input));
   reportEvents();
   publishWaypoint(now);
@@ -170,11 +170,11 @@ void NavigatePathNode::findVehicle(const ros::Time& now, FollowInput& input) con
   }
 }
 
-std::string NavigatePathNode::whyOccupied(const std::vector<Eigen::Vector3d>& way) const {
+std::string NavigatePathNode::whyOccupied(const std::vector<Eigen::Vector3d>& ahead) const {
   const ReceivedMap map = map_.latest();
   if (!map.grid) return "";
   try {
-    const auto points = transforms_.pointsIn(map.frame_id, follower_.path().frame_id, way);
+    const auto points = transforms_.pointsIn(map.frame_id, follower_.path().frame_id, ahead);
     const auto cell =
         firstOccupied(*map.grid, options_.occupied_min, points, options_.check_radius);
     if (!cell) return "";

@@ -3,20 +3,20 @@
 //   subscribes  path             nav_msgs/Path; not with ~config_filename. An empty one stops the
 //                                vehicle
 //               projected_map    nav_msgs/OccupancyGrid; the vehicle stops before occupied cells
-//               tf               where the vehicle is; it stops while that is not known
+//               tf               the vehicle's pose; the vehicle stops while the pose is not known
 //   publishes   cmd_vel          geometry_msgs/Twist in base_link
-//               current_waypoint geometry_msgs/PoseStamped, latched; the one that is driven to
+//               current_waypoint geometry_msgs/PoseStamped, latched; the waypoint that is driven to
 //               /diagnostics
 //   services    ~pause, ~resume, ~cancel   std_srvs/Trigger
 //   action      navigate_path    grid_path_planner/NavigatePathAction
 //
-// Guaranteed: cmd_vel is zeroed on every orderly way out, and at once by ~pause and ~cancel;
-// without a drive nothing is sent, so that others may command the vehicle. A path that cannot be
-// driven is refused with an error and what is being driven goes on. A goal of the action goes
-// before `path`: paths that come meanwhile are ignored with a warning. The rate follows the wall
-// clock, the control ROS time, so that both may run at different speeds. ROS time that goes back
-// clears tf and cancels the drive. Not guaranteed: a zero after SIGKILL, or as a nodelet when the
-// manager is killed or told to shut down: the vehicle itself must stop when commands cease.
+// Guaranteed: cmd_vel is zeroed on every orderly shutdown, and at once by ~pause and ~cancel; without
+// a drive nothing is published, so that others may command the vehicle. A path that cannot be driven
+// is refused with an error and the present drive goes on. A goal of the action has priority over
+// `path`: paths received meanwhile are ignored with a warning. The rate follows the wall clock, the
+// control ROS time, so that both may run at different speeds. ROS time that goes back clears tf and
+// cancels the drive. Not guaranteed: a zero after SIGKILL, or as a nodelet when the manager is killed
+// or shut down: the vehicle itself must stop when commands cease.
 #pragma once
 
 #include <actionlib/server/simple_action_server.h>
@@ -61,11 +61,11 @@ class NavigatePathNode {
   void use(const NavigatePathOptions& options);
   void startTimer();
   void onTimer(const ros::SteadyTimerEvent& event);
-  void begin(const ros::Time& now);
+  void startDriving(const ros::Time& now);
   void cancelOnTimeJump(const ros::Time& now);
   void control(const ros::Time& now);
   void findVehicle(const ros::Time& now, following::FollowInput& input) const;
-  std::string whyOccupied(const std::vector<Eigen::Vector3d>& way) const;
+  std::string whyOccupied(const std::vector<Eigen::Vector3d>& ahead) const;
 
   void onPath(const nav_msgs::Path& message);
   void onGoal();

@@ -1,12 +1,12 @@
-// The node `teleop_joy`: a vehicle driven by hand.
+// The node `teleop_joy`: a vehicle driven by joystick.
 //
 //   subscribes  joy      sensor_msgs/Joy; its driver must repeat (joy_node's ~autorepeat_rate)
 //   publishes   cmd_vel  geometry_msgs/Twist in base_link, while the deadman button is held
 //
-// Guaranteed: the vehicle is told to stop when the deadman button is let go, when the joystick
-// falls silent for joy_timeout of the wall clock, when it sends what cannot be used, and when the
-// node ends; after that nothing is sent, so that navigate_path may command the vehicle. ROS time
-// plays no part. Not guaranteed: a zero after SIGKILL.
+// Guaranteed: a zero is published when the deadman button is released, when no message has come for
+// joy_timeout of the wall clock, on a message that cannot be used, and when the node ends; after that
+// nothing is published, so that navigate_path may command the vehicle. ROS time has no effect. Not
+// guaranteed: a zero after SIGKILL.
 #pragma once
 
 #include <ros/node_handle.h>

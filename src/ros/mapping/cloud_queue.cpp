@@ -49,7 +49,7 @@ void CloudQueue::add(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
   waiting_.push_back({cloud, Clock::now()});
 }
 
-bool CloudQueue::sortOut() {
+bool CloudQueue::resolveTransforms() {
   std::lock_guard<std::mutex> lock(mutex_);
   const auto now = Clock::now();
   const std::chrono::duration<double> limit(options_.tf_timeout);
@@ -106,7 +106,7 @@ std::optional<CloudFrames> CloudQueue::framesOf(const sensor_msgs::PointCloud2& 
   return frames;
 }
 
-std::optional<CloudQueue::Ready> CloudQueue::take() {
+std::optional<CloudQueue::Ready> CloudQueue::pop() {
   std::lock_guard<std::mutex> lock(mutex_);
   if (ready_.empty()) return std::nullopt;
   Ready ready = std::move(ready_.front());
@@ -144,9 +144,9 @@ CloudCounts CloudQueue::counts() const {
 void CloudQueue::drop(const std::string& reason, const std::string& sentence) {
   const std::uint64_t count = ++counts_.dropped[reason];
   const auto now = Clock::now();
-  const auto said = said_.find(reason);
-  if (said != said_.end() && now - said->second < kSilence) return;
-  said_[reason] = now;
+  const auto last_warning = last_warnings_.find(reason);
+  if (last_warning != last_warnings_.end() && now - last_warning->second < kSilence) return;
+  last_warnings_[reason] = now;
   ROS_WARN_STREAM("Dropped " << sentence << "; dropped for this reason so far: " << count);
 }
 

@@ -1,16 +1,16 @@
-// Clouds between their arrival and their turn: each waits for its own transform, none for another.
+// Point clouds between arrival and insertion: each waits for its own transform, none for another.
 //
 //   CloudQueue queue(transforms);
 //   queue.setOptions(options);
 //   queue.add(cloud);                       // in the subscriber's thread
-//   queue.sortOut();                        // there too, every few milliseconds
-//   while (auto ready = queue.take()) use(*ready);  // in the thread that maps
+//   queue.resolveTransforms();              // there too, every few milliseconds
+//   while (auto ready = queue.pop()) use(*ready);  // in the mapping thread
 //
 // Guaranteed: the order of stamps does not matter; a cloud whose frame tf does not know waits for
-// tf_timeout (steady clock) and holds up no other; no more than queue_size wait for tf, and no more
-// than queue_size for their turn. What is too much goes: of those that wait for tf the oldest of
-// the frame that has the most, of those that wait for their turn the oldest. Each loss is counted
-// with its reason and said in the log, at most once in five seconds. Thread-safe.
+// tf_timeout (steady clock) and delays no other; at most queue_size clouds wait for tf, and at most
+// queue_size for insertion. More are dropped: of those that wait for tf the oldest of the frame that
+// has the most, of those that wait for insertion the oldest. Each loss is counted with its reason
+// and logged, at most once in five seconds. Thread-safe.
 #pragma once
 
 #include <sensor_msgs/PointCloud2.h>
@@ -38,7 +38,7 @@ struct CloudQueueOptions {
 struct CloudCounts {
   std::uint64_t received = 0;
   std::uint64_t inserted = 0;
-  std::size_t waiting = 0;                       // for tf or for their turn
+  std::size_t waiting = 0;                       // for tf or for insertion
   std::map<std::string, std::uint64_t> dropped;  // by reason
 };
 
@@ -55,14 +55,14 @@ class CloudQueue {
   void setOptions(const CloudQueueOptions& options);
 
   void add(const sensor_msgs::PointCloud2::ConstPtr& cloud);
-  // Looks for transforms, and drops what waited too long. Whether any cloud is ready.
-  bool sortOut();
+  // Looks up transforms and drops clouds that waited too long. Returns whether any cloud is ready.
+  bool resolveTransforms();
   // The ready cloud that came first.
-  std::optional<Ready> take();
+  std::optional<Ready> pop();
   // ROS time jumped back.
   void clear();
 
-  // How a cloud that was taken ended; `reason` in a few words, for the counts.
+  // What became of a popped cloud; `reason` in a few words, for the counts.
   void countInserted();
   void countDropped(const std::string& reason, const std::string& sentence);
   CloudCounts counts() const;
@@ -86,8 +86,8 @@ class CloudQueue {
   std::deque<Waiting> waiting_;
   std::deque<Ready> ready_;
   CloudCounts counts_;
-  std::map<std::string, Clock::time_point> said_;  // by reason
-  bool taken_ = false;                             // one is being inserted
+  std::map<std::string, Clock::time_point> last_warnings_;  // by reason
+  bool taken_ = false;                                      // one is being inserted
 };
 
 }  // namespace grid_path_planner::nodes

@@ -21,10 +21,10 @@ std::uint64_t sumOf(const std::map<std::string, std::uint64_t>& dropped) {
 }  // namespace
 
 MappingDiagnostics::MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
-                                       const CloudQueue& queue, MappingThread& desk,
+                                       const CloudQueue& queue, MappingThread& thread,
                                        const OctreePublisher& octree)
     : queue_(queue),
-      desk_(desk),
+      thread_(thread),
       octree_(octree),
       updater_(nh, private_nh, private_nh.getNamespace()) {
   updater_.setHardwareID("none");
@@ -35,7 +35,7 @@ MappingDiagnostics::MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle priva
 }
 
 void MappingDiagnostics::onTimer() {
-  desk_.post("measure", [this](MapModel& map) { measure(map); });
+  thread_.post("measure", [this](MapModel& map) { measure(map); });
   if (ros::Time::isValid()) updater_.force_update();
 }
 
@@ -50,7 +50,7 @@ void MappingDiagnostics::measure(const MapModel& map) {
   figures_ = figures;
 }
 
-void MappingDiagnostics::noteInsertion(const MapModel::Inserted& inserted) {
+void MappingDiagnostics::recordInsertion(const MapModel::Inserted& inserted) {
   std::lock_guard<std::mutex> lock(mutex_);
   last_insertion_ = inserted.seconds;
   all_insertions_ += inserted.seconds;

@@ -1,12 +1,12 @@
-// What projected_map reports on /diagnostics, once a second (~diagnostic_period): the clouds
-// that came and what became of them, and the size of the map.
+// The diagnostics of projected_map, once a second (~diagnostic_period): the clouds received and what
+// became of them, and the size of the map.
 //
 //   clouds: received, inserted, waiting, dropped (each with its reason), last_insertion_s,
 //           mean_insertion_s; a warning while clouds are dropped
-//   map:    nodes, bytes and projections (counted seldom where that takes long), resolution,
-//           tree_messages: how often projected_map, and how often the 3-D topics, were built
+//   map:    nodes, bytes and projections (counted seldom where counting takes long), resolution,
+//           tree_messages: how often the 3-D topics were built
 //
-// All clouds that came are in the map when waiting is 0 and received is inserted + dropped.
+// All received clouds are in the map when waiting is 0 and received is inserted + dropped.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -25,13 +25,13 @@ namespace grid_path_planner::nodes {
 
 class MappingDiagnostics {
  public:
-  // `queue`, `desk` and `octree` outlive this.
+  // `queue`, `thread` and `octree` outlive this.
   MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, const CloudQueue& queue,
-                     MappingThread& desk, const OctreePublisher& octree);
+                     MappingThread& thread, const OctreePublisher& octree);
   ~MappingDiagnostics() { timer_.stop(); }
 
-  // Takes note of an insertion. Thread-safe.
-  void noteInsertion(const mapping::MapModel::Inserted& inserted);
+  // Records an insertion. Thread-safe.
+  void recordInsertion(const mapping::MapModel::Inserted& inserted);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -48,7 +48,7 @@ class MappingDiagnostics {
   void reportMap(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   const CloudQueue& queue_;
-  MappingThread& desk_;
+  MappingThread& thread_;
   const OctreePublisher& octree_;
   std::mutex mutex_;
   Figures figures_;
@@ -56,7 +56,7 @@ class MappingDiagnostics {
   double all_insertions_ = 0.0;  // s
   std::uint64_t insertions_ = 0;
   std::uint64_t reported_drops_ = 0;
-  Clock::time_point measure_not_before_;  // of the map's thread
+  Clock::time_point measure_not_before_;  // used in the mapping thread
   diagnostic_updater::Updater updater_;
   ros::WallTimer timer_;
 };

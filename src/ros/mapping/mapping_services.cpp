@@ -39,9 +39,9 @@ Eigen::Vector3d vectorOf(const geometry_msgs::Point& point) {
 
 }  // namespace
 
-MappingServices::MappingServices(ros::NodeHandle private_nh, MappingThread& desk,
+MappingServices::MappingServices(ros::NodeHandle private_nh, MappingThread& thread,
                                  std::function<void()> on_change)
-    : desk_(desk), on_change_(std::move(on_change)) {
+    : thread_(thread), on_change_(std::move(on_change)) {
   reset_ = private_nh.advertiseService("reset", &MappingServices::reset, this);
   clear_box_ = private_nh.advertiseService("clear_bbx", &MappingServices::clearBox, this);
   save_map_ = private_nh.advertiseService("save_map", &MappingServices::saveMap, this);
@@ -54,7 +54,7 @@ void MappingServices::shutdown() {
 }
 
 bool MappingServices::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-  desk_.ask([](MapModel& map) { map.reset(); });
+  thread_.run([](MapModel& map) { map.reset(); });
   ROS_INFO("The map was reset");
   on_change_();
   return true;
@@ -62,7 +62,7 @@ bool MappingServices::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response
 
 bool MappingServices::clearBox(ClearBoxService::Request& request, ClearBoxService::Response&) {
   try {
-    desk_.ask([&](MapModel& map) { map.clearBox(vectorOf(request.min), vectorOf(request.max)); });
+    thread_.run([&](MapModel& map) { map.clearBox(vectorOf(request.min), vectorOf(request.max)); });
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("clear_bbx refused: " << error.what());
     return false;
@@ -72,7 +72,7 @@ bool MappingServices::clearBox(ClearBoxService::Request& request, ClearBoxServic
 }
 
 bool MappingServices::saveMap(SaveFile::Request& request, SaveFile::Response& response) {
-  desk_.ask([&](MapModel& map) {
+  thread_.run([&](MapModel& map) {
     answerSaving(request, "map_file", map.options().map_file, response,
                  [&](const std::string& file) { map.saveMap(file); });
   });
@@ -80,7 +80,7 @@ bool MappingServices::saveMap(SaveFile::Request& request, SaveFile::Response& re
 }
 
 bool MappingServices::saveOctree(SaveFile::Request& request, SaveFile::Response& response) {
-  desk_.ask([&](MapModel& map) {
+  thread_.run([&](MapModel& map) {
     answerSaving(request, "octree_file", map.options().octree_file, response,
                  [&](const std::string& file) { map.saveOctree(file); });
   });

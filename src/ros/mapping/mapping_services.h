@@ -1,12 +1,12 @@
 // The services of projected_map that change the map or write it to a file.
 //
-//   ~reset        std_srvs/Empty               forgets everything
+//   ~reset        std_srvs/Empty               empties the map
 //   ~clear_bbx    octomap_msgs/BoundingBoxQuery where there is octomap_msgs, else
 //                 grid_path_planner/ClearBox, which has the same MD5 sum
 //   ~save_map     grid_path_planner/SaveFile   projected_map as a map_server YAML and its image
 //   ~save_octree  grid_path_planner/SaveFile   .bt or .ot
 //
-// A request that cannot be done is refused with a sentence, and nothing has changed.
+// A request that cannot be fulfilled is refused with a sentence and changes nothing.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -34,8 +34,9 @@ using ClearBoxService = ClearBox;
 
 class MappingServices {
  public:
-  // `desk` outlives this; `on_change` is called after every change of the map.
-  MappingServices(ros::NodeHandle private_nh, MappingThread& desk, std::function<void()> on_change);
+  // `thread` outlives this; `on_change` is called after every change of the map.
+  MappingServices(ros::NodeHandle private_nh, MappingThread& thread,
+                  std::function<void()> on_change);
 
   void shutdown();
 
@@ -45,7 +46,7 @@ class MappingServices {
   bool saveMap(SaveFile::Request& request, SaveFile::Response& response);
   bool saveOctree(SaveFile::Request& request, SaveFile::Response& response);
 
-  MappingThread& desk_;
+  MappingThread& thread_;
   std::function<void()> on_change_;
   ros::ServiceServer reset_, clear_box_, save_map_, save_octree_;
 };

@@ -8,7 +8,7 @@ namespace grid_path_planner::nodes {
 using base::StopSource;
 using base::TaskQueue;
 
-void MappingThread::ask(const Work& work) {
+void MappingThread::run(const Work& work) {
   std::exception_ptr thrown;
   const auto task = worker_.post(
       [&](const StopSource&) {

@@ -1,12 +1,12 @@
 // The map of projected_map and the one thread in which it is read and changed: clouds, services,
-// publications and changed parameters take turns there, so that none meets half of another's work.
+// publications and changed parameters are tasks of this thread, so that each sees a consistent map.
 //
-//   MappingThread desk(options);
-//   desk.post("publish", [](MapModel& map) { use(map); });  // later, not twice in the queue
-//   desk.ask([](MapModel& map) { map.reset(); });           // next, and waits for it
+//   MappingThread thread(options);
+//   thread.post("publish", [](MapModel& map) { use(map); });  // later, not twice in the queue
+//   thread.run([](MapModel& map) { map.reset(); });           // next, and waits for it
 //
-// Who asks waits for what runs at the moment (one insertion, one publication) and for who asked
-// before, never for the clouds that wait.
+// run() waits for the task that is running (one insertion, one publication) and for earlier calls of
+// run(), never for the clouds in the queue.
 #pragma once
 
 #include <functional>
@@ -24,14 +24,14 @@ class MappingThread {
   // Throws as MapModel does.
   explicit MappingThread(const mapping::ProjectedMapOptions& options) : map_(options) {}
 
-  // Does `work` next and waits for its end. Throws what it throws.
-  void ask(const Work& work);
+  // Does `work` next and waits for its end. Rethrows its exceptions.
+  void run(const Work& work);
 
-  // Does `work` after what waits already, unless more is posted to the same slot before: then that
-  // instead. Not done after stop(). `work` throws nothing.
+  // Does `work` after the tasks that wait already; work posted to the same slot before then replaces
+  // it. Not done after stop(). `work` throws nothing.
   void post(const std::string& slot, Work work);
 
-  // Ends the thread; what is asked from now on is done at once, by who asks.
+  // Ends the thread; from now on run() works in the thread of its caller.
   void stop() { worker_.stop(); }
 
  private:

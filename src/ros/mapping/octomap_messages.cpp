@@ -40,23 +40,23 @@ struct OctomapMessages::Topics {
   using Request = octomap_msgs::GetOctomap::Request;
   using Response = octomap_msgs::GetOctomap::Response;
 
-  explicit Topics(MappingThread& desk_of_map) : desk(desk_of_map) {}
+  explicit Topics(MappingThread& mapping_thread) : thread(mapping_thread) {}
 
   bool answer(bool binary, Response& response) {
-    desk.ask([&](MapModel& map) { response.map = messageOf(map, binary, ros::Time::now()); });
+    thread.run([&](MapModel& map) { response.map = messageOf(map, binary, ros::Time::now()); });
     return true;
   }
   bool answerBinary(Request&, Response& response) { return answer(true, response); }
   bool answerFull(Request&, Response& response) { return answer(false, response); }
 
-  MappingThread& desk;
+  MappingThread& thread;
   ros::Publisher binary, full;
   ros::ServiceServer binary_service, full_service;
 };
 
 OctomapMessages::OctomapMessages(ros::NodeHandle nh, ros::NodeHandle service_nh, bool latch,
-                                 MappingThread& desk, const std::function<void()>& on_subscriber)
-    : topics_(std::make_unique<Topics>(desk)) {
+                                 MappingThread& thread, const std::function<void()>& on_subscriber)
+    : topics_(std::make_unique<Topics>(thread)) {
   const auto connected = [on_subscriber](const ros::SingleSubscriberPublisher&) {
     on_subscriber();
   };
@@ -71,7 +71,7 @@ OctomapMessages::OctomapMessages(ros::NodeHandle nh, ros::NodeHandle service_nh,
 
 OctomapMessages::~OctomapMessages() = default;
 
-bool OctomapMessages::heard() const {
+bool OctomapMessages::hasSubscribers() const {
   return topics_->binary.getNumSubscribers() > 0 || topics_->full.getNumSubscribers() > 0;
 }
 
@@ -98,7 +98,7 @@ struct OctomapMessages::Topics {};
 OctomapMessages::OctomapMessages(ros::NodeHandle, ros::NodeHandle, bool, MappingThread&,
                                  const std::function<void()>&) {}
 OctomapMessages::~OctomapMessages() = default;
-bool OctomapMessages::heard() const {
+bool OctomapMessages::hasSubscribers() const {
   return false;
 }
 void OctomapMessages::publish(const MapModel&, const ros::Time&) {}

@@ -13,15 +13,15 @@ namespace grid_path_planner::nodes {
 
 class OctomapMessages {
  public:
-  // `desk` outlives this. `on_subscriber` is called in the thread of `nh` when somebody new
-  // listens. Services are served by the queue of `service_nh`.
-  OctomapMessages(ros::NodeHandle nh, ros::NodeHandle service_nh, bool latch, MappingThread& desk,
+  // `thread` outlives this. `on_subscriber` is called in the thread of `nh` for a new subscriber.
+  // Services are served by the queue of `service_nh`.
+  OctomapMessages(ros::NodeHandle nh, ros::NodeHandle service_nh, bool latch, MappingThread& thread,
                   const std::function<void()>& on_subscriber);
   ~OctomapMessages();
 
-  // Publishes the topics that somebody listens to. In the map's thread.
+  // Publishes the topics that have subscribers. In the mapping thread.
   void publish(const mapping::MapModel& map, const ros::Time& stamp);
-  bool heard() const;
+  bool hasSubscribers() const;
   void shutdown();
 
  private:

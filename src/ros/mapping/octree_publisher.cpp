@@ -23,9 +23,10 @@ visualization_msgs::MarkerArray stamped(visualization_msgs::MarkerArray array,
 }  // namespace
 
 OctreePublisher::OctreePublisher(ros::NodeHandle nh, ros::NodeHandle service_nh, bool latch,
-                                 MappingThread& desk, const std::function<void()>& on_subscriber) {
+                                 MappingThread& thread,
+                                 const std::function<void()>& on_subscriber) {
   const std::function<void()> noticed = [this, on_subscriber] {
-    someone_new_ = true;
+    new_subscriber_ = true;
     on_subscriber();
   };
   const auto connected = [noticed](const ros::SingleSubscriberPublisher&) { noticed(); };
@@ -34,19 +35,19 @@ OctreePublisher::OctreePublisher(ros::NodeHandle nh, ros::NodeHandle service_nh,
   free_ = nh.advertise<MarkerArray>("free_cells_vis_array", 1, connected, {}, {}, latch);
   centres_ = nh.advertise<sensor_msgs::PointCloud2>("octomap_point_cloud_centers", 1, connected, {},
                                                     {}, latch);
-  messages_ = std::make_unique<OctomapMessages>(nh, service_nh, latch, desk, noticed);
+  messages_ = std::make_unique<OctomapMessages>(nh, service_nh, latch, thread, noticed);
 }
 
-bool OctreePublisher::heard() const {
+bool OctreePublisher::hasSubscribers() const {
   return occupied_.getNumSubscribers() > 0 || free_.getNumSubscribers() > 0 ||
-         centres_.getNumSubscribers() > 0 || messages_->heard();
+         centres_.getNumSubscribers() > 0 || messages_->hasSubscribers();
 }
 
 void OctreePublisher::publish(const MapModel& map, const ros::Time& stamp) {
   const auto start = Clock::now();
-  if (!heard() || start < not_before_) return;
-  const bool for_someone_new = someone_new_.exchange(false) && map.options().latch;
-  if (!for_someone_new && map.revision() == sent_revision_) return;
+  if (!hasSubscribers() || start < not_before_) return;
+  const bool for_new_subscriber = new_subscriber_.exchange(false) && map.options().latch;
+  if (!for_new_subscriber && map.revision() == sent_revision_) return;
   send(map, stamp);
   sent_revision_ = map.revision();
   const auto end = Clock::now();

@@ -1,9 +1,9 @@
-// The octree as rviz and others see it: occupied_cells_vis_array, free_cells_vis_array,
+// The topics of the octree: occupied_cells_vis_array, free_cells_vis_array,
 // octomap_point_cloud_centers, and octomap_binary and octomap_full where there is octomap_msgs.
 //
-// These messages hold the whole tree, so each costs more the more is mapped. They are built only
-// where somebody listens and the tree changed or somebody is new, and take at most a fifth of the
-// time: after a publication that took t seconds there is none for 4 t.
+// These messages hold the whole tree, so their cost grows with the map. They are built only for
+// subscribers, when the tree changed or a subscriber is new, and take at most a fifth of the time:
+// after a publication that took t seconds there is none for 4 t.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -23,12 +23,12 @@ namespace grid_path_planner::nodes {
 
 class OctreePublisher {
  public:
-  // `desk` outlives this. `on_subscriber` is called in the thread of `nh` when somebody new
-  // listens; services are served by the queue of `service_nh`.
-  OctreePublisher(ros::NodeHandle nh, ros::NodeHandle service_nh, bool latch, MappingThread& desk,
+  // `thread` outlives this. `on_subscriber` is called in the thread of `nh` for a new subscriber;
+  // services are served by the queue of `service_nh`.
+  OctreePublisher(ros::NodeHandle nh, ros::NodeHandle service_nh, bool latch, MappingThread& thread,
                   const std::function<void()>& on_subscriber);
 
-  // Publishes what somebody listens to, if it is due. In the map's thread.
+  // Publishes the topics that have subscribers, if they are due. In the mapping thread.
   void publish(const mapping::MapModel& map, const ros::Time& stamp);
   void shutdown() { messages_->shutdown(); }
   // How often messages have been built. Thread-safe.
@@ -37,11 +37,11 @@ class OctreePublisher {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool heard() const;
+  bool hasSubscribers() const;
   void send(const mapping::MapModel& map, const ros::Time& stamp);
   void sendMarkers(const mapping::MapModel& map, const ros::Time& stamp);
 
-  std::atomic<bool> someone_new_{false};
+  std::atomic<bool> new_subscriber_{false};
   std::atomic<std::uint64_t> builds_{0};
   std::uint64_t sent_revision_ = 0;
   Clock::time_point not_before_;

@@ -12,19 +12,19 @@ namespace grid_path_planner::nodes {
 
 using base::InputError;
 using mapping::checkProjectedMapOptions;
+using mapping::ignoredParameter;
 using mapping::MapModel;
-using mapping::needlessParameter;
 using mapping::ProjectedMapOptions;
 using mapping::ProjectionReference;
 
 namespace {
 
-constexpr double kCloudPeriod = 0.01;  // s of the wall clock between two looks for transforms
-constexpr double kDecayPeriod = 1.0;   // s of ROS time; a look at every occupied voxel
+constexpr double kCloudPeriod = 0.01;  // s of the wall clock between two lookups of transforms
+constexpr double kDecayPeriod = 1.0;   // s of ROS time; decay visits every occupied voxel
 
-void sayNeedless(const ros::NodeHandle& private_nh, std::vector<std::string>& known) {
+void warnIgnoredParameters(const ros::NodeHandle& private_nh, std::vector<std::string>& known) {
   for (const std::string& name : unknownParameters(private_nh, known)) {
-    const std::string reason = needlessParameter(name);
+    const std::string reason = ignoredParameter(name);
     if (reason.empty()) continue;
     ROS_WARN_STREAM(private_nh.resolveName(name) << " has no effect: " << reason);
     known.push_back(name);
@@ -40,7 +40,7 @@ ProjectedMapOptions loadOptions(const ros::NodeHandle& private_nh, const std::st
   checkProjectedMapOptions(options);
   auto known = optionNames<ProjectedMapOptions>();
   known.push_back("diagnostic_period");  // diagnostic_updater's
-  sayNeedless(private_nh, known);
+  warnIgnoredParameters(private_nh, known);
   warnUnknownParameters(private_nh, known);
   return options;
 }
@@ -60,8 +60,8 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
                                    const std::string& filename)
     : nh_(nh), transforms_(nh), queue_(transforms_), service_spinner_(1, &service_queue_) {
   ProjectedMapOptions options = loadOptions(private_nh, filename);
-  desk_ = std::make_unique<MappingThread>(options);
-  desk_->ask([&](MapModel& map) { options = map.options(); });  // a file has its own resolution
+  thread_ = std::make_unique<MappingThread>(options);
+  thread_->run([&](MapModel& map) { options = map.options(); });  // a file has its own resolution
   queue_.setOptions(queueOptions(options));
 
   ros::NodeHandle service_nh(nh);
@@ -71,16 +71,16 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   const auto on_change = [this] { postPublishing(); };
   map_publisher_ = std::make_unique<ProjectedMapPublisher>(nh, options.latch, on_change);
   octree_publisher_ =
-      std::make_unique<OctreePublisher>(nh, service_nh, options.latch, *desk_, on_change);
-  services_ = std::make_unique<MappingServices>(private_service_nh, *desk_, on_change);
+      std::make_unique<OctreePublisher>(nh, service_nh, options.latch, *thread_, on_change);
+  services_ = std::make_unique<MappingServices>(private_service_nh, *thread_, on_change);
   diagnostics_ =
-      std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *desk_, *octree_publisher_);
+      std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *thread_, *octree_publisher_);
   service_spinner_.start();
 
   cloud_subscriber_ = nh.subscribe<sensor_msgs::PointCloud2>(
       "cloud_in", static_cast<std::uint32_t>(options.queue_size), &ProjectedMapNode::onCloud, this);
   cloud_timer_ = nh.createWallTimer(ros::WallDuration(kCloudPeriod),
-                                    [this](const ros::WallTimerEvent&) { sortOutClouds(); });
+                                    [this](const ros::WallTimerEvent&) { resolveTransforms(); });
   startPublishing(options.publish_rate);
   complete_ = true;
   reconfigurable_ = std::make_unique<Reconfigurable<ProjectedMapConfig, ProjectedMapOptions>>(
@@ -95,11 +95,11 @@ ProjectedMapNode::~ProjectedMapNode() {
   services_->shutdown();
   octree_publisher_->shutdown();
   service_spinner_.stop();
-  desk_->stop();
+  thread_->stop();
 }
 
 void ProjectedMapNode::use(const ProjectedMapOptions& options) {
-  desk_->ask([&](MapModel& map) { map.setOptions(options); });
+  thread_->run([&](MapModel& map) { map.setOptions(options); });
   queue_.setOptions(queueOptions(options));
   startPublishing(options.publish_rate);
   postPublishing();
@@ -113,7 +113,7 @@ void ProjectedMapNode::startPublishing(double rate) {
 void ProjectedMapNode::onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
   checkClock();
   queue_.add(cloud);
-  sortOutClouds();
+  resolveTransforms();
 }
 
 void ProjectedMapNode::checkClock() {
@@ -123,24 +123,24 @@ void ProjectedMapNode::checkClock() {
   queue_.clear();
 }
 
-void ProjectedMapNode::sortOutClouds() {
+void ProjectedMapNode::resolveTransforms() {
   checkClock();
-  if (queue_.sortOut()) postInsertion();
+  if (queue_.resolveTransforms()) postInsertion();
 }
 
 void ProjectedMapNode::postInsertion() {
-  desk_->post("insert", [this](MapModel& map) { insertNext(map); });
+  thread_->post("insert", [this](MapModel& map) { insertNext(map); });
 }
 
 // A nodelet's subscribers may be there, in another thread, before it is complete.
 void ProjectedMapNode::postPublishing() {
   if (!complete_) return;
-  desk_->post("publish", [this](MapModel& map) { publish(map); });
+  thread_->post("publish", [this](MapModel& map) { publish(map); });
 }
 
-// One cloud a turn, so that services and publications come in between.
+// One cloud a task, so that services and publications are done in between.
 void ProjectedMapNode::insertNext(MapModel& map) {
-  const auto ready = queue_.take();
+  const auto ready = queue_.pop();
   if (!ready) return;
   try {
     insert(map, *ready);
@@ -153,7 +153,7 @@ void ProjectedMapNode::insertNext(MapModel& map) {
 
 void ProjectedMapNode::insert(MapModel& map, const CloudQueue::Ready& ready) {
   const MapModel::Inserted inserted = map.insert(finitePoints(*ready.cloud), ready.frames);
-  diagnostics_->noteInsertion(inserted);
+  diagnostics_->recordInsertion(inserted);
   if (inserted.ground_missed)
     ROS_WARN_THROTTLE(10.0,
                       "No ground plane found in a cloud: points near z = 0 of %s were taken "
@@ -169,7 +169,7 @@ void ProjectedMapNode::publish(MapModel& map) {
   decay(map);
   const ros::Time stamp = ros::Time::now();
   try {
-    if (findVehicle(map)) map_publisher_->publish(map, stamp);
+    if (updateVehicleHeight(map)) map_publisher_->publish(map, stamp);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM_THROTTLE(10.0, "projected_map stays as it was: " << error.what());
   }
@@ -185,8 +185,8 @@ void ProjectedMapNode::decay(MapModel& map) {
   decayed_until_ = now;
 }
 
-// Whether the band's reference is known.
-bool ProjectedMapNode::findVehicle(MapModel& map) {
+// Returns whether the height that the band refers to is known.
+bool ProjectedMapNode::updateVehicleHeight(MapModel& map) {
   if (!followsVehicle(map)) return true;
   const ProjectedMapOptions& options = map.options();
   try {

@@ -7,14 +7,14 @@
 //               free_cells_vis_array         visualization_msgs/MarkerArray (publish_free_space)
 //               octomap_point_cloud_centers  sensor_msgs/PointCloud2
 //               octomap_binary, octomap_full octomap_msgs/Octomap, where there is octomap_msgs
-//   serves      ~reset, ~clear_bbx, ~save_map, ~save_octree (mapping_services.h)
+//   services    ~reset, ~clear_bbx, ~save_map, ~save_octree (mapping_services.h)
 //               octomap_binary, octomap_full octomap_msgs/GetOctomap, where there is octomap_msgs
-//   listens to  tf                           frame_id -> the clouds' frames, -> base_frame_id
+//   subscribes  tf                           frame_id -> the clouds' frames, -> base_frame_id
 //
 // The names are octomap_server's. Clouds are inserted, one after the other, as soon as tf knows
-// where they were taken (cloud_queue.h); a cloud that cannot be used is dropped with its reason,
-// and loses nothing else. Where ROS time jumps back, as when a bag loops, tf and the clouds that
-// wait are forgotten; the map stays.
+// the pose of their sensor (cloud_queue.h); a cloud that cannot be used is dropped with its reason,
+// without effect on others. Where ROS time jumps back, as when a bag loops, tf and the waiting
+// clouds are cleared; the map stays.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -50,7 +50,7 @@ class Reconfigurable;
 
 class ProjectedMapNode {
  public:
-  // `filename`, unless empty, stands for the parameter: octomap_server's way to be given a file.
+  // `filename`, unless empty, stands for the parameter: as in octomap_server.
   // Throws InputError for parameters and files that cannot be used. Callbacks are served by the
   // queue of `nh`, services by a thread of their own.
   ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
@@ -63,7 +63,7 @@ class ProjectedMapNode {
   void startPublishing(double rate);
   void onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud);
   void checkClock();
-  void sortOutClouds();
+  void resolveTransforms();
   void postInsertion();
   void postPublishing();
 
@@ -72,13 +72,13 @@ class ProjectedMapNode {
   void insert(mapping::MapModel& map, const CloudQueue::Ready& ready);
   void publish(mapping::MapModel& map);
   void decay(mapping::MapModel& map);
-  bool findVehicle(mapping::MapModel& map);
+  bool updateVehicleHeight(mapping::MapModel& map);
 
   ros::NodeHandle nh_;
   FrameTransforms transforms_;
   ClockWatch clock_;
   CloudQueue queue_;
-  std::unique_ptr<MappingThread> desk_;
+  std::unique_ptr<MappingThread> thread_;
   ros::Time decayed_until_;  // of the map's thread
   std::atomic<bool> complete_{false};
 

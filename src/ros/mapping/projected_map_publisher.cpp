@@ -37,7 +37,7 @@ ProjectedMapPublisher::ProjectedMapPublisher(ros::NodeHandle nh, bool latch,
                                              std::function<void()> on_subscriber) {
   const auto connected =
       [this, on_subscriber = std::move(on_subscriber)](const ros::SingleSubscriberPublisher&) {
-        someone_new_ = true;
+        new_subscriber_ = true;
         on_subscriber();
       };
   map_publisher_ =
@@ -45,19 +45,20 @@ ProjectedMapPublisher::ProjectedMapPublisher(ros::NodeHandle nh, bool latch,
   update_publisher_ = nh.advertise<map_msgs::OccupancyGridUpdate>("projected_map_updates", 100);
 }
 
-bool ProjectedMapPublisher::heard() const {
+bool ProjectedMapPublisher::hasSubscribers() const {
   return map_publisher_.getNumSubscribers() > 0 || update_publisher_.getNumSubscribers() > 0;
 }
 
 void ProjectedMapPublisher::publish(MapModel& map, const ros::Time& stamp) {
-  if (!heard()) return;
+  if (!hasSubscribers()) return;
   const OccupancyGrid& grid = map.grid();
   const ProjectionChange change = map.takeChange();
   const ProjectedMapOptions& options = map.options();
-  const bool for_someone_new =
-      someone_new_.exchange(false) && (options.latch || !options.always_send_full_map);
+  const bool for_new_subscriber =
+      new_subscriber_.exchange(false) && (options.latch || !options.always_send_full_map);
   const bool changed = change.geometry || !change.cells.empty();
-  if (for_someone_new || change.geometry || (changed && (options.always_send_full_map || !sent_))) {
+  if (for_new_subscriber || change.geometry ||
+      (changed && (options.always_send_full_map || !sent_))) {
     map_publisher_.publish(occupancyToMessage(grid, options.frame_id, stamp));
     sent_ = true;
   } else if (changed) {

@@ -1,12 +1,12 @@
-// projected_map and projected_map_updates: whole maps where they are needed, else what changed.
+// projected_map and projected_map_updates: whole maps where they are needed, else the changed cells.
 //
-// A whole map goes out when the geometry changed, when somebody new listens (unless ~latch is off
-// and every change sends a whole map anyway), and with always_send_full_map on every change. Else
-// an update carries the smallest rectangle around the changed cells. Without subscribers nothing is
-// projected: the changes wait in the tree.
+// A whole map is published when the geometry changed, for a new subscriber (unless ~latch is off and
+// every change publishes a whole map anyway), and with always_send_full_map on every change.
+// Otherwise an update holds the smallest rectangle around the changed cells. Without subscribers
+// nothing is projected: the changes wait in the tree.
 //
-// Not guaranteed: a fresh map for a second subscriber inside of one process. roscpp gives it the
-// whole map that came last, and does not tell us of it; with updates that one may be old.
+// Not guaranteed: a current map for a second subscriber inside of one process. roscpp gives it the
+// last whole map without a callback; with updates that map may be out of date.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -21,16 +21,16 @@ namespace grid_path_planner::nodes {
 
 class ProjectedMapPublisher {
  public:
-  // `on_subscriber` is called in the thread of `nh` when somebody new listens to the map.
+  // `on_subscriber` is called in the thread of `nh` for a new subscriber of the map.
   ProjectedMapPublisher(ros::NodeHandle nh, bool latch, std::function<void()> on_subscriber);
 
-  // Publishes what changed since the last call, if anybody listens. In the map's thread.
+  // Publishes the changes since the last call, if there are subscribers. In the mapping thread.
   void publish(mapping::MapModel& map, const ros::Time& stamp);
 
  private:
-  bool heard() const;
+  bool hasSubscribers() const;
 
-  std::atomic<bool> someone_new_{false};
+  std::atomic<bool> new_subscriber_{false};
   bool sent_ = false;  // a whole map
   ros::Publisher map_publisher_;
   ros::Publisher update_publisher_;

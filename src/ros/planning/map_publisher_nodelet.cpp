@@ -1,21 +1,9 @@
-#include <nodelet/nodelet.h>
-#include <pluginlib/class_list_macros.hpp>
-
-#include <memory>
-
+#include "ros/common/nodelet_shell.h"
 #include "ros/planning/map_publisher_node.h"
 
 namespace grid_path_planner::nodes {
 
-// map_publisher inside a nodelet manager.
-class MapPublisherNodelet : public nodelet::Nodelet {
- private:
-  void onInit() override {
-    node_ = std::make_unique<MapPublisherNode>(getNodeHandle(), getPrivateNodeHandle());
-  }
-
-  std::unique_ptr<MapPublisherNode> node_;
-};
+class MapPublisherNodelet : public NodeletShell<MapPublisherNode> {};
 
 }  // namespace grid_path_planner::nodes
 

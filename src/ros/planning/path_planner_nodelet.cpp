@@ -1,21 +1,9 @@
-#include <nodelet/nodelet.h>
-#include <pluginlib/class_list_macros.hpp>
-
-#include <memory>
-
+#include "ros/common/nodelet_shell.h"
 #include "ros/planning/path_planner_node.h"
 
 namespace grid_path_planner::nodes {
 
-// path_planner inside a nodelet manager.
-class PathPlannerNodelet : public nodelet::Nodelet {
- private:
-  void onInit() override {
-    node_ = std::make_unique<PathPlannerNode>(getNodeHandle(), getPrivateNodeHandle());
-  }
-
-  std::unique_ptr<PathPlannerNode> node_;
-};
+class PathPlannerNodelet : public NodeletShell<PathPlannerNode> {};
 
 }  // namespace grid_path_planner::nodes
 

@@ -12,7 +12,7 @@ ContactPublisher::ContactPublisher(ros::NodeHandle& nh)
     : count_publisher_(nh.advertise<std_msgs::UInt32>("contacts", 1, true)),
       name_publisher_(nh.advertise<std_msgs::String>("contact", 1, true)) {}
 
-void ContactPublisher::begin(const Vehicle& vehicle) {
+void ContactPublisher::start(const Vehicle& vehicle) {
   publish(vehicle);
 }
 

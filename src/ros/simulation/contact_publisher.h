@@ -1,10 +1,10 @@
-// What a simulated vehicle has run into.
+// The contacts of a simulated vehicle as topics.
 //
 //   contacts  std_msgs/UInt32, latched: how often the vehicle ran into something
 //   contact   std_msgs/String, latched: what it ran into last, by its name in the world file
 //
-// Each contact is a warning in the log too. Nothing is said before `begin`, since a vehicle without
-// surroundings touches nothing.
+// Each contact is a warning in the log too. Nothing is published before `start`, since a vehicle
+// without obstacles has no contacts.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -18,9 +18,9 @@ class ContactPublisher {
  public:
   explicit ContactPublisher(ros::NodeHandle& nh);
 
-  // There are surroundings, perhaps other ones: publishes the count as it is.
-  void begin(const simulation::Vehicle& vehicle);
-  // Publishes what has changed since the last call.
+  // After the obstacles were set or replaced: publishes the present count.
+  void start(const simulation::Vehicle& vehicle);
+  // Publishes contacts since the last call.
   void update(const simulation::Vehicle& vehicle);
 
  private:
@@ -28,7 +28,7 @@ class ContactPublisher {
 
   ros::Publisher count_publisher_;
   ros::Publisher name_publisher_;
-  int published_ = -1;  // before `begin`
+  int published_ = -1;  // before `start`
 };
 
 }  // namespace grid_path_planner::nodes

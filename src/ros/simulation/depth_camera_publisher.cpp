@@ -76,13 +76,13 @@ DepthCameraPublisher::DepthCameraPublisher(ros::NodeHandle& nh, const World& wor
     : camera_(world, options), frames_(frames), period_ns_(std::llround(1e9 / options.rate)) {
   points_publisher_ = nh.advertise<sensor_msgs::PointCloud2>("depth_camera/points", 10);
   info_publisher_ = nh.advertise<sensor_msgs::CameraInfo>("depth_camera/camera_info", 10);
-  thread_ = std::thread([this] { work(); });
+  thread_ = std::thread([this] { renderLoop(); });
 }
 
 DepthCameraPublisher::~DepthCameraPublisher() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    ends_ = true;
+    stopping_ = true;
   }
   changed_.notify_all();
   thread_.join();
@@ -99,8 +99,8 @@ bool DepthCameraPublisher::busy() const {
   return shot_.has_value();
 }
 
-void DepthCameraPublisher::take(const VehicleState& state, std::int64_t time_ns,
-                                const ros::Time& stamp) {
+void DepthCameraPublisher::capture(const VehicleState& state, std::int64_t time_ns,
+                                   const ros::Time& stamp) {
   const std::int64_t frame = time_ns / period_ns_;
   next_ns_ = (frame + 1) * period_ns_;
   if (points_publisher_.getNumSubscribers() == 0 && info_publisher_.getNumSubscribers() == 0)
@@ -113,11 +113,11 @@ void DepthCameraPublisher::take(const VehicleState& state, std::int64_t time_ns,
   changed_.notify_all();
 }
 
-void DepthCameraPublisher::work() {
+void DepthCameraPublisher::renderLoop() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return ends_ || shot_; });
-    if (ends_) return;
+    changed_.wait(lock, [this] { return stopping_ || shot_; });
+    if (stopping_) return;
     const Shot shot = *shot_;
     lock.unlock();
     render(shot);

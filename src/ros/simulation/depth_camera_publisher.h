@@ -3,17 +3,17 @@
 //   DepthCameraPublisher camera(nh, world, options, frames);
 //   if (camera.due(time_ns)) {
 //     if (camera.busy()) return;            // simulated time waits
-//     camera.take(vehicle.state(), time_ns, stamp);
+//     camera.capture(vehicle.state(), time_ns, stamp);
 //   }
 //
 //   depth_camera/points       sensor_msgs/PointCloud2, organised, x y z in the optical frame
 //                             (REP 103), NaN where nothing was measured
 //   depth_camera/camera_info  sensor_msgs/CameraInfo
 //
-// Guaranteed: nothing is rendered that nobody subscribes to; rendering is done in a thread of its
-// own, one picture at a time, in the order of the stamps; pictures are due at whole multiples of
-// 1 / rate of simulated time. Not guaranteed: that tf at the stamp is there before the picture; the
-// caller sends it before `take`.
+// Guaranteed: nothing is rendered without a subscriber; rendering is done in a thread of its own, one
+// image at a time, in the order of the stamps; images are due at whole multiples of 1 / rate of
+// simulated time. Not guaranteed: that tf at the stamp arrives before the image; the caller sends it
+// before `capture`.
 #pragma once
 
 #include <geometry_msgs/TransformStamped.h>
@@ -52,18 +52,18 @@ class DepthCameraPublisher {
   DepthCameraPublisher(ros::NodeHandle& nh, const simulation::World& world,
                        const simulation::DepthCameraOptions& options,
                        const CameraFrameNames& frames);
-  // Waits for the picture that is being rendered.
+  // Waits for the image that is being rendered.
   ~DepthCameraPublisher();
 
   // Whether this is the camera that these would give.
   bool same(const simulation::DepthCameraOptions& options, const CameraFrameNames& frames) const;
 
-  // Whether a picture is to be taken at this simulated time, which never goes back.
+  // Whether an image is due at this simulated time, which never decreases.
   bool due(std::int64_t time_ns) const { return time_ns >= next_ns_; }
-  // Whether the last picture is still being rendered.
+  // Whether the last image is still being rendered.
   bool busy() const;
-  // Takes a picture from the vehicle at `state`, if anybody wants one. Only when not busy.
-  void take(const simulation::VehicleState& state, std::int64_t time_ns, const ros::Time& stamp);
+  // Captures an image from the vehicle at `state`, if there are subscribers. Only when not busy.
+  void capture(const simulation::VehicleState& state, std::int64_t time_ns, const ros::Time& stamp);
 
  private:
   struct Shot {
@@ -72,7 +72,7 @@ class DepthCameraPublisher {
     ros::Time stamp;
   };
 
-  void work();
+  void renderLoop();
   void render(const Shot& shot);
   sensor_msgs::CameraInfo cameraInfo() const;
 
@@ -86,7 +86,7 @@ class DepthCameraPublisher {
   mutable std::mutex mutex_;  // of the following
   std::condition_variable changed_;
   std::optional<Shot> shot_;  // until it is published
-  bool ends_ = false;
+  bool stopping_ = false;
   std::thread thread_;
 };
 

@@ -7,24 +7,22 @@
 
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "grid_path_planner/simulation/world_file.h"
+#include "grid_path_planner/simulation/world.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
 
 using base::InputError;
 using grid::OccupancyGrid;
-using simulation::checkSimulatorOptions;
 using simulation::readWorld;
-using simulation::SimulatorOptions;
 using simulation::Vehicle;
 using simulation::VehicleState;
 using simulation::World;
 
 namespace {
 
-// Wall time that a late timer makes up for; beyond it simulated time goes slower instead of
-// leaping.
+// Wall time that a late timer catches up on; beyond it simulated time goes slower instead of
+// jumping.
 constexpr double kLongestDelay = 0.05;  // s
 
 VehicleState initialState(const SimulatorOptions& o) {
@@ -66,8 +64,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
   if (options_.world.empty())
     map_subscriber_ = nh_.subscribe("projected_map", 1, &SimulatorNode::onMap, this);
   else
-    enterWorld();
-  useCamera(options_);
+    loadWorld();
+  updateCamera(options_);
   command_subscriber_ = nh_.subscribe("cmd_vel", 10, &SimulatorNode::onCommand, this);
   reconfigurable_ = std::make_unique<Reconfigurable<SimulatorConfig, SimulatorOptions>>(
       private_nh, options_, [this](const SimulatorOptions& options) { use(options); });
@@ -78,10 +76,10 @@ SimulatorNode::~SimulatorNode() {
   timer_.stop();
 }
 
-void SimulatorNode::enterWorld() {
+void SimulatorNode::loadWorld() {
   world_ = std::make_shared<const World>(readWorld(options_.world));
   vehicle_->setWorld(world_);
-  contact_publisher_.begin(*vehicle_);
+  contact_publisher_.start(*vehicle_);
 }
 
 void SimulatorNode::use(const SimulatorOptions& options) {
@@ -91,23 +89,23 @@ void SimulatorNode::use(const SimulatorOptions& options) {
   if (options.world != options_.world)
     throw InputError("world cannot be changed while the simulator runs, it is '" + options_.world +
                      "'");
-  useCamera(options);
+  updateCamera(options);
   vehicle_->setOptions(options.vehicle);
   odometry_.setOptions(options.odometry);
-  if (!sameStart(options, options_)) putVehicle(options);
+  if (!sameStart(options, options_)) resetVehicle(options);
   const bool other_rate = options.update_rate != options_.update_rate;
   options_ = options;
   if (other_rate) startTimer();
 }
 
-void SimulatorNode::useCamera(const SimulatorOptions& options) {
+void SimulatorNode::updateCamera(const SimulatorOptions& options) {
   const CameraFrameNames frames = cameraFrameNames(options);
   vehicle_publisher_.setFixed(cameraTransforms(options.camera, frames));
   if (world_ && !(camera_ && camera_->same(options.camera, frames)))
     camera_ = std::make_unique<DepthCameraPublisher>(nh_, *world_, options.camera, frames);
 }
 
-void SimulatorNode::putVehicle(const SimulatorOptions& options) {
+void SimulatorNode::resetVehicle(const SimulatorOptions& options) {
   vehicle_->reset(initialState(options));
   odometry_.reset(vehicle_->state());
 }
@@ -132,7 +130,7 @@ void SimulatorNode::onMap(const nav_msgs::OccupancyGrid& message) {
     if (frame != options_.map_frame)
       throw InputError("its frame must be " + options_.map_frame + ", got '" + frame + "'");
     vehicle_->setMap(std::make_shared<OccupancyGrid>(occupancyFromMessage(message)));
-    contact_publisher_.begin(*vehicle_);
+    contact_publisher_.start(*vehicle_);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("projected_map refused, the one before stays: " << error.what());
   }
@@ -140,39 +138,40 @@ void SimulatorNode::onMap(const nav_msgs::OccupancyGrid& message) {
 
 void SimulatorNode::onTimer(const ros::SteadyTimerEvent&) {
   const double time_step = options_.vehicle.time_step;
-  collectTime();
+  addElapsedTime();
   const std::int64_t before = vehicle_->timeNs();
-  for (; owed_ >= time_step && !timeMustWait(); owed_ -= time_step) step();
+  for (; pending_time_ >= time_step && !mustWaitForCamera(); pending_time_ -= time_step) step();
   if (vehicle_->timeNs() == before) return;
   publishState();
   contact_publisher_.update(*vehicle_);
 }
 
-// Adds what has passed since the last call, but never more than a late timer may make up for.
-void SimulatorNode::collectTime() {
+// Adds the time since the last call, at most what a late timer may catch up on.
+void SimulatorNode::addElapsedTime() {
   const ros::SteadyTime tick = ros::SteadyTime::now();
   const double most =
       std::max(kLongestDelay, 2.0 / options_.update_rate) * options_.real_time_factor;
-  owed_ += (tick - last_tick_).toSec() * options_.real_time_factor;
-  owed_ = std::min(owed_, most + options_.vehicle.time_step);  // at slow factors a step is more
+  pending_time_ += (tick - last_tick_).toSec() * options_.real_time_factor;
+  pending_time_ =
+      std::min(pending_time_, most + options_.vehicle.time_step);  // at slow factors a step is more
   last_tick_ = tick;
 }
 
-// A picture is due, and the one before is not finished.
-bool SimulatorNode::timeMustWait() const {
+// An image is due, and the one before is not finished.
+bool SimulatorNode::mustWaitForCamera() const {
   return camera_ && camera_->due(vehicle_->timeNs()) && camera_->busy();
 }
 
 void SimulatorNode::step() {
-  if (camera_ && camera_->due(vehicle_->timeNs())) takePicture();
+  if (camera_ && camera_->due(vehicle_->timeNs())) captureImage();
   vehicle_->step();
   odometry_.advance(vehicle_->state());
 }
 
 // With tf of exactly its stamp, sent before it.
-void SimulatorNode::takePicture() {
+void SimulatorNode::captureImage() {
   publishState();
-  camera_->take(vehicle_->state(), vehicle_->timeNs(), now());
+  camera_->capture(vehicle_->state(), vehicle_->timeNs(), now());
 }
 
 ros::Time SimulatorNode::now() const {

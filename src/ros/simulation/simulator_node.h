@@ -1,22 +1,22 @@
-// The node `simulator`: a vehicle that follows cmd_vel in a world of its own, for trying the other
-// nodes without one.
+// The node `simulator`: a simulated vehicle that follows cmd_vel in a simulated world, for use of the
+// other nodes without a real one.
 //
 //   subscribes  cmd_vel        geometry_msgs/Twist in base_link; zeroed cmd_vel_timeout after the
 //                              last
-//               projected_map  nav_msgs/OccupancyGrid; without ~world its occupied cells hold the
-//                              vehicle up
-//   publishes   ground_truth   nav_msgs/Odometry in map: where the vehicle is
-//               odom           nav_msgs/Odometry: where it believes to be
+//               projected_map  nav_msgs/OccupancyGrid; without ~world its occupied cells stop the
+//                              vehicle
+//   publishes   ground_truth   nav_msgs/Odometry in map: the true pose
+//               odom           nav_msgs/Odometry: the pose by dead reckoning
 //               tf             map -> odom (the identity) -> base_link -> camera_link
 //                              -> camera_optical_frame
 //               /clock         at real_time_factor; only with publish_clock
-//               contacts, contact     what the vehicle ran into (contact_publisher.h)
+//               contacts, contact     collisions of the vehicle (contact_publisher.h)
 //               depth_camera/points, depth_camera/camera_info     with ~world
 //                              (depth_camera_publisher.h)
 //
-// Guaranteed: the steps follow the wall clock, never the clock that they make. Where the machine is
-// too slow for the steps or for the pictures, simulated time goes slower; no step is left out, and
-// no picture that somebody subscribes to.
+// Guaranteed: the steps follow the wall clock, never /clock. Where the machine is too slow for the
+// steps or for the images, simulated time goes slower; no step is left out, and no image that has a
+// subscriber.
 #pragma once
 
 #include <geometry_msgs/Twist.h>
@@ -29,10 +29,10 @@
 #include <memory>
 
 #include "grid_path_planner/simulation/dead_reckoning.h"
-#include "grid_path_planner/simulation/simulator_options.h"
 #include "grid_path_planner/simulation/vehicle.h"
 #include "ros/simulation/contact_publisher.h"
 #include "ros/simulation/depth_camera_publisher.h"
+#include "ros/simulation/simulator_options.h"
 #include "ros/simulation/vehicle_publisher.h"
 
 namespace grid_path_planner {
@@ -54,28 +54,28 @@ class SimulatorNode {
   ~SimulatorNode();
 
  private:
-  void enterWorld();
-  void use(const simulation::SimulatorOptions& options);
-  void useCamera(const simulation::SimulatorOptions& options);
-  void putVehicle(const simulation::SimulatorOptions& options);
+  void loadWorld();
+  void use(const SimulatorOptions& options);
+  void updateCamera(const SimulatorOptions& options);
+  void resetVehicle(const SimulatorOptions& options);
   void startTimer();
 
   void onCommand(const geometry_msgs::Twist& message);
   void onMap(const nav_msgs::OccupancyGrid& message);
   void onTimer(const ros::SteadyTimerEvent& event);
-  void collectTime();
+  void addElapsedTime();
   void step();
-  bool timeMustWait() const;
-  void takePicture();
+  bool mustWaitForCamera() const;
+  void captureImage();
   void publishState();
   ros::Time now() const;
 
   ros::NodeHandle nh_;
-  simulation::SimulatorOptions options_;
+  SimulatorOptions options_;
   std::unique_ptr<simulation::Vehicle> vehicle_;
   simulation::DeadReckoning odometry_;
   std::shared_ptr<const simulation::World> world_;  // none: only the map's obstacles
-  double owed_ = 0.0;                               // s of simulated time that are due
+  double pending_time_ = 0.0;                       // s of simulated time that are due
   ros::SteadyTime last_tick_;
   ros::Time last_stamp_;
 
@@ -86,7 +86,7 @@ class SimulatorNode {
   ros::Subscriber command_subscriber_;
   ros::Subscriber map_subscriber_;
   ros::SteadyTimer timer_;
-  std::unique_ptr<Reconfigurable<SimulatorConfig, simulation::SimulatorOptions>> reconfigurable_;
+  std::unique_ptr<Reconfigurable<SimulatorConfig, SimulatorOptions>> reconfigurable_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -1,4 +1,4 @@
-// What a simulated vehicle says of where it is: the truth, and what it believes itself.
+// The pose of a simulated vehicle as topics and tf: the true pose, and the pose by odometry.
 //
 //   VehiclePublisher publisher(nh);
 //   publisher.publish(truth, measured, stamp, frames);
@@ -7,9 +7,9 @@
 //   odom          nav_msgs/Odometry in the frame of the odometry
 //   tf            odometry -> vehicle as measured; map -> odometry (the identity) where asked for
 //
-// Where the odometry errs, tf from map to vehicle errs with it, as on a vehicle without a
+// Errors of the odometry are errors of tf from map to vehicle, as on a vehicle without a
 // localisation. No transform is static: a listener that clears its buffer as time jumps back would
-// not get that again. A stamp that was published already is passed over: tf warns about repeats.
+// not receive a static one again.
 #pragma once
 
 #include <geometry_msgs/TransformStamped.h>

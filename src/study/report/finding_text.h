@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/study/confidence.h"
-#include "grid_path_planner/study/study_data.h"
-#include "grid_path_planner/study/table.h"
+#include "study/confidence.h"
+#include "study/report/table.h"
+#include "study/study_data.h"
 
 namespace grid_path_planner::study {
 

@@ -1,4 +1,4 @@
-#include "grid_path_planner/study/findings.h"
+#include "study/report/findings.h"
 
 #include <algorithm>
 #include <sstream>

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "grid_path_planner/base/options.h"
-#include "grid_path_planner/study/findings.h"
 #include "study/report/finding_text.h"
+#include "study/report/findings.h"
 
 namespace grid_path_planner::study {
 

@@ -2,7 +2,7 @@
 #include <cctype>
 
 #include "grid_path_planner/base/option_text.h"
-#include "grid_path_planner/study/report.h"
+#include "study/report/report.h"
 #include "study/study_planners.h"
 
 namespace grid_path_planner::study {

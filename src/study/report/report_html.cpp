@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "grid_path_planner/study/report.h"
 #include "study/report/markup.h"
+#include "study/report/report.h"
 #include "study/report/report_assets.h"
 #include "study/report/report_pictures.h"
 #include "study/report/svg_chart.h"

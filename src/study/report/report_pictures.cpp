@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "grid_path_planner/costmap/costmap_builder.h"
-#include "grid_path_planner/study/report.h"
-#include "grid_path_planner/study/study_worker.h"
+#include "study/report/report.h"
 #include "study/report/svg_chart.h"
+#include "study/study_worker.h"
 
 namespace grid_path_planner::study {
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "grid_path_planner/study/study_data.h"
+#include "study/study_data.h"
 
 namespace grid_path_planner::study {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "grid_path_planner/study/findings.h"
 #include "study/report/finding_text.h"
+#include "study/report/findings.h"
 
 namespace grid_path_planner::study {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "grid_path_planner/study/confidence.h"
-#include "grid_path_planner/study/table.h"
+#include "study/confidence.h"
 #include "study/report/markup.h"
+#include "study/report/table.h"
 
 namespace grid_path_planner::study {
 namespace {

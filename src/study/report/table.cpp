@@ -1,4 +1,4 @@
-#include "grid_path_planner/study/table.h"
+#include "study/report/table.h"
 
 #include <cmath>
 #include <cstdio>

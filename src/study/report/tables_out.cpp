@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "grid_path_planner/study/report.h"
+#include "study/report/report.h"
 
 namespace grid_path_planner::study {
 namespace {

@@ -1,5 +1,5 @@
-#include "grid_path_planner/study/findings.h"
 #include "study/report/finding_text.h"
+#include "study/report/findings.h"
 
 namespace grid_path_planner::study {
 

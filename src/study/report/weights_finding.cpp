@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <map>
 
-#include "grid_path_planner/study/findings.h"
 #include "study/report/finding_text.h"
+#include "study/report/findings.h"
 
 namespace grid_path_planner::study {
 

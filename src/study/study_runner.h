@@ -1,4 +1,4 @@
-// Has the units of a study done by workers, and keeps what they bring.
+// Distributes the units of a study to workers and stores their runs.
 #pragma once
 
 #include <functional>
@@ -6,18 +6,14 @@
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/study/study_folder.h"
-#include "grid_path_planner/study/study_plan.h"
+#include "grid_path_planner/study/study_job.h"
 #include "grid_path_planner/study/worker_group.h"
+#include "study/study_folder.h"
+#include "study/study_plan.h"
 
 namespace grid_path_planner::study {
 
 class StudyWorker;
-
-struct StudyFailure {
-  std::string unit;    // StudyPlan::nameOf
-  std::string reason;  // why its worker brought nothing
-};
 
 struct StudyResult {
   std::vector<StudyRun> runs;  // by unit, then variant: the same order for any number of workers
@@ -26,12 +22,12 @@ struct StudyResult {
   bool interrupted = false;  // some units were not started
 };
 
-// What a worker does of unit number `task`: the lines of its runs.
+// Does unit number `task`; the lines of its runs.
 std::string linesOfUnit(StudyWorker& worker, const StudyPlan& plan, std::size_t task);
 
-// Hands the units that `folder` has no runs of to `workers`, until all are done or `stop` asks to
-// end; then what was started is waited for. A unit that fails is named and the rest goes on; it is
-// tried again when the study is resumed. `progress` hears of the units done, those of before
+// Starts the units of which `folder` has no runs on `workers`, until all are done or `stop` asks to
+// end; then waits for the started ones. A unit that fails is named and the others go on; it is tried
+// again when the study is resumed. `progress` is called with the number of units done, earlier ones
 // included. Throws InputError where the folder cannot be written.
 StudyResult runStudy(const StudyPlan& plan, StudyFolder& folder, WorkerGroup& workers,
                      const base::StopToken& stop,

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "grid_path_planner/grid/occupancy.h"
-#include "grid_path_planner/study/study.h"
-#include "grid_path_planner/study/study_query.h"
+#include "study/study.h"
+#include "study/study_query.h"
 
 namespace grid_path_planner::study {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "grid_path_planner/study/study.h"
+#include "study/study.h"
 
 namespace grid_path_planner::study {
 

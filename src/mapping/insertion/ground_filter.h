@@ -1,4 +1,4 @@
-// Which points of a scan are the floor that a vehicle drives on: a plane found by RANSAC.
+// Which points of a scan are ground: a plane found by RANSAC.
 //
 //   const GroundSplit split = splitGround(points, options);  // points in the vehicle's base frame
 //
@@ -11,16 +11,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <vector>
 
-namespace grid_path_planner::mapping {
+#include "grid_path_planner/mapping/cloud_filter.h"
 
-struct GroundFilterOptions {
-  double distance = 0.04;        // m
-  double angle = 0.15;           // rad
-  double plane_distance = 0.07;  // m
-};
+namespace grid_path_planner::mapping {
 
 struct GroundSplit {
   std::vector<bool> is_ground;  // one a point

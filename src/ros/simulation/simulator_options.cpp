@@ -1,4 +1,4 @@
-#include "grid_path_planner/simulation/simulator_options.h"
+#include "ros/simulation/simulator_options.h"
 
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/options.h"
@@ -6,11 +6,13 @@
 #include <set>
 #include <string>
 
-namespace grid_path_planner::simulation {
+namespace grid_path_planner::nodes {
 
 using base::checkOptionLimits;
 using base::decimalText;
 using base::InputError;
+using simulation::checkDepthCameraOptions;
+using simulation::checkVehicleOptions;
 
 namespace {
 
@@ -36,4 +38,4 @@ void checkSimulatorOptions(const SimulatorOptions& o) {
   checkFrames(o);
 }
 
-}  // namespace grid_path_planner::simulation
+}  // namespace grid_path_planner::nodes

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/study/study_run.h"
+#include "study/study_run.h"
 
 namespace grid_path_planner::study {
 

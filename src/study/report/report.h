@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/study/findings.h"
-#include "grid_path_planner/study/study_data.h"
-#include "grid_path_planner/study/study_runner.h"
+#include "grid_path_planner/study/study_job.h"
+#include "study/report/findings.h"
+#include "study/study_data.h"
 
 namespace grid_path_planner::study {
 

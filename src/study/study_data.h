@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "grid_path_planner/study/confidence.h"
-#include "grid_path_planner/study/study_plan.h"
-#include "grid_path_planner/study/study_run.h"
+#include "study/confidence.h"
+#include "study/study_plan.h"
+#include "study/study_run.h"
 
 namespace grid_path_planner::study {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/study/study_data.h"
-#include "grid_path_planner/study/table.h"
+#include "study/report/table.h"
+#include "study/study_data.h"
 
 namespace grid_path_planner::study {
 

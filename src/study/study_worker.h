@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "grid_path_planner/planning/path_planner.h"
-#include "grid_path_planner/study/study_plan.h"
-#include "grid_path_planner/study/study_run.h"
+#include "study/study_plan.h"
+#include "study/study_run.h"
 
 namespace grid_path_planner::study {
 

@@ -7,11 +7,11 @@
 #include "grid_path_planner/simulation/depth_camera_options.h"
 #include "grid_path_planner/simulation/vehicle_options.h"
 
-namespace grid_path_planner::simulation {
+namespace grid_path_planner::nodes {
 
 // At the bow, looking ahead and down.
-inline DepthCameraOptions vehicleCamera() {
-  DepthCameraOptions camera;
+inline simulation::DepthCameraOptions vehicleCamera() {
+  simulation::DepthCameraOptions camera;
   camera.x = 0.35;
   camera.z = -0.1;
   camera.pitch = 0.6;
@@ -20,9 +20,9 @@ inline DepthCameraOptions vehicleCamera() {
 
 struct SimulatorOptions {
   std::string world;  // SDF file
-  VehicleOptions vehicle;
-  DeadReckoningOptions odometry;
-  DepthCameraOptions camera = vehicleCamera();
+  simulation::VehicleOptions vehicle;
+  simulation::DeadReckoningOptions odometry;
+  simulation::DepthCameraOptions camera = vehicleCamera();
 
   double initial_x = 0.0;    // m, map frame
   double initial_y = 0.0;    // m
@@ -97,4 +97,4 @@ void visitOptions(SimulatorOptions& o, Visitor&& visit) {
 // holds nothing, a factor other than 1 without a clock, and frames that are empty or the same.
 void checkSimulatorOptions(const SimulatorOptions& options);
 
-}  // namespace grid_path_planner::simulation
+}  // namespace grid_path_planner::nodes
