@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "grid_path_planner/costmap/cost_grid.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 
 namespace grid_path_planner::costmap {
@@ -18,13 +19,9 @@ using grid::Cell;
 using grid::CellRect;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
+using test::costMap;
 
 namespace {
-
-CostGrid costs(const Grid<CostGrid::Weight>& weights) {
-  return CostGrid(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), MotionModel());
-}
 
 Grid<CostGrid::Weight> halfBlocked(std::mt19937& random, int width, int height) {
   Grid<CostGrid::Weight> weights(GridGeometry(width, height, 1.0));
@@ -93,7 +90,7 @@ TEST(BitMaps, AreAfterEditsAsIfMadeAnew) {
 TEST(BitMaps, OfAMapAreMadeOnceForAllWhoAsk) {
   std::mt19937 random(3);
   const Grid<CostGrid::Weight> weights = halfBlocked(random, 300, 200);
-  const CostGrid map = costs(weights);
+  const CostGrid map = costMap(weights);
   const std::size_t before = map.bytes();
   std::vector<const BitMaps*> seen(4);
   std::vector<std::thread> askers;
@@ -108,7 +105,7 @@ TEST(BitMaps, OfAMapAreMadeOnceForAllWhoAsk) {
 TEST(BitMaps, ThatWereStoppedAreMadeAtTheNextAsking) {
   std::mt19937 random(4);
   const Grid<CostGrid::Weight> weights = halfBlocked(random, 10, 700);
-  const CostGrid map = costs(weights);
+  const CostGrid map = costMap(weights);
   StopSource source;
   source.cancel();
   EXPECT_THROW(map.bitMaps(source.token()), Stopped);
@@ -117,15 +114,15 @@ TEST(BitMaps, ThatWereStoppedAreMadeAtTheNextAsking) {
 
 TEST(CostGrid, IsUniformWhereAllPassableCellsWeighTheSame) {
   Grid<CostGrid::Weight> weights(GridGeometry(3, 2, 1.0), 7);
-  EXPECT_TRUE(costs(weights).uniform());
+  EXPECT_TRUE(costMap(weights).uniform());
   weights[Cell{1, 1}] = CostGrid::kBlocked;
-  EXPECT_TRUE(costs(weights).uniform());
-  EXPECT_EQ(costs(weights).minWeight(), 7);
+  EXPECT_TRUE(costMap(weights).uniform());
+  EXPECT_EQ(costMap(weights).minWeight(), 7);
   weights[Cell{2, 1}] = 8;
-  EXPECT_FALSE(costs(weights).uniform());
-  EXPECT_EQ(costs(weights).minWeight(), 7);
-  EXPECT_TRUE(costs(Grid<CostGrid::Weight>(GridGeometry(3, 2, 1.0))).uniform());
-  EXPECT_EQ(costs(Grid<CostGrid::Weight>(GridGeometry(3, 2, 1.0))).minWeight(), 0);
+  EXPECT_FALSE(costMap(weights).uniform());
+  EXPECT_EQ(costMap(weights).minWeight(), 7);
+  EXPECT_TRUE(costMap(Grid<CostGrid::Weight>(GridGeometry(3, 2, 1.0))).uniform());
+  EXPECT_EQ(costMap(Grid<CostGrid::Weight>(GridGeometry(3, 2, 1.0))).minWeight(), 0);
 }
 
 }  // namespace

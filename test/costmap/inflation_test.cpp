@@ -10,16 +10,17 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "support/ascii_map.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 
 namespace grid_path_planner::costmap {
 
 using base::InputError;
-using base::StopToken;
 using grid::Cell;
 using grid::CellIndex;
 using grid::GridGeometry;
 using grid::OccupancyGrid;
+using test::costsOf;
 
 namespace {
 
@@ -46,12 +47,6 @@ int weightByDefinition(const OccupancyGrid& map, Cell cell, const CostmapOptions
       options.free_weight + (options.inflation_weight - options.free_weight) *
                                 std::exp(-options.decay * (distance - options.radius));
   return std::max(weight, static_cast<int>(std::lround(ring)));
-}
-
-std::shared_ptr<const CostGrid> costsOf(const OccupancyGrid& map, const CostmapOptions& options) {
-  CostmapBuilder terrain(options);
-  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
-  return terrain.fullResolution(StopToken());
 }
 
 TEST(Inflation, BlocksWhatIsNearerThanTheRadiusAndNotWhatIsAtIt) {

@@ -7,6 +7,7 @@
 
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "support/ascii_map.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 
 namespace grid_path_planner::costmap {
@@ -17,14 +18,9 @@ using grid::CellIndex;
 using grid::GridGeometry;
 using grid::Occupancy;
 using grid::OccupancyGrid;
+using test::costsOf;
 
 namespace {
-
-std::shared_ptr<const CostGrid> searched(const OccupancyGrid& map, const CostmapOptions& options) {
-  CostmapBuilder terrain(options);
-  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
-  return terrain.downsampled(StopToken());
-}
 
 CostmapOptions withKernel(int kernel, KernelRule rule = KernelRule::CONSERVATIVE) {
   CostmapOptions options;
@@ -36,7 +32,7 @@ CostmapOptions withKernel(int kernel, KernelRule rule = KernelRule::CONSERVATIVE
 TEST(Kernel, TheOriginalStudysMapHasItsSizes) {
   const OccupancyGrid map(GridGeometry(366, 362, 0.05));
   const auto sizeAt = [&map](int kernel) {
-    const GridGeometry blocks = searched(map, withKernel(kernel))->geometry();
+    const GridGeometry blocks = costsOf(map, withKernel(kernel))->geometry();
     return std::make_pair(blocks.width(), blocks.height());
   };
   EXPECT_EQ(sizeAt(1), std::make_pair(366, 362));
@@ -46,10 +42,10 @@ TEST(Kernel, TheOriginalStudysMapHasItsSizes) {
 }
 
 TEST(Kernel, ConservativeKeepsTheWorstCell) {
-  const auto costs = searched(test::AsciiMap({"...#",  //
-                                              ".?.."})
-                                  .map,
-                              withKernel(2));
+  const auto costs = costsOf(test::AsciiMap({"...#",  //
+                                             ".?.."})
+                                 .map,
+                             withKernel(2));
   EXPECT_EQ(costs->weight({0, 0}), 50);
   EXPECT_EQ(costs->occupancy({0, 0}), Occupancy::UNKNOWN);
   EXPECT_FALSE(costs->passable({1, 0}));
@@ -57,7 +53,7 @@ TEST(Kernel, ConservativeKeepsTheWorstCell) {
 }
 
 TEST(Kernel, ABlockAtTheBorderIsJudgedByTheCellsItHas) {
-  const auto costs = searched(test::AsciiMap({"..#"}).map, withKernel(2));
+  const auto costs = costsOf(test::AsciiMap({"..#"}).map, withKernel(2));
   EXPECT_TRUE(costs->passable({0, 0}));
   EXPECT_FALSE(costs->passable({1, 0}));
   EXPECT_EQ(costs->waypoint({0, 0}), Eigen::Vector2d(1.0, 0.5));
@@ -68,7 +64,7 @@ TEST(Kernel, ABlockAtTheBorderIsJudgedByTheCellsItHas) {
 // obstacle among three unknown ones counts as nothing.
 TEST(Kernel, Filter2dIsTheSignOfTheSum) {
   const auto classOf = [](const std::vector<std::string>& lines) {
-    return searched(test::AsciiMap(lines).map, withKernel(2, KernelRule::FILTER2D))
+    return costsOf(test::AsciiMap(lines).map, withKernel(2, KernelRule::FILTER2D))
         ->occupancy({0, 0});
   };
   EXPECT_EQ(classOf({"#.", ".."}), Occupancy::OCCUPIED);
@@ -87,7 +83,7 @@ TEST(KernelLaw, OneChangesNothingAndNoneChangesTheMap) {
     CostmapBuilder terrain(withKernel(1));
     terrain.setMap(std::make_shared<const OccupancyGrid>(map));
     EXPECT_EQ(terrain.downsampled(StopToken()), terrain.fullResolution(StopToken()));
-    for (int kernel = 2; kernel <= 8; ++kernel) searched(map, withKernel(kernel));
+    for (int kernel = 2; kernel <= 8; ++kernel) costsOf(map, withKernel(kernel));
     EXPECT_EQ(map, before);
   }
 }

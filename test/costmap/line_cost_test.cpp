@@ -6,6 +6,7 @@
 #include <random>
 
 #include "grid_path_planner/costmap/line_of_sight.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 
 namespace grid_path_planner::costmap {
@@ -14,7 +15,6 @@ using base::StopToken;
 using grid::Cell;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
 
 namespace {
 
@@ -59,7 +59,7 @@ TEST(CentreSegmentLaw, LongSightIsTheGeneralSegment) {
   for (int trial = 0; trial < 40; ++trial) {
     Grid<CostGrid::Weight> weights(GridGeometry(300, 200, 1.0), 1);
     for (int i = 0; i < 300; ++i) weights[test::randomCell(random, weights.geometry())] = 0;
-    const CostGrid map(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), {});
+    const CostGrid map = test::costMap(weights);
     for (int i = 0; i < 60; ++i) {
       const Cell from = test::randomCell(random, map.geometry());
       const Cell to = test::randomCell(random, map.geometry());

@@ -8,27 +8,18 @@
 #include <random>
 #include <set>
 
-#include "grid_path_planner/costmap/costmap_builder.h"
-#include "support/ascii_map.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 
 namespace grid_path_planner::costmap {
 
-using base::StopToken;
 using grid::Cell;
 using grid::CellIndex;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
-using grid::OccupancyGrid;
+using test::costsOf;
 
 namespace {
-
-std::shared_ptr<const CostGrid> costsOf(const std::vector<std::string>& lines) {
-  CostmapBuilder terrain{CostmapOptions()};
-  terrain.setMap(std::make_shared<const OccupancyGrid>(test::AsciiMap(lines).map));
-  return terrain.fullResolution(StopToken());
-}
 
 bool legal(const CostGrid& map, double x0, double y0, double x1, double y1) {
   return lineOfSight(map, SegmentPoint::nearest({x0, y0}), SegmentPoint::nearest({x1, y1}));
@@ -144,7 +135,7 @@ TEST(SegmentLaw, IsLegalOnlyWhereEverySampleIsPassableAndTheSameBackwards) {
   for (int trial = 0; trial < 1500; ++trial) {
     Grid<CostGrid::Weight> weights(GridGeometry(8, 8, 1.0), 1);
     for (auto& weight : weights.values()) weight = random() % 8 == 0 ? 0 : 1;
-    const CostGrid map(weights, Grid<Occupancy>(weights.geometry()), {});
+    const CostGrid map = test::costMap(weights);
     // Sixteenths of a cell meet many corners and edges, others none.
     const auto coordinate = [&] {
       const double drawn = place(random);

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "grid_path_planner/costmap/costmap_builder.h"
 #include "support/ascii_map.h"
+#include "support/cost_maps.h"
 
 namespace grid_path_planner::path {
 
@@ -13,22 +13,12 @@ using base::Stopped;
 using base::StopSource;
 using base::StopToken;
 using costmap::CostGrid;
-using costmap::CostmapBuilder;
-using costmap::CostmapOptions;
 using costmap::SegmentPoint;
 using grid::Cell;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
-using grid::OccupancyGrid;
 
 namespace {
-
-std::shared_ptr<const CostGrid> costsOf(const test::AsciiMap& picture) {
-  CostmapBuilder terrain(CostmapOptions{});
-  terrain.setMap(std::make_shared<const OccupancyGrid>(picture.map));
-  return terrain.downsampled(StopToken());
-}
 
 std::vector<SegmentPoint> centresOf(const std::vector<Cell>& cells) {
   std::vector<SegmentPoint> points;
@@ -37,7 +27,7 @@ std::vector<SegmentPoint> centresOf(const std::vector<Cell>& cells) {
 }
 
 SmoothPath smoothOver(const test::AsciiMap& picture, const std::vector<Cell>& cells) {
-  return smoothed(*costsOf(picture), centresOf(cells), StopToken());
+  return smoothed(*test::costsOf(picture.map), centresOf(cells), StopToken());
 }
 
 TEST(Smoothing, TakesAnOpenDiagonalInOneLine) {
@@ -79,7 +69,7 @@ TEST(Smoothing, KeepsASinglePointAndAWayThatIsNotLegal) {
 
 TEST(Smoothing, StopsWhenAsked) {
   const Grid<CostGrid::Weight> weights(GridGeometry(2000, 2, 1.0), 1);
-  const CostGrid map(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), {});
+  const CostGrid map = test::costMap(weights);
   std::vector<Cell> cells;
   for (int column = 0; column < 2000; ++column) cells.push_back({column, column % 2});
   StopSource source;

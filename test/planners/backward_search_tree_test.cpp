@@ -11,6 +11,7 @@
 
 #include "planners/astar/dijkstra.h"
 #include "planners/replanning/incremental_a_star.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
 
@@ -32,7 +33,7 @@ using grid::CellIndex;
 using grid::CellRect;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
+using test::costMap;
 
 namespace {
 
@@ -195,8 +196,7 @@ struct Asked {
 };
 
 TEST(BackwardNodes, NothingIsLeftOfATreeWhenItsNumberComesAgain) {
-  const Grid<CostGrid::Weight> weights(GridGeometry(3, 1, 1.0), 1);
-  const CostGrid map(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), MotionModel());
+  const CostGrid map = costMap({"..."});
   MovePruning moves;
   moves.build(map, StopToken());
   BackwardNodes labels;
@@ -211,11 +211,10 @@ TEST(BackwardNodes, NothingIsLeftOfATreeWhenItsNumberComesAgain) {
 
 TEST(BackwardSearchTree, NothingIsDoneForAChangeThatDoesNotMatter) {
   const Grid<CostGrid::Weight> weights(GridGeometry(40, 40, 1.0), 1);
-  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
-  const CostGrid before(weights, classes, MotionModel());
+  const CostGrid before = costMap(weights);
   Grid<CostGrid::Weight> changed = weights;
   changed[Cell{2, 37}] = CostGrid::kBlocked;
-  const CostGrid after(changed, classes, MotionModel());
+  const CostGrid after = costMap(changed);
   Asked asked(before, {35, 3}, {3, 3}, 3);
   const std::vector<Cell> path = asked.result.cells;
   asked.update(before, after, {2, 37, 1, 1});
@@ -226,12 +225,12 @@ TEST(BackwardSearchTree, NothingIsDoneForAChangeThatDoesNotMatter) {
 
 // The goal's label is 0, which once stood for "none yet" where labels are compared.
 TEST(BackwardSearchTree, ACheaperCellBesideTheGoalIsSeen) {
-  Grid<CostGrid::Weight> weights(GridGeometry(4, 3, 1.0), 2);
-  for (const Cell cell : {Cell{1, 0}, Cell{1, 1}, Cell{1, 2}}) weights[cell] = 3;
-  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
-  const CostGrid before(weights, classes, MotionModel());
-  weights[Cell{1, 1}] = 2;
-  const CostGrid after(weights, classes, MotionModel());
+  const CostGrid before = costMap({"2322",  //
+                                   "2322",  //
+                                   "2322"});
+  const CostGrid after = costMap({"2322",  //
+                                  "2222",  //
+                                  "2322"});
   Asked asked(before, {0, 0}, {3, 1}, 3);
   asked.update(before, after, {1, 1, 1, 1});
   const Status status = asked.tree.plan(after, {3, 1}, false, asked.result, StopToken());
@@ -240,12 +239,11 @@ TEST(BackwardSearchTree, ACheaperCellBesideTheGoalIsSeen) {
 
 TEST(BackwardSearchTree, AStoppedPlanGoesOn) {
   Grid<CostGrid::Weight> weights(GridGeometry(150, 150, 1.0), 1);
-  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
-  const CostGrid before(weights, classes, MotionModel());
+  const CostGrid before = costMap(weights);
   const CellRect wall{75, 5, 1, 140};
   for (int row = wall.row; row < wall.row + wall.height; ++row)
     weights[Cell{75, row}] = CostGrid::kBlocked;
-  const CostGrid after(weights, classes, MotionModel());
+  const CostGrid after = costMap(weights);
   Asked asked(before, {140, 75}, {10, 75}, 0);
   asked.update(before, after, wall);
   StopSource source;
@@ -304,12 +302,7 @@ class Crossing {
   }
 
  private:
-  Map map() const {
-    const Grid<Occupancy> classes(weights_.geometry(), Occupancy::FREE);
-    auto map = std::make_shared<CostGrid>(weights_, classes, MotionModel());
-    map->setRevision(revision_);
-    return map;
-  }
+  Map map() const { return test::costsOf(weights_, {}, revision_); }
 
   Grid<CostGrid::Weight> weights_;
   std::uint64_t revision_ = 0;
@@ -375,10 +368,8 @@ TEST(HeapOnTopQueue, GivesTheLeastKeyWhateverTheOrderOfItsCalls) {
 // The tree's labels end at 3.2 million cells x weight.
 TEST(IncrementalAStar, WaysDearerThanLabelsHoldAreFoundAllTheSame) {
   Grid<CostGrid::Weight> weights(GridGeometry(60, 60, 1.0), 65535);
-  const Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
-  const MotionModel motion;
   IncrementalAStar planner;
-  planner.prepare(std::make_shared<CostGrid>(weights, classes, motion), StopToken());
+  planner.prepare(test::costsOf(weights), StopToken());
   const auto planned = [&](Cell goal) {
     return planner.search({{0, 0}, {goal}, false}, StopToken());
   };
@@ -387,8 +378,7 @@ TEST(IncrementalAStar, WaysDearerThanLabelsHoldAreFoundAllTheSame) {
 
   const CellRect wall{30, 0, 1, 59};
   for (int row = 0; row < 59; ++row) weights[Cell{30, row}] = CostGrid::kBlocked;
-  auto changed = std::make_shared<CostGrid>(weights, classes, motion);
-  changed->setRevision(1);
+  const Map changed = test::costsOf(weights, {}, 1);
   planner.update(changed, wall, StopToken());
   const SearchResult around = planned({59, 0});
   expectLeast(*changed, {0, 0}, {59, 0}, around.status == Status::FOUND, around);

@@ -6,6 +6,7 @@
 
 #include "grid_path_planner/planners/a_star.h"
 #include "planners/astar/dijkstra.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
 
@@ -15,19 +16,13 @@ using base::Status;
 using base::StopToken;
 using costmap::CostGrid;
 using costmap::ExactCost;
-using costmap::MotionModel;
 using grid::Cell;
 using grid::CellIndex;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
+using test::costsOf;
 
 namespace {
-
-std::shared_ptr<const CostGrid> costsOf(Grid<CostGrid::Weight> weights) {
-  Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
-  return std::make_shared<const CostGrid>(std::move(weights), std::move(classes), MotionModel());
-}
 
 // A corridor that winds over the whole map, one cell wide.
 std::shared_ptr<const CostGrid> snake(int side, CostGrid::Weight weight) {

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "grid_path_planner/base/errors.h"
+#include "support/cost_maps.h"
 #include "support/error_text.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
@@ -27,14 +28,9 @@ using grid::CellIndex;
 using grid::Grid;
 using grid::GridGeometry;
 using grid::Occupancy;
+using test::costsOf;
 
 namespace {
-
-std::shared_ptr<const CostGrid> costsOf(Grid<CostGrid::Weight> weights,
-                                        const MotionModel& motion = {}) {
-  Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
-  return std::make_shared<const CostGrid>(std::move(weights), std::move(classes), motion);
-}
 
 std::vector<Cell> cellsOf(const CostGrid& map) {
   std::vector<Cell> cells;

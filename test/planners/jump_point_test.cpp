@@ -9,6 +9,7 @@
 
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "support/ascii_map.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
 
@@ -21,23 +22,15 @@ using costmap::CostmapBuilder;
 using costmap::CostmapOptions;
 using costmap::costOfSteps;
 using costmap::ExactCost;
-using costmap::MotionModel;
 using costmap::stepAllowed;
 using grid::Cell;
 using grid::CellRect;
-using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
 using grid::OccupancyGrid;
+using test::costsOf;
+using test::Weights;
 
 namespace {
-
-using Weights = Grid<CostGrid::Weight>;
-
-std::shared_ptr<CostGrid> costs(const Weights& weights) {
-  return std::make_shared<CostGrid>(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE),
-                                    MotionModel());
-}
 
 Weights blockedWith(std::mt19937& random, int width, int height, double share,
                     CostGrid::Weight weight) {
@@ -120,8 +113,8 @@ TEST(JumpPoint, FindsTheLeastCostAtEveryDensity) {
     const int largest = trial % 60 == 0 ? 200 : 30;
     const double share = std::uniform_real_distribution<double>(0.0, 0.55)(random);
     const auto map =
-        costs(blockedWith(random, 1 + int(random() % largest), 1 + int(random() % largest), share,
-                          static_cast<CostGrid::Weight>(1 + random() % 65535)));
+        costsOf(blockedWith(random, 1 + int(random() % largest), 1 + int(random() % largest), share,
+                            static_cast<CostGrid::Weight>(1 + random() % 65535)));
     JumpPoint planner;
     planner.prepare(map, StopToken());
     SCOPED_TRACE("trial " + std::to_string(trial));
@@ -134,7 +127,7 @@ TEST(JumpPoint, PlansAfterEditsAsIfPreparedAnew) {
   for (int sequence = 0; sequence < 20; ++sequence) {
     const double share = std::uniform_real_distribution<double>(0.0, 0.4)(random);
     auto map =
-        costs(blockedWith(random, 20 + int(random() % 100), 20 + int(random() % 100), share, 1));
+        costsOf(blockedWith(random, 20 + int(random() % 100), 20 + int(random() % 100), share, 1));
     JumpPoint planner;
     planner.prepare(map, StopToken());
     for (int edit = 0; edit < 20; ++edit) {
@@ -147,9 +140,7 @@ TEST(JumpPoint, PlansAfterEditsAsIfPreparedAnew) {
       for (int row = changed.row; row < changed.row + changed.height; ++row)
         for (int column = changed.column; column < changed.column + changed.width; ++column)
           weights[Cell{column, row}] = blocked(random) ? CostGrid::kBlocked : 1;
-      const std::uint64_t revision = map->revision();
-      map = costs(weights);
-      map->setRevision(revision + 1);
+      map = costsOf(weights, {}, map->revision() + 1);
       planner.update(map, changed, StopToken());
       JumpPoint fresh;
       fresh.prepare(map, StopToken());
@@ -172,7 +163,7 @@ TEST(JumpPoint, FindsWaysThatOutgrowThirtyTwoBits) {
   for (int row = 1; row < 501; row += 2)
     for (int column = 0; column < 301; ++column)
       if (column != (row % 4 == 1 ? 300 : 0)) weights[Cell{column, row}] = CostGrid::kBlocked;
-  const auto map = costs(weights);
+  const auto map = costsOf(weights);
   JumpPoint planner;
   planner.prepare(map, StopToken());
   const SearchResult result = planner.search({{0, 0}, {{300, 500}}, false}, StopToken());

@@ -6,6 +6,7 @@
 
 #include "grid_path_planner/planners/exact_table.h"
 #include "grid_path_planner/planners/precomputed_table.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
 
@@ -20,8 +21,6 @@ using grid::Cell;
 using grid::CellIndex;
 using grid::CellRect;
 using grid::Grid;
-using grid::GridGeometry;
-using grid::Occupancy;
 
 namespace {
 
@@ -106,8 +105,7 @@ TEST(LandmarkTable, SameMapSameTable) {
 }
 
 TEST(LandmarkTable, TheFirstLiesAtAnEnd) {
-  const CostGrid map(Grid<CostGrid::Weight>(GridGeometry(30, 1, 1.0), 1),
-                     Grid<Occupancy>(GridGeometry(30, 1, 1.0), Occupancy::FREE), {});
+  const CostGrid map = test::costMap({std::string(30, '.')});
   const LandmarkTable table(map, 2, StopToken());
   ASSERT_EQ(table.landmarks().size(), 2U);
   EXPECT_EQ(table.landmarks().front().column % 29, 0);
@@ -144,19 +142,25 @@ TEST(CostDecreases, BoundsStayBoundsWhileTheMapChanges) {
 }
 
 TEST(CheaperCells, AreThoseOfASmallerWeight) {
-  const Grid<Occupancy> classes(GridGeometry(6, 5, 1.0), Occupancy::FREE);
-  Grid<CostGrid::Weight> weights(classes.geometry(), 5);
-  weights[Cell{4, 1}] = CostGrid::kBlocked;
-  const CostGrid before(weights, classes, {});
-  weights[Cell{0, 0}] = 6;                   // dearer
-  weights[Cell{1, 3}] = CostGrid::kBlocked;  // dearer
-  const CellRect all = classes.geometry().rect();
-  EXPECT_TRUE(cheaperCells(before, CostGrid(weights, classes, {}), all).empty());
-  weights[Cell{2, 2}] = 4;
-  weights[Cell{4, 1}] = 60000;
-  EXPECT_EQ(cheaperCells(before, CostGrid(weights, classes, {}), all), (CellRect{2, 1, 3, 2}));
-  EXPECT_EQ(cheaperCells(before, CostGrid(weights, classes, {}), (CellRect{0, 2, 6, 3})),
-            (CellRect{2, 2, 1, 1}));
+  const CostGrid before = test::costMap({"555555",  //
+                                         "5555#5",  //
+                                         "555555",  //
+                                         "555555",  //
+                                         "555555"});
+  const CellRect all = before.geometry().rect();
+  const CostGrid dearer = test::costMap({"655555",  //
+                                         "5555#5",  //
+                                         "555555",  //
+                                         "5#5555",  //
+                                         "555555"});
+  EXPECT_TRUE(cheaperCells(before, dearer, all).empty());
+  const CostGrid both = test::costMap({"655555",  //
+                                       "5555?5",  //
+                                       "554555",  //
+                                       "5#5555",  //
+                                       "555555"});
+  EXPECT_EQ(cheaperCells(before, both, all), (CellRect{2, 1, 3, 2}));
+  EXPECT_EQ(cheaperCells(before, both, (CellRect{0, 2, 6, 3})), (CellRect{2, 2, 1, 1}));
 }
 
 TEST(ExactTable, BoundsAreTheCost) {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "support/ascii_map.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 
 namespace grid_path_planner::planners {
@@ -19,7 +19,7 @@ using grid::Cell;
 using grid::CellIndex;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
+using test::costMap;
 
 namespace {
 
@@ -31,21 +31,10 @@ std::uint32_t bits(const std::vector<unsigned>& steps) {
   return all;
 }
 
-// Free cells weigh 2, '?' 9; north is the next line.
-CostGrid costsOf(const std::vector<std::string>& lines) {
-  const test::AsciiMap picture(lines);
-  Grid<CostGrid::Weight> weights(picture.map.geometry(), 2);
-  for (std::size_t i = 0; i < weights.values().size(); ++i) {
-    if (picture.map.values()[i] == 100) weights.values()[i] = CostGrid::kBlocked;
-    if (picture.map.values()[i] == -1) weights.values()[i] = 9;
-  }
-  Grid<Occupancy> classes(weights.geometry(), Occupancy::FREE);
-  return CostGrid(std::move(weights), std::move(classes), MotionModel());
-}
-
+// North is the next line.
 std::uint32_t afterInTheMiddle(const std::vector<std::string>& lines, unsigned step) {
   MovePruning moves;
-  moves.build(costsOf(lines), StopToken());
+  moves.build(costMap(lines), StopToken());
   return moves.after(1U << step, 4);
 }
 
@@ -72,15 +61,15 @@ TEST(Moves, TryMoreWhereWeightsDiffer) {
 
 TEST(Moves, TryAllFromTheStart) {
   MovePruning moves;
-  moves.build(costsOf({"...", "...", "..."}), StopToken());
+  moves.build(costMap({"...", "...", "..."}), StopToken());
   EXPECT_EQ(moves.after(0, 4), 0xFFu);
-  moves.build(costsOf({"...", "..?", "..."}), StopToken());
+  moves.build(costMap({"...", "..?", "..."}), StopToken());
   EXPECT_EQ(moves.after(0, 4), 0xFFu);
 }
 
 TEST(Moves, KnowWhatAnotherStepLeavesOpen) {
   MovePruning moves;
-  moves.build(costsOf({"...", "...", "..."}), StopToken());
+  moves.build(costMap({"...", "...", "..."}), StopToken());
   EXPECT_TRUE(moves.missing(bits({kEast}), kNorth, 4));
   EXPECT_FALSE(moves.missing(bits({kNorthEast}), kNorth, 4));
   EXPECT_FALSE(moves.missing(bits({kEast}), kWest, 4)) << "back is never worth it";
@@ -97,7 +86,7 @@ CostGrid randomTerrain(std::mt19937& random, int largest_side) {
   const unsigned rarity = 2 + random() % 30;
   for (CostGrid::Weight& weight : weights.values())
     if (random() % rarity == 0) weight = static_cast<CostGrid::Weight>(random() % 3 * 32700);
-  return CostGrid(weights, Grid<Occupancy>(geometry, Occupancy::FREE), motion);
+  return costMap(weights, motion);
 }
 
 TEST(MovesLaw, TheStepsFromACellAreThoseThatAreAllowed) {
@@ -138,8 +127,7 @@ TEST(MovesLaw, BlockedCellsAroundTheMapChangeNothing) {
     }
     MovePruning moves, larger_moves;
     moves.build(map, StopToken());
-    larger_moves.build(CostGrid(weights, Grid<Occupancy>(larger, Occupancy::FREE), map.motion()),
-                       StopToken());
+    larger_moves.build(costMap(weights, map.motion()), StopToken());
     for (std::uint32_t index = 0; index < map.geometry().size(); ++index) {
       const Cell cell = map.geometry().cell(CellIndex(index));
       for (std::uint32_t step = 0; step < 8; ++step)

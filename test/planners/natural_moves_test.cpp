@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grid_path_planner/planners/steps.h"
+#include "support/cost_maps.h"
 
 namespace grid_path_planner::planners {
 
@@ -18,7 +19,6 @@ using costmap::stepCost;
 using grid::Cell;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
 
 namespace {
 
@@ -104,7 +104,7 @@ class EveryPath {
   static CostGrid mapOf(const Window& window) {
     Grid<CostGrid::Weight> weights(GridGeometry(3, 3, 1.0),
                                    std::vector<CostGrid::Weight>(window.begin(), window.end()));
-    return CostGrid(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), {});
+    return test::costMap(weights);
   }
 
   // Diagonal steps first: so of equal costs the path that is found first is the canonical one.

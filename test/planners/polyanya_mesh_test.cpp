@@ -6,7 +6,7 @@
 
 #include "grid_path_planner/planners/decomposition.h"
 #include "support/ascii_map.h"
-#include "support/costs_of.h"
+#include "support/cost_maps.h"
 
 namespace grid_path_planner::planners {
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/ascii_map.h"
-#include "support/costs_of.h"
+#include "support/cost_maps.h"
 
 namespace grid_path_planner::planners {
 

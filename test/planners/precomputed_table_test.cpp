@@ -7,6 +7,7 @@
 #include <random>
 
 #include "grid_path_planner/planners/a_star.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
 
@@ -22,7 +23,6 @@ using grid::Cell;
 using grid::CellRect;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
 
 namespace {
 
@@ -91,10 +91,7 @@ TEST_P(InTheBackground, ATableIsThereInTheEndAndSaysWhatItTook) {
 
 // A table of this map takes a while: the destructor and the next map do not wait for it.
 TEST_P(InTheBackground, ThatNobodyWaitsForIsStopped) {
-  const GridGeometry geometry(80, 80, 1.0);
-  const auto map =
-      std::make_shared<const CostGrid>(Grid<CostGrid::Weight>(geometry, 3),
-                                       Grid<Occupancy>(geometry, Occupancy::FREE), MotionModel());
+  const auto map = test::costsOf(test::Weights(GridGeometry(80, 80, 1.0), 3));
   for (int i = 0; i < 10; ++i) {
     AStar planner(guidedBy(GetParam()));
     planner.prepare(map, StopToken());
@@ -122,8 +119,7 @@ TEST(PrecomputedTable, GuidesOnAfterChanges) {
   const GridGeometry geometry(200, 200, 1.0);
   Grid<CostGrid::Weight> weights(geometry, 1);
   for (auto& weight : weights.values()) weight = static_cast<CostGrid::Weight>(1 + random() % 9);
-  auto map = std::make_shared<const CostGrid>(weights, Grid<Occupancy>(geometry, Occupancy::FREE),
-                                              MotionModel());
+  auto map = test::costsOf(weights);
   AStar guided(guidedBy(Heuristic::LANDMARK));
   AStar plain(guidedBy(Heuristic::OCTILE));
   guided.prepare(map, StopToken());

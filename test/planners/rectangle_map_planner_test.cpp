@@ -7,7 +7,7 @@
 
 #include "grid_path_planner/costmap/line_of_sight.h"
 #include "grid_path_planner/planners/decomposition.h"
-#include "support/changing_map.h"
+#include "support/cost_maps.h"
 #include "support/free_cells.h"
 
 namespace grid_path_planner::planners {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "support/ascii_map.h"
-#include "support/costs_of.h"
+#include "support/cost_maps.h"
 
 namespace grid_path_planner::planners {
 

@@ -7,18 +7,16 @@
 #include <random>
 #include <set>
 
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 
 namespace grid_path_planner::planners {
 
 using base::StopToken;
 using costmap::CostGrid;
-using costmap::MotionModel;
 using grid::Cell;
 using grid::CellRect;
-using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
 
 namespace {
 
@@ -77,10 +75,7 @@ class Labelled {
   }
 
  private:
-  static CostGrid openMap() {
-    const Grid<CostGrid::Weight> weights(GridGeometry(200, 140, 1.0), 1);
-    return {weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), MotionModel()};
-  }
+  static CostGrid openMap() { return test::costMap(test::Weights(GridGeometry(200, 140, 1.0), 1)); }
 
   std::mt19937& random_;
   CostGrid map_;

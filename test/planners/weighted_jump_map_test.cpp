@@ -6,6 +6,7 @@
 #include <random>
 
 #include "grid_path_planner/planners/steps.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 
 namespace grid_path_planner::planners {
@@ -18,7 +19,6 @@ using grid::CellIndex;
 using grid::CellRect;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
 
 namespace {
 
@@ -97,7 +97,7 @@ TEST(WeightedJumpMap, RunsPastSlopesThatLeadNowhere) {
   const CostGrid::Weight slope[] = {9, 5, 2, 1, 1, 1, 2, 5, 9};
   for (int row = 0; row < 9; ++row)
     for (int column = 0; column < 100; ++column) weights[Cell{column, row}] = slope[row];
-  const CostGrid map(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), {});
+  const CostGrid map = test::costMap(weights);
   WeightedJumpMap jumps = built(map);
   EXPECT_GE(runOf(jumps, map, 0, {20, 6}).to.column, 100 - WeightedJumpMap::kDepth - 5);
   EXPECT_TRUE(blindTo(jumps, 1, {20, 6})) << "up the slope";

@@ -5,6 +5,7 @@
 #include <memory>
 #include <random>
 
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
 
@@ -22,17 +23,9 @@ using grid::CellIndex;
 using grid::CellRect;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
+using test::costsOf;
 
 namespace {
-
-std::shared_ptr<const CostGrid> shared(const Grid<CostGrid::Weight>& weights,
-                                       const MotionModel& motion = {}, std::uint64_t revision = 0) {
-  auto map = std::make_shared<CostGrid>(
-      weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), motion);
-  map->setRevision(revision);
-  return map;
-}
 
 void expectLeast(WeightedJumpPoint& planner, const CostGrid& map, std::mt19937& random,
                  int queries) {
@@ -61,13 +54,13 @@ TEST(PruningEstimate, TellsPlateausAndSlopesFromNoise) {
   std::mt19937 random(2);
   PruningEstimate sample;
   Grid<CostGrid::Weight> weights(GridGeometry(200, 150, 1.0), 1);
-  sample.take(*shared(weights), StopToken());
+  sample.take(*costsOf(weights), StopToken());
   EXPECT_TRUE(sample.symmetric());
   for (std::uint32_t i = 0; i < weights.values().size(); ++i)
     weights[CellIndex(i)] = static_cast<CostGrid::Weight>(1 + i % 200 / 3);
-  sample.take(*shared(weights), StopToken());
+  sample.take(*costsOf(weights), StopToken());
   EXPECT_TRUE(sample.symmetric());
-  sample.take(*shared(noise(random, 200)), StopToken());
+  sample.take(*costsOf(noise(random, 200)), StopToken());
   EXPECT_FALSE(sample.symmetric());
 }
 
@@ -77,12 +70,12 @@ TEST(WeightedJumpPoint, LeavesNoiseToAStarAndTakesPlateausItself) {
   WeightedJumpPoint planner;
   AStar a_star;
   const SearchRequest request{{3, 3}, {{90, 80}}, false};
-  auto map = shared(noise(random, 100));
+  auto map = costsOf(noise(random, 100));
   planner.prepare(map, StopToken());
   a_star.prepare(map, StopToken());
   EXPECT_EQ(planner.search(request, StopToken()).statistics.expanded,
             a_star.search(request, StopToken()).statistics.expanded);
-  map = shared(Grid<CostGrid::Weight>(map->geometry(), 5), {}, 1);
+  map = costsOf(Grid<CostGrid::Weight>(map->geometry(), 5), {}, 1);
   planner.update(map, map->geometry().rect(), StopToken());
   EXPECT_EQ(planner.search(request, StopToken()).statistics.expanded, 1U);
 }
@@ -116,7 +109,7 @@ TEST(WeightedJumpPointLaw, AfterEditsPlansLikeAFreshOne) {
       for (int row = changed.row; row < changed.row + changed.height; ++row)
         for (int column = changed.column; column < changed.column + changed.width; ++column)
           weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 5);
-      map = shared(weights, {}, map->revision() + 1);
+      map = costsOf(weights, {}, map->revision() + 1);
       edited.update(map, changed, StopToken());
       WeightedJumpPoint fresh;
       fresh.prepare(map, StopToken());
@@ -137,7 +130,7 @@ TEST(WeightedJumpPointLaw, AfterEditsPlansLikeAFreshOne) {
 }
 
 TEST(WeightedJumpPoint, LeavesDearPathsToAStar) {
-  const auto map = shared(Grid<CostGrid::Weight>(GridGeometry(400, 3, 1.0), 65535));
+  const auto map = costsOf(Grid<CostGrid::Weight>(GridGeometry(400, 3, 1.0), 65535));
   WeightedJumpPoint planner;
   planner.prepare(map, StopToken());
   for (int query = 0; query < 2; ++query) {

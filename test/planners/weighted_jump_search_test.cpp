@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
 
@@ -18,13 +19,9 @@ using grid::Cell;
 using grid::CellIndex;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
+using test::costMap;
 
 namespace {
-
-CostGrid costsOf(const Grid<CostGrid::Weight>& weights) {
-  return CostGrid(weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), {});
-}
 
 WeightedJumpSearch prepared(const CostGrid& map) {
   WeightedJumpSearch search;
@@ -52,7 +49,7 @@ void expectLeast(WeightedJumpSearch& search, const CostGrid& map, std::mt19937& 
 }
 
 TEST(WeightedJumpSearch, QueuesNothingInTheOpen) {
-  const CostGrid map = costsOf(Grid<CostGrid::Weight>(GridGeometry(300, 200, 1.0), 7));
+  const CostGrid map = costMap(Grid<CostGrid::Weight>(GridGeometry(300, 200, 1.0), 7));
   WeightedJumpSearch search = prepared(map);
   const SearchResult result = search.run(map, {{5, 5}, {{290, 150}}, false}, StopToken());
   EXPECT_EQ(result.cost, (ExactCost{140 * 7, 145 * 7}));
@@ -63,7 +60,7 @@ TEST(WeightedJumpSearch, QueuesNothingInTheOpen) {
 TEST(WeightedJumpSearch, CrossesWhatIsDearWhereTheDetourIsDearer) {
   Grid<CostGrid::Weight> weights(GridGeometry(9, 30, 1.0), 1);
   for (int row = 0; row < 29; ++row) weights[Cell{4, row}] = 10;
-  const CostGrid map = costsOf(weights);
+  const CostGrid map = costMap(weights);
   WeightedJumpSearch search = prepared(map);
   const SearchResult across = search.run(map, {{0, 5}, {{8, 5}}, false}, StopToken());
   EXPECT_EQ(across.cost, (ExactCost{6 + 20, 0}));
@@ -90,7 +87,7 @@ TEST(WeightedJumpSearchLaw, FindsTheLeastCostWhereManyTie) {
     const unsigned values = 2 + trial % 3, blocked = trial % 5;
     for (auto& weight : weights.values())
       weight = static_cast<CostGrid::Weight>(random() % 10 < blocked ? 0 : 1 + random() % values);
-    const CostGrid map = costsOf(weights);
+    const CostGrid map = costMap(weights);
     WeightedJumpSearch search = prepared(map);
     expectLeast(search, map, random, 20);
     if (HasFatalFailure()) FAIL() << "trial " << trial;
@@ -115,7 +112,7 @@ TEST(WeightedJumpSearchLaw, FindsTheLeastCostOnSlopes) {
           weights[cell] = static_cast<CostGrid::Weight>(weight);
       }
     }
-    const CostGrid map = costsOf(weights);
+    const CostGrid map = costMap(weights);
     WeightedJumpSearch search = prepared(map);
     expectLeast(search, map, random, 60);
     if (HasFatalFailure()) FAIL() << "trial " << trial;
@@ -127,7 +124,7 @@ TEST(WeightedJumpSearch, AnswersManyQueries) {
   std::mt19937 random(9);
   Grid<CostGrid::Weight> weights(GridGeometry(4, 4, 1.0), 1);
   for (auto& weight : weights.values()) weight = static_cast<CostGrid::Weight>(1 + random() % 9);
-  const CostGrid map = costsOf(weights);
+  const CostGrid map = costMap(weights);
   WeightedJumpSearch search = prepared(map);
   const SearchRequest request{{0, 0}, {{3, 3}}, false};
   const SearchResult first = search.run(map, request, StopToken());
@@ -136,7 +133,7 @@ TEST(WeightedJumpSearch, AnswersManyQueries) {
 }
 
 TEST(WeightedJumpSearch, SaysWhereItsKeysEnd) {
-  const CostGrid map = costsOf(Grid<CostGrid::Weight>(GridGeometry(400, 3, 1.0), 65535));
+  const CostGrid map = costMap(Grid<CostGrid::Weight>(GridGeometry(400, 3, 1.0), 65535));
   WeightedJumpSearch search = prepared(map);
   EXPECT_THROW(search.run(map, {{0, 0}, {{399, 2}}, false}, StopToken()), TooExpensive);
   const SearchResult near = search.run(map, {{0, 0}, {{99, 2}}, false}, StopToken());

@@ -8,7 +8,7 @@
 #include "grid_path_planner/costmap/line_of_sight.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "support/ascii_map.h"
-#include "support/costs_of.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/visibility_graph.h"
 

@@ -10,6 +10,7 @@
 #include "grid_path_planner/costmap/line_of_sight.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "planners/astar/heuristic.h"
+#include "support/cost_maps.h"
 #include "support/error_text.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
@@ -212,10 +213,7 @@ TEST_P(Conformance, AnswersAreLegalAndTheLeastCostWhereOptimalityIsClaimed) {
 
 TEST_P(Conformance, AMapThatNeedsMoreThanTheMemoryLimitIsRefusedBeforeMemoryIsTaken) {
   const auto uniform = [](int side) {
-    const GridGeometry geometry(side, side, 1.0);
-    return std::make_shared<const CostGrid>(Grid<CostGrid::Weight>(geometry, 1),
-                                            Grid<Occupancy>(geometry, Occupancy::FREE),
-                                            MotionModel());
+    return test::costsOf(test::Weights(GridGeometry(side, side, 1.0), 1));
   };
   const auto small = uniform(20), large = uniform(600);
   const auto planner = make();

@@ -2,25 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "grid_path_planner/costmap/costmap_builder.h"
-#include "support/ascii_map.h"
+#include "support/cost_maps.h"
 
 namespace grid_path_planner::planning {
 
-using base::StopToken;
-using costmap::CostGrid;
-using costmap::CostmapBuilder;
-using costmap::CostmapOptions;
-using grid::OccupancyGrid;
 using path::Path;
+using test::costsOf;
 
 namespace {
-
-std::shared_ptr<const CostGrid> costsOf(const std::vector<std::string>& lines) {
-  CostmapBuilder terrain{CostmapOptions{}};
-  terrain.setMap(std::make_shared<const OccupancyGrid>(test::AsciiMap(lines).map));
-  return terrain.fullResolution(StopToken());
-}
 
 Path through(const std::vector<Eigen::Vector2d>& points) {
   Path path;

@@ -9,6 +9,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "grid_path_planner/planning/path_planner.h"
+#include "support/cost_maps.h"
 #include "support/random_map.h"
 
 namespace grid_path_planner::planning {
@@ -27,7 +28,6 @@ using grid::Cell;
 using grid::CellRect;
 using grid::Grid;
 using grid::GridGeometry;
-using grid::Occupancy;
 using grid::OccupancyGrid;
 using planners::makePlanner;
 using planners::SearchResult;
@@ -96,8 +96,7 @@ TEST(SmoothResultLaw, AnyaIsNoLongerThanTheOthers) {
       for (int row = rect.row; row < rect.row + rect.height; ++row)
         std::fill_n(weights.row(row) + rect.column, rect.width, CostGrid::kBlocked);
     }
-    const auto map = std::make_shared<const CostGrid>(
-        weights, Grid<Occupancy>(weights.geometry(), Occupancy::FREE), MotionModel());
+    const auto map = test::costsOf(weights);
     const Cell start = test::randomCell(random, map->geometry());
     const Cell goal = test::randomCell(random, map->geometry());
     const SearchResult anya = planOn(map, "anya", start, goal);

@@ -7,7 +7,7 @@
 
 #include "grid_path_planner/planners/planner_factory.h"
 #include "support/ascii_map.h"
-#include "support/costs_of.h"
+#include "support/cost_maps.h"
 #include "support/error_text.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"

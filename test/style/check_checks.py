@@ -1,6 +1,7 @@
 """The checks see what they are there for: each finds nothing in a good tree and what is planted."""
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -154,6 +155,47 @@ class Files(unittest.TestCase):
         for name in ("a_star_v2.h", "a_star_new.h", "AStar.h", "a_star_2.h", "a-star.h"):
             name = "include/grid_path_planner/grid/" + name
             self.assertEqual(len(self.planted(HEADER % "", name)), 1, name)
+
+
+@unittest.skipIf(shutil.which("doxygen") is None, "no doxygen")
+class ApiPages(unittest.TestCase):
+    def planted(self, text):
+        return complaints("check_api_pages.py", "include/grid_path_planner/grid/x.h", text)
+
+    def test_good_ones_are_left_alone(self):
+        self.assertEqual(self.planted(
+            "// Of <x> & y@z: \\n, 50 %n, #1.\n//\n//   Grid<int> grid;  // any\n#pragma once\n"
+            "// Costs `a<b>`.\nvoid f(int a,  // <a>\n       int b); // b\n"), [])
+
+    def test_an_essay_that_is_lost(self):
+        self.assertEqual(len(self.planted("/* Of x. */\n#pragma once\nvoid f();\n")), 1)
+
+    def test_warnings(self):
+        self.assertNotEqual(self.planted("// Of x.\n#pragma once\n/** @nonsense */\nvoid f();\n"), [])
+
+
+class Headers(unittest.TestCase):
+    def planted(self, text, more=()):
+        name = "include/grid_path_planner/grid/x.h"
+        return [line.split(": error:")[0].rsplit(":", 1)[0] if ": error:" in line else line
+                for line in complaints("check_headers.py", name, HEADER % text, more)]
+
+    def test_good_ones_are_left_alone(self):
+        self.assertEqual(self.planted('#include "grid_path_planner/grid/cell.h"\nstd::string f();'), [])
+        self.assertEqual(self.planted("#include <grid_path_planner/PlanStatistics.h>", {
+            "src/grid/x.cpp": '#include "grid_path_planner/grid/x.h"\n'}), [])
+
+    def test_private_headers(self):
+        private = {"src/grid/own.h": "#pragma once\n", "src/grid/x.cpp": '#include "grid_path_planner/grid/x.h"\n'}
+        for include in ('"grid/own.h"', "<grid/own.h>", '"own.h"'):
+            self.assertEqual(len(self.planted("#include " + include, private)), 1, include)
+
+    def test_a_header_that_needs_another_before_it(self):
+        self.assertEqual(self.planted("std::string f();"), ["include/grid_path_planner/grid/x.h:3"])
+        first = {"src/grid/x.cpp": '#include "grid_path_planner/grid/x.h"\n'}
+        self.assertEqual(self.planted("std::string f();", first), [])  # the build says so
+        late = {"src/grid/x.cpp": '#include <string>\n#include "grid_path_planner/grid/x.h"\n'}
+        self.assertEqual(len(self.planted("std::string f();", late)), 1)
 
 
 class Examples(unittest.TestCase):

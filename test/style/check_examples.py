@@ -9,15 +9,13 @@ example_context.py has for the header.
     check_examples.py --list        prints the examples, and compiles nothing
 """
 import concurrent.futures
-import json
 import os
 import re
-import shlex
 import subprocess
 import sys
 import tempfile
 
-from common import PLANTED, ROOT, files, finish, read, skip
+from common import PLANTED, ROOT, compiler_and_flags, files, finish, read
 from example_context import COMMON, CONTEXT
 
 EXAMPLE = re.compile(r"//   (.*)")
@@ -26,7 +24,6 @@ OWN_SCOPE = re.compile(r"template <|int main\(")
 ELLIPSIS = re.compile(r"^[^/]*\.\.\.")
 NAMESPACE = re.compile(r"^namespace (grid_path_planner\b[\w:]*) \{", re.MULTILINE)
 INCLUDE = re.compile(r"^\s*(#include .*)$", re.MULTILINE)
-FLAG = re.compile(r"-(I|isystem|D|std=)")
 
 
 def paragraphs(text):
@@ -94,22 +91,6 @@ def translation_unit(examples, others):
         example(name, *parts, others) for name, parts in sorted(examples.items()))
 
 
-def compiler_and_flags(build):
-    """The compiler of the build, and all folders and definitions that any of its files gets."""
-    path = os.path.join(ROOT, build, "compile_commands.json")
-    if not os.path.exists(path):
-        skip("no " + path)
-    flags = {"-I" + ROOT: None, "-I" + os.path.join(ROOT, "src"): None}
-    with open(path, encoding="utf-8") as file:
-        commands = [shlex.split(entry["command"]) for entry in json.load(file)]
-    for words in commands:
-        for i, word in enumerate(words):
-            if FLAG.match(word):
-                flags[" ".join(words[i:i + 2]) if word in ("-I", "-isystem", "-D") else word] = None
-    compiler = next(word for word in commands[0] if "ccache" not in word)
-    return compiler, [part for flag in flags for part in flag.split(" ", 1)]
-
-
 def compile_all(unit, compiler, flags, folder, name):
     source = os.path.join(folder, name + ".cpp")
     with open(source, "w", encoding="utf-8") as file:
@@ -137,7 +118,7 @@ def main():
     if "--list" in sys.argv:
         print("\n".join(example(name, *parts) for name, parts in sorted(examples.items())))
         finish(complaints, "%d examples" % len(examples))
-    compiler, flags = compiler_and_flags(sys.argv[1] if len(sys.argv) > 1 else "build")
+    compiler, flags = compiler_and_flags(sys.argv[1] if len(sys.argv) > 1 else "build", ("-I" + ROOT,))
     others = sorted({namespace for namespace, _ in examples.values()})
     halves = {"ros": {name: parts for name, parts in examples.items() if has_ros(name)},
               "core": {name: parts for name, parts in examples.items() if not has_ros(name)}}

@@ -10,7 +10,7 @@ def main():
     tool = next((t for t in TOOLS if "version 14." in (version_of(t) or "")), None)
     if tool is None:
         skip("no clang-format 14 (apt-get install clang-format-14)")
-    names = files(("include", "src", "test"), (".h", ".cpp"))
+    names = files(("include", "src", "test", "examples"), (".h", ".cpp"))
     answer = subprocess.run([tool, "--dry-run", "-Werror"] + names, cwd=ROOT, capture_output=True,
                             text=True, check=False)
     wrong = sorted({line.split(":")[0] for line in answer.stderr.splitlines()

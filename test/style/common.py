@@ -1,5 +1,8 @@
 """What the style checks share."""
+import json
 import os
+import re
+import shlex
 import subprocess
 import sys
 
@@ -8,6 +11,7 @@ ROOT = os.environ.get("STYLE_ROOT") or os.path.abspath(
     os.path.join(os.path.dirname(__file__), "..", ".."))
 PLANTED = "STYLE_ROOT" in os.environ
 SKIPPED = 77
+FLAG = re.compile(r"-(I|isystem|D|std=)")
 
 
 def files(folders, endings):
@@ -37,6 +41,22 @@ def version_of(tool):
 def skip(reason):
     print("skipped: " + reason)
     sys.exit(SKIPPED)
+
+
+def compiler_and_flags(build, more=()):
+    """The compiler of the build, and all folders and definitions that any of its files gets, after `more`."""
+    path = os.path.join(ROOT, build, "compile_commands.json")
+    if not os.path.exists(path):
+        skip("no " + path)
+    flags = {"-I" + ROOT: None, "-I" + os.path.join(ROOT, "src"): None}
+    with open(path, encoding="utf-8") as file:
+        commands = [shlex.split(entry["command"]) for entry in json.load(file)]
+    for words in commands:
+        for i, word in enumerate(words):
+            if FLAG.match(word):
+                flags[" ".join(words[i:i + 2]) if word in ("-I", "-isystem", "-D") else word] = None
+    compiler = next(word for word in commands[0] if "ccache" not in word)
+    return compiler, [part for flag in flags for part in flag.split(" ", 1)]
 
 
 def finish(complaints, checked):
