@@ -122,40 +122,40 @@ TEST(LandmarkTable, StopsWhenAsked) {
   EXPECT_THROW(ExactTable(map, stop.token()), Stopped);
 }
 
-// One change after the other, with the table of the first map: the cells that got cheaper are told,
-// the dearer ones need not be.
+// One change after the other, with the table of the first map and the cost decreases since,
+// while increases need no record.
 TEST(CostDecreases, BoundsStayBoundsWhileTheMapChanges) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 60; ++trial) {
     CostGrid map = test::randomCosts(random, 30, {});
     const LandmarkTable table(map, 6, StopToken());
-    CostDecreases cheaper;
+    CostDecreases decreases;
     for (int change = 0; change < 8; ++change) {
       CellRect changed;
       CostGrid next = edited(random, map, changed);
-      const CellRect rect = cheaperCells(map, next, changed);
+      const CellRect rect = costDecreases(map, next, changed);
       map = std::move(next);
-      if (!rect.empty()) cheaper.add(table, map.geometry(), rect);
+      if (!rect.empty()) decreases.add(table, map.geometry(), rect);
       const std::uint32_t goal = drawPassable(random, map);
       if (map.passable(map.geometry().cell(CellIndex(goal))))
-        expectBounds(LandmarkBound(table, cheaper, goal), map, goal);
+        expectBounds(LandmarkBound(table, decreases, goal), map, goal);
     }
   }
 }
 
-TEST(CheaperCells, AreThoseOfASmallerWeight) {
+TEST(CostDecreases, AreFoundBetweenTwoMaps) {
   const Grid<Occupancy> classes(GridGeometry(6, 5, 1.0), Occupancy::FREE);
   Grid<CostGrid::Weight> weights(classes.geometry(), 5);
   weights[Cell{4, 1}] = CostGrid::kBlocked;
   const CostGrid before(weights, classes, {});
-  weights[Cell{0, 0}] = 6;                   // dearer
-  weights[Cell{1, 3}] = CostGrid::kBlocked;  // dearer
+  weights[Cell{0, 0}] = 6;                   // an increase
+  weights[Cell{1, 3}] = CostGrid::kBlocked;  // an increase
   const CellRect all = classes.geometry().rect();
-  EXPECT_TRUE(cheaperCells(before, CostGrid(weights, classes, {}), all).empty());
+  EXPECT_TRUE(costDecreases(before, CostGrid(weights, classes, {}), all).empty());
   weights[Cell{2, 2}] = 4;
   weights[Cell{4, 1}] = 60000;
-  EXPECT_EQ(cheaperCells(before, CostGrid(weights, classes, {}), all), (CellRect{2, 1, 3, 2}));
-  EXPECT_EQ(cheaperCells(before, CostGrid(weights, classes, {}), (CellRect{0, 2, 6, 3})),
+  EXPECT_EQ(costDecreases(before, CostGrid(weights, classes, {}), all), (CellRect{2, 1, 3, 2}));
+  EXPECT_EQ(costDecreases(before, CostGrid(weights, classes, {}), (CellRect{0, 2, 6, 3})),
             (CellRect{2, 2, 1, 1}));
 }
 
