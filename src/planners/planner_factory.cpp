@@ -56,7 +56,7 @@ constexpr Row kRows[] = {
      kRectangles},
 };
 
-// Names that were planners once, and what to take instead.
+// Retired names and their replacements.
 struct Retired {
   const char* name;
   const char* advice;

@@ -1,5 +1,5 @@
-// The tree of least-cost ways to a goal, repaired while the map changes and the start moves: every
-// cost is compared with a search that shares no code with it.
+// The backward search tree, repaired while the map changes and the start moves: every cost is
+// compared with a search that shares no code with it.
 #include "planners/replanning/backward_search_tree.h"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ void expectLeast(const CostGrid& map, Cell start, Cell goal, bool found,
   EXPECT_EQ(costOfSteps(map, result.cells), *least);
 }
 
-// One way to a goal over a changing world.
+// A vehicle that drives to a goal over a changing world.
 class Journey {
  public:
   Journey(std::mt19937& random, int largest_side)
@@ -129,7 +129,7 @@ class Journey {
   Cell goal_;
 };
 
-// The status that `search` gives; none where labels do not hold the cost.
+// The status that `search` returns; none where keys cannot hold the cost.
 template <class Search>
 std::optional<Status> unlessTooExpensive(const Search& search) {
   try {
@@ -139,7 +139,7 @@ std::optional<Status> unlessTooExpensive(const Search& search) {
   }
 }
 
-TEST(GoalTreeLaw, KeptWaysCostTheLeast) {
+TEST(BackwardSearchTreeLaw, EveryPlanCostsTheLeast) {
   std::mt19937 random(2002);
   int plans = 0;
   for (int trial = 0; trial < 600; ++trial) {
@@ -151,12 +151,12 @@ TEST(GoalTreeLaw, KeptWaysCostTheLeast) {
     BackwardSearchTree tree;
     tree.prepare(*journey.map(), moves);
     SearchResult result;
-    const auto begun = unlessTooExpensive([&] {
-      return tree.begin(*journey.map(), journey.goal(), journey.start(), trial % 3, false, result,
+    const auto built = unlessTooExpensive([&] {
+      return tree.build(*journey.map(), journey.goal(), journey.start(), trial % 3, false, result,
                         StopToken());
     });
-    if (!begun) continue;
-    expectLeast(*journey.map(), journey.start(), journey.goal(), begun == Status::FOUND, result);
+    if (!built) continue;
+    expectLeast(*journey.map(), journey.start(), journey.goal(), built == Status::FOUND, result);
     for (int edit = 0; edit < 14; ++edit) {
       const Map before = journey.map();
       const CellRect changed = journey.edit();
@@ -164,7 +164,7 @@ TEST(GoalTreeLaw, KeptWaysCostTheLeast) {
       tree.update(*before, *journey.map(), changed);
       journey.move(result.cells);
       if (!journey.possible() || random() % 4 == 0) continue;
-      if (!tree.usableFor(*journey.map(), journey.goal())) break;  // something cheaper than all
+      if (!tree.usableFor(*journey.map(), journey.goal())) break;  // a weight below the minimum
       result = {};
       const auto status = unlessTooExpensive(
           [&] { return tree.plan(*journey.map(), journey.start(), false, result, StopToken()); });
@@ -177,12 +177,12 @@ TEST(GoalTreeLaw, KeptWaysCostTheLeast) {
   EXPECT_GT(plans, 1000);
 }
 
-// A tree for `goal` that was asked for one plan.
-struct Asked {
-  Asked(const CostGrid& map, Cell goal, Cell start, double ahead) {
+// A tree for `goal` after one plan.
+struct Planned {
+  Planned(const CostGrid& map, Cell goal, Cell start, double extra) {
     moves.build(map, StopToken());
     tree.prepare(map, moves);
-    tree.begin(map, goal, start, ahead, false, result, StopToken());
+    tree.build(map, goal, start, extra, false, result, StopToken());
   }
   void update(const CostGrid& before, const CostGrid& after, const CellRect& changed) {
     moves.update(after, changed, StopToken());
@@ -195,17 +195,17 @@ struct Asked {
   SearchResult result;
 };
 
-TEST(BackwardNodes, NothingIsLeftOfATreeWhenItsNumberComesAgain) {
+TEST(BackwardNodes, AreNewAgainWhenTheStampWrapsAround) {
   const CostGrid map = costMap({"..."});
   MovePruning moves;
   moves.build(map, StopToken());
-  BackwardNodes labels;
-  labels.prepare(map, moves);
+  BackwardNodes nodes;
+  nodes.prepare(map, moves);
   for (int tree = 0; tree < 70000; ++tree) {
-    labels.begin(0);
-    ASSERT_EQ(labels.state(0), BackwardNodes::OPEN);
-    ASSERT_EQ(labels.state(1), BackwardNodes::UNLABELLED) << "tree " << tree;
-    if (tree == 0) labels.set(1, 5, 2, BackwardNodes::CLOSED);
+    nodes.reset(0);
+    ASSERT_EQ(nodes.state(0), BackwardNodes::OPEN);
+    ASSERT_EQ(nodes.state(1), BackwardNodes::NEW) << "tree " << tree;
+    if (tree == 0) nodes.set(1, 5, 2, BackwardNodes::CLOSED);
   }
 }
 
@@ -215,46 +215,46 @@ TEST(BackwardSearchTree, NothingIsDoneForAChangeThatDoesNotMatter) {
   Grid<CostGrid::Weight> changed = weights;
   changed[Cell{2, 37}] = CostGrid::kBlocked;
   const CostGrid after = costMap(changed);
-  Asked asked(before, {35, 3}, {3, 3}, 3);
-  const std::vector<Cell> path = asked.result.cells;
-  asked.update(before, after, {2, 37, 1, 1});
-  EXPECT_EQ(asked.tree.plan(after, {3, 3}, false, asked.result, StopToken()), Status::FOUND);
-  EXPECT_EQ(asked.result.statistics.expanded, 0U);
-  EXPECT_EQ(asked.result.cells, path);
+  Planned planned(before, {35, 3}, {3, 3}, 3);
+  const std::vector<Cell> path = planned.result.cells;
+  planned.update(before, after, {2, 37, 1, 1});
+  EXPECT_EQ(planned.tree.plan(after, {3, 3}, false, planned.result, StopToken()), Status::FOUND);
+  EXPECT_EQ(planned.result.statistics.expanded, 0U);
+  EXPECT_EQ(planned.result.cells, path);
 }
 
-// The goal's label is 0, which once stood for "none yet" where labels are compared.
-TEST(BackwardSearchTree, ACheaperCellBesideTheGoalIsSeen) {
+// The goal's g-value is 0, which once stood for "none yet" where g-values are compared.
+TEST(BackwardSearchTree, FindsACostDecreaseBesideTheGoal) {
   const CostGrid before = costMap({"2322",  //
                                    "2322",  //
                                    "2322"});
   const CostGrid after = costMap({"2322",  //
                                   "2222",  //
                                   "2322"});
-  Asked asked(before, {0, 0}, {3, 1}, 3);
-  asked.update(before, after, {1, 1, 1, 1});
-  const Status status = asked.tree.plan(after, {3, 1}, false, asked.result, StopToken());
-  expectLeast(after, {3, 1}, {0, 0}, status == Status::FOUND, asked.result);
+  Planned planned(before, {0, 0}, {3, 1}, 3);
+  planned.update(before, after, {1, 1, 1, 1});
+  const Status status = planned.tree.plan(after, {3, 1}, false, planned.result, StopToken());
+  expectLeast(after, {3, 1}, {0, 0}, status == Status::FOUND, planned.result);
 }
 
-TEST(BackwardSearchTree, AStoppedPlanGoesOn) {
+TEST(BackwardSearchTree, AStoppedPlanContinues) {
   Grid<CostGrid::Weight> weights(GridGeometry(150, 150, 1.0), 1);
   const CostGrid before = costMap(weights);
   const CellRect wall{75, 5, 1, 140};
   for (int row = wall.row; row < wall.row + wall.height; ++row)
     weights[Cell{75, row}] = CostGrid::kBlocked;
   const CostGrid after = costMap(weights);
-  Asked asked(before, {140, 75}, {10, 75}, 0);
-  asked.update(before, after, wall);
+  Planned planned(before, {140, 75}, {10, 75}, 0);
+  planned.update(before, after, wall);
   StopSource source;
   source.cancel();
-  EXPECT_THROW(asked.tree.plan(after, {10, 75}, false, asked.result, source.token()), Stopped);
-  asked.result = {};
-  const Status status = asked.tree.plan(after, {10, 75}, false, asked.result, StopToken());
-  expectLeast(after, {10, 75}, {140, 75}, status == Status::FOUND, asked.result);
+  EXPECT_THROW(planned.tree.plan(after, {10, 75}, false, planned.result, source.token()), Stopped);
+  planned.result = {};
+  const Status status = planned.tree.plan(after, {10, 75}, false, planned.result, StopToken());
+  expectLeast(after, {10, 75}, {140, 75}, status == Status::FOUND, planned.result);
 }
 
-TEST(IncrementalAStarLaw, PlansOnTheWayCostTheLeast) {
+TEST(IncrementalAStarLaw, PlansWhileDrivingCostTheLeast) {
   std::mt19937 random(1968);
   for (int trial = 0; trial < 1000; ++trial) {
     SCOPED_TRACE("trial " + std::to_string(trial));
@@ -309,7 +309,7 @@ class Crossing {
   IncrementalAStar planner_;
 };
 
-// A search follows the change: not the map, and not the way that is left.
+// The search grows with the change, not with the map or the length of the path.
 TEST(IncrementalAStar, ExpandsAroundAChangeOnly) {
   Crossing crossing;
   const std::uint64_t first = crossing.expanded();
@@ -324,26 +324,26 @@ TEST(IncrementalAStar, ExpandsAroundAChangeOnly) {
   EXPECT_EQ(crossing.expanded(), 0U);
 }
 
-// A door that stays closed: a tree that has none of the ways around it is given up in time.
-TEST(IncrementalAStar, ATreeThatIsOfNoUseAnyMoreIsGivenUp) {
+// A door that stays closed: a tree without the paths around it is replaced in time.
+TEST(IncrementalAStar, ReplacesATreeThatNoLongerPays) {
   Crossing crossing;
   const std::uint64_t first = crossing.expanded();
   crossing.change({385, 0, 2, 399}, CostGrid::kBlocked);  // but for one row
-  std::uint64_t detours = 0;
+  std::uint64_t repairs = 0;
   for (int plan = 0; plan < 40; ++plan) {
-    crossing.change({398, 2, 1, 1}, plan % 2 == 0 ? 2 : 1);  // so that it may not keep the last way
-    detours += crossing.expanded();
+    crossing.change({398, 2, 1, 1}, plan % 2 == 0 ? 2 : 1);  // so that the last path is not kept
+    repairs += crossing.expanded();
   }
-  EXPECT_GT(detours, 2 * first);
-  EXPECT_LT(detours, 6 * first);
+  EXPECT_GT(repairs, 2 * first);
+  EXPECT_LT(repairs, 6 * first);
   EXPECT_EQ(crossing.expanded(), 0U);
 }
 
-TEST(HeapOnTopQueue, GivesTheLeastKeyWhateverTheOrderOfItsCalls) {
+TEST(HeapOnTopQueue, PopsTheLeastKeyInAnyOrderOfCalls) {
   std::mt19937 random(17);
   for (int trial = 0; trial < 50; ++trial) {
     HeapOnTopQueue queue;
-    queue.begin(random() % 1000, 1 + random() % 50);
+    queue.reset(random() % 1000, 1 + random() % 50);
     std::multiset<SearchKey> reference;
     const auto renew = [](HeapOnTopQueue::Entry&) { return true; };
     for (int call = 0; call < 2000; ++call) {
@@ -365,8 +365,8 @@ TEST(HeapOnTopQueue, GivesTheLeastKeyWhateverTheOrderOfItsCalls) {
   }
 }
 
-// The tree's labels end at 3.2 million cells x weight.
-TEST(IncrementalAStar, WaysDearerThanLabelsHoldAreFoundAllTheSame) {
+// The tree's keys end at 3.2 million cells x weight.
+TEST(IncrementalAStar, FindsPathsThatTheTreesKeysCannotHold) {
   Grid<CostGrid::Weight> weights(GridGeometry(60, 60, 1.0), 65535);
   IncrementalAStar planner;
   planner.prepare(test::costsOf(weights), StopToken());

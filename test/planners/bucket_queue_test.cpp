@@ -8,9 +8,9 @@
 namespace grid_path_planner::planners {
 namespace {
 
-TEST(BucketQueue, TakesTheLowestBucketFirstAndOfItTheLastPutIn) {
+TEST(BucketQueue, PopsTheLowestBucketFirstAndItsLastEntry) {
   BucketQueue open;
-  open.begin(100, 4);
+  open.reset(100, 4);
   open.push(100, 1);
   open.push(150, 2);
   open.push(101, 3);
@@ -26,11 +26,11 @@ TEST(BucketQueue, TakesTheLowestBucketFirstAndOfItTheLastPutIn) {
   EXPECT_TRUE(open.empty());
 }
 
-TEST(BucketQueue, ForgetsWhatWasLeft) {
+TEST(BucketQueue, IsEmptyAfterReset) {
   BucketQueue open;
-  open.begin(0, 3);
+  open.reset(0, 3);
   for (std::uint32_t i = 0; i < 5000; ++i) open.push(i * 97, i);
-  open.begin(1000000, 3);
+  open.reset(1000000, 3);
   EXPECT_TRUE(open.empty());
   open.push(1000001, 9);
   EXPECT_EQ(open.pop(), 9u);
@@ -39,11 +39,11 @@ TEST(BucketQueue, ForgetsWhatWasLeft) {
 
 // Keys never fall, as in a search: what is taken is at most two buckets away from the least key,
 // whose buckets are only widened where they hold little.
-TEST(BucketQueueLaw, LosesNothingAndNeverSaysTooMuchOfTheLowest) {
+TEST(BucketQueueLaw, LosesNothingAndItsLowestIsALowerBound) {
   std::mt19937_64 random(1);
   for (const SearchKey step : {SearchKey{50}, SearchKey{5000}, SearchKey{1} << 40}) {
     BucketQueue open;
-    open.begin(12345, 3);
+    open.reset(12345, 3);
     std::map<std::uint32_t, SearchKey> held;
     std::uint32_t next = 0;
     const auto put = [&](SearchKey key) {

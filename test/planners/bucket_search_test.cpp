@@ -40,7 +40,7 @@ SearchResult planOn(Planner& planner, Cell start, Cell goal) {
 constexpr std::size_t kPackedBytes = PackedNodes::kBytes + 1, kWideBytes = WideNodes::kBytes + 1;
 
 // 24 cells of weight 65535 a side: the sides fit into small keys, the corridor does not.
-TEST(BucketSearch, BeginsAgainWithWideKeysWhereTheCostIsTooLarge) {
+TEST(BucketSearch, RepeatsWithWideKeysWhereTheCostIsTooLarge) {
   const auto map = snake(24, 65535);
   AStar planner;
   planner.prepare(map, StopToken());

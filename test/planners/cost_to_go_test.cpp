@@ -77,7 +77,7 @@ void expectLeastPath(const CostToGo& field, Cell cell, const std::vector<Cell>& 
   EXPECT_EQ(cost, field.cost(cell));
 }
 
-// Sides beyond a tile's, so that ways lead out of a tile and in again; every motion model.
+// Sides beyond a tile's, so that paths leave a tile and enter it again; every motion model.
 TEST(CostToGoLaw, LabelsEveryCellWithItsLeastCost) {
   std::mt19937 random(128);
   int trial = 0;
@@ -137,8 +137,8 @@ TEST(CostToGo, LabelsGrowWideWhereCostsAreLarge) {
   EXPECT_EQ(wide.keyIn(kPackedScale, {1, 0}), 65535 * kPackedScale.straight);
 }
 
-// A map that promises small costs and has large ones: the search begins again.
-TEST(CostToGo, BeginsAgainWhereNarrowLabelsDoNotSuffice) {
+// A map whose sampled weights are small and whose costs are large: the search is repeated.
+TEST(CostToGo, RepeatsWithWideLabelsWhereNarrowOnesOverflow) {
   Grid<CostGrid::Weight> weights(GridGeometry(183, 61, 1.0), 1);
   for (int row = 0; row < 61; ++row) weights[Cell{91, row}] = 65535;
   const auto map = costsOf(std::move(weights));

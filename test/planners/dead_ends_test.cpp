@@ -20,7 +20,7 @@ class Branches {
   explicit Branches(const CostGrid& map) : map_(map) {
     for (int row = 0; row < map.geometry().height(); ++row)
       for (int column = 0; column < map.geometry().width(); ++column)
-        natural.push_back(naturalSteps(windowAt(map, {column, row})));
+        natural.push_back(naturalMoves(windowAt(map, {column, row})));
   }
 
   // Whether everything natural after the step into the cell ends within `depth` steps.

@@ -120,47 +120,47 @@ TEST(LandmarkTable, StopsWhenAsked) {
   EXPECT_THROW(ExactTable(map, stop.token()), Stopped);
 }
 
-// One change after the other, with the table of the first map: the cells that got cheaper are told,
-// the dearer ones need not be.
+// One change after the other, with the table of the first map and the cost decreases since,
+// while increases need no record.
 TEST(CostDecreases, BoundsStayBoundsWhileTheMapChanges) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 60; ++trial) {
     CostGrid map = test::randomCosts(random, 30, {});
     const LandmarkTable table(map, 6, StopToken());
-    CostDecreases cheaper;
+    CostDecreases decreases;
     for (int change = 0; change < 8; ++change) {
       CellRect changed;
       CostGrid next = edited(random, map, changed);
-      const CellRect rect = cheaperCells(map, next, changed);
+      const CellRect rect = costDecreases(map, next, changed);
       map = std::move(next);
-      if (!rect.empty()) cheaper.add(table, map.geometry(), rect);
+      if (!rect.empty()) decreases.add(table, map.geometry(), rect);
       const std::uint32_t goal = drawPassable(random, map);
       if (map.passable(map.geometry().cell(CellIndex(goal))))
-        expectBounds(LandmarkBound(table, cheaper, goal), map, goal);
+        expectBounds(LandmarkBound(table, decreases, goal), map, goal);
     }
   }
 }
 
-TEST(CheaperCells, AreThoseOfASmallerWeight) {
+TEST(CostDecreases, AreFoundBetweenTwoMaps) {
   const CostGrid before = test::costMap({"555555",  //
                                          "5555#5",  //
                                          "555555",  //
                                          "555555",  //
                                          "555555"});
   const CellRect all = before.geometry().rect();
-  const CostGrid dearer = test::costMap({"655555",  //
+  const CostGrid increased = test::costMap({"655555",  //
                                          "5555#5",  //
                                          "555555",  //
                                          "5#5555",  //
                                          "555555"});
-  EXPECT_TRUE(cheaperCells(before, dearer, all).empty());
+  EXPECT_TRUE(costDecreases(before, increased, all).empty());
   const CostGrid both = test::costMap({"655555",  //
                                        "5555?5",  //
                                        "554555",  //
                                        "5#5555",  //
                                        "555555"});
-  EXPECT_EQ(cheaperCells(before, both, all), (CellRect{2, 1, 3, 2}));
-  EXPECT_EQ(cheaperCells(before, both, (CellRect{0, 2, 6, 3})), (CellRect{2, 2, 1, 1}));
+  EXPECT_EQ(costDecreases(before, both, all), (CellRect{2, 1, 3, 2}));
+  EXPECT_EQ(costDecreases(before, both, (CellRect{0, 2, 6, 3})), (CellRect{2, 2, 1, 1}));
 }
 
 TEST(ExactTable, BoundsAreTheCost) {

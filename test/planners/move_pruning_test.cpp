@@ -38,20 +38,20 @@ std::uint32_t afterInTheMiddle(const std::vector<std::string>& lines, unsigned s
   return moves.after(1U << step, 4);
 }
 
-TEST(Moves, GoStraightOnInTheOpen) {
+TEST(MovePruning, GoesStraightOnInTheOpen) {
   const std::vector<std::string> open = {"...", "...", "..."};
   EXPECT_EQ(afterInTheMiddle(open, kEast), bits({kEast}));
   EXPECT_EQ(afterInTheMiddle(open, kSouth), bits({kSouth}));
   EXPECT_EQ(afterInTheMiddle(open, kNorthEast), bits({kNorthEast, kNorth, kEast}));
 }
 
-TEST(Moves, TurnAroundWhatIsBlocked) {
+TEST(MovePruning, TurnsAroundBlockedCells) {
   EXPECT_EQ(afterInTheMiddle({"...", "...", "#.."}, kEast), bits({kEast, kNorth, 4}));
   EXPECT_EQ(afterInTheMiddle({"#..", "...", "..."}, kEast), bits({kEast, kSouth, kSouthEast}));
   EXPECT_EQ(afterInTheMiddle({"...", "..#", "#.."}, kEast), bits({kNorth}));
 }
 
-TEST(Moves, TryMoreWhereWeightsDiffer) {
+TEST(MovePruning, TriesMoreWhereWeightsDiffer) {
   for (const Cell step : kSteps) {
     std::vector<std::string> lines(3, "...");
     lines[static_cast<std::size_t>(1 + step.row)][static_cast<std::size_t>(1 + step.column)] = '?';
@@ -59,7 +59,7 @@ TEST(Moves, TryMoreWhereWeightsDiffer) {
   }
 }
 
-TEST(Moves, TryAllFromTheStart) {
+TEST(MovePruning, TriesAllFromTheStart) {
   MovePruning moves;
   moves.build(costMap({"...", "...", "..."}), StopToken());
   EXPECT_EQ(moves.after(0, 4), 0xFFu);
@@ -67,7 +67,7 @@ TEST(Moves, TryAllFromTheStart) {
   EXPECT_EQ(moves.after(0, 4), 0xFFu);
 }
 
-TEST(Moves, KnowWhatAnotherStepLeavesOpen) {
+TEST(MovePruning, FindsMovesThatAnotherStepLeftOut) {
   MovePruning moves;
   moves.build(costMap({"...", "...", "..."}), StopToken());
   EXPECT_TRUE(moves.missing(bits({kEast}), kNorth, 4));
@@ -89,7 +89,7 @@ CostGrid randomTerrain(std::mt19937& random, int largest_side) {
   return costMap(weights, motion);
 }
 
-TEST(MovesLaw, TheStepsFromACellAreThoseThatAreAllowed) {
+TEST(MovePruningLaw, TheStepsFromACellAreThoseThatAreAllowed) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 300; ++trial) {
     const CostGrid map = randomTerrain(random, 30);
@@ -111,7 +111,7 @@ TEST(MovesLaw, TheStepsFromACellAreThoseThatAreAllowed) {
 }
 
 // Wherever a cell lies among the eight that are looked at together, and at the border.
-TEST(MovesLaw, BlockedCellsAroundTheMapChangeNothing) {
+TEST(MovePruningLaw, BlockedCellsAroundTheMapChangeNothing) {
   std::mt19937 random(6);
   for (int trial = 0; trial < 300; ++trial) {
     const CostGrid map = randomTerrain(random, 30);
@@ -139,7 +139,7 @@ TEST(MovesLaw, BlockedCellsAroundTheMapChangeNothing) {
 }
 
 // A cell whose weight changes, changes the kinds around it, at the border of the map too.
-TEST(MovesLaw, AnUpdateIsLikeABuild) {
+TEST(MovePruningLaw, AnUpdateIsLikeABuild) {
   std::mt19937 random(8);
   for (int trial = 0; trial < 200; ++trial) {
     const CostGrid before = randomTerrain(random, 30);

@@ -24,60 +24,60 @@ namespace {
 
 constexpr unsigned kEast = 0, kNorthEast = 4;
 
-unsigned naturalAfter(const Window& window, unsigned step) {
-  return naturalSteps(window) >> (8 * step) & 255U;
+unsigned naturalIn(const Window& window, unsigned step) {
+  return naturalMoves(window) >> (8 * step) & 255U;
 }
 
-TEST(CanonicalSteps, AreTheDefaultOnesInTheOpen) {
+TEST(NaturalMoves, FollowTheCanonicalOrderInTheOpen) {
   for (const CostGrid::Weight weight : {1, 40, 65535}) {
     Window window;
     window.fill(weight);
     for (unsigned step = 0; step < 8; ++step)
-      EXPECT_EQ(naturalAfter(window, step), kDefaultSteps[step]) << "step " << step;
+      EXPECT_EQ(naturalIn(window, step), kNaturalInTheOpen[step]) << "step " << step;
   }
 }
 
 // Row 0 first: north, where the rows grow, is the last line.
-TEST(CanonicalSteps, TurnPastACorner) {
-  EXPECT_EQ(naturalAfter({1, 1, 1,  //
-                          1, 1, 1,  //
-                          0, 1, 1},
-                         kEast),
+TEST(NaturalMoves, TurnPastACorner) {
+  EXPECT_EQ(naturalIn({1, 1, 1,  //
+                       1, 1, 1,  //
+                       0, 1, 1},
+                      kEast),
             1U << 0 | 1U << 1 | 1U << 4)
       << "north and north-east too, which the blocked cell hides from the cell before";
 }
 
-TEST(CanonicalSteps, EndBeforeAWall) {
-  EXPECT_EQ(naturalAfter({1, 1, 0,  //
-                          1, 1, 0,  //
-                          1, 1, 0},
-                         kEast),
+TEST(NaturalMoves, EndBeforeAWall) {
+  EXPECT_EQ(naturalIn({1, 1, 0,  //
+                       1, 1, 0,  //
+                       1, 1, 0},
+                      kEast),
             0U);
 }
 
-TEST(CanonicalSteps, GoAroundADearMiddle) {
-  EXPECT_EQ(naturalAfter({1, 1, 1,  //
-                          1, 9, 1,  //
-                          1, 1, 1},
-                         kNorthEast),
+TEST(NaturalMoves, GoAroundAnExpensiveMiddle) {
+  EXPECT_EQ(naturalIn({1, 1, 1,  //
+                       1, 9, 1,  //
+                       1, 1, 1},
+                      kNorthEast),
             0U);
 }
 
-TEST(CanonicalSteps, GoStraightBeforeTheWayGetsDear) {
+TEST(NaturalMoves, GoStraightBeforeWeightsIncrease) {
   const Window downhill = {3, 2, 1,  //
                            3, 2, 1,  //
                            3, 2, 1};
-  EXPECT_EQ(naturalAfter(downhill, kEast), 1U << 0 | 1U << 4 | 1U << 7)
+  EXPECT_EQ(naturalIn(downhill, kEast), 1U << 0 | 1U << 4 | 1U << 7)
       << "3 + 2 root 2 is less than 3 root 2 + 2";
 }
 
-TEST(CanonicalSteps, UniteWhatSeveralSidesMakeNatural) {
+TEST(NaturalMoves, UniteThoseOfSeveralSteps) {
   Window window;
   window.fill(1);
-  const NaturalMoves steps = naturalSteps(window);
-  EXPECT_EQ(stepsAfter(steps, 0), 0U);
-  EXPECT_EQ(stepsAfter(steps, 1U << 0 | 1U << 4), 1U << 0 | 1U << 1 | 1U << 4);
-  EXPECT_EQ(stepsAfter(steps, 255), 255U);
+  const NaturalMoves steps = naturalMoves(window);
+  EXPECT_EQ(naturalAfter(steps, 0), 0U);
+  EXPECT_EQ(naturalAfter(steps, 1U << 0 | 1U << 4), 1U << 0 | 1U << 1 | 1U << 4);
+  EXPECT_EQ(naturalAfter(steps, 255), 255U);
 }
 
 // All paths inside a window that visit no cell twice, one after the other.
@@ -137,7 +137,7 @@ class EveryPath {
   std::optional<ExactCost> best_;
 };
 
-TEST(CanonicalStepsLaw, AreThoseOfTheFirstOfTheCheapestPaths) {
+TEST(NaturalMovesLaw, AreThoseOfTheFirstOfTheLeastCostPaths) {
   std::mt19937 random(1604);
   const Cell middle{1, 1};
   for (int trial = 0; trial < 150; ++trial) {
@@ -147,7 +147,7 @@ TEST(CanonicalStepsLaw, AreThoseOfTheFirstOfTheCheapestPaths) {
       weight =
           static_cast<CostGrid::Weight>(random() % 6 == 0 ? 0 : 1 + random() % largest[trial % 4]);
     EveryPath paths(window);
-    const NaturalMoves steps = naturalSteps(window);
+    const NaturalMoves steps = naturalMoves(window);
     for (unsigned d = 0; d < 8; ++d)
       for (unsigned e = 0; e < 8; ++e) {
         const Cell from{1 - kSteps[d].column, 1 - kSteps[d].row};

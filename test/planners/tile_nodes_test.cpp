@@ -14,12 +14,12 @@ using grid::GridGeometry;
 
 namespace {
 
-TEST(TileNodesLaw, AQueryKnowsWhatItWroteAndNothingElse) {
+TEST(TileNodesLaw, AQueryReadsWhatItWroteAndNothingElse) {
   std::mt19937 random(5);
   const GridGeometry geometry(150, 70, 1.0);
   TileNodes nodes;
   nodes.prepare(geometry);
-  // A node's ten bits of query are used up twice.
+  // The ten bits of a node's stamp wrap around twice.
   for (int query = 0; query < 2500; ++query) {
     nodes.beginQuery();
     std::map<std::pair<int, int>, std::pair<SearchKey, unsigned>> written;

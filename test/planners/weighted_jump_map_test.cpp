@@ -58,7 +58,7 @@ void expectRunsFollowSteps(const WeightedJumpMap& jumps, const CostGrid& map, Ce
       weights += std::max(map.weight(at), map.weight(next));
       at = next;
       steps = stepsAt(jumps, map, at) >> (8 * step) & 255U;
-    } while (steps == kDefaultSteps[step]);
+    } while (steps == kNaturalInTheOpen[step]);
     const WeightedJumpMap::Run run = runOf(jumps, map, step, from);
     ASSERT_EQ(run.to, at) << from << " step " << step;
     ASSERT_EQ(run.weights, weights) << from << " step " << step;
@@ -121,7 +121,7 @@ TEST(WeightedJumpMapLaw, StepsAreNaturalOnes) {
     const CostGrid map = test::randomCosts(random, 30, {});
     const WeightedJumpMap jumps = built(map);
     for (const Cell cell : cellsOf(map)) {
-      const NaturalMoves natural = naturalSteps(windowAt(map, cell));
+      const NaturalMoves natural = naturalMoves(windowAt(map, cell));
       EXPECT_EQ(jumps.natural(map, map.geometry().index(cell).value()), natural);
       EXPECT_EQ(stepsAt(jumps, map, cell) & ~natural, 0U);
     }

@@ -29,13 +29,13 @@ CONTEXT = {
         extern ros::NodeHandle nh; extern const World& world; extern DepthCameraOptions options;
         extern CameraFrameNames frames; extern Vehicle vehicle; extern std::int64_t time_ns;
         extern ros::Time stamp;""",
-    "repair_search.h": "extern const CostGrid& map; extern const BackwardNodes& labels;"
-                       "extern BackwardNodes::Index start; extern SearchKey sound_below;"
+    "repair_search.h": "extern const CostGrid& map; extern const BackwardNodes& nodes;"
+                       "extern BackwardNodes::Index start; extern SearchKey consistent_below;"
                        "extern SearchResult result; extern StopPoll poll;",
     "frame_transforms.h": "extern ros::NodeHandle nh; extern double limit;",
-    "backward_nodes.h": "extern const BackwardNodes& labels; extern BackwardNodes::Index index;",
+    "backward_nodes.h": "extern const BackwardNodes& nodes; extern BackwardNodes::Index index;",
     "backward_search_tree.h": "extern const CostGrid &map, &old_map, &new_map; extern const MovePruning& moves;"
-                   "extern Cell goal, start, moved_start; extern double ahead; extern SearchResult result;"
+                   "extern Cell goal, start, moved_start; extern double extra; extern SearchResult result;"
                    "extern CellRect changed;",
     "ground_filter.h": "extern std::vector<Eigen::Vector3d> points; extern GroundFilterOptions options;",
     "headings.h": "extern Path path; extern Pose start, goal;",
@@ -46,7 +46,7 @@ CONTEXT = {
     "straight_jump_table.h": "extern const StraightJumpTable& lanes; extern std::size_t row; extern unsigned column;"
                     "extern const CostGrid::Weight* weights;",
     "jump_point_bits.h": "extern const CostGrid& map; extern Cell cell;",
-    "inconsistency_scan.h": "extern const BackwardNodes& labels; extern CellRect rect;",
+    "inconsistency_scan.h": "extern const BackwardNodes& nodes; extern CellRect rect;",
     "landmark_table.h": "extern const CostGrid& map; extern std::uint32_t index, goal_index;",
     "map_model.h": "extern ProjectedMapOptions options; extern std::vector<Eigen::Vector3d> points;"
                     "extern CloudFrames frames;",
@@ -106,7 +106,7 @@ CONTEXT = {
                             "extern RectangleMap message; extern ros::Publisher publisher;",
     "rectangle_publisher.h": "extern ros::NodeHandle nh; extern std::shared_ptr<const CostGrid> costs;"
                              "extern std::size_t memory_limit;",
-    "d_star_keys.h": "extern const BackwardNodes& labels; extern const CostGrid& map;"
+    "d_star_keys.h": "extern const BackwardNodes& nodes; extern const CostGrid& map;"
                      "extern Cell start, next_start; extern SearchKey cost; extern DStarKeys::Index index;",
     "run_node.h": '#include "ros/simulation/simulator_node.h"',
     "seabed.h": "extern const OccupancyBricks& bricks; extern std::vector<BrickColumn> changed;"
@@ -128,7 +128,7 @@ CONTEXT = {
     "tiled_open_list.h": "extern GridGeometry geometry; extern SearchKey first, width, below;"
                        "extern DStarKeys keys; extern TiledOpenList::Index index;",
     "waypoint_file.h": "extern Path path;",
-    "cost_decreases.h": "extern const CostGrid &before, &after; extern CellRect changed;",
+    "cost_changes.h": "extern const CostGrid &before, &after; extern CellRect changed;",
     "weight_counts.h": "extern Grid<WeightCounts::Weight> weights, next_weights; extern CellRect changed;",
     "weighted_jump_map.h": "extern const CostGrid& map; extern Cell cell, goal; extern std::uint32_t index;"
                            "extern const CostGrid::Weight* weights; constexpr unsigned kEast = 0;",

@@ -2,11 +2,11 @@
 // 1970).
 //
 // Guaranteed: with an admissible heuristic and epsilon 1 the cost is the least there is, without
-// tolerance; `optimalFor` says whether that is so on a map. With epsilon > 1 and an admissible
+// tolerance; optimalFor() says whether that is so on a map. With epsilon > 1 and an admissible
 // heuristic it is at most epsilon times the least. Otherwise nothing but a legal path.
 //
-// tie_break none leaves the order of nearly equally promising cells to the quickest open list
-// (bucket_search.h); the others order strictly by promise, then by what they are named for
+// With tie_break none the order of cells with nearly equal f-values is that of the fastest open
+// list (bucket_search.h). The others order strictly by f-value, then by what they are named for
 // (best_first_search.h), at several times the cost.
 #pragma once
 
@@ -39,7 +39,7 @@ class AStar : public Planner {
   // Such a program: it keeps a strict order whatever the tie-break, and promises no least cost.
   AStar(const char* name, const SearchOptions& options, const Variation& variation);
 
-  std::string waysToLessMemory() const override;
+  std::string lessMemoryAdvice() const override;
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;

@@ -1,11 +1,10 @@
-// The loop that A* and Dijkstra share: expand the most promising cell, relax its steps, re-open
-// what got cheaper.
+// Best-first search in strict order, for A* and Dijkstra with a tie-break: it expands the open cell
+// with the least f-value, relaxes its steps and re-opens cells that get cheaper.
 //
-// State is 12 bytes a cell in flat arrays: the key of the cost so far, and a word with the number
-// of the query that wrote it, the step that led here and whether the cell is closed. A new query
-// only raises its number, so nothing is cleared in proportion to the map. The open list is a binary
-// heap with lazy deletion. Cells that get cheaper after their expansion are re-opened, so an
-// admissible estimate is enough for an optimal answer.
+// The state is 12 bytes a cell in flat arrays: the key of the g-value, and a word with the query's
+// stamp (stamped_array.h), the step that led to the cell and whether it is closed. The open list is
+// a binary heap with lazy deletion. Cells that get cheaper after their expansion are re-opened, so
+// an admissible heuristic is enough for an optimal path.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 
 #include "grid_path_planner/base/statistics.h"
 #include "grid_path_planner/base/zeroed_array.h"
+#include "grid_path_planner/planners/binary_heap.h"
 #include "grid_path_planner/planners/keys.h"
 #include "grid_path_planner/planners/planner.h"
 #include "grid_path_planner/planners/stamped_array.h"
@@ -35,17 +35,18 @@ class BestFirstSearch {
 
   enum class GoalTest { WHEN_EXPANDED, WHEN_GENERATED };
 
-  struct Promise {
-    SearchKey f;    // expanded in the order of f,
-    SearchKey tie;  // then of this
+  // Cells are expanded in the order of f, those of equal f in the order of tie.
+  struct Priority {
+    SearchKey f;
+    SearchKey tie;
   };
 
-  // Searches from `start` until `isGoal(index)` holds of the cell that is expanded (or generated).
-  // `promise(g, cell)` orders the open list. FOUND with cells and cost, or UNREACHABLE. Throws
+  // Searches from `start` until isGoal(index) is true of the cell that is expanded (or generated).
+  // priorityOf(g, cell) orders the open list. FOUND with cells and cost, or UNREACHABLE. Throws
   // Stopped and TooExpensive. Precondition: `map` is the prepared one and `start` is passable.
-  template <class IsGoal, class PromiseOf>
+  template <class IsGoal, class PriorityOf>
   SearchResult run(const costmap::CostGrid& map, grid::Cell start, IsGoal&& isGoal,
-                   PromiseOf&& promise, bool record_expanded, const base::StopToken& stop,
+                   PriorityOf&& priorityOf, bool record_expanded, const base::StopToken& stop,
                    GoalTest goal_test = GoalTest::WHEN_EXPANDED);
 
  private:
@@ -54,7 +55,7 @@ class BestFirstSearch {
     SearchKey tie;
     std::uint32_t index;
   };
-  struct Later {
+  struct Worse {
     bool operator()(const Entry& a, const Entry& b) const {
       return a.f != b.f ? a.f > b.f : a.tie > b.tie;
     }
@@ -65,21 +66,11 @@ class BestFirstSearch {
   static constexpr std::uint32_t kQueryShift = 4;
 
   void beginQuery();
-  bool touched(std::uint32_t index) const { return stamp_.wrote(words_[index]); }
+  bool generated(std::uint32_t index) const { return stamp_.wrote(words_[index]); }
   bool closed(std::uint32_t index) const { return (words_[index] & kClosed) != 0; }
-  void open(std::uint32_t index, std::uint32_t step, SearchKey g) {
+  void write(std::uint32_t index, std::uint32_t step, SearchKey g) {
     words_[index] = stamp_.word() | step << kStepShift;
     costs_[index] = g;
-  }
-  void push(const Entry& entry) {
-    heap_.push_back(entry);
-    std::push_heap(heap_.begin(), heap_.end(), Later());
-  }
-  Entry pop() {
-    std::pop_heap(heap_.begin(), heap_.end(), Later());
-    const Entry entry = heap_.back();
-    heap_.pop_back();
-    return entry;
   }
   std::vector<grid::Cell> pathTo(const costmap::CostGrid& map, std::uint32_t start,
                                  std::uint32_t goal) const;
@@ -91,13 +82,13 @@ class BestFirstSearch {
   StepMasks masks_;
   base::ZeroedArray<SearchKey> costs_;
   base::ZeroedArray<std::uint32_t> words_;
-  std::vector<Entry> heap_;
+  BinaryHeap<Entry, Worse> open_;
   QueryStamp<std::uint32_t, kQueryShift> stamp_;
 };
 
-template <class IsGoal, class PromiseOf>
+template <class IsGoal, class PriorityOf>
 SearchResult BestFirstSearch::run(const costmap::CostGrid& map, grid::Cell start, IsGoal&& isGoal,
-                                  PromiseOf&& promise, bool record_expanded,
+                                  PriorityOf&& priorityOf, bool record_expanded,
                                   const base::StopToken& stop, GoalTest goal_test) {
   const grid::GridGeometry& geometry = map.geometry();
   const costmap::CostGrid::Weight* weights = map.weights().values().data();
@@ -110,20 +101,20 @@ SearchResult BestFirstSearch::run(const costmap::CostGrid& map, grid::Cell start
 
   // 1. The start is the only open cell.
   beginQuery();
-  open(start_index, 0, 0);
-  const Promise first = promise(SearchKey{0}, start);
-  push({first.f, first.tie, start_index});
+  write(start_index, 0, 0);
+  const Priority first = priorityOf(SearchKey{0}, start);
+  open_.push({first.f, first.tie, start_index});
   counts.generated = 1;
   if (when_generated && isGoal(start_index)) return finish(map, start_index, start_index, result);
 
-  while (!heap_.empty()) {
+  while (!open_.empty()) {
     const base::StopReason reason = poll.ask();
     if (reason != base::StopReason::NONE)
       return withStatus(map, base::Stopped(reason).status(), result);
-    counts.peak_open = std::max(counts.peak_open, heap_.size());
+    counts.peak_open = std::max(counts.peak_open, open_.size());
 
-    // 2. The most promising one, unless it was expanded since it was put there.
-    const std::uint32_t from = pop().index;
+    // 2. The open cell with the least f-value, unless it was expanded since it was pushed.
+    const std::uint32_t from = open_.pop().index;
     if (closed(from)) continue;
     words_[from] |= kClosed;
     ++counts.expanded;
@@ -137,15 +128,15 @@ SearchResult BestFirstSearch::run(const costmap::CostGrid& map, grid::Cell start
       const auto to = static_cast<std::uint32_t>(from + masks_.offsets()[step]);
       const SearchKey length = step < 4 ? kStraightKey : diagonal;
       const SearchKey to_g = g + length * std::max(weights[from], weights[to]);
-      const bool known = touched(to);
+      const bool known = generated(to);
       if (known && costs_[to] <= to_g) continue;
       if (to_g > kLargestKey) throw TooExpensive();
 
-      // 4. A cheaper way to a cell: open it, or open it again.
+      // 4. A cheaper path to a cell: open it, or re-open it.
       if (known && closed(to)) ++counts.reopened;
-      open(to, step, to_g);
-      const Promise hope = promise(to_g, geometry.cell(grid::CellIndex(to)));
-      push({hope.f, hope.tie, to});
+      write(to, step, to_g);
+      const Priority priority = priorityOf(to_g, geometry.cell(grid::CellIndex(to)));
+      open_.push({priority.f, priority.tie, to});
       ++counts.generated;
       if (when_generated && isGoal(to)) return finish(map, start_index, to, result);
     }

@@ -1,17 +1,17 @@
 // An open list that costs a few nanoseconds an entry: cell indices in buckets of nearly equal keys.
 //
 //   BucketQueue open;
-//   open.begin(f_of_the_start, width_shift);
+//   open.reset(f_of_the_start, width_shift);
 //   open.push(f, index);
 //   while (!open.empty()) index = open.pop();
 //
-// Guaranteed: what is taken out is of the lowest bucket that holds anything, and of that bucket the
-// one put in last, so the order depends on nothing but the calls. A key below the lowest bucket is
-// put into it. Keys within a bucket (of width 2^shift) are NOT ordered: a search must re-open cells
-// that get cheaper, and may stop only when lowest() has reached the cost of the goal it found.
+// Guaranteed: pop() removes an entry of the lowest bucket that is not empty, the one pushed last, so
+// the order depends on nothing but the calls. A key below the lowest bucket goes into it. Keys
+// within a bucket (of width 2^shift) are NOT ordered: a search must re-open cells that get cheaper,
+// and may stop only when lowest() has reached the cost of the goal it found.
 //
-// Entries are 4 bytes, in chunks that the buckets share. A window of buckets lies before the
-// current one; keys beyond it wait in a list until it is used up, and the buckets grow wider
+// Entries are 4 bytes, in chunks that the buckets share. There is a window of buckets from the
+// lowest one on; keys beyond it are in a list until the window is used up. Buckets become wider
 // where many were passed for few entries. What was measured: doc/notes/engine_experiments.md.
 #pragma once
 
@@ -29,9 +29,9 @@ class BucketQueue {
  public:
   using Index = std::uint32_t;
 
-  // Forgets everything; keys from about `first` on, buckets 2^shift wide. Takes time in proportion
-  // to what was left in the queue.
-  void begin(SearchKey first, unsigned shift);
+  // Makes it empty, in time proportional to its size; for keys from about `first` on, in buckets
+  // 2^shift wide.
+  void reset(SearchKey first, unsigned shift);
 
   void push(SearchKey key, Index index) {
     ++size_;
@@ -47,13 +47,13 @@ class BucketQueue {
   Index pop() {
     if (bucket(current_).chunk == nullptr) advance();
     --size_;
-    ++taken_;
+    ++popped_;
     Bucket& lowest = bucket(current_);
     const Index index = lowest.chunk->entries[--lowest.used];
-    if (lowest.used == 0) giveBack(lowest);
+    if (lowest.used == 0) releaseChunk(lowest);
     return index;
   }
-  // No key in the queue that was not put below the bucket it was put into is less than this.
+  // A lower bound of the least key: only a key pushed below the lowest bucket may be less.
   SearchKey lowest() {
     if (bucket(current_).chunk == nullptr) advance();
     return current_ << shift_;
@@ -88,19 +88,19 @@ class BucketQueue {
   }
   void setWindow(SearchKey first);
   void addChunk(Bucket& to, SearchKey number);
-  void giveBack(Bucket& from);  // its uppermost chunk, which is empty
+  void releaseChunk(Bucket& from);  // its uppermost chunk, which is empty
   void advance();
   void nextWindow();
 
   // Bucket n % kBuckets holds the keys with key >> shift_ == n, for n in a window whose end is a
   // multiple of kBuckets.
   std::array<Bucket, kBuckets> buckets_;
-  std::array<std::uint64_t, kBuckets / 64> filled_{};  // a bit a bucket: whether it holds any
+  std::array<std::uint64_t, kBuckets / 64> filled_{};  // a bit a bucket: 0 where it is empty
   SearchKey current_ = 0;                              // the lowest n that may hold any
   SearchKey window_end_ = 0;
   unsigned shift_ = 0;
   std::size_t size_ = 0;
-  std::size_t taken_ = 0;  // since the window began
+  std::size_t popped_ = 0;  // since the window began
   std::vector<Later> later_;
   Chunk* spare_ = nullptr;
   std::vector<std::unique_ptr<std::array<Chunk, kChunksTogether>>> chunks_;

@@ -1,13 +1,13 @@
-// The loop that A* and Dijkstra share where speed is what counts: expand a cell of nearly the least
-// promise, try its moves, re-open what got cheaper.
+// The fast best-first search of A* and Dijkstra: it expands an open cell with nearly the least
+// f-value, tries its moves and re-opens cells that get cheaper.
 //
-// The open list is a BucketQueue, which orders roughly; exact it is all the same, since the search
-// goes on until no open cell promises less than the goal costs. On maps of one weight, and inside
-// areas of one weight, only canonical moves are tried (moves.h).
+// The open list is a BucketQueue, whose order is approximate. The cost found is exact all the same:
+// the search continues until no open cell has an f-value below the goal's cost. On maps of one
+// weight, and inside areas of one weight, only natural moves are tried (move_pruning.h).
 //
-// State is 9 bytes a cell, 13 where a path may cost more than keys of 43 bits can tell: which of
-// the two is decided by the map's size and weights, and a query whose costs turn out to be too
-// large is begun again with the other. A new query clears nothing in proportion to the map.
+// The state is 9 bytes a cell, or 13 where a path may cost more than 43-bit keys can hold. The
+// map's size and weights decide which; a query whose costs turn out too large is repeated with the
+// other. A new query clears nothing in proportion to the map (stamped_array.h).
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 
 namespace grid_path_planner::planners {
 
-// For a BucketSearch that knows nothing of the way ahead: Dijkstra's.
+// The heuristic of Dijkstra's algorithm: 0.
 inline auto noEstimate(const KeyScale&) {
   return [](grid::Cell, std::uint32_t) { return SearchKey{0}; };
 }
@@ -40,13 +40,13 @@ class BucketSearch {
   void update(const costmap::CostGrid& map, const grid::CellRect& changed,
               const base::StopToken& stop);
 
-  // The moves of the prepared map, for searches beside this one.
+  // The moves of the prepared map.
   const MovePruning& moves() const { return moves_; }
 
-  // A cheapest path from `start` to a cell of which isGoal(index) holds, if the estimates are lower
-  // bounds of the way to the nearest such cell; at most e times as dear if they are lower bounds
-  // times e. `estimateIn(scale)` gives a function of (cell, index), whose result is a key of that
-  // scale. FOUND with cells and cost, UNREACHABLE, TIMEOUT or CANCELLED. Throws TooExpensive.
+  // A least-cost path from `start` to a cell for which isGoal(index) is true, if the heuristic is
+  // admissible; at most e times the least cost if it is admissible but for a factor e.
+  // estimateIn(scale) returns the heuristic: a function of (cell, index) whose result is a key of
+  // that scale. FOUND with cells and cost, UNREACHABLE, TIMEOUT or CANCELLED. Throws TooExpensive.
   // Precondition: `map` is the prepared one and `start` is passable.
   template <class IsGoal, class EstimateIn>
   SearchResult run(const costmap::CostGrid& map, grid::Cell start, const IsGoal& isGoal,
@@ -56,8 +56,7 @@ class BucketSearch {
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   static constexpr std::uint32_t kTooExpensive = kNone - 1;
 
-  // A search on its way: the goal that was found, kNone where there is none, kTooExpensive where the
-  // keys do not suffice.
+  // The goal that was found, kNone where there is none, kTooExpensive where keys cannot hold a cost.
   template <bool kUniform, class Nodes, class IsGoal, class Estimate>
   std::uint32_t search(Nodes& nodes, const costmap::CostGrid& map, grid::Cell start,
                        const IsGoal& isGoal, const Estimate& estimate, bool record_expanded,
@@ -134,9 +133,9 @@ std::uint32_t BucketSearch::search(Nodes& nodes, const costmap::CostGrid& map, g
 
   // 1. The start is the only open cell.
   nodes.beginQuery();
-  nodes.begin(start_index);
+  nodes.setStart(start_index);
   const SearchKey first = estimate(start, start_index);
-  open_.begin(first, bucketShift(map, kScale));
+  open_.reset(first, bucketShift(map, kScale));
   open_.push(first, start_index);
   ++counts.generated;
   std::uint32_t goal = kNone;
@@ -151,8 +150,8 @@ std::uint32_t BucketSearch::search(Nodes& nodes, const costmap::CostGrid& map, g
     counts.peak_open = std::max(counts.peak_open, open_.size());
     if (goal != kNone && open_.lowest() >= goal_cost) break;
 
-    // 2. One of the most promising cells, unless it was expanded since it was put there, or
-    // promises no less than was found.
+    // 2. A cell with nearly the least f-value, unless it was expanded since it was pushed, or its
+    // f-value is no less than the cost found.
     const std::uint32_t from = open_.pop();
     if (nodes.closed(from)) continue;
     const SearchKey cost = nodes.cost(from);
@@ -174,24 +173,24 @@ std::uint32_t BucketSearch::search(Nodes& nodes, const costmap::CostGrid& map, g
       const auto to = static_cast<std::uint32_t>(from + offsets[step]);
       const SearchKey to_cost =
           cost + (kUniform ? lengths[step] : lengths[step] * std::max(weights[from], weights[to]));
-      const Offer offer = nodes.compare(to, to_cost);
-      if (offer == Offer::WORSE) continue;
+      const CostComparison comparison = nodes.compare(to, to_cost);
+      if (comparison == CostComparison::WORSE) continue;
       const grid::Cell to_cell{cell.column + kSteps[step].column, cell.row + kSteps[step].row};
-      const SearchKey promise = saturatingSum(to_cost, estimate(to_cell, to));
+      const SearchKey f = saturatingSum(to_cost, estimate(to_cell, to));
 
-      // 4. Another way as cheap: it may leave open what the known one does not.
-      if (offer == Offer::EQUAL) {
+      // 4. Another path of equal cost: after its step other moves may be natural.
+      if (comparison == CostComparison::EQUAL) {
         if (!moves_.missing(nodes.steps(to), step, to)) continue;
         nodes.addStep(to, step);
         if (!nodes.closed(to)) continue;
         nodes.reopen(to);
         ++counts.reopened;
       } else {
-        // 5. A cheaper one: open the cell, or open it again.
-        if (promise > kScale.largest) return kTooExpensive;
-        if (nodes.take(to, to_cost, step)) ++counts.reopened;
+        // 5. A cheaper path: open the cell, or re-open it.
+        if (f > kScale.largest) return kTooExpensive;
+        if (nodes.improve(to, to_cost, step)) ++counts.reopened;
       }
-      open_.push(promise, to);
+      open_.push(f, to);
       ++counts.generated;
     }
   }

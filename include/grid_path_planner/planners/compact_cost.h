@@ -1,10 +1,9 @@
-// Costs in 32 bits, for tables of them, from which keys of any scale come back.
+// Costs in 32 bits, for tables, which can be converted to keys of any scale.
 //
-// A cost A + B sqrt 2 is the integer 33461 A + 47321 B, the two a convergent of sqrt 2 as well. As
-// long as B is small enough A and B come back from it, and from the difference of two: nothing is
-// rounded, so that paths of equal cost remain equal to the last digit and a search that is guided
-// by the table need follow only one of them. Dearer costs, a CompactCostUnit of their own, are kept in
-// multiples of a power of two keys, rounded down.
+// A cost A + B sqrt 2 is stored as its key of kSmallScale. While B is small, A and B can be computed
+// from it, and from the difference of two: nothing is rounded, so paths of equal cost remain exactly
+// equal, and a search with the table as its heuristic needs to expand only one of them. Larger costs
+// are stored as multiples of a power of two of wide keys, rounded down: another CompactCostUnit.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +13,13 @@
 namespace grid_path_planner::planners {
 
 using CompactCost = std::int32_t;
-constexpr CompactCost kNoCompactCost = 0x7fffffff;  // where no way leads
+constexpr CompactCost kNoCompactCost = 0x7fffffff;  // for unreachable cells
 
 class CompactCostUnit {
  public:
   // Exact.
   CompactCostUnit() = default;
-  // The finest in which `longest` (a wide key) has an entry.
+  // The finest unit in which `longest` (a wide key) has an entry.
   static CompactCostUnit rounding(SearchKey longest);
 
   bool exact() const { return shift_ < 0; }

@@ -1,9 +1,9 @@
-// The cost between every two cells of a small map: the estimate with which A* goes nowhere else
-// than along a cheapest path.
+// The cost between every two cells of a small map: with this heuristic A* expands only the cells of
+// a least-cost path.
 //
-// 4 bytes (table_entry.h) for every pair of cells, so twice the cells take four times the memory: a
-// map of 100x100 cells 400 MB. On maps whose costs are too dear for exact entries the estimates
-// fall short by up to two units, so a search must re-open cells to be optimal.
+// 4 bytes (compact_cost.h) for every pair of cells, so twice the cells take four times the memory: a
+// map of 100x100 cells 400 MB. On maps whose costs are too large for exact entries the estimates
+// are too low by up to two units, so a search must re-open cells to be optimal.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@
 
 namespace grid_path_planner::planners {
 
-// Any place that became cheaper makes the table useless.
-class CheaperAnywhere {
+// Any cost decrease makes the table unusable.
+class DecreaseAnywhere {
  public:
   template <class Table>
   void add(const Table&, const grid::GridGeometry&, const grid::CellRect& rect) {
@@ -36,7 +36,7 @@ class ExactBound;
 
 class ExactTable {
  public:
-  using Cheaper = CheaperAnywhere;
+  using Decreases = DecreaseAnywhere;
   using Bound = ExactBound;
   using Entry = CompactCost;
 
@@ -67,7 +67,7 @@ class ExactTable {
 class ExactBound {
  public:
   // `table` outlives the bound.
-  ExactBound(const ExactTable& table, const CheaperAnywhere&, std::uint32_t goal,
+  ExactBound(const ExactTable& table, const DecreaseAnywhere&, std::uint32_t goal,
              const KeyScale& scale = kWideScale)
       : costs_(table.costsTo(goal)), unit_(table.unit(goal)), scale_(scale) {}
 

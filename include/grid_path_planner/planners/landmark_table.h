@@ -4,17 +4,17 @@
 // heuristics, Sturtevant et al., IJCAI 2009).
 //
 //   const LandmarkTable table(map, 16, stop);
-//   const CostDecreases cheaper;  // since the table was made: none
-//   const LandmarkBound bound(table, cheaper, goal_index);
+//   const CostDecreases decreases;  // since the table was made: none
+//   const LandmarkBound bound(table, decreases, goal_index);
 //   SearchKey least = bound(index);  // from that cell to the goal
 //
-// The costs are kept in 32 bits a landmark (table_entry.h), those of one cell side by side: 16
+// The costs are kept in 32 bits a landmark (compact_cost.h), those of one cell side by side: 16
 // landmarks are a cache line. On maps whose costs fit the bounds are exact differences, and
 // consistent. Rounded ones may fall between neighbours by up to two units more than the step costs,
 // so a search must re-open cells to be optimal.
 //
 // Landmarks are chosen where the bounds of those before are worst ("avoid", Goldberg & Werneck
-// 2005), as ends of the tree of cheapest paths from a cell drawn by a fixed seed: the same map
+// 2005), as leaves of the shortest-path tree of a cell drawn by a fixed seed: the same map
 // gives the same table.
 #pragma once
 
@@ -35,7 +35,7 @@ class LandmarkBound;
 
 class LandmarkTable {
  public:
-  using Cheaper = CostDecreases;
+  using Decreases = CostDecreases;
   using Bound = LandmarkBound;
   using Entry = CompactCost;
   static constexpr int kLanes = 4;  // a row's length is a multiple of it
@@ -47,7 +47,7 @@ class LandmarkTable {
   // Throws Stopped. Where costs overflow there are no landmarks, and every bound is 0.
   LandmarkTable(const costmap::CostGrid& map, int landmarks, const base::StopToken& stop);
 
-  // Entries of a cell, one a landmark, the rest 0: kNoCompactCost where no way leads there.
+  // Entries of a cell, one a landmark, the rest 0: kNoCompactCost where the cell is unreachable.
   const Entry* row(std::uint32_t index) const { return rows_ + std::size_t{index} * stride_; }
   int stride() const { return stride_; }
   const std::vector<grid::Cell>& landmarks() const { return landmarks_; }
@@ -65,18 +65,18 @@ class LandmarkTable {
   std::vector<grid::Cell> landmarks_;
 };
 
-// Bounds after some places of the map became cheaper than the table knows.
+// The places of the map where costs decreased since the table was made; they weaken its bounds.
 //
-// A path that uses none of what became cheaper costs at least what the table says. Any other one
-// comes by unchanged steps to the neighbourhood of such a place, and leaves that of one by
-// unchanged steps: it costs at least the way to the nearest of them and from the nearest of them
-// on. A place is kept as the interval of its cells' entries, so it takes no more time than a
+// A path that passes none of these places costs at least the table's bound. Any other path arrives
+// at the neighbourhood of a place by unchanged steps, and leaves that of a place by unchanged steps:
+// it costs at least the path to the nearest place plus the path from the nearest place to the goal.
+// A place is stored as the interval of its cells' entries, so it takes no more time than a
 // landmark's row.
 class CostDecreases {
  public:
   using Entry = LandmarkTable::Entry;
 
-  // Cells of `rect` became cheaper or passable. Precondition: `rect` lies in the map.
+  // Weights of cells of `rect` decreased, or cells became passable. Precondition: `rect` lies in the map.
   void add(const LandmarkTable& table, const grid::GridGeometry& geometry,
            const grid::CellRect& rect);
 
@@ -84,7 +84,7 @@ class CostDecreases {
   bool usable() const { return true; }
   // Around all of them.
   grid::CellRect hull() const;
-  // What it costs at least from a cell to the nearest of them. Precondition: not empty.
+  // A lower bound of the cost from a cell to the nearest place. Precondition: not empty.
   SearchKey least(const LandmarkTable& table, std::uint32_t index, const KeyScale& scale) const;
 
  private:
@@ -105,8 +105,8 @@ class CostDecreases {
 // The bound to one goal, as keys of a scale.
 class LandmarkBound {
  public:
-  // `table` and `cheaper` outlive the bound.
-  LandmarkBound(const LandmarkTable& table, const CostDecreases& cheaper, std::uint32_t goal,
+  // `table` and `decreases` outlive the bound.
+  LandmarkBound(const LandmarkTable& table, const CostDecreases& decreases, std::uint32_t goal,
                 const KeyScale& scale = kWideScale);
 
   SearchKey operator()(std::uint32_t index) const;
@@ -115,10 +115,10 @@ class LandmarkBound {
   using Entry = LandmarkTable::Entry;
 
   const LandmarkTable& table_;
-  const CostDecreases& cheaper_;
+  const CostDecreases& decreases_;
   KeyScale scale_;
   std::vector<Entry> goal_row_;
-  SearchKey goal_to_cheaper_ = 0;
+  SearchKey goal_to_decreases_ = 0;
 };
 
 }  // namespace grid_path_planner::planners

@@ -1,12 +1,13 @@
-// Which steps are worth trying from a cell, by the step that led there: what another way is sure to
-// serve as well is left out.
+// Move pruning: which steps a search tries from a cell, by the step that led to it. Steps to cells
+// that another path reaches at no higher cost are left out.
 //
-// A step from x to y is left out after the step d from p where a way from p to y around x, inside
-// x's 3x3, costs less by the weights' least regard (y next to p: straight from p it is nearer), or,
-// where the 3x3 weighs the same all over or all the map does, costs the same with its diagonals
-// first (Harabor & Grastien, "Online graph pruning for pathfinding on grid maps", AAAI 2011). A
-// least-cost path of the tried steps remains to every cell, as long as a cell that is reached at
-// equal cost by another step tries what that one leaves open: missing().
+// Let step d lead from p to x. A step from x to y is left out where a path from p to y around x,
+// inside the 3x3 cells around x, costs less whatever the weights are (where y is next to p, the
+// straight step costs less); or, where the 3x3 cells or all cells of the map have the same weight,
+// costs the same and takes its diagonals first (Harabor & Grastien, "Online graph pruning for
+// pathfinding on grid maps", AAAI 2011). The tried steps contain a least-cost path to every cell, as
+// long as a cell that is reached at equal cost by another step tries the steps that were left out
+// before: missing().
 #pragma once
 
 #include <array>
@@ -21,13 +22,13 @@ namespace grid_path_planner::planners {
 
 class PruningRules {
  public:
-  // A cell's kind is the mask of the allowed steps, but for one that cannot be where corners are
-  // not cut: all diagonals and nothing straight stands for an open 3x3 of one weight.
+  // The mask of the allowed steps. Exception: all diagonals without a straight step, which is
+  // impossible where corners are not cut, means an open 3x3 of one weight.
   using NeighbourhoodClass = std::uint8_t;
 
   PruningRules() = default;
   explicit PruningRules(const costmap::CostGrid& map);
-  // Whether they are those of `map`, too.
+  // Whether these are also the rules of `map`.
   bool fit(const costmap::CostGrid& map) const {
     return motion_ == map.motion() && map_uniform_ == map.uniform();
   }
@@ -41,17 +42,17 @@ class PruningRules {
     return (alike & kAll) | (~alike & steps_.allowed(cells));
   }
 
-  // The steps to try from a cell that was reached by any of `steps`; all for the start, which no
-  // step led to. Bit n for step n of steps.h.
-  std::uint32_t after(std::uint32_t steps, NeighbourhoodClass kind) const {
-    if (steps == 0) return allowed(kind);
+  // The steps to try from a cell that any of `steps` reached; all for the start, which no step
+  // reached. Bit n for step n of steps.h.
+  std::uint32_t after(std::uint32_t steps, NeighbourhoodClass neighbourhood) const {
+    if (steps == 0) return allowed(neighbourhood);
     std::uint32_t tried = 0;
-    for (; steps != 0; steps &= steps - 1) tried |= tried_[lowest(steps)][kind];
+    for (; steps != 0; steps &= steps - 1) tried |= tried_[lowest(steps)][neighbourhood];
     return tried;
   }
 
-  // Whether a cell that was reached by `steps` has to try more if it is reached by `step`, too.
-  bool missing(std::uint32_t steps, unsigned step, NeighbourhoodClass kind) const;
+  // Whether a cell that `steps` reached has to try more steps if `step` reaches it too.
+  bool missing(std::uint32_t steps, unsigned step, NeighbourhoodClass neighbourhood) const;
 
  private:
   static constexpr NeighbourhoodClass kAllEqual = 0xF0;
@@ -59,20 +60,20 @@ class PruningRules {
   static unsigned lowest(std::uint32_t steps) {
     return static_cast<unsigned>(__builtin_ctz(steps));
   }
-  std::uint32_t allowed(NeighbourhoodClass kind) const {
-    return canonical_ && kind == kAllEqual ? 0xFF : kind;
+  std::uint32_t allowed(NeighbourhoodClass neighbourhood) const {
+    return canonical_ && neighbourhood == kAllEqual ? 0xFF : neighbourhood;
   }
 
   costmap::MotionModel motion_;
   bool map_uniform_ = false;
   StepRules steps_;
-  std::array<std::array<std::uint8_t, 256>, 8> tried_{};  // by step, by kind
-  std::array<std::uint8_t, 8> never_{};                   // by step: what is dearer than around
+  std::array<std::array<std::uint8_t, 256>, 8> tried_{};  // by step and class
+  std::array<std::uint8_t, 8> never_{};                   // by step: see uselessAfter()
   bool canonical_ = false;                                // the motion model allows canonical moves
   bool uniform_ = false;
 };
 
-// The rules, and the kind of every cell of a map.
+// The rules, and the neighbourhood class of every cell of a map.
 class MovePruning {
  public:
   // Throw Stopped. `changed`: the cells whose weights changed since.
@@ -87,7 +88,7 @@ class MovePruning {
     return rules_.missing(steps, step, classes_[index]);
   }
 
-  // All that are allowed.
+  // All allowed steps.
   std::uint32_t from(std::uint32_t index) const { return rules_.after(0, classes_[index]); }
 
   // What step n adds to a cell's index.

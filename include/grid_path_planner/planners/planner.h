@@ -1,12 +1,12 @@
-// How a path is found: one contract, one file per algorithm.
+// The contract of all planners: how a path over cells is found.
 //
 //   std::unique_ptr<Planner> planner = makePlanner("a_star", options);
 //   planner->prepare(map, StopToken());
 //   SearchResult result = planner->search({Cell{1, 2}, {Cell{30, 40}}}, source.token());
 //
-// search() checks the request once and then computes; it never changes the map, and the same request
+// search() checks the request once and then computes. It never changes the map, and the same request
 // on the same map gives the same cells, whatever the machine's load. A request that cannot be
-// answered is a status with a sentence; calling search() before prepare() is NO_MAP.
+// answered gives a status with a sentence; search() before prepare() gives NO_MAP.
 #pragma once
 
 #include <limits>
@@ -31,20 +31,20 @@ struct PlannerTraits {
   bool unit_diagonals = true;  // understands DiagonalCost::UNIT
   bool cut_corners = true;     // understands cut_corners
   bool weights = true;         // cells of different weights
-  bool optimal = false;        // can be; optimalFor() says whether it is, on a map with its options
+  bool optimal = false;        // can be; optimalFor() says whether it is on a map
   bool heuristic = false;      // is guided by SearchOptions::heuristic
   bool any_angle = false;      // the result is turning points: SearchResult::points
-  bool shortest = false;       // of any angle, and none is shorter, but for rounding
+  bool shortest = false;       // no any-angle path is shorter, but for rounding
   bool several_goals = false;  // answers "the nearest of these goals"
   bool repairs = false;        // update() costs less than prepare()
-  // plan() goes on from the searches before: its statistics are of what it did anew, and which of
-  // equally cheap paths is answered depends on the calls since prepare().
+  // search() continues earlier searches: its statistics count new work only, and which of several
+  // least-cost paths it returns depends on the calls since prepare().
   bool incremental = false;
 };
 
 struct SearchRequest {
   grid::Cell start;
-  std::vector<grid::Cell> goals;  // the cheapest to reach is answered; most planners take one only
+  std::vector<grid::Cell> goals;  // the answer is the one of least cost; most planners accept one
   bool record_expanded = false;   // fill SearchResult::expanded, for pictures
 };
 
@@ -66,11 +66,11 @@ struct SearchResult {
   std::vector<grid::CellIndex> expanded;  // in order, where the request asks for it
 };
 
-// What a planner makes in a thread of its own, to be faster when it is there.
+// What a planner computes in a background thread, to be faster once it is done.
 struct BackgroundWork {
-  bool pending = false;   // something is being made
-  double time_s = 0.0;    // that the last one took; 0 where there is none
-  std::size_t bytes = 0;  // that it holds
+  bool pending = false;   // still computing
+  double time_s = 0.0;    // of the last computation; 0 where there is none
+  std::size_t bytes = 0;  // that its result holds
 };
 
 class Planner {
@@ -79,29 +79,29 @@ class Planner {
 
   const PlannerTraits& traits() const { return traits_; }
 
-  // Whether the cost of what is found on `map` is the least there is, exactly.
+  // Whether paths on `map` have exactly the least cost.
   virtual bool optimalFor(const costmap::CostGrid& map) const;
 
-  // Memory that prepare() and plan() will hold for a map of this geometry, the map excluded.
+  // Memory that prepare() and search() will hold for a map of this geometry, the map excluded.
   virtual std::size_t bytesFor(const grid::GridGeometry& geometry) const = 0;
 
-  // The most that prepare() may take, by bytesFor(). For a map that needs more it takes nothing,
-  // and plan() is INVALID_REQUEST with both figures.
+  // Limits bytesFor() of the prepared map. For a map that needs more, prepare() allocates nothing,
+  // and search() gives INVALID_REQUEST with both figures.
   void limitMemory(std::size_t bytes) { memory_limit_ = bytes; }
 
-  // Takes the map and makes what the planner needs of it: nothing of a map that it cannot search.
-  // Throws Stopped.
+  // Stores the map and computes what the planner needs of it; nothing for a map that it cannot
+  // search. Throws Stopped.
   void prepare(std::shared_ptr<const costmap::CostGrid> map, const base::StopToken& stop);
 
-  // `map` differs from the prepared one only inside `changed`, and follows it by one revision;
-  // anything else is a full prepare, but for the prepared map itself, which is nothing new.
+  // `map` differs from the prepared one only inside `changed`, and its revision is the next one.
+  // With any other map this is prepare(); with the prepared map itself it does nothing.
   void update(std::shared_ptr<const costmap::CostGrid> map, const grid::CellRect& changed,
               const base::StopToken& stop);
 
-  // Until background work is done plans take longer. An optimal planner's cost the same before and
-  // after, though of paths of equal cost it may answer another.
+  // Searches take longer until background work is done. An optimal planner finds the same cost
+  // before and after, though perhaps another path of that cost.
   virtual BackgroundWork backgroundWork() { return {}; }
-  // Returns when it is done. Throws Stopped; it goes on then.
+  // Waits for background work. Throws Stopped; the work continues then.
   virtual void finishBackgroundWork(const base::StopToken&) {}
 
   SearchResult search(const SearchRequest& request, const base::StopToken& stop);
@@ -115,17 +115,17 @@ class Planner {
   // The map that update() replaces. Precondition: called by doUpdate().
   const costmap::CostGrid& previousMap() const { return *map_before_; }
 
-  // What a user may do where bytesFor() is more than the limit.
-  virtual std::string waysToLessMemory() const;
+  // What a user can do where bytesFor() exceeds the limit.
+  virtual std::string lessMemoryAdvice() const;
 
   // The reason why this planner cannot search `map`, "" where it can.
   virtual std::string refusal(const costmap::CostGrid& map) const;
   virtual void doPrepare(const base::StopToken&) {}
-  // For doPrepare(), where only a look at the map tells that it cannot be searched.
+  // For doPrepare(), where it finds that the map cannot be searched.
   void refuse(std::string reason) { refusal_ = std::move(reason); }
   std::size_t memoryLimit() const { return memory_limit_; }
   virtual void doUpdate(const grid::CellRect&, const base::StopToken& stop) { doPrepare(stop); }
-  // The request is valid: start and goals in the map and passable. May throw Stopped; TIMEOUT or
+  // Precondition: start and goals are in the map and passable. May throw Stopped; TIMEOUT or
   // CANCELLED with the statistics so far is better.
   virtual SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) = 0;
 

@@ -1,4 +1,4 @@
-// Every planner by name.
+// Makes planners by name, and knows their traits and options.
 #pragma once
 
 #include <functional>
@@ -11,24 +11,24 @@
 
 namespace grid_path_planner::planners {
 
-// Names in the order in which they should be offered.
+// Names in the order in which users should see them.
 const std::vector<std::string>& plannerNames();
 
 // The names as a list for people: "a_star, dijkstra, ...".
 std::string listOfPlanners();
 
-// Throws InputError for any other name: with the known ones, or what to take where it was a
-// planner once.
+// Throws InputError for any other name: it lists the known ones, or names the replacement of a
+// retired planner.
 std::unique_ptr<Planner> makePlanner(const std::string& name, const SearchOptions& options = {});
 
-// makePlanner(), or what knows more names.
+// makePlanner(), or a function that knows more names.
 using PlannerMaker =
     std::function<std::unique_ptr<Planner>(const std::string& name, const SearchOptions& options)>;
 
 // What the planner of this name can do, without making one. Throws as makePlanner() does.
 PlannerTraits traitsOf(const std::string& name);
 
-// The names of the SearchOptions that it looks at. Throws as makePlanner() does.
+// The names of the SearchOptions that it uses. Throws as makePlanner() does.
 std::vector<std::string> optionsUsedBy(const std::string& name);
 
 }  // namespace grid_path_planner::planners

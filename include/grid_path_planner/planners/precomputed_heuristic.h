@@ -1,5 +1,4 @@
-// The heuristics that come from tables, landmark and exact, for a search that is guided by either
-// or by none.
+// The heuristics from tables, landmark and exact, for a search that uses one of them or none.
 //
 //   PrecomputedHeuristic tables(options);
 //   tables.prepare(map);
@@ -33,8 +32,8 @@ class PrecomputedHeuristic {
 
   // Two tables at most: one in use while the next is made.
   static std::size_t bytesFor(const SearchOptions& options, const grid::GridGeometry& geometry);
-  // What a user may do where that is too much; "" where the heuristic takes none.
-  static std::string waysToLessMemory(const SearchOptions& options);
+  // What a user can do where that is too much; "" where the heuristic needs no table.
+  static std::string lessMemoryAdvice(const SearchOptions& options);
 
   // As those of PrecomputedTable; nothing where there is no table to make.
   void prepare(std::shared_ptr<const costmap::CostGrid> map);
@@ -52,12 +51,12 @@ class PrecomputedHeuristic {
     if (landmarks_)
       if (const LandmarkTable* table = landmarks_->ready())
         return search([&](const KeyScale& scale) {
-          return LandmarkBound(*table, landmarks_->cheaper(), goal, scale);
+          return LandmarkBound(*table, landmarks_->decreases(), goal, scale);
         });
     if (exact_)
       if (const ExactTable* table = exact_->ready())
         return search([&](const KeyScale& scale) {
-          return ExactBound(*table, exact_->cheaper(), goal, scale);
+          return ExactBound(*table, exact_->decreases(), goal, scale);
         });
     return search([](const KeyScale&) { return NoBound(); });
   }

@@ -1,18 +1,18 @@
-// Lower bounds of the cost between cells that take long to make: made in a thread of their own,
-// used when they are there, and kept true while the map changes.
+// A table of lower bounds of the cost between cells that takes long to compute: computed in a
+// background thread, used when it is done, and kept valid while the map changes.
 //
 //   PrecomputedTable<LandmarkTable> tables([](const CostGrid& map, const StopToken& stop) {
 //     return LandmarkTable(map, 16, stop);
 //   });
 //   tables.prepare(map);
 //   if (const LandmarkTable* table = tables.ready())
-//     LandmarkBound bound(*table, tables.cheaper(), goal_index);
+//     LandmarkBound bound(*table, tables.decreases(), goal_index);
 //
-// Where the map gets dearer a bound stays a bound. Where it gets cheaper the table's
-// Table::Cheaper is told, which repairs the bounds in time proportional to the change, or makes the
-// table unusable. A new table is made when that is so, or when so much has changed that the bounds
-// are loose; meanwhile the old one serves, unless places far from each other became cheaper: such
-// bounds would cost more time than they save.
+// Where costs increase a bound remains a bound. Cost decreases go into Table::Decreases, which
+// repairs the bounds in time proportional to the change, or makes the table unusable. A new table is
+// made when it does, or when so much has changed that the bounds are loose. The old one is used
+// meanwhile, unless costs decreased at places far from each other: such bounds would cost more time
+// than they save.
 //
 // Not thread-safe but towards its own thread, with which it shares the map while a table is made.
 #pragma once
@@ -28,24 +28,24 @@
 
 namespace grid_path_planner::planners {
 
-// The smallest rectangle around the cells of `rect` that are cheaper in `after` than in `before`,
-// or passable only there.
-grid::CellRect cheaperCells(const costmap::CostGrid& before, const costmap::CostGrid& after,
-                            const grid::CellRect& rect);
+// The smallest rectangle around the cells of `rect` whose weights are lower in `after` than in
+// `before`, or that are passable only there.
+grid::CellRect costDecreases(const costmap::CostGrid& before, const costmap::CostGrid& after,
+                             const grid::CellRect& rect);
 
 // Whether so much of a map has changed that its tables should be made anew: `cells` of it, counted
-// as often as they did, with places that became cheaper in `hull`.
+// as often as they did, with all cost decreases in `hull`.
 bool looseAfter(const grid::GridGeometry& geometry, std::size_t cells, const grid::CellRect& hull);
 
 template <class Table>
 class PrecomputedTable {
  public:
-  using Cheaper = typename Table::Cheaper;
+  using Decreases = typename Table::Decreases;
   using Make = std::function<Table(const costmap::CostGrid&, const base::StopToken&)>;
 
   explicit PrecomputedTable(Make make) : make_(std::move(make)) {}
 
-  // Drops what there is and begins anew.
+  // Removes the table and begins a new one.
   void prepare(std::shared_ptr<const costmap::CostGrid> map) {
     made_.reset();
     begin(std::move(map));
@@ -56,25 +56,26 @@ class PrecomputedTable {
               const grid::CellRect& changed) {
     adopt();
     const grid::CellRect rect = changed.intersection(geometry_.rect());
-    const grid::CellRect cheaper = cheaperCells(before, *map, rect);
+    const grid::CellRect decreased = costDecreases(before, *map, rect);
     changed_cells_ += static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
-    if (!cheaper.empty() && made_) cheaper_.add(made_->table, geometry_, cheaper);
+    if (!decreased.empty() && made_) decreases_.add(made_->table, geometry_, decreased);
     if (begun_)
-      since_begin_.push_back({rect, cheaper});
+      since_begin_.push_back({rect, decreased});
     else if (made_ &&
-             (!cheaper_.usable() || looseAfter(geometry_, changed_cells_, cheaper_.hull())))
+             (!decreases_.usable() || looseAfter(geometry_, changed_cells_, decreases_.hull())))
       begin(std::move(map));
   }
 
   // Null while there is no table that can be used. Both hold until the next call of another method.
   const Table* ready() {
     adopt();
-    return made_ && cheaper_.usable() && !looseAfter(geometry_, 0, cheaper_.hull()) ? &made_->table
-                                                                                    : nullptr;
+    return made_ && decreases_.usable() && !looseAfter(geometry_, 0, decreases_.hull())
+               ? &made_->table
+               : nullptr;
   }
-  const Cheaper& cheaper() const { return cheaper_; }
+  const Decreases& decreases() const { return decreases_; }
 
-  // Returns when nothing is made any more. Throws Stopped.
+  // Waits until no table is being made. Throws Stopped.
   void wait(const base::StopToken& stop) const { making_.wait(stop); }
 
   BackgroundWork work() {
@@ -93,7 +94,7 @@ class PrecomputedTable {
   };
   struct Change {
     grid::CellRect rect;
-    grid::CellRect cheaper;
+    grid::CellRect decreased;
   };
 
   void begin(std::shared_ptr<const costmap::CostGrid> map) {
@@ -109,7 +110,7 @@ class PrecomputedTable {
     });
   }
 
-  // Takes over a new table, and tells it what happened since it was begun.
+  // Takes over a new table, with the changes since it was begun.
   void adopt() {
     const bool ended = !making_.running();
     std::shared_ptr<const Made> made = making_.take();
@@ -117,12 +118,12 @@ class PrecomputedTable {
     if (!made) return;
     begun_ = false;
     made_ = std::move(made);
-    cheaper_ = Cheaper();
+    decreases_ = Decreases();
     changed_cells_ = 0;
     for (const Change& change : since_begin_) {
       changed_cells_ += static_cast<std::size_t>(change.rect.width) *
                         static_cast<std::size_t>(change.rect.height);
-      if (!change.cheaper.empty()) cheaper_.add(made_->table, geometry_, change.cheaper);
+      if (!change.decreased.empty()) decreases_.add(made_->table, geometry_, change.decreased);
     }
     since_begin_.clear();
   }
@@ -130,7 +131,7 @@ class PrecomputedTable {
   Make make_;
   grid::GridGeometry geometry_;
   std::shared_ptr<const Made> made_;
-  Cheaper cheaper_;                // since made_ was begun
+  Decreases decreases_;            // since made_ was begun
   std::size_t changed_cells_ = 0;  // since then
   std::vector<Change> since_begin_;
   bool begun_ = false;  // and neither taken over nor given up

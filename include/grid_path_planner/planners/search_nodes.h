@@ -1,9 +1,9 @@
-// What a search knows of every cell: the key of its cost so far, the steps that led there at that
-// cost, and whether it was expanded since.
+// The search node of every cell of a map: the key of its g-value, the steps that led there at that
+// cost, and whether it is closed.
 //
-// Nothing is cleared between queries: a node carries the number of the query that wrote it, and
-// counts as unknown in any other. Both kinds below have the same functions; PackedNodes are faster
-// and smaller, and serve paths up to a cost of 3.2 million cell lengths x weight.
+// Nothing is cleared between queries: a node has the stamp of the query that wrote it
+// (stamped_array.h). Both classes have the same functions. PackedNodes are faster and smaller; they
+// hold costs up to 3.2 million cell lengths x weight.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@
 
 namespace grid_path_planner::planners {
 
-// What an offered cost was to a node.
-enum class Offer { WORSE, EQUAL, BETTER };
+// A new cost of a node compared with its g-value; BETTER where it has none.
+enum class CostComparison { WORSE, EQUAL, BETTER };
 
-// 8 bytes a cell: 12 bits of query, 43 of largest key - key, 8 of steps, 1 of closed. Written in
-// this order, one comparison tells whether an offer is better: of a later query, or cheaper.
+// 8 bytes a cell: 12 bits of stamp, 43 of largest key - key, 8 of steps, 1 of closed. In this order
+// one comparison of words finds whether a new cost is better: of a later query, or less.
 class PackedNodes {
  public:
   static constexpr KeyScale kScale = kPackedScale;
@@ -31,7 +31,7 @@ class PackedNodes {
 
   void beginQuery();
 
-  // The following ask of a cell that was reached in this query.
+  // Precondition of the following: the cell was generated in this query.
   SearchKey cost(std::uint32_t index) const {
     return kScale.largest - (nodes_[index] >> kKeyShift & kScale.largest);
   }
@@ -41,16 +41,18 @@ class PackedNodes {
   void addStep(std::uint32_t index, unsigned step) { nodes_[index] |= bitOf(step); }
   void reopen(std::uint32_t index) { nodes_[index] &= ~std::uint64_t{1}; }
 
-  void begin(std::uint32_t start) { nodes_[start] = stamp_.word() | kScale.largest << kKeyShift; }
-
-  // A key above the largest is CHEAPER: it must be refused before it is taken.
-  Offer compare(std::uint32_t index, SearchKey key) const {
-    const std::uint64_t offer = valueOf(key), known = nodes_[index];
-    if (offer > (known | kRest)) return Offer::BETTER;
-    return offer == (known & ~kRest) ? Offer::EQUAL : Offer::WORSE;
+  void setStart(std::uint32_t start) {
+    nodes_[start] = stamp_.word() | kScale.largest << kKeyShift;
   }
-  // Takes a CHEAPER one; whether the cell had been expanded in this query.
-  bool take(std::uint32_t index, SearchKey key, unsigned step) {
+
+  // A key above the largest is BETTER: the caller must refuse it.
+  CostComparison compare(std::uint32_t index, SearchKey key) const {
+    const std::uint64_t offered = valueOf(key), known = nodes_[index];
+    if (offered > (known | kRest)) return CostComparison::BETTER;
+    return offered == (known & ~kRest) ? CostComparison::EQUAL : CostComparison::WORSE;
+  }
+  // Writes a BETTER cost. Returns whether the cell was closed in this query.
+  bool improve(std::uint32_t index, SearchKey key, unsigned step) {
     const std::uint64_t known = nodes_[index];
     nodes_[index] = valueOf(key) | bitOf(step);
     return stamp_.wrote(known) && (known & 1) != 0;
@@ -90,16 +92,16 @@ class WideNodes {
   void addStep(std::uint32_t index, unsigned step) { words_[index] |= bitOf(step); }
   void reopen(std::uint32_t index) { words_[index] &= ~std::uint32_t{1}; }
 
-  void begin(std::uint32_t start) {
+  void setStart(std::uint32_t start) {
     words_[start] = stamp_.word();
     costs_[start] = 0;
   }
 
-  Offer compare(std::uint32_t index, SearchKey key) const {
-    if (!stamp_.wrote(words_[index]) || key < costs_[index]) return Offer::BETTER;
-    return key == costs_[index] ? Offer::EQUAL : Offer::WORSE;
+  CostComparison compare(std::uint32_t index, SearchKey key) const {
+    if (!stamp_.wrote(words_[index]) || key < costs_[index]) return CostComparison::BETTER;
+    return key == costs_[index] ? CostComparison::EQUAL : CostComparison::WORSE;
   }
-  bool take(std::uint32_t index, SearchKey key, unsigned step) {
+  bool improve(std::uint32_t index, SearchKey key, unsigned step) {
     const std::uint32_t known = words_[index];
     words_[index] = stamp_.word() | bitOf(step);
     costs_[index] = key;

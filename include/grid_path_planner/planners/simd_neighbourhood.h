@@ -1,5 +1,5 @@
-// Eight cells that lie side by side, with their neighbours: no bounds looked at, and handled
-// together where the machine has instructions for it.
+// SIMD neighbourhood: eight cells side by side with their neighbours, without bounds checks,
+// processed together where the machine has instructions for it.
 //
 //   forEachEight(map, rect, stop, [&](std::size_t index, int number, const EightCells& cells) {
 //     storeBytes(rules.allowed(cells), number, masks.data() + index);  // steps.h
@@ -29,7 +29,7 @@ class EightCells {
              const costmap::CostGrid::Weight* above)
       : rows_{below, at, above} {}
 
-  // Of the neighbours that are so many columns and rows away, each -1, 0 or 1.
+  // Of the neighbours at an offset of columns and rows, each -1, 0 or 1.
   Eight weights(int columns, int rows) const {
     Eight eight;
     std::memcpy(&eight, rows_[static_cast<std::size_t>(rows) + 1] + columns, sizeof eight);
@@ -38,7 +38,7 @@ class EightCells {
   Eight blocked(int columns, int rows) const {
     return reinterpret_cast<Eight>(weights(columns, rows) == costmap::CostGrid::kBlocked);
   }
-  // Whether all eight neighbours weigh what the cell does.
+  // Whether all eight neighbours have the weight of the cell.
   Eight alike() const {
     const Eight middle = weights(0, 0);
     Eight alike = ~Eight{};
@@ -52,7 +52,7 @@ class EightCells {
   std::array<const costmap::CostGrid::Weight*, 3> rows_;
 };
 
-// Whether that is so of all eight.
+// Whether it is true of all eight.
 inline bool all(const EightCells::Eight& comparison) {
   using Halves = std::uint64_t __attribute__((vector_size(16)));
   const auto halves = reinterpret_cast<Halves>(comparison);
@@ -69,8 +69,8 @@ inline void storeBytes(const EightCells::Eight& values, int number, std::uint8_t
     for (int i = 0; i < number; ++i) to[i] = bytes[i];
 }
 
-// Calls visit(index, number, cells) for every up to eight cells side by side of `rect`, row by row;
-// outside the map nothing is passable. Precondition: `rect` lies in the map. Throws Stopped.
+// Calls visit(index, number, cells) for up to eight cells side by side at a time, for all cells of
+// `rect`, row by row. Outside the map all is blocked. Precondition: `rect` lies in the map. Throws Stopped.
 template <class Visit>
 void forEachEight(const costmap::CostGrid& map, const grid::CellRect& rect,
                   const base::StopToken& stop, const Visit& visit) {

@@ -17,6 +17,16 @@ constexpr std::array<grid::Cell, 8> kSteps = {
     grid::Cell{1, 0}, grid::Cell{0, 1},  grid::Cell{-1, 0},  grid::Cell{0, -1},
     grid::Cell{1, 1}, grid::Cell{-1, 1}, grid::Cell{-1, -1}, grid::Cell{1, -1}};
 
+// The step in the opposite direction.
+constexpr std::uint32_t oppositeStep(std::uint32_t step) {
+  return step ^ 2U;
+}
+
+// The natural steps after step d where no obstacle is near and all cells have one weight, bit n for
+// step n: straight on; after a diagonal step also its two straight parts.
+constexpr std::array<std::uint8_t, 8> kNaturalInTheOpen = {
+    1, 2, 4, 8, 1 << 4 | 1 | 2, 1 << 5 | 4 | 2, 1 << 6 | 4 | 8, 1 << 7 | 1 | 8};
+
 // What each step adds to a cell's index.
 std::array<std::ptrdiff_t, 8> stepOffsets(int width);
 

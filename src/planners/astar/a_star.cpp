@@ -23,7 +23,7 @@ PlannerTraits guidedTraits(const char* name) {
   return traits;
 }
 
-// Later cells wait: the second key of the open list.
+// The second key of the open list: the least comes first.
 SearchKey tieKey(TieBreak tie_break, SearchKey g, const Estimate& estimate, Cell cell) {
   switch (tie_break) {
     case TieBreak::LARGER_G:
@@ -73,9 +73,9 @@ std::size_t AStar::bytesFor(const GridGeometry& geometry) const {
   return search + PrecomputedHeuristic::bytesFor(options_, geometry);
 }
 
-std::string AStar::waysToLessMemory() const {
-  const std::string ways = PrecomputedHeuristic::waysToLessMemory(options_);
-  return ways.empty() ? Planner::waysToLessMemory() : ways;
+std::string AStar::lessMemoryAdvice() const {
+  const std::string advice = PrecomputedHeuristic::lessMemoryAdvice(options_);
+  return advice.empty() ? Planner::lessMemoryAdvice() : advice;
 }
 
 bool AStar::optimalFor(const CostGrid& map) const {
@@ -150,13 +150,13 @@ SearchResult AStar::planInOrder(const SearchRequest& request, const StopToken& s
   const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
   return tables_.withBound(goal_index, [&](const auto& boundIn) {
     const auto bound = boundIn(kWideScale);
-    const auto promise = [&](SearchKey g, Cell cell) {
+    const auto priorityOf = [&](SearchKey g, Cell cell) {
       const SearchKey least = stretched(bound(geometry.index(cell).value()), options_.epsilon);
       const SearchKey to_go = cross_share == 0.0L ? estimate(cell) : estimate(cell, cross_share);
-      return BestFirstSearch::Promise{saturatingSum(g, std::max(to_go, least)),
-                                      tieKey(tie_break, g, estimate, cell)};
+      return BestFirstSearch::Priority{saturatingSum(g, std::max(to_go, least)),
+                                       tieKey(tie_break, g, estimate, cell)};
     };
-    return in_order_.run(map(), request.start, isGoal, promise, request.record_expanded, stop,
+    return in_order_.run(map(), request.start, isGoal, priorityOf, request.record_expanded, stop,
                          variation_.goal_test);
   });
 }

@@ -24,7 +24,7 @@ void BestFirstSearch::update(const CostGrid& map, const CellRect& changed, const
 }
 
 void BestFirstSearch::beginQuery() {
-  heap_.clear();
+  open_.clear();
   stamp_.next([this] { words_.clear(); });
 }
 

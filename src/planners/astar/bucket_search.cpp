@@ -23,14 +23,14 @@ void BucketSearch::update(const CostGrid& map, const CellRect& changed, const St
   moves_.update(map, changed, stop);
 }
 
-// Paths that wind, or that all weigh as the dearest cell, may still cost more.
+// A winding path may still cost more.
 bool BucketSearch::packedMaySuffice(const CostGrid& map) {
   const auto sides = static_cast<SearchKey>(map.geometry().width()) + map.geometry().height();
   return sides * map.maxWeight() <= kPackedScale.largest / kPackedScale.straight;
 }
 
-// About three eighths of the cheapest straight step: narrower ones hold fewer cells together that
-// lie together in memory, wider ones re-open more.
+// About three eighths of a straight step at the minimum weight. Narrower buckets separate cells that
+// are neighbours in memory, wider ones cause more re-openings.
 unsigned BucketSearch::bucketShift(const CostGrid& map, const KeyScale& scale) {
   const SearchKey width = scale.straight * std::max<SearchKey>(map.minWeight(), 1) / 2;
   return 63U - static_cast<unsigned>(__builtin_clzll(width));

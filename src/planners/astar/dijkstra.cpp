@@ -48,8 +48,8 @@ SearchResult Dijkstra::doSearch(const SearchRequest& request, const StopToken& s
   };
   if (!strictly_ordered_)
     return by_buckets_.run(map(), request.start, isGoal, noEstimate, request.record_expanded, stop);
-  const auto cheapestFirst = [](SearchKey g, Cell) { return BestFirstSearch::Promise{g, 0}; };
-  return in_order_.run(map(), request.start, isGoal, cheapestFirst, request.record_expanded, stop);
+  const auto leastCostFirst = [](SearchKey g, Cell) { return BestFirstSearch::Priority{g, 0}; };
+  return in_order_.run(map(), request.start, isGoal, leastCostFirst, request.record_expanded, stop);
 }
 
 }  // namespace grid_path_planner::planners

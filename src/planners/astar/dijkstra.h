@@ -1,11 +1,11 @@
 // Dijkstra's algorithm over the cells of a grid (Dijkstra 1959).
 //
-// Guaranteed: the cost is the least there is, on every map and motion model, and of several goals
-// the one that is answered is the cheapest to reach: which is what it is for where A* is not.
+// Guaranteed: the cost is the least there is, on every map and motion model. Of several goals it
+// answers the one that costs least to reach, which A* does not.
 //
-// It has nothing to break ties by. But with a tie-break other than none A* keeps its open list in
-// strict order, which costs several times as much a cell, and Dijkstra then does the same: so that
-// who compares the two compares them and not their open lists.
+// It has no ties to break. But with a tie-break other than none A* keeps its open list in strict
+// order, which costs several times as much a cell; Dijkstra then does the same, so that a
+// comparison of the two is not one of their open lists.
 #pragma once
 
 #include "grid_path_planner/planners/best_first_search.h"

@@ -1,4 +1,4 @@
-// Lower bounds of the cost between two cells, as search keys.
+// Heuristics: lower bounds of the cost between two cells, as search keys.
 //
 // zero, manhattan (4-connected distance), chebyshev (diagonals as long as straights: the "diagonal
 // distance with uniform cost"), octile (diagonals sqrt 2: the "non-uniform" one) and euclidean, in
@@ -15,16 +15,16 @@
 
 namespace grid_path_planner::planners {
 
-// Whether it comes from tables that are made for a map (planners/precomputed_table.h).
+// Whether it comes from a table that is computed for a map (planners/precomputed_table.h).
 bool prepared(Heuristic heuristic);
 
-// Whether the heuristic, times a scale of at most the cheapest weight, never exceeds the cost.
+// Whether the heuristic, times a scale of at most the minimum weight, never exceeds the cost.
 bool admissible(Heuristic heuristic, const costmap::MotionModel& motion);
 
 // Whether A* with these options finds a least-cost path on `map`.
 bool optimalWith(const SearchOptions& options, const costmap::CostGrid& map);
 
-// The estimate that A* with `options` adds to g for the way from `start` to `goal` on `map`.
+// The h-value of A* with `options` from `start` to `goal` on `map`.
 class Estimate {
  public:
   Estimate(const SearchOptions& options, const costmap::CostGrid& map, grid::Cell start,
@@ -59,12 +59,12 @@ class Estimate {
   Heuristic heuristic_;
   grid::Cell start_;
   grid::Cell goal_;
-  SearchKey weight_;  // the scale where it is the cheapest weight
+  SearchKey weight_;  // the scale where it is the minimum weight
   double factor_;     // the scale as a number, times epsilon
   bool integral_;     // the estimate is distance * weight_ and fits
 };
 
-// The octile distance at the cheapest weight, for inner loops.
+// The octile distance at the minimum weight, for inner loops.
 class OctileEstimate {
  public:
   OctileEstimate(const costmap::CostGrid& map, grid::Cell goal, const KeyScale& scale)

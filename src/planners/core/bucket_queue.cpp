@@ -5,11 +5,11 @@
 
 namespace grid_path_planner::planners {
 
-void BucketQueue::begin(SearchKey first, unsigned shift) {
+void BucketQueue::reset(SearchKey first, unsigned shift) {
   for (std::size_t word = 0; word < filled_.size(); ++word)
     for (; filled_[word] != 0;) {
       Bucket& left = buckets_[word * 64 + static_cast<std::size_t>(__builtin_ctzll(filled_[word]))];
-      while (left.chunk != nullptr) giveBack(left);
+      while (left.chunk != nullptr) releaseChunk(left);
       filled_[word] &= filled_[word] - 1;
     }
   later_.clear();
@@ -21,7 +21,7 @@ void BucketQueue::begin(SearchKey first, unsigned shift) {
 void BucketQueue::setWindow(SearchKey first) {
   current_ = first;
   window_end_ = (first / kBuckets + 1) * kBuckets;
-  taken_ = 0;
+  popped_ = 0;
 }
 
 void BucketQueue::addChunk(Bucket& to, SearchKey number) {
@@ -43,7 +43,7 @@ void BucketQueue::addChunk(Bucket& to, SearchKey number) {
   to.used = 0;
 }
 
-void BucketQueue::giveBack(Bucket& from) {
+void BucketQueue::releaseChunk(Bucket& from) {
   Chunk* chunk = from.chunk;
   from.chunk = chunk->below;
   from.used = kChunkEntries;
@@ -65,9 +65,10 @@ void BucketQueue::advance() {
   current_ = window_end_ - kBuckets + bit;
 }
 
-// Few entries for many buckets, or for many entries to look through again: wider buckets.
+// Buckets become wider where few entries were popped: for many buckets, or for many entries beyond
+// the window, all of which are distributed again.
 void BucketQueue::nextWindow() {
-  if (taken_ < std::max(kBuckets, later_.size())) ++shift_;
+  if (popped_ < std::max(kBuckets, later_.size())) ++shift_;
   SearchKey least = kInfiniteKey;
   for (const Later& entry : later_) least = std::min(least, entry.key);
   setWindow(least >> shift_);

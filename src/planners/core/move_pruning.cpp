@@ -27,29 +27,28 @@ std::uint8_t bitOf(Cell step) {
   return 0;
 }
 
-// The steps that, after `step`, lead back or to where one straight step would have led: straight
-// from the cell before costs at most the dearer one of the two steps, whatever the weights.
-std::uint8_t dearerAfter(Cell step) {
-  std::uint8_t dearer = 0;
+// The steps that, after `step`, lead back or to where one straight step would have led: the straight
+// step costs at most as much as the more expensive of the two, whatever the weights.
+std::uint8_t uselessAfter(Cell step) {
+  std::uint8_t useless = 0;
   for (const Cell next : kSteps) {
     const Cell sum{step.column + next.column, step.row + next.row};
     if (std::abs(sum.column) + std::abs(sum.row) <= 1)
-      dearer = static_cast<std::uint8_t>(dearer | bitOf(next));
+      useless = static_cast<std::uint8_t>(useless | bitOf(next));
   }
-  return dearer;
+  return useless;
 }
 
-// Of the `allowed` steps after `step`, where all passable cells weigh the same and corners are not
-// cut: straight on; sideways only around a blocked cell that is left behind; after a diagonal its
-// two parts as well.
-std::uint8_t canonicalAfter(Cell step, std::uint8_t allowed) {
-  if (diagonal(step))
-    return static_cast<std::uint8_t>(
-        allowed & (bitOf(step) | bitOf({step.column, 0}) | bitOf({0, step.row})));
-  unsigned tried = bitOf(step);
-  for (const Cell side : {Cell{step.row, step.column}, Cell{-step.row, -step.column}})
-    if ((allowed & bitOf({side.column - step.column, side.row - step.row})) == 0)
-      tried |= bitOf(side) | bitOf({side.column + step.column, side.row + step.row});
+// The natural ones of the `allowed` steps after step `number`, where all passable cells have the
+// same weight and corners are not cut; with the forced ones: sideways around a blocked cell that is
+// left behind.
+std::uint8_t canonicalAfter(std::size_t number, std::uint8_t allowed) {
+  const Cell step = kSteps[number];
+  unsigned tried = kNaturalInTheOpen[number];
+  if (!diagonal(step))
+    for (const Cell side : {Cell{step.row, step.column}, Cell{-step.row, -step.column}})
+      if ((allowed & bitOf({side.column - step.column, side.row - step.row})) == 0)
+        tried |= bitOf(side) | bitOf({side.column + step.column, side.row + step.row});
   return static_cast<std::uint8_t>(allowed & tried);
 }
 
@@ -67,24 +66,26 @@ PruningRules::PruningRules(const CostGrid& map)
       canonical_(canonicalHolds(map.motion())),
       uniform_(canonical_ && map.uniform()) {
   for (std::size_t step = 0; step < kSteps.size(); ++step) {
-    never_[step] = dearerAfter(kSteps[step]);
-    for (std::size_t kind = 0; kind < 256; ++kind) {
-      const auto mask = static_cast<std::uint8_t>(allowed(static_cast<NeighbourhoodClass>(kind)));
-      const bool equal = uniform_ || (canonical_ && kind == kAllEqual);
-      tried_[step][kind] = equal ? canonicalAfter(kSteps[step], mask)
-                                 : static_cast<std::uint8_t>(mask & ~never_[step]);
+    never_[step] = uselessAfter(kSteps[step]);
+    for (std::size_t neighbourhood = 0; neighbourhood < 256; ++neighbourhood) {
+      const auto mask =
+          static_cast<std::uint8_t>(allowed(static_cast<NeighbourhoodClass>(neighbourhood)));
+      const bool equal = uniform_ || (canonical_ && neighbourhood == kAllEqual);
+      tried_[step][neighbourhood] =
+          equal ? canonicalAfter(step, mask) : static_cast<std::uint8_t>(mask & ~never_[step]);
     }
   }
 }
 
-bool PruningRules::missing(std::uint32_t steps, unsigned step, NeighbourhoodClass kind) const {
-  if (!uniform_ && !(canonical_ && kind == kAllEqual)) return false;
+bool PruningRules::missing(std::uint32_t steps, unsigned step,
+                           NeighbourhoodClass neighbourhood) const {
+  if (!uniform_ && !(canonical_ && neighbourhood == kAllEqual)) return false;
   std::uint32_t done = 0;
   for (; steps != 0; steps &= steps - 1) {
     const unsigned known = lowest(steps);
-    done |= tried_[known][kind] | never_[known];
+    done |= tried_[known][neighbourhood] | never_[known];
   }
-  return (tried_[step][kind] & ~done) != 0;
+  return (tried_[step][neighbourhood] & ~done) != 0;
 }
 
 void MovePruning::build(const CostGrid& map, const StopToken& stop) {

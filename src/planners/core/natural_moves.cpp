@@ -15,8 +15,8 @@ namespace {
 constexpr int kMiddle = 4;
 constexpr int kOutside = 9;
 
-// Integers in doubles, whose minimum the compiler takes two at a time: a path inside the window is
-// at most eight steps of 65535, so the convergent orders exactly and stays far below 2^53.
+// Integers in doubles, of which the compiler computes two minima at a time. A path inside the window
+// has at most eight steps of weight 65535, so the order is exact and sums stay far below 2^53.
 constexpr double kStraight = kWindowScale.straight;
 constexpr double kDiagonal = kWindowScale.diagonal;
 constexpr double kFar = 1e15;
@@ -64,7 +64,7 @@ class WindowPaths {
   }
 
   unsigned naturalAfter(int d) const {
-    const int from = kInside.to[kMiddle][(d & 4) | ((d + 2) & 3)];  // back along d
+    const int from = kInside.to[kMiddle][oppositeStep(static_cast<std::uint32_t>(d))];
     unsigned mask = 0;
     if (steps_[from][d] >= kFar) return 0;
     for (int e = 0; e < 8; ++e)
@@ -83,7 +83,7 @@ class WindowPaths {
     return window[column] == 0 || window[row] == 0 ? kFar : weight * kDiagonal;
   }
 
-  // Whether a path of `cost` from `from` to `to` may begin with a step that comes before `step`.
+  // Whether a path of `cost` from `from` to `to` may begin with a step that precedes `step`.
   bool precededBy(int from, int step, int to, double cost) const {
     for (int other = 0; other < 8; ++other) {
       const int by = kInside.to[from][other];
@@ -107,7 +107,7 @@ class WindowPaths {
 
 }  // namespace
 
-NaturalMoves naturalSteps(const Window& window) {
+NaturalMoves naturalMoves(const Window& window) {
   if (window[kMiddle] == CostGrid::kBlocked) return 0;
   const WindowPaths paths(window);
   NaturalMoves steps = 0;

@@ -1,19 +1,20 @@
-// Which steps a search need not take, because another path of at most the same cost, and preferred,
-// gets to the same cell: the pruning of jump point search for cells of any weight.
+// Natural moves: the steps that remain after pruning. A step is left out where another path to its
+// end costs no more and comes first in the canonical order: the pruning of jump point search, here
+// for cells of any weight.
 //
-// Of all paths between two cells the canonical one is the cheapest; of equally cheap ones that
+// Of all paths between two cells the canonical one costs least; of several that do, it is the one
 // whose sequence of steps comes first, diagonal steps before straight ones. Step e is natural after
 // step d into cell x if <d, e> is the canonical path between its ends inside the 3x3 cells around
 // x.
 //
-//   const NaturalMoves steps = naturalSteps(window);  // nine weights, row by row, x in the middle
-//   stepsAfter(steps, 1U << d);                       // a bit for every step natural after d
+//   const NaturalMoves moves = naturalMoves(window);  // nine weights, row by row, x in the middle
+//   use(naturalAfter(moves, 1U << d));                // a bit for every step natural after d
 //
-// Guaranteed: a search that only takes natural steps, at every cell those of all steps that reached
-// it at its least cost, finds the least cost to every cell: a canonical path consists of them,
-// since a part that is not canonical could be replaced. That is so for diagonals of length sqrt 2
-// that cut no corners; where every cell costs the same it is jump point search's own pruning
-// (Harabor & Grastien 2011; for weights: Carlson et al. 2023, with another cost rule).
+// Guaranteed: a search that takes only natural steps, at every cell those of all steps that reached
+// it at its least cost, finds the least cost to every cell: a canonical path consists of natural
+// steps, since a part that is not canonical could be replaced. This holds for diagonals of length
+// sqrt 2 that cut no corners. Where every cell has the same weight it is jump point search's own
+// pruning (Harabor & Grastien 2011; for weights: Carlson et al. 2023, with another cost rule).
 #pragma once
 
 #include <array>
@@ -29,12 +30,12 @@ using NaturalMoves = std::uint64_t;
 
 using Window = std::array<costmap::CostGrid::Weight, 9>;
 
-NaturalMoves naturalSteps(const Window& window);
+NaturalMoves naturalMoves(const Window& window);
 
 // The weights around a cell; outside the map is blocked.
 Window windowAt(const costmap::CostGrid& map, grid::Cell cell);
 
-namespace canonical_detail {
+namespace natural_moves_detail {
 
 constexpr std::array<std::uint64_t, 256> bytesOfBits() {
   std::array<std::uint64_t, 256> bytes{};
@@ -46,20 +47,15 @@ constexpr std::array<std::uint64_t, 256> bytesOfBits() {
 
 inline constexpr std::array<std::uint64_t, 256> kBytesOfBits = bytesOfBits();
 
-}  // namespace canonical_detail
+}  // namespace natural_moves_detail
 
 // The steps that are natural after any of the steps of `reached`, a bit for every step.
-inline unsigned stepsAfter(NaturalMoves steps, unsigned reached) {
-  std::uint64_t chosen = steps & canonical_detail::kBytesOfBits[reached];
+inline unsigned naturalAfter(NaturalMoves moves, unsigned reached) {
+  std::uint64_t chosen = moves & natural_moves_detail::kBytesOfBits[reached];
   chosen |= chosen >> 32;
   chosen |= chosen >> 16;
   chosen |= chosen >> 8;
   return static_cast<unsigned>(chosen & 255);
 }
-
-// What is natural after step d in the open: straight on after a straight step; after a diagonal one
-// straight on and its two straight parts.
-constexpr std::array<std::uint8_t, 8> kDefaultSteps = {
-    1, 2, 4, 8, 1 << 4 | 1 | 2, 1 << 5 | 4 | 2, 1 << 6 | 4 | 8, 1 << 7 | 1 | 8};
 
 }  // namespace grid_path_planner::planners

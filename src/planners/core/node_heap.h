@@ -1,17 +1,18 @@
-// An open list for nodes that are larger than what orders them: a binary heap of estimates, and the
-// nodes beside it.
+// An open list for nodes that are larger than their keys: a binary heap of f-values, and the nodes
+// beside it.
 //
 //   NodeHeap<Node> open;
 //   open.push(f, node);
 //   if (!open.empty() && open.least() < limit) node = open.pop();
 //
-// Of equal estimates any may come first; the same calls give the same order.
+// Of equal f-values any may be popped first; the same calls give the same order.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "grid_path_planner/planners/binary_heap.h"
 
 namespace grid_path_planner::planners {
 
@@ -36,16 +37,13 @@ class NodeHeap {
       unused_.pop_back();
       nodes_[place] = node;
     }
-    heap_.push_back({f, place});
-    std::push_heap(heap_.begin(), heap_.end());
+    heap_.push({f, place});
   }
 
-  // Precondition of both: it is not empty.
-  double least() const { return heap_.front().f; }
+  // Precondition of both: not empty().
+  double least() const { return heap_.top().f; }
   Node pop() {
-    std::pop_heap(heap_.begin(), heap_.end());
-    const std::uint32_t place = heap_.back().node;
-    heap_.pop_back();
+    const std::uint32_t place = heap_.pop().node;
     unused_.push_back(place);
     return nodes_[place];
   }
@@ -59,12 +57,14 @@ class NodeHeap {
   struct Entry {
     double f;
     std::uint32_t node;
-    friend bool operator<(const Entry& a, const Entry& b) { return a.f > b.f; }  // for std's heaps
+  };
+  struct Worse {
+    bool operator()(const Entry& a, const Entry& b) const { return a.f > b.f; }
   };
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> unused_;  // places in nodes_
-  std::vector<Entry> heap_;
+  BinaryHeap<Entry, Worse> heap_;
 };
 
 }  // namespace grid_path_planner::planners

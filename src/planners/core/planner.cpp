@@ -46,7 +46,7 @@ std::size_t megabytes(std::size_t bytes) {
   return bytes / 1000000 + (bytes % 1000000 != 0 ? 1 : 0);
 }
 
-// The first thing wrong with the request, FOUND where there is none.
+// The first error of the request, FOUND where there is none.
 SearchResult check(const CostGrid& map, const SearchRequest& request, const PlannerTraits& traits) {
   if (request.goals.empty()) return failure(Status::INVALID_REQUEST, "the request has no goal");
   if (request.goals.size() > 1 && !traits.several_goals)
@@ -77,7 +77,7 @@ std::string unreachable(const SearchRequest& request) {
                   " goals");
 }
 
-// What there is to say where the planner itself says nothing.
+// The message where the planner itself gives none.
 std::string usualMessage(Status status, const SearchRequest& request, const std::string& name) {
   switch (status) {
     case Status::UNREACHABLE:
@@ -103,7 +103,7 @@ struct WeightRange {
 };
 
 // The options that make passable cells weigh differently on this map, set so that they do not.
-std::string waysToOneWeight(const CostGrid& map) {
+std::string oneWeightAdvice(const CostGrid& map) {
   WeightRange free, unknown, occupied;
   const Grid<CostGrid::Weight>& weights = map.weights();
   for (int row = 0; row < weights.height(); ++row)
@@ -116,14 +116,14 @@ std::string waysToOneWeight(const CostGrid& map) {
                                          : occupied)
           .add(weight);
     }
-  std::string ways;
-  const auto add = [&ways](const char* way) {
-    ways += (ways.empty() ? "set " : " and ") + std::string(way);
+  std::string advice;
+  const auto add = [&advice](const char* setting) {
+    advice += (advice.empty() ? "set " : " and ") + std::string(setting);
   };
   if (unknown.most > free.least) add("unknown_is_passable false or unknown_weight to free_weight");
   if (occupied.most > free.least) add("occupied_is_passable false");
   if (free.least != free.most) add("decay 0");
-  return ways;
+  return advice;
 }
 
 // Goals that are blocked cannot be reached; the others may.
@@ -181,7 +181,7 @@ SearchResult Planner::search(const SearchRequest& request, const StopToken& stop
   return result;
 }
 
-std::string Planner::waysToLessMemory() const {
+std::string Planner::lessMemoryAdvice() const {
   return "raise it or search with a larger kernel";
 }
 
@@ -194,7 +194,7 @@ std::string Planner::reasonAgainst(const CostGrid& map) const {
   if (bytes > memory_limit_)
     return sentence("needs ", megabytes(bytes), " MB to search a map of ", sizeOf(map),
                     ", more than its memory_limit of ", megabytes(memory_limit_),
-                    " MB: ", waysToLessMemory());
+                    " MB: ", lessMemoryAdvice());
   return refusal(map);
 }
 
@@ -208,7 +208,7 @@ std::string Planner::refusal(const CostGrid& map) const {
     return "does not plan with cut_corners, which a_star does";
   if (!map.uniform() && !traits_.weights)
     return sentence("plans only where all passable cells weigh the same, and these weigh ",
-                    map.minWeight(), " to ", map.maxWeight(), ": ", waysToOneWeight(map),
+                    map.minWeight(), " to ", map.maxWeight(), ": ", oneWeightAdvice(map),
                     ", or take a_star");
   return "";
 }

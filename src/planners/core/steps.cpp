@@ -11,6 +11,11 @@ using costmap::stepAllowed;
 using grid::Cell;
 using grid::CellRect;
 
+static_assert(kSteps[oppositeStep(0)].column == -kSteps[0].column &&
+              kSteps[oppositeStep(1)].row == -kSteps[1].row &&
+              kSteps[oppositeStep(4)].column == -kSteps[4].column &&
+              kSteps[oppositeStep(5)].column == -kSteps[5].column);
+
 std::array<std::ptrdiff_t, 8> stepOffsets(int width) {
   std::array<std::ptrdiff_t, 8> offsets{};
   for (std::size_t step = 0; step < kSteps.size(); ++step)

@@ -23,13 +23,13 @@ constexpr std::size_t kCells = 4096;  // a few milliseconds
 
 PruningEstimate::Count PruningEstimate::countAt(const CostGrid& map, Cell cell) {
   Count count;
-  const NaturalMoves natural = naturalSteps(windowAt(map, cell));
+  const NaturalMoves natural = naturalMoves(windowAt(map, cell));
   for (unsigned step = 4; step < 8; ++step) {
     const Cell from{cell.column - kSteps[step].column, cell.row - kSteps[step].row};
     if (!stepAllowed(map, from, cell)) continue;
     const unsigned after = natural >> (8 * step) & 255U;
     ++count.steps;
-    if (after != 0 && (after & ~unsigned(kDefaultSteps[step])) == 0) ++count.plain;
+    if (after != 0 && (after & ~unsigned(kNaturalInTheOpen[step])) == 0) ++count.plain;
   }
   return count;
 }

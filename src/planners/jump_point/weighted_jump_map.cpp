@@ -29,7 +29,7 @@ class SolvedWindows {
 
   NaturalMoves steps(const Window& window) {
     Entry& entry = entries_[hashOf(window)];
-    if (!entry.solved || entry.window != window) entry = {naturalSteps(window), window, true};
+    if (!entry.solved || entry.window != window) entry = {naturalMoves(window), window, true};
     return entry.steps;
   }
 
@@ -82,7 +82,7 @@ void WeightedJumpMap::build(const CostGrid& map, const StopToken& stop) {
   kind_of_.clear();
   Window open;
   open.fill(1);
-  kindOf(naturalSteps(open));  // kOpen
+  kindOf(naturalMoves(open));  // kOpen
   kindOf(0);                   // kBlocked
   writeKinds(map, geometry.rect(), stop);
   for (int row = 0; row < geometry.height(); row += kBand)

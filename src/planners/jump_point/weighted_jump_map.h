@@ -69,7 +69,7 @@ class WeightedJumpMap {
   NaturalMoves natural(const costmap::CostGrid& map, std::uint32_t index) const {
     const unsigned kind = marks_[index].kind();
     if (kind != kUnlisted) return steps_[kind];
-    return naturalSteps(windowAt(map, map.geometry().cell(grid::CellIndex(index))));
+    return naturalMoves(windowAt(map, map.geometry().cell(grid::CellIndex(index))));
   }
   // Of these the ones worth taking.
   NaturalMoves steps(const costmap::CostGrid& map, std::uint32_t index) const {

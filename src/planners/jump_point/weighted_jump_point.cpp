@@ -63,9 +63,9 @@ std::size_t WeightedJumpPoint::bytesFor(const GridGeometry& geometry) const {
   return std::max(WeightedJumpSearch::bytesFor(geometry), AStar(options_).bytesFor(geometry));
 }
 
-std::string WeightedJumpPoint::waysToLessMemory() const {
-  const std::string ways = PrecomputedHeuristic::waysToLessMemory(options_);
-  return ways.empty() ? Planner::waysToLessMemory() : ways;
+std::string WeightedJumpPoint::lessMemoryAdvice() const {
+  const std::string ways = PrecomputedHeuristic::lessMemoryAdvice(options_);
+  return ways.empty() ? Planner::lessMemoryAdvice() : ways;
 }
 
 BackgroundWork WeightedJumpPoint::backgroundWork() {

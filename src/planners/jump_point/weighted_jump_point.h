@@ -36,7 +36,7 @@ class WeightedJumpPoint : public Planner {
   void finishBackgroundWork(const base::StopToken& stop) override;
 
  protected:
-  std::string waysToLessMemory() const override;
+  std::string lessMemoryAdvice() const override;
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;

@@ -82,7 +82,7 @@ void WeightedJumpSearch::beginQuery(const CostGrid& map, const SearchRequest& re
   goal_reached_ = too_expensive_ = false;
   counts_ = Statistics();
   const Key bucket = straight_ / kBucketsPerStep;
-  open_.begin(estimate(request.start), 63U - unsigned(__builtin_clzll(bucket)));
+  open_.reset(estimate(request.start), 63U - unsigned(__builtin_clzll(bucket)));
 }
 
 SearchResult WeightedJumpSearch::search(const SearchRequest& request, const StopToken& stop) {
@@ -126,7 +126,7 @@ void WeightedJumpSearch::expandStart(Cell start) {
 void WeightedJumpSearch::expand(std::uint32_t index, Cell cell, Key g) {
   WeightedJumpMap::Mark& mark = jumps_.mark(index);
   const NaturalMoves steps = jumps_.steps(*map_, index);
-  const unsigned fresh = stepsAfter(steps, mark.reached) & ~stepsAfter(steps, mark.expanded);
+  const unsigned fresh = naturalAfter(steps, mark.reached) & ~naturalAfter(steps, mark.expanded);
   mark.expanded = mark.reached;
   ++counts_.expanded;
   take(fresh, index, cell, g);
@@ -167,7 +167,7 @@ void WeightedJumpSearch::runDiagonally(std::uint32_t index, Cell cell, Key g) {
   constexpr unsigned kSide = 1U << kStep;
   constexpr unsigned kRowStep = kStep == 4 || kStep == 7 ? 0 : 2;  // its straight parts
   constexpr unsigned kColumnStep = kStep == 4 || kStep == 5 ? 1 : 3;
-  static_assert(kDefaultSteps[kStep] == (kSide | 1U << kRowStep | 1U << kColumnStep));
+  static_assert(kNaturalInTheOpen[kStep] == (kSide | 1U << kRowStep | 1U << kColumnStep));
   const std::uint32_t offset =
       static_cast<std::uint32_t>(kSteps[kStep].row) * width_ + std::uint32_t(kSteps[kStep].column);
   const Key limit = g + estimate(cell) + kAhead * straight_;
@@ -190,9 +190,9 @@ void WeightedJumpSearch::runDiagonally(std::uint32_t index, Cell cell, Key g) {
     if (hopeless(f) || !improve(index, g)) return;
     WeightedJumpMap::Mark& mark = jumps_.mark(index);
     if ((mark.reached & kSide) != 0) return;
-    const bool turns = (after & ~unsigned(kDefaultSteps[kStep])) != 0;
+    const bool turns = (after & ~unsigned(kNaturalInTheOpen[kStep])) != 0;
     if (turns || f > limit || index == goal_index_) return reach(index, steps, kStep, f);
-    const unsigned fresh = mark.expanded == 0 ? after : after & ~stepsAfter(steps, mark.expanded);
+    const unsigned fresh = mark.expanded == 0 ? after : after & ~naturalAfter(steps, mark.expanded);
     mark.reached |= static_cast<std::uint8_t>(kSide);
     mark.expanded |= static_cast<std::uint8_t>(kSide);
     if ((fresh >> kRowStep & 1U) != 0) runStraight<kRowStep>(cell, g);
@@ -223,7 +223,7 @@ void WeightedJumpSearch::reach(std::uint32_t index, NaturalMoves steps, unsigned
   WeightedJumpMap::Mark& mark = jumps_.mark(index);
   const bool queued = mark.reached != mark.expanded;
   unsigned fresh = steps >> (8 * step) & 255U;
-  if (mark.reached != 0) fresh &= ~stepsAfter(steps, mark.reached);
+  if (mark.reached != 0) fresh &= ~naturalAfter(steps, mark.reached);
   mark.reached |= static_cast<std::uint8_t>(1U << step);
   if (queued) return;
   if (fresh == 0) {

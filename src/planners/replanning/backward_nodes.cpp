@@ -8,11 +8,6 @@ using base::ZeroedArray;
 using costmap::CostGrid;
 using grid::CellRect;
 
-static_assert(kSteps[oppositeStep(0)].column == -kSteps[0].column &&
-              kSteps[oppositeStep(1)].row == -kSteps[1].row &&
-              kSteps[oppositeStep(4)].column == -kSteps[4].column &&
-              kSteps[oppositeStep(5)].column == -kSteps[5].column);
-
 void BackwardNodes::prepare(const CostGrid& map, const MovePruning& moves) {
   moves_ = &moves;
   geometry_ = map.geometry();
@@ -24,7 +19,7 @@ void BackwardNodes::prepare(const CostGrid& map, const MovePruning& moves) {
   stamp_.restart();
 }
 
-void BackwardNodes::begin(Index root) {
+void BackwardNodes::reset(Index root) {
   stamp_.next([this] { words_.clear(); });
   root_ = root;
   set(root, 0, 0, OPEN);

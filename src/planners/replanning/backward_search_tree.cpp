@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "grid_path_planner/planners/bucket_queue.h"
-#include "planners/replanning/cost_decreases.h"
+#include "planners/core/cost_changes.h"
 #include "planners/replanning/inconsistency_scan.h"
 
 namespace grid_path_planner::planners {
@@ -24,19 +24,19 @@ namespace {
 // Half a straight step: see bucket_queue.h.
 constexpr unsigned kBucketShift = 20;
 
-// Of the buckets of what waits for repairs, times the cheapest weight.
+// Width of the open list's buckets at weight 1.
 constexpr SearchKey kQueueWidth = 2 * kPackedScale.straight;
 
-// See serves().
-constexpr std::uint64_t kWorn = 2;
+// See usableFor().
+constexpr std::uint64_t kRebuildRatio = 2;
 
-// Of cells by which the tree grows at first where it holds no way from the start.
-constexpr std::uint64_t kFirstFurther = 4096;
+// How many cells are expanded at first where the tree has no path from the start.
+constexpr std::uint64_t kFirstGrowth = 4096;
 
 }  // namespace
 
 void BackwardSearchTree::prepare(const CostGrid& map, const MovePruning& moves) {
-  begun_ = false;
+  built_ = false;
   nodes_.prepare(map, moves);
   repair_search_.prepare(map);
   open_.prepare(map.geometry());
@@ -46,13 +46,13 @@ void BackwardSearchTree::setRoot(const CostGrid& map, Cell goal, Cell start) {
   overflowed_ = false;
   consistent_below_ = kInfiniteKey;
   goal_ = goal;
-  nodes_.begin(map.geometry().index(goal).value());
-  keys_.begin(nodes_, map, start);
+  nodes_.reset(map.geometry().index(goal).value());
+  keys_.reset(nodes_, map, start);
 }
 
-Status BackwardSearchTree::begin(const CostGrid& map, Cell goal, Cell start, double ahead,
+Status BackwardSearchTree::build(const CostGrid& map, Cell goal, Cell start, double extra,
                                  bool record, SearchResult& result, const StopToken& stop) {
-  begun_ = false;
+  built_ = false;
   path_.clear();
   nodes_.setMap(map);
   setRoot(map, goal, start);
@@ -60,70 +60,69 @@ Status BackwardSearchTree::begin(const CostGrid& map, Cell goal, Cell start, dou
   Statistics& counts = result.statistics;
   StopPoll poll(stop);
   BucketQueue open;
-  open.begin(keys_.of(nodes_.root()), kBucketShift);
-  const auto wait = [&](Index index) { open.push(keys_.of(index), index); };
-  wait(nodes_.root());
+  open.reset(keys_.of(nodes_.root()), kBucketShift);
+  const auto push = [&](Index index) { open.push(keys_.of(index), index); };
+  push(nodes_.root());
 
-  // 1. Until nothing that waits can make the way from the start cheaper; 2. and some more.
+  // 1. Until no open cell can lower the g-value of the start; 2. and `extra` times as many more.
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
   bool found = false;
   while (!open.empty() && counts.expanded < limit) {
     poll();
     counts.peak_open = std::max(counts.peak_open, open.size());
-    if (!found && nodes_.state(from) != BackwardNodes::UNLABELLED &&
-        open.lowest() >= nodes_.g(from)) {
+    if (!found && nodes_.state(from) != BackwardNodes::NEW && open.lowest() >= nodes_.g(from)) {
       found = true;
       limit = counts.expanded +
-              static_cast<std::uint64_t>(ahead * static_cast<double>(counts.expanded));
+              static_cast<std::uint64_t>(extra * static_cast<double>(counts.expanded));
     }
     const Index index = open.pop();
     if (nodes_.state(index) != BackwardNodes::OPEN) continue;
     ++counts.expanded;
     if (record) result.expanded.emplace_back(index);
-    expand(index, counts, wait);
+    expand(index, counts, push);
   }
 
   expanded_ = counts.expanded;
-  detoured_ = 0;
+  repair_expanded_ = 0;
 
-  // 3. What still waits does so for later plans.
-  const bool reached = nodes_.state(from) != BackwardNodes::UNLABELLED;
-  open_.begin(reached ? nodes_.g(from) : 0, kQueueWidth * std::max<SearchKey>(keys_.scale(), 1));
+  // 3. The frontier stays open for later plans.
+  const bool reached = nodes_.state(from) != BackwardNodes::NEW;
+  open_.reset(reached ? nodes_.g(from) : 0, kQueueWidth * std::max<SearchKey>(keys_.scale(), 1));
   while (!open.empty()) {
     const Index index = open.pop();
     if (nodes_.state(index) == BackwardNodes::OPEN) open_.push(keys_, index);
   }
-  begun_ = true;
+  built_ = true;
   return plan(map, start, record, result, stop);
 }
 
 bool BackwardSearchTree::usableFor(const CostGrid& map, Cell goal) const {
-  return begun_ && goal_ == goal && keys_.scale() <= map.minWeight() && keys_.inRange() &&
-         detoured_ <= kWorn * expanded_;
+  return built_ && goal_ == goal && keys_.scale() <= map.minWeight() && keys_.inRange() &&
+         repair_expanded_ <= kRebuildRatio * expanded_;
 }
 
-template <class Wait>
+template <class Push>
 void BackwardSearchTree::relax(Index from, Index to, std::uint32_t step, Statistics& counts,
-                               const Wait& wait) {
-  const SearchKey label = nodes_.g(from) + nodes_.stepKey(from, to, step);
+                               const Push& push) {
+  const SearchKey g = nodes_.g(from) + nodes_.stepKey(from, to, step);
   const State is = nodes_.state(to);
-  if (is != BackwardNodes::UNLABELLED && nodes_.g(to) <= label) return;
-  if (label > BackwardNodes::kLargest) {
+  if (is != BackwardNodes::NEW && nodes_.g(to) <= g) return;
+  if (g > BackwardNodes::kLargest) {
     overflowed_ = true;
     return;
   }
   if (is == BackwardNodes::CLOSED) ++counts.reopened;
-  nodes_.set(to, label, oppositeStep(step), BackwardNodes::OPEN);
-  wait(to);
+  nodes_.set(to, g, oppositeStep(step), BackwardNodes::OPEN);
+  push(to);
   ++counts.generated;
 }
 
-template <class Wait>
-void BackwardSearchTree::expand(Index index, Statistics& counts, const Wait& wait) {
+template <class Push>
+void BackwardSearchTree::expand(Index index, Statistics& counts, const Push& push) {
   nodes_.setState(index, BackwardNodes::CLOSED);
   for (unsigned mask = nodes_.stepsFrom(index); mask != 0; mask &= mask - 1) {
     const auto step = static_cast<std::uint32_t>(__builtin_ctz(mask));
-    relax(index, nodes_.along(index, step), step, counts, wait);
+    relax(index, nodes_.along(index, step), step, counts, push);
   }
 }
 
@@ -131,13 +130,13 @@ template <class Bound, class Lowered>
 std::uint64_t BackwardSearchTree::advance(const Bound& bound, const Lowered& lowered,
                                           std::uint64_t limit, bool record, SearchResult& result,
                                           StopPoll& poll) {
-  const auto wait = [&](Index index) {
+  const auto push = [&](Index index) {
     open_.push(keys_, index);
     lowered(index);
   };
   Statistics& counts = result.statistics;
-  std::uint64_t taken = 0;
-  while (taken < limit) {
+  std::uint64_t expanded = 0;
+  while (expanded < limit) {
     poll();
     if (open_.first(bound(), keys_) == nullptr) break;
     counts.peak_open = std::max(counts.peak_open, open_.size());
@@ -147,12 +146,12 @@ std::uint64_t BackwardSearchTree::advance(const Bound& bound, const Lowered& low
       open_.push(keys_, entry.index);
       continue;
     }
-    ++taken;
+    ++expanded;
     ++counts.expanded;
     if (record) result.expanded.emplace_back(entry.index);
-    expand(entry.index, counts, wait);
+    expand(entry.index, counts, push);
   }
-  return taken;
+  return expanded;
 }
 
 Status BackwardSearchTree::plan(const CostGrid& map, Cell start, bool record, SearchResult& result,
@@ -161,32 +160,32 @@ Status BackwardSearchTree::plan(const CostGrid& map, Cell start, bool record, Se
   nodes_.setMap(map);
   const Index from = map.geometry().index(start).value();
   StopPoll poll(stop);
-  keys_.move(start);
+  keys_.moveStart(start);
   if (lastPathHolds(map, result)) return Status::FOUND;
-  const auto everything = [] { return kInfiniteKey; };
+  const auto unbounded = [] { return kInfiniteKey; };
   const auto below_start = [&] {
-    const bool labelled = nodes_.state(from) != BackwardNodes::UNLABELLED;
-    return labelled ? keys_.withKeyModifier(nodes_.g(from)) : kInfiniteKey;
+    const bool reached = nodes_.state(from) != BackwardNodes::NEW;
+    return reached ? keys_.withKeyModifier(nodes_.g(from)) : kInfiniteKey;
   };
-  const auto below_way = [this] { return keys_.withKeyModifier(repair_search_.cost()); };
-  const auto nobody = [](Index) {};
-  bool concerned = false;
-  const auto theDetour = [&](Index index) {
-    concerned = concerned || repair_search_.affects(nodes_, index);
+  const auto below_path = [this] { return keys_.withKeyModifier(repair_search_.cost()); };
+  const auto ignore = [](Index) {};
+  bool affected = false;
+  const auto checkPath = [&](Index index) {
+    affected = affected || repair_search_.affects(nodes_, index);
   };
-  std::uint64_t further = kFirstFurther;
+  std::uint64_t growth = kFirstGrowth;
   while (true) {
-    // 1. What waits behind the cost of a way cannot make it cheaper; the rest is passed on.
-    advance(below_start, nobody, kUnlimited, record, result, poll);
-    if (nodes_.state(from) == BackwardNodes::UNLABELLED) return unreachable();
+    // 1. Cost decreases are propagated as far as they may lower the g-value of the start.
+    advance(below_start, ignore, kUnlimited, record, result, poll);
+    if (nodes_.state(from) == BackwardNodes::NEW) return unreachable();
 
-    // 2. Around what got dearer.
+    // 2. A path around the cost increases; cost decreases that may lower its cost.
     const bool found = repair_search_.run(nodes_, from, consistent_below_, record, result, poll);
-    detoured_ += repair_search_.expanded();
+    repair_expanded_ += repair_search_.expanded();
     if (found) {
-      concerned = false;
-      advance(below_way, theDetour, kUnlimited, record, result, poll);
-      if (concerned) continue;
+      affected = false;
+      advance(below_path, checkPath, kUnlimited, record, result, poll);
+      if (affected) continue;
       path_ = repair_search_.path(nodes_);
       path_cost_ = exactCostOf(repair_search_.cost(), kPackedScale) * map.kernel();
       result.cells = path_;
@@ -194,11 +193,11 @@ Status BackwardSearchTree::plan(const CostGrid& map, Cell start, bool record, Se
       return Status::FOUND;
     }
 
-    // 3. There is no way over the cells of the tree: it grows.
+    // 3. No path over the cells of the tree: the tree grows.
     overflowed_ = overflowed_ || repair_search_.overflowed();
     if (!repair_search_.leftTheTree()) return unreachable();
-    if (advance(everything, nobody, further, record, result, poll) == 0) return unreachable();
-    further *= 2;
+    if (advance(unbounded, ignore, growth, record, result, poll) == 0) return unreachable();
+    growth *= 2;
   }
 }
 
@@ -219,7 +218,7 @@ Status BackwardSearchTree::unreachable() const {
 
 void BackwardSearchTree::update(const CostGrid& before, const CostGrid& after,
                                 const CellRect& changed) {
-  if (!begun_) return;
+  if (!built_) return;
   nodes_.setMap(after);
   const CellRect all = after.geometry().rect();
   const auto around = [&all](const CellRect& rect) {
@@ -227,57 +226,57 @@ void BackwardSearchTree::update(const CostGrid& before, const CostGrid& after,
   };
   const CostChanges changes =
       costChanges(before.weights(), after.weights(), changed.intersection(all));
-  const CellRect dearer = around(changes.increased), cheaper = around(changes.decreased);
-  const auto got_dearer = [&](Cell cell) { return dearer.contains(cell); };
-  if (!cheaper.empty() || std::any_of(path_.begin(), path_.end(), got_dearer)) path_.clear();
-  onCostIncrease(dearer);
-  onCostDecrease(cheaper);
+  const CellRect increased = around(changes.increased), decreased = around(changes.decreased);
+  const auto isIncreased = [&](Cell cell) { return increased.contains(cell); };
+  if (!decreased.empty() || std::any_of(path_.begin(), path_.end(), isIncreased)) path_.clear();
+  onCostIncrease(increased);
+  onCostDecrease(decreased);
 }
 
-// Along a way labels fall, and it leaves the rectangle over a cell of its border: those that are
-// lower than the labels there are of ways that come nowhere near.
+// g-values decrease along a path, and a path out of the rectangle passes a cell of its border. So
+// paths from cells with lower g-values than all of the border's do not pass the rectangle.
 void BackwardSearchTree::onCostIncrease(const CellRect& rect) {
   if (rect.empty()) return;
   if (rect.contains(goal_)) consistent_below_ = 0;
-  const auto take = [this](int column, int row) {
+  const auto lowerBound = [this](int column, int row) {
     const auto index = static_cast<Index>(nodes_.geometry().index({column, row}).value());
-    if (nodes_.state(index) != BackwardNodes::UNLABELLED)
+    if (nodes_.state(index) != BackwardNodes::NEW)
       consistent_below_ = std::min(consistent_below_, nodes_.g(index));
   };
   const Cell last{rect.column + rect.width - 1, rect.row + rect.height - 1};
   for (int row = rect.row; row <= last.row; ++row) {
-    take(rect.column, row);
-    take(last.column, row);
+    lowerBound(rect.column, row);
+    lowerBound(last.column, row);
   }
   for (int column = rect.column; column <= last.column; ++column) {
-    take(column, rect.row);
-    take(column, last.row);
+    lowerBound(column, rect.row);
+    lowerBound(column, last.row);
   }
 }
 
-// Where a label exceeds a neighbour's and the step there, the neighbour waits from now on.
+// Opens the cells that may lower the g-value of a neighbour: see the invariant.
 void BackwardSearchTree::onCostDecrease(const CellRect& rect) {
   if (rect.empty()) return;
   nodes_.prefetchRows(rect);
-  InconsistencyScan lines(nodes_, rect);
-  lines.forEachSuspect([&](Cell cell) {
+  InconsistencyScan scan(nodes_, rect);
+  scan.forEachSuspect([&](Cell cell) {
     const auto index = static_cast<Index>(nodes_.geometry().index(cell).value());
     const bool east = cell.column + 1 < rect.column + rect.width;
     const bool north = cell.row + 1 < rect.row + rect.height;
-    if (east) compare(index, 0);
-    if (north) compare(index, 1);
+    if (east) checkStep(index, 0);
+    if (north) checkStep(index, 1);
     if (east && north) {
-      compare(index, 4);
-      compare(index + 1, 5);
+      checkStep(index, 4);
+      checkStep(index + 1, 5);
     }
   });
 }
 
-void BackwardSearchTree::compare(Index index, std::uint32_t step) {
+void BackwardSearchTree::checkStep(Index index, std::uint32_t step) {
   const Index other = nodes_.along(index, step);
   const SearchKey length = nodes_.stepKey(index, other, step);
-  const bool known = nodes_.state(index) != BackwardNodes::UNLABELLED;
-  const bool other_known = nodes_.state(other) != BackwardNodes::UNLABELLED;
+  const bool known = nodes_.state(index) != BackwardNodes::NEW;
+  const bool other_known = nodes_.state(other) != BackwardNodes::NEW;
   if (known && (!other_known || nodes_.g(other) > nodes_.g(index) + length))
     markInconsistent(index, step);
   else if (other_known && (!known || nodes_.g(index) > nodes_.g(other) + length))

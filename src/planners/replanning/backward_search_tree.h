@@ -1,26 +1,25 @@
-// The least-cost ways to one goal, kept from plan to plan while the map changes and the start
-// moves: a best-first search backwards from the goal, whose labels stay good as estimates.
+// A backward search tree: the least-cost paths to one goal, kept from plan to plan while the map
+// changes and the start moves.
 //
 //   BackwardSearchTree tree;
 //   tree.prepare(map, moves);                             // moves.update() before tree.update()
-//   tree.begin(map, goal, start, ahead, false, result, stop);
+//   tree.build(map, goal, start, extra, false, result, stop);
 //   tree.update(old_map, new_map, changed);               // cells of `changed` have new weights
 //   tree.plan(new_map, moved_start, false, result, stop);
 //
-// Where the start is on the last way found, nothing got dearer there and nothing cheaper anywhere,
-// the rest of that way is the answer. What got dearer elsewhere is not repaired: a label that a way
-// no longer bears out is a lower bound still, and the search forward from the start
-// (detour_search.h) goes around it. What got cheaper is passed on, as D* Lite does it (Koenig &
-// Likhachev, AAAI 2002): cells whose neighbours may take a better way wait by label + estimate of
-// the way from the start (rising_keys.h, waiting_cells.h), together with the border of the tree,
-// and those behind the cost of the way that is found are never looked at.
+// plan() returns the rest of the last path where the start is on it, no cost on it increased and no
+// cost anywhere decreased. Cost increases elsewhere are not repaired: a g-value whose path is no
+// longer consistent remains a lower bound, and the repair search (repair_search.h) goes around the
+// change. Cost decreases are propagated as D* Lite does it (Koenig & Likhachev, AAAI 2002): the
+// inconsistent cells are in the open list, together with the frontier of the tree, by the keys
+// g-value + heuristic (d_star_keys.h, tiled_open_list.h). Cells whose keys are above the cost of the
+// path found are not expanded.
 //
-// The invariant behind it all: where a label exceeds a neighbour's label and the step there, or is
-// missing, the neighbour waits.
+// Invariant: where a cell's g-value exceeds that of a neighbour plus the step, or is missing, the
+// neighbour is OPEN.
 //
-// Guaranteed: the cost found is the least there is, exactly. Stopped, it goes on where it was at
-// the next call. Not guaranteed: which of equally cheap ways is found; that depends on the calls
-// before.
+// Guaranteed: the cost found is the least there is, exactly. A stopped plan() continues at the next
+// call. Not guaranteed: which of several least-cost paths is found; that depends on earlier calls.
 #pragma once
 
 #include <cstdint>
@@ -41,37 +40,35 @@ class BackwardSearchTree {
   BackwardSearchTree(const BackwardSearchTree&) = delete;
   BackwardSearchTree& operator=(const BackwardSearchTree&) = delete;
 
-  // What grows with a search excluded: what waits, and its detours.
+  // Without the open list and the repair search, which grow with a search.
   static std::size_t bytesFor(const grid::GridGeometry& geometry) {
     return BackwardNodes::bytesFor(geometry);
   }
 
-  // Forgets the tree. `moves` are those of the map of every call, and outlive this.
+  // Removes the tree. `moves` are always those of the present map, and outlive this.
   void prepare(const costmap::CostGrid& map, const MovePruning& moves);
 
-  // `after` differs from `before`, of which everything else here was told, only inside `changed`.
+  // `after` differs from `before`, the map of the last call, only inside `changed`.
   void update(const costmap::CostGrid& before, const costmap::CostGrid& after,
               const grid::CellRect& changed);
 
-  // FOUND or UNREACHABLE.
-  //
-  // Forgets the tree and makes one for `goal`: searches until the least-cost way from `start` is
-  // known, then labels `ahead` times as many cells more, so that later plans need not. Both are
-  // passable. Puts what it does into `result`: cells and cost where FOUND, statistics, and the
-  // cells it took where `record` asks for them. Throws Stopped, and leaves no tree then, and
-  // TooExpensive where only ways were seen that are too dear.
-  base::Status begin(const costmap::CostGrid& map, grid::Cell goal, grid::Cell start, double ahead,
+  // Replaces the tree by one for `goal`: searches until the least-cost path from `start` is known,
+  // then expands `extra` times as many cells more, so that later plans need not. FOUND or
+  // UNREACHABLE. Writes into `result`: cells and cost where FOUND, statistics and, with `record`,
+  // the expanded cells. Throws Stopped, and leaves no tree then, and TooExpensive where all paths
+  // found are too expensive. Precondition: both cells are passable.
+  base::Status build(const costmap::CostGrid& map, grid::Cell goal, grid::Cell start, double extra,
                      bool record, SearchResult& result, const base::StopToken& stop);
-  // Whether a tree for `goal` is there that can be used on `map`, and is worth it: where the
-  // detours took twice as many cells as the tree, it is time for another one.
+  // Whether there is a tree for `goal` that is valid on `map` and still pays: once repair searches
+  // have expanded twice as many cells as the tree, a new tree is better.
   bool usableFor(const costmap::CostGrid& map, grid::Cell goal) const;
 
-  // The least-cost way from `start`, by as much of a search as the changes ask for. Throws as
-  // begin(), and goes on at the next call. Precondition: serves().
+  // The least-cost path from `start`; searches only as far as the changes require. Throws as
+  // build(), and continues at the next call. Precondition: usableFor().
   base::Status plan(const costmap::CostGrid& map, grid::Cell start, bool record,
                     SearchResult& result, const base::StopToken& stop);
 
-  // Of what waits, and of the last detour.
+  // Of the open list and the last repair search.
   std::size_t searchBytes() const { return open_.bytes() + repair_search_.bytes(); }
 
  private:
@@ -80,22 +77,24 @@ class BackwardSearchTree {
 
   void setRoot(const costmap::CostGrid& map, grid::Cell goal, grid::Cell start);
 
-  // wait(index) puts a cell that got a label where it waits.
-  template <class Wait>
-  void expand(Index index, base::Statistics& counts, const Wait& wait);
-  template <class Wait>
-  void relax(Index from, Index to, std::uint32_t step, base::Statistics& counts, const Wait& wait);
-  // Expands what waits with keys below bound(), which may fall meanwhile, at most `limit` cells;
-  // lowered(index) is told of every cell that got a label or a lower one. How many it expanded.
+  // push(index) inserts a cell with a new g-value into the open list.
+  template <class Push>
+  void expand(Index index, base::Statistics& counts, const Push& push);
+  template <class Push>
+  void relax(Index from, Index to, std::uint32_t step, base::Statistics& counts, const Push& push);
+  // Expands open cells with keys below bound(), which may decrease meanwhile, at most `limit` of
+  // them. Calls lowered(index) for every cell whose g-value is new or decreased. Returns how many
+  // cells it expanded.
   template <class Bound, class Lowered>
   std::uint64_t advance(const Bound& bound, const Lowered& lowered, std::uint64_t limit,
                         bool record, SearchResult& result, base::StopPoll& poll);
   void onCostIncrease(const grid::CellRect& rect);
   void onCostDecrease(const grid::CellRect& rect);
-  void compare(Index index, std::uint32_t step);
-  // The cell's neighbour by `step` may take a better way.
+  // Opens the end of the step whose g-value may lower the other end's.
+  void checkStep(Index index, std::uint32_t step);
+  // The cell's neighbour by `step` may be reached at a lower cost.
   void markInconsistent(Index index, std::uint32_t step);
-  // Whether the start lies on the last way and nothing changed that since: what is left of it is
+  // Whether the start is on the last path and that is still the least-cost one: the rest of it is
   // the answer then.
   bool lastPathHolds(const costmap::CostGrid& map, SearchResult& result);
   base::Status unreachable() const;
@@ -104,15 +103,15 @@ class BackwardSearchTree {
   RepairSearch repair_search_;
   DStarKeys keys_;
   TiledOpenList open_;
-  bool begun_ = false;
-  bool overflowed_ = false;  // a label was left out that the keys do not hold
+  bool built_ = false;
+  bool overflowed_ = false;  // a g-value was left out that keys cannot hold
   grid::Cell goal_;
-  // The last one found; none where it got dearer since, or anything got cheaper.
+  // The last one found; empty after a cost increase on it or any cost decrease.
   std::vector<grid::Cell> path_;
   costmap::ExactCost path_cost_;
-  std::uint64_t expanded_ = 0;                 // by the tree
-  std::uint64_t detoured_ = 0;                 // and by detours since it was begun
-  SearchKey consistent_below_ = kInfiniteKey;  // labels below this are supported, all the way
+  std::uint64_t expanded_ = 0;                 // by build()
+  std::uint64_t repair_expanded_ = 0;          // by repair searches since
+  SearchKey consistent_below_ = kInfiniteKey;  // paths from g-values below it are consistent
 };
 
 }  // namespace grid_path_planner::planners

@@ -1,13 +1,13 @@
-// By what cells wait in a search backwards to a start that moves: label + estimate of the way from
-// the start, as D* Lite does it (Koenig & Likhachev, AAAI 2002).
+// The keys of D* Lite (Koenig & Likhachev 2002): g-value + heuristic + key modifier, for a backward
+// search whose start moves.
 //
 //   DStarKeys keys;
-//   keys.begin(labels, map, start);
-//   keys.move(next_start);
-//   if (keys.of(index) < keys.withKeyModifier(cost)) use(index);  // it may matter to a way of that cost
+//   keys.reset(nodes, map, start);
+//   keys.moveStart(next_start);
+//   if (keys.of(index) < keys.withKeyModifier(cost)) use(index);  // a path of that cost may pass it
 //
-// When the start moves, all new keys are raised by the estimate between the old and the new start:
-// so a key told before is a lower bound of the one that would be told now.
+// When the start moves, the key modifier k_m grows by the heuristic between the old and the new
+// start. So a key computed before the move is a lower bound of the key computed after it.
 #pragma once
 
 #include <algorithm>
@@ -21,47 +21,48 @@ class DStarKeys {
  public:
   using Index = BackwardNodes::Index;
 
-  // `labels` outlives this; estimates hold as long as no weight is less than map.cheapest().
-  void begin(const BackwardNodes& labels, const costmap::CostGrid& map, grid::Cell start);
-  void move(grid::Cell start);
+  // `nodes` outlives this. The heuristic is consistent as long as no weight is below
+  // map.minWeight().
+  void reset(const BackwardNodes& nodes, const costmap::CostGrid& map, grid::Cell start);
+  void moveStart(grid::Cell start);
 
-  // Precondition: the cell has a label.
+  // Precondition: the cell has a g-value.
   SearchKey of(Index index) const {
-    return withKeyModifier(labels_->g(index) + estimate(labels_->cell(index), start_));
+    return withKeyModifier(nodes_->g(index) + heuristic(nodes_->cell(index), start_));
   }
-  // What no cell of `rect` is below, if it has no label below `least`.
-  SearchKey leastOf(const grid::CellRect& rect, SearchKey least) const;
-  // What is left of the cell's label in 32 bits.
+  // A lower bound of the keys of the cells of `rect` whose g-values are at least `least_g`.
+  SearchKey lowerBound(const grid::CellRect& rect, SearchKey least_g) const;
+  // The cell's g-value, rounded down to 32 bits.
   std::uint32_t order(Index index) const {
-    return static_cast<std::uint32_t>(labels_->g(index) >> kLabelShift);
+    return static_cast<std::uint32_t>(nodes_->g(index) >> kOrderShift);
   }
-  // What the cell of such a label or cost would wait by at the start.
-  SearchKey withKeyModifier(SearchKey key) const { return key + key_modifier_; }
+  // The key of the start if this is its g-value.
+  SearchKey withKeyModifier(SearchKey g) const { return g + key_modifier_; }
 
-  // The weight that estimates are of.
+  // The weight that the heuristic assumes for every step.
   costmap::CostGrid::Weight scale() const { return scale_; }
-  // Whether keys still hold what they are raised by.
-  bool inRange() const { return key_modifier_ <= kLargestRaise; }
+  // Whether keys with the key modifier cannot overflow.
+  bool inRange() const { return key_modifier_ <= kLargestModifier; }
   grid::Cell start() const { return start_; }
-  const BackwardNodes& labels() const { return *labels_; }
+  const BackwardNodes& nodes() const { return *nodes_; }
 
  private:
-  // Labels, estimates and what keys are raised by must not overflow together.
-  static constexpr SearchKey kLargestEstimate = kInfiniteKey / 4;
-  static constexpr SearchKey kLargestRaise = kInfiniteKey / 4;
-  static_assert(kInfiniteKey - BackwardNodes::kLargest > kLargestEstimate + kLargestRaise);
-  static constexpr unsigned kLabelShift = 11;
-  static_assert(BackwardNodes::kLargest >> kLabelShift <= ~std::uint32_t{0});
+  // The sum of a g-value, a heuristic and the key modifier must not overflow.
+  static constexpr SearchKey kLargestHeuristic = kInfiniteKey / 4;
+  static constexpr SearchKey kLargestModifier = kInfiniteKey / 4;
+  static_assert(kInfiniteKey - BackwardNodes::kLargest > kLargestHeuristic + kLargestModifier);
+  static constexpr unsigned kOrderShift = 11;
+  static_assert(BackwardNodes::kLargest >> kOrderShift <= ~std::uint32_t{0});
 
-  SearchKey estimate(grid::Cell from, grid::Cell to) const {
-    return estimate(std::abs(from.column - to.column), std::abs(from.row - to.row));
+  SearchKey heuristic(grid::Cell from, grid::Cell to) const {
+    return heuristic(std::abs(from.column - to.column), std::abs(from.row - to.row));
   }
-  SearchKey estimate(int columns, int rows) const {
+  SearchKey heuristic(int columns, int rows) const {
     const auto both = static_cast<SearchKey>(std::min(columns, rows));
     return both * diagonal_ + (static_cast<SearchKey>(std::max(columns, rows)) - both) * straight_;
   }
 
-  const BackwardNodes* labels_ = nullptr;
+  const BackwardNodes* nodes_ = nullptr;
   grid::Cell start_;
   SearchKey key_modifier_ = 0;
   costmap::CostGrid::Weight scale_ = 0;

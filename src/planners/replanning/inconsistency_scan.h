@@ -1,11 +1,12 @@
-// A quick look at labels side by side, for those that differ by more than the step between them.
+// Finds cells that may be inconsistent: neighbours whose g-values differ by more than the step
+// between them costs. Compares two cells at a time.
 //
-//   InconsistencyScan lines(labels, rect);
-//   lines.forEachSuspect([&](Cell cell) { use(cell); });  // look closer
+//   InconsistencyScan scan(nodes, rect);
+//   scan.forEachSuspect([&](Cell cell) { use(cell); });  // to be checked exactly
 //
-// Tells of every cell of `rect` from which a step to the east, the north or the north-east, or one
-// from its eastern neighbour to its northern one, may be less than the labels of its ends differ,
-// or lead where there is no label; and of a few others. Compares two cells at a time.
+// Guaranteed: visits every cell of `rect` from which a step to the east, the north or the
+// north-east, or the step from its eastern to its northern neighbour, costs less than the g-values
+// of its ends differ, or leads to a cell without one. Visits a few others.
 #pragma once
 
 #include <array>
@@ -18,8 +19,8 @@ namespace grid_path_planner::planners {
 
 class InconsistencyScan {
  public:
-  // Precondition: `rect` lies in the map of `labels`, which outlives this.
-  InconsistencyScan(const BackwardNodes& labels, const grid::CellRect& rect);
+  // Precondition: `rect` lies in the map of `nodes`, which outlives this.
+  InconsistencyScan(const BackwardNodes& nodes, const grid::CellRect& rect);
 
   template <class Visit>
   void forEachSuspect(const Visit& visit) {
@@ -38,15 +39,15 @@ class InconsistencyScan {
   static constexpr int kTogether = 2;
 
   struct Line {
-    std::vector<double> labels;   // not a number: blocked or outside; infinite: not labelled
+    std::vector<double> g;        // not a number: blocked or outside; infinite: none yet
     std::vector<double> weights;  // 0 where blocked or outside
   };
 
   void fill(Line& line, int row);
-  // Whether there is one among the four pairs of each of the cells from `first` on.
+  // Whether one of the four steps of the cells from `first` on may be inconsistent.
   bool suspect(std::size_t first) const;
 
-  const BackwardNodes& labels_;
+  const BackwardNodes& nodes_;
   grid::CellRect rect_;
   std::array<Line, 2> lines_;  // a row and the one to the north of it
 };

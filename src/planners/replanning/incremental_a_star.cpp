@@ -16,8 +16,8 @@ using grid::GridGeometry;
 
 namespace {
 
-// How many times as many cells are labelled for a new goal as its first plan takes.
-constexpr double kAhead = 3.0;
+// How many times as many cells as its first plan needs are expanded for a new goal.
+constexpr double kExtra = 3.0;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ PlannerTraits IncrementalAStar::declaredTraits() {
 IncrementalAStar::IncrementalAStar() : Planner(declaredTraits()) {}
 
 std::size_t IncrementalAStar::bytesFor(const GridGeometry& geometry) const {
-  return std::max(treeBytes(geometry), AStar().bytesFor(geometry));
+  return std::max(treeBytes(geometry), BucketSearch::bytesFor(geometry));
 }
 
 std::size_t IncrementalAStar::treeBytes(const GridGeometry& geometry) {
@@ -61,7 +61,7 @@ SearchResult IncrementalAStar::doSearch(const SearchRequest& request, const Stop
   } catch (const Stopped& stopped) {
     result.status = stopped.status();
   } catch (const TooExpensive&) {
-    handOver(stop);
+    switchToAStar(stop);
     return a_star_->search(request, stop);
   }
   result.statistics.search_bytes = treeBytes(map().geometry()) + tree_->searchBytes() +
@@ -69,7 +69,7 @@ SearchResult IncrementalAStar::doSearch(const SearchRequest& request, const Stop
   return result;
 }
 
-void IncrementalAStar::handOver(const StopToken& stop) {
+void IncrementalAStar::switchToAStar(const StopToken& stop) {
   auto a_star = std::make_unique<AStar>();
   a_star->prepare(sharedMap(), stop);
   a_star_ = std::move(a_star);
@@ -82,7 +82,7 @@ Status IncrementalAStar::planByTree(const SearchRequest& request, SearchResult& 
   const Cell goal = request.goals.front();
   const bool record = request.record_expanded;
   if (tree_->usableFor(map(), goal)) return tree_->plan(map(), request.start, record, result, stop);
-  return tree_->begin(map(), goal, request.start, kAhead, record, result, stop);
+  return tree_->build(map(), goal, request.start, kExtra, record, result, stop);
 }
 
 }  // namespace grid_path_planner::planners

@@ -1,5 +1,5 @@
-// Replanning for a vehicle on its way: the same goal, a start that moves along, a map that changes
-// a little between two plans.
+// Incremental A* for replanning while the vehicle drives: the goal stays, the start moves, and the map
+// changes a little between two plans.
 //
 //   IncrementalAStar planner;
 //   planner.prepare(map, stop);
@@ -7,19 +7,19 @@
 //   planner.update(changed_map, changed, stop);
 //   planner.search({moved_start, {goal}}, stop);     // a search around the change
 //
-// The labels of the first search are kept (goal_tree.h). Where the map changed so that the way of
-// the start still holds and none can be cheaper, it is the answer; else A* goes from the start as
-// far as the changes reach (detour_search.h), with the labels as estimates: it expands no more
-// cells than A* with an octile estimate does, for the most part a few hundred. What got cheaper is
-// passed on in the labels as far as it may matter. How far that is, the costs decide, never a
+// The g-values of the first search are kept (backward_search_tree.h). Where the start's path is
+// still valid and no cost decrease can improve it, it is the answer. Otherwise A* searches from the
+// start as far as the changes reach (repair_search.h) with the kept g-values as its heuristic: it
+// expands no more cells than A* with the octile heuristic, mostly a few hundred. Cost decreases are
+// propagated through the g-values as far as they may matter. Costs decide how far that is, never a
 // clock.
 //
-// Where a way costs more than the tree's labels hold, 3.2 million cell lengths x weight, a_star
-// takes over until the next prepare().
+// Where a path costs more than the tree's keys can hold, 3.2 million cell lengths x weight, a_star
+// answers until the next prepare().
 //
 // Guaranteed: the least cost, exactly, on every map and motion model. Not guaranteed: which of
-// equally cheap paths, as that depends on the plans before. A single plan for a new goal takes
-// longer than a_star's: without replanning this is not the planner to choose.
+// several least-cost paths is found, as that depends on earlier plans. A single plan for a new goal
+// takes longer than a_star's: choose this planner for replanning only.
 #pragma once
 
 #include <memory>
@@ -49,7 +49,7 @@ class IncrementalAStar : public Planner {
   static std::size_t treeBytes(const grid::GridGeometry& geometry);
   base::Status planByTree(const SearchRequest& request, SearchResult& result,
                           const base::StopToken& stop);
-  void handOver(const base::StopToken& stop);
+  void switchToAStar(const base::StopToken& stop);
 
   MovePruning moves_;
   std::optional<BackwardSearchTree> tree_;

@@ -1,18 +1,19 @@
-// From a start to where a tree of ways to the goal can be believed again: A* whose estimate are the
-// tree's labels, and which ends at the first cell whose way still holds.
+// Repair search: A* forward from the start until it reaches a part of the backward search tree that
+// is still consistent. Its heuristic is the tree's g-values.
 //
-//   RepairSearch detour;
-//   detour.prepare(map);
-//   if (detour.run(labels, start, sound_below, false, result, poll)) use(detour.path(labels));
+//   RepairSearch repair;
+//   repair.prepare(map);
+//   if (repair.run(nodes, start, consistent_below, false, result, poll)) use(repair.path(nodes));
 //
-// After changes on a map a label is a lower bound of what a way from its cell costs (goal_tree.h
-// sees to that), and exactly that cost where every step of the cell's way is supported: it is
-// sound. So the search expands the cells around the changes, whose ways do not hold, and nothing
-// beyond; where the start's own way is sound, nothing at all. It expands no cell that A* with a
-// weaker estimate would not expand.
+// After changes of the map a g-value of the tree is a lower bound of the cost-to-go of its cell
+// (backward_search_tree.h ensures that), and equal to it where every cell of the cell's path is
+// consistent. So the search expands cells around the changes, whose paths are inconsistent, and
+// nothing beyond; where the start's own path is consistent, nothing at all. It expands no cell that
+// A* with a weaker heuristic would not expand.
 //
-// What is found is not written into the labels: it would have to be taken back where the obstacle
-// goes away. Idea: Tree Adaptive A* (Hernandez, Sun, Koenig & Meseguer, AAMAS 2011), which adapts.
+// The path found is not written into the tree: that would have to be undone when the obstacle
+// disappears. Idea: Tree Adaptive A* (Hernandez, Sun, Koenig & Meseguer, AAMAS 2011), which does
+// write it.
 #pragma once
 
 #include <cstdint>
@@ -30,23 +31,23 @@ class RepairSearch {
  public:
   void prepare(const costmap::CostGrid& map);
 
-  // Whether a way was found. `start` has a label, and labels below `sound_below` are of sound ways.
-  // Adds to the result's statistics, and to its cells that were expanded where `record` asks for
-  // them. Throws Stopped.
-  bool run(const BackwardNodes& labels, BackwardNodes::Index start, SearchKey sound_below,
+  // Whether a path was found. Paths of cells with g-values below `consistent_below` are consistent.
+  // Adds to the result's statistics and, with `record`, to its expanded cells. Throws Stopped.
+  // Precondition: `start` has a g-value.
+  bool run(const BackwardNodes& tree, BackwardNodes::Index start, SearchKey consistent_below,
            bool record, SearchResult& result, base::StopPoll& poll);
 
-  // Of what run() found: its cost, how many cells it expanded for it, and the cells from the start
-  // to the goal.
+  // Of the last run(): the cost of the path, the number of expanded cells, and the path's cells from
+  // the start to the goal.
   SearchKey cost() const { return cost_; }
   std::uint64_t expanded() const { return expanded_; }
-  std::vector<grid::Cell> path(const BackwardNodes& labels);
-  // Whether a lower label of the cell may matter to what run() found.
-  bool affects(const BackwardNodes& labels, BackwardNodes::Index index) const;
+  std::vector<grid::Cell> path(const BackwardNodes& tree);
+  // Whether a lower g-value of the cell may make a cheaper path possible than run() found.
+  bool affects(const BackwardNodes& tree, BackwardNodes::Index index) const;
 
-  // Whether run() came past cells without a label.
+  // Whether run() reached cells without a g-value.
   bool leftTheTree() const { return left_the_tree_; }
-  // Whether it left out ways that cost more than keys hold.
+  // Whether run() left out paths that cost more than keys can hold.
   bool overflowed() const { return overflowed_; }
   std::size_t bytes() const { return nodes_.bytes(); }
 
@@ -54,18 +55,18 @@ class RepairSearch {
   using Index = BackwardNodes::Index;
   using Node = TileNodes::Node;
   static constexpr SearchKey kNoCost = BackwardNodes::kLargest;
-  // Notes of a node: whether its way is sound, once known.
-  static constexpr std::uint32_t kSound = 1, kUnsound = 2;
+  // Notes of a node: whether the tree's path from its cell is consistent, once known.
+  static constexpr std::uint32_t kConsistent = 1, kInconsistent = 2;
 
-  bool consistentPath(const BackwardNodes& labels, Index index, grid::Cell cell, Node& first);
-  void expand(const BackwardNodes& labels, Index index, grid::Cell cell, Node& node,
+  bool consistentPath(const BackwardNodes& tree, Index index, grid::Cell cell, Node& first);
+  void expand(const BackwardNodes& tree, Index index, grid::Cell cell, Node& node,
               base::Statistics& counts);
 
   TileNodes nodes_;
   BucketQueue open_;
-  std::vector<Node*> checked_;  // by sound()
+  std::vector<Node*> checked_;  // by consistentPath()
   Index start_ = 0;
-  Index last_ = 0;  // where the tree's way begins
+  Index last_ = 0;  // where the path continues along the tree
   SearchKey consistent_below_ = 0;
   SearchKey cost_ = kNoCost;
   std::uint64_t expanded_ = 0;

@@ -23,7 +23,7 @@ void TileNodes::beginQuery() {
   });
 }
 
-void TileNodes::use(std::size_t place) {
+void TileNodes::addTile(std::size_t place) {
   if (used_.size() == tiles_.size()) tiles_.push_back(std::make_unique<Tile>());
   used_.push_back(place);
   tile_at_[place] = static_cast<std::uint32_t>(used_.size());

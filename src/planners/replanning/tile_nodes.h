@@ -1,15 +1,14 @@
-// What a search over a small part of a large map knows of cells: a best-first search's node a cell,
-// in tiles that are there only where the search has been.
+// Search nodes for a search over a small part of a large map: tiles of nodes that exist only where
+// the search has been.
 //
 //   TileNodes nodes;
 //   nodes.prepare(geometry);
 //   nodes.beginQuery();
-//   TileNodes::Node& node = nodes.at(cell);   // unknown at first: g the largest, no steps
+//   TileNodes::Node& node = nodes.at(cell);   // new: the largest g-value, no steps
 //
-// A tile is found by the cell's column and row without a search. What a query used is used again by
-// the next one, and nothing is cleared: a node carries the number of the query that wrote it. Keys
-// are of kPackedScale. Memory: four bytes for 1024 cells of the map, and 8 KB for each tile of the
-// query that used most.
+// The cell's column and row give its tile. The next query reuses the tiles, and nothing is cleared:
+// a node has the stamp of the query that wrote it (stamped_array.h). Keys are of kPackedScale.
+// Memory: four bytes for 1024 cells of the map, and 8 KB for each tile of the query that used most.
 #pragma once
 
 #include <array>
@@ -26,17 +25,17 @@ namespace grid_path_planner::planners {
 
 class TileNodes {
  public:
-  // 10 bits of query, 43 of largest key - key, 2 of note, 8 of steps, 1 of closed.
+  // 10 bits of stamp, 43 of largest key - key, 2 of note, 8 of steps, 1 of closed.
   class Node {
    public:
     static constexpr SearchKey kUnknown = kPackedScale.largest;
 
     SearchKey g() const { return kUnknown - (word_ >> kKeyShift & kUnknown); }
-    // The steps that led here at this g, bit n for step n of steps.h; closed: expanded since.
+    // The steps that led here at this g-value, bit n for step n of steps.h.
     std::uint32_t steps() const { return static_cast<std::uint32_t>(word_ >> kStepShift) & 0xFFU; }
     bool closed() const { return (word_ & kClosed) != 0; }
-    // No step leads to where a search begins.
-    void begin() { word_ = (word_ & kKept) | kUnknown << kKeyShift; }
+    // The start: g-value 0, no steps.
+    void setStart() { word_ = (word_ & kKept) | kUnknown << kKeyShift; }
     void reach(SearchKey key, unsigned step) {
       word_ = (word_ & kKept) | (kUnknown - key) << kKeyShift | bitOf(step);
     }
@@ -56,7 +55,7 @@ class TileNodes {
     static constexpr unsigned kNoteShift = 9;
     static constexpr unsigned kKeyShift = 11;
     static constexpr unsigned kQueryShift = 54;
-    // The query and the note.
+    // The stamp and the note.
     static constexpr Word kKept = ~Word{0} << kQueryShift | Word{3} << kNoteShift;
 
     static Word bitOf(unsigned step) { return Word{1} << kStepShift << step; }
@@ -64,25 +63,25 @@ class TileNodes {
     Word word_ = 0;
   };
 
-  // Forgets everything.
+  // Removes all nodes.
   void prepare(const grid::GridGeometry& geometry);
   void beginQuery();
 
-  // The reference stays good until the next query.
+  // The reference is valid until the next query.
   Node& at(grid::Cell cell) {
-    const std::size_t place = placeOf(cell);
-    if (tile_at_[place] == 0) use(place);
+    const std::size_t place = tileIndexOf(cell);
+    if (tile_at_[place] == 0) addTile(place);
     return ofThisQuery((*tiles_[tile_at_[place] - 1])[numberIn(cell)]);
   }
-  // Of the cell to which `step` leads, from the node of `cell`; faster than at().
+  // The node of the cell to which `step` leads from `cell`, whose node is `node`; faster than at().
   Node& along(Node& node, grid::Cell cell, std::uint32_t step) {
     if (onBorder(cell)) return at({cell.column + kSteps[step].column, cell.row + kSteps[step].row});
     return ofThisQuery(*(&node + kStepsInTile[step]));
   }
 
-  // Whether the cell was expanded in this query.
+  // Whether the cell is closed in this query.
   bool closed(grid::Cell cell) const {
-    const std::uint32_t tile = tile_at_[placeOf(cell)];
+    const std::uint32_t tile = tile_at_[tileIndexOf(cell)];
     if (tile == 0) return false;
     const Node& node = (*tiles_[tile - 1])[numberIn(cell)];
     return stamp_.wrote(node.word_) && node.closed();
@@ -101,11 +100,11 @@ class TileNodes {
       1, kSide, -1, -kSide, kSide + 1, kSide - 1, -kSide - 1, -kSide + 1};
   using Tile = std::array<Node, std::size_t{1} << (2 * kSideBits)>;
 
-  std::size_t placeOf(grid::Cell cell) const {
+  std::size_t tileIndexOf(grid::Cell cell) const {
     return static_cast<std::size_t>(cell.row >> kSideBits) * across_ +
            static_cast<std::size_t>(cell.column >> kSideBits);
   }
-  // Of its tile.
+  // Whether the cell is at the border of its tile.
   static bool onBorder(grid::Cell cell) {
     const auto column = static_cast<unsigned>(cell.column), row = static_cast<unsigned>(cell.row);
     return (((column + 1) & kMask) < 2) | (((row + 1) & kMask) < 2);
@@ -117,11 +116,11 @@ class TileNodes {
     if (!stamp_.wrote(node.word_)) node.word_ = stamp_.word();
     return node;
   }
-  void use(std::size_t place);
+  void addTile(std::size_t place);
 
   std::size_t across_ = 0;
   QueryStamp<Node::Word, Node::kQueryShift> stamp_;
-  std::vector<std::uint32_t> tile_at_;  // by place: number of a tile + 1, 0 where there is none
+  std::vector<std::uint32_t> tile_at_;  // by index: number of a tile + 1, 0 where there is none
   std::vector<std::unique_ptr<Tile>> tiles_;  // the first ones are used, in the order of used_
   std::vector<std::size_t> used_;             // places
 };

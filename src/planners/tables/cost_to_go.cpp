@@ -33,7 +33,7 @@ void check(const CostGrid& map, const std::vector<Cell>& goals, int threads) {
   if (!complaint.str().empty()) throw InputError(complaint.str());
 }
 
-// Whether costs are likely to fit: a way along both sides at the mean of some of the weights.
+// Whether costs are likely to fit: a path along both sides at the mean of some of the weights.
 bool narrowLikely(const CostGrid& map) {
   constexpr std::size_t kEvery = 61;
   const auto& weights = map.weights().values();
@@ -49,13 +49,13 @@ bool narrowLikely(const CostGrid& map) {
 
 // Throws Stopped and TooExpensive.
 template <class Label>
-void flood(const CostGrid& map, const KeyScale& scale, const std::vector<Cell>& goals, int threads,
-           const StopToken& stop, ZeroedArray<Label>& labels) {
+void compute(const CostGrid& map, const KeyScale& scale, const std::vector<Cell>& goals,
+             int threads, const StopToken& stop, ZeroedArray<Label>& labels) {
   labels = ZeroedArray<Label>(TileLayout::tiles(map.geometry()) * TileLayout::kCells);
-  TiledDijkstra<Label> flood(map, labels, scale, stop);
+  TiledDijkstra<Label> search(map, labels, scale, stop);
   for (const Cell goal : goals)
-    if (map.passable(goal)) flood.addGoal(goal);
-  flood.run(threads);
+    if (map.passable(goal)) search.addGoal(goal);
+  search.run(threads);
 }
 
 }  // namespace
@@ -73,14 +73,14 @@ CostToGo::CostToGo(std::shared_ptr<const CostGrid> map, const std::vector<Cell>&
   check(*map_, goals, threads);
   if (narrowLikely(*map_)) {
     try {
-      flood(*map_, scale_, goals, threads, stop, narrow_);
+      compute(*map_, scale_, goals, threads, stop, narrow_);
       return;
     } catch (const TooExpensive&) {
       narrow_ = ZeroedArray<std::uint32_t>();
     }
   }
   scale_ = kLabelScale;
-  flood(*map_, scale_, goals, threads, stop, wide_);
+  compute(*map_, scale_, goals, threads, stop, wide_);
 }
 
 std::size_t CostToGo::positionOf(Cell cell) const {
@@ -110,8 +110,8 @@ ExactCost CostToGo::cost(Cell cell) const {
   return inCells(cell) * map_->kernel();
 }
 
-// Always to a neighbour from which what is left and the step add up: that is how the label came
-// about.
+// Always to a neighbour whose cost and the step sum up to the cell's cost: there is one, from which
+// the cell was relaxed.
 std::vector<Cell> CostToGo::pathFrom(Cell cell) const {
   assert(reached(cell));
   std::vector<Cell> path = {cell};

@@ -5,14 +5,14 @@
 //   if (field.reached(cell)) field.cost(cell);   // exact, as an optimal planner would report it
 //   std::vector<Cell> path = field.pathFrom(cell);
 //
-// Guaranteed: every cell from which a way leads to a goal has its least cost, no other cell has
+// Guaranteed: every cell from which a path leads to a goal has its least cost, no other cell has
 // one, and neither depends on the number of threads. Paths are of least cost. Reading is safe from
 // any number of threads.
 //
 // The map is cut into tiles of 128x128 cells, small enough for a processor's own cache. A thread
-// takes the tile with the cheapest offer at its border, searches it (buckets, canonical moves) and
-// offers what it found to the tiles around it; tiles are taken again until no offer is cheaper. Few
-// cells are expanded twice since tiles are taken in the order of their offers.
+// takes the tile with the least key among the new paths at its border, searches it (buckets, natural
+// moves) and sends the paths that leave it to the tiles around it. Tiles are searched again until no
+// new path is cheaper. Few cells are expanded twice, since tiles are searched in the order of keys.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ namespace grid_path_planner::planners {
 
 class CostToGo {
  public:
-  // The most that a map of this geometry takes while it is computed: 8 bytes of label a cell (4
+  // The most that a map of this geometry needs while it is computed: 8 bytes of label a cell (4
   // where no cost reaches 47,321 cells x weight), which stay, and 4 that do not.
   static std::size_t bytesFor(const grid::GridGeometry& geometry);
 
@@ -46,7 +46,7 @@ class CostToGo {
   // To the nearest goal, both ends included.
   std::vector<grid::Cell> pathFrom(grid::Cell cell) const;
 
-  // The labels' own scale, in which key() is quickest; kInfiniteKey where a cell is not reached.
+  // The labels' own scale, in which key() is fastest; kInfiniteKey where a cell is not reached.
   const KeyScale& scale() const { return scale_; }
   SearchKey key(grid::Cell cell) const {
     const SearchKey label = labelOf(cell);

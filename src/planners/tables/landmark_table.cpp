@@ -131,8 +131,8 @@ std::uint32_t LandmarkTable::Making::drawRoot() {
   return kNone;
 }
 
-// No two cells that the search reached are farther from each other than twice its longest way; what
-// others reach beyond counts as that far.
+// No two cells that the search reached are farther from each other than twice its longest path;
+// larger costs are rounded down to that.
 void LandmarkTable::Making::chooseUnit() {
   SearchKey longest = 0;
   for (const SearchKey cost : from_.costs())
@@ -167,7 +167,7 @@ std::uint32_t LandmarkTable::Making::worstBounded(std::uint32_t root) {
   return best;
 }
 
-// The size of a cell is the sum, over the cells behind it in the tree of cheapest paths from the
+// The size of a cell is the sum, over the cells behind it in the shortest-path tree of the
 // root, of what the bounds of the present landmarks fall short of the cost.
 void LandmarkTable::Making::weigh(std::uint32_t root) {
   StopPoll poll(stop_, 1 << 14);
@@ -305,20 +305,20 @@ SearchKey CostDecreases::least(const LandmarkTable& table, std::uint32_t index,
   return least;
 }
 
-LandmarkBound::LandmarkBound(const LandmarkTable& table, const CostDecreases& cheaper,
+LandmarkBound::LandmarkBound(const LandmarkTable& table, const CostDecreases& decreases,
                              std::uint32_t goal, const KeyScale& scale)
     : table_(table),
-      cheaper_(cheaper),
+      decreases_(decreases),
       scale_(scale),
       goal_row_(table.row(goal), table.row(goal) + table.stride()) {
-  if (!cheaper_.empty()) goal_to_cheaper_ = cheaper_.least(table_, goal, scale_);
+  if (!decreases_.empty()) goal_to_decreases_ = decreases_.least(table_, goal, scale_);
 }
 
 SearchKey LandmarkBound::operator()(std::uint32_t index) const {
   const Entry difference = largestDifference(table_.row(index), goal_row_.data(), table_.stride());
   const SearchKey unchanged = table_.unit().keyOf(difference, scale_);
-  if (cheaper_.empty()) return unchanged;
-  return std::min(unchanged, cheaper_.least(table_, index, scale_) + goal_to_cheaper_);
+  if (decreases_.empty()) return unchanged;
+  return std::min(unchanged, decreases_.least(table_, index, scale_) + goal_to_decreases_);
 }
 
 }  // namespace grid_path_planner::planners

@@ -28,7 +28,7 @@ std::size_t PrecomputedHeuristic::bytesFor(const SearchOptions& options,
   return 0;
 }
 
-std::string PrecomputedHeuristic::waysToLessMemory(const SearchOptions& options) {
+std::string PrecomputedHeuristic::lessMemoryAdvice(const SearchOptions& options) {
   if (options.heuristic == Heuristic::LANDMARK)
     return "raise it, take fewer landmarks or search with a larger kernel";
   if (options.heuristic == Heuristic::EXACT)

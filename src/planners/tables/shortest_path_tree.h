@@ -1,4 +1,4 @@
-// The costs from one cell to all others, and the tree of cheapest paths behind them.
+// Dijkstra's shortest-path tree: the costs from one cell to all others, and the parent of each.
 #pragma once
 
 #include <algorithm>
@@ -25,10 +25,10 @@ class ShortestPathTree {
   // Throws Stopped and TooExpensive.
   void run(std::uint32_t start);
 
-  // Of the last run; kInfiniteKey where no way leads.
+  // Of the last run; kInfiniteKey for unreachable cells.
   const std::vector<SearchKey>& costs() const { return costs_; }
-  // The last cell but one of the cheapest path to a cell: the first of those that lie on one.
-  // Itself where there is none.
+  // The cell before the last on a least-cost path to a cell: of several the first by step number.
+  // The cell itself where there is none.
   std::uint32_t parent(std::uint32_t index) const;
   const StepMasks& masks() const { return masks_; }
 

@@ -20,7 +20,7 @@ TiledDijkstra<Label>::TiledDijkstra(const CostGrid& map, ZeroedArray<Label>& lab
       rules_(map),
       across_(TileLayout::along(map.geometry().width())),
       steps_(labels.size()),
-      kinds_(labels.size()),
+      classes_(labels.size()),
       weights_(map.uniform() ? 0 : labels.size()),
       tiles_(TileLayout::tiles(map.geometry())) {
   for (std::size_t step = 0; step < lengths_.size(); ++step)
@@ -52,7 +52,7 @@ void TiledDijkstra<Label>::deliver(std::size_t index, const Offer& offer) {
   tile.offers.push_back(offer);
   if (offer.key >= tile.least) return;
   tile.least = offer.key;
-  if (!tile.taken) turns_.push({offer.key, index});
+  if (!tile.busy) turns_.push({offer.key, index});
 }
 
 template <class Label>
@@ -72,16 +72,15 @@ void TiledDijkstra<Label>::work() {
   Worker worker;
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
-    // 1. The tile with the cheapest offer; none is left for good where nobody works either.
+    // 1. The tile with the least offer; there is none for good where no thread works either.
     changed_.wait(lock, [this] { return ended_ || !turns_.empty() || working_ == 0; });
     if (ended_ || turns_.empty()) break;
-    const auto [least, index] = turns_.top();
-    turns_.pop();
+    const auto [least, index] = turns_.pop();
     Tile& tile = tiles_[index];
-    if (tile.taken || tile.least != least) continue;
+    if (tile.busy || tile.least != least) continue;
 
-    // 2. Its search, while others search other tiles.
-    tile.taken = true;
+    // 2. Its search, while other threads search other tiles.
+    tile.busy = true;
     tile.least = kInfiniteKey;
     worker.offers.swap(tile.offers);
     ++working_;
@@ -91,8 +90,8 @@ void TiledDijkstra<Label>::work() {
     lock.lock();
     --working_;
 
-    // 3. What it found for its neighbours, and what they found for it meanwhile.
-    tile.taken = false;
+    // 3. New offers to its neighbours, and those of its neighbours meanwhile.
+    tile.busy = false;
     if (tile.least != kInfiniteKey) turns_.push({tile.least, index});
     for (const Sent& sent : worker.sent) deliver(sent.tile, sent.offer);
     worker.sent.clear();
@@ -107,11 +106,11 @@ void TiledDijkstra<Label>::work() {
 template <class Label>
 typename TiledDijkstra<Label>::View TiledDijkstra<Label>::viewOf(std::size_t tile) {
   const std::size_t first = tile * TileLayout::kCells;
-  return {&labels_[first], &steps_[first], &kinds_[first],
+  return {&labels_[first], &steps_[first], &classes_[first],
           map_.uniform() ? nullptr : &weights_[first]};
 }
 
-// Kinds and weights, and buckets half as wide as a step of the tile's mean weight.
+// Classes and weights, and buckets half as wide as a step of the tile's mean weight.
 template <class Label>
 void TiledDijkstra<Label>::make(std::size_t index) {
   const View view = viewOf(index);
@@ -123,7 +122,7 @@ void TiledDijkstra<Label>::make(std::size_t index) {
   int column = 0;
   forEachEight(map_, rect, StopToken(),
                [&](std::size_t first, int number, const EightCells& cells) {
-                 storeBytes(rules_.neighbourhoodClasses(cells), number, view.kinds + at);
+                 storeBytes(rules_.neighbourhoodClasses(cells), number, view.classes + at);
                  if (view.weights != nullptr)
                    std::copy_n(weights + first, number, view.weights + at);
                  for (std::size_t i = first; i < first + static_cast<std::size_t>(number); ++i) {
@@ -147,8 +146,8 @@ void TiledDijkstra<Label>::search(std::size_t index, Worker& worker) {
   const View view = viewOf(index);
   SearchKey least = kInfiniteKey;
   for (const Offer& offer : worker.offers) least = std::min(least, offer.key);
-  worker.open.begin(least, tiles_[index].bucket_shift);
-  for (const Offer& offer : worker.offers) take(view, offer, worker.open);
+  worker.open.reset(least, tiles_[index].bucket_shift);
+  for (const Offer& offer : worker.offers) relax(view, offer, worker.open);
   worker.offers.clear();
   while (!worker.open.empty() && !worker.too_expensive) {
     const std::uint32_t from = worker.open.pop();
@@ -156,10 +155,9 @@ void TiledDijkstra<Label>::search(std::size_t index, Worker& worker) {
   }
 }
 
-// A cheaper way to a cell of the tile, or one as cheap that leaves open what the known one does
-// not.
+// A cheaper path to a cell of the tile; or one of equal cost, after which other moves are natural.
 template <class Label>
-void TiledDijkstra<Label>::take(const View& view, const Offer& offer, BucketQueue& open) const {
+void TiledDijkstra<Label>::relax(const View& view, const Offer& offer, BucketQueue& open) const {
   Label& label = view.labels[offer.cell];
   std::uint8_t& steps = view.steps[offer.cell];
   const auto offered = static_cast<Label>(scale_.largest - offer.key);
@@ -169,7 +167,7 @@ void TiledDijkstra<Label>::take(const View& view, const Offer& offer, BucketQueu
   if (offered > known) {
     steps = bit;
   } else {
-    if (steps == 0 || !rules_.missing(steps, offer.step, view.kinds[offer.cell])) return;
+    if (steps == 0 || !rules_.missing(steps, offer.step, view.classes[offer.cell])) return;
     steps = static_cast<std::uint8_t>(steps | bit);
     if ((label & kOpen) != 0) return;
   }
@@ -182,7 +180,7 @@ void TiledDijkstra<Label>::expand(std::size_t index, const View& view, std::uint
                                   Worker& worker) {
   view.labels[from] &= ~kOpen;
   const SearchKey cost = keyOf(view.labels[from]);
-  for (std::uint32_t moves = rules_.after(view.steps[from], view.kinds[from]); moves != 0;
+  for (std::uint32_t moves = rules_.after(view.steps[from], view.classes[from]); moves != 0;
        moves &= moves - 1) {
     const auto step = static_cast<std::uint32_t>(__builtin_ctz(moves));
     // In the tile, -1 or kSide: wrapped around, both have bits that no number in the tile has.
@@ -209,7 +207,7 @@ void TiledDijkstra<Label>::expand(std::size_t index, const View& view, std::uint
       return;
     }
     if (inside)
-      take(view, offer, worker.open);
+      relax(view, offer, worker.open);
     else
       worker.sent.push_back({tile, offer});
   }

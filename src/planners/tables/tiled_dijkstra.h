@@ -1,4 +1,4 @@
-// The computation behind CostToGo: threads that search tiles of a map until no label can fall.
+// Tiled Dijkstra: threads search tiles of a map until no label can decrease. See cost_to_go.h.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,6 @@
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <queue>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/base/zeroed_array.h"
 #include "grid_path_planner/costmap/cost_grid.h"
+#include "grid_path_planner/planners/binary_heap.h"
 #include "grid_path_planner/planners/bucket_queue.h"
 #include "grid_path_planner/planners/keys.h"
 #include "grid_path_planner/planners/move_pruning.h"
@@ -23,8 +23,8 @@
 
 namespace grid_path_planner::planners {
 
-// How a map's cells lie in memory tile by tile, so that a tile's rows do not share the same lines
-// of a cache. Tiles at the right and upper border reach beyond the map.
+// The layout of a map's cells in memory, tile by tile, so that a tile's rows do not share the same
+// lines of a cache. Tiles at the right and upper border reach beyond the map.
 struct TileLayout {
   static constexpr std::uint32_t kSide = 128;
   static constexpr std::uint32_t kCells = kSide * kSide;
@@ -60,7 +60,7 @@ class TiledDijkstra {
   static constexpr std::uint32_t kSide = TileLayout::kSide;
   static constexpr Label kOpen = Label{1} << (sizeof(Label) * 8 - 1);
 
-  // A way to a cell, by its number in its tile.
+  // A path to a cell, which has this number in its tile.
   struct Offer {
     SearchKey key;
     std::uint32_t cell;
@@ -72,13 +72,13 @@ class TiledDijkstra {
     Offer offer;
   };
   struct Tile {
-    bool made = false;               // kinds and weights are there
-    bool taken = false;              // by a thread
+    bool made = false;               // classes and weights are there
+    bool busy = false;               // a thread searches it
     SearchKey least = kInfiniteKey;  // of the offers
     unsigned bucket_shift = 0;
     std::vector<Offer> offers;
   };
-  // What a thread has to itself.
+  // The data of a thread.
   struct Worker {
     BucketQueue open;
     std::vector<Offer> offers;
@@ -89,7 +89,7 @@ class TiledDijkstra {
   struct View {
     Label* labels;
     std::uint8_t* steps;
-    PruningRules::NeighbourhoodClass* kinds;
+    PruningRules::NeighbourhoodClass* classes;
     costmap::CostGrid::Weight* weights;  // null where all weigh the same
   };
   using Turn = std::pair<SearchKey, std::size_t>;
@@ -101,7 +101,7 @@ class TiledDijkstra {
   void make(std::size_t tile);
   void search(std::size_t tile, Worker& worker);
   void expand(std::size_t tile, const View& view, std::uint32_t from, Worker& worker);
-  void take(const View& view, const Offer& offer, BucketQueue& open) const;
+  void relax(const View& view, const Offer& offer, BucketQueue& open) const;
   SearchKey keyOf(Label label) const { return scale_.largest - (label & ~kOpen); }
 
   const costmap::CostGrid& map_;
@@ -112,15 +112,15 @@ class TiledDijkstra {
   const std::size_t across_;
   std::array<SearchKey, 8> lengths_{};  // of steps, times the weight where all weigh the same
 
-  // Tile by tile, each only touched by the thread that took the tile.
+  // Tile by tile, only the thread that searches a tile accesses it.
   base::ZeroedArray<std::uint8_t> steps_;  // that led to a cell at its cost
-  base::ZeroedArray<PruningRules::NeighbourhoodClass> kinds_;
+  base::ZeroedArray<PruningRules::NeighbourhoodClass> classes_;
   base::ZeroedArray<costmap::CostGrid::Weight> weights_;
 
   std::mutex mutex_;  // of all below
   std::condition_variable changed_;
   std::vector<Tile> tiles_;
-  std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;  // outdated ones among them
+  BinaryHeap<Turn, std::greater<>> turns_;  // some are out of date
   int working_ = 0;
   bool ended_ = false;
   bool too_expensive_ = false;

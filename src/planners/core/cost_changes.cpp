@@ -1,4 +1,4 @@
-#include "planners/replanning/cost_decreases.h"
+#include "planners/core/cost_changes.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -22,9 +22,9 @@ bool any(const Eight& comparison) {
   return (halves[0] | halves[1]) != 0;
 }
 
-// The first `number` weights less one, so that blocked, which is 0, is the dearest; zeros after
+// The first `number` weights minus 1, so that blocked, which is 0, becomes the largest; zeros after
 // them.
-Eight dearness(const CostGrid::Weight* weights, int number) {
+Eight minusOne(const CostGrid::Weight* weights, int number) {
   Eight eight = Eight{} + 1;
   if (number == kTogether)
     std::memcpy(&eight, weights, sizeof eight);
@@ -33,7 +33,7 @@ Eight dearness(const CostGrid::Weight* weights, int number) {
   return eight - 1;
 }
 
-// A rectangle around cells that are told by eights, row after row.
+// The smallest rectangle around cells that are added eight at a time, row after row.
 class Hull {
  public:
   explicit Hull(const CellRect& rect)
@@ -69,19 +69,19 @@ class Hull {
 
 CostChanges costChanges(const Grid<CostGrid::Weight>& before, const Grid<CostGrid::Weight>& after,
                         const CellRect& rect) {
-  Hull dearer(rect), cheaper(rect);
+  Hull increased(rect), decreased(rect);
   for (int row = rect.row; row < rect.row + rect.height; ++row) {
     const CostGrid::Weight* old = before.row(row) + rect.column;
     const CostGrid::Weight* now = after.row(row) + rect.column;
     std::size_t eight = 0;
     for (int done = 0; done < rect.width; done += kTogether, ++eight) {
       const int number = std::min(kTogether, rect.width - done);
-      const Eight was = dearness(old + done, number), is = dearness(now + done, number);
-      dearer.add(row, eight, reinterpret_cast<Eight>(is > was));
-      cheaper.add(row, eight, reinterpret_cast<Eight>(is < was));
+      const Eight was = minusOne(old + done, number), is = minusOne(now + done, number);
+      increased.add(row, eight, reinterpret_cast<Eight>(is > was));
+      decreased.add(row, eight, reinterpret_cast<Eight>(is < was));
     }
   }
-  return {dearer.rect(), cheaper.rect()};
+  return {increased.rect(), decreased.rect()};
 }
 
 }  // namespace grid_path_planner::planners

@@ -1,8 +1,8 @@
-// Where the weights of a map rose and where they fell.
+// Where the weights of a map increased and where they decreased.
 //
 //   const CostChanges changes = costChanges(before.weights(), after.weights(), changed);
 //
-// Eight cells are compared at a time. Blocked is dearer than any weight.
+// Compares eight cells at a time. Blocked counts as more than any weight.
 #pragma once
 
 #include "grid_path_planner/costmap/cost_grid.h"
@@ -10,8 +10,7 @@
 
 namespace grid_path_planner::planners {
 
-// The smallest rectangles around the cells that became dearer, and around those that became
-// cheaper.
+// The smallest rectangles around the cells whose weights increased and decreased.
 struct CostChanges {
   grid::CellRect increased;
   grid::CellRect decreased;
