@@ -103,7 +103,8 @@ TriangleMesh cylinderMesh(const std::string& name, double radius, double length)
 
 TriangleMesh sphereMesh(const std::string& name, double radius) {
   checkLength(name, "the radius of a sphere", radius);
-  const int corners = circleCorners(radius, 0.5 * allowedError(radius));  // bent both ways
+  const int corners =
+      circleCorners(radius, 0.5 * allowedError(radius));  // curved in two directions
   const int rings = corners / 2;
   TriangleMesh mesh{name, {}, {}};
   for (int ring = 0; ring < rings; ++ring) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTail = 0.025;           // on either side: 95 % confidence
-constexpr double kNormalTail = 1.959964;  // standard deviations that leave kTail outside
+constexpr double kNormalTail = 1.959964;  // standard deviations with kTail outside
 
 }  // namespace
 

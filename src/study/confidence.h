@@ -1,9 +1,9 @@
-// How sure a figure is: intervals at 95 % confidence.
+// Confidence intervals at 95 %.
 //
 // Times are compared in pairs (the same query on the same setting) and as ratios, since planning
-// times spread over decades. A difference counts only where the interval leaves out 1. What is
-// sampled are the queries: one query under several weights is not several samples, so every figure
-// is first averaged for each query.
+// times spread over decades. A difference counts only where the interval excludes 1. The samples are
+// the queries: one query under several weights is not several samples, so every figure is first
+// averaged over each query.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ struct Interval {
 };
 
 // The geometric mean of `ratios` (positive), with Student's t interval of their logarithms. One
-// ratio alone says nothing of its spread: low 0 and high infinity. Precondition: not empty.
+// single ratio has no known spread: low 0 and high infinity. Precondition: not empty.
 Interval meanRatio(const std::vector<double>& ratios);
 
-// Whether an interval of a ratio leaves out 1.
+// Whether the interval of a ratio excludes 1.
 inline bool differs(const Interval& ratio) {
   return ratio.low > 1.0 || ratio.high < 1.0;
 }

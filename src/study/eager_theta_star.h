@@ -1,6 +1,6 @@
-// Theta* as first published: where a cell is reached, the segment from its parent's parent is
-// looked along at once, and taken where it is legal and no dearer than the step; not where even at
-// the cheapest weight it could not better what is known.
+// Theta* as first published: when a cell is generated, the segment from its parent's parent is checked
+// at once, and used where it has line of sight and costs no more than the step. The check is skipped
+// where even at the minimum weight the segment could not improve the known g-value.
 #pragma once
 
 #include "grid_path_planner/planners/theta_star.h"

@@ -22,7 +22,7 @@ using base::InputError;
 
 namespace {
 
-// Before the text of an answer.
+// Precedes the text of an answer.
 struct AnswerHead {
   std::uint64_t size = 0;
   std::uint8_t failed = 0;
@@ -52,7 +52,7 @@ bool readAll(int descriptor, void* data, std::size_t size) {
   return true;
 }
 
-// What a child does until its parent closes the pipe.
+// The loop of a child, until its parent closes the pipe.
 void serve(int from_parent, int to_parent, const ProcessPool::Work& work) {
   std::uint64_t task = 0;
   while (readAll(from_parent, &task, sizeof task)) {
@@ -84,7 +84,7 @@ std::string howItEnded(int status) {
 }  // namespace
 
 ProcessPool::ProcessPool(std::size_t processes, Work work) : work_(std::move(work)) {
-  ::signal(SIGPIPE, SIG_IGN);  // a lost child is told by write()
+  ::signal(SIGPIPE, SIG_IGN);  // write() reports a lost child
   for (std::size_t i = 0; i < processes; ++i) children_.push_back(makeChild());
 }
 
@@ -161,7 +161,7 @@ void ProcessPool::replace(Child& child, TaskEnd& end) {
   child = makeChild();
 }
 
-// Takes what there is; true where the task has ended by it.
+// Reads the available bytes; true where they complete the task.
 bool ProcessPool::receive(Child& child, TaskEnd& end) {
   char buffer[1 << 16];
   const ssize_t got = ::read(child.from, buffer, sizeof buffer);

@@ -1,6 +1,6 @@
 // The original study's programs, so that it can be repeated: A* that stops when the goal is
 // generated, not when it is expanded, and A* that adds to its estimate a thousandth of the cross
-// product for every cell off the straight line. Both claim nothing.
+// product for every cell off the straight line. Neither guarantees a least cost.
 #pragma once
 
 #include "grid_path_planner/planners/a_star.h"

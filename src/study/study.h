@@ -1,9 +1,9 @@
-// What a study compares: maps x settings of the terrain x queries, and on each of those every
-// planner with every heuristic and tie-break.
+// A study: maps x settings of the costmap x queries, and on each of these every planner with every
+// heuristic and tie-break.
 //
 //   Study study = readStudyFile("config/study_thesis.yaml");
 //
-// A *setting* is what makes the problem (map, kernel, rule, weights), a *variant* what solves it
+// A *setting* defines the problem (map, kernel, rule, weights), a *variant* solves it
 // (planner, heuristic, tie-break). Variants are compared on the same setting and query, never
 // across.
 #pragma once
@@ -24,7 +24,7 @@ struct CellPair {
   grid::Cell goal;
 };
 
-// Where the queries on a map come from; all of those given are taken, in this order.
+// The sources of the queries on a map; all given ones are used, in this order.
 struct QuerySource {
   std::vector<CellPair> pairs;  // cells of the full map
   int random_count = 0;         // pairs of free cells, of which one can be reached from the other
@@ -61,7 +61,7 @@ struct StudySetting {
   costmap::CostmapOptions terrain;
 };
 
-// What was published about the same comparison, to stand beside what is found.
+// Published figures of the same comparison, shown beside the measured ones.
 struct PublishedFigures {
   std::string source;                                   // "" where nothing was published
   std::map<std::string, std::map<int, double>> time_s;  // by variant and kernel
@@ -78,13 +78,13 @@ struct Study {
   std::vector<StudyMap> maps;
   std::vector<StudySetting> settings;
   std::vector<StudyVariant> variants;
-  planning::PlannerOptions base;  // what settings and variants do not say
+  planning::PlannerOptions base;  // options that settings and variants do not set
   int repeats = 5;                // of each run, for its time
   PublishedFigures published;
 };
 
-// Relative file names in it are meant from its folder. Throws InputError naming the file and the
-// line: unknown keys, planners and options, empty lists, the same entry twice.
+// File names in it are relative to its folder. Throws InputError naming the file and the line for
+// unknown keys, planners and options, empty lists, and the same entry twice.
 Study readStudyFile(const std::string& file);
 
 }  // namespace grid_path_planner::study

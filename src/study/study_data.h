@@ -1,4 +1,4 @@
-// The runs of a study, looked up by what was asked and who answered.
+// The runs of a study, indexed by unit and variant.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ double medianTime(const StudyRun& run);  // ms
 // The runs of one query on one setting, by variant; a null pointer where there is none.
 using UnitRow = std::vector<const StudyRun*>;
 
-// Settings that differ in weights only: they have the same number of cells to search.
+// Settings that differ only in weights have the same number of cells to search.
 struct ProblemSize {
   std::size_t map = 0;
   int kernel = 1;
@@ -34,13 +34,13 @@ struct ProblemSize {
   friend bool operator!=(const ProblemSize& a, const ProblemSize& b) { return !(a == b); }
 };
 
-// A query of a map: what is sampled.
+// A query of a map: the unit of sampling.
 using QueryKey = std::pair<std::size_t, std::size_t>;
 
-// One number a query: the geometric mean of those added to it.
+// One ratio for each query: the geometric mean of the ratios added to it.
 class RatiosByQuery {
  public:
-  // Passed over where one is not positive.
+  // No effect unless both are positive.
   void add(const QueryKey& query, double numerator, double denominator);
   std::vector<double> values() const;
 
@@ -65,7 +65,7 @@ class StudyData {
   ProblemSize sizeOf(std::size_t setting) const;
   std::vector<ProblemSize> sizes() const;  // in the order of the settings
 
-  // The variant that the others are compared with: Dijkstra, or the first.
+  // The variant with which the others are compared: Dijkstra, or the first.
   std::size_t baseline() const;
 
   // value(a) / value(b) for every query on `size` (null: any), geometric means over the settings

@@ -54,7 +54,7 @@ std::string stemOf(const std::string& file) {
   return base.substr(0, base.rfind('.'));
 }
 
-// Reads one study file; every method takes a node of it and says what is wrong at its line.
+// Reads one study file; every method reads a node of it and reports errors with its line.
 class StudyReader {
  public:
   explicit StudyReader(const std::string& file) : file_(file) {}
@@ -161,7 +161,7 @@ class StudyReader {
     }
   }
 
-  // An option that a list of the study replaces would be read and have no effect.
+  // An option that a list of the study replaces would have no effect.
   void refuseSaidTwice(const YAML::Node& root) const {
     static const std::map<std::string, std::string> lists = {
         {"planner", "planners"},       {"heuristic", "heuristics"},     {"tie_break", "tie_breaks"},

@@ -1,8 +1,8 @@
-// The folder that a study writes into: its runs as they come in, so that an interrupted study goes
-// on where it was, and a lock, so that two studies do not write into one folder.
+// The folder into which a study writes: its runs, unit by unit, so that an interrupted study can be
+// resumed, and a lock, so that two studies do not write into one folder.
 //
-// runs.jsonl holds a line a run behind one that says which study they are of. A line that was cut
-// off (by a full disk, a lost power) is dropped when the study is resumed, with its unit.
+// runs.jsonl holds a line with the fingerprint of the study and then a line for each run. A line that
+// was cut off (by a full disk, a lost power) is dropped when the study is resumed, with its unit.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,11 @@ class StudyFolder {
   StudyFolder(const StudyFolder&) = delete;
   StudyFolder& operator=(const StudyFolder&) = delete;
 
-  // The runs that were there.
+  // The runs of earlier sessions.
   const std::vector<StudyRun>& runs() const { return runs_; }
 
   // Adds the runs of a finished unit. Throws InputError naming the file where they cannot be
-  // written; what was there before stays whole.
+  // written; earlier runs stay intact.
   void add(const std::string& lines);
 
   std::string file(const std::string& name) const { return folder_ + '/' + name; }

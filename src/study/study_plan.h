@@ -1,7 +1,4 @@
-// A study with its maps read and its queries chosen: everything that is to be run, in order.
-//
-// The work is cut into units: one query on one setting, by every variant. A unit is what is handed
-// to a worker, what is lost with one, and what an interrupted study resumes after.
+// A study with its maps and queries: the units that are to be run, in order (study_job.h).
 #pragma once
 
 #include <functional>
@@ -35,7 +32,7 @@ class StudyPlan {
   // "dexrov_site, kernel 3 filter2d, weights 1/50/100, (30, 30) to (360, 360)"
   std::string nameOf(const StudyUnit& unit) const;
 
-  // A number that differs, in all likelihood, where the plan does: file, maps, queries.
+  // A hash of the plan: options, maps, queries.
   std::uint64_t fingerprint() const;
 
  private:

@@ -1,10 +1,10 @@
-// The planners of a study: those of the package, and programs that exist to be compared with.
+// The planners of a study: those of the package, and published ones for comparison.
 //
 //   std::unique_ptr<Planner> planner = makeStudyPlanner("a_star_published", options, false);
 //
-// `theta_star` is Theta* as first published, which lazy_theta_star does better; `a_star_published`
-// is the original study's program, and tie-break `cross_product_published` what it added to its
-// estimates. None of the three is for driving, so path_planner and `grid_path plan` know none.
+// `theta_star` is Theta* as first published, superseded by lazy_theta_star; `a_star_published` is the
+// original study's program, and tie-break `cross_product_published` the term that it added to its
+// estimates. None of the three is for driving, so path_planner and `grid_path plan` have none.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ namespace grid_path_planner::study {
 enum class StudyTieBreak { NONE, LARGER_G, CROSS_PRODUCT, CROSS_PRODUCT_PUBLISHED };
 const std::vector<std::pair<const char*, StudyTieBreak>>& choicesOf(StudyTieBreak);
 
-// What planners that know no published tie-break are given: one that keeps as strict an order.
+// The tie-break for planners without the published one: as strict an order.
 planners::TieBreak orderOf(StudyTieBreak tie_break);
 
 // With `published_cross`, tie-break cross_product_published takes the place of options.tie_break.
@@ -29,7 +29,7 @@ std::unique_ptr<planners::Planner> makeStudyPlanner(const std::string& name,
                                                     const planners::SearchOptions& options,
                                                     bool published_cross);
 
-// Whether the package's planners lack it.
+// Whether it is not among the package's planners.
 bool inStudiesOnly(const std::string& planner, bool published_cross);
 
 }  // namespace grid_path_planner::study

@@ -1,4 +1,4 @@
-// The questions that a study asks on one map.
+// The queries of a study on one map.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace grid_path_planner::study {
 struct StudyQuery {
   grid::Cell start;
   grid::Cell goal;
-  std::string note;  // which end was blocked and what took its place, "" where none was
+  std::string note;  // which end was blocked and which cell replaced it; "" where none was
 };
 
 // The queries of `map` on `occupancy`. Ends that are occupied or too near to something that is (by

@@ -1,4 +1,4 @@
-// What one variant made of one query on one setting, measured `repeats` times.
+// The result of one variant for one query on one setting, timed `repeats` times.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,19 @@ struct StudyRun {
   std::size_t variant = 0;
   grid::Cell start;  // cells of the full map
   grid::Cell goal;
-  std::string note;  // what became of the query's ends
+  std::string note;  // StudyQuery::note
 
   base::Status status = base::Status::NO_MAP;
   std::string message;
   double cost = 0.0;     // in cells x weight; with everything below only where FOUND
-  double optimum = 0.0;  // the least cost by grid steps on the same setting; 0: there is no way
+  double optimum = 0.0;  // the least cost by grid steps on the same setting; 0: there is no path
   double length_m = 0.0;
   double turning_rad = 0.0;
   double clearance_m = 0.0;  // to occupied cells of the full map; infinite where there are none
   double unknown_m = 0.0;    // metres of the path through unknown cells of the full map
   double occupied_m = 0.0;
   std::uint64_t cells = 0;     // of the path, on the map searched; the original's "explored"
-  std::uint64_t expanded = 0;  // whatever the status, as the three below
+  std::uint64_t expanded = 0;  // for every status, as the two below
   std::uint64_t generated = 0;
   std::uint64_t bytes = 0;
   std::vector<double> times_ms;  // of each repeat, planning alone
@@ -36,7 +36,7 @@ struct StudyRun {
   std::vector<float> path_xy;  // x, y in metres, for pictures
 };
 
-// One line of JSON, and back. Throws InputError for a line that is none of these.
+// One line of JSON, and back. Throws InputError for a line of another form.
 std::string lineOf(const StudyRun& run);
 StudyRun runFromLine(const std::string& line);
 

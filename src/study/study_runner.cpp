@@ -13,7 +13,7 @@ using base::StopToken;
 
 namespace {
 
-constexpr int kWaitMs = 200;  // between two looks at the stop token
+constexpr int kWaitMs = 200;  // between two checks of the stop token
 
 // Runs by unit.
 class UnitRuns {
@@ -28,7 +28,7 @@ class UnitRuns {
     if (unit != unit_.end()) runs_[unit->second][run.variant] = run;
   }
 
-  // Not so where a unit's lines were cut off: it is begun again.
+  // False where a unit's lines were cut off: it is run again.
   bool done(std::size_t unit) const { return runs_[unit].size() == plan_.study().variants.size(); }
 
   std::vector<StudyRun> inOrder() const {

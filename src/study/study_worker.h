@@ -1,8 +1,8 @@
 // Runs units of a study, one after the other.
 //
-// Every variant plans the same query `repeats` times, the variants in turn, so that what slows the
-// machine for a while slows all of them alike. The least cost by grid steps is found once more by
-// Dijkstra, whether that is among the variants or not.
+// Every variant plans the same query `repeats` times, the variants in turn, so that a temporary load
+// on the machine slows all of them alike. Dijkstra finds the least cost of grid steps in addition,
+// whether it is among the variants or not.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace grid_path_planner::study {
 
 class StudyWorker {
  public:
-  // Of how many queries a map the paths are kept: a picture with more shows nothing.
+  // For how many queries of a map paths are stored for the picture, which more would obscure.
   static constexpr std::size_t kDrawnQueries = 12;
 
   // `plan` outlives the worker.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grid_path_planner/mapping/octree_map.h"
+#include "mapping/insertion/ground_filter.h"
 #include "support/error_text.h"
 #include "support/option_laws.h"
 

@@ -1,12 +1,12 @@
-// Work done by child processes, so that one that crashes or is killed takes nothing with it but
-// the task it was at.
+// Tasks done by child processes, so that a child that crashes or is killed loses only its present
+// task.
 //
 //   ProcessPool pool(2, [&](std::size_t number) { return done(units[number]); });
 //   if (pool.idle() > 0) pool.start(task);
 //   for (const TaskEnd& end : pool.wait(100)) use(end.task, end.text);
 //
-// The children are forks: they see all that was in memory when the pool was made. A child that is
-// lost is replaced by a new fork. Not thread-safe; make it before other threads are started.
+// The children are forks with a copy of the memory at the construction of the pool. A lost child is
+// replaced by a new fork. Not thread-safe; construct it before other threads are started.
 #pragma once
 
 #include <sys/types.h>
@@ -24,10 +24,10 @@ class ProcessPool : public WorkerGroup {
  public:
   using Work = std::function<std::string(std::size_t task)>;
 
-  // Throws InputError where no process can be had. An exception that `work` throws is a failed
+  // Throws InputError where no process can be created. An exception that `work` throws is a failed
   // task, not a lost child.
   ProcessPool(std::size_t processes, Work work);
-  ~ProcessPool() override;  // ends the children, whatever they are at
+  ~ProcessPool() override;  // kills the children, also while they work
   ProcessPool(const ProcessPool&) = delete;
   ProcessPool& operator=(const ProcessPool&) = delete;
 

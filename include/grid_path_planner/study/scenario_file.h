@@ -22,7 +22,7 @@ struct ScenarioQuery {
 // Throws InputError naming file and line.
 std::vector<ScenarioQuery> readScenarioFile(const std::string& file);
 
-// `limit` of them, evenly over the file; all where it is 0 or not less than their number.
+// `limit` of the queries, evenly over the file; all where it is 0 or not below their number.
 std::vector<ScenarioQuery> spreadOver(const std::vector<ScenarioQuery>& queries, std::size_t limit);
 
 // Throws InputError where the query, of `file`, is for a map of another size.

@@ -1,4 +1,4 @@
-// Those who do numbered tasks: child processes, or the ranks of an MPI run.
+// Workers for numbered tasks: child processes, or the ranks of an MPI run.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Words that the findings share.
+// Texts and cells that several findings use.
 #pragma once
 
 #include <string>
@@ -41,7 +41,7 @@ inline std::string sizeText(const StudyData& data, const ProblemSize& size) {
   return text;
 }
 
-// The median of `values`, or none to show.
+// The median of `values`, or a dash without values.
 inline TableCell medianCell(const std::vector<double>& values) {
   if (values.empty()) return "–";
   return TableCell(quantileOf(values, 0.5), 3);

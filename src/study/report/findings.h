@@ -1,7 +1,7 @@
-// What a study found, as questions with a table and sentences for an answer. Where figures were
-// published they stand beside what was found, and a sentence says whether the conclusion holds.
+// The findings of a study: questions, each with a table and sentences as an answer. Published figures
+// stand beside the measured ones, and a sentence says whether the published conclusion holds.
 //
-// No sentence claims a difference whose 95 % interval leaves room for none.
+// No sentence claims a difference whose 95 % interval includes none.
 #pragma once
 
 #include <string>
@@ -25,10 +25,10 @@ Finding shortestFinding(const StudyData& data);  // which heuristic gives the sh
 Finding optimalFinding(const StudyData& data);   // how far from the least cost
 Finding weightsFinding(const StudyData& data);   // where weights send paths
 
-// Those that the study has something to say about.
+// The findings for which the study has data.
 std::vector<Finding> findingsOf(const StudyData& data);
 
-// Every run as a row.
+// One row for each run.
 Table runsTable(const StudyData& data);
 
 }  // namespace grid_path_planner::study

@@ -5,7 +5,7 @@
 
 namespace grid_path_planner::study {
 
-// With the characters that mean something in HTML escaped.
+// With the special characters of HTML escaped.
 inline std::string escaped(const std::string& text) {
   std::string out;
   for (const char letter : text) {
@@ -23,7 +23,7 @@ inline std::string escaped(const std::string& text) {
   return out;
 }
 
-// JSON that may stand in a script element: nothing in it ends the element.
+// JSON for a script element: nothing in it ends the element.
 inline std::string scriptSafe(const std::string& json) {
   std::string out;
   for (const char letter : json)

@@ -37,7 +37,7 @@ Gaps gapsOf(const StudyData& data, std::size_t variant) {
   return gaps;
 }
 
-// What makes paths of the same least cost look unlike: their length. "" where nothing does.
+// How paths of the same least cost differ in length; "" where they do not.
 std::string lengthsAnswer(const StudyData& data, std::size_t dijkstra) {
   std::string text;
   double largest = 1.0;
@@ -74,7 +74,7 @@ std::string dijkstraAnswer(const StudyData& data, const Gaps& gaps) {
          "least length.";
 }
 
-// What the correct A* makes of the same heuristic says whose fault a missed cost is.
+// The correct A* with the same heuristic shows whether the heuristic or the program misses the cost.
 std::string correctAnswer(const StudyData& data, const StudyVariant& published, const Gaps& gaps) {
   for (std::size_t variant = 0; variant < data.study().variants.size(); ++variant) {
     const StudyVariant& each = data.study().variants[variant];

@@ -1,4 +1,4 @@
-// What a study leaves for people and programs: report.html, tables as CSV, everything as JSON.
+// The report of a study: report.html, tables as CSV, everything as JSON.
 #pragma once
 
 #include <string>
@@ -10,9 +10,8 @@
 
 namespace grid_path_planner::study {
 
-// One file that needs no other and no network: summary, findings with charts and tables that sort,
-// and a picture a map and kernel with the paths of all variants over each other. `command` is what
-// made it.
+// One self-contained file: summary, findings with charts and sortable tables, and for each map and
+// kernel a picture with the paths of all variants. `command` is the command line that made it.
 std::string reportHtml(const StudyData& data, const std::vector<Finding>& findings,
                        const std::vector<StudyFailure>& failures, const std::string& command);
 
@@ -23,7 +22,7 @@ std::string csvOf(const Table& table);
 std::string jsonReport(const StudyData& data, const std::vector<Finding>& findings,
                        const std::vector<StudyFailure>& failures);
 
-// The command that makes `run` again, map and ends included; "" for what is in studies only.
+// The command that repeats `run`, with map and ends; "" for planners that only studies have.
 std::string planCommand(const StudyData& data, const StudyRun& run);
 
 }  // namespace grid_path_planner::study

@@ -20,7 +20,7 @@ constexpr double kPlotHeight = 300.0;
 constexpr double kLegendLine = 20.0;
 constexpr std::size_t kLegendColumns = 3;
 
-// Values to places on a logarithmic axis of whole decades' thirds.
+// Maps values to coordinates of a logarithmic axis.
 class LogAxis {
  public:
   LogAxis(double least, double most, double from, double to) : from_(from), to_(to) {
@@ -142,7 +142,7 @@ std::string seriesColour(std::size_t series) {
 
 std::string seriesDash(std::size_t series) {
   static const std::array<const char*, 4> dashes = {"", "7 3", "2 3", "9 3 2 3"};
-  return dashes[(series + series / 8) % dashes.size()];  // where colours come again, another one
+  return dashes[(series + series / 8) % dashes.size()];  // another dash where the colours repeat
 }
 
 std::string boxPlot(const std::string& title, const std::string& axis_name,

@@ -22,9 +22,9 @@ struct LineSeries {
   std::vector<std::pair<double, double>> points;  // x, y, both positive
 };
 
-// Okabe & Ito's colours, which colour-blind eyes tell apart, in a fixed order; beyond them again.
+// Okabe & Ito's colours, distinguishable with colour blindness, in a fixed order, repeated.
 std::string seriesColour(std::size_t series);
-// A stroke-dasharray; "" for a whole line.
+// A stroke-dasharray; "" for a solid line.
 std::string seriesDash(std::size_t series);
 
 // Boxes from the lower to the upper quartile with the median, whiskers to the extremes; the axis is

@@ -1,4 +1,4 @@
-// A table of results, for people and for programs: cells are texts, and numbers where they are.
+// A table of results. A cell is a text and, where it has one, a number.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct TableCell {
   TableCell(double number, int digits);
 };
 
-// Digits for people, e.g. 0.0123, 4.57, 123, 45,678; whole numbers in full.
+// Formatted digits, e.g. 0.0123, 4.57, 123, 45,678; whole numbers in full.
 std::string shownNumber(double number, int digits = 3);
 
 struct Table {
