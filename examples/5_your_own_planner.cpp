@@ -3,7 +3,6 @@
 // A planner derives from Planner, says in its traits what it can, and implements bytesFor() and
 // doSearch(). The base class has checked the request by then: start and goal are passable cells of
 // a map that the traits allow. Every loop whose length depends on the map asks the stop token.
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <queue>
@@ -18,7 +17,8 @@ using namespace grid_path_planner::planning;
 
 namespace {
 
-// Breadth-first search over the four neighbours of a cell: fewest steps, whatever cells weigh.
+// Breadth-first search from the goal over the four neighbours of a cell: fewest steps, whatever
+// cells weigh.
 class BreadthFirst : public Planner {
  public:
   BreadthFirst() : Planner(PlannerTraits{"breadth_first"}) {}
@@ -31,11 +31,11 @@ class BreadthFirst : public Planner {
   SearchResult doSearch(const SearchRequest& request, const StopToken& stop) override {
     constexpr Cell kNone = {-1, -1};
     Grid<Cell> parents(map().geometry(), kNone);
-    parents[request.start] = request.start;
+    parents[request.goals[0]] = request.goals[0];
     SearchResult result;
     StopPoll poll(stop);
-    std::queue<Cell> open({request.start});
-    for (; !open.empty() && open.front() != request.goals[0]; open.pop()) {
+    std::queue<Cell> open({request.goals[0]});
+    for (; !open.empty() && open.front() != request.start; open.pop()) {
       poll();  // throws where the search must stop: TIMEOUT or CANCELLED
       ++result.statistics.expanded;
       for (const Cell step : {Cell{1, 0}, Cell{0, 1}, Cell{-1, 0}, Cell{0, -1}}) {
@@ -47,10 +47,9 @@ class BreadthFirst : public Planner {
     }
     result.status = open.empty() ? Status::UNREACHABLE : Status::FOUND;
     if (open.empty()) return result;
-    for (Cell cell = request.goals[0]; cell != request.start; cell = parents[cell])
+    for (Cell cell = request.start; cell != request.goals[0]; cell = parents[cell])
       result.cells.push_back(cell);
-    result.cells.push_back(request.start);
-    std::reverse(result.cells.begin(), result.cells.end());
+    result.cells.push_back(request.goals[0]);
     result.cost = costOfSteps(map(), result.cells);
     return result;
   }
