@@ -1,6 +1,6 @@
-// Theta* as first published: where a cell is reached, the segment from its parent's parent is
-// looked along at once, and taken where it is legal and no dearer than the step; not where even at
-// the cheapest weight it could not better what is known.
+// Theta* as first published: the line of sight of the segment from the parent's parent is checked
+// when a cell is generated, and that segment is used where it is legal and costs no more than the
+// step. It is not checked where even at the map's least weight it would not lower the g-value.
 #pragma once
 
 #include "grid_path_planner/planners/theta_star.h"

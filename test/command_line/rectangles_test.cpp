@@ -73,7 +73,7 @@ TEST_F(Rectangles, TheJsonHoldsThePublishedOnes) {
   EXPECT_FALSE(object.contains("weights"));
 }
 
-// A picture begins with its uppermost row, a .map with row 0: told as the file has them.
+// The first row of a picture is the uppermost, that of a .map is row 0: the output follows the file.
 TEST_F(Rectangles, ThePictureOfTheMapGivesTheSame) {
   const OccupancyGrid map = readMapFile(map_);
   OccupancyGrid turned(map.geometry());
@@ -108,7 +108,7 @@ TEST_F(Rectangles, ALimitEndsTheWorkEarlier) {
 
 TEST_F(Rectangles, WeightsAreThoseOfTheConnections) {
   const json distances = objectOf({"--json", "--weight", "distance"})["weights"];
-  ASSERT_EQ(distances.size(), 22u) << "both ways";
+  ASSERT_EQ(distances.size(), 22u) << "both directions";
   EXPECT_EQ(distances[0][0], 0);
   EXPECT_EQ(distances[0][1], 6);
   EXPECT_NEAR(distances[0][2].get<double>(), 2.0616, 5e-5);
