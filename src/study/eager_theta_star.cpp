@@ -11,15 +11,15 @@ void EagerThetaStar::expand(std::uint32_t from, Statistics& counts) {
   const Cell at = cell(from), parent = cell(here.parent);
   forNeighbours(from, at, [&](std::uint32_t index, Cell to) {
     if (closed(index)) return;
-    const double by_step = here.g + stepTo(at, to);
+    const double by_step = here.g + stepCost(at, to);
     if (here.parent != from) {
-      const double least = (parent_g + leastCost(parent, to)) * (1.0 - kRounding);
-      if (known(index) && node(index).g <= least) return;
-      const auto cost = straight(parent, to, by_step - parent_g);
+      const double least = (parent_g + costBound(parent, to)) * (1.0 - kRounding);
+      if (generated(index) && node(index).g <= least) return;
+      const auto cost = segmentCost(parent, to, by_step - parent_g);
       if (cost && parent_g + *cost <= by_step)
-        return reach(index, to, here.parent, parent_g + *cost, false, counts);
+        return relax(index, to, here.parent, parent_g + *cost, 0, counts);
     }
-    reach(index, to, from, by_step, false, counts);
+    relax(index, to, from, by_step, 0, counts);
   });
 }
 

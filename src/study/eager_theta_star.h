@@ -1,6 +1,6 @@
-// Theta* as first published: when a cell is generated, the segment from its parent's parent is checked
-// at once, and used where it has line of sight and costs no more than the step. The check is skipped
-// where even at the minimum weight the segment could not improve the known g-value.
+// Theta* as first published: the line of sight of the segment from the parent's parent is checked
+// when a cell is generated, and that segment is used where it is legal and costs no more than the
+// step. It is not checked where even at the map's least weight it would not lower the g-value.
 #pragma once
 
 #include "grid_path_planner/planners/theta_star.h"

@@ -73,7 +73,7 @@ TEST_F(Rectangles, TheJsonHoldsThePublishedOnes) {
   EXPECT_FALSE(object.contains("weights"));
 }
 
-// A picture begins with its uppermost row, a .map with row 0: told as the file has them.
+// The first row of a picture is the uppermost, that of a .map is row 0: the output follows the file.
 TEST_F(Rectangles, ThePictureOfTheMapGivesTheSame) {
   const OccupancyGrid map = readMapFile(map_);
   OccupancyGrid turned(map.geometry());

@@ -52,7 +52,7 @@ TEST(Funnel, TurnsAtTheCornersOfNarrowDoors) {
   EXPECT_EQ(taut({{0, 0, 3, 5}, {3, 4, 1, 1}, {4, 0, 3, 5}}, {0, 0}, {6, 0}),
             (std::vector<SegmentPoint>{SegmentPoint::centreOf({0, 0}), corner(3, 4), corner(4, 4),
                                        SegmentPoint::centreOf({6, 0})}));
-  // The way back is the same one.
+  // The reverse path has the same points.
   EXPECT_EQ(taut({{0, 0, 3, 5}, {3, 4, 1, 1}, {4, 0, 3, 5}}, {6, 0}, {0, 0}),
             (std::vector<SegmentPoint>{SegmentPoint::centreOf({6, 0}), corner(4, 4), corner(3, 4),
                                        SegmentPoint::centreOf({0, 0})}));
@@ -104,7 +104,7 @@ bool crosses(SegmentPoint a, SegmentPoint b, const std::pair<SegmentPoint, Segme
          turn(border.first, border.second, a) * turn(border.first, border.second, b) <= 0;
 }
 
-// The least length over all ways that turn at ends of borders only, borders crossed in order.
+// The least length over all paths that turn at ends of borders only, borders crossed in order.
 double leastLength(const RectangleGraph& map, const RectangleRoute& route, SegmentPoint start,
                    SegmentPoint goal) {
   std::vector<std::pair<SegmentPoint, SegmentPoint>> borders = {{start, start}};

@@ -40,7 +40,7 @@ TEST(PolyanyaMesh, KnowsBordersFromTheWest) {
   EXPECT_EQ(mesh.border(first.first[1] + 1).to, 2U);
 }
 
-TEST(PolyanyaMesh, KnowsCornersWhereAWayTurns) {
+TEST(PolyanyaMesh, HasCornersWhereAPathCanTurn) {
   const Mesh mesh = meshOf({".....",  //
                             ".###.",  //
                             "....."});

@@ -1,4 +1,4 @@
-// What polyanya leaves out; that it is right test/planners/any_angle_test.cpp shows.
+// The rectangles that polyanya does not enter. test/planning/any_angle_test.cpp tests its paths.
 #include "planners/any_angle/polyanya.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(Polyanya, SeesTheGoalInItsOwnRectangle) {
   EXPECT_EQ(result.statistics.expanded, 0U);
 }
 
-TEST(Polyanya, SeesAtOnceThatNoWayLeads) {
+TEST(Polyanya, ExpandsNothingWhereThereIsNoPath) {
   const SearchResult result = planOn(test::AsciiMap({"...#...",  //
                                                      ".S.#.G.",  //
                                                      "...#..."}));
@@ -38,7 +38,7 @@ TEST(Polyanya, SeesAtOnceThatNoWayLeads) {
   EXPECT_EQ(result.statistics.generated, 0U);
 }
 
-// Neither the bay above nor the chambers below are on the way.
+// Neither the bay above nor the chambers below are on the path.
 TEST(Polyanya, LeavesOutWhatLeadsNowhereElse) {
   const SearchResult result = planOn(test::AsciiMap({"##...##########",  //
                                                      "S.............G",  //

@@ -67,16 +67,16 @@ TEST(RectangleGraph, StopsWhenAsked) {
   EXPECT_THROW(Connections(rectangles, Touching::BORDERS, stop.token()), Stopped);
 }
 
-TEST(RectangleIndex, FollowsWhatComesAndGoes) {
+TEST(RectangleIndex, FollowsAdditionsAndRemovals) {
   RectangleIndex index;
   index.add({0, 0, 4, 4}, 7);
   index.add({4, 0, 4, 4}, 2);
   EXPECT_EQ(index.at({3, 3}), std::optional<std::uint32_t>(7));
-  EXPECT_EQ(index.meeting({3, 3, 2, 1}), (std::vector<std::uint32_t>{2, 7}));
+  EXPECT_EQ(index.overlapping({3, 3, 2, 1}), (std::vector<std::uint32_t>{2, 7}));
   index.remove({0, 0, 4, 4}, 7);
   EXPECT_FALSE(index.at({3, 3}));
   EXPECT_EQ(index.size(), 1U);
-  EXPECT_TRUE(index.meeting({0, 0, 0, 0}).empty());
+  EXPECT_TRUE(index.overlapping({0, 0, 0, 0}).empty());
 }
 
 }  // namespace

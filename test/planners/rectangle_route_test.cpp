@@ -53,7 +53,7 @@ TEST_F(PublishedExample, HasThePublishedWeights) {
   EXPECT_NEAR(weight(RectangleWeight::CONNECTIONS, 2, 6), 1.0, 5e-5);
 }
 
-TEST_F(PublishedExample, EveryWeightFindsTheOnlyWay) {
+TEST_F(PublishedExample, EveryWeightFindsTheOnlyPath) {
   // From rectangle 5 at the bottom to rectangle 6 at the top right.
   for (const auto& choice : choicesOf(RectangleWeight{})) {
     RectangleSearch search;

@@ -37,15 +37,15 @@ TEST(FewestRectangles, IsLargestFirstWhereThatIsAsFew) {
       (std::vector<CellRect>{{78, 0, 422, 30}, {0, 0, 77, 30}, {77, 13, 1, 17}, {77, 0, 1, 12}}));
 }
 
-// Largest first would take one of the cross's bars and leave six pieces.
-TEST(FewestRectangles, TakesRunsWhereTheseAreFewer) {
+// Largest first would start with a bar of the cross, and need six more rectangles.
+TEST(FewestRectangles, UsesRunsWhereTheseAreFewer) {
   const std::vector<CellRect> cross = {{4, 0, 4, 12}, {0, 4, 12, 4}, {3, 3, 6, 6}};
   const std::vector<CellRect> rectangles = cut(cross, {});
   EXPECT_EQ(rectangles.size(), 5U);
 }
 
 // Rectangles of any sizes that overlap, on a map where the same cells can be cut one by one.
-TEST(FewestRectangles, IsAPartitionIntoTheFewestOfThreeWays) {
+TEST(FewestRectangles, IsAPartitionAndTheSmallestOfThree) {
   std::mt19937 random(29);
   const auto below = [&random](int limit) {
     return static_cast<int>(random() % static_cast<unsigned>(limit));

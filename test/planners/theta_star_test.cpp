@@ -48,8 +48,8 @@ TEST(LazyThetaStar, TurnsOnlyAtCorners) {
   EXPECT_LT(result.costValue(), 3.0 + 3.0 * std::sqrt(2.0)) << "what a grid path costs";
 }
 
-// navigation2#2520, #2690: crosses dear cells despite a cheaper detour.
-TEST(LazyThetaStar, GoesAroundWhatIsDear) {
+// navigation2#2520, #2690: crosses expensive cells although a path around them costs less.
+TEST(LazyThetaStar, AvoidsExpensiveCells) {
   const test::AsciiMap picture({"........",  //
                                 "S.????.G",  //
                                 "..????.."});
@@ -66,7 +66,7 @@ TEST(LazyThetaStar, DoesNotSqueezeThroughACorner) {
             Status::UNREACHABLE);
 }
 
-// The numbers of queries begin anew after 16,383.
+// The query stamp wraps around after 16,383 queries.
 TEST(LazyThetaStar, ALateQueryIsAnsweredLikeTheFirst) {
   const test::AsciiMap picture({"S.#.",  //
                                 "...G"});

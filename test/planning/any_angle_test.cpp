@@ -76,7 +76,7 @@ TEST_P(AnyAngle, TurnsAtCornersOfCells) {
   EXPECT_DOUBLE_EQ(result.costValue(), 2 * std::hypot(2.5, 1.5) + 1.0);
 }
 
-// A corner met along a line between rows: round it to the other side.
+// A flat node: the path turns at a corner on its root's line, to the other side.
 TEST_P(AnyAngle, FollowsAWallAndTurnsAtItsEnd) {
   const SearchResult result = planOn(test::AsciiMap({"...#...",  //
                                                      "S..#...",  //
@@ -121,7 +121,7 @@ TEST_P(AnyAngle, KnowsTheSmallestMaps) {
   EXPECT_EQ(planOn(test::AsciiMap({"S....#....G"})).status, Status::UNREACHABLE);
 }
 
-TEST_P(AnyAngle, FindsNoWayOverACheckerboard) {
+TEST_P(AnyAngle, FindsNoPathOverACheckerboard) {
   OccupancyGrid board(GridGeometry(40, 40, 1.0), 0);
   for (int row = 0; row < 40; ++row)
     for (int column = 0; column < 40; ++column)
@@ -258,7 +258,7 @@ TEST_P(AnyAngle, IsAsShortAsTheVisibilityGraphOverBlocks) {
 INSTANTIATE_TEST_SUITE_P(All, AnyAngle, ::testing::Values("anya", "polyanya"),
                          [](const auto& info) { return info.param; });
 
-// Discs: walls of many steps, along which a cone meets one border after another.
+// Discs: walls of many steps, along which an interval crosses one border after another.
 std::shared_ptr<const CostGrid> roundObstacles(std::mt19937& random, int side) {
   OccupancyGrid picture(GridGeometry(side, side, 1.0), 0);
   for (int disc = 0; disc < side / 8; ++disc) {
@@ -290,7 +290,7 @@ void expectTheSame(const std::shared_ptr<const CostGrid>& map, std::mt19937& ran
   }
 }
 
-// Larger than the visibility graph can look at; many queries on each.
+// Larger than the visibility graph allows; many queries on each.
 TEST(AnyAngleLaw, AllAreAsShort) {
   std::mt19937 random(20);
   int found = 0;

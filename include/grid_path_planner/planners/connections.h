@@ -3,11 +3,10 @@
 //   Connections connections(rectangles, Touching::BORDERS);
 //   for (const Connection& connection : connections.of(3)) use(connection);  // by ascending `to`
 //
-// The rectangles are disjoint. Borders are found by sorting the rectangles along each axis and
-// walking both sides of every grid line once: n log n for n rectangles. Afterwards single
-// rectangles may go and come, in time that follows their own neighbours: every rectangle's
-// connections stand together in a block of one array, and a list that outgrows its block moves to
-// another.
+// The rectangles are disjoint. Borders are found by a sweep along each axis over the sorted edges:
+// O(n log n) for n rectangles. Afterwards single rectangles can be removed and added, in time in
+// proportion to their own neighbours: every rectangle's connections stand together in a block of
+// one array, and a list that outgrows its block moves to another.
 #pragma once
 
 #include <array>
@@ -56,8 +55,8 @@ class Connections {
     const Connection* end_;
   };
 
-  // The most that making them takes of one of many rectangles: of a plane's regions each borders on
-  // less than six others in the mean, and all edges are sorted along both axes.
+  // The most that the constructor takes for each of many rectangles: of the regions of a plane each
+  // borders on less than six others in the mean, and all edges are sorted along both axes.
   static constexpr std::size_t kMakingBytes = 6 * sizeof(Connection) + 12 + 4 * 16;
 
   Connections() = default;
@@ -74,20 +73,20 @@ class Connections {
   std::size_t firstOf(std::uint32_t rectangle) const { return blocks_[rectangle].first; }
   // Precondition: the number of a connection.
   const Connection& operator[](std::size_t number) const { return all_[number]; }
-  // All numbers are below. Not every one of them is a connection's once rectangles went and came.
+  // All numbers are below. After remove() some of them belong to no connection.
   std::size_t size() const { return all_.size(); }
   // How many there are, both directions counted.
   std::size_t count() const { return count_; }
   std::size_t bytes() const;
 
-  // A rectangle that is gone: neither it nor its neighbours have a connection then.
+  // Removes the rectangle's connections, and its neighbours' connections to it.
   void remove(std::uint32_t rectangle);
-  // A rectangle that came, with its connections by ascending `to`; its neighbours get theirs.
-  // Preconditions: it has none yet, and the neighbours are there.
+  // Adds the rectangle's connections, by ascending `to`, and its neighbours' connections to it.
+  // Preconditions: it has none yet, and the neighbours exist.
   void add(std::uint32_t rectangle, const std::vector<Connection>& connections);
 
  private:
-  // Where a rectangle's connections stand, and room for more of them.
+  // The place of a rectangle's connections, with room for more.
   struct Block {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -97,7 +96,7 @@ class Connections {
   void insert(std::uint32_t rectangle, const Connection& connection);
   void erase(std::uint32_t rectangle, std::uint32_t to);
   // `room` is a power of two.
-  std::uint32_t take(std::uint32_t room);
+  std::uint32_t allocate(std::uint32_t room);
   void release(const Block& block);
   void makeRoom(Block& block, std::size_t count);
 

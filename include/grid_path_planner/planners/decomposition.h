@@ -11,11 +11,11 @@
 // ends the work before), each is the largest of what the ones before it left, and the same free
 // space gives the same rectangles in the same order.
 //
-// How: the published code surveys the whole map for every rectangle. Here each maximal run of free
+// How: the published code scans the whole map for every rectangle. Here each maximal run of free
 // cells of each row is an entry of a heap, ordered by the largest rectangle that has its last row
-// in that run. Free space only shrinks, so what an entry says is never too small: the entry on top
-// is believed if its rectangle is still free, and otherwise measured again, or cut into the runs
-// that are left of it.
+// in that run. Free space only shrinks, so the area of an entry is an upper bound: the rectangle of
+// the entry on top is used if it is still free; otherwise the runs that are left are measured
+// again.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ struct DecompositionLimits {
   std::size_t bytes = std::numeric_limits<std::size_t>::max();  // all memory at any time
 };
 
-// Thrown where the work would need more memory than DecompositionLimits::bytes, before it is taken.
+// Thrown before more memory than DecompositionLimits::bytes is allocated.
 struct DecompositionTooLarge {};
 
 // `free`: a cell's bit is 1 where it is free. Throws Stopped and DecompositionTooLarge.
@@ -43,12 +43,12 @@ std::vector<grid::CellRect> largestFirst(const costmap::BitMaps& free,
                                          const DecompositionLimits& limits,
                                          const base::StopToken& stop);
 
-// How many maximal runs of free cells the rows have.
+// The number of maximal runs of free cells in all rows.
 std::size_t countRuns(const costmap::BitMap& free);
 
-// About what largestFirst takes, its result included, for a map with so many runs in its rows; a
-// map without obstacles has one a row. Where large rectangles are taken across many runs it may be
-// several times as much: who needs a bound sets DecompositionLimits::bytes.
+// About the memory of largestFirst, its result included, for a map with so many runs in its rows; a
+// map without obstacles has one a row. Where large rectangles cross many runs it may be several
+// times as much: DecompositionLimits::bytes sets a bound.
 std::size_t largestFirstBytes(const grid::GridGeometry& geometry, std::size_t runs);
 
 // A partition where order does not matter, in one pass: each row's maximal runs, joined with the

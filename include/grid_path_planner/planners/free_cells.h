@@ -1,4 +1,4 @@
-// Which cells of an occupancy map rectangles are cut from.
+// The free cells of an occupancy map, for a decomposition into rectangles.
 #pragma once
 
 #include "grid_path_planner/base/stop_token.h"

@@ -1,14 +1,14 @@
-// How many bytes the free space of a map takes in one form and another: the published comparison
-// (Park 2013: the entire map in bits, its empty cells, its rectangles), and what compressing the
-// bits gives, which that comparison leaves out.
+// The sizes of several representations of a map's free space: the published comparison (Park 2013:
+// the entire map in bits, its empty cells, its rectangles), and the compressed bits, which that
+// comparison leaves out.
 //
 //   MapSizes sizes = mapSizes(map);   // map: all of the free space as rectangles
 //
 // Lists count each number in whole bits, the fewest that hold it in that map: 44 for a rectangle of
-// a 1250x1250 map, 22 for a cell. Of all forms only the two of rectangles tell the partition; the
-// others tell the same free cells, from which it can be made again (decomposition.h). All but
-// the file of rectangles leave out resolution and origin. A PNG as OpenCV writes it unless asked,
-// of 8 bits a pixel, takes 1.5 to 12 times as much as `png`.
+// a 1250x1250 map, 22 for a cell. Only the two representations by rectangles contain the partition;
+// from the others it can be computed (decomposition.h). All but the file of rectangles leave out
+// resolution and origin. A PNG of 8 bits a pixel, OpenCV's default, takes 1.5 to 12 times as much as
+// `png`.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ struct MapSizes {
   std::size_t zlib;         // the bits, rows filled to whole bytes, as small as zlib makes them
 };
 
-// Takes some 2 bytes a cell meanwhile. Throws InputError for a map without cells.
+// Takes some 2 bytes of memory a cell. Throws InputError for a map without cells.
 MapSizes mapSizes(const RectangleGraph& map);
 
 }  // namespace grid_path_planner::planners

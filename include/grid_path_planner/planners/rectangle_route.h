@@ -1,5 +1,5 @@
-// A way from cell to cell as a sequence of rectangles: Dijkstra's algorithm, or A* where the weight
-// has a lower bound, over the rectangles and their borders.
+// The sequence of rectangles from cell to cell with the least sum of weights: Dijkstra's algorithm,
+// or A* where the weight has a lower bound, over the rectangles and their borders.
 //
 // The published weights of the step from rectangle k to its neighbour j (Park 2013), both numbered
 // from 1, largest first:
@@ -8,8 +8,8 @@
 //   distance     between the centres
 //   connections  1 / number of j's connections: through the rectangles with the most neighbours
 // On a map that was edited, numbers follow the areas only roughly.
-// None of them measures the path that is driven. `length` does: from the middle of a border to the
-// middle of the next, the start's and the goal's cells included.
+// None of them is the length of a path. `length` is: from the middle of a border to the middle of
+// the next, the start's and the goal's cells included.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,10 @@
 
 #include "grid_path_planner/base/statistics.h"
 #include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/planners/binary_heap.h"
 #include "grid_path_planner/planners/rectangle_graph.h"
 #include "grid_path_planner/planners/search_options.h"
+#include "grid_path_planner/planners/stamped_array.h"
 
 namespace grid_path_planner::planners {
 
@@ -35,16 +37,16 @@ struct RectangleRoute {
   bool found = false;
   std::uint32_t first = 0;        // the rectangle that holds the start
   std::vector<Connection> steps;  // from it on
-  double weight = 0.0;            // the sum that was least
-  std::vector<std::uint32_t>
-      expanded;  // rectangles, in order; one may come again by another border
+  double weight = 0.0;            // the least sum
+  // Rectangles, in order; one may be expanded again by another border.
+  std::vector<std::uint32_t> expanded;
   base::Statistics statistics;
 };
 
-// Keeps its arrays from query to query; one at a time.
+// Its arrays are reused by the next query. Not for several threads at a time.
 class RectangleSearch {
  public:
-  // Preconditions: `map` holds both cells in rectangles, and its corners are no connections. Throws
+  // Preconditions: `map` has a rectangle for both cells, and was made with Touching::BORDERS. Throws
   // Stopped.
   RectangleRoute find(const RectangleGraph& map, RectangleWeight weight, grid::Cell start,
                       grid::Cell goal, const base::StopToken& stop);
@@ -55,28 +57,33 @@ class RectangleSearch {
   struct Node {
     double g = 0.0;
     std::uint32_t parent = 0;
-    std::uint32_t step = 0;  // number of the connection that led here
-    std::uint32_t query = 0;
-    bool closed = false;
+    std::uint32_t step = 0;   // number of the connection from the parent
+    std::uint32_t state = 0;  // kClosed below the query's stamp
   };
+  static constexpr std::uint32_t kClosed = 1;
   struct Entry {
     double f;
     std::uint32_t node;
+  };
+  struct Worse {
+    bool operator()(const Entry& a, const Entry& b) const {
+      return a.f != b.f ? a.f > b.f : a.node > b.node;
+    }
   };
 
   RectangleRoute findOverRectangles(const RectangleGraph& map, RectangleWeight weight,
                                     grid::Cell start, grid::Cell goal, const base::StopToken& stop);
   RectangleRoute findOverBorders(const RectangleGraph& map, grid::Cell start, grid::Cell goal,
                                  const base::StopToken& stop);
-  void begin(std::size_t nodes);
-  void reach(std::uint32_t node, double g, double h, std::uint32_t parent, std::uint32_t step,
+  void startQuery(std::size_t nodes);
+  void relax(std::uint32_t node, double g, double h, std::uint32_t parent, std::uint32_t step,
              base::Statistics& counts);
-  // The next node to expand, or false where there is none.
-  bool take(std::uint32_t& node, base::Statistics& counts);
+  // Closes the open node with the least f-value; false where there is none.
+  bool popNode(std::uint32_t& node, base::Statistics& counts);
 
   std::vector<Node> nodes_;
-  std::vector<Entry> heap_;
-  std::uint32_t query_ = 0;
+  BinaryHeap<Entry, Worse> open_;
+  QueryStamp<std::uint32_t, 1> stamp_;  // above kClosed
 };
 
 }  // namespace grid_path_planner::planners

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "planners/any_angle/anya_search.h"
+#include "planners/core/any_angle_traits.h"
 
 namespace grid_path_planner::planners {
 
@@ -33,13 +34,9 @@ SegmentPoint inUnits(AnyaPoint point) {
 }  // namespace
 
 PlannerTraits Anya::declaredTraits() {
-  PlannerTraits traits;
-  traits.name = "anya";
-  traits.four_connected = false;
-  traits.unit_diagonals = false;
+  PlannerTraits traits = anyAngleTraits("anya");
   traits.cut_corners = false;
   traits.weights = false;
-  traits.any_angle = true;
   traits.shortest = true;
   traits.repairs = true;
   return traits;

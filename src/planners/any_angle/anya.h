@@ -1,9 +1,9 @@
-// Anya: the shortest of all paths, at any angle, on maps of one weight (Harabor, Grastien, Oz &
+// Anya: the shortest any-angle path on maps of one weight (Harabor, Grastien, Oz &
 // Aksakalli, "Optimal any-angle pathfinding in practice", JAIR 56, 2016).
 //
-// It searches over intervals of the lines between rows instead of over cells, straight on the bit
-// maps, so a change of the map costs nothing beyond theirs. Unlike the published one it begins and
-// ends inside cells. The turning points of a result are corners of blocked cells.
+// It searches over intervals of the lines between rows instead of over cells, directly on the bit
+// maps, so an update of the map costs no more than theirs. Unlike the published algorithm it starts
+// and ends inside cells. The turning points of a path are corners of blocked cells.
 //
 // Guaranteed: no legal any-angle path (costmap/line_of_sight.h) between the two waypoints is shorter, up
 // to rounding (1e-12 of the length). Refused: maps of several weights, 4-connected ones, unit
@@ -25,7 +25,7 @@ class Anya : public Planner {
   Anya();
   ~Anya() override;
 
-  // The search grows with the corners that it turns at; this is what the densest maps need.
+  // The memory grows with the roots of the search; this is for the densest maps.
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
 
  protected:

@@ -266,8 +266,10 @@ void AnyaSearch::projectThroughFreeRows(AnyaNode& node, double* near, double* fa
 
 // One for each run of free cells of the next row that the interval touches. All but the last, which
 // is in `last`, are pushed. Returns their number.
-inline int AnyaSearch::observableSuccessors(const AnyaNode& node, const double* near,
-                                            const double* far, AnyaNode& last) {
+[[gnu::always_inline]] inline int AnyaSearch::observableSuccessors(const AnyaNode& node,
+                                                                   const double* near,
+                                                                   const double* far,
+                                                                   AnyaNode& last) {
   const AnyaPoint root = roots_[node.root].at;
   const Word* row = rowAhead(node.line, node.rows);
   const double lines = node.rows * (node.line - root.y);

@@ -4,6 +4,7 @@
 
 #include "grid_path_planner/planners/decomposition.h"
 #include "planners/any_angle/polyanya_search.h"
+#include "planners/core/any_angle_traits.h"
 
 namespace grid_path_planner::planners {
 
@@ -22,7 +23,7 @@ namespace {
 
 constexpr double kUnit = SegmentPoint::kUnitsPerCell;
 
-// A rectangle with its borders and corners, their making and a search over all of them: 545
+// A rectangle with its borders and corners, their construction and a search over all of them: 545
 // measured on a map with a quarter of its cells blocked at random.
 constexpr std::size_t kBytesPerRectangle = 600;
 
@@ -45,13 +46,9 @@ Cell middleOf(const CellRect& rect) {
 }  // namespace
 
 PlannerTraits Polyanya::declaredTraits() {
-  PlannerTraits traits;
-  traits.name = "polyanya";
-  traits.four_connected = false;
-  traits.unit_diagonals = false;
+  PlannerTraits traits = anyAngleTraits("polyanya");
   traits.cut_corners = false;
   traits.weights = false;
-  traits.any_angle = true;
   traits.shortest = true;
   return traits;
 }
@@ -59,7 +56,7 @@ PlannerTraits Polyanya::declaredTraits() {
 Polyanya::Polyanya() : Planner(declaredTraits()), search_(std::make_unique<PolyanyaSearch>()) {}
 Polyanya::~Polyanya() = default;
 
-// Of a map without obstacles, the least there is; doPrepare() looks at the map.
+// Of a map without obstacles, the least of all maps; doPrepare() counts the runs of the map.
 std::size_t Polyanya::bytesFor(const GridGeometry& geometry) const {
   return bytesForRectangles(geometry, 1);
 }

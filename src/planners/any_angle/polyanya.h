@@ -1,11 +1,11 @@
-// Polyanya: the shortest of all paths, at any angle, over rectangles instead of cells (Cui, Harabor
-// & Grastien, "Compromise-free pathfinding on a navigation mesh", IJCAI 2017).
+// Polyanya: the shortest any-angle path over rectangles instead of cells (Cui, Harabor & Grastien,
+// "Compromise-free pathfinding on a navigation mesh", IJCAI 2017).
 //
 // prepare() cuts the map into rectangles as wide as the obstacles let them (mergedRuns), which are
-// a convex mesh; a plan searches over what corners see of their borders. Unlike the published one
-// it leaves out the rectangles that no shortest path between the two ends can enter, follows what
-// it sees until it parts before it puts it into the open list, and makes a node of a turn only if
-// it leads anywhere.
+// a convex mesh; a search is over the intervals of their borders that are visible from corners.
+// Unlike the published algorithm it leaves out the rectangles that no shortest path between the two
+// ends can enter, projects an interval until it is split before it is pushed, and makes a node of a
+// turn only if that has a successor.
 //
 // Guaranteed: no legal any-angle path (costmap/line_of_sight.h) between the two waypoints is shorter, up
 // to rounding (1e-12 of the length). Refused: maps of several weights, 4-connected ones, unit

@@ -32,8 +32,8 @@ PolyanyaMesh::Border borderOf(const Connection& connection) {
   return border;
 }
 
-// A depth-first search over the rectangles. `low` is the earliest one that a rectangle reaches past
-// the one above it; where that is the one above, a block ends.
+// The depth-first search of Hopcroft & Tarjan. `low` is the lowest visiting number that a rectangle's
+// subtree is connected to; where that is its parent's, a block is complete.
 class BlockSearch {
  public:
   explicit BlockSearch(const PolyanyaMesh& mesh)
@@ -42,54 +42,54 @@ class BlockSearch {
         order_(mesh.rectangles(), 0),
         low_(mesh.rectangles(), 0),
         next_(mesh.rectangles(), 0),
-        above_(mesh.rectangles(), PolyanyaMesh::kNone) {}
+        parent_(mesh.rectangles(), PolyanyaMesh::kNone) {}
 
-  // All that can be reached from `root` and was not visited before.
+  // Visits all that is connected to `root`, unless it was visited before.
   void visitFrom(std::uint32_t root, StopPoll& poll) {
-    if (order_[root] == 0) enter(root);
-    while (!way_.empty()) {
+    if (order_[root] == 0) discover(root);
+    while (!stack_.empty()) {
       poll();
-      const std::uint32_t rect = way_.back();
+      const std::uint32_t rect = stack_.back();
       if (next_[rect] == mesh_.rectangle(rect).first[2])
-        leave(rect);
+        finish(rect);
       else
-        look(rect, mesh_.border(next_[rect]++).to);
+        visitBorder(rect, mesh_.border(next_[rect]++).to);
     }
   }
 
   std::vector<std::uint32_t> visited;       // in order
   std::vector<std::uint32_t> block_above;   // of a rectangle
-  std::vector<std::uint32_t> block_parent;  // the rectangle that a block hangs on
+  std::vector<std::uint32_t> block_parent;  // the rectangle above a block
 
  private:
-  void enter(std::uint32_t rect) {
+  void discover(std::uint32_t rect) {
     visited.push_back(rect);
     order_[rect] = low_[rect] = static_cast<std::uint32_t>(visited.size());
     next_[rect] = mesh_.rectangle(rect).first[0];
-    way_.push_back(rect);
-    open_.push_back(rect);
+    stack_.push_back(rect);
+    unassigned_.push_back(rect);
   }
 
-  void look(std::uint32_t rect, std::uint32_t to) {
+  void visitBorder(std::uint32_t rect, std::uint32_t to) {
     if (order_[to] == 0) {
-      above_[to] = rect;
-      enter(to);
-    } else if (to != above_[rect]) {
+      parent_[to] = rect;
+      discover(to);
+    } else if (to != parent_[rect]) {
       low_[rect] = std::min(low_[rect], order_[to]);
     }
   }
 
-  void leave(std::uint32_t rect) {
-    const std::uint32_t parent = above_[rect];
-    way_.pop_back();
-    if (parent == PolyanyaMesh::kNone) return open_.clear();
+  void finish(std::uint32_t rect) {
+    const std::uint32_t parent = parent_[rect];
+    stack_.pop_back();
+    if (parent == PolyanyaMesh::kNone) return unassigned_.clear();
     low_[parent] = std::min(low_[parent], low_[rect]);
     if (low_[rect] < order_[parent]) return;
     const auto block = static_cast<std::uint32_t>(block_parent.size());
     block_parent.push_back(parent);
     for (std::uint32_t last = PolyanyaMesh::kNone; last != rect;) {
-      last = open_.back();
-      open_.pop_back();
+      last = unassigned_.back();
+      unassigned_.pop_back();
       block_above[last] = block;
     }
   }
@@ -97,10 +97,10 @@ class BlockSearch {
   const PolyanyaMesh& mesh_;
   std::vector<std::uint32_t> order_;  // of the visit, 0 before it
   std::vector<std::uint32_t> low_;
-  std::vector<std::uint32_t> next_;   // border to look through
-  std::vector<std::uint32_t> above_;  // the rectangle that it was entered from
-  std::vector<std::uint32_t> way_;
-  std::vector<std::uint32_t> open_;  // visited, and in no block yet
+  std::vector<std::uint32_t> next_;    // border to be visited
+  std::vector<std::uint32_t> parent_;  // in the search tree
+  std::vector<std::uint32_t> stack_;
+  std::vector<std::uint32_t> unassigned_;  // visited, and in no block yet
 };
 
 }  // namespace
@@ -162,7 +162,7 @@ std::uint32_t PolyanyaMesh::blockOf(std::uint32_t from, std::uint32_t to) const 
   return above != kNone && block_parent_[above] == from ? above : block_above_[from];
 }
 
-// Of the border between two rectangles the one seen from the north, given that from the south.
+// The same border as the rectangle to the north has it.
 std::uint32_t PolyanyaMesh::twin(std::uint32_t south, std::uint32_t border) const {
   const Rectangle& north = rectangles_[borders_[border].to];
   const auto first = borders_.begin() + north.first[0], end = borders_.begin() + north.first[1];
@@ -201,7 +201,7 @@ void PolyanyaMesh::link(std::uint32_t west, std::uint32_t east) {
   corners_[east].along[WEST] = west;
 }
 
-// Of borders on one side of a rectangle: from one to the next there is a wall.
+// Links the corners at the ends of the walls between borders on one side of a rectangle.
 void PolyanyaMesh::linkAlong(std::uint32_t first, std::uint32_t end) {
   for (; first + 1 < end; ++first)
     link(borders_[first].corner[EAST], borders_[first + 1].corner[WEST]);
@@ -222,10 +222,11 @@ void PolyanyaMesh::addCorners(const StopToken& stop) {
   for (const Rectangle& rect : rectangles_) {
     poll();
     for (std::uint32_t i = rect.first[0]; i < rect.first[2]; ++i)
-      for (const Direction way : {WEST, EAST}) {
+      for (const Direction direction : {WEST, EAST}) {
         Border& border = borders_[i];
-        border.leads_on[way] = border.corner[way] != kNone && behind(rect, border, way) &&
-                               corners_[border.corner[way]].along[way] != kNone;
+        const std::uint32_t corner = border.corner[direction];
+        border.leads_on[direction] = corner != kNone && behind(rect, border, direction) &&
+                                     corners_[corner].along[direction] != kNone;
       }
   }
 }

@@ -1,5 +1,5 @@
-// Rectangles as wide as the free space lets them (mergedRuns), as a convex mesh laid out for a
-// search that sees through borders.
+// Rectangles as wide as the free space lets them (mergedRuns), as a convex mesh for the projection
+// of intervals through borders.
 //
 //   PolyanyaMesh mesh(mergedRuns(free_cells, stop), stop);
 //   const PolyanyaMesh::Rectangle& rect = mesh.rectangle(7);
@@ -8,13 +8,12 @@
 //     use(mesh.border(i));  // of its north side, eastwards
 //
 // Such rectangles have no neighbours to the east and west, so a border ends only where there is a
-// blocked cell, and nothing that is seen through borders is split but by obstacles. Where one
-// blocked cell is among three free ones, a taut way can turn: a corner.
+// blocked cell, and only obstacles split an interval. Where one blocked cell is among three free
+// ones, a taut path can turn: a corner.
 //
-// Rectangles that can be left in one way only need not be entered by a shortest way between others:
-// rectangles are convex, so a shortest way enters none twice, and the borders that it crosses lie
-// in the blocks (biconnected components: Hopcroft & Tarjan 1973) between the one that holds the
-// start and the one that holds the goal. Every border knows its block.
+// A shortest path enters no dead ends: rectangles are convex, so it enters none twice, and the
+// borders that it crosses lie in the blocks (biconnected components: Hopcroft & Tarjan 1973) on the
+// path of the block tree from the start's rectangle to the goal's. Every border has its block.
 //
 // Points are in 1/4096 cell, as SegmentPoint's, in 32 bits: sides up to kMaxSide cells.
 #pragma once
@@ -61,30 +60,30 @@ class PolyanyaMesh {
     std::array<std::uint32_t, 3> first;
   };
 
-  // What two rectangles share of a side, seen from one of them.
+  // The shared part of the sides of two rectangles, stored for each of them.
   struct alignas(32) Border {
     std::int32_t west;
     std::int32_t east;
     std::uint32_t to;
     std::uint32_t block;
-    std::array<std::uint32_t, 2> corner;  // by Way, at its ends; kNone where no way turns
-    // By Way: the corner's obstacle is behind, and its wall leads along the line to another corner.
+    std::array<std::uint32_t, 2> corner;  // by Direction, at its ends; kNone where no path turns
+    // By Direction: the corner's obstacle is behind, and its wall leads along the line to another corner.
     std::array<bool, 2> leads_on;
   };
 
   struct Corner {
     MeshPoint at;
-    std::array<std::uint32_t, 2> along;      // by Way: the next on the line, kNone beyond a wall
+    std::array<std::uint32_t, 2> along;  // by Direction: the next on the line, kNone beyond a wall
     std::array<std::uint32_t, 2> rectangle;  // by Heading: the one that begins there
     std::uint32_t block;                     // of the border that ends here
     // Of the blocked cell, quarters being numbered anticlockwise from the north-east.
     std::int32_t quarter;
   };
 
-  // Whether the obstacle at the end of a border ends at the line, seen from the rectangle that is
-  // left; else it begins there.
-  static bool behind(const Rectangle& from, const Border& border, Direction way) {
-    return way == EAST ? border.east == from.east : border.west == from.west;
+  // Whether the obstacle at the end of a border ends at the border's line, in the direction from
+  // `from` across the border; else it begins there.
+  static bool behind(const Rectangle& from, const Border& border, Direction direction) {
+    return direction == EAST ? border.east == from.east : border.west == from.west;
   }
 
   PolyanyaMesh() = default;
@@ -100,7 +99,7 @@ class PolyanyaMesh {
   std::size_t corners() const { return corners_.size(); }
   std::size_t blocks() const { return block_parent_.size(); }
 
-  // The blocks that a shortest way may pass. False where no way leads.
+  // The blocks that a shortest path may pass. False where there is no path.
   bool blocksBetween(std::uint32_t start, std::uint32_t goal,
                      std::vector<std::uint32_t>& blocks) const;
 
@@ -120,7 +119,7 @@ class PolyanyaMesh {
   std::vector<Rectangle> rectangles_;
   std::vector<Border> borders_;
   std::vector<Corner> corners_;
-  // The tree of blocks: above a rectangle its block, above a block the rectangle that it hangs on.
+  // The block tree: the parent of a rectangle is its block, that of a block is a rectangle.
   std::vector<std::uint32_t> block_above_;  // kNone: the topmost
   std::vector<std::uint32_t> depth_;        // blocks above a rectangle
   std::vector<std::uint32_t> block_parent_;

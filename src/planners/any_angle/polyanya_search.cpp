@@ -162,9 +162,9 @@ void PolyanyaSearch::turningSuccessors(const PolyanyaNode& node, const PolyanyaM
   if (border.leads_on[direction]) flatSuccessors(turned.root, corner, direction);
 }
 
-// The successor through a border. Those round the corners at the border's ends are kept.
-inline PolyanyaNode PolyanyaSearch::successorBeyond(const PolyanyaNode& node, std::int32_t lines,
-                                                    const PolyanyaMesh::Border& border) {
+// The successor through a border. Adds the turning successors at the ends of the border.
+[[gnu::always_inline]] inline PolyanyaNode PolyanyaSearch::successorBeyond(
+    const PolyanyaNode& node, std::int32_t lines, const PolyanyaMesh::Border& border) {
   const PolyanyaMesh::Rectangle& rect = mesh_->rectangle(node.place);
   const std::int32_t root = roots_[node.root].at.x;
   const std::int32_t west = border.west - root, east = border.east - root;
@@ -185,9 +185,8 @@ inline PolyanyaNode PolyanyaSearch::successorBeyond(const PolyanyaNode& node, st
 
 // One for each border of the far side that is visible and allowed. All but the last, which is in
 // `last`, are kept. Returns their number.
-inline int PolyanyaSearch::observableSuccessors(const PolyanyaNode& node,
-                                                const Projection::FarSide& far,
-                                                PolyanyaNode& last) {
+[[gnu::always_inline]] inline int PolyanyaSearch::observableSuccessors(
+    const PolyanyaNode& node, const Projection::FarSide& far, PolyanyaNode& last) {
   const std::int32_t root = roots_[node.root].at.x;
   int found = 0;
   for (std::uint32_t i = far.first; i < far.end; ++i) {

@@ -5,14 +5,13 @@
 #include <limits>
 
 #include "grid_path_planner/costmap/line_cost.h"
+#include "planners/core/any_angle_traits.h"
 
 namespace grid_path_planner::planners {
 
 using base::Statistics;
 using base::Status;
-using base::Stopped;
 using base::StopPoll;
-using base::StopReason;
 using base::StopToken;
 using base::ZeroedArray;
 using costmap::BitMaps;
@@ -20,7 +19,6 @@ using costmap::lineCost;
 using costmap::SegmentPoint;
 using costmap::waypointOf;
 using grid::Cell;
-using grid::CellRect;
 using grid::GridGeometry;
 
 namespace {
@@ -30,11 +28,7 @@ constexpr std::uint32_t kExpansionsBetweenPolls = 32;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 PlannerTraits thetaStarTraits(const char* name) {
-  PlannerTraits traits;
-  traits.name = name;
-  traits.four_connected = false;
-  traits.unit_diagonals = false;
-  traits.any_angle = true;
+  PlannerTraits traits = anyAngleTraits(name);
   traits.repairs = true;
   return traits;
 }
@@ -54,11 +48,11 @@ std::size_t ThetaStar::bytesFor(const GridGeometry& geometry) const {
 void ThetaStar::doPrepare(const StopToken& stop) {
   masks_.build(map(), stop);
   nodes_ = ZeroedArray<Node>(map().geometry().size());
-  query_ = 0;
+  stamp_.restart();
   doUpdate({}, stop);
 }
 
-void ThetaStar::doUpdate(const CellRect& changed, const StopToken& stop) {
+void ThetaStar::doUpdate(const grid::CellRect& changed, const StopToken& stop) {
   if (!changed.empty()) masks_.update(map(), changed, stop);
   bits_ = map().uniform() ? &map().bitMaps(stop) : nullptr;
   const GridGeometry& original = map().original();
@@ -69,7 +63,7 @@ SegmentPoint ThetaStar::point(Cell cell) const {
   return centred(cell) ? SegmentPoint::centreOf(cell) : waypointOf(map(), cell);
 }
 
-double ThetaStar::leastCost(Cell from, Cell to) const {
+double ThetaStar::costBound(Cell from, Cell to) const {
   const double least = map().kernel() * map().minWeight();
   if (centred(from) && centred(to)) {
     const double columns = from.column - to.column, rows = from.row - to.row;
@@ -80,68 +74,65 @@ double ThetaStar::leastCost(Cell from, Cell to) const {
          least;
 }
 
-std::optional<double> ThetaStar::straight(Cell from, Cell to, double limit) const {
+std::optional<double> ThetaStar::segmentCost(Cell from, Cell to, double limit) const {
   return lineCost(map(), bits_, point(from), point(to), limit);
 }
 
-double ThetaStar::stepTo(Cell from, Cell to) const {
+double ThetaStar::stepCost(Cell from, Cell to) const {
   if (!centred(from) || !centred(to)) {
-    const auto cost = straight(from, to, kInfinity);
-    if (cost) return *cost;  // none past a corner that may be cut, but not between these middles
+    const auto cost = segmentCost(from, to, kInfinity);
+    if (cost)
+      return *cost;  // none where the step may cut a corner, but no segment between these two points
   }
   const double length = from.column == to.column || from.row == to.row ? 1.0 : M_SQRT2;
   return length * (std::max(map().weight(from), map().weight(to)) * map().kernel());
 }
 
-void ThetaStar::begin(std::uint32_t start) {
-  if (++query_ == kQueries) {
-    nodes_.clear();
-    query_ = 1;
-  }
-  heap_.clear();
-  nodes_[start] = Node{0.0, start, query_, 0, 0};
-  heap_.push_back({leastCost(cell(start), goal_), 0.0, start});
+void ThetaStar::startQuery(std::uint32_t start) {
+  stamp_.next([this] { nodes_.clear(); });
+  open_.clear();
+  nodes_[start] = Node{0.0, start, stamp_.word()};
+  open_.push({costBound(cell(start), goal_), 0.0, start});
 }
 
-void ThetaStar::reach(std::uint32_t index, Cell at, std::uint32_t parent, double g, bool trusted,
-                      Statistics& counts) {
-  if (known(index) && nodes_[index].g <= g) return;
-  nodes_[index] = Node{g, parent, query_, 0, trusted};
-  heap_.push_back({g + leastCost(at, goal_), g, index});
-  std::push_heap(heap_.begin(), heap_.end(), Later());
+void ThetaStar::relax(std::uint32_t index, Cell at, std::uint32_t parent, double g,
+                      std::uint16_t state, Statistics& counts) {
+  if (generated(index) && nodes_[index].g <= g) return;
+  nodes_[index] = Node{g, parent, static_cast<std::uint16_t>(stamp_.word() | state)};
+  open_.push({g + costBound(at, goal_), g, index});
   ++counts.generated;
 }
 
-// The cheapest step to a cell from a neighbour that was expanded.
-ThetaStar::Arrival ThetaStar::byStep(std::uint32_t index, Cell at) const {
+// The least g-value of a cell by a step from a closed neighbour.
+ThetaStar::Arrival ThetaStar::bestStep(std::uint32_t index, Cell at) const {
   Arrival best{kInfinity, index};
   forNeighbours(index, at, [&](std::uint32_t from, Cell neighbour) {
     if (!closed(from)) return;
-    const double g = nodes_[from].g + stepTo(neighbour, at);
+    const double g = nodes_[from].g + stepCost(neighbour, at);
     if (g < best.g) best = {g, from};
   });
   return best;
 }
 
-// Makes the trusted way to a cell a true one: the segment, or a step. Whether the cell's turn is
-// still now.
-bool ThetaStar::verify(std::uint32_t index, Statistics& counts) {
+// Checks the assumed line of sight to the cell's parent (SetVertex of the paper): the parent stays,
+// or is the closed neighbour with the cheapest step. False where the g-value rose by that; then the
+// cell is pushed again.
+bool ThetaStar::checkParent(std::uint32_t index, Statistics& counts) {
   Node& node = nodes_[index];
   const Cell at = cell(index);
-  const double trusted = node.g, parent_g = nodes_[node.parent].g;
-  node.trusted = 0;
+  const double assumed = node.g, parent_g = nodes_[node.parent].g;
+  node.state = stamp_.word();
   Arrival best{kInfinity, index};
-  if (!bits_) best = byStep(index, at);
-  const auto cost = straight(cell(node.parent), at, best.g - parent_g);
+  if (!bits_) best = bestStep(index, at);
+  const auto cost = segmentCost(cell(node.parent), at, best.g - parent_g);
   if (cost && parent_g + *cost <= best.g)
     best = {parent_g + *cost, node.parent};
   else if (bits_)
-    best = byStep(index, at);
+    best = bestStep(index, at);
   node.g = best.g;
   node.parent = best.parent;
-  if (best.g <= trusted * (1.0 + kRounding)) return true;
-  heap_.push_back({best.g + leastCost(at, goal_), best.g, index});
-  std::push_heap(heap_.begin(), heap_.end(), Later());
+  if (best.g <= assumed * (1.0 + kRounding)) return true;
+  open_.push({best.g + costBound(at, goal_), best.g, index});
   ++counts.generated;
   return false;
 }
@@ -150,22 +141,20 @@ SearchResult ThetaStar::doSearch(const SearchRequest& request, const StopToken& 
   const GridGeometry& geometry = map().geometry();
   goal_ = request.goals.front();
   const std::uint32_t goal = geometry.index(goal_).value();
-  begin(geometry.index(request.start).value());
+  startQuery(geometry.index(request.start).value());
   SearchResult result;
   Statistics& counts = result.statistics;
   counts.generated = 1;
   StopPoll poll(stop, kExpansionsBetweenPolls);
-  while (!heap_.empty()) {
-    const StopReason reason = poll.ask();
-    if (reason != StopReason::NONE) return withStatus(Stopped(reason).status(), result);
-    counts.peak_open = std::max(counts.peak_open, heap_.size());
-    std::pop_heap(heap_.begin(), heap_.end(), Later());
-    const Entry entry = heap_.back();
+  while (!open_.empty()) {
+    const base::StopReason reason = poll.ask();
+    if (reason != base::StopReason::NONE) return withStatus(base::Stopped(reason).status(), result);
+    counts.peak_open = std::max(counts.peak_open, open_.size());
+    const Entry entry = open_.pop();
     const std::uint32_t from = entry.index;
-    heap_.pop_back();
-    if (nodes_[from].closed || entry.g != nodes_[from].g) continue;
-    if (nodes_[from].trusted && !verify(from, counts)) continue;
-    nodes_[from].closed = 1;
+    if (closed(from) || entry.g != nodes_[from].g) continue;
+    if ((nodes_[from].state & kUnchecked) != 0 && !checkParent(from, counts)) continue;
+    nodes_[from].state = stamp_.word() | kClosed;
     ++counts.expanded;
     if (request.record_expanded) result.expanded.emplace_back(from);
     if (from == goal) return found(std::move(result));
@@ -194,23 +183,23 @@ SearchResult ThetaStar::withStatus(Status status, SearchResult result) const {
   return result;
 }
 
-// Each neighbour by the segment from the parent, taken on trust. On maps of several
-// weights it is thought to be as much cheaper than the step as it is shorter.
+// Relaxes each neighbour by the segment from the parent, whose line of sight is assumed. On maps of
+// several weights the segment is assumed to be as much cheaper than the step as it is shorter.
 void LazyThetaStar::expand(std::uint32_t from, Statistics& counts) {
   const Node here = node(from);
   const double parent_g = node(here.parent).g;
   const Cell at = cell(from), parent = cell(here.parent);
-  const double to_parent = leastCost(parent, at);
+  const double to_parent = costBound(parent, at);
   forNeighbours(from, at, [&](std::uint32_t index, Cell to) {
     if (closed(index)) return;
-    double g = parent_g + leastCost(parent, to);
+    double g = parent_g + costBound(parent, to);
     if (!oneWeight()) {
-      const double shorter = to_parent + leastCost(at, to) - (g - parent_g);
-      const double dearer =
+      const double shorter = to_parent + costBound(at, to) - (g - parent_g);
+      const double weight =
           std::max(map().weight(at), map().weight(to)) / double(map().minWeight());
-      g = here.g + stepTo(at, to) - dearer * shorter;
+      g = here.g + stepCost(at, to) - weight * shorter;
     }
-    reach(index, to, here.parent, g, true, counts);
+    relax(index, to, here.parent, g, kUnchecked, counts);
   });
 }
 

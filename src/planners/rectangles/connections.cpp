@@ -42,7 +42,7 @@ bool byPlace(const Corner& a, const Corner& b) {
   return std::tie(a.column, a.row) < std::tie(b.column, b.row);
 }
 
-// Long sorts ask too.
+// Polls in every comparison, since sorts may be long.
 template <class Value>
 void sortBy(bool (*before)(const Value&, const Value&), std::vector<Value>& values,
             StopPoll& poll) {
@@ -70,18 +70,18 @@ struct Edges {
   }
 
   // The shared parts of edges on the same line, from both sides.
-  template <class Tell>
-  void tellBorders(Side onwards, Side back, StopPoll& poll, Tell&& tell) const {
+  template <class Visit>
+  void forEachBorder(Side onwards, Side back, StopPoll& poll, Visit&& visit) const {
     auto b = begins.begin();
     for (auto a = ends.begin(); a != ends.end() && b != begins.end();) {
       poll();
       const int first = std::max(a->first, b->first);
       const int end = std::min(a->end, b->end);
       if (a->line == b->line && first < end) {
-        tell(a->rectangle, Connection{b->rectangle, onwards, first, end - first});
-        tell(b->rectangle, Connection{a->rectangle, back, first, end - first});
+        visit(a->rectangle, Connection{b->rectangle, onwards, first, end - first});
+        visit(b->rectangle, Connection{a->rectangle, back, first, end - first});
       }
-      // The one that ends first has met all it can meet.
+      // The edge that ends first shares no part with later edges.
       if (std::tie(a->line, a->end) <= std::tie(b->line, b->end))
         ++a;
       else
@@ -90,7 +90,7 @@ struct Edges {
   }
 };
 
-// The corners of one kind and those that lie opposite to them.
+// The corners of one direction, and the corners of the opposite direction.
 struct Corners {
   std::vector<Corner> ends;
   std::vector<Corner> begins;
@@ -107,17 +107,17 @@ struct Corners {
     sortBy(byPlace, begins, poll);
   }
 
-  // Pairs of which the one's corner is where the other's opposite corner is, from both sides.
-  template <class Tell>
-  void tellPairs(StopPoll& poll, Tell&& tell) const {
+  // Pairs of rectangles whose corners coincide, from both sides.
+  template <class Visit>
+  void forEachPair(StopPoll& poll, Visit&& visit) const {
     auto b = begins.begin();
     for (const Corner& a : ends) {
       poll();
       while (b != begins.end() && byPlace(*b, a)) ++b;
       if (b == begins.end()) break;
       if (byPlace(a, *b)) continue;
-      tell(a.rectangle, Connection{b->rectangle, Side::CORNER, 0, 0});
-      tell(b->rectangle, Connection{a.rectangle, Side::CORNER, 0, 0});
+      visit(a.rectangle, Connection{b->rectangle, Side::CORNER, 0, 0});
+      visit(b->rectangle, Connection{a.rectangle, Side::CORNER, 0, 0});
     }
   }
 };
@@ -172,22 +172,22 @@ Connections::Connections(const std::vector<CellRect>& rectangles, Touching touch
   const Edges columns(rectangles, columnEdge, poll), rows(rectangles, rowEdge, poll);
   const Corners rising(corners_too ? rectangles : none, true, poll);
   const Corners falling(corners_too ? rectangles : none, false, poll);
-  const auto tellAll = [&](auto&& tell) {
-    columns.tellBorders(Side::EAST, Side::WEST, poll, tell);
-    rows.tellBorders(Side::NORTH, Side::SOUTH, poll, tell);
-    rising.tellPairs(poll, tell);
-    falling.tellPairs(poll, tell);
+  const auto forEachConnection = [&](auto&& visit) {
+    columns.forEachBorder(Side::EAST, Side::WEST, poll, visit);
+    rows.forEachBorder(Side::NORTH, Side::SOUTH, poll, visit);
+    rising.forEachPair(poll, visit);
+    falling.forEachPair(poll, visit);
   };
 
   blocks_.resize(rectangles.size());
-  tellAll([this](std::uint32_t from, const Connection&) { ++blocks_[from].room; });
+  forEachConnection([this](std::uint32_t from, const Connection&) { ++blocks_[from].room; });
   for (Block& block : blocks_) {
     block.first = static_cast<std::uint32_t>(count_);
     count_ += block.room;
   }
   all_.reserve(2 * count_);  // so that edits need not move them all
   all_.resize(count_);
-  tellAll([this](std::uint32_t from, const Connection& connection) {
+  forEachConnection([this](std::uint32_t from, const Connection& connection) {
     Block& block = blocks_[from];
     all_[block.first + block.count++] = connection;
   });
@@ -199,7 +199,7 @@ Connections::Connections(const std::vector<CellRect>& rectangles, Touching touch
 }
 
 std::size_t Connections::bytes() const {
-  // What is only reserved was never touched.
+  // Memory that is reserved and not used has no pages.
   std::size_t bytes = all_.size() * sizeof(Connection) + blocks_.capacity() * sizeof(Block);
   for (const auto& each : released_) bytes += each.capacity() * sizeof(std::uint32_t);
   return bytes;
@@ -248,7 +248,7 @@ void Connections::erase(std::uint32_t rectangle, std::uint32_t to) {
   --count_;
 }
 
-std::uint32_t Connections::take(std::uint32_t room) {
+std::uint32_t Connections::allocate(std::uint32_t room) {
   auto& released = released_[static_cast<std::size_t>(roomClass(room))];
   if (released.empty()) {
     all_.resize(all_.size() + room);
@@ -268,7 +268,7 @@ void Connections::makeRoom(Block& block, std::size_t count) {
   if (count <= block.room) return;
   Block larger = block;
   larger.room = std::uint32_t{1} << std::max(2, roomClass(count));
-  larger.first = take(larger.room);
+  larger.first = allocate(larger.room);
   std::copy_n(all_.begin() + block.first, block.count, all_.begin() + larger.first);
   release(block);
   block = larger;

@@ -55,7 +55,7 @@ std::size_t countRuns(const BitMap& free) {
 }
 
 std::size_t largestFirstBytes(const GridGeometry& geometry, std::size_t runs) {
-  // Runs are cut into more while rectangles are taken, and the vectors double when they grow.
+  // Runs are split as rectangles are cut, and the vectors double when they grow.
   return BitMaps::bytesFor(geometry) + 2 * runs * (sizeof(GreedyEntry) + sizeof(CellRect));
 }
 

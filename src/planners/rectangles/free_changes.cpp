@@ -15,7 +15,7 @@ using grid::CellRect;
 
 namespace {
 
-// Words of `changed` alone, from the one that holds its first column on.
+// Bit maps of `changed` alone, from the word on that holds its first column.
 struct Window {
   CellRect cells;
   int first_word;
@@ -34,18 +34,18 @@ struct Change {
 };
 using Changes = std::vector<Change>::iterator;
 
-FreeChanges together(Changes first, Changes last) {
+FreeChanges joined(Changes first, Changes last) {
   FreeChanges changes;
   for (; first != last; ++first)
     (first->gained ? changes.gained : changes.lost).push_back(first->rect);
   return changes;
 }
 
-// Of a group of several.
+// Cells, of a group of several changes.
 constexpr int kLargestHull = 64;
 
 void group(Changes first, Changes last, std::vector<FreeChanges>& groups) {
-  FreeChanges changes = together(first, last);
+  FreeChanges changes = joined(first, last);
   const CellRect hull = changes.hull();
   if (last - first == 1 || std::max(hull.width, hull.height) <= kLargestHull)
     return groups.push_back(std::move(changes));
@@ -70,7 +70,7 @@ CellRect FreeChanges::hull() const {
   return hull;
 }
 
-std::vector<FreeChanges> nearEachOther(const FreeChanges& changes) {
+std::vector<FreeChanges> groupedByPlace(const FreeChanges& changes) {
   std::vector<Change> all;
   for (const CellRect& rect : changes.gained) all.push_back({rect, true});
   for (const CellRect& rect : changes.lost) all.push_back({rect, false});
@@ -100,7 +100,7 @@ FreeChanges freeChanges(const BitMap& free, const std::vector<CellRect>& rectang
       gained.row(row)[word] = now[word] & ~before[word];
       lost.row(row)[word] = before[word] & ~now[word];
     }
-    // The words' other bits are not of `changed`.
+    // Clears the bits of the words outside `changed`.
     for (BitMap* bits : {&gained, &lost}) {
       fillBits(bits->row(row), 0, window.columnOf(changed.column), false);
       fillBits(bits->row(row), end, 64 * covered.words(), false);

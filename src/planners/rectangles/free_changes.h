@@ -1,4 +1,4 @@
-// Which cells of a map became free or blocked since its rectangles were made.
+// The cells of a map that became free or blocked since its rectangles were cut.
 #pragma once
 
 #include <vector>
@@ -15,13 +15,13 @@ struct FreeChanges {
   grid::CellRect hull() const;
 };
 
-// Of the cells of `changed`, which lies in the map. `rectangles`: all that hold cells of it. Throws
+// Of the cells of `changed`, which lies in the map. `rectangles`: all that overlap `changed`. Throws
 // Stopped.
 FreeChanges freeChanges(const costmap::BitMap& free, const std::vector<grid::CellRect>& rectangles,
                         const grid::CellRect& changed, const base::StopToken& stop);
 
-// The same in groups that may be dealt with one after the other: of one rectangle, or of several
-// that lie within some dozens of cells.
-std::vector<FreeChanges> nearEachOther(const FreeChanges& changes);
+// The same in groups that can be applied one after the other: each of one rectangle, or of several
+// whose hull is at most some dozens of cells wide.
+std::vector<FreeChanges> groupedByPlace(const FreeChanges& changes);
 
 }  // namespace grid_path_planner::planners

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int64_t kUnit = SegmentPoint::kUnitsPerCell;
 
-// An opening as one sees it who crosses it.
+// A border, with its ends as seen in the direction in which the path crosses it.
 struct Opening {
   SegmentPoint left;
   SegmentPoint right;
@@ -55,7 +55,7 @@ std::vector<SegmentPoint> shortestThrough(const RectangleGraph& map, const Recta
   const std::vector<Opening> openings = openingsOf(map, route, goal);
   std::vector<SegmentPoint> points = {start};
   SegmentPoint left = start, right = start;
-  std::size_t left_opening = 0, right_opening = 0;  // where the funnel's sides come from
+  std::size_t left_opening = 0, right_opening = 0;  // of the funnel's sides
   const auto turnAt = [&](SegmentPoint corner, std::size_t opening) {
     if (corner != points.back()) points.push_back(corner);
     left = right = corner;
@@ -65,8 +65,8 @@ std::vector<SegmentPoint> shortestThrough(const RectangleGraph& map, const Recta
   for (std::size_t i = 0; i < openings.size(); ++i) {
     const SegmentPoint apex = points.back();
     const Opening& next = openings[i];
-    // A side that closes in is moved; one that would cross the other shows where the path turns,
-    // and the openings from there on are looked at again.
+    // A side that narrows the funnel is moved. Where it would cross the other side, the path turns
+    // at that side, and the scan restarts at its opening.
     if (turn(apex, right, next.right) >= 0) {
       if (right != apex && turn(apex, left, next.right) >= 0) {
         i = turnAt(left, left_opening);

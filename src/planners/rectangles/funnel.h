@@ -1,4 +1,4 @@
-// The shortest way through a sequence of openings: the funnel algorithm (Lee & Preparata 1984,
+// The shortest path through a sequence of borders: the funnel algorithm (Lee & Preparata 1984,
 // Chazelle 1982) on lattice points.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The largest-first cut of planners/decomposition.h, over lines of cells that may stand for
-// several lines of the map.
+// The largest-first cut of planners/decomposition.h, over rows and columns that may stand for
+// several rows and columns of the map.
 #pragma once
 
 #include <algorithm>
@@ -27,19 +27,19 @@ inline void fillBits(costmap::BitMaps& bits, const grid::CellRect& rect, bool va
     costmap::fillBits(bits.columns.row(column), rect.row, rect.row + rect.height, value);
 }
 
-// The columns or rows of a bit map as the map's: each stands for one.
+// Each column or row of the bit map stands for one of the map.
 struct EvenLines {
   int between(int first, int end) const { return end - first; }
   int firstOf(int end, int length) const { return end - length; }
 };
 
-// The largest rectangle that has its last row in a run of free cells: what a heap entry promises.
+// An upper bound of the largest rectangle that has its last row in a run of free cells.
 struct GreedyEntry {
   std::uint32_t area;
   std::int32_t first_column;
   std::int32_t last_row;
   std::int32_t width;
-  std::int32_t run_first;  // of the run in last_row that the rectangle was looked for in
+  std::int32_t run_first;  // of the run in last_row
   std::int32_t run_end;
 };
 
@@ -69,7 +69,7 @@ class GreedyCut {
   std::vector<grid::CellRect> run() {
     measureAll();
     while (!heap_.empty() && rectangles_.size() < limits_.count) {
-      worked(1);
+      countWork(1);
       std::pop_heap(heap_.begin(), heap_.end(), GreedyOrder());
       const GreedyEntry entry = heap_.back();
       heap_.pop_back();
@@ -78,13 +78,13 @@ class GreedyCut {
         push(rectangles_, rect);
         fillBits(left_, rect, false);
       }
-      measureAgain(entry.last_row, entry.run_first, entry.run_end);
+      remeasure(entry.last_row, entry.run_first, entry.run_end);
     }
     return std::move(rectangles_);
   }
 
  private:
-  // Some milliseconds' work.
+  // Some milliseconds.
   static constexpr int kColumnsBetweenPolls = 1 << 14;
 
   // A bar of the histogram of free cells above a row that is still open to the right.
@@ -93,7 +93,7 @@ class GreedyCut {
     int height;
   };
 
-  // Every run of every row; the heights grow from row to row.
+  // Adds the entries of all runs of all rows, by the histogram of free cells above each row.
   void measureAll() {
     const costmap::BitMap& rows = left_.rows;
     std::vector<int> heights(static_cast<std::size_t>(rows.width()), 0);
@@ -109,13 +109,13 @@ class GreedyCut {
       }
     }
     std::make_heap(heap_.begin(), heap_.end(), [this](const GreedyEntry& a, const GreedyEntry& b) {
-      worked(1);
+      countWork(1);
       return GreedyOrder()(a, b);
     });
   }
 
-  // Asks the token now and then; `columns`: that were looked at.
-  void worked(int columns) {
+  // Polls the token once in kColumnsBetweenPolls columns.
+  void countWork(int columns) {
     work_ += columns;
     if (work_ < kColumnsBetweenPolls) return;
     work_ = 0;
@@ -129,15 +129,15 @@ class GreedyCut {
     if (bytes > limits_.bytes || taken > limits_.bytes - bytes) throw DecompositionTooLarge();
   }
 
-  // A vector that grows holds both copies for a while.
+  // While a vector grows, both copies take memory.
   template <class T>
   void push(std::vector<T>& values, const T& value) {
     if (values.size() == values.capacity()) checkRoomFor((2 * values.size() + 1) * sizeof(T));
     values.push_back(value);
   }
 
-  // What is left of a run.
-  void measureAgain(int row, int first, int end) {
+  // Adds the entries of the runs that are left of a run.
+  void remeasure(int row, int first, int end) {
     const costmap::BitMap& rows = left_.rows;
     for (first = nextFree(rows, row, first); first < end; first = nextFree(rows, row, first)) {
       const int run_end = std::min(end, nextBlocked(rows, row, first));
@@ -150,10 +150,10 @@ class GreedyCut {
     }
   }
 
-  // Appends the entry of a run, unless its rectangle is below the smallest area that is wanted.
+  // Appends the entry of a run, unless its rectangle is smaller than DecompositionLimits allow.
   template <class HeightOf>
   void add(int row, int first, int end, HeightOf&& heightOf) {
-    worked(end - first);
+    countWork(end - first);
     GreedyEntry best{0, first, row, 1, first, end};
     bars_.clear();
     for (int column = first; column <= end; ++column) {

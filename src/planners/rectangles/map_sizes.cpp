@@ -29,29 +29,29 @@ std::size_t wholeBytes(std::size_t bits) {
 }
 
 // White where it is free.
-cv::Mat pictureOf(const RectangleGraph& map) {
-  cv::Mat picture = cv::Mat::zeros(map.geometry().height(), map.geometry().width(), CV_8UC1);
+cv::Mat imageOf(const RectangleGraph& map) {
+  cv::Mat image = cv::Mat::zeros(map.geometry().height(), map.geometry().width(), CV_8UC1);
   for (const CellRect& rect : map.rectangles())
-    if (!rect.empty()) picture(cv::Rect(rect.column, rect.row, rect.width, rect.height)).setTo(255);
-  return picture;
+    if (!rect.empty()) image(cv::Rect(rect.column, rect.row, rect.width, rect.height)).setTo(255);
+  return image;
 }
 
-std::string bitsOf(const cv::Mat& picture) {
-  const std::size_t row_bytes = wholeBytes(static_cast<std::size_t>(picture.cols));
-  std::string bits(row_bytes * static_cast<std::size_t>(picture.rows), '\0');
-  for (int row = 0; row < picture.rows; ++row) {
+std::string bitsOf(const cv::Mat& image) {
+  const std::size_t row_bytes = wholeBytes(static_cast<std::size_t>(image.cols));
+  std::string bits(row_bytes * static_cast<std::size_t>(image.rows), '\0');
+  for (int row = 0; row < image.rows; ++row) {
     char* bytes = &bits[row_bytes * static_cast<std::size_t>(row)];
-    const std::uint8_t* pixels = picture.ptr<std::uint8_t>(row);
-    for (int column = 0; column < picture.cols; ++column)
+    const std::uint8_t* pixels = image.ptr<std::uint8_t>(row);
+    for (int column = 0; column < image.cols; ++column)
       if (pixels[column] != 0)
         bytes[column / 8] = static_cast<char>(bytes[column / 8] | 1 << column % 8);
   }
   return bits;
 }
 
-std::size_t pngSize(const cv::Mat& picture) {
+std::size_t pngSize(const cv::Mat& image) {
   std::vector<std::uint8_t> png;
-  cv::imencode(".png", picture, png, {cv::IMWRITE_PNG_BILEVEL, 1, cv::IMWRITE_PNG_COMPRESSION, 9});
+  cv::imencode(".png", image, png, {cv::IMWRITE_PNG_BILEVEL, 1, cv::IMWRITE_PNG_COMPRESSION, 9});
   return png.size();
 }
 
@@ -66,9 +66,9 @@ MapSizes mapSizes(const RectangleGraph& map) {
   const std::size_t place_bits = bitsFor(geometry.width()) + bitsFor(geometry.height());
   sizes.empty_cells = wholeBytes(map.freeCells() * place_bits);
   sizes.rectangles = wholeBytes(map.count() * 2 * place_bits);
-  const cv::Mat picture = pictureOf(map);
-  sizes.png = pngSize(picture);
-  sizes.zlib = deflated(bitsOf(picture)).size();
+  const cv::Mat image = imageOf(map);
+  sizes.png = pngSize(image);
+  sizes.zlib = deflated(bitsOf(image)).size();
   return sizes;
 }
 

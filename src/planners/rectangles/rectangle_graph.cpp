@@ -22,8 +22,9 @@ using grid::GridGeometry;
 
 namespace {
 
-// Rectangles so many cells away from those that changed are redone with them; with fewer than kFew
-// these, those farther off too; never more than kMostRedone. Chosen by benchmark/rectangle_repair.
+// Rectangles within kNear cells of those that changed are cut anew with them; where these are fewer
+// than kFew, those within kFar cells; never more than kMostRedone. Chosen by
+// benchmark/rectangle_repair.
 constexpr int kNear = 4, kFar = 16;
 constexpr std::size_t kFew = 5, kMostRedone = 12;
 
@@ -35,7 +36,7 @@ std::string nameOf(const std::vector<CellRect>& rectangles, std::size_t number) 
   return out.str();
 }
 
-// Without sums that might overflow: the numbers may come from a file.
+// Without sums, which may overflow: the numbers may come from a file.
 bool inside(const GridGeometry& geometry, const CellRect& rect) {
   return rect.column >= 0 && rect.row >= 0 && rect.column < geometry.width() &&
          rect.row < geometry.height() && rect.width <= geometry.width() - rect.column &&
@@ -57,7 +58,7 @@ void checkDisjoint(const RectangleIndex& index, const std::vector<CellRect>& rec
   StopPoll poll(stop);
   for (std::size_t i = 0; i < rectangles.size(); ++i) {
     poll();
-    for (const std::uint32_t other : index.meeting(rectangles[i]))
+    for (const std::uint32_t other : index.overlapping(rectangles[i]))
       if (other != i)
         throw InputError(nameOf(rectangles, i) + " overlaps " + nameOf(rectangles, other));
   }
@@ -72,29 +73,29 @@ void sortUnique(std::vector<std::uint32_t>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-bool holds(const std::vector<std::uint32_t>& ascending, std::uint32_t number) {
+bool contains(const std::vector<std::uint32_t>& ascending, std::uint32_t number) {
   return std::binary_search(ascending.begin(), ascending.end(), number);
 }
 
 }  // namespace
 
-// Takes rectangles out of a map and puts others in, and remembers which.
+// Replaces rectangles of a map by others, and records which.
 class RectangleGraph::Replacement {
  public:
   explicit Replacement(RectangleGraph& map) : map_(map) {}
 
-  // `old`: numbers, ascending. `around`: all rectangles that touch one of `fresh` are among these,
-  // the old ones and what these touch.
+  // `old`: numbers, ascending. All rectangles that touch one of `fresh` are in `around`, in `old` or
+  // neighbours of `old`.
   void replace(std::vector<std::uint32_t> old, std::vector<CellRect> fresh,
                std::vector<std::uint32_t> around) {
-    keepTheSame(old, fresh);
+    removeCommon(old, fresh);
     for (const std::uint32_t number : old)
       for (const Connection& connection : map_.connections_.of(number))
         around.push_back(connection.to);
     sortUnique(around);
-    const auto goes = [&old](std::uint32_t number) { return holds(old, number); };
-    around.erase(std::remove_if(around.begin(), around.end(), goes), around.end());
-    // The larger ones get the smaller numbers.
+    const auto is_old = [&old](std::uint32_t number) { return contains(old, number); };
+    around.erase(std::remove_if(around.begin(), around.end(), is_old), around.end());
+    // The larger rectangles get the smaller numbers.
     std::for_each(old.rbegin(), old.rend(), [this](std::uint32_t number) { remove(number); });
     std::stable_sort(fresh.begin(), fresh.end(),
                      [](const CellRect& a, const CellRect& b) { return areaOf(a) > areaOf(b); });
@@ -111,7 +112,7 @@ class RectangleGraph::Replacement {
     for (std::size_t i = 0; i < events_.size(); ++i) {
       const Event& event = events_[i];
       if (i > 0 && events_[i - 1].number == event.number) continue;
-      if (!event.came) edit.removed.push_back(event.number);
+      if (!event.added) edit.removed.push_back(event.number);
       if (!map_.rectangles_[event.number].empty()) edit.added.push_back(event.number);
     }
     return edit;
@@ -120,17 +121,18 @@ class RectangleGraph::Replacement {
  private:
   struct Event {
     std::uint32_t number;
-    bool came;
+    bool added;
   };
 
-  void keepTheSame(std::vector<std::uint32_t>& old, std::vector<CellRect>& fresh) const {
-    const auto stays = [&](std::uint32_t number) {
+  // Rectangles in both lists stay as they are.
+  void removeCommon(std::vector<std::uint32_t>& old, std::vector<CellRect>& fresh) const {
+    const auto is_common = [&](std::uint32_t number) {
       const auto same = std::find(fresh.begin(), fresh.end(), map_.rectangles_[number]);
       if (same == fresh.end()) return false;
       fresh.erase(same);
       return true;
     };
-    old.erase(std::remove_if(old.begin(), old.end(), stays), old.end());
+    old.erase(std::remove_if(old.begin(), old.end(), is_common), old.end());
   }
 
   void remove(std::uint32_t number) {
@@ -192,11 +194,12 @@ std::size_t RectangleGraph::count() const {
 RectangleEdit RectangleGraph::edit(const BitMap& free, const CellRect& changed,
                                    const StopToken& stop) {
   const CellRect inside = changed.intersection(geometry_.rect());
-  std::vector<CellRect> met;
-  for (const std::uint32_t number : index_->meeting(inside)) met.push_back(rectangles_[number]);
+  std::vector<CellRect> overlapped;
+  for (const std::uint32_t number : index_->overlapping(inside))
+    overlapped.push_back(rectangles_[number]);
   Replacement replacement(*this);
   StopPoll poll(stop, 8);
-  for (const FreeChanges& each : nearEachOther(freeChanges(free, met, inside, stop))) {
+  for (const FreeChanges& each : groupedByPlace(freeChanges(free, overlapped, inside, stop))) {
     poll();
     repair(each, replacement, stop);
   }
@@ -207,7 +210,7 @@ void RectangleGraph::repair(const FreeChanges& changes, Replacement& replacement
                             const StopToken& stop) {
   std::vector<std::uint32_t> touched, around;
   const auto append = [this](const CellRect& rect, std::vector<std::uint32_t>& numbers) {
-    for (const std::uint32_t number : index_->meeting(rect)) numbers.push_back(number);
+    for (const std::uint32_t number : index_->overlapping(rect)) numbers.push_back(number);
   };
   for (const CellRect& rect : changes.lost) append(rect, touched);
   for (const CellRect& rect : changes.gained) {
@@ -220,7 +223,7 @@ void RectangleGraph::repair(const FreeChanges& changes, Replacement& replacement
   for (const std::uint32_t number : touched) free.push_back(rectangles_[number]);
   std::vector<CellRect> fresh = fewestRectangles(free, changes.lost, stop);
 
-  // With others nearby, where the whole is no more then: else the map would fall to pieces.
+  // With rectangles nearby, where that gives no more in total: else edits would fragment the map.
   const std::vector<std::uint32_t> others = nearby(changes.hull(), touched);
   if (!others.empty()) {
     for (const std::uint32_t number : others) free.push_back(rectangles_[number]);
@@ -236,9 +239,9 @@ void RectangleGraph::repair(const FreeChanges& changes, Replacement& replacement
 
 std::vector<std::uint32_t> RectangleGraph::nearby(const CellRect& changed,
                                                   const std::vector<std::uint32_t>& touched) const {
-  std::vector<std::uint32_t> numbers = index_->meeting(changed.grown(kNear));
-  if (numbers.size() < kFew) numbers = index_->meeting(changed.grown(kFar));
-  const auto isTouched = [&touched](std::uint32_t number) { return holds(touched, number); };
+  std::vector<std::uint32_t> numbers = index_->overlapping(changed.grown(kNear));
+  if (numbers.size() < kFew) numbers = index_->overlapping(changed.grown(kFar));
+  const auto isTouched = [&touched](std::uint32_t number) { return contains(touched, number); };
   numbers.erase(std::remove_if(numbers.begin(), numbers.end(), isTouched), numbers.end());
   if (numbers.size() + touched.size() > kMostRedone)
     numbers.resize(kMostRedone - std::min(kMostRedone, touched.size()));

@@ -25,13 +25,13 @@ using Point = bg::model::d2::point_xy<int>;
 using Box = bg::model::box<Point>;
 using Value = std::pair<Box, std::uint32_t>;
 
-// The first and the last cell: boxes that share a cell meet, neighbours do not.
+// From the first to the last cell: boxes intersect if they share a cell, neighbours do not.
 Box boxOf(const CellRect& rect) {
   return {Point(rect.column, rect.row),
           Point(rect.column + rect.width - 1, rect.row + rect.height - 1)};
 }
 
-// Makes a value when the tree asks for it, and asks the stop token then.
+// Makes a value when the tree reads it, and polls the stop token.
 struct ValueOf {
   const std::vector<CellRect>* rectangles;
   StopPoll* poll;
@@ -77,11 +77,11 @@ void RectangleIndex::remove(const CellRect& rect, std::uint32_t number) {
 }
 
 std::optional<std::uint32_t> RectangleIndex::at(Cell cell) const {
-  const std::vector<std::uint32_t> numbers = meeting({cell.column, cell.row, 1, 1});
+  const std::vector<std::uint32_t> numbers = overlapping({cell.column, cell.row, 1, 1});
   return numbers.empty() ? std::nullopt : std::make_optional(numbers.front());
 }
 
-std::vector<std::uint32_t> RectangleIndex::meeting(const CellRect& rect) const {
+std::vector<std::uint32_t> RectangleIndex::overlapping(const CellRect& rect) const {
   std::vector<std::uint32_t> numbers;
   if (rect.empty()) return numbers;
   const auto keep = [&numbers](const Value& value) { numbers.push_back(value.second); };

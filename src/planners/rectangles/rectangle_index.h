@@ -1,5 +1,5 @@
-// Which of many disjoint rectangles lie where, while they come and go: an R-tree (Guttman 1984),
-// Boost.Geometry's.
+// An index of disjoint rectangles by place, with insertion and removal: the R-tree (Guttman 1984) of
+// Boost.Geometry.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@ namespace grid_path_planner::planners {
 
 class RectangleIndex {
  public:
-  // About, of one of many rectangles.
+  // About, for each of many rectangles.
   static constexpr std::size_t kBytes = 25;
 
   RectangleIndex();
-  // Numbered by their place in the list; made in bulk, which gives a better tree. Throws Stopped.
+  // Numbered by their place in the list; bulk loading gives a better tree. Throws Stopped.
   explicit RectangleIndex(const std::vector<grid::CellRect>& rectangles,
                           const base::StopToken& stop = base::StopToken());
   ~RectangleIndex();
@@ -31,11 +31,11 @@ class RectangleIndex {
   void remove(const grid::CellRect& rect, std::uint32_t number);
 
   std::optional<std::uint32_t> at(grid::Cell cell) const;
-  // The numbers of those that hold a cell of `rect`, ascending.
-  std::vector<std::uint32_t> meeting(const grid::CellRect& rect) const;
+  // The numbers of those that overlap `rect`, ascending.
+  std::vector<std::uint32_t> overlapping(const grid::CellRect& rect) const;
 
   std::size_t size() const;
-  // About: the tree tells only its size.
+  // About: the tree has no exact number.
   std::size_t bytes() const;
 
  private:

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "grid_path_planner/planners/decomposition.h"
+#include "planners/core/any_angle_traits.h"
 #include "planners/rectangles/funnel.h"
 
 namespace grid_path_planner::planners {
@@ -18,12 +19,11 @@ using costmap::SegmentPoint;
 using costmap::waypointOf;
 using grid::Cell;
 using grid::CellRect;
-using grid::GridGeometry;
 
 namespace {
 
 // Maps have about as many rectangles as their rows have runs of free cells.
-std::size_t bytesForRuns(const GridGeometry& geometry, std::size_t runs) {
+std::size_t bytesForRuns(const grid::GridGeometry& geometry, std::size_t runs) {
   return std::max(largestFirstBytes(geometry, runs), RectangleGraph::bytesFor(runs));
 }
 
@@ -62,12 +62,8 @@ std::vector<Cell> throughTheMiddles(const RectangleGraph& map, const RectangleRo
 }  // namespace
 
 PlannerTraits RectangleMapPlanner::declaredTraits() {
-  PlannerTraits traits;
-  traits.name = "rectangle_map";
-  traits.four_connected = false;
-  traits.unit_diagonals = false;
+  PlannerTraits traits = anyAngleTraits("rectangle_map");
   traits.weights = false;
-  traits.any_angle = true;
   traits.repairs = true;
   return traits;
 }
@@ -75,8 +71,8 @@ PlannerTraits RectangleMapPlanner::declaredTraits() {
 RectangleMapPlanner::RectangleMapPlanner(const SearchOptions& options)
     : Planner(declaredTraits()), options_(options) {}
 
-// Of a map without obstacles, the least there is; doPrepare() looks at the map.
-std::size_t RectangleMapPlanner::bytesFor(const GridGeometry& geometry) const {
+// Of a map without obstacles, the least of all maps; doPrepare() counts the runs of the map.
+std::size_t RectangleMapPlanner::bytesFor(const grid::GridGeometry& geometry) const {
   return bytesForRuns(geometry, static_cast<std::size_t>(geometry.height()));
 }
 
@@ -99,8 +95,8 @@ void RectangleMapPlanner::doUpdate(const CellRect& changed, const StopToken& sto
   rectangles_.edit(map().bitMaps(stop).rows, changed, stop);
 }
 
-void RectangleMapPlanner::keep(const RectangleRoute& route, const SearchRequest& request,
-                               SearchResult& result) const {
+void RectangleMapPlanner::addPath(const RectangleRoute& route, const SearchRequest& request,
+                                  SearchResult& result) const {
   const Cell start = request.start, goal = request.goals.front();
   if (options_.rectangle_funnel) {
     result.points =
@@ -128,7 +124,7 @@ SearchResult RectangleMapPlanner::doSearch(const SearchRequest& request, const S
       result.expanded.push_back(
           map().geometry().index(middleOf(rectangles().rectangles()[rectangle])));
   result.status = route.found ? Status::FOUND : Status::UNREACHABLE;
-  if (route.found) keep(route, request, result);
+  if (route.found) addPath(route, request, result);
   return result;
 }
 

@@ -1,16 +1,16 @@
 // Planning on rectangles instead of cells: the R-map (Ahn & Jeon 2010, Park 2013).
 //
-// prepare() cuts the map into rectangles (largestFirst); a plan is a search over them by
-// SearchOptions::rectangle_weight, whose path runs through the middles of the shared borders and is
-// then pulled taut (rectangle_funnel). update() redoes the rectangles that a change touches, and no
-// others, however many updates came before: their number stays near that of a map cut anew
-// (benchmark/rectangle_repair.cpp).
+// prepare() cuts the map into rectangles (largestFirst); search() finds a sequence of them by
+// SearchOptions::rectangle_weight. The path leads through the middles of the shared borders, or is
+// the shortest through these borders (rectangle_funnel). update() cuts anew the rectangles around a
+// change and no others, however many updates came before: their number stays near that of a fresh
+// decomposition (benchmark/rectangle_repair.cpp).
 //
-// Guaranteed: a legal path, and one where there is one: rectangles are connected where a vehicle
-// can drive. With `length` the sequence of rectangles is the one whose path through the middles is
-// the shortest, with funnel the path is the shortest through that sequence.
-// Not guaranteed: the shortest path there is; with the published weights not even a short one;
-// after updates the path that a fresh planner finds.
+// Guaranteed: a legal path, wherever there is one: rectangles are connected where a vehicle can
+// drive. With `length` the sequence of rectangles is the one whose path through the middles is the
+// shortest, with funnel the path is the shortest through that sequence.
+// Not guaranteed: the shortest of all paths; with the published weights not even a short one; after
+// updates the path that a fresh planner finds.
 #pragma once
 
 #include "grid_path_planner/planners/planner.h"
@@ -37,7 +37,8 @@ class RectangleMapPlanner : public Planner {
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
  private:
-  void keep(const RectangleRoute& route, const SearchRequest& request, SearchResult& result) const;
+  void addPath(const RectangleRoute& route, const SearchRequest& request,
+               SearchResult& result) const;
 
   SearchOptions options_;
   RectangleGraph rectangles_;

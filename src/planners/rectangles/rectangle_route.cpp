@@ -22,13 +22,6 @@ double distance(Cell a, Cell b) {
   return std::hypot(a.column - b.column, a.row - b.row);
 }
 
-struct Later {
-  template <class Entry>
-  bool operator()(const Entry& a, const Entry& b) const {
-    return a.f != b.f ? a.f > b.f : a.node > b.node;
-  }
-};
-
 }  // namespace
 
 double stepWeight(const RectangleGraph& map, RectangleWeight weight, std::uint32_t from,
@@ -68,35 +61,30 @@ std::pair<Cell, Cell> middleOf(const CellRect& from, const Connection& step) {
 }
 
 std::size_t RectangleSearch::bytes() const {
-  return nodes_.capacity() * sizeof(Node) + heap_.capacity() * sizeof(Entry);
+  return nodes_.capacity() * sizeof(Node) + open_.bytes();
 }
 
-void RectangleSearch::begin(std::size_t nodes) {
-  heap_.clear();
+void RectangleSearch::startQuery(std::size_t nodes) {
+  open_.clear();
   if (nodes_.size() < nodes) nodes_.resize(nodes);
-  if (++query_ != 0) return;
-  std::fill(nodes_.begin(), nodes_.end(), Node());
-  query_ = 1;
+  stamp_.next([this] { std::fill(nodes_.begin(), nodes_.end(), Node()); });
 }
 
-void RectangleSearch::reach(std::uint32_t node, double g, double h, std::uint32_t parent,
+void RectangleSearch::relax(std::uint32_t node, double g, double h, std::uint32_t parent,
                             std::uint32_t step, Statistics& counts) {
   Node& known = nodes_[node];
-  if (known.query == query_ && (known.closed || known.g <= g)) return;
-  known = {g, parent, step, query_, false};
-  heap_.push_back({g + h, node});
-  std::push_heap(heap_.begin(), heap_.end(), Later());
+  if (stamp_.wrote(known.state) && ((known.state & kClosed) != 0 || known.g <= g)) return;
+  known = {g, parent, step, stamp_.word()};
+  open_.push({g + h, node});
   ++counts.generated;
-  counts.peak_open = std::max(counts.peak_open, heap_.size());
+  counts.peak_open = std::max(counts.peak_open, open_.size());
 }
 
-bool RectangleSearch::take(std::uint32_t& node, Statistics& counts) {
-  while (!heap_.empty()) {
-    std::pop_heap(heap_.begin(), heap_.end(), Later());
-    node = heap_.back().node;
-    heap_.pop_back();
-    if (nodes_[node].closed) continue;
-    nodes_[node].closed = true;
+bool RectangleSearch::popNode(std::uint32_t& node, Statistics& counts) {
+  while (!open_.empty()) {
+    node = open_.pop().node;
+    if ((nodes_[node].state & kClosed) != 0) continue;
+    nodes_[node].state |= kClosed;
     ++counts.expanded;
     return true;
   }
@@ -120,7 +108,7 @@ RectangleRoute RectangleSearch::findOverRectangles(const RectangleGraph& map,
   const std::uint32_t last = map.at(goal).value();
   RectangleRoute route;
   route.first = map.at(start).value();
-  // No published weight but the distance has a lower bound that is worth asking for.
+  // Of the published weights only the distance has a lower bound above 0.
   const Eigen::Vector2d end = centreOf(map.rectangles()[last]);
   const auto bound = [&](std::uint32_t rectangle) {
     return weight == RectangleWeight::DISTANCE
@@ -128,10 +116,10 @@ RectangleRoute RectangleSearch::findOverRectangles(const RectangleGraph& map,
                : 0.0;
   };
 
-  begin(map.rectangles().size());
-  reach(route.first, 0.0, bound(route.first), route.first, 0, route.statistics);
+  startQuery(map.rectangles().size());
+  relax(route.first, 0.0, bound(route.first), route.first, 0, route.statistics);
   StopPoll poll(stop);
-  for (std::uint32_t from = 0; take(from, route.statistics);) {
+  for (std::uint32_t from = 0; popNode(from, route.statistics);) {
     poll();
     route.expanded.push_back(from);
     if (from == last) {
@@ -143,14 +131,14 @@ RectangleRoute RectangleSearch::findOverRectangles(const RectangleGraph& map,
     }
     auto number = static_cast<std::uint32_t>(connections.firstOf(from));
     for (const Connection& step : connections.of(from))
-      reach(step.to, nodes_[from].g + stepWeight(map, weight, from, step), bound(step.to), from,
+      relax(step.to, nodes_[from].g + stepWeight(map, weight, from, step), bound(step.to), from,
             number++, route.statistics);
   }
   return route;
 }
 
-// A node is a connection that was crossed: the vehicle stands on its inward cell. The last two
-// nodes are the start and the goal.
+// A node is a connection that was crossed, and stands for its inward cell. The last two nodes are
+// the start and the goal.
 RectangleRoute RectangleSearch::findOverBorders(const RectangleGraph& map, Cell start, Cell goal,
                                                 const StopToken& stop) {
   const Connections& connections = map.connections();
@@ -168,10 +156,10 @@ RectangleRoute RectangleSearch::findOverBorders(const RectangleGraph& map, Cell 
     return middleOf(map.rectangles()[from], connections[node]).second;
   };
 
-  begin(connections.size() + 2);
-  reach(origin, 0.0, distance(start, goal), origin, 0, route.statistics);
+  startQuery(connections.size() + 2);
+  relax(origin, 0.0, distance(start, goal), origin, 0, route.statistics);
   StopPoll poll(stop);
-  for (std::uint32_t from = 0; take(from, route.statistics);) {
+  for (std::uint32_t from = 0; popNode(from, route.statistics);) {
     poll();
     route.expanded.push_back(from == target ? last : rectangleOf(from));
     if (from == target) {
@@ -184,11 +172,11 @@ RectangleRoute RectangleSearch::findOverBorders(const RectangleGraph& map, Cell 
     const Cell here = cellOf(from);
     const double g = nodes_[from].g;
     const std::uint32_t rectangle = rectangleOf(from);
-    if (rectangle == last) reach(target, g + distance(here, goal), 0.0, from, 0, route.statistics);
+    if (rectangle == last) relax(target, g + distance(here, goal), 0.0, from, 0, route.statistics);
     auto number = static_cast<std::uint32_t>(connections.firstOf(rectangle));
     for (const Connection& step : connections.of(rectangle)) {
       const auto [outward, inward] = middleOf(map.rectangles()[rectangle], step);
-      reach(number, g + distance(here, outward) + 1.0, distance(inward, goal), from, number,
+      relax(number, g + distance(here, outward) + 1.0, distance(inward, goal), from, number,
             route.statistics);
       ++number;
     }

@@ -13,14 +13,14 @@ using grid::CellRect;
 
 namespace {
 
-// The same where each may stand for several: number i begins at edges[i].
+// Each column or row stands for those of the map from edges[i] to edges[i + 1].
 struct UnevenLines {
   std::vector<int> edges;
 
   int between(int first, int end) const {
     return edges[std::size_t(end)] - edges[std::size_t(first)];
   }
-  // The number of the line from which on there are `length` up to `end`.
+  // The first of the last lines before `end` that stand for `length` of the map.
   int firstOf(int end, int length) const { return indexOf(edges[std::size_t(end)] - length); }
   int indexOf(int edge) const {
     return static_cast<int>(std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin());
@@ -42,7 +42,7 @@ UnevenLines linesOf(const std::vector<CellRect>& free, const std::vector<CellRec
   return {std::move(edges)};
 }
 
-// What the rectangles cover, on a grid of the lines along which they begin and end.
+// The covered cells on the grid of the distinct edges.
 struct Patch {
   UnevenLines columns;
   UnevenLines rows;
@@ -88,7 +88,7 @@ std::vector<CellRect> fewestRectangles(const std::vector<CellRect>& free,
     std::transform(upright.begin(), upright.end(), upright.begin(), transposed);
     fewest = std::move(upright);
   }
-  // One more than these is enough to know that they are fewer.
+  // With one rectangle more the greedy cut is known to be worse.
   DecompositionLimits limits;
   limits.count = fewest.size() + 1;
   std::vector<CellRect> greedy =
