@@ -1,4 +1,5 @@
-# What is built. -DGRID_PATH_PLANNER_COMPONENTS="planning;driving" leaves out what the others need.
+# What is built. -DGRID_PATH_PLANNER_COMPONENTS="planning;driving" (or "planning,driving") leaves out what the
+# others need.
 #
 #   planning    path_planner, map_publisher, grid_path (plan, convert, rectangles): always built
 #   driving     navigate_path, teleop_joy
@@ -7,7 +8,7 @@
 #   study       grid_path scenarios, grid_path study
 #
 # Sets GPP_WITH_<component>, GPP_FOLDERS (of src/, from the ground up), GPP_ROOMS (the libraries that
-# they make), GPP_NODES, GPP_CONFIGURATIONS and what the components need of catkin.
+# they make), GPP_NODES, GPP_CONFIGURATIONS, GPP_LAUNCH_FILES and what the components need of catkin.
 set(GPP_ALL_COMPONENTS planning driving mapping simulation study)
 set(GRID_PATH_PLANNER_COMPONENTS "${GPP_ALL_COMPONENTS}" CACHE STRING
   "Components to build beside planning, of: ${GPP_ALL_COMPONENTS}")
@@ -26,11 +27,12 @@ set(ros_rooms ros_common ros_planning)
 set(GPP_NODES path_planner map_publisher)
 set(GPP_CONFIGURATIONS PathPlanner MapPublisher)
 set(GPP_CATKIN_EXPORTS actionlib actionlib_msgs dynamic_reconfigure geometry_msgs message_runtime nav_msgs
-  nodelet roscpp std_msgs std_srvs tf2_ros visualization_msgs)
+  nodelet roscpp std_msgs tf2_ros visualization_msgs)
 set(GPP_CATKIN_COMPONENTS actionlib actionlib_msgs diagnostic_msgs diagnostic_updater dynamic_reconfigure
-  geometry_msgs map_msgs message_generation nav_msgs nodelet pluginlib rosbag roscpp rosgraph_msgs std_msgs
-  std_srvs tf2 tf2_geometry_msgs tf2_ros visualization_msgs)
+  geometry_msgs map_msgs message_generation nav_msgs nodelet pluginlib rosbag roscpp std_msgs tf2 tf2_geometry_msgs tf2_ros
+  visualization_msgs)
 set(GPP_EXPORTED_LIBRARIES EIGEN3)
+set(GPP_LAUNCH_FILES map_file planner rviz)
 
 if(GPP_WITH_study)
   list(APPEND GPP_FOLDERS study)
@@ -42,6 +44,7 @@ if(GPP_WITH_driving)
   list(APPEND ros_rooms ros_driving)
   list(APPEND GPP_NODES navigate_path teleop_joy)
   list(APPEND GPP_CONFIGURATIONS NavigatePath TeleopJoy)
+  list(APPEND GPP_LAUNCH_FILES navigate_path teleop_joy)
 endif()
 if(GPP_WITH_mapping)
   find_package(octomap REQUIRED)
@@ -51,6 +54,7 @@ if(GPP_WITH_mapping)
   list(APPEND GPP_NODES projected_map)
   list(APPEND GPP_CONFIGURATIONS ProjectedMap)
   list(APPEND GPP_EXPORTED_LIBRARIES OCTOMAP)
+  list(APPEND GPP_LAUNCH_FILES perception_octomap)
 endif()
 if(GPP_WITH_simulation)
   list(APPEND GPP_FOLDERS simulation)
@@ -58,6 +62,15 @@ if(GPP_WITH_simulation)
   list(APPEND ros_rooms ros_simulation)
   list(APPEND GPP_NODES simulator)
   list(APPEND GPP_CONFIGURATIONS Simulator)
+  list(APPEND GPP_LAUNCH_FILES startup_simulation startup_vehicle_sim startup_vessel_sim)
+  list(APPEND GPP_CATKIN_COMPONENTS rosgraph_msgs)
+endif()
+if(GPP_WITH_driving AND GPP_WITH_mapping AND GPP_WITH_simulation)
+  list(APPEND GPP_LAUNCH_FILES demo)
+endif()
+if(GPP_WITH_driving OR GPP_WITH_mapping)
+  list(APPEND GPP_CATKIN_COMPONENTS std_srvs)
+  list(APPEND GPP_CATKIN_EXPORTS std_srvs)
 endif()
 if(GPP_WITH_driving OR GPP_WITH_mapping OR GPP_WITH_simulation)
   list(APPEND GPP_CATKIN_COMPONENTS sensor_msgs)

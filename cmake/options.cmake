@@ -24,12 +24,14 @@ function(gpp_add_option_files)
   add_library(${PROJECT_NAME}_option_texts STATIC ${folder}/option_files/option_files.cpp)
   target_include_directories(${PROJECT_NAME}_option_texts PUBLIC ${folder})
   target_link_libraries(${PROJECT_NAME}_option_texts PUBLIC ${PROJECT_NAME}_base)
+  gpp_precompile_headers(${PROJECT_NAME}_option_texts ${PROJECT_NAME}_base)
   set(target ${PROJECT_NAME}_option_files)
   add_executable(${target} ${folder}/option_files/main.cpp ${folder}/following/follower_options.cpp
     ${folder}/mapping/projection_options.cpp ${folder}/ros/planning/path_planner_options.cpp)
   set_target_properties(${target} PROPERTIES OUTPUT_NAME option_files
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})  # not beside the nodes: it is a tool of the build
   target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_option_texts ${PROJECT_NAME}_planning)
+  gpp_precompile_headers(${target} ${PROJECT_NAME}_base)
   add_custom_target(${PROJECT_NAME}_write_options
     COMMAND ${target} write ${PROJECT_SOURCE_DIR}
     COMMENT "Writing config/ and the tables of the documentation")

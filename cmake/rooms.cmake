@@ -1,10 +1,41 @@
 # A room is a folder of src/ (and include/, test/) with one idea; its CMakeLists finds the libraries that it
 # needs and names the rooms below it.
 
-# gpp_add_room(<room> [FOLDER folder] [ROOMS room...] [LIBRARIES library...])
+# The headers of the standard library, Eigen, gtest and ROS are parsed once for many sources (doc/dependencies.md has
+# what that saves). A source includes what it uses all the same: scripts/check_noetic compiles without these.
+set(GPP_PRECOMPILED_HEADERS <algorithm> <array> <atomic> <cassert> <chrono> <cmath> <cstdint> <cstdio> <cstdlib>
+  <cstring> <deque> <exception> <filesystem> <fstream> <functional> <iomanip> <iostream> <iterator> <limits> <map>
+  <memory> <mutex> <numeric> <optional> <random> <set> <sstream> <stdexcept> <string> <string_view> <thread> <tuple>
+  <type_traits> <unordered_map> <utility> <vector> <Eigen/Core> <Eigen/Geometry>)
+set(GPP_PRECOMPILED_ROS_HEADERS <ros/ros.h> <ros/callback_queue.h> <nodelet/nodelet.h> <pluginlib/class_list_macros.hpp>
+  <diagnostic_updater/diagnostic_updater.h> <dynamic_reconfigure/server.h> <tf2_ros/transform_listener.h>
+  <tf2_geometry_msgs/tf2_geometry_msgs.h> <geometry_msgs/PoseStamped.h> <nav_msgs/OccupancyGrid.h> <nav_msgs/Path.h>
+  <visualization_msgs/MarkerArray.h>)
+
+option(GRID_PATH_PLANNER_UNITY_BUILD "Compile several sources of the study and of ROS nodes as one" ON)
+
+# gpp_precompile_headers(<target> <owner>): the owner's precompiled headers; the owner itself makes them of
+# ${ARGN}. All their users have equal options, so all are position-independent and define no symbol of their own.
+function(gpp_precompile_headers target owner)
+  set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "")
+  get_target_property(type ${target} TYPE)
+  if(NOT type STREQUAL "SHARED_LIBRARY")
+    target_compile_options(${target} PRIVATE -fPIC)
+  endif()
+  if(target STREQUAL owner)
+    target_link_libraries(${target} PRIVATE Eigen3::Eigen)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  endif()
+endfunction()
+
+# gpp_add_room(<room> [FOLDER folder] [UNITY] [APART source...] [ROOMS room...] [LIBRARIES library...])
 # The library grid_path_planner_<room> from all sources below src/<folder> (default: src/<room>).
+# UNITY: several sources are compiled as one, unless GRID_PATH_PLANNER_UNITY_BUILD is OFF; not those that are named
+# APART, which have a name of an anonymous namespace in common with another. Rooms whose speed counts are not built so.
 function(gpp_add_room room)
-  cmake_parse_arguments(ARG "" "FOLDER" "ROOMS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "UNITY" "FOLDER" "APART;ROOMS;LIBRARIES" ${ARGN})
   if(NOT ARG_FOLDER)
     set(ARG_FOLDER ${room})
   endif()
@@ -12,10 +43,23 @@ function(gpp_add_room room)
   set(target ${PROJECT_NAME}_${room})
   add_library(${target} ${sources})
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  if(ARG_UNITY AND GRID_PATH_PLANNER_UNITY_BUILD)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+    set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
   foreach(below ${ARG_ROOMS})
     target_link_libraries(${target} PUBLIC ${PROJECT_NAME}_${below})
   endforeach()
   target_link_libraries(${target} PUBLIC ${ARG_LIBRARIES})
+  if(room STREQUAL base)
+    gpp_precompile_headers(${target} ${target} ${GPP_PRECOMPILED_HEADERS})
+  elseif(room STREQUAL ros_common)
+    gpp_precompile_headers(${target} ${target} ${GPP_PRECOMPILED_HEADERS} ${GPP_PRECOMPILED_ROS_HEADERS})
+  elseif(room MATCHES "^ros_")
+    gpp_precompile_headers(${target} ${PROJECT_NAME}_ros_common)
+  else()
+    gpp_precompile_headers(${target} ${PROJECT_NAME}_base)
+  endif()
   set_property(GLOBAL APPEND PROPERTY GPP_ROOM_TARGETS ${target})
 endfunction()
 
@@ -23,6 +67,7 @@ endfunction()
 function(gpp_add_executable name source)
   set(target ${PROJECT_NAME}_${name})
   add_executable(${target} ${source})
+  gpp_precompile_headers(${target} ${PROJECT_NAME}_ros_common)
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name})
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   foreach(library ${ARGN})
@@ -41,5 +86,6 @@ function(gpp_add_room_test room)
       target_link_libraries(${target} ${PROJECT_NAME}_${library})
     endforeach()
     target_link_libraries(${target} ${PROJECT_NAME}_test_support gtest gtest_main)
+    gpp_precompile_headers(${target} ${PROJECT_NAME}_test_support)
   endif()
 endfunction()

@@ -5,7 +5,9 @@ an example or a table; a paragraph of them that has a statement is C++. All such
 essay are the body of one function, in the namespace of the header, after the declarations that
 example_context.py has for the header.
 
-    check_examples.py BUILD         BUILD/compile_commands.json says where the headers are
+    check_examples.py BUILD [ABSENT...]
+        BUILD/compile_commands.json says where the headers are; ABSENT are folders of src/ that are not built,
+        whose examples are not compiled: the libraries that they need may be absent too
     check_examples.py --list        prints the examples, and compiles nothing
 """
 import concurrent.futures
@@ -119,6 +121,9 @@ def main():
         print("\n".join(example(name, *parts) for name, parts in sorted(examples.items())))
         finish(complaints, "%d examples" % len(examples))
     compiler, flags = compiler_and_flags(sys.argv[1] if len(sys.argv) > 1 else "build", ("-I" + ROOT,))
+    absent = tuple("%s/%s/" % (tree, folder) for folder in sys.argv[2:]
+                   for tree in ("src", "include/grid_path_planner"))
+    examples = {name: parts for name, parts in examples.items() if not name.startswith(absent)}
     others = sorted({namespace for namespace, _ in examples.values()})
     halves = {"ros": {name: parts for name, parts in examples.items() if has_ros(name)},
               "core": {name: parts for name, parts in examples.items() if not has_ros(name)}}

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "grid_path_planner/mapping/cloud_filter.h"
 #include "grid_path_planner/mapping/octree_map.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
 #include "grid_path_planner/mapping/projection.h"

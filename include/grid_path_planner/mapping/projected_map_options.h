@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "grid_path_planner/mapping/cloud_filter.h"
+#include "grid_path_planner/mapping/cloud_filter_options.h"
 #include "grid_path_planner/mapping/octree_options.h"
 #include "grid_path_planner/mapping/projection_options.h"
 
