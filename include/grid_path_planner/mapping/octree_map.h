@@ -45,7 +45,7 @@ class OctreeMap {
   void setOptions(const OctreeOptions& options);
 
   // Points beyond max_range clear their ray up to it, clear_only points up to themselves. A
-  // point that is not finite or lies outside the tree's range (32768 voxels either way, of a point
+  // point that is not finite or lies outside the tree's range (32768 voxels in each direction; of a point
   // beyond max_range where its ray is cut) is left out; returns how many were. Throws InputError
   // where the origin itself is such a point.
   std::size_t insert(const Scan& scan);

@@ -35,7 +35,7 @@ struct ProjectionOptions {
   ProjectionBounds bounds;
 };
 
-// All but the band, which each program names in its own way.
+// All but the band, which has other names in each program.
 template <class Visitor>
 void visitOptions(ProjectionOptions& o, Visitor&& visit) {
   visit(

@@ -4,7 +4,7 @@
 //     return grid_path_planner::nodes::runNode<grid_path_planner::nodes::SimulatorNode>(argc, argv, "simulator");
 //   }
 //
-// Guaranteed: whatever ends the process in an orderly way (SIGINT, SIGTERM, rosnode kill, a second
+// Guaranteed: on every orderly end of the process (SIGINT, SIGTERM, rosnode kill, a second
 // node of the same name, an exception), the node's destructor runs while its publishers still reach
 // others, and the log says why. roscpp by itself closes all connections first, so that no last
 // message leaves. Not guaranteed: anything after SIGKILL.
