@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "grid_path_planner/planners/keys.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
 
@@ -122,7 +123,7 @@ TEST(WeightedJumpSearchLaw, FindsTheLeastCostOnSlopes) {
   }
 }
 
-// Its labels number the queries with 16 bits.
+// The stamp of its g-values numbers the queries with 16 bits.
 TEST(WeightedJumpSearch, AnswersManyQueries) {
   std::mt19937 random(9);
   Grid<CostGrid::Weight> weights(GridGeometry(4, 4, 1.0), 1);
@@ -135,11 +136,10 @@ TEST(WeightedJumpSearch, AnswersManyQueries) {
     ASSERT_EQ(search.run(map, request, StopToken()).cells, first.cells) << "query " << query;
 }
 
-TEST(WeightedJumpSearch, SaysWhereItsKeysEnd) {
+TEST(WeightedJumpSearch, ThrowsWhereACostOverflowsItsKeys) {
   const CostGrid map = costsOf(Grid<CostGrid::Weight>(GridGeometry(400, 3, 1.0), 65535));
   WeightedJumpSearch search = prepared(map);
-  EXPECT_THROW(search.run(map, {{0, 0}, {{399, 2}}, false}, StopToken()),
-               WeightedJumpSearch::TooDear);
+  EXPECT_THROW(search.run(map, {{0, 0}, {{399, 2}}, false}, StopToken()), CostOverflow);
   const SearchResult near = search.run(map, {{0, 0}, {{99, 2}}, false}, StopToken());
   EXPECT_EQ(near.cost, (ExactCost{97LL * 65535, 2LL * 65535}));
 }
