@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "grid_path_planner/costmap/line_cost.h"
+#include "grid_path_planner/costmap/line_of_sight.h"
 
 namespace grid_path_planner::planners {
 
@@ -16,7 +16,7 @@ using base::StopReason;
 using base::StopToken;
 using base::ZeroedArray;
 using costmap::BitMaps;
-using costmap::lineCost;
+using costmap::lineCostWithin;
 using costmap::SegmentPoint;
 using costmap::waypointOf;
 using grid::Cell;
@@ -77,7 +77,7 @@ double ThetaStar::leastCost(Cell from, Cell to) const {
 }
 
 std::optional<double> ThetaStar::straight(Cell from, Cell to, double limit) const {
-  return lineCost(map(), bits_, point(from), point(to), limit);
+  return lineCostWithin(map(), bits_, point(from), point(to), limit);
 }
 
 double ThetaStar::stepTo(Cell from, Cell to) const {

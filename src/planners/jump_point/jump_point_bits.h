@@ -22,7 +22,6 @@
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/costmap/bit_maps.h"
-#include "grid_path_planner/costmap/bit_scan.h"
 #include "grid_path_planner/planners/steps.h"
 #include "planners/jump_point/diagonal_jump_bits.h"
 
