@@ -197,7 +197,7 @@ class Run {
         terrain_(inflated()),
         vehicle_{kBorder / 2, kBorder / 2},
         goal_{arguments.side - kBorder / 2, arguments.side - kBorder / 2} {
-    maps_.begin(std::make_shared<OccupancyGrid>(world_));
+    maps_.reset(std::make_shared<OccupancyGrid>(world_));
     terrain_.setMap(maps_.current());
     const auto costs = terrain_.downsampled(StopToken());
     replanner_.prepare(costs, StopToken());

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -114,6 +115,18 @@ void checkIsText(const std::string& text, const std::string& file) {
   const int line = 1 + static_cast<int>(std::count(text.begin(), bad, '\n'));
   throw InputError(file, line,
                    "is not text: byte " + std::to_string(static_cast<unsigned char>(*bad)));
+}
+
+std::string withoutExtension(const std::string& file) {
+  return std::filesystem::path(file).replace_extension().string();
+}
+
+std::string extensionOf(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return extension;
 }
 
 void writeFileAtomically(const std::string& file, const std::string& content) {

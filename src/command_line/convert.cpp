@@ -7,20 +7,21 @@
 #include "command_line/arguments.h"
 #include "command_line/commands.h"
 #include "command_line/report_map.h"
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
-#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/ros/bag.h"
 
 namespace grid_path_planner::command_line {
 
 using base::choiceFromName;
+using base::extensionOf;
 using base::InputError;
 using base::StopToken;
 using costmap::checkCostmapOptions;
 using costmap::CostmapBuilder;
 using costmap::CostmapOptions;
 using costmap::KernelRule;
-using grid::extensionOf;
 using grid::MapFileOptions;
 using grid::MapMode;
 using grid::Occupancy;

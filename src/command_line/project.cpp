@@ -5,15 +5,16 @@
 #include "command_line/arguments.h"
 #include "command_line/commands.h"
 #include "command_line/report_map.h"
-#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/base/files.h"
+#include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/mapping/octree_map.h"
 #include "grid_path_planner/mapping/projection.h"
 
 namespace grid_path_planner::command_line {
 
 using base::choiceFromName;
+using base::extensionOf;
 using base::InputError;
-using grid::extensionOf;
 using grid::writeImageFile;
 using grid::writeMapServerFile;
 using mapping::checkProjectionOptions;

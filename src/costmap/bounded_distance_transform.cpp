@@ -22,7 +22,7 @@ constexpr int kLargestAcross = 2 * BoundedDistanceTransform::kLargestReach;  // 
 static_assert(kBeyond > (kLargestAcross + 1) * (kLargestAcross + 1));
 static_assert(kBeyond + (kLargestAcross - 1) * (kLargestAcross - 1) < kFar);
 
-// The first occupied one of cells[at] up to cells[count], `count` where there is none.
+// The index of the first occupied cell from cells[at] on; `count` where there is none.
 int occupiedFrom(const Occupancy* cells, int at, int count) {
   const void* found = std::memchr(cells + at, static_cast<int>(Occupancy::OCCUPIED),
                                   static_cast<std::size_t>(count - at));
@@ -67,25 +67,25 @@ const std::int16_t* BoundedDistanceTransform::row(int row) {
   return least_.data();
 }
 
-// From the row on up and down, until no line can be less.
+// From the row upwards and downwards, until no line can give less.
 BoundedDistanceTransform::Eight BoundedDistanceTransform::least(int row, std::size_t above,
                                                                 std::size_t first) const {
   Eight least = Eight{} + kFar;
-  const auto take = [&](const Line& line, const Eight& apart) {
+  const auto lowerBy = [&](const Line& line, const Eight& apart) {
     const Eight here = from(line.distances + first) + apart;
     least = here < least ? here : least;
   };
   for (std::size_t i = above; i < lines_.size(); ++i) {
-    if (lines_[i].behind_the_one_before && i > above) continue;
+    if (lines_[i].dominated_by_previous && i > above) continue;
     const Eight& apart = apart_[static_cast<std::size_t>(lines_[i].row - row)];
     if (!any(least > apart)) break;
-    take(lines_[i], apart);
+    lowerBy(lines_[i], apart);
   }
   for (std::size_t i = above; i-- > 0;) {
-    if (lines_[i].behind_the_one_after && i + 1 < above) continue;
+    if (lines_[i].dominated_by_next && i + 1 < above) continue;
     const Eight& apart = apart_[static_cast<std::size_t>(row - lines_[i].row)];
     if (!any(least > apart)) break;
-    take(lines_[i], apart);
+    lowerBy(lines_[i], apart);
   }
   return least;
 }
@@ -117,8 +117,8 @@ void BoundedDistanceTransform::append(int row, const Distance* distances) {
       nearer |= here < there;
       farther |= here > there;
     }
-    line.behind_the_one_before = !any(nearer);
-    last.behind_the_one_after = !any(farther);
+    line.dominated_by_previous = !any(nearer);
+    last.dominated_by_next = !any(farther);
   }
   lines_.push_back(line);
 }

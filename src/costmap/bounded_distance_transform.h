@@ -1,17 +1,17 @@
-// Distances to obstacles that are near, for inflation: what obstacleDistances() of inflation.h
-// gives, up to a reach of a few dozen cells, in a fraction of its time.
+// Distances to the nearest obstacle up to a limit, for inflation: those of obstacleDistances() of
+// inflation.h, up to a reach of a few dozen cells, in a fraction of its time.
 //
-//   BoundedDistanceTransform near(classes, sources, rect, reach);
+//   BoundedDistanceTransform transform(classes, sources, rect, reach);
 //   for (int row = rect.row; row < rect.row + rect.height; ++row)
-//     if (const std::int16_t* distances = near.row(row)) use(distances);
+//     if (const std::int16_t* distances = transform.row(row)) use(distances);
 //
 // Distances are in (half cells)^2, from a cell's centre to the nearest edge of an occupied cell of
 // `sources`, exact below (2 reach + 1)^2 and any larger value beyond. Separable: along each row the
-// distance to the nearest occupied cell; then down the columns the least over the 2 reach + 1 rows
-// around, eight columns at once, from the nearest row on until none can be less, rows without an
-// occupied cell left out. Sixteen bits hold it all, so the rows around stay in the cache. That is
-// O(reach) a cell and yet the fastest way measured up to kLargestReach: in open country there is
-// hardly a row to look at.
+// distance to the nearest occupied cell; then along the columns the least over the 2 reach + 1 rows
+// around, eight columns at once, from the nearest row outwards until no row can give less; rows
+// without an occupied cell are skipped. Values have sixteen bits, so that the rows around stay in
+// the cache. That is O(reach) for a cell and yet the fastest method measured up to kLargestReach:
+// where obstacles are rare hardly a row is read.
 #pragma once
 
 #include <cstdint>
@@ -31,13 +31,13 @@ class BoundedDistanceTransform {
   BoundedDistanceTransform(const grid::Grid<grid::Occupancy>& classes,
                            const grid::CellRect& sources, const grid::CellRect& rect, int reach);
 
-  // The distances of the rectangle's cells in `row`, until the next call; null where all are large.
-  // Precondition: rows are asked for in order, each once.
+  // The distances of the rectangle's cells in `row`, valid until the next call; null where all are
+  // beyond the reach. Precondition: called for every row once, in order.
   const std::int16_t* row(int row);
 
  private:
   using Distance = std::int16_t;
-  // Eight distances, handled by one instruction where the machine has such.
+  // Eight distances, processed by one SIMD instruction where the machine has such.
   using Eight = Distance __attribute__((vector_size(16)));
 
   static Eight from(const Distance* distances) {
@@ -58,32 +58,32 @@ class BoundedDistanceTransform {
 
   void measure(int row);
   void append(int row, const Distance* distances);
-  // Distances along a row to the cells `before` and `next`, for those between, as far as they are
-  // of the rectangle. Columns are told from the window's first.
+  // Writes the distances along a row to the nearer one of the occupied cells `before` and `next`,
+  // for the cells between them that lie in the rectangle. Columns count from the window's first.
   void fillBetween(int before, int next, Distance* line) const;
-  // Of the eight columns from `first` on. Lines from `above` on are those of `row` and of rows
-  // after it.
+  // The distances of `row` in the eight columns from `first` on. Lines from `above` on belong to
+  // `row` and the rows after it.
   Eight least(int row, std::size_t above, std::size_t first) const;
 
   const grid::Grid<grid::Occupancy>& classes_;
   grid::CellRect rect_;
   grid::CellRect window_;  // the part of the sources that is in reach of the rectangle
   int reach_;
-  int period_;                     // lines that are kept
-  std::size_t stride_;             // of a line, a multiple of eight
-  int next_;                       // the row that is measured next
+  int period_;                     // lines in memory_
+  std::size_t stride_;             // length of a line, a multiple of eight
+  int next_;                       // the next row to be measured
   std::vector<Distance> rising_;   // squares by columns apart, kBeyond where out of reach
   std::vector<Distance> falling_;  // the same backwards
   std::vector<Distance> memory_;   // of the lines
   struct Line {
     int row;
     const Distance* distances;  // along the row only
-    // Whether no cell is nearer by this line than by the one before, or after: from beyond that one
-    // this line need not be looked at.
-    bool behind_the_one_before = false;
-    bool behind_the_one_after = false;
+    // Whether this line gives no cell a smaller distance than the line before, or after: for rows
+    // beyond that line this one is skipped.
+    bool dominated_by_previous = false;
+    bool dominated_by_next = false;
   };
-  std::vector<Line> lines_;   // of the rows around that have an occupied cell in reach
+  std::vector<Line> lines_;   // of the rows in reach that have an occupied cell
   std::vector<Eight> apart_;  // the squares of rows apart
   std::vector<Distance> least_;
 };

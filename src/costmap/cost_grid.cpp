@@ -7,6 +7,8 @@
 #include <mutex>
 #include <utility>
 
+#include "costmap/weight_counts.h"
+
 namespace grid_path_planner::costmap {
 
 using base::StopToken;
@@ -19,7 +21,7 @@ using grid::Occupancy;
 
 namespace {
 
-CostGrid::Weight cheapestOf(const std::vector<CostGrid::Weight>& weights) {
+CostGrid::Weight minWeightOf(const std::vector<CostGrid::Weight>& weights) {
   // Blocked is 0: one below it wraps to the largest value and never wins.
   CostGrid::Weight least = std::numeric_limits<CostGrid::Weight>::max();
   for (const CostGrid::Weight weight : weights)
@@ -27,7 +29,7 @@ CostGrid::Weight cheapestOf(const std::vector<CostGrid::Weight>& weights) {
   return static_cast<CostGrid::Weight>(least + 1);
 }
 
-CostGrid::Weight dearestOf(const std::vector<CostGrid::Weight>& weights) {
+CostGrid::Weight maxWeightOf(const std::vector<CostGrid::Weight>& weights) {
   CostGrid::Weight most = CostGrid::kBlocked;
   for (const CostGrid::Weight weight : weights) most = std::max(most, weight);
   return most;
@@ -35,21 +37,28 @@ CostGrid::Weight dearestOf(const std::vector<CostGrid::Weight>& weights) {
 
 }  // namespace
 
-struct CostGrid::LazyBitMaps {
-  std::mutex making;
-  BitMaps maps;
-  std::atomic<bool> made{false};
+// What is computed from the weights when it is needed first.
+struct CostGrid::Derived {
+  std::mutex computing_bits;
+  BitMaps bits;
+  std::atomic<bool> has_bits{false};
+  WeightCounts counts;  // empty before the first edit
 
-  std::shared_ptr<LazyBitMaps> copy() {
-    auto other = std::make_shared<LazyBitMaps>();
-    const std::lock_guard<std::mutex> lock(making);
-    if (made) other->maps = maps;
-    other->made = made.load();
+  std::shared_ptr<Derived> copy() {
+    auto other = std::make_shared<Derived>();
+    const std::lock_guard<std::mutex> lock(computing_bits);
+    if (has_bits) other->bits = bits;
+    other->has_bits = has_bits.load();
+    other->counts = counts;
     return other;
+  }
+
+  void updateBits(const Grid<Weight>& weights, const CellRect& rect) {
+    if (has_bits) bits.update(weights, rect, StopToken());
   }
 };
 
-CostGrid::CostGrid() : bit_maps_(std::make_shared<LazyBitMaps>()) {}
+CostGrid::CostGrid() : derived_(std::make_shared<Derived>()) {}
 
 CostGrid::CostGrid(Grid<Weight> weights, Grid<Occupancy> classes, const MotionModel& motion)
     : CostGrid(std::move(weights), std::move(classes), motion, 1, GridGeometry()) {
@@ -63,9 +72,9 @@ CostGrid::CostGrid(Grid<Weight> weights, Grid<Occupancy> classes, const MotionMo
       motion_(motion),
       kernel_(kernel),
       original_(original),
-      cheapest_(cheapestOf(weights_.values())),
-      dearest_(dearestOf(weights_.values())),
-      bit_maps_(std::make_shared<LazyBitMaps>()) {
+      min_weight_(minWeightOf(weights_.values())),
+      max_weight_(maxWeightOf(weights_.values())),
+      derived_(std::make_shared<Derived>()) {
   assert(weights_.geometry() == classes_.geometry());
 }
 
@@ -79,42 +88,44 @@ Eigen::Vector2d CostGrid::waypoint(Cell cell) const {
 }
 
 const BitMaps& CostGrid::bitMaps(const StopToken& stop) const {
-  LazyBitMaps& lazy = *bit_maps_;
-  if (lazy.made) return lazy.maps;
-  const std::lock_guard<std::mutex> lock(lazy.making);
-  if (!lazy.made) lazy.maps = BitMaps(weights_, stop);
-  lazy.made = true;
-  return lazy.maps;
+  Derived& derived = *derived_;
+  if (derived.has_bits) return derived.bits;
+  const std::lock_guard<std::mutex> lock(derived.computing_bits);
+  if (!derived.has_bits) derived.bits = BitMaps(weights_, stop);
+  derived.has_bits = true;
+  return derived.bits;
 }
 
 std::size_t CostGrid::bytes() const {
-  const std::size_t bits = bit_maps_->made ? bit_maps_->maps.bytes() : 0;
-  return geometry().size() * (sizeof(Weight) + sizeof(Occupancy)) + counts_.bytes() + bits;
+  const std::size_t bits = derived_->has_bits ? derived_->bits.bytes() : 0;
+  return geometry().size() * (sizeof(Weight) + sizeof(Occupancy)) + derived_->counts.bytes() + bits;
 }
 
 void CostGrid::finishEdit(const CostGrid& before, const CellRect& rect) {
   assert(geometry().rect().intersection(rect) == rect);
-  if (counts_.empty())
-    counts_.add(weights_);
+  ownDerived();
+  WeightCounts& counts = derived_->counts;
+  if (counts.empty())
+    counts.add(weights_);
   else
-    counts_.replace(before.weights_, weights_, rect);
-  cheapest_ = counts_.cheapest();
-  dearest_ = counts_.dearest();
-  updateBitMaps(rect);
+    counts.replace(before.weights_, weights_, rect);
+  min_weight_ = counts.minWeight();
+  max_weight_ = counts.maxWeight();
+  derived_->updateBits(weights_, rect);
 }
 
 void CostGrid::catchUp(const CostGrid& with, const Change& change) {
   copyCells(with.weights_, change.weights, weights_);
   copyCells(with.classes_, change.classes, classes_);
-  counts_ = with.counts_;
-  cheapest_ = with.cheapest_;
-  dearest_ = with.dearest_;
-  updateBitMaps(change.weights);
+  min_weight_ = with.min_weight_;
+  max_weight_ = with.max_weight_;
+  ownDerived();
+  derived_->counts = with.derived_->counts;
+  derived_->updateBits(weights_, change.weights);
 }
 
-void CostGrid::updateBitMaps(const CellRect& rect) {
-  if (bit_maps_.use_count() > 1) bit_maps_ = bit_maps_->copy();
-  if (bit_maps_->made) bit_maps_->maps.update(weights_, rect, StopToken());
+void CostGrid::ownDerived() {
+  if (derived_.use_count() > 1) derived_ = derived_->copy();
 }
 
 void copyCells(const CostGrid& from, const CostGrid::Change& change, CostGrid& to) {

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "costmap/inflation.h"
 #include "costmap/kernel.h"
 #include "grid_path_planner/grid/prefetch.h"
 
@@ -11,7 +12,6 @@ namespace grid_path_planner::costmap {
 
 using base::StopPoll;
 using base::StopToken;
-using grid::Cell;
 using grid::CellRect;
 using grid::Grid;
 using grid::GridGeometry;
@@ -19,6 +19,14 @@ using grid::Occupancy;
 using grid::OccupancyGrid;
 using grid::OccupancyThresholds;
 using grid::prefetchRows;
+
+// Rectangles around the cells whose class has changed.
+struct ClassChanges {
+  CellRect all;
+  CellRect filled;   // those that are occupied now
+  CellRect opened;   // those that are not occupied now
+  CellRect vacated;  // those of `opened` that were occupied before
+};
 
 namespace {
 
@@ -34,8 +42,8 @@ void classify(const OccupancyGrid& map, const OccupancyThresholds& thresholds, c
   }
 }
 
-// The smallest rectangle around the cells of `rect` whose value and class before changed(value,
-// before) holds for.
+// The smallest rectangle around the cells of `rect` for whose value and former class
+// changed(value, before) is true.
 template <class Changed>
 CellRect hullOf(const OccupancyGrid& map, const Grid<Occupancy>& classes, const CellRect& rect,
                 const StopToken& stop, const Changed& changed) {
@@ -54,14 +62,6 @@ CellRect hullOf(const OccupancyGrid& map, const Grid<Occupancy>& classes, const 
   }
   return hull;
 }
-
-// Around the cells whose class is no longer that of the map.
-struct ClassChanges {
-  CellRect all;
-  CellRect filled;   // occupied now
-  CellRect opened;   // not occupied now
-  CellRect vacated;  // and were before
-};
 
 ClassChanges changesOf(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
                        const CellRect& rect, const Grid<Occupancy>& classes,
@@ -82,8 +82,8 @@ ClassChanges changesOf(const OccupancyGrid& map, const OccupancyThresholds& thre
   return changes;
 }
 
-void weigh(const Grid<Occupancy>& classes, const CostmapOptions& options, const CellRect& rect,
-           Grid<CostGrid::Weight>& weights, const StopToken& stop) {
+void writeWeights(const Grid<Occupancy>& classes, const CostmapOptions& options,
+                  const CellRect& rect, Grid<CostGrid::Weight>& weights, const StopToken& stop) {
   std::array<CostGrid::Weight, 3> by_class;
   for (const Occupancy each : {Occupancy::FREE, Occupancy::UNKNOWN, Occupancy::OCCUPIED})
     by_class[static_cast<std::size_t>(each)] = classWeight(each, options);
@@ -97,9 +97,10 @@ void weigh(const Grid<Occupancy>& classes, const CostmapOptions& options, const 
   }
 }
 
-// Of the occupied cells, as weigh() does of all.
-void weighOccupied(const Grid<Occupancy>& classes, const CostmapOptions& options,
-                   const CellRect& rect, Grid<CostGrid::Weight>& weights, const StopToken& stop) {
+// As writeWeights(), for the occupied cells only.
+void writeOccupiedWeights(const Grid<Occupancy>& classes, const CostmapOptions& options,
+                          const CellRect& rect, Grid<CostGrid::Weight>& weights,
+                          const StopToken& stop) {
   const CostGrid::Weight weight = classWeight(Occupancy::OCCUPIED, options);
   StopPoll poll(stop, 64);
   for (int row = rect.row; row < rect.row + rect.height; ++row) {
@@ -107,13 +108,6 @@ void weighOccupied(const Grid<Occupancy>& classes, const CostmapOptions& options
     for (int column = rect.column; column < rect.column + rect.width; ++column)
       if (classes.row(row)[column] == Occupancy::OCCUPIED) weights.row(row)[column] = weight;
   }
-}
-
-CellRect blocksOf(const CellRect& cells, int kernel) {
-  const Cell first{cells.column / kernel, cells.row / kernel};
-  const Cell last{(cells.column + cells.width - 1) / kernel,
-                  (cells.row + cells.height - 1) / kernel};
-  return {first.column, first.row, last.column - first.column + 1, last.row - first.row + 1};
 }
 
 }  // namespace
@@ -125,106 +119,113 @@ CostmapBuilder::CostmapBuilder(const CostmapOptions& options) : options_(options
 void CostmapBuilder::setMap(std::shared_ptr<const OccupancyGrid> map) {
   assert(map);
   map_ = std::move(map);
-  inflation_.emplace(options_, map_->geometry().resolution());
-  fine_.begin(nullptr);
-  searched_.begin(nullptr);
-  searched_dirty_ = {};
-  fine_dirty_ = {};
+  inflation_ = std::make_shared<const Inflation>(options_, map_->geometry().resolution());
+  full_.reset(nullptr);
+  downsampled_.reset(nullptr);
+  downsampled_dirty_ = {};
+  full_dirty_ = {};
 }
 
 void CostmapBuilder::updateMap(std::shared_ptr<const OccupancyGrid> map, const CellRect& changed) {
   assert(map && map_ && map->geometry() == map_->geometry());
   map_ = std::move(map);
-  fine_dirty_ = fine_dirty_.hull(changed.intersection(map_->geometry().rect()));
+  full_dirty_ = full_dirty_.hull(changed.intersection(map_->geometry().rect()));
 }
 
 std::shared_ptr<const CostGrid> CostmapBuilder::fullResolution(const StopToken& stop) {
   bringUpToDate(stop);
-  return fine_.current();
+  return full_.current();
 }
 
 std::shared_ptr<const CostGrid> CostmapBuilder::downsampled(const StopToken& stop) {
   bringUpToDate(stop);
-  return options_.kernel == 1 ? fine_.current() : searched_.current();
+  return options_.kernel == 1 ? full_.current() : downsampled_.current();
 }
 
 void CostmapBuilder::bringUpToDate(const StopToken& stop) {
   assert(map_);
-  if (!fine_.current()) return makeAnew(stop);
-  if (!fine_dirty_.empty()) updateFine(stop);
-  if (!searched_dirty_.empty()) updateSearched(stop);
+  if (!full_.current()) return build(stop);
+  if (!full_dirty_.empty()) updateFullResolution(stop);
+  if (!downsampled_dirty_.empty()) updateDownsampled(stop);
 }
 
-void CostmapBuilder::makeAnew(const StopToken& stop) {
+void CostmapBuilder::build(const StopToken& stop) {
   const CellRect all = map_->geometry().rect();
   Grid<Occupancy> classes(map_->geometry());
   Grid<CostGrid::Weight> weights(map_->geometry());
   classify(*map_, options_.thresholds, all, classes, stop);
-  weigh(classes, options_, all, weights, stop);
+  writeWeights(classes, options_, all, weights, stop);
   inflation_->apply(classes, all, all, weights, stop);
-  auto fine = std::make_shared<CostGrid>(std::move(weights), std::move(classes), options_.motion);
-  fine->setRevision(++revision_);
-
-  if (options_.kernel > 1) {
-    const GridGeometry geometry = blockGeometry(fine->geometry(), options_.kernel);
-    Grid<Occupancy> block_classes(geometry);
-    Grid<CostGrid::Weight> block_weights(geometry);
-    applyKernel(*fine, options_, all, block_weights, block_classes, stop);
-    auto searched = std::make_shared<CostGrid>(std::move(block_weights), std::move(block_classes),
-                                               options_.motion, options_.kernel, fine->geometry());
-    searched->setRevision(revision_);
-    searched_.begin(std::move(searched));
-  }
-  fine_change_ = all;
-  searched_change_ = blocksOf(all, options_.kernel);
-  fine_.begin(std::move(fine));
-  fine_dirty_ = {};
+  auto full = std::make_shared<CostGrid>(std::move(weights), std::move(classes), options_.motion);
+  full->setRevision(++revision_);
+  if (options_.kernel > 1) downsampled_.reset(buildDownsampled(*full, stop));
+  full_change_ = all;
+  downsampled_change_ = blocksOf(all, options_.kernel);
+  full_.reset(std::move(full));
+  full_dirty_ = {};
 }
 
-// Cells around what is occupied no more are made from the ground up; those around what is occupied
-// now become dearer, by that alone.
-void CostmapBuilder::updateFine(const StopToken& stop) {
-  const CellRect everything = map_->geometry().rect();
+std::shared_ptr<CostGrid> CostmapBuilder::buildDownsampled(const CostGrid& full,
+                                                           const StopToken& stop) const {
+  const GridGeometry geometry = blockGeometry(full.geometry(), options_.kernel);
+  Grid<Occupancy> classes(geometry);
+  Grid<CostGrid::Weight> weights(geometry);
+  applyKernel(full, options_, full.geometry().rect(), weights, classes, stop);
+  auto blocks = std::make_shared<CostGrid>(std::move(weights), std::move(classes), options_.motion,
+                                           options_.kernel, full.geometry());
+  blocks->setRevision(revision_);
+  return blocks;
+}
+
+// Around cells that are no longer occupied all weights are computed again; around cells that are
+// occupied now the weights only rise, by the inflation of these cells.
+void CostmapBuilder::updateFullResolution(const StopToken& stop) {
   const ClassChanges changes =
-      changesOf(*map_, options_.thresholds, fine_dirty_, fine_.current()->classes(), stop);
+      changesOf(*map_, options_.thresholds, full_dirty_, full_.current()->classes(), stop);
   if (!changes.all.empty()) {
-    const auto around = [&](const CellRect& rect) {
-      return rect.empty() ? rect : rect.grown(inflation_->reach()).intersection(everything);
-    };
-    const CellRect anew = changes.opened.hull(around(changes.vacated));
-    const CellRect dearer = around(changes.filled);
-    const CellRect rewritten = anew.hull(dearer);
-    prefetchRows(fine_.current()->weights(), rewritten);
-    fine_.advance({rewritten, changes.all}, [&](CostGrid& next) {
-      prefetchRows(next.weights(), rewritten);
-      prefetchRows(next.classes(), around(anew));
-      next.edit(*fine_.current(), rewritten, [&](auto& weights, auto& classes) {
-        classify(*map_, options_.thresholds, changes.all, classes, stop);
-        weigh(classes, options_, anew, weights, stop);
-        inflation_->apply(classes, everything, anew, weights, stop);
-        weighOccupied(classes, options_, changes.filled, weights, stop);
-        inflation_->apply(classes, changes.filled, dearer, weights, stop);
-      });
-      next.setRevision(revision_ + 1);
-    });
+    const CellRect rewritten = rewriteWeights(changes, stop);
     ++revision_;
-    fine_change_ = rewritten;
-    searched_dirty_ = searched_dirty_.hull(rewritten);
+    full_change_ = rewritten;
+    downsampled_dirty_ = downsampled_dirty_.hull(rewritten);
   }
-  fine_dirty_ = {};
+  full_dirty_ = {};
 }
 
-void CostmapBuilder::updateSearched(const StopToken& stop) {
-  const CellRect blocks = blocksOf(searched_dirty_, options_.kernel);
+CellRect CostmapBuilder::rewriteWeights(const ClassChanges& changes, const StopToken& stop) {
+  const CellRect all = map_->geometry().rect();
+  const auto inflated = [&](const CellRect& rect) {
+    return rect.empty() ? rect : rect.grown(inflation_->reach()).intersection(all);
+  };
+  const CellRect recomputed = changes.opened.hull(inflated(changes.vacated));
+  const CellRect raised = inflated(changes.filled);
+  const CellRect rewritten = recomputed.hull(raised);
+  prefetchRows(full_.current()->weights(), rewritten);
+  full_.advance({rewritten, changes.all}, [&](CostGrid& next) {
+    prefetchRows(next.weights(), rewritten);
+    prefetchRows(next.classes(), inflated(recomputed));
+    next.edit(*full_.current(), rewritten, [&](auto& weights, auto& classes) {
+      classify(*map_, options_.thresholds, changes.all, classes, stop);
+      writeWeights(classes, options_, recomputed, weights, stop);
+      inflation_->apply(classes, all, recomputed, weights, stop);
+      writeOccupiedWeights(classes, options_, changes.filled, weights, stop);
+      inflation_->apply(classes, changes.filled, raised, weights, stop);
+    });
+    next.setRevision(revision_ + 1);
+  });
+  return rewritten;
+}
+
+void CostmapBuilder::updateDownsampled(const StopToken& stop) {
+  const CellRect blocks = blocksOf(downsampled_dirty_, options_.kernel);
   if (options_.kernel > 1)
-    searched_.advance({blocks, blocks}, [&](CostGrid& next) {
-      next.edit(*searched_.current(), blocks, [&](auto& weights, auto& classes) {
-        applyKernel(*fine_.current(), options_, searched_dirty_, weights, classes, stop);
+    downsampled_.advance({blocks, blocks}, [&](CostGrid& next) {
+      next.edit(*downsampled_.current(), blocks, [&](auto& weights, auto& classes) {
+        applyKernel(*full_.current(), options_, downsampled_dirty_, weights, classes, stop);
       });
       next.setRevision(revision_);
     });
-  searched_change_ = blocks;
-  searched_dirty_ = {};
+  downsampled_change_ = blocks;
+  downsampled_dirty_ = {};
 }
 
 }  // namespace grid_path_planner::costmap

@@ -1,4 +1,4 @@
-#include "grid_path_planner/costmap/inflation.h"
+#include "costmap/inflation.h"
 
 #include <algorithm>
 #include <cassert>
@@ -16,9 +16,9 @@ using grid::Occupancy;
 
 namespace {
 
-// Resolutions arrive as 32-bit floats: a radius of whole cells must not fall to their rounding.
+// Resolutions come as 32-bit floats: their rounding must not change a radius of whole cells.
 constexpr double kResolutionSlack = 1e-6;
-// Of cells, for what logarithms round.
+// In cells, for the rounding of the logarithm.
 constexpr double kReachSlack = 1e-6;
 constexpr int kLargestReach = 1 << 19;
 constexpr HalfCellsSquared kLargestTable = 1 << 20;
@@ -45,8 +45,8 @@ void rowDistances(const Occupancy* row, int width, HalfCellsSquared* out) {
   }
 }
 
-// Lower envelope of parabolas over the cells' lower and upper edges: along a column an occupied
-// surrounding is entered through an edge, never through a centre.
+// Lower envelope of parabolas over the cells' lower and upper edges: along a column the nearest
+// point of an obstacle is on an edge, never at a centre.
 class ColumnTransform {
  public:
   explicit ColumnTransform(int height) : height_(height), values_(height) {
@@ -119,6 +119,23 @@ class ColumnTransform {
   std::vector<HalfCellsSquared> starts_;
 };
 
+// Along the rows of `window`, for the columns of `rect`.
+std::vector<HalfCellsSquared> distancesAlongRows(const Grid<Occupancy>& classes,
+                                                 const CellRect& rect, const CellRect& window,
+                                                 const StopToken& stop) {
+  const auto width = static_cast<std::size_t>(rect.width);
+  StopPoll poll(stop, 16);
+  std::vector<HalfCellsSquared> distances(width * window.height);
+  std::vector<HalfCellsSquared> line(window.width);
+  for (int row = 0; row < window.height; ++row) {
+    poll();
+    rowDistances(classes.row(window.row + row) + window.column, window.width, line.data());
+    std::copy_n(line.begin() + (rect.column - window.column), width,
+                distances.begin() + row * width);
+  }
+  return distances;
+}
+
 }  // namespace
 
 std::vector<HalfCellsSquared> obstacleDistances(const Grid<Occupancy>& classes,
@@ -126,22 +143,13 @@ std::vector<HalfCellsSquared> obstacleDistances(const Grid<Occupancy>& classes,
                                                 const StopToken& stop) {
   assert(classes.geometry().rect().intersection(rect) == rect);
   const CellRect window = rect.grown(reach).intersection(classes.geometry().rect());
-  const auto width = static_cast<std::size_t>(rect.width);
-  StopPoll poll(stop, 16);
+  const std::vector<HalfCellsSquared> along_rows = distancesAlongRows(classes, rect, window, stop);
 
-  // Along the rows of the window, kept for the columns of the rectangle.
-  std::vector<HalfCellsSquared> along_rows(width * window.height);
-  std::vector<HalfCellsSquared> line(window.width);
-  for (int row = 0; row < window.height; ++row) {
-    poll();
-    rowDistances(classes.row(window.row + row) + window.column, window.width, line.data());
-    std::copy_n(line.begin() + (rect.column - window.column), width,
-                along_rows.begin() + row * width);
-  }
-
-  // Then along a few columns together, so that every line of memory that is fetched is used.
+  // A few columns together, so that every cache line that is fetched is used.
   constexpr int kTogether = 8;
+  const auto width = static_cast<std::size_t>(rect.width);
   const int skipped = rect.row - window.row;
+  StopPoll poll(stop, 16);
   std::vector<HalfCellsSquared> distances(width * rect.height);
   std::vector<ColumnTransform> columns(kTogether, ColumnTransform(window.height));
   for (int first = 0; first < rect.width; first += kTogether) {
@@ -171,9 +179,9 @@ Inflation::Inflation(const CostmapOptions& options, double resolution)
   const HalfCellsSquared across = 2 * HalfCellsSquared{reach_} + 1;  // of the first out of reach
   farthest_ = across * across - 1;
   const HalfCellsSquared entries = std::min(kLargestTable, farthest_ + 2);
-  table_.reserve(static_cast<std::size_t>(entries));
+  ranks_.reserve(static_cast<std::size_t>(entries));
   for (HalfCellsSquared distance = 0; distance < entries; ++distance)
-    table_.push_back(dearnessOf(distance));
+    ranks_.push_back(computeRank(distance));
 }
 
 void Inflation::apply(const Grid<Occupancy>& classes, const CellRect& sources, const CellRect& rect,
@@ -193,7 +201,7 @@ void Inflation::applyNear(const Grid<Occupancy>& classes, const CellRect& source
                           const CellRect& rect, Grid<CostGrid::Weight>& weights,
                           const StopToken& stop) const {
   BoundedDistanceTransform near(classes, sources, rect, reach_);
-  const Dearness* const dearness = table_.data();
+  const Rank* const ranks = ranks_.data();
   const int beyond = static_cast<int>(farthest_) + 1;
   StopPoll poll(stop, 64);
   for (int row = rect.row; row < rect.row + rect.height; ++row) {
@@ -202,7 +210,7 @@ void Inflation::applyNear(const Grid<Occupancy>& classes, const CellRect& source
     if (distances == nullptr) continue;
     CostGrid::Weight* weight = weights.row(row) + rect.column;
     for (int i = 0; i < rect.width; ++i)
-      weight[i] = atLeast(dearness[std::min<int>(distances[i], beyond)], weight[i]);
+      weight[i] = atLeast(ranks[std::min<int>(distances[i], beyond)], weight[i]);
   }
 }
 
@@ -213,22 +221,22 @@ void Inflation::applyFar(const Grid<Occupancy>& classes, const CellRect& rect,
     const HalfCellsSquared* distance = distances.data() + std::size_t(row) * rect.width;
     CostGrid::Weight* weight = weights.row(rect.row + row) + rect.column;
     for (int i = 0; i < rect.width; ++i)
-      if (distance[i] != kNoObstacle) weight[i] = atLeast(dearnessAt(distance[i]), weight[i]);
+      if (distance[i] != kNoObstacle) weight[i] = atLeast(rankAt(distance[i]), weight[i]);
   }
 }
 
-Inflation::Dearness Inflation::dearnessAt(HalfCellsSquared distance) const {
-  const bool tabled = distance < static_cast<HalfCellsSquared>(table_.size());
-  return tabled ? table_[static_cast<std::size_t>(distance)] : dearnessOf(distance);
+Inflation::Rank Inflation::rankAt(HalfCellsSquared distance) const {
+  const bool in_table = distance < static_cast<HalfCellsSquared>(ranks_.size());
+  return in_table ? ranks_[static_cast<std::size_t>(distance)] : computeRank(distance);
 }
 
-Inflation::Dearness Inflation::dearnessOf(HalfCellsSquared distance) const {
+Inflation::Rank Inflation::computeRank(HalfCellsSquared distance) const {
   if (distance > farthest_) return 0;
   const double half_cells = std::sqrt(static_cast<double>(distance));
-  if (half_cells < radius_) return static_cast<Dearness>(CostGrid::kBlocked - 1);
-  if (decay_ <= 0.0 || rise_ <= 0.0) return static_cast<Dearness>(free_ - 1.0);
-  return static_cast<Dearness>(
-      std::lround(free_ + rise_ * std::exp(-decay_ * (half_cells - radius_))) - 1);
+  if (half_cells < radius_) return static_cast<Rank>(CostGrid::kBlocked - 1);
+  if (decay_ <= 0.0 || rise_ <= 0.0) return static_cast<Rank>(free_ - 1.0);
+  return static_cast<Rank>(std::lround(free_ + rise_ * std::exp(-decay_ * (half_cells - radius_))) -
+                           1);
 }
 
 }  // namespace grid_path_planner::costmap

@@ -31,43 +31,42 @@ void forEachCell(const CellRect& rect, Visit&& visit) {
       visit(Cell{column, row});
 }
 
-Block conservative(const CostGrid& fine, const CellRect& cells) {
+Block conservative(const CostGrid& full, const CellRect& cells) {
   Block block;
   bool blocked = false;
   bool unknown = false;
   bool occupied = false;
   forEachCell(cells, [&](Cell cell) {
-    blocked |= fine.weight(cell) == CostGrid::kBlocked;
-    unknown |= fine.occupancy(cell) == Occupancy::UNKNOWN;
-    occupied |= fine.occupancy(cell) == Occupancy::OCCUPIED;
-    block.weight = std::max(block.weight, fine.weight(cell));
+    blocked |= full.weight(cell) == CostGrid::kBlocked;
+    unknown |= full.occupancy(cell) == Occupancy::UNKNOWN;
+    occupied |= full.occupancy(cell) == Occupancy::OCCUPIED;
+    block.weight = std::max(block.weight, full.weight(cell));
   });
   if (blocked) block.weight = CostGrid::kBlocked;
   block.occupancy = occupied ? Occupancy::OCCUPIED : unknown ? Occupancy::UNKNOWN : Occupancy::FREE;
   return block;
 }
 
-// Passable free and unknown cells keep their class; what inflation blocks counts as occupied, and
-// so does nothing else that is only impassable by its class.
-Occupancy effectiveClass(const CostGrid& fine, Cell cell, const CostmapOptions& options) {
-  const Occupancy occupancy = fine.occupancy(cell);
-  const bool inflated = fine.weight(cell) == CostGrid::kBlocked &&
-                        classWeight(occupancy, options) != CostGrid::kBlocked;
-  return inflated ? Occupancy::OCCUPIED : occupancy;
+// The class of a cell; occupied where inflation blocks it, but not where its own class does.
+Occupancy effectiveClass(const CostGrid& full, Cell cell, const CostmapOptions& options) {
+  const Occupancy occupancy = full.occupancy(cell);
+  const bool blocked_by_inflation = full.weight(cell) == CostGrid::kBlocked &&
+                                    classWeight(occupancy, options) != CostGrid::kBlocked;
+  return blocked_by_inflation ? Occupancy::OCCUPIED : occupancy;
 }
 
-Block filter2d(const CostGrid& fine, const CellRect& cells, const CostmapOptions& options) {
+Block filter2d(const CostGrid& full, const CellRect& cells, const CostmapOptions& options) {
   int sum = 0;
-  CostGrid::Weight ring = 0;
+  CostGrid::Weight inflated = 0;
   forEachCell(cells, [&](Cell cell) {
-    const Occupancy occupancy = effectiveClass(fine, cell, options);
+    const Occupancy occupancy = effectiveClass(full, cell, options);
     sum += occupancy == Occupancy::OCCUPIED ? 3 : occupancy == Occupancy::UNKNOWN ? -1 : 0;
-    if (occupancy == Occupancy::FREE) ring = std::max(ring, fine.weight(cell));
+    if (occupancy == Occupancy::FREE) inflated = std::max(inflated, full.weight(cell));
   });
   Block block;
   block.occupancy = sum > 0 ? Occupancy::OCCUPIED : sum < 0 ? Occupancy::UNKNOWN : Occupancy::FREE;
   block.weight = classWeight(block.occupancy, options);
-  if (block.weight != CostGrid::kBlocked) block.weight = std::max(block.weight, ring);
+  if (block.weight != CostGrid::kBlocked) block.weight = std::max(block.weight, inflated);
   return block;
 }
 
@@ -76,6 +75,13 @@ Block filter2d(const CostGrid& fine, const CellRect& cells, const CostmapOptions
 GridGeometry blockGeometry(const GridGeometry& cells, int kernel) {
   return GridGeometry((cells.width() + kernel - 1) / kernel, (cells.height() + kernel - 1) / kernel,
                       cells.resolution() * kernel, cells.origin());
+}
+
+CellRect blocksOf(const CellRect& cells, int kernel) {
+  const Cell first{cells.column / kernel, cells.row / kernel};
+  const Cell last{(cells.column + cells.width - 1) / kernel,
+                  (cells.row + cells.height - 1) / kernel};
+  return {first.column, first.row, last.column - first.column + 1, last.row - first.row + 1};
 }
 
 CostGrid::Weight classWeight(Occupancy occupancy, const CostmapOptions& options) {
@@ -92,23 +98,21 @@ CostGrid::Weight classWeight(Occupancy occupancy, const CostmapOptions& options)
                                       : CostGrid::kBlocked;
 }
 
-void applyKernel(const CostGrid& fine, const CostmapOptions& options, const CellRect& changed,
+void applyKernel(const CostGrid& full, const CostmapOptions& options, const CellRect& changed,
                  Grid<CostGrid::Weight>& weights, Grid<Occupancy>& classes, const StopToken& stop) {
   if (changed.empty()) return;
   StopPoll poll(stop, 64);
-  const int k = options.kernel;
-  const Cell first{changed.column / k, changed.row / k};
-  const Cell last{(changed.column + changed.width - 1) / k, (changed.row + changed.height - 1) / k};
-  for (int row = first.row; row <= last.row; ++row) {
+  const CellRect blocks = blocksOf(changed, options.kernel);
+  for (int row = blocks.row; row < blocks.row + blocks.height; ++row) {
     poll();
-    for (int column = first.column; column <= last.column; ++column) {
-      const Cell block{column, row};
-      const CellRect cells = cellsOf(block, k, fine.geometry());
-      const Block judged = options.kernel_rule == KernelRule::CONSERVATIVE
-                               ? conservative(fine, cells)
-                               : filter2d(fine, cells, options);
-      weights[block] = judged.weight;
-      classes[block] = judged.occupancy;
+    for (int column = blocks.column; column < blocks.column + blocks.width; ++column) {
+      const Cell cell{column, row};
+      const CellRect cells = cellsOf(cell, options.kernel, full.geometry());
+      const Block block = options.kernel_rule == KernelRule::CONSERVATIVE
+                              ? conservative(full, cells)
+                              : filter2d(full, cells, options);
+      weights[cell] = block.weight;
+      classes[cell] = block.occupancy;
     }
   }
 }

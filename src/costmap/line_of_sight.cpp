@@ -22,11 +22,11 @@ std::int64_t ceilDivide(std::int64_t a, std::int64_t b) {
   return -floorDivide(-a, b);
 }
 
-// A segment seen along its major axis: from left to right, never steeper than 45 degrees. `Cell`s
-// it gives are the map's, transposed back.
-class Walk {
+// A line along its major axis: from left to right, never steeper than 45 degrees. cell() gives the
+// map's cell, transposed back.
+class Line {
  public:
-  Walk(SegmentPoint from, SegmentPoint to)
+  Line(SegmentPoint from, SegmentPoint to)
       : transposed_(std::abs(to.y - from.y) > std::abs(to.x - from.x)) {
     if (transposed_) {
       std::swap(from.x, from.y);
@@ -42,8 +42,8 @@ class Walk {
   std::int64_t right() const { return begin_.x + dx_; }
   double lengthPerUnit() const { return std::hypot(double(dx_), double(dy_)) / double(dx_); }
 
-  // The rows whose interior the segment meets between x = a and x = b, inside one column; for a run
-  // along an edge the two rows beside it.
+  // The rows whose interior the line enters between x = a and x = b, inside one column; where it
+  // runs along an edge, the two rows beside it.
   struct Rows {
     std::int64_t first;
     std::int64_t last;
@@ -62,8 +62,8 @@ class Walk {
             false};
   }
 
-  // Whether the segment passes a lattice point at the lattice line x, and in which row's lower
-  // edge.
+  // Whether the line passes a lattice point at the lattice line x; `row`: whose lower edge the
+  // point lies on.
   bool latticePointAt(std::int64_t x, std::int64_t& row) const {
     row = floorDivide(height(x), dx_ * kUnit);
     return row * dx_ * kUnit == height(x);
@@ -85,34 +85,34 @@ class Walk {
   std::int64_t dy_ = 0;
 };
 
-// Whether the lattice point at the lower left corner of cell (column, row) is no pinch: not a
-// blocked diagonal pair with open cells on both sides. (With a third cell blocked there is nowhere
-// to squeeze through to; an end may lie there.)
-bool latticePointOpen(const CostGrid& map, const Walk& walk, std::int64_t column,
+// Whether the lattice point at the lower left corner of cell (column, row) is no pinch: no blocked
+// diagonal pair between two passable cells. (With a third cell blocked no line passes through; one
+// may end there.)
+bool latticePointOpen(const CostGrid& map, const Line& line, std::int64_t column,
                       std::int64_t row) {
-  const bool lower_left = map.passable(walk.cell(column - 1, row - 1));
-  const bool lower_right = map.passable(walk.cell(column, row - 1));
-  const bool upper_left = map.passable(walk.cell(column - 1, row));
-  const bool upper_right = map.passable(walk.cell(column, row));
+  const bool lower_left = map.passable(line.cell(column - 1, row - 1));
+  const bool lower_right = map.passable(line.cell(column, row - 1));
+  const bool upper_left = map.passable(line.cell(column - 1, row));
+  const bool upper_right = map.passable(line.cell(column, row));
   const bool rising = lower_left && upper_right && !lower_right && !upper_left;
   const bool falling = lower_right && upper_left && !lower_left && !upper_right;
   return !rising && !falling;
 }
 
-bool rowsPassable(const CostGrid& map, const Walk& walk, std::int64_t column,
-                  const Walk::Rows& rows) {
+bool rowsPassable(const CostGrid& map, const Line& line, std::int64_t column,
+                  const Line::Rows& rows) {
   if (rows.along_edge)
-    return map.passable(walk.cell(column, rows.first)) ||
-           map.passable(walk.cell(column, rows.last));
+    return map.passable(line.cell(column, rows.first)) ||
+           map.passable(line.cell(column, rows.last));
   for (std::int64_t row = rows.first; row <= rows.last; ++row)
-    if (!map.passable(walk.cell(column, row))) return false;
+    if (!map.passable(line.cell(column, row))) return false;
   return true;
 }
 
-CostGrid::Weight weightOfRows(const CostGrid& map, const Walk& walk, std::int64_t column,
-                              const Walk::Rows& rows) {
+CostGrid::Weight weightOfRows(const CostGrid& map, const Line& line, std::int64_t column,
+                              const Line::Rows& rows) {
   const auto weightOf = [&](std::int64_t row) {
-    const Cell cell = walk.cell(column, row);
+    const Cell cell = line.cell(column, row);
     return map.passable(cell) ? map.weight(cell) : CostGrid::kBlocked;
   };
   if (rows.along_edge) {
@@ -136,13 +136,36 @@ bool pointLegal(const CostGrid& map, SegmentPoint point) {
     return map.passable({static_cast<int>(c), static_cast<int>(r)});
   };
   if (on_column && on_row) {
-    const Walk upright(point, {point.x + kUnit, point.y});
+    const Line upright(point, {point.x + kUnit, point.y});
     const bool any = passable(column, row) || passable(column - 1, row) ||
                      passable(column, row - 1) || passable(column - 1, row - 1);
     return any && (map.motion().cut_corners || latticePointOpen(map, upright, column, row));
   }
   return passable(column, row) || (on_column && passable(column - 1, row)) ||
          (on_row && passable(column, row - 1));
+}
+
+bool inside(const CostGrid& map, SegmentPoint point) {
+  return point.x >= 0 && point.x <= map.geometry().width() * kUnit && point.y >= 0 &&
+         point.y <= map.geometry().height() * kUnit;
+}
+
+bool cellsPassable(const CostGrid& map, const Line& line) {
+  for (std::int64_t a = line.left(); a < line.right();) {
+    const std::int64_t column = floorDivide(a, kUnit);
+    const std::int64_t b = std::min((column + 1) * kUnit, line.right());
+    if (!rowsPassable(map, line, column, line.rowsBetween(a, b))) return false;
+    a = b;
+  }
+  return true;
+}
+
+bool latticePointsOpen(const CostGrid& map, const Line& line) {
+  for (std::int64_t x = ceilDivide(line.left(), kUnit) * kUnit; x <= line.right(); x += kUnit) {
+    std::int64_t row = 0;
+    if (line.latticePointAt(x, row) && !latticePointOpen(map, line, x / kUnit, row)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -169,47 +192,31 @@ Cell passableCellAt(const CostGrid& map, SegmentPoint point) {
 }
 
 bool lineOfSight(const CostGrid& map, SegmentPoint from, SegmentPoint to) {
-  const auto inside = [&map](SegmentPoint point) {
-    return point.x >= 0 && point.x <= map.geometry().width() * kUnit && point.y >= 0 &&
-           point.y <= map.geometry().height() * kUnit;
-  };
-  if (!inside(from) || !inside(to)) return false;
-  if (from.x == to.x && from.y == to.y) return pointLegal(map, from);
-
-  const Walk walk(from, to);
-  for (std::int64_t a = walk.left(); a < walk.right();) {
-    const std::int64_t column = floorDivide(a, kUnit);
-    const std::int64_t b = std::min((column + 1) * kUnit, walk.right());
-    if (!rowsPassable(map, walk, column, walk.rowsBetween(a, b))) return false;
-    a = b;
-  }
-  if (map.motion().cut_corners) return true;
-  for (std::int64_t x = ceilDivide(walk.left(), kUnit) * kUnit; x <= walk.right(); x += kUnit) {
-    std::int64_t row = 0;
-    if (walk.latticePointAt(x, row) && !latticePointOpen(map, walk, x / kUnit, row)) return false;
-  }
-  return true;
+  if (!inside(map, from) || !inside(map, to)) return false;
+  if (from == to) return pointLegal(map, from);
+  const Line line(from, to);
+  return cellsPassable(map, line) && (map.motion().cut_corners || latticePointsOpen(map, line));
 }
 
 double lineCost(const CostGrid& map, SegmentPoint from, SegmentPoint to) {
   if (from.x == to.x && from.y == to.y) return 0.0;
   assert(lineOfSight(map, from, to));
-  const Walk walk(from, to);
+  const Line line(from, to);
   std::int64_t weighted = 0;  // weight x length along the major axis
-  for (std::int64_t a = walk.left(); a < walk.right();) {
+  for (std::int64_t a = line.left(); a < line.right();) {
     const std::int64_t column = floorDivide(a, kUnit);
     const std::int64_t edge = (column + 1) * kUnit;
     const std::int64_t this_centre = column * kUnit + kHalf;
     const std::int64_t next_centre = a < this_centre ? this_centre : this_centre + kUnit;
-    const std::int64_t b = std::min(next_centre, walk.right());
+    const std::int64_t b = std::min(next_centre, line.right());
     CostGrid::Weight weight =
-        weightOfRows(map, walk, column, walk.rowsBetween(a, std::min(b, edge)));
+        weightOfRows(map, line, column, line.rowsBetween(a, std::min(b, edge)));
     if (b > edge)
-      weight = std::max(weight, weightOfRows(map, walk, column + 1, walk.rowsBetween(edge, b)));
+      weight = std::max(weight, weightOfRows(map, line, column + 1, line.rowsBetween(edge, b)));
     weighted += std::int64_t{weight} * (b - a);
     a = b;
   }
-  return double(weighted) / double(kUnit) * walk.lengthPerUnit() * map.kernel();
+  return double(weighted) / double(kUnit) * line.lengthPerUnit() * map.kernel();
 }
 
 }  // namespace grid_path_planner::costmap

@@ -1,4 +1,4 @@
-#include "grid_path_planner/costmap/weight_counts.h"
+#include "costmap/weight_counts.h"
 
 #include <algorithm>
 #include <cassert>
@@ -59,13 +59,13 @@ inline void WeightCounts::replace(const Weight* before, const Weight* after, int
   }
 }
 
-WeightCounts::Weight WeightCounts::cheapest() const {
+WeightCounts::Weight WeightCounts::minWeight() const {
   for (std::size_t weight = 1; weight < counts_.size(); ++weight)
     if (number(weight) != 0) return static_cast<Weight>(weight);
   return 0;
 }
 
-WeightCounts::Weight WeightCounts::dearest() const {
+WeightCounts::Weight WeightCounts::maxWeight() const {
   for (std::size_t weight = counts_.size(); weight-- > 1;)
     if (number(weight) != 0) return static_cast<Weight>(weight);
   return 0;

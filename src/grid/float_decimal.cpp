@@ -7,7 +7,7 @@
 
 namespace grid_path_planner::grid {
 
-double decimalOfFloat(float value) {
+double floatToDecimal(float value) {
   if (!std::isfinite(value)) return value;
   for (int digits = 1; digits <= std::numeric_limits<float>::max_digits10; ++digits) {
     std::stringstream text;
@@ -21,10 +21,10 @@ double decimalOfFloat(float value) {
   return value;
 }
 
-double floatToDecimal(double value) {
+double printedFloatToDecimal(double value) {
   const bool fits = std::fabs(value) <= std::numeric_limits<float>::max();
   const bool is_float = fits && static_cast<double>(static_cast<float>(value)) == value;
-  return is_float ? decimalOfFloat(static_cast<float>(value)) : value;
+  return is_float ? floatToDecimal(static_cast<float>(value)) : value;
 }
 
 }  // namespace grid_path_planner::grid

@@ -11,11 +11,11 @@
 #include "grid/formats/occupancy_dump.h"
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/yaml_file.h"
-#include "grid_path_planner/grid/map_format.h"
 #include "grid_path_planner/grid/rectangle_map_file.h"
 
 namespace grid_path_planner::grid {
 
+using base::extensionOf;
 using base::InputError;
 using base::kLargestYaml;
 using base::parseYaml;
@@ -69,6 +69,16 @@ OccupancyGrid readYamlMap(const std::string& content, const std::string& file,
 }
 
 }  // namespace
+
+GridGeometry mapGeometry(const std::string& file, int width, int height, double resolution,
+                         const Origin& origin, const MapFileOptions& options) {
+  try {
+    return GridGeometry(width, height, options.resolution.value_or(resolution),
+                        options.origin.value_or(origin));
+  } catch (const InputError& error) {
+    throw InputError(file, error.what());
+  }
+}
 
 OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options) {
   const std::string content = readWholeFile(file, kLargestMapFile);

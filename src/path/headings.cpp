@@ -37,7 +37,7 @@ std::vector<double> progressOf(const Path& path) {
   return progress;
 }
 
-// The direction of the way ahead at every pose; `at_end` where none is left.
+// The direction of the next segment that has a length, at every pose; `at_end` where none is left.
 std::vector<double> directionsOf(const Path& path, double at_end) {
   std::vector<double> directions(path.poses.size(), at_end);
   for (std::size_t i = path.poses.size() - 1; i-- > 0;) {
@@ -54,7 +54,7 @@ std::size_t lastBeforeEnd(const Path& path) {
   return i > 0 ? i - 1 : 0;
 }
 
-void lookAhead(Path& path, double goal_yaw, double offset) {
+void faceAlongPath(Path& path, double goal_yaw, double offset) {
   const std::vector<double> directions = directionsOf(path, goal_yaw - offset);
   for (std::size_t i = 0; i < path.poses.size(); ++i)
     path.poses[i].yaw = normalised(directions[i] + offset);
@@ -100,23 +100,23 @@ void applyHeadings(Path& path, double start_yaw, double goal_yaw, HeadingMode mo
       for (Pose& pose : path.poses) pose.yaw = 0.0;
       break;
     case HeadingMode::FORWARD:
-      lookAhead(path, goal_yaw, 0.0);
+      faceAlongPath(path, goal_yaw, 0.0);
       break;
     case HeadingMode::INTERPOLATE:
       turnByLength(path, start_yaw, goal_yaw);
       break;
     case HeadingMode::FORWARD_THEN_INTERPOLATE:
-      lookAhead(path, goal_yaw, 0.0);
+      faceAlongPath(path, goal_yaw, 0.0);
       turnOverTheLastStretch(path, goal_yaw);
       break;
     case HeadingMode::BACKWARD:
-      lookAhead(path, goal_yaw, M_PI);
+      faceAlongPath(path, goal_yaw, M_PI);
       break;
     case HeadingMode::LEFTWARD:
-      lookAhead(path, goal_yaw, -M_PI / 2);
+      faceAlongPath(path, goal_yaw, -M_PI / 2);
       break;
     case HeadingMode::RIGHTWARD:
-      lookAhead(path, goal_yaw, M_PI / 2);
+      faceAlongPath(path, goal_yaw, M_PI / 2);
       break;
   }
   path.poses.back().yaw = goal_yaw;

@@ -1,8 +1,9 @@
-#include "grid_path_planner/path/length_by_occupancy.h"
-
+// lengthsByClass() of metrics.h.
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "grid_path_planner/path/metrics.h"
 
 namespace grid_path_planner::path {
 
@@ -14,12 +15,23 @@ using grid::OccupancyThresholds;
 
 namespace {
 
-// Where, as shares of the way from `from` to `to`, one coordinate passes from cell to cell.
+// Adds the shares of the segment's length at which one coordinate passes from cell to cell.
 void addCrossings(double from, double to, double side, std::vector<double>& shares) {
   const double low = std::max(0.0, std::ceil(std::min(from, to)));
   const double high = std::min(side, std::floor(std::max(from, to)));
   for (double line = low; line <= high; line += 1.0)
     if (from != to) shares.push_back(std::clamp((line - from) / (to - from), 0.0, 1.0));
+}
+
+// The shares of the segment's length at which it passes from cell to cell, its ends included, in
+// order.
+std::vector<double> crossingsOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                const GridGeometry& geometry) {
+  std::vector<double> shares = {0.0, 1.0};
+  addCrossings(from.x(), to.x(), geometry.width(), shares);
+  addCrossings(from.y(), to.y(), geometry.height(), shares);
+  std::sort(shares.begin(), shares.end());
+  return shares;
 }
 
 double* lengthFor(ClassLengths& lengths, Occupancy occupancy) {
@@ -40,14 +52,10 @@ ClassLengths lengthsByClass(const Path& path, const OccupancyGrid& map,
                             const OccupancyThresholds& thresholds) {
   const GridGeometry& geometry = map.geometry();
   ClassLengths lengths;
-  std::vector<double> shares;
   for (std::size_t i = 1; i < path.poses.size(); ++i) {
     const Eigen::Vector2d from = geometry.gridFromWorld(path.poses[i - 1].position.head<2>());
     const Eigen::Vector2d to = geometry.gridFromWorld(path.poses[i].position.head<2>());
-    shares = {0.0, 1.0};
-    addCrossings(from.x(), to.x(), geometry.width(), shares);
-    addCrossings(from.y(), to.y(), geometry.height(), shares);
-    std::sort(shares.begin(), shares.end());
+    const std::vector<double> shares = crossingsOf(from, to, geometry);
     const double metres = (to - from).norm() * geometry.resolution();
     for (std::size_t piece = 1; piece < shares.size(); ++piece) {
       const double share = shares[piece] - shares[piece - 1];

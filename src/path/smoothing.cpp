@@ -6,7 +6,7 @@
 #include <numeric>
 #include <optional>
 
-#include "grid_path_planner/costmap/line_cost.h"
+#include "grid_path_planner/costmap/line_of_sight.h"
 
 namespace grid_path_planner::path {
 
@@ -14,7 +14,7 @@ using base::StopPoll;
 using base::StopToken;
 using costmap::BitMaps;
 using costmap::CostGrid;
-using costmap::lineCost;
+using costmap::lineCostWithin;
 using costmap::SegmentPoint;
 
 namespace {
@@ -55,19 +55,19 @@ class Smoother {
 
   std::optional<double> straight(std::size_t from, std::size_t to, double limit) {
     poll_();
-    return lineCost(map_, bits_, points_[from], points_[to], limit);
+    return lineCostWithin(map_, bits_, points_[from], points_[to], limit);
   }
   double along(std::size_t from, std::size_t to) const { return costs_[to] - costs_[from]; }
   bool replaceable(std::size_t from, std::size_t to) {
     return straight(from, to, along(from, to) * (1.0 + kRounding)).has_value();
   }
-  // Of a segment that is kept: the straight one, or the polyline's own.
+  // The cost of a segment; infinite where it is not legal or costs more than `limit`.
   double costOf(std::size_t from, std::size_t to, double limit = kInfinity) {
     return straight(from, to, limit).value_or(kInfinity);
   }
 
-  // From each kept point to one as far ahead as a straight way is found to: in steps that double,
-  // then halve.
+  // From each kept point a segment to a point as far ahead as possible: steps that double, then
+  // bisection.
   void pullFromTheStart(std::vector<std::size_t>& kept) {
     kept = {0};
     const std::size_t last = points_.size() - 1;
@@ -87,8 +87,8 @@ class Smoother {
     }
   }
 
-  // Moves kept points along the polyline to where the way past them is cheaper, and drops those
-  // that it can do without. Whether anything changed.
+  // Moves kept points along the polyline to where the path costs less, and drops those that a
+  // straight line past them replaces. Returns whether anything changed.
   bool slide(std::vector<std::size_t>& kept) {
     bool changed = false;
     std::vector<std::size_t> next = {kept.front()};
@@ -108,7 +108,7 @@ class Smoother {
     return changed;
   }
 
-  // Downhill from `at` in steps that halve.
+  // Hill climbing from `at` to lower costs, in steps that halve.
   std::size_t slid(std::size_t before, std::size_t at, std::size_t after, double cost) {
     for (std::size_t step = std::max<std::size_t>(1, (after - before) / 8); step > 0; step /= 2) {
       for (const bool back : {true, false}) {

@@ -1,6 +1,5 @@
 #include "study/study_worker.h"
 
-#include "grid_path_planner/path/length_by_occupancy.h"
 #include "grid_path_planner/path/metrics.h"
 #include "study/study_planners.h"
 

@@ -93,10 +93,10 @@ TEST(BitMaps, OfAMapAreMadeOnceForAllWhoAsk) {
   const CostGrid map = costMap(weights);
   const std::size_t before = map.bytes();
   std::vector<const BitMaps*> seen(4);
-  std::vector<std::thread> askers;
+  std::vector<std::thread> threads;
   for (const BitMaps*& each : seen)
-    askers.emplace_back([&map, &each] { each = &map.bitMaps(StopToken()); });
-  for (std::thread& asker : askers) asker.join();
+    threads.emplace_back([&map, &each] { each = &map.bitMaps(StopToken()); });
+  for (std::thread& asker : threads) asker.join();
   for (const BitMaps* each : seen) EXPECT_EQ(each, seen.front());
   expectBits(*seen.front(), weights);
   EXPECT_EQ(map.bytes(), before + seen.front()->bytes());

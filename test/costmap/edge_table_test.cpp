@@ -35,8 +35,8 @@ TEST(EdgeTable, IsTheWorkedExample) {
   CostmapOptions options;
   options.occupied_is_passable = true;
   options.motion.diagonal_cost = DiagonalCost::UNIT;
-  CostmapBuilder terrain(options);
-  terrain.setMap(std::make_shared<OccupancyGrid>(test::AsciiMap({".?.",  //
+  CostmapBuilder builder(options);
+  builder.setMap(std::make_shared<OccupancyGrid>(test::AsciiMap({".?.",  //
                                                                  "#.?",  //
                                                                  "?.#"})
                                                      .map));
@@ -47,7 +47,7 @@ TEST(EdgeTable, IsTheWorkedExample) {
       {0, 0, 0, 100, 50, 0, 0, 50, 0},    {0, 0, 0, 100, 1, 50, 50, 0, 100},
       {0, 0, 0, 0, 100, 100, 0, 100, 0},
   };
-  EXPECT_EQ(edgeTable(*terrain.downsampled(StopToken())), expected);
+  EXPECT_EQ(edgeTable(*builder.downsampled(StopToken())), expected);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "grid_path_planner/costmap/inflation.h"
+#include "costmap/inflation.h"
 
 #include <gtest/gtest.h>
 

@@ -41,7 +41,7 @@ class Branches {
   const CostGrid& map_;
 };
 
-TEST(DeadBranches, AfterNothing) {
+TEST(DeadBranches, EndWhereNoStepIsNatural) {
   EXPECT_EQ(deadAfter(0), 255U);
   EXPECT_EQ(deadAfter(0x8000000000000001U), 126U);
   EXPECT_EQ(deadAfter(~NaturalMoves{0}), 0U);

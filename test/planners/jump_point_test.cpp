@@ -60,7 +60,7 @@ TEST(JumpPoint, TurnsWhereAnObstacleEnds) {
   EXPECT_EQ(result.cost, (ExactCost{3, 2}));
 }
 
-TEST(JumpPoint, GoesDiagonallyThenStraightWhereNothingIsInTheWay) {
+TEST(JumpPoint, GoesDiagonallyThenStraightInTheOpen) {
   const SearchResult result = planned(test::AsciiMap({"S....",  //
                                                       ".....",  //
                                                       "....G"}));
@@ -158,7 +158,7 @@ TEST(JumpPoint, PlansAfterEditsAsIfPreparedAnew) {
 }
 
 // A serpentine whose length no 32-bit key holds: 47,321 cell lengths.
-TEST(JumpPoint, FindsWaysThatOutgrowThirtyTwoBits) {
+TEST(JumpPoint, FindsPathsThatOverflowThirtyTwoBits) {
   Weights weights(GridGeometry(301, 501, 1.0), 2);
   for (int row = 1; row < 501; row += 2)
     for (int column = 0; column < 301; ++column)

@@ -11,8 +11,8 @@ using costmap::CostGrid;
 
 namespace {
 
-// One lane, cell by cell.
-struct SlowLane {
+// One line, cell by cell.
+struct SlowLine {
   std::vector<CostGrid::Weight> weights;
   std::vector<bool> stop, dead;
 
@@ -32,35 +32,33 @@ struct SlowLane {
 };
 
 template <bool kForward>
-void expectAlike(const StraightJumpTable& lanes, std::size_t lane, const SlowLane& slow) {
+void expectAlike(const StraightJumpTable& table, std::size_t line, const SlowLine& slow) {
   const auto length = unsigned(slow.weights.size());
   for (unsigned from = kForward ? 0 : 1; from < length - (kForward ? 1 : 0); ++from) {
     const unsigned end = slow.end<kForward>(from);
-    const auto run = lanes.run<kForward>(lane, from, slow.weights.data(), 1);
-    ASSERT_EQ(run.to, end) << "from " << from;
-    ASSERT_EQ(run.weights, slow.cost<kForward>(from, end)) << "from " << from;
-    const bool blind =
-        (lanes.word(lane, from).dead_end[kForward ? 0 : 1] >> (from & 63U) & 1U) != 0;
-    ASSERT_EQ(blind, slow.dead[end]) << "from " << from;
+    const auto jump = table.straightJump<kForward>(line, from, slow.weights.data(), 1);
+    ASSERT_EQ(jump.to, end) << "from " << from;
+    ASSERT_EQ(jump.weights, slow.cost<kForward>(from, end)) << "from " << from;
+    ASSERT_EQ(table.deadEnd<kForward>(line, from), slow.dead[end]) << "from " << from;
   }
 }
 
 template <bool kForward>
 void checkEdits(std::mt19937& random) {
   const unsigned length = 1 + random() % 200;
-  SlowLane slow{std::vector<CostGrid::Weight>(length, 3), std::vector<bool>(length, false),
+  SlowLine slow{std::vector<CostGrid::Weight>(length, 3), std::vector<bool>(length, false),
                 std::vector<bool>(length, false)};
-  StraightJumpTable lanes;
-  lanes.reset(3, length);
+  StraightJumpTable table;
+  table.reset(3, length);
   const auto set = [&](unsigned at, bool stop, bool dead) {
     slow.stop[at] = stop;
     slow.dead[at] = dead;
-    lanes.set<kForward>(1, at, stop, dead);
+    table.setStop<kForward>(1, at, stop, dead);
   };
   for (unsigned at = 0; at + 1 < length; ++at) {
     if (random() % 4 == 0) slow.weights[at + 1] = static_cast<CostGrid::Weight>(random() % 9);
     if (slow.weights[at] != slow.weights[at + 1])
-      lanes.word(1, at).change |= std::uint64_t{1} << (at & 63U);
+      table.word(1, at).change |= std::uint64_t{1} << (at & 63U);
   }
   set(0, true, true);
   set(length - 1, true, true);
@@ -70,11 +68,11 @@ void checkEdits(std::mt19937& random) {
     const bool last = at == 0 || at == length - 1;
     const bool stop = last || random() % rarity == 0;
     set(at, stop, stop && random() % 2 == 0);
-    if (edit % 10 == 0) expectAlike<kForward>(lanes, 1, slow);
+    if (edit % 10 == 0) expectAlike<kForward>(table, 1, slow);
   }
 }
 
-TEST(JumpLanesLaw, RunToTheFirstStopAndSeeWhetherItIsDead) {
+TEST(StraightJumpTableLaw, JumpsToTheFirstStopAndKnowsDeadEnds) {
   std::mt19937 random(4);
   for (int trial = 0; trial < 40; ++trial) {
     checkEdits<true>(random);

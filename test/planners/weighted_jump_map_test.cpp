@@ -30,24 +30,24 @@ NaturalMoves stepsAt(const WeightedJumpMap& jumps, const CostGrid& map, Cell cel
   return jumps.steps(map, map.geometry().index(cell).value());
 }
 
-WeightedJumpMap::Run runOf(const WeightedJumpMap& jumps, const CostGrid& map, unsigned step,
-                           Cell cell) {
+WeightedJumpMap::Jump jumpOf(const WeightedJumpMap& jumps, const CostGrid& map, unsigned step,
+                             Cell cell) {
   const CostGrid::Weight* weights = map.weights().values().data();
-  return step == 0   ? jumps.run<0>(cell, weights)
-         : step == 1 ? jumps.run<1>(cell, weights)
-         : step == 2 ? jumps.run<2>(cell, weights)
-                     : jumps.run<3>(cell, weights);
+  return step == 0   ? jumps.straightJump<0>(cell, weights)
+         : step == 1 ? jumps.straightJump<1>(cell, weights)
+         : step == 2 ? jumps.straightJump<2>(cell, weights)
+                     : jumps.straightJump<3>(cell, weights);
 }
 
-bool blindTo(const WeightedJumpMap& jumps, unsigned step, Cell cell) {
-  return step == 0   ? jumps.blind<0>(cell)
-         : step == 1 ? jumps.blind<1>(cell)
-         : step == 2 ? jumps.blind<2>(cell)
-                     : jumps.blind<3>(cell);
+bool deadEndAt(const WeightedJumpMap& jumps, unsigned step, Cell cell) {
+  return step == 0   ? jumps.deadEnd<0>(cell)
+         : step == 1 ? jumps.deadEnd<1>(cell)
+         : step == 2 ? jumps.deadEnd<2>(cell)
+                     : jumps.deadEnd<3>(cell);
 }
 
-// The runs are what following the steps cell by cell gives.
-void expectRunsFollowSteps(const WeightedJumpMap& jumps, const CostGrid& map, Cell from) {
+// Jumps end where following the steps cell by cell ends.
+void expectJumpsFollowSteps(const WeightedJumpMap& jumps, const CostGrid& map, Cell from) {
   for (unsigned step = 0; step < 4; ++step) {
     if (!stepAllowed(map, from, after(from, step))) continue;
     std::uint64_t weights = 0;
@@ -59,10 +59,10 @@ void expectRunsFollowSteps(const WeightedJumpMap& jumps, const CostGrid& map, Ce
       at = next;
       steps = stepsAt(jumps, map, at) >> (8 * step) & 255U;
     } while (steps == kNaturalInTheOpen[step]);
-    const WeightedJumpMap::Run run = runOf(jumps, map, step, from);
-    ASSERT_EQ(run.to, at) << from << " step " << step;
-    ASSERT_EQ(run.weights, weights) << from << " step " << step;
-    ASSERT_EQ(blindTo(jumps, step, from), steps == 0) << from << " step " << step;
+    const WeightedJumpMap::Jump jump = jumpOf(jumps, map, step, from);
+    ASSERT_EQ(jump.to, at) << from << " step " << step;
+    ASSERT_EQ(jump.weights, weights) << from << " step " << step;
+    ASSERT_EQ(deadEndAt(jumps, step, from), steps == 0) << from << " step " << step;
   }
 }
 
@@ -79,7 +79,7 @@ void expectAlike(const WeightedJumpMap& a, const WeightedJumpMap& b, const CostG
     ASSERT_EQ(stepsAt(a, map, cell), stepsAt(b, map, cell)) << cell;
     for (unsigned step = 0; step < 4; ++step) {
       if (stepAllowed(map, cell, after(cell, step))) {
-        ASSERT_EQ(blindTo(a, step, cell), blindTo(b, step, cell)) << cell << " step " << step;
+        ASSERT_EQ(deadEndAt(a, step, cell), deadEndAt(b, step, cell)) << cell << " step " << step;
       }
     }
   }
@@ -91,26 +91,26 @@ WeightedJumpMap built(const CostGrid& map) {
   return jumps;
 }
 
-TEST(WeightedJumpMap, RunsPastSlopesThatLeadNowhere) {
-  // A corridor whose walls are dear to brush: in its middle nothing but the way on is worth taking.
+TEST(WeightedJumpMap, JumpsPastDeadBranchesOfSlopes) {
+  // A corridor with expensive cells along its walls: in its middle only the step straight on lives.
   Grid<CostGrid::Weight> weights(GridGeometry(100, 9, 1.0), 1);
   const CostGrid::Weight slope[] = {9, 5, 2, 1, 1, 1, 2, 5, 9};
   for (int row = 0; row < 9; ++row)
     for (int column = 0; column < 100; ++column) weights[Cell{column, row}] = slope[row];
   const CostGrid map = test::costMap(weights);
   WeightedJumpMap jumps = built(map);
-  EXPECT_GE(runOf(jumps, map, 0, {20, 6}).to.column, 100 - WeightedJumpMap::kDepth - 5);
-  EXPECT_TRUE(blindTo(jumps, 1, {20, 6})) << "up the slope";
-  const WeightedJumpMap::Target target(jumps, map, {20, 8});
-  EXPECT_FALSE(blindTo(jumps, 1, {20, 6})) << "but there is the goal";
+  EXPECT_GE(jumpOf(jumps, map, 0, {20, 6}).to.column, 100 - WeightedJumpMap::kDepth - 5);
+  EXPECT_TRUE(deadEndAt(jumps, 1, {20, 6})) << "up the slope";
+  const WeightedJumpMap::ScopedGoal scoped_goal(jumps, map, {20, 8});
+  EXPECT_FALSE(deadEndAt(jumps, 1, {20, 6})) << "but the goal is there";
 }
 
-TEST(WeightedJumpMapLaw, RunsFollowTheSteps) {
+TEST(WeightedJumpMapLaw, JumpsFollowTheSteps) {
   std::mt19937 random(31);
   for (int trial = 0; trial < 60; ++trial) {
     const CostGrid map = test::randomCosts(random, trial % 4 == 0 ? 140 : 30, {});
     const WeightedJumpMap jumps = built(map);
-    for (const Cell cell : cellsOf(map)) expectRunsFollowSteps(jumps, map, cell);
+    for (const Cell cell : cellsOf(map)) expectJumpsFollowSteps(jumps, map, cell);
     if (HasFatalFailure()) FAIL() << "trial " << trial;
   }
 }
@@ -128,7 +128,7 @@ TEST(WeightedJumpMapLaw, StepsAreNaturalOnes) {
   }
 }
 
-TEST(WeightedJumpMapLaw, AfterEditsIsWhatAFreshOneWouldBe) {
+TEST(WeightedJumpMapLaw, EqualsAFreshBuildAfterEdits) {
   std::mt19937 random(32);
   for (int trial = 0; trial < 30; ++trial) {
     CostGrid map = test::randomCosts(random, 80, {});
@@ -146,12 +146,12 @@ TEST(WeightedJumpMapLaw, AfterEditsIsWhatAFreshOneWouldBe) {
       jumps.update(map, changed, StopToken());
     }
     expectAlike(jumps, built(map), map);
-    for (const Cell cell : cellsOf(map)) expectRunsFollowSteps(jumps, map, cell);
+    for (const Cell cell : cellsOf(map)) expectJumpsFollowSteps(jumps, map, cell);
     if (HasFatalFailure()) FAIL() << "trial " << trial;
   }
 }
 
-TEST(WeightedJumpMapLaw, ATargetStopsEveryRunAndLeavesNoTrace) {
+TEST(WeightedJumpMapLaw, AScopedGoalStopsEveryJumpAndLeavesNoTrace) {
   std::mt19937 random(34);
   for (int trial = 0; trial < 60; ++trial) {
     const CostGrid map = test::randomCosts(random, 60, {});
@@ -160,13 +160,13 @@ TEST(WeightedJumpMapLaw, ATargetStopsEveryRunAndLeavesNoTrace) {
     for (int query = 0; query < 5; ++query) {
       const Cell goal = test::randomCell(random, map.geometry());
       if (!map.passable(goal)) continue;
-      const WeightedJumpMap::Target target(jumps, map, goal);
+      const WeightedJumpMap::ScopedGoal scoped_goal(jumps, map, goal);
       EXPECT_FALSE(jumps.open(goal));
       for (unsigned step = 0; step < 4; ++step) {
         const Cell before{goal.column - kSteps[step].column, goal.row - kSteps[step].row};
         if (!stepAllowed(map, before, goal)) continue;
-        EXPECT_EQ(runOf(jumps, map, step, before).to, goal);
-        EXPECT_FALSE(blindTo(jumps, step, before));
+        EXPECT_EQ(jumpOf(jumps, map, step, before).to, goal);
+        EXPECT_FALSE(deadEndAt(jumps, step, before));
       }
     }
     expectAlike(jumps, fresh, map);

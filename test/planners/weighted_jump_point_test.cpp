@@ -52,20 +52,20 @@ Grid<CostGrid::Weight> noise(std::mt19937& random, int side) {
 
 TEST(PruningEstimate, TellsPlateausAndSlopesFromNoise) {
   std::mt19937 random(2);
-  PruningEstimate sample;
+  PruningEstimate estimate;
   Grid<CostGrid::Weight> weights(GridGeometry(200, 150, 1.0), 1);
-  sample.take(*costsOf(weights), StopToken());
-  EXPECT_TRUE(sample.symmetric());
+  estimate.sample(*costsOf(weights), StopToken());
+  EXPECT_TRUE(estimate.jumpingPays());
   for (std::uint32_t i = 0; i < weights.values().size(); ++i)
     weights[CellIndex(i)] = static_cast<CostGrid::Weight>(1 + i % 200 / 3);
-  sample.take(*costsOf(weights), StopToken());
-  EXPECT_TRUE(sample.symmetric());
-  sample.take(*costsOf(noise(random, 200)), StopToken());
-  EXPECT_FALSE(sample.symmetric());
+  estimate.sample(*costsOf(weights), StopToken());
+  EXPECT_TRUE(estimate.jumpingPays());
+  estimate.sample(*costsOf(noise(random, 200)), StopToken());
+  EXPECT_FALSE(estimate.jumpingPays());
 }
 
 // Each search counts its own kind of cells: noise is expanded cell by cell.
-TEST(WeightedJumpPoint, LeavesNoiseToAStarAndTakesPlateausItself) {
+TEST(WeightedJumpPoint, AnswersNoiseByAStarAndPlateausByJumps) {
   std::mt19937 random(3);
   WeightedJumpPoint planner;
   AStar a_star;

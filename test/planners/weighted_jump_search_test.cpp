@@ -119,7 +119,7 @@ TEST(WeightedJumpSearchLaw, FindsTheLeastCostOnSlopes) {
   }
 }
 
-// Its labels number the queries with 16 bits.
+// The stamp of its g-values numbers the queries with 16 bits.
 TEST(WeightedJumpSearch, AnswersManyQueries) {
   std::mt19937 random(9);
   Grid<CostGrid::Weight> weights(GridGeometry(4, 4, 1.0), 1);
@@ -132,7 +132,7 @@ TEST(WeightedJumpSearch, AnswersManyQueries) {
     ASSERT_EQ(search.run(map, request, StopToken()).cells, first.cells) << "query " << query;
 }
 
-TEST(WeightedJumpSearch, SaysWhereItsKeysEnd) {
+TEST(WeightedJumpSearch, ThrowsWhereATooExpensivesItsKeys) {
   const CostGrid map = costMap(Grid<CostGrid::Weight>(GridGeometry(400, 3, 1.0), 65535));
   WeightedJumpSearch search = prepared(map);
   EXPECT_THROW(search.run(map, {{0, 0}, {{399, 2}}, false}, StopToken()), TooExpensive);

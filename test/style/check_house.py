@@ -21,7 +21,7 @@ LIMITS = {
 }
 LONGEST_FUNCTION = 60  # lines, but for
 HOT_LOOPS = {  # measured: slower in pieces
-    "BucketSearch::search", "centreSegmentCost",
+    "BucketSearch::search", "lineCostWithin",
 }
 LONG_TODAY = {"PolyanyaSearch::run", "runScenarios", "visitOptions"}  # to be emptied
 

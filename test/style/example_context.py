@@ -43,7 +43,7 @@ CONTEXT = {
                             "extern CellRect changed; extern Cell start, moved_start, goal;",
     "joystick.h": """#include "grid_path_planner/simulation/vehicle.h"
         extern std::vector<double> axes; extern std::vector<bool> buttons; extern Vehicle vehicle;""",
-    "straight_jump_table.h": "extern const StraightJumpTable& lanes; extern std::size_t row; extern unsigned column;"
+    "straight_jump_table.h": "extern const StraightJumpTable& table; extern std::size_t row; extern unsigned column;"
                     "extern const CostGrid::Weight* weights;",
     "jump_point_bits.h": "extern const CostGrid& map; extern Cell cell;",
     "inconsistency_scan.h": "extern const BackwardNodes& nodes; extern CellRect rect;",

@@ -1,12 +1,12 @@
-// One computation in a thread of its own, and its result when it is there.
+// One computation in a thread of its own, and its result once it is finished.
 //
 //   Background<Table> making;
 //   making.start([map](const StopToken& stop) { return Table(*map, stop); });
 //   if (std::shared_ptr<const Table> table = making.take()) use(*table);
 //
-// A computation that is no longer wanted is stopped by its token, so it should ask it often. One
-// that throws leaves no result; Stopped and std::bad_alloc are the ones that are expected, and
-// anything else ends the program, as it would without a thread.
+// A computation that is no longer needed is stopped by its token, so it should check it often. One
+// that throws Stopped or std::bad_alloc gives no result; any other exception ends the program, as
+// it would without a thread.
 //
 // start(), take(), wait() and the destructor belong to one thread.
 #pragma once
@@ -31,7 +31,8 @@ class Background {
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
 
-  // Stops what is under way, forgets its result and begins `compute(token)`, which gives a Result.
+  // Stops a running computation, drops its result and starts `compute(token)`, which returns a
+  // Result.
   template <class Compute>
   void start(Compute compute) {
     stop();
@@ -70,8 +71,7 @@ class Background {
     return std::move(result_);
   }
 
-  // Returns when nothing is under way. Throws Stopped where `stop` asks first; the computation goes
-  // on then.
+  // Waits for the computation. Throws Stopped if `stop` comes first; the computation goes on then.
   void wait(const StopToken& stop) const {
     std::unique_lock<std::mutex> lock(mutex_);
     while (running_) {

@@ -1,4 +1,4 @@
-// A velocity as the vehicle itself feels it: what is commanded and what is driven.
+// A velocity in the vehicle's own frame, commanded or driven.
 #pragma once
 
 #include <cmath>

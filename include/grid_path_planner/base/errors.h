@@ -1,4 +1,4 @@
-// What a bad caller or a bad file gets: an exception that names the file, the line or the value.
+// The exception for bad arguments and bad files, which names the file, the line or the value.
 #pragma once
 
 #include <stdexcept>

@@ -21,6 +21,12 @@ std::string readWholeFile(const std::string& file, std::size_t largest);
 // control character that no text file has: a picture or a bag given by mistake.
 void checkIsText(const std::string& text, const std::string& file);
 
+// `file` without its last extension, if its name has one.
+std::string withoutExtension(const std::string& file);
+
+// The last extension in lower case, without the dot: "pgm"; "" where there is none.
+std::string extensionOf(const std::string& file);
+
 // Writes `content` beside `file`, or what a link of that name leads to, and renames it over that.
 // Devices and pipes are written to as they are. Throws InputError naming the file and
 // the reason; then `file` is as it was and nothing is left beside it. Several threads or processes

@@ -1,4 +1,4 @@
-// What a search did, counted the same way by every planner.
+// Counters of a search, with the same meaning for every planner.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 namespace grid_path_planner::base {
 
 struct Statistics {
-  std::uint64_t expanded = 0;  // nodes taken from the open list and whose neighbours were looked at
-  std::uint64_t generated = 0;  // nodes put into the open list, a better cost counted again
+  std::uint64_t expanded = 0;   // nodes taken from the open list whose successors were generated
+  std::uint64_t generated = 0;  // nodes put into the open list, again for every lower g-value
   std::uint64_t reopened = 0;   // nodes expanded before and put into the open list again
   std::size_t peak_open = 0;    // entries
   double time_s = 0.0;          // steady clock, the plan alone: map preparation is not in it

@@ -1,8 +1,8 @@
-// An array of zeros that costs no time before it is used.
+// An array of zeros whose memory is mapped when it is first used.
 //
-// On a large array the system maps pages of zeros when they are first touched, so a search that
-// stays near its start neither waits for the rest nor occupies it. Very large ones ask for large
-// pages: a search over a map of 4096x4096 cells spends half its time looking up small ones.
+// The system maps pages of zeros at the first access, so a search that stays near its start neither
+// waits for the rest of a large array nor occupies it. Very large arrays request huge pages: with
+// small ones a search over a map of 4096x4096 cells spends half its time in TLB misses.
 #pragma once
 
 #include <algorithm>

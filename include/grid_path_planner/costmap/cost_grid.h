@@ -1,9 +1,9 @@
-// What every cell costs: the map that planners search.
+// The costmap that planners search: a weight for every cell.
 //
-// A weight 1..65535 a cell, 0 where the cell is blocked. The cost of a step between neighbours u
+// Weights are 1..65535, and 0 where the cell is blocked. The cost of a step between neighbours u
 // and v is max(weight(u), weight(v)) x length: 1 straight, sqrt 2 (or 1) diagonal, times the
-// kernel, so that costs compare between kernels. Constant while it is handed out; several planners
-// may read one.
+// kernel, so that costs compare between kernels. A map that others hold does not change, so several
+// planners may read it.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,6 @@
 #include "grid_path_planner/costmap/bit_maps.h"
 #include "grid_path_planner/costmap/exact_cost.h"
 #include "grid_path_planner/costmap/motion_model.h"
-#include "grid_path_planner/costmap/weight_counts.h"
 #include "grid_path_planner/grid/double_buffered.h"
 #include "grid_path_planner/grid/occupancy.h"
 
@@ -26,8 +25,9 @@ class CostGrid {
   static constexpr Weight kBlocked = 0;
 
   CostGrid();
-  // `weights` and `classes` have the same geometry. `kernel`: how many cells of the original map a
-  // cell of this one is wide; `original`: that map, which the last column and row may reach beyond.
+  // `weights` and `classes` have the same geometry. `kernel`: the side of a cell in cells of the
+  // original map; `original`: the geometry of that map, which ends inside the last column and row
+  // where its sides are not multiples of the kernel.
   CostGrid(grid::Grid<Weight> weights, grid::Grid<grid::Occupancy> classes,
            const MotionModel& motion);
   CostGrid(grid::Grid<Weight> weights, grid::Grid<grid::Occupancy> classes,
@@ -49,64 +49,62 @@ class CostGrid {
   const grid::Grid<Weight>& weights() const { return weights_; }
   const grid::Grid<grid::Occupancy>& classes() const { return classes_; }
   // The smallest weight of a passable cell; 0 where there is none.
-  Weight minWeight() const { return cheapest_; }
+  Weight minWeight() const { return min_weight_; }
   // The largest; 0 where there is none.
-  Weight maxWeight() const { return dearest_; }
-  // Whether all passable cells weigh the same.
-  bool uniform() const { return cheapest_ == dearest_; }
+  Weight maxWeight() const { return max_weight_; }
+  // Whether all passable cells have the same weight.
+  bool uniform() const { return min_weight_ == max_weight_; }
 
-  // One bit a cell, made at the first asking, then repaired by edits. May be asked by several
-  // threads at once; the answer lives as long as this map or a copy of it. Throws Stopped; asked
-  // again it begins anew.
+  // The passable cells as bits, computed by the first call and repaired by edits. Several threads
+  // may call it at once; the reference is valid as long as this map or a copy of it lives. Throws
+  // Stopped; the next call starts again.
   const BitMaps& bitMaps(const base::StopToken& stop) const;
 
-  // Where a path passes through a cell, in metres: the middle of what the original map has of it
-  // (a cell's centre; only the last column and row of a kernel differ).
+  // The point of a path in a cell, in metres: the middle of the part of the cell that lies in the
+  // original map. That is the cell's centre but for the last column and row of a kernel.
   Eigen::Vector2d waypoint(grid::Cell cell) const;
 
-  // Raised by every change of a map that was published as the next of this one.
+  // Higher in every map that replaces an earlier one.
   std::uint64_t revision() const { return revision_; }
   void setRevision(std::uint64_t revision) { revision_ = revision; }
 
-  // The bit maps too, where they were made, and the counts of weights from the first edit on.
+  // With the bit maps, once they are computed, and the counts of weights, from the first edit on.
   std::size_t bytes() const;
 
-  // The cells in which a map differs from another; the classes differ only in some of them.
+  // The cells in which two maps differ; `classes` lies in `weights`.
   struct Change {
     grid::CellRect weights;
     grid::CellRect classes;
   };
 
-  // Changes the map, which is like `before`, in place, in time proportional to `rect` (the first
-  // time, to the map): for who made it and has not handed it out, or holds it alone again.
-  // write(weights, classes) writes cells of `rect` and no others; if it throws, the map is of no
-  // further use.
+  // Changes the map, which equals `before`, in place, in time proportional to `rect` (the first
+  // time, to the map). write(weights, classes) writes cells of `rect` only; if it throws, the map
+  // must not be used any more. Precondition: nobody else holds the map.
   template <class Write>
   void edit(const CostGrid& before, const grid::CellRect& rect, Write&& write) {
     write(weights_, classes_);
     finishEdit(before, rect);
   }
 
-  // Makes the map what `with` is, which differs from it by `change`, in time proportional to that;
+  // Makes the map equal to `with`, which differs from it by `change`, in time proportional to that;
   // the revision stays.
   void catchUp(const CostGrid& with, const Change& change);
 
  private:
-  struct LazyBitMaps;
+  struct Derived;
 
   void finishEdit(const CostGrid& before, const grid::CellRect& rect);
-  void updateBitMaps(const grid::CellRect& rect);
+  void ownDerived();
 
   grid::Grid<Weight> weights_;
   grid::Grid<grid::Occupancy> classes_;
   MotionModel motion_;
   int kernel_ = 1;
   grid::GridGeometry original_;
-  Weight cheapest_ = 0;
-  Weight dearest_ = 0;
+  Weight min_weight_ = 0;
+  Weight max_weight_ = 0;
   std::uint64_t revision_ = 0;
-  std::shared_ptr<LazyBitMaps> bit_maps_;  // copies of a map share them until one is edited
-  WeightCounts counts_;                    // made by the first edit
+  std::shared_ptr<Derived> derived_;  // shared by copies of a map until one is edited
 };
 
 // For DoubleBuffered<CostGrid, CostGrid::Change>: catchUp().

@@ -1,24 +1,26 @@
-// From an occupancy map to the cost grids that are searched: classes, weights, inflation, kernel.
+// Builds the costmaps that are searched from an occupancy map: classes, weights, inflation, kernel.
 //
 //   CostmapBuilder builder(options);
 //   builder.setMap(map);
-//   std::shared_ptr<const CostGrid> costs = builder.downsampled(stop);
+//   std::shared_ptr<const CostGrid> costmap = builder.downsampled(stop);
 //
-// Made when asked for. After updateMap() only the cells whose class changed are computed again,
-// and those that inflation reaches from where a cell became occupied or is no longer; nothing is
-// done in proportion to the map (grid/double_buffered.h says when). The grids handed out stay as they
-// are; a changed map gives new ones with a higher revision. The caller's map is never changed.
+// Costmaps are computed when they are needed. After updateMap() only the cells whose class changed
+// are computed again, and those that inflation reaches from cells that became occupied or stopped
+// being occupied; nothing takes time in proportion to the map (but for what
+// grid/double_buffered.h says). A returned costmap does not change; a changed map gives a new one
+// with a higher revision. The caller's map is never changed.
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/costmap/cost_grid.h"
 #include "grid_path_planner/costmap/costmap_options.h"
-#include "grid_path_planner/costmap/inflation.h"
 
 namespace grid_path_planner::costmap {
+
+class Inflation;
+struct ClassChanges;
 
 class CostmapBuilder {
  public:
@@ -26,36 +28,40 @@ class CostmapBuilder {
   explicit CostmapBuilder(const CostmapOptions& options);
 
   void setMap(std::shared_ptr<const grid::OccupancyGrid> map);
-  // `map` has the geometry of the present one and differs from it only inside `changed`.
+  // `map` has the geometry of the current one and differs from it only inside `changed`.
   void updateMap(std::shared_ptr<const grid::OccupancyGrid> map, const grid::CellRect& changed);
 
-  // Kernel 1, inflated; and what is searched: with the kernel (the same object where it is 1). Both
-  // are made together. Throw Stopped; asked again they go on. Precondition: setMap was called.
+  // The inflated costmap before the kernel, and the one that the kernel makes of it (the same object
+  // where the kernel is 1). Each call computes both. Throw Stopped; the next call goes on.
+  // Precondition: setMap was called.
   std::shared_ptr<const CostGrid> fullResolution(const base::StopToken& stop);
   std::shared_ptr<const CostGrid> downsampled(const base::StopToken& stop);
 
-  // The cells, and the blocks, in which fine() and searched() differ from those of the revision
-  // before: everything after setMap().
-  const grid::CellRect& fullResolutionChange() const { return fine_change_; }
-  const grid::CellRect& downsampledChange() const { return searched_change_; }
+  // The cells in which each of the two differs from that of the revision before: all cells after
+  // setMap().
+  const grid::CellRect& fullResolutionChange() const { return full_change_; }
+  const grid::CellRect& downsampledChange() const { return downsampled_change_; }
 
   const CostmapOptions& options() const { return options_; }
 
  private:
   void bringUpToDate(const base::StopToken& stop);
-  void makeAnew(const base::StopToken& stop);
-  void updateFine(const base::StopToken& stop);
-  void updateSearched(const base::StopToken& stop);
+  void build(const base::StopToken& stop);
+  std::shared_ptr<CostGrid> buildDownsampled(const CostGrid& full,
+                                             const base::StopToken& stop) const;
+  void updateFullResolution(const base::StopToken& stop);
+  grid::CellRect rewriteWeights(const ClassChanges& changes, const base::StopToken& stop);
+  void updateDownsampled(const base::StopToken& stop);
 
   CostmapOptions options_;
   std::shared_ptr<const grid::OccupancyGrid> map_;
-  std::optional<Inflation> inflation_;  // for the resolution of map_
-  grid::CellRect fine_dirty_;           // cells of map_ that changed since fine_ was made
-  grid::CellRect searched_dirty_;       // cells of fine_ that changed since searched_ was made
-  grid::CellRect fine_change_;
-  grid::CellRect searched_change_;
-  grid::DoubleBuffered<CostGrid, CostGrid::Change> fine_;
-  grid::DoubleBuffered<CostGrid, CostGrid::Change> searched_;  // empty where the kernel is 1
+  std::shared_ptr<const Inflation> inflation_;  // for the resolution of map_
+  grid::CellRect full_dirty_;                   // cells of map_ that changed since full_
+  grid::CellRect downsampled_dirty_;            // cells of full_ that changed since downsampled_
+  grid::CellRect full_change_;
+  grid::CellRect downsampled_change_;
+  grid::DoubleBuffered<CostGrid, CostGrid::Change> full_;
+  grid::DoubleBuffered<CostGrid, CostGrid::Change> downsampled_;  // empty where the kernel is 1
   std::uint64_t revision_ = 0;
 };
 

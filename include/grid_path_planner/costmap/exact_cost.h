@@ -1,5 +1,5 @@
 // Costs without rounding. A path over grid steps costs A + B sqrt 2 with integers A and B; the two
-// are kept apart and rounded once, when a person asks.
+// are kept apart and rounded only by toDouble().
 //
 // Searches order costs by one integer, A*Q + B*P with the convergent P/Q = 4478554083/3166815962 of
 // sqrt 2: for B < Q the order is that of A + B sqrt 2, ties included (a fraction with a smaller

@@ -1,19 +1,28 @@
-// Straight segments between any two points: whether a vehicle may drive them and what they cost.
+// Straight lines between two points of a map: whether a vehicle may drive them and what they cost.
 //
-// Legal: the segment meets no blocked cell's interior, does not run along an edge between two
-// blocked cells, and touches no lattice point whose diagonal pair is blocked; grazing a corner is
-// legal. Where corners may be cut, lattice points are not looked at. Outside the map is blocked.
+//   if (lineOfSight(map, from, to)) cost = lineCost(map, from, to);
 //
-// Cost: the segment is cut at the lines through cell centres across its major axis; each piece
-// costs its length x the largest weight whose interior it meets, or along an edge the cheaper
-// passable side. On every path of grid steps this equals the step rule. With unit diagonals there
-// is no length to measure by and the Euclidean one is used.
+// Legal: the line enters no blocked cell's interior, does not run along an edge between two blocked
+// cells, and touches no lattice point whose diagonal pair is blocked; grazing a corner is legal.
+// Where corners may be cut, lattice points do not matter. Outside the map is blocked.
 //
-// Exact: points are given in 1/4096 cell (`SegmentPoint`), and every decision is one of integers.
+// Cost: the line is cut where it crosses the centre lines of the columns (of the rows where it is
+// steep); each piece costs its length x the largest weight of the cells whose interior it enters,
+// or along an edge the smaller weight of the passable sides. On every path of grid steps this
+// equals the step rule. With unit diagonals, which give lines no length, the Euclidean one is used.
+//
+// Exact: points are given in 1/4096 cell (SegmentPoint), and every decision is one of integers.
+//
+// Between the centres of cells the same answers are found many times as fast, for searches and
+// smoothing, which ask for millions: everything is a sum of integers, without divisions, and where
+// all passable cells have one weight only the bit maps are read, a row of the line's cells at a
+// time.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
+#include <optional>
 
 #include "grid_path_planner/costmap/cost_grid.h"
 
@@ -35,18 +44,29 @@ struct SegmentPoint {
   friend bool operator!=(SegmentPoint a, SegmentPoint b) { return !(a == b); }
 };
 
-// Where a path passes through the cell (CostGrid::waypoint): its centre but for the last column and
-// row of a kernel.
+// The point of a path in the cell (CostGrid::waypoint): its centre but for the last column and row
+// of a kernel.
 SegmentPoint waypointOf(const CostGrid& map, grid::Cell cell);
-// The same place as a point of the map's plane, in metres.
+// The same point in the map's frame, in metres.
 Eigen::Vector2d worldOf(const CostGrid& map, SegmentPoint point);
-// A passable cell that the point lies in or, a lattice point, is a corner of. Precondition: there
-// is one.
+// A passable cell that the point lies in or, if it is a lattice point, is a corner of.
+// Precondition: there is one.
 grid::Cell passableCellAt(const CostGrid& map, SegmentPoint point);
 
+// Whether the line is legal.
 bool lineOfSight(const CostGrid& map, SegmentPoint from, SegmentPoint to);
+// The same between the centres of two cells. `bits`: of the map. Precondition: both lie in it.
+bool lineOfSight(const BitMaps& bits, grid::Cell from, grid::Cell to, bool cut_corners);
 
 // In cells of the original map x weight. Precondition: lineOfSight.
 double lineCost(const CostGrid& map, SegmentPoint from, SegmentPoint to);
+
+// lineCost(); none where the line is not legal or costs more than `limit`. Fast between centres.
+// `bits`: those of the map where it has one weight, else null. Precondition: both lie in the map.
+std::optional<double> lineCostWithin(const CostGrid& map, const BitMaps* bits, SegmentPoint from,
+                                     SegmentPoint to, double limit);
+// The same between the centres of two cells, for any weights.
+std::optional<double> lineCostWithin(const CostGrid& map, grid::Cell from, grid::Cell to,
+                                     double limit = std::numeric_limits<double>::infinity());
 
 }  // namespace grid_path_planner::costmap

@@ -7,6 +7,7 @@
 // The first line of a MovingAI map is row 0; the first line of an image is the last row.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -17,6 +18,8 @@
 
 namespace grid_path_planner::grid {
 
+constexpr std::size_t kLargestMapFile = std::size_t{1} << 30;  // bytes
+
 // map_server's three ways of turning a pixel into an occupancy.
 enum class MapMode { TRINARY, SCALE, RAW };
 const std::vector<std::pair<const char*, MapMode>>& choicesOf(MapMode);
@@ -26,11 +29,17 @@ struct MapFileOptions {
   // others they override.
   std::optional<double> resolution;
   std::optional<Origin> origin;
-  // Told about what was read with a doubt: a colour image, letters that the format does not define.
+  // Called with a message where a file is doubtful: a colour image, letters that the format does not
+  // define.
   std::function<void(const std::string&)> warn;
 };
 
-// Reads any of the formats above, told apart by extension and content. Throws InputError naming the
+// The geometry of a map in `file` with its own resolution and origin, where `options` do not override
+// them. Throws InputError naming the file for what GridGeometry refuses.
+GridGeometry mapGeometry(const std::string& file, int width, int height, double resolution,
+                         const Origin& origin, const MapFileOptions& options);
+
+// Reads any of the formats above, recognised by extension and content. Throws InputError naming the
 // file, and the line or value.
 OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options = {});
 

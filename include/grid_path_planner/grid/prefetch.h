@@ -1,10 +1,10 @@
-// Cells that are needed soon, looked at together.
+// Prefetch of cells that are needed soon.
 //
 //   prefetchRows(map, changed);
 //
-// Rows of a large map lie in different pages of memory. One after the other each would be waited
-// for; loads that depend on nothing are waited for together. Loads, as processors drop what is only
-// prefetched where the page is not known either. Changes nothing but the time that comes after.
+// Rows of a large map lie in different pages of memory. Independent loads wait for their pages at
+// the same time, where a computation would wait for one after the other. They are loads, since
+// processors drop prefetch instructions whose page is not in the TLB. No value changes.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace grid_path_planner::grid {
 
-// A rectangle of `width` x `height` values, of rows that lie `stride` values apart. Nothing is done
-// for one that caches would not hold.
+// A rectangle of `width` x `height` values in rows that lie `stride` values apart. Does nothing for
+// a rectangle that is larger than the caches.
 template <class T>
 void prefetchRows(const T* first, std::size_t stride, int width, int height) {
   constexpr std::size_t kCacheLine = 64, kMost = std::size_t{256} << 10;  // bytes

@@ -1,10 +1,10 @@
-// Which way a vehicle looks along a path, and how high it is.
+// The headings of a vehicle along a path, and its z.
 //
 //   applyHeadings(path, start.yaw, goal.yaw, HeadingMode::FORWARD);
 //   applyZ(path, start.position.z(), goal.position.z(), 0.0, PathZ::INTERPOLATE);
 //
-// Both look at the positions in the plane only, leave an empty path empty and keep x and y. Yaws
-// that are computed lie in [-pi, pi]; the goal's is kept to the last bit.
+// Both use the positions in the plane only, leave an empty path empty and keep x and y. Computed
+// yaws lie in [-pi, pi]; the goal's yaw is kept to the last bit.
 #pragma once
 
 #include <utility>
@@ -16,9 +16,9 @@ namespace grid_path_planner::path {
 
 // As users of navfn and global_planner know them (global_planner's orientation_mode).
 enum class HeadingMode {
-  NONE,                      // yaw 0 but for the last pose, which has the goal's
-  FORWARD,                   // along the next segment; the last pose has the goal's
-  INTERPOLATE,               // from the start's to the goal's by length, the shorter way round
+  NONE,         // yaw 0 but for the last pose, which has the goal's
+  FORWARD,      // along the next segment; the last pose has the goal's
+  INTERPOLATE,  // from the start's to the goal's by length, in the direction of the smaller turn
   FORWARD_THEN_INTERPOLATE,  // forward; over the last straight stretch turning to the goal's
   BACKWARD,                  // the vehicle's back along the path
   LEFTWARD,                  // its left side (+y) along the path
@@ -28,11 +28,11 @@ const std::vector<std::pair<const char*, HeadingMode>>& choicesOf(HeadingMode);
 
 // Sets the yaw of every pose from the positions, and the goal's at the last one in every mode.
 // Coinciding poses take the heading of the next segment that has a length, those at the end the
-// goal's. Of two equally short ways round the anticlockwise one is taken. Where no segment has a
+// goal's. A turn by pi goes anticlockwise. Where no segment has a
 // length, INTERPOLATE turns by equal steps a pose. Precondition: everything is finite.
 void applyHeadings(Path& path, double start_yaw, double goal_yaw, HeadingMode mode);
 
-// What the z of the poses between two ends is.
+// The z of the poses between the two ends.
 enum class PathZ { INTERPOLATE, START, GOAL, FIXED };
 const std::vector<std::pair<const char*, PathZ>>& choicesOf(PathZ);
 

@@ -1,4 +1,5 @@
-// Numbers that say how good a path is. All look at the positions in the plane, as the map is one.
+// Measures of a path: length, turning, clearance, length by occupancy. All use the positions in the
+// plane.
 #pragma once
 
 #include "grid_path_planner/grid/occupancy.h"
@@ -9,8 +10,8 @@ namespace grid_path_planner::path {
 // Length of the polyline in metres.
 double lengthOf(const Path& path);
 
-// Sum of the absolute changes of direction between segments, in radians; segments without a length
-// are passed over.
+// Sum of the absolute changes of direction between segments, in radians; segments of length 0 do
+// not count.
 double turningOf(const Path& path);
 
 // The least distance in metres from the polyline to the edge of an occupied cell of `map`; 0 where
@@ -19,5 +20,17 @@ double turningOf(const Path& path);
 // Precondition: the positions are finite.
 double clearanceOf(const Path& path, const grid::OccupancyGrid& map,
                    const grid::OccupancyThresholds& thresholds);
+
+// Metres of the polyline in the plane through cells of each class; the part outside the map is in
+// none. Along an edge between two cells a segment counts for the one with the larger index.
+struct ClassLengths {
+  double free_m = 0.0;
+  double unknown_m = 0.0;
+  double occupied_m = 0.0;
+};
+
+// Precondition: the positions are finite.
+ClassLengths lengthsByClass(const Path& path, const grid::OccupancyGrid& map,
+                            const grid::OccupancyThresholds& thresholds);
 
 }  // namespace grid_path_planner::path

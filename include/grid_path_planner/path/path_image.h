@@ -4,7 +4,7 @@
 //
 // Free cells are light, unknown ones grey, occupied ones dark; expanded cells are tinted, from pale
 // (early) to strong (late); the path is a blue line, its start a green disc and its goal an orange
-// arrowhead that points where the vehicle looks. Rectangles are tinted in turning colours, outlined
+// arrowhead in the goal's heading. Rectangles are tinted in turning colours, outlined
 // and numbered from 1 where they are large enough for that; links are lines between dots. A margin
 // holds a scale bar in metres and a legend of what is drawn. The colours differ in lightness and
 // are chosen to be told apart by colour-blind eyes. +x is to the right and +y up, in the map's own

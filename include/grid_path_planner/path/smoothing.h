@@ -1,12 +1,13 @@
-// Grid paths without their zigzag: the corners of a polyline that a straight way makes superfluous.
+// Smoothing: leaves out points of a polyline where a straight line past them is legal and costs no
+// more.
 //
 //   SmoothPath smooth = smoothed(map, points, stop);
 //   for (std::size_t i : smooth.kept) use(points[i]);
 //
-// Guaranteed: the ends stay, every segment is legal (costmap/line_of_sight.h), and none costs more than
-// what it replaces. No new points: a path of cells' centres keeps its half cell from what is
-// blocked, where the shortest one would graze it. Not guaranteed: that it is the least that the
-// points allow.
+// Guaranteed: the ends stay, every segment is legal (costmap/line_of_sight.h), and none costs more
+// than the part that it replaces. No new points: a path of cells' centres keeps a distance of half
+// a cell from blocked cells, where the shortest path would graze them. Not guaranteed: the least
+// cost that the points allow.
 #pragma once
 
 #include <cstddef>

@@ -10,9 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "grid/formats/map_warning.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/yaml_file.h"
-#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/grid/map_file.h"
 
 namespace grid_path_planner::grid {
 

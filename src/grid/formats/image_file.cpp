@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "grid/formats/image_formats.h"
+#include "grid/formats/map_warning.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/files.h"
-#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/grid/map_file.h"
 
 namespace grid_path_planner::grid {
 
 using base::decimalText;
+using base::extensionOf;
 using base::InputError;
 using base::readWholeFile;
 using base::writeFileAtomically;

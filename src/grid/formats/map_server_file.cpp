@@ -3,10 +3,11 @@
 #include <filesystem>
 
 #include "grid/formats/image_file.h"
+#include "grid/formats/map_warning.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/options.h"
-#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/grid/map_file.h"
 
 namespace grid_path_planner::grid {
 
@@ -15,6 +16,7 @@ using base::choiceName;
 using base::decimalText;
 using base::describeYaml;
 using base::InputError;
+using base::withoutExtension;
 using base::writeFileAtomically;
 using base::yamlAs;
 using base::yamlError;

@@ -2,8 +2,9 @@
 
 #include <string_view>
 
+#include "grid/formats/map_warning.h"
 #include "grid_path_planner/base/files.h"
-#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/grid/map_file.h"
 
 namespace grid_path_planner::grid {
 

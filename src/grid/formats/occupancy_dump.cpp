@@ -7,7 +7,7 @@
 #include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/base/yaml_file.h"
 #include "grid_path_planner/grid/float_decimal.h"
-#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/grid/map_file.h"
 
 namespace grid_path_planner::grid {
 
@@ -192,8 +192,8 @@ GridGeometry readGeometry(const YAML::Node& root, const std::string& file,
   const auto height = yamlValue<int>(info, "height", file, "a number of cells");
   const double resolution = options.resolution
                                 ? *options.resolution
-                                : floatToDecimal(yamlValue<double>(info, "resolution", file,
-                                                                   "a positive, finite number"));
+                                : printedFloatToDecimal(yamlValue<double>(
+                                      info, "resolution", file, "a positive, finite number"));
   const Origin origin = options.origin ? *options.origin : readOrigin(info, file);
   try {
     return GridGeometry(width, height, resolution, origin);

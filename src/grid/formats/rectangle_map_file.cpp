@@ -10,7 +10,7 @@
 #include "grid/formats/rectangle_lists.h"
 #include "grid_path_planner/base/deflate.h"
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/grid/map_file.h"
 
 namespace grid_path_planner::grid {
 

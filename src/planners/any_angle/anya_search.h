@@ -18,7 +18,7 @@
 
 #include "grid_path_planner/base/statistics.h"
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/costmap/bit_scan.h"
+#include "grid_path_planner/costmap/bit_maps.h"
 #include "planners/any_angle/corner_table.h"
 #include "planners/any_angle/interval_search.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "grid_path_planner/costmap/line_cost.h"
+#include "grid_path_planner/costmap/line_of_sight.h"
 #include "planners/core/any_angle_traits.h"
 
 namespace grid_path_planner::planners {
@@ -15,7 +15,7 @@ using base::StopPoll;
 using base::StopToken;
 using base::ZeroedArray;
 using costmap::BitMaps;
-using costmap::lineCost;
+using costmap::lineCostWithin;
 using costmap::SegmentPoint;
 using costmap::waypointOf;
 using grid::Cell;
@@ -75,7 +75,7 @@ double ThetaStar::costBound(Cell from, Cell to) const {
 }
 
 std::optional<double> ThetaStar::segmentCost(Cell from, Cell to, double limit) const {
-  return lineCost(map(), bits_, point(from), point(to), limit);
+  return lineCostWithin(map(), bits_, point(from), point(to), limit);
 }
 
 double ThetaStar::stepCost(Cell from, Cell to) const {

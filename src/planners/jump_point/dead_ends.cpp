@@ -25,7 +25,8 @@ std::vector<std::uint8_t> liveSteps(const std::vector<NaturalMoves>& natural, in
     dead[i] = static_cast<std::uint8_t>(deadAfter(natural[i]));
     if (dead[i] != 0) ended.push_back({i, dead[i]});
   }
-  // A level takes the steps that end at once, then looks which cells they leave without any.
+  // Each level removes the steps into the branches that ended, then finds the steps after which no
+  // step is left.
   std::vector<std::uint32_t> touched;
   for (int level = 0; level <= depth && !ended.empty(); ++level) {
     touched.clear();

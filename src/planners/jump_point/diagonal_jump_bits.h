@@ -1,9 +1,11 @@
-// What a diagonal way wants to know of the cells it enters, in tiles of 8x8 cells: up to eight of
-// its steps lie in one word, where row by row each would lie in a word, and a cache line, of its
-// own.
+// Where diagonal jumps stop, as bits in tiles of 8x8 cells: one word holds up to eight steps of a
+// jump, where row by row each step would lie in another word and cache line.
 //
-// Tiles in which nothing can be entered surround the map, and so do such cells beside it: a way
-// ends inside the memory.
+//   DiagonalJumpBits::Stop stop = bits.stop<1, 1>(cell);
+//   if (stop.horizontal) use(stop.steps);  // a straight branch leads to a jump point
+//
+// Tiles of cells that cannot be entered surround the map, so that every jump ends inside the
+// memory.
 #pragma once
 
 #include <array>
@@ -20,15 +22,16 @@ class DiagonalJumpBits {
  public:
   using Word = std::uint64_t;
 
-  // A bit a cell: it is entered and one goes on; it is entered and one step's straight way, to its
-  // side or its height, leads to a turn. No bit: it cannot be entered.
+  // A bit a cell. `pass`: the cell can be entered and is no stop. `horizontal`, `vertical`: it can
+  // be entered and the step's straight part leads from it to a jump point. None of the three: it
+  // cannot be entered.
   struct Marks {
     Word pass = 0;
-    Word side = 0;
-    Word height = 0;
+    Word horizontal = 0;
+    Word vertical = 0;
 
     friend bool operator==(const Marks& a, const Marks& b) {
-      return a.pass == b.pass && a.side == b.side && a.height == b.height;
+      return a.pass == b.pass && a.horizontal == b.horizontal && a.vertical == b.vertical;
     }
   };
 
@@ -41,7 +44,7 @@ class DiagonalJumpBits {
   }
   std::size_t bytes() const { return tiles_.size() * sizeof(Marks); }
 
-  // Bits i of `marks` become those of the cell (64 word + i, row); beside the map they must be 0.
+  // Sets the bits of the cells (64 word + i, row) to bits i of `marks`, which are 0 beside the map.
   void write(int row, int word, Marks marks) {
     const int shift = row % 8 * 8;
     const std::ptrdiff_t first = std::ptrdiff_t{word} * 8;
@@ -53,33 +56,33 @@ class DiagonalJumpBits {
     };
     for (std::ptrdiff_t i = 0; i < count; ++i, ++tile) {
       put(tile->pass, marks.pass);
-      put(tile->side, marks.side);
-      put(tile->height, marks.height);
+      put(tile->horizontal, marks.horizontal);
+      put(tile->vertical, marks.vertical);
     }
   }
 
   struct Stop {
-    int steps;  // to the first cell that is no pass
-    bool side;  // its marks: neither where it cannot be entered
-    bool height;
+    int steps;        // to the first cell that is no pass
+    bool horizontal;  // its bits: neither where it cannot be entered
+    bool vertical;
   };
-  // From `cell` by steps of (columns, rows), each 1 or -1.
+  // The first stop after `cell` by steps of (columns, rows), each 1 or -1.
   template <int columns, int rows>
   Stop stop(grid::Cell cell) const {
-    static constexpr auto kWays = ways<columns, rows>();
+    static constexpr auto kLines = lines<columns, rows>();
     int column = cell.column + columns;
     int row = cell.row + rows;
     while (true) {
       const Marks& tile = tiles_[static_cast<std::size_t>(index(column >> 3, row >> 3))];
-      const auto& way = kWays[static_cast<std::size_t>((row & 7) * 8 + (column & 7))];
-      const Word stops = ~tile.pass & way.cells;
+      const auto& line = kLines[static_cast<std::size_t>((row & 7) * 8 + (column & 7))];
+      const Word stops = ~tile.pass & line.cells;
       if (stops != 0) {
         const int bit = rows > 0 ? __builtin_ctzll(stops) : 63 - __builtin_clzll(stops);
-        return {((row & ~7) + bit / 8 - cell.row) * rows, (tile.side >> bit & 1U) != 0,
-                (tile.height >> bit & 1U) != 0};
+        return {((row & ~7) + bit / 8 - cell.row) * rows, (tile.horizontal >> bit & 1U) != 0,
+                (tile.vertical >> bit & 1U) != 0};
       }
-      column += columns * way.steps;
-      row += rows * way.steps;
+      column += columns * line.steps;
+      row += rows * line.steps;
     }
   }
 
@@ -88,14 +91,14 @@ class DiagonalJumpBits {
   }
 
  private:
-  // From a bit of a tile along a diagonal: the cells of the tile on it, this one too.
-  struct Way {
+  // The cells of a tile on a diagonal from one of them on, which is included.
+  struct Line {
     Word cells = 0;
     int steps = 0;
   };
   template <int columns, int rows>
-  static constexpr std::array<Way, 64> ways() {
-    std::array<Way, 64> all{};
+  static constexpr std::array<Line, 64> lines() {
+    std::array<Line, 64> all{};
     for (int bit = 0; bit < 64; ++bit)
       for (int column = bit % 8, row = bit / 8; column >= 0 && column < 8 && row >= 0 && row < 8;
            column += columns, row += rows) {

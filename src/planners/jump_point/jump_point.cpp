@@ -9,7 +9,6 @@
 
 namespace grid_path_planner::planners {
 
-using base::Statistics;
 using base::Status;
 using base::Stopped;
 using base::StopPoll;
@@ -25,7 +24,7 @@ using grid::GridGeometry;
 
 namespace {
 
-// An expansion may cross the map several times.
+// An expansion may scan the map's width and height several times.
 constexpr std::uint32_t kExpansionsBetweenPolls = 64;
 
 // Keys of one cell length and one diagonal, neighbouring convergents of sqrt 2: the order of keys
@@ -43,73 +42,50 @@ struct LargeScale {
   static constexpr Key kLargest = kLargestKey;
 };
 
-// The straight steps that a diagonal step is made of: columns, then rows.
-constexpr int sideOf(int diagonal) {
+// The straight steps that a diagonal step is made of.
+constexpr int horizontalPart(int diagonal) {
   return kSteps[diagonal].column > 0 ? 0 : 2;
 }
-constexpr int heightOf(int diagonal) {
+constexpr int verticalPart(int diagonal) {
   return kSteps[diagonal].row > 0 ? 1 : 3;
 }
 constexpr int diagonalBetween(int a, int b) {
-  const int side = a % 2 == 0 ? a : b, height = a % 2 == 0 ? b : a;
-  return height == 1 ? (side == 0 ? 4 : 5) : (side == 0 ? 7 : 6);
+  const int horizontal = a % 2 == 0 ? a : b, vertical = a % 2 == 0 ? b : a;
+  return vertical == 1 ? (horizontal == 0 ? 4 : 5) : (horizontal == 0 ? 7 : 6);
 }
 
 constexpr Cell moved(Cell cell, int step, int times) {
   return {cell.column + times * kSteps[step].column, cell.row + times * kSteps[step].row};
 }
 
-// One search: what every part of an expansion needs.
+// One search, with the state that every part of an expansion needs.
 template <class Scale>
 class Search {
  public:
   using Key = typename Scale::Key;
   using Nodes = HashedNodes<Key>;
 
-  Search(const BitMap& free, const JumpPointBits& maps, Nodes& nodes, const SearchRequest& request,
-         const StopToken& stop)
+  using Open = RadixHeap<Key>;
+
+  Search(const BitMap& free, const JumpPointBits& jump_points, Nodes& nodes, Open& open,
+         const SearchRequest& request, const StopToken& stop)
       : free_(free),
-        maps_(maps),
+        jump_points_(jump_points),
         nodes_(nodes),
+        open_(open),
         request_(request),
         goal_(request.goals.front()),
         poll_(stop, kExpansionsBetweenPolls) {}
 
   enum class Outcome { FOUND, EXHAUSTED, TOO_LARGE };
 
-  // The result gets its expanded cells and statistics. Throws nothing; `stopped` says why it ended.
+  // Fills in the result's expanded cells and statistics. `stopped`: why it ended early.
   Outcome run(SearchResult& result, StopReason& stopped) {
-    Statistics& counts = result.statistics;
-    nodes_.begin(free_.width());
-    const std::uint32_t start = nodes_.find(request_.start);
-    goal_number_ = request_.start == goal_ ? start : kNone;
-    nodes_[start].arrived = nodes_[start].waiting = kEverywhere;
-    nodes_.push(estimate(request_.start), start);
-    generated_ = 1;
-    Outcome outcome = Outcome::EXHAUSTED;
-    while (nodes_.open()) {
-      stopped = poll_.ask();
-      if (stopped != StopReason::NONE) break;
-      number_ = nodes_.pop();
-      auto& node = nodes_[number_];
-      if (node.waiting == 0) continue;
-      ++counts.expanded;
-      if (request_.record_expanded) result.expanded.push_back(cellIndex(nodes_.cell(number_)));
-      if (number_ == goal_number_) {
-        outcome = Outcome::FOUND;
-        break;
-      }
-      const std::uint8_t steps = node.waiting;
-      node.waiting = 0;
-      expand(nodes_.cell(number_), node.g, steps);
-      if (too_large_) {
-        outcome = Outcome::TOO_LARGE;
-        break;
-      }
-    }
-    counts.generated = generated_;
-    counts.reopened = reopened_;
-    counts.peak_open = nodes_.peakOpen();
+    openStart();
+    const Outcome outcome = expandUntilDone(result, stopped);
+    result.statistics.generated = generated_;
+    result.statistics.reopened = reopened_;
+    result.statistics.peak_open = open_.peakSize();
     return outcome;
   }
 
@@ -143,13 +119,42 @@ class Search {
     const int rows = std::abs(cell.row - goal_.row);
     return columns < rows ? length(columns, rows - columns) : length(rows, columns - rows);
   }
+
+  void openStart() {
+    nodes_.reset(free_.width());
+    open_.clear();
+    const std::uint32_t start = nodes_.findOrInsert(request_.start);
+    goal_number_ = request_.start == goal_ ? start : kNone;
+    nodes_[start].reached_by = nodes_[start].unexpanded = kEverywhere;
+    open_.push(estimate(request_.start), start);
+    generated_ = 1;
+  }
+
+  Outcome expandUntilDone(SearchResult& result, StopReason& stopped) {
+    while (!open_.empty()) {
+      stopped = poll_.ask();
+      if (stopped != StopReason::NONE) break;
+      number_ = open_.pop();
+      auto& node = nodes_[number_];
+      if (node.unexpanded == 0) continue;
+      ++result.statistics.expanded;
+      if (request_.record_expanded) result.expanded.push_back(cellIndex(nodes_.cell(number_)));
+      if (number_ == goal_number_) return Outcome::FOUND;
+      const std::uint8_t steps = node.unexpanded;
+      node.unexpanded = 0;
+      expand(nodes_.cell(number_), node.g, steps);
+      if (too_large_) return Outcome::TOO_LARGE;
+    }
+    return Outcome::EXHAUSTED;
+  }
+
   CellIndex cellIndex(Cell cell) const {
     return CellIndex(static_cast<std::uint32_t>(cell.row) * std::uint32_t(free_.width()) +
                      static_cast<std::uint32_t>(cell.column));
   }
 
-  // Of a way from `from` to `to` that is diagonal first: the cells after `from`, the last at
-  // end[-1]. Returns where they begin.
+  // Writes the cells after `from` of the jump to `to`, diagonal steps first, so that the last one
+  // is end[-1]. Returns the first one's address.
   static Cell* writeBackwards(Cell from, Cell to, Cell* end) {
     const int columns = to.column - from.column, rows = to.row - from.row;
     const int dx = (columns > 0) - (columns < 0), dy = (rows > 0) - (rows < 0);
@@ -163,20 +168,20 @@ class Search {
     return end;
   }
 
-  void expand(Cell from, Key g, std::uint8_t steps) {
-    const unsigned ways = waysFrom(from, steps);
-    if ((ways & 1U << 0) != 0) goStraight<0>(from, g);
-    if ((ways & 1U << 1) != 0) goStraight<1>(from, g);
-    if ((ways & 1U << 2) != 0) goStraight<2>(from, g);
-    if ((ways & 1U << 3) != 0) goStraight<3>(from, g);
-    if ((ways & 1U << 4) != 0) goDiagonally<4>(from, g);
-    if ((ways & 1U << 5) != 0) goDiagonally<5>(from, g);
-    if ((ways & 1U << 6) != 0) goDiagonally<6>(from, g);
-    if ((ways & 1U << 7) != 0) goDiagonally<7>(from, g);
-    jumpAll();
+  void expand(Cell from, Key g, std::uint8_t reached_by) {
+    const unsigned steps = successorStepsAfterAny(from, reached_by);
+    if ((steps & 1U << 0) != 0) jumpStraight<0>(from, g);
+    if ((steps & 1U << 1) != 0) jumpStraight<1>(from, g);
+    if ((steps & 1U << 2) != 0) jumpStraight<2>(from, g);
+    if ((steps & 1U << 3) != 0) jumpStraight<3>(from, g);
+    if ((steps & 1U << 4) != 0) jumpDiagonally<4>(from, g);
+    if ((steps & 1U << 5) != 0) jumpDiagonally<5>(from, g);
+    if ((steps & 1U << 6) != 0) jumpDiagonally<6>(from, g);
+    if ((steps & 1U << 7) != 0) jumpDiagonally<7>(from, g);
+    jumpFromAllBranches();
   }
 
-  // A straight way that leads to a turn, still to be gone.
+  // A straight jump that is known to end at a jump point and was not made yet.
   struct Branch {
     Cell from;
     Key g;
@@ -191,19 +196,20 @@ class Search {
     }
   };
 
-  // Branches wait here, so that the reading of many lines of the map overlaps.
-  void jumpAll() {
-    jumpFrom<0>();
-    jumpFrom<1>();
-    jumpFrom<2>();
-    jumpFrom<3>();
+  // Makes the straight jumps of all branches. They are collected before, so that the reading of
+  // many lines of the map overlaps.
+  void jumpFromAllBranches() {
+    jumpFromBranches<0>();
+    jumpFromBranches<1>();
+    jumpFromBranches<2>();
+    jumpFromBranches<3>();
   }
   template <int step>
-  void jumpFrom() {
+  void jumpFromBranches() {
     Branches& branches = branches_[step];
     for (std::size_t i = 0; i < branches.count; ++i) {
       Branch& branch = branches.all[i];
-      const int stop = maps_.stop(step, branch.from);
+      const int stop = jump_points_.firstStop(step, branch.from);
       if (step % 2 == 0) {
         branch.g += length(0, std::abs(stop - branch.from.column));
         branch.from.column = stop;
@@ -217,116 +223,119 @@ class Search {
     branches.count = 0;
   }
 
-  // Where to go on from a turn that was reached by a straight step: straight on, and around the
-  // obstacle that ends beside it.
+  // The natural and forced neighbours of a jump point that was reached by a straight step, a bit
+  // for every step: straight on, and around the obstacle that ends beside it.
   template <int step>
-  unsigned waysAfter(Cell turn) const {
+  unsigned successorSteps(Cell jump_point) const {
     constexpr int left = (step + 1) % 4, right = (step + 3) % 4;
     constexpr unsigned around_left = 1U << left | 1U << diagonalBetween(step, left);
     constexpr unsigned around_right = 1U << right | 1U << diagonalBetween(step, right);
-    const Cell before = moved(turn, step, -1);
-    const bool ends_left = !free_[moved(before, left, 1)] && free_[moved(turn, left, 1)];
-    const bool ends_right = !free_[moved(before, right, 1)] && free_[moved(turn, right, 1)];
+    const Cell before = moved(jump_point, step, -1);
+    const bool ends_left = !free_[moved(before, left, 1)] && free_[moved(jump_point, left, 1)];
+    const bool ends_right = !free_[moved(before, right, 1)] && free_[moved(jump_point, right, 1)];
     return 1U << step | (ends_left ? around_left : 0U) | (ends_right ? around_right : 0U);
   }
-  unsigned waysFrom(Cell from, std::uint8_t steps) const {
-    if (steps == kEverywhere) return 255;
-    return ((steps & 1U) != 0 ? waysAfter<0>(from) : 0U) |
-           ((steps & 2U) != 0 ? waysAfter<1>(from) : 0U) |
-           ((steps & 4U) != 0 ? waysAfter<2>(from) : 0U) |
-           ((steps & 8U) != 0 ? waysAfter<3>(from) : 0U);
+  unsigned successorStepsAfterAny(Cell from, std::uint8_t reached_by) const {
+    if (reached_by == kEverywhere) return 255;
+    return ((reached_by & 1U) != 0 ? successorSteps<0>(from) : 0U) |
+           ((reached_by & 2U) != 0 ? successorSteps<1>(from) : 0U) |
+           ((reached_by & 4U) != 0 ? successorSteps<2>(from) : 0U) |
+           ((reached_by & 8U) != 0 ? successorSteps<3>(from) : 0U);
   }
 
   template <int step>
-  void goStraight(Cell from, Key g) {
+  void jumpStraight(Cell from, Key g) {
     if (goalAhead(from, step)) {
       const int steps = std::abs(goal_.column - from.column) + std::abs(goal_.row - from.row);
       return reach(goal_, g + length(0, steps), step);
     }
-    branches_[step].addIf(maps_.leads(step, from), {from, g});
+    branches_[step].addIf(jump_points_.leadsToJumpPoint(step, from), {from, g});
   }
 
-  // Whether the goal lies on the straight way, not beyond its first stop.
+  // Whether a straight jump meets the goal, at its first stop or before.
   bool goalAhead(Cell from, int step) const {
     if (step % 2 == 0) {
       if (goal_.row != from.row || (goal_.column - from.column) * kSteps[step].column <= 0)
         return false;
-      const int stop = maps_.stop(step, from);
+      const int stop = jump_points_.firstStop(step, from);
       return step == 0 ? stop >= goal_.column : stop <= goal_.column;
     }
     if (goal_.column != from.column || (goal_.row - from.row) * kSteps[step].row <= 0) return false;
-    const int stop = maps_.stop(step, from);
+    const int stop = jump_points_.firstStop(step, from);
     return step == 1 ? stop >= goal_.row : stop <= goal_.row;
   }
 
-  // From `from` diagonally: from every cell on the way the straight ways that lead to turns, and
-  // to the goal.
+  // Goes diagonally and collects, from every cell that is passed, the straight branches that lead
+  // to jump points or to the goal.
   template <int step>
-  void goDiagonally(Cell from, Key g) {
-    constexpr int side = sideOf(step), height = heightOf(step);
+  void jumpDiagonally(Cell from, Key g) {
+    constexpr int horizontal = horizontalPart(step), vertical = verticalPart(step);
     constexpr int dx = kSteps[step].column, dy = kSteps[step].row;
     const int goal_columns = (goal_.column - from.column) * dx;
     const int goal_rows = (goal_.row - from.row) * dy;
     const int goal_line =
         goal_columns >= 0 && goal_rows >= 0 ? std::min(goal_columns, goal_rows) : 0;
     Cell cell = from;
-    int gone = 0;
+    int passed = 0;
     while (true) {
-      const DiagonalJumpBits::Stop stop = maps_.template diagonalStop<step>(cell);
+      const DiagonalJumpBits::Stop stop = jump_points_.template diagonalStop<step>(cell);
       cell = {cell.column + dx * stop.steps, cell.row + dy * stop.steps};
-      gone += stop.steps;
-      if (!stop.side && !stop.height) break;
-      const Branch branch{cell, g + length(gone, 0)};
-      if (branches_[side].count == kBranches - 1 || branches_[height].count == kBranches - 1)
-        jumpAll();
-      branches_[side].addIf(stop.side, branch);
-      branches_[height].addIf(stop.height, branch);
+      passed += stop.steps;
+      if (!stop.horizontal && !stop.vertical) break;
+      const Branch branch{cell, g + length(passed, 0)};
+      if (branches_[horizontal].count == kBranches - 1 ||
+          branches_[vertical].count == kBranches - 1)
+        jumpFromAllBranches();
+      branches_[horizontal].addIf(stop.horizontal, branch);
+      branches_[vertical].addIf(stop.vertical, branch);
     }
-    if (0 < goal_line && goal_line < gone) goTowardsGoal(from, g, step, goal_line);
+    if (0 < goal_line && goal_line < passed) jumpToGoal(from, g, step, goal_line);
   }
 
-  // From the cell of a diagonal way that lies in the goal's column or row, or is the goal.
-  void goTowardsGoal(Cell from, Key g, int step, int diagonals) {
+  // From the cell of a diagonal jump that lies in the goal's column or row, or is the goal.
+  void jumpToGoal(Cell from, Key g, int step, int diagonals) {
     const Cell cell = moved(from, step, diagonals);
     const Key to_g = g + length(diagonals, 0);
-    if (cell == goal_) return reach(goal_, to_g, sideOf(step));
-    const int straight = cell.row == goal_.row ? sideOf(step) : heightOf(step);
+    if (cell == goal_) return reach(goal_, to_g, horizontalPart(step));
+    const int straight = cell.row == goal_.row ? horizontalPart(step) : verticalPart(step);
     if (!goalAhead(cell, straight)) return;
     const int steps = std::abs(goal_.column - cell.column) + std::abs(goal_.row - cell.row);
     reach(goal_, to_g + length(0, steps), straight);
   }
 
-  // A way to a turn or the goal: the node gets it if it is cheaper, or as cheap from another side.
+  // Relaxes the node of a jump point or the goal: by a lower g-value, or by an equal one that
+  // arrives by another step.
   void reach(Cell cell, Key g, int step) {
     if (g >= Scale::kLargest) {
       too_large_ = true;
       return;
     }
-    const std::uint32_t number = nodes_.find(cell);
+    const std::uint32_t number = nodes_.findOrInsert(cell);
     auto& node = nodes_[number];
     const auto bit = static_cast<std::uint8_t>(1U << step);
-    if (node.arrived == 0 || g < node.g) {
-      if (node.arrived != 0 && node.waiting == 0) ++reopened_;
-      node.arrived = node.waiting = bit;
+    if (node.reached_by == 0 || g < node.g) {
+      if (node.reached_by != 0 && node.unexpanded == 0) ++reopened_;
+      node.reached_by = node.unexpanded = bit;
       node.g = g;
       node.parent = number_;
       if (cell == goal_) goal_number_ = number;
-    } else if (g == node.g && (node.arrived & bit) == 0) {
-      const bool queued = node.waiting != 0;
-      node.arrived |= bit;
-      node.waiting |= bit;
+    } else if (g == node.g && (node.reached_by & bit) == 0) {
+      const bool queued = node.unexpanded != 0;
+      node.reached_by |= bit;
+      node.unexpanded |= bit;
       if (queued) return;
       ++reopened_;
     } else {
       return;
     }
-    nodes_.push(g + estimate(cell), number);
+    open_.push(g + estimate(cell), number);
     ++generated_;
   }
 
   const BitMap& free_;
-  const JumpPointBits& maps_;
+  const JumpPointBits& jump_points_;
   Nodes& nodes_;
+  Open& open_;
   const SearchRequest& request_;
   const Cell goal_;
   StopPoll poll_;
@@ -338,8 +347,7 @@ class Search {
   std::array<Branches, 4> branches_;  // by straight step
 };
 
-// The bits.
-std::size_t mapBytes(const GridGeometry& geometry) {
+std::size_t bitBytes(const GridGeometry& geometry) {
   return BitMaps::bytesFor(geometry) + JumpPointBits::bytesFor(geometry);
 }
 
@@ -359,47 +367,48 @@ PlannerTraits JumpPoint::declaredTraits() {
 
 JumpPoint::JumpPoint() : Planner(declaredTraits()) {}
 
-// On noise up to half of the cells are turns, and a search that looks at all of them needs a node,
-// two places in the table and a share of the open list for each.
+// On noise up to half of the cells are jump points, and a search that generates all of them needs a
+// node, two slots of the table and a share of the open list for each.
 std::size_t JumpPoint::bytesFor(const GridGeometry& geometry) const {
-  constexpr std::size_t kTurnBytes = sizeof(HashedNodes<std::uint32_t>::Node) + 12;
-  return mapBytes(geometry) + geometry.size() / 2 * kTurnBytes;
+  constexpr std::size_t kJumpPointBytes = sizeof(HashedNodes<std::uint32_t>::Node) + 12;
+  return bitBytes(geometry) + geometry.size() / 2 * kJumpPointBytes;
 }
 
 void JumpPoint::doPrepare(const StopToken& stop) {
-  maps_.build(map().bitMaps(stop), stop);
+  jump_points_.build(map().bitMaps(stop), stop);
 }
 
 void JumpPoint::doUpdate(const CellRect& changed, const StopToken& stop) {
-  maps_.update(map().bitMaps(stop), changed, stop);
+  jump_points_.update(map().bitMaps(stop), changed, stop);
 }
 
 template <class Scale>
-std::optional<SearchResult> JumpPoint::searchFrom(HashedNodes<typename Scale::Key>& nodes,
+std::optional<SearchResult> JumpPoint::searchWith(Memory<typename Scale::Key>& memory,
                                                   const SearchRequest& request,
                                                   const StopToken& stop) {
-  using Found = Search<Scale>;
-  Found search(map().bitMaps(stop).rows, maps_, nodes, request, stop);
+  using Outcome = typename Search<Scale>::Outcome;
+  Search<Scale> search(map().bitMaps(stop).rows, jump_points_, memory.nodes, memory.open, request,
+                       stop);
   SearchResult result;
   StopReason stopped = StopReason::NONE;
-  const auto outcome = search.run(result, stopped);
-  if (outcome == Found::Outcome::TOO_LARGE) return std::nullopt;
+  const Outcome outcome = search.run(result, stopped);
+  if (outcome == Outcome::TOO_LARGE) return std::nullopt;
   result.status = Status::UNREACHABLE;
   if (stopped != StopReason::NONE) result.status = Stopped(stopped).status();
-  if (outcome == Found::Outcome::FOUND) {
+  if (outcome == Outcome::FOUND) {
     result.status = Status::FOUND;
     search.trace(std::int64_t{map().minWeight()} * map().kernel(), result);
   }
-  result.statistics.search_bytes = mapBytes(map().geometry()) + nodes.bytes();
+  result.statistics.search_bytes = bitBytes(map().geometry()) + memory.bytes();
   return result;
 }
 
 SearchResult JumpPoint::doSearch(const SearchRequest& request, const StopToken& stop) {
-  // The estimate must fit beside the cost: no way is as long as a map's sides of 2^15 cells.
+  // g + h must fit into 32 bits: on a map whose sides are at most 2^15 cells h is below 2^31.
   const GridGeometry& geometry = map().geometry();
   if (std::max(geometry.width(), geometry.height()) <= 1 << 15)
-    if (auto result = searchFrom<SmallScale>(nodes_, request, stop)) return std::move(*result);
-  if (auto result = searchFrom<LargeScale>(large_nodes_, request, stop)) return std::move(*result);
+    if (auto result = searchWith<SmallScale>(small_, request, stop)) return std::move(*result);
+  if (auto result = searchWith<LargeScale>(large_, request, stop)) return std::move(*result);
   throw TooExpensive();
 }
 

@@ -4,11 +4,11 @@
 //
 // For maps on which all passable cells weigh the same, with steps in eight directions, diagonals
 // sqrt 2 long, corners not cut: there the cost is the least there is, without tolerance. Other maps
-// are refused with the reason. The cells of the result are all steps, those between the turns too.
+// are refused with the reason. The result has all cells of the path, not only the jump points.
 //
-// plan() takes time and memory for the turns that it looks at, never in proportion to the map;
-// update() repairs what the change touches. Costs are compared by 32-bit integers, and a search
-// whose costs outgrow them (from 47,321 cell lengths on) is made again with 64-bit ones.
+// A search takes time and memory for the jump points that it generates, never in proportion to the
+// map; update() repairs what the change affects. Costs are compared by 32-bit integers, and a
+// search whose costs overflow them (from 47,321 cell lengths on) is repeated with 64-bit ones.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "grid_path_planner/planners/planner.h"
+#include "planners/core/radix_heap.h"
 #include "planners/jump_point/hashed_nodes.h"
 #include "planners/jump_point/jump_point_bits.h"
 
@@ -35,14 +36,23 @@ class JumpPoint : public Planner {
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
  private:
-  // None where the costs outgrow the keys.
+  template <class Key>
+  struct Memory {
+    HashedNodes<Key> nodes;
+    RadixHeap<Key> open;
+
+    std::size_t bytes() const {
+      return nodes.bytes() + open.peakSize() * sizeof(typename RadixHeap<Key>::Entry);
+    }
+  };
+  // None where a cost overflows the keys.
   template <class Scale>
-  std::optional<SearchResult> searchFrom(HashedNodes<typename Scale::Key>& nodes,
+  std::optional<SearchResult> searchWith(Memory<typename Scale::Key>& memory,
                                          const SearchRequest& request, const base::StopToken& stop);
 
-  JumpPointBits maps_;
-  HashedNodes<std::uint32_t> nodes_;
-  HashedNodes<std::uint64_t> large_nodes_;
+  JumpPointBits jump_points_;
+  Memory<std::uint32_t> small_;
+  Memory<std::uint64_t> large_;
 };
 
 }  // namespace grid_path_planner::planners

@@ -28,39 +28,40 @@ Word after(const Word* at) {
   return *at >> 1 | at[1] << 63;
 }
 
-// Of 64 cells of a line: from which of them the way towards higher (lower) bits leads to a turn
-// before it is blocked. `turns` stop the way well, `go` lets it pass; `carry` says it of the last
-// (first) cell's neighbour in the next word and becomes what that word says to the one after.
-Word leadsUp(Word turns, Word go, Word& carry) {
-  Word good = turns | (go & carry << 63);
+// Of 64 cells of a line, those from which the jump towards higher (lower) bits ends at a jump
+// point. The jump stops at `jump_points` and goes on over `passes`. `carry`: whether the neighbour
+// of the last (first) cell in the next word is a jump point or leads to one; becomes the same for
+// the word after.
+Word leadsUp(Word jump_points, Word passes, Word& carry) {
+  Word good = jump_points | (passes & carry << 63);
   for (int shift = 1; shift < kBits; shift *= 2) {
-    good |= go & good >> shift;
-    go &= go >> shift;
+    good |= passes & good >> shift;
+    passes &= passes >> shift;
   }
   const Word leads = good >> 1 | carry << 63;
   carry = good & 1U;
   return leads;
 }
-Word leadsDown(Word turns, Word go, Word& carry) {
-  Word good = turns | (go & carry);
+Word leadsDown(Word jump_points, Word passes, Word& carry) {
+  Word good = jump_points | (passes & carry);
   for (int shift = 1; shift < kBits; shift *= 2) {
-    good |= go & good << shift;
-    go &= go << shift;
+    good |= passes & good << shift;
+    passes &= passes << shift;
   }
   const Word leads = good << 1 | carry;
   carry = good >> 63;
   return leads;
 }
 
-// What carry to begin with in word `index` (upwards: of the word above it) of a line.
-Word carryFromAbove(const Word* free, const Word* go, int index) {
+// The carry for word `index` of a line, from the words with higher (lower) bits.
+Word carryFromAbove(const Word* free, const Word* passes, int index) {
   for (++index; true; ++index)
-    if (const Word stops = ~go[index]; stops != 0)
+    if (const Word stops = ~passes[index]; stops != 0)
       return free[index] >> __builtin_ctzll(stops) & 1U;
 }
-Word carryFromBelow(const Word* free, const Word* go, int index) {
+Word carryFromBelow(const Word* free, const Word* passes, int index) {
   for (--index; true; --index)
-    if (const Word stops = ~go[index]; stops != 0)
+    if (const Word stops = ~passes[index]; stops != 0)
       return free[index] >> (63 - __builtin_clzll(stops)) & 1U;
 }
 
@@ -74,9 +75,9 @@ void JumpPointBits::build(const BitMaps& free, const StopToken& stop) {
   const int width = free.rows.width();
   const int height = free.rows.height();
   for (int step = 0; step < 4; ++step) {
-    go_[step] = step % 2 == 0 ? BitMap(width, height) : BitMap(height, width);
+    passes_[step] = step % 2 == 0 ? BitMap(width, height) : BitMap(height, width);
     leads_[step] = BitMap(width, height);
-    tiles_[step] = DiagonalJumpBits(width, height);
+    diagonals_[step] = DiagonalJumpBits(width, height);
   }
   update(free, {0, 0, width, height}, stop);
 }
@@ -89,65 +90,66 @@ void JumpPointBits::update(const BitMaps& free, const CellRect& changed, const S
   const Range rows{rect.row, rect.row + rect.height - 1};
   StopPoll poll(stop, 64);
 
-  // 1. Where straight ways stop.
+  // 1. Where straight jumps stop.
   for (int row = rows.first; row <= rows.last; ++row) {
     poll();
-    markStops(free.rows, row, wordOf(columns.first), wordOf(columns.last), 0);
+    markStraightStops(free.rows, row, wordOf(columns.first), wordOf(columns.last), 0);
   }
   for (int column = columns.first; column <= columns.last; ++column) {
     poll();
-    markStops(free.columns, column, wordOf(rows.first), wordOf(rows.last), 1);
+    markStraightStops(free.columns, column, wordOf(rows.first), wordOf(rows.last), 1);
   }
 
-  // 2. Where vertical ways lead: blocks of 64 columns, as far as the change is felt in any of them.
+  // 2. Where vertical jumps lead: blocks of 64 columns, as far as any of them is affected.
   for (int word = wordOf(columns.first); word <= wordOf(columns.last); ++word) {
-    Range felt = rows;
+    Range affected = rows;
     for (int column = std::max(columns.first, word * kBits);
          column <= std::min(columns.last, word * kBits + kBits - 1); ++column) {
-      const Range reach = reachOf(1, column, rows);
-      felt = {std::min(felt.first, reach.first), std::max(felt.last, reach.last)};
+      const Range in_column = affectedRange(1, column, rows);
+      affected = {std::min(affected.first, in_column.first),
+                  std::max(affected.last, in_column.last)};
     }
     poll();
-    markColumnLeads(free.columns, word, wordOf(felt.first), wordOf(felt.last));
-    for (int row = felt.first; row <= felt.last; ++row) {
+    markColumnLeads(free.columns, word, wordOf(affected.first), wordOf(affected.last));
+    for (int row = affected.first; row <= affected.last; ++row) {
       poll();
-      if (row < rows.first || row > rows.last) markPasses(free.rows, row, word, word);
+      if (row < rows.first || row > rows.last) markDiagonalStops(free.rows, row, word, word);
     }
   }
 
-  // 3. Where horizontal ways lead, and what that and the change mean for diagonal ones.
+  // 3. Where horizontal jumps lead, and where diagonal ones stop because of that or of the change.
   for (int row = rows.first; row <= rows.last; ++row) {
     poll();
-    const Range felt = reachOf(0, row, columns);
-    markRowLeads(free.rows, row, wordOf(felt.first), wordOf(felt.last));
-    markPasses(free.rows, row, wordOf(felt.first), wordOf(felt.last));
+    const Range affected = affectedRange(0, row, columns);
+    markRowLeads(free.rows, row, wordOf(affected.first), wordOf(affected.last));
+    markDiagonalStops(free.rows, row, wordOf(affected.first), wordOf(affected.last));
   }
 }
 
 // Axis 0: `line` is a row of `free`; axis 1: a column of the map, `free` being transposed.
-void JumpPointBits::markStops(const BitMap& free, int line, int first_word, int last_word,
-                              int axis) {
+void JumpPointBits::markStraightStops(const BitMap& free, int line, int first_word, int last_word,
+                                      int axis) {
   for (int index = first_word; index <= last_word; ++index) {
     const Word* at = free.row(line) + index;
     const Word* low = free.row(line - 1) + index;
     const Word* high = free.row(line + 1) + index;
-    const Word turns_up = (*low & ~before(low)) | (*high & ~before(high));
-    const Word turns_down = (*low & ~after(low)) | (*high & ~after(high));
-    go_[axis].row(line)[index] = *at & ~turns_up;
-    go_[axis + 2].row(line)[index] = *at & ~turns_down;
+    const Word jump_points_up = (*low & ~before(low)) | (*high & ~before(high));
+    const Word jump_points_down = (*low & ~after(low)) | (*high & ~after(high));
+    passes_[axis].row(line)[index] = *at & ~jump_points_up;
+    passes_[axis + 2].row(line)[index] = *at & ~jump_points_down;
   }
 }
 
-JumpPointBits::Range JumpPointBits::reachOf(int axis, int line, Range along) const {
-  const int first = zeroBefore(go_[axis].row(line), along.first);
-  const int last = zeroFrom(go_[axis + 2].row(line), along.last + 1);
-  return {std::max(first, 0), std::min(last, go_[axis].width() - 1)};
+JumpPointBits::Range JumpPointBits::affectedRange(int axis, int line, Range changed) const {
+  const int first = zeroBefore(passes_[axis].row(line), changed.first);
+  const int last = zeroFrom(passes_[axis + 2].row(line), changed.last + 1);
+  return {std::max(first, 0), std::min(last, passes_[axis].width() - 1)};
 }
 
 void JumpPointBits::markRowLeads(const BitMap& free, int row, int first_word, int last_word) {
   const Word* at = free.row(row);
-  const Word* east = go_[0].row(row);
-  const Word* west = go_[2].row(row);
+  const Word* east = passes_[0].row(row);
+  const Word* west = passes_[2].row(row);
   Word carry = carryFromAbove(at, east, last_word);
   for (int index = last_word; index >= first_word; --index)
     leads_[0].row(row)[index] = at[index] & leadsUp(at[index] & ~east[index], east[index], carry);
@@ -156,7 +158,7 @@ void JumpPointBits::markRowLeads(const BitMap& free, int row, int first_word, in
     leads_[2].row(row)[index] = at[index] & leadsDown(at[index] & ~west[index], west[index], carry);
 }
 
-// Of the 64 columns of `word`, transposed back a block of 64 rows at a time.
+// For the 64 columns of `word`: computed on columns, transposed back in blocks of 64 rows.
 void JumpPointBits::markColumnLeads(const BitMap& free, int word, int first_block, int last_block) {
   const int first_column = word * kBits;
   const int count = std::min(kBits, free.height() - first_column);
@@ -169,31 +171,33 @@ void JumpPointBits::markColumnLeads(const BitMap& free, int word, int first_bloc
   };
   std::array<Word, kBits> carry{};
   for (int i = 0; i < count; ++i)
-    carry[i] = carryFromAbove(free.row(first_column + i), go_[1].row(first_column + i), last_block);
+    carry[i] =
+        carryFromAbove(free.row(first_column + i), passes_[1].row(first_column + i), last_block);
   for (int index = last_block; index >= first_block; --index) {
     for (int i = 0; i < count; ++i) {
       const Word at = free.row(first_column + i)[index];
-      const Word go = go_[1].row(first_column + i)[index];
-      block[i] = at & leadsUp(at & ~go, go, carry[i]);
+      const Word passes = passes_[1].row(first_column + i)[index];
+      block[i] = at & leadsUp(at & ~passes, passes, carry[i]);
     }
     write(leads_[1], index);
   }
   for (int i = 0; i < count; ++i)
     carry[i] =
-        carryFromBelow(free.row(first_column + i), go_[3].row(first_column + i), first_block);
+        carryFromBelow(free.row(first_column + i), passes_[3].row(first_column + i), first_block);
   for (int index = first_block; index <= last_block; ++index) {
     for (int i = 0; i < count; ++i) {
       const Word at = free.row(first_column + i)[index];
-      const Word go = go_[3].row(first_column + i)[index];
-      block[i] = at & leadsDown(at & ~go, go, carry[i]);
+      const Word passes = passes_[3].row(first_column + i)[index];
+      block[i] = at & leadsDown(at & ~passes, passes, carry[i]);
     }
     write(leads_[3], index);
   }
 }
 
-void JumpPointBits::markPasses(const BitMap& free, int row, int first_word, int last_word) {
-  const auto marks = [](Word entered, Word side, Word height) {
-    return DiagonalJumpBits::Marks{entered & ~side & ~height, entered & side, entered & height};
+void JumpPointBits::markDiagonalStops(const BitMap& free, int row, int first_word, int last_word) {
+  const auto marks = [](Word entered, Word horizontal, Word vertical) {
+    return DiagonalJumpBits::Marks{entered & ~horizontal & ~vertical, entered & horizontal,
+                                   entered & vertical};
   };
   for (int index = first_word; index <= last_word; ++index) {
     const Word* at = free.row(row) + index;
@@ -203,10 +207,10 @@ void JumpPointBits::markPasses(const BitMap& free, int row, int first_word, int 
     const Word from_east = *at & after(at);
     const Word east = leads_[0].row(row)[index], west = leads_[2].row(row)[index];
     const Word up = leads_[1].row(row)[index], down = leads_[3].row(row)[index];
-    tiles_[0].write(row, index, marks(from_west & *low & before(low), east, up));
-    tiles_[1].write(row, index, marks(from_east & *low & after(low), west, up));
-    tiles_[2].write(row, index, marks(from_east & *high & after(high), west, down));
-    tiles_[3].write(row, index, marks(from_west & *high & before(high), east, down));
+    diagonals_[0].write(row, index, marks(from_west & *low & before(low), east, up));
+    diagonals_[1].write(row, index, marks(from_east & *low & after(low), west, up));
+    diagonals_[2].write(row, index, marks(from_east & *high & after(high), west, down));
+    diagonals_[3].write(row, index, marks(from_west & *high & before(high), east, down));
   }
 }
 
@@ -219,7 +223,7 @@ std::size_t JumpPointBits::bytesFor(const GridGeometry& geometry) {
 std::size_t JumpPointBits::bytes() const {
   std::size_t bytes = 0;
   for (int step = 0; step < 4; ++step)
-    bytes += go_[step].bytes() + leads_[step].bytes() + tiles_[step].bytes();
+    bytes += passes_[step].bytes() + leads_[step].bytes() + diagonals_[step].bytes();
   return bytes;
 }
 

@@ -1,16 +1,15 @@
-// What jump point search wants to know of every cell, as bits that are made and repaired 64 cells
-// at a time.
+// The jump points of all cells and directions as bitmaps, computed and repaired 64 cells at a time
+// (Harabor & Grastien, "Improving Jump Point Search", ICAPS 2014).
 //
-//   JumpPointBits maps;
-//   maps.build(map.bitMaps(stop), stop);
-//   if (maps.leads(0, cell)) use(maps.stop(0, cell));  // the jump point to the east
+//   JumpPointBits jump_points;
+//   jump_points.build(map.bitMaps(stop), stop);
+//   if (jump_points.leadsToJumpPoint(0, cell)) use(jump_points.firstStop(0, cell));  // its column
 //
-// Going straight, one stops before a cell that is blocked and at a turn: a free cell beside which
-// an obstacle ends, so that the shortest way around the obstacle may turn there. With p the cell
-// before x, x is a turn where a neighbour beside p is blocked and the one beside x is not
-// (corners are not cut; Harabor & Grastien, "The JPS Pathfinding System", SoCS 2012).
-// Going diagonally, one stops where the way ends, and where a straight way that leads to a turn
-// branches off.
+// A straight jump stops before a blocked cell and at a straight jump point: a free cell with a
+// forced neighbour, since an obstacle ends beside it. With p the cell before x, x is one where a
+// neighbour beside p is blocked and the one beside x is not (corners are not cut; Harabor &
+// Grastien, "The JPS Pathfinding System", SoCS 2012). A diagonal jump stops where the next step is
+// not allowed, and where a straight jump that ends at a jump point branches off.
 //
 // So a straight jump is a search for the next 0 bit in one line of words, and a diagonal one reads
 // a word for up to eight steps, where scanning three lines of words for every branch at every step
@@ -23,7 +22,6 @@
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/costmap/bit_maps.h"
-#include "grid_path_planner/costmap/bit_scan.h"
 #include "grid_path_planner/planners/steps.h"
 #include "planners/jump_point/diagonal_jump_bits.h"
 
@@ -35,33 +33,33 @@ class JumpPointBits {
 
   // Throws Stopped.
   void build(const costmap::BitMaps& free, const base::StopToken& stop);
-  // `free` differs from what was built only inside `changed`, which is repaired, and as far around
-  // as straight ways lead into it without a stop. Throws Stopped.
+  // `free` differs from the bits before only inside `changed`. Repairs that rectangle and the cells
+  // from which straight jumps lead into it. Throws Stopped.
   void update(const costmap::BitMaps& free, const grid::CellRect& changed,
               const base::StopToken& stop);
 
   static std::size_t bytesFor(const grid::GridGeometry& geometry);
   std::size_t bytes() const;
 
-  // Of the straight steps 0..3: whether the first stop beyond `cell` is a turn.
-  bool leads(int step, grid::Cell cell) const { return leads_[step][cell]; }
-  // The column (steps 0, 2) or row (1, 3) of the first stop beyond `cell`: of a turn, or of the
-  // first blocked cell, which may lie one outside the map.
-  int stop(int step, grid::Cell cell) const {
+  // Whether the straight jump from `cell` by step 0..3 ends at a jump point.
+  bool leadsToJumpPoint(int step, grid::Cell cell) const { return leads_[step][cell]; }
+  // The column (steps 0, 2) or row (1, 3) of the first stop after `cell`: of a jump point, or of
+  // the first blocked cell, which may lie one outside the map.
+  int firstStop(int step, grid::Cell cell) const {
     const bool horizontal = step % 2 == 0;
-    const Word* line = go_[step].row(horizontal ? cell.row : cell.column);
+    const Word* line = passes_[step].row(horizontal ? cell.row : cell.column);
     const int from = horizontal ? cell.column : cell.row;
     return step < 2 ? costmap::zeroFrom(line, from + 1) : costmap::zeroBefore(line, from);
   }
-  // Of the diagonal steps 4..7: how many steps to the first stop beyond `cell`: a cell from which a
-  // straight way leads to a turn, or one into which the diagonal step is not allowed.
+  // The first stop after `cell` by the diagonal step 4..7: a cell from which a straight jump leads
+  // to a jump point, or one into which the diagonal step is not allowed.
   template <int step>
   DiagonalJumpBits::Stop diagonalStop(grid::Cell cell) const {
-    return tiles_[step - 4].stop<kSteps[step].column, kSteps[step].row>(cell);
+    return diagonals_[step - 4].stop<kSteps[step].column, kSteps[step].row>(cell);
   }
 
   friend bool operator==(const JumpPointBits& a, const JumpPointBits& b) {
-    return a.go_ == b.go_ && a.leads_ == b.leads_ && a.tiles_ == b.tiles_;
+    return a.passes_ == b.passes_ && a.leads_ == b.leads_ && a.diagonals_ == b.diagonals_;
   }
 
  private:
@@ -70,17 +68,19 @@ class JumpPointBits {
     int last;
   };
 
-  void markStops(const costmap::BitMap& free, int line, int first_word, int last_word, int axis);
+  void markStraightStops(const costmap::BitMap& free, int line, int first_word, int last_word,
+                         int axis);
   void markRowLeads(const costmap::BitMap& free, int row, int first_word, int last_word);
   void markColumnLeads(const costmap::BitMap& free, int word, int first_block, int last_block);
-  void markPasses(const costmap::BitMap& free, int row, int first_word, int last_word);
-  // Of a line, the cells that see something of `along` on their straight way, and `along`.
-  Range reachOf(int axis, int line, Range along) const;
+  void markDiagonalStops(const costmap::BitMap& free, int row, int first_word, int last_word);
+  // The cells of a line whose straight jumps pass a cell of `changed`, and `changed` itself.
+  Range affectedRange(int axis, int line, Range changed) const;
 
-  // A bit is 1 where one does not stop. By straight step; 1 and 3 transposed, a column a row.
-  std::array<costmap::BitMap, 4> go_;
-  std::array<costmap::BitMap, 4> leads_;   // by straight step, all row by row
-  std::array<DiagonalJumpBits, 4> tiles_;  // by diagonal step - 4
+  // Bit 1: no stop. By straight step; of steps 1 and 3 transposed, so that a row holds a column.
+  std::array<costmap::BitMap, 4> passes_;
+  // Bit 1: the straight jump ends at a jump point. By straight step, none transposed.
+  std::array<costmap::BitMap, 4> leads_;
+  std::array<DiagonalJumpBits, 4> diagonals_;  // by diagonal step - 4
 };
 
 }  // namespace grid_path_planner::planners

@@ -29,19 +29,19 @@ PruningEstimate::Count PruningEstimate::countAt(const CostGrid& map, Cell cell) 
     if (!stepAllowed(map, from, cell)) continue;
     const unsigned after = natural >> (8 * step) & 255U;
     ++count.steps;
-    if (after != 0 && (after & ~unsigned(kNaturalInTheOpen[step])) == 0) ++count.plain;
+    if (after != 0 && (after & ~unsigned(kNaturalInTheOpen[step])) == 0) ++count.default_only;
   }
   return count;
 }
 
-void PruningEstimate::take(const CostGrid& map, const StopToken& stop) {
+void PruningEstimate::sample(const CostGrid& map, const StopToken& stop) {
   const GridGeometry& geometry = map.geometry();
   stride_ = 1;
   while (geometry.size() / (std::size_t(stride_) * stride_) > kCells) ++stride_;
   columns_ = (geometry.width() + stride_ - 1) / stride_;
   const int rows = (geometry.height() + stride_ - 1) / stride_;
   counts_.assign(std::size_t(columns_) * rows, Count());
-  steps_ = plain_ = 0;
+  steps_ = default_only_ = 0;
   StopPoll poll(stop, 256);
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns_; ++column) {
@@ -61,10 +61,10 @@ void PruningEstimate::update(const CostGrid& map, const CellRect& changed) {
 void PruningEstimate::replace(const CostGrid& map, int column, int row) {
   Count& count = counts_[std::size_t(row) * columns_ + column];
   steps_ -= count.steps;
-  plain_ -= count.plain;
+  default_only_ -= count.default_only;
   count = countAt(map, {column * stride_, row * stride_});
   steps_ += count.steps;
-  plain_ += count.plain;
+  default_only_ += count.default_only;
 }
 
 }  // namespace grid_path_planner::planners

@@ -14,30 +14,31 @@ bool readBit(std::uint64_t word, unsigned at) {
 
 }  // namespace
 
-// Of a stop: what the cell before it, if there is one, was told.
+// Whether the cell before a stop is a dead end; true where there is none.
 template <bool kForward>
-bool StraightJumpTable::deadAt(std::size_t lane, unsigned at) const {
-  if (kForward ? at == 0 : at + 1 == words_per_lane_ * 64) return true;
+bool StraightJumpTable::deadEndBefore(std::size_t line, unsigned at) const {
+  if (kForward ? at == 0 : at + 1 == words_per_line_ * 64) return true;
   const unsigned before = kForward ? at - 1 : at + 1;
-  return readBit(word(lane, before).dead_end[kForward ? 0 : 1], before);
+  return readBit(word(line, before).dead_end[kForward ? 0 : 1], before);
 }
 
-// The cells from the stop before to the cell before this one leave towards the same end.
+// All cells from the stop before to the cell before this one have the same dead-end bit.
 template <bool kForward>
-void StraightJumpTable::set(std::size_t lane, unsigned at, bool stop, bool dead) {
+void StraightJumpTable::setStop(std::size_t line, unsigned at, bool stop, bool dead) {
   constexpr int kSide = kForward ? 0 : 1;
-  Word* word = &this->word(lane, at);
+  Word* word = &this->word(line, at);
   const bool was_stop = readBit(word->stop[kSide], at);
-  if (was_stop == stop && (!stop || deadAt<kForward>(lane, at) == dead)) return;
+  if (was_stop == stop && (!stop || deadEndBefore<kForward>(line, at) == dead)) return;
   writeBit(word->stop[kSide], at, stop);
   const bool value = stop ? dead : readBit(word->dead_end[kSide], at);
-  const std::int64_t last = std::int64_t(words_per_lane_) - 1;
+  const std::int64_t last = std::int64_t(words_per_line_) - 1;
   const unsigned bit = at & 63U;
   const std::uint64_t before = (std::uint64_t{1} << bit) - 1;
-  std::uint64_t reach = kForward ? before : ~before << 1;  // cells from which a run may come here
+  std::uint64_t reach =
+      kForward ? before : ~before << 1;  // cells of the word whose jumps may end here
   for (std::int64_t number = at / 64;;) {
     const std::uint64_t stops = word->stop[kSide] & reach;
-    if (stops != 0) {  // from the nearest of them on
+    if (stops != 0) {  // only from the nearest of them on
       const unsigned nearest =
           kForward ? 63U - unsigned(__builtin_clzll(stops)) : unsigned(__builtin_ctzll(stops));
       const std::uint64_t below = (std::uint64_t{1} << nearest) - 1;
@@ -51,7 +52,7 @@ void StraightJumpTable::set(std::size_t lane, unsigned at, bool stop, bool dead)
   }
 }
 
-template void StraightJumpTable::set<true>(std::size_t, unsigned, bool, bool);
-template void StraightJumpTable::set<false>(std::size_t, unsigned, bool, bool);
+template void StraightJumpTable::setStop<true>(std::size_t, unsigned, bool, bool);
+template void StraightJumpTable::setStop<false>(std::size_t, unsigned, bool, bool);
 
 }  // namespace grid_path_planner::planners

@@ -1,14 +1,15 @@
-// Straight runs over the cells of all rows, or of all columns, of a map, 64 cells in one word.
+// Where straight jumps over weighted cells end and what they cost: bits for all rows, or all
+// columns, of a map, 64 cells in a word.
 //
-//   if (lanes.deadEnd<true>(row, column)) return;  // a run forwards from here finds nothing
-//   StraightJumpTable::Run run = lanes.run<true>(row, column, weights, 1);
-//   use(run.to, run.weights);  // the cell where the run ends, and the cost of its steps
+//   if (table.deadEnd<true>(row, column)) return;  // a jump forwards reaches nothing
+//   StraightJumpTable::Jump jump = table.straightJump<true>(row, column, weights, 1);
+//   use(jump.to, jump.weights);  // the cell where the jump ends, and the cost of its steps
 //
-// A run goes on until the first cell that is a stop in its direction. A stop is dead where nothing
-// leads on; a cell is blind in a direction where the run that leaves it that way ends at a dead
-// stop, so that runs to nowhere cost one bit test. One more bit says where the weight changes to
-// the next cell: a run over a plateau is priced by counting. What is a stop, and dead, is the
-// caller's business (planners/jump_point/weighted_jump_map.h). Every lane must end in a stop in both directions.
+// A jump goes on until the first cell that is a stop in its direction. A stop is dead where no step
+// leads on. A cell is a dead end in a direction where the jump from it ends at a dead stop, so that
+// a useless jump costs one bit test. One more bit says where the weight changes to the next cell: a
+// jump over a plateau is priced by counting. The caller decides which cells are stops, and dead
+// (planners/jump_point/weighted_jump_map.h). Every line must end in a stop in both directions.
 #pragma once
 
 #include <array>
@@ -26,57 +27,58 @@ class StraightJumpTable {
     std::array<std::uint64_t, 2> stop;      // forwards, backwards
     std::array<std::uint64_t, 2> dead_end;  // forwards, backwards
     std::uint64_t change;                   // of the weight to the next cell
-    std::uint64_t open;                     // for the caller: an open cell, all around alike
+    std::uint64_t open;  // for the caller: nine cells of one weight, this one in the middle
   };
 
-  static std::size_t bytesFor(std::size_t lanes, std::size_t length) {
-    return lanes * ((length + 63) / 64) * sizeof(Word);
+  static std::size_t bytesFor(std::size_t lines, std::size_t length) {
+    return lines * ((length + 63) / 64) * sizeof(Word);
   }
 
   // No stops, no changes.
-  void reset(std::size_t lanes, std::size_t length) {
-    words_per_lane_ = (length + 63) / 64;
-    words_.assign(lanes * words_per_lane_, Word{});
+  void reset(std::size_t lines, std::size_t length) {
+    words_per_line_ = (length + 63) / 64;
+    words_.assign(lines * words_per_line_, Word{});
   }
 
-  const Word& word(std::size_t lane, unsigned at) const {
-    return words_[lane * words_per_lane_ + at / 64];
+  const Word& word(std::size_t line, unsigned at) const {
+    return words_[line * words_per_line_ + at / 64];
   }
-  Word& word(std::size_t lane, unsigned at) { return words_[lane * words_per_lane_ + at / 64]; }
+  Word& word(std::size_t line, unsigned at) { return words_[line * words_per_line_ + at / 64]; }
 
   template <bool kForward>
-  bool deadEnd(std::size_t lane, unsigned at) const {
-    return (word(lane, at).dead_end[kForward ? 0 : 1] >> (at & 63U) & 1U) != 0;
+  bool deadEnd(std::size_t line, unsigned at) const {
+    return (word(line, at).dead_end[kForward ? 0 : 1] >> (at & 63U) & 1U) != 0;
   }
 
-  // What a cell is to the runs of one direction, and what that means to the cells before it.
+  // Makes a cell a stop of one direction, dead or not, or no stop, and updates the dead ends before
+  // it.
   template <bool kForward>
-  void set(std::size_t lane, unsigned at, bool stop, bool dead);
+  void setStop(std::size_t line, unsigned at, bool stop, bool dead);
 
-  struct Run {
+  struct Jump {
     unsigned to;            // the stop
     std::uint64_t weights;  // sum of max(weight, weight) over the steps
   };
-  // `weights`: of the lane's first cell; `stride`: from each to the next.
+  // `weights`: of the line's first cell; `stride`: from each cell's to the next one's.
   // Precondition: the step to the next cell is legal.
   template <bool kForward>
-  Run run(std::size_t lane, unsigned from, const costmap::CostGrid::Weight* weights,
-          std::ptrdiff_t stride) const;
+  Jump straightJump(std::size_t line, unsigned from, const costmap::CostGrid::Weight* weights,
+                    std::ptrdiff_t stride) const;
 
  private:
   template <bool kForward>
-  bool deadAt(std::size_t lane, unsigned at) const;
+  bool deadEndBefore(std::size_t line, unsigned at) const;
 
-  std::size_t words_per_lane_ = 0;
+  std::size_t words_per_line_ = 0;
   std::vector<Word> words_;
 };
 
 template <bool kForward>
-StraightJumpTable::Run StraightJumpTable::run(std::size_t lane, unsigned from,
-                                              const costmap::CostGrid::Weight* weights,
-                                              std::ptrdiff_t stride) const {
+StraightJumpTable::Jump StraightJumpTable::straightJump(std::size_t line, unsigned from,
+                                                        const costmap::CostGrid::Weight* weights,
+                                                        std::ptrdiff_t stride) const {
   constexpr int kSide = kForward ? 0 : 1;
-  const Word* word = &this->word(lane, from);
+  const Word* word = &this->word(line, from);
   const unsigned bit = from & 63U;
   const std::uint64_t before = (std::uint64_t{1} << bit) - 1;
   const std::uint64_t after = ~before << 1;

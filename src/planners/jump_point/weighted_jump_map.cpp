@@ -16,20 +16,21 @@ using grid::GridGeometry;
 
 namespace {
 
-constexpr int kBand = 128;  // rows whose dead branches are looked for together
+constexpr int kBand = 128;  // rows whose dead branches are found together
 
-// Windows repeat: most are solved by looking up where an equal one was. Forgets by overwriting.
-class SolvedWindows {
+// A cache of natural steps by window, as windows repeat. A new window overwrites another of the same
+// hash.
+class WindowCache {
  public:
-  // About as many windows as `cells` will be asked for.
-  explicit SolvedWindows(std::size_t cells) {
+  // `cells`: about as many windows will be asked for.
+  explicit WindowCache(std::size_t cells) {
     while (bits_ < 15 && std::size_t{1} << bits_ < cells) ++bits_;
     entries_.resize(std::size_t{1} << bits_);
   }
 
   NaturalMoves steps(const Window& window) {
     Entry& entry = entries_[hashOf(window)];
-    if (!entry.solved || entry.window != window) entry = {naturalMoves(window), window, true};
+    if (!entry.used || entry.window != window) entry = {naturalMoves(window), window, true};
     return entry.steps;
   }
 
@@ -37,7 +38,7 @@ class SolvedWindows {
   struct Entry {
     NaturalMoves steps = 0;
     Window window{};
-    bool solved = false;
+    bool used = false;
   };
 
   std::size_t hashOf(const Window& window) const {
@@ -50,7 +51,7 @@ class SolvedWindows {
   std::vector<Entry> entries_;
 };
 
-bool allAlike(const Window& window) {
+bool allEqual(const Window& window) {
   return std::all_of(window.begin(), window.end(),
                      [&window](CostGrid::Weight weight) { return weight == window[0]; });
 }
@@ -78,61 +79,63 @@ void WeightedJumpMap::build(const CostGrid& map, const StopToken& stop) {
   rows_.reset(std::size_t(geometry.height()), std::size_t(geometry.width()));
   columns_.reset(std::size_t(geometry.width()), std::size_t(geometry.height()));
   marks_.assign(geometry.size(), Mark());
-  steps_.clear();
-  kind_of_.clear();
+  natural_of_id_.clear();
+  id_of_natural_.clear();
   Window open;
   open.fill(1);
-  kindOf(naturalMoves(open));  // kOpen
-  kindOf(0);                   // kBlocked
-  writeKinds(map, geometry.rect(), stop);
+  idOf(naturalMoves(open));  // kOpenId
+  idOf(0);                   // kBlockedId
+  computeNaturalIds(map, geometry.rect(), stop);
   for (int row = 0; row < geometry.height(); row += kBand)
-    writeLive(map, CellRect{0, row, width_, kBand}.intersection(geometry.rect()), stop);
-  writeAllStops(map, stop);
+    computeLiveSteps(map, CellRect{0, row, width_, kBand}.intersection(geometry.rect()), stop);
+  buildStops(map, stop);
 }
 
 void WeightedJumpMap::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
   const CellRect all = map.geometry().rect();
-  writeKinds(map, changed.grown(1).intersection(all), stop);
+  computeNaturalIds(map, changed.grown(1).intersection(all), stop);
   const CellRect near = changed.grown(kDepth + 2).intersection(all);
-  writeLive(map, near, stop);
+  computeLiveSteps(map, near, stop);
   StopPoll poll(stop, 16);
   for (int row = near.row; row < near.row + near.height; ++row) {
     poll();
     for (int column = near.column; column < near.column + near.width; ++column)
-      writeStops({column, row}, steps(map, map.geometry().index({column, row}).value()));
+      setStops({column, row}, steps(map, map.geometry().index({column, row}).value()));
   }
 }
 
-unsigned WeightedJumpMap::kindOf(NaturalMoves steps) {
-  const auto found = kind_of_.find(steps);
-  if (found != kind_of_.end()) return found->second;
-  if (steps_.size() == kUnlisted) return kUnlisted;
-  const auto kind = static_cast<unsigned>(steps_.size());
-  steps_.push_back(steps);
-  kind_of_.emplace(steps, kind);
-  return kind;
+unsigned WeightedJumpMap::idOf(NaturalMoves natural) {
+  const auto found = id_of_natural_.find(natural);
+  if (found != id_of_natural_.end()) return found->second;
+  if (natural_of_id_.size() == kNoId) return kNoId;
+  const auto id = static_cast<unsigned>(natural_of_id_.size());
+  natural_of_id_.push_back(natural);
+  id_of_natural_.emplace(natural, id);
+  return id;
 }
 
-void WeightedJumpMap::writeKinds(const CostGrid& map, const CellRect& rect, const StopToken& stop) {
-  SolvedWindows solved(std::size_t(rect.width) * std::size_t(rect.height));
+void WeightedJumpMap::computeNaturalIds(const CostGrid& map, const CellRect& rect,
+                                        const StopToken& stop) {
+  WindowCache cache(std::size_t(rect.width) * std::size_t(rect.height));
   StopPoll poll(stop, 8);
   for (int row = rect.row; row < rect.row + rect.height; ++row) {
     poll();
     for (int column = rect.column; column < rect.column + rect.width; ++column) {
       const Cell cell{column, row};
       const Window window = windowAt(map, cell);
-      const bool blocked = window[4] == CostGrid::kBlocked, alike = !blocked && allAlike(window);
+      const bool blocked = window[4] == CostGrid::kBlocked, equal = !blocked && allEqual(window);
       Mark& mark = marks_[map.geometry().index(cell).value()];
-      mark.setKind(alike ? kOpen : blocked ? kBlocked : kindOf(solved.steps(window)));
+      mark.setNaturalId(equal ? kOpenId : blocked ? kBlockedId : idOf(cache.steps(window)));
       StraightJumpTable::Word& in_row = rows_.word(std::size_t(row), unsigned(column));
-      setBit(in_row.open, column, alike);
+      setBit(in_row.open, column, equal);
       setBit(in_row.change, column, window[4] != window[5]);
       setBit(columns_.word(std::size_t(column), unsigned(row)).change, row, window[4] != window[7]);
     }
   }
 }
 
-void WeightedJumpMap::writeLive(const CostGrid& map, const CellRect& rect, const StopToken& stop) {
+void WeightedJumpMap::computeLiveSteps(const CostGrid& map, const CellRect& rect,
+                                       const StopToken& stop) {
   const CellRect window = rect.grown(kDepth + 1).intersection(map.geometry().rect());
   std::vector<NaturalMoves> natural;
   natural.reserve(std::size_t(window.width) * window.height);
@@ -149,68 +152,69 @@ void WeightedJumpMap::writeLive(const CostGrid& map, const CellRect& rect, const
           live[std::size_t(row - window.row) * window.width + (column - window.column)];
 }
 
-// Against the direction of the runs, so that each stop is told to the cells before it once.
-void WeightedJumpMap::writeAllStops(const CostGrid& map, const StopToken& stop) {
+// Against the direction of the jumps, so that the dead ends before each stop are written once.
+void WeightedJumpMap::buildStops(const CostGrid& map, const StopToken& stop) {
   const int height = map.geometry().height();
   StopPoll poll(stop, 16);
   for (int row = 0; row < height; ++row) {
     poll();
-    for (int column = 0; column < width_; ++column) writeFirstStops<true>(map, {column, row});
+    for (int column = 0; column < width_; ++column) buildStopsOf<true>(map, {column, row});
   }
   for (int row = height - 1; row >= 0; --row) {
     poll();
-    for (int column = width_ - 1; column >= 0; --column) writeFirstStops<false>(map, {column, row});
+    for (int column = width_ - 1; column >= 0; --column) buildStopsOf<false>(map, {column, row});
   }
 }
 
 template <bool kForward>
-void WeightedJumpMap::writeFirstStops(const CostGrid& map, Cell cell) {
+void WeightedJumpMap::buildStopsOf(const CostGrid& map, Cell cell) {
   const std::uint32_t index = map.geometry().index(cell).value();
   const Mark& mark = marks_[index];
-  if (mark.kind() != kOpen || mark.live != 255) writeStopsOf<kForward>(cell, steps(map, index));
+  if (mark.naturalId() != kOpenId || mark.live != 255)
+    setStopsOf<kForward>(cell, steps(map, index));
 }
 
 template <bool kForward>
-void WeightedJumpMap::writeStopsOf(Cell cell, NaturalMoves steps) {
+void WeightedJumpMap::setStopsOf(Cell cell, NaturalMoves steps) {
   const unsigned along_row = kForward ? 0 : 2, along_column = kForward ? 1 : 3;
   const unsigned in_row = steps >> (8 * along_row) & 255U;
   const unsigned in_column = steps >> (8 * along_column) & 255U;
-  rows_.set<kForward>(std::size_t(cell.row), unsigned(cell.column), in_row != 1U << along_row,
-                      in_row == 0);
-  columns_.set<kForward>(std::size_t(cell.column), unsigned(cell.row),
-                         in_column != 1U << along_column, in_column == 0);
+  rows_.setStop<kForward>(std::size_t(cell.row), unsigned(cell.column), in_row != 1U << along_row,
+                          in_row == 0);
+  columns_.setStop<kForward>(std::size_t(cell.column), unsigned(cell.row),
+                             in_column != 1U << along_column, in_column == 0);
 }
 
-void WeightedJumpMap::writeStops(Cell cell, NaturalMoves steps) {
-  writeStopsOf<true>(cell, steps);
-  writeStopsOf<false>(cell, steps);
+void WeightedJumpMap::setStops(Cell cell, NaturalMoves steps) {
+  setStopsOf<true>(cell, steps);
+  setStopsOf<false>(cell, steps);
 }
 
 void WeightedJumpMap::setOpen(Cell cell, bool open) {
   setBit(rows_.word(std::size_t(cell.row), unsigned(cell.column)).open, cell.column, open);
 }
 
-WeightedJumpMap::Target::Target(WeightedJumpMap& jumps, const CostGrid& map, Cell cell)
-    : jumps_(jumps), map_(map), cell_(cell), open_(jumps.open(cell)) {
-  admit(cell, deadAfter(jumps.steps(map, map.geometry().index(cell).value())));
+WeightedJumpMap::ScopedGoal::ScopedGoal(WeightedJumpMap& jumps, const CostGrid& map, Cell goal)
+    : jumps_(jumps), map_(map), goal_(goal), was_open_(jumps.open(goal)) {
+  restoreStepsTo(goal, deadAfter(jumps.steps(map, map.geometry().index(goal).value())));
   for (const Change& change : changes_)
-    jumps_.writeStops(change.cell, jumps_.steps(map, map.geometry().index(change.cell).value()));
-  jumps_.setOpen(cell, false);
-  jumps_.writeStops(cell, ~NaturalMoves{0});
+    jumps_.setStops(change.cell, jumps_.steps(map, map.geometry().index(change.cell).value()));
+  jumps_.setOpen(goal, false);
+  jumps_.setStops(goal, ~NaturalMoves{0});
 }
 
-// The cell is wanted although nothing is natural after the steps of `dead`: so the steps that lead
-// there from the cells before, and to these.
-void WeightedJumpMap::Target::admit(Cell cell, unsigned dead) {
-  struct Wanted {
+// Makes live the steps of `dead` that lead to the cell, although no step is natural after them, and
+// likewise the dead steps that lead to these.
+void WeightedJumpMap::ScopedGoal::restoreStepsTo(Cell cell, unsigned dead) {
+  struct Entry {
     Cell cell;
-    unsigned after;
+    unsigned dead;
   };
-  std::vector<Wanted> wanted = {{cell, dead}};
-  while (!wanted.empty()) {
-    const Wanted next = wanted.back();
-    wanted.pop_back();
-    for (unsigned bits = next.after; bits != 0; bits &= bits - 1) {
+  std::vector<Entry> stack = {{cell, dead}};
+  while (!stack.empty()) {
+    const Entry next = stack.back();
+    stack.pop_back();
+    for (unsigned bits = next.dead; bits != 0; bits &= bits - 1) {
       const auto step = unsigned(__builtin_ctz(bits));
       const Cell from = before(next.cell, step);
       if (!map_.passable(from)) continue;
@@ -223,18 +227,18 @@ void WeightedJumpMap::Target::admit(Cell cell, unsigned dead) {
       if (taken == 0) continue;
       changes_.push_back({from, mark.live});
       mark.live |= static_cast<std::uint8_t>(1U << step);
-      if ((taken & was_dead) != 0) wanted.push_back({from, taken & was_dead});
+      if ((taken & was_dead) != 0) stack.push_back({from, taken & was_dead});
     }
   }
 }
 
-WeightedJumpMap::Target::~Target() {
+WeightedJumpMap::ScopedGoal::~ScopedGoal() {
   for (auto change = changes_.rbegin(); change != changes_.rend(); ++change)
     jumps_.marks_[map_.geometry().index(change->cell).value()].live = change->live;
-  changes_.push_back({cell_, 0});
+  changes_.push_back({goal_, 0});
   for (const Change& change : changes_)
-    jumps_.writeStops(change.cell, jumps_.steps(map_, map_.geometry().index(change.cell).value()));
-  jumps_.setOpen(cell_, open_);
+    jumps_.setStops(change.cell, jumps_.steps(map_, map_.geometry().index(change.cell).value()));
+  jumps_.setOpen(goal_, was_open_);
 }
 
 }  // namespace grid_path_planner::planners

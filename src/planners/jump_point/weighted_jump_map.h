@@ -1,24 +1,24 @@
-// What weighted_jump_point makes of a map before it searches: the steps worth taking at every cell,
-// and how far straight runs go.
+// What weighted_jump_point precomputes of a map: the steps worth taking at every cell, and where
+// straight jumps end.
 //
 //   WeightedJumpMap jumps;
 //   jumps.build(map, stop);
 //   {
-//     const WeightedJumpMap::Target target(jumps, map, goal);
+//     const WeightedJumpMap::ScopedGoal scoped_goal(jumps, map, goal);
 //     NaturalMoves steps = jumps.steps(map, index);  // without those into dead branches
-//     if (!jumps.blind<kEast>(cell)) WeightedJumpMap::Run run = jumps.run<kEast>(cell, weights);
+//     if (!jumps.deadEnd<kEast>(cell)) use(jumps.straightJump<kEast>(cell, weights).to);
 //   }
 //
-// Dead branches: a step after which the natural steps all end within kDepth steps leads nowhere
-// else, so it is worth taking only where the goal may be among its ends. It is left out, and a
-// Target puts back, while it lives, the steps that lead to its cell. Up the slopes around obstacles
-// nearly all branches are dead, so that runs along them need not stop at every cell.
+// Dead branches: a step after which the natural steps all end within kDepth steps is worth taking
+// only if the goal is one of the cells that it leads to. steps() leaves it out; a ScopedGoal puts
+// back, while it lives, the steps that lead to the goal. On the slopes of inflation nearly all
+// branches uphill are dead, so that jumps along a slope need not stop at every cell.
 //
-// A cell is a stop of a straight step d where the steps after d are not d alone: a turn may begin
-// there, or nothing leads on. Those are the bits of planners/jump_point/straight_jump_table.h.
+// A cell is a stop of a straight step d where the steps after d are not d alone: the path may turn
+// there, or no step leads on. planners/jump_point/straight_jump_table.h holds the stops.
 //
-// An edit recomputes the cells within kDepth of it, and what the rows and columns of these say of
-// the runs that end there; nothing else.
+// An edit recomputes the cells within kDepth of it, and the dead ends of their rows and columns;
+// nothing else.
 #pragma once
 
 #include <array>
@@ -46,118 +46,119 @@ class WeightedJumpMap {
   void update(const costmap::CostGrid& map, const grid::CellRect& changed,
               const base::StopToken& stop);
 
-  // Five bytes of a cell that a search reads together.
+  // The five bytes of a cell that a search reads together.
   class Mark {
    public:
-    std::uint8_t reached;  // the search's own: steps that reached the cell at its least cost so far
-    std::uint8_t expanded;  // and those of them after which the steps were taken
+    std::uint8_t reached;   // of the search: steps that reached the cell at its g-value
+    std::uint8_t expanded;  // of the search: those of them that were expanded
     std::uint8_t live;      // steps that do not begin a dead branch
 
-    // Cells whose natural steps are the same are of one kind. There is room for 65535 kinds; the
-    // steps of a cell of a further one are computed when asked for.
-    unsigned kind() const { return kind_[0] | unsigned(kind_[1]) << 8; }
-    void setKind(unsigned kind) {
-      kind_ = {static_cast<std::uint8_t>(kind & 255U), static_cast<std::uint8_t>(kind >> 8)};
+    // Cells with the same natural steps have the same number. There are 65535 numbers; the natural
+    // steps of a cell without one are computed when they are needed.
+    unsigned naturalId() const { return natural_id_[0] | unsigned(natural_id_[1]) << 8; }
+    void setNaturalId(unsigned id) {
+      natural_id_ = {static_cast<std::uint8_t>(id & 255U), static_cast<std::uint8_t>(id >> 8)};
     }
 
    private:
-    std::array<std::uint8_t, 2> kind_;
+    std::array<std::uint8_t, 2> natural_id_;
   };
   Mark& mark(std::uint32_t index) { return marks_[index]; }
   const Mark& mark(std::uint32_t index) const { return marks_[index]; }
 
   NaturalMoves natural(const costmap::CostGrid& map, std::uint32_t index) const {
-    const unsigned kind = marks_[index].kind();
-    if (kind != kUnlisted) return steps_[kind];
+    const unsigned id = marks_[index].naturalId();
+    if (id != kNoId) return natural_of_id_[id];
     return naturalMoves(windowAt(map, map.geometry().cell(grid::CellIndex(index))));
   }
-  // Of these the ones worth taking.
+  // The natural steps without those into dead branches.
   NaturalMoves steps(const costmap::CostGrid& map, std::uint32_t index) const {
     return natural(map, index) & (marks_[index].live * kEveryByte);
   }
 
-  // Whether all nine cells around weigh the same and runs need not look closer. Not at a target.
+  // Whether the nine cells around have one weight and the cell is not the goal of a ScopedGoal.
   bool open(grid::Cell cell) const {
     return bitOf(rows_.word(std::size_t(cell.row), unsigned(cell.column)).open, cell.column);
   }
-  // Whether a run by the straight step finds nothing.
+  // Whether the straight jump by the step reaches nothing.
   template <unsigned kStep>
-  bool blind(grid::Cell cell) const {
+  bool deadEnd(grid::Cell cell) const {
     return kStep % 2 == 0
                ? rows_.deadEnd<kStep / 2 == 0>(std::size_t(cell.row), unsigned(cell.column))
                : columns_.deadEnd<kStep / 2 == 0>(std::size_t(cell.column), unsigned(cell.row));
   }
-  // Where a run by the straight step ends, and the sum of max(weight, weight) on the way.
+  // Where the straight jump by the step ends, and the sum of max(weight, weight) over its steps.
   // Precondition: the step is legal.
-  struct Run {
+  struct Jump {
     grid::Cell to;
     std::uint64_t weights;
   };
   template <unsigned kStep>
-  Run run(grid::Cell cell, const costmap::CostGrid::Weight* weights) const;
+  Jump straightJump(grid::Cell cell, const costmap::CostGrid::Weight* weights) const;
 
-  // While one lives every run stops at its cell and no step towards it is left out.
-  class Target {
+  // While one lives, every jump stops at the goal and no step that leads to it is left out.
+  class ScopedGoal {
    public:
-    Target(WeightedJumpMap& jumps, const costmap::CostGrid& map, grid::Cell cell);
-    ~Target();
-    Target(const Target&) = delete;
-    Target& operator=(const Target&) = delete;
+    ScopedGoal(WeightedJumpMap& jumps, const costmap::CostGrid& map, grid::Cell goal);
+    ~ScopedGoal();
+    ScopedGoal(const ScopedGoal&) = delete;
+    ScopedGoal& operator=(const ScopedGoal&) = delete;
 
    private:
     struct Change {
       grid::Cell cell;
       std::uint8_t live;  // before
     };
-    void admit(grid::Cell cell, unsigned dead);
+    void restoreStepsTo(grid::Cell cell, unsigned dead);
 
     WeightedJumpMap& jumps_;
     const costmap::CostGrid& map_;
-    grid::Cell cell_;
-    bool open_;
+    grid::Cell goal_;
+    bool was_open_;
     std::vector<Change> changes_;
   };
 
  private:
-  static constexpr unsigned kOpen = 0;     // kinds: every cell around weighs the same,
-  static constexpr unsigned kBlocked = 1;  // nothing is natural,
-  static constexpr unsigned kUnlisted = 65535;
+  static constexpr unsigned kOpenId = 0;     // the nine cells around have one weight
+  static constexpr unsigned kBlockedId = 1;  // no step is natural
+  static constexpr unsigned kNoId = 65535;
   static constexpr std::uint64_t kEveryByte = 0x0101010101010101U;
 
   static bool bitOf(std::uint64_t word, int at) { return (word >> (unsigned(at) & 63U) & 1U) != 0; }
   void setOpen(grid::Cell cell, bool open);
-  void writeKinds(const costmap::CostGrid& map, const grid::CellRect& rect,
-                  const base::StopToken& stop);
-  void writeLive(const costmap::CostGrid& map, const grid::CellRect& rect,
-                 const base::StopToken& stop);
-  void writeAllStops(const costmap::CostGrid& map, const base::StopToken& stop);
+  void computeNaturalIds(const costmap::CostGrid& map, const grid::CellRect& rect,
+                         const base::StopToken& stop);
+  void computeLiveSteps(const costmap::CostGrid& map, const grid::CellRect& rect,
+                        const base::StopToken& stop);
+  void buildStops(const costmap::CostGrid& map, const base::StopToken& stop);
   template <bool kForward>
-  void writeFirstStops(const costmap::CostGrid& map, grid::Cell cell);
-  void writeStops(grid::Cell cell, NaturalMoves steps);
+  void buildStopsOf(const costmap::CostGrid& map, grid::Cell cell);
+  void setStops(grid::Cell cell, NaturalMoves steps);
   template <bool kForward>
-  void writeStopsOf(grid::Cell cell, NaturalMoves steps);
-  unsigned kindOf(NaturalMoves steps);
+  void setStopsOf(grid::Cell cell, NaturalMoves steps);
+  unsigned idOf(NaturalMoves steps);
 
   int width_ = 0;
   StraightJumpTable rows_;
   StraightJumpTable columns_;
   std::vector<Mark> marks_;
-  std::vector<NaturalMoves> steps_;  // by kind
-  std::unordered_map<NaturalMoves, unsigned> kind_of_;
+  std::vector<NaturalMoves> natural_of_id_;
+  std::unordered_map<NaturalMoves, unsigned> id_of_natural_;
 };
 
 template <unsigned kStep>
-WeightedJumpMap::Run WeightedJumpMap::run(grid::Cell cell,
-                                          const costmap::CostGrid::Weight* weights) const {
+WeightedJumpMap::Jump WeightedJumpMap::straightJump(
+    grid::Cell cell, const costmap::CostGrid::Weight* weights) const {
   constexpr bool kForward = kStep / 2 == 0;
   const auto column = unsigned(cell.column), row = unsigned(cell.row);
   if (kStep % 2 == 0) {
-    const costmap::CostGrid::Weight* lane = weights + std::size_t(row) * unsigned(width_);
-    const StraightJumpTable::Run run = rows_.run<kForward>(row, column, lane, 1);
-    return {{int(run.to), cell.row}, run.weights};
+    const costmap::CostGrid::Weight* line = weights + std::size_t(row) * unsigned(width_);
+    const StraightJumpTable::Jump jump = rows_.straightJump<kForward>(row, column, line, 1);
+    return {{int(jump.to), cell.row}, jump.weights};
   }
-  const StraightJumpTable::Run run = columns_.run<kForward>(column, row, weights + column, width_);
-  return {{cell.column, int(run.to)}, run.weights};
+  const StraightJumpTable::Jump jump =
+      columns_.straightJump<kForward>(column, row, weights + column, width_);
+  return {{cell.column, int(jump.to)}, jump.weights};
 }
 
 }  // namespace grid_path_planner::planners

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "grid_path_planner/planners/keys.h"
 #include "grid_path_planner/planners/precomputed_heuristic.h"
 #include "planners/astar/heuristic.h"
 
@@ -18,15 +19,16 @@ using grid::GridGeometry;
 
 namespace {
 
-bool jumpsUnderstand(const MotionModel& motion) {
+bool jumpsSupport(const MotionModel& motion) {
   return motion == MotionModel();
 }
 
-// Whether a search is asked for that differs from what finds the least cost the quickest.
+// Whether a search option is not the default.
 bool asksForAStar(const SearchOptions& options) {
-  const SearchOptions usual;
-  return options.heuristic != usual.heuristic || options.epsilon != usual.epsilon ||
-         options.heuristic_scale != usual.heuristic_scale || options.tie_break != usual.tie_break;
+  const SearchOptions defaults;
+  return options.heuristic != defaults.heuristic || options.epsilon != defaults.epsilon ||
+         options.heuristic_scale != defaults.heuristic_scale ||
+         options.tie_break != defaults.tie_break;
 }
 
 }  // namespace
@@ -44,7 +46,7 @@ WeightedJumpPoint::WeightedJumpPoint(const SearchOptions& options)
   checkSearchOptions(options);
 }
 
-// As asked for, or with the best lower bound of the motion model.
+// The given options, or the defaults with the best heuristic of the motion model.
 SearchOptions WeightedJumpPoint::optionsOfAStar(const MotionModel& motion) const {
   SearchOptions options = options_;
   if (a_star_asked_for_) return options;
@@ -76,15 +78,15 @@ void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
   if (a_star_) a_star_->finishBackgroundWork(stop);
 }
 
-bool WeightedJumpPoint::worthJumping() const {
-  return !a_star_asked_for_ && jumpsUnderstand(map().motion()) && sample_.symmetric();
+bool WeightedJumpPoint::shouldJump() const {
+  return !a_star_asked_for_ && jumpsSupport(map().motion()) && pruning_.jumpingPays();
 }
 
 void WeightedJumpPoint::doPrepare(const StopToken& stop) {
   a_star_.reset();
   jumps_ready_ = false;
-  if (jumpsUnderstand(map().motion())) sample_.take(map(), stop);
-  if (!worthJumping()) {
+  if (jumpsSupport(map().motion())) pruning_.sample(map(), stop);
+  if (!shouldJump()) {
     jumps_.release();
     prepareAStar(stop);
     return;
@@ -94,8 +96,8 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
 }
 
 void WeightedJumpPoint::doUpdate(const CellRect& changed, const StopToken& stop) {
-  if (jumpsUnderstand(map().motion())) sample_.update(map(), changed);
-  if (worthJumping() != jumps_ready_) return doPrepare(stop);
+  if (jumpsSupport(map().motion())) pruning_.update(map(), changed);
+  if (shouldJump() != jumps_ready_) return doPrepare(stop);
   if (jumps_ready_) jumps_.update(map(), changed, stop);
   if (a_star_) a_star_->update(sharedMap(), changed, stop);
 }

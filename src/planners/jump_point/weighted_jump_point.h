@@ -3,14 +3,14 @@
 // Guaranteed: the cost is the least there is, on every map and motion model, unless the options ask
 // A* for less.
 //
-// Where diagonals are sqrt 2 long and cut no corners, jumps (planners/jump_point/weighted_jump_search.h) leave
-// out what symmetry makes superfluous: nearly everything on plateaus, much of the slopes around
-// obstacles, little where every cell has another weight. Whether that is worth it is counted when a
-// map is prepared (planners/jump_point/pruning_estimate.h) and kept up with its changes; where it is not, and for
-// other motion models, A* answers, with the heuristic that fits them. So no map is refused: where a
-// path costs more than the keys of the jumps hold, A* is made ready beside them. Nor is
-// an option ignored: with any search option (heuristic, scale, epsilon, tie-break) that is not the
-// default, A* answers with it.
+// Where diagonals are sqrt 2 long and cut no corners, the search with jumps
+// (planners/jump_point/weighted_jump_search.h) prunes symmetric paths: nearly all cells of
+// plateaus, many of the slopes around obstacles, few where every cell has another weight. Whether
+// jumping pays is estimated when a map is prepared and updated
+// (planners/jump_point/pruning_estimate.h). Where it does not, and for other motion models, A*
+// answers, with the heuristic that fits the motion model. No map is refused: where a path costs
+// more than the keys of the jumps hold, A* answers too. No option is ignored: with a search option
+// (heuristic, scale, epsilon, tie-break) that is not the default, A* answers with it.
 #pragma once
 
 #include <memory>
@@ -42,16 +42,16 @@ class WeightedJumpPoint : public Planner {
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
  private:
-  bool worthJumping() const;
+  bool shouldJump() const;
   void prepareAStar(const base::StopToken& stop);
   SearchOptions optionsOfAStar(const costmap::MotionModel& motion) const;
 
   SearchOptions options_;
   bool a_star_asked_for_;
-  PruningEstimate sample_;
+  PruningEstimate pruning_;
   bool jumps_ready_ = false;
   WeightedJumpSearch jumps_;
-  std::unique_ptr<AStar> a_star_;  // if it is ready
+  std::unique_ptr<AStar> a_star_;  // null until it is prepared
 };
 
 }  // namespace grid_path_planner::planners

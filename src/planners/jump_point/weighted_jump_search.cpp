@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "grid_path_planner/planners/keys.h"
 #include "grid_path_planner/planners/steps.h"
 
 namespace grid_path_planner::planners {
@@ -23,15 +24,15 @@ using grid::CellRect;
 
 namespace {
 
-// An expansion may run across the map.
+// An expansion may jump across the map.
 constexpr std::uint32_t kExpansionsBetweenPolls = 64;
 
-// How much later than the cell from which it began, in cell lengths at the cheapest weight, a
-// diagonal run's turn may come before it is queued. Short: the open list is busy; long: runs go
-// where the search never comes. From 8 to 100 hardly matters.
-constexpr std::uint64_t kAhead = 16;
+// By how much, in cell lengths at the least weight, the f-value of a diagonal jump may exceed that
+// of its first cell before the jump is put into the open list. Low: many pushes; high: jumps where
+// the search would never come. From 8 to 100 hardly matters.
+constexpr std::uint64_t kDiagonalSlack = 16;
 
-// Buckets of about a quarter of the cheapest step.
+// Buckets of about a quarter of the least cost of a step.
 constexpr unsigned kBucketsPerStep = 4;
 
 Cell moved(Cell cell, unsigned step) {
@@ -42,8 +43,8 @@ Cell moved(Cell cell, unsigned step) {
 
 void WeightedJumpSearch::prepare(const CostGrid& map, const StopToken& stop) {
   jumps_.build(map, stop);
-  if (labels_.size() == map.geometry().size()) return;
-  labels_ = ZeroedArray<Label>(map.geometry().size());
+  if (g_.size() == map.geometry().size()) return;
+  g_ = ZeroedArray<StampedG>(map.geometry().size());
   query_ = 0;
 }
 
@@ -54,19 +55,19 @@ void WeightedJumpSearch::update(const CostGrid& map, const CellRect& changed,
 
 void WeightedJumpSearch::release() {
   jumps_ = WeightedJumpMap();
-  labels_ = ZeroedArray<Label>();
+  g_ = ZeroedArray<StampedG>();
 }
 
 SearchResult WeightedJumpSearch::run(const CostGrid& map, const SearchRequest& request,
                                      const StopToken& stop) {
-  const WeightedJumpMap::Target target(jumps_, map, request.goals.front());
-  beginQuery(map, request);
+  const WeightedJumpMap::ScopedGoal scoped_goal(jumps_, map, request.goals.front());
+  startQuery(map, request);
   return search(request, stop);
 }
 
-void WeightedJumpSearch::beginQuery(const CostGrid& map, const SearchRequest& request) {
+void WeightedJumpSearch::startQuery(const CostGrid& map, const SearchRequest& request) {
   if (query_ == (std::uint64_t{1} << (64 - kKeyBits)) - 1) {
-    labels_.clear();
+    g_.clear();
     query_ = 0;
   }
   ++query_;
@@ -77,7 +78,7 @@ void WeightedJumpSearch::beginQuery(const CostGrid& map, const SearchRequest& re
   goal_index_ = indexOf(goal_);
   straight_ = map.minWeight() * kStraight;
   saving_ = map.minWeight() * (2 * kStraight - kDiagonal);
-  fresh_ = query_ << kKeyBits | kLargest;
+  zero_g_ = query_ << kKeyBits | kLargest;
   bound_ = kLargest;
   goal_reached_ = too_expensive_ = false;
   counts_ = Statistics();
@@ -96,9 +97,9 @@ SearchResult WeightedJumpSearch::search(const SearchRequest& request, const Stop
     counts_.peak_open = std::max(counts_.peak_open, open_.size());
     const std::uint32_t index = open_.pop();
     const WeightedJumpMap::Mark& mark = jumps_.mark(index);
-    if (mark.reached == mark.expanded) continue;  // it was queued more than once
+    if (mark.reached == mark.expanded) continue;  // a duplicate
     const Cell cell = map_->geometry().cell(CellIndex(index));
-    const Key g = costOf(index);
+    const Key g = gOf(index);
     if (g + estimate(cell) >= bound_) continue;
     if (request.record_expanded) result.expanded.emplace_back(index);
     expand(index, cell, g);
@@ -111,7 +112,7 @@ SearchResult WeightedJumpSearch::search(const SearchRequest& request, const Stop
 
 void WeightedJumpSearch::expandStart(Cell start) {
   const std::uint32_t index = indexOf(start);
-  improve(index, 0);
+  relax(index, 0);
   ++counts_.expanded;
   if (index == goal_index_) {
     goal_reached_ = true;
@@ -120,7 +121,7 @@ void WeightedJumpSearch::expandStart(Cell start) {
   unsigned steps = 0;
   for (unsigned step = 0; step < 8; ++step)
     if (stepAllowed(*map_, start, moved(start, step))) steps |= 1U << step;
-  take(steps, index, start, 0);
+  jumpBy(steps, index, start, 0);
 }
 
 void WeightedJumpSearch::expand(std::uint32_t index, Cell cell, Key g) {
@@ -129,55 +130,56 @@ void WeightedJumpSearch::expand(std::uint32_t index, Cell cell, Key g) {
   const unsigned fresh = naturalAfter(steps, mark.reached) & ~naturalAfter(steps, mark.expanded);
   mark.expanded = mark.reached;
   ++counts_.expanded;
-  take(fresh, index, cell, g);
+  jumpBy(fresh, index, cell, g);
 }
 
-void WeightedJumpSearch::take(unsigned steps, std::uint32_t index, Cell cell, Key g) {
-  if ((steps & 1U) != 0) runStraight<0>(cell, g);
-  if ((steps & 2U) != 0) runStraight<1>(cell, g);
-  if ((steps & 4U) != 0) runStraight<2>(cell, g);
-  if ((steps & 8U) != 0) runStraight<3>(cell, g);
-  if ((steps & 16U) != 0) runDiagonally<4>(index, cell, g);
-  if ((steps & 32U) != 0) runDiagonally<5>(index, cell, g);
-  if ((steps & 64U) != 0) runDiagonally<6>(index, cell, g);
-  if ((steps & 128U) != 0) runDiagonally<7>(index, cell, g);
+void WeightedJumpSearch::jumpBy(unsigned steps, std::uint32_t index, Cell cell, Key g) {
+  if ((steps & 1U) != 0) jumpStraight<0>(cell, g);
+  if ((steps & 2U) != 0) jumpStraight<1>(cell, g);
+  if ((steps & 4U) != 0) jumpStraight<2>(cell, g);
+  if ((steps & 8U) != 0) jumpStraight<3>(cell, g);
+  if ((steps & 16U) != 0) jumpDiagonally<4>(index, cell, g);
+  if ((steps & 32U) != 0) jumpDiagonally<5>(index, cell, g);
+  if ((steps & 64U) != 0) jumpDiagonally<6>(index, cell, g);
+  if ((steps & 128U) != 0) jumpDiagonally<7>(index, cell, g);
 }
 
-// Whether a path that costs f at least is of no use.
-inline bool WeightedJumpSearch::hopeless(Key f) {
+// Whether a path of cost f or more is of no use.
+inline bool WeightedJumpSearch::beyondBound(Key f) {
   if (f < bound_) return false;
-  too_expensive_ = true;  // which is asked only if the goal was not reached
+  too_expensive_ =
+      true;  // read only if the goal was not reached: before, the bound is that of the keys
   return true;
 }
 
 template <unsigned kStep>
-void WeightedJumpSearch::runStraight(Cell cell, Key g) {
-  if (jumps_.blind<kStep>(cell)) return;
-  const WeightedJumpMap::Run run = jumps_.run<kStep>(cell, weights_);
-  g += run.weights * kStraight;
-  const Key f = g + estimate(run.to);
-  if (hopeless(f)) return;
-  const std::uint32_t index = indexOf(run.to);
-  if (improve(index, g)) reach(index, jumps_.steps(*map_, index), kStep, f);
+void WeightedJumpSearch::jumpStraight(Cell cell, Key g) {
+  if (jumps_.deadEnd<kStep>(cell)) return;
+  const WeightedJumpMap::Jump jump = jumps_.straightJump<kStep>(cell, weights_);
+  g += jump.weights * kStraight;
+  const Key f = g + estimate(jump.to);
+  if (beyondBound(f)) return;
+  const std::uint32_t index = indexOf(jump.to);
+  if (relax(index, g)) reach(index, jumps_.steps(*map_, index), kStep, f);
 }
 
-// Over open cells from which straight runs find nothing it leaves no labels.
+// Open cells whose two straight jumps are dead ends get no g-value.
 template <unsigned kStep>
-void WeightedJumpSearch::runDiagonally(std::uint32_t index, Cell cell, Key g) {
-  constexpr unsigned kSide = 1U << kStep;
+void WeightedJumpSearch::jumpDiagonally(std::uint32_t index, Cell cell, Key g) {
+  constexpr unsigned kStepBit = 1U << kStep;
   constexpr unsigned kRowStep = kStep == 4 || kStep == 7 ? 0 : 2;  // its straight parts
   constexpr unsigned kColumnStep = kStep == 4 || kStep == 5 ? 1 : 3;
-  static_assert(kNaturalInTheOpen[kStep] == (kSide | 1U << kRowStep | 1U << kColumnStep));
+  static_assert(kNaturalInTheOpen[kStep] == (kStepBit | 1U << kRowStep | 1U << kColumnStep));
   const std::uint32_t offset =
       static_cast<std::uint32_t>(kSteps[kStep].row) * width_ + std::uint32_t(kSteps[kStep].column);
-  const Key limit = g + estimate(cell) + kAhead * straight_;
+  const Key limit = g + estimate(cell) + kDiagonalSlack * straight_;
   Key weight = weights_[index];
   for (;;) {
     index += offset;
     cell = moved(cell, kStep);
     if (jumps_.open(cell)) {
       g += kDiagonal * weight;
-      if (jumps_.blind<kRowStep>(cell) && jumps_.blind<kColumnStep>(cell)) continue;
+      if (jumps_.deadEnd<kRowStep>(cell) && jumps_.deadEnd<kColumnStep>(cell)) continue;
     } else {
       const Key next = weights_[index];
       g += kDiagonal * std::max(weight, next);
@@ -187,45 +189,46 @@ void WeightedJumpSearch::runDiagonally(std::uint32_t index, Cell cell, Key g) {
     const unsigned after = steps >> (8 * kStep) & 255U;
     if (after == 0 && index != goal_index_) return;
     const Key f = g + estimate(cell);
-    if (hopeless(f) || !improve(index, g)) return;
+    if (beyondBound(f) || !relax(index, g)) return;
     WeightedJumpMap::Mark& mark = jumps_.mark(index);
-    if ((mark.reached & kSide) != 0) return;
+    if ((mark.reached & kStepBit) != 0) return;
     const bool turns = (after & ~unsigned(kNaturalInTheOpen[kStep])) != 0;
     if (turns || f > limit || index == goal_index_) return reach(index, steps, kStep, f);
     const unsigned fresh = mark.expanded == 0 ? after : after & ~naturalAfter(steps, mark.expanded);
-    mark.reached |= static_cast<std::uint8_t>(kSide);
-    mark.expanded |= static_cast<std::uint8_t>(kSide);
-    if ((fresh >> kRowStep & 1U) != 0) runStraight<kRowStep>(cell, g);
-    if ((fresh >> kColumnStep & 1U) != 0) runStraight<kColumnStep>(cell, g);
-    if ((fresh & kSide) == 0) return;
+    mark.reached |= static_cast<std::uint8_t>(kStepBit);
+    mark.expanded |= static_cast<std::uint8_t>(kStepBit);
+    if ((fresh >> kRowStep & 1U) != 0) jumpStraight<kRowStep>(cell, g);
+    if ((fresh >> kColumnStep & 1U) != 0) jumpStraight<kColumnStep>(cell, g);
+    if ((fresh & kStepBit) == 0) return;
   }
 }
 
-// Whether g is no worse than what the cell has; a better one starts afresh.
-inline bool WeightedJumpSearch::improve(std::uint32_t index, Key g) {
-  const Label label = fresh_ - g;
-  if (label < labels_[index]) return false;
-  if (label > labels_[index]) {
-    labels_[index] = label;
+// Lowers the cell's g-value to g, and then forgets the steps that reached it before. Returns false
+// where the cell has a lower one.
+inline bool WeightedJumpSearch::relax(std::uint32_t index, Key g) {
+  const StampedG stamped = zero_g_ - g;
+  if (stamped < g_[index]) return false;
+  if (stamped > g_[index]) {
+    g_[index] = stamped;
     WeightedJumpMap::Mark& mark = jumps_.mark(index);
     mark.reached = mark.expanded = 0;
   }
   return true;
 }
 
-// A run by `step` ended at the cell, whose label is right already: it is queued if a step of
-// `steps` becomes worth taking by that.
+// A jump by `step` ended at the cell, whose g-value is up to date. Pushes the cell if a step of
+// `steps` becomes natural by that.
 void WeightedJumpSearch::reach(std::uint32_t index, NaturalMoves steps, unsigned step, Key f) {
   if (index == goal_index_) {
     goal_reached_ = true;
     bound_ = f;
   }
   WeightedJumpMap::Mark& mark = jumps_.mark(index);
-  const bool queued = mark.reached != mark.expanded;
+  const bool in_open_list = mark.reached != mark.expanded;
   unsigned fresh = steps >> (8 * step) & 255U;
   if (mark.reached != 0) fresh &= ~naturalAfter(steps, mark.reached);
   mark.reached |= static_cast<std::uint8_t>(1U << step);
-  if (queued) return;
+  if (in_open_list) return;
   if (fresh == 0) {
     mark.expanded = mark.reached;
     return;
@@ -236,20 +239,20 @@ void WeightedJumpSearch::reach(std::uint32_t index, NaturalMoves steps, unsigned
   ++counts_.generated;
 }
 
-// Octile at the cheapest weight.
+// The octile distance at the least weight.
 inline WeightedJumpSearch::Key WeightedJumpSearch::estimate(Cell cell) const {
   const auto columns = std::uint32_t(std::abs(cell.column - goal_.column));
   const auto rows = std::uint32_t(std::abs(cell.row - goal_.row));
   return (columns + rows) * straight_ - std::min(columns, rows) * saving_;
 }
 
-// Back from the goal by a step that reached each cell.
+// From the goal back, at every cell against a step that reached it.
 void WeightedJumpSearch::trace(Cell start, SearchResult& result) const {
   std::vector<Cell>& cells = result.cells;
   cells = {goal_};
   while (cells.back() != start) {
     const auto step = unsigned(__builtin_ctz(jumps_.mark(indexOf(cells.back())).reached));
-    const Cell from = labelledBefore(cells.back(), step);
+    const Cell from = predecessorOf(cells.back(), step);
     std::int64_t weights = 0;
     while (cells.back() != from) {
       const Cell at = cells.back();
@@ -261,17 +264,17 @@ void WeightedJumpSearch::trace(Cell start, SearchResult& result) const {
   std::reverse(cells.begin(), cells.end());
 }
 
-// The nearest cell back along the step whose label and the way from there make the cell's cost.
-Cell WeightedJumpSearch::labelledBefore(Cell cell, unsigned step) const {
+// The nearest cell against the step whose g-value plus the cost from there is the cell's g-value.
+Cell WeightedJumpSearch::predecessorOf(Cell cell, unsigned step) const {
   const Key length = step < 4 ? kStraight : kDiagonal;
-  const Key cost = costOf(indexOf(cell));
-  Key way = 0;
+  const Key cost = gOf(indexOf(cell));
+  Key from_there = 0;
   for (Cell at = cell;;) {
     const Cell before{at.column - kSteps[step].column, at.row - kSteps[step].row};
-    way += length * std::max(map_->weight(at), map_->weight(before));
+    from_there += length * std::max(map_->weight(at), map_->weight(before));
     at = before;
     const std::uint32_t index = indexOf(at);
-    if (labelled(index) && costOf(index) + way == cost) return at;
+    if (hasG(index) && gOf(index) + from_there == cost) return at;
   }
 }
 

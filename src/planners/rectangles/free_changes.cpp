@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "grid_path_planner/costmap/bit_scan.h"
+#include "grid_path_planner/costmap/bit_maps.h"
 #include "grid_path_planner/planners/decomposition.h"
 
 namespace grid_path_planner::planners {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid_path_planner/costmap/bit_scan.h"
+#include "grid_path_planner/costmap/bit_maps.h"
 #include "grid_path_planner/planners/decomposition.h"
 
 namespace grid_path_planner::planners {

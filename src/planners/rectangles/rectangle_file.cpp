@@ -4,7 +4,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
-#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/grid/rectangle_map_file.h"
 
 namespace grid_path_planner::planners {

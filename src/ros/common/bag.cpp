@@ -6,14 +6,15 @@
 #include <fstream>
 #include <set>
 
-#include "grid_path_planner/grid/map_format.h"
+#include "grid_path_planner/base/files.h"
+#include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/bag_reader.h"
 
 namespace grid_path_planner::nodes {
 
+using base::extensionOf;
 using base::InputError;
-using grid::extensionOf;
 using grid::GridGeometry;
 using grid::MapFileOptions;
 using grid::mapGeometry;

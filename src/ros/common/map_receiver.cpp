@@ -114,7 +114,7 @@ void MapReceiver::onMap(const nav_msgs::OccupancyGrid& message) {
     const std::string frame_id = frameName(message.header.frame_id);
     if (before.grid && before.frame_id == frame_id && before.grid->geometry() == grid->geometry())
       changed = changedCells(*before.grid, *grid);
-    grids_.begin(std::move(grid));
+    grids_.reset(std::move(grid));
     store(frame_id, message.header.stamp, changed);
   } catch (const InputError& error) {
     refuse(map_subscriber_.getTopic(), error.what());

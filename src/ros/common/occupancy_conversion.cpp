@@ -11,7 +11,7 @@ namespace grid_path_planner::nodes {
 using base::InputError;
 using base::yawOfLevelQuaternion;
 using grid::checkOccupancyValues;
-using grid::decimalOfFloat;
+using grid::floatToDecimal;
 using grid::GridGeometry;
 using grid::OccupancyGrid;
 
@@ -29,7 +29,7 @@ GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info) {
   const double yaw =
       yawOfLevelQuaternion(orientation.x, orientation.y, orientation.z, orientation.w);
   return GridGeometry(static_cast<int>(info.width), static_cast<int>(info.height),
-                      decimalOfFloat(info.resolution), {position.x, position.y, yaw});
+                      floatToDecimal(info.resolution), {position.x, position.y, yaw});
 }
 
 nav_msgs::MapMetaData geometryToMessage(const GridGeometry& geometry, const ros::Time& load_time) {

@@ -1,11 +1,11 @@
-#include "grid_path_planner/costmap/line_cost.h"
-
+// line_of_sight.h between the centres of two cells.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
 
-#include "grid_path_planner/costmap/bit_scan.h"
+#include "grid_path_planner/costmap/bit_maps.h"
+#include "grid_path_planner/costmap/line_of_sight.h"
 
 namespace grid_path_planner::costmap {
 
@@ -29,11 +29,11 @@ Cell cellOf(SegmentPoint point) {
 
 }  // namespace
 
-std::optional<double> centreSegmentCost(const CostGrid& map, Cell from, Cell to, double limit) {
+std::optional<double> lineCostWithin(const CostGrid& map, Cell from, Cell to, double limit) {
   const std::ptrdiff_t width = map.geometry().width();
   const int columns = to.column - from.column, rows = to.row - from.row;
   const bool steep = std::abs(rows) > std::abs(columns);
-  const std::int64_t across = steep ? std::abs(rows) : std::abs(columns);  // the major axis
+  const std::int64_t across = steep ? std::abs(rows) : std::abs(columns);  // along the major axis
   const std::int64_t aside = steep ? std::abs(columns) : std::abs(rows);
   if (across == 0) return 0.0;
   const std::ptrdiff_t along_columns = signOf(columns), along_rows = signOf(rows) * width;
@@ -41,14 +41,13 @@ std::optional<double> centreSegmentCost(const CostGrid& map, Cell from, Cell to,
   const std::ptrdiff_t minor = steep ? along_columns : along_rows;
   const double length_per_unit = std::hypot(double(across), double(aside)) / double(across);
 
-  // What weights above the cheapest may add up to.
+  // What the weights may add up to beyond those of a line of the least weight.
   const double units = limit / (length_per_unit * map.kernel()) + 1e-6;
-  const std::int64_t cheapest = map.minWeight();
-  std::int64_t spare =
-      static_cast<std::int64_t>(std::min(units, 1e18)) - across * std::int64_t{map.minWeight()};
+  const std::int64_t min_weight = map.minWeight();
+  std::int64_t spare = static_cast<std::int64_t>(std::min(units, 1e18)) - across * min_weight;
 
-  // The segment's height is counted from the lower edge of the present cell, in 1 / (2 across)
-  // cells: half a column changes it by `aside`.
+  // The line's height is counted from the lower edge of the current cell, in 1 / (2 across) cells:
+  // half a column changes it by `aside`.
   const CostGrid::Weight* at = map.weights().row(from.row) + from.column;
   const std::int64_t cell = 2 * across;
   const bool cut_corners = map.motion().cut_corners;
@@ -85,13 +84,13 @@ std::optional<double> centreSegmentCost(const CostGrid& map, Cell from, Cell to,
       }
     }
     weighted += weight;
-    spare -= weight - cheapest;
+    spare -= weight - min_weight;
     if (spare < 0) return std::nullopt;
   }
   return double(weighted) * length_per_unit * map.kernel();
 }
 
-bool centresInSight(const BitMaps& bits, Cell from, Cell to, bool cut_corners) {
+bool lineOfSight(const BitMaps& bits, Cell from, Cell to, bool cut_corners) {
   const bool steep = std::abs(to.row - from.row) > std::abs(to.column - from.column);
   const BitMap& map = steep ? bits.columns : bits.rows;
   if (steep) {
@@ -103,7 +102,7 @@ bool centresInSight(const BitMaps& bits, Cell from, Cell to, bool cut_corners) {
   const int rise = std::abs(to.row - from.row);
   if (rise == 0) return allOnes(row, from.column, to.column + 1);
 
-  // The columns at which the segment crosses from row to row: whole ones, and 1 / (2 rise) ones.
+  // The column at which the line crosses to the next row: its whole part, and 1 / (2 rise) columns.
   const std::ptrdiff_t stride = (to.row > from.row ? 1 : -1) * map.stride();
   const int run = to.column - from.column;
   const int column = 2 * rise;
@@ -126,18 +125,18 @@ bool centresInSight(const BitMaps& bits, Cell from, Cell to, bool cut_corners) {
   return allOnes(row, first, to.column + 1);
 }
 
-std::optional<double> lineCost(const CostGrid& map, const BitMaps* bits, SegmentPoint from,
-                               SegmentPoint to, double limit) {
+std::optional<double> lineCostWithin(const CostGrid& map, const BitMaps* bits, SegmentPoint from,
+                                     SegmentPoint to, double limit) {
   if (!isCentre(from) || !isCentre(to)) {
     if (!lineOfSight(map, from, to)) return std::nullopt;
     const double cost = lineCost(map, from, to);
     return cost <= limit ? std::optional<double>(cost) : std::nullopt;
   }
   const Cell a = cellOf(from), b = cellOf(to);
-  if (!bits) return centreSegmentCost(map, a, b, limit);
+  if (!bits) return lineCostWithin(map, a, b, limit);
   const double columns = a.column - b.column, rows = a.row - b.row;
   const double cost = std::sqrt(columns * columns + rows * rows) * (map.kernel() * map.minWeight());
-  if (cost > limit || !centresInSight(*bits, a, b, map.motion().cut_corners)) return std::nullopt;
+  if (cost > limit || !lineOfSight(*bits, a, b, map.motion().cut_corners)) return std::nullopt;
   return cost;
 }
 

@@ -30,7 +30,7 @@ std::shared_ptr<const OccupancyGrid> shared(const std::vector<std::string>& line
   return std::make_shared<const OccupancyGrid>(test::AsciiMap(lines).map);
 }
 
-Costs freshlySearched(const OccupancyGrid& map, const CostmapOptions& options) {
+Costs freshlyDownsampled(const OccupancyGrid& map, const CostmapOptions& options) {
   CostmapBuilder fresh(options);
   fresh.setMap(std::make_shared<const OccupancyGrid>(map));
   return fresh.downsampled(StopToken());
@@ -71,54 +71,54 @@ CellRect scribble(std::mt19937& random, OccupancyGrid& map) {
   return rect;
 }
 
-TEST(TerrainUpdates, TheGridBeforeStaysAsItWas) {
-  CostmapBuilder terrain({});
-  terrain.setMap(shared({"...", "..."}));
-  const Costs first = terrain.fullResolution(StopToken());
-  terrain.updateMap(shared({"...", ".#."}), {1, 1, 1, 1});
-  const Costs second = terrain.fullResolution(StopToken());
+TEST(CostmapUpdates, AnEarlierGridDoesNotChange) {
+  CostmapBuilder builder({});
+  builder.setMap(shared({"...", "..."}));
+  const Costs first = builder.fullResolution(StopToken());
+  builder.updateMap(shared({"...", ".#."}), {1, 1, 1, 1});
+  const Costs second = builder.fullResolution(StopToken());
   EXPECT_TRUE(first->passable({1, 1}));
   EXPECT_FALSE(second->passable({1, 1}));
   EXPECT_EQ(second->revision(), first->revision() + 1);
 }
 
-TEST(TerrainUpdates, TwoGridsTakeTurnsOnceNobodyHoldsThem) {
-  CostmapBuilder terrain({});
-  terrain.setMap(shared({"...", "..."}));
-  const CostGrid* first = terrain.fullResolution(StopToken()).get();
-  terrain.updateMap(shared({"..#", "..."}), {2, 0, 1, 1});
-  Costs second = terrain.fullResolution(StopToken());
-  terrain.updateMap(shared({"..#", "#.."}), {0, 1, 1, 1});
-  EXPECT_EQ(terrain.fullResolution(StopToken()).get(), first);
-  terrain.updateMap(shared({"...", "#.."}), {2, 0, 1, 1});
-  EXPECT_NE(terrain.fullResolution(StopToken()), second);  // somebody holds it
+TEST(CostmapUpdates, TwoGridsAreReusedOnceNobodyHoldsThem) {
+  CostmapBuilder builder({});
+  builder.setMap(shared({"...", "..."}));
+  const CostGrid* first = builder.fullResolution(StopToken()).get();
+  builder.updateMap(shared({"..#", "..."}), {2, 0, 1, 1});
+  Costs second = builder.fullResolution(StopToken());
+  builder.updateMap(shared({"..#", "#.."}), {0, 1, 1, 1});
+  EXPECT_EQ(builder.fullResolution(StopToken()).get(), first);
+  builder.updateMap(shared({"...", "#.."}), {2, 0, 1, 1});
+  EXPECT_NE(builder.fullResolution(StopToken()), second);  // it is held
 }
 
-TEST(TerrainUpdates, WhatChangesNoClassMakesNoNewGrid) {
-  CostmapBuilder terrain({});
+TEST(CostmapUpdates, AnUpdateWithoutNewClassesKeepsTheGrid) {
+  CostmapBuilder builder({});
   auto map = std::make_shared<OccupancyGrid>(test::AsciiMap({"...", "..."}).map);
-  terrain.setMap(map);
-  const Costs before = terrain.downsampled(StopToken());
+  builder.setMap(map);
+  const Costs before = builder.downsampled(StopToken());
   (*map)[Cell{1, 1}] = 7;  // free as before
-  terrain.updateMap(map, map->geometry().rect());
-  EXPECT_EQ(terrain.downsampled(StopToken()), before);
+  builder.updateMap(map, map->geometry().rect());
+  EXPECT_EQ(builder.downsampled(StopToken()), before);
 }
 
-TEST(TerrainUpdates, AStoppedUpdateLosesNothing) {
+TEST(CostmapUpdates, AStoppedUpdateLosesNothing) {
   CostmapOptions options;
   options.radius = 3.0;
   options.kernel = 2;
   OccupancyGrid map(GridGeometry(300, 300, 1.0), 0);
-  CostmapBuilder terrain(options);
-  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
-  const Costs before = terrain.downsampled(StopToken());
+  CostmapBuilder builder(options);
+  builder.setMap(std::make_shared<const OccupancyGrid>(map));
+  const Costs before = builder.downsampled(StopToken());
   for (std::uint32_t i = 0; i < map.values().size(); i += 900) map[CellIndex(i)] = 100;
-  terrain.updateMap(std::make_shared<const OccupancyGrid>(map), map.geometry().rect());
+  builder.updateMap(std::make_shared<const OccupancyGrid>(map), map.geometry().rect());
   StopSource source;
   source.cancel();
-  EXPECT_THROW(terrain.downsampled(source.token()), Stopped);
+  EXPECT_THROW(builder.downsampled(source.token()), Stopped);
   EXPECT_TRUE(before->passable({0, 0}));
-  expectSame(*terrain.downsampled(StopToken()), *freshlySearched(map, options));
+  expectSame(*builder.downsampled(StopToken()), *freshlyDownsampled(map, options));
 }
 
 // What a sensor sees change: everything in a rectangle becomes `to`, where it was one of `from`.
@@ -140,7 +140,7 @@ CellRect see(std::mt19937& random, const Seen& seen, OccupancyGrid& map) {
   return rect;
 }
 
-TEST(TerrainUpdatesLaw, WhatAppearsVanishesOrIsSeenLeavesAGridLikeAFreshOne) {
+TEST(CostmapUpdatesLaw, EqualsAFreshGridAfterEveryKindOfChange) {
   const std::vector<Seen> kinds = {{{0, -1}, 100}, {{0}, 100}, {{100}, 0},     {{100, -1}, 0},
                                    {{-1}, 0},      {{0}, -1},  {{100, 0}, -1}, {{100}, -1}};
   struct Rings {
@@ -164,20 +164,20 @@ TEST(TerrainUpdatesLaw, WhatAppearsVanishesOrIsSeenLeavesAGridLikeAFreshOne) {
       options.unknown_weight = trial % 5 == 0 ? 1 : 50;
       options.free_weight = trial % 7 == 0 ? 45 : 1;
       options.kernel = 1 + trial % 3 / 2;
-      CostmapBuilder terrain(options);
-      terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+      CostmapBuilder builder(options);
+      builder.setMap(std::make_shared<const OccupancyGrid>(map));
       for (int edit = 0; edit < 12; ++edit) {
-        const Costs before = terrain.downsampled(StopToken());
+        const Costs before = builder.downsampled(StopToken());
         for (unsigned i = 0; i <= random() % 4 / 3; ++i) {
           const CellRect changed = see(random, kinds[random() % kinds.size()], map);
-          terrain.updateMap(std::make_shared<const OccupancyGrid>(map), changed);
+          builder.updateMap(std::make_shared<const OccupancyGrid>(map), changed);
         }
-        const Costs after = terrain.downsampled(StopToken());
-        expectSame(*after, *freshlySearched(map, options));
+        const Costs after = builder.downsampled(StopToken());
+        expectSame(*after, *freshlyDownsampled(map, options));
         if (HasFatalFailure()) return;
         for (std::uint32_t i = 0; i < after->geometry().size(); ++i)
           if (after->weights()[CellIndex(i)] != before->weights()[CellIndex(i)]) {
-            ASSERT_TRUE(terrain.downsampledChange().contains(after->geometry().cell(CellIndex(i))));
+            ASSERT_TRUE(builder.downsampledChange().contains(after->geometry().cell(CellIndex(i))));
           }
       }
     }
@@ -185,26 +185,26 @@ TEST(TerrainUpdatesLaw, WhatAppearsVanishesOrIsSeenLeavesAGridLikeAFreshOne) {
 }
 
 // Only what a sensor makes occupied, or no longer so, reaches farther than it.
-TEST(TerrainUpdates, AChangeReachesNoFartherThanItMust) {
+TEST(CostmapUpdates, AChangeReachesNoFartherThanInflation) {
   CostmapOptions options;
   options.radius = 2.0;
-  CostmapBuilder terrain(options);
+  CostmapBuilder builder(options);
   OccupancyGrid map(GridGeometry(20, 20, 1.0), -1);
   const auto changeAfter = [&](std::int8_t value) {
     map[Cell{10, 10}] = value;
-    terrain.updateMap(std::make_shared<const OccupancyGrid>(map), map.geometry().rect());
-    terrain.downsampled(StopToken());
-    return terrain.downsampledChange();
+    builder.updateMap(std::make_shared<const OccupancyGrid>(map), map.geometry().rect());
+    builder.downsampled(StopToken());
+    return builder.downsampledChange();
   };
-  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
-  terrain.downsampled(StopToken());
+  builder.setMap(std::make_shared<const OccupancyGrid>(map));
+  builder.downsampled(StopToken());
   EXPECT_EQ(changeAfter(0), (CellRect{10, 10, 1, 1}));
   EXPECT_EQ(changeAfter(-1), (CellRect{10, 10, 1, 1}));
   EXPECT_EQ(changeAfter(100), (CellRect{8, 8, 5, 5}));
   EXPECT_EQ(changeAfter(0), (CellRect{8, 8, 5, 5}));
 }
 
-TEST(TerrainUpdatesLaw, AGridAfterUpdatesIsLikeAFreshOneAndTheOthersStay) {
+TEST(CostmapUpdatesLaw, EqualsAFreshGridAfterUpdatesAndEarlierGridsStay) {
   struct Held {
     Costs costs;
     CostGrid copy;
@@ -214,20 +214,20 @@ TEST(TerrainUpdatesLaw, AGridAfterUpdatesIsLikeAFreshOneAndTheOthersStay) {
     SCOPED_TRACE("trial " + std::to_string(trial));
     OccupancyGrid map = test::randomOccupancy(random, 50, 0.04, 0.1);
     const CostmapOptions options = randomOptions(random);
-    CostmapBuilder terrain(options);
-    terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+    CostmapBuilder builder(options);
+    builder.setMap(std::make_shared<const OccupancyGrid>(map));
     std::deque<Held> held;
     for (int edit = 0; edit < 12; ++edit) {
-      const Costs before = terrain.downsampled(StopToken());
+      const Costs before = builder.downsampled(StopToken());
       held.push_back({before, *before});
       while (random() % 2 == 0 && !held.empty()) held.pop_front();
 
       for (unsigned i = 0; i <= random() % 3; ++i) {
         const CellRect changed = scribble(random, map);
-        terrain.updateMap(std::make_shared<const OccupancyGrid>(map), changed);
+        builder.updateMap(std::make_shared<const OccupancyGrid>(map), changed);
       }
-      const Costs after = terrain.downsampled(StopToken());
-      expectSame(*after, *freshlySearched(map, options));
+      const Costs after = builder.downsampled(StopToken());
+      expectSame(*after, *freshlyDownsampled(map, options));
       for (const Held& each : held) {
         ASSERT_EQ(each.costs->weights(), each.copy.weights());
         ASSERT_EQ(each.costs->classes(), each.copy.classes());
@@ -239,7 +239,7 @@ TEST(TerrainUpdatesLaw, AGridAfterUpdatesIsLikeAFreshOneAndTheOthersStay) {
       EXPECT_EQ(after->revision(), before->revision() + 1);
       for (std::uint32_t i = 0; i < after->weights().values().size(); ++i)
         if (after->weights().values()[i] != before->weights().values()[i]) {
-          ASSERT_TRUE(terrain.downsampledChange().contains(after->geometry().cell(CellIndex(i))));
+          ASSERT_TRUE(builder.downsampledChange().contains(after->geometry().cell(CellIndex(i))));
         }
     }
   }

@@ -1,5 +1,3 @@
-#include "grid_path_planner/path/length_by_occupancy.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,4 @@
-// Between centres the fast walks say the same as the general ones, to the last bit.
-#include "grid_path_planner/costmap/line_cost.h"
+// Between centres the fast functions give the same as the general ones, to the last bit.
 
 #include <gtest/gtest.h>
 
@@ -22,17 +21,17 @@ void expectTheSame(const CostGrid& map, Cell from, Cell to, int& legal) {
   const SegmentPoint a = SegmentPoint::centreOf(from), b = SegmentPoint::centreOf(to);
   const bool expected = lineOfSight(map, a, b);
   const bool cut_corners = map.motion().cut_corners;
-  ASSERT_EQ(centresInSight(map.bitMaps(StopToken()), from, to, cut_corners), expected);
-  const std::optional<double> cost = centreSegmentCost(map, from, to);
+  ASSERT_EQ(lineOfSight(map.bitMaps(StopToken()), from, to, cut_corners), expected);
+  const std::optional<double> cost = lineCostWithin(map, from, to);
   ASSERT_EQ(cost.has_value(), expected);
   if (!expected) return;
   ++legal;
   ASSERT_EQ(*cost, lineCost(map, a, b));
-  EXPECT_EQ(centreSegmentCost(map, from, to, *cost), cost);
-  EXPECT_FALSE(*cost > 0.0 && centreSegmentCost(map, from, to, *cost * (1.0 - 1e-9) - 1e-5));
+  EXPECT_EQ(lineCostWithin(map, from, to, *cost), cost);
+  EXPECT_FALSE(*cost > 0.0 && lineCostWithin(map, from, to, *cost * (1.0 - 1e-9) - 1e-5));
 }
 
-TEST(CentreSegmentLaw, IsTheGeneralSegment) {
+TEST(CellLineOfSightLaw, EqualsTheGeneralOne) {
   std::mt19937 random(2010);
   int legal = 0;
   for (int trial = 0; trial < 600; ++trial) {
@@ -53,7 +52,7 @@ TEST(CentreSegmentLaw, IsTheGeneralSegment) {
   EXPECT_GT(legal, 3000);
 }
 
-TEST(CentreSegmentLaw, LongSightIsTheGeneralSegment) {
+TEST(CellLineOfSightLaw, EqualsTheGeneralOneOverLongLines) {
   std::mt19937 random(64);
   int legal = 0;
   for (int trial = 0; trial < 40; ++trial) {
