@@ -19,13 +19,9 @@
 
 namespace {
 
-using grid_path_planner::base::StopSource;
-using grid_path_planner::grid::GridGeometry;
-using grid_path_planner::grid::OccupancyGrid;
-using grid_path_planner::planning::PathPlanner;
-using grid_path_planner::planning::Plan;
-using grid_path_planner::planning::PlannerOptions;
-using grid_path_planner::planning::PoseRequest;
+using namespace grid_path_planner::base;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::planning;
 using Clock = std::chrono::steady_clock;
 
 std::shared_ptr<const OccupancyGrid> noisyMap() {

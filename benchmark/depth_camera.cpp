@@ -14,10 +14,7 @@
 
 namespace {
 
-using grid_path_planner::simulation::DepthCamera;
-using grid_path_planner::simulation::DepthCameraOptions;
-using grid_path_planner::simulation::readWorld;
-using grid_path_planner::simulation::World;
+using namespace grid_path_planner::simulation;
 
 double cpuSeconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;

@@ -25,17 +25,10 @@
 
 namespace {
 
-using grid_path_planner::base::InputError;
-using grid_path_planner::base::numberFromText;
-using grid_path_planner::base::StopToken;
-using grid_path_planner::costmap::CostGrid;
-using grid_path_planner::costmap::MotionModel;
-using grid_path_planner::grid::Cell;
-using grid_path_planner::grid::CellIndex;
-using grid_path_planner::grid::Grid;
-using grid_path_planner::grid::GridGeometry;
-using grid_path_planner::grid::Occupancy;
-using grid_path_planner::planners::reachableFrom;
+using namespace grid_path_planner::base;
+using namespace grid_path_planner::costmap;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::planners;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kLethal = 254, kMost = 252;

@@ -37,7 +37,6 @@
 namespace {
 
 using grid_path_planner::base::choiceFromName;
-using grid_path_planner::base::inflated;
 using grid_path_planner::base::InputError;
 using grid_path_planner::base::numberFromText;
 using grid_path_planner::base::StopToken;
@@ -55,7 +54,6 @@ using grid_path_planner::planners::Heuristic;
 using grid_path_planner::planners::makePlanner;
 using grid_path_planner::planners::Planner;
 using grid_path_planner::planners::plannerNames;
-using grid_path_planner::planners::prepared;
 using grid_path_planner::planners::SearchOptions;
 using grid_path_planner::planners::SearchResult;
 using grid_path_planner::planning::PlannerOptions;

@@ -32,13 +32,8 @@
 
 namespace {
 
-using grid_path_planner::mapping::OctreeMap;
-using grid_path_planner::mapping::OctreeOptions;
-using grid_path_planner::mapping::Scan;
-using grid_path_planner::simulation::DepthCamera;
-using grid_path_planner::simulation::DepthCameraOptions;
-using grid_path_planner::simulation::readWorld;
-using grid_path_planner::simulation::World;
+using namespace grid_path_planner::mapping;
+using namespace grid_path_planner::simulation;
 
 struct Series {
   std::string name;

@@ -17,16 +17,10 @@
 
 namespace {
 
-using grid_path_planner::base::StopToken;
-using grid_path_planner::costmap::BitMaps;
-using grid_path_planner::grid::CellRect;
-using grid_path_planner::grid::Occupancy;
-using grid_path_planner::grid::OccupancyGrid;
-using grid_path_planner::grid::OccupancyThresholds;
-using grid_path_planner::grid::readMapFile;
-using grid_path_planner::planners::freeCellsOf;
-using grid_path_planner::planners::largestFirst;
-using grid_path_planner::planners::mergedRuns;
+using namespace grid_path_planner::base;
+using namespace grid_path_planner::costmap;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::planners;
 
 test::FreeCells freeCellsOf(const OccupancyGrid& map) {
   test::FreeCells free(map.geometry());

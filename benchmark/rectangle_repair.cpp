@@ -21,19 +21,10 @@
 
 namespace {
 
-using grid_path_planner::base::StopToken;
-using grid_path_planner::costmap::BitMaps;
-using grid_path_planner::grid::Cell;
-using grid_path_planner::grid::CellRect;
-using grid_path_planner::grid::Grid;
-using grid_path_planner::grid::Occupancy;
-using grid_path_planner::grid::OccupancyGrid;
-using grid_path_planner::grid::OccupancyThresholds;
-using grid_path_planner::grid::readMapFile;
-using grid_path_planner::planners::largestFirst;
-using grid_path_planner::planners::mergedRuns;
-using grid_path_planner::planners::RectangleGraph;
-using grid_path_planner::planners::Touching;
+using namespace grid_path_planner::base;
+using namespace grid_path_planner::costmap;
+using namespace grid_path_planner::grid;
+using namespace grid_path_planner::planners;
 
 constexpr unsigned kSeed = 20261121;
 

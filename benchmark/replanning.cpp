@@ -41,6 +41,7 @@ using grid_path_planner::grid::DoubleBuffered;
 using grid_path_planner::grid::GridGeometry;
 using grid_path_planner::grid::OccupancyGrid;
 using grid_path_planner::planners::AStar;
+using grid_path_planner::planners::IncrementalAStar;
 using grid_path_planner::planners::SearchResult;
 
 constexpr int kSensorRange = 60;  // cells
