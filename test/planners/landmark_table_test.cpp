@@ -149,10 +149,10 @@ TEST(CostDecreases, AreFoundBetweenTwoMaps) {
                                          "555555"});
   const CellRect all = before.geometry().rect();
   const CostGrid increased = test::costMap({"655555",  //
-                                         "5555#5",  //
-                                         "555555",  //
-                                         "5#5555",  //
-                                         "555555"});
+                                            "5555#5",  //
+                                            "555555",  //
+                                            "5#5555",  //
+                                            "555555"});
   EXPECT_TRUE(costDecreases(before, increased, all).empty());
   const CostGrid both = test::costMap({"655555",  //
                                        "5555?5",  //

@@ -14,16 +14,15 @@ from common import PLANTED, ROOT, files, finish, read, skip, version_of
 # What is counted: the limit that is enforced, and the target of the layout where that is lower.
 # A limit is lowered in the commit that makes it possible, and never raised.
 LIMITS = {
-    "public headers": (116, 90),
+    "public headers": (99, 90),
     "files in the largest folder": (53, 35),
-    "lines of the longest file": (498, 400),
-    "functions of 20 lines and more, in a thousand": (60, 50),
+    "lines of the longest file": (457, 400),
+    "functions of 20 lines and more, in a thousand": (54, 50),
 }
 LONGEST_FUNCTION = 60  # lines, but for
 HOT_LOOPS = {  # measured: slower in pieces
-    "BucketSearch::search", "lineCostWithin",
+    "BucketSearch::search",
 }
-LONG_TODAY = {"PolyanyaSearch::run", "runScenarios", "visitOptions"}  # to be emptied
 
 CODE = ("include", "src")
 FOLDERS = CODE + ("test", "benchmark", "examples", "scripts", "cmake", "config", "launch", "doc", "msg", "srv", "action")
@@ -95,10 +94,10 @@ def main():
                   for what, (count, where) in counts.items() if count > LIMITS[what][0]]
     over = {name: (length, place) for length, name, place in lengths if length > LONGEST_FUNCTION}
     complaints += ["%s: %s has %d lines, more than %d" % (place, name, length, LONGEST_FUNCTION)
-                   for name, (length, place) in over.items() if name not in HOT_LOOPS | LONG_TODAY]
+                   for name, (length, place) in over.items() if name not in HOT_LOOPS]
     if not PLANTED:
         complaints += ["%s is not above %d lines: strike it from check_house.py" %
-                       (name, LONGEST_FUNCTION) for name in sorted((HOT_LOOPS | LONG_TODAY) - set(over))]
+                       (name, LONGEST_FUNCTION) for name in sorted(HOT_LOOPS - set(over))]
     twice = types_twice(found)
     complaints += ["%s is defined in %s" % (name, " and in ".join(where))
                    for name, where in sorted(twice.items())]
