@@ -122,6 +122,17 @@ CONTEXT = {
     "path_hash.h": "extern Planner& planner; extern SearchRequest request;",
     "rectangle_map_file.h": "extern GridGeometry geometry;",
     "option_files.h": '#include "ros/planning/path_planner_options.h"',
+    "line_of_sight.h": "extern const CostGrid& map; extern SegmentPoint from, to; extern double cost;",
+    "study_job.h": "extern StudyJob::MapReader read_map; void progress(std::size_t);",
+    "route_progress.h": """#include "following/velocity_controller.h"
+        extern Path path; extern FollowerOptions options; extern FollowEvents events; extern Pose pose;
+        extern VelocityController controller; extern double time, seconds;""",
+    "velocity_controller.h": "extern FollowerOptions options; extern const DrivenRoute& route; extern Pose pose;"
+                             "extern std::size_t segment; extern double share, seconds; extern bool at_stop;",
+    "radix_heap.h": "extern std::uint32_t f, node;",
+    "diagonal_jump_bits.h": "extern const DiagonalJumpBits& bits; extern Cell cell;",
+    "hashed_nodes.h": "extern int map_width; extern Cell cell;",
+    "pruning_estimate.h": "extern PruningEstimate estimate; extern const CostGrid& map;",
     "study_planners.h": "extern SearchOptions options;",
     "vehicle_publisher.h": "extern ros::NodeHandle nh; extern VehicleState truth, measured;"
                            "extern ros::Time stamp; extern VehicleFrameNames frames;",

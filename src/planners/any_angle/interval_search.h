@@ -1,10 +1,8 @@
 // What AnyaSearch and PolyanyaSearch have in common: A* over interval nodes (I, r), where the root
 // r is visible from every point of the interval I.
 //
-//   startQuery(start, goal, counts);
-//   push(f, node);  // the interval nodes of the start
-//   return expandAll(stop, 64, [this](Node& node) { return popNode(node); },
-//                    [this](const Node& node) { expand(node); });
+// A search derives from it: it calls startQuery(), pushes the interval nodes of the start with
+// push(), and expands what popNode() gives in expandAll().
 //
 // Roots are the start and the corners at which a taut path turns. relax() prunes arrivals at a
 // corner: one with a greater g-value than the corner's root has is dropped; one with a smaller

@@ -1,7 +1,7 @@
 // A node's class inside a nodelet manager.
 //
-//   class SimulatorNodelet : public NodeletShell<SimulatorNode> {};
-//   PLUGINLIB_EXPORT_CLASS(grid_path_planner::nodes::SimulatorNodelet, nodelet::Nodelet)
+// A nodelet is a class that derives from NodeletShell<Node> and is exported by
+// PLUGINLIB_EXPORT_CLASS.
 //
 // `Node` is constructed from a node handle and a private one.
 #pragma once
