@@ -1,12 +1,14 @@
 #include "grid_path_planner/planners/a_star.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "planners/astar/heuristic.h"
 
 namespace grid_path_planner::planners {
 
+using base::Status;
 using base::StopToken;
 using costmap::CostGrid;
 using grid::Cell;
@@ -40,6 +42,15 @@ SearchKey stretched(SearchKey bound, double epsilon) {
   if (epsilon == 1.0) return bound;
   const double key = static_cast<double>(bound) * epsilon;
   return key < static_cast<double>(kInfiniteKey) ? static_cast<SearchKey>(key) : kInfiniteKey;
+}
+
+// What a table that knows that no path leads from start to goal answers: its infinite bound is no key
+// that a search could add to.
+std::optional<SearchResult> unreachableBy(SearchKey bound_of_start) {
+  if (bound_of_start != kInfiniteKey) return std::nullopt;
+  SearchResult result;
+  result.status = Status::UNREACHABLE;
+  return result;
 }
 
 }  // namespace
@@ -111,6 +122,8 @@ SearchResult AStar::planWithTables(const SearchRequest& request, const StopToken
   const std::uint32_t goal_index = map().geometry().index(goal).value();
   const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
   return tables_.withBound(goal_index, [&](const auto& boundIn) {
+    const std::uint32_t start_index = map().geometry().index(request.start).value();
+    if (auto result = unreachableBy(boundIn(kWideScale)(start_index))) return std::move(*result);
     const auto estimateIn = [&](const KeyScale& scale) {
       return [estimate = Estimate(options_, map(), request.start, goal, scale),
               bound = boundIn(scale), epsilon = options_.epsilon](Cell cell, std::uint32_t index) {
@@ -150,6 +163,8 @@ SearchResult AStar::planInOrder(const SearchRequest& request, const StopToken& s
   const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
   return tables_.withBound(goal_index, [&](const auto& boundIn) {
     const auto bound = boundIn(kWideScale);
+    if (auto result = unreachableBy(bound(geometry.index(request.start).value())))
+      return std::move(*result);
     const auto priorityOf = [&](SearchKey g, Cell cell) {
       const SearchKey least = stretched(bound(geometry.index(cell).value()), options_.epsilon);
       const SearchKey to_go = cross_share == 0.0L ? estimate(cell) : estimate(cell, cross_share);
