@@ -10,7 +10,6 @@
 #include "grid_path_planner/costmap/line_of_sight.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "planners/astar/heuristic.h"
-#include "support/ascii_map.h"
 #include "support/cost_maps.h"
 #include "support/error_text.h"
 #include "support/random_map.h"
@@ -314,19 +313,6 @@ TEST_P(Conformance, AnUpdatedMapIsPlannedLikeAFreshOne) {
         EXPECT_EQ(a.cells, b.cells);
     }
   }
-}
-
-// Where the table of heuristic exact was ready, its infinite bound was added to a cost: a goal that no
-// path leads to was INVALID_REQUEST ("may cost more than ...") instead of UNREACHABLE, or not,
-// depending on how long the table took.
-TEST_P(Conformance, AnUnreachableGoalIsUnreachableWithTablesToo) {
-  const test::AsciiMap picture({"S.#..",  //
-                                "..#.G"});
-  const auto planner = make();
-  planner->prepare(test::costsOf(picture.map), StopToken());
-  planner->finishBackgroundWork(StopToken());
-  const SearchResult result = planner->search({picture.start, {picture.goal}, false}, StopToken());
-  EXPECT_EQ(result.status, Status::UNREACHABLE) << result.message;
 }
 
 TEST_P(Conformance, NamesWhatIsWrongWithARequest) {
