@@ -1,5 +1,4 @@
-// JPEG by libjpeg-turbo. Its errors come as longjmp, which runs no destructors: so attempt() alone
-// calls setjmp, and what is run there owns nothing.
+// JPEG by libjpeg-turbo.
 #include <csetjmp>
 #include <cstdint>
 #include <cstdio>
@@ -8,6 +7,7 @@
 #include <jpeglib.h>
 
 #include "grid/formats/image_formats.h"
+#include "grid/formats/longjmp_decoder.h"
 
 namespace grid_path_planner::grid {
 namespace {
@@ -23,13 +23,10 @@ bool isHarmless(int warning) {
          warning == JWRN_NOT_SEQUENTIAL;
 }
 
-class JpegReader {
+class JpegReader : private LongjmpDecoder {
  public:
-  JpegReader(const std::string& content, const std::string& file)
-      : content_(content), file_(file) {}
+  JpegReader(const std::string& content, const std::string& file) : LongjmpDecoder(content, file) {}
   ~JpegReader() { jpeg_destroy_decompress(&jpeg_); }
-  JpegReader(const JpegReader&) = delete;
-  JpegReader& operator=(const JpegReader&) = delete;
 
   cv::Mat read(const SizeCheck& checkSize) {
     run([this] { readHeader(); });
@@ -47,20 +44,6 @@ class JpegReader {
   }
 
  private:
-  template <typename Calls>
-  void run(const Calls& calls) {
-    if (attempt(calls)) return;
-    if (ends_early_) refuseEarlyEnd(file_, content_.size());
-    refuseImage(file_, std::string("it is damaged: ") + message_);
-  }
-  // False where libjpeg found an error.
-  template <typename Calls>
-  bool attempt(const Calls& calls) {
-    if (setjmp(jump_) != 0) return false;
-    calls();
-    return true;
-  }
-
   void readHeader() {
     jpeg_.err = jpeg_std_error(&errors_);
     errors_.error_exit = onError;
@@ -106,6 +89,8 @@ class JpegReader {
     return colours;
   }
 
+  static_assert(sizeof message_ >= JMSG_LENGTH_MAX);
+
   static JpegReader& readerOf(void* client_data) { return *static_cast<JpegReader*>(client_data); }
   [[noreturn]] static void onError(j_common_ptr jpeg) {
     JpegReader& reader = readerOf(jpeg->client_data);
@@ -127,14 +112,9 @@ class JpegReader {
     jpeg->src->bytes_in_buffer -= static_cast<std::size_t>(count);
   }
 
-  const std::string& content_;
-  const std::string& file_;
   jpeg_decompress_struct jpeg_{};
   jpeg_error_mgr errors_{};
   jpeg_source_mgr source_{};
-  bool ends_early_ = false;
-  char message_[JMSG_LENGTH_MAX] = "";
-  std::jmp_buf jump_;
 };
 
 }  // namespace

@@ -1,5 +1,4 @@
-// PNG by libpng. Its errors come as longjmp, which runs no destructors: so attempt() alone calls
-// setjmp, and what is run there owns nothing.
+// PNG by libpng.
 #include <png.h>
 
 #include <csetjmp>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "grid/formats/image_formats.h"
+#include "grid/formats/longjmp_decoder.h"
 
 namespace grid_path_planner::grid {
 namespace {
@@ -17,12 +17,10 @@ namespace {
 constexpr std::uint64_t kMostOfDeflatedByte = 1032;  // what one may unpack to, by zlib's manual
 constexpr png_uint_32 kLargestSide = 0x7fffffff;     // of the format
 
-class PngReader {
+class PngReader : private LongjmpDecoder {
  public:
-  PngReader(const std::string& content, const std::string& file) : content_(content), file_(file) {}
+  PngReader(const std::string& content, const std::string& file) : LongjmpDecoder(content, file) {}
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-  PngReader(const PngReader&) = delete;
-  PngReader& operator=(const PngReader&) = delete;
 
   cv::Mat read(const SizeCheck& checkSize) {
     run([this] { create(); });
@@ -45,20 +43,6 @@ class PngReader {
   }
 
  private:
-  template <typename Calls>
-  void run(const Calls& calls) {
-    if (attempt(calls)) return;
-    if (ends_early_) refuseEarlyEnd(file_, content_.size());
-    refuseImage(file_, std::string("it is damaged: ") + message_);
-  }
-  // False where libpng found an error.
-  template <typename Calls>
-  bool attempt(const Calls& calls) {
-    if (setjmp(jump_) != 0) return false;
-    calls();
-    return true;
-  }
-
   void create() {
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, onError, onWarning);
     if (png_ != nullptr) info_ = png_create_info_struct(png_);
@@ -103,16 +87,11 @@ class PngReader {
     reader.at_ += count;
   }
 
-  const std::string& content_;
-  const std::string& file_;
   std::size_t at_ = 0;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
   int width_ = 0;
   int height_ = 0;
-  bool ends_early_ = false;
-  char message_[200] = "";
-  std::jmp_buf jump_;
 };
 
 }  // namespace
