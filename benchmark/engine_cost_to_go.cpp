@@ -20,7 +20,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/option_text.h"
-#include "grid_path_planner/planners/steps.h"
+#include "grid_path_planner/planners/reachable_cells.h"
 #include "planners/tables/cost_to_go.h"
 
 namespace {

@@ -25,7 +25,7 @@
 
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/grid/double_buffered.h"
-#include "grid_path_planner/planners/a_star.h"
+#include "planners/astar/a_star.h"
 #include "planners/replanning/incremental_a_star.h"
 
 namespace {

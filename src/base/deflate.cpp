@@ -1,4 +1,4 @@
-#include "grid_path_planner/base/deflate.h"
+#include "base/deflate.h"
 
 #include <zlib.h>
 

@@ -7,7 +7,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/planners/free_cells.h"
-#include "grid_path_planner/planners/rectangle_route.h"
+#include "planners/rectangles/rectangle_route.h"
 
 namespace grid_path_planner::command_line {
 

@@ -1,4 +1,4 @@
-#include "grid_path_planner/grid/float_decimal.h"
+#include "grid/float_decimal.h"
 
 #include <cmath>
 #include <limits>

@@ -1,10 +1,10 @@
 #include "grid_path_planner/planners/planner_factory.h"
 
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/planners/a_star.h"
-#include "grid_path_planner/planners/theta_star.h"
 #include "planners/any_angle/anya.h"
 #include "planners/any_angle/polyanya.h"
+#include "planners/any_angle/theta_star.h"
+#include "planners/astar/a_star.h"
 #include "planners/astar/dijkstra.h"
 #include "planners/jump_point/jump_point.h"
 #include "planners/jump_point/weighted_jump_point.h"

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "grid_path_planner/planners/steps.h"
+#include "grid_path_planner/planners/reachable_cells.h"
 
 namespace grid_path_planner::planning {
 

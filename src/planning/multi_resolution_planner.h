@@ -13,10 +13,10 @@
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "grid_path_planner/planners/bucket_search.h"
 #include "grid_path_planner/planners/planner.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "grid_path_planner/planners/search_options.h"
+#include "planners/astar/bucket_search.h"
 #include "planning/route.h"
 
 namespace grid_path_planner::planning {

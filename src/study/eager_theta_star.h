@@ -3,7 +3,7 @@
 // step. It is not checked where even at the map's least weight it would not lower the g-value.
 #pragma once
 
-#include "grid_path_planner/planners/theta_star.h"
+#include "planners/any_angle/theta_star.h"
 
 namespace grid_path_planner::study {
 

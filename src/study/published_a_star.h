@@ -3,7 +3,7 @@
 // product for every cell off the straight line. Neither guarantees a least cost.
 #pragma once
 
-#include "grid_path_planner/planners/a_star.h"
+#include "planners/astar/a_star.h"
 
 namespace grid_path_planner::study {
 

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "grid_path_planner/costmap/costmap_builder.h"
-#include "grid_path_planner/planners/steps.h"
+#include "grid_path_planner/planners/reachable_cells.h"
 #include "grid_path_planner/planning/nearest_cell.h"
 #include "grid_path_planner/study/scenario_file.h"
 

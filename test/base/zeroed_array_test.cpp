@@ -1,4 +1,4 @@
-#include "grid_path_planner/base/zeroed_array.h"
+#include "base/zeroed_array.h"
 
 #include <gtest/gtest.h>
 

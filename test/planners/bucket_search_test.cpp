@@ -1,10 +1,10 @@
-#include "grid_path_planner/planners/bucket_search.h"
+#include "planners/astar/bucket_search.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "grid_path_planner/planners/a_star.h"
+#include "planners/astar/a_star.h"
 #include "planners/astar/dijkstra.h"
 #include "support/cost_maps.h"
 #include "support/random_map.h"

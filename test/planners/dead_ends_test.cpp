@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/steps.h"
 #include "support/random_map.h"
 
 namespace grid_path_planner::planners {

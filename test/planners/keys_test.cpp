@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/keys.h"
+#include "planners/core/keys.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "grid_path_planner/planners/landmark_table.h"
+#include "planners/tables/landmark_table.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "grid_path_planner/planners/exact_table.h"
-#include "grid_path_planner/planners/precomputed_table.h"
+#include "planners/tables/exact_table.h"
+#include "planners/tables/precomputed_table.h"
 #include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/steps.h"
 #include "support/cost_maps.h"
 
 namespace grid_path_planner::planners {

@@ -1,12 +1,12 @@
 // Tables that are made in the background: what is planned meanwhile, after changes of the map, and
 // when nobody waits for them. Run under ThreadSanitizer, too.
-#include "grid_path_planner/planners/precomputed_table.h"
+#include "planners/tables/precomputed_table.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "grid_path_planner/planners/a_star.h"
+#include "planners/astar/a_star.h"
 #include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"

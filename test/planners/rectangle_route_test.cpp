@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/rectangle_route.h"
+#include "planners/rectangles/rectangle_route.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/stamped_array.h"
+#include "planners/core/stamped_array.h"
 
 #include <gtest/gtest.h>
 

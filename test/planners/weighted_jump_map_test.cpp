@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/steps.h"
 #include "support/cost_maps.h"
 #include "support/random_map.h"
 

@@ -75,6 +75,13 @@ class Includes(unittest.TestCase):
         self.assertEqual(complaints("check_includes.py", "src/grid/x.cpp", source, private),
                          ["src/grid/x.cpp:1: 'base/clock.h' is a private header of 'base'"])
 
+    def test_lent_headers(self):
+        lent = {"src/base/zeroed_array.h": HEADER % ""}
+        source = '#include "base/zeroed_array.h"\nnamespace grid_path_planner {}\n'
+        self.assertEqual(complaints("check_includes.py", "src/planners/x.cpp", source, lent), [])
+        self.assertEqual(complaints("check_includes.py", "src/grid/x.cpp", source, lent),
+                         ["src/grid/x.cpp:1: 'base/zeroed_array.h' is a private header of 'base'"])
+
     def test_ros_below_its_floor(self):
         for header in ("<ros/ros.h>", "<nav_msgs/Path.h>", "<tf2_ros/buffer.h>",
                        "<grid_path_planner/PlanStatistics.h>"):

@@ -14,7 +14,7 @@ from common import PLANTED, ROOT, files, finish, read, skip, version_of
 # What is counted: the limit that is enforced, and the target of the layout where that is lower.
 # A limit is lowered in the commit that makes it possible, and never raised.
 LIMITS = {
-    "public headers": (99, 90),
+    "public headers": (79, 79),
     "files in the largest folder": (53, 35),
     "lines of the longest file": (457, 400),
     "functions of 20 lines and more, in a thousand": (54, 50),

@@ -59,7 +59,7 @@ CONTEXT = {
     "mapping_thread.h": "extern ProjectedMapOptions options;",
     "bounded_distance_transform.h": "extern const Grid<Occupancy>& classes; extern CellRect sources, rect;"
                         "extern int reach;",
-    "simd_neighbourhood.h": """#include "grid_path_planner/planners/steps.h"
+    "simd_neighbourhood.h": """#include "planners/core/steps.h"
         extern const CostGrid& map; extern CellRect rect; extern const StepRules& rules;
         extern std::vector<std::uint8_t> masks;""",
     "node_arguments.h": "extern int argc; extern char** argv;",
@@ -90,12 +90,13 @@ CONTEXT = {
     "precomputed_heuristic.h": "extern SearchOptions options; extern std::shared_ptr<const CostGrid> map;"
                             "extern std::uint32_t goal; SearchResult search(SearchKey);"
                             "extern KeyScale scale; extern std::uint32_t index;",
-    "precomputed_table.h": """#include "grid_path_planner/planners/landmark_table.h"
+    "precomputed_table.h": """#include "planners/tables/landmark_table.h"
         extern std::shared_ptr<const CostGrid> map; extern std::uint32_t goal_index;""",
     "process_pool.h": "extern std::vector<int> units; std::string done(int); extern std::size_t task;",
     "projection.h": """#include "grid_path_planner/mapping/octree_map.h"
         extern OctreeMap map; extern ProjectionOptions options; extern Scan scan;
         void send(const OccupancyGrid&, const CellRect&); void sendWhole(const OccupancyGrid&);""",
+    "reachable_cells.h": "extern const CostGrid& map; extern Cell start, goal;",
     "rectangle_file.h": "extern RectangleGraph map;",
     "rectangle_graph.h": """#include "grid_path_planner/planners/decomposition.h"
         extern GridGeometry geometry; extern const BitMaps& bits; extern Cell cell;

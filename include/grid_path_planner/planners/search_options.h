@@ -17,7 +17,7 @@ enum class TieBreak { NONE, LARGER_G, CROSS_PRODUCT };
 const std::vector<std::pair<const char*, TieBreak>>& choicesOf(TieBreak);
 std::string adviceFor(TieBreak, const std::string& name);
 
-// What rectangle_map's search adds up (planners/rectangle_route.h).
+// What rectangle_map's search adds up (rectangles/rectangle_route.h).
 enum class RectangleWeight { AREA, BORDER, DISTANCE, CONNECTIONS, LENGTH };
 const std::vector<std::pair<const char*, RectangleWeight>>& choicesOf(RectangleWeight);
 

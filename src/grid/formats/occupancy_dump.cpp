@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <string_view>
 
+#include "grid/float_decimal.h"
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/base/yaml_file.h"
-#include "grid_path_planner/grid/float_decimal.h"
 #include "grid_path_planner/grid/map_file.h"
 
 namespace grid_path_planner::grid {

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/deflate.h"
 #include "grid/formats/byte_order.h"
 #include "grid/formats/rectangle_lists.h"
-#include "grid_path_planner/base/deflate.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/grid/map_file.h"
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid_path_planner/planners/stamped_array.h"
+#include "planners/core/stamped_array.h"
 
 namespace grid_path_planner::planners {
 

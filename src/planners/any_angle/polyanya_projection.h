@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "grid_path_planner/planners/stamped_array.h"
 #include "planners/any_angle/polyanya_mesh.h"
+#include "planners/core/stamped_array.h"
 
 namespace grid_path_planner::planners {
 

@@ -17,10 +17,10 @@
 
 #include "grid_path_planner/base/statistics.h"
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/planners/stamped_array.h"
 #include "planners/any_angle/interval_search.h"
 #include "planners/any_angle/polyanya_mesh.h"
 #include "planners/any_angle/polyanya_projection.h"
+#include "planners/core/stamped_array.h"
 
 namespace grid_path_planner::planners {
 

@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/theta_star.h"
+#include "planners/any_angle/theta_star.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/a_star.h"
+#include "planners/astar/a_star.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/best_first_search.h"
+#include "planners/astar/best_first_search.h"
 
 namespace grid_path_planner::planners {
 

@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/bucket_search.h"
+#include "planners/astar/bucket_search.h"
 
 namespace grid_path_planner::planners {
 

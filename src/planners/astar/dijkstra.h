@@ -8,10 +8,10 @@
 // comparison of the two is not one of their open lists.
 #pragma once
 
-#include "grid_path_planner/planners/best_first_search.h"
-#include "grid_path_planner/planners/bucket_search.h"
 #include "grid_path_planner/planners/planner.h"
 #include "grid_path_planner/planners/search_options.h"
+#include "planners/astar/best_first_search.h"
+#include "planners/astar/bucket_search.h"
 
 namespace grid_path_planner::planners {
 

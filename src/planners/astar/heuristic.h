@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "grid_path_planner/planners/keys.h"
 #include "grid_path_planner/planners/search_options.h"
+#include "planners/core/keys.h"
 
 namespace grid_path_planner::planners {
 

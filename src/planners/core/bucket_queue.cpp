@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/bucket_queue.h"
+#include "planners/core/bucket_queue.h"
 
 #include <algorithm>
 #include <cassert>

@@ -18,8 +18,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid_path_planner/planners/binary_heap.h"
-#include "grid_path_planner/planners/keys.h"
+#include "planners/core/binary_heap.h"
+#include "planners/core/keys.h"
 
 namespace grid_path_planner::planners {
 

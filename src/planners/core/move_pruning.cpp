@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/move_pruning.h"
+#include "planners/core/move_pruning.h"
 
 #include <cstdlib>
 

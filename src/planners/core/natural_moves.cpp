@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "grid_path_planner/planners/keys.h"
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/keys.h"
+#include "planners/core/steps.h"
 
 namespace grid_path_planner::planners {
 

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid_path_planner/planners/binary_heap.h"
+#include "planners/core/binary_heap.h"
 
 namespace grid_path_planner::planners {
 

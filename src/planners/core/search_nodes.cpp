@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/search_nodes.h"
+#include "planners/core/search_nodes.h"
 
 namespace grid_path_planner::planners {
 

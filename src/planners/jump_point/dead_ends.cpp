@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/steps.h"
 
 namespace grid_path_planner::planners {
 namespace {

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <utility>
 
-#include "grid_path_planner/planners/keys.h"
+#include "planners/core/keys.h"
 
 namespace grid_path_planner::planners {
 

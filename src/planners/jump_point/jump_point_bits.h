@@ -22,7 +22,7 @@
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/costmap/bit_maps.h"
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/steps.h"
 #include "planners/jump_point/diagonal_jump_bits.h"
 
 namespace grid_path_planner::planners {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/steps.h"
 #include "planners/jump_point/dead_ends.h"
 
 namespace grid_path_planner::planners {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "grid_path_planner/planners/keys.h"
-#include "grid_path_planner/planners/precomputed_heuristic.h"
 #include "planners/astar/heuristic.h"
+#include "planners/core/keys.h"
+#include "planners/tables/precomputed_heuristic.h"
 
 namespace grid_path_planner::planners {
 

@@ -15,9 +15,9 @@
 
 #include <memory>
 
-#include "grid_path_planner/planners/a_star.h"
 #include "grid_path_planner/planners/planner.h"
 #include "grid_path_planner/planners/search_options.h"
+#include "planners/astar/a_star.h"
 #include "planners/jump_point/pruning_estimate.h"
 #include "planners/jump_point/weighted_jump_search.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "grid_path_planner/planners/keys.h"
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/keys.h"
+#include "planners/core/steps.h"
 
 namespace grid_path_planner::planners {
 

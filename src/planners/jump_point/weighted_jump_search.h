@@ -24,10 +24,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid_path_planner/base/zeroed_array.h"
-#include "grid_path_planner/planners/bucket_queue.h"
-#include "grid_path_planner/planners/keys.h"
+#include "base/zeroed_array.h"
 #include "grid_path_planner/planners/planner.h"
+#include "planners/core/bucket_queue.h"
+#include "planners/core/keys.h"
 #include "planners/jump_point/weighted_jump_map.h"
 
 namespace grid_path_planner::planners {

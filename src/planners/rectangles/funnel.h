@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "grid_path_planner/costmap/line_of_sight.h"
-#include "grid_path_planner/planners/rectangle_route.h"
+#include "planners/rectangles/rectangle_route.h"
 
 namespace grid_path_planner::planners {
 

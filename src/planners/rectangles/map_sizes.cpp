@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/base/deflate.h"
+#include "base/deflate.h"
 #include "grid_path_planner/planners/rectangle_file.h"
 
 namespace grid_path_planner::planners {

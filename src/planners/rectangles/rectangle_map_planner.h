@@ -15,8 +15,8 @@
 
 #include "grid_path_planner/planners/planner.h"
 #include "grid_path_planner/planners/rectangle_graph.h"
-#include "grid_path_planner/planners/rectangle_route.h"
 #include "grid_path_planner/planners/search_options.h"
+#include "planners/rectangles/rectangle_route.h"
 
 namespace grid_path_planner::planners {
 

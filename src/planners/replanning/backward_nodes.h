@@ -14,12 +14,12 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "grid_path_planner/base/zeroed_array.h"
+#include "base/zeroed_array.h"
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "grid_path_planner/planners/cell_of_index.h"
-#include "grid_path_planner/planners/keys.h"
-#include "grid_path_planner/planners/move_pruning.h"
-#include "grid_path_planner/planners/stamped_array.h"
+#include "planners/core/cell_of_index.h"
+#include "planners/core/keys.h"
+#include "planners/core/move_pruning.h"
+#include "planners/core/stamped_array.h"
 
 namespace grid_path_planner::planners {
 

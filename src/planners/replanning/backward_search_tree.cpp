@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "grid_path_planner/planners/bucket_queue.h"
+#include "planners/core/bucket_queue.h"
 #include "planners/core/cost_changes.h"
 #include "planners/replanning/inconsistency_scan.h"
 

@@ -25,8 +25,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid_path_planner/planners/keys.h"
 #include "grid_path_planner/planners/planner.h"
+#include "planners/core/keys.h"
 #include "planners/replanning/backward_nodes.h"
 #include "planners/replanning/d_star_keys.h"
 #include "planners/replanning/repair_search.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "grid_path_planner/planners/bucket_queue.h"
+#include "planners/core/bucket_queue.h"
 
 namespace grid_path_planner::planners {
 

@@ -25,9 +25,9 @@
 #include <memory>
 #include <optional>
 
-#include "grid_path_planner/planners/a_star.h"
-#include "grid_path_planner/planners/move_pruning.h"
 #include "grid_path_planner/planners/planner.h"
+#include "planners/astar/a_star.h"
+#include "planners/core/move_pruning.h"
 #include "planners/replanning/backward_search_tree.h"
 
 namespace grid_path_planner::planners {

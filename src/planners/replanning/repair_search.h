@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/planners/bucket_queue.h"
 #include "grid_path_planner/planners/planner.h"
+#include "planners/core/bucket_queue.h"
 #include "planners/replanning/backward_nodes.h"
 #include "planners/replanning/tile_nodes.h"
 

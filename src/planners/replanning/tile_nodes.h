@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "grid_path_planner/grid/grid_geometry.h"
-#include "grid_path_planner/planners/keys.h"
-#include "grid_path_planner/planners/stamped_array.h"
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/keys.h"
+#include "planners/core/stamped_array.h"
+#include "planners/core/steps.h"
 
 namespace grid_path_planner::planners {
 

@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid_path_planner/planners/binary_heap.h"
+#include "planners/core/binary_heap.h"
 #include "planners/core/heap_on_top_queue.h"
 #include "planners/replanning/d_star_keys.h"
 

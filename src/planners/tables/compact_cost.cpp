@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/compact_cost.h"
+#include "planners/tables/compact_cost.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/steps.h"
 #include "planners/tables/tiled_dijkstra.h"
 
 namespace grid_path_planner::planners {

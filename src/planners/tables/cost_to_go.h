@@ -19,10 +19,10 @@
 #include <memory>
 #include <vector>
 
+#include "base/zeroed_array.h"
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/base/zeroed_array.h"
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "grid_path_planner/planners/keys.h"
+#include "planners/core/keys.h"
 
 namespace grid_path_planner::planners {
 

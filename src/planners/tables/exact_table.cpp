@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/exact_table.h"
+#include "planners/tables/exact_table.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/landmark_table.h"
+#include "planners/tables/landmark_table.h"
 
 #include <algorithm>
 #include <cassert>

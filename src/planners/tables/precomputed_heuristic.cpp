@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/precomputed_heuristic.h"
+#include "planners/tables/precomputed_heuristic.h"
 
 namespace grid_path_planner::planners {
 

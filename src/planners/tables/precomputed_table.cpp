@@ -1,4 +1,4 @@
-#include "grid_path_planner/planners/precomputed_table.h"
+#include "planners/tables/precomputed_table.h"
 
 #include <algorithm>
 

@@ -7,8 +7,8 @@
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "grid_path_planner/planners/keys.h"
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/keys.h"
+#include "planners/core/steps.h"
 #include "planners/tables/cost_to_go.h"
 
 namespace grid_path_planner::planners {

@@ -12,14 +12,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/zeroed_array.h"
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/base/zeroed_array.h"
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "grid_path_planner/planners/binary_heap.h"
-#include "grid_path_planner/planners/bucket_queue.h"
-#include "grid_path_planner/planners/keys.h"
-#include "grid_path_planner/planners/move_pruning.h"
-#include "grid_path_planner/planners/simd_neighbourhood.h"
+#include "planners/core/binary_heap.h"
+#include "planners/core/bucket_queue.h"
+#include "planners/core/keys.h"
+#include "planners/core/move_pruning.h"
+#include "planners/core/simd_neighbourhood.h"
 
 namespace grid_path_planner::planners {
 

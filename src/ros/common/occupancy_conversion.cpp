@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "grid/float_decimal.h"
 #include "grid_path_planner/base/level_quaternion.h"
-#include "grid_path_planner/grid/float_decimal.h"
 
 namespace grid_path_planner::nodes {
 

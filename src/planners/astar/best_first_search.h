@@ -12,13 +12,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/zeroed_array.h"
 #include "grid_path_planner/base/statistics.h"
-#include "grid_path_planner/base/zeroed_array.h"
-#include "grid_path_planner/planners/binary_heap.h"
-#include "grid_path_planner/planners/keys.h"
 #include "grid_path_planner/planners/planner.h"
-#include "grid_path_planner/planners/stamped_array.h"
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/binary_heap.h"
+#include "planners/core/keys.h"
+#include "planners/core/stamped_array.h"
+#include "planners/core/steps.h"
 
 namespace grid_path_planner::planners {
 

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "grid_path_planner/planners/keys.h"
+#include "planners/core/keys.h"
 
 namespace grid_path_planner::planners {
 

@@ -8,7 +8,7 @@
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "grid_path_planner/planners/simd_neighbourhood.h"
+#include "planners/core/simd_neighbourhood.h"
 
 namespace grid_path_planner::planners {
 
@@ -75,10 +75,5 @@ class StepMasks {
   std::vector<std::uint8_t> masks_;
   std::array<std::ptrdiff_t, 8> offsets_{};
 };
-
-// The cells that can be reached from `start` by steps, start included if it is passable: a byte a
-// cell, not 0 where reached. Throws Stopped.
-std::vector<std::uint8_t> reachableFrom(const costmap::CostGrid& map, grid::Cell start,
-                                        const base::StopToken& stop);
 
 }  // namespace grid_path_planner::planners

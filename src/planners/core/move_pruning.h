@@ -16,7 +16,7 @@
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/steps.h"
 
 namespace grid_path_planner::planners {
 

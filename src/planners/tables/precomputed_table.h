@@ -22,9 +22,9 @@
 #include <utility>
 #include <vector>
 
-#include "grid_path_planner/base/background.h"
 #include "grid_path_planner/costmap/cost_grid.h"
 #include "grid_path_planner/planners/planner.h"
+#include "planners/tables/background.h"
 
 namespace grid_path_planner::planners {
 
@@ -135,7 +135,7 @@ class PrecomputedTable {
   std::size_t changed_cells_ = 0;  // since then
   std::vector<Change> since_begin_;
   bool begun_ = false;  // and neither taken over nor given up
-  base::Background<Made> making_;
+  Background<Made> making_;
 };
 
 }  // namespace grid_path_planner::planners

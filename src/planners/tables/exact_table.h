@@ -10,11 +10,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/zeroed_array.h"
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/base/zeroed_array.h"
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "grid_path_planner/planners/compact_cost.h"
-#include "grid_path_planner/planners/keys.h"
+#include "planners/core/keys.h"
+#include "planners/tables/compact_cost.h"
 
 namespace grid_path_planner::planners {
 

@@ -9,9 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "grid_path_planner/base/zeroed_array.h"
-#include "grid_path_planner/planners/keys.h"
-#include "grid_path_planner/planners/stamped_array.h"
+#include "base/zeroed_array.h"
+#include "planners/core/keys.h"
+#include "planners/core/stamped_array.h"
 
 namespace grid_path_planner::planners {
 

@@ -21,7 +21,7 @@
 
 #include "grid_path_planner/base/stop_token.h"
 
-namespace grid_path_planner::base {
+namespace grid_path_planner::planners {
 
 template <class Result>
 class Background {
@@ -36,13 +36,13 @@ class Background {
   template <class Compute>
   void start(Compute compute) {
     stop();
-    source_ = StopSource();
+    source_ = base::StopSource();
     running_ = true;
     thread_ = std::thread([this, compute = std::move(compute), token = source_.token()]() mutable {
       std::shared_ptr<const Result> result;
       try {
         result = std::make_shared<const Result>(compute(token));
-      } catch (const Stopped&) {
+      } catch (const base::Stopped&) {
       } catch (const std::bad_alloc&) {
       }
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -72,11 +72,11 @@ class Background {
   }
 
   // Waits for the computation. Throws Stopped if `stop` comes first; the computation goes on then.
-  void wait(const StopToken& stop) const {
+  void wait(const base::StopToken& stop) const {
     std::unique_lock<std::mutex> lock(mutex_);
     while (running_) {
-      const StopReason reason = stop.reason();
-      if (reason != StopReason::NONE) throw Stopped(reason);
+      const base::StopReason reason = stop.reason();
+      if (reason != base::StopReason::NONE) throw base::Stopped(reason);
       ended_.wait_for(lock, std::chrono::milliseconds(2));
     }
   }
@@ -86,8 +86,8 @@ class Background {
   mutable std::condition_variable ended_;
   std::shared_ptr<const Result> result_;
   bool running_ = false;
-  StopSource source_;
+  base::StopSource source_;
   std::thread thread_;
 };
 
-}  // namespace grid_path_planner::base
+}  // namespace grid_path_planner::planners

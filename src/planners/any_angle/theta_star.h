@@ -16,12 +16,12 @@
 #include <cstdint>
 #include <optional>
 
-#include "grid_path_planner/base/zeroed_array.h"
+#include "base/zeroed_array.h"
 #include "grid_path_planner/costmap/line_of_sight.h"
-#include "grid_path_planner/planners/binary_heap.h"
 #include "grid_path_planner/planners/planner.h"
-#include "grid_path_planner/planners/stamped_array.h"
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/binary_heap.h"
+#include "planners/core/stamped_array.h"
+#include "planners/core/steps.h"
 
 namespace grid_path_planner::planners {
 

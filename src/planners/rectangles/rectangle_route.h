@@ -18,10 +18,10 @@
 
 #include "grid_path_planner/base/statistics.h"
 #include "grid_path_planner/base/stop_token.h"
-#include "grid_path_planner/planners/binary_heap.h"
 #include "grid_path_planner/planners/rectangle_graph.h"
 #include "grid_path_planner/planners/search_options.h"
-#include "grid_path_planner/planners/stamped_array.h"
+#include "planners/core/binary_heap.h"
+#include "planners/core/stamped_array.h"
 
 namespace grid_path_planner::planners {
 

@@ -15,10 +15,10 @@
 #include <string>
 #include <utility>
 
-#include "grid_path_planner/planners/exact_table.h"
-#include "grid_path_planner/planners/landmark_table.h"
-#include "grid_path_planner/planners/precomputed_table.h"
 #include "grid_path_planner/planners/search_options.h"
+#include "planners/tables/exact_table.h"
+#include "planners/tables/landmark_table.h"
+#include "planners/tables/precomputed_table.h"
 
 namespace grid_path_planner::planners {
 

@@ -21,7 +21,7 @@
 #include <memory>
 #include <vector>
 
-#include "grid_path_planner/planners/keys.h"
+#include "planners/core/keys.h"
 
 namespace grid_path_planner::planners {
 

@@ -14,12 +14,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid_path_planner/planners/bucket_queue.h"
-#include "grid_path_planner/planners/cell_of_index.h"
-#include "grid_path_planner/planners/keys.h"
-#include "grid_path_planner/planners/move_pruning.h"
 #include "grid_path_planner/planners/planner.h"
-#include "grid_path_planner/planners/search_nodes.h"
+#include "planners/core/bucket_queue.h"
+#include "planners/core/cell_of_index.h"
+#include "planners/core/keys.h"
+#include "planners/core/move_pruning.h"
+#include "planners/core/search_nodes.h"
 
 namespace grid_path_planner::planners {
 

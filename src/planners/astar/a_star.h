@@ -10,11 +10,11 @@
 // (best_first_search.h), at several times the cost.
 #pragma once
 
-#include "grid_path_planner/planners/best_first_search.h"
-#include "grid_path_planner/planners/bucket_search.h"
 #include "grid_path_planner/planners/planner.h"
-#include "grid_path_planner/planners/precomputed_heuristic.h"
 #include "grid_path_planner/planners/search_options.h"
+#include "planners/astar/best_first_search.h"
+#include "planners/astar/bucket_search.h"
+#include "planners/tables/precomputed_heuristic.h"
 
 namespace grid_path_planner::planners {
 
