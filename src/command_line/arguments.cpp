@@ -11,17 +11,11 @@
 
 namespace grid_path_planner::command_line {
 
-using base::describeOptions;
-using base::InputError;
-using base::numberFromText;
-using base::OptionDescription;
-using base::OptionInfo;
-using base::parseOption;
+using base::describeOptions, base::InputError, base::numberFromText, base::OptionDescription,
+    base::OptionInfo, base::parseOption;
 using grid::MapFileOptions;
-using planning::checkPlannerOptions;
-using planning::PlannerOptions;
-using planning::UnusedOption;
-using planning::unusedOptions;
+using planning::checkPlannerOptions, planning::PlannerOptions, planning::UnusedOption,
+    planning::unusedOptions;
 
 namespace {
 

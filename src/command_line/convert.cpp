@@ -14,22 +14,11 @@
 
 namespace grid_path_planner::command_line {
 
-using base::choiceFromName;
-using base::extensionOf;
-using base::InputError;
-using base::StopToken;
-using costmap::checkCostmapOptions;
-using costmap::CostmapBuilder;
-using costmap::CostmapOptions;
-using costmap::KernelRule;
-using grid::MapFileOptions;
-using grid::MapMode;
-using grid::Occupancy;
-using grid::OccupancyGrid;
-using grid::Origin;
-using grid::writeImageFile;
-using grid::writeMapServerFile;
-using grid::writeMovingAiFile;
+using base::choiceFromName, base::extensionOf, base::InputError, base::StopToken;
+using costmap::checkCostmapOptions, costmap::CostmapBuilder, costmap::CostmapOptions,
+    costmap::KernelRule;
+using grid::MapFileOptions, grid::MapMode, grid::Occupancy, grid::OccupancyGrid, grid::Origin,
+    grid::writeImageFile, grid::writeMapServerFile, grid::writeMovingAiFile;
 using nodes::readAnyMapFile;
 
 namespace {

@@ -8,8 +8,7 @@
 
 namespace {
 
-using grid_path_planner::command_line::Command;
-using grid_path_planner::command_line::commands;
+using grid_path_planner::command_line::Command, grid_path_planner::command_line::commands;
 
 int usage(std::ostream& out, int code) {
   out << "usage: grid_path COMMAND [options]\n\n";

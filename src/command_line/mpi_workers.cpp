@@ -10,8 +10,7 @@
 
 namespace grid_path_planner::command_line {
 
-using study::ProcessPool;
-using study::TaskEnd;
+using study::ProcessPool, study::TaskEnd;
 
 namespace {
 

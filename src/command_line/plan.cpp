@@ -15,21 +15,12 @@
 
 namespace grid_path_planner::command_line {
 
-using base::InputError;
-using base::Status;
-using base::StopToken;
-using grid::Cell;
-using grid::GridGeometry;
-using grid::OccupancyGrid;
+using base::InputError, base::Status, base::StopToken;
+using grid::Cell, grid::GridGeometry, grid::OccupancyGrid;
 using nodes::readAnyMapFile;
-using path::Pose;
-using path::writePicture;
-using path::writeWaypointFile;
+using path::Pose, path::writePicture, path::writeWaypointFile;
 using planners::traitsOf;
-using planning::PathPlanner;
-using planning::Plan;
-using planning::PlannerOptions;
-using planning::PoseRequest;
+using planning::PathPlanner, planning::Plan, planning::PlannerOptions, planning::PoseRequest;
 
 namespace {
 

@@ -12,17 +12,10 @@
 
 namespace grid_path_planner::command_line {
 
-using base::choiceFromName;
-using base::extensionOf;
-using base::InputError;
-using grid::writeImageFile;
-using grid::writeMapServerFile;
-using mapping::checkProjectionOptions;
-using mapping::OctreeMap;
-using mapping::OctreeOptions;
-using mapping::Projection;
-using mapping::ProjectionOptions;
-using mapping::ProjectionReference;
+using base::choiceFromName, base::extensionOf, base::InputError;
+using grid::writeImageFile, grid::writeMapServerFile;
+using mapping::checkProjectionOptions, mapping::OctreeMap, mapping::OctreeOptions,
+    mapping::Projection, mapping::ProjectionOptions, mapping::ProjectionReference;
 
 namespace {
 

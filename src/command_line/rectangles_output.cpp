@@ -10,15 +10,9 @@
 
 namespace grid_path_planner::command_line {
 
-using grid::CellRect;
-using grid::GridGeometry;
-using grid::OccupancyGrid;
-using path::PictureContent;
-using path::writePicture;
-using planners::Connection;
-using planners::MapSizes;
-using planners::RectangleGraph;
-using planners::RectangleWeight;
+using grid::CellRect, grid::GridGeometry, grid::OccupancyGrid;
+using path::PictureContent, path::writePicture;
+using planners::Connection, planners::MapSizes, planners::RectangleGraph, planners::RectangleWeight;
 
 namespace {
 

@@ -6,10 +6,8 @@
 
 namespace grid_path_planner::command_line {
 
-using base::choiceFromName;
-using base::InputError;
-using planners::RectangleWeight;
-using planners::Touching;
+using base::choiceFromName, base::InputError;
+using planners::RectangleWeight, planners::Touching;
 
 namespace {
 

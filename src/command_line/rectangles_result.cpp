@@ -13,26 +13,12 @@ namespace grid_path_planner::command_line {
 
 using base::InputError;
 using costmap::BitMaps;
-using grid::Cell;
-using grid::CellRect;
-using grid::GridGeometry;
-using grid::OccupancyGrid;
-using grid::RowOrder;
-using grid::rowOrderOf;
-using planners::Connection;
-using planners::countRuns;
-using planners::DecompositionLimits;
-using planners::DecompositionTooLarge;
-using planners::freeCellsOf;
-using planners::largestFirst;
-using planners::largestFirstBytes;
-using planners::mapSizes;
-using planners::mergedRuns;
-using planners::middleOf;
-using planners::RectangleGraph;
-using planners::RectangleWeight;
-using planners::Side;
-using planners::stepWeight;
+using grid::Cell, grid::CellRect, grid::GridGeometry, grid::OccupancyGrid, grid::RowOrder,
+    grid::rowOrderOf;
+using planners::Connection, planners::countRuns, planners::DecompositionLimits,
+    planners::DecompositionTooLarge, planners::freeCellsOf, planners::largestFirst,
+    planners::largestFirstBytes, planners::mapSizes, planners::mergedRuns, planners::middleOf,
+    planners::RectangleGraph, planners::RectangleWeight, planners::Side, planners::stepWeight;
 
 namespace {
 

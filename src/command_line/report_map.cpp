@@ -5,10 +5,7 @@
 
 namespace grid_path_planner::command_line {
 
-using grid::Occupancy;
-using grid::OccupancyGrid;
-using grid::OccupancyThresholds;
-using grid::Origin;
+using grid::Occupancy, grid::OccupancyGrid, grid::OccupancyThresholds, grid::Origin;
 
 void reportMap(const std::string& file, const OccupancyGrid& map) {
   std::size_t counts[3] = {};

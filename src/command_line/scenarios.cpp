@@ -24,31 +24,14 @@
 
 namespace grid_path_planner::command_line {
 
-using base::InputError;
-using base::Status;
-using base::StopToken;
-using base::writeFileAtomically;
-using costmap::CostGrid;
-using costmap::CostmapBuilder;
-using costmap::CostmapOptions;
-using costmap::MotionModel;
-using grid::Cell;
-using grid::GridGeometry;
-using grid::OccupancyGrid;
+using base::InputError, base::Status, base::StopToken, base::writeFileAtomically;
+using costmap::CostGrid, costmap::CostmapBuilder, costmap::CostmapOptions, costmap::MotionModel;
+using grid::Cell, grid::GridGeometry, grid::OccupancyGrid;
 using nodes::readAnyMapFile;
-using planners::BackgroundWork;
-using planners::makePlanner;
-using planners::Planner;
-using planners::PlannerTraits;
-using planners::SearchRequest;
-using planners::SearchResult;
-using planning::changedOptions;
-using planning::PlannerOptions;
-using planning::smoothResult;
-using study::checkScenarioQuery;
-using study::readScenarioFile;
-using study::ScenarioQuery;
-using study::spreadOver;
+using planners::BackgroundWork, planners::makePlanner, planners::Planner, planners::PlannerTraits,
+    planners::SearchRequest, planners::SearchResult;
+using planning::changedOptions, planning::PlannerOptions, planning::smoothResult;
+using study::checkScenarioQuery, study::readScenarioFile, study::ScenarioQuery, study::spreadOver;
 
 namespace {
 

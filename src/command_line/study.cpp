@@ -17,16 +17,11 @@
 
 namespace grid_path_planner::command_line {
 
-using base::InputError;
-using base::StopSource;
-using grid::MapFileOptions;
-using grid::OccupancyGrid;
+using base::InputError, base::StopSource;
+using grid::MapFileOptions, grid::OccupancyGrid;
 using nodes::readAnyMapFile;
-using study::ProcessPool;
-using study::StudyFailure;
-using study::StudyJob;
-using study::StudyOutcome;
-using study::WorkerGroup;
+using study::ProcessPool, study::StudyFailure, study::StudyJob, study::StudyOutcome,
+    study::WorkerGroup;
 
 namespace {
 

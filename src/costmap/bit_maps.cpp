@@ -4,11 +4,8 @@
 
 namespace grid_path_planner::costmap {
 
-using base::StopPoll;
-using base::StopToken;
-using grid::CellRect;
-using grid::Grid;
-using grid::GridGeometry;
+using base::StopPoll, base::StopToken;
+using grid::CellRect, grid::Grid, grid::GridGeometry;
 
 namespace {
 

@@ -6,9 +6,7 @@
 
 namespace grid_path_planner::costmap {
 
-using grid::CellRect;
-using grid::Grid;
-using grid::Occupancy;
+using grid::CellRect, grid::Grid, grid::Occupancy;
 
 namespace {
 

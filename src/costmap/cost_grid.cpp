@@ -12,12 +12,7 @@
 namespace grid_path_planner::costmap {
 
 using base::StopToken;
-using grid::Cell;
-using grid::CellRect;
-using grid::copyCells;
-using grid::Grid;
-using grid::GridGeometry;
-using grid::Occupancy;
+using grid::Cell, grid::CellRect, grid::copyCells, grid::Grid, grid::GridGeometry, grid::Occupancy;
 
 namespace {
 

@@ -10,15 +10,9 @@
 
 namespace grid_path_planner::costmap {
 
-using base::StopPoll;
-using base::StopToken;
-using grid::CellRect;
-using grid::Grid;
-using grid::GridGeometry;
-using grid::Occupancy;
-using grid::OccupancyGrid;
-using grid::OccupancyThresholds;
-using grid::prefetchRows;
+using base::StopPoll, base::StopToken;
+using grid::CellRect, grid::Grid, grid::GridGeometry, grid::Occupancy, grid::OccupancyGrid,
+    grid::OccupancyThresholds, grid::prefetchRows;
 
 // Rectangles around the cells whose class has changed.
 struct ClassChanges {

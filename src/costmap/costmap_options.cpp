@@ -6,8 +6,7 @@
 
 namespace grid_path_planner::costmap {
 
-using base::checkOptionLimits;
-using base::InputError;
+using base::checkOptionLimits, base::InputError;
 
 const std::vector<std::pair<const char*, KernelRule>>& choicesOf(KernelRule) {
   static const std::vector<std::pair<const char*, KernelRule>> choices = {

@@ -8,11 +8,8 @@
 
 namespace grid_path_planner::costmap {
 
-using base::StopPoll;
-using base::StopToken;
-using grid::CellRect;
-using grid::Grid;
-using grid::Occupancy;
+using base::StopPoll, base::StopToken;
+using grid::CellRect, grid::Grid, grid::Occupancy;
 
 namespace {
 

@@ -4,13 +4,8 @@
 
 namespace grid_path_planner::costmap {
 
-using base::StopPoll;
-using base::StopToken;
-using grid::Cell;
-using grid::CellRect;
-using grid::Grid;
-using grid::GridGeometry;
-using grid::Occupancy;
+using base::StopPoll, base::StopToken;
+using grid::Cell, grid::CellRect, grid::Grid, grid::GridGeometry, grid::Occupancy;
 
 namespace {
 

@@ -6,8 +6,7 @@
 
 namespace grid_path_planner::costmap {
 
-using grid::CellRect;
-using grid::Grid;
+using grid::CellRect, grid::Grid;
 
 namespace {
 

@@ -9,8 +9,7 @@
 
 namespace grid_path_planner::grid {
 
-using base::decimalText;
-using base::InputError;
+using base::decimalText, base::InputError;
 
 namespace {
 

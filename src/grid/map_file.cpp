@@ -15,11 +15,7 @@
 
 namespace grid_path_planner::grid {
 
-using base::extensionOf;
-using base::InputError;
-using base::kLargestYaml;
-using base::parseYaml;
-using base::readWholeFile;
+using base::extensionOf, base::InputError, base::kLargestYaml, base::parseYaml, base::readWholeFile;
 
 namespace {
 

@@ -7,11 +7,8 @@
 
 namespace grid_path_planner::path {
 
-using grid::Cell;
-using grid::GridGeometry;
-using grid::Occupancy;
-using grid::OccupancyGrid;
-using grid::OccupancyThresholds;
+using grid::Cell, grid::GridGeometry, grid::Occupancy, grid::OccupancyGrid,
+    grid::OccupancyThresholds;
 
 namespace {
 

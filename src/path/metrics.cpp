@@ -12,12 +12,8 @@
 
 namespace grid_path_planner::path {
 
-using grid::Cell;
-using grid::CellRect;
-using grid::GridGeometry;
-using grid::Occupancy;
-using grid::OccupancyGrid;
-using grid::OccupancyThresholds;
+using grid::Cell, grid::CellRect, grid::GridGeometry, grid::Occupancy, grid::OccupancyGrid,
+    grid::OccupancyThresholds;
 
 namespace {
 

@@ -14,14 +14,9 @@
 
 namespace grid_path_planner::path {
 
-using base::InputError;
-using base::writeFileAtomically;
-using grid::Cell;
-using grid::CellRect;
-using grid::GridGeometry;
-using grid::Occupancy;
-using grid::OccupancyGrid;
-using grid::OccupancyThresholds;
+using base::InputError, base::writeFileAtomically;
+using grid::Cell, grid::CellRect, grid::GridGeometry, grid::Occupancy, grid::OccupancyGrid,
+    grid::OccupancyThresholds;
 
 namespace {
 

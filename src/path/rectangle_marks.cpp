@@ -6,8 +6,7 @@
 
 namespace grid_path_planner::path {
 
-using grid::CellRect;
-using grid::GridGeometry;
+using grid::CellRect, grid::GridGeometry;
 
 namespace {
 

@@ -10,12 +10,8 @@
 
 namespace grid_path_planner::path {
 
-using base::StopPoll;
-using base::StopToken;
-using costmap::BitMaps;
-using costmap::CostGrid;
-using costmap::lineCostWithin;
-using costmap::SegmentPoint;
+using base::StopPoll, base::StopToken;
+using costmap::BitMaps, costmap::CostGrid, costmap::lineCostWithin, costmap::SegmentPoint;
 
 namespace {
 

@@ -14,16 +14,9 @@
 
 namespace grid_path_planner::path {
 
-using base::describeYaml;
-using base::InputError;
-using base::loadYamlFile;
-using base::writeFileAtomically;
-using base::yamlAs;
-using base::yamlError;
-using base::yamlHas;
-using base::yamlNode;
-using base::yamlValueOr;
-using base::yawOfLevelQuaternion;
+using base::describeYaml, base::InputError, base::loadYamlFile, base::writeFileAtomically,
+    base::yamlAs, base::yamlError, base::yamlHas, base::yamlNode, base::yamlValueOr,
+    base::yawOfLevelQuaternion;
 
 namespace {
 

@@ -8,18 +8,11 @@
 
 namespace grid_path_planner::planning {
 
-using base::Status;
-using base::StopPoll;
-using base::StopToken;
+using base::Status, base::StopPoll, base::StopToken;
 using costmap::CostGrid;
-using grid::Cell;
-using grid::CellIndex;
-using planners::BucketSearch;
-using planners::noEstimate;
-using planners::PlannerMaker;
-using planners::reachableFrom;
-using planners::SearchOptions;
-using planners::SearchResult;
+using grid::Cell, grid::CellIndex;
+using planners::BucketSearch, planners::noEstimate, planners::PlannerMaker, planners::reachableFrom,
+    planners::SearchOptions, planners::SearchResult;
 
 namespace {
 

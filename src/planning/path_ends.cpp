@@ -10,9 +10,7 @@ namespace grid_path_planner::planning {
 
 using base::Status;
 using costmap::CostmapOptions;
-using grid::Cell;
-using grid::GridGeometry;
-using grid::Occupancy;
+using grid::Cell, grid::GridGeometry, grid::Occupancy;
 using path::Pose;
 
 namespace {

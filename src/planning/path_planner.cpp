@@ -17,33 +17,14 @@
 
 namespace grid_path_planner::planning {
 
-using base::checkOptionLimits;
-using base::choiceName;
-using base::InputError;
-using base::sameOptions;
-using base::Statistics;
-using base::Status;
-using base::Stopped;
-using base::StopSource;
-using base::StopToken;
-using costmap::checkCostmapOptions;
-using costmap::Connectivity;
-using costmap::CostGrid;
-using costmap::CostmapBuilder;
-using costmap::DiagonalCost;
-using costmap::MotionModel;
-using grid::CellRect;
-using grid::checkOccupancyValues;
-using grid::OccupancyGrid;
-using path::applyHeadings;
-using path::applyZ;
-using path::lengthOf;
-using path::Path;
-using path::Pose;
-using planners::checkSearchOptions;
-using planners::PlannerMaker;
-using planners::TooExpensive;
-using planners::traitsOf;
+using base::checkOptionLimits, base::choiceName, base::InputError, base::sameOptions,
+    base::Statistics, base::Status, base::Stopped, base::StopSource, base::StopToken;
+using costmap::checkCostmapOptions, costmap::Connectivity, costmap::CostGrid,
+    costmap::CostmapBuilder, costmap::DiagonalCost, costmap::MotionModel;
+using grid::CellRect, grid::checkOccupancyValues, grid::OccupancyGrid;
+using path::applyHeadings, path::applyZ, path::lengthOf, path::Path, path::Pose;
+using planners::checkSearchOptions, planners::PlannerMaker, planners::TooExpensive,
+    planners::traitsOf;
 
 namespace {
 

@@ -8,13 +8,9 @@
 
 namespace grid_path_planner::planning {
 
-using costmap::CostGrid;
-using costmap::lineCost;
-using costmap::lineOfSight;
-using costmap::SegmentPoint;
+using costmap::CostGrid, costmap::lineCost, costmap::lineOfSight, costmap::SegmentPoint;
 using grid::GridGeometry;
-using path::Path;
-using path::Pose;
+using path::Path, path::Pose;
 
 namespace {
 

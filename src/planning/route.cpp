@@ -10,13 +10,9 @@
 namespace grid_path_planner::planning {
 
 using base::StopToken;
-using costmap::CostGrid;
-using costmap::lineOfSight;
-using costmap::SegmentPoint;
-using costmap::worldOf;
+using costmap::CostGrid, costmap::lineOfSight, costmap::SegmentPoint, costmap::worldOf;
 using grid::Cell;
-using path::Path;
-using path::Pose;
+using path::Path, path::Pose;
 
 namespace {
 

@@ -10,12 +10,9 @@
 namespace grid_path_planner::planning {
 
 using base::StopToken;
-using costmap::CostGrid;
-using costmap::SegmentPoint;
-using costmap::waypointOf;
+using costmap::CostGrid, costmap::SegmentPoint, costmap::waypointOf;
 using grid::Cell;
-using path::smoothed;
-using path::SmoothPath;
+using path::smoothed, path::SmoothPath;
 using planners::SearchResult;
 
 namespace {

@@ -7,15 +7,10 @@
 
 namespace grid_path_planner::planning {
 
-using base::differingOptions;
-using base::OptionInfo;
-using base::valueText;
+using base::differingOptions, base::OptionInfo, base::valueText;
 using costmap::Connectivity;
 using path::PathZ;
-using planners::Heuristic;
-using planners::optionsUsedBy;
-using planners::SearchOptions;
-using planners::traitsOf;
+using planners::Heuristic, planners::optionsUsedBy, planners::SearchOptions, planners::traitsOf;
 
 namespace {
 

@@ -11,7 +11,7 @@ class EagerThetaStar : public planners::ThetaStar {
  public:
   EagerThetaStar() : planners::ThetaStar("theta_star") {}
 
- protected:
+ private:
   void expand(std::uint32_t from, base::Statistics& counts) override;
 };
 

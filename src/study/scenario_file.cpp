@@ -8,8 +8,7 @@
 
 namespace grid_path_planner::study {
 
-using base::InputError;
-using base::readWholeFile;
+using base::InputError, base::readWholeFile;
 using grid::GridGeometry;
 
 namespace {

@@ -10,24 +10,12 @@
 
 namespace grid_path_planner::study {
 
-using base::choiceFromName;
-using base::choiceName;
-using base::describeYaml;
-using base::InputError;
-using base::loadYamlFile;
-using base::OptionInfo;
-using base::parseOption;
-using base::yamlAs;
-using base::yamlError;
-using base::yamlNode;
-using base::yamlValue;
-using base::yamlValueOr;
-using costmap::checkCostmapOptions;
-using costmap::CostmapOptions;
-using costmap::KernelRule;
+using base::choiceFromName, base::choiceName, base::describeYaml, base::InputError,
+    base::loadYamlFile, base::OptionInfo, base::parseOption, base::yamlAs, base::yamlError,
+    base::yamlNode, base::yamlValue, base::yamlValueOr;
+using costmap::checkCostmapOptions, costmap::CostmapOptions, costmap::KernelRule;
 using grid::Cell;
-using planners::Heuristic;
-using planners::SearchOptions;
+using planners::Heuristic, planners::SearchOptions;
 
 namespace {
 

@@ -15,10 +15,7 @@
 
 namespace grid_path_planner::study {
 
-using base::HoldFileSizeSignal;
-using base::InputError;
-using base::readWholeFile;
-using base::writeFileAtomically;
+using base::HoldFileSizeSignal, base::InputError, base::readWholeFile, base::writeFileAtomically;
 
 namespace {
 

@@ -7,8 +7,7 @@
 
 namespace grid_path_planner::study {
 
-using base::StopToken;
-using base::writeFileAtomically;
+using base::StopToken, base::writeFileAtomically;
 
 namespace {
 

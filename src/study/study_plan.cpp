@@ -8,8 +8,7 @@
 namespace grid_path_planner::study {
 
 using base::optionText;
-using grid::GridGeometry;
-using grid::OccupancyGrid;
+using grid::GridGeometry, grid::OccupancyGrid;
 
 namespace {
 

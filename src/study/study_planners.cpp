@@ -5,12 +5,8 @@
 
 namespace grid_path_planner::study {
 
-using planners::checkSearchOptions;
-using planners::makePlanner;
-using planners::memoryLimitOf;
-using planners::Planner;
-using planners::SearchOptions;
-using planners::TieBreak;
+using planners::checkSearchOptions, planners::makePlanner, planners::memoryLimitOf,
+    planners::Planner, planners::SearchOptions, planners::TieBreak;
 
 namespace {
 

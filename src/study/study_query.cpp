@@ -10,16 +10,10 @@
 
 namespace grid_path_planner::study {
 
-using base::InputError;
-using base::StopToken;
-using costmap::CostGrid;
-using costmap::CostmapBuilder;
-using costmap::CostmapOptions;
-using grid::Cell;
-using grid::GridGeometry;
-using grid::Occupancy;
-using grid::OccupancyGrid;
-using grid::OccupancyThresholds;
+using base::InputError, base::StopToken;
+using costmap::CostGrid, costmap::CostmapBuilder, costmap::CostmapOptions;
+using grid::Cell, grid::GridGeometry, grid::Occupancy, grid::OccupancyGrid,
+    grid::OccupancyThresholds;
 using planners::reachableFrom;
 using planning::nearestCell;
 

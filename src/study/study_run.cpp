@@ -9,8 +9,7 @@
 
 namespace grid_path_planner::study {
 
-using base::InputError;
-using base::Status;
+using base::InputError, base::Status;
 using grid::Cell;
 
 namespace {

@@ -8,8 +8,7 @@
 
 namespace grid_path_planner::study {
 
-using base::StopReason;
-using base::StopToken;
+using base::StopReason, base::StopToken;
 
 namespace {
 

@@ -5,22 +5,12 @@
 
 namespace grid_path_planner::study {
 
-using base::Statistics;
-using base::Status;
-using grid::Cell;
-using grid::OccupancyGrid;
-using grid::OccupancyThresholds;
-using path::ClassLengths;
-using path::clearanceOf;
-using path::lengthsByClass;
-using path::Path;
-using path::Pose;
-using path::turningOf;
+using base::Statistics, base::Status;
+using grid::Cell, grid::OccupancyGrid, grid::OccupancyThresholds;
+using path::ClassLengths, path::clearanceOf, path::lengthsByClass, path::Path, path::Pose,
+    path::turningOf;
 using planners::SearchOptions;
-using planning::PathPlanner;
-using planning::Plan;
-using planning::PlannerOptions;
-using planning::PoseRequest;
+using planning::PathPlanner, planning::Plan, planning::PlannerOptions, planning::PoseRequest;
 
 namespace {
 

@@ -17,13 +17,8 @@
 
 namespace grid_path_planner::grid {
 
-using base::decimalText;
-using base::describeYaml;
-using base::InputError;
-using base::yamlAs;
-using base::yamlError;
-using base::yamlNode;
-using base::yamlValue;
+using base::decimalText, base::describeYaml, base::InputError, base::yamlAs, base::yamlError,
+    base::yamlNode, base::yamlValue;
 
 namespace {
 

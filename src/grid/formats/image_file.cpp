@@ -14,11 +14,8 @@
 
 namespace grid_path_planner::grid {
 
-using base::decimalText;
-using base::extensionOf;
-using base::InputError;
-using base::readWholeFile;
-using base::writeFileAtomically;
+using base::decimalText, base::extensionOf, base::InputError, base::readWholeFile,
+    base::writeFileAtomically;
 
 namespace {
 

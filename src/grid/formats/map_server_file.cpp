@@ -11,18 +11,9 @@
 
 namespace grid_path_planner::grid {
 
-using base::choiceFromName;
-using base::choiceName;
-using base::decimalText;
-using base::describeYaml;
-using base::InputError;
-using base::withoutExtension;
-using base::writeFileAtomically;
-using base::yamlAs;
-using base::yamlError;
-using base::yamlNode;
-using base::yamlValue;
-using base::yamlValueOr;
+using base::choiceFromName, base::choiceName, base::decimalText, base::describeYaml,
+    base::InputError, base::withoutExtension, base::writeFileAtomically, base::yamlAs,
+    base::yamlError, base::yamlNode, base::yamlValue, base::yamlValueOr;
 
 namespace {
 

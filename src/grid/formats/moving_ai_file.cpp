@@ -8,9 +8,7 @@
 
 namespace grid_path_planner::grid {
 
-using base::checkIsText;
-using base::InputError;
-using base::writeFileAtomically;
+using base::checkIsText, base::InputError, base::writeFileAtomically;
 
 namespace {
 

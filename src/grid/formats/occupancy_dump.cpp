@@ -11,13 +11,8 @@
 
 namespace grid_path_planner::grid {
 
-using base::checkIsText;
-using base::InputError;
-using base::parseYaml;
-using base::yamlError;
-using base::yamlNode;
-using base::yamlValue;
-using base::yawOfLevelQuaternion;
+using base::checkIsText, base::InputError, base::parseYaml, base::yamlError, base::yamlNode,
+    base::yamlValue, base::yawOfLevelQuaternion;
 
 namespace {
 

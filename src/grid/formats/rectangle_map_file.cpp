@@ -14,9 +14,7 @@
 
 namespace grid_path_planner::grid {
 
-using base::deflated;
-using base::inflated;
-using base::InputError;
+using base::deflated, base::inflated, base::InputError;
 
 namespace {
 

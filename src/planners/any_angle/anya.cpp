@@ -7,14 +7,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::Status;
-using base::StopToken;
-using costmap::BitMaps;
-using costmap::passableCellAt;
-using costmap::SegmentPoint;
-using costmap::waypointOf;
-using grid::Cell;
-using grid::GridGeometry;
+using base::Status, base::StopToken;
+using costmap::BitMaps, costmap::passableCellAt, costmap::SegmentPoint, costmap::waypointOf;
+using grid::Cell, grid::GridGeometry;
 
 namespace {
 

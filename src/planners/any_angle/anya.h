@@ -28,11 +28,10 @@ class Anya : public Planner {
   // The memory grows with the roots of the search; this is for the densest maps.
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
 
- protected:
+ private:
   void doPrepare(const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
- private:
   const costmap::BitMap* rows_ = nullptr;
   std::unique_ptr<AnyaSearch> search_;
 };

@@ -5,14 +5,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::Statistics;
-using base::StopToken;
-using costmap::allOnes;
-using costmap::bitAt;
-using costmap::BitMap;
-using costmap::oneFrom;
-using costmap::zeroBefore;
-using costmap::zeroFrom;
+using base::Statistics, base::StopToken;
+using costmap::allOnes, costmap::bitAt, costmap::BitMap, costmap::oneFrom, costmap::zeroBefore,
+    costmap::zeroFrom;
 using grid::Cell;
 
 namespace {

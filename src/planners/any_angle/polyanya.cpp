@@ -8,16 +8,10 @@
 
 namespace grid_path_planner::planners {
 
-using base::Status;
-using base::StopToken;
-using costmap::BitMaps;
-using costmap::CostGrid;
-using costmap::passableCellAt;
-using costmap::SegmentPoint;
-using costmap::waypointOf;
-using grid::Cell;
-using grid::CellRect;
-using grid::GridGeometry;
+using base::Status, base::StopToken;
+using costmap::BitMaps, costmap::CostGrid, costmap::passableCellAt, costmap::SegmentPoint,
+    costmap::waypointOf;
+using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 

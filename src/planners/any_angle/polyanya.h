@@ -37,12 +37,11 @@ class Polyanya : public Planner {
   const std::vector<grid::CellRect>& rectangles() const { return rectangles_; }
   const PolyanyaMesh& mesh() const { return mesh_; }
 
- protected:
+ private:
   std::string refusal(const costmap::CostGrid& map) const override;
   void doPrepare(const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
- private:
   void refuseFor(std::size_t bytes);
 
   std::vector<grid::CellRect> rectangles_;

@@ -8,8 +8,7 @@
 
 namespace grid_path_planner::planners {
 
-using base::StopPoll;
-using base::StopToken;
+using base::StopPoll, base::StopToken;
 using costmap::SegmentPoint;
 using grid::CellRect;
 

@@ -5,8 +5,7 @@
 
 namespace grid_path_planner::planners {
 
-using base::Statistics;
-using base::StopToken;
+using base::Statistics, base::StopToken;
 
 namespace {
 

@@ -9,17 +9,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::Statistics;
-using base::Status;
-using base::StopPoll;
-using base::StopToken;
-using base::ZeroedArray;
-using costmap::BitMaps;
-using costmap::lineCostWithin;
-using costmap::SegmentPoint;
-using costmap::waypointOf;
-using grid::Cell;
-using grid::GridGeometry;
+using base::Statistics, base::Status, base::StopPoll, base::StopToken, base::ZeroedArray;
+using costmap::BitMaps, costmap::lineCostWithin, costmap::SegmentPoint, costmap::waypointOf;
+using grid::Cell, grid::GridGeometry;
 
 namespace {
 

@@ -43,10 +43,6 @@ class ThetaStar : public Planner {
 
   explicit ThetaStar(const char* name);
 
-  void doPrepare(const base::StopToken& stop) override;
-  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
-  SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
-
   // Relaxes the neighbours of a cell whose line of sight to its parent was checked.
   virtual void expand(std::uint32_t from, base::Statistics& counts) = 0;
 
@@ -85,6 +81,10 @@ class ThetaStar : public Planner {
   static constexpr double kRounding = 1e-12;
 
  private:
+  void doPrepare(const base::StopToken& stop) override;
+  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
+  SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
+
   struct Entry {
     double f;
     double g;
@@ -129,10 +129,9 @@ class LazyThetaStar : public ThetaStar {
 
   LazyThetaStar() : ThetaStar(kName) {}
 
- protected:
+ private:
   void expand(std::uint32_t from, base::Statistics& counts) override;
 
- private:
   static constexpr const char* kName = "lazy_theta_star";
 };
 

@@ -8,18 +8,14 @@
 
 namespace grid_path_planner::planners {
 
-using base::Status;
-using base::StopToken;
+using base::Status, base::StopToken;
 using costmap::CostGrid;
-using grid::Cell;
-using grid::CellRect;
-using grid::GridGeometry;
+using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
 PlannerTraits guidedTraits(const char* name) {
-  PlannerTraits traits;
-  traits.name = name;
+  PlannerTraits traits{name};
   traits.heuristic = true;
   traits.repairs = true;
   return traits;

@@ -39,12 +39,11 @@ class AStar : public Planner {
   // Such a program: it keeps a strict order whatever the tie-break, and promises no least cost.
   AStar(const char* name, const SearchOptions& options, const Variation& variation);
 
+ private:
   std::string lessMemoryAdvice() const override;
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
-
- private:
   SearchResult planByBuckets(const SearchRequest& request, const base::StopToken& stop);
   SearchResult planWithTables(const SearchRequest& request, const base::StopToken& stop);
   SearchResult planInOrder(const SearchRequest& request, const base::StopToken& stop);

@@ -2,14 +2,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::Status;
-using base::StopToken;
-using base::ZeroedArray;
-using costmap::CostGrid;
-using costmap::costOfSteps;
-using grid::Cell;
-using grid::CellIndex;
-using grid::CellRect;
+using base::Status, base::StopToken, base::ZeroedArray;
+using costmap::CostGrid, costmap::costOfSteps;
+using grid::Cell, grid::CellIndex, grid::CellRect;
 
 void BestFirstSearch::prepare(const CostGrid& map, const StopToken& stop) {
   masks_.build(map, stop);

@@ -2,14 +2,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::Statistics;
-using base::Status;
-using base::StopToken;
-using costmap::CostGrid;
-using costmap::costOfSteps;
-using grid::Cell;
-using grid::CellIndex;
-using grid::CellRect;
+using base::Statistics, base::Status, base::StopToken;
+using costmap::CostGrid, costmap::costOfSteps;
+using grid::Cell, grid::CellIndex, grid::CellRect;
 
 void BucketSearch::prepare(const CostGrid& map, const StopToken& stop) {
   moves_.build(map, stop);

@@ -5,13 +5,10 @@
 namespace grid_path_planner::planners {
 
 using base::StopToken;
-using grid::Cell;
-using grid::CellRect;
-using grid::GridGeometry;
+using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 PlannerTraits Dijkstra::declaredTraits() {
-  PlannerTraits traits;
-  traits.name = "dijkstra";
+  PlannerTraits traits{"dijkstra"};
   traits.optimal = true;
   traits.several_goals = true;
   traits.repairs = true;

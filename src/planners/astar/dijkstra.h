@@ -23,12 +23,11 @@ class Dijkstra : public Planner {
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
 
- protected:
+ private:
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
- private:
   bool strictly_ordered_;
   BucketSearch by_buckets_;  // one of the two is used
   BestFirstSearch in_order_;

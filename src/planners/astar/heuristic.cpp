@@ -5,10 +5,7 @@
 
 namespace grid_path_planner::planners {
 
-using costmap::Connectivity;
-using costmap::CostGrid;
-using costmap::DiagonalCost;
-using costmap::MotionModel;
+using costmap::Connectivity, costmap::CostGrid, costmap::DiagonalCost, costmap::MotionModel;
 using grid::Cell;
 
 namespace {

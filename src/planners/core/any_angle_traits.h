@@ -6,8 +6,7 @@
 namespace grid_path_planner::planners {
 
 inline PlannerTraits anyAngleTraits(const char* name) {
-  PlannerTraits traits;
-  traits.name = name;
+  PlannerTraits traits{name};
   traits.four_connected = false;
   traits.unit_diagonals = false;
   traits.any_angle = true;

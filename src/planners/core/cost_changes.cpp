@@ -8,8 +8,7 @@
 namespace grid_path_planner::planners {
 
 using costmap::CostGrid;
-using grid::CellRect;
-using grid::Grid;
+using grid::CellRect, grid::Grid;
 
 namespace {
 

@@ -7,13 +7,8 @@
 namespace grid_path_planner::planners {
 
 using base::StopToken;
-using costmap::Connectivity;
-using costmap::CostGrid;
-using costmap::DiagonalCost;
-using costmap::MotionModel;
-using grid::Cell;
-using grid::CellRect;
-using grid::prefetchRows;
+using costmap::Connectivity, costmap::CostGrid, costmap::DiagonalCost, costmap::MotionModel;
+using grid::Cell, grid::CellRect, grid::prefetchRows;
 
 namespace {
 

@@ -9,18 +9,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::Status;
-using base::Stopped;
-using base::StopReason;
-using base::StopToken;
-using costmap::Connectivity;
-using costmap::CostGrid;
-using costmap::DiagonalCost;
-using costmap::MotionModel;
-using grid::Cell;
-using grid::CellRect;
-using grid::Grid;
-using grid::Occupancy;
+using base::Status, base::Stopped, base::StopReason, base::StopToken;
+using costmap::Connectivity, costmap::CostGrid, costmap::DiagonalCost, costmap::MotionModel;
+using grid::Cell, grid::CellRect, grid::Grid, grid::Occupancy;
 
 namespace {
 

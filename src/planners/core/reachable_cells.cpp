@@ -4,10 +4,8 @@
 
 namespace grid_path_planner::planners {
 
-using base::StopPoll;
-using base::StopToken;
-using costmap::CostGrid;
-using costmap::stepAllowed;
+using base::StopPoll, base::StopToken;
+using costmap::CostGrid, costmap::stepAllowed;
 using grid::Cell;
 
 std::vector<std::uint8_t> reachableFrom(const CostGrid& map, Cell start, const StopToken& stop) {

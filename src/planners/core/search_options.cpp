@@ -6,8 +6,7 @@
 
 namespace grid_path_planner::planners {
 
-using base::checkOptionLimits;
-using base::InputError;
+using base::checkOptionLimits, base::InputError;
 
 const std::vector<std::pair<const char*, Heuristic>>& choicesOf(Heuristic) {
   static const std::vector<std::pair<const char*, Heuristic>> choices = {

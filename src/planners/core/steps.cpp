@@ -3,9 +3,7 @@
 namespace grid_path_planner::planners {
 
 using base::StopToken;
-using costmap::Connectivity;
-using costmap::CostGrid;
-using costmap::MotionModel;
+using costmap::Connectivity, costmap::CostGrid, costmap::MotionModel;
 using grid::CellRect;
 
 static_assert(kSteps[oppositeStep(0)].column == -kSteps[0].column &&

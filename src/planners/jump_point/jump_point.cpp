@@ -9,18 +9,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::Status;
-using base::Stopped;
-using base::StopPoll;
-using base::StopReason;
-using base::StopToken;
-using costmap::BitMap;
-using costmap::BitMaps;
-using costmap::ExactCost;
-using grid::Cell;
-using grid::CellIndex;
-using grid::CellRect;
-using grid::GridGeometry;
+using base::Status, base::Stopped, base::StopPoll, base::StopReason, base::StopToken;
+using costmap::BitMap, costmap::BitMaps, costmap::ExactCost;
+using grid::Cell, grid::CellIndex, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
@@ -354,8 +345,7 @@ std::size_t bitBytes(const GridGeometry& geometry) {
 }  // namespace
 
 PlannerTraits JumpPoint::declaredTraits() {
-  PlannerTraits traits;
-  traits.name = "jump_point";
+  PlannerTraits traits{"jump_point"};
   traits.four_connected = false;
   traits.unit_diagonals = false;
   traits.cut_corners = false;

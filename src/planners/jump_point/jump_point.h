@@ -30,12 +30,11 @@ class JumpPoint : public Planner {
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
 
- protected:
+ private:
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
- private:
   template <class Key>
   struct Memory {
     HashedNodes<Key> nodes;

@@ -4,16 +4,10 @@
 
 namespace grid_path_planner::planners {
 
-using base::StopPoll;
-using base::StopToken;
-using costmap::BitBlock;
-using costmap::BitMap;
-using costmap::BitMaps;
-using costmap::transpose;
-using costmap::zeroBefore;
-using costmap::zeroFrom;
-using grid::CellRect;
-using grid::GridGeometry;
+using base::StopPoll, base::StopToken;
+using costmap::BitBlock, costmap::BitMap, costmap::BitMaps, costmap::transpose, costmap::zeroBefore,
+    costmap::zeroFrom;
+using grid::CellRect, grid::GridGeometry;
 
 namespace {
 

@@ -7,13 +7,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::StopPoll;
-using base::StopToken;
-using costmap::CostGrid;
-using costmap::stepAllowed;
-using grid::Cell;
-using grid::CellRect;
-using grid::GridGeometry;
+using base::StopPoll, base::StopToken;
+using costmap::CostGrid, costmap::stepAllowed;
+using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 

@@ -7,12 +7,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::StopPoll;
-using base::StopToken;
+using base::StopPoll, base::StopToken;
 using costmap::CostGrid;
-using grid::Cell;
-using grid::CellRect;
-using grid::GridGeometry;
+using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 

@@ -10,12 +10,8 @@
 namespace grid_path_planner::planners {
 
 using base::StopToken;
-using costmap::Connectivity;
-using costmap::CostGrid;
-using costmap::DiagonalCost;
-using costmap::MotionModel;
-using grid::CellRect;
-using grid::GridGeometry;
+using costmap::Connectivity, costmap::CostGrid, costmap::DiagonalCost, costmap::MotionModel;
+using grid::CellRect, grid::GridGeometry;
 
 namespace {
 
@@ -34,8 +30,7 @@ bool asksForAStar(const SearchOptions& options) {
 }  // namespace
 
 PlannerTraits WeightedJumpPoint::declaredTraits() {
-  PlannerTraits traits;
-  traits.name = "weighted_jump_point";
+  PlannerTraits traits{"weighted_jump_point"};
   traits.optimal = true;
   traits.repairs = true;
   return traits;

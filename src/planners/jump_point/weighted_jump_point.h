@@ -35,13 +35,12 @@ class WeightedJumpPoint : public Planner {
   BackgroundWork backgroundWork() override;
   void finishBackgroundWork(const base::StopToken& stop) override;
 
- protected:
+ private:
   std::string lessMemoryAdvice() const override;
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
- private:
   bool shouldJump() const;
   void prepareAStar(const base::StopToken& stop);
   SearchOptions optionsOfAStar(const costmap::MotionModel& motion) const;

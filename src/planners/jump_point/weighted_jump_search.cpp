@@ -8,19 +8,10 @@
 
 namespace grid_path_planner::planners {
 
-using base::Statistics;
-using base::Status;
-using base::Stopped;
-using base::StopPoll;
-using base::StopReason;
-using base::StopToken;
-using base::ZeroedArray;
-using costmap::CostGrid;
-using costmap::ExactCost;
-using costmap::stepAllowed;
-using grid::Cell;
-using grid::CellIndex;
-using grid::CellRect;
+using base::Statistics, base::Status, base::Stopped, base::StopPoll, base::StopReason,
+    base::StopToken, base::ZeroedArray;
+using costmap::CostGrid, costmap::ExactCost, costmap::stepAllowed;
+using grid::Cell, grid::CellIndex, grid::CellRect;
 
 namespace {
 

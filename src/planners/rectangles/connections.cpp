@@ -6,8 +6,7 @@
 
 namespace grid_path_planner::planners {
 
-using base::StopPoll;
-using base::StopToken;
+using base::StopPoll, base::StopToken;
 using grid::CellRect;
 
 namespace {

@@ -4,12 +4,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::StopPoll;
-using base::StopToken;
-using costmap::BitMap;
-using costmap::BitMaps;
-using grid::CellRect;
-using grid::GridGeometry;
+using base::StopPoll, base::StopToken;
+using costmap::BitMap, costmap::BitMaps;
+using grid::CellRect, grid::GridGeometry;
 
 std::vector<CellRect> largestFirst(const BitMaps& free, const DecompositionLimits& limits,
                                    const StopToken& stop) {

@@ -6,10 +6,7 @@ namespace grid_path_planner::planners {
 
 using base::StopToken;
 using costmap::BitMaps;
-using grid::Grid;
-using grid::Occupancy;
-using grid::OccupancyGrid;
-using grid::OccupancyThresholds;
+using grid::Grid, grid::Occupancy, grid::OccupancyGrid, grid::OccupancyThresholds;
 
 BitMaps freeCellsOf(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
                     bool unknown_is_free, const StopToken& stop) {

@@ -9,8 +9,7 @@
 namespace grid_path_planner::planners {
 
 using base::StopToken;
-using costmap::BitMap;
-using costmap::fillBits;
+using costmap::BitMap, costmap::fillBits;
 using grid::CellRect;
 
 namespace {

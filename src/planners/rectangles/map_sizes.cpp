@@ -12,8 +12,7 @@
 namespace grid_path_planner::planners {
 
 using base::deflated;
-using grid::CellRect;
-using grid::GridGeometry;
+using grid::CellRect, grid::GridGeometry;
 
 namespace {
 

@@ -9,13 +9,8 @@
 
 namespace grid_path_planner::planners {
 
-using base::InputError;
-using base::readWholeFile;
-using base::writeFileAtomically;
-using grid::kLargestMapFile;
-using grid::parseRectangles;
-using grid::RectangleMap;
-using grid::rectangleMapContent;
+using base::InputError, base::readWholeFile, base::writeFileAtomically;
+using grid::kLargestMapFile, grid::parseRectangles, grid::RectangleMap, grid::rectangleMapContent;
 
 std::string rectangleFileContent(const RectangleGraph& map) {
   return rectangleMapContent({map.geometry(), map.rectangles()});

@@ -12,13 +12,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::InputError;
-using base::StopPoll;
-using base::StopToken;
+using base::InputError, base::StopPoll, base::StopToken;
 using costmap::BitMap;
-using grid::Cell;
-using grid::CellRect;
-using grid::GridGeometry;
+using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 

@@ -12,10 +12,8 @@
 
 namespace grid_path_planner::planners {
 
-using base::StopPoll;
-using base::StopToken;
-using grid::Cell;
-using grid::CellRect;
+using base::StopPoll, base::StopToken;
+using grid::Cell, grid::CellRect;
 
 namespace {
 

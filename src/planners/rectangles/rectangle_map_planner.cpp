@@ -10,15 +10,10 @@
 
 namespace grid_path_planner::planners {
 
-using base::Status;
-using base::StopToken;
-using costmap::CostGrid;
-using costmap::lineCost;
-using costmap::passableCellAt;
-using costmap::SegmentPoint;
-using costmap::waypointOf;
-using grid::Cell;
-using grid::CellRect;
+using base::Status, base::StopToken;
+using costmap::CostGrid, costmap::lineCost, costmap::passableCellAt, costmap::SegmentPoint,
+    costmap::waypointOf;
+using grid::Cell, grid::CellRect;
 
 namespace {
 

@@ -31,12 +31,11 @@ class RectangleMapPlanner : public Planner {
   // Of the prepared map.
   const RectangleGraph& rectangles() const { return rectangles_; }
 
- protected:
+ private:
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
- private:
   void addPath(const RectangleRoute& route, const SearchRequest& request,
                SearchResult& result) const;
 

@@ -6,11 +6,8 @@
 
 namespace grid_path_planner::planners {
 
-using base::Statistics;
-using base::StopPoll;
-using base::StopToken;
-using grid::Cell;
-using grid::CellRect;
+using base::Statistics, base::StopPoll, base::StopToken;
+using grid::Cell, grid::CellRect;
 
 namespace {
 

@@ -7,8 +7,7 @@
 namespace grid_path_planner::planners {
 
 using base::StopToken;
-using costmap::BitMap;
-using costmap::BitMaps;
+using costmap::BitMap, costmap::BitMaps;
 using grid::CellRect;
 
 namespace {

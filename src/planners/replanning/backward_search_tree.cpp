@@ -10,14 +10,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::Statistics;
-using base::Status;
-using base::StopPoll;
-using base::StopToken;
-using costmap::CostGrid;
-using costmap::costOfSteps;
-using grid::Cell;
-using grid::CellRect;
+using base::Statistics, base::Status, base::StopPoll, base::StopToken;
+using costmap::CostGrid, costmap::costOfSteps;
+using grid::Cell, grid::CellRect;
 
 namespace {
 

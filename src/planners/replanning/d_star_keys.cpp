@@ -2,11 +2,8 @@
 
 namespace grid_path_planner::planners {
 
-using costmap::Connectivity;
-using costmap::CostGrid;
-using grid::Cell;
-using grid::CellRect;
-using grid::GridGeometry;
+using costmap::Connectivity, costmap::CostGrid;
+using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 void DStarKeys::reset(const BackwardNodes& nodes, const CostGrid& map, Cell start) {
   nodes_ = &nodes;

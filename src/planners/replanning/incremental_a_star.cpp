@@ -7,12 +7,8 @@
 
 namespace grid_path_planner::planners {
 
-using base::Status;
-using base::Stopped;
-using base::StopToken;
-using grid::Cell;
-using grid::CellRect;
-using grid::GridGeometry;
+using base::Status, base::Stopped, base::StopToken;
+using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
@@ -22,8 +18,7 @@ constexpr double kExtra = 3.0;
 }  // namespace
 
 PlannerTraits IncrementalAStar::declaredTraits() {
-  PlannerTraits traits;
-  traits.name = "incremental_a_star";
+  PlannerTraits traits{"incremental_a_star"};
   traits.optimal = true;
   traits.repairs = true;
   traits.incremental = true;

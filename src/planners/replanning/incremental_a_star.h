@@ -40,12 +40,11 @@ class IncrementalAStar : public Planner {
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
 
- protected:
+ private:
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
- private:
   static std::size_t treeBytes(const grid::GridGeometry& geometry);
   base::Status planByTree(const SearchRequest& request, SearchResult& result,
                           const base::StopToken& stop);

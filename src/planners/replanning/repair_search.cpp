@@ -4,8 +4,7 @@
 
 namespace grid_path_planner::planners {
 
-using base::Statistics;
-using base::StopPoll;
+using base::Statistics, base::StopPoll;
 using costmap::CostGrid;
 using grid::Cell;
 

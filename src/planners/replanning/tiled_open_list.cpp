@@ -4,8 +4,7 @@
 
 namespace grid_path_planner::planners {
 
-using grid::CellRect;
-using grid::GridGeometry;
+using grid::CellRect, grid::GridGeometry;
 
 void TiledOpenList::prepare(const GridGeometry& geometry) {
   const auto tiles = [](int cells) {

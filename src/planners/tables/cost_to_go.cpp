@@ -11,14 +11,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::InputError;
-using base::StopToken;
-using base::ZeroedArray;
-using costmap::CostGrid;
-using costmap::ExactCost;
-using costmap::stepAllowed;
-using grid::Cell;
-using grid::GridGeometry;
+using base::InputError, base::StopToken, base::ZeroedArray;
+using costmap::CostGrid, costmap::ExactCost, costmap::stepAllowed;
+using grid::Cell, grid::GridGeometry;
 
 namespace {
 

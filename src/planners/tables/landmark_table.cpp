@@ -14,13 +14,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::StopPoll;
-using base::StopToken;
+using base::StopPoll, base::StopToken;
 using costmap::CostGrid;
-using grid::Cell;
-using grid::CellIndex;
-using grid::CellRect;
-using grid::GridGeometry;
+using grid::Cell, grid::CellIndex, grid::CellRect, grid::GridGeometry;
 
 namespace {
 

@@ -4,8 +4,7 @@ namespace grid_path_planner::planners {
 
 using base::StopToken;
 using costmap::CostGrid;
-using grid::CellRect;
-using grid::GridGeometry;
+using grid::CellRect, grid::GridGeometry;
 
 PrecomputedHeuristic::PrecomputedHeuristic(const SearchOptions& options) {
   if (options.heuristic == Heuristic::LANDMARK)

@@ -7,8 +7,7 @@
 namespace grid_path_planner::planners {
 
 using costmap::CostGrid;
-using grid::CellRect;
-using grid::GridGeometry;
+using grid::CellRect, grid::GridGeometry;
 
 CellRect costDecreases(const CostGrid& before, const CostGrid& after, const CellRect& rect) {
   return costChanges(before.weights(), after.weights(), rect).decreased;

@@ -6,12 +6,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::StopPoll;
-using base::StopToken;
+using base::StopPoll, base::StopToken;
 using costmap::CostGrid;
-using grid::Cell;
-using grid::CellIndex;
-using grid::GridGeometry;
+using grid::Cell, grid::CellIndex, grid::GridGeometry;
 
 ShortestPathTree::ShortestPathTree(const CostGrid& map, const StopToken& stop)
     : map_(map), stop_(stop), diagonal_(diagonalKey(map.motion().diagonal_cost)) {

@@ -2,13 +2,9 @@
 
 namespace grid_path_planner::planners {
 
-using base::Stopped;
-using base::StopReason;
-using base::StopToken;
-using base::ZeroedArray;
+using base::Stopped, base::StopReason, base::StopToken, base::ZeroedArray;
 using costmap::CostGrid;
-using grid::Cell;
-using grid::CellRect;
+using grid::Cell, grid::CellRect;
 
 template <class Label>
 TiledDijkstra<Label>::TiledDijkstra(const CostGrid& map, ZeroedArray<Label>& labels,

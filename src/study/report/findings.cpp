@@ -7,8 +7,7 @@
 
 namespace grid_path_planner::study {
 
-using base::choiceName;
-using base::Status;
+using base::choiceName, base::Status;
 using costmap::CostmapOptions;
 using grid::Cell;
 

@@ -7,8 +7,7 @@
 
 namespace grid_path_planner::study {
 
-using base::sameOptions;
-using base::Status;
+using base::sameOptions, base::Status;
 using costmap::DiagonalCost;
 
 namespace {

@@ -7,9 +7,7 @@
 
 namespace grid_path_planner::study {
 
-using base::describeOptions;
-using base::differingOptions;
-using base::OptionDescription;
+using base::describeOptions, base::differingOptions, base::OptionDescription;
 using grid::Cell;
 using planning::PlannerOptions;
 

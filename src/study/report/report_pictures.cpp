@@ -13,14 +13,9 @@
 
 namespace grid_path_planner::study {
 
-using base::choiceName;
-using base::Status;
-using base::StopToken;
+using base::choiceName, base::Status, base::StopToken;
 using costmap::CostmapBuilder;
-using grid::Cell;
-using grid::Grid;
-using grid::GridGeometry;
-using grid::Occupancy;
+using grid::Cell, grid::Grid, grid::GridGeometry, grid::Occupancy;
 
 namespace {
 

@@ -5,8 +5,7 @@
 
 namespace grid_path_planner::study {
 
-using base::choiceName;
-using base::Status;
+using base::choiceName, base::Status;
 
 namespace {
 
