@@ -9,7 +9,9 @@ namespace grid_path_planner::study {
 
 class EagerThetaStar : public planners::ThetaStar {
  public:
-  EagerThetaStar() : planners::ThetaStar("theta_star") {}
+  static constexpr const char* kName = "theta_star";
+
+  EagerThetaStar() : planners::ThetaStar(kName) {}
 
  private:
   void expand(std::uint32_t from, base::Statistics& counts) override;

@@ -9,10 +9,12 @@ namespace grid_path_planner::study {
 
 class PublishedAStar : public planners::AStar {
  public:
+  static constexpr const char* kName = "a_star_published";
+
   // `a_star_published`. Both throw InputError for options that cannot be used.
   PublishedAStar(const planners::SearchOptions& options, bool published_cross)
       : planners::AStar(
-            "a_star_published", options,
+            kName, options,
             {planners::BestFirstSearch::GoalTest::WHEN_GENERATED, shareOf(published_cross)}) {}
 
   // `a_star` with tie_break cross_product_published.

@@ -261,7 +261,7 @@ class StudyReader {
       const auto planner = yamlAs<std::string>(entry, "planners", file_, "a name");
       refuseTwice(entry, seen, planner, "planners");
       bool guided = false;
-      atLine(entry, [&] { guided = makeStudyPlanner(planner, {}, false)->traits().heuristic; });
+      atLine(entry, [&] { guided = guidedInStudies(planner); });
       if (!guided) {
         addVariant(entry, {planner, planner, study_.base.search, published(tie_break_)});
         continue;

@@ -6,7 +6,7 @@
 namespace grid_path_planner::study {
 
 using planners::checkSearchOptions, planners::makePlanner, planners::memoryLimitOf,
-    planners::Planner, planners::SearchOptions, planners::TieBreak;
+    planners::Planner, planners::SearchOptions, planners::TieBreak, planners::traitsOf;
 
 namespace {
 
@@ -24,8 +24,8 @@ bool leftToAStar(const std::string& planner) {
 // None where it is one of the package's.
 std::unique_ptr<Planner> ownPlanner(const std::string& name, const SearchOptions& options,
                                     bool published_cross) {
-  if (name == "theta_star") return std::make_unique<EagerThetaStar>();
-  if (name == "a_star_published")
+  if (name == EagerThetaStar::kName) return std::make_unique<EagerThetaStar>();
+  if (name == PublishedAStar::kName)
     return std::make_unique<PublishedAStar>(published_cross ? withoutTieBreak(options) : options,
                                             published_cross);
   if (published_cross && leftToAStar(name))
@@ -66,8 +66,14 @@ std::unique_ptr<Planner> makeStudyPlanner(const std::string& name, const SearchO
   return own;
 }
 
+bool guidedInStudies(const std::string& planner) {
+  if (planner == EagerThetaStar::kName) return false;
+  return planner == PublishedAStar::kName || traitsOf(planner).heuristic;
+}
+
 bool inStudiesOnly(const std::string& planner, bool published_cross) {
-  return ownPlanner(planner, {}, published_cross) != nullptr;
+  return planner == EagerThetaStar::kName || planner == PublishedAStar::kName ||
+         (published_cross && leftToAStar(planner));
 }
 
 }  // namespace grid_path_planner::study

@@ -29,6 +29,9 @@ std::unique_ptr<planners::Planner> makeStudyPlanner(const std::string& name,
                                                     const planners::SearchOptions& options,
                                                     bool published_cross);
 
+// Whether the heuristic of the options guides it. Throws InputError for unknown names.
+bool guidedInStudies(const std::string& planner);
+
 // Whether it is not among the package's planners.
 bool inStudiesOnly(const std::string& planner, bool published_cross);
 

@@ -24,6 +24,7 @@ using planners::Heuristic;
 using planners::makePlanner;
 using planners::Planner;
 using planners::plannerNames;
+using planners::PlannerTraits;
 using planners::SearchOptions;
 using planners::SearchResult;
 
@@ -46,18 +47,25 @@ SearchResult eager(const test::AsciiMap& picture) {
   return eager(costsOf(picture.map), picture.start, picture.goal);
 }
 
+void expectTraitsOf(const std::string& name) {
+  const PlannerTraits made = makeStudyPlanner(name, {}, false)->traits();
+  EXPECT_EQ(made.name, name);
+  EXPECT_EQ(guidedInStudies(name), made.heuristic) << name;
+}
+
 TEST(StudyPlanners, AreThePackagesAndTheirOwn) {
   for (const std::string& name : plannerNames()) {
-    EXPECT_EQ(makeStudyPlanner(name, {}, false)->traits().name, name);
+    expectTraitsOf(name);
     EXPECT_FALSE(inStudiesOnly(name, false)) << name;
   }
   for (const char* name : {"theta_star", "a_star_published"}) {
-    EXPECT_EQ(makeStudyPlanner(name, {}, false)->traits().name, name);
+    expectTraitsOf(name);
     EXPECT_TRUE(inStudiesOnly(name, false)) << name;
   }
   EXPECT_TRUE(inStudiesOnly("a_star", true));
   EXPECT_FALSE(inStudiesOnly("dijkstra", true)) << "it has nothing to break ties by";
   EXPECT_NE(errorText([] { makeStudyPlanner("a_starr", {}, false); }), "");
+  EXPECT_NE(errorText([] { guidedInStudies("a_starr"); }), "");
   SearchOptions bad;
   bad.epsilon = 0.5;
   EXPECT_NE(errorText([&] { makeStudyPlanner("theta_star", bad, false); }), "");

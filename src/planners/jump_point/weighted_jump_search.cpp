@@ -36,7 +36,7 @@ void WeightedJumpSearch::prepare(const CostGrid& map, const StopToken& stop) {
   jumps_.build(map, stop);
   if (g_.size() == map.geometry().size()) return;
   g_ = ZeroedArray<StampedG>(map.geometry().size());
-  query_ = 0;
+  stamp_.restart();
 }
 
 void WeightedJumpSearch::update(const CostGrid& map, const CellRect& changed,
@@ -57,11 +57,7 @@ SearchResult WeightedJumpSearch::run(const CostGrid& map, const SearchRequest& r
 }
 
 void WeightedJumpSearch::startQuery(const CostGrid& map, const SearchRequest& request) {
-  if (query_ == (std::uint64_t{1} << (64 - kKeyBits)) - 1) {
-    g_.clear();
-    query_ = 0;
-  }
-  ++query_;
+  stamp_.next([this] { g_.clear(); });
   map_ = &map;
   weights_ = map.weights().values().data();
   width_ = std::uint32_t(map.geometry().width());
@@ -69,7 +65,7 @@ void WeightedJumpSearch::startQuery(const CostGrid& map, const SearchRequest& re
   goal_index_ = indexOf(goal_);
   straight_ = map.minWeight() * kStraight;
   saving_ = map.minWeight() * (2 * kStraight - kDiagonal);
-  zero_g_ = query_ << kKeyBits | kLargest;
+  zero_g_ = stamp_.word() | kLargest;
   bound_ = kLargest;
   goal_reached_ = too_expensive_ = false;
   counts_ = Statistics();

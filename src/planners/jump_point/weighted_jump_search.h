@@ -28,6 +28,7 @@
 #include "grid_path_planner/planners/planner.h"
 #include "planners/core/bucket_queue.h"
 #include "planners/core/keys.h"
+#include "planners/core/stamped_array.h"
 #include "planners/jump_point/weighted_jump_map.h"
 
 namespace grid_path_planner::planners {
@@ -80,7 +81,7 @@ class WeightedJumpSearch {
     return std::uint32_t(cell.row) * width_ + std::uint32_t(cell.column);
   }
   Key gOf(std::uint32_t index) const { return kLargest - (g_[index] & kLargest); }
-  bool hasG(std::uint32_t index) const { return g_[index] >> kKeyBits == query_; }
+  bool hasG(std::uint32_t index) const { return stamp_.wrote(g_[index]); }
   Key estimate(grid::Cell cell) const;
   void trace(grid::Cell start, SearchResult& result) const;
   grid::Cell predecessorOf(grid::Cell cell, unsigned step) const;
@@ -88,7 +89,7 @@ class WeightedJumpSearch {
 
   WeightedJumpMap jumps_;
   base::ZeroedArray<StampedG> g_;
-  std::uint64_t query_ = 0;
+  QueryStamp<StampedG, kKeyBits> stamp_;
   BucketQueue open_;
 
   // Of the current query
