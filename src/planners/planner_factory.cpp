@@ -13,7 +13,7 @@
 
 namespace grid_path_planner::planners {
 
-using base::InputError;
+using base::InputError, base::OptionInfo;
 
 namespace {
 
@@ -23,7 +23,7 @@ struct Row {
   const char* name;
   PlannerTraits (*traits)();
   Made (*make)(const SearchOptions&);
-  std::initializer_list<const char*> options;  // of SearchOptions, beside memory_limit
+  std::vector<std::string> (*options)();  // names, beside memory_limit
 };
 
 template <class T>
@@ -36,24 +36,38 @@ Made withOptions(const SearchOptions& options) {
   return std::make_unique<T>(options);
 }
 
-constexpr std::initializer_list<const char*> kNone = {};
-constexpr std::initializer_list<const char*> kGuided = {"heuristic", "heuristic_scale", "epsilon",
-                                                        "tie_break", "landmarks"};
-constexpr std::initializer_list<const char*> kOrder = {"tie_break"};
-constexpr std::initializer_list<const char*> kRectangles = {"rectangle_weight", "rectangle_funnel"};
+Made dijkstra(const SearchOptions& options) {
+  return std::make_unique<Dijkstra>(options.tie_break);
+}
+
+template <class Options>
+std::vector<std::string> all() {
+  Options options;
+  std::vector<std::string> names;
+  visitOptions(options, [&](const char* name, auto&, const OptionInfo&) { names.push_back(name); });
+  return names;
+}
+
+std::vector<std::string> none() {
+  return {};
+}
+
+std::vector<std::string> tieBreak() {
+  return {"tie_break"};
+}
 
 constexpr Row kRows[] = {
-    {"a_star", AStar::declaredTraits, withOptions<AStar>, kGuided},
+    {"a_star", AStar::declaredTraits, withOptions<AStar>, all<AStarOptions>},
     {"weighted_jump_point", WeightedJumpPoint::declaredTraits, withOptions<WeightedJumpPoint>,
-     kGuided},
-    {"jump_point", JumpPoint::declaredTraits, plain<JumpPoint>, kNone},
-    {"dijkstra", Dijkstra::declaredTraits, withOptions<Dijkstra>, kOrder},
-    {"incremental_a_star", IncrementalAStar::declaredTraits, plain<IncrementalAStar>, kNone},
-    {"lazy_theta_star", LazyThetaStar::declaredTraits, plain<LazyThetaStar>, kNone},
-    {"anya", Anya::declaredTraits, plain<Anya>, kNone},
-    {"polyanya", Polyanya::declaredTraits, plain<Polyanya>, kNone},
+     all<AStarOptions>},
+    {"jump_point", JumpPoint::declaredTraits, plain<JumpPoint>, none},
+    {"dijkstra", Dijkstra::declaredTraits, dijkstra, tieBreak},
+    {"incremental_a_star", IncrementalAStar::declaredTraits, plain<IncrementalAStar>, none},
+    {"lazy_theta_star", LazyThetaStar::declaredTraits, plain<LazyThetaStar>, none},
+    {"anya", Anya::declaredTraits, plain<Anya>, none},
+    {"polyanya", Polyanya::declaredTraits, plain<Polyanya>, none},
     {"rectangle_map", RectangleMapPlanner::declaredTraits, withOptions<RectangleMapPlanner>,
-     kRectangles},
+     all<RectangleMapOptions>},
 };
 
 // Retired names and their replacements.
@@ -105,8 +119,7 @@ PlannerTraits traitsOf(const std::string& name) {
 }
 
 std::vector<std::string> optionsUsedBy(const std::string& name) {
-  const Row& row = rowOf(name);
-  std::vector<std::string> options(row.options.begin(), row.options.end());
+  std::vector<std::string> options = rowOf(name).options();
   options.emplace_back("memory_limit");
   return options;
 }

@@ -12,13 +12,13 @@ class PublishedAStar : public planners::AStar {
   static constexpr const char* kName = "a_star_published";
 
   // `a_star_published`. Both throw InputError for options that cannot be used.
-  PublishedAStar(const planners::SearchOptions& options, bool published_cross)
+  PublishedAStar(const planners::AStarOptions& options, bool published_cross)
       : planners::AStar(
             kName, options,
             {planners::BestFirstSearch::GoalTest::WHEN_GENERATED, shareOf(published_cross)}) {}
 
   // `a_star` with tie_break cross_product_published.
-  explicit PublishedAStar(const planners::SearchOptions& options)
+  explicit PublishedAStar(const planners::AStarOptions& options)
       : planners::AStar("a_star", options,
                         {planners::BestFirstSearch::GoalTest::WHEN_EXPANDED, shareOf(true)}) {}
 

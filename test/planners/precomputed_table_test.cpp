@@ -26,8 +26,8 @@ using grid::GridGeometry;
 
 namespace {
 
-SearchOptions guidedBy(Heuristic heuristic) {
-  SearchOptions options;
+AStarOptions guidedBy(Heuristic heuristic) {
+  AStarOptions options;
   options.heuristic = heuristic;
   options.landmarks = 4;
   return options;

@@ -147,7 +147,7 @@ TEST(RectangleMapPlanner, FindsPathsAfterUpdatesWhereAFreshOneDoes) {
   int found = 0;
   for (int trial = 0; trial < 20; ++trial) {
     FreeCells free = test::randomBlocks(random, 60);
-    SearchOptions options;
+    RectangleMapOptions options;
     options.rectangle_weight = static_cast<RectangleWeight>(trial % 5);
     options.rectangle_funnel = trial % 2 == 0;
     RectangleMapPlanner updated(options);

@@ -87,7 +87,7 @@ CONTEXT = {
     "planner.h": """#include "grid_path_planner/planners/planner_factory.h"
         extern SearchOptions options; extern std::shared_ptr<const CostGrid> map;
         extern StopSource source;""",
-    "precomputed_heuristic.h": "extern SearchOptions options; extern std::shared_ptr<const CostGrid> map;"
+    "precomputed_heuristic.h": "extern AStarOptions options; extern std::shared_ptr<const CostGrid> map;"
                             "extern std::uint32_t goal; SearchResult search(SearchKey);"
                             "extern KeyScale scale; extern std::uint32_t index;",
     "precomputed_table.h": """#include "planners/tables/landmark_table.h"

@@ -32,7 +32,7 @@ struct PlannerTraits {
   bool cut_corners = true;     // understands cut_corners
   bool weights = true;         // cells of different weights
   bool optimal = false;        // can be; optimalFor() says whether it is on a map
-  bool heuristic = false;      // is guided by SearchOptions::heuristic
+  bool heuristic = false;      // is guided by AStarOptions::heuristic
   bool any_angle = false;      // the result is turning points: SearchResult::points
   bool shortest = false;       // no any-angle path is shorter, but for rounding
   bool several_goals = false;  // answers "the nearest of these goals"

@@ -57,21 +57,21 @@ PlannerTraits AStar::declaredTraits() {
   return traits;
 }
 
-AStar::AStar(const SearchOptions& options)
+AStar::AStar(const AStarOptions& options)
     : Planner(declaredTraits()),
       options_(options),
       strictly_ordered_(options.tie_break != TieBreak::NONE),
       tables_(options) {
-  checkSearchOptions(options);
+  checkAStarOptions(options);
 }
 
-AStar::AStar(const char* name, const SearchOptions& options, const Variation& variation)
+AStar::AStar(const char* name, const AStarOptions& options, const Variation& variation)
     : Planner(guidedTraits(name)),
       options_(options),
       strictly_ordered_(true),
       variation_(variation),
       tables_(options) {
-  checkSearchOptions(options);
+  checkAStarOptions(options);
 }
 
 std::size_t AStar::bytesFor(const GridGeometry& geometry) const {

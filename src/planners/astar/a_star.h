@@ -10,8 +10,8 @@
 // (best_first_search.h), at several times the cost.
 #pragma once
 
+#include "grid_path_planner/planners/a_star_options.h"
 #include "grid_path_planner/planners/planner.h"
-#include "grid_path_planner/planners/search_options.h"
 #include "planners/astar/best_first_search.h"
 #include "planners/astar/bucket_search.h"
 #include "planners/tables/precomputed_heuristic.h"
@@ -23,7 +23,7 @@ class AStar : public Planner {
   static PlannerTraits declaredTraits();
 
   // Throws InputError for options that cannot be used.
-  explicit AStar(const SearchOptions& options = {});
+  explicit AStar(const AStarOptions& options = {});
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
   bool optimalFor(const costmap::CostGrid& map) const override;
@@ -37,7 +37,7 @@ class AStar : public Planner {
     long double cross_share = 0.0L;  // of Estimate::cross(), added to every estimate
   };
   // Such a program: it keeps a strict order whatever the tie-break, and promises no least cost.
-  AStar(const char* name, const SearchOptions& options, const Variation& variation);
+  AStar(const char* name, const AStarOptions& options, const Variation& variation);
 
  private:
   std::string lessMemoryAdvice() const override;
@@ -48,7 +48,7 @@ class AStar : public Planner {
   SearchResult planWithTables(const SearchRequest& request, const base::StopToken& stop);
   SearchResult planInOrder(const SearchRequest& request, const base::StopToken& stop);
 
-  SearchOptions options_;
+  AStarOptions options_;
   bool strictly_ordered_;
   Variation variation_;
   BucketSearch by_buckets_;  // one of the two is used

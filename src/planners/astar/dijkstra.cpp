@@ -15,8 +15,8 @@ PlannerTraits Dijkstra::declaredTraits() {
   return traits;
 }
 
-Dijkstra::Dijkstra(const SearchOptions& options)
-    : Planner(declaredTraits()), strictly_ordered_(options.tie_break != TieBreak::NONE) {}
+Dijkstra::Dijkstra(TieBreak tie_break)
+    : Planner(declaredTraits()), strictly_ordered_(tie_break != TieBreak::NONE) {}
 
 std::size_t Dijkstra::bytesFor(const GridGeometry& geometry) const {
   return strictly_ordered_ ? BestFirstSearch::bytesFor(geometry) : BucketSearch::bytesFor(geometry);

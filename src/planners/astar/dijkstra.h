@@ -8,8 +8,8 @@
 // comparison of the two is not one of their open lists.
 #pragma once
 
+#include "grid_path_planner/planners/a_star_options.h"
 #include "grid_path_planner/planners/planner.h"
-#include "grid_path_planner/planners/search_options.h"
 #include "planners/astar/best_first_search.h"
 #include "planners/astar/bucket_search.h"
 
@@ -19,7 +19,7 @@ class Dijkstra : public Planner {
  public:
   static PlannerTraits declaredTraits();
 
-  explicit Dijkstra(const SearchOptions& options = {});
+  explicit Dijkstra(TieBreak tie_break = TieBreak::NONE);
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
 

@@ -46,13 +46,13 @@ bool admissible(Heuristic heuristic, const MotionModel& motion) {
   return false;
 }
 
-bool optimalWith(const SearchOptions& options, const CostGrid& map) {
+bool optimalWith(const AStarOptions& options, const CostGrid& map) {
   const std::optional<double> scale = heuristicScale(options);
   const bool scale_bounds = !scale || *scale <= map.minWeight();
   return options.epsilon == 1.0 && scale_bounds && admissible(options.heuristic, map.motion());
 }
 
-Estimate::Estimate(const SearchOptions& options, const CostGrid& map, Cell start, Cell goal,
+Estimate::Estimate(const AStarOptions& options, const CostGrid& map, Cell start, Cell goal,
                    const KeyScale& scale)
     : scale_(scale),
       heuristic_(closedForm(options.heuristic, map.motion())),

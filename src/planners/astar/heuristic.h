@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "grid_path_planner/planners/search_options.h"
+#include "grid_path_planner/planners/a_star_options.h"
 #include "planners/core/keys.h"
 
 namespace grid_path_planner::planners {
@@ -22,12 +22,12 @@ bool prepared(Heuristic heuristic);
 bool admissible(Heuristic heuristic, const costmap::MotionModel& motion);
 
 // Whether A* with these options finds a least-cost path on `map`.
-bool optimalWith(const SearchOptions& options, const costmap::CostGrid& map);
+bool optimalWith(const AStarOptions& options, const costmap::CostGrid& map);
 
 // The h-value of A* with `options` from `start` to `goal` on `map`.
 class Estimate {
  public:
-  Estimate(const SearchOptions& options, const costmap::CostGrid& map, grid::Cell start,
+  Estimate(const AStarOptions& options, const costmap::CostGrid& map, grid::Cell start,
            grid::Cell goal, const KeyScale& scale = kWideScale);
 
   SearchKey operator()(grid::Cell cell) const {

@@ -20,8 +20,8 @@ bool jumpsSupport(const MotionModel& motion) {
 }
 
 // Whether a search option is not the default.
-bool asksForAStar(const SearchOptions& options) {
-  const SearchOptions defaults;
+bool asksForAStar(const AStarOptions& options) {
+  const AStarOptions defaults;
   return options.heuristic != defaults.heuristic || options.epsilon != defaults.epsilon ||
          options.heuristic_scale != defaults.heuristic_scale ||
          options.tie_break != defaults.tie_break;
@@ -36,14 +36,14 @@ PlannerTraits WeightedJumpPoint::declaredTraits() {
   return traits;
 }
 
-WeightedJumpPoint::WeightedJumpPoint(const SearchOptions& options)
+WeightedJumpPoint::WeightedJumpPoint(const AStarOptions& options)
     : Planner(declaredTraits()), options_(options), a_star_asked_for_(asksForAStar(options)) {
-  checkSearchOptions(options);
+  checkAStarOptions(options);
 }
 
 // The given options, or the defaults with the best heuristic of the motion model.
-SearchOptions WeightedJumpPoint::optionsOfAStar(const MotionModel& motion) const {
-  SearchOptions options = options_;
+AStarOptions WeightedJumpPoint::optionsOfAStar(const MotionModel& motion) const {
+  AStarOptions options = options_;
   if (a_star_asked_for_) return options;
   if (motion.connectivity == Connectivity::FOUR)
     options.heuristic = Heuristic::MANHATTAN;

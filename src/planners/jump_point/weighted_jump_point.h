@@ -15,8 +15,8 @@
 
 #include <memory>
 
+#include "grid_path_planner/planners/a_star_options.h"
 #include "grid_path_planner/planners/planner.h"
-#include "grid_path_planner/planners/search_options.h"
 #include "planners/astar/a_star.h"
 #include "planners/jump_point/pruning_estimate.h"
 #include "planners/jump_point/weighted_jump_search.h"
@@ -28,7 +28,7 @@ class WeightedJumpPoint : public Planner {
   static PlannerTraits declaredTraits();
 
   // Throws InputError for options that cannot be used.
-  explicit WeightedJumpPoint(const SearchOptions& options = {});
+  explicit WeightedJumpPoint(const AStarOptions& options = {});
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
   bool optimalFor(const costmap::CostGrid& map) const override;
@@ -43,9 +43,9 @@ class WeightedJumpPoint : public Planner {
 
   bool shouldJump() const;
   void prepareAStar(const base::StopToken& stop);
-  SearchOptions optionsOfAStar(const costmap::MotionModel& motion) const;
+  AStarOptions optionsOfAStar(const costmap::MotionModel& motion) const;
 
-  SearchOptions options_;
+  AStarOptions options_;
   bool a_star_asked_for_;
   PruningEstimate pruning_;
   bool jumps_ready_ = false;

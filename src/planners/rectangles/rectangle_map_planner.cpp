@@ -63,7 +63,7 @@ PlannerTraits RectangleMapPlanner::declaredTraits() {
   return traits;
 }
 
-RectangleMapPlanner::RectangleMapPlanner(const SearchOptions& options)
+RectangleMapPlanner::RectangleMapPlanner(const RectangleMapOptions& options)
     : Planner(declaredTraits()), options_(options) {}
 
 // Of a map without obstacles, the least of all maps; doPrepare() counts the runs of the map.

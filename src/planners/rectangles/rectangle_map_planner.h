@@ -1,7 +1,7 @@
 // Planning on rectangles instead of cells: the R-map (Ahn & Jeon 2010, Park 2013).
 //
 // prepare() cuts the map into rectangles (largestFirst); search() finds a sequence of them by
-// SearchOptions::rectangle_weight. The path leads through the middles of the shared borders, or is
+// RectangleMapOptions::rectangle_weight. The path leads through the middles of the shared borders, or is
 // the shortest through these borders (rectangle_funnel). update() cuts anew the rectangles around a
 // change and no others, however many updates came before: their number stays near that of a fresh
 // decomposition (benchmark/rectangle_repair.cpp).
@@ -15,7 +15,7 @@
 
 #include "grid_path_planner/planners/planner.h"
 #include "grid_path_planner/planners/rectangle_graph.h"
-#include "grid_path_planner/planners/search_options.h"
+#include "grid_path_planner/planners/rectangle_map_options.h"
 #include "planners/rectangles/rectangle_route.h"
 
 namespace grid_path_planner::planners {
@@ -24,7 +24,7 @@ class RectangleMapPlanner : public Planner {
  public:
   static PlannerTraits declaredTraits();
 
-  explicit RectangleMapPlanner(const SearchOptions& options = {});
+  explicit RectangleMapPlanner(const RectangleMapOptions& options = {});
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
 
@@ -39,7 +39,7 @@ class RectangleMapPlanner : public Planner {
   void addPath(const RectangleRoute& route, const SearchRequest& request,
                SearchResult& result) const;
 
-  SearchOptions options_;
+  RectangleMapOptions options_;
   RectangleGraph rectangles_;
   RectangleSearch search_;
 };

@@ -19,7 +19,7 @@
 #include "grid_path_planner/base/statistics.h"
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/planners/rectangle_graph.h"
-#include "grid_path_planner/planners/search_options.h"
+#include "grid_path_planner/planners/rectangle_map_options.h"
 #include "planners/core/binary_heap.h"
 #include "planners/core/stamped_array.h"
 

@@ -6,7 +6,7 @@ using base::StopToken;
 using costmap::CostGrid;
 using grid::CellRect, grid::GridGeometry;
 
-PrecomputedHeuristic::PrecomputedHeuristic(const SearchOptions& options) {
+PrecomputedHeuristic::PrecomputedHeuristic(const AStarOptions& options) {
   if (options.heuristic == Heuristic::LANDMARK)
     landmarks_ = std::make_unique<PrecomputedTable<LandmarkTable>>(
         [landmarks = options.landmarks](const CostGrid& map, const StopToken& stop) {
@@ -17,7 +17,7 @@ PrecomputedHeuristic::PrecomputedHeuristic(const SearchOptions& options) {
         [](const CostGrid& map, const StopToken& stop) { return ExactTable(map, stop); });
 }
 
-std::size_t PrecomputedHeuristic::bytesFor(const SearchOptions& options,
+std::size_t PrecomputedHeuristic::bytesFor(const AStarOptions& options,
                                            const GridGeometry& geometry) {
   if (options.heuristic == Heuristic::LANDMARK)
     return LandmarkTable::bytesFor(geometry, options.landmarks) +
@@ -27,7 +27,7 @@ std::size_t PrecomputedHeuristic::bytesFor(const SearchOptions& options,
   return 0;
 }
 
-std::string PrecomputedHeuristic::lessMemoryAdvice(const SearchOptions& options) {
+std::string PrecomputedHeuristic::lessMemoryAdvice(const AStarOptions& options) {
   if (options.heuristic == Heuristic::LANDMARK)
     return "raise it, take fewer landmarks or search with a larger kernel";
   if (options.heuristic == Heuristic::EXACT)

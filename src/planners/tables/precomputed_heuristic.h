@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-#include "grid_path_planner/planners/search_options.h"
+#include "grid_path_planner/planners/a_star_options.h"
 #include "planners/tables/exact_table.h"
 #include "planners/tables/landmark_table.h"
 #include "planners/tables/precomputed_table.h"
@@ -28,12 +28,12 @@ struct NoBound {
 
 class PrecomputedHeuristic {
  public:
-  explicit PrecomputedHeuristic(const SearchOptions& options);
+  explicit PrecomputedHeuristic(const AStarOptions& options);
 
   // Two tables at most: one in use while the next is made.
-  static std::size_t bytesFor(const SearchOptions& options, const grid::GridGeometry& geometry);
+  static std::size_t bytesFor(const AStarOptions& options, const grid::GridGeometry& geometry);
   // What a user can do where that is too much; "" where the heuristic needs no table.
-  static std::string lessMemoryAdvice(const SearchOptions& options);
+  static std::string lessMemoryAdvice(const AStarOptions& options);
 
   // As those of PrecomputedTable; nothing where there is no table to make.
   void prepare(std::shared_ptr<const costmap::CostGrid> map);

@@ -1,8 +1,6 @@
-#include "grid_path_planner/planners/search_options.h"
+#include "grid_path_planner/planners/a_star_options.h"
 
 #include <cmath>
-
-#include "grid_path_planner/base/options.h"
 
 namespace grid_path_planner::planners {
 
@@ -30,17 +28,7 @@ std::string adviceFor(TieBreak, const std::string& name) {
   return "is in `grid_path study` only: take cross_product";
 }
 
-const std::vector<std::pair<const char*, RectangleWeight>>& choicesOf(RectangleWeight) {
-  static const std::vector<std::pair<const char*, RectangleWeight>> choices = {
-      {"area", RectangleWeight::AREA},
-      {"border", RectangleWeight::BORDER},
-      {"distance", RectangleWeight::DISTANCE},
-      {"connections", RectangleWeight::CONNECTIONS},
-      {"length", RectangleWeight::LENGTH}};
-  return choices;
-}
-
-std::optional<double> heuristicScale(const SearchOptions& options) {
+std::optional<double> heuristicScale(const AStarOptions& options) {
   if (options.heuristic_scale == "cheapest") return std::nullopt;
   std::size_t used = 0;
   double scale = -1.0;
@@ -56,11 +44,7 @@ std::optional<double> heuristicScale(const SearchOptions& options) {
   return scale;
 }
 
-std::size_t memoryLimitOf(const SearchOptions& options) {
-  return static_cast<std::size_t>(options.memory_limit) * 1000000;
-}
-
-void checkSearchOptions(const SearchOptions& options) {
+void checkAStarOptions(const AStarOptions& options) {
   checkOptionLimits(options);
   heuristicScale(options);
 }
