@@ -111,6 +111,44 @@ void warnIfNotOptimal(const PlannerOptions& options) {
             << options.planner << " does not promise it\n";
 }
 
+int exitCodeOf(Status status) {
+  if (status == Status::INVALID_REQUEST) return kBadInput;
+  return status == Status::FOUND ? kFound : kNoPath;
+}
+
+PoseRequest requestFrom(const po::variables_map& values, const GridGeometry& geometry) {
+  const bool cells = values.count("cells") != 0;
+  PoseRequest request;
+  request.start = poseOf("start", values["start"].as<std::string>(), cells, geometry);
+  request.goal = poseOf("goal", values["goal"].as<std::string>(), cells, geometry);
+  request.record_expanded = values.count("image") != 0;
+  return request;
+}
+
+double preparationMs(PathPlanner& planner) {
+  const auto begin = std::chrono::steady_clock::now();
+  planner.finishPreparation(StopToken());
+  const std::chrono::duration<double, std::milli> prepared =
+      std::chrono::steady_clock::now() - begin;
+  return prepared.count();
+}
+
+void writeFiles(const po::variables_map& values, const OccupancyGrid& map,
+                const OccupancyThresholds& thresholds, const Plan& report) {
+  if (values.count("image") != 0)
+    writePicture(values["image"].as<std::string>(), map, thresholds,
+                 {report.path, cellsOf(report, map.geometry()), {}, {}});
+  if (values.count("waypoints") != 0 && report.status == Status::FOUND)
+    writeWaypointFile(values["waypoints"].as<std::string>(), report.path);
+}
+
+void print(const Plan& report, double preparation_ms, bool as_json) {
+  if (as_json)
+    std::cout << jsonOf(report, preparation_ms).dump() << '\n';
+  else
+    std::cout << toString(report.status) << ": " << report.message << '\n';
+}
+
 }  // namespace
 
 int runPlan(int argc, char** argv) {
@@ -124,32 +162,15 @@ int runPlan(int argc, char** argv) {
   const auto map = std::make_shared<const OccupancyGrid>(
       readAnyMapFile(values["map"].as<std::string>(), readingOptionsFrom(values)));
 
-  const bool cells = values.count("cells") != 0;
-  PoseRequest request;
-  request.start = poseOf("start", values["start"].as<std::string>(), cells, map->geometry());
-  request.goal = poseOf("goal", values["goal"].as<std::string>(), cells, map->geometry());
-  request.record_expanded = values.count("image") != 0;
-
+  const PoseRequest request = requestFrom(values, map->geometry());
   PathPlanner planner(options);
   planner.setMap(map);
-  const auto begin = std::chrono::steady_clock::now();
-  planner.finishPreparation(StopToken());
-  const std::chrono::duration<double, std::milli> prepared =
-      std::chrono::steady_clock::now() - begin;
+  const double preparation_ms = preparationMs(planner);
   const Plan report = planner.plan(request);
   if (report.status == Status::FOUND && !report.optimal) warnIfNotOptimal(options);
-
-  if (values.count("image") != 0)
-    writePicture(values["image"].as<std::string>(), *map, options.terrain.thresholds,
-                 {report.path, cellsOf(report, map->geometry()), {}, {}});
-  if (values.count("waypoints") != 0 && report.status == Status::FOUND)
-    writeWaypointFile(values["waypoints"].as<std::string>(), report.path);
-  if (values.count("json") != 0)
-    std::cout << jsonOf(report, prepared.count()).dump() << '\n';
-  else
-    std::cout << toString(report.status) << ": " << report.message << '\n';
-  if (report.status == Status::INVALID_REQUEST) return kBadInput;
-  return report.status == Status::FOUND ? kFound : kNoPath;
+  writeFiles(values, *map, options.terrain.thresholds, report);
+  print(report, preparation_ms, values.count("json") != 0);
+  return exitCodeOf(report.status);
 }
 
 }  // namespace grid_path_planner::command_line

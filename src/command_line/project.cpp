@@ -13,7 +13,7 @@
 namespace grid_path_planner::command_line {
 
 using base::choiceFromName, base::extensionOf, base::InputError;
-using grid::writeImageFile, grid::writeMapServerFile;
+using grid::OccupancyGrid, grid::writeImageFile, grid::writeMapServerFile;
 using mapping::checkProjectionOptions, mapping::OctreeMap, mapping::OctreeOptions,
     mapping::Projection, mapping::ProjectionOptions, mapping::ProjectionReference;
 
@@ -76,6 +76,16 @@ void checkEndings(const po::variables_map& values) {
     throw InputError("--image must end in .png or .pgm, got '" + image + "'");
 }
 
+OccupancyGrid projected(const po::variables_map& values) {
+  const ProjectionOptions options = optionsOf(values);
+  OctreeMap octree{OctreeOptions{}};
+  octree.load(values["octree"].as<std::string>());
+  Projection projection(octree.options().resolution, options);
+  projection.setVehicleHeight(numberOf(values, "vehicle-z", 0.0));
+  projection.update(octree.bricks());
+  return projection.grid();
+}
+
 }  // namespace
 
 int runProject(int argc, char** argv) {
@@ -85,17 +95,11 @@ int runProject(int argc, char** argv) {
           "grid_path project --octree FILE --min-z Z --max-z Z --map OUT.yaml [options]", values))
     return 0;
   checkEndings(values);
-  const ProjectionOptions options = optionsOf(values);
-  OctreeMap octree{OctreeOptions{}};
-  octree.load(values["octree"].as<std::string>());
-  Projection projection(octree.options().resolution, options);
-  projection.setVehicleHeight(numberOf(values, "vehicle-z", 0.0));
-  projection.update(octree.bricks());
+  const OccupancyGrid map = projected(values);
   const std::string file = values["map"].as<std::string>();
-  writeMapServerFile(file, projection.grid());
-  if (values.count("image") != 0)
-    writeImageFile(values["image"].as<std::string>(), projection.grid());
-  reportMap(file, projection.grid());
+  writeMapServerFile(file, map);
+  if (values.count("image") != 0) writeImageFile(values["image"].as<std::string>(), map);
+  reportMap(file, map);
   return 0;
 }
 

@@ -65,6 +65,14 @@ std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> linksOf(const Rectangle
   return links;
 }
 
+nlohmann::json weightsOf(const RectangleGraph& map, RectangleWeight weight) {
+  nlohmann::json weights = nlohmann::json::array();
+  visitConnections(map, [&](std::uint32_t from, const Connection& step) {
+    weights.push_back({from, step.to, weightOf(map, weight, from, step)});
+  });
+  return weights;
+}
+
 }  // namespace
 
 nlohmann::json jsonOf(const RectanglesRequest& request, const RectanglesResult& result) {
@@ -79,12 +87,7 @@ nlohmann::json jsonOf(const RectanglesRequest& request, const RectanglesResult& 
                            {"sizes", jsonOf(result.sizes)},
                            {"time_ms", result.time_ms},
                            {"rectangles", std::move(rectangles)}};
-  if (!request.weight) return object;
-  nlohmann::json weights = nlohmann::json::array();
-  visitConnections(result.map, [&](std::uint32_t from, const Connection& step) {
-    weights.push_back({from, step.to, weightOf(result.map, *request.weight, from, step)});
-  });
-  object["weights"] = std::move(weights);
+  if (request.weight) object["weights"] = weightsOf(result.map, *request.weight);
   return object;
 }
 

@@ -7,7 +7,7 @@
 namespace grid_path_planner::command_line {
 
 using base::choiceFromName, base::InputError;
-using planners::RectangleWeight, planners::Touching;
+using planners::DecompositionLimits, planners::RectangleWeight, planners::Touching;
 
 namespace {
 
@@ -27,6 +27,18 @@ bool asksForMergedRuns(const po::variables_map& values) {
   if (name != "largest_first" && name != "merged_runs")
     throw InputError("--partition must be largest_first or merged_runs, got '" + name + "'");
   return name == "merged_runs";
+}
+
+DecompositionLimits limitsFrom(const po::variables_map& values, bool merged_runs) {
+  DecompositionLimits limits;
+  if (values.count("limit") != 0 && values.count("min-area") != 0)
+    throw InputError("--limit and --min-area do not go together");
+  if (merged_runs && values.count("limit") + values.count("min-area") != 0)
+    throw InputError("--limit and --min-area are for --partition largest_first");
+  if (values.count("limit") != 0)
+    limits.count = static_cast<std::size_t>(countFrom(values, "limit"));
+  if (values.count("min-area") != 0) limits.smallest_area = countFrom(values, "min-area");
+  return limits;
 }
 
 }  // namespace
@@ -60,13 +72,7 @@ RectanglesRequest rectanglesRequestFrom(const po::variables_map& values) {
   request.reading = readingOptionsFrom(values);
   request.unknown_is_free = values.count("unknown-is-free") != 0;
   request.merged_runs = asksForMergedRuns(values);
-  if (values.count("limit") != 0 && values.count("min-area") != 0)
-    throw InputError("--limit and --min-area do not go together");
-  if (request.merged_runs && values.count("limit") + values.count("min-area") != 0)
-    throw InputError("--limit and --min-area are for --partition largest_first");
-  if (values.count("limit") != 0)
-    request.limits.count = static_cast<std::size_t>(countFrom(values, "limit"));
-  if (values.count("min-area") != 0) request.limits.smallest_area = countFrom(values, "min-area");
+  request.limits = limitsFrom(values, request.merged_runs);
   if (values.count("weight") != 0)
     request.weight =
         choiceFromName<RectangleWeight>("--weight", values["weight"].as<std::string>());

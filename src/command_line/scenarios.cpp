@@ -275,6 +275,33 @@ std::string mapFileOf(const po::variables_map& values, const std::string& scenar
   return besideFile(scenario_file, query.map);
 }
 
+// The planner that answers, with `smooth` as one of any angle.
+PlannerTraits judgedTraits(const PreparedPlanner& prepared, const PlannerOptions& options) {
+  PlannerTraits judged = prepared.planner->traits();
+  judged.any_angle |= options.smooth;
+  return judged;
+}
+
+void printResults(const po::variables_map& values, const std::string& map_file,
+                  const std::string& planner, const PreparedPlanner& prepared,
+                  const Reference& reference, const Results& results) {
+  std::printf(
+      "map=%s planner=%s preparation_ms=%.3f reference=%s unsolvable=%zu "
+      "cost_over_reference=%.6f\n",
+      map_file.c_str(), planner.c_str(), prepared.preparation_ms, reference.name().c_str(),
+      results.totals.unsolvable, results.totals.costOverReference());
+  const BackgroundWork work = prepared.planner->backgroundWork();
+  if (work.bytes > 0)
+    std::printf("background_ms=%.3f background_bytes=%zu\n", work.time_s * 1e3, work.bytes);
+  if (values.count("hash-paths") != 0) std::printf("path_hash=%s\n", results.paths.text().c_str());
+  printTotals(results.totals);
+}
+
+// Whether every path of the planner has the least cost, or is the shortest.
+bool guarantees(const PreparedPlanner& prepared) {
+  return prepared.planner->optimalFor(*prepared.costs) || prepared.planner->traits().shortest;
+}
+
 }  // namespace
 
 int runScenarios(int argc, char** argv) {
@@ -291,26 +318,12 @@ int runScenarios(int argc, char** argv) {
 
   const PreparedPlanner prepared =
       prepare(readAnyMapFile(map_file, readingOptionsFrom(values)), options);
-  PlannerTraits judged = prepared.planner->traits();
-  judged.any_angle |= options.smooth;
-  const Reference reference(referenceNameOf(values, options.terrain), prepared.costs, judged);
+  const Reference reference(referenceNameOf(values, options.terrain), prepared.costs,
+                            judgedTraits(prepared, options));
   const Results results = runQueries(queries, file, prepared, options.smooth, reference);
-  const Totals& totals = results.totals;
   if (values.count("csv") != 0) writeFileAtomically(values["csv"].as<std::string>(), results.csv);
-
-  const BackgroundWork work = prepared.planner->backgroundWork();
-  std::printf(
-      "map=%s planner=%s preparation_ms=%.3f reference=%s unsolvable=%zu "
-      "cost_over_reference=%.6f\n",
-      map_file.c_str(), options.planner.c_str(), prepared.preparation_ms, reference.name().c_str(),
-      totals.unsolvable, totals.costOverReference());
-  if (work.bytes > 0)
-    std::printf("background_ms=%.3f background_bytes=%zu\n", work.time_s * 1e3, work.bytes);
-  if (values.count("hash-paths") != 0) std::printf("path_hash=%s\n", results.paths.text().c_str());
-  printTotals(totals);
-  const bool guaranteed =
-      prepared.planner->optimalFor(*prepared.costs) || prepared.planner->traits().shortest;
-  return totals.wrong > 0 && guaranteed ? 1 : 0;
+  printResults(values, map_file, options.planner, prepared, reference, results);
+  return results.totals.wrong > 0 && guarantees(prepared) ? 1 : 0;
 }
 
 }  // namespace grid_path_planner::command_line

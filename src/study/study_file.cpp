@@ -130,23 +130,25 @@ class StudyReader {
   void readOptions(const YAML::Node& node) {
     if (!node.IsMap())
       throw yamlError(node, file_, "options must be a mapping, got " + describeYaml(node));
-    for (const auto& entry : node) {
-      const auto key = yamlAs<std::string>(entry.first, "an option", file_, "a name");
-      const auto text = yamlAs<std::string>(entry.second, key, file_, "a value");
-      if (key == "tie_break") {
-        atLine(entry.second, [&] { tie_break_ = choiceFromName<StudyTieBreak>(key, text); });
-        study_.base.search.tie_break = orderOf(tie_break_);
-        continue;
-      }
-      bool known = false;
-      visitOptions(study_.base, [&](const char* name, auto& value, const OptionInfo& info) {
-        if (key != name) return;
-        known = true;
-        atLine(entry.second, [&] { parseOption(key, text, info, value); });
-      });
-      if (!known)
-        throw yamlError(entry.first, file_, "there is no option '" + key + "' of path_planner");
+    for (const auto& entry : node) readOption(entry.first, entry.second);
+  }
+
+  void readOption(const YAML::Node& name_node, const YAML::Node& value_node) {
+    const auto key = yamlAs<std::string>(name_node, "an option", file_, "a name");
+    const auto text = yamlAs<std::string>(value_node, key, file_, "a value");
+    if (key == "tie_break") {
+      atLine(value_node, [&] { tie_break_ = choiceFromName<StudyTieBreak>(key, text); });
+      study_.base.search.tie_break = orderOf(tie_break_);
+      return;
     }
+    bool known = false;
+    visitOptions(study_.base, [&](const char* name, auto& value, const OptionInfo& info) {
+      if (key != name) return;
+      known = true;
+      atLine(value_node, [&] { parseOption(key, text, info, value); });
+    });
+    if (!known)
+      throw yamlError(name_node, file_, "there is no option '" + key + "' of path_planner");
   }
 
   // An option that a list of the study replaces would have no effect.
@@ -209,20 +211,25 @@ class StudyReader {
     return queries;
   }
 
+  StudyMap mapOf(const YAML::Node& entry) const {
+    StudyMap map;
+    map.queries = common_queries_;
+    if (!entry.IsMap()) {
+      map.file = resolved(entry, "a map");
+      map.name = stemOf(map.file);
+      return map;
+    }
+    checkKeys(entry, "a map", {"file", "name", "queries"});
+    map.file = resolved(yamlNode(entry, "file", file_, "a map file"), "file");
+    map.name = yamlValueOr<std::string>(entry, "name", file_, "a name", stemOf(map.file));
+    if (entry["queries"]) map.queries = queriesOf(entry["queries"]);
+    return map;
+  }
+
   void readMaps(const YAML::Node& node) {
     std::set<std::string> names;
     for (const YAML::Node& entry : entriesOf(node, "maps")) {
-      StudyMap map;
-      map.queries = common_queries_;
-      if (entry.IsMap()) {
-        checkKeys(entry, "a map", {"file", "name", "queries"});
-        map.file = resolved(yamlNode(entry, "file", file_, "a map file"), "file");
-        map.name = yamlValueOr<std::string>(entry, "name", file_, "a name", stemOf(map.file));
-        if (entry["queries"]) map.queries = queriesOf(entry["queries"]);
-      } else {
-        map.file = resolved(entry, "a map");
-        map.name = stemOf(map.file);
-      }
+      const StudyMap map = mapOf(entry);
       if (map.queries.empty())
         throw yamlError(entry, file_, "map '" + map.name + "' has no queries");
       refuseTwice(entry, names, map.name, "maps");
@@ -252,6 +259,21 @@ class StudyReader {
     study_.variants.push_back(variant);
   }
 
+  void addVariants(const YAML::Node& node, const std::string& planner,
+                   const std::vector<Heuristic>& heuristics,
+                   const std::vector<StudyTieBreak>& tie_breaks) {
+    for (const Heuristic heuristic : heuristics)
+      for (const StudyTieBreak tie_break : tie_breaks) {
+        SearchOptions search = study_.base.search;
+        search.heuristic = heuristic;
+        search.tie_break = orderOf(tie_break);
+        addVariant(node,
+                   {planner + ' ' + choiceName(heuristic) +
+                        (tie_breaks.size() > 1 ? std::string(", ") + choiceName(tie_break) : ""),
+                    planner, search, published(tie_break)});
+      }
+  }
+
   void readVariants(const YAML::Node& root) {
     const auto heuristics = choicesUnder(root, "heuristics", study_.base.search.heuristic);
     const auto tie_breaks = choicesUnder(root, "tie_breaks", tie_break_);
@@ -262,20 +284,10 @@ class StudyReader {
       refuseTwice(entry, seen, planner, "planners");
       bool guided = false;
       atLine(entry, [&] { guided = guidedInStudies(planner); });
-      if (!guided) {
+      if (guided)
+        addVariants(entry, planner, heuristics, tie_breaks);
+      else
         addVariant(entry, {planner, planner, study_.base.search, published(tie_break_)});
-        continue;
-      }
-      for (const Heuristic heuristic : heuristics)
-        for (const StudyTieBreak tie_break : tie_breaks) {
-          SearchOptions search = study_.base.search;
-          search.heuristic = heuristic;
-          search.tie_break = orderOf(tie_break);
-          addVariant(entry,
-                     {planner + ' ' + choiceName(heuristic) +
-                          (tie_breaks.size() > 1 ? std::string(", ") + choiceName(tie_break) : ""),
-                      planner, search, published(tie_break)});
-        }
     }
   }
 

@@ -68,6 +68,21 @@ void StudyFolder::lock() {
   throw InputError(folder_, "another study is writing into this folder");
 }
 
+// Reads whole lines from `begin` on. Returns where they end: the process may have ended within one.
+std::size_t StudyFolder::readRuns(const std::string& name, const std::string& text,
+                                  std::size_t begin) {
+  for (int line = 2;; ++line) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) return begin;
+    try {
+      runs_.push_back(runFromLine(text.substr(begin, end - begin)));
+    } catch (const InputError& error) {
+      throw InputError(name, line, error.what());
+    }
+    begin = end + 1;
+  }
+}
+
 void StudyFolder::open(std::uint64_t fingerprint) {
   const std::string name = file("runs.jsonl");
   const std::string head = headOf(fingerprint);
@@ -77,18 +92,7 @@ void StudyFolder::open(std::uint64_t fingerprint) {
     throw InputError(name,
                      "holds the runs of another study (another file, map or version of it); "
                      "take another folder or remove this one");
-  std::size_t begin = head.size();
-  for (int line = 2;; ++line) {
-    const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos) break;
-    try {
-      runs_.push_back(runFromLine(text.substr(begin, end - begin)));
-    } catch (const InputError& error) {
-      throw InputError(name, line, error.what());
-    }
-    begin = end + 1;
-  }
-  end_ = static_cast<std::int64_t>(begin);
+  end_ = static_cast<std::int64_t>(readRuns(name, text, head.size()));
   log_ = ::open(name.c_str(), O_WRONLY | O_CLOEXEC);
   if (log_ < 0 || ::ftruncate(log_, end_) != 0) throw systemError(name, "cannot be written");
 }

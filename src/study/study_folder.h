@@ -34,6 +34,7 @@ class StudyFolder {
  private:
   void lock();
   void open(std::uint64_t fingerprint);
+  std::size_t readRuns(const std::string& name, const std::string& text, std::size_t begin);
 
   std::string folder_;
   std::vector<StudyRun> runs_;

@@ -98,22 +98,25 @@ class QueryMaker {
     std::mt19937 random(map_.queries.random_seed);
     // Not std::uniform_int_distribution, whose numbers differ between standard libraries.
     const auto any = [&] { return cells[random() % cells.size()]; };
-    const GridGeometry& geometry = occupancy_.geometry();
     int draws = 0;
     for (int made = 0; made < map_.queries.random_count;) {
       if (++draws > kMostDraws + map_.queries.random_count)
         throw InputError(map_.file, "has too few connected free cells for random queries");
-      const Cell start = any();
-      const std::vector<std::uint8_t> reached = reachableFrom(*costs_, start, StopToken());
-      // A start in a small pocket gets few tries before another is drawn.
-      for (int tries = 0; tries < 20 && made < map_.queries.random_count; ++tries) {
-        const Cell goal = any();
-        if (reached[geometry.index(goal).value()] == 0 || goal == start) continue;
-        queries_.push_back({start, goal, ""});
-        ++made;
-        break;
-      }
+      if (addFrom(any(), any)) ++made;
     }
+  }
+
+  // Adds a query to one of a few drawn cells; false where none is reached, as in a small pocket.
+  template <class Draw>
+  bool addFrom(Cell start, Draw&& draw) {
+    const std::vector<std::uint8_t> reached = reachableFrom(*costs_, start, StopToken());
+    for (int tries = 0; tries < 20; ++tries) {
+      const Cell goal = draw();
+      if (reached[occupancy_.geometry().index(goal).value()] == 0 || goal == start) continue;
+      queries_.push_back({start, goal, ""});
+      return true;
+    }
+    return false;
   }
 
   void addScenario() {

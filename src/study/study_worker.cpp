@@ -5,7 +5,7 @@
 
 namespace grid_path_planner::study {
 
-using base::Statistics, base::Status;
+using base::Status;
 using grid::Cell, grid::OccupancyGrid, grid::OccupancyThresholds;
 using path::ClassLengths, path::clearanceOf, path::lengthsByClass, path::Path, path::Pose,
     path::turningOf;
@@ -36,10 +36,20 @@ std::vector<float> cornersOf(const Path& path) {
   return corners;
 }
 
-void fillStatistics(const Statistics& statistics, StudyRun& run) {
-  run.expanded = statistics.expanded;
-  run.generated = statistics.generated;
-  run.bytes = statistics.search_bytes;
+void fillQuestion(const StudyUnit& unit, const StudyQuery& query, StudyRun& run) {
+  run.setting = unit.setting;
+  run.query = unit.query;
+  run.start = query.start;
+  run.goal = query.goal;
+  run.note = query.note;
+}
+
+void fillAnswer(const Plan& report, StudyRun& run) {
+  run.status = report.status;
+  run.message = report.message;
+  run.expanded = report.statistics.expanded;
+  run.generated = report.statistics.generated;
+  run.bytes = report.statistics.search_bytes;
 }
 
 void fillPath(const Plan& report, const OccupancyGrid& map, const OccupancyThresholds& thresholds,
@@ -99,15 +109,9 @@ std::vector<StudyRun> StudyWorker::run(const StudyUnit& unit) {
       const Plan report = planners_[variant].plan(request);
       run.times_ms.push_back(report.statistics.time_s * 1e3);
       if (repeat > 0) continue;
-      run.setting = unit.setting;
-      run.query = unit.query;
       run.variant = variant;
-      run.start = query.start;
-      run.goal = query.goal;
-      run.note = query.note;
-      run.status = report.status;
-      run.message = report.message;
-      fillStatistics(report.statistics, run);
+      fillQuestion(unit, query, run);
+      fillAnswer(report, run);
       if (exact.status == Status::FOUND) run.optimum = exact.cost.toDouble();
       if (report.status == Status::FOUND)
         fillPath(report, map, setting.terrain.thresholds, unit.query < kDrawnQueries, run);

@@ -17,7 +17,7 @@ LIMITS = {
     "public headers": (79, 79),
     "files in the largest folder": (53, 35),
     "lines of the longest file": (457, 400),
-    "functions of 20 lines and more, in a thousand": (54, 50),
+    "functions of 20 lines and more, in a thousand": (50, 50),
 }
 LONGEST_FUNCTION = 60  # lines, but for
 HOT_LOOPS = {  # measured: slower in pieces

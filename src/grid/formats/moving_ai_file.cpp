@@ -134,6 +134,33 @@ void warnAboutStrangers(const Strangers& strangers, const std::string& file,
             options);
 }
 
+void readRows(Lines& lines, const std::string& file, OccupancyGrid& map, Strangers& strangers) {
+  std::string_view line;
+  for (int row = 0; row < map.height(); ++row) {
+    if (!lines.next(line))
+      throw InputError(file, lines.number(),
+                       "ends after " + std::to_string(row) + " rows of the map, expected " +
+                           std::to_string(map.height()));
+    readRow(line, lines.number(), file, map, row, strangers);
+  }
+  while (lines.next(line))
+    if (!line.empty())
+      throw InputError(file, lines.number(),
+                       "has more than the " + std::to_string(map.height()) + " rows of its header");
+}
+
+char letterOf(Occupancy occupancy) {
+  switch (occupancy) {
+    case Occupancy::FREE:
+      return '.';
+    case Occupancy::OCCUPIED:
+      return '@';
+    case Occupancy::UNKNOWN:
+      break;
+  }
+  return 'T';
+}
+
 }  // namespace
 
 OccupancyGrid parseMovingAi(const std::string& text, const std::string& file,
@@ -146,41 +173,20 @@ OccupancyGrid parseMovingAi(const std::string& text, const std::string& file,
     throw InputError(file, "is too short for a map of " + std::to_string(header.width) + "x" +
                                std::to_string(header.height) + " cells");
   OccupancyGrid map(geometry);
-  std::string_view line;
   Strangers strangers;
-  for (int row = 0; row < map.height(); ++row) {
-    if (!lines.next(line))
-      throw InputError(file, lines.number(),
-                       "ends after " + std::to_string(row) + " rows of the map, expected " +
-                           std::to_string(map.height()));
-    readRow(line, lines.number(), file, map, row, strangers);
-  }
-  while (lines.next(line))
-    if (!line.empty())
-      throw InputError(file, lines.number(),
-                       "has more than the " + std::to_string(map.height()) + " rows of its header");
+  readRows(lines, file, map, strangers);
   warnAboutStrangers(strangers, file, options);
   return map;
 }
 
 void writeMovingAiFile(const std::string& file, const OccupancyGrid& map,
                        const OccupancyThresholds& thresholds) {
-  const auto letterOf = [&thresholds](std::int8_t value) {
-    switch (thresholds.classify(value)) {
-      case Occupancy::FREE:
-        return '.';
-      case Occupancy::OCCUPIED:
-        return '@';
-      case Occupancy::UNKNOWN:
-        break;
-    }
-    return 'T';
-  };
   std::string text = "type octile\nheight " + std::to_string(map.height()) + "\nwidth " +
                      std::to_string(map.width()) + "\nmap\n";
   text.reserve(text.size() + map.values().size() + map.height());
   for (int row = 0; row < map.height(); ++row) {
-    for (int column = 0; column < map.width(); ++column) text += letterOf(map.row(row)[column]);
+    for (int column = 0; column < map.width(); ++column)
+      text += letterOf(thresholds.classify(map.row(row)[column]));
     text += '\n';
   }
   writeFileAtomically(file, text);

@@ -105,6 +105,43 @@ std::string publishedProgramAnswer(const StudyData& data, const StudyVariant& va
          correctAnswer(data, variant, gaps);
 }
 
+TableCell percentCell(double share) {
+  TableCell cell(percentText(share));
+  cell.number = share;
+  return cell;
+}
+
+std::vector<TableCell> rowOf(const StudyData& data, const StudyVariant& variant, const Gaps& gaps) {
+  double sum = 0.0, largest = gaps.values.empty() ? 0.0 : gaps.values.front();
+  for (const double gap : gaps.values) {
+    sum += gap;
+    largest = std::max(largest, gap);
+  }
+  const auto cell = [&gaps](double gap) {
+    return gaps.values.empty() ? TableCell("–") : percentCell(gap);
+  };
+  const auto found = static_cast<double>(gaps.found);
+  return {variant.label,
+          TableCell(static_cast<double>(gaps.runs), 4),
+          TableCell(found, 4),
+          shareCell(gaps.optimal, gaps.found, data.queries()),
+          cell(gaps.values.empty() ? 0.0 : quantileOf(gaps.values, 0.5)),
+          cell(gaps.values.empty() ? 0.0 : sum / found),
+          cell(largest)};
+}
+
+void addAnswers(const StudyData& data, std::size_t variant, const Gaps& gaps,
+                std::vector<std::string>& answers) {
+  const StudyVariant& each = data.study().variants[variant];
+  if (each.planner == "dijkstra") {
+    answers.push_back(dijkstraAnswer(data, gaps));
+    const std::string lengths = lengthsAnswer(data, variant);
+    if (!lengths.empty()) answers.push_back(lengths);
+  }
+  if (each.planner == "a_star_published")
+    answers.push_back(publishedProgramAnswer(data, each, gaps));
+}
+
 }  // namespace
 
 Finding optimalFinding(const StudyData& data) {
@@ -118,32 +155,8 @@ Finding optimalFinding(const StudyData& data) {
       {}};
   for (std::size_t variant = 0; variant < data.study().variants.size(); ++variant) {
     const Gaps gaps = gapsOf(data, variant);
-    const StudyVariant& each = data.study().variants[variant];
-    double sum = 0.0, largest = gaps.values.empty() ? 0.0 : gaps.values.front();
-    for (const double gap : gaps.values) {
-      sum += gap;
-      largest = std::max(largest, gap);
-    }
-    const auto cell = [&gaps](double gap) {
-      if (gaps.values.empty()) return TableCell("–");
-      TableCell shown(percentText(gap));
-      shown.number = gap;
-      return shown;
-    };
-    const auto found = static_cast<double>(gaps.found);
-    finding.table.rows.push_back({each.label, TableCell(static_cast<double>(gaps.runs), 4),
-                                  TableCell(found, 4),
-                                  shareCell(gaps.optimal, gaps.found, data.queries()),
-                                  cell(gaps.values.empty() ? 0.0 : quantileOf(gaps.values, 0.5)),
-                                  cell(gaps.values.empty() ? 0.0 : sum / found), cell(largest)});
-    if (gaps.found == 0) continue;
-    if (each.planner == "dijkstra") {
-      finding.answers.push_back(dijkstraAnswer(data, gaps));
-      const std::string lengths = lengthsAnswer(data, variant);
-      if (!lengths.empty()) finding.answers.push_back(lengths);
-    }
-    if (each.planner == "a_star_published")
-      finding.answers.push_back(publishedProgramAnswer(data, each, gaps));
+    finding.table.rows.push_back(rowOf(data, data.study().variants[variant], gaps));
+    if (gaps.found > 0) addAnswers(data, variant, gaps, finding.answers);
   }
   return finding;
 }

@@ -22,6 +22,17 @@ bool numeric(const Table& table, std::size_t column) {
   return false;
 }
 
+std::string cellHtml(const TableCell& cell) {
+  std::string html = "<td";
+  if (cell.number) {
+    std::ostringstream number;
+    number.precision(12);
+    number << *cell.number;
+    html += " class=\"number\" data-n=\"" + number.str() + '"';
+  }
+  return html + '>' + escaped(cell.text) + "</td>";
+}
+
 std::string tableHtml(const Table& table, const std::string& frame) {
   std::string html = "<div class=\"" + frame +
                      "\" tabindex=\"0\"><table class=\"sorts\" id=\"table-" + escaped(table.name) +
@@ -32,16 +43,7 @@ std::string tableHtml(const Table& table, const std::string& frame) {
   html += "</tr></thead><tbody>";
   for (const auto& row : table.rows) {
     html += "<tr>";
-    for (const TableCell& cell : row) {
-      html += "<td";
-      if (cell.number) {
-        std::ostringstream number;
-        number.precision(12);
-        number << *cell.number;
-        html += " class=\"number\" data-n=\"" + number.str() + '"';
-      }
-      html += '>' + escaped(cell.text) + "</td>";
-    }
+    for (const TableCell& cell : row) html += cellHtml(cell);
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
@@ -141,6 +143,15 @@ std::string fact(std::size_t number, const std::string& singular) {
          (number == 1 ? "" : "s") + "</li>";
 }
 
+std::string firstAnswersHtml(const std::vector<Finding>& findings) {
+  std::string html = "<ul>";
+  for (const Finding& finding : findings)
+    if (!finding.answers.empty())
+      html += "<li><a href=\"#about-" + finding.table.name + "\">" + escaped(finding.question) +
+              "</a> " + escaped(finding.answers.front()) + "</li>";
+  return html + "</ul>";
+}
+
 std::string summaryHtml(const StudyData& data, const std::vector<Finding>& findings) {
   std::size_t found = 0;
   for (const StudyRun& run : data.runs()) found += run.status == Status::FOUND ? 1 : 0;
@@ -156,12 +167,7 @@ std::string summaryHtml(const StudyData& data, const std::vector<Finding>& findi
           fact(data.study().variants.size(), "variant") + fact(data.units().size(), "question") +
           fact(data.runs().size(), "run") + "<li><b>" + shownNumber(static_cast<double>(found), 6) +
           "</b> found</li></ul>";
-  html += "<ul>";
-  for (const Finding& finding : findings)
-    if (!finding.answers.empty())
-      html += "<li><a href=\"#about-" + finding.table.name + "\">" + escaped(finding.question) +
-              "</a> " + escaped(finding.answers.front()) + "</li>";
-  return html + "</ul>";
+  return html + firstAnswersHtml(findings);
 }
 
 std::string failuresHtml(const std::vector<StudyFailure>& failures) {

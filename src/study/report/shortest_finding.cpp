@@ -19,6 +19,25 @@ struct Score {
   std::size_t cheapest = 0;  // cost as small as the smallest of all
 };
 
+// Counts a unit in which every variant of `scores` found a path.
+void addTo(std::vector<Score>& scores, const UnitRow& unit) {
+  double least_length = 1e300, least_cost = 1e300;
+  for (const Score& score : scores) {
+    least_length = std::min(least_length, unit[score.variant]->length_m);
+    least_cost = std::min(least_cost, unit[score.variant]->cost);
+  }
+  const auto isShortest = [&](const Score& score) {
+    return unit[score.variant]->length_m <= least_length * (1.0 + kSameLength);
+  };
+  const auto winners = std::count_if(scores.begin(), scores.end(), isShortest);
+  for (Score& score : scores) {
+    ++score.units;
+    score.shortest += isShortest(score) ? 1 : 0;
+    score.alone += isShortest(score) && winners == 1 ? 1 : 0;
+    score.cheapest += unit[score.variant]->cost <= least_cost * (1.0 + kSameLength) ? 1 : 0;
+  }
+}
+
 // Variants of one program that differ in the heuristic, in units where all of them found a path.
 std::vector<Score> scoresOf(const StudyData& data, const std::vector<std::size_t>& variants) {
   std::vector<Score> scores;
@@ -27,22 +46,7 @@ std::vector<Score> scoresOf(const StudyData& data, const std::vector<std::size_t
     const bool all = std::all_of(variants.begin(), variants.end(), [&unit](std::size_t variant) {
       return unit[variant] != nullptr && unit[variant]->status == Status::FOUND;
     });
-    if (!all) continue;
-    double least_length = 1e300, least_cost = 1e300;
-    for (const std::size_t variant : variants) {
-      least_length = std::min(least_length, unit[variant]->length_m);
-      least_cost = std::min(least_cost, unit[variant]->cost);
-    }
-    const auto isShortest = [&](std::size_t variant) {
-      return unit[variant]->length_m <= least_length * (1.0 + kSameLength);
-    };
-    const auto winners = std::count_if(variants.begin(), variants.end(), isShortest);
-    for (Score& score : scores) {
-      ++score.units;
-      score.shortest += isShortest(score.variant) ? 1 : 0;
-      score.alone += isShortest(score.variant) && winners == 1 ? 1 : 0;
-      score.cheapest += unit[score.variant]->cost <= least_cost * (1.0 + kSameLength) ? 1 : 0;
-    }
+    if (all) addTo(scores, unit);
   }
   return scores;
 }

@@ -20,28 +20,32 @@ struct Crossing {
   std::vector<double> unknown_m, occupied_m, length_m;
 };
 
+// The one of these weights, kernel and map, which may be new.
+Crossing& crossingOf(const StudyData& data, const StudySetting& setting,
+                     std::vector<Crossing>& all) {
+  const std::string& map = data.study().maps[setting.map].name;
+  const auto crossing = std::find_if(all.begin(), all.end(), [&](const Crossing& each) {
+    return each.weights == setting.weights && each.kernel == setting.terrain.kernel &&
+           each.map == map;
+  });
+  if (crossing != all.end()) return *crossing;
+  all.push_back({setting.weights, setting.terrain.kernel, map, 0, 0, 0, {}, {}, {}});
+  return all.back();
+}
+
 // By the baseline's paths, which cost the least.
 std::vector<Crossing> crossingsOf(const StudyData& data) {
   std::vector<Crossing> all;
   for (const UnitRow& unit : data.units()) {
     const StudyRun* run = unit[data.baseline()];
     if (run == nullptr || run->status != Status::FOUND) continue;
-    const StudySetting& setting = data.settingOf(*run);
-    const std::string& map = data.study().maps[setting.map].name;
-    auto crossing = std::find_if(all.begin(), all.end(), [&](const Crossing& each) {
-      return each.weights == setting.weights && each.kernel == setting.terrain.kernel &&
-             each.map == map;
-    });
-    if (crossing == all.end()) {
-      all.push_back({setting.weights, setting.terrain.kernel, map, 0, 0, 0, {}, {}, {}});
-      crossing = all.end() - 1;
-    }
-    ++crossing->paths;
-    crossing->unknown += run->unknown_m > 0.0 ? 1 : 0;
-    crossing->occupied += run->occupied_m > 0.0 ? 1 : 0;
-    crossing->unknown_m.push_back(run->unknown_m);
-    crossing->occupied_m.push_back(run->occupied_m);
-    crossing->length_m.push_back(run->length_m);
+    Crossing& crossing = crossingOf(data, data.settingOf(*run), all);
+    ++crossing.paths;
+    crossing.unknown += run->unknown_m > 0.0 ? 1 : 0;
+    crossing.occupied += run->occupied_m > 0.0 ? 1 : 0;
+    crossing.unknown_m.push_back(run->unknown_m);
+    crossing.occupied_m.push_back(run->occupied_m);
+    crossing.length_m.push_back(run->length_m);
   }
   return all;
 }
