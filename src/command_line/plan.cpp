@@ -113,9 +113,9 @@ std::vector<Cell> cellsOf(const Plan& report, const GridGeometry& geometry) {
 
 // Where the planner guarantees the least cost by default, but not with these options.
 void warnIfNotOptimal(const PlannerOptions& options) {
-  if (options.terrain.kernel != 1 || options.smooth) return;
+  if (options.costmap.kernel != 1 || options.smooth) return;
   if (!traitsOf(options.planner).optimal) return;
-  std::cerr << "warning: the path may not be the cheapest: with this heuristic, heuristic_scale or "
+  std::cerr << "warning: the path may not be optimal: with this heuristic, heuristic_scale or "
                "epsilon "
             << options.planner << " does not promise it\n";
 }
@@ -149,7 +149,7 @@ int runPlan(int argc, char** argv) {
   if (report.status == Status::FOUND && !report.optimal) warnIfNotOptimal(options);
 
   if (values.count("image") != 0)
-    writePicture(values["image"].as<std::string>(), *map, options.terrain.thresholds,
+    writePicture(values["image"].as<std::string>(), *map, options.costmap.thresholds,
                  {report.path, cellsOf(report, map->geometry()), {}, {}});
   if (values.count("waypoints") != 0 && report.status == Status::FOUND)
     writeWaypointFile(values["waypoints"].as<std::string>(), report.path);

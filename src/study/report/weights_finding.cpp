@@ -29,11 +29,11 @@ std::vector<Crossing> crossingsOf(const StudyData& data) {
     const StudySetting& setting = data.settingOf(*run);
     const std::string& map = data.study().maps[setting.map].name;
     auto crossing = std::find_if(all.begin(), all.end(), [&](const Crossing& each) {
-      return each.weights == setting.weights && each.kernel == setting.terrain.kernel &&
+      return each.weights == setting.weights && each.kernel == setting.costmap.kernel &&
              each.map == map;
     });
     if (crossing == all.end()) {
-      all.push_back({setting.weights, setting.terrain.kernel, map, 0, 0, 0, {}, {}, {}});
+      all.push_back({setting.weights, setting.costmap.kernel, map, 0, 0, 0, {}, {}, {}});
       crossing = all.end() - 1;
     }
     ++crossing->paths;
