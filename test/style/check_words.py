@@ -1,10 +1,10 @@
 """Words of our own that do not come back where the field has a term: in names, identifiers and comments
-of C++ files. doc/glossary.md says what the terms mean.
+of C++ files, in documents, configuration and messages. doc/glossary.md says what the terms mean.
 """
 import os
 import re
 
-from common import files, finish, read
+from common import ROOT, files, finish, read
 
 # Words as written with underscores; CamelCase is found too. Single words are found as wholes.
 WORDS = {
@@ -73,9 +73,11 @@ WORDS = {
 }
 
 # The value of the option heuristic_scale stands in users' files.
-VALUE = re.compile(r"""(["'`])cheapest\1""")
+VALUE = re.compile(r"""(["'`])cheapest\1|heuristic_scale: cheapest""")
 
-FOLDERS = ("include", "src", "test", "benchmark", "examples")
+CODE = ("include", "src", "test", "benchmark", "examples")
+PAGES = ("doc", "config", "launch", "maps", "msg", "srv", "action")
+PAGE_ENDINGS = (".md", ".rst", ".yaml", ".launch", ".msg", ".srv", ".action")
 
 
 def pattern(word):
@@ -91,10 +93,16 @@ def pattern(word):
         + ("" if len(parts) == 1 else "|%s(?![a-z])" % (camel[0].lower() + camel[1:] + plural)))
 
 
+def texts():
+    """Names of the files that are read."""
+    pages = [name for name in sorted(os.listdir(ROOT)) if name.endswith(PAGE_ENDINGS)]
+    return files(CODE, (".h", ".cpp")) + files(PAGES, PAGE_ENDINGS) + pages
+
+
 def occurrences():
     """(word, file, line number) of all."""
     patterns = [(word, word.replace("_", ""), pattern(word)) for word in sorted(WORDS)]
-    for name in files(FOLDERS, (".h", ".cpp")):
+    for name in texts():
         for number, line in enumerate([os.path.basename(name)] + VALUE.sub("", read(name)).splitlines()):
             letters = line.lower().replace("_", "")
             for word, its_letters, expression in patterns:
