@@ -35,9 +35,9 @@ PlannerOptions optionsWith(int kernel) {
   PlannerOptions options;
   options.planner = "dijkstra";
   options.timeout = 0.0;
-  options.terrain.radius = 0.05;
-  options.terrain.decay = 5.0;
-  options.terrain.kernel = kernel;
+  options.costmap.radius = 0.05;
+  options.costmap.decay = 5.0;
+  options.costmap.kernel = kernel;
   options.start_escape_radius = options.tolerance = 5.0;
   return options;
 }

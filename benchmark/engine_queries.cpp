@@ -4,7 +4,7 @@
 //
 //     --limit N            queries, spread evenly over the file
 //     --radius R --decay D inflation of the map, in cells and 1/cells (inflation_weight 40)
-//     --weights KIND       inflated: as the terrain makes them (default)
+//     --weights KIND       inflated: by the distance to obstacles (default)
 //                          noise: 1 to 40, random in every passable cell
 //                          costmap: as navfn sees the cost map, 50 + 0.8 x (0 to 252)
 //     --write-costs FILE   the same map as costmap_2d has it (0 to 252, 254 blocked), an 8-bit PGM
@@ -98,9 +98,9 @@ std::shared_ptr<const CostGrid> inflated(const Arguments& arguments) {
   options.radius = arguments.number("--radius") * map->geometry().resolution();
   options.decay = arguments.number("--decay") / map->geometry().resolution();
   options.inflation_weight = kInflationWeight;
-  CostmapBuilder terrain(options);
-  terrain.setMap(map);
-  return terrain.downsampled(StopToken());
+  CostmapBuilder builder(options);
+  builder.setMap(map);
+  return builder.downsampled(StopToken());
 }
 
 std::shared_ptr<const CostGrid> withWeights(const CostGrid& map, const std::string& kind) {

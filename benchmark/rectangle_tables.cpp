@@ -76,19 +76,19 @@ OccupancyGrid render(const std::string& folder, const Drawing& drawing, int cell
   return readMapFile(folder + "/" + drawing.name + ".yaml", options);
 }
 
-std::shared_ptr<const CostGrid> terrainOf(const OccupancyGrid& map,
+std::shared_ptr<const CostGrid> costmapOf(const OccupancyGrid& map,
                                           Connectivity connectivity = Connectivity::EIGHT) {
   CostmapOptions options;
   options.motion.connectivity = connectivity;
-  CostmapBuilder terrain(options);
-  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
-  return terrain.downsampled(StopToken());
+  CostmapBuilder builder(options);
+  builder.setMap(std::make_shared<const OccupancyGrid>(map));
+  return builder.downsampled(StopToken());
 }
 
 RectangleGraph rectanglesOf(const OccupancyGrid& map) {
-  const auto terrain = terrainOf(map);
+  const auto costmap = costmapOf(map);
   return RectangleGraph(map.geometry(),
-                        largestFirst(terrain->bitMaps(StopToken()), {}, StopToken()),
+                        largestFirst(costmap->bitMaps(StopToken()), {}, StopToken()),
                         Touching::BORDERS);
 }
 
@@ -235,17 +235,17 @@ void count(const Planner& planner, const CostGrid& map, Measured& measured) {
 Measured measure(const Contender& contender, const OccupancyGrid& map,
                  const std::vector<Query>& queries) {
   constexpr int kRounds = 7;
-  const auto terrain = terrainOf(map, contender.connectivity);
-  terrain->bitMaps(StopToken());
+  const auto costmap = costmapOf(map, contender.connectivity);
+  costmap->bitMaps(StopToken());
   const std::unique_ptr<Planner> planner = makePlanner(contender.planner, contender.options);
   Measured measured;
   for (int round = 0; round < kRounds; ++round) {
     const double begin = threadMilliseconds();
-    planner->prepare(terrain, StopToken());
+    planner->prepare(costmap, StopToken());
     const double taken = threadMilliseconds() - begin;
     measured.prepare_ms = round == 0 ? taken : std::min(measured.prepare_ms, taken);
   }
-  count(*planner, *terrain, measured);
+  count(*planner, *costmap, measured);
   for (const Query& query : queries) {
     SearchResult result;
     double least = 0.0;
@@ -309,8 +309,8 @@ double meanExcess(const Measured& measured, const Measured& shortest) {
 void printPlanning(const std::string& folder, const Drawing& drawing, int cells,
                    const std::vector<Contender>& contenders) {
   const OccupancyGrid map = render(folder, drawing, cells);
-  const auto terrain = terrainOf(map);
-  const std::vector<Query> queries = queriesOn(*terrain, drawing);
+  const auto costmap = costmapOf(map);
+  const std::vector<Query> queries = queriesOn(*costmap, drawing);
   const Measured shortest = measure({"", "anya", {}}, map, queries);
 
   std::printf("### %s, %d×%d\n\n", drawing.name, cells, cells);

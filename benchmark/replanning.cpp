@@ -5,11 +5,11 @@
 // A vehicle drives along its path over a map of blocks, posts and unknown patches, inflated by six
 // cells and a decay back to free over ten. At every edit an obstacle appears or vanishes within its
 // sensor's range, some of them on the path ahead. Timed together: taking the change into the map,
-// Terrain, IncrementalAStar::update() and plan(); against it a_star's plan() alone, octile, on the
-// same map. Every cost is compared, exactly. The whole drive is repeated, the same to the last cell
-// (counters decide, never a clock), and the least of each time counts: a machine that is busy now
-// and then disturbs little. Prints percentiles and ratios, and how many edits took too long in
-// each round by itself; exit code 1 where a cost differs. Times are of the thread.
+// CostmapBuilder, IncrementalAStar::update() and plan(); against it a_star's plan() alone, octile,
+// on the same map. Every cost is compared, exactly. The whole drive is repeated, the same to the
+// last cell (counters decide, never a clock), and the least of each time counts: a machine that is
+// busy now and then disturbs little. Prints percentiles and ratios, and how many edits took too
+// long in each round by itself; exit code 1 where a cost differs. Times are of the thread.
 #include <ctime>
 
 #include <algorithm>
@@ -195,12 +195,12 @@ class Run {
         draw_(arguments.seed),
         world_(world(arguments.side, draw_)),
         sensor_(world_, draw_),
-        terrain_(inflated()),
+        builder_(inflated()),
         vehicle_{kBorder / 2, kBorder / 2},
         goal_{arguments.side - kBorder / 2, arguments.side - kBorder / 2} {
     maps_.reset(std::make_shared<OccupancyGrid>(world_));
-    terrain_.setMap(maps_.current());
-    const auto costs = terrain_.downsampled(StopToken());
+    builder_.setMap(maps_.current());
+    const auto costs = builder_.downsampled(StopToken());
     replanner_.prepare(costs, StopToken());
     a_star_.prepare(costs, StopToken());
   }
@@ -214,7 +214,7 @@ class Run {
       Times times;
       times.update = timed([this] { takeEdit(); });
       times.plan = timed([this] { plan(); });
-      a_star_.update(terrain_.downsampled(StopToken()), terrain_.downsampledChange(), StopToken());
+      a_star_.update(builder_.downsampled(StopToken()), builder_.downsampledChange(), StopToken());
       SearchResult fresh;
       times.fresh = timed([&] { fresh = a_star_.search({vehicle_, {goal_}, false}, StopToken()); });
       if (fresh.status != result_.status || fresh.cost != result_.cost) {
@@ -246,9 +246,9 @@ class Run {
     maps_.advance(edit_.rect, [this](OccupancyGrid& next) {
       edit_.appears ? fill(next, edit_.rect, 100) : copyCells(world_, edit_.rect, next);
     });
-    terrain_.updateMap(maps_.current(), edit_.rect);
-    const auto costs = terrain_.downsampled(StopToken());
-    replanner_.update(costs, terrain_.downsampledChange(), StopToken());
+    builder_.updateMap(maps_.current(), edit_.rect);
+    const auto costs = builder_.downsampled(StopToken());
+    replanner_.update(costs, builder_.downsampledChange(), StopToken());
   }
 
   void plan() {
@@ -262,7 +262,7 @@ class Run {
   Draw draw_;
   OccupancyGrid world_;
   Sensor sensor_;
-  CostmapBuilder terrain_;
+  CostmapBuilder builder_;
   DoubleBuffered<OccupancyGrid> maps_;
   IncrementalAStar replanner_;
   AStar a_star_;

@@ -31,7 +31,7 @@ int planOnFile(const std::string& map_file, const std::string& waypoint_file) {
 
   PlannerOptions options;
   options.planner = "weighted_jump_point";
-  options.terrain.radius = 1.0;  // m, of the vehicle
+  options.costmap.radius = 1.0;  // m, of the vehicle
 
   PathPlanner planner(options);
   planner.setMap(map);
@@ -40,7 +40,7 @@ int planOnFile(const std::string& map_file, const std::string& waypoint_file) {
   if (plan.status != Status::FOUND) return 1;
 
   std::cout << "The path is " << plan.length_m << " m long; its clearance is "
-            << clearanceOf(plan.path, *map, options.terrain.thresholds) << " m.\n";
+            << clearanceOf(plan.path, *map, options.costmap.thresholds) << " m.\n";
   grid_path_planner::path::writeWaypointFile(waypoint_file, plan.path);
   std::cout << "Its " << plan.path.poses.size() << " waypoints are in " << waypoint_file << ".\n";
   return 0;

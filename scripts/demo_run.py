@@ -54,7 +54,7 @@ class Planner:
         fill(start.pose.pose, START)
         fill(goal.pose, GOAL)
         self.start.publish(start)
-        time.sleep(0.5)  # two topics: there is no other way to be heard in this order
+        time.sleep(0.5)  # two topics: nothing else makes them arrive in this order
         self.goal.publish(goal)
 
     def plan(self):

@@ -1,5 +1,5 @@
 """What the demo and the survey scripts share: a roscore and the nodes of a launch file as a child process,
-and somebody who listens to the simulated vehicle and sends it on its way.
+and somebody who listens to the simulated vehicle and sends it along its path.
 
     with Nodes("demo.launch", ["rviz:=false"], "out/demo.log") as nodes:
         vehicle = Vehicle(nodes)
@@ -42,7 +42,7 @@ def executable(name):
 
 
 class Nodes:
-    """A launch file as a child process, with everything that it starts. Stops it on the way out."""
+    """A launch file as a child process, with everything that it starts. Stops it at the end."""
 
     def __init__(self, launch_file, arguments, log):
         port = free_port()

@@ -132,9 +132,9 @@ PlannerOptions plannerOptionsFrom(const po::variables_map& values, const Planner
     for (const double weight : weights)
       if (weight != std::floor(weight) || weight < 1 || weight > 65535)
         throw InputError("--weights must be whole numbers from 1 to 65535, got '" + text + "'");
-    options.terrain.free_weight = static_cast<int>(weights[0]);
-    options.terrain.unknown_weight = static_cast<int>(weights[1]);
-    options.terrain.occupied_weight = static_cast<int>(weights[2]);
+    options.costmap.free_weight = static_cast<int>(weights[0]);
+    options.costmap.unknown_weight = static_cast<int>(weights[1]);
+    options.costmap.occupied_weight = static_cast<int>(weights[2]);
   }
   visitOptions(options, FromText{values});
   checkPlannerOptions(options);

@@ -107,9 +107,9 @@ std::int8_t valueOf(Occupancy occupancy) {
 // The classes of the blocks; the map itself for kernel 1.
 OccupancyGrid withKernel(const OccupancyGrid& map, const CostmapOptions& options) {
   if (options.kernel == 1) return map;
-  CostmapBuilder terrain(options);
-  terrain.setMap(std::make_shared<OccupancyGrid>(map));
-  const auto blocks = terrain.downsampled(StopToken());
+  CostmapBuilder builder(options);
+  builder.setMap(std::make_shared<OccupancyGrid>(map));
+  const auto blocks = builder.downsampled(StopToken());
   OccupancyGrid result(blocks->geometry());
   for (int row = 0; row < result.height(); ++row)
     for (int column = 0; column < result.width(); ++column)

@@ -104,9 +104,9 @@ std::vector<Cell> cellsOf(const Plan& report, const GridGeometry& geometry) {
 
 // Where the planner guarantees the least cost by default, but not with these options.
 void warnIfNotOptimal(const PlannerOptions& options) {
-  if (options.terrain.kernel != 1 || options.smooth) return;
+  if (options.costmap.kernel != 1 || options.smooth) return;
   if (!traitsOf(options.planner).optimal) return;
-  std::cerr << "warning: the path may not be the cheapest: with this heuristic, heuristic_scale or "
+  std::cerr << "warning: the path may not be optimal: with this heuristic, heuristic_scale or "
                "epsilon "
             << options.planner << " does not promise it\n";
 }
@@ -168,7 +168,7 @@ int runPlan(int argc, char** argv) {
   const double preparation_ms = preparationMs(planner);
   const Plan report = planner.plan(request);
   if (report.status == Status::FOUND && !report.optimal) warnIfNotOptimal(options);
-  writeFiles(values, *map, options.terrain.thresholds, report);
+  writeFiles(values, *map, options.costmap.thresholds, report);
   print(report, preparation_ms, values.count("json") != 0);
   return exitCodeOf(report.status);
 }

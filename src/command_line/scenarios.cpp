@@ -96,9 +96,9 @@ std::size_t limitOf(const po::variables_map& values) {
 }
 
 // Whether the costs of scenario files are the least ones on a map that is made with these options.
-bool fileOptimaHold(const CostmapOptions& terrain) {
-  return terrain.radius == 0.0 && terrain.decay == 0.0 && terrain.kernel == 1 &&
-         terrain.free_weight == 1 && terrain.motion == MotionModel();
+bool fileOptimaHold(const CostmapOptions& costmap) {
+  return costmap.radius == 0.0 && costmap.decay == 0.0 && costmap.kernel == 1 &&
+         costmap.free_weight == 1 && costmap.motion == MotionModel();
 }
 
 // Queries are from cell to cell: options of poses and of the time around the search have no effect.
@@ -109,9 +109,9 @@ void warnAboutOptionsOfPoses(const PlannerOptions& options) {
       if (name == unused) warnAboutUnusedOption(name, "scenarios");
 }
 
-std::string referenceNameOf(const po::variables_map& values, const CostmapOptions& terrain) {
+std::string referenceNameOf(const po::variables_map& values, const CostmapOptions& costmap) {
   if (values.count("reference") != 0) return values["reference"].as<std::string>();
-  return fileOptimaHold(terrain) ? kFile : "dijkstra";
+  return fileOptimaHold(costmap) ? kFile : "dijkstra";
 }
 
 // The query's cells, or their blocks on a map of a kernel.
@@ -213,10 +213,10 @@ struct PreparedPlanner {
 PreparedPlanner prepare(const OccupancyGrid& map, const PlannerOptions& options) {
   PreparedPlanner prepared;
   prepared.geometry = map.geometry();
-  CostmapBuilder terrain(options.terrain);
-  terrain.setMap(std::make_shared<const OccupancyGrid>(map));
+  CostmapBuilder builder(options.costmap);
+  builder.setMap(std::make_shared<const OccupancyGrid>(map));
   const auto begin = std::chrono::steady_clock::now();
-  prepared.costs = terrain.downsampled(StopToken());
+  prepared.costs = builder.downsampled(StopToken());
   prepared.planner = makePlanner(options.planner, options.search);
   prepared.planner->prepare(prepared.costs, StopToken());
   prepared.planner->finishBackgroundWork(StopToken());
@@ -318,7 +318,7 @@ int runScenarios(int argc, char** argv) {
 
   const PreparedPlanner prepared =
       prepare(readAnyMapFile(map_file, readingOptionsFrom(values)), options);
-  const Reference reference(referenceNameOf(values, options.terrain), prepared.costs,
+  const Reference reference(referenceNameOf(values, options.costmap), prepared.costs,
                             judgedTraits(prepared, options));
   const Results results = runQueries(queries, file, prepared, options.smooth, reference);
   if (values.count("csv") != 0) writeFileAtomically(values["csv"].as<std::string>(), results.csv);

@@ -64,21 +64,21 @@ PathFollower::Answer PathFollower::pause() {
   state_ = FollowState::PAUSED;
   blocked_since_.reset();
   standStill();
-  return {true, "paused on the way to " + progress_->currentName()};
+  return {true, "paused while driving to " + progress_->currentName()};
 }
 
 PathFollower::Answer PathFollower::resume() {
   if (!active()) return {false, std::string("nothing to resume: ") + toString(state_)};
   if (state_ != FollowState::PAUSED) return {true, "not paused"};
   state_ = FollowState::DRIVING;
-  return {true, "resumed on the way to " + progress_->currentName()};
+  return {true, "resumed while driving to " + progress_->currentName()};
 }
 
 PathFollower::Answer PathFollower::cancel(const std::string& reason) {
   standStill();
   if (active()) {
     end({FollowState::CANCELLED, DriveStatus::CANCELLED, reason});
-    return {true, "cancelled on the way to " + progress_->currentName()};
+    return {true, "cancelled while driving to " + progress_->currentName()};
   }
   if (state_ == FollowState::ARRIVED) state_ = FollowState::IDLE;
   return {true, "nothing was being driven"};

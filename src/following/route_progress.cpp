@@ -210,7 +210,7 @@ std::optional<DriveEnd> RouteProgress::checkProgress(const Pose& vehicle, double
     return {};
   return DriveEnd{FollowState::FAILED, DriveStatus::NO_PROGRESS,
                   "no progress for " + decimalText(options_.no_progress_timeout) +
-                      " s on the way to " + currentName()};
+                      " s while driving to " + currentName()};
 }
 
 RoutePosition RouteProgress::position(const Vector3d& vehicle) const {

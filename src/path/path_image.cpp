@@ -114,7 +114,7 @@ double strokeOf(const PictureLayout& layout) {
   return std::clamp(std::max(of_map, of_cell), kThin, kThick);
 }
 
-// Whether `b` lies on the way from `a` to `c`, but for a hundredth of a pixel.
+// Whether `b` lies on the segment from `a` to `c`, but for a hundredth of a pixel.
 bool isBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return (b - a).dot(c - b) >= 0.0 && distanceBetween({a, c}, {b, b}) < 0.01;
 }

@@ -99,7 +99,7 @@ Route MultiResolutionPlanner::find(Cell start, Cell goal, bool retry_finer, bool
                              route.plan.expanded.end());
   if (finer.plan.found())
     finer.plan.message = "kernel " + std::to_string(downsampled_->kernel()) +
-                         " closes the way: planned again at kernel 1";
+                         " closes all paths: planned again at kernel 1";
   return finer;
 }
 

@@ -2,7 +2,7 @@
 // are open, cell by cell where they are not.
 //
 // Where the block of an end is blocked though the cell is not, a leg at full resolution leads to
-// the middle of the open block that is cheapest to reach and from which the search can go on (or
+// the middle of the open block that costs least to reach and from which the search can go on (or
 // straight to the other end, if that is nearer). Where the kernel closes all paths the search is
 // repeated at full resolution, if that is allowed.
 #pragma once

@@ -100,7 +100,7 @@ std::optional<PathEnd> PathEnds::substituteGoal(const PathEnd& start,
 }
 
 std::string PathEnds::whyBlocked(Cell cell) const {
-  const CostmapOptions& costmap = options_.terrain;
+  const CostmapOptions& costmap = options_.costmap;
   switch (costs_.occupancy(cell)) {
     case Occupancy::OCCUPIED:
       if (!costmap.occupied_is_passable) return "is in an occupied cell";

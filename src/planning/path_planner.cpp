@@ -54,9 +54,9 @@ StopToken limited(const StopSource& stop, double timeout) {
 // All but the planner's name, whose check is left to what makes the planner.
 void checkOtherOptions(const PlannerOptions& options) {
   checkOptionLimits(options);
-  checkCostmapOptions(options.terrain);
+  checkCostmapOptions(options.costmap);
   checkSearchOptions(options.search);
-  const MotionModel& motion = options.terrain.motion;
+  const MotionModel& motion = options.costmap.motion;
   if (options.smooth &&
       (motion.connectivity != Connectivity::EIGHT || motion.diagonal_cost != DiagonalCost::SQRT2))
     throw InputError("smooth needs connectivity 8 and diagonal_cost sqrt2, got connectivity " +
@@ -92,7 +92,7 @@ std::string foundMessage(const Plan& plan, const PathEnd& start, const PathEnd& 
 
 std::string unreachableMessage(const PathEnd& start, const PathEnd& goal, double tolerance) {
   std::string message =
-      "no way leads from " + positionText(start.position) + " to " + positionText(goal.position);
+      "no path leads from " + positionText(start.position) + " to " + positionText(goal.position);
   if (tolerance > 0.0) message += " or within " + metresText(tolerance) + " of it";
   return message;
 }
@@ -132,14 +132,14 @@ PathPlanner& PathPlanner::operator=(PathPlanner&&) noexcept = default;
 
 void PathPlanner::setOptions(const PlannerOptions& options) {
   checkOtherOptions(options);
-  const bool new_costmap = !costmap_ || !sameOptions(options.terrain, options_.terrain);
+  const bool new_costmap = !costmap_ || !sameOptions(options.costmap, options_.costmap);
   const bool new_search = new_costmap || options.planner != options_.planner ||
                           !sameOptions(options.search, options_.search);
   if (new_search)
     search_ =
         std::make_unique<MultiResolutionPlanner>(options.planner, options.search, make_planner_);
   if (new_costmap) {
-    costmap_ = std::make_unique<CostmapBuilder>(options.terrain);
+    costmap_ = std::make_unique<CostmapBuilder>(options.costmap);
     if (map_) costmap_->setMap(map_);
   }
   options_ = options;

@@ -25,10 +25,10 @@ bool noEstimate(const PlannerOptions& o) {
   return o.search.heuristic == Heuristic::ZERO;
 }
 bool noKernel(const PlannerOptions& o) {
-  return o.terrain.kernel == 1;
+  return o.costmap.kernel == 1;
 }
 bool noDiagonals(const PlannerOptions& o) {
-  return o.terrain.motion.connectivity == Connectivity::FOUR;
+  return o.costmap.motion.connectivity == Connectivity::FOUR;
 }
 
 // With a kernel the legs out of blocked blocks are paths over the grid whatever the planner.
@@ -42,10 +42,10 @@ constexpr Rule kRules[] = {
     {"landmarks", "heuristic",
      [](const PlannerOptions& o) { return o.search.heuristic != Heuristic::LANDMARK; }},
     {"unknown_weight", "unknown_is_passable",
-     [](const PlannerOptions& o) { return !o.terrain.unknown_is_passable; }},
+     [](const PlannerOptions& o) { return !o.costmap.unknown_is_passable; }},
     {"occupied_weight", "occupied_is_passable",
-     [](const PlannerOptions& o) { return !o.terrain.occupied_is_passable; }},
-    {"inflation_weight", "decay", [](const PlannerOptions& o) { return o.terrain.decay == 0.0; }},
+     [](const PlannerOptions& o) { return !o.costmap.occupied_is_passable; }},
+    {"inflation_weight", "decay", [](const PlannerOptions& o) { return o.costmap.decay == 0.0; }},
     {"kernel_rule", "kernel", noKernel},
     {"diagonal_cost", "connectivity", noDiagonals},
     {"cut_corners", "connectivity", noDiagonals},

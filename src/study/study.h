@@ -58,7 +58,7 @@ struct StudySetting {
   std::string label;  // "dexrov_site, kernel 3 filter2d, weights 1/50/100"
   std::size_t map = 0;
   std::string weights;  // "1/50/100"
-  costmap::CostmapOptions terrain;
+  costmap::CostmapOptions costmap;
 };
 
 // Published figures of the same comparison, shown beside the measured ones.

@@ -44,7 +44,7 @@ std::size_t StudyData::queries() const {
 
 ProblemSize StudyData::sizeOf(std::size_t setting) const {
   const StudySetting& chosen = study().settings[setting];
-  return {chosen.map, chosen.terrain.kernel, chosen.terrain.kernel_rule};
+  return {chosen.map, chosen.costmap.kernel, chosen.costmap.kernel_rule};
 }
 
 std::vector<ProblemSize> StudyData::sizes() const {

@@ -292,7 +292,7 @@ class StudyReader {
   }
 
   std::vector<int> kernelsOf(const YAML::Node& root) const {
-    if (!root["kernels"]) return {study_.base.terrain.kernel};
+    if (!root["kernels"]) return {study_.base.costmap.kernel};
     std::vector<int> kernels;
     std::set<int> seen;
     for (const YAML::Node& entry : entriesOf(root["kernels"], "kernels")) {
@@ -303,9 +303,9 @@ class StudyReader {
   }
 
   std::vector<Weights> weightsOf(const YAML::Node& root) const {
-    const CostmapOptions& terrain = study_.base.terrain;
+    const CostmapOptions& costmap = study_.base.costmap;
     if (!root["weights"])
-      return {{terrain.free_weight, terrain.unknown_weight, terrain.occupied_weight}};
+      return {{costmap.free_weight, costmap.unknown_weight, costmap.occupied_weight}};
     std::vector<Weights> weights;
     std::set<std::string> seen;
     for (const YAML::Node& entry : entriesOf(root["weights"], "weights")) {
@@ -324,21 +324,21 @@ class StudyReader {
     StudySetting setting;
     setting.map = map;
     setting.weights = weightsLabel(weights);
-    setting.terrain = study_.base.terrain;
-    setting.terrain.kernel = kernel;
-    setting.terrain.kernel_rule = rule;
-    setting.terrain.free_weight = weights.free;
-    setting.terrain.unknown_weight = weights.unknown;
-    setting.terrain.occupied_weight = weights.occupied;
+    setting.costmap = study_.base.costmap;
+    setting.costmap.kernel = kernel;
+    setting.costmap.kernel_rule = rule;
+    setting.costmap.free_weight = weights.free;
+    setting.costmap.unknown_weight = weights.unknown;
+    setting.costmap.occupied_weight = weights.occupied;
     setting.label = study_.maps[map].name + ", kernel " + std::to_string(kernel) + ' ' +
                     choiceName(rule) + ", weights " + setting.weights;
-    atLine(root, [&] { checkCostmapOptions(setting.terrain); });
+    atLine(root, [&] { checkCostmapOptions(setting.costmap); });
     study_.settings.push_back(setting);
   }
 
   void readSettings(const YAML::Node& root) {
     const std::vector<int> kernels = kernelsOf(root);
-    const auto rules = choicesUnder(root, "kernel_rules", study_.base.terrain.kernel_rule);
+    const auto rules = choicesUnder(root, "kernel_rules", study_.base.costmap.kernel_rule);
     const std::vector<Weights> weights = weightsOf(root);
     for (std::size_t map = 0; map < study_.maps.size(); ++map)
       for (const int kernel : kernels)

@@ -55,7 +55,7 @@ std::string placesOf(const StudyQuery& query) {
 StudyPlan::StudyPlan(Study study, const MapReader& read_map) : study_(std::move(study)) {
   for (const StudyMap& map : study_.maps) {
     maps_.push_back(std::make_shared<const OccupancyGrid>(read_map(map.file)));
-    queries_.push_back(studyQueries(map, *maps_.back(), study_.base.terrain));
+    queries_.push_back(studyQueries(map, *maps_.back(), study_.base.costmap));
   }
   for (std::size_t setting = 0; setting < study_.settings.size(); ++setting)
     for (std::size_t query = 0; query < queries_[study_.settings[setting].map].size(); ++query)
@@ -71,7 +71,7 @@ std::uint64_t StudyPlan::fingerprint() const {
   Hash hash;
   hash.add(std::to_string(study_.repeats));
   addOptions(hash, study_.base);
-  for (const StudySetting& setting : study_.settings) addOptions(hash, setting.terrain);
+  for (const StudySetting& setting : study_.settings) addOptions(hash, setting.costmap);
   for (const StudyVariant& variant : study_.variants) {
     hash.add(variant.planner);
     addOptions(hash, variant.search);

@@ -32,18 +32,18 @@ std::shared_ptr<const CostGrid> strictCosts(const OccupancyGrid& occupancy,
                                             CostmapOptions options) {
   options.occupied_is_passable = false;
   options.kernel = 1;
-  CostmapBuilder terrain(options);
-  terrain.setMap(std::make_shared<const OccupancyGrid>(occupancy));
-  return terrain.fullResolution(StopToken());
+  CostmapBuilder builder(options);
+  builder.setMap(std::make_shared<const OccupancyGrid>(occupancy));
+  return builder.fullResolution(StopToken());
 }
 
 class QueryMaker {
  public:
-  QueryMaker(const StudyMap& map, const OccupancyGrid& occupancy, const CostmapOptions& terrain)
+  QueryMaker(const StudyMap& map, const OccupancyGrid& occupancy, const CostmapOptions& costmap)
       : map_(map),
         occupancy_(occupancy),
-        thresholds_(terrain.thresholds),
-        costs_(strictCosts(occupancy, terrain)) {}
+        thresholds_(costmap.thresholds),
+        costs_(strictCosts(occupancy, costmap)) {}
 
   std::vector<StudyQuery> make() {
     for (const CellPair& pair : map_.queries.pairs) add(pair.start, pair.goal);
@@ -140,8 +140,8 @@ class QueryMaker {
 }  // namespace
 
 std::vector<StudyQuery> studyQueries(const StudyMap& map, const OccupancyGrid& occupancy,
-                                     const CostmapOptions& terrain) {
-  return QueryMaker(map, occupancy, terrain).make();
+                                     const CostmapOptions& costmap) {
+  return QueryMaker(map, occupancy, costmap).make();
 }
 
 }  // namespace grid_path_planner::study

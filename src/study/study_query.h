@@ -17,10 +17,10 @@ struct StudyQuery {
 };
 
 // The queries of `map` on `occupancy`. Ends that are occupied or too near to something that is (by
-// `terrain`'s radius) are moved to the nearest free cell. Random pairs are connected, and the same
+// `costmap`'s radius) are moved to the nearest free cell. Random pairs are connected, and the same
 // for the same seed and map. Throws InputError for a pair outside the map, a scenario of another
 // map, and a map on which no end can be placed.
 std::vector<StudyQuery> studyQueries(const StudyMap& map, const grid::OccupancyGrid& occupancy,
-                                     const costmap::CostmapOptions& terrain);
+                                     const costmap::CostmapOptions& costmap);
 
 }  // namespace grid_path_planner::study

@@ -70,7 +70,7 @@ void fillPath(const Plan& report, const OccupancyGrid& map, const OccupancyThres
 PathPlanner StudyWorker::plannerFor(const StudySetting& setting,
                                     const StudyVariant& variant) const {
   PlannerOptions options = plan_.study().base;
-  options.terrain = setting.terrain;
+  options.costmap = setting.costmap;
   options.planner = variant.planner;
   options.search = variant.search;
   options.retry_finer = false;  // what a kernel closes is a result here
@@ -114,7 +114,7 @@ std::vector<StudyRun> StudyWorker::run(const StudyUnit& unit) {
       fillAnswer(report, run);
       if (exact.status == Status::FOUND) run.optimum = exact.cost.toDouble();
       if (report.status == Status::FOUND)
-        fillPath(report, map, setting.terrain.thresholds, unit.query < kDrawnQueries, run);
+        fillPath(report, map, setting.costmap.thresholds, unit.query < kDrawnQueries, run);
     }
   return runs;
 }

@@ -2,7 +2,7 @@
 
     check_report.py GRID_PATH CHROMIUM WORK_FOLDER
 
-Sorts a table both ways, changes picture, weights, query and paths, and fails where one of them does
+Sorts a table in both orders, changes picture, weights, query and paths, and fails where one of them does
 not do what it says, or where anything is written to the console or asked of a network.
 """
 import json
@@ -129,7 +129,7 @@ def main():
         with open(page, "w") as out:
             out.write(html.replace("<head>", "<head>" + LISTEN, 1).replace("</body>", USE + "</body>", 1))
         complaints = []
-        for window in ("1100,900", "390,800"):  # a desk, a phone
+        for window in ("1100,900", "390,800"):  # a screen, a phone
             dom = browse(chromium, folder, page, "--window-size=" + window, "--dump-dom")
             found = re.search(r'<pre id="result">(.*?)</pre>', dom, re.S)
             if not found:

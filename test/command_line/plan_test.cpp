@@ -94,7 +94,7 @@ TEST_F(Plan, OptionsReachThePlanner) {
       3.0);
 }
 
-TEST_F(Plan, SaysWhetherThePathIsTheCheapest) {
+TEST_F(Plan, SaysWhetherThePathIsOptimal) {
   const auto optimalWith = [&](std::vector<std::string> more) {
     more.insert(more.end(), {"--cells", "--start", "0,0", "--goal", "3,2", "--json"});
     testing::internal::CaptureStderr();
@@ -102,7 +102,7 @@ TEST_F(Plan, SaysWhetherThePathIsTheCheapest) {
     EXPECT_EQ(outcome.code, 0) << outcome.error;
     const std::string warning = testing::internal::GetCapturedStderr();
     const bool optimal = nlohmann::json::parse(outcome.printed)["optimal"];
-    EXPECT_EQ(contains(warning, "may not be the cheapest"),
+    EXPECT_EQ(contains(warning, "may not be optimal"),
               !optimal && more[0] != "--planner" && more[0] != "--smooth")
         << warning;
     return optimal;

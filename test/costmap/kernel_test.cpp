@@ -80,9 +80,9 @@ TEST(KernelLaw, OneChangesNothingAndNoneChangesTheMap) {
   for (int trial = 0; trial < 20; ++trial) {
     const OccupancyGrid map = test::randomOccupancy(random, 30, 0.2, 0.2);
     const OccupancyGrid before = map;
-    CostmapBuilder terrain(withKernel(1));
-    terrain.setMap(std::make_shared<const OccupancyGrid>(map));
-    EXPECT_EQ(terrain.downsampled(StopToken()), terrain.fullResolution(StopToken()));
+    CostmapBuilder builder(withKernel(1));
+    builder.setMap(std::make_shared<const OccupancyGrid>(map));
+    EXPECT_EQ(builder.downsampled(StopToken()), builder.fullResolution(StopToken()));
     for (int kernel = 2; kernel <= 8; ++kernel) costsOf(map, withKernel(kernel));
     EXPECT_EQ(map, before);
   }
@@ -97,10 +97,10 @@ TEST(KernelLaw, AnOpenBlockHasOnlyPassableCellsAndTheLargestOfTheirWeights) {
     options.unknown_is_passable = trial % 2 == 0;
     options.radius = trial % 3 * 0.6;
     options.decay = trial % 4 * 0.5;
-    CostmapBuilder terrain(options);
-    terrain.setMap(std::make_shared<const OccupancyGrid>(map));
-    const auto fine = terrain.fullResolution(StopToken());
-    const auto blocks = terrain.downsampled(StopToken());
+    CostmapBuilder builder(options);
+    builder.setMap(std::make_shared<const OccupancyGrid>(map));
+    const auto fine = builder.fullResolution(StopToken());
+    const auto blocks = builder.downsampled(StopToken());
     std::vector<int> largest(blocks->geometry().size(), 0);
     std::vector<bool> blocked(blocks->geometry().size(), false);
     for (std::uint32_t i = 0; i < map.values().size(); ++i) {

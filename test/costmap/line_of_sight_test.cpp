@@ -86,10 +86,10 @@ TEST(Segment, AlongAnEdgeTheCheaperPassableSideCounts) {
       lineCost(*map, SegmentPoint::nearest({2.5, 1.0}), SegmentPoint::nearest({3.5, 1.0})), 50.0);
 }
 
-TEST(Segment, APieceCostsTheDearestCellItMeets) {
+TEST(Segment, APieceCostsTheLargestWeightItMeets) {
   const auto map = costsOf({"...",  //
                             ".?."});
-  // Half of the way lies in row 0, the other half begins in the unknown cell.
+  // Half of the segment lies in row 0, the other half begins in the unknown cell.
   const double cost =
       lineCost(*map, SegmentPoint::centreOf({0, 0}), SegmentPoint::centreOf({2, 1}));
   EXPECT_DOUBLE_EQ(cost, std::sqrt(5.0) * 0.5 * (1.0 + 50.0));

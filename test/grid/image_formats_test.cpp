@@ -165,7 +165,7 @@ std::vector<std::int8_t> expectedOf(const std::string& content, const PixelRule&
   return values;
 }
 
-// Together they tell every grey from every other, and use the alpha channel in both ways.
+// Together they tell every grey from every other, and use alpha as a grey value and as transparency.
 const std::vector<PixelRule> kRules{{MapMode::RAW, false, 0.65, 0.196},
                                     {MapMode::RAW, true, 0.65, 0.196},
                                     {MapMode::SCALE, false, 0.62, 0.38},

@@ -3,7 +3,7 @@
 //
 // Sides are 1 to 200 cells, both above 40 on more than 30 % of the maps. Each map is asked from one
 // start to two goals; every other is then changed in a rectangle and asked again, so that what
-// planners repair is compared too. New planners and heuristics are found in the catalogue.
+// planners repair is compared too. New planners and heuristics are found in the planner factory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -132,7 +132,7 @@ Question questionOn(std::shared_ptr<const CostGrid> map, Cell start, std::vector
   return question;
 }
 
-// The next revision of the map: a rectangle around a place on the way has other weights.
+// The next revision of the map: a rectangle of cells has other weights.
 std::shared_ptr<const CostGrid> changed(const CostGrid& map, std::mt19937& random, CellRect& rect) {
   const Cell middle = test::randomCell(random, map.geometry());
   rect = CellRect{middle.column - 3, middle.row - 3, between(random, 1, 9), between(random, 1, 9)}

@@ -58,7 +58,7 @@ TEST(Headings, Hook) {
   expectYaws(headings(kHook, 0.0, 0.6, HeadingMode::INTERPOLATE), {0.0, 0.2, 0.4, 0.6});
 }
 
-TEST(Headings, InterpolateGoesTheShorterWayRound) {
+TEST(Headings, InterpolateTurnsByTheSmallerAngle) {
   const std::vector<Eigen::Vector2d> straight = {{0, 0}, {1, 0}, {4, 0}};
   expectYaws(headings(straight, 3.0, -3.0, HeadingMode::INTERPOLATE),
              {3.0, 3.0 + (2 * M_PI - 6.0) / 4, -3.0});

@@ -49,8 +49,8 @@ TEST(Smoothing, KeepsWhatGoesRoundAnObstacle) {
   EXPECT_DOUBLE_EQ(path.cost, 8.0);
 }
 
-// The straight way through unknown cells is legal, and dearer.
-TEST(Smoothing, KeepsWhatGoesRoundDearCells) {
+// The straight line through unknown cells is legal, and costs more.
+TEST(Smoothing, KeepsWhatGoesRoundCostlyCells) {
   const SmoothPath path =
       smoothOver(test::AsciiMap({"......",  //
                                  "S????G"}),
@@ -58,7 +58,7 @@ TEST(Smoothing, KeepsWhatGoesRoundDearCells) {
   EXPECT_DOUBLE_EQ(path.cost, 3.0 + 2.0 * std::sqrt(2.0));
 }
 
-TEST(Smoothing, KeepsASinglePointAndAWayThatIsNotLegal) {
+TEST(Smoothing, KeepsASinglePointAndAPathThatIsNotLegal) {
   const test::AsciiMap picture({"S#G"});
   EXPECT_EQ(smoothOver(picture, {{0, 0}}).kept, std::vector<std::size_t>{0});
   EXPECT_EQ(smoothOver(picture, {{0, 0}}).cost, 0.0);

@@ -25,16 +25,16 @@ using test::TemporaryFolder;
 
 Path read(const std::string& text) {
   const TemporaryFolder folder;
-  return readWaypointFile(folder.write("way.yaml", text));
+  return readWaypointFile(folder.write("path.yaml", text));
 }
 
 // What is said of a file with this text, from its name on.
 std::string complaint(const std::string& text) {
   const TemporaryFolder folder;
-  const std::string file = folder.write("way.yaml", text);
+  const std::string file = folder.write("path.yaml", text);
   const std::string error = errorText([&] { readWaypointFile(file); });
   EXPECT_EQ(error.find(file), 0u) << error << "\nabout\n" << text;
-  return error.substr(error.find("way.yaml"));
+  return error.substr(error.find("path.yaml"));
 }
 
 std::string entry(const std::string& position, const std::string& orientation) {
@@ -118,14 +118,14 @@ TEST(WaypointFile, BadHeadersAreNamed) {
   for (const std::string frame : {"''", "/", "[map]", ""})
     EXPECT_TRUE(contains(complaint("header: {frame_id: " + frame + "}" + rest), "frame_id must be"))
         << frame;
-  EXPECT_TRUE(contains(complaint("header: map" + rest), "way.yaml:1: "));
+  EXPECT_TRUE(contains(complaint("header: map" + rest), "path.yaml:1: "));
 }
 
 // navigation2 PR#3165: zero waypoints crash.
 TEST(WaypointFile, ZeroWaypointsAreRefused) {
   for (const std::string list : {"[]", "", "{}", "3"})
     EXPECT_TRUE(contains(complaint("waypoints: " + list + "\n"), "at least one waypoint")) << list;
-  EXPECT_TRUE(contains(complaint("poses: []\n"), "way.yaml:1: has no 'waypoints'"));
+  EXPECT_TRUE(contains(complaint("poses: []\n"), "path.yaml:1: has no 'waypoints'"));
   EXPECT_TRUE(contains(complaint("- 1\n"), "got a list"));
 }
 
@@ -133,16 +133,16 @@ TEST(WaypointFile, NumbersThatAreNotFiniteAreNamed) {
   for (const std::string value : {".nan", ".inf", "-.inf", "1e400", "nan"}) {
     const std::string text =
         complaint(secondIs(entry("x: 1, y: " + value + ", z: 0", "z: 0, w: 1")));
-    EXPECT_EQ(text, "way.yaml:4: y of waypoint 2 must be a finite number, got '" + value + "'");
+    EXPECT_EQ(text, "path.yaml:4: y of waypoint 2 must be a finite number, got '" + value + "'");
   }
   EXPECT_EQ(complaint(secondIs(entry("x: 1, y: 1, z: 0", "z: 0, w: .nan"))),
-            "way.yaml:5: w of waypoint 2 must be a finite number, got '.nan'");
+            "path.yaml:5: w of waypoint 2 must be a finite number, got '.nan'");
 }
 
 // uuv_simulator: coordinates of 1e180 were driven to.
 TEST(WaypointFile, AbsurdCoordinatesAreNamed) {
   EXPECT_EQ(complaint(secondIs(entry("x: 1, y: 1, z: 1e180", "z: 0, w: 1"))),
-            "way.yaml:4: z of waypoint 2 must be within 1e6 m of 0, got '1e180'");
+            "path.yaml:4: z of waypoint 2 must be within 1e6 m of 0, got '1e180'");
   EXPECT_TRUE(contains(complaint(secondIs(entry("x: -1000000.1, y: 1, z: 1", "z: 0, w: 1"))),
                        "x of waypoint 2"));
   EXPECT_EQ(read(secondIs(entry("x: -1e6, y: 1e6, z: 0", "z: 0, w: 1"))).poses.size(), 2u);
@@ -150,13 +150,13 @@ TEST(WaypointFile, AbsurdCoordinatesAreNamed) {
 
 TEST(WaypointFile, MissingFieldsAreNamed) {
   EXPECT_EQ(complaint(secondIs("  - position: {x: 1, y: 2, z: 3}\n")),
-            "way.yaml:4: waypoint 2 has no orientation");
+            "path.yaml:4: waypoint 2 has no orientation");
   EXPECT_EQ(complaint(secondIs("  - orientation: {z: 0, w: 1}\n")),
-            "way.yaml:4: waypoint 2 has no position");
+            "path.yaml:4: waypoint 2 has no position");
   EXPECT_EQ(complaint(secondIs(entry("x: 1, y: 2", "z: 0, w: 1"))),
-            "way.yaml:4: waypoint 2 has no z");
+            "path.yaml:4: waypoint 2 has no z");
   EXPECT_EQ(complaint(secondIs(entry("x: 1, y: 2, z: 3", "x: 0, y: 0, z: 0"))),
-            "way.yaml:5: waypoint 2 has no w");
+            "path.yaml:5: waypoint 2 has no w");
 }
 
 TEST(WaypointFile, WrongTypesAreNamed) {
@@ -173,14 +173,14 @@ TEST(WaypointFile, WrongTypesAreNamed) {
 
 TEST(WaypointFile, ZeroQuaternionIsNamed) {
   EXPECT_EQ(complaint(secondIs(entry("x: 0, y: 0, z: 0", "x: 0, y: 0, z: 0, w: 0"))),
-            "way.yaml:5: waypoint 2: orientation x 0 y 0 z 0 w 0 has length zero");
+            "path.yaml:5: waypoint 2: orientation x 0 y 0 z 0 w 0 has length zero");
 }
 
 TEST(WaypointFile, RollAndPitchAreNamed) {
   for (const std::string tilted : {"x: 0.01, y: 0, z: 0, w: 1", "x: 0, y: -0.01, z: 0.7, w: 0.7",
                                    "x: 1, y: 0, z: 0, w: 0", "x: 1e300, y: 1e300, z: 1, w: 1"}) {
     const std::string error = complaint(secondIs(entry("x: 0, y: 0, z: 0", tilted)));
-    EXPECT_EQ(error.find("way.yaml:5: waypoint 2: orientation"), 0u) << error;
+    EXPECT_EQ(error.find("path.yaml:5: waypoint 2: orientation"), 0u) << error;
     EXPECT_TRUE(contains(error, "must be level")) << error;
   }
   EXPECT_NO_THROW(read(secondIs(entry("x: 0, y: 0, z: 0", "x: 0.0003, y: 0, z: 0, w: 1"))));
@@ -199,7 +199,7 @@ TEST(WaypointFile, FilesThatAreNoWaypointsAreRefused) {
 
 TEST(WaypointFile, WritesTheDocumentedForm) {
   const TemporaryFolder folder;
-  const std::string file = folder.path("way.yaml");
+  const std::string file = folder.path("path.yaml");
   writeWaypointFile(file, onePose(13.5, -1e-7, 4, 0));
   EXPECT_EQ(contentOf(file),
             "header: {frame_id: map}\n"
@@ -210,7 +210,7 @@ TEST(WaypointFile, WritesTheDocumentedForm) {
 
 TEST(WaypointFile, EveryFrameComesBack) {
   const TemporaryFolder folder;
-  const std::string file = folder.path("way.yaml");
+  const std::string file = folder.path("path.yaml");
   for (const std::string frame : {"map", "robot1/odom", "null", "true", "12", "a b", "a: {b}",
                                   "\"quoted\\\" #", "~", "x-y"}) {
     Path path = onePose(1, 2, 3, 0);
@@ -223,7 +223,7 @@ TEST(WaypointFile, EveryFrameComesBack) {
 TEST(WaypointFile, WhatCouldNotBeReadBackIsNotWritten) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const TemporaryFolder folder;
-  const std::string file = folder.write("way.yaml", "old");
+  const std::string file = folder.write("path.yaml", "old");
   const auto refusal = [&](const Path& path) {
     return errorText([&] { writeWaypointFile(file, path); });
   };
@@ -243,15 +243,15 @@ TEST(WaypointFile, APlaceThatCannotBeWrittenIsNamed) {
   const TemporaryFolder folder;
   const std::string parent = folder.write("file", "not a folder");
   const std::string error =
-      errorText([&] { writeWaypointFile(parent + "/way.yaml", onePose(0, 0, 0, 0)); });
-  EXPECT_EQ(error, parent + "/way.yaml: cannot be written: Not a directory");
+      errorText([&] { writeWaypointFile(parent + "/path.yaml", onePose(0, 0, 0, 0)); });
+  EXPECT_EQ(error, parent + "/path.yaml: cannot be written: Not a directory");
   EXPECT_EQ(contentOf(parent), "not a folder");
 }
 
 // A full disk, as a limit on the size of files in a process of its own.
 TEST(WaypointFile, FullDiskLeavesTheOldFileWhole) {
   const TemporaryFolder folder;
-  const std::string file = folder.path("way.yaml");
+  const std::string file = folder.path("path.yaml");
   writeWaypointFile(file, onePose(1, 2, 3, 0.5));
   const std::string old = contentOf(file);
   Path longer;
@@ -268,7 +268,7 @@ TEST(WaypointFile, FullDiskLeavesTheOldFileWhole) {
   ASSERT_EQ(waitpid(child, &status, 0), child);
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 42) << status;
   EXPECT_EQ(contentOf(file), old);
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"way.yaml"});
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"path.yaml"});
 }
 
 Path randomPath(std::mt19937& random) {
@@ -287,7 +287,7 @@ Path randomPath(std::mt19937& random) {
 TEST(WaypointFileLaw, RoundTripIsLossless) {
   std::mt19937 random(2688);
   const TemporaryFolder folder;
-  const std::string file = folder.path("way.yaml");
+  const std::string file = folder.path("path.yaml");
   for (int trial = 0; trial < 100; ++trial) {
     const Path path = randomPath(random);
     writeWaypointFile(file, path);
@@ -302,7 +302,7 @@ TEST(WaypointFileLaw, RoundTripIsLossless) {
 
 TEST(WaypointFileLaw, ExtremeNumbersComeBack) {
   const TemporaryFolder folder;
-  const std::string file = folder.path("way.yaml");
+  const std::string file = folder.path("path.yaml");
   for (const double x : {-0.0, 1e6, std::nextafter(1e6, 0.0), 0.1 + 0.2,
                          std::numeric_limits<double>::min(), 1.0 / 3.0, 123456.0}) {
     writeWaypointFile(file, onePose(x, -x, 0, M_PI));
@@ -320,18 +320,18 @@ TEST(WaypointFileLaw, TruncatedFilesNeverInventAWaypoint) {
   const TemporaryFolder folder;
   Path path = randomPath(random);
   path.poses.resize(4);
-  const std::string file = folder.path("way.yaml");
+  const std::string file = folder.path("path.yaml");
   writeWaypointFile(file, path);
   const std::string whole = contentOf(file);
   for (std::size_t length = 0; length < whole.size(); ++length) {
-    folder.write("way.yaml", whole.substr(0, length));
+    folder.write("path.yaml", whole.substr(0, length));
     try {
       const Path part = readWaypointFile(file);
       ASSERT_LE(part.poses.size(), path.poses.size());
       for (std::size_t i = 0; i < part.poses.size(); ++i)
         EXPECT_EQ(part.poses[i].position, path.poses[i].position) << length;
     } catch (const InputError& error) {
-      EXPECT_TRUE(contains(error.what(), "way.yaml"));
+      EXPECT_TRUE(contains(error.what(), "path.yaml"));
     }
   }
 }
@@ -339,7 +339,7 @@ TEST(WaypointFileLaw, TruncatedFilesNeverInventAWaypoint) {
 TEST(WaypointFileLaw, RandomDamageIsRefusedOrHarmless) {
   std::mt19937 random(180);
   const TemporaryFolder folder;
-  const std::string file = folder.path("way.yaml");
+  const std::string file = folder.path("path.yaml");
   Path path = randomPath(random);
   writeWaypointFile(file, path);
   const std::string whole = contentOf(file);
@@ -348,12 +348,12 @@ TEST(WaypointFileLaw, RandomDamageIsRefusedOrHarmless) {
     std::string damaged = whole;
     for (int i = 0; i <= trial % 3; ++i)
       damaged[random() % damaged.size()] = letters[random() % letters.size()];
-    folder.write("way.yaml", damaged);
+    folder.write("path.yaml", damaged);
     try {
       for (const Pose& pose : readWaypointFile(file).poses)
         EXPECT_LE(pose.position.cwiseAbs().maxCoeff(), kLargestCoordinate) << damaged;
     } catch (const InputError& error) {
-      EXPECT_TRUE(contains(error.what(), "way.yaml"));
+      EXPECT_TRUE(contains(error.what(), "path.yaml"));
     }
   }
 }

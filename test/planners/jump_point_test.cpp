@@ -42,10 +42,10 @@ Weights blockedWith(std::mt19937& random, int width, int height, double share,
 }
 
 SearchResult planned(const test::AsciiMap& picture, const CostmapOptions& options = {}) {
-  CostmapBuilder terrain(options);
-  terrain.setMap(std::make_shared<OccupancyGrid>(picture.map));
+  CostmapBuilder builder(options);
+  builder.setMap(std::make_shared<OccupancyGrid>(picture.map));
   JumpPoint planner;
-  planner.prepare(terrain.downsampled(StopToken()), StopToken());
+  planner.prepare(builder.downsampled(StopToken()), StopToken());
   return planner.search({picture.start, {picture.goal}, false}, StopToken());
 }
 

@@ -68,7 +68,7 @@ TEST(LandmarkTable, BoundsAreNoLargerThanTheCost) {
   }
 }
 
-// To a landmark the bound is the cost, but for the rounding of dear maps.
+// To a landmark the bound is the cost, but for the rounding of high costs.
 TEST(LandmarkTable, KnowsTheCostsOfItsLandmarks) {
   std::mt19937 random(2);
   int exact = 0;

@@ -75,7 +75,7 @@ TEST(MovePruning, FindsMovesThatAnotherStepLeftOut) {
   EXPECT_FALSE(moves.missing(bits({kEast}), kWest, 4)) << "back is never worth it";
 }
 
-CostGrid randomTerrain(std::mt19937& random, int largest_side) {
+CostGrid randomSparseCosts(std::mt19937& random, int largest_side) {
   MotionModel motion;
   motion.connectivity = random() % 3 == 0 ? Connectivity::FOUR : Connectivity::EIGHT;
   motion.diagonal_cost = random() % 3 == 0 ? DiagonalCost::UNIT : DiagonalCost::SQRT2;
@@ -92,7 +92,7 @@ CostGrid randomTerrain(std::mt19937& random, int largest_side) {
 TEST(MovePruningLaw, TheStepsFromACellAreThoseThatAreAllowed) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 300; ++trial) {
-    const CostGrid map = randomTerrain(random, 30);
+    const CostGrid map = randomSparseCosts(random, 30);
     MovePruning moves;
     moves.build(map, StopToken());
     StepMasks masks;
@@ -114,7 +114,7 @@ TEST(MovePruningLaw, TheStepsFromACellAreThoseThatAreAllowed) {
 TEST(MovePruningLaw, BlockedCellsAroundTheMapChangeNothing) {
   std::mt19937 random(6);
   for (int trial = 0; trial < 300; ++trial) {
-    const CostGrid map = randomTerrain(random, 30);
+    const CostGrid map = randomSparseCosts(random, 30);
     const Cell shift{1 + static_cast<int>(random() % 9), 1 + static_cast<int>(random() % 3)};
     const GridGeometry larger(map.geometry().width() + 18, map.geometry().height() + 4, 1.0);
     Grid<CostGrid::Weight> weights(larger, CostGrid::kBlocked);
@@ -142,7 +142,7 @@ TEST(MovePruningLaw, BlockedCellsAroundTheMapChangeNothing) {
 TEST(MovePruningLaw, AnUpdateIsLikeABuild) {
   std::mt19937 random(8);
   for (int trial = 0; trial < 200; ++trial) {
-    const CostGrid before = randomTerrain(random, 30);
+    const CostGrid before = randomSparseCosts(random, 30);
     Grid<CostGrid::Weight> weights = before.weights();
     const Cell changed = test::randomCell(random, before.geometry());
     weights[changed] = static_cast<CostGrid::Weight>(random() % 3);

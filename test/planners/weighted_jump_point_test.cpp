@@ -129,7 +129,7 @@ TEST(WeightedJumpPointLaw, AfterEditsPlansLikeAFreshOne) {
   }
 }
 
-TEST(WeightedJumpPoint, LeavesDearPathsToAStar) {
+TEST(WeightedJumpPoint, LeavesPathsOfHighCostToAStar) {
   const auto map = costsOf(Grid<CostGrid::Weight>(GridGeometry(400, 3, 1.0), 65535));
   WeightedJumpPoint planner;
   planner.prepare(map, StopToken());

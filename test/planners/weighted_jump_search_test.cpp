@@ -57,7 +57,7 @@ TEST(WeightedJumpSearch, QueuesNothingInTheOpen) {
   EXPECT_EQ(result.statistics.generated, 0U);
 }
 
-TEST(WeightedJumpSearch, CrossesWhatIsDearWhereTheDetourIsDearer) {
+TEST(WeightedJumpSearch, CrossesHighWeightsWhereThePathAroundCostsMore) {
   Grid<CostGrid::Weight> weights(GridGeometry(9, 30, 1.0), 1);
   for (int row = 0; row < 29; ++row) weights[Cell{4, row}] = 10;
   const CostGrid map = costMap(weights);

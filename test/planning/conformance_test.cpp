@@ -1,4 +1,4 @@
-// One suite over every planner of the catalogue, with every heuristic and tie-break, on every
+// One suite over every planner of the factory, with every heuristic and tie-break, on every
 // motion model: what the Planner contract promises.
 #include <gtest/gtest.h>
 
@@ -383,7 +383,7 @@ TEST_P(Conformance, StoppedSearchesKeepTheirStatistics) {
   EXPECT_LT(silent, 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, Conformance, ::testing::ValuesIn(subjects()));
+INSTANTIATE_TEST_SUITE_P(PlannerFactory, Conformance, ::testing::ValuesIn(subjects()));
 
 TEST(Dijkstra, AnswersTheNearestOfSeveralGoals) {
   std::mt19937 random(5);
@@ -429,7 +429,7 @@ TEST(Dijkstra, KeepsAStrictOrderWhereATieBreakAsksAStarForOne) {
   }
 }
 
-TEST(Catalogue, RefusesUnknownNamesAndOptions) {
+TEST(PlannerFactory, RefusesUnknownNamesAndOptions) {
   EXPECT_THROW(makePlanner("a_starr"), InputError);
   SearchOptions options;
   options.heuristic_scale = "cheap";
@@ -441,7 +441,7 @@ TEST(Catalogue, RefusesUnknownNamesAndOptions) {
   EXPECT_THROW(makePlanner("a_star", options), InputError);
 }
 
-TEST(Catalogue, SaysWhatToTakeInsteadOfARetiredPlanner) {
+TEST(PlannerFactory, SaysWhatToTakeInsteadOfARetiredPlanner) {
   EXPECT_EQ(test::errorText([] { makePlanner("coarse_to_fine"); }),
             "planner 'coarse_to_fine' is retired: take a_star or weighted_jump_point");
   EXPECT_EQ(test::errorText([] { makePlanner("theta_star"); }),

@@ -39,22 +39,22 @@ Pose randomPose(std::mt19937& random, const GridGeometry& geometry, double margi
 
 PlannerOptions randomOptions(std::mt19937& random) {
   PlannerOptions options;
-  options.terrain.kernel = 1 + static_cast<int>(random() % 8);
-  options.terrain.unknown_is_passable = random() % 2 == 0;
-  options.terrain.radius = static_cast<double>(random() % 3) * 0.04;
-  options.terrain.decay = static_cast<double>(random() % 2) * 5.0;
-  options.terrain.motion.cut_corners = random() % 5 == 0;
-  options.terrain.motion.connectivity =
+  options.costmap.kernel = 1 + static_cast<int>(random() % 8);
+  options.costmap.unknown_is_passable = random() % 2 == 0;
+  options.costmap.radius = static_cast<double>(random() % 3) * 0.04;
+  options.costmap.decay = static_cast<double>(random() % 2) * 5.0;
+  options.costmap.motion.cut_corners = random() % 5 == 0;
+  options.costmap.motion.connectivity =
       random() % 4 == 0 ? Connectivity::FOUR : Connectivity::EIGHT;
   options.retry_finer = random() % 3 != 0;
   options.planner = plannerNames()[random() % plannerNames().size()];
   const PlannerTraits traits = makePlanner(options.planner)->traits();
-  if (!traits.four_connected) options.terrain.motion.connectivity = Connectivity::EIGHT;
-  options.smooth = random() % 3 == 0 && options.terrain.motion.connectivity == Connectivity::EIGHT;
-  if (!traits.cut_corners) options.terrain.motion.cut_corners = false;
+  if (!traits.four_connected) options.costmap.motion.connectivity = Connectivity::EIGHT;
+  options.smooth = random() % 3 == 0 && options.costmap.motion.connectivity == Connectivity::EIGHT;
+  if (!traits.cut_corners) options.costmap.motion.cut_corners = false;
   if (!traits.weights) {
-    options.terrain.unknown_weight = options.terrain.free_weight;
-    options.terrain.decay = 0.0;
+    options.costmap.unknown_weight = options.costmap.free_weight;
+    options.costmap.decay = 0.0;
   }
   return options;
 }
@@ -85,20 +85,20 @@ TEST(MapPlannerLaw, PathsAreLegalAtFullResolutionAndEndWhereTheyWereAsked) {
     if (report.status != Status::FOUND) continue;
     ++found;
     test::PathRules rules;
-    rules.radius = options.terrain.radius;
-    rules.unknown_is_passable = options.terrain.unknown_is_passable;
-    rules.cut_corners = options.terrain.motion.cut_corners;
+    rules.radius = options.costmap.radius;
+    rules.unknown_is_passable = options.costmap.unknown_is_passable;
+    rules.cut_corners = options.costmap.motion.cut_corners;
     ASSERT_EQ(test::pathViolations(report.path, request.start, request.goal, map, rules),
               test::kNoViolations)
-        << "trial " << trial << " kernel " << options.terrain.kernel << ' ' << options.planner
-        << " cut_corners " << options.terrain.motion.cut_corners << " map " << map.width() << 'x'
+        << "trial " << trial << " kernel " << options.costmap.kernel << ' ' << options.planner
+        << " cut_corners " << options.costmap.motion.cut_corners << " map " << map.width() << 'x'
         << map.height();
   }
   EXPECT_GT(found, 500);
 }
 
 // With retry_finer a kernel never loses a path that full resolution has.
-TEST(MapPlannerLaw, AKernelLosesNoWay) {
+TEST(MapPlannerLaw, AKernelLosesNoPath) {
   std::mt19937 random(5884);
   for (int trial = 0; trial < 300; ++trial) {
     const OccupancyGrid map = test::randomOccupancy(random, 30, 0.15, 0.0);
@@ -106,7 +106,7 @@ TEST(MapPlannerLaw, AKernelLosesNoWay) {
                               randomPose(random, map.geometry()), false};
     const auto statusAt = [&](int kernel) {
       PlannerOptions options;
-      options.terrain.kernel = kernel;
+      options.costmap.kernel = kernel;
       PathPlanner planner(options);
       planner.setMap(std::make_shared<const OccupancyGrid>(map));
       return planner.plan(request).status;
@@ -153,9 +153,9 @@ TEST(MapPlannerLaw, AnUpdatedMapIsPlannedLikeAFreshOne) {
   for (int trial = 0; trial < 60; ++trial) {
     OccupancyGrid map = test::randomOccupancy(random, 40, 0.1, 0.1);
     PlannerOptions options;
-    options.terrain.kernel = 1 + trial % 3;
-    options.terrain.radius = trial % 2 * 0.6;
-    options.terrain.decay = trial % 4 * 0.5;
+    options.costmap.kernel = 1 + trial % 3;
+    options.costmap.radius = trial % 2 * 0.6;
+    options.costmap.decay = trial % 4 * 0.5;
     PathPlanner updated(options);
     updated.setMap(std::make_shared<const OccupancyGrid>(map));
     for (int edit = 0; edit < 6; ++edit) {
@@ -183,7 +183,7 @@ TEST(MapPlannerLaw, NoRequestCrashes) {
   for (int trial = 0; trial < 1000; ++trial) {
     const OccupancyGrid map = test::randomOccupancy(random, 12, 0.2, 0.2);
     PlannerOptions options = randomOptions(random);
-    options.terrain.kernel_rule = random() % 2 ? KernelRule::FILTER2D : KernelRule::CONSERVATIVE;
+    options.costmap.kernel_rule = random() % 2 ? KernelRule::FILTER2D : KernelRule::CONSERVATIVE;
     options.tolerance = static_cast<double>(random() % 3);
     options.start_escape_radius = static_cast<double>(random() % 2);
     PathPlanner planner(options);

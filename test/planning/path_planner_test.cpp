@@ -84,11 +84,11 @@ TEST(PathPlanner, NamesTheEndThatIsWrong) {
   EXPECT_EQ(planBetween(map, free, poseAt({0.5, 0.5}, 0.0, nan)).status, Status::INVALID_REQUEST);
 
   PlannerOptions options;
-  options.terrain.unknown_is_passable = false;
+  options.costmap.unknown_is_passable = false;
   const Plan unknown = planBetween(map, free, poseAt({0.5, 1.5}), options);
   EXPECT_EQ(unknown.status, Status::GOAL_OCCUPIED);
   EXPECT_TRUE(says(unknown, "unknown_is_passable")) << unknown.message;
-  options.terrain.radius = 0.6;
+  options.costmap.radius = 0.6;
   const Plan near = planBetween(map, poseAt({1.5, 0.5}), free, options);
   EXPECT_EQ(near.status, Status::START_OCCUPIED);
   EXPECT_TRUE(says(near, "radius")) << near.message;
@@ -224,7 +224,7 @@ TEST(PathPlanner, ToleranceWorksInBlockedBlocksWithoutRetry) {
     map[Cell{4, 4}] = 100;
     if (start_blocked) map[Cell{0, 0}] = 100;
     PlannerOptions options;
-    options.terrain.kernel = 3;
+    options.costmap.kernel = 3;
     options.retry_finer = false;
     options.tolerance = 1.0;
     const Plan report = planBetween(map, poseAt({1.5, 1.5}), poseAt({4.5, 4.5}), options);
@@ -242,23 +242,23 @@ TEST(PathPlanner, LeavesABlockedBlockForOneThatLeadsOn) {
                           "#.........",  //
                           ".........G"});
   PlannerOptions options;
-  options.terrain.kernel = 2;
+  options.costmap.kernel = 2;
   options.retry_finer = false;
   EXPECT_EQ(planOn(picture, options).status, Status::FOUND);
 }
 
 // navigation2#5884: no plan in a 1.1 m aisle at factor 4.
-TEST(PathPlanner, PlansAgainAtOneWhereTheKernelClosesTheWay) {
+TEST(PathPlanner, PlansAgainAtOneWhereTheKernelClosesAllPaths) {
   const AsciiMap aisle({"S...#...",  //
                         "....#...",  //
                         "........",  //
                         "....#..G"});
   PlannerOptions options;
-  options.terrain.kernel = 2;
+  options.costmap.kernel = 2;
   const Plan report = planOn(aisle, options);
   ASSERT_EQ(report.status, Status::FOUND) << report.message;
   EXPECT_EQ(report.kernel, 1);
-  EXPECT_TRUE(says(report, "kernel 2 closes the way")) << report.message;
+  EXPECT_TRUE(says(report, "kernel 2 closes all paths")) << report.message;
   options.retry_finer = false;
   EXPECT_EQ(planOn(aisle, options).status, Status::UNREACHABLE);
 }
@@ -271,7 +271,7 @@ TEST(PathPlanner, SearchesAtFullResolutionOutOfABlockedBlock) {
                           ".......G",  //
                           "........"});
   PlannerOptions options;
-  options.terrain.kernel = 2;
+  options.costmap.kernel = 2;
   options.retry_finer = false;
   const Plan report = planOn(picture, options);
   ASSERT_EQ(report.status, Status::FOUND) << report.message;
@@ -287,14 +287,14 @@ TEST(PathPlanner, NeverCrossesUnknownWhereItMayNot) {
                           "...?..."});
   PlannerOptions options;
   EXPECT_EQ(planOn(picture, options).status, Status::FOUND);
-  options.terrain.unknown_is_passable = false;
+  options.costmap.unknown_is_passable = false;
   for (int kernel = 1; kernel <= 4; ++kernel) {
-    options.terrain.kernel = kernel;
+    options.costmap.kernel = kernel;
     EXPECT_EQ(planOn(picture, options).status, Status::UNREACHABLE) << kernel;
   }
 }
 
-// navigation2#2520, #2690: crosses dear cells despite a cheaper detour.
+// navigation2#2520, #2690: crosses costly cells despite a cheaper path around them.
 TEST(PathPlanner, OfTwoRoutesTheCheaper) {
   const AsciiMap picture({"S????G",  //
                           "......"});
@@ -308,7 +308,7 @@ TEST(PathPlanner, KeepsToTheMiddleOfACorridor) {
   lines[5].front() = 'S';
   lines[5].back() = 'G';
   PlannerOptions options;
-  options.terrain.decay = 0.3;
+  options.costmap.decay = 0.3;
   const AsciiMap picture(lines);
   const Plan report = planBetween(picture.map, poseAt({0.5, 2.5}), poseAt({39.5, 8.5}), options);
   ASSERT_EQ(report.status, Status::FOUND);

@@ -34,7 +34,7 @@ TEST(RemainingPath, OfTwoPointsEquallyNearTheLaterOneIsJoined) {
   EXPECT_EQ(remaining[1], Eigen::Vector2d(1, 2));
 }
 
-TEST(RemainingPath, OfOnePoseIsTheWayToIt) {
+TEST(RemainingPath, OfOnePoseIsTheSegmentToIt) {
   const Polyline remaining = remainingPath(through({{3, 3}}), {1, 1});
   ASSERT_EQ(remaining.size(), 2u);
   EXPECT_EQ(remaining[1], Eigen::Vector2d(3, 3));

@@ -136,7 +136,7 @@ TEST(SmoothOption, StraightensThePathAndRefusesWhatItContradicts) {
   EXPECT_EQ(report.path.poses.size(), 2U);
   EXPECT_NEAR(report.length_m, std::hypot(18, 8), 1e-9);
   EXPECT_NEAR(report.costValue(), std::hypot(18, 8), 1e-9);
-  options.terrain.motion.connectivity = Connectivity::FOUR;
+  options.costmap.motion.connectivity = Connectivity::FOUR;
   EXPECT_THROW(planner.setOptions(options), InputError);
 }
 

@@ -66,7 +66,7 @@ TEST(UnusedOptions, WhatTheHeuristicDoesNotLookAt) {
             (Lines{"heuristic_scale: heuristic zero", "epsilon: heuristic zero"}));
 }
 
-TEST(UnusedOptions, WhatTheTerrainLeavesWithoutEffect) {
+TEST(UnusedOptions, WhatTheCostmapLeavesWithoutEffect) {
   EXPECT_EQ(unusedWith({{"occupied_weight", "7"}}),
             (Lines{"occupied_weight: occupied_is_passable false"}));
   EXPECT_EQ(unusedWith({{"occupied_weight", "7"}, {"occupied_is_passable", "true"}}), Lines());
@@ -91,7 +91,7 @@ TEST(UnusedOptions, WhatThePathLeavesWithoutEffect) {
   for (const char* planner : {"lazy_theta_star", "rectangle_map", "a_star"})
     EXPECT_EQ(unusedWith({{"planner", planner}, {"smooth", "true"}}), Lines()) << planner;
   EXPECT_EQ(unusedWith({{"planner", "anya"}, {"smooth", "true"}, {"kernel", "2"}}), Lines())
-      << "the ways out of blocked blocks are paths over the grid";
+      << "the legs out of blocked blocks are paths over the grid";
   EXPECT_EQ(unusedWith({{"fixed_z", "2"}}), (Lines{"fixed_z: path_z interpolate"}));
   EXPECT_EQ(unusedWith({{"fixed_z", "2"}, {"path_z", "fixed"}}), Lines());
 }

@@ -47,7 +47,7 @@ TEST_F(NavigateStops, WhenItIsKilled) {
   });
   ASSERT_TRUE(stopped);
   EXPECT_LT((stopped->header.stamp - killed).toSec(), 0.5 + 0.8 + 0.7)
-      << "timeout, braking, and what is under way";
+      << "timeout, braking, and messages in transit";
   EXPECT_TRUE(staysStill());
 }
 

@@ -27,11 +27,11 @@ using dynamic_reconfigure::ConfigTools;
 
 std::string refusalOf(const ros::NodeHandle& nh) {
   Options options;
-  options.planner.terrain.kernel = 7;
+  options.planner.costmap.kernel = 7;
   try {
     loadParameters(nh, options);
   } catch (const InputError& error) {
-    EXPECT_EQ(options.planner.terrain.kernel, 7) << "half loaded";
+    EXPECT_EQ(options.planner.costmap.kernel, 7) << "half loaded";
     return error.what();
   }
   return "";
@@ -40,12 +40,12 @@ std::string refusalOf(const ros::NodeHandle& nh) {
 TEST(Parameters, AreTakenByNameAndOthersKeepTheirValue) {
   Options options;
   loadParameters(ros::NodeHandle("/given"), options);
-  EXPECT_EQ(options.planner.terrain.radius, 2.0);
-  EXPECT_EQ(options.planner.terrain.motion.connectivity, Connectivity::FOUR);
+  EXPECT_EQ(options.planner.costmap.radius, 2.0);
+  EXPECT_EQ(options.planner.costmap.motion.connectivity, Connectivity::FOUR);
   EXPECT_EQ(options.planner.search.heuristic_scale, "1.5");
   EXPECT_EQ(options.planner.search.heuristic, Heuristic::ZERO);
-  EXPECT_EQ(options.planner.terrain.kernel, 3);
-  EXPECT_EQ(options.planner.terrain.free_weight, 1);
+  EXPECT_EQ(options.planner.costmap.kernel, 3);
+  EXPECT_EQ(options.planner.costmap.free_weight, 1);
 }
 
 TEST(Parameters, WrongTypesAreRefusedWithFullNameValueAndWhatWasExpected) {
@@ -120,11 +120,11 @@ class Reconfiguration : public testing::Test {
  protected:
   Reconfiguration() : nh_("/reconfigured"), log_(ros::NodeHandle(), "/rosout") {
     EXPECT_TRUE(test::waitFor([&] { return log_.connected(); }));
-    initial_.planner.terrain.radius = 0.5;
+    initial_.planner.costmap.radius = 0.5;
     nh_.setParam("connectivity", 8);  // as YAML reads it
     reconfigurable_ = std::make_unique<Reconfigurable<PathPlannerConfig, Options>>(
         nh_, initial_, [this](const Options& options) {
-          checkCostmapOptions(options.planner.terrain);
+          checkCostmapOptions(options.planner.costmap);
           applied_.push_back(options);
         });
   }
@@ -162,8 +162,8 @@ TEST_F(Reconfiguration, AnAcceptedRequestIsAppliedOnce) {
   ConfigTools::appendParameter(wanted, "connectivity", std::string("4"));
   const auto answer = request(wanted);
   ASSERT_EQ(applied_.size(), 1u);
-  EXPECT_EQ(applied_[0].planner.terrain.radius, 0.75);
-  EXPECT_EQ(applied_[0].planner.terrain.motion.connectivity, Connectivity::FOUR);
+  EXPECT_EQ(applied_[0].planner.costmap.radius, 0.75);
+  EXPECT_EQ(applied_[0].planner.costmap.motion.connectivity, Connectivity::FOUR);
   double radius = 0.0;
   EXPECT_TRUE(ConfigTools::getParameter(answer, "radius", radius));
   EXPECT_EQ(radius, 0.75);

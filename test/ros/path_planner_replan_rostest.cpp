@@ -1,4 +1,4 @@
-// path_planner while the vehicle is under way: maps that change, replans, goals that change.
+// path_planner while the vehicle drives: maps that change, replans, goals that change.
 
 #include "ros/support/planner_fixture.h"
 
@@ -39,15 +39,15 @@ class ReplanTest : public test::PlannerTest {
   bool passesCell(int column, int row) { return passes(path_, column + 0.5, row + 0.5, 0.1); }
 };
 
-const std::vector<std::string> kTwoWays = {".......",  //
-                                           ".#####.",  //
-                                           ".......",  //
-                                           ".#####.",  //
-                                           "......."};
+const std::vector<std::string> kCorridors = {".......",  //
+                                             ".#####.",  //
+                                             ".......",  //
+                                             ".#####.",  //
+                                             "......."};
 
 TEST_F(ReplanTest, AMapUpdateThatBlocksThePathTriggersAReplan) {
   startPlanner();
-  publishMap(kTwoWays);
+  publishMap(kCorridors);
   placeVehicleAndWait(0.5, 2.5);
   sendGoal(poseAt(6.5, 2.5));
   ASSERT_TRUE(passesCell(3, 2)) << "straight on";
@@ -62,9 +62,9 @@ TEST_F(ReplanTest, AMapUpdateThatBlocksThePathTriggersAReplan) {
 }
 
 // navigation #750: stop when planning fails.
-TEST_F(ReplanTest, AWholeMapThatClosesEveryWayEmptiesThePath) {
+TEST_F(ReplanTest, AWholeMapThatClosesEveryCorridorEmptiesThePath) {
   startPlanner();
-  publishMap(kTwoWays);
+  publishMap(kCorridors);
   placeVehicleAndWait(0.5, 2.5);
   sendGoal(poseAt(6.5, 2.5));
   const std::size_t statistics = statistics_.count();
@@ -78,7 +78,7 @@ TEST_F(ReplanTest, AWholeMapThatClosesEveryWayEmptiesThePath) {
 TEST_F(ReplanTest, UpdatesOlderThanTheMapAreDroppedAndThoseOutOfItRefused) {
   startPlanner();
   const ros::Time now = ros::Time::now();
-  publishMap(AsciiMap(kTwoWays).map, "map", now);
+  publishMap(AsciiMap(kCorridors).map, "map", now);
   sendUpdate(3, 2, 1, 1, {100}, now - ros::Duration(1.0));
   ASSERT_TRUE(logged("was dropped: the map is newer", 0));
   sendUpdate(6, 4, 2, 1, {100, 100}, now);
@@ -101,14 +101,14 @@ TEST_F(ReplanTest, APathIsKeptWhileItIsAboutAsGoodAndReplacedWhenItIsNot) {
   ASSERT_TRUE(passesCell(5, 2));
   const std::size_t statistics = statistics_.count();
   const std::size_t paths = paths_.count();
-  // Nearer to one side and then to the other: other ways now cost the least, by less than a fifth.
+  // Nearer to one side and then to the other: other paths now cost the least, by less than a fifth.
   for (int i = 0; i < 30; ++i) {
     placeVehicle(0.5 + 0.1 * i, i % 2 == 0 ? 1.5 : 3.5);
     EXPECT_FALSE(
         test::waitFor([&] { return paths_.count() > paths; }, std::chrono::milliseconds(30)))
         << "after move " << i;
   }
-  // The straight way becomes dear (unknown), so that the new one is cheaper by more than that.
+  // The straight path becomes costly (unknown), so that the new one is cheaper by more than that.
   sendUpdate(4, 2, 3, 1, {-1, -1, -1});
   waitForAnswer(statistics, paths);
   EXPECT_EQ(answer_.status, "FOUND");
@@ -123,7 +123,7 @@ TEST_F(ReplanTest, ALateResultForAnOldGoalIsDropped) {
   publishMap(map);
   placeVehicleAndWait(0.5, 0.5);
   const std::size_t statistics = statistics_.count();
-  // No way: lazy_theta_star searches all of the map, for seconds, where a jump planner sees at
+  // No path: lazy_theta_star searches all of the map, for seconds, where a jump planner sees at
   // once that there is none and rightly answers before the second goal comes.
   goals_.publish(poseAt(2499.5, 1.5));
   goals_.publish(poseAt(5.5, 0.5));
@@ -131,7 +131,7 @@ TEST_F(ReplanTest, ALateResultForAnOldGoalIsDropped) {
       statistics, [](const PlanStatistics& answer) { return answer.goal.pose.position.x == 5.5; });
   ASSERT_TRUE(answered);
   EXPECT_EQ(answered->status, "FOUND");
-  makePlan(poseAt(0.5, 0.5), poseAt(1.5, 0.5));  // comes after whatever was under way
+  makePlan(poseAt(0.5, 0.5), poseAt(1.5, 0.5));  // comes after whatever was being planned
   for (const PlanStatistics& answer : statistics_.all())
     EXPECT_NE(answer.goal.pose.position.x, 2499.5) << answer.status;
   EXPECT_EQ(paths_.count(), 1u);

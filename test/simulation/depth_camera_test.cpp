@@ -106,7 +106,7 @@ TEST(DepthCamera, ABallIsSeenWhereItIs) {
     ASSERT_NEAR((point - centre).norm(), 1.0, 0.004);
     ASSERT_LT(point.x(), 4.0) << "the far side of the ball";
   }
-  // The cone that the ball fills has a sine of 1 / 4.04; its ellipse in the picture about this
+  // The ball's angular radius has a sine of 1 / 4.04; its ellipse in the picture about this
   // area.
   const double radius = camera.intrinsics().fx * std::tan(std::asin(1.0 / centre.norm()));
   EXPECT_NEAR(static_cast<double>(seen), M_PI * radius * radius, 0.06 * seen);

@@ -65,8 +65,8 @@ std::set<std::string> modelsBetween(const World& world, const Vector3d& from, co
 Plan route(const OccupancyGrid& map, const Vector3d& from, const Vector3d& to, double radius = 0.0,
            int kernel = 1) {
   PlannerOptions options;
-  options.terrain.radius = radius;
-  options.terrain.kernel = kernel;
+  options.costmap.radius = radius;
+  options.costmap.kernel = kernel;
   options.retry_finer = false;
   options.timeout = 0.0;
   PathPlanner planner(options);

@@ -110,7 +110,7 @@ TEST_F(FindingsTest, ShortestCountsTiesForAllAndAloneForOne) {
 
 TEST_F(FindingsTest, KernelsAreComparedOnTheSameQueryAndWeights) {
   for (StudyRun& run : runs_)
-    if (plan_.study().settings[run.setting].terrain.kernel == 2) run.expanded = 25;
+    if (plan_.study().settings[run.setting].costmap.kernel == 2) run.expanded = 25;
   const Table table = kernelFinding(StudyData(plan_, runs_)).table;
   ASSERT_EQ(table.rows.size(), 3u);
   EXPECT_EQ(table.rows[0][3].number, 6.0) << "three queries, two sets of weights";

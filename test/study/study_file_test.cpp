@@ -72,8 +72,8 @@ TEST_F(StudyFileTest, IsTheProductOfItsLists) {
   EXPECT_EQ(study.maps[0].name, "site");
   EXPECT_EQ(study.maps[0].file, folder_.path("site.yaml")) << "relative to the study file";
   EXPECT_EQ(study.settings.size(), 4u) << "two kernels, two sets of weights";
-  EXPECT_EQ(study.settings[1].terrain.occupied_weight, 4);
-  EXPECT_EQ(study.settings[2].terrain.kernel, 2);
+  EXPECT_EQ(study.settings[1].costmap.occupied_weight, 4);
+  EXPECT_EQ(study.settings[2].costmap.kernel, 2);
   ASSERT_EQ(study.variants.size(), 3u) << "dijkstra is not guided by a heuristic";
   EXPECT_EQ(study.variants[0].label, "dijkstra");
   EXPECT_EQ(study.variants[1].label, "a_star octile");
@@ -84,7 +84,7 @@ TEST_F(StudyFileTest, WhatIsNotThereIsAsThePlannersDefaultsSay) {
   const Study study =
       read("maps: [site.yaml]\nplanners: [a_star]\nqueries: {random: {count: 1}}\n");
   ASSERT_EQ(study.settings.size(), 1u);
-  EXPECT_EQ(study.settings[0].terrain.kernel, CostmapOptions().kernel);
+  EXPECT_EQ(study.settings[0].costmap.kernel, CostmapOptions().kernel);
   EXPECT_EQ(study.settings[0].weights, "1/50/100");
   EXPECT_EQ(study.variants.size(), 1u);
   EXPECT_EQ(study.repeats, 5);
@@ -99,7 +99,7 @@ TEST_F(StudyFileTest, TheTwoThatComeWithThePackageAreRead) {
   EXPECT_EQ(thesis.settings.size(), 9u) << "three kernels, three sets of weights";
   EXPECT_EQ(thesis.variants.size(), 7u) << "Dijkstra, three A*, three as published";
   EXPECT_EQ(thesis.maps[0].queries.pairs.size(), 10u);
-  EXPECT_TRUE(thesis.settings[0].terrain.occupied_is_passable);
+  EXPECT_TRUE(thesis.settings[0].costmap.occupied_is_passable);
 }
 
 TEST_F(StudyFileTest, KnowsTheProgramsThatAreInStudiesOnly) {

@@ -141,7 +141,7 @@ TEST(EagerThetaStar, CrossesOpenWaterInOneLine) {
   EXPECT_NEAR(result.costValue(), std::hypot(6, 2), 1e-12);
 }
 
-TEST(EagerThetaStar, GoesAroundWhatIsDear) {
+TEST(EagerThetaStar, GoesAroundHighWeights) {
   const SearchResult result = eager(test::AsciiMap({"........",  //
                                                     "S.????.G",  //
                                                     "..????.."}));

@@ -277,14 +277,22 @@ class Words(unittest.TestCase):
 
     def test_good_ones_are_left_alone(self):
         self.assertEqual(self.planted("// Always away from the second one: secondary, waypoint, always.\n"
-                                      "int waypoints; class Waypoint; class Desktop;\n"), [])
+                                      "int waypoints; class Waypoint; class Desktop; MISSED_WAYPOINT\n"
+                                      "scale == \"cheapest\"; // 'cheapest' and `cheapest`\n"), [])
+        self.assertEqual(self.planted("heuristic_scale: cheapest  # text\n", "config/x.yaml"), [])
 
     def test_private_words(self):
         for text in ("// the way", "// ways", "goal_tree", "GoalTree", "goalTree", "kGoalTree", "GOAL_TREE",
-                     "PlanDesk", "a_desk", "desk_", "dearest()", "dearestOf()"):
+                     "PlanDesk", "a_desk", "desk_", "dearest()", "dearestOf()", "ONE_WAY", "WAYS", "kWay",
+                     "// cheapest", "cheapestOf()"):
             self.assertGreaterEqual(len(self.planted(text + "\n")), 1, text)
         self.assertEqual(self.planted("\n", "src/grid/goal_tree.cpp"),
                          ["src/grid/goal_tree.cpp:0: 'goal_tree': the field says backward search tree"])
+
+    def test_private_words_of_pages(self):
+        for name in ("README.md", "doc/x.md", "config/x.yaml", "srv/X.srv"):
+            self.assertEqual(self.planted("# one\nthe way\n", name),
+                             [name + ":2: 'way': the field says path, direction, method"])
 
 
 class NoeticCalls(unittest.TestCase):

@@ -137,9 +137,9 @@ CostGrid randomInflated(std::mt19937& random, const GridGeometry& geometry,
   options.radius = between(random, 0, 2);
   options.decay = between(random, 0, 3) * 0.25;
   options.unknown_weight = between(random, 1, 50);
-  CostmapBuilder terrain(options);
-  terrain.setMap(map);
-  return *terrain.downsampled(StopToken());
+  CostmapBuilder builder(options);
+  builder.setMap(map);
+  return *builder.downsampled(StopToken());
 }
 
 }  // namespace grid_path_planner::test

@@ -9,7 +9,7 @@
 
 namespace grid_path_planner::test {
 
-// From `start` to every cell, by index; none where no way leads.
+// From `start` to every cell, by index; none where no path leads.
 std::vector<std::optional<costmap::ExactCost>> referenceCosts(const costmap::CostGrid& map,
                                                               grid::Cell start);
 

@@ -19,7 +19,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::int64_t kUnit = SegmentPoint::kUnitsPerCell;
 
-// Corners of exactly one blocked cell: a taut way turns nowhere else.
+// Corners of exactly one blocked cell: a taut path turns nowhere else.
 void addCorners(const CostGrid& map, std::vector<SegmentPoint>& points) {
   for (int row = 0; row <= map.geometry().height(); ++row)
     for (int column = 0; column <= map.geometry().width(); ++column) {

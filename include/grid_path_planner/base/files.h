@@ -1,4 +1,4 @@
-// Reading and writing whole files, with a sentence for each way in which that can go wrong.
+// Reading and writing whole files, with an error message for each failure.
 //
 //   const std::string text = readWholeFile("site.map", 1 << 20);
 //   writeFileAtomically("copy.map", text);

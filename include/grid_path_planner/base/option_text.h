@@ -1,7 +1,7 @@
 // Options as text: their values read from it and written to it, and all that visitOptions says of
 // them, for command lines, files and logs.
 //
-//   parseOption("--radius", "0.4", info, options.terrain.radius);
+//   parseOption("--radius", "0.4", info, options.costmap.radius);
 //   for (const OptionDescription& option : describeOptions(PlannerOptions()))
 //     std::cout << option.name << ": " << option.value << '\n';
 //

@@ -45,8 +45,8 @@ void visitOptions(CostmapOptions& o, Visitor&& visit) {
         base::OptionInfo{"Cost of a cell length through free cells", "", 1, 65535});
   visit("unknown_weight", o.unknown_weight,
         base::OptionInfo{
-            "Cost of a cell length through unknown cells; higher: longer detours around them", "",
-            1, 65535});
+            "Cost of a cell length through unknown cells; higher: longer paths around them", "", 1,
+            65535});
   visit("occupied_weight", o.occupied_weight,
         base::OptionInfo{"Cost of a cell length through occupied cells, where they are passable",
                          "", 1, 65535});

@@ -50,9 +50,8 @@ void visitOptions(JoystickOptions& o, Visitor&& visit) {
   visit("sway_axis", o.sway_axis, axis("Axis that drives sideways"));
   visit("heave_axis", o.heave_axis, axis("Axis that drives up and down"));
   visit("yaw_axis", o.yaw_axis, axis("Axis that turns"));
-  visit(
-      "surge_scale", o.surge_scale,
-      scale("Speed ahead at the end of the stick's travel; negative: the other way round", "m/s"));
+  visit("surge_scale", o.surge_scale,
+        scale("Speed ahead at the end of the stick's travel; negative: reversed", "m/s"));
   visit("sway_scale", o.sway_scale,
         scale("Speed sideways at the end of the stick's travel", "m/s"));
   visit("heave_scale", o.heave_scale,

@@ -20,7 +20,7 @@ namespace grid_path_planner::grid {
 
 constexpr std::size_t kLargestMapFile = std::size_t{1} << 30;  // bytes
 
-// map_server's three ways of turning a pixel into an occupancy.
+// map_server's three conversions of a pixel to an occupancy.
 enum class MapMode { TRINARY, SCALE, RAW };
 const std::vector<std::pair<const char*, MapMode>>& choicesOf(MapMode);
 

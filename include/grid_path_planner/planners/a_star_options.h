@@ -35,8 +35,8 @@ void visitOptions(AStarOptions& o, Visitor&& visit) {
             ""});
   visit("heuristic_scale", o.heuristic_scale,
         base::OptionInfo{
-            "What the heuristic's cell lengths are multiplied by: cheapest (the cheapest "
-            "passable weight) or a number; above the cheapest weight: faster, not optimal",
+            "What the heuristic's cell lengths are multiplied by: 'cheapest' (the least "
+            "passable weight) or a number; above the least weight: faster, not optimal",
             ""});
   visit("epsilon", o.epsilon,
         base::OptionInfo{

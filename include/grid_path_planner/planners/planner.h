@@ -137,7 +137,7 @@ class Planner {
   std::shared_ptr<const costmap::CostGrid> map_;
   std::shared_ptr<const costmap::CostGrid> map_before_;  // during an update
   std::string refusal_;    // why map_ cannot be searched, "" where it can
-  bool prepared_ = false;  // false where a preparation was stopped half way
+  bool prepared_ = false;  // false where a preparation was stopped before its end
 };
 
 }  // namespace grid_path_planner::planners

@@ -35,7 +35,7 @@ struct PathEnd;
 struct Route;
 
 struct PlannerOptions {
-  costmap::CostmapOptions terrain;
+  costmap::CostmapOptions costmap;
   std::string planner = "weighted_jump_point";
   planners::SearchOptions search;
   double tolerance = 0.0;            // m
@@ -55,7 +55,7 @@ void visitOptions(PlannerOptions& o, Visitor&& visit) {
             .under("The search")
             .oneOf(planners::plannerNames));
   visitOptions(o.search, visit);
-  visitOptions(o.terrain, visit);
+  visitOptions(o.costmap, visit);
   visit("tolerance", o.tolerance,
         base::OptionInfo{
             "How far from an occupied or unreachable goal a path may end; 0: no path then", "m", 0,
@@ -119,7 +119,7 @@ class PathPlanner {
   std::shared_ptr<const costmap::CostGrid> fullResolutionCosts(
       const base::StopToken& stop);  // kernel 1, inflated
   std::shared_ptr<const costmap::CostGrid> downsampledCosts(
-      const base::StopToken& stop);  // options().terrain.kernel
+      const base::StopToken& stop);  // options().costmap.kernel
 
   // Returns when everything that plan() uses is computed, the planner's background work included,
   // without which the first plans take longer. Throws Stopped. Precondition: hasMap().

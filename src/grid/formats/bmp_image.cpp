@@ -97,7 +97,7 @@ cv::Mat decodeBmp(const std::string& content, const std::string& file, const Siz
   checkSize(header.width(), header.height());
   header.checkLength();
   if (!header.isPacked()) return decodeWithOpenCv(content, file);
-  // Zeros are ends of lines: a decoder that has lost its way comes to the last one.
+  // Zeros are ends of lines: a decoder that misreads the rest reaches the last one.
   const auto zeros = 4 * (static_cast<std::size_t>(header.height()) + 2);
   return decodeWithOpenCv(content + std::string(zeros, '\0'), file);
 }

@@ -211,7 +211,7 @@ OccupancyGrid parseOccupancyDump(const std::string& text, const std::string& fil
   if (begin == kNone) throw InputError(file, "has no 'data', the list of the map's values");
   DataReader data(document, begin + kDataKey.size(), file);
   std::vector<std::int8_t> values = data.read();
-  // The rest is small; what stood in the way keeps its lines, so that errors name the right ones.
+  // The rest is small; the data's lines stay, empty, so that errors name the right ones.
   std::string rest(document.substr(0, begin));
   rest.append(std::count(document.begin() + begin, document.begin() + data.end(), '\n'), '\n');
   rest.append(document.substr(data.end()));

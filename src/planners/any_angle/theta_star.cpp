@@ -107,8 +107,8 @@ ThetaStar::Arrival ThetaStar::bestStep(std::uint32_t index, Cell at) const {
 }
 
 // Checks the assumed line of sight to the cell's parent (SetVertex of the paper): the parent stays,
-// or is the closed neighbour with the cheapest step. False where the g-value rose by that; then the
-// cell is pushed again.
+// or is the closed neighbour with the least-cost step. False where the g-value rose by that; then
+// the cell is pushed again.
 bool ThetaStar::checkParent(std::uint32_t index, Statistics& counts) {
   Node& node = nodes_[index];
   const Cell at = cell(index);

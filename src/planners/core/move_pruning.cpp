@@ -96,9 +96,10 @@ void MovePruning::update(const CostGrid& map, const CellRect& changed, const Sto
   const auto width = static_cast<std::size_t>(map.geometry().width());
   prefetchRows(classes_.data() + map.geometry().index({rect.column, rect.row}).value(), width,
                rect.width, rect.height);
-  forEachEight(map, rect, stop, [this](std::size_t index, int number, const EightCells& cells) {
-    storeBytes(rules_.neighbourhoodClasses(cells), number, classes_.data() + index);
-  });
+  forEachEight(map, rect, stop,
+               [this](std::size_t index, int number, const SimdNeighbourhood& cells) {
+                 storeBytes(rules_.neighbourhoodClasses(cells), number, classes_.data() + index);
+               });
 }
 
 }  // namespace grid_path_planner::planners

@@ -33,8 +33,8 @@ class PruningRules {
     return motion_ == map.motion() && map_uniform_ == map.uniform();
   }
 
-  EightCells::Eight neighbourhoodClasses(const EightCells& cells) const {
-    using Eight = EightCells::Eight;
+  SimdNeighbourhood::Eight neighbourhoodClasses(const SimdNeighbourhood& cells) const {
+    using Eight = SimdNeighbourhood::Eight;
     constexpr Eight kAll = Eight{} + kAllEqual;
     if (!canonical_) return steps_.allowed(cells);
     const Eight alike = cells.alike() & ~cells.blocked(0, 0);

@@ -63,8 +63,8 @@ SearchResult check(const CostGrid& map, const SearchRequest& request, const Plan
 
 std::string unreachable(const SearchRequest& request) {
   if (request.goals.size() == 1)
-    return sentence("no way leads from ", request.start, " to ", request.goals.front());
-  return sentence("no way leads from ", request.start, " to any of ", request.goals.size(),
+    return sentence("no path leads from ", request.start, " to ", request.goals.front());
+  return sentence("no path leads from ", request.start, " to any of ", request.goals.size(),
                   " goals");
 }
 

@@ -1,9 +1,10 @@
 // SIMD neighbourhood: eight cells side by side with their neighbours, without bounds checks,
 // processed together where the machine has instructions for it.
 //
-//   forEachEight(map, rect, stop, [&](std::size_t index, int number, const EightCells& cells) {
-//     storeBytes(rules.allowed(cells), number, masks.data() + index);  // steps.h
-//   });
+//   forEachEight(map, rect, stop,
+//                [&](std::size_t index, int number, const SimdNeighbourhood& cells) {
+//                  storeBytes(rules.allowed(cells), number, masks.data() + index);  // steps.h
+//                });
 #pragma once
 
 #include <algorithm>
@@ -16,17 +17,17 @@
 
 namespace grid_path_planner::planners {
 
-constexpr int kEightCells = 8;
+constexpr int kSimdCells = 8;
 
-class EightCells {
+class SimdNeighbourhood {
  public:
   // A number a cell; of comparisons all bits or none.
   using Eight = std::uint16_t __attribute__((vector_size(16)));
 
   // They point to the first cell's column in its row and those around it; the weights from the
   // column before to the one after the eight may be read.
-  EightCells(const costmap::CostGrid::Weight* below, const costmap::CostGrid::Weight* at,
-             const costmap::CostGrid::Weight* above)
+  SimdNeighbourhood(const costmap::CostGrid::Weight* below, const costmap::CostGrid::Weight* at,
+                    const costmap::CostGrid::Weight* above)
       : rows_{below, at, above} {}
 
   // Of the neighbours at an offset of columns and rows, each -1, 0 or 1.
@@ -53,17 +54,17 @@ class EightCells {
 };
 
 // Whether it is true of all eight.
-inline bool all(const EightCells::Eight& comparison) {
+inline bool all(const SimdNeighbourhood::Eight& comparison) {
   using Halves = std::uint64_t __attribute__((vector_size(16)));
   const auto halves = reinterpret_cast<Halves>(comparison);
   return (halves[0] & halves[1]) == ~std::uint64_t{0};
 }
 
 // The first `number` of values below 256.
-inline void storeBytes(const EightCells::Eight& values, int number, std::uint8_t* to) {
+inline void storeBytes(const SimdNeighbourhood::Eight& values, int number, std::uint8_t* to) {
   using Bytes = std::uint8_t __attribute__((vector_size(8)));
   const Bytes bytes = __builtin_convertvector(values, Bytes);
-  if (number == kEightCells)
+  if (number == kSimdCells)
     std::memcpy(to, &bytes, sizeof bytes);
   else
     for (int i = 0; i < number; ++i) to[i] = bytes[i];
@@ -81,23 +82,23 @@ void forEachEight(const costmap::CostGrid& map, const grid::CellRect& rect,
     poll();
     const bool inside = row > 0 && row + 1 < weights.height();
     std::size_t index = map.geometry().index({rect.column, row}).value();
-    for (int done = 0; done < rect.width; done += kEightCells, index += kEightCells) {
+    for (int done = 0; done < rect.width; done += kSimdCells, index += kSimdCells) {
       const int column = rect.column + done;
-      const int number = std::min(kEightCells, rect.width - done);
-      if (inside && column > 0 && column + kEightCells < weights.width()) {
+      const int number = std::min(kSimdCells, rect.width - done);
+      if (inside && column > 0 && column + kSimdCells < weights.width()) {
         const Weight* at = weights.row(row) + column;
-        visit(index, number, EightCells(at - weights.width(), at, at + weights.width()));
+        visit(index, number, SimdNeighbourhood(at - weights.width(), at, at + weights.width()));
         continue;
       }
-      std::array<std::array<Weight, kEightCells + 2>, 3> around{};
+      std::array<std::array<Weight, kSimdCells + 2>, 3> around{};
       const grid::CellRect known =
-          grid::CellRect{column - 1, row - 1, kEightCells + 2, 3}.intersection(
+          grid::CellRect{column - 1, row - 1, kSimdCells + 2, 3}.intersection(
               map.geometry().rect());
       for (int i = known.row; i < known.row + known.height; ++i)
         std::copy_n(weights.row(i) + known.column, known.width,
                     &around[static_cast<std::size_t>(i - row) + 1]
                            [static_cast<std::size_t>(known.column - column) + 1]);
-      visit(index, number, EightCells(&around[0][1], &around[1][1], &around[2][1]));
+      visit(index, number, SimdNeighbourhood(&around[0][1], &around[1][1], &around[2][1]));
     }
   }
 }

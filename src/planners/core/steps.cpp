@@ -31,7 +31,7 @@ void StepMasks::build(const CostGrid& map, const StopToken& stop) {
 void StepMasks::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
   const StepRules rules(map.motion());
   forEachEight(map, changed.grown(1).intersection(map.geometry().rect()), stop,
-               [&](std::size_t index, int number, const EightCells& cells) {
+               [&](std::size_t index, int number, const SimdNeighbourhood& cells) {
                  storeBytes(rules.allowed(cells), number, masks_.data() + index);
                });
 }

@@ -33,13 +33,13 @@ std::array<std::ptrdiff_t, 8> stepOffsets(int width);
 // The steps that a motion model allows, from eight cells together.
 class StepRules {
  public:
-  using Eight = EightCells::Eight;
+  using Eight = SimdNeighbourhood::Eight;
 
   StepRules() = default;
   explicit StepRules(const costmap::MotionModel& motion);
 
   // Bit n for step n.
-  Eight allowed(const EightCells& cells) const {
+  Eight allowed(const SimdNeighbourhood& cells) const {
     const Eight east = cells.blocked(1, 0), north = cells.blocked(0, 1);
     const Eight west = cells.blocked(-1, 0), south = cells.blocked(0, -1);
     const Eight north_east = cells.blocked(1, 1) | (corners_ & (north | east));

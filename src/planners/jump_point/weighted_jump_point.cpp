@@ -61,8 +61,8 @@ std::size_t WeightedJumpPoint::bytesFor(const GridGeometry& geometry) const {
 }
 
 std::string WeightedJumpPoint::lessMemoryAdvice() const {
-  const std::string ways = PrecomputedHeuristic::lessMemoryAdvice(options_);
-  return ways.empty() ? Planner::lessMemoryAdvice() : ways;
+  const std::string advice = PrecomputedHeuristic::lessMemoryAdvice(options_);
+  return advice.empty() ? Planner::lessMemoryAdvice() : advice;
 }
 
 BackgroundWork WeightedJumpPoint::backgroundWork() {

@@ -117,7 +117,7 @@ void TiledDijkstra<Label>::make(std::size_t index) {
   std::size_t at = 0, passable = 0, sum = 0;
   int column = 0;
   forEachEight(map_, rect, StopToken(),
-               [&](std::size_t first, int number, const EightCells& cells) {
+               [&](std::size_t first, int number, const SimdNeighbourhood& cells) {
                  storeBytes(rules_.neighbourhoodClasses(cells), number, view.classes + at);
                  if (view.weights != nullptr)
                    std::copy_n(weights + first, number, view.weights + at);

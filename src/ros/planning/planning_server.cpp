@@ -126,7 +126,7 @@ PlanStatistics PlanningServer::statistics(const Plan& plan, const PlanningReques
   message.heuristic = heuristicOf(request, options);
   if (plan.found())
     message.clearance_m =
-        clearanceOf(plan.path, *planner_.map(), options.planner.terrain.thresholds);
+        clearanceOf(plan.path, *planner_.map(), options.planner.costmap.thresholds);
   return message;
 }
 

@@ -26,8 +26,8 @@ double gapOf(const StudyRun& run) {
 std::vector<TableCell> rowOf(const StudyData& data, const StudyRun& run) {
   const StudySetting& setting = data.settingOf(run);
   std::vector<TableCell> row = {data.study().maps[setting.map].name,
-                                TableCell(setting.terrain.kernel, 3),
-                                choiceName(setting.terrain.kernel_rule),
+                                TableCell(setting.costmap.kernel, 3),
+                                choiceName(setting.costmap.kernel_rule),
                                 setting.weights,
                                 data.study().variants[run.variant].label,
                                 cellOf(run.start),
@@ -57,7 +57,7 @@ std::vector<TableCell> rowOf(const StudyData& data, const StudyRun& run) {
 
 bool several(const std::vector<StudySetting>& settings, int CostmapOptions::*option) {
   return std::any_of(settings.begin(), settings.end(), [&](const StudySetting& setting) {
-    return setting.terrain.*option != settings.front().terrain.*option;
+    return setting.costmap.*option != settings.front().costmap.*option;
   });
 }
 

@@ -24,9 +24,9 @@ std::vector<KernelPair> pairsOf(const StudyData& data, std::size_t variant, int 
     if (run == nullptr || run->status != Status::FOUND) continue;
     const StudySetting& setting = data.settingOf(*run);
     KernelPair& pair =
-        pairs[{setting.map, setting.terrain.kernel_rule, setting.weights, run->query}];
-    if (setting.terrain.kernel == fine) pair.fine = run;
-    if (setting.terrain.kernel == coarse) pair.coarse = run;
+        pairs[{setting.map, setting.costmap.kernel_rule, setting.weights, run->query}];
+    if (setting.costmap.kernel == fine) pair.fine = run;
+    if (setting.costmap.kernel == coarse) pair.coarse = run;
   }
   std::vector<KernelPair> complete;
   for (const auto& pair : pairs)
@@ -46,7 +46,7 @@ std::vector<double> ratiosOf(const StudyData& data, const std::vector<KernelPair
 
 std::vector<int> kernelsOf(const StudyData& data) {
   std::map<int, bool> kernels;
-  for (const StudySetting& setting : data.study().settings) kernels[setting.terrain.kernel] = true;
+  for (const StudySetting& setting : data.study().settings) kernels[setting.costmap.kernel] = true;
   std::vector<int> sorted;
   sorted.reserve(kernels.size());
   for (const auto& kernel : kernels) sorted.push_back(kernel.first);

@@ -54,7 +54,7 @@ std::string lengthsAnswer(const StudyData& data, std::size_t dijkstra) {
            ", which cost the same";
   }
   if (text.empty()) return text;
-  if (data.study().base.terrain.motion.diagonal_cost == DiagonalCost::UNIT)
+  if (data.study().base.costmap.motion.diagonal_cost == DiagonalCost::UNIT)
     text +=
         ": where a diagonal step costs no more than a straight one, a zigzag costs no more than "
         "a straight line, and of equally cheap paths Dijkstra takes any";
@@ -146,7 +146,7 @@ void addAnswers(const StudyData& data, std::size_t variant, const Gaps& gaps,
 
 Finding optimalFinding(const StudyData& data) {
   Finding finding;
-  finding.question = "Are the paths the cheapest there are?";
+  finding.question = "Are the paths optimal?";
   finding.table = {
       "optimal",
       "Cost against the least cost by grid steps on the same setting, which Dijkstra "

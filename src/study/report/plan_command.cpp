@@ -48,7 +48,7 @@ std::string planCommand(const StudyData& data, const StudyRun& run) {
   const StudyVariant& variant = data.study().variants[run.variant];
   if (inStudiesOnly(variant.planner, variant.published_cross)) return "";
   PlannerOptions options = data.study().base;
-  options.terrain = setting.terrain;
+  options.costmap = setting.costmap;
   options.planner = variant.planner;
   options.search = variant.search;
   options.retry_finer = false;

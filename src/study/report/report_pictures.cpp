@@ -99,9 +99,9 @@ json pictureOf(const StudyData& data, const ProblemSize& size, const StudySettin
   const GridGeometry& geometry = map->geometry();
   const auto blocks = geometry.size() / static_cast<std::size_t>(size.kernel * size.kernel);
   if (blocks > kLargestPicture) return {};
-  CostmapBuilder terrain(setting.terrain);
-  terrain.setMap(map);
-  const auto costs = terrain.downsampled(StopToken());
+  CostmapBuilder builder(setting.costmap);
+  builder.setMap(map);
+  const auto costs = builder.downsampled(StopToken());
   json picture = {{"name", data.study().maps[size.map].name + ", kernel " +
                                std::to_string(size.kernel) + ' ' + choiceName(size.rule)},
                   {"width", geometry.width()},

@@ -14,9 +14,9 @@ constexpr double kSameLength = 1e-9;  // relative: lengths of the same steps in 
 struct Score {
   std::size_t variant = 0;
   std::size_t units = 0;
-  std::size_t shortest = 0;  // no other is shorter
-  std::size_t alone = 0;     // all others are longer
-  std::size_t cheapest = 0;  // cost as small as the smallest of all
+  std::size_t shortest = 0;    // no other is shorter
+  std::size_t alone = 0;       // all others are longer
+  std::size_t least_cost = 0;  // cost as small as the smallest of all
 };
 
 // Counts a unit in which every variant of `scores` found a path.
@@ -34,7 +34,7 @@ void addTo(std::vector<Score>& scores, const UnitRow& unit) {
     ++score.units;
     score.shortest += isShortest(score) ? 1 : 0;
     score.alone += isShortest(score) && winners == 1 ? 1 : 0;
-    score.cheapest += unit[score.variant]->cost <= least_cost * (1.0 + kSameLength) ? 1 : 0;
+    score.least_cost += unit[score.variant]->cost <= least_cost * (1.0 + kSameLength) ? 1 : 0;
   }
 }
 
@@ -102,7 +102,7 @@ Finding shortestFinding(const StudyData& data) {
       "path is shorter, all others' are longer, and none's is cheaper; 95 % intervals. The search "
       "minimises the cost, not the length: of paths that cost the same, one may be longer.",
       {"planner", "heuristic", "queries", "shortest", "published [%]", "shortest alone",
-       "published alone [%]", "cheapest"},
+       "published alone [%]", "least cost"},
       {}};
   std::map<std::string, std::vector<std::size_t>> programs;
   for (std::size_t variant = 0; variant < data.study().variants.size(); ++variant) {
@@ -121,7 +121,7 @@ Finding shortestFinding(const StudyData& data) {
                                     publishedCell(published.shortest_percent, heuristic),
                                     shareCell(score.alone, score.units, data.queries()),
                                     publishedCell(published.alone_percent, heuristic),
-                                    shareCell(score.cheapest, score.units, data.queries())});
+                                    shareCell(score.least_cost, score.units, data.queries())});
     }
     if (scores.front().units > 0) finding.answers.push_back(answerFor(data, program.first, scores));
   }

@@ -25,11 +25,11 @@ Crossing& crossingOf(const StudyData& data, const StudySetting& setting,
                      std::vector<Crossing>& all) {
   const std::string& map = data.study().maps[setting.map].name;
   const auto crossing = std::find_if(all.begin(), all.end(), [&](const Crossing& each) {
-    return each.weights == setting.weights && each.kernel == setting.terrain.kernel &&
+    return each.weights == setting.weights && each.kernel == setting.costmap.kernel &&
            each.map == map;
   });
   if (crossing != all.end()) return *crossing;
-  all.push_back({setting.weights, setting.terrain.kernel, map, 0, 0, 0, {}, {}, {}});
+  all.push_back({setting.weights, setting.costmap.kernel, map, 0, 0, 0, {}, {}, {}});
   return all.back();
 }
 
