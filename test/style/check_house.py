@@ -15,8 +15,8 @@ from common import PLANTED, ROOT, files, finish, read, skip, version_of
 # A limit is lowered in the commit that makes it possible, and never raised.
 LIMITS = {
     "public headers": (99, 90),
-    "files in the largest folder": (53, 35),
-    "lines of the longest file": (457, 400),
+    "files in the largest folder": (35, 35),
+    "lines of the longest file": (400, 400),
     "functions of 20 lines and more, in a thousand": (54, 50),
 }
 LONGEST_FUNCTION = 60  # lines, but for
