@@ -264,6 +264,28 @@ class House(unittest.TestCase):
         self.assertEqual(self.planted("namespace {\n%s}\n" % other), [])
 
 
+class PrecompiledHeaders(unittest.TestCase):
+    def planted(self, more):
+        """The complaints about a source that is compiled with `more` options than its header."""
+        with tempfile.TemporaryDirectory() as folder:
+            header = os.path.join(folder, "cmake_pch.hxx")
+            with open(header, "w", encoding="utf-8") as file:
+                file.write("#ifdef SWITCH\n#endif\n")
+            subprocess.run(["g++", "-x", "c++-header", header, "-o", header + ".gch"], check=True)
+            command = "g++ %s -Winvalid-pch -include %s -o x.o -c x.cpp" % (more, header)
+            entry = {"command": command, "file": "x.cpp", "directory": folder}
+            return complaints("check_precompiled_headers.py", "build/compile_commands.json", json.dumps([entry]))
+
+    def test_used(self):
+        self.assertEqual(self.planted("-DOTHER"), [])
+
+    def test_rejected(self):
+        self.assertIn("`SWITCH' is defined", self.planted("-DSWITCH")[0])
+
+    def test_not_built(self):
+        self.assertIn("is not built", self.planted("-include absent/cmake_pch.hxx")[0])
+
+
 class Words(unittest.TestCase):
     def planted(self, text, name="src/grid/x.cpp"):
         return complaints("check_words.py", name, text)
