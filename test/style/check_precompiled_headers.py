@@ -4,14 +4,13 @@ all of it again, where the options differ: the warning of -Winvalid-pch is one l
     check_precompiled_headers.py BUILD   BUILD/compile_commands.json has the options; BUILD is built, with the tests
 """
 import concurrent.futures
-import json
 import os
 import re
 import shlex
 import subprocess
 import sys
 
-from common import ROOT, finish
+from common import compilations, finish
 
 
 def header_of(words):
@@ -22,10 +21,8 @@ def header_of(words):
 
 def asks(build):
     """One compilation of each kind that has a precompiled header: (source, words before the output, folder)."""
-    with open(os.path.join(ROOT, build, "compile_commands.json"), encoding="utf-8") as file:
-        entries = json.load(file)
     kinds = {}
-    for entry in entries:
+    for entry in compilations(build):
         words = [word for word in shlex.split(entry["command"]) if "ccache" not in word]
         header = header_of(words)
         if header and not re.search(r"/cmake_pch\.hxx(\.cxx)?$", entry["file"]):
