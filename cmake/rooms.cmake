@@ -75,9 +75,9 @@ function(gpp_add_executable name source)
   set_property(GLOBAL APPEND PROPERTY GPP_EXECUTABLES ${target})
 endfunction()
 
-# gpp_add_room_test(<room> [<libraries>]): all of test/<room>/*_test.cpp as one gtest program.
+# gpp_add_room_test(<room> [<libraries>]): all *_test.cpp below test/<room> as one gtest program.
 function(gpp_add_room_test room)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${room}/*_test.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${room}/*_test.cpp)
   set(target ${PROJECT_NAME}_${room}_test)
   catkin_add_gtest(${target} ${sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   if(TARGET ${target})

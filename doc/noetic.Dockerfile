@@ -16,7 +16,7 @@ RUN apt-get update && apt-get install -y --no-install-recommends curl gnupg lsb-
 
 WORKDIR /grid_path_planner
 COPY scripts/install_dependencies scripts/
-RUN apt-get update && scripts/install_dependencies && rm -rf /var/lib/apt/lists/*
+RUN apt-get update && scripts/install_dependencies --tests && rm -rf /var/lib/apt/lists/*
 
 COPY . .
 RUN rm -rf build && scripts/test --no-install

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-from common import ROOT, files, finish, read, skip, version_of
+from common import ROOT, files, finish, lacking, read, version_of
 
 DOC = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "doc")
 
@@ -33,7 +33,7 @@ def words_of(text):
 def main():
     version = re.match(r"(\d+)\.(\d+)", version_of("doxygen") or "0.0")
     if tuple(map(int, version.groups())) < (1, 9):  # older ones know fewer settings
-        skip("no doxygen 1.9 (apt-get install doxygen)")
+        lacking("no doxygen 1.9: apt-get install doxygen")
     with tempfile.TemporaryDirectory() as temporary:
         folder = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else temporary
         os.makedirs(folder, exist_ok=True)

@@ -9,14 +9,14 @@ import re
 import subprocess
 import sys
 
-from common import PLANTED, ROOT, files, finish, read, skip, version_of
+from common import PLANTED, ROOT, files, finish, lacking, read, version_of
 
 # What is counted: the limit that is enforced, and the target of the layout where that is lower.
 # A limit is lowered in the commit that makes it possible, and never raised.
 LIMITS = {
     "public headers": (79, 79),
-    "files in the largest folder": (53, 35),
-    "lines of the longest file": (457, 400),
+    "files in the largest folder": (35, 35),
+    "lines of the longest file": (400, 400),
     "functions of 20 lines and more, in a thousand": (50, 50),
 }
 LONGEST_FUNCTION = 60  # lines, but for
@@ -78,7 +78,7 @@ def file_lengths():
 
 def main():
     if "Universal Ctags" not in (version_of("ctags") or ""):
-        skip("no universal-ctags (apt-get install universal-ctags)")
+        lacking("no universal-ctags: apt-get install universal-ctags")
     found = list(tags())
     lengths, folders, texts = functions(found), folder_sizes(), file_lengths()
     headers = files(("include",), (".h",))

@@ -1,11 +1,11 @@
-"""Shell scripts pass shellcheck, Python ones compile (and pass pyflakes), and the worlds are
+"""Shell scripts pass shellcheck, Python ones compile and pass pyflakes, and the worlds are
 what their script makes."""
 import os
 import subprocess
 import sys
 import tempfile
 
-from common import ROOT, files, finish, read, version_of
+from common import ROOT, files, finish, need, read
 
 
 def run(command):
@@ -44,6 +44,8 @@ def made_file_complaints(script):
 
 
 def main():
+    need("shellcheck", "shellcheck")
+    need("pyflakes3", "pyflakes3")
     names = files(("scripts", ".ci", "test/style"), ("",))
     names += [name for name in files(("benchmark",), ("",)) if "." not in name.split("/")[-1]]
     names = [name for name in names if "__pycache__" not in name and not name.endswith(".txt")]
@@ -55,10 +57,8 @@ def main():
             compile(read(name), name, "exec")
         except SyntaxError as error:
             complaints.append("%s: %s" % (name, error))
-    if version_of("shellcheck"):
-        complaints += run(["shellcheck", "-x"] + shell)
-    if version_of("pyflakes3"):
-        complaints += run(["pyflakes3"] + python)
+    complaints += run(["shellcheck", "-x"] + shell)
+    complaints += run(["pyflakes3"] + python)
     finish(complaints, "%d scripts" % len(names))
 
 

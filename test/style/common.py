@@ -10,7 +10,6 @@ import sys
 ROOT = os.environ.get("STYLE_ROOT") or os.path.abspath(
     os.path.join(os.path.dirname(__file__), "..", ".."))
 PLANTED = "STYLE_ROOT" in os.environ
-SKIPPED = 77
 FLAG = re.compile(r"-(I|isystem|D|std=)")
 
 
@@ -38,19 +37,30 @@ def version_of(tool):
     return answer.stdout.strip()
 
 
-def skip(reason):
-    print("skipped: " + reason)
-    sys.exit(SKIPPED)
+def lacking(sentence):
+    """Ends the program of a check that lacks a tool: a check that is passed over finds nothing."""
+    sys.exit("not checked: %s; scripts/install_dependencies --tests installs it" % sentence)
+
+
+def need(tool, package):
+    """Ends the program where there is no such tool."""
+    if version_of(tool) is None:
+        lacking("no %s: apt-get install %s" % (tool, package))
+
+
+def compilations(build):
+    """The entries of the build's compile_commands.json."""
+    path = os.path.join(ROOT, build, "compile_commands.json")
+    if not os.path.exists(path):
+        sys.exit("not checked: no %s: scripts/build makes it" % path)
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
 
 
 def compiler_and_flags(build, more=()):
     """The compiler of the build, and all folders and definitions that any of its files gets, after `more`."""
-    path = os.path.join(ROOT, build, "compile_commands.json")
-    if not os.path.exists(path):
-        skip("no " + path)
     flags = {"-I" + ROOT: None, "-I" + os.path.join(ROOT, "src"): None}
-    with open(path, encoding="utf-8") as file:
-        commands = [shlex.split(entry["command"]) for entry in json.load(file)]
+    commands = [shlex.split(entry["command"]) for entry in compilations(build)]
     for words in commands:
         for i, word in enumerate(words):
             if FLAG.match(word):

@@ -33,11 +33,11 @@ void visitOptions(AStarOptions& o, Visitor&& visit) {
             "connectivity 4, octile and euclidean not for unit diagonals; landmark and exact "
             "(small maps) use tables that are made in the background",
             ""});
-  visit("heuristic_scale", o.heuristic_scale,
-        base::OptionInfo{
-            "What the heuristic's cell lengths are multiplied by: 'cheapest' (the least "
-            "passable weight) or a number; above the least weight: faster, not optimal",
-            ""});
+  visit(
+      "heuristic_scale", o.heuristic_scale,
+      base::OptionInfo{"What the heuristic's cell lengths are multiplied by: 'cheapest' (the least "
+                       "passable weight) or a number; above the least weight: faster, not optimal",
+                       ""});
   visit("epsilon", o.epsilon,
         base::OptionInfo{
             "Weight of the heuristic; above 1: faster, the cost is at most that many times the "
