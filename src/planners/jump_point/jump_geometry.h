@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "grid_path_planner/grid/cell.h"
-#include "grid_path_planner/planners/keys.h"
+#include "planners/core/keys.h"
 #include "grid_path_planner/planners/steps.h"
 
 namespace grid_path_planner::planners {
