@@ -38,7 +38,7 @@ namespace po = boost::program_options;
 constexpr int kFound = 0;
 constexpr int kNoPath = 1;
 
-po::options_description describe() {
+po::options_description planOptions() {
   po::options_description known("Options");
   known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
       "start", po::value<std::string>()->required(), "X,Y[,Z[,YAW]] in metres, YAW in radians")(
@@ -124,7 +124,7 @@ void warnIfNotOptimal(const PlannerOptions& options) {
 
 int runPlan(int argc, char** argv) {
   po::variables_map values;
-  if (!parseArguments(argc, argv, describe(),
+  if (!parseArguments(argc, argv, planOptions(),
                       "grid_path plan --map FILE --start X,Y --goal X,Y [options]", values))
     return kFound;
   const PlannerOptions options = plannerOptionsFrom(values);

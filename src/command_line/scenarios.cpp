@@ -84,7 +84,7 @@ struct Totals {
   }
 };
 
-po::options_description describe() {
+po::options_description scenariosOptions() {
   po::options_description known("Options");
   known.add_options()("scen", po::value<std::string>()->required(), "MovingAI scenario file")(
       "map", po::value<std::string>(), "map file; default: the one the scenario names, beside it")(
@@ -296,7 +296,8 @@ std::string mapFileOf(const po::variables_map& values, const std::string& scenar
 
 int runScenarios(int argc, char** argv) {
   po::variables_map values;
-  if (!parseArguments(argc, argv, describe(), "grid_path scenarios --scen FILE [options]", values))
+  if (!parseArguments(argc, argv, scenariosOptions(), "grid_path scenarios --scen FILE [options]",
+                      values))
     return 0;
   const std::string file = values["scen"].as<std::string>();
   const PlannerOptions options = plannerOptionsFrom(values);
