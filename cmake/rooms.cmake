@@ -12,7 +12,7 @@ set(GPP_PRECOMPILED_ROS_HEADERS <ros/ros.h> <ros/callback_queue.h> <nodelet/node
   <tf2_geometry_msgs/tf2_geometry_msgs.h> <geometry_msgs/PoseStamped.h> <nav_msgs/OccupancyGrid.h> <nav_msgs/Path.h>
   <visualization_msgs/MarkerArray.h>)
 
-option(GRID_PATH_PLANNER_UNITY_BUILD "Compile several sources of the study and of ROS nodes as one" ON)
+option(GRID_PATH_PLANNER_UNITY_BUILD "Compile several sources of a library as one" ON)
 
 # gpp_precompile_headers(<target> <owner>): the owner's precompiled headers; the owner itself makes them of
 # ${ARGN}. All their users have equal options, so all are position-independent and define no symbol of their own.
@@ -30,10 +30,20 @@ function(gpp_precompile_headers target owner)
   endif()
 endfunction()
 
+# gpp_unite_sources(<target> [<source apart>...]): several sources are compiled as one, unless
+# GRID_PATH_PLANNER_UNITY_BUILD is OFF.
+function(gpp_unite_sources target)
+  if(GRID_PATH_PLANNER_UNITY_BUILD)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+endfunction()
+
 # gpp_add_room(<room> [FOLDER folder] [UNITY] [APART source...] [ROOMS room...] [LIBRARIES library...])
 # The library grid_path_planner_<room> from all sources below src/<folder> (default: src/<room>).
-# UNITY: several sources are compiled as one, unless GRID_PATH_PLANNER_UNITY_BUILD is OFF; not those that are named
-# APART, which have a name of an anonymous namespace in common with another. Rooms whose speed counts are not built so.
+# UNITY: several sources are compiled as one, so no two of them have a name of an anonymous namespace in common; not
+# those that are named APART, where a class has members of such a type. costmap, grid, mapping and planners,
+# whose speed counts most, are not built so.
 function(gpp_add_room room)
   cmake_parse_arguments(ARG "UNITY" "FOLDER" "APART;ROOMS;LIBRARIES" ${ARGN})
   if(NOT ARG_FOLDER)
@@ -43,9 +53,8 @@ function(gpp_add_room room)
   set(target ${PROJECT_NAME}_${room})
   add_library(${target} ${sources})
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  if(ARG_UNITY AND GRID_PATH_PLANNER_UNITY_BUILD)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
-    set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  if(ARG_UNITY)
+    gpp_unite_sources(${target} ${ARG_APART})
   endif()
   foreach(below ${ARG_ROOMS})
     target_link_libraries(${target} PUBLIC ${PROJECT_NAME}_${below})

@@ -25,7 +25,7 @@ namespace {
 
 namespace po = boost::program_options;
 
-po::options_description describe() {
+po::options_description convertOptions() {
   po::options_description known("Options");
   known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
       "output", po::value<std::string>()->required(),
@@ -130,7 +130,7 @@ void write(const Target& target, const OccupancyGrid& map) {
 
 int runConvert(int argc, char** argv) {
   po::variables_map values;
-  if (!parseArguments(argc, argv, describe(),
+  if (!parseArguments(argc, argv, convertOptions(),
                       "grid_path convert --map IN --output OUT.(yaml|map|png|pgm) [options]",
                       values))
     return 0;

@@ -29,7 +29,7 @@ namespace po = boost::program_options;
 constexpr int kFound = 0;
 constexpr int kNoPath = 1;
 
-po::options_description describe() {
+po::options_description planOptions() {
   po::options_description known("Options");
   known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
       "start", po::value<std::string>()->required(), "X,Y[,Z[,YAW]] in metres, YAW in radians")(
@@ -153,7 +153,7 @@ void print(const Plan& report, double preparation_ms, bool as_json) {
 
 int runPlan(int argc, char** argv) {
   po::variables_map values;
-  if (!parseArguments(argc, argv, describe(),
+  if (!parseArguments(argc, argv, planOptions(),
                       "grid_path plan --map FILE --start X,Y --goal X,Y [options]", values))
     return kFound;
   const PlannerOptions options = plannerOptionsFrom(values);

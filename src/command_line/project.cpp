@@ -21,7 +21,7 @@ namespace {
 
 namespace po = boost::program_options;
 
-po::options_description describe() {
+po::options_description projectOptions() {
   po::options_description known("Options");
   known.add_options()("octree", po::value<std::string>()->required(), "octree file, .bt or .ot")(
       "map", po::value<std::string>()->required(), "OUT.yaml, with OUT.pgm beside it")(
@@ -91,7 +91,7 @@ OccupancyGrid projected(const po::variables_map& values) {
 int runProject(int argc, char** argv) {
   po::variables_map values;
   if (!parseArguments(
-          argc, argv, describe(),
+          argc, argv, projectOptions(),
           "grid_path project --octree FILE --min-z Z --max-z Z --map OUT.yaml [options]", values))
     return 0;
   checkEndings(values);

@@ -67,7 +67,7 @@ struct Totals {
   }
 };
 
-po::options_description describe() {
+po::options_description scenariosOptions() {
   po::options_description known("Options");
   known.add_options()("scen", po::value<std::string>()->required(), "MovingAI scenario file")(
       "map", po::value<std::string>(), "map file; default: the one the scenario names, beside it")(
@@ -306,7 +306,8 @@ bool guarantees(const PreparedPlanner& prepared) {
 
 int runScenarios(int argc, char** argv) {
   po::variables_map values;
-  if (!parseArguments(argc, argv, describe(), "grid_path scenarios --scen FILE [options]", values))
+  if (!parseArguments(argc, argv, scenariosOptions(), "grid_path scenarios --scen FILE [options]",
+                      values))
     return 0;
   const std::string file = values["scen"].as<std::string>();
   const PlannerOptions options = plannerOptionsFrom(values);

@@ -48,7 +48,7 @@ class CatchInterrupt {
   void (*before_)(int);
 };
 
-po::options_description describe() {
+po::options_description studyOptions() {
   po::options_description known("Options");
   known.add_options()("study", po::value<std::string>()->required(), "study file (YAML)")(
       "out", po::value<std::string>()->required(),
@@ -104,7 +104,7 @@ int jobsFrom(const po::variables_map& values) {
 int runStudyCommand(int argc, char** argv) {
   std::vector<char*> arguments = withNamedFile(argc, argv);
   po::variables_map values;
-  if (!parseArguments(static_cast<int>(arguments.size()), arguments.data(), describe(),
+  if (!parseArguments(static_cast<int>(arguments.size()), arguments.data(), studyOptions(),
                       "grid_path study FILE.yaml --out DIR [--jobs N]", values))
     return 0;
   const std::string file = values["study"].as<std::string>();

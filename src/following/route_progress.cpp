@@ -17,7 +17,6 @@ namespace {
 using Eigen::Vector3d;
 using Kind = FollowEvent::Kind;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kProgress = 0.05;  // m and rad: less is no progress
 
 std::vector<Knot> knotsOf(const Path& path, std::size_t first, bool loop) {
@@ -176,7 +175,7 @@ void RouteProgress::reach(int waypoint) {
 
 void RouteProgress::startSegment(std::size_t segment) {
   segment_ = segment;
-  closest_ = kInfinity;
+  closest_ = std::numeric_limits<double>::infinity();
   at_stop_ = false;
   restartSettling();
   restartProgress();

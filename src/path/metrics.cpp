@@ -17,7 +17,7 @@ using grid::Cell, grid::CellRect, grid::GridGeometry, grid::Occupancy, grid::Occ
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoObstacle = std::numeric_limits<double>::infinity();
 
 // How many cells of any rectangle of a map are occupied, by sums over all rectangles from the
 // corner.
@@ -110,9 +110,9 @@ double turningOf(const Path& path) {
 double clearanceOf(const Path& path, const OccupancyGrid& map,
                    const OccupancyThresholds& thresholds) {
   const GridGeometry& geometry = map.geometry();
-  if (path.empty() || geometry.size() == 0) return kInfinity;
+  if (path.empty() || geometry.size() == 0) return kNoObstacle;
   const OccupiedCount occupied(map, thresholds);
-  double least = kInfinity;
+  double least = kNoObstacle;
   Eigen::Vector2d from = geometry.gridFromWorld(path.poses[0].position.head<2>());
   for (const Pose& pose : path.poses) {
     const Eigen::Vector2d to = geometry.gridFromWorld(pose.position.head<2>());

@@ -32,7 +32,7 @@ const Colour kPath = colourOf(0, 114, 178);
 const Colour kStart = colourOf(0, 158, 115);
 const Colour kGoal = colourOf(213, 94, 0);
 
-Colour colourOf(Occupancy occupancy) {
+Colour cellColour(Occupancy occupancy) {
   switch (occupancy) {
     case Occupancy::FREE:
       return kFree;
@@ -63,7 +63,7 @@ cv::Mat coloured(const cv::Mat& classes) {
   cv::Mat colours(classes.size(), CV_8UC3);
   for (int y = 0; y < classes.rows; ++y)
     for (int x = 0; x < classes.cols; ++x)
-      colours.at<Colour>(y, x) = colourOf(Occupancy(classes.at<uchar>(y, x)));
+      colours.at<Colour>(y, x) = cellColour(Occupancy(classes.at<uchar>(y, x)));
   return colours;
 }
 
@@ -76,7 +76,7 @@ void tint(cv::Mat& colours, const cv::Mat& classes, int cells, const GridGeometr
     const Occupancy occupancy = Occupancy(classes.at<uchar>(block));
     const Colour colour = mixed(kEarly, kLate, static_cast<double>(i) / expanded.size());
     const double strength = occupancy == Occupancy::FREE ? 1.0 : 0.3;
-    colours.at<Colour>(block) = mixed(colourOf(occupancy), colour, strength);
+    colours.at<Colour>(block) = mixed(cellColour(occupancy), colour, strength);
   }
 }
 

@@ -15,7 +15,7 @@ using costmap::BitMaps, costmap::CostGrid, costmap::lineCostWithin, costmap::Seg
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoLine = std::numeric_limits<double>::infinity();
 // Sums of the same lengths in another order differ by less, relatively.
 constexpr double kRounding = 1e-12;
 
@@ -28,7 +28,7 @@ class Smoother {
         poll_(stop, 64),
         costs_(1, 0.0) {
     for (std::size_t i = 1; i < points.size(); ++i)
-      costs_.push_back(costs_.back() + straight(i - 1, i, kInfinity).value_or(kInfinity));
+      costs_.push_back(costs_.back() + straight(i - 1, i, kNoLine).value_or(kNoLine));
   }
 
   SmoothPath run() {
@@ -36,7 +36,7 @@ class Smoother {
     path.kept.resize(points_.size());
     std::iota(path.kept.begin(), path.kept.end(), std::size_t{0});
     path.cost = costs_.back();
-    if (path.cost == kInfinity) return path;
+    if (path.cost == kNoLine) return path;
     pullFromTheStart(path.kept);
     for (int round = 0; round < kRounds && slide(path.kept); ++round) {
     }
@@ -58,8 +58,8 @@ class Smoother {
     return straight(from, to, along(from, to) * (1.0 + kRounding)).has_value();
   }
   // The cost of a segment; infinite where it is not legal or costs more than `limit`.
-  double costOf(std::size_t from, std::size_t to, double limit = kInfinity) {
-    return straight(from, to, limit).value_or(kInfinity);
+  double costOf(std::size_t from, std::size_t to, double limit = kNoLine) {
+    return straight(from, to, limit).value_or(kNoLine);
   }
 
   // From each kept point a segment to a point as far ahead as possible: steps that double, then

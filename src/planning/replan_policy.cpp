@@ -14,13 +14,9 @@ using path::Path, path::Pose;
 
 namespace {
 
-Eigen::Vector2d planar(const Pose& pose) {
-  return pose.position.head<2>();
-}
-
 Polyline polylineOf(const Path& path) {
   Polyline line;
-  for (const Pose& pose : path.poses) line.push_back(planar(pose));
+  for (const Pose& pose : path.poses) line.push_back(pose.position.head<2>());
   return line;
 }
 
@@ -79,7 +75,7 @@ bool pathBlocked(const Path& path, const std::optional<Eigen::Vector2d>& positio
 
 bool keepsPath(const Path& old, const Path& fresh, const CostGrid& costs, double hysteresis) {
   if (old.empty() || fresh.empty() || !sameEnd(old, fresh)) return false;
-  const auto old_cost = costOf(remainingPath(old, planar(fresh.poses.front())), costs);
+  const auto old_cost = costOf(remainingPath(old, fresh.poses.front().position.head<2>()), costs);
   const auto fresh_cost = costOf(polylineOf(fresh), costs);
   return old_cost && fresh_cost && *old_cost <= (1.0 + hysteresis) * *fresh_cost;
 }

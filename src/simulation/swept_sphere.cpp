@@ -5,8 +5,8 @@
 namespace grid_path_planner::simulation {
 namespace {
 
-constexpr double kTouch = 1e-9;  // m; a surface this little inside the sphere does not stop it
-constexpr double kCut = 1e-6;    // m; a surface this far inside was there from the beginning
+constexpr double kLeastDepth = 1e-9;  // m; a surface this little inside the sphere does not stop it
+constexpr double kCut = 1e-6;         // m; a surface this far inside was there from the beginning
 constexpr double kPiece = 1e-3;  // m; along a near surface the motion is checked in such pieces
 constexpr int kHalvings = 24;    // of a piece, to find the contact: 1e-10 m
 
@@ -30,7 +30,7 @@ SweptSphere sweptSphere(const World& world, double radius, const Eigen::Vector3d
   while (near && free + (near->distance - radius) < length) {
     const double next = std::min(length, free + std::max(kPiece, near->distance - radius));
     near = surfaceNear(place(next), length - next);
-    if (near && near->distance < radius - kTouch) {
+    if (near && near->distance < radius - kLeastDepth) {
       double closed = next;
       for (int i = 0; i < kHalvings; ++i) {
         const double middle = 0.5 * (free + closed);

@@ -23,7 +23,7 @@ using grid::readMapFile;
 
 namespace {
 
-constexpr std::string_view kSignature = "#ROSBAG";
+constexpr std::string_view kBeginningOfBags = "#ROSBAG";
 
 // The first bytes of a file; fewer where it is shorter.
 std::string beginningOf(const std::string& file, std::size_t count) {
@@ -106,7 +106,7 @@ OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic) 
 
 OccupancyGrid readAnyMapFile(const std::string& file, const MapFileOptions& options) {
   const bool is_bag =
-      extensionOf(file) == "bag" || beginningOf(file, kSignature.size()) == kSignature;
+      extensionOf(file) == "bag" || beginningOf(file, kBeginningOfBags.size()) == kBeginningOfBags;
   if (!is_bag) return readMapFile(file, options);
   OccupancyGrid map = readMapFromBag(file);
   const GridGeometry& own = map.geometry();

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kErrorPeriod = 5.0;  // s, between two of the same
 
-TeleopJoyOptions loadOptions(const ros::NodeHandle& private_nh) {
+TeleopJoyOptions loadTeleopJoyOptions(const ros::NodeHandle& private_nh) {
   TeleopJoyOptions options;
   loadParameters(private_nh, options);
   checkTeleopJoyOptions(options);
@@ -41,7 +41,7 @@ void checkTeleopJoyOptions(const TeleopJoyOptions& options) {
 }
 
 TeleopJoyNode::TeleopJoyNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
-    : nh_(nh), options_(loadOptions(private_nh)) {
+    : nh_(nh), options_(loadTeleopJoyOptions(private_nh)) {
   publisher_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10);
   subscriber_ = nh_.subscribe("joy", 10, &TeleopJoyNode::onJoy, this);
   reconfigurable_ = std::make_unique<Reconfigurable<TeleopJoyConfig, TeleopJoyOptions>>(

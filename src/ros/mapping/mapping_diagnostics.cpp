@@ -10,7 +10,7 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-constexpr int kRest = 50;  // times what counting the memory took
+constexpr int kRestAfterCounting = 50;  // times what counting the memory took
 
 std::uint64_t sumOf(const std::map<std::string, std::uint64_t>& dropped) {
   std::uint64_t sum = 0;
@@ -45,7 +45,7 @@ void MappingDiagnostics::measure(const MapModel& map) {
   const Figures figures{map.map().tree().size(), map.map().memoryUsage(),
                         map.map().options().resolution, map.projections()};
   const auto end = Clock::now();
-  measure_not_before_ = end + kRest * (end - start);
+  measure_not_before_ = end + kRestAfterCounting * (end - start);
   std::lock_guard<std::mutex> lock(mutex_);
   figures_ = figures;
 }

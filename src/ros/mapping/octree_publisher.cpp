@@ -9,7 +9,7 @@ using mapping::ProjectedMapOptions;
 
 namespace {
 
-constexpr int kRest = 4;  // times what a publication took
+constexpr int kRestAfterPublication = 4;  // times what a publication took
 
 visualization_msgs::MarkerArray stamped(visualization_msgs::MarkerArray array,
                                         const std::string& frame, const ros::Time& stamp) {
@@ -51,7 +51,7 @@ void OctreePublisher::publish(const MapModel& map, const ros::Time& stamp) {
   send(map, stamp);
   sent_revision_ = map.revision();
   const auto end = Clock::now();
-  not_before_ = end + kRest * (end - start);
+  not_before_ = end + kRestAfterPublication * (end - start);
 }
 
 void OctreePublisher::send(const MapModel& map, const ros::Time& stamp) {

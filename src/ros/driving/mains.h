@@ -1,0 +1,9 @@
+// The main programs of navigate_path and teleop_joy: src/nodes/ calls them, and so needs no header of ROS.
+#pragma once
+
+namespace grid_path_planner::nodes {
+
+int navigatePathMain(int argc, char** argv);
+int teleopJoyMain(int argc, char** argv);
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,17 @@
+#include "ros/planning/mains.h"
+
+#include "ros/common/run_node.h"
+#include "ros/planning/map_publisher_node.h"
+#include "ros/planning/path_planner_node.h"
+
+namespace grid_path_planner::nodes {
+
+int pathPlannerMain(int argc, char** argv) {
+  return runNode<PathPlannerNode>(argc, argv, "path_planner");
+}
+
+int mapPublisherMain(int argc, char** argv) {
+  return runNodeWithFile<MapPublisherNode>(argc, argv, "map_publisher", "MAP_FILE");
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,12 @@
+#include "ros/simulation/mains.h"
+
+#include "ros/common/run_node.h"
+#include "ros/simulation/simulator_node.h"
+
+namespace grid_path_planner::nodes {
+
+int simulatorMain(int argc, char** argv) {
+  return runNode<SimulatorNode>(argc, argv, "simulator");
+}
+
+}  // namespace grid_path_planner::nodes
