@@ -5,7 +5,7 @@
 
 #include "grid_path_planner/grid/cell.h"
 #include "planners/core/keys.h"
-#include "grid_path_planner/planners/steps.h"
+#include "planners/core/steps.h"
 
 namespace grid_path_planner::planners {
 
