@@ -16,7 +16,7 @@
 namespace grid_path_planner::command_line {
 
 using base::InputError, base::Status, base::StopToken;
-using grid::Cell, grid::GridGeometry, grid::OccupancyGrid;
+using grid::Cell, grid::GridGeometry, grid::OccupancyGrid, grid::OccupancyThresholds;
 using nodes::readAnyMapFile;
 using path::Pose, path::writePicture, path::writeWaypointFile;
 using planners::traitsOf;

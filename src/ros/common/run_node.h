@@ -1,7 +1,7 @@
 // The main program of a node: everything around the one class that is the node.
 //
-//   int simulatorMain(int argc, char** argv) {
-//     return runNode<SimulatorNode>(argc, argv, "simulator");
+//   int main(int argc, char** argv) {
+//     return grid_path_planner::nodes::runNode<grid_path_planner::nodes::SimulatorNode>(argc, argv, "simulator");
 //   }
 //
 // Guaranteed: on every orderly end of the process (SIGINT, SIGTERM, rosnode kill, a second
