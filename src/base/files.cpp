@@ -6,10 +6,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cctype>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
@@ -37,64 +35,32 @@ class Descriptor {
   throw InputError(file, std::string("cannot be read: ") + std::strerror(error));
 }
 
+// A device is not even opened: that alone starts some of them. What takes the file's name between
+// the two questions is not waited for.
+int openRegular(const std::string& file) {
+  struct stat info {};
+  if (::stat(file.c_str(), &info) != 0) throwUnreadable(file, errno);
+  if (S_ISDIR(info.st_mode)) throw InputError(file, "is a directory, expected a file");
+  if (!S_ISREG(info.st_mode)) throw InputError(file, "is no regular file");
+  const int opened = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (opened < 0) throwUnreadable(file, errno);
+  return opened;
+}
+
 bool belongsInText(char letter) {
   const auto byte = static_cast<unsigned char>(letter);
   return byte >= 0x20 || byte == '\n' || byte == '\r' || byte == '\t' || byte == '\f';
 }
 
-// A name that no other thread or process writes to.
-std::string nameBeside(const std::string& file) {
-  static std::atomic<unsigned> count{0};
-  return file + ".tmp" + std::to_string(::getpid()) + "_" + std::to_string(count++);
-}
-
-bool writeAll(int descriptor, const std::string& content) {
-  std::size_t done = 0;
-  while (done < content.size()) {
-    const ssize_t written = ::write(descriptor, content.data() + done, content.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    done += static_cast<std::size_t>(written);
-  }
-  return ::fsync(descriptor) == 0 || errno == EINVAL;  // EINVAL: a file system without fsync
-}
-
-[[noreturn]] void throwUnwritten(const std::string& file, int error) {
-  throw InputError(file, std::string("cannot be written: ") + std::strerror(error));
-}
-
-// Writes to `opened` and closes it; 0, or the error.
-int contentWritten(int opened, const std::string& content) {
-  const int error = writeAll(opened, content) ? 0 : errno;
-  const bool closed = ::close(opened) == 0;
-  return error == 0 && !closed ? errno : error;
-}
-
-// Devices and pipes cannot be replaced, and nothing in them can be lost.
-void writeThrough(const std::string& file, const std::string& content) {
-  const int opened = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
-  if (opened < 0) throwUnwritten(file, errno);
-  const int error = contentWritten(opened, content);
-  if (error != 0) throwUnwritten(file, error);
-}
-
-// The file that a link leads to, or the file itself.
-std::string behindLinks(const std::string& file) {
-  std::error_code none;
-  const std::filesystem::path behind = std::filesystem::canonical(file, none);
-  return none ? file : behind.string();
-}
-
 }  // namespace
 
 std::string readWholeFile(const std::string& file, std::size_t largest) {
-  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  if (descriptor.value() < 0) throwUnreadable(file, errno);
+  const Descriptor descriptor(openRegular(file));
   struct stat info {};
-  if (::fstat(descriptor.value(), &info) == 0 && S_ISDIR(info.st_mode))
-    throw InputError(file, "is a directory, expected a file");
+  if (::fstat(descriptor.value(), &info) != 0) throwUnreadable(file, errno);
+  if (!S_ISREG(info.st_mode)) throw InputError(file, "is no regular file");
   std::string content;
-  if (S_ISREG(info.st_mode)) content.reserve(std::min<std::size_t>(info.st_size, largest));
+  content.reserve(std::min<std::size_t>(info.st_size, largest));
   char buffer[1 << 16];
   while (true) {
     const ssize_t count = ::read(descriptor.value(), buffer, sizeof buffer);
@@ -127,22 +93,6 @@ std::string extensionOf(const std::string& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   return extension;
-}
-
-void writeFileAtomically(const std::string& file, const std::string& content) {
-  const HoldFileSizeSignal hold;
-  std::error_code none;
-  if (std::filesystem::is_other(std::filesystem::status(file, none)))
-    return writeThrough(file, content);
-  const std::string target = behindLinks(file);
-  const std::string beside = nameBeside(target);
-  const int opened = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (opened < 0) throwUnwritten(file, errno);
-  int error = contentWritten(opened, content);
-  if (error == 0 && std::rename(beside.c_str(), target.c_str()) == 0) return;
-  if (error == 0) error = errno;
-  ::unlink(beside.c_str());
-  throwUnwritten(file, error);
 }
 
 HoldFileSizeSignal::HoldFileSizeSignal() {

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -43,20 +44,70 @@ TEST(AtomicFile, ALinkStaysALink) {
   EXPECT_EQ(contentOf(file), "second");
 }
 
-// From a newcomer, whose --output /dev/full became a file.
-TEST(AtomicFile, APipeIsWrittenToAndNotReplaced) {
+// A node that was told to read or write a pipe waited for its other end for ever, deaf to SIGTERM.
+TEST(RegularFile, PipesAndDevicesAreRefusedAtOnce) {
   const test::TemporaryFolder folder;
-  const std::string pipe = folder.path("pipe");
+  const std::string pipe = folder.path("pipe"), link = folder.path("link");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  const int reader = ::open(pipe.c_str(), O_RDWR | O_NONBLOCK);
-  ASSERT_GE(reader, 0);
-  writeFileAtomically(pipe, "content");
-  char read[16] = {};
-  EXPECT_EQ(::read(reader, read, sizeof read), 7);
-  EXPECT_EQ(std::string(read), "content");
-  ::close(reader);
+  std::filesystem::create_symlink("pipe", link);
+  for (const std::string& file : {pipe, link, std::string("/dev/null"), std::string("/dev/full")}) {
+    EXPECT_TRUE(contains(errorText([&] { readWholeFile(file, 100); }), file + ": is no regular"));
+    EXPECT_TRUE(contains(errorText([&] { writeFileAtomically(file, "text"); }), "no regular file"));
+  }
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
-  EXPECT_EQ(folder.names(), (Names{"pipe"}));
+  EXPECT_EQ(folder.names(), (Names{"link", "pipe"}));
+}
+
+TEST(AtomicFile, ModeAndOwnerStay) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("a.yaml", "first");
+  ::chmod(file.c_str(), 0604);
+  struct stat before {
+  }, after{};
+  ::stat(file.c_str(), &before);
+  writeFileAtomically(file, "second");
+  ::stat(file.c_str(), &after);
+  EXPECT_EQ(contentOf(file), "second");
+  EXPECT_EQ(after.st_mode, before.st_mode);
+  EXPECT_EQ(after.st_uid, before.st_uid);
+  EXPECT_EQ(after.st_gid, before.st_gid);
+}
+
+// a.yaml.tmp123_0 was a name that anyone could guess: a link planted there was written through.
+TEST(AtomicFile, ThePlantedTemporaryNameIsNotWrittenThrough) {
+  const test::TemporaryFolder folder;
+  const std::string victim = folder.write("victim", "precious");
+  const std::string planted = "a.yaml.tmp" + std::to_string(::getpid()) + "_";
+  for (int i = 0; i < 200; ++i)
+    std::filesystem::create_symlink("victim", folder.path(planted + std::to_string(i)));
+  writeFileAtomically(folder.path("a.yaml"), "text");
+  EXPECT_EQ(contentOf(victim), "precious");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder.path("a.yaml")));
+}
+
+// Every killed writer left a file for ever.
+TEST(AtomicFile, WhatKilledWritersLeftIsRemovedAndWhatOthersStillWriteIsNot) {
+  const test::TemporaryFolder folder;
+  const std::string left = folder.write(".a.yaml.tmp0123456789abcdef", "half");
+  const std::string held = folder.write(".a.yaml.tmp0123456789abcde0", "half");
+  const std::string other = folder.write(".b.yaml.tmp0123456789abcdef", "half");
+  const std::string similar = folder.write(".a.yaml.tmpl", "whole");
+  const std::string link = folder.path(".a.yaml.tmp0123456789abcde1");
+  std::filesystem::create_symlink(".a.yaml.tmpl", link);
+  const int lock = ::open(held.c_str(), O_RDONLY);
+  ASSERT_EQ(::flock(lock, LOCK_EX), 0);
+  writeFileAtomically(folder.path("a.yaml"), "text");
+  ::close(lock);
+  EXPECT_EQ(folder.names(), (Names{".a.yaml.tmp0123456789abcde0", ".a.yaml.tmp0123456789abcde1",
+                                   ".a.yaml.tmpl", ".b.yaml.tmp0123456789abcdef", "a.yaml"}));
+  EXPECT_EQ(std::filesystem::read_symlink(link), ".a.yaml.tmpl");
+}
+
+TEST(AtomicFile, TheLongestNameOfAFileSystemIsWritten) {
+  const test::TemporaryFolder folder;
+  const std::string name(255, 'a');
+  writeFileAtomically(folder.path(name), "text");
+  EXPECT_EQ(folder.names(), (Names{name}));
 }
 
 TEST(AtomicFile, AFileForAParentIsNamed) {

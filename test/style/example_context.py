@@ -32,6 +32,7 @@ CONTEXT = {
     "repair_search.h": "extern const CostGrid& map; extern const BackwardNodes& nodes;"
                        "extern BackwardNodes::Index start; extern SearchKey consistent_below;"
                        "extern SearchResult result; extern StopPoll poll;",
+    "file_folder.h": '#include "ros/common/file_kinds.h"\nextern std::string text;',
     "frame_transforms.h": "extern ros::NodeHandle nh; extern double limit;",
     "backward_nodes.h": "extern const BackwardNodes& nodes; extern BackwardNodes::Index index;",
     "backward_search_tree.h": "extern const CostGrid &map, &old_map, &new_map; extern const MovePruning& moves;"
@@ -63,6 +64,10 @@ CONTEXT = {
         extern const CostGrid& map; extern CellRect rect; extern const StepRules& rules;
         extern std::vector<std::uint8_t> masks;""",
     "node_arguments.h": "extern int argc; extern char** argv;",
+    "network_text.h": "#include <nav_msgs/OccupancyGrid.h>\nextern nav_msgs::OccupancyGrid message;",
+    "node_files.h": """#include "grid_path_planner/SaveWaypoints.h"
+        #include "ros/common/file_kinds.h"
+        extern NodeFiles files; extern SaveWaypoints::Request request;""",
     "node_heap.h": "struct Node {}; extern Node node; extern double f, limit;",
     "occupancy_bricks.h": "extern OccupancyBricks bricks; extern std::uint16_t x, y, z;"
                           "extern Brick content;",

@@ -4,17 +4,24 @@
 //   writeFileAtomically("copy.map", text);
 //
 // Guaranteed: a reader, a crash or a full disk never meets half of a written file.
+//
+// A file is written under a random name beside its own, then renamed. The random name cannot be
+// planted: a file of that name, or a link, is never opened. What writers that were killed left of
+// such names is removed with the next writing of the same file; those that still write are known by
+// their lock (flock).
 #pragma once
 
 #include <signal.h>
 
 #include <cstddef>
+#include <memory>
 #include <string>
 
 namespace grid_path_planner::base {
 
-// The bytes of `file`. Throws InputError naming the file where it does not exist, is a directory,
-// cannot be read, is empty or is larger than `largest` bytes.
+// The bytes of `file`. Throws InputError naming the file where it does not exist, is no regular file
+// (a directory, a pipe, a device, which are not waited for), cannot be read, is empty or is larger
+// than `largest` bytes.
 std::string readWholeFile(const std::string& file, std::size_t largest);
 
 // Throws InputError naming the file and the line (from 1) where `text` holds a NUL byte or another
@@ -27,11 +34,33 @@ std::string withoutExtension(const std::string& file);
 // The last extension in lower case, without the dot: "pgm"; "" where there is none.
 std::string extensionOf(const std::string& file);
 
-// Writes `content` beside `file`, or what a link of that name leads to, and renames it over that.
-// Devices and pipes are written to as they are. Throws InputError naming the file and
-// the reason; then `file` is as it was and nothing is left beside it. Several threads or processes
-// may write the same file: one of them wins.
-void writeFileAtomically(const std::string& file, const std::string& content);
+// Where a file is written. Made of a name it is anywhere that the process may write, also behind
+// links, so that a function which takes one takes a name.
+class OutputFile {
+ public:
+  OutputFile(std::string name) : name_(std::move(name)) {}  // NOLINT: a name is one
+  OutputFile(const char* name) : name_(name) {}             // NOLINT
+  // `leaf` in the folder that is open as `folder`, which is duplicated, wherever that folder is moved
+  // and whatever takes its name. Links are not followed. `name` is what errors say.
+  OutputFile(std::string name, int folder, std::string leaf);
+
+  const std::string& name() const { return name_; }
+  // The file `leaf` in the same folder.
+  OutputFile beside(const std::string& leaf) const;
+
+ private:
+  friend class AtomicWriting;
+  std::string name_;
+  std::shared_ptr<const int> folder_;  // null: by name
+  std::string leaf_;
+};
+
+// Writes `content` beside `file`, or what a link of that name leads to, renames it over that and
+// syncs the folder. An old file's mode and owner stay. Throws InputError naming the file and the
+// reason, also where the old file may not be written or its owner not be kept; then it is as it was
+// and nothing is left beside it. Several threads or processes may write the same file: one of them
+// wins.
+void writeFileAtomically(const OutputFile& file, const std::string& content);
 
 // Around writes: a write beyond RLIMIT_FSIZE sends SIGXFSZ, which would end the process before the
 // error is seen. While one of these lives, the calling thread gets EFBIG instead; other threads are

@@ -1,26 +1,37 @@
-// The command line of a node: ROS's own arguments (_parameter:=value, topic:=other), and a file
-// where the node reads one.
+// The command line of a node: ROS's own arguments (_parameter:=value, topic:=other), the files that
+// its owner names, which may lie anywhere, and the folders for the files that others name.
 //
-//   const NodeArguments given = nodeArguments(argc, argv, "map_publisher", "MAP");
+//   const NodeArguments given = nodeArguments(argc, argv, "map_publisher", {{"filename", "MAP", true}});
 //   if (given.exit_code) return *given.exit_code;
 //
 // roscpp ignores unknown arguments, so that a node started as `navigate_path site.yaml` would wait
 // for a path for ever.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace grid_path_planner::nodes {
 
+// An option of the node that is the name of a file: `world` is given as --world FILE.
+struct FileArgument {
+  std::string option;
+  std::string value;            // as the usage calls it
+  bool without_option = false;  // may be given as FILE alone too
+};
+
 struct NodeArguments {
-  std::string file;              // empty: none was given
+  std::map<std::string, std::string> files;  // by option; those that are given and not empty
+  std::string save_folder;                   // "": not given, as the next
+  std::string load_folder;
   std::optional<int> exit_code;  // the program ends with it; the message is printed
 };
 
-// `file_kind` names the file in the usage; empty: the node reads none. --help and -h print the
-// usage; any other option, or one file too many, is refused on the standard error.
+// --help and -h print the usage; any other option, an option twice or without its value, and a file
+// too many are refused on the standard error. A node without files has no folders.
 NodeArguments nodeArguments(int argc, const char* const* argv, const std::string& name,
-                            const std::string& file_kind = "");
+                            const std::vector<FileArgument>& files = {});
 
 }  // namespace grid_path_planner::nodes

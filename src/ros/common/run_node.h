@@ -15,8 +15,10 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "ros/common/node_arguments.h"
+#include "ros/common/node_files.h"
 
 namespace grid_path_planner::nodes {
 
@@ -37,14 +39,15 @@ int runNode(int argc, char** argv, const std::string& name) {
   });
 }
 
-// The same for a node that reads a file, `file_kind` in its usage: as its third argument, empty
-// where none is given.
+// The same for a node that reads or writes files: they are its third argument.
 template <class Node>
-int runNodeWithFile(int argc, char** argv, const std::string& name, const std::string& file_kind) {
-  const NodeArguments given = nodeArguments(argc, argv, name, file_kind);
+int runNode(int argc, char** argv, const std::string& name,
+            const std::vector<FileArgument>& files) {
+  const NodeArguments given = nodeArguments(argc, argv, name, files);
   if (given.exit_code) return *given.exit_code;
   return runNode(argc, argv, name, [&given](ros::NodeHandle& nh, ros::NodeHandle& private_nh) {
-    return std::make_shared<Node>(nh, private_nh, given.file);
+    return std::make_shared<Node>(nh, private_nh,
+                                  NodeFiles(given.files, given.save_folder, given.load_folder));
   });
 }
 

@@ -6,7 +6,8 @@
 namespace grid_path_planner::nodes {
 
 int projectedMapMain(int argc, char** argv) {
-  return runNodeWithFile<ProjectedMapNode>(argc, argv, "projected_map", "FILE.bt|FILE.ot");
+  return runNode<ProjectedMapNode>(argc, argv, "projected_map",
+                                   {{"filename", "FILE.bt|FILE.ot", true}});
 }
 
 }  // namespace grid_path_planner::nodes

@@ -31,10 +31,10 @@ void warnIgnoredParameters(const ros::NodeHandle& private_nh, std::vector<std::s
   }
 }
 
-ProjectedMapOptions loadOptions(const ros::NodeHandle& private_nh, const std::string& filename) {
+ProjectedMapOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles& files) {
   ProjectedMapOptions options;
   loadParameters(private_nh, options);
-  if (!filename.empty()) options.filename = filename;
+  options.filename = files.named("filename", options.filename);
   options.frame_id = frameName(options.frame_id);
   options.base_frame_id = frameName(options.base_frame_id);
   checkProjectedMapOptions(options);
@@ -57,9 +57,9 @@ bool followsVehicle(const MapModel& map) {
 }  // namespace
 
 ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
-                                   const std::string& filename)
+                                   const NodeFiles& files)
     : nh_(nh), transforms_(nh), queue_(transforms_), service_spinner_(1, &service_queue_) {
-  ProjectedMapOptions options = loadOptions(private_nh, filename);
+  ProjectedMapOptions options = loadOptions(private_nh, files);
   thread_ = std::make_unique<MappingThread>(options);
   thread_->run([&](MapModel& map) { options = map.options(); });  // a file has its own resolution
   queue_.setOptions(queueOptions(options));

@@ -30,6 +30,7 @@
 
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
+#include "ros/common/node_files.h"
 #include "ros/mapping/cloud_queue.h"
 #include "ros/mapping/mapping_diagnostics.h"
 #include "ros/mapping/mapping_services.h"
@@ -50,11 +51,10 @@ class Reconfigurable;
 
 class ProjectedMapNode {
  public:
-  // `filename`, unless empty, stands for the parameter: as in octomap_server.
+  // A file by argument stands for the parameter: as in octomap_server.
   // Throws InputError for parameters and files that cannot be used. Callbacks are served by the
   // queue of `nh`, services by a thread of their own.
-  ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
-                   const std::string& filename = "");
+  ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const NodeFiles& files = {});
   ~ProjectedMapNode();
 
  private:

@@ -11,7 +11,7 @@ int pathPlannerMain(int argc, char** argv) {
 }
 
 int mapPublisherMain(int argc, char** argv) {
-  return runNodeWithFile<MapPublisherNode>(argc, argv, "map_publisher", "MAP_FILE");
+  return runNode<MapPublisherNode>(argc, argv, "map_publisher", {{"filename", "MAP_FILE", true}});
 }
 
 }  // namespace grid_path_planner::nodes

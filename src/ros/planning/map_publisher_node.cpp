@@ -16,10 +16,10 @@ using grid::OccupancyGrid;
 
 namespace {
 
-MapPublisherOptions loadOptions(const ros::NodeHandle& private_nh, const std::string& filename) {
+MapPublisherOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles& files) {
   MapPublisherOptions options;
   loadParameters(private_nh, options);
-  if (!filename.empty()) options.filename = filename;
+  options.filename = files.named("filename", options.filename);
   checkMapPublisherOptions(options);
   warnUnknownParameters(private_nh, optionNames<MapPublisherOptions>());
   return options;
@@ -46,8 +46,8 @@ void checkMapPublisherOptions(const MapPublisherOptions& options) {
 }
 
 MapPublisherNode::MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
-                                   const std::string& filename)
-    : options_(loadOptions(private_nh, filename)), nh_(nh) {
+                                   const NodeFiles& files)
+    : options_(loadOptions(private_nh, files)), nh_(nh) {
   map_ = readMap(options_.filename);
   map_publisher_ = nh.advertise<nav_msgs::OccupancyGrid>(options_.topic, 1, true);
   metadata_publisher_ = nh.advertise<nav_msgs::MapMetaData>("map_metadata", 1, true);

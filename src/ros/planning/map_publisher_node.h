@@ -19,6 +19,7 @@
 #include <string>
 
 #include "grid_path_planner/grid/occupancy.h"
+#include "ros/common/node_files.h"
 #include "ros/planning/map_publisher_options.h"
 
 namespace grid_path_planner {
@@ -34,10 +35,9 @@ class Reconfigurable;
 
 class MapPublisherNode {
  public:
-  // `filename`, unless empty, replaces the parameter, as on the command line of map_server. Throws
+  // A file by argument replaces the parameter, as on the command line of map_server. Throws
   // InputError for parameters and files that cannot be used.
-  MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
-                   const std::string& filename = "");
+  MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const NodeFiles& files = {});
   ~MapPublisherNode();
 
  private:

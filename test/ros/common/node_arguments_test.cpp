@@ -13,13 +13,12 @@ struct Told {
   std::string error;
 };
 
-Told toldOf(std::vector<const char*> arguments, const std::string& file_kind = "") {
+Told toldOf(std::vector<const char*> arguments, const std::vector<FileArgument>& files = {}) {
   arguments.insert(arguments.begin(), "/somewhere/a_node");
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   Told told;
-  told.given =
-      nodeArguments(static_cast<int>(arguments.size()), arguments.data(), "a_node", file_kind);
+  told.given = nodeArguments(static_cast<int>(arguments.size()), arguments.data(), "a_node", files);
   told.printed = testing::internal::GetCapturedStdout();
   told.error = testing::internal::GetCapturedStderr();
   return told;
@@ -28,16 +27,44 @@ Told toldOf(std::vector<const char*> arguments, const std::string& file_kind = "
 TEST(NodeArguments, WhatRosUnderstandsIsLeftToIt) {
   const Told told = toldOf({"_radius:=0.4", "map:=/map", "__name:=a"});
   EXPECT_FALSE(told.given.exit_code);
-  EXPECT_EQ(told.given.file, "");
+  EXPECT_TRUE(told.given.files.empty());
   EXPECT_EQ(told.printed + told.error, "");
 }
 
+const std::vector<FileArgument> kMap = {{"filename", "MAP", true}, {"map_file", "FILE"}};
+
 TEST(NodeArguments, AFileIsTakenByNodesThatHaveOne) {
-  const Told told = toldOf({"__name:=a", "site.yaml", "_frame_id:=map"}, "MAP");
+  const Told told = toldOf({"__name:=a", "site.yaml", "_frame_id:=map"}, kMap);
   EXPECT_FALSE(told.given.exit_code);
-  EXPECT_EQ(told.given.file, "site.yaml");
-  EXPECT_EQ(toldOf({"a.yaml", "b.yaml"}, "MAP").given.exit_code, 2);
-  EXPECT_EQ(toldOf({"-v"}, "MAP").given.exit_code, 2);
+  EXPECT_EQ(told.given.files.at("filename"), "site.yaml");
+  EXPECT_EQ(toldOf({"a.yaml", "b.yaml"}, kMap).given.exit_code, 2);
+  EXPECT_EQ(toldOf({"-v"}, kMap).given.exit_code, 2);
+  EXPECT_EQ(toldOf({"--save-folder", "/a"}).given.exit_code, 2);
+}
+
+TEST(NodeArguments, FilesAndFoldersAreTakenByName) {
+  const Told told = toldOf(
+      {"--map-file", "out.yaml", "--filename=a b.yaml", "--save-folder", "/s", "--load-folder=/l"},
+      kMap);
+  EXPECT_FALSE(told.given.exit_code) << told.error;
+  EXPECT_EQ(told.given.files, (std::map<std::string, std::string>{{"filename", "a b.yaml"},
+                                                                  {"map_file", "out.yaml"}}));
+  EXPECT_EQ(told.given.save_folder, "/s");
+  EXPECT_EQ(told.given.load_folder, "/l");
+}
+
+TEST(NodeArguments, AnEmptyValueIsNone) {
+  const Told told = toldOf({"--filename", "", "--save-folder", ""}, kMap);
+  EXPECT_FALSE(told.given.exit_code) << told.error;
+  EXPECT_TRUE(told.given.files.empty());
+}
+
+TEST(NodeArguments, AnOptionTwiceOrWithoutAValueIsRefused) {
+  EXPECT_EQ(toldOf({"--filename", "a", "b"}, kMap).given.exit_code, 2);
+  EXPECT_EQ(toldOf({"--save-folder", "/a", "--save-folder", "/b"}, kMap).given.exit_code, 2);
+  const Told told = toldOf({"--map-file"}, kMap);
+  EXPECT_EQ(told.given.exit_code, 2);
+  EXPECT_EQ(told.error.find("a_node: '--map-file' needs a value"), 0u) << told.error;
 }
 
 // `rosrun grid_path_planner navigate_path site.yaml` waited for a path for ever.
@@ -52,9 +79,13 @@ TEST(NodeArguments, OthersAreRefusedByNameWithTheUsage) {
 
 TEST(NodeArguments, HelpIsPrinted) {
   for (const char* help : {"--help", "-h"}) {
-    const Told told = toldOf({help}, "MAP");
+    const Told told = toldOf({help}, kMap);
     EXPECT_EQ(told.given.exit_code, 0);
-    EXPECT_EQ(told.printed.find("usage: a_node [MAP] [_parameter:=value]..."), 0u) << told.printed;
+    EXPECT_EQ(told.printed.find(
+                  "usage: a_node [[--filename] MAP] [--map-file FILE] [--save-folder FOLDER] "
+                  "[--load-folder FOLDER] [_parameter:=value]..."),
+              0u)
+        << told.printed;
   }
 }
 

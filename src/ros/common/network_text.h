@@ -1,0 +1,20 @@
+// Text that comes from the network (names of frames and files) and ends in files, logs and shells.
+//
+//   checkNetworkText("the frame of the map", message.header.frame_id);
+//
+// A name with a quote, a dollar sign, a backquote, a backslash, a control character or bytes that
+// are no UTF-8 is no name that anyone gives; in a file that a shell reads it is a command.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace grid_path_planner::nodes {
+
+constexpr std::size_t kLongestNetworkText = 256;  // bytes
+
+// Throws InputError that calls the text `what` and does not quote it.
+void checkNetworkText(const std::string& what, const std::string& text,
+                      std::size_t longest = kLongestNetworkText);
+
+}  // namespace grid_path_planner::nodes
