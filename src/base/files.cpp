@@ -17,20 +17,6 @@
 namespace grid_path_planner::base {
 namespace {
 
-class Descriptor {
- public:
-  explicit Descriptor(int value) : value_(value) {}
-  ~Descriptor() {
-    if (value_ >= 0) ::close(value_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int value() const { return value_; }
-
- private:
-  int value_;
-};
-
 [[noreturn]] void throwUnreadable(const std::string& file, int error) {
   throw InputError(file, std::string("cannot be read: ") + std::strerror(error));
 }
@@ -54,23 +40,45 @@ bool belongsInText(char letter) {
 
 }  // namespace
 
-std::string readWholeFile(const std::string& file, std::size_t largest) {
-  const Descriptor descriptor(openRegular(file));
+RegularFile::RegularFile(const std::string& file) : name_(file), descriptor_(openRegular(file)) {
   struct stat info {};
-  if (::fstat(descriptor.value(), &info) != 0) throwUnreadable(file, errno);
-  if (!S_ISREG(info.st_mode)) throw InputError(file, "is no regular file");
-  std::string content;
-  content.reserve(std::min<std::size_t>(info.st_size, largest));
-  char buffer[1 << 16];
-  while (true) {
-    const ssize_t count = ::read(descriptor.value(), buffer, sizeof buffer);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throwUnreadable(file, errno);
-    if (count == 0) break;
-    content.append(buffer, static_cast<std::size_t>(count));
-    if (content.size() > largest)
-      throw InputError(file, "is larger than " + std::to_string(largest) + " bytes");
+  const bool known = ::fstat(descriptor_, &info) == 0;
+  if (known && S_ISREG(info.st_mode)) {
+    size_ = static_cast<std::size_t>(info.st_size);
+    return;
   }
+  const int error = errno;
+  ::close(descriptor_);
+  if (!known) throwUnreadable(file, error);
+  throw InputError(file, "is no regular file");
+}
+
+RegularFile::~RegularFile() {
+  ::close(descriptor_);
+}
+
+std::string RegularFile::read(std::size_t begin, std::size_t count) const {
+  std::string bytes(count, '\0');
+  std::size_t done = 0;
+  while (done < count) {
+    const ssize_t more =
+        ::pread(descriptor_, bytes.data() + done, count - done, static_cast<off_t>(begin + done));
+    if (more < 0 && errno == EINTR) continue;
+    if (more < 0) throwUnreadable(name_, errno);
+    if (more == 0) break;
+    done += static_cast<std::size_t>(more);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+// By the size that the file has when it is opened: one that others write to meanwhile is cut there,
+// or ends early, as if it had been read before or after.
+std::string readWholeFile(const std::string& file, std::size_t largest) {
+  const RegularFile opened(file);
+  if (opened.size() > largest)
+    throw InputError(file, "is larger than " + std::to_string(largest) + " bytes");
+  std::string content = opened.read(0, opened.size());
   if (content.empty()) throw InputError(file, "is empty");
   return content;
 }

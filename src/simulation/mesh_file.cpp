@@ -5,9 +5,9 @@
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
-#include <fstream>
 
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/files.h"
 
 namespace grid_path_planner::simulation {
 
@@ -30,7 +30,7 @@ void append(const aiMesh& part, TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh readMesh(const std::string& file) {
-  if (!std::ifstream(file)) throw InputError(file, "cannot be read");
+  const base::RegularFile regular(file);  // Assimp would wait for a pipe
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene =

@@ -1,13 +1,13 @@
 #include "grid_path_planner/simulation/world.h"
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <sdf/sdf.hh>
 #include <utility>
 #include <vector>
 
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/files.h"
 #include "simulation/mesh_file.h"
 #include "simulation/resource_path.h"
 #include "simulation/sdf_file.h"
@@ -33,7 +33,7 @@ class WorldReader {
   explicit WorldReader(std::string file) : file_(std::move(file)), folder_(folderOf(file_)) {}
 
   World read() {
-    if (!std::ifstream(file_)) throw InputError(file_, "cannot be read");
+    const base::RegularFile regular(file_);  // libsdformat would wait for a pipe
     const sdf::Root root = loadSdf(
         file_, [this](const std::string& uri) { return resourcePath(uri, folder_, folder_); });
     const sdf::World* world = root.WorldByIndex(0);

@@ -1,6 +1,7 @@
 #include "grid_path_planner/simulation/world.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -244,8 +245,20 @@ TEST_F(WorldFile, PosesThatAreNoneAreRefusedWithFileAndName) {
   }
 }
 
+// libsdformat and Assimp would wait for its other end.
+TEST_F(WorldFile, APipeIsRefusedAtOnce) {
+  for (const char* name : {"pipe.sdf", "pipe.obj"})
+    ASSERT_EQ(::mkfifo(folder_.path(name).c_str(), 0600), 0);
+  EXPECT_TRUE(contains(test::errorText([&] { readWorld(folder_.path("pipe.sdf")); }),
+                       "pipe.sdf: is no regular file"));
+  const std::string mesh = "<mesh><uri>" + folder_.path("pipe.obj") + "</uri></mesh>";
+  EXPECT_TRUE(contains(complaint(model("m", "0 0 0 0 0 0", shape("collision", "c", mesh))),
+                       "is no regular file"));
+}
+
 TEST_F(WorldFile, FilesThatAreNoWorldAreRefused) {
-  EXPECT_EQ(test::errorText([] { readWorld("no/such.sdf"); }), "no/such.sdf: cannot be read");
+  EXPECT_EQ(test::errorText([] { readWorld("no/such.sdf"); }),
+            "no/such.sdf: cannot be read: No such file or directory");
   EXPECT_TRUE(contains(complaint(""), "its world is empty"));
   const std::string only_model = folder_.write(
       "model.sdf",

@@ -19,9 +19,29 @@
 
 namespace grid_path_planner::base {
 
-// The bytes of `file`. Throws InputError naming the file where it does not exist, is no regular file
-// (a directory, a pipe, a device, which are not waited for), cannot be read, is empty or is larger
-// than `largest` bytes.
+// A file open for reading. It is a regular one, which the descriptor itself was asked: a pipe or a
+// device would have its reader wait for ever.
+class RegularFile {
+ public:
+  // Throws InputError naming the file where it does not exist, is a directory, a pipe or a device, or
+  // cannot be read. None of them is waited for.
+  explicit RegularFile(const std::string& file);
+  ~RegularFile();
+  RegularFile(const RegularFile&) = delete;
+  RegularFile& operator=(const RegularFile&) = delete;
+
+  std::size_t size() const { return size_; }  // bytes, when it was opened
+  // At most `count` bytes from `begin`, less where the file ends. Throws InputError.
+  std::string read(std::size_t begin, std::size_t count) const;
+
+ private:
+  std::string name_;
+  int descriptor_;
+  std::size_t size_ = 0;
+};
+
+// The bytes of `file`. Throws InputError naming the file where RegularFile does, where it is empty and
+// where it is larger than `largest` bytes.
 std::string readWholeFile(const std::string& file, std::size_t largest);
 
 // Throws InputError naming the file and the line (from 1) where `text` holds a NUL byte or another

@@ -3,7 +3,6 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <ros/serialization.h>
 
-#include <fstream>
 #include <set>
 
 #include "grid_path_planner/base/files.h"
@@ -27,11 +26,7 @@ constexpr std::string_view kBeginningOfBags = "#ROSBAG";
 
 // The first bytes of a file; fewer where it is shorter.
 std::string beginningOf(const std::string& file, std::size_t count) {
-  std::string bytes(count, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(bytes.data(), static_cast<std::streamsize>(count));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
+  return base::RegularFile(file).read(0, count);
 }
 
 bool isMap(const BagConnection& connection) {

@@ -4,10 +4,6 @@
 #include <rosbag/stream.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <map>
 
 #include "grid_path_planner/base/errors.h"
@@ -100,29 +96,21 @@ BagConnection connectionFrom(const Fields& header, std::string_view data) {
 // A bag's bytes, with its length known and checked.
 class BagFile {
  public:
-  explicit BagFile(const std::string& file) : in_(file, std::ios::binary) {
-    if (!in_) throw InputError(std::string("cannot be read: ") + std::strerror(errno));
-    if (std::filesystem::is_directory(file)) throw InputError("is a directory, expected a bag");
-    in_.seekg(0, std::ios::end);
-    size_ = static_cast<std::uint64_t>(in_.tellg());
-  }
+  explicit BagFile(const base::RegularFile& file) : file_(file) {}
 
-  std::uint64_t size() const { return size_; }
-  std::string read(std::uint64_t begin, std::uint64_t count) {
-    if (begin > size_ || count > size_ - begin) throwDamaged("the file ends within a record");
-    std::string bytes(count, '\0');
-    in_.seekg(static_cast<std::streamoff>(begin));
-    in_.read(bytes.data(), static_cast<std::streamsize>(count));
-    if (in_.gcount() != static_cast<std::streamsize>(count)) throwDamaged("reading ends early");
+  std::uint64_t size() const { return file_.size(); }
+  std::string read(std::uint64_t begin, std::uint64_t count) const {
+    if (begin > size() || count > size() - begin) throwDamaged("the file ends within a record");
+    std::string bytes = file_.read(begin, count);
+    if (bytes.size() != count) throwDamaged("reading ends early");
     return bytes;
   }
 
  private:
-  std::ifstream in_;
-  std::uint64_t size_ = 0;
+  const base::RegularFile& file_;
 };
 
-void checkSignature(BagFile& in) {
+void checkSignature(const BagFile& in) {
   const std::string begin = in.read(0, std::min<std::uint64_t>(in.size(), kSignature.size()));
   if (begin == kSignature) return;
   if (begin.substr(0, kAnySignature.size()) == kAnySignature)
@@ -144,7 +132,7 @@ struct Record {
 };
 
 // The record that begins at `at`; its data need not be read, but is there.
-Record recordAt(std::uint64_t at, BagFile& in) {
+Record recordAt(std::uint64_t at, const BagFile& in) {
   const std::uint64_t header_size = littleEndian(in.read(at, 4));
   if (header_size > kLongestHeader) throwDamaged("a record's header is too long");
   const std::uint64_t data = at + 4 + header_size + 4;
@@ -172,12 +160,13 @@ BagReader::Chunk chunkFrom(const Record& record) {
 
 }  // namespace
 
-BagReader::BagReader(const std::string& file) : file_(file) {
+BagReader::BagReader(const std::string& file)
+    : file_(file), bytes_(std::make_shared<const base::RegularFile>(file)) {
   inFile(file, [this] { walk(); });
 }
 
 void BagReader::walk() {
-  BagFile in(file_);
+  const BagFile in(*bytes_);
   checkSignature(in);
   std::optional<Fields> bag_header;
   std::size_t chunk_infos = 0;
@@ -228,7 +217,7 @@ std::optional<std::string> BagReader::firstMessage(const std::set<std::uint32_t>
 }
 
 std::string BagReader::unpack(const Chunk& chunk) const {
-  std::string packed = BagFile(file_).read(chunk.begin, chunk.packed);
+  std::string packed = BagFile(*bytes_).read(chunk.begin, chunk.packed);
   if (chunk.compression == "none") return packed;
   if (chunk.compression != "bz2" && chunk.compression != "lz4")
     throwDamaged("no such compression: '" + chunk.compression + "'");

@@ -12,10 +12,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "grid_path_planner/base/files.h"
 
 namespace grid_path_planner::nodes {
 
@@ -54,6 +57,7 @@ class BagReader {
   std::string unpack(const Chunk& chunk) const;
 
   std::string file_;
+  std::shared_ptr<const base::RegularFile> bytes_;
   std::vector<BagConnection> connections_;
   std::vector<Chunk> chunks_;
 };

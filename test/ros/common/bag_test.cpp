@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <std_msgs/String.h>
+#include <sys/stat.h>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "support/ascii_map.h"
@@ -119,6 +120,14 @@ TEST_F(MapBag, BagsThatCannotBeReadAreNamed) {
   EXPECT_EQ(errorOf(folder_.write("b.bag", "image: a.pgm")), "b.bag: is not a bag");
   EXPECT_TRUE(contains(errorText([&] { readAnyMapFile(folder_.write("b.bag", "x")); }),
                        "b.bag: is not a bag"));
+}
+
+// map_publisher waited for the other end for ever.
+TEST_F(MapBag, APipeIsRefusedAtOnce) {
+  const std::string pipe = folder_.path("pipe.bag");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(errorOf(pipe), "pipe.bag: is no regular file");
+  EXPECT_TRUE(contains(errorText([&] { readAnyMapFile(pipe); }), "is no regular file"));
 }
 
 TEST_F(MapBag, ABagCutShortIsRefusedWhereverItIsCut) {
