@@ -1,4 +1,4 @@
-// writeFileAtomically of grid_path_planner/base/files.h.
+// writeFileAtomically and writeFileWithPart of grid_path_planner/base/files.h.
 #include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
@@ -7,9 +7,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <thread>
+#include <vector>
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
@@ -19,6 +24,8 @@ namespace {
 
 constexpr std::size_t kLongestBeginning = 200;  // bytes of a name; file systems take 255 in all
 constexpr std::size_t kRandomDigits = 16;
+constexpr std::size_t kHashDigits = 16;
+constexpr char kHexDigits[] = "0123456789abcdef";
 
 [[noreturn]] void throwUnwritten(const std::string& file, int error) {
   throw InputError(file, std::string("cannot be written: ") + std::strerror(error));
@@ -42,8 +49,8 @@ std::string temporaryName(const std::string& leaf) {
     throw InputError(leaf, "cannot be written: no random name for it");
   std::string name = temporaryBeginning(leaf);
   for (const unsigned char byte : bytes) {
-    name += "0123456789abcdef"[byte / 16];
-    name += "0123456789abcdef"[byte % 16];
+    name += kHexDigits[byte / 16];
+    name += kHexDigits[byte % 16];
   }
   return name;
 }
@@ -51,7 +58,7 @@ std::string temporaryName(const std::string& leaf) {
 bool isTemporary(const std::string& name, const std::string& beginning) {
   return name.size() == beginning.size() + kRandomDigits &&
          name.compare(0, beginning.size(), beginning) == 0 &&
-         name.find_first_not_of("0123456789abcdef", beginning.size()) == std::string::npos;
+         name.find_first_not_of(kHexDigits, beginning.size()) == std::string::npos;
 }
 
 // Removes a temporary file that nobody holds the lock of: its writer is gone.
@@ -62,17 +69,23 @@ void removeIfLeft(int folder, const char* name) {
   ::close(opened);
 }
 
-void removeLeftOvers(int folder, const std::string& leaf) {
+// None for a folder that may be written and not be listed.
+void forEachName(int folder, const std::function<void(const std::string&)>& use) {
   const int again = ::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   DIR* entries = again < 0 ? nullptr : ::fdopendir(again);
   if (!entries) {
     if (again >= 0) ::close(again);
-    return;  // a folder that may be written and not be listed
+    return;
   }
-  const std::string beginning = temporaryBeginning(leaf);
-  while (const dirent* entry = ::readdir(entries))
-    if (isTemporary(entry->d_name, beginning)) removeIfLeft(folder, entry->d_name);
+  while (const dirent* entry = ::readdir(entries)) use(entry->d_name);
   ::closedir(entries);
+}
+
+void removeLeftOvers(int folder, const std::string& leaf) {
+  const std::string beginning = temporaryBeginning(leaf);
+  forEachName(folder, [&](const std::string& name) {
+    if (isTemporary(name, beginning)) removeIfLeft(folder, name.c_str());
+  });
 }
 
 bool writeAll(int descriptor, const std::string& content) {
@@ -132,6 +145,8 @@ class AtomicWriting {
   }
   AtomicWriting(const AtomicWriting&) = delete;
   AtomicWriting& operator=(const AtomicWriting&) = delete;
+
+  int folder() const { return *folder_; }
 
   void write(const std::string& content) {
     removeLeftOvers(*folder_, leaf_);
@@ -196,6 +211,102 @@ class AtomicWriting {
 void writeFileAtomically(const OutputFile& file, const std::string& content) {
   const HoldFileSizeSignal hold;
   AtomicWriting(file).write(content);
+}
+
+namespace {
+
+// 64 bits of FNV-1a in hexadecimal: against mistakes, not against forgers.
+std::string hashOf(const std::string& content) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char letter : content) {
+    hash ^= static_cast<unsigned char>(letter);
+    hash *= 0x100000001b3u;
+  }
+  std::string text;
+  for (int shift = 60; shift >= 0; shift -= 4) text += kHexDigits[hash >> shift & 15];
+  return text;
+}
+
+// Where the hash begins in the name of a part; npos in other names.
+std::size_t hashIn(const std::string& leaf) {
+  const std::size_t dot = leaf.rfind('.');
+  if (dot == std::string::npos || dot < kHashDigits + 1) return std::string::npos;
+  const std::size_t begin = dot - kHashDigits;
+  const bool all_digits = leaf.find_first_not_of(kHexDigits, begin) == dot;
+  return all_digits && leaf[begin - 1] == '-' ? begin : std::string::npos;
+}
+
+// One writer of parts in a folder at a time. It is waited for, but not for ever: whoever asked for
+// the file waits too.
+class FolderLock {
+ public:
+  FolderLock(int folder, const std::string& name)
+      : opened_(::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    constexpr int kTries = 100;
+    for (int i = 0; opened_ >= 0 && !held_ && i < kTries; ++i) {
+      held_ = ::flock(opened_, LOCK_EX | LOCK_NB) == 0;
+      if (!held_ && errno != EWOULDBLOCK) return;  // a file system without locks
+      if (!held_) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    if (held_ || opened_ < 0) return;
+    ::close(opened_);
+    throw InputError(name, "cannot be written: others are writing into its folder");
+  }
+  ~FolderLock() {
+    if (opened_ >= 0) ::close(opened_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  bool held() const { return held_; }
+
+ private:
+  int opened_;
+  bool held_ = false;
+};
+
+// Removes the parts of a file, but for the newest. What somebody has changed since is theirs.
+void removeOldParts(const OutputFile& newest, int folder, const std::string& leaf) {
+  const std::string beginning = leaf.substr(0, hashIn(leaf));
+  const std::filesystem::path place = std::filesystem::path(newest.name()).parent_path();
+  std::vector<std::string> old;
+  forEachName(folder, [&](const std::string& name) {
+    if (name != leaf && name.substr(0, hashIn(name)) == beginning && hashIn(name) != leaf.npos &&
+        extensionOf(name) == extensionOf(leaf))
+      old.push_back(name);
+  });
+  for (const std::string& name : old) {
+    try {
+      const std::size_t largest = std::size_t{1} << 30;
+      if (partState(name, readWholeFile((place / name).string(), largest)) == PartState::AS_WRITTEN)
+        ::unlinkat(folder, name.c_str(), 0);
+    } catch (const InputError&) {
+      // It is none that was written here.
+    }
+  }
+}
+
+}  // namespace
+
+PartState partState(const std::string& name, const std::string& content) {
+  const std::string leaf = std::filesystem::path(name).filename().string();
+  const std::size_t begin = hashIn(leaf);
+  if (begin == std::string::npos) return PartState::NO_PART;
+  return leaf.compare(begin, kHashDigits, hashOf(content)) == 0 ? PartState::AS_WRITTEN
+                                                                : PartState::CHANGED;
+}
+
+void writeFileWithPart(const OutputFile& file, const std::string& extension,
+                       const std::string& part,
+                       const std::function<std::string(const std::string& name)>& text_naming) {
+  const HoldFileSizeSignal hold;
+  const std::string stem = std::filesystem::path(file.name()).stem().string();
+  const std::string leaf = stem.substr(0, kLongestBeginning) + "-" + hashOf(part) + "." + extension;
+  const OutputFile named = file.beside(leaf);
+  AtomicWriting writing(named);
+  const FolderLock lock(writing.folder(), file.name());
+  writing.write(part);
+  writeFileAtomically(file, text_naming(leaf));
+  if (lock.held()) removeOldParts(named, writing.folder(), leaf);
 }
 
 }  // namespace grid_path_planner::base

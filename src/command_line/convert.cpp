@@ -29,7 +29,7 @@ po::options_description convertOptions() {
   po::options_description known("Options");
   known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
       "output", po::value<std::string>()->required(),
-      "OUT.yaml (with OUT.pgm beside it), OUT.map, OUT.png or OUT.pgm")(
+      "OUT.yaml (with OUT-….pgm beside it), OUT.map, OUT.png or OUT.pgm")(
       "mode", po::value<std::string>(),
       "trinary: free, unknown and occupied survive; raw: every value does; default trinary")(
       "resolution", po::value<std::string>(), "side of a cell instead of the map's own [m]")(

@@ -24,7 +24,7 @@ namespace po = boost::program_options;
 po::options_description projectOptions() {
   po::options_description known("Options");
   known.add_options()("octree", po::value<std::string>()->required(), "octree file, .bt or .ot")(
-      "map", po::value<std::string>()->required(), "OUT.yaml, with OUT.pgm beside it")(
+      "map", po::value<std::string>()->required(), "OUT.yaml, with OUT-….pgm beside it")(
       "min-z", po::value<std::string>()->required(), "lower end of the band [m]")(
       "max-z", po::value<std::string>()->required(), "upper end of the band [m]")(
       "reference", po::value<std::string>(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <string_view>
+#include <utility>
 
 #include "grid/formats/drawing_file.h"
 #include "grid/formats/image_file.h"
@@ -76,8 +77,10 @@ GridGeometry mapGeometry(const std::string& file, int width, int height, double 
   }
 }
 
-OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options) {
-  const std::string content = readWholeFile(file, kLargestMapFile);
+namespace {
+
+OccupancyGrid readMap(const std::string& content, const std::string& file,
+                      const MapFileOptions& options) {
   const std::string extension = extensionOf(file);
   if (isBag(content, extension))
     throw InputError(file, "is a bag, which is read with ROS (grid_path_planner/ros/bag.h)");
@@ -85,6 +88,23 @@ OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options
   if (isMovingAi(content, extension)) return parseMovingAi(content, file, options);
   if (isRectangleMap(content, extension)) return parseRectangleMap(content, file, options);
   return readYamlMap(content, file, options);
+}
+
+}  // namespace
+
+// A writer that replaces the map meanwhile removes the image that the old YAML names.
+OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options) {
+  constexpr int kTries = 20;
+  std::string content = readWholeFile(file, kLargestMapFile);
+  for (int i = 1;; ++i) {
+    try {
+      return readMap(content, file, options);
+    } catch (const InputError&) {
+      std::string now = readWholeFile(file, kLargestMapFile);
+      if (i == kTries || now == content) throw;
+      content = std::move(now);
+    }
+  }
 }
 
 RowOrder rowOrderOf(const std::string& file) {

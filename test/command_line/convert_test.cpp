@@ -47,7 +47,7 @@ TEST_F(Convert, ABagBecomesAMapServerFile) {
   const std::string bag = "test/data/projected_map.bag";
   EXPECT_EQ(convert({"--map", bag, "--output", path("a.yaml")}), "");
   EXPECT_EQ(readMapFile(path("a.yaml")), readMapFromBag(bag));
-  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"a.pgm", "a.yaml"}));
+  EXPECT_EQ(folder_.endings(), (std::vector<std::string>{".pgm", ".yaml"}));
 }
 
 TEST_F(Convert, EveryFormatIsWritten) {

@@ -65,7 +65,7 @@ TEST_F(Project, ABandBecomesAMapServerFile) {
   EXPECT_EQ(valueAt(1.05), 100);
   EXPECT_EQ(valueAt(0.05), 0);
   EXPECT_EQ(valueAt(1.25), -1);
-  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"map.pgm", "map.yaml", "tree.bt"}));
+  EXPECT_EQ(folder_.endings(), (std::vector<std::string>{".bt", ".pgm", ".yaml"}));
 }
 
 TEST_F(Project, NegativeHeightsBoundsAndPictures) {

@@ -21,8 +21,11 @@ std::filesystem::path placeForFolders() {
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (placeForFolders() / "gpp_test_XXXXXX").string();
+TemporaryFolder::TemporaryFolder() : TemporaryFolder(placeForFolders().string()) {}
+
+TemporaryFolder::TemporaryFolder(const std::string& parent) {
+  std::filesystem::create_directories(parent);
+  std::string pattern = parent + "/gpp_test_XXXXXX";
   if (!::mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder: " + pattern);
   folder_ = pattern;
 }
@@ -44,6 +47,14 @@ std::vector<std::string> TemporaryFolder::names() const {
     names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
+}
+
+std::vector<std::string> TemporaryFolder::endings() const {
+  std::vector<std::string> endings;
+  for (const std::string& name : names())
+    endings.push_back(std::filesystem::path(name).extension().string());
+  std::sort(endings.begin(), endings.end());
+  return endings;
 }
 
 std::string contentOf(const std::string& file) {

@@ -9,6 +9,8 @@ namespace grid_path_planner::test {
 class TemporaryFolder {
  public:
   TemporaryFolder();
+  // Below `parent`, which is made where there is none.
+  explicit TemporaryFolder(const std::string& parent);
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -19,6 +21,8 @@ class TemporaryFolder {
   std::string write(const std::string& name, const std::string& content) const;
   // The names of what lies in the folder, sorted.
   std::vector<std::string> names() const;
+  // The endings of those names, sorted: maps have images whose names are made of their content.
+  std::vector<std::string> endings() const;
 
  private:
   std::string folder_;

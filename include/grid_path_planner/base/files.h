@@ -14,6 +14,7 @@
 #include <signal.h>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -81,6 +82,19 @@ class OutputFile {
 // and nothing is left beside it. Several threads or processes may write the same file: one of them
 // wins.
 void writeFileAtomically(const OutputFile& file, const std::string& content);
+
+// Writes `part` under a name that is made of `file`'s and of the content of `part`, then `file` with
+// the text that `text_naming` makes of that name: name-0123456789abcdef.EXTENSION. Whoever reads a
+// name in `file` reads the part that it was written with, whoever is killed or writes meanwhile. Parts
+// that earlier writings of `file` left are removed afterwards, if no other writer holds the folder
+// (flock). Throws like writeFileAtomically; then `file` and the part that it names are as they were.
+void writeFileWithPart(const OutputFile& file, const std::string& extension,
+                       const std::string& part,
+                       const std::function<std::string(const std::string& name)>& text_naming);
+
+// Whether a file of this name is a part, and whether it has the content that it was written with.
+enum class PartState { NO_PART, AS_WRITTEN, CHANGED };
+PartState partState(const std::string& name, const std::string& content);
 
 // Around writes: a write beyond RLIMIT_FSIZE sends SIGXFSZ, which would end the process before the
 // error is seen. While one of these lives, the calling thread gets EFBIG instead; other threads are

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/grid/occupancy.h"
 
 namespace grid_path_planner::grid {
@@ -48,10 +49,12 @@ OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options
 enum class RowOrder { FIRST_ROW_FIRST, LAST_ROW_FIRST };
 RowOrder rowOrderOf(const std::string& file);
 
-// Writes `file` (a map_server YAML) and its image beside it, name.pgm. In TRINARY mode -1, 0 and
-// 100 survive reading back, in RAW mode every value does; SCALE is refused. Atomic per file, the
-// image first. Throws InputError naming the file that cannot be written.
-void writeMapServerFile(const std::string& file, const OccupancyGrid& map,
+// Writes `file` (a map_server YAML) and its image beside it, whose name is made of that of `file` and
+// of its own content: name-0123456789abcdef.pgm. In TRINARY mode -1, 0 and 100 survive reading back,
+// in RAW mode every value does; SCALE is refused. No reader gets the YAML of one map with the image
+// of another, whoever is killed or writes meanwhile (base::writeFileWithPart). Throws InputError
+// naming the file that cannot be written.
+void writeMapServerFile(const base::OutputFile& file, const OccupancyGrid& map,
                         MapMode mode = MapMode::TRINARY,
                         const OccupancyThresholds& thresholds = {});
 

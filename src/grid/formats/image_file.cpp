@@ -14,8 +14,8 @@
 
 namespace grid_path_planner::grid {
 
-using base::decimalText, base::extensionOf, base::InputError, base::readWholeFile,
-    base::writeFileAtomically;
+using base::decimalText, base::extensionOf, base::InputError, base::PartState, base::partState,
+    base::readWholeFile, base::writeFileAtomically;
 
 namespace {
 
@@ -31,8 +31,10 @@ bool isPnm(const std::string& content) {
   return content.size() > 1 && content[0] == 'P' && content[1] >= '1' && content[1] <= '6';
 }
 
-cv::Mat decode(const std::string& file, const SizeCheck& checkSize) {
+cv::Mat decode(const std::string& file, const SizeCheck& checkSize, const MapFileOptions& options) {
   const std::string content = readWholeFile(file, kLargestMapFile);
+  if (partState(file, content) == PartState::CHANGED)
+    warnAbout(file, "was changed since it was written with its map", options);
   if (startsWith(content, "\x89PNG\r\n\x1a\n")) return decodePng(content, file, checkSize);
   if (startsWith(content, "\xff\xd8\xff")) return decodeJpeg(content, file, checkSize);
   if (startsWith(content, "BM")) return decodeBmp(content, file, checkSize);
@@ -120,11 +122,14 @@ std::string greyRows(const OccupancyGrid& map, MapMode mode,
 
 OccupancyGrid readImageFile(const std::string& file, const PixelRule& rule, double resolution,
                             const Origin& origin, const MapFileOptions& options) {
-  const cv::Mat image = decode(file, [&](int width, int height) {
-    if (mapGeometry(file, width, height, resolution, origin, options).size() > kMostPixels)
-      throw InputError(file, "is an image of " + std::to_string(width) + "x" +
-                                 std::to_string(height) + " pixels, more than 2^30");
-  });
+  const cv::Mat image = decode(
+      file,
+      [&](int width, int height) {
+        if (mapGeometry(file, width, height, resolution, origin, options).size() > kMostPixels)
+          throw InputError(file, "is an image of " + std::to_string(width) + "x" +
+                                     std::to_string(height) + " pixels, more than 2^30");
+      },
+      options);
   const int channels = image.channels();
   const bool has_alpha = channels > kAlphaChannel;
   const int averaged = has_alpha && rule.mode != MapMode::TRINARY ? kAlphaChannel : channels;

@@ -12,7 +12,7 @@
 namespace grid_path_planner::grid {
 
 using base::choiceFromName, base::choiceName, base::decimalText, base::describeYaml,
-    base::InputError, base::withoutExtension, base::writeFileAtomically, base::yamlAs,
+    base::extensionOf, base::InputError, base::OutputFile, base::writeFileWithPart, base::yamlAs,
     base::yamlError, base::yamlNode, base::yamlValue, base::yamlValueOr;
 
 namespace {
@@ -126,13 +126,13 @@ OccupancyGrid readMapServerMap(const YAML::Node& root, const std::string& file,
   }
 }
 
-void writeMapServerFile(const std::string& file, const OccupancyGrid& map, MapMode mode,
+void writeMapServerFile(const OutputFile& file, const OccupancyGrid& map, MapMode mode,
                         const OccupancyThresholds& thresholds) {
-  const std::string image = withoutExtension(file) + ".pgm";
-  if (image == file) throw InputError(file, "a map_server file must end in .yaml, not in .pgm");
-  writeFileAtomically(image, pgmOfMap(map, mode, thresholds));
-  const std::string name = std::filesystem::path(image).filename().string();
-  writeFileAtomically(file, yamlOfMap(name, map.geometry(), mode));
+  if (extensionOf(file.name()) == "pgm")
+    throw InputError(file.name(), "a map_server file must end in .yaml, not in .pgm");
+  writeFileWithPart(file, "pgm", pgmOfMap(map, mode, thresholds), [&](const std::string& image) {
+    return yamlOfMap(image, map.geometry(), mode);
+  });
 }
 
 }  // namespace grid_path_planner::grid
