@@ -5,7 +5,7 @@
 
 A simulated vehicle replays config/survey_waypoints.yaml; its depth camera fills an octree, whose slice at
 the vehicle's depth becomes the 2-D map. On that a path is planned, written as a waypoint file and driven.
-Into FOLDER (default: out) go projected_map.yaml and .pgm, waypoints.yaml, path.png and the nodes' output,
+Into FOLDER (default: out) go projected_map.yaml with its image, waypoints.yaml, path.png and the nodes' output,
 demo.log. The picture is drawn by `grid_path plan` with the same map, ends and parameters; that its path is
 the node's is checked. Exit code 0 only if nothing was touched, a path was found and its end was reached.
 """
@@ -155,7 +155,9 @@ def prepared(folder):
 def run(arguments):
     picture, waypoints, map_file = prepared(arguments.out)
     launch_arguments = ["rviz:=" + str(arguments.rviz).lower(), "real_time_factor:=%g" % arguments.speed,
-                        "waypoints_file:=" + os.path.abspath(waypoints)]
+                        "waypoints_file:=" + os.path.abspath(waypoints),
+                        "save_folder:=" + os.path.abspath(arguments.out),
+                        "load_folder:=" + os.path.abspath(arguments.out)]
     with Nodes("demo.launch", launch_arguments, os.path.join(arguments.out, "demo.log")) as nodes:
         print("demo: nodes start on %s" % os.environ["ROS_MASTER_URI"], flush=True)
         vehicle = Vehicle(nodes)

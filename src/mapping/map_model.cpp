@@ -105,7 +105,7 @@ ProjectionChange MapModel::takeChange() {
   return std::exchange(change_, {});
 }
 
-void MapModel::saveMap(const std::string& file) {
+void MapModel::saveMap(const base::OutputFile& file) {
   writeMapServerFile(file, grid());
 }
 

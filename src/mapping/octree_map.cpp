@@ -107,7 +107,7 @@ void OctreeMap::assign(const octomap::OcTree& tree) {
   replace(std::make_unique<MapTree>(tree, options_));
 }
 
-void OctreeMap::save(const std::string& file) const {
+void OctreeMap::save(const base::OutputFile& file) const {
   writeTreeFile(*tree_, file);
 }
 

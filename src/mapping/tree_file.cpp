@@ -11,6 +11,7 @@
 namespace grid_path_planner::mapping {
 
 using base::InputError;
+using base::OutputFile;
 using base::readWholeFile;
 using base::writeFileAtomically;
 
@@ -68,7 +69,7 @@ Header readHeader(const std::string& file, const std::string& content) {
     if (name == "res")
       header.resolution = headerValue<double>(file, number, words, "res and a number of metres");
   }
-  if (id != "OcTree") throw InputError(file, "holds a tree of kind '" + id + "', expected OcTree");
+  if (id != "OcTree") throw InputError(file, "holds a tree of another kind than OcTree");
   if (!(header.resolution > 0.0 && std::isfinite(header.resolution)))
     throw InputError(file, "has no positive resolution in its header");
   return header;
@@ -162,16 +163,16 @@ std::unique_ptr<MapTree> readTreeFile(const std::string& file, const OctreeOptio
   return tree;
 }
 
-void writeTreeFile(const MapTree& tree, const std::string& file) {
+void writeTreeFile(const MapTree& tree, const OutputFile& file) {
   std::ostringstream content;
   content.imbue(std::locale::classic());
   content.precision(17);
-  if (endsWith(file, ".ot"))
+  if (endsWith(file.name(), ".ot"))
     tree.write(content);
-  else if (endsWith(file, ".bt"))
+  else if (endsWith(file.name(), ".bt"))
     octomap::OcTree(tree).writeBinary(content);  // rounds and prunes what it is given
   else
-    throw InputError(file, "must end in .bt or .ot");
+    throw InputError(file.name(), "must end in .bt or .ot");
   writeFileAtomically(file, content.str());
 }
 

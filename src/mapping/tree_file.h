@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "grid_path_planner/base/files.h"
 #include "mapping/map_tree.h"
 
 namespace grid_path_planner::mapping {
@@ -14,6 +15,6 @@ namespace grid_path_planner::mapping {
 std::unique_ptr<MapTree> readTreeFile(const std::string& file, const OctreeOptions& model);
 
 // By the file's ending, atomically. Throws InputError naming the file.
-void writeTreeFile(const MapTree& tree, const std::string& file);
+void writeTreeFile(const MapTree& tree, const base::OutputFile& file);
 
 }  // namespace grid_path_planner::mapping

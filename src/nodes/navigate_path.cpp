@@ -1,4 +1,6 @@
 // navigate_path as a process of its own.
+//
+//   navigate_path [--config-filename FILE]      FILE: waypoints to drive instead of the topic path
 #include "ros/driving/mains.h"
 
 int main(int argc, char** argv) {

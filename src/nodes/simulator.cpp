@@ -1,4 +1,6 @@
 // The simulated vehicle as a process of its own.
+//
+//   simulator [--world FILE]      FILE: the world that is seen and touched
 #include "ros/simulation/mains.h"
 
 int main(int argc, char** argv) {

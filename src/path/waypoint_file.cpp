@@ -14,9 +14,9 @@
 
 namespace grid_path_planner::path {
 
-using base::describeYaml, base::InputError, base::loadYamlFile, base::writeFileAtomically,
-    base::yamlAs, base::yamlError, base::yamlHas, base::yamlNode, base::yamlValueOr,
-    base::yawOfLevelQuaternion;
+using base::describeYaml, base::InputError, base::loadYamlFile, base::OutputFile,
+    base::writeFileAtomically, base::yamlAs, base::yamlError, base::yamlHas, base::yamlNode,
+    base::yamlValueOr, base::yawOfLevelQuaternion;
 
 namespace {
 
@@ -162,8 +162,8 @@ Path readWaypointFile(const std::string& file) {
   return path;
 }
 
-void writeWaypointFile(const std::string& file, const Path& path) {
-  checkCanBeRead(file, path);
+void writeWaypointFile(const OutputFile& file, const Path& path) {
+  checkCanBeRead(file.name(), path);
   std::string text = "header: {frame_id: " + scalar(path.frame_id) + "}\nwaypoints:\n";
   for (const Pose& pose : path.poses) {
     const Eigen::Vector3d& p = pose.position;

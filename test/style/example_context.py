@@ -65,9 +65,11 @@ CONTEXT = {
         extern std::vector<std::uint8_t> masks;""",
     "node_arguments.h": "extern int argc; extern char** argv;",
     "network_text.h": "#include <nav_msgs/OccupancyGrid.h>\nextern nav_msgs::OccupancyGrid message;",
-    "node_files.h": """#include "grid_path_planner/SaveWaypoints.h"
+    "node_files.h": """#include "grid_path_planner/NavigatePathGoal.h"
+        #include "grid_path_planner/SaveWaypoints.h"
+        #include "grid_path_planner/path/waypoint_file.h"
         #include "ros/common/file_kinds.h"
-        extern NodeFiles files; extern SaveWaypoints::Request request;""",
+        extern NodeFiles files; extern NavigatePathGoal goal; extern SaveWaypoints::Request request;""",
     "node_heap.h": "struct Node {}; extern Node node; extern double f, limit;",
     "occupancy_bricks.h": "extern OccupancyBricks bricks; extern std::uint16_t x, y, z;"
                           "extern Brick content;",
@@ -87,6 +89,7 @@ CONTEXT = {
     "path_image.h": "extern OccupancyGrid map; extern OccupancyThresholds thresholds; extern Path path;"
                  "extern std::vector<Cell> expanded;",
     "planning_server.h": "extern ros::NodeHandle nh; extern PathPlannerNodeOptions options;"
+                   "extern NodeFiles files;"
                    "extern PlanningRequest request;",
     "task_queue.h": "void plan(const StopSource&); void save(const StopSource&);",
     "planner.h": """#include "grid_path_planner/planners/planner_factory.h"

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/mapping/cloud_filter.h"
 #include "grid_path_planner/mapping/octree_map.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
@@ -60,8 +61,8 @@ class MapModel {
   std::uint64_t revision() const { return revision_; }
 
   // Throw InputError naming a file that cannot be written.
-  void saveMap(const std::string& file);
-  void saveOctree(const std::string& file) const { map_.save(file); }
+  void saveMap(const base::OutputFile& file);
+  void saveOctree(const base::OutputFile& file) const { map_.save(file); }
 
  private:
   void replaceMap(const ProjectedMapOptions& options);

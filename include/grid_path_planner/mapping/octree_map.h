@@ -22,6 +22,7 @@
 #include <memory>
 #include <string>
 
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/mapping/occupancy_bricks.h"
 #include "grid_path_planner/mapping/octree_options.h"
 #include "grid_path_planner/mapping/scan.h"
@@ -74,7 +75,7 @@ class OctreeMap {
 
   // By the file's ending: .bt holds free, occupied and unknown, .ot the log odds. The file is whole
   // or as it was. Throws InputError naming the file for another ending or if it cannot be written.
-  void save(const std::string& file) const;
+  void save(const base::OutputFile& file) const;
 
   const octomap::OcTree& tree() const;
   const OccupancyBricks& bricks() const { return bricks_; }

@@ -124,8 +124,8 @@ template <class Visitor>
 void visitOptions(ProjectedMapOptions& o, Visitor&& visit) {
   visit("filename", o.filename,
         base::OptionInfo{
-            "Octree file (.bt or .ot) to begin with, a new one replaces the map; one that "
-            "cannot be read ends the node; empty: none",
+            "Octree file (.bt or .ot) below the folder to load from to begin with, a new one "
+            "replaces the map; one that cannot be read ends the node; empty: none",
             ""});
   visit("frame_id", o.frame_id, base::OptionInfo{"Frame of the map; read at the start", ""});
   visit("base_frame_id", o.base_frame_id,
@@ -138,13 +138,18 @@ void visitOptions(ProjectedMapOptions& o, Visitor&& visit) {
   visitOptions(o.projection, visit);
   visitPublishingOptions(o, visit);
   visitOptions(o.colors, visit);
-  visit("map_file", o.map_file,
-        base::OptionInfo{"Where ~save_map writes, a map_server YAML, if its request names no file",
-                         ""}
-            .under("Files"));
   visit(
-      "octree_file", o.octree_file,
-      base::OptionInfo{"Where ~save_octree writes, .bt or .ot, if its request names no file", ""});
+      "map_file", o.map_file,
+      base::OptionInfo{
+          "Where ~save_map writes, below the folder to save in, a map_server YAML, if its request "
+          "names no file",
+          ""}
+          .under("Files"));
+  visit("octree_file", o.octree_file,
+        base::OptionInfo{
+            "Where ~save_octree writes, below the folder to save in, .bt or .ot, if its request "
+            "names no file",
+            ""});
 }
 
 // The projection's options with their band. Throws InputError for a projection_min_z or

@@ -16,6 +16,7 @@
 
 #include <string>
 
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/path/path.h"
 
 namespace grid_path_planner::path {
@@ -32,6 +33,6 @@ Path readWaypointFile(const std::string& file);
 // Throws InputError naming the file, and the waypoint where one could not be read back: none at
 // all, a coordinate beyond kLargestCoordinate or a number that is not finite. The old file stays
 // whole where the new one cannot be written (see writeFileAtomically).
-void writeWaypointFile(const std::string& file, const Path& path);
+void writeWaypointFile(const base::OutputFile& file, const Path& path);
 
 }  // namespace grid_path_planner::path

@@ -5,6 +5,7 @@
 
 namespace grid_path_planner::nodes {
 
+using base::InputError;
 using base::OutputFile;
 
 namespace {
@@ -44,6 +45,18 @@ OutputFile NodeFiles::toWrite(const std::string& option, const std::string& name
 std::string NodeFiles::toRead(const std::string& option, const std::string& name,
                               const FileKind& kind) const {
   return isArgument(option, name) ? name : load_folder_.find(name, kind);
+}
+
+InputError NodeFiles::withoutContent(const InputError& error, const std::string& file,
+                                     const std::string& name, const FileKind& kind) {
+  const std::string text = error.what();
+  const std::size_t begin = file.size() + 1;
+  std::string line;
+  if (text.compare(0, begin, file + ":") == 0)
+    line = text.substr(begin, text.find_first_not_of("0123456789", begin) - begin);
+  return InputError("the " + kind.name + " '" + name + "' cannot be used" +
+                    (line.empty() ? "" : ", from line " + line) +
+                    ": what is in it is told only of files that the node's arguments name");
 }
 
 bool NodeFiles::isArgument(const std::string& option, const std::string& name) const {

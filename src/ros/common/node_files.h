@@ -3,6 +3,8 @@
 //
 //   const base::OutputFile file = files.toWrite("waypoints_file", request.filename, waypointFiles());
 //
+//   const Path path = files.read("config_filename", goal.filename, waypointFiles(), readWaypointFile);
+//
 // Any ROS client can set a parameter, call a service and end a node so that roslaunch starts it
 // again. The folders are therefore no parameters: they are arguments of the process, --save-folder
 // and --load-folder, else its environment (GRID_PATH_PLANNER_SAVE_FOLDER and
@@ -13,6 +15,7 @@
 #include <map>
 #include <string>
 
+#include "grid_path_planner/base/errors.h"
 #include "ros/common/file_folder.h"
 
 namespace grid_path_planner::nodes {
@@ -39,8 +42,27 @@ class NodeFiles {
   std::string toRead(const std::string& option, const std::string& name,
                      const FileKind& kind) const;
 
- private:
+  // Whether `name` is the argument for `option`: its owner's, who may be told what is in it.
   bool isArgument(const std::string& option, const std::string& name) const;
+
+  // What `reader` makes of the file toRead(). Throws InputError; nothing of the content of a file that
+  // no argument names is in it.
+  template <class Reader>
+  auto read(const std::string& option, const std::string& name, const FileKind& kind,
+            Reader reader) const {
+    if (isArgument(option, name)) return reader(name);
+    const std::string file = toRead(option, name, kind);
+    try {
+      return reader(file);
+    } catch (const base::InputError& error) {
+      throw withoutContent(error, file, name, kind);
+    }
+  }
+
+ private:
+  // An error of a reader that quotes nothing of what is in the file: only where it stands.
+  static base::InputError withoutContent(const base::InputError& error, const std::string& file,
+                                         const std::string& name, const FileKind& kind);
 
   std::map<std::string, std::string> by_argument_;
   FileFolder save_folder_;

@@ -7,7 +7,8 @@
 namespace grid_path_planner::nodes {
 
 int navigatePathMain(int argc, char** argv) {
-  return runNode<NavigatePathNode>(argc, argv, "navigate_path");
+  return runNode<NavigatePathNode>(argc, argv, "navigate_path",
+                                   {{"config_filename", "WAYPOINTS.yaml"}});
 }
 
 int teleopJoyMain(int argc, char** argv) {

@@ -12,6 +12,7 @@
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/ros/conversions.h"
+#include "ros/common/file_kinds.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
@@ -32,9 +33,10 @@ namespace {
 constexpr double kFeedbackPeriod = 0.2;     // s, wall time
 constexpr double kDiagnosticsPeriod = 1.0;  // s, wall time
 
-NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh) {
+NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles& files) {
   NavigatePathOptions options;
   loadParameters(private_nh, options);
+  options.config_filename = files.named("config_filename", options.config_filename);
   checkNavigatePathOptions(options);
   warnUnknownParameters(private_nh, optionNames<NavigatePathOptions>());
   return options;
@@ -47,14 +49,16 @@ bool isWarning(FollowEvent::Kind kind) {
 
 }  // namespace
 
-NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
+NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                                   const NodeFiles& files)
     : nh_(nh),
-      options_(loadOptions(private_nh)),
+      files_(files),
+      options_(loadOptions(private_nh, files)),
       follower_(options_.follower),
       transforms_(nh),
       action_(nh, "navigate_path", false),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
-  if (!options_.config_filename.empty()) file_ = readWaypointFile(options_.config_filename);
+  if (!options_.config_filename.empty()) file_ = readWaypoints(options_.config_filename);
   velocity_publisher_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10);
   waypoint_publisher_ = nh_.advertise<geometry_msgs::PoseStamped>("current_waypoint", 1, true);
   map_.start(nh_, [] {});  // read by every check of the path ahead
@@ -229,13 +233,17 @@ void NavigatePathNode::onGoal() {
   }
 }
 
+Path NavigatePathNode::readWaypoints(const std::string& filename) const {
+  return files_.read("config_filename", filename, waypointFiles(), readWaypointFile);
+}
+
 Path NavigatePathNode::pathOf(const NavigatePathGoal& goal) const {
   if (!goal.path.poses.empty() && !goal.filename.empty())
     throw InputError("a goal must give a path or a filename, got both");
   if (!goal.path.poses.empty()) return transforms_.pathIn(goal.path, options_.base_frame);
   if (goal.filename.empty())
     throw InputError("a goal must give a path of at least one waypoint, or a filename");
-  return readWaypointFile(goal.filename);
+  return readWaypoints(goal.filename);
 }
 
 void NavigatePathNode::onPreempt() {

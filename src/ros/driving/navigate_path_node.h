@@ -36,6 +36,7 @@
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
 #include "ros/common/map_receiver.h"
+#include "ros/common/node_files.h"
 #include "ros/driving/navigate_path_options.h"
 
 namespace grid_path_planner {
@@ -51,9 +52,10 @@ class Reconfigurable;
 
 class NavigatePathNode {
  public:
-  // Throws InputError for parameters that cannot be used and a waypoint file that cannot be read.
+  // A waypoint file that no argument names lies below the folder to load from. Throws InputError for
+  // parameters that cannot be used and a waypoint file that cannot be read.
   // All callbacks are served by the queue of `nh`, which must be one thread's.
-  NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
+  NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const NodeFiles& files = {});
   // Zeroes cmd_vel.
   ~NavigatePathNode();
 
@@ -70,6 +72,7 @@ class NavigatePathNode {
   void onPath(const nav_msgs::Path& message);
   void onGoal();
   void onPreempt();
+  path::Path readWaypoints(const std::string& filename) const;
   path::Path pathOf(const NavigatePathGoal& goal) const;
   bool answer(const following::PathFollower::Answer& answer, std_srvs::Trigger::Response& response);
 
@@ -82,6 +85,7 @@ class NavigatePathNode {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle nh_;
+  NodeFiles files_;
   NavigatePathOptions options_;
   following::PathFollower follower_;
   FrameTransforms transforms_;

@@ -22,12 +22,12 @@ struct NavigatePathOptions {
 
 template <class Visitor>
 void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
-  visit(
-      "config_filename", o.config_filename,
-      base::OptionInfo{"Absolute name of a waypoint file to drive; then the topic path is ignored; "
-                       "read at the start",
-                       ""}
-          .under("What is driven"));
+  visit("config_filename", o.config_filename,
+        base::OptionInfo{
+            "Waypoint file to drive, below the folder to load from; then the topic path is "
+            "ignored; read at the start",
+            ""}
+            .under("What is driven"));
   visit("join_nearest", o.join_nearest,
         base::OptionInfo{
             "Whether a file is joined at its nearest point instead of its first waypoint", ""});

@@ -7,7 +7,9 @@ namespace grid_path_planner::nodes {
 
 int projectedMapMain(int argc, char** argv) {
   return runNode<ProjectedMapNode>(argc, argv, "projected_map",
-                                   {{"filename", "FILE.bt|FILE.ot", true}});
+                                   {{"filename", "FILE.bt|FILE.ot", true},
+                                    {"map_file", "FILE.yaml"},
+                                    {"octree_file", "FILE.bt|FILE.ot"}});
 }
 
 }  // namespace grid_path_planner::nodes

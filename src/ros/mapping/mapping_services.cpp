@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
+#include "ros/common/file_kinds.h"
 
 namespace grid_path_planner::nodes {
 
@@ -14,15 +15,22 @@ using mapping::MapModel;
 
 namespace {
 
-// Saves by `save` to the request's file, or to the one of parameter `name`.
+// A file to save to: the request's, or that of the parameter `option`.
+struct Target {
+  std::string option;
+  std::string fallback;
+  const FileKind& kind;
+};
+
 template <class Save>
-void answerSaving(const SaveFile::Request& request, const std::string& name,
-                  const std::string& fallback, SaveFile::Response& response, Save save) {
-  const std::string file = request.filename.empty() ? fallback : request.filename;
+void answerSaving(const NodeFiles& files, const SaveFile::Request& request, const Target& target,
+                  SaveFile::Response& response, Save save) {
+  const std::string file = request.filename.empty() ? target.fallback : request.filename;
   try {
     if (file.empty())
-      throw InputError("the request names no file, and the parameter " + name + " is empty");
-    save(file);
+      throw InputError("the request names no file, and the parameter " + target.option +
+                       " is empty");
+    save(files.toWrite(target.option, file, target.kind));
     response.success = true;
     response.message = "written to " + file;
     ROS_INFO_STREAM("Saved " << file);
@@ -40,8 +48,8 @@ Eigen::Vector3d vectorOf(const geometry_msgs::Point& point) {
 }  // namespace
 
 MappingServices::MappingServices(ros::NodeHandle private_nh, MappingThread& thread,
-                                 std::function<void()> on_change)
-    : thread_(thread), on_change_(std::move(on_change)) {
+                                 const NodeFiles& files, std::function<void()> on_change)
+    : thread_(thread), files_(files), on_change_(std::move(on_change)) {
   reset_ = private_nh.advertiseService("reset", &MappingServices::reset, this);
   clear_box_ = private_nh.advertiseService("clear_bbx", &MappingServices::clearBox, this);
   save_map_ = private_nh.advertiseService("save_map", &MappingServices::saveMap, this);
@@ -73,16 +81,16 @@ bool MappingServices::clearBox(ClearBoxService::Request& request, ClearBoxServic
 
 bool MappingServices::saveMap(SaveFile::Request& request, SaveFile::Response& response) {
   thread_.run([&](MapModel& map) {
-    answerSaving(request, "map_file", map.options().map_file, response,
-                 [&](const std::string& file) { map.saveMap(file); });
+    answerSaving(files_, request, {"map_file", map.options().map_file, mapServerFiles()}, response,
+                 [&](const base::OutputFile& file) { map.saveMap(file); });
   });
   return true;
 }
 
 bool MappingServices::saveOctree(SaveFile::Request& request, SaveFile::Response& response) {
   thread_.run([&](MapModel& map) {
-    answerSaving(request, "octree_file", map.options().octree_file, response,
-                 [&](const std::string& file) { map.saveOctree(file); });
+    answerSaving(files_, request, {"octree_file", map.options().octree_file, octreeFiles()},
+                 response, [&](const base::OutputFile& file) { map.saveOctree(file); });
   });
   return true;
 }

@@ -6,6 +6,7 @@
 //   ~save_map     grid_path_planner/SaveFile   projected_map as a map_server YAML and its image
 //   ~save_octree  grid_path_planner/SaveFile   .bt or .ot
 //
+// Files lie below the folder to save in (ros/common/node_files.h).
 // A request that cannot be fulfilled is refused with a sentence and changes nothing.
 #pragma once
 
@@ -16,6 +17,7 @@
 #include <functional>
 
 #include "grid_path_planner/SaveFile.h"
+#include "ros/common/node_files.h"
 #include "ros/mapping/mapping_thread.h"
 
 #ifdef GPP_HAS_OCTOMAP_MSGS
@@ -34,8 +36,8 @@ using ClearBoxService = ClearBox;
 
 class MappingServices {
  public:
-  // `thread` outlives this; `on_change` is called after every change of the map.
-  MappingServices(ros::NodeHandle private_nh, MappingThread& thread,
+  // `thread` and `files` outlive this; `on_change` is called after every change of the map.
+  MappingServices(ros::NodeHandle private_nh, MappingThread& thread, const NodeFiles& files,
                   std::function<void()> on_change);
 
   void shutdown();
@@ -47,6 +49,7 @@ class MappingServices {
   bool saveOctree(SaveFile::Request& request, SaveFile::Response& response);
 
   MappingThread& thread_;
+  const NodeFiles& files_;
   std::function<void()> on_change_;
   ros::ServiceServer reset_, clear_box_, save_map_, save_octree_;
 };

@@ -5,6 +5,7 @@
 
 #include "grid_path_planner/ProjectedMapConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/file_kinds.h"
 #include "ros/common/parameters.h"
 #include "ros/mapping/cloud_reader.h"
 
@@ -35,6 +36,8 @@ ProjectedMapOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFil
   ProjectedMapOptions options;
   loadParameters(private_nh, options);
   options.filename = files.named("filename", options.filename);
+  options.map_file = files.named("map_file", options.map_file);
+  options.octree_file = files.named("octree_file", options.octree_file);
   options.frame_id = frameName(options.frame_id);
   options.base_frame_id = frameName(options.base_frame_id);
   checkProjectedMapOptions(options);
@@ -58,10 +61,15 @@ bool followsVehicle(const MapModel& map) {
 
 ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
                                    const NodeFiles& files)
-    : nh_(nh), transforms_(nh), queue_(transforms_), service_spinner_(1, &service_queue_) {
+    : nh_(nh),
+      files_(files),
+      transforms_(nh),
+      queue_(transforms_),
+      service_spinner_(1, &service_queue_) {
   ProjectedMapOptions options = loadOptions(private_nh, files);
-  thread_ = std::make_unique<MappingThread>(options);
+  thread_ = std::make_unique<MappingThread>(withFile(options));
   thread_->run([&](MapModel& map) { options = map.options(); });  // a file has its own resolution
+  options.filename = filename_;
   queue_.setOptions(queueOptions(options));
 
   ros::NodeHandle service_nh(nh);
@@ -72,7 +80,7 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   map_publisher_ = std::make_unique<ProjectedMapPublisher>(nh, options.latch, on_change);
   octree_publisher_ =
       std::make_unique<OctreePublisher>(nh, service_nh, options.latch, *thread_, on_change);
-  services_ = std::make_unique<MappingServices>(private_service_nh, *thread_, on_change);
+  services_ = std::make_unique<MappingServices>(private_service_nh, *thread_, files_, on_change);
   diagnostics_ =
       std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *thread_, *octree_publisher_);
   service_spinner_.start();
@@ -98,8 +106,20 @@ ProjectedMapNode::~ProjectedMapNode() {
   thread_->stop();
 }
 
+// The name of a file is looked for once: what was loaded may be gone when another option changes.
+ProjectedMapOptions ProjectedMapNode::withFile(ProjectedMapOptions options) {
+  if (options.filename != filename_) {
+    loaded_ =
+        options.filename.empty() ? "" : files_.toRead("filename", options.filename, octreeFiles());
+    filename_ = options.filename;
+  }
+  options.filename = loaded_;
+  return options;
+}
+
 void ProjectedMapNode::use(const ProjectedMapOptions& options) {
-  thread_->run([&](MapModel& map) { map.setOptions(options); });
+  const ProjectedMapOptions with_file = withFile(options);
+  thread_->run([&](MapModel& map) { map.setOptions(with_file); });
   queue_.setOptions(queueOptions(options));
   startPublishing(options.publish_rate);
   postPublishing();

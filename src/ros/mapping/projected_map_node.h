@@ -51,13 +51,14 @@ class Reconfigurable;
 
 class ProjectedMapNode {
  public:
-  // A file by argument stands for the parameter: as in octomap_server.
-  // Throws InputError for parameters and files that cannot be used. Callbacks are served by the
-  // queue of `nh`, services by a thread of their own.
+  // A file by argument stands for the parameter, as in octomap_server; others lie below the folder to
+  // load from. Throws InputError for parameters and files that cannot be used. Callbacks are served
+  // by the queue of `nh`, services by a thread of their own.
   ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const NodeFiles& files = {});
   ~ProjectedMapNode();
 
  private:
+  mapping::ProjectedMapOptions withFile(mapping::ProjectedMapOptions options);
   void use(const mapping::ProjectedMapOptions& options);
   void apply(const mapping::ProjectedMapOptions& options);
   void startPublishing(double rate);
@@ -75,6 +76,9 @@ class ProjectedMapNode {
   bool updateVehicleHeight(mapping::MapModel& map);
 
   ros::NodeHandle nh_;
+  NodeFiles files_;
+  std::string filename_;  // the option, and the file that it named
+  std::string loaded_;
   FrameTransforms transforms_;
   ClockWatch clock_;
   CloudQueue queue_;

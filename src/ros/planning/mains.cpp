@@ -7,7 +7,7 @@
 namespace grid_path_planner::nodes {
 
 int pathPlannerMain(int argc, char** argv) {
-  return runNode<PathPlannerNode>(argc, argv, "path_planner");
+  return runNode<PathPlannerNode>(argc, argv, "path_planner", {{"waypoints_file", "FILE.yaml"}});
 }
 
 int mapPublisherMain(int argc, char** argv) {

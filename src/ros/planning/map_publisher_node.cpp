@@ -5,6 +5,8 @@
 #include "grid_path_planner/MapPublisherConfig.h"
 #include "grid_path_planner/ros/bag.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/file_kinds.h"
+#include "ros/common/network_text.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
@@ -25,14 +27,6 @@ MapPublisherOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFil
   return options;
 }
 
-OccupancyGrid readMap(const std::string& filename) {
-  MapFileOptions options;
-  options.warn = [](const std::string& warning) { ROS_WARN_STREAM(warning); };
-  OccupancyGrid map = readAnyMapFile(filename, options);
-  checkOccupancyValues(map);
-  return map;
-}
-
 }  // namespace
 
 void checkMapPublisherOptions(const MapPublisherOptions& options) {
@@ -41,13 +35,15 @@ void checkMapPublisherOptions(const MapPublisherOptions& options) {
         "filename must name a map file, got '': give it as `map_publisher FILE`, or as the "
         "parameter "
         "~filename (_filename:=FILE)");
+  checkNetworkText("frame_id", options.frame_id);
+  checkNetworkText("topic", options.topic);
   if (options.frame_id.empty()) throw InputError("frame_id must name a frame, got ''");
   if (options.topic.empty()) throw InputError("topic must name a topic, got ''");
 }
 
 MapPublisherNode::MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
                                    const NodeFiles& files)
-    : options_(loadOptions(private_nh, files)), nh_(nh) {
+    : files_(files), options_(loadOptions(private_nh, files)), nh_(nh) {
   map_ = readMap(options_.filename);
   map_publisher_ = nh.advertise<nav_msgs::OccupancyGrid>(options_.topic, 1, true);
   metadata_publisher_ = nh.advertise<nav_msgs::MapMetaData>("map_metadata", 1, true);
@@ -61,6 +57,17 @@ MapPublisherNode::MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private
 MapPublisherNode::~MapPublisherNode() {
   timer_.stop();
   service_.shutdown();
+}
+
+OccupancyGrid MapPublisherNode::readMap(const std::string& filename) const {
+  MapFileOptions options;
+  if (files_.isArgument("filename", filename))
+    options.warn = [](const std::string& warning) { ROS_WARN_STREAM(warning); };
+  OccupancyGrid map = files_.read("filename", filename, mapFiles(), [&](const std::string& file) {
+    return readAnyMapFile(file, options);
+  });
+  checkOccupancyValues(map);
+  return map;
 }
 
 void MapPublisherNode::use(const MapPublisherOptions& options) {

@@ -35,16 +35,18 @@ class Reconfigurable;
 
 class MapPublisherNode {
  public:
-  // A file by argument replaces the parameter, as on the command line of map_server. Throws
-  // InputError for parameters and files that cannot be used.
+  // A file by argument replaces the parameter, as on the command line of map_server; others lie below
+  // the folder to load from. Throws InputError for parameters and files that cannot be used.
   MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const NodeFiles& files = {});
   ~MapPublisherNode();
 
  private:
+  grid::OccupancyGrid readMap(const std::string& filename) const;
   void use(const MapPublisherOptions& options);
   void publishOnceThereIsTime();
   bool getMap(nav_msgs::GetMap::Request& request, nav_msgs::GetMap::Response& response);
 
+  NodeFiles files_;
   MapPublisherOptions options_;
   grid::OccupancyGrid map_;
   nav_msgs::OccupancyGrid message_;  // stamp 0 until it is published

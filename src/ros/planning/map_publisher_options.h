@@ -16,9 +16,10 @@ struct MapPublisherOptions {
 template <class Visitor>
 void visitOptions(MapPublisherOptions& o, Visitor&& visit) {
   visit("filename", o.filename,
-        base::OptionInfo{"Map file: map_server YAML, MovingAI .map, image, rostopic dump or bag; "
-                         "required, unless the node's argument names it",
-                         ""});
+        base::OptionInfo{
+            "Map file below the folder to load from: map_server YAML, MovingAI .map, image, "
+            "rostopic dump or bag; required, unless the node's argument names one",
+            ""});
   visit("frame_id", o.frame_id, base::OptionInfo{"Frame that the map is published in", ""});
   visit("topic", o.topic,
         base::OptionInfo{"Latched topic that the map is published on; fixed while the node runs",

@@ -8,6 +8,8 @@
 #include "grid_path_planner/planning/replan_policy.h"
 #include "grid_path_planner/planning/unused_options.h"
 #include "ros/common/clock.h"
+#include "ros/common/file_kinds.h"
+#include "ros/common/network_text.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
@@ -28,10 +30,20 @@ namespace {
 constexpr char kGoalSlot[] = "goal";
 constexpr char kMapSlot[] = "map";
 
-PathPlannerNodeOptions loadOptions(const ros::NodeHandle& private_nh) {
+// Nothing is planned for a file or a frame that will be refused.
+void checkNames(const PathPlannerNodeOptions& options, const NodeFiles& files) {
+  checkNetworkText("map_frame", options.map_frame);
+  checkNetworkText("base_frame", options.base_frame);
+  if (!options.waypoints_file.empty())
+    files.toWrite("waypoints_file", options.waypoints_file, waypointFiles());
+}
+
+PathPlannerNodeOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles& files) {
   PathPlannerNodeOptions options;
   loadParameters(private_nh, options);
+  options.waypoints_file = files.named("waypoints_file", options.waypoints_file);
   checkPathPlannerNodeOptions(options);
+  checkNames(options, files);
   auto known = optionNames<PathPlannerNodeOptions>();
   known.push_back("diagnostic_period");  // diagnostic_updater's
   warnUnknownParameters(private_nh, known);
@@ -48,10 +60,13 @@ void warnUnusedOptions(const PlannerOptions& options, const PlannerOptions& befo
 
 }  // namespace
 
-PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh) : nh_(nh) {
-  const PathPlannerNodeOptions options = loadOptions(private_nh);
+PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                                 const NodeFiles& files)
+    : nh_(nh) {
+  const PathPlannerNodeOptions options = loadOptions(private_nh, files);
   warnUnusedOptions(options.planner);
-  server_ = std::make_unique<PlanningServer>(nh, options, [this] { active_goal_.forgetStart(); });
+  server_ =
+      std::make_unique<PlanningServer>(nh, options, files, [this] { active_goal_.forgetStart(); });
   services_ = std::make_unique<PlanServices>(private_nh, *server_);
   action_ = std::make_unique<PlanAction>(nh, *server_);
   diagnostics_ = std::make_unique<PlanDiagnostics>(nh, private_nh, *server_);
@@ -91,6 +106,7 @@ void PathPlannerNode::onInitialPose(const geometry_msgs::PoseWithCovarianceStamp
 
 void PathPlannerNode::onOptions(const PathPlannerNodeOptions& options) {
   checkPathPlannerNodeOptions(options);
+  checkNames(options, server_->files());
   const PathPlannerNodeOptions before = server_->settings().options;
   warnUnusedOptions(options.planner, before.planner);
   server_->setOptions(options);

@@ -54,7 +54,10 @@ void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
                        "replace it; 0.1: the old one costs more than 1.1 times as much",
                        "", 0, 1000});
   visit("waypoints_file", o.waypoints_file,
-        base::OptionInfo{"Waypoint file that every found plan is written to; empty: none", ""});
+        base::OptionInfo{
+            "Waypoint file that every found plan is written to, below the folder to save in; "
+            "empty: none",
+            ""});
   visit("record_search", o.record_search,
         base::OptionInfo{
             "Whether search_markers show the expanded cells; false saves 16 bytes for each", ""});

@@ -8,6 +8,7 @@
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "grid_path_planner/ros/conversions.h"
+#include "ros/common/file_kinds.h"
 
 namespace grid_path_planner::nodes {
 
@@ -96,7 +97,7 @@ bool PlanServices::saveWaypoints(SaveWaypoints::Request& request,
     response.message = "no path has been found yet";
   } else {
     try {
-      writeWaypointFile(file, *path);
+      writeWaypointFile(server_.files().toWrite("waypoints_file", file, waypointFiles()), *path);
       response.success = true;
       response.message = std::to_string(path->poses.size()) + " waypoints in " + file;
     } catch (const InputError& error) {

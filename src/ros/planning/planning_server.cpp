@@ -8,6 +8,7 @@
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/file_kinds.h"
 
 namespace grid_path_planner::nodes {
 
@@ -38,8 +39,9 @@ Pose named(const char* which, const std::function<Pose()>& pose) {
 }  // namespace
 
 PlanningServer::PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions& options,
-                               std::function<void()> on_time_jump)
-    : on_time_jump_(std::move(on_time_jump)),
+                               const NodeFiles& files, std::function<void()> on_time_jump)
+    : files_(files),
+      on_time_jump_(std::move(on_time_jump)),
       settings_{options, 0},
       transforms_(nh),
       publisher_(nh) {}
@@ -198,7 +200,7 @@ void PlanningServer::writeWaypoints(const Path& path) {
   const std::string file = settings().options.waypoints_file;
   if (file.empty()) return;
   try {
-    writeWaypointFile(file, path);
+    writeWaypointFile(files_.toWrite("waypoints_file", file, waypointFiles()), path);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The waypoints were not saved: " << error.what());
   }

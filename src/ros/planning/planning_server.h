@@ -1,7 +1,7 @@
 // Takes requests for paths from any thread and answers them, one after the other, in a thread of
 // its own, on the newest map with the node's options.
 //
-//   PlanningServer server(nh, options, [] {});  // nothing to do where ROS time jumps back
+//   PlanningServer server(nh, options, files, [] {});  // nothing to do where ROS time jumps back
 //   auto ticket = server.ask(request, PlanningServer::Publish::YES);
 //   ticket->wait();
 //   use(ticket->plan());
@@ -22,6 +22,7 @@
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
 #include "ros/common/map_receiver.h"
+#include "ros/common/node_files.h"
 #include "ros/planning/plan_publisher.h"
 #include "ros/planning/planning_request.h"
 
@@ -65,7 +66,7 @@ class PlanningServer {
   };
 
   // `on_time_jump` is called, from any thread, whenever ROS time went back.
-  PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions& options,
+  PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions& options, const NodeFiles& files,
                  std::function<void()> on_time_jump);
 
   Settings settings() const;
@@ -87,6 +88,7 @@ class PlanningServer {
 
   base::TaskQueue& worker() { return worker_; }
   MapReceiver& maps() { return maps_; }
+  const NodeFiles& files() const { return files_; }
   PlanPublisher& publisher() { return publisher_; }
 
   // In the worker's thread only:
@@ -119,6 +121,7 @@ class PlanningServer {
   void updateMap();
   void writeWaypoints(const path::Path& path);
 
+  NodeFiles files_;
   std::function<void()> on_time_jump_;
   ClockWatch clock_;
   mutable std::mutex mutex_;

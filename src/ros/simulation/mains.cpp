@@ -6,7 +6,7 @@
 namespace grid_path_planner::nodes {
 
 int simulatorMain(int argc, char** argv) {
-  return runNode<SimulatorNode>(argc, argv, "simulator");
+  return runNode<SimulatorNode>(argc, argv, "simulator", {{"world", "WORLD.sdf"}});
 }
 
 }  // namespace grid_path_planner::nodes

@@ -8,6 +8,7 @@
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "grid_path_planner/simulation/world.h"
+#include "ros/common/file_kinds.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
@@ -42,9 +43,10 @@ CameraFrameNames cameraFrameNames(const SimulatorOptions& o) {
   return {o.base_frame, o.camera_frame, o.camera_optical_frame};
 }
 
-SimulatorOptions loadOptions(const ros::NodeHandle& private_nh) {
+SimulatorOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles& files) {
   SimulatorOptions options;
   loadParameters(private_nh, options);
+  options.world = files.named("world", options.world);
   checkSimulatorOptions(options);
   warnUnknownParameters(private_nh, optionNames<SimulatorOptions>());
   return options;
@@ -52,9 +54,11 @@ SimulatorOptions loadOptions(const ros::NodeHandle& private_nh) {
 
 }  // namespace
 
-SimulatorNode::SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
+SimulatorNode::SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                             const NodeFiles& files)
     : nh_(nh),
-      options_(loadOptions(private_nh)),
+      files_(files),
+      options_(loadOptions(private_nh, files)),
       vehicle_(std::make_unique<Vehicle>(options_.vehicle, initialState(options_))),
       odometry_(options_.odometry),
       vehicle_publisher_(nh_),
@@ -77,7 +81,8 @@ SimulatorNode::~SimulatorNode() {
 }
 
 void SimulatorNode::loadWorld() {
-  world_ = std::make_shared<const World>(readWorld(options_.world));
+  world_ =
+      std::make_shared<const World>(files_.read("world", options_.world, worldFiles(), readWorld));
   vehicle_->setWorld(world_);
   contact_publisher_.start(*vehicle_);
 }

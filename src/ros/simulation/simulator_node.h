@@ -30,6 +30,7 @@
 
 #include "grid_path_planner/simulation/dead_reckoning.h"
 #include "grid_path_planner/simulation/vehicle.h"
+#include "ros/common/node_files.h"
 #include "ros/simulation/contact_publisher.h"
 #include "ros/simulation/depth_camera_publisher.h"
 #include "ros/simulation/simulator_options.h"
@@ -48,9 +49,10 @@ class Reconfigurable;
 
 class SimulatorNode {
  public:
-  // Throws InputError for parameters and a world that cannot be used. All callbacks are served by
+  // A world that no argument names lies below the folder to load from. Throws InputError for
+  // parameters and a world that cannot be used. All callbacks are served by
   // the queue of `nh`, which must be one thread's.
-  SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
+  SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const NodeFiles& files = {});
   ~SimulatorNode();
 
  private:
@@ -71,6 +73,7 @@ class SimulatorNode {
   ros::Time now() const;
 
   ros::NodeHandle nh_;
+  NodeFiles files_;
   SimulatorOptions options_;
   std::unique_ptr<simulation::Vehicle> vehicle_;
   simulation::DeadReckoning odometry_;

@@ -44,10 +44,12 @@ struct SimulatorOptions {
 
 template <class Visitor>
 void visitOptions(SimulatorOptions& o, Visitor&& visit) {
-  visit("world", o.world,
-        base::OptionInfo{
-            "SDF file that is seen and touched; empty: only the map's obstacles; read at the start",
-            ""});
+  visit(
+      "world", o.world,
+      base::OptionInfo{
+          "SDF file below the folder to load from that is seen and touched; empty: only the map's "
+          "obstacles; read at the start",
+          ""});
   visitOptions(o.vehicle, visit);
   visit("initial_x", o.initial_x,
         base::OptionInfo{"Where the vehicle starts, in map_frame", "m", -1e6, 1e6}.under(

@@ -15,6 +15,7 @@
 #include "grid_path_planner/SaveWaypoints.h"
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/path/waypoint_file.h"
+#include "ros/common/node_files.h"
 #include "ros/support/latest.h"
 #include "support/temporary_folder.h"
 
@@ -92,7 +93,7 @@ class Study : public testing::Test {
   }
 
   ros::NodeHandle nh_;
-  const test::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_{NodeFiles().saveFolder().path()};
   Latest<Odometry> truth_{nh_, "ground_truth"};
   Latest<std_msgs::UInt32> contacts_{nh_, "contacts"};
   Latest<PlanStatistics> statistics_{nh_, "plan_statistics"};

@@ -33,7 +33,7 @@ TEST_F(NavigateDrive, AWaypointFileToItsEnd) {
   writeWaypointFile(file.name, path);
   Latest<geometry_msgs::PoseStamped> waypoint(nh_, "current_waypoint");
   startSimulator();
-  startNavigate({"_config_filename:=" + file.name}, false);
+  startNavigate({"--config-filename", file.name}, false);
   publishPath(pathOf({{-5, -5}}));  // is ignored
   ASSERT_TRUE(arrivesAt(2, 2));
   EXPECT_TRUE(staysStill());
@@ -124,12 +124,12 @@ TEST_F(NavigateDrive, FilesAndParametersThatCannotBeUsedEndItBeforeItStarts) {
     std::fclose(out);
   };
   write("waypoints: []\n");
-  EXPECT_TRUE(endsWithError("_config_filename:=" + file.name));
+  EXPECT_TRUE(endsWithError("--config-filename=" + file.name));
   write(
       "waypoints:\n  - position: {x: 1e180, y: 0, z: 0}\n    orientation: {x: 0, y: 0, z: 0, w: "
       "1}\n");
-  EXPECT_TRUE(endsWithError("_config_filename:=" + file.name));
-  EXPECT_TRUE(endsWithError("_config_filename:=/no/such/file.yaml"));
+  EXPECT_TRUE(endsWithError("--config-filename=" + file.name));
+  EXPECT_TRUE(endsWithError("--config-filename=/no/such/file.yaml"));
   ros::param::del("/navigate_path");
   EXPECT_TRUE(endsWithError("_max_speed:=-1.0"));
   ros::param::del("/navigate_path");

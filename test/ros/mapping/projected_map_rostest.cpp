@@ -112,7 +112,7 @@ TEST_F(ProjectedMapTest, ClearBbxFreesABox) {
 }
 
 TEST_F(ProjectedMapTest, MapAndOctreeAreSavedAndLoaded) {
-  startMapping({"_octree_file:=" + folder_.path("parameter.ot")});
+  startMapping({"_octree_file:=parameter.ot", "--save-folder", folder_.path("")});
   const Maps maps(nh_, "projected_map");
   publish(wallAt(2.0F));
   ASSERT_TRUE(becomes(maps, 2.05, 0.05, 100));
@@ -125,7 +125,7 @@ TEST_F(ProjectedMapTest, MapAndOctreeAreSavedAndLoaded) {
   EXPECT_FALSE(refused.success);
   EXPECT_NE(refused.message.find("none/tree.bt"), std::string::npos) << refused.message;
   for (const char* name : {"tree.bt", "parameter.ot"}) {
-    startMapping({"_filename:=" + folder_.path(name)});
+    startMapping({"_filename:=" + folder_.path(name), "--load-folder", folder_.path("")});
     const Maps loaded(nh_, "projected_map");
     EXPECT_TRUE(becomes(loaded, 2.05, 0.05, 100)) << name;
   }

@@ -13,6 +13,7 @@
 
 #include "grid_path_planner/SaveFile.h"
 #include "grid_path_planner/grid/map_file.h"
+#include "ros/common/node_files.h"
 #include "ros/support/latest.h"
 #include "ros/support/process.h"
 #include "support/temporary_folder.h"
@@ -103,7 +104,7 @@ class RecordedSurvey : public testing::Test {
   }
 
   static OccupancyGrid savedMap() {
-    const test::TemporaryFolder folder;
+    const test::TemporaryFolder folder(NodeFiles().saveFolder().path());
     SaveFile call;
     call.request.filename = folder.path("map.yaml");
     EXPECT_TRUE(ros::service::call("/projected_map/save_map", call));

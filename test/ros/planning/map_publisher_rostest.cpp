@@ -45,8 +45,9 @@ class MapPublisherTest : public testing::Test {
 };
 
 TEST_F(MapPublisherTest, PublishesLatchedWithMetadataAndService) {
-  const test::Process process("map_publisher", {"_filename:=" + fileOf("gpp_a.map", map_),
-                                                "_frame_id:=/site", "_topic:=ground"});
+  const test::Process process("map_publisher",
+                              {"_filename:=" + fileOf("gpp_a.map", map_), "--load-folder",
+                               testing::TempDir(), "_frame_id:=/site", "_topic:=ground"});
   test::Latest<nav_msgs::OccupancyGrid> maps(nh_, "ground");
   const auto message = maps.waitForMoreThan(0);
   ASSERT_TRUE(message);
@@ -66,7 +67,7 @@ TEST_F(MapPublisherTest, PublishesLatchedWithMetadataAndService) {
 }
 
 TEST_F(MapPublisherTest, ReadsBagsToo) {
-  const test::Process process("map_publisher", {"_filename:=" GPP_TEST_DATA "/projected_map.bag"});
+  const test::Process process("map_publisher", {"--filename", GPP_TEST_DATA "/projected_map.bag"});
   test::Latest<nav_msgs::OccupancyGrid> maps(nh_, "projected_map");
   const auto message = maps.waitForMoreThan(0);
   ASSERT_TRUE(message);
@@ -85,7 +86,9 @@ TEST_F(MapPublisherTest, TakesTheFileAsItsArgument) {
 }
 
 TEST_F(MapPublisherTest, OtherArgumentsAreRefused) {
-  const std::string usage = "usage: map_publisher [MAP_FILE] [_parameter:=value]";
+  const std::string usage =
+      "usage: map_publisher [[--filename] MAP_FILE] [--save-folder FOLDER] [--load-folder FOLDER] "
+      "[_parameter:=value]";
   for (const char* arguments : {"a.map b.map", "--frame=map"}) {
     const auto [code, said] = refusal(arguments);
     EXPECT_EQ(code, 2) << arguments;
@@ -100,7 +103,7 @@ TEST_F(MapPublisherTest, WithoutAMapItFailsLoudly) {
   EXPECT_EQ(no_name, 1);
   EXPECT_NE(first.find("filename must name a map file"), std::string::npos) << first;
   EXPECT_NE(first.find("`map_publisher FILE`"), std::string::npos) << "and how: " << first;
-  const auto [missing, second] = refusal("_filename:=/no/such/map.yaml");
+  const auto [missing, second] = refusal("--filename /no/such/map.yaml");
   EXPECT_EQ(missing, 1);
   EXPECT_NE(second.find("/no/such/map.yaml"), std::string::npos) << second;
 }
@@ -108,7 +111,8 @@ TEST_F(MapPublisherTest, WithoutAMapItFailsLoudly) {
 TEST_F(MapPublisherTest, AnotherFileIsPublishedWhileItRunsAndABadOneIsRefused) {
   const std::string first = fileOf("gpp_a.map", map_);
   const OccupancyGrid other = test::AsciiMap({"....", "####"}).map;
-  const test::Process process("map_publisher", {"_filename:=" + first});
+  const test::Process process("map_publisher",
+                              {"_filename:=" + first, "--load-folder", testing::TempDir()});
   test::Latest<nav_msgs::OccupancyGrid> maps(nh_, "projected_map");
   ASSERT_TRUE(maps.waitForMoreThan(0));
   const auto reconfigured = [](const std::string& filename) {

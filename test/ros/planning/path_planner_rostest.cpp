@@ -301,7 +301,7 @@ TEST_F(PathPlannerTest, MarkersShowExpandedCellsAndWaypoints) {
 TEST_F(PathPlannerTest, EveryFoundPlanIsWrittenToTheWaypointsFile) {
   const std::string file = ros::names::clean(testing::TempDir()) + "/gpp_every_plan.yaml";
   ::unlink(file.c_str());
-  startPlanner({"_waypoints_file:=" + file});
+  startPlanner({"--waypoints-file", file});
   publishMap(kRoom);
   placeVehicleAndWait(0.5, 0.5);
   sendGoal(poseAt(5.5, 2.5, 1.0));

@@ -99,7 +99,7 @@ TEST_F(ServicesTest, ComparePlansAsksEveryPlannerAndNamesWhatItAsked) {
 
 // follow_waypoints #20, navigation2 #2688: can't save.
 TEST_F(ServicesTest, SaveWaypointsWritesTheLastPathOrSaysWhyNot) {
-  startPlanner();
+  startPlanner({"--save-folder", directory_});
   EXPECT_FALSE(save(directory_ + "gpp_save.yaml").success);
   EXPECT_NE(save(directory_ + "gpp_save.yaml").message.find("no path"), std::string::npos);
   publishMap(kRoom);
@@ -121,7 +121,7 @@ TEST_F(ServicesTest, SaveWaypointsWritesTheLastPathOrSaysWhyNot) {
 }
 
 TEST_F(ServicesTest, AWaypointsFileThatCannotBeWrittenSpoilsNothingElse) {
-  startPlanner({"_waypoints_file:=/dev/null/waypoints.yaml"});
+  startPlanner({"--waypoints-file", "/dev/null/waypoints.yaml"});
   publishMap(kRoom);
   makePlan(poseAt(0.5, 0.5), poseAt(5.5, 2.5));
   EXPECT_EQ(answer_.status, "FOUND");

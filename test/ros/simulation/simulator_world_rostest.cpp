@@ -48,7 +48,7 @@ class SimulatorWorldTest : public testing::Test {
   SimulatorWorldTest() { ros::param::del("/simulator"); }
 
   void start(std::vector<std::string> arguments) {
-    arguments.push_back("_world:=" GPP_TEST_DATA "/pool.sdf");
+    arguments.push_back("--world=" GPP_TEST_DATA "/pool.sdf");
     simulator_ = std::make_unique<Process>("simulator", arguments);
     ASSERT_TRUE(truth_.waitForMoreThan(truth_.count()));
     ASSERT_TRUE(test::waitFor([&] { return commands_.getNumSubscribers() > 0; }));
@@ -238,7 +238,7 @@ TEST_F(SimulatorWorldTest, OdometryThatErrsIsWhatTfCarries) {
 }
 
 TEST(SimulatorWorld, AWorldThatCannotBeReadEndsItBeforeItStarts) {
-  Process missing("simulator", {"_world:=/no/such/world.sdf"});
+  Process missing("simulator", {"--world=/no/such/world.sdf"});
   ASSERT_TRUE(missing.waitForExit());
   EXPECT_EQ(missing.exitCode(), 1);
   EXPECT_NE(missing.output().find("/no/such/world.sdf"), std::string::npos) << missing.output();

@@ -1,0 +1,189 @@
+// What any ROS client may ask for by name. Seen before: a map whose frame was a shell substitution, a
+// plan in it, and ~save_waypoints onto a shell's start-up file, which then ran the command.
+#include <actionlib/client/simple_action_client.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <dynamic_reconfigure/config_tools.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+
+#include "grid_path_planner/NavigatePathAction.h"
+#include "grid_path_planner/SaveFile.h"
+#include "grid_path_planner/SaveWaypoints.h"
+#include "grid_path_planner/path/waypoint_file.h"
+#include "ros/support/planner_fixture.h"
+#include "support/temporary_folder.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using test::contentOf;
+using test::poseAt;
+using test::Process;
+
+constexpr char kStartUp[] = "# start-up file of a shell\nexport secret=hunter2\n";
+const std::chrono::duration<double> kLongestAnswer = std::chrono::seconds(1);
+
+// home/ has what nobody may touch; files/ is the folder of the nodes.
+class NamedFiles : public test::PlannerTest {
+ protected:
+  NamedFiles() {
+    std::filesystem::create_directories(folder_.path("home"));
+    std::filesystem::create_directories(files());
+    start_up_ = folder_.write("home/.bashrc", kStartUp);
+    other_ = folder_.write("home/notes.yaml", kStartUp);
+    std::filesystem::create_symlink("../home/.bashrc", folder_.path("files/link.yaml"));
+    std::filesystem::create_symlink("../home", folder_.path("files/home"));
+  }
+  void TearDown() override {
+    EXPECT_EQ(contentOf(start_up_), kStartUp);
+    EXPECT_EQ(contentOf(other_), kStartUp);
+    EXPECT_EQ(std::system(("cd " + folder_.path("home") + " && sh ./.bashrc").c_str()), 0);
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("home/taken_over")));
+    for (const char* node : {"/path_planner", "/projected_map", "/navigate_path", "/map_publisher"})
+      ros::param::del(node);
+  }
+
+  std::string files() const { return folder_.path("files"); }
+  std::vector<std::string> folders() const {
+    return {"--save-folder", files(), "--load-folder", files()};
+  }
+  // Names of the files in home/, by every way that leads there.
+  std::vector<std::string> namesOutside() const {
+    return {start_up_,         other_,
+            "../home/.bashrc", "../home/notes.yaml",
+            "link.yaml",       "home/notes.yaml",
+            "home/new.yaml",   files() + "/../home/new.yaml",
+            "/etc/new.yaml",   ".bashrc",
+            "new.sh",          std::string("new\0.yaml", 9),
+            "/dev/null",       "/dev/shm/new.yaml"};
+  }
+
+  // Asks a service to save, and how long that takes must not matter to a vehicle.
+  template <class Service>
+  typename Service::Response save(const std::string& service, const std::string& file) {
+    Service call;
+    call.request.filename = file;
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_TRUE(ros::service::call(service, call)) << file;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, kLongestAnswer) << file;
+    EXPECT_EQ(call.response.message.find("hunter2"), std::string::npos) << call.response.message;
+    return call.response;
+  }
+
+  // What a reconfiguration of `option` leaves there.
+  static std::string reconfigured(const std::string& node, const std::string& option,
+                                  const std::string& value) {
+    dynamic_reconfigure::Reconfigure call;
+    dynamic_reconfigure::ConfigTools::appendParameter(call.request.config, option, value);
+    EXPECT_TRUE(ros::service::call(node + "/set_parameters", call));
+    std::string answer;
+    dynamic_reconfigure::ConfigTools::getParameter(call.response.config, option, answer);
+    return answer;
+  }
+
+  static int exitCodeOf(const std::string& node, const std::vector<std::string>& arguments) {
+    Process process(node, arguments);
+    EXPECT_TRUE(process.waitForExit()) << node;
+    EXPECT_EQ(process.output().find("hunter2"), std::string::npos) << process.output();
+    return process.exitCode();
+  }
+
+  const test::TemporaryFolder folder_;
+  std::string start_up_, other_;
+};
+
+TEST_F(NamedFiles, TheAttackOnAShellsStartUpFileIsRefused) {
+  startPlanner(folders());
+  nav_msgs::OccupancyGrid map = occupancyToMessage(test::AsciiMap({"....", "...."}).map,
+                                                   "$(touch taken_over)", ros::Time::now());
+  maps_.publish(map);
+  makePlan(poseAt(0.5, 0.5, 0.0, map.header.frame_id), poseAt(3.5, 0.5, 0.0, map.header.frame_id));
+  const auto save_waypoints = [this](const std::string& file) {
+    return save<SaveWaypoints>("/path_planner/save_waypoints", file);
+  };
+  for (const std::string& name : namesOutside()) EXPECT_FALSE(save_waypoints(name).success) << name;
+
+  publishMap({"....", "...."});
+  makePlan(poseAt(0.5, 0.5), poseAt(3.5, 0.5));
+  ASSERT_EQ(answer_.status, "FOUND");
+  for (const std::string& name : namesOutside()) EXPECT_FALSE(save_waypoints(name).success) << name;
+  const auto saved = save_waypoints("site.yaml");
+  EXPECT_TRUE(saved.success) << saved.message;
+  EXPECT_EQ(path::readWaypointFile(files() + "/site.yaml").frame_id, "map");
+}
+
+// ~waypoints_file is set by any client, and roslaunch starts the node again with it.
+TEST_F(NamedFiles, AParameterThatNamesThemIsRevertedAndAfterARestartEndsTheNode) {
+  startPlanner(folders());
+  EXPECT_EQ(reconfigured("/path_planner", "waypoints_file", other_), "");
+  EXPECT_EQ(reconfigured("/path_planner", "waypoints_file", "site.yaml"), "site.yaml");
+  planner_.reset();
+  for (const std::string& name : {start_up_, other_}) {
+    ros::param::set("/path_planner/waypoints_file", name);
+    EXPECT_EQ(exitCodeOf("path_planner", folders()), 1) << name;
+  }
+}
+
+// The folders themselves are arguments: a parameter of such a name changes nothing.
+TEST_F(NamedFiles, ThereIsNoParameterForTheFolders) {
+  for (const char* name : {"save_folder", "load_folder"})
+    ros::param::set(std::string("/path_planner/") + name, folder_.path("home"));
+  planner_ = std::make_unique<Process>("path_planner", folders());
+  ASSERT_TRUE(test::waitFor([this] { return maps_.getNumSubscribers() > 0; }));
+  publishMap({"....", "...."});
+  makePlan(poseAt(0.5, 0.5), poseAt(3.5, 0.5));
+  EXPECT_FALSE(
+      save<SaveWaypoints>("/path_planner/save_waypoints", folder_.path("home/new.yaml")).success);
+  EXPECT_TRUE(planner_->says("/path_planner/save_folder is not used"));
+}
+
+TEST_F(NamedFiles, MapsAndOctreesAreSavedBelowTheFolderOnly) {
+  const Process mapping("projected_map", folders());
+  ASSERT_TRUE(ros::service::waitForService("/projected_map/save_octree", 20000));
+  for (const char* service : {"/projected_map/save_map", "/projected_map/save_octree"})
+    for (const std::string& name : namesOutside())
+      EXPECT_FALSE(save<SaveFile>(service, name).success) << service << ' ' << name;
+  EXPECT_TRUE(save<SaveFile>("/projected_map/save_map", "map.yaml").success);
+  EXPECT_TRUE(save<SaveFile>("/projected_map/save_octree", "tree.bt").success);
+  EXPECT_TRUE(std::filesystem::exists(files() + "/tree.bt"));
+}
+
+TEST_F(NamedFiles, WaypointsOfAGoalAreReadBelowTheFolderOnlyAndNotQuoted) {
+  folder_.write("files/notes.yaml", kStartUp);
+  ASSERT_EQ(::mkfifo((files() + "/pipe.yaml").c_str(), 0600), 0);
+  Process navigate("navigate_path", {"--load-folder", files()});
+  actionlib::SimpleActionClient<NavigatePathAction> client("navigate_path", true);
+  ASSERT_TRUE(client.waitForServer(ros::Duration(20.0)));
+  std::vector<std::string> names = namesOutside();
+  names.insert(names.end(), {"notes.yaml", "pipe.yaml", "missing.yaml"});
+  for (const std::string& name : names) {
+    NavigatePathGoal goal;
+    goal.filename = name;
+    const auto begin = std::chrono::steady_clock::now();
+    client.sendGoal(goal);
+    ASSERT_TRUE(client.waitForResult(ros::Duration(10.0))) << name;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, kLongestAnswer) << name;
+    EXPECT_EQ(client.getResult()->status, "INVALID_REQUEST") << name;
+    EXPECT_EQ(client.getResult()->message.find("hunter2"), std::string::npos);
+  }
+  EXPECT_EQ(navigate.output().find("hunter2"), std::string::npos) << navigate.output();
+}
+
+TEST_F(NamedFiles, WhatIsReadAtTheStartLiesBelowTheFolderToo) {
+  const std::vector<std::pair<std::string, std::string>> options = {
+      {"navigate_path", "_config_filename"},
+      {"projected_map", "_filename"},
+      {"map_publisher", "_filename"},
+      {"simulator", "_world"}};
+  for (const auto& [node, option] : options)
+    for (const std::string& name : {start_up_, other_, std::string("../home/notes.yaml")}) {
+      EXPECT_EQ(exitCodeOf(node, {option + ":=" + name, "--load-folder", files()}), 1) << node;
+      ros::param::del("/" + node);
+    }
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
