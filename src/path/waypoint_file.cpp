@@ -4,7 +4,9 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <locale>
+#include <set>
 #include <sstream>
 
 #include "grid_path_planner/base/errors.h"
@@ -110,21 +112,33 @@ std::string decimal(double value) {
   return text;
 }
 
-// A name as a YAML scalar: plain where it cannot be mistaken for anything else.
-std::string scalar(const std::string& name) {
-  const auto plain = [](char letter) {
-    return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_' || letter == '/';
+// Whether every YAML reader takes it for text: 1.1 has words for yes and no, and numbers of digits.
+bool isPlainWord(const std::string& name) {
+  static const std::set<std::string> words = {"null", "true", "false", "yes", "no",
+                                              "on",   "off",  "y",     "n"};
+  const auto plain = [](unsigned char letter) {
+    return std::isalnum(letter) || letter == '_' || letter == '/';
   };
-  const bool letters_only = std::all_of(name.begin(), name.end(), plain);
-  if (letters_only && name != "null" && name != "Null" && name != "NULL") return name;
-  std::ostringstream quoted;
-  quoted << '"';
+  std::string lower;
+  for (const unsigned char letter : name) lower += static_cast<char>(std::tolower(letter));
+  return std::all_of(name.begin(), name.end(), plain) && !name.empty() &&
+         !std::isdigit(static_cast<unsigned char>(name.front())) && words.count(lower) == 0;
+}
+
+// A name as a YAML scalar: plain where it cannot be mistaken for anything else. Nothing that means
+// something to a shell stays itself, for whoever lets one read the file.
+std::string scalar(const std::string& name) {
+  if (isPlainWord(name)) return name;
+  std::string quoted = "\"";
   for (const char letter : name) {
-    if (letter == '"' || letter == '\\') quoted << '\\';
-    quoted << letter;
+    constexpr char kHex[] = "0123456789abcdef";
+    const auto byte = static_cast<unsigned char>(letter);
+    if (byte < 0x20 || std::strchr("\"'$`\\", letter))
+      quoted += std::string("\\x") + kHex[byte / 16] + kHex[byte % 16];
+    else
+      quoted += letter;
   }
-  quoted << '"';
-  return quoted.str();
+  return quoted + '"';
 }
 
 void checkCanBeRead(const std::string& file, const Path& path) {

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -212,10 +213,25 @@ TEST(WaypointFile, EveryFrameComesBack) {
   const TemporaryFolder folder;
   const std::string file = folder.path("path.yaml");
   for (const std::string frame : {"map", "robot1/odom", "null", "true", "12", "a b", "a: {b}",
-                                  "\"quoted\\\" #", "~", "x-y"}) {
+                                  "\"quoted\\\" #", "~", "x-y", "Yes", "off", "\x7f"}) {
     Path path = onePose(1, 2, 3, 0);
     path.frame_id = frame;
     writeWaypointFile(file, path);
+    EXPECT_EQ(readWaypointFile(file).frame_id, frame);
+  }
+}
+
+// $(touch x) as the frame of a map stood in the file as it was, for whatever shell read it.
+TEST(WaypointFile, NothingOfAFrameMeansAnythingToAShell) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path("way.yaml");
+  for (const std::string frame : {"$(touch x)", "`touch x`", "a\"; touch x; \"", "a'b", "a\\b"}) {
+    Path path = onePose(1, 2, 3, 0);
+    path.frame_id = frame;
+    writeWaypointFile(file, path);
+    const std::string first_line = contentOf(file).substr(0, contentOf(file).find('\n'));
+    EXPECT_EQ(first_line.find_first_of("$`'"), std::string::npos) << first_line;
+    EXPECT_EQ(std::count(first_line.begin(), first_line.end(), '"'), 2) << first_line;
     EXPECT_EQ(readWaypointFile(file).frame_id, frame);
   }
 }

@@ -18,7 +18,9 @@
 
 namespace grid_path_planner::nodes {
 
-// A frame's name as tf2 wants it: a leading slash is dropped.
+// The name of a frame as tf2 wants it: a leading slash is dropped. All names from messages and
+// parameters come through here. Throws InputError for text that a shell, a terminal or a file would
+// take for more than a name: quotes, $, `, \, control characters, more than 256 bytes.
 std::string frameName(const std::string& frame_id);
 
 // The geometry that a message describes, without its cells. Throws InputError for what GridGeometry

@@ -40,6 +40,10 @@ std::string listOf(const std::set<std::string>& names) {
   return list;
 }
 
+std::string withoutSlash(const std::string& topic) {
+  return !topic.empty() && topic.front() == '/' ? topic.substr(1) : topic;
+}
+
 // The connections that carry maps on `topic`, with and without a leading slash.
 std::set<std::uint32_t> mapConnections(const BagReader& bag, const std::string& file,
                                        const std::string& topic) {
@@ -48,7 +52,7 @@ std::set<std::uint32_t> mapConnections(const BagReader& bag, const std::string& 
   for (const BagConnection& connection : bag.connections()) {
     if (!isMap(connection)) continue;
     maps.insert(connection.topic);
-    if (frameName(connection.topic) == frameName(topic)) ids.insert(connection.id);
+    if (withoutSlash(connection.topic) == withoutSlash(topic)) ids.insert(connection.id);
   }
   if (!ids.empty()) return ids;
   throw InputError(file,

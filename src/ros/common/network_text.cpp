@@ -55,4 +55,13 @@ void checkNetworkText(const std::string& what, const std::string& text, std::siz
   if (!isUtf8(text)) throw InputError(what + " must be UTF-8 without control characters");
 }
 
+std::string printable(const std::string& text) {
+  try {
+    checkNetworkText("text", text);
+    return text;
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
 }  // namespace grid_path_planner::nodes

@@ -17,4 +17,7 @@ constexpr std::size_t kLongestNetworkText = 256;  // bytes
 void checkNetworkText(const std::string& what, const std::string& text,
                       std::size_t longest = kLongestNetworkText);
 
+// The text, or "" where checkNetworkText refuses it: for answers that repeat what they were asked.
+std::string printable(const std::string& text);
+
 }  // namespace grid_path_planner::nodes

@@ -5,6 +5,7 @@
 
 #include "grid/float_decimal.h"
 #include "grid_path_planner/base/level_quaternion.h"
+#include "ros/common/network_text.h"
 
 namespace grid_path_planner::nodes {
 
@@ -16,6 +17,7 @@ using grid::GridGeometry;
 using grid::OccupancyGrid;
 
 std::string frameName(const std::string& frame_id) {
+  checkNetworkText("the name of a frame", frame_id);
   return !frame_id.empty() && frame_id.front() == '/' ? frame_id.substr(1) : frame_id;
 }
 

@@ -1,6 +1,7 @@
 #include "ros/driving/navigate_path_options.h"
 
 #include "grid_path_planner/base/options.h"
+#include "ros/common/network_text.h"
 
 namespace grid_path_planner::nodes {
 
@@ -11,6 +12,7 @@ using following::checkFollowerOptions;
 void checkNavigatePathOptions(const NavigatePathOptions& options) {
   checkOptionLimits(options);
   checkFollowerOptions(options.follower);
+  checkNetworkText("base_frame", options.base_frame);
   if (options.base_frame.empty()) throw InputError("base_frame must not be empty");
 }
 

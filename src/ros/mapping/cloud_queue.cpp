@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string>
 #include <utility>
 
+#include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 
 namespace grid_path_planner::nodes {
 
+using base::InputError;
 using mapping::CloudFrames;
 
 namespace {
@@ -42,8 +45,10 @@ void CloudQueue::setOptions(const CloudQueueOptions& options) {
 void CloudQueue::add(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
   std::lock_guard<std::mutex> lock(mutex_);
   ++counts_.received;
-  if (frameName(cloud->header.frame_id).empty()) {
-    drop("no frame", "a cloud that names no frame");
+  try {
+    if (frameName(cloud->header.frame_id).empty()) throw InputError("it names no frame");
+  } catch (const InputError& error) {
+    drop("no frame", std::string("a cloud without a frame that can be used: ") + error.what());
     return;
   }
   waiting_.push_back({cloud, Clock::now()});

@@ -31,8 +31,9 @@ void PlanAction::execute(const PlanPathGoalConstPtr& goal) {
   Plan cancelled = failedPlan(Status::CANCELLED, "planning was cancelled");
   cancelled.path.frame_id = server_.settings().options.map_frame;
   PlanStatistics statistics = statisticsMessage(cancelled);
-  statistics.goal = goal->goal;
-  statistics.planner = goal->planner;
+  const PlanningRequest asked = printable(request);
+  statistics.goal = asked.goal;
+  statistics.planner = asked.planner;
   finish(cancelled, statistics);
 }
 

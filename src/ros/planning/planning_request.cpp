@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "grid_path_planner/planners/planner_factory.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/network_text.h"
 
 namespace grid_path_planner::nodes {
 
@@ -13,6 +15,21 @@ using planners::Heuristic;
 using planners::plannerNames;
 using planners::traitsOf;
 using planning::PlannerOptions;
+
+void checkText(const PlanningRequest& request) {
+  checkNetworkText("the planner", request.planner);
+  checkNetworkText("the heuristic", request.heuristic);
+  if (request.start) frameName(request.start->header.frame_id);
+  frameName(request.goal.header.frame_id);
+}
+
+PlanningRequest printable(PlanningRequest request) {
+  request.planner = printable(request.planner);
+  request.heuristic = printable(request.heuristic);
+  if (request.start) request.start->header.frame_id = printable(request.start->header.frame_id);
+  request.goal.header.frame_id = printable(request.goal.header.frame_id);
+  return request;
+}
 
 bool usesHeuristic(const std::string& planner) {
   const std::vector<std::string>& known = plannerNames();

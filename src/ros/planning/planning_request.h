@@ -18,6 +18,13 @@ struct PlanningRequest {
   std::optional<double> tolerance;  // m; none: the node's
 };
 
+// Throws InputError for names of planners, heuristics and frames that are no names
+// (ros/common/network_text.h).
+void checkText(const PlanningRequest& request);
+
+// The request as an answer may repeat it: such names are empty.
+PlanningRequest printable(PlanningRequest request);
+
 // Whether there is a planner of this name and it is guided by a heuristic.
 bool usesHeuristic(const std::string& planner);
 

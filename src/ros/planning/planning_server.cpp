@@ -82,6 +82,7 @@ Plan PlanningServer::tryToPlan(const PlanningRequest& request,
                                const PathPlannerNodeOptions& options, const StopSource& stop,
                                const PhaseListener& on_phase) {
   try {
+    checkText(request);
     waitForClock(stop.token());
     if (on_phase) on_phase("preparing");
     updateMap();
@@ -123,9 +124,10 @@ PoseRequest PlanningServer::posesOf(const PlanningRequest& request,
 PlanStatistics PlanningServer::statistics(const Plan& plan, const PlanningRequest& request,
                                           const PathPlannerNodeOptions& options) const {
   PlanStatistics message = statisticsMessage(plan);
-  message.goal = request.goal;
-  message.planner = plannerOf(request, options);
-  message.heuristic = heuristicOf(request, options);
+  const PlanningRequest asked = printable(request);
+  message.goal = asked.goal;
+  message.planner = plannerOf(asked, options);
+  message.heuristic = heuristicOf(asked, options);
   if (plan.found())
     message.clearance_m =
         clearanceOf(plan.path, *planner_.map(), options.planner.costmap.thresholds);

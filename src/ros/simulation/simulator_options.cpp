@@ -6,6 +6,8 @@
 #include <set>
 #include <string>
 
+#include "ros/common/network_text.h"
+
 namespace grid_path_planner::nodes {
 
 using base::checkOptionLimits;
@@ -20,6 +22,7 @@ void checkFrames(const SimulatorOptions& o) {
   std::set<std::string> names;
   for (const std::string& name :
        {o.map_frame, o.odom_frame, o.base_frame, o.camera_frame, o.camera_optical_frame}) {
+    checkNetworkText("the name of a frame", name);
     if (name.empty()) throw InputError("the name of a frame must not be empty");
     if (!names.insert(name).second)
       throw InputError("frames must have different names, two are called " + name);
