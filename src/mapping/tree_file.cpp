@@ -48,6 +48,13 @@ Value headerValue(const std::string& file, int line, std::istringstream& words,
   throw InputError(file, line, std::string("expected ") + expected);
 }
 
+// OctoMap's own kinds by name; other text of a file is not repeated.
+std::string kindOf(const std::string& id) {
+  for (const char* known : {"ColorOcTree", "OcTreeStamped", "CountingOcTree"})
+    if (id == known) return "a tree of kind '" + id + "'";
+  return "a tree of another kind";
+}
+
 Header readHeader(const std::string& file, const std::string& content) {
   Header header;
   header.binary = startsWith(content, kBinaryFirstLine);
@@ -69,7 +76,7 @@ Header readHeader(const std::string& file, const std::string& content) {
     if (name == "res")
       header.resolution = headerValue<double>(file, number, words, "res and a number of metres");
   }
-  if (id != "OcTree") throw InputError(file, "holds a tree of another kind than OcTree");
+  if (id != "OcTree") throw InputError(file, "holds " + kindOf(id) + ", expected OcTree");
   if (!(header.resolution > 0.0 && std::isfinite(header.resolution)))
     throw InputError(file, "has no positive resolution in its header");
   return header;
