@@ -224,7 +224,7 @@ TEST(WaypointFile, EveryFrameComesBack) {
 // $(touch x) as the frame of a map stood in the file as it was, for whatever shell read it.
 TEST(WaypointFile, NothingOfAFrameMeansAnythingToAShell) {
   const TemporaryFolder folder;
-  const std::string file = folder.path("way.yaml");
+  const std::string file = folder.path("path.yaml");
   for (const std::string frame : {"$(touch x)", "`touch x`", "a\"; touch x; \"", "a'b", "a\\b"}) {
     Path path = onePose(1, 2, 3, 0);
     path.frame_id = frame;

@@ -77,7 +77,7 @@ std::string placeOf(int folder) {
   return error ? "" : place.string();
 }
 
-// A name on its way to a file.
+// A name that is followed to a file.
 class Search {
  public:
   Search(const std::string& folder, const std::string& argument, const std::string& name,

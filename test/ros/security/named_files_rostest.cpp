@@ -51,7 +51,7 @@ class NamedFiles : public test::PlannerTest {
   std::vector<std::string> folders() const {
     return {"--save-folder", files(), "--load-folder", files()};
   }
-  // Names of the files in home/, by every way that leads there.
+  // Names of the files in home/, by every path that leads there.
   std::vector<std::string> namesOutside() const {
     return {start_up_,         other_,
             "../home/.bashrc", "../home/notes.yaml",
