@@ -58,6 +58,7 @@ struct ProjectedMapOptions {
   double publish_rate = 5.0;  // Hz
   bool latch = true;
   bool always_send_full_map = true;
+  double heartbeat_period = 1.0;  // s of the wall clock; 0: none
   bool publish_free_space = false;
   VoxelColors colors;
 
@@ -116,6 +117,12 @@ void visitPublishingOptions(ProjectedMapOptions& o, Visitor&& visit) {
         base::OptionInfo{"Whether every change sends all of projected_map; false: that for new "
                          "subscribers and new geometry, else projected_map_updates",
                          ""});
+  visit("heartbeat_period", o.heartbeat_period,
+        base::OptionInfo{
+            "How often an update of 0x0 cells, stamped with the newest cloud in the map, "
+            "tells drivers that the map is kept, by the wall clock; 0: never, then a "
+            "mapping that hangs is not noticed",
+            "s", 0.0, 3600.0});
   visit("publish_free_space", o.publish_free_space,
         base::OptionInfo{"Whether free_cells_vis_array is published, which takes long", ""});
 }

@@ -31,6 +31,10 @@ CellRect rectOf(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& u
   return {update.x, update.y, static_cast<int>(update.width), static_cast<int>(update.height)};
 }
 
+bool isHeartbeat(const map_msgs::OccupancyGridUpdate& update) {
+  return update.width == 0 && update.height == 0 && update.data.empty();
+}
+
 bool sameRow(const OccupancyGrid& a, const OccupancyGrid& b, int row) {
   return std::memcmp(a.row(row), b.row(row), static_cast<std::size_t>(a.width())) == 0;
 }
@@ -101,6 +105,11 @@ std::string MapReceiver::refusal() const {
   return refusal_;
 }
 
+std::optional<MapHeartbeat> MapReceiver::heartbeat() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return heartbeat_;
+}
+
 void MapReceiver::shutdown() {
   map_subscriber_.shutdown();
   update_subscriber_.shutdown();
@@ -124,6 +133,11 @@ void MapReceiver::onMap(const nav_msgs::OccupancyGrid& message) {
 }
 
 void MapReceiver::onUpdate(const map_msgs::OccupancyGridUpdate& message) {
+  if (isHeartbeat(message)) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    heartbeat_ = {message.header.stamp, std::chrono::steady_clock::now()};
+    return;
+  }
   const ReceivedMap before = latest();
   if (!before.grid) {
     ROS_WARN_THROTTLE(5.0, "An update of the map was dropped: no map has come yet");

@@ -4,6 +4,9 @@
 // piece outside the map. A piece older than the map is dropped: it is part of the map already
 // (unless the map is stamped later than now: then ROS time has jumped back). Maps handed out never
 // change; a piece makes a new one in time proportional to the piece (grid/double_buffered.h).
+//
+// A piece without cells (0x0) is a heartbeat: it changes nothing, calls nobody and is accepted
+// before there is a map; only its stamp and when it came are kept.
 #pragma once
 
 #include <map_msgs/OccupancyGridUpdate.h>
@@ -11,6 +14,7 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -33,6 +37,11 @@ struct MapChange {
   ReceivedMap map;
   // The cells that may differ from those of the map before; none: all may.
   std::optional<grid::CellRect> changed;
+};
+
+struct MapHeartbeat {
+  ros::Time stamp;  // of the newest cloud in the publisher's map, 0: none; any number may come
+  std::chrono::steady_clock::time_point received;
 };
 
 // The cells of `map` that `update` replaces. Throws InputError for an update that does not lie in
@@ -59,6 +68,8 @@ class MapReceiver {
   ReceivedMap latest() const;
   // The newest map if it changed since the last call. For one caller.
   std::optional<MapChange> take();
+  // The newest one; none before the first.
+  std::optional<MapHeartbeat> heartbeat() const;
   // Why the last message was refused; empty after one that was accepted.
   std::string refusal() const;
 
@@ -79,6 +90,7 @@ class MapReceiver {
   ReceivedMap map_;
   std::optional<MapChange> untaken_;
   std::string refusal_;
+  std::optional<MapHeartbeat> heartbeat_;
   ros::Subscriber map_subscriber_;
   ros::Subscriber update_subscriber_;
 };

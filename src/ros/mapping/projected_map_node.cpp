@@ -89,7 +89,7 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
       "cloud_in", static_cast<std::uint32_t>(options.queue_size), &ProjectedMapNode::onCloud, this);
   cloud_timer_ = nh.createWallTimer(ros::WallDuration(kCloudPeriod),
                                     [this](const ros::WallTimerEvent&) { resolveTransforms(); });
-  startPublishing(options.publish_rate);
+  startPublishing(options);
   complete_ = true;
   reconfigurable_ = std::make_unique<Reconfigurable<ProjectedMapConfig, ProjectedMapOptions>>(
       private_nh, options, [this](const ProjectedMapOptions& wanted) { use(wanted); });
@@ -99,6 +99,7 @@ ProjectedMapNode::~ProjectedMapNode() {
   cloud_subscriber_.shutdown();
   cloud_timer_.stop();
   publish_timer_.stop();
+  heartbeat_timer_.stop();
   reconfigurable_.reset();
   services_->shutdown();
   octree_publisher_->shutdown();
@@ -121,13 +122,19 @@ void ProjectedMapNode::use(const ProjectedMapOptions& options) {
   const ProjectedMapOptions with_file = withFile(options);
   thread_->run([&](MapModel& map) { map.setOptions(with_file); });
   queue_.setOptions(queueOptions(options));
-  startPublishing(options.publish_rate);
+  startPublishing(options);
   postPublishing();
 }
 
-void ProjectedMapNode::startPublishing(double rate) {
-  publish_timer_ = nh_.createWallTimer(ros::WallDuration(1.0 / rate),
+void ProjectedMapNode::startPublishing(const ProjectedMapOptions& options) {
+  publish_timer_ = nh_.createWallTimer(ros::WallDuration(1.0 / options.publish_rate),
                                        [this](const ros::WallTimerEvent&) { postPublishing(); });
+  heartbeat_timer_.stop();
+  if (options.heartbeat_period <= 0.0) return;
+  heartbeat_timer_ = nh_.createWallTimer(
+      ros::WallDuration(options.heartbeat_period), [this](const ros::WallTimerEvent&) {
+        thread_->post("heartbeat", [this](MapModel& map) { publishHeartbeat(map); });
+      });
 }
 
 void ProjectedMapNode::onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
@@ -173,6 +180,7 @@ void ProjectedMapNode::insertNext(MapModel& map) {
 
 void ProjectedMapNode::insert(MapModel& map, const CloudQueue::Ready& ready) {
   const MapModel::Inserted inserted = map.insert(finitePoints(*ready.cloud), ready.frames);
+  map_publisher_->countCloud(ready.cloud->header.stamp, ros::Time::now());
   diagnostics_->recordInsertion(inserted);
   if (inserted.ground_missed)
     ROS_WARN_THROTTLE(10.0,
@@ -194,6 +202,10 @@ void ProjectedMapNode::publish(MapModel& map) {
     ROS_ERROR_STREAM_THROTTLE(10.0, "projected_map stays as it was: " << error.what());
   }
   octree_publisher_->publish(map, stamp);
+}
+
+void ProjectedMapNode::publishHeartbeat(MapModel& map) {
+  map_publisher_->publishHeartbeat(map.options().frame_id);
 }
 
 void ProjectedMapNode::decay(MapModel& map) {

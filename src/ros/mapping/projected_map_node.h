@@ -61,7 +61,7 @@ class ProjectedMapNode {
   mapping::ProjectedMapOptions withFile(mapping::ProjectedMapOptions options);
   void use(const mapping::ProjectedMapOptions& options);
   void apply(const mapping::ProjectedMapOptions& options);
-  void startPublishing(double rate);
+  void startPublishing(const mapping::ProjectedMapOptions& options);
   void onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud);
   void checkClock();
   void resolveTransforms();
@@ -72,6 +72,7 @@ class ProjectedMapNode {
   void insertNext(mapping::MapModel& map);
   void insert(mapping::MapModel& map, const CloudQueue::Ready& ready);
   void publish(mapping::MapModel& map);
+  void publishHeartbeat(mapping::MapModel& map);
   void decay(mapping::MapModel& map);
   bool updateVehicleHeight(mapping::MapModel& map);
 
@@ -96,6 +97,7 @@ class ProjectedMapNode {
   ros::Subscriber cloud_subscriber_;
   ros::WallTimer cloud_timer_;
   ros::WallTimer publish_timer_;
+  ros::WallTimer heartbeat_timer_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -3,6 +3,7 @@
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
@@ -51,6 +52,11 @@ bool ProjectedMapPublisher::hasSubscribers() const {
 
 void ProjectedMapPublisher::publish(MapModel& map, const ros::Time& stamp) {
   if (!hasSubscribers()) return;
+  send(map, stamp);
+  newest_published_cloud_ = newest_cloud_;
+}
+
+void ProjectedMapPublisher::send(MapModel& map, const ros::Time& stamp) {
   const OccupancyGrid& grid = map.grid();
   const ProjectionChange change = map.takeChange();
   const ProjectedMapOptions& options = map.options();
@@ -67,6 +73,17 @@ void ProjectedMapPublisher::publish(MapModel& map, const ros::Time& stamp) {
     update.header.stamp = stamp;
     update_publisher_.publish(update);
   }
+}
+
+void ProjectedMapPublisher::countCloud(const ros::Time& stamp, const ros::Time& now) {
+  if (stamp > newest_cloud_ || newest_cloud_ > now) newest_cloud_ = std::min(stamp, now);
+}
+
+void ProjectedMapPublisher::publishHeartbeat(const std::string& frame_id) {
+  map_msgs::OccupancyGridUpdate heartbeat;
+  heartbeat.header.frame_id = frame_id;
+  heartbeat.header.stamp = newest_published_cloud_;
+  update_publisher_.publish(heartbeat);
 }
 
 }  // namespace grid_path_planner::nodes

@@ -5,6 +5,10 @@
 // Otherwise an update holds the smallest rectangle around the changed cells. Without subscribers
 // nothing is projected: the changes wait in the tree.
 //
+// A heartbeat is an update of 0x0 cells. It tells receivers that the mapping lives and up to when
+// the map holds what was seen: its stamp is that of the newest cloud in the map as published, 0
+// before the first.
+//
 // Not guaranteed: a current map for a second subscriber inside of one process. roscpp gives it the
 // last whole map without a callback; with updates that map may be out of date.
 #pragma once
@@ -14,6 +18,7 @@
 
 #include <atomic>
 #include <functional>
+#include <string>
 
 #include "grid_path_planner/mapping/map_model.h"
 
@@ -27,11 +32,21 @@ class ProjectedMapPublisher {
   // Publishes the changes since the last call, if there are subscribers. In the mapping thread.
   void publish(mapping::MapModel& map, const ros::Time& stamp);
 
+  // A cloud of this stamp is in the tree. Stamps of clouds may be any number: what lies after `now`
+  // counts as `now`, and what was counted before ROS time jumped back is forgotten. In the mapping
+  // thread.
+  void countCloud(const ros::Time& stamp, const ros::Time& now);
+  // In the mapping thread.
+  void publishHeartbeat(const std::string& frame_id);
+
  private:
   bool hasSubscribers() const;
+  void send(mapping::MapModel& map, const ros::Time& stamp);
 
   std::atomic<bool> new_subscriber_{false};
-  bool sent_ = false;  // a whole map
+  bool sent_ = false;                 // a whole map
+  ros::Time newest_cloud_;            // in the tree
+  ros::Time newest_published_cloud_;  // in the map as it was published last
   ros::Publisher map_publisher_;
   ros::Publisher update_publisher_;
 };

@@ -9,6 +9,7 @@
 namespace grid_path_planner::nodes {
 namespace {
 
+using test::cloudOf;
 using test::CloudPoints;
 using test::valueAt;
 using test::wallAt;
@@ -21,6 +22,15 @@ class Publishing : public test::MappingTest {
     test::Process echo({"rostopic", "echo", "-n1", topic});
     EXPECT_TRUE(echo.waitForExit());
     return echo.output();
+  }
+  template <class Accept>
+  static bool beats(const Updates& updates, Accept accept) {
+    return updates
+        .waitFor(0,
+                 [&](const map_msgs::OccupancyGridUpdate& update) {
+                   return update.width == 0 && accept(update.header.stamp);
+                 })
+        .has_value();
   }
   bool insertsAll(int count) { return reports("inserted", std::to_string(count)); }
   static std::string configured(const std::string& name, const std::string& value) {
@@ -58,6 +68,27 @@ TEST_F(Publishing, OM75AChangeSendsItsRectangleOnly) {
   ASSERT_LT(row, update->height);
   EXPECT_EQ(update->data[row * update->width + column], 100);
   for (const auto& map : maps.all()) EXPECT_NE(valueAt(map, 2.05, 0.05), 100) << "no whole map";
+}
+
+// A driver could not tell a mapping that hangs, or is gone, from a map that does not change.
+TEST_F(Publishing, AHeartbeatTellsUpToWhenTheMapHoldsWhatWasSeen) {
+  std::vector<std::string> arguments = bounds_;
+  arguments.insert(arguments.end(), {"_always_send_full_map:=false", "_heartbeat_period:=0.05"});
+  startMapping(arguments);
+  const Updates updates(nh_, "projected_map_updates");
+  const auto heartbeat = updates.waitForMoreThan(2);
+  ASSERT_TRUE(heartbeat) << "also before the first cloud";
+  EXPECT_EQ(heartbeat->width + heartbeat->height + heartbeat->data.size(), 0u);
+  EXPECT_EQ(heartbeat->header.frame_id, "map");
+  EXPECT_TRUE(heartbeat->header.stamp.isZero());
+  sensor_msgs::PointCloud2 cloud = cloudOf(wallAt(2.0F), "map", ros::Time(1000.5));
+  clouds_.publish(cloud);
+  EXPECT_TRUE(beats(updates, [&](const ros::Time& stamp) { return stamp == cloud.header.stamp; }));
+  const ros::Time before = ros::Time::now();
+  cloud.header.stamp = ros::TIME_MAX;
+  clouds_.publish(cloud);
+  EXPECT_TRUE(beats(updates, [&](const ros::Time& stamp) { return stamp >= before; }));
+  for (const auto& update : updates.all()) EXPECT_LE(update.header.stamp, ros::Time::now());
 }
 
 TEST_F(Publishing, EveryNewSubscriberGetsAFreshWholeMap) {

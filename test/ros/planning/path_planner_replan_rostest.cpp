@@ -93,6 +93,25 @@ TEST_F(ReplanTest, UpdatesOlderThanTheMapAreDroppedAndThoseOutOfItRefused) {
 }
 
 // navigation2 #2381, #2085, navigation #1194: replans flip left and right.
+// The heartbeat of projected_map: an update of no cells was dropped with a warning as older than the
+// map, or was a change of the map that everything was made anew for.
+TEST_F(ReplanTest, AHeartbeatIsNoChangeOfTheMap) {
+  startPlanner();
+  const auto beat = [&] {
+    for (const ros::Time& stamp : {ros::Time(0), ros::Time::now(), ros::TIME_MAX})
+      sendUpdate(0, 0, 0, 0, {}, stamp);
+  };
+  beat();
+  publishMap(kTwoWays);
+  const std::size_t maps = planning_maps_.count();
+  beat();
+  sendUpdate(3, 2, 1, 1, {100});
+  const auto changed = planning_maps_.waitForMoreThan(maps);
+  ASSERT_TRUE(changed);
+  EXPECT_EQ(changed->data[2 * 7 + 3], 100) << "nothing was published for the heartbeats";
+  for (const rosgraph_msgs::Log& line : log_.all()) EXPECT_LT(line.level, line.WARN) << line.msg;
+}
+
 TEST_F(ReplanTest, APathIsKeptWhileItIsAboutAsGoodAndReplacedWhenItIsNot) {
   startPlanner({"_replan_period:=0.02", "_replan_hysteresis:=0.2"});
   publishMap({"...........", ".....#.....", "...........", ".....#.....", "..........."});
