@@ -21,6 +21,8 @@ namespace {
 
 namespace po = boost::program_options;
 
+constexpr int kMostCells = 1 << 28;
+
 po::options_description projectOptions() {
   po::options_description known("Options");
   known.add_options()("octree", po::value<std::string>()->required(), "octree file, .bt or .ot")(
@@ -61,6 +63,7 @@ ProjectionOptions optionsOf(const po::variables_map& values) {
   const bool vehicle = options.reference == ProjectionReference::VEHICLE;
   if (vehicle != (values.count("vehicle-z") != 0))
     throw InputError("--vehicle-z and --reference vehicle go together");
+  options.max_cells = kMostCells;
   checkProjectionOptions(options);
   return options;
 }
@@ -83,6 +86,9 @@ OccupancyGrid projected(const po::variables_map& values) {
   Projection projection(octree.options().resolution, options);
   projection.setVehicleHeight(numberOf(values, "vehicle-z", 0.0));
   projection.update(octree.bricks());
+  if (projection.columnsLeftOut() > 0)
+    throw InputError("the tree reaches farther than a map of " + std::to_string(kMostCells) +
+                     " cells: give --bounds");
   return projection.grid();
 }
 

@@ -72,6 +72,7 @@ MapModel::Inserted MapModel::insert(std::vector<Eigen::Vector3d> points,
   const FilteredCloud cloud = filterCloud(std::move(points), frames, options_.cloud);
   inserted.ground_missed = cloud.ground_missed;
   inserted.left_out = map_.insert(cloud.scan);
+  projection_.setSensor(cloud.scan.origin.x(), cloud.scan.origin.y());
   ++revision_;
   inserted.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -99,6 +100,11 @@ const OccupancyGrid& MapModel::grid() {
   change_.geometry = change_.geometry || change.geometry;
   change_.cells = change_.cells.hull(change.cells);
   return projection_.grid();
+}
+
+double MapModel::areaLeftOut() const {
+  const double side = 8.0 * map_.options().resolution;
+  return static_cast<double>(projection_.columnsLeftOut()) * side * side;
 }
 
 ProjectionChange MapModel::takeChange() {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mapping/column_values.h"
+#include "mapping/extent.h"
 #include "mapping/seabed.h"
 
 namespace grid_path_planner::mapping {
@@ -45,42 +46,12 @@ CellRect cellsOf(const ProjectionBounds& bounds, double resolution) {
   return {x, y, end(bounds.max_x) - x, end(bounds.max_y) - y};
 }
 
-CellRect cellsOf(BrickColumn column) {
-  return {8 * column.x - kKeyOfZero, 8 * column.y - kKeyOfZero, 8, 8};
-}
-
-CellRect cellsOf(const std::vector<BrickColumn>& columns) {
-  CellRect cells;
-  for (const BrickColumn column : columns) cells = cells.hull(cellsOf(column));
-  return cells;
-}
-
-// By how many cells one side grows that lacks `wanted` cells: with spare ones, at most `room`.
-int growthOf(int wanted, int length, int room) {
-  if (wanted <= 0) return 0;
-  const int spare = std::max(length / 64 * 8, 32);
-  return std::min(wanted + spare, room);
-}
-
-// `present` grown so that it holds `wanted`, with spare cells on the sides that grow.
-CellRect grown(const CellRect& present, const CellRect& wanted) {
-  const int left =
-      growthOf(present.column - wanted.column, present.width, present.column + kKeyOfZero);
-  const int below = growthOf(present.row - wanted.row, present.height, present.row + kKeyOfZero);
-  const int right = growthOf(wanted.column + wanted.width - present.column - present.width,
-                             present.width, kKeyOfZero - present.column - present.width);
-  const int above = growthOf(wanted.row + wanted.height - present.row - present.height,
-                             present.height, kKeyOfZero - present.row - present.height);
-  return {present.column - left, present.row - below, present.width + left + right,
-          present.height + below + above};
-}
-
 // Throws InputError for a grid that is too large.
 GridGeometry geometryOf(const CellRect& cells, double resolution) {
   if (static_cast<std::int64_t>(cells.width) * cells.height > kMostCells)
     throw InputError("the 2-D map would have " + std::to_string(cells.width) + "x" +
-                     std::to_string(cells.height) +
-                     " cells: give projection_bounds, or a max_range against stray rays");
+                     std::to_string(cells.height) + " cells, at most " +
+                     std::to_string(kMostCells) + " can be held");
   return GridGeometry(cells.width, cells.height, resolution,
                       {cells.column * resolution, cells.row * resolution, 0.0});
 }
@@ -88,7 +59,7 @@ GridGeometry geometryOf(const CellRect& cells, double resolution) {
 }  // namespace
 
 Projection::Projection(double resolution, const ProjectionOptions& options)
-    : resolution_(resolution) {
+    : resolution_(resolution), extent_(std::make_unique<Extent>(resolution)) {
   setOptions(options);
   setGeometry(options_.bounds.given() ? cellsOf(options_.bounds, resolution_)
                                       : CellRect{0, 0, 1, 1});
@@ -101,7 +72,7 @@ Projection& Projection::operator=(Projection&&) noexcept = default;
 void Projection::setOptions(const ProjectionOptions& options) {
   checkProjectionOptions(options);
   if (options.bounds.given()) geometryOf(cellsOf(options.bounds, resolution_), resolution_);
-  if (options.bounds.given() != options_.bounds.given()) sized_ = false;
+  if (options.bounds.given() != options_.bounds.given()) extent_->restart();
   options_ = options;
   all_columns_pending_ = true;
 }
@@ -112,10 +83,18 @@ void Projection::setVehicleHeight(double z) {
   if (options_.reference == ProjectionReference::VEHICLE) all_columns_pending_ = true;
 }
 
+void Projection::setSensor(double x, double y) {
+  extent_->setSensor(x, y);
+}
+
+std::size_t Projection::columnsLeftOut() const {
+  return options_.bounds.given() ? 0 : extent_->leftOut();
+}
+
 ProjectionChange Projection::update(OccupancyBricks& bricks) {
   collectColumns(bricks);
   ProjectionChange change;
-  change.geometry = fitGeometry();
+  change.geometry = fitGeometry(bricks);
   projectColumns(bricks, change.cells);
   return change;
 }
@@ -138,19 +117,19 @@ void Projection::collectColumns(OccupancyBricks& bricks) {
 }
 
 // Returns whether the geometry had to change.
-bool Projection::fitGeometry() {
-  const CellRect wanted = wantedCells();
+bool Projection::fitGeometry(const OccupancyBricks& bricks) {
+  const bool complete = columnsLeftOut() == 0;
+  const CellRect wanted = options_.bounds.given()
+                              ? cellsOf(options_.bounds, resolution_)
+                              : extent_->fit(cells_, pending_columns_, bricks, options_);
   if (wanted == cells_) return false;
   setGeometry(wanted);
-  sized_ = true;
+  if (!complete) {
+    const std::vector<BrickColumn> columns = bricks.columns();
+    pending_columns_.insert(pending_columns_.end(), columns.begin(), columns.end());
+    sortUnique(pending_columns_);
+  }
   return true;
-}
-
-CellRect Projection::wantedCells() const {
-  if (options_.bounds.given()) return cellsOf(options_.bounds, resolution_);
-  const CellRect needed = cellsOf(pending_columns_);
-  if (needed.empty()) return cells_;
-  return sized_ ? grown(cells_, needed.hull(cells_)) : needed;
 }
 
 // A new grid with the values of the old one.

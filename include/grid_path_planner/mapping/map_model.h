@@ -49,10 +49,11 @@ class MapModel {
   // Of the vehicle, m in the frame of the map.
   void setVehicleHeight(double z) { projection_.setVehicleHeight(z); }
 
-  // Throws InputError where the 2-D map would be too large; it stays as it was then.
   const grid::OccupancyGrid& grid();
   // What changed in grid() since the last call.
   ProjectionChange takeChange();
+  // What the tree holds beyond the 2-D map, for projection_max_cells: m^2, in steps of 8x8 cells.
+  double areaLeftOut() const;
   // How often the tree has been projected.
   std::uint64_t projections() const { return projections_; }
 

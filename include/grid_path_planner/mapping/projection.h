@@ -13,8 +13,10 @@
 // Guaranteed: after update() the grid is what a new Projection with the same geometry would make of
 // the same tree, whatever the order of changes. Only brick columns that changed are projected (with
 // the reference SEABED also those within seabed_radius of them). The band never changes the tree.
-// The origin lies on the voxel lattice, so cells keep their places as the grid grows. The grid never
-// shrinks; a tree that was emptied gives the same geometry, all unknown.
+// The origin lies on the voxel lattice, so cells keep their places as the grid grows. The grid
+// shrinks only where the tree reaches farther than a grid of max_cells: then it holds the densest
+// part and the sensor's surroundings (mapping/extent.h), and columnsLeftOut() says how much it does
+// not hold. A tree that was emptied gives the same geometry, all unknown.
 //
 // Not guaranteed: the tightest extent. It consists of whole brick columns, and a side that grows
 // takes an eighth of its length (or four bricks) more than it needs, so that an exploring vehicle
@@ -32,6 +34,7 @@
 
 namespace grid_path_planner::mapping {
 
+class Extent;
 class Seabed;
 
 struct ProjectionChange {
@@ -57,20 +60,23 @@ class Projection {
   // where it moved by more than a voxel, the next update() projects every column again.
   void setVehicleHeight(double z);
 
-  // Drains the changed columns of `bricks`, which are always the same ones. Throws InputError where
-  // the grid would have more than 2^28 cells (stray rays: give bounds); the grid is then as it was
-  // and no change is lost.
+  // Where the newest scan was taken, m: what lies around it is in the grid.
+  void setSensor(double x, double y);
+
+  // Drains the changed columns of `bricks`, which are always the same ones.
   ProjectionChange update(OccupancyBricks& bricks);
 
   const grid::OccupancyGrid& grid() const { return grid_; }
+
+  // Columns of 8x8 cells of the tree that the grid does not hold, for max_cells; 0 with bounds.
+  std::size_t columnsLeftOut() const;
 
  private:
   // A value for each of the 8x8 cells of a brick column; cell (x, y) stands at y * 8 + x.
   using ColumnValues = std::array<std::int8_t, 64>;
 
   void collectColumns(OccupancyBricks& bricks);
-  bool fitGeometry();
-  grid::CellRect wantedCells() const;
+  bool fitGeometry(const OccupancyBricks& bricks);
   void setGeometry(const grid::CellRect& cells);
   void projectColumns(const OccupancyBricks& bricks, grid::CellRect& changed);
   void addSeabedNeighbours(const OccupancyBricks& bricks);
@@ -84,9 +90,9 @@ class Projection {
   double vehicle_height_ = 0.0;  // m, as the grid has it
   grid::OccupancyGrid grid_;
   grid::CellRect cells_;             // of the grid, counted from the cell that begins at (0, 0) m
-  bool sized_ = false;               // by columns of the tree, not only to have a cell
   bool all_columns_pending_ = true;  // every column is to be projected
   std::vector<BrickColumn> pending_columns_;
+  std::unique_ptr<Extent> extent_;  // without bounds
   std::unique_ptr<Seabed> seabed_;  // with the reference SEABED
 };
 

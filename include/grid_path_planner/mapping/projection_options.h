@@ -33,6 +33,8 @@ struct ProjectionOptions {
   double seabed_radius = 1.0;     // m
   double seabed_max_slope = 0.5;  // metres up per metre along
   ProjectionBounds bounds;
+  int max_cells = 25000000;
+  double keep_around = 20.0;  // m
 };
 
 // All but the band, which has other names in each program.
@@ -57,6 +59,16 @@ void visitOptions(ProjectionOptions& o, Visitor&& visit) {
         base::OptionInfo{"Largest x of the 2-D map", "m", -1e5, 1e5});
   visit("projection_bounds/max_y", o.bounds.max_y,
         base::OptionInfo{"Largest y of the 2-D map", "m", -1e5, 1e5});
+  visit(
+      "projection_max_cells", o.max_cells,
+      base::OptionInfo{"Most cells of the 2-D map without bounds; of a tree that reaches farther, "
+                       "as by a stray ray, it holds the densest part, and says what it leaves out",
+                       "cells", 1024, 268435456});
+  visit(
+      "projection_keep_around", o.keep_around,
+      base::OptionInfo{"What lies within this distance of the sensor is never left out of the 2-D "
+                       "map, as far as projection_max_cells allows",
+                       "m", 0.0, 10000.0});
 }
 
 // Throws InputError naming the option for a value outside its limits, a band or bounds that hold

@@ -43,7 +43,7 @@ void MappingDiagnostics::measure(const MapModel& map) {
   const auto start = Clock::now();
   if (start < measure_not_before_) return;
   const Figures figures{map.map().tree().size(), map.map().memoryUsage(),
-                        map.map().options().resolution, map.projections()};
+                        map.map().options().resolution, map.projections(), map.areaLeftOut()};
   const auto end = Clock::now();
   measure_not_before_ = end + kRestAfterCounting * (end - start);
   std::lock_guard<std::mutex> lock(mutex_);
@@ -81,10 +81,13 @@ void MappingDiagnostics::reportClouds(diagnostic_updater::DiagnosticStatusWrappe
 void MappingDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
   std::lock_guard<std::mutex> lock(mutex_);
   status.summary(DiagnosticStatus::OK, figures_.nodes == 0 ? "the map is empty" : "a map is there");
+  if (figures_.area_left_out > 0.0)
+    status.summary(DiagnosticStatus::WARN, "projected_map leaves out a part of what was seen");
   status.add("nodes", figures_.nodes);
   status.add("bytes", figures_.bytes);
   status.add("resolution", figures_.resolution);
   status.add("projections", figures_.projections);
+  status.add("left_out_m2", figures_.area_left_out);
   status.add("tree_messages", octree_.builds());
 }
 

@@ -4,7 +4,8 @@
 //   clouds: received, inserted, waiting, dropped (each with its reason), last_insertion_s,
 //           mean_insertion_s; a warning while clouds are dropped
 //   map:    nodes, bytes and projections (counted seldom where counting takes long), resolution,
-//           tree_messages: how often the 3-D topics were built
+//           left_out_m2: what the 2-D map does not hold of the tree, for projection_max_cells, with a
+//           warning, tree_messages: how often the 3-D topics were built
 //
 // All received clouds are in the map when waiting is 0 and received is inserted + dropped.
 #pragma once
@@ -40,6 +41,7 @@ class MappingDiagnostics {
     std::size_t bytes = 0;
     double resolution = 0.0;  // m
     std::uint64_t projections = 0;
+    double area_left_out = 0.0;  // m^2
   };
 
   void onTimer();

@@ -201,6 +201,10 @@ void ProjectedMapNode::publish(MapModel& map) {
   } catch (const InputError& error) {
     ROS_ERROR_STREAM_THROTTLE(10.0, "projected_map stays as it was: " << error.what());
   }
+  if (const double area = map.areaLeftOut(); area > 0.0)
+    ROS_WARN_STREAM_THROTTLE(10.0, "projected_map leaves out "
+                                       << area << " m^2 that were seen: "
+                                       << "they do not fit into projection_max_cells");
   octree_publisher_->publish(map, stamp);
 }
 

@@ -131,6 +131,21 @@ TEST_F(Publishing, OS26ChangedGeometryIsAWholeMapAndNothingShifts) {
   EXPECT_LT(grown->info.origin.position.x, -3.95);
 }
 
+// A ray that strays to 1600 m: no projection came any more, and diagnostics said OK.
+TEST_F(Publishing, AStrayRayIsToldAndTheMapGoesOnChanging) {
+  startMapping();
+  const Maps maps(nh_, "projected_map");
+  CloudPoints points = wallAt(2.0F);
+  points.emplace_back(1600.0F, 1600.0F, 0.0F);
+  points.emplace_back(-1600.0F, -1600.0F, 0.0F);
+  publish(points);
+  EXPECT_TRUE(becomes(maps, 2.05, 0.05, 100));
+  publish(wallAt(-3.0F));
+  EXPECT_TRUE(becomes(maps, -2.95, 0.05, 100));
+  EXPECT_TRUE(test::waitFor([&] { return std::atof(reported("left_out_m2", "map").c_str()) > 0; }));
+  EXPECT_TRUE(node_->says("projected_map leaves out"));
+}
+
 // octomap_mapping#75: what nobody wanted to see was built with every cloud.
 TEST_F(Publishing, OM75NothingIsBuiltThatNobodySubscribesTo) {
   startMapping();
