@@ -21,17 +21,17 @@ const ProjectedMapOptions& checked(const ProjectedMapOptions& options) {
   return options;
 }
 
-OctreeMap mapOf(const ProjectedMapOptions& options) {
+OctreeMap mapOf(const ProjectedMapOptions& options, const std::string& file) {
   OctreeMap map(options.octree);
-  if (!options.filename.empty()) map.load(options.filename);
+  if (!file.empty()) map.load(file);
   return map;
 }
 
 }  // namespace
 
-MapModel::MapModel(const ProjectedMapOptions& options)
+MapModel::MapModel(const ProjectedMapOptions& options, const std::string& begin_with)
     : options_(checked(options)),
-      map_(mapOf(options)),
+      map_(mapOf(options, begin_with.empty() ? options.filename : begin_with)),
       projection_(map_.options().resolution, projectionOptions(options)) {
   options_.octree.resolution = map_.options().resolution;
 }

@@ -111,6 +111,10 @@ void OctreeMap::save(const base::OutputFile& file) const {
   writeTreeFile(*tree_, file);
 }
 
+std::string OctreeMap::fileText(const std::vector<std::string>& comments) const {
+  return treeText(*tree_, comments);
+}
+
 std::size_t OctreeMap::memoryUsage() const {
   return tree_->memoryUsage() + bricks_.memoryUsage() + insertion_->memoryUsage();
 }

@@ -160,7 +160,31 @@ class TreeReader {
   MapTree& tree_;
 };
 
+// Log odds, then a bit for each child, as octomap::OcTree writes them, some ten times as fast.
+void appendNodes(const MapTree& tree, const Node* node, std::string& text) {
+  const float value = node->getLogOdds();
+  text.append(reinterpret_cast<const char*>(&value), sizeof value);
+  unsigned children = 0;
+  for (unsigned i = 0; i < 8; ++i) children |= tree.nodeChildExists(node, i) ? 1u << i : 0;
+  text.push_back(static_cast<char>(children));
+  for (unsigned i = 0; i < 8; ++i)
+    if (children >> i & 1) appendNodes(tree, tree.getNodeChild(node, i), text);
+}
+
 }  // namespace
+
+std::string treeText(const MapTree& tree, const std::vector<std::string>& comments) {
+  std::ostringstream header;
+  header.imbue(std::locale::classic());
+  header.precision(17);
+  header << kFullFirstLine << '\n';
+  for (const std::string& comment : comments) header << "# " << comment << '\n';
+  header << "id OcTree\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+  std::string text = header.str();
+  text.reserve(text.size() + tree.size() * (sizeof(float) + 1));
+  if (tree.getRoot()) appendNodes(tree, tree.getRoot(), text);
+  return text;
+}
 
 std::unique_ptr<MapTree> readTreeFile(const std::string& file, const OctreeOptions& model) {
   const std::string content = readWholeFile(file, kLargestFile);
@@ -171,15 +195,12 @@ std::unique_ptr<MapTree> readTreeFile(const std::string& file, const OctreeOptio
 }
 
 void writeTreeFile(const MapTree& tree, const OutputFile& file) {
+  if (endsWith(file.name(), ".ot")) return writeFileAtomically(file, treeText(tree));
+  if (!endsWith(file.name(), ".bt")) throw InputError(file.name(), "must end in .bt or .ot");
   std::ostringstream content;
   content.imbue(std::locale::classic());
   content.precision(17);
-  if (endsWith(file.name(), ".ot"))
-    tree.write(content);
-  else if (endsWith(file.name(), ".bt"))
-    octomap::OcTree(tree).writeBinary(content);  // rounds and prunes what it is given
-  else
-    throw InputError(file.name(), "must end in .bt or .ot");
+  octomap::OcTree(tree).writeBinary(content);  // rounds and prunes what it is given
   writeFileAtomically(file, content.str());
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "grid_path_planner/base/files.h"
 #include "mapping/map_tree.h"
@@ -13,6 +14,9 @@ namespace grid_path_planner::mapping {
 // truncated file; this one throws InputError naming the file where it is missing, is not a tree, is
 // of another kind than OcTree, ends early, goes on after the tree, or contradicts its header.
 std::unique_ptr<MapTree> readTreeFile(const std::string& file, const OctreeOptions& model);
+
+// What a .ot file of the tree holds, with `comments` as lines of its own after the first one.
+std::string treeText(const MapTree& tree, const std::vector<std::string>& comments = {});
 
 // By the file's ending, atomically. Throws InputError naming the file.
 void writeTreeFile(const MapTree& tree, const base::OutputFile& file);

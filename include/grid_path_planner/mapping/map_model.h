@@ -24,8 +24,9 @@ namespace grid_path_planner::mapping {
 class MapModel {
  public:
   // Throws InputError for options and for a file that cannot be used. The resolution of a file
-  // replaces that of the options.
-  explicit MapModel(const ProjectedMapOptions& options);
+  // replaces that of the options. `begin_with`, where it is not empty, is loaded instead of
+  // options.filename.
+  explicit MapModel(const ProjectedMapOptions& options, const std::string& begin_with = "");
 
   // Throws InputError for options that cannot be used or not be changed (frame_id, resolution,
   // latch), and for a new filename that cannot be loaded; then nothing has changed.

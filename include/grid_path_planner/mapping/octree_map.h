@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/mapping/occupancy_bricks.h"
@@ -76,6 +77,9 @@ class OctreeMap {
   // By the file's ending: .bt holds free, occupied and unknown, .ot the log odds. The file is whole
   // or as it was. Throws InputError naming the file for another ending or if it cannot be written.
   void save(const base::OutputFile& file) const;
+
+  // What save() writes to a .ot file, with lines of comment after the first line.
+  std::string fileText(const std::vector<std::string>& comments) const;
 
   const octomap::OcTree& tree() const;
   const OccupancyBricks& bricks() const { return bricks_; }

@@ -64,6 +64,7 @@ struct ProjectedMapOptions {
 
   std::string map_file;
   std::string octree_file;
+  double autosave_period = 5.0;  // s of the wall clock; 0: never
 };
 
 // Groups of the options, in the order of visitOptions.
@@ -157,6 +158,11 @@ void visitOptions(ProjectedMapOptions& o, Visitor&& visit) {
             "Where ~save_octree writes, below the folder to save in, .bt or .ot, if its request "
             "names no file",
             ""});
+  visit("autosave_period", o.autosave_period,
+        base::OptionInfo{"How old the file is at most that this node begins with when it was ended "
+                         "and starts again under the same roscore; 0: there is none, and such a "
+                         "node begins empty; read at the start",
+                         "s", 0.0, 3600.0});
 }
 
 // The projection's options with their band. Throws InputError for a projection_min_z or

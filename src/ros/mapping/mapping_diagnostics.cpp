@@ -22,14 +22,16 @@ std::uint64_t sumOf(const std::map<std::string, std::uint64_t>& dropped) {
 
 MappingDiagnostics::MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
                                        const CloudQueue& queue, MappingThread& thread,
-                                       const OctreePublisher& octree)
+                                       const OctreePublisher& octree, const MapAutosave* autosave)
     : queue_(queue),
       thread_(thread),
       octree_(octree),
+      autosave_(autosave),
       updater_(nh, private_nh, private_nh.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("clouds", this, &MappingDiagnostics::reportClouds);
   updater_.add("map", this, &MappingDiagnostics::reportMap);
+  if (autosave_) updater_.add("autosave", this, &MappingDiagnostics::reportAutosave);
   timer_ = nh.createWallTimer(ros::WallDuration(updater_.getPeriod()),
                               [this](const ros::WallTimerEvent&) { onTimer(); });
 }
@@ -89,6 +91,16 @@ void MappingDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& 
   status.add("projections", figures_.projections);
   status.add("left_out_m2", figures_.area_left_out);
   status.add("tree_messages", octree_.builds());
+}
+
+void MappingDiagnostics::reportAutosave(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const MapAutosave::State state = autosave_->state();
+  if (state.problem.empty())
+    status.summary(DiagnosticStatus::OK, "the map is kept for a node that starts again");
+  else
+    status.summary(DiagnosticStatus::WARN, "the map is not kept: " + state.problem);
+  status.add("age_s", state.age);
+  status.add("newest_cloud", state.newest_cloud);
 }
 
 }  // namespace grid_path_planner::nodes

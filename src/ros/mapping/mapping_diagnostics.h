@@ -7,6 +7,9 @@
 //           left_out_m2: what the 2-D map does not hold of the tree, for projection_max_cells, with a
 //           warning, tree_messages: how often the 3-D topics were built
 //
+//   autosave: age_s of the file that a node begins with when it starts again, below 0: none yet;
+//           newest_cloud: the stamp of the newest cloud in it; a warning where it cannot be written
+//
 // All received clouds are in the map when waiting is 0 and received is inserted + dropped.
 #pragma once
 
@@ -19,6 +22,7 @@
 
 #include "grid_path_planner/mapping/map_model.h"
 #include "ros/mapping/cloud_queue.h"
+#include "ros/mapping/map_autosave.h"
 #include "ros/mapping/mapping_thread.h"
 #include "ros/mapping/octree_publisher.h"
 
@@ -26,9 +30,10 @@ namespace grid_path_planner::nodes {
 
 class MappingDiagnostics {
  public:
-  // `queue`, `thread` and `octree` outlive this.
+  // `queue`, `thread`, `octree` and `autosave` outlive this; the last is null where there is none.
   MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, const CloudQueue& queue,
-                     MappingThread& thread, const OctreePublisher& octree);
+                     MappingThread& thread, const OctreePublisher& octree,
+                     const MapAutosave* autosave);
   ~MappingDiagnostics() { timer_.stop(); }
 
   // Records an insertion. Thread-safe.
@@ -48,10 +53,12 @@ class MappingDiagnostics {
   void measure(const mapping::MapModel& map);
   void reportClouds(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportMap(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportAutosave(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   const CloudQueue& queue_;
   MappingThread& thread_;
   const OctreePublisher& octree_;
+  const MapAutosave* autosave_;
   std::mutex mutex_;
   Figures figures_;
   double last_insertion_ = 0.0;  // s

@@ -48,8 +48,12 @@ Eigen::Vector3d vectorOf(const geometry_msgs::Point& point) {
 }  // namespace
 
 MappingServices::MappingServices(ros::NodeHandle private_nh, MappingThread& thread,
-                                 const NodeFiles& files, std::function<void()> on_change)
-    : thread_(thread), files_(files), on_change_(std::move(on_change)) {
+                                 const NodeFiles& files, std::function<void()> on_change,
+                                 std::function<void()> on_reset)
+    : thread_(thread),
+      files_(files),
+      on_change_(std::move(on_change)),
+      on_reset_(std::move(on_reset)) {
   reset_ = private_nh.advertiseService("reset", &MappingServices::reset, this);
   clear_box_ = private_nh.advertiseService("clear_bbx", &MappingServices::clearBox, this);
   save_map_ = private_nh.advertiseService("save_map", &MappingServices::saveMap, this);
@@ -62,7 +66,10 @@ void MappingServices::shutdown() {
 }
 
 bool MappingServices::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-  thread_.run([](MapModel& map) { map.reset(); });
+  thread_.run([this](MapModel& map) {
+    on_reset_();
+    map.reset();
+  });
   ROS_INFO("The map was reset");
   on_change_();
   return true;

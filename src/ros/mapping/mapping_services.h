@@ -1,6 +1,7 @@
 // The services of projected_map that change the map or write it to a file.
 //
-//   ~reset        std_srvs/Empty               empties the map
+//   ~reset        std_srvs/Empty               empties the map, and removes what was kept of it for a
+//                                              node that starts again
 //   ~clear_bbx    octomap_msgs/BoundingBoxQuery where there is octomap_msgs, else
 //                 grid_path_planner/ClearBox, which has the same MD5 sum
 //   ~save_map     grid_path_planner/SaveFile   projected_map as a map_server YAML and its image
@@ -36,9 +37,10 @@ using ClearBoxService = ClearBox;
 
 class MappingServices {
  public:
-  // `thread` and `files` outlive this; `on_change` is called after every change of the map.
+  // `thread` and `files` outlive this; `on_change` is called after every change of the map, `on_reset`
+  // in the mapping thread before the map is emptied.
   MappingServices(ros::NodeHandle private_nh, MappingThread& thread, const NodeFiles& files,
-                  std::function<void()> on_change);
+                  std::function<void()> on_change, std::function<void()> on_reset);
 
   void shutdown();
 
@@ -51,6 +53,7 @@ class MappingServices {
   MappingThread& thread_;
   const NodeFiles& files_;
   std::function<void()> on_change_;
+  std::function<void()> on_reset_;
   ros::ServiceServer reset_, clear_box_, save_map_, save_octree_;
 };
 

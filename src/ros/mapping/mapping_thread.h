@@ -22,7 +22,9 @@ class MappingThread {
   using Work = std::function<void(mapping::MapModel&)>;
 
   // Throws as MapModel does.
-  explicit MappingThread(const mapping::ProjectedMapOptions& options) : map_(options) {}
+  explicit MappingThread(const mapping::ProjectedMapOptions& options,
+                         const std::string& begin_with = "")
+      : map_(options, begin_with) {}
 
   // Does `work` next and waits for its end. Rethrows its exceptions.
   void run(const Work& work);

@@ -53,6 +53,19 @@ CloudQueueOptions queueOptions(const ProjectedMapOptions& options) {
           options.tf_timeout, options.queue_size};
 }
 
+// With the map that was kept; where it cannot be read, as without it.
+std::unique_ptr<MappingThread> makeThread(const ProjectedMapOptions& options,
+                                          const MapAutosave* autosave) {
+  const std::string kept = autosave ? autosave->begin() : "";
+  if (kept.empty()) return std::make_unique<MappingThread>(options);
+  try {
+    return std::make_unique<MappingThread>(options, kept);
+  } catch (const InputError& error) {
+    ROS_ERROR_STREAM("The map that was kept is lost: " << error.what());
+    return std::make_unique<MappingThread>(options);
+  }
+}
+
 bool followsVehicle(const MapModel& map) {
   return map.options().projection.reference == ProjectionReference::VEHICLE;
 }
@@ -67,7 +80,10 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
       queue_(transforms_),
       service_spinner_(1, &service_queue_) {
   ProjectedMapOptions options = loadOptions(private_nh, files);
-  thread_ = std::make_unique<MappingThread>(withFile(options));
+  if (options.autosave_period > 0.0)
+    autosave_ = std::make_unique<MapAutosave>(files.saveFolder().path(), private_nh.getNamespace(),
+                                              options.frame_id);
+  thread_ = makeThread(withFile(options), autosave_.get());
   thread_->run([&](MapModel& map) { options = map.options(); });  // a file has its own resolution
   options.filename = filename_;
   queue_.setOptions(queueOptions(options));
@@ -80,9 +96,12 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   map_publisher_ = std::make_unique<ProjectedMapPublisher>(nh, options.latch, on_change);
   octree_publisher_ =
       std::make_unique<OctreePublisher>(nh, service_nh, options.latch, *thread_, on_change);
-  services_ = std::make_unique<MappingServices>(private_service_nh, *thread_, files_, on_change);
-  diagnostics_ =
-      std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *thread_, *octree_publisher_);
+  services_ =
+      std::make_unique<MappingServices>(private_service_nh, *thread_, files_, on_change, [this] {
+        if (autosave_) autosave_->remove();
+      });
+  diagnostics_ = std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *thread_,
+                                                      *octree_publisher_, autosave_.get());
   service_spinner_.start();
 
   cloud_subscriber_ = nh.subscribe<sensor_msgs::PointCloud2>(
@@ -90,6 +109,7 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   cloud_timer_ = nh.createWallTimer(ros::WallDuration(kCloudPeriod),
                                     [this](const ros::WallTimerEvent&) { resolveTransforms(); });
   startPublishing(options);
+  if (autosave_) startAutosave(options.autosave_period);
   complete_ = true;
   reconfigurable_ = std::make_unique<Reconfigurable<ProjectedMapConfig, ProjectedMapOptions>>(
       private_nh, options, [this](const ProjectedMapOptions& wanted) { use(wanted); });
@@ -100,10 +120,12 @@ ProjectedMapNode::~ProjectedMapNode() {
   cloud_timer_.stop();
   publish_timer_.stop();
   heartbeat_timer_.stop();
+  autosave_timer_.stop();
   reconfigurable_.reset();
   services_->shutdown();
   octree_publisher_->shutdown();
   service_spinner_.stop();
+  if (autosave_) thread_->run([this](MapModel& map) { save(map); });
   thread_->stop();
 }
 
@@ -134,6 +156,16 @@ void ProjectedMapNode::startPublishing(const ProjectedMapOptions& options) {
   heartbeat_timer_ = nh_.createWallTimer(
       ros::WallDuration(options.heartbeat_period), [this](const ros::WallTimerEvent&) {
         thread_->post("heartbeat", [this](MapModel& map) { publishHeartbeat(map); });
+      });
+}
+
+// Half of the period is left for the writing.
+void ProjectedMapNode::startAutosave(double period) {
+  thread_->run(
+      [this](MapModel&) { map_publisher_->countCloud(autosave_->newestCloud(), ros::TIME_MAX); });
+  autosave_timer_ =
+      nh_.createWallTimer(ros::WallDuration(period / 2.0), [this](const ros::WallTimerEvent&) {
+        thread_->post("autosave", [this](MapModel& map) { save(map); });
       });
 }
 
@@ -206,6 +238,10 @@ void ProjectedMapNode::publish(MapModel& map) {
                                        << area << " m^2 that were seen: "
                                        << "they do not fit into projection_max_cells");
   octree_publisher_->publish(map, stamp);
+}
+
+void ProjectedMapNode::save(const MapModel& map) {
+  autosave_->save(map, map_publisher_->newestCloud());
 }
 
 void ProjectedMapNode::publishHeartbeat(MapModel& map) {

@@ -14,7 +14,8 @@
 // The names are octomap_server's. Clouds are inserted, one after the other, as soon as tf knows
 // the pose of their sensor (cloud_queue.h); a cloud that cannot be used is dropped with its reason,
 // without effect on others. Where ROS time jumps back, as when a bag loops, tf and the waiting
-// clouds are cleared; the map stays.
+// clouds are cleared; the map stays. A node that was ended and starts again under the same roscore
+// begins with the map it had (map_autosave.h).
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -32,6 +33,7 @@
 #include "ros/common/frame_transforms.h"
 #include "ros/common/node_files.h"
 #include "ros/mapping/cloud_queue.h"
+#include "ros/mapping/map_autosave.h"
 #include "ros/mapping/mapping_diagnostics.h"
 #include "ros/mapping/mapping_services.h"
 #include "ros/mapping/mapping_thread.h"
@@ -67,12 +69,14 @@ class ProjectedMapNode {
   void resolveTransforms();
   void postInsertion();
   void postPublishing();
+  void startAutosave(double period);
 
   // In the map's thread
   void insertNext(mapping::MapModel& map);
   void insert(mapping::MapModel& map, const CloudQueue::Ready& ready);
   void publish(mapping::MapModel& map);
   void publishHeartbeat(mapping::MapModel& map);
+  void save(const mapping::MapModel& map);
   void decay(mapping::MapModel& map);
   bool updateVehicleHeight(mapping::MapModel& map);
 
@@ -83,6 +87,7 @@ class ProjectedMapNode {
   FrameTransforms transforms_;
   ClockWatch clock_;
   CloudQueue queue_;
+  std::unique_ptr<MapAutosave> autosave_;  // null: none
   std::unique_ptr<MappingThread> thread_;
   ros::Time decayed_until_;  // of the map's thread
   std::atomic<bool> complete_{false};
@@ -98,6 +103,7 @@ class ProjectedMapNode {
   ros::WallTimer cloud_timer_;
   ros::WallTimer publish_timer_;
   ros::WallTimer heartbeat_timer_;
+  ros::WallTimer autosave_timer_;
 };
 
 }  // namespace grid_path_planner::nodes

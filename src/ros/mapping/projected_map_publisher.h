@@ -36,6 +36,8 @@ class ProjectedMapPublisher {
   // counts as `now`, and what was counted before ROS time jumped back is forgotten. In the mapping
   // thread.
   void countCloud(const ros::Time& stamp, const ros::Time& now);
+  // Of the clouds counted. In the mapping thread.
+  const ros::Time& newestCloud() const { return newest_cloud_; }
   // In the mapping thread.
   void publishHeartbeat(const std::string& frame_id);
 

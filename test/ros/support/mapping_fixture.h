@@ -62,8 +62,9 @@ class MappingTest : public testing::Test {
   void startMapping(std::vector<std::string> arguments = {}) {
     node_.reset();
     ros::param::del("/projected_map");  // what was set before
-    arguments.insert(arguments.begin(), {"_resolution:=0.1", "_publish_rate:=50",
-                                         "_diagnostic_period:=0.1", "_heartbeat_period:=0"});
+    arguments.insert(arguments.begin(),
+                     {"_resolution:=0.1", "_publish_rate:=50", "_diagnostic_period:=0.1",
+                      "_heartbeat_period:=0", "_autosave_period:=0"});
     node_ = std::make_unique<Process>("projected_map", arguments);
     ASSERT_TRUE(waitFor([this] {
       return clouds_.getNumSubscribers() > 0 &&

@@ -1,0 +1,150 @@
+#include "ros/mapping/map_autosave.h"
+
+#include <ros/console.h>
+#include <ros/master.h>
+#include <ros/param.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/files.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using base::StopSource;
+using base::TaskQueue;
+using base::writeFileAtomically;
+using mapping::MapModel;
+
+namespace {
+
+constexpr char kSlot[] = "autosave";
+constexpr int kPause = 9;  // times what making the text took
+constexpr char kNewestCloud[] = "# newest cloud ";
+
+// "/a/projected_map" to "a.projected_map": names of nodes have no dots.
+std::string fileName(const std::string& node) {
+  std::string name = node.substr(std::min(node.find_first_not_of('/'), node.size()));
+  std::replace(name.begin(), name.end(), '/', '.');
+  return "." + name + "@" + ros::master::getHost() + "_" + std::to_string(ros::master::getPort()) +
+         ".ot";
+}
+
+bool isRunId(const std::string& text) {
+  const auto belongs = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-';
+  };
+  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), belongs);
+}
+
+std::string runId() {
+  std::string run;
+  if (ros::param::get("/run_id", run) && isRunId(run)) return run;
+  ROS_WARN(
+      "The master has no /run_id, as roscore sets it: the map is not kept for a node that starts "
+      "again");
+  return "";
+}
+
+}  // namespace
+
+MapAutosave::MapAutosave(const std::string& folder, const std::string& node,
+                         const std::string& frame_id)
+    : folder_(folder), file_(folder + "/" + fileName(node)), run_(runId()), frame_id_(frame_id) {}
+
+std::string MapAutosave::marker() const {
+  return "run " + run_ + ", frame " + frame_id_;
+}
+
+// The lines of the file that say whose it is and what is in it; "" without such a file.
+std::string MapAutosave::beginning() const {
+  std::ifstream file(file_, std::ios::binary);
+  std::string first, whose, newest;
+  if (run_.empty() || !std::getline(file, first) || !std::getline(file, whose) ||
+      !std::getline(file, newest) || whose != "# " + marker())
+    return "";
+  return newest;
+}
+
+std::string MapAutosave::begin() const {
+  if (!std::filesystem::exists(file_)) return "";
+  if (beginning().empty()) {
+    ROS_INFO_STREAM("Begins empty: the map in " << file_ << " is of another run or frame");
+    return "";
+  }
+  ROS_WARN_STREAM("Begins with the map that was kept in " << file_);
+  return file_;
+}
+
+ros::Time MapAutosave::newestCloud() const {
+  const std::string line = beginning();
+  if (line.compare(0, sizeof kNewestCloud - 1, kNewestCloud) != 0) return {};
+  std::istringstream numbers(line.substr(sizeof kNewestCloud - 1));
+  std::uint32_t seconds = 0, nanoseconds = 0;
+  if (!(numbers >> seconds >> nanoseconds) || nanoseconds >= 1000000000) return {};
+  return {seconds, nanoseconds};
+}
+
+void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud) {
+  const auto start = Clock::now();
+  const bool failed = !state().problem.empty();
+  if (run_.empty() || start < not_before_ || (map.revision() == saved_revision_ && !failed)) return;
+  const std::string newest =
+      std::to_string(newest_cloud.sec) + " " + std::to_string(newest_cloud.nsec);
+  std::string text = map.map().fileText({marker(), "newest cloud " + newest});
+  saved_revision_ = map.revision();
+  not_before_ = Clock::now() + kPause * (Clock::now() - start);
+  writer_.post([this, newest_cloud,
+                text = std::move(text)](const StopSource&) { write(text, newest_cloud); },
+               kSlot);
+}
+
+void MapAutosave::write(const std::string& text, const ros::Time& newest_cloud) {
+  State state;
+  state.newest_cloud = newest_cloud;
+  try {
+    std::error_code ignored;  // shows in the writing
+    std::filesystem::create_directories(folder_, ignored);
+    writeFileAtomically(file_, text);
+  } catch (const InputError& error) {
+    state.problem = error.what();
+    ROS_WARN_STREAM_THROTTLE(
+        10.0, "The map cannot be kept for a node that starts again: " << state.problem);
+  }
+  std::lock_guard<std::mutex> lock(mutex_);
+  if (state.problem.empty()) written_ = Clock::now();
+  state_ = state;
+}
+
+void MapAutosave::remove() {
+  writer_
+      .post(
+          [this](const StopSource&) {
+            std::error_code error;
+            std::filesystem::remove(file_, error);
+            if (error)
+              ROS_ERROR_STREAM(file_
+                               << " cannot be removed, a node that starts again begins with it: "
+                               << error.message());
+            std::lock_guard<std::mutex> lock(mutex_);
+            written_ = {};
+          },
+          kSlot, TaskQueue::Turn::NEXT)
+      ->wait();
+  saved_revision_ = 0;
+}
+
+MapAutosave::State MapAutosave::state() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  State state = state_;
+  if (written_ != Clock::time_point())
+    state.age = std::chrono::duration<double>(Clock::now() - written_).count();
+  return state;
+}
+
+}  // namespace grid_path_planner::nodes

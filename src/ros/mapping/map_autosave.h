@@ -1,0 +1,71 @@
+// The file that a projected_map begins with when it was ended and started again: a node that is
+// killed must not erase the world.
+//
+//   MapAutosave autosave(folder, private_nh.getNamespace(), "map");
+//   MapModel map(options, autosave.begin());   // the file of this run, if there is one
+//   autosave.save(map, newest_cloud);          // in the mapping thread, as often as wanted
+//
+// The file is an octree (.ot) below the folder, whose first lines name the run (the roscore's
+// /run_id) and the frame; one of another run or frame is not begun with. Its name holds the node's
+// name and the master's address, so that no two nodes write the same one, and begins with a dot, so
+// that no service can be asked to write it. The tree becomes text in the mapping thread, which takes
+// at most a tenth of its time; it is written by a thread of its own, beside, synced and renamed. What
+// cannot be written is warned of and tried again.
+#pragma once
+
+#include <ros/time.h>
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+#include "grid_path_planner/base/task_queue.h"
+#include "grid_path_planner/mapping/map_model.h"
+
+namespace grid_path_planner::nodes {
+
+class MapAutosave {
+ public:
+  // Asks the master for the run. `folder` need not exist; `node` is the node's full name.
+  MapAutosave(const std::string& folder, const std::string& node, const std::string& frame_id);
+
+  // The file of this run, "" where there is none, and the newest cloud in it. Says what was found.
+  std::string begin() const;
+  ros::Time newestCloud() const;
+
+  // Has the map written, unless it is in the file already.
+  void save(const mapping::MapModel& map, const ros::Time& newest_cloud);
+  // The file is gone when this returns, and what was still to be written is not written.
+  void remove();
+
+  // Thread-safe.
+  struct State {
+    double age = -1.0;       // s since the file was written; below 0: not yet
+    ros::Time newest_cloud;  // in it, or in what could not be written
+    std::string problem;     // why the last writing failed; empty: it did not
+  };
+  State state() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string marker() const;
+  std::string beginning() const;
+  void write(const std::string& text, const ros::Time& newest_cloud);
+
+  std::string folder_;
+  std::string file_;  // its path
+  std::string run_;   // "": unknown, then nothing is written
+  std::string frame_id_;
+
+  std::uint64_t saved_revision_ = 0;  // of the mapping thread, as the next
+  Clock::time_point not_before_;
+
+  mutable std::mutex mutex_;
+  State state_;
+  Clock::time_point written_;
+  base::TaskQueue writer_;
+};
+
+}  // namespace grid_path_planner::nodes

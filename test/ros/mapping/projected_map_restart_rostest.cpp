@@ -1,0 +1,169 @@
+// A projected_map that was killed, or ended, and starts again.
+#include <std_srvs/Empty.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "ros/support/mapping_fixture.h"
+#include "support/temporary_folder.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using test::cloudOf;
+using test::Process;
+using test::valueAt;
+using test::wallAt;
+
+class Restart : public test::MappingTest {
+ protected:
+  Restart() { ros::param::del("/projected_map"); }
+
+  void start(const std::vector<std::string>& more = {}) { startIn(folder_.path("."), more); }
+  void startIn(const std::string& folder, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"_resolution:=0.1",        "_publish_rate:=50",
+                                          "_diagnostic_period:=0.1", "_autosave_period:=0.2",
+                                          "--save-folder",           folder};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    node_.reset();
+    node_ = std::make_unique<Process>("projected_map", arguments);
+    ASSERT_TRUE(test::waitFor([this] { return clouds_.getNumSubscribers() > 0; }));
+  }
+  void kill() {
+    node_->signal(SIGKILL);
+    ASSERT_TRUE(node_->waitForExit());
+    ASSERT_TRUE(test::waitFor([this] { return clouds_.getNumSubscribers() == 0; }));
+  }
+  // Whether the last cloud comes to be in the file.
+  bool isKept() const {
+    std::ostringstream stamp;
+    stamp << last_stamp_;
+    return reports("newest_cloud", stamp.str(), "autosave");
+  }
+  static std::optional<nav_msgs::OccupancyGrid> firstMap(const Maps& maps) {
+    return maps.waitFor(0, [](const nav_msgs::OccupancyGrid&) { return true; });
+  }
+  static bool isEmpty(const nav_msgs::OccupancyGrid& map) {
+    return std::all_of(map.data.begin(), map.data.end(), [](std::int8_t v) { return v == -1; });
+  }
+  void mapWall(float x) {
+    const Maps maps(nh_, "projected_map");
+    last_stamp_ = ros::Time::now();
+    clouds_.publish(cloudOf(wallAt(x), "map", last_stamp_));
+    ASSERT_TRUE(becomes(maps, x + 0.05, 0.05, 100));
+  }
+
+  const test::TemporaryFolder folder_;
+  ros::Time last_stamp_;
+};
+
+// Every occupied cell of `before` is occupied in `after`.
+void expectNothingErased(const nav_msgs::OccupancyGrid& before,
+                         const nav_msgs::OccupancyGrid& after) {
+  const grid::OccupancyGrid grid = occupancyFromMessage(before);
+  for (std::uint32_t i = 0; i < grid.geometry().size(); ++i) {
+    if (grid[grid::CellIndex(i)] != 100) continue;
+    const auto at = grid.geometry().centre(grid.geometry().cell(grid::CellIndex(i)));
+    ASSERT_EQ(valueAt(after, at.x(), at.y()), 100) << at.transpose();
+  }
+}
+
+// A projected_map that was killed and respawned published an empty map one second later: what was
+// UNREACHABLE became a path through the wall.
+TEST_F(Restart, AMappingThatIsKilledDoesNotEraseTheWorld) {
+  start();
+  nav_msgs::OccupancyGrid before;
+  for (int round = 0; round < 4; ++round) {
+    SCOPED_TRACE("round " + std::to_string(round));
+    mapWall(1.5F + 0.5F * static_cast<float>(round));
+    ASSERT_TRUE(isKept());
+    const Maps maps(nh_, "projected_map");
+    ASSERT_TRUE(maps.waitForMoreThan(0));
+    before = maps.all().back();
+    kill();
+    const std::size_t seen = maps.count();
+    start();
+    EXPECT_TRUE(node_->says("Begins with the map that was kept in"));
+    ASSERT_TRUE(maps.waitForMoreThan(seen));
+    const auto all = maps.all();
+    for (std::size_t i = seen; i < all.size(); ++i) expectNothingErased(before, all[i]);
+  }
+}
+
+TEST_F(Restart, WhatIsMappedBeforeAnOrderlyEndIsKept) {
+  start({"_autosave_period:=1000"});
+  mapWall(1.5F);
+  start({"_autosave_period:=1000"});
+  const Maps maps(nh_, "projected_map");
+  ASSERT_TRUE(firstMap(maps));
+  EXPECT_EQ(valueAt(*firstMap(maps), 1.55, 0.05), 100);
+}
+
+TEST_F(Restart, UnderAnotherRunItBeginsEmpty) {
+  start();
+  mapWall(1.5F);
+  ASSERT_TRUE(isKept());
+  kill();
+  std::string run;
+  ASSERT_TRUE(ros::param::get("/run_id", run));
+  ros::param::set("/run_id", "another");
+  start();
+  const Maps maps(nh_, "projected_map");
+  const auto map = firstMap(maps);
+  ros::param::set("/run_id", run);
+  ASSERT_TRUE(map);
+  EXPECT_TRUE(isEmpty(*map));
+}
+
+TEST_F(Restart, AResetIsForEver) {
+  start();
+  mapWall(1.5F);
+  ASSERT_TRUE(isKept());
+  std_srvs::Empty call;
+  ASSERT_TRUE(ros::service::call("/projected_map/reset", call));
+  kill();
+  start();
+  const Maps maps(nh_, "projected_map");
+  const auto map = firstMap(maps);
+  ASSERT_TRUE(map);
+  EXPECT_TRUE(isEmpty(*map));
+}
+
+TEST_F(Restart, NodesOfTwoNamesShareNoFile) {
+  start();
+  mapWall(1.5F);
+  ASSERT_TRUE(isKept());
+  kill();
+  start({"__name:=mapping"});
+  const Maps maps(nh_, "projected_map");
+  const auto map = firstMap(maps);
+  ASSERT_TRUE(map);
+  EXPECT_TRUE(isEmpty(*map));
+}
+
+TEST_F(Restart, AFolderThatCannotBeWrittenIsAWarningAndNoEnd) {
+  startIn("/dev/null/nowhere");
+  mapWall(1.5F);
+  EXPECT_TRUE(node_->says("The map cannot be kept"));
+  mapWall(2.0F);
+  EXPECT_TRUE(node_->running());
+}
+
+TEST_F(Restart, ADamagedFileIsNamedAndTheNodeBeginsEmpty) {
+  start();
+  mapWall(1.5F);
+  ASSERT_TRUE(isKept());
+  kill();
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path(".")))
+    std::filesystem::resize_file(entry.path(), std::filesystem::file_size(entry.path()) - 3);
+  start();
+  EXPECT_TRUE(node_->says("is truncated"));
+  const Maps maps(nh_, "projected_map");
+  const auto map = firstMap(maps);
+  ASSERT_TRUE(map);
+  EXPECT_TRUE(isEmpty(*map));
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
