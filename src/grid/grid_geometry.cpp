@@ -15,6 +15,11 @@ namespace {
 
 constexpr int kMaxSide = 1 << 19;
 
+// Within them a double holds every point of a map to a fraction of its cells.
+constexpr double kLeastResolution = 1e-6;   // m
+constexpr double kLargestResolution = 1e6;  // m
+constexpr double kFarthestOrigin = 1e8;     // m
+
 // Rounding in world -> grid is far below this many cells; a point that close to a cell border
 // counts as on it, so that borders given in metres (0.15 at 0.05 m) fall where they are meant.
 constexpr double kBorderSlack = 1e-9;
@@ -35,9 +40,13 @@ GridGeometry::GridGeometry(int width, int height, double resolution, const Origi
   if (!std::isfinite(resolution) || resolution <= 0.0)
     throw InputError("resolution must be a positive, finite number of metres, got " +
                      decimalText(resolution));
-  if (!std::isfinite(origin.x) || !std::isfinite(origin.y) || !std::isfinite(origin.yaw))
-    throw InputError("a map's origin must be finite, got " + decimalText(origin.x) + " " +
-                     decimalText(origin.y) + " " + decimalText(origin.yaw));
+  if (resolution < kLeastResolution || resolution > kLargestResolution)
+    throw InputError("resolution must be from 1e-6 to 1e6 m, got " + decimalText(resolution));
+  if (!(std::abs(origin.x) <= kFarthestOrigin && std::abs(origin.y) <= kFarthestOrigin &&
+        std::isfinite(origin.yaw)))
+    throw InputError("a map's origin must be finite and within 1e8 m, got " +
+                     decimalText(origin.x) + " " + decimalText(origin.y) + " " +
+                     decimalText(origin.yaw));
   cos_yaw_ = std::cos(origin.yaw);
   sin_yaw_ = std::sin(origin.yaw);
 }

@@ -63,6 +63,11 @@ void Vehicle::command(const BodyVelocity& velocity) {
   command_ends_ns_ = time_ns_ + nanoseconds(options_.cmd_vel_timeout);
 }
 
+bool Vehicle::commandRunsOut() const {
+  return !commanded_.isZero() && time_ns_ < command_ends_ns_ &&
+         time_ns_ + nanoseconds(options_.time_step) >= command_ends_ns_;
+}
+
 void Vehicle::reset(const VehicleState& state) {
   if (!state.position.allFinite() || !std::isfinite(state.yaw) || !state.velocity.isFinite())
     throw InputError("a vehicle's state must be finite, got position " +

@@ -51,6 +51,10 @@ TEST(GridGeometry, BadGeometryIsRefused) {
   EXPECT_THROW(GridGeometry(1 << 19, 1 << 19, 1.0), InputError);
   for (const double resolution : {0.0, -0.05, nan, infinity})
     EXPECT_THROW(GridGeometry(3, 4, resolution), InputError) << resolution;
+  for (const double resolution : {1e-38, 1e-7, 1e7, 1e38})
+    EXPECT_THROW(GridGeometry(3, 4, resolution), InputError) << resolution;
+  EXPECT_THROW(GridGeometry(3, 4, 1.0, {1e308, 0.0, 0.0}), InputError);
+  EXPECT_THROW(GridGeometry(3, 4, 1.0, {0.0, -1e9, 0.0}), InputError);
   EXPECT_THROW(GridGeometry(3, 4, 1.0, {nan, 0.0, 0.0}), InputError);
   EXPECT_THROW(GridGeometry(3, 4, 1.0, {0.0, 0.0, infinity}), InputError);
 }

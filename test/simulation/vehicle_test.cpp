@@ -116,6 +116,19 @@ TEST(Vehicle, ACommandThatIsNotFiniteIsRefusedAndTheOneBeforeStays) {
   EXPECT_GT(vehicle.state().velocity.surge, 0.05);
 }
 
+TEST(Vehicle, ACommandRunsOutWithItsLastStepUnlessItIsToStop) {
+  Vehicle vehicle;
+  EXPECT_FALSE(vehicle.commandRunsOut());
+  vehicle.command({0.5, 0.0, 0.0, 0.0});
+  coast(vehicle, vehicle.options().cmd_vel_timeout - vehicle.options().time_step);
+  EXPECT_TRUE(vehicle.commandRunsOut());
+  vehicle.command({0.5, 0.0, 0.0, 0.0});
+  EXPECT_FALSE(vehicle.commandRunsOut());
+  vehicle.command({});
+  coast(vehicle, vehicle.options().cmd_vel_timeout - vehicle.options().time_step);
+  EXPECT_FALSE(vehicle.commandRunsOut());
+}
+
 TEST(Vehicle, BadOptionsAndStatesAreRefused) {
   VehicleOptions options;
   options.max_acceleration = kNaN;

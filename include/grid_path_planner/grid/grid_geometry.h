@@ -29,8 +29,8 @@ class GridGeometry {
   GridGeometry() = default;
 
   // `resolution`: metres, the side of a cell. Throws InputError for a width or height below 1, more
-  // than 2^31 - 1 cells, a side over 2^19 cells, a resolution that is not positive and finite, an
-  // origin that is not finite.
+  // than 2^31 - 1 cells, a side over 2^19 cells, a resolution outside 1e-6..1e6 m, an origin
+  // that is not finite or farther than 1e8 m.
   GridGeometry(int width, int height, double resolution, const Origin& origin = {});
 
   int width() const { return width_; }

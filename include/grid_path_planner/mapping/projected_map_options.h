@@ -58,6 +58,7 @@ struct ProjectedMapOptions {
   double publish_rate = 5.0;  // Hz
   bool latch = true;
   bool always_send_full_map = true;
+  double full_map_period = 10.0;  // s of the wall clock
   double heartbeat_period = 1.0;  // s of the wall clock; 0: none
   bool publish_free_space = false;
   VoxelColors colors;
@@ -118,6 +119,11 @@ void visitPublishingOptions(ProjectedMapOptions& o, Visitor&& visit) {
         base::OptionInfo{"Whether every change sends all of projected_map; false: that for new "
                          "subscribers and new geometry, else projected_map_updates",
                          ""});
+  visit(
+      "full_map_period", o.full_map_period,
+      base::OptionInfo{"How long after a change all of projected_map is sent at the latest, by the "
+                       "wall clock; until then a receiver that lost an update may go without it",
+                       "s", 0.1, 3600.0});
   visit("heartbeat_period", o.heartbeat_period,
         base::OptionInfo{
             "How often an update of 0x0 cells, stamped with the newest cloud in the map, "

@@ -53,6 +53,9 @@ class Vehicle {
   // before stays.
   void command(const base::BodyVelocity& velocity);
 
+  // Whether a command other than to stop holds, and no more after the next step.
+  bool commandRunsOut() const;
+
   // Puts the vehicle somewhere: no command, contacts 0; time goes on. Throws InputError for a state
   // that is not finite.
   void reset(const VehicleState& state);

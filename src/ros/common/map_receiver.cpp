@@ -18,6 +18,8 @@ using grid::OccupancyGrid;
 
 namespace {
 
+constexpr std::chrono::seconds kAnswer(2);  // to wait for a whole map that was asked for
+
 CellRect rectOf(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update) {
   const auto end = [](std::int64_t from, std::uint32_t length) { return from + length; };
   if (update.x < 0 || update.y < 0 || end(update.x, update.width) > map.width() ||
@@ -79,7 +81,8 @@ CellRect changedCells(const OccupancyGrid& before, const OccupancyGrid& after) {
 
 void MapReceiver::start(ros::NodeHandle nh, std::function<void()> on_change) {
   on_change_ = std::move(on_change);
-  map_subscriber_ = nh.subscribe("projected_map", 1, &MapReceiver::onMap, this);
+  nh_ = nh;
+  subscribeToMaps();
   update_subscriber_ = nh.subscribe("projected_map_updates", 100, &MapReceiver::onUpdate, this);
   std::lock_guard<std::mutex> lock(mutex_);
   topic_ = map_subscriber_.getTopic();
@@ -115,27 +118,79 @@ void MapReceiver::shutdown() {
   update_subscriber_.shutdown();
 }
 
-void MapReceiver::onMap(const nav_msgs::OccupancyGrid& message) {
+std::string MapReceiver::lost() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return lost_;
+}
+
+void MapReceiver::subscribeToMaps() {
+  map_subscriber_ = nh_.subscribe("projected_map", 1, &MapReceiver::onMap, this);
+}
+
+void MapReceiver::onMap(const MapEvent& event) {
+  // A latched map of before, where a new one was asked for and follows.
+  const bool older = isOlder(event);
+  if (older && Clock::now() - asked_at_ < kAnswer) return;
   try {
-    auto grid = std::make_shared<OccupancyGrid>(occupancyFromMessage(message));
-    const ReceivedMap before = latest();
-    std::optional<CellRect> changed;
-    const std::string frame_id = frameName(message.header.frame_id);
-    if (before.grid && before.frame_id == frame_id && before.grid->geometry() == grid->geometry())
-      changed = changedCells(*before.grid, *grid);
-    grids_.reset(std::move(grid));
-    store(frame_id, message.header.stamp, changed);
+    use(event);
   } catch (const InputError& error) {
     refuse(map_subscriber_.getTopic(), error.what());
     return;
   }
+  if (older) noteLoss("A map came that is older than its updates");
   on_change_();
 }
 
-void MapReceiver::onUpdate(const map_msgs::OccupancyGridUpdate& message) {
+// Whether its publisher sent an update stamped later, unless ROS time jumped back.
+bool MapReceiver::isOlder(const MapEvent& event) const {
+  const ros::Time stamp = event.getConstMessage()->header.stamp;
+  const ReceivedMap before = latest();
+  return before.grid && before.publisher == event.getPublisherName() && !stamp.isZero() &&
+         stamp < before.stamp && before.stamp <= ros::Time::now();
+}
+
+void MapReceiver::use(const MapEvent& event) {
+  const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
+  auto grid = std::make_shared<OccupancyGrid>(occupancyFromMessage(message));
+  const ReceivedMap before = latest();
+  std::optional<CellRect> changed;
+  const std::string frame_id = frameName(message.header.frame_id);
+  if (before.grid && before.frame_id == frame_id && before.grid->geometry() == grid->geometry())
+    changed = changedCells(*before.grid, *grid);
+  grids_.reset(std::move(grid));
+  store({nullptr, frame_id, message.header.stamp, event.getPublisherName()}, changed);
+  std::lock_guard<std::mutex> lock(mutex_);
+  lost_.clear();
+}
+
+void MapReceiver::noteLoss(const std::string& what) {
+  const std::string sentence = what + ": a whole map is asked for";
+  ROS_WARN_STREAM_THROTTLE(5.0, sentence);
+  {
+    std::lock_guard<std::mutex> lock(mutex_);
+    lost_ = sentence;
+  }
+  askForAWholeMap();
+}
+
+void MapReceiver::askForAWholeMap() {
+  const auto now = Clock::now();
+  if (now - asked_at_ < kAnswer) return;
+  asked_at_ = now;
+  map_subscriber_.shutdown();  // a second subscription of a node would share the link of the first
+  subscribeToMaps();
+}
+
+void MapReceiver::onUpdate(const UpdateEvent& event) {
+  const map_msgs::OccupancyGridUpdate& message = *event.getConstMessage();
+  const std::uint32_t missed = sequence_.missed(event.getPublisherName(), message.header.seq);
+  if (missed > 0 && latest().grid)
+    noteLoss(std::to_string(missed) + " updates of the map were lost");
+  else if (!lost().empty())
+    askForAWholeMap();
   if (isHeartbeat(message)) {
     std::lock_guard<std::mutex> lock(mutex_);
-    heartbeat_ = {message.header.stamp, std::chrono::steady_clock::now()};
+    heartbeat_ = {message.header.stamp, Clock::now()};
     return;
   }
   const ReceivedMap before = latest();
@@ -167,13 +222,13 @@ void MapReceiver::apply(const map_msgs::OccupancyGridUpdate& message) {
     throw InputError("an update in frame " + frame_id + " for a map in frame " + before.frame_id);
   const CellRect changed = checkedRect(*before.grid, message);
   grids_.advance(changed, [&](OccupancyGrid& next) { applyUpdate(message, changed, next); });
-  store(before.frame_id, message.header.stamp, changed);
+  store({nullptr, before.frame_id, message.header.stamp, before.publisher}, changed);
 }
 
-void MapReceiver::store(const std::string& frame_id, const ros::Time& stamp,
-                        const std::optional<CellRect>& changed) {
+void MapReceiver::store(ReceivedMap map, const std::optional<CellRect>& changed) {
+  map.grid = grids_.current();
   std::lock_guard<std::mutex> lock(mutex_);
-  map_ = {grids_.current(), frame_id, stamp};
+  map_ = std::move(map);
   refusal_.clear();
   const bool all = !changed || (untaken_ && !untaken_->changed);
   const CellRect since = untaken_ && untaken_->changed ? *untaken_->changed : CellRect{};

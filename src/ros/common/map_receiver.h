@@ -7,10 +7,16 @@
 //
 // A piece without cells (0x0) is a heartbeat: it changes nothing, calls nobody and is accepted
 // before there is a map; only its stamp and when it came are kept.
+//
+// An update that is lost is noticed by the numbers of those that come (update_sequence.h), also of
+// heartbeats. Then the topic of maps is subscribed anew, which makes projected_map send a whole map;
+// another publisher is waited for. Until a whole map is there, lost() says so and the updates that
+// come are applied.
 #pragma once
 
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
+#include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
@@ -23,13 +29,15 @@
 
 #include "grid_path_planner/grid/double_buffered.h"
 #include "grid_path_planner/grid/occupancy.h"
+#include "ros/common/update_sequence.h"
 
 namespace grid_path_planner::nodes {
 
 struct ReceivedMap {
   std::shared_ptr<const grid::OccupancyGrid> grid;
-  std::string frame_id;  // empty where the message named none
-  ros::Time stamp;       // of the newest message in it
+  std::string frame_id;   // empty where the message named none
+  ros::Time stamp;        // of the newest message in it
+  std::string publisher;  // the node that sent it whole
 };
 
 // What changed since the last call of take().
@@ -73,14 +81,26 @@ class MapReceiver {
   // Why the last message was refused; empty after one that was accepted.
   std::string refusal() const;
 
+  // Why the map may lack changes, in a sentence; empty where it does not.
+  std::string lost() const;
+
   void shutdown();
 
  private:
-  void onMap(const nav_msgs::OccupancyGrid& message);
-  void onUpdate(const map_msgs::OccupancyGridUpdate& message);
+  using MapEvent = ros::MessageEvent<nav_msgs::OccupancyGrid const>;
+  using UpdateEvent = ros::MessageEvent<map_msgs::OccupancyGridUpdate const>;
+  using Clock = std::chrono::steady_clock;
+
+  void onMap(const MapEvent& event);
+  void onUpdate(const UpdateEvent& event);
+  void use(const MapEvent& event);
+  bool isOlder(const MapEvent& event) const;
+  void noteLoss(const std::string& what);
+  void subscribeToMaps();
+  void askForAWholeMap();
   void apply(const map_msgs::OccupancyGridUpdate& message);
-  void store(const std::string& frame_id, const ros::Time& stamp,
-             const std::optional<grid::CellRect>& changed);
+  // The map whose grid is the present one of grids_.
+  void store(ReceivedMap map, const std::optional<grid::CellRect>& changed);
   void refuse(const std::string& topic, const std::string& reason);
 
   std::function<void()> on_change_;
@@ -91,6 +111,10 @@ class MapReceiver {
   std::optional<MapChange> untaken_;
   std::string refusal_;
   std::optional<MapHeartbeat> heartbeat_;
+  std::string lost_;
+  UpdateSequence sequence_;     // of the subscribers, as the next
+  Clock::time_point asked_at_;  // for a whole map
+  ros::NodeHandle nh_;
   ros::Subscriber map_subscriber_;
   ros::Subscriber update_subscriber_;
 };

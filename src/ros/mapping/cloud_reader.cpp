@@ -82,7 +82,8 @@ std::vector<Eigen::Vector3d> finitePoints(const PointCloud2& cloud) {
   const Coordinate y = coordinateOf(cloud, "y");
   const Coordinate z = coordinateOf(cloud, "z");
   points.reserve(cloud.data.size() / cloud.point_step);
-  for (std::size_t row = 0; row < cloud.height; ++row) {
+  const std::size_t rows = cloud.width == 0 ? 0 : cloud.height;  // no bytes stand for empty ones
+  for (std::size_t row = 0; row < rows; ++row) {
     const std::uint8_t* point = cloud.data.data() + row * cloud.row_step;
     for (std::size_t column = 0; column < cloud.width; ++column, point += cloud.point_step) {
       const Eigen::Vector3d read(x.read(point), y.read(point), z.read(point));

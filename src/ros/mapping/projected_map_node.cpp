@@ -204,7 +204,7 @@ void ProjectedMapNode::insertNext(MapModel& map) {
   try {
     insert(map, *ready);
     queue_.countInserted();
-  } catch (const InputError& error) {
+  } catch (const std::exception& error) {  // whatever is wrong with a cloud ends with it
     queue_.countDropped("cannot be used", error.what());
   }
   postInsertion();
@@ -250,7 +250,7 @@ void ProjectedMapNode::publishHeartbeat(MapModel& map) {
 
 void ProjectedMapNode::decay(MapModel& map) {
   const ros::Time now = ros::Time::now();
-  const double passed = (now - decayed_until_).toSec();
+  const double passed = now.toSec() - decayed_until_.toSec();
   if (passed >= 0.0 && passed < kDecayPeriod) return;
   if (map.options().octree.decay_time > 0.0 && passed > 0.0 && !decayed_until_.isZero())
     map.decay(passed);

@@ -43,7 +43,8 @@ ProjectedMapPublisher::ProjectedMapPublisher(ros::NodeHandle nh, bool latch,
       };
   map_publisher_ =
       nh.advertise<nav_msgs::OccupancyGrid>("projected_map", 5, connected, {}, {}, latch);
-  update_publisher_ = nh.advertise<map_msgs::OccupancyGridUpdate>("projected_map_updates", 100);
+  update_publisher_ =
+      nh.advertise<map_msgs::OccupancyGridUpdate>("projected_map_updates", 100, connected);
 }
 
 bool ProjectedMapPublisher::hasSubscribers() const {
@@ -63,16 +64,24 @@ void ProjectedMapPublisher::send(MapModel& map, const ros::Time& stamp) {
   const bool for_new_subscriber =
       new_subscriber_.exchange(false) && (options.latch || !options.always_send_full_map);
   const bool changed = change.geometry || !change.cells.empty();
-  if (for_new_subscriber || change.geometry ||
+  if (for_new_subscriber || change.geometry || wholeMapIsDue(options) ||
       (changed && (options.always_send_full_map || !sent_))) {
     map_publisher_.publish(occupancyToMessage(grid, options.frame_id, stamp));
     sent_ = true;
+    updated_ = false;
+    sent_at_ = std::chrono::steady_clock::now();
   } else if (changed) {
     map_msgs::OccupancyGridUpdate update = updateMessage(grid, change.cells);
     update.header.frame_id = options.frame_id;
     update.header.stamp = stamp;
     update_publisher_.publish(update);
+    updated_ = true;
   }
+}
+
+bool ProjectedMapPublisher::wholeMapIsDue(const ProjectedMapOptions& options) const {
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - sent_at_;
+  return updated_ && passed.count() >= options.full_map_period;
 }
 
 void ProjectedMapPublisher::countCloud(const ros::Time& stamp, const ros::Time& now) {

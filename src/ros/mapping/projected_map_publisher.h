@@ -1,7 +1,9 @@
 // projected_map and projected_map_updates: whole maps where they are needed, else the changed cells.
 //
 // A whole map is published when the geometry changed, for a new subscriber (unless ~latch is off and
-// every change publishes a whole map anyway), and with always_send_full_map on every change.
+// every change publishes a whole map anyway), for a new subscriber of the updates, with
+// always_send_full_map on every change, and full_map_period after the last one if there was an
+// update since.
 // Otherwise an update holds the smallest rectangle around the changed cells. Without subscribers
 // nothing is projected: the changes wait in the tree.
 //
@@ -17,6 +19,7 @@
 #include <ros/publisher.h>
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <string>
 
@@ -43,10 +46,13 @@ class ProjectedMapPublisher {
 
  private:
   bool hasSubscribers() const;
+  bool wholeMapIsDue(const mapping::ProjectedMapOptions& options) const;
   void send(mapping::MapModel& map, const ros::Time& stamp);
 
   std::atomic<bool> new_subscriber_{false};
-  bool sent_ = false;                 // a whole map
+  bool sent_ = false;     // a whole map
+  bool updated_ = false;  // since then, by updates
+  std::chrono::steady_clock::time_point sent_at_;
   ros::Time newest_cloud_;            // in the tree
   ros::Time newest_published_cloud_;  // in the map as it was published last
   ros::Publisher map_publisher_;

@@ -27,6 +27,8 @@ void PlanDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& sta
     status.summary(DiagnosticStatus::WARN, "no map has come yet");
   else
     status.summary(DiagnosticStatus::OK, "a map is there");
+  if (const std::string lost = server_.maps().lost(); !lost.empty())
+    status.summary(DiagnosticStatus::WARN, lost);
   if (!refusal.empty())
     status.summary(DiagnosticStatus::ERROR, "the last message was refused: " + refusal);
   if (!map.grid) return;

@@ -26,6 +26,9 @@ namespace {
 // jumping.
 constexpr double kLongestDelay = 0.05;  // s
 
+// Wall time after a command that simulated time waits for the next one before it ends.
+constexpr double kLongestWait = 0.2;  // s
+
 VehicleState initialState(const SimulatorOptions& o) {
   return {Eigen::Vector3d(o.initial_x, o.initial_y, o.initial_z), o.initial_yaw, {}};
 }
@@ -123,6 +126,7 @@ void SimulatorNode::startTimer() {
 
 void SimulatorNode::onCommand(const geometry_msgs::Twist& message) {
   try {
+    commanded_at_ = ros::SteadyTime::now();
     vehicle_->command({message.linear.x, message.linear.y, message.linear.z, message.angular.z});
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("cmd_vel refused: " << error.what());
@@ -132,7 +136,7 @@ void SimulatorNode::onCommand(const geometry_msgs::Twist& message) {
 void SimulatorNode::onMap(const nav_msgs::OccupancyGrid& message) {
   try {
     const std::string frame = frameName(message.header.frame_id);
-    if (frame != options_.map_frame)
+    if (!frame.empty() && frame != options_.map_frame)
       throw InputError("its frame must be " + options_.map_frame + ", got '" + frame + "'");
     vehicle_->setMap(std::make_shared<OccupancyGrid>(occupancyFromMessage(message)));
     contact_publisher_.start(*vehicle_);
@@ -145,7 +149,9 @@ void SimulatorNode::onTimer(const ros::SteadyTimerEvent&) {
   const double time_step = options_.vehicle.time_step;
   addElapsedTime();
   const std::int64_t before = vehicle_->timeNs();
-  for (; pending_time_ >= time_step && !mustWaitForCamera(); pending_time_ -= time_step) step();
+  for (; pending_time_ >= time_step && !mustWaitForCamera() && !mustWaitForCommand();
+       pending_time_ -= time_step)
+    step();
   if (vehicle_->timeNs() == before) return;
   publishState();
   contact_publisher_.update(*vehicle_);
@@ -165,6 +171,13 @@ void SimulatorNode::addElapsedTime() {
 // An image is due, and the one before is not finished.
 bool SimulatorNode::mustWaitForCamera() const {
   return camera_ && camera_->due(vehicle_->timeNs()) && camera_->busy();
+}
+
+// The command would end with this step, though the next one may be about to come: simulated time
+// runs faster than the wall clock.
+bool SimulatorNode::mustWaitForCommand() const {
+  return options_.real_time_factor > 1.0 && vehicle_->commandRunsOut() &&
+         (ros::SteadyTime::now() - commanded_at_).toSec() < kLongestWait;
 }
 
 void SimulatorNode::step() {

@@ -14,6 +14,10 @@
 //               depth_camera/points, depth_camera/camera_info     with ~world
 //                              (depth_camera_publisher.h)
 //
+// With a real_time_factor above 1, simulated time waits up to 0.2 s of the wall clock for the next
+// command where the last one would end: the vehicle does not drive on, nor stop, because it runs
+// faster than its commands come.
+//
 // Guaranteed: the steps follow the wall clock, never /clock. Where the machine is too slow for the
 // steps or for the images, simulated time goes slower; no step is left out, and no image that has a
 // subscriber.
@@ -68,6 +72,7 @@ class SimulatorNode {
   void addElapsedTime();
   void step();
   bool mustWaitForCamera() const;
+  bool mustWaitForCommand() const;
   void captureImage();
   void publishState();
   ros::Time now() const;
@@ -80,6 +85,7 @@ class SimulatorNode {
   std::shared_ptr<const simulation::World> world_;  // none: only the map's obstacles
   double pending_time_ = 0.0;                       // s of simulated time that are due
   ros::SteadyTime last_tick_;
+  ros::SteadyTime commanded_at_;
   ros::Time last_stamp_;
 
   VehiclePublisher vehicle_publisher_;

@@ -85,7 +85,12 @@ TEST(OccupancyConversion, BadMessagesAreRefusedWithTheirValues) {
   for (const float resolution : {0.0f, -0.05f, nan, infinity})
     EXPECT_TRUE(contains(errorOf([=](Message& m) { m.info.resolution = resolution; }),
                          "resolution must be a positive, finite number"));
-  EXPECT_TRUE(contains(errorOf([=](Message& m) { m.info.origin.position.x = nan; }), "origin"));
+  for (const float resolution : {1e-38f, 1e38f})
+    EXPECT_TRUE(contains(errorOf([=](Message& m) { m.info.resolution = resolution; }),
+                         "resolution must be from 1e-6 to 1e6 m"));
+  for (const double x : {static_cast<double>(nan), 1e308, -1e9})
+    EXPECT_TRUE(contains(errorOf([=](Message& m) { m.info.origin.position.x = x; }),
+                         "origin must be finite and within 1e8 m"));
   EXPECT_TRUE(
       contains(errorOf([](Message& m) { m.info.origin.orientation.w = 0.0; }), "length zero"));
   EXPECT_TRUE(

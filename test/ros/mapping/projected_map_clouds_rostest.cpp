@@ -167,5 +167,30 @@ TEST_F(HostileClouds, TimeThatJumpsBackClearsWhatWaitsAndKeepsTheMap) {
   ros::param::del("/use_sim_time");
 }
 
+// From 2038 on, or by a clock that is wrong: differences of stamps beyond 2^31 s threw, and the
+// node ended.
+TEST_F(HostileClouds, StampsFromAnyTimeEndNothing) {
+  start({"_decay_time:=100"});
+  placeSensor(0.0, 0.0, 0.0);
+  const std::uint32_t now = ros::Time::now().sec;
+  const std::uint32_t half = std::uint32_t{1} << 31;
+  for (const std::uint32_t stamp : {0u, 1u, now - half, now + half, 4294967295u})
+    for (const char* frame : {"map", "sensor"})
+      clouds_.publish(cloudOf(wallAt(1.0F), frame, ros::Time(stamp, 999999999)));
+  ASSERT_TRUE(reports("received", "10"));
+  EXPECT_TRUE(reports("waiting", "0"));
+  EXPECT_TRUE(stillMaps());
+}
+
+// A header of a few bytes that promises 4,294,967,295 rows stood the mapping still for 18 s.
+TEST_F(HostileClouds, RowsWithoutPointsTakeNoTime) {
+  start();
+  sensor_msgs::PointCloud2 cloud = cloudOf({}, "map", ros::Time::now());
+  cloud.width = 0;
+  cloud.height = std::numeric_limits<std::uint32_t>::max();
+  for (int i = 0; i < 9; ++i) clouds_.publish(cloud);
+  EXPECT_TRUE(stillMaps());
+}
+
 }  // namespace
 }  // namespace grid_path_planner::nodes

@@ -107,6 +107,19 @@ TEST_F(Publishing, EveryNewSubscriberGetsAFreshWholeMap) {
   EXPECT_EQ(valueAt(*fresh, 2.05, 0.05), 100);
 }
 
+TEST_F(Publishing, AWholeMapFollowsUpdatesForWhoLostOne) {
+  std::vector<std::string> arguments = bounds_;
+  arguments.insert(arguments.end(), {"_always_send_full_map:=false", "_full_map_period:=0.3"});
+  startMapping(arguments);
+  const Maps maps(nh_, "projected_map");
+  const Updates updates(nh_, "projected_map_updates");
+  ASSERT_TRUE(maps.waitForMoreThan(0));
+  ASSERT_TRUE(test::waitFor([&] { return updates.connected(); }));
+  publish(wallAt(2.0F));
+  ASSERT_TRUE(updates.waitForMoreThan(0));
+  EXPECT_TRUE(becomes(maps, 2.05, 0.05, 100));
+}
+
 TEST_F(Publishing, ByDefaultEveryChangeSendsTheWholeMap) {
   startMapping(bounds_);
   const Maps maps(nh_, "projected_map");

@@ -1,5 +1,9 @@
 // path_planner while the vehicle drives: maps that change, replans, goals that change.
 
+#include <ros/advertise_options.h>
+
+#include <atomic>
+
 #include "ros/support/planner_fixture.h"
 
 namespace grid_path_planner::nodes {
@@ -25,6 +29,12 @@ class ReplanTest : public test::PlannerTest {
     update.width = width;
     update.height = height;
     update.data = data;
+    updates_.publish(update);
+  }
+  void sendNumbered(std::uint32_t number) {
+    map_msgs::OccupancyGridUpdate update;
+    update.header.seq = number;
+    update.header.stamp = ros::Time::now();
     updates_.publish(update);
   }
   bool logged(const std::string& text, std::size_t seen) {
@@ -102,7 +112,7 @@ TEST_F(ReplanTest, AHeartbeatIsNoChangeOfTheMap) {
       sendUpdate(0, 0, 0, 0, {}, stamp);
   };
   beat();
-  publishMap(kTwoWays);
+  publishMap(kCorridors);
   const std::size_t maps = planning_maps_.count();
   beat();
   sendUpdate(3, 2, 1, 1, {100});
@@ -110,6 +120,29 @@ TEST_F(ReplanTest, AHeartbeatIsNoChangeOfTheMap) {
   ASSERT_TRUE(changed);
   EXPECT_EQ(changed->data[2 * 7 + 3], 100) << "nothing was published for the heartbeats";
   for (const rosgraph_msgs::Log& line : log_.all()) EXPECT_LT(line.level, line.WARN) << line.msg;
+}
+
+// A lost update went unnoticed: until the next whole map, which might never come, plans led through
+// what it had occupied.
+TEST_F(ReplanTest, ALostUpdateIsNoticedAndAWholeMapAskedFor) {
+  startPlanner();
+  publishMap(kCorridors);
+  updates_.shutdown();
+  maps_.shutdown();
+  std::atomic<int> links{0};
+  maps_ = nh_.advertise<nav_msgs::OccupancyGrid>(
+      "projected_map", 1, [&](const ros::SingleSubscriberPublisher&) { ++links; });
+  auto numbered = ros::AdvertiseOptions::create<map_msgs::OccupancyGridUpdate>(
+      "projected_map_updates", 10, {}, {}, {}, nullptr);
+  numbered.has_header = false;  // header.seq is the test's
+  updates_ = nh_.advertise(numbered);
+  ASSERT_TRUE(test::waitFor([&] { return updates_.getNumSubscribers() > 0 && links == 1; }));
+  sendNumbered(1);
+  sendNumbered(2);
+  sendNumbered(4);
+  EXPECT_TRUE(logged("1 updates of the map were lost", 0));
+  EXPECT_TRUE(test::waitFor([&] { return links == 2; })) << "subscribes anew";
+  publishMap({".......", ".......", ".......", ".......", "......#"});
 }
 
 TEST_F(ReplanTest, APathIsKeptWhileItIsAboutAsGoodAndReplacedWhenItIsNot) {

@@ -123,6 +123,30 @@ TEST_F(SimulatorTest, CountsContactsWithTheMap) {
   EXPECT_LE(odom_.all().back().pose.pose.position.x, 3.7 + 1e-6);
 }
 
+// The demo's vehicle drove on for 2 s of simulated time without a command, 1.8 m, because its
+// commands came too late for a shorter timeout.
+TEST_F(SimulatorTest, FasterThanRealTimeItWaitsForTheCommandThatIsDue) {
+  start({"_max_acceleration:=100"});
+  dynamic_reconfigure::Reconfigure call;
+  dynamic_reconfigure::DoubleParameter factor;
+  factor.name = "real_time_factor";
+  factor.value = 100.0;
+  call.request.config.doubles = {factor};
+  ASSERT_TRUE(ros::service::call("/simulator/set_parameters", call));
+  const std::size_t seen = odom_.count();
+  const ros::SteadyTime begin = ros::SteadyTime::now();
+  commands_.publish(twist(0.5));
+  const auto moving =
+      odom_.waitFor(seen, [](const Odometry& o) { return o.twist.twist.linear.x > 0.0; });
+  ASSERT_TRUE(moving);
+  const auto stopped = odom_.waitFor(seen, [&](const Odometry& o) {
+    return (o.header.stamp - moving->header.stamp).toSec() > 1.0;
+  });
+  ASSERT_TRUE(stopped) << "it does not wait for ever";
+  EXPECT_GE((ros::SteadyTime::now() - begin).toSec(), 0.2);
+  EXPECT_EQ(stopped->twist.twist.linear.x, 0.0);
+}
+
 TEST_F(SimulatorTest, RefusesACommandThatIsNotFiniteAndLivesOn) {
   start({});
   for (int i = 0; i < 5; ++i) commands_.publish(twist(std::numeric_limits<double>::quiet_NaN()));
