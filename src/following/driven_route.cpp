@@ -72,8 +72,13 @@ double DrivenRoute::distance(std::size_t i, const Vector3d& position) const {
   return (point(i, std::clamp(share(i, position), 0.0, 1.0)) - position).norm();
 }
 
+std::size_t DrivenRoute::next(std::size_t i) const {
+  for (++i; i + 1 < segments() && length(i) <= 0.0;) ++i;
+  return i;
+}
+
 bool DrivenRoute::turnsBack(std::size_t i) const {
-  return i + 1 < segments() && direction(i).dot(direction(i + 1)) < 0.0;
+  return i + 1 < segments() && direction(i).dot(direction(next(i))) < 0.0;
 }
 
 Vector3d DrivenRoute::ahead(std::size_t i, double share, double distance) const {

@@ -41,6 +41,8 @@ class DrivenRoute {
   Eigen::Vector3d point(std::size_t i, double share) const;
   // Metres from `position` to the segment.
   double distance(std::size_t i, const Eigen::Vector3d& position) const;
+  // The segment after i that has a length; the last one, where none has.
+  std::size_t next(std::size_t i) const;
   // Whether the route turns by more than a right angle at the end of segment i.
   bool turnsBack(std::size_t i) const;
 

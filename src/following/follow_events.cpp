@@ -40,6 +40,8 @@ const char* toString(DriveStatus status) {
       return "NO_PROGRESS";
     case DriveStatus::MISSED_WAYPOINT:
       return "MISSED_WAYPOINT";
+    case DriveStatus::INVALID_POSE:
+      return "INVALID_POSE";
   }
   return "?";
 }

@@ -6,7 +6,10 @@
 namespace grid_path_planner::following {
 
 using grid::Cell;
+using grid::CellRect;
+using grid::Occupancy;
 using grid::OccupancyGrid;
+using grid::OccupancyThresholds;
 
 namespace {
 
@@ -58,31 +61,56 @@ bool tooNear(const Vector2d& a, const Vector2d& b, Cell cell, double radius) {
   return distance < radius - kGraze;
 }
 
-// In cells; of several the one nearest to `a`.
-std::optional<Cell> firstOnPiece(const OccupancyGrid& map, int occupied_min, const Vector2d& a,
-                                 const Vector2d& b, double radius) {
+// The cells of the map whose column and row lie between those of `low` and `high`.
+CellRect cellsBetween(const OccupancyGrid& map, const Vector2d& low, const Vector2d& high) {
   const auto index = [](double x, int size) {
     return static_cast<int>(std::clamp(std::floor(x), -1.0, static_cast<double>(size)));
   };
-  const Vector2d low = a.cwiseMin(b).array() - radius;
-  const Vector2d high = a.cwiseMax(b).array() + radius;
+  const int left = std::max(0, index(low.x(), map.width()));
+  const int bottom = std::max(0, index(low.y(), map.height()));
+  const int right = std::min(map.width() - 1, index(high.x(), map.width()));
+  const int top = std::min(map.height() - 1, index(high.y(), map.height()));
+  return {left, bottom, std::max(0, right - left + 1), std::max(0, top - bottom + 1)};
+}
+
+// Of those of these cells that `counts` takes the one nearest to `a`.
+template <class Counts>
+std::optional<Cell> nearestCell(const CellRect& cells, const Vector2d& a, Counts counts) {
   std::optional<Cell> first;
-  for (int row = std::max(0, index(low.y(), map.height()));
-       row <= std::min(map.height() - 1, index(high.y(), map.height())); ++row)
-    for (int column = std::max(0, index(low.x(), map.width()));
-         column <= std::min(map.width() - 1, index(high.x(), map.width())); ++column) {
+  for (int row = cells.row; row < cells.row + cells.height; ++row)
+    for (int column = cells.column; column < cells.column + cells.width; ++column) {
       const Cell cell{column, row};
-      if (map[cell] < occupied_min || !tooNear(a, b, cell, radius)) continue;
+      if (!counts(cell)) continue;
       if (!first || distanceToCell(a, cell) < distanceToCell(a, *first)) first = cell;
     }
   return first;
 }
 
-}  // namespace
+// In cells; of several the one nearest to `a`.
+std::optional<Cell> firstOnPiece(const OccupancyGrid& map, int occupied_min, const Vector2d& a,
+                                 const Vector2d& b, double radius) {
+  const Vector2d low = a.cwiseMin(b).array() - radius;
+  const Vector2d high = a.cwiseMax(b).array() + radius;
+  return nearestCell(cellsBetween(map, low, high), a, [&](Cell cell) {
+    return map[cell] >= occupied_min && tooNear(a, b, cell, radius);
+  });
+}
 
-std::optional<Cell> firstOccupied(const OccupancyGrid& map, int occupied_min,
-                                  const std::vector<Eigen::Vector3d>& ahead, double radius) {
-  const double radius_cells = radius / map.geometry().resolution();
+std::optional<Cell> unknownOnPiece(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
+                                   const Vector2d& a, const Vector2d& b) {
+  return nearestCell(cellsBetween(map, a.cwiseMin(b), a.cwiseMax(b)), a, [&](Cell cell) {
+    return thresholds.classify(map[cell]) == Occupancy::UNKNOWN && meets(a, b, cell);
+  });
+}
+
+bool isOutside(const OccupancyGrid& map, const Vector2d& point) {
+  return point.x() < 0.0 || point.y() < 0.0 || point.x() > map.width() || point.y() > map.height();
+}
+
+// Calls `visit(from, to)` (in cells) with pieces of the polyline of at most ten cells, in order,
+// until it returns true.
+template <class Visit>
+void visitPieces(const OccupancyGrid& map, const std::vector<Eigen::Vector3d>& ahead, Visit visit) {
   for (std::size_t i = 0; i < ahead.size(); ++i) {
     const Vector2d a = map.geometry().gridFromWorld(ahead[i].head<2>());
     const Vector2d b =
@@ -91,10 +119,64 @@ std::optional<Cell> firstOccupied(const OccupancyGrid& map, int occupied_min,
     for (int piece = 0; piece < pieces; ++piece) {
       const Vector2d from = a + (b - a) * (static_cast<double>(piece) / pieces);
       const Vector2d to = a + (b - a) * (static_cast<double>(piece + 1) / pieces);
-      if (const auto cell = firstOnPiece(map, occupied_min, from, to, radius_cells)) return cell;
+      if (visit(from, to)) return;
     }
   }
-  return std::nullopt;
+}
+
+// Metres from `point` to the nearest occupied cell, at most `radius`.
+double clearanceAt(const OccupancyGrid& map, int occupied_min, const Eigen::Vector3d& point,
+                   double radius) {
+  const double resolution = map.geometry().resolution();
+  const Vector2d at = map.geometry().gridFromWorld(point.head<2>());
+  const Vector2d low = at.array() - radius / resolution;
+  const Vector2d high = at.array() + radius / resolution;
+  const auto nearest = nearestCell(cellsBetween(map, low, high), at,
+                                   [&](Cell cell) { return map[cell] >= occupied_min; });
+  return nearest ? std::min(radius, resolution * distanceToCell(at, *nearest)) : radius;
+}
+
+std::optional<Obstruction> firstUnknown(const OccupancyGrid& map,
+                                        const OccupancyThresholds& thresholds,
+                                        const std::vector<Eigen::Vector3d>& ahead) {
+  std::optional<Obstruction> found;
+  visitPieces(map, ahead, [&](const Vector2d& from, const Vector2d& to) {
+    if (const auto cell = unknownOnPiece(map, thresholds, from, to))
+      found = {Obstruction::Kind::UNKNOWN, map.geometry().centre(*cell)};
+    else if (isOutside(map, from) || isOutside(map, to))
+      found = {Obstruction::Kind::OUTSIDE,
+               map.geometry().worldFromGrid(isOutside(map, from) ? from : to)};
+    return found.has_value();
+  });
+  return found;
+}
+
+}  // namespace
+
+std::optional<Cell> firstOccupied(const OccupancyGrid& map, int occupied_min,
+                                  const std::vector<Eigen::Vector3d>& ahead, double radius) {
+  const double radius_cells = radius / map.geometry().resolution();
+  std::optional<Cell> found;
+  visitPieces(map, ahead, [&](const Vector2d& from, const Vector2d& to) {
+    found = firstOnPiece(map, occupied_min, from, to, radius_cells);
+    return found.has_value();
+  });
+  return found;
+}
+
+std::optional<Obstruction> firstObstruction(const OccupancyGrid& map, const ClearanceLimits& limits,
+                                            const std::vector<Eigen::Vector3d>& ahead) {
+  if (ahead.empty()) return std::nullopt;
+  const int occupied_min = limits.thresholds.occupied_min;
+  const auto join =
+      ahead.begin() + std::min<std::ptrdiff_t>(2, static_cast<std::ptrdiff_t>(ahead.size()));
+  std::optional<Cell> cell =
+      firstOccupied(map, occupied_min, {ahead.begin(), join},
+                    clearanceAt(map, occupied_min, ahead.front(), limits.radius));
+  if (!cell && ahead.size() > 2)
+    cell = firstOccupied(map, occupied_min, {ahead.begin() + 1, ahead.end()}, limits.radius);
+  if (cell) return Obstruction{Obstruction::Kind::OCCUPIED, map.geometry().centre(*cell)};
+  return limits.stop_at_unknown ? firstUnknown(map, limits.thresholds, ahead) : std::nullopt;
 }
 
 }  // namespace grid_path_planner::following

@@ -2,16 +2,19 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "following/check_waypoints.h"
 #include "following/follow_events.h"
 #include "following/route_progress.h"
 #include "following/velocity_controller.h"
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/path/waypoint_file.h"
 
 namespace grid_path_planner::following {
 
 using base::BodyVelocity;
+using path::kLargestCoordinate;
 using path::Path;
 using path::Pose;
 
@@ -20,6 +23,25 @@ namespace {
 using Kind = FollowEvent::Kind;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Empty for a time and a pose that velocities can be computed from.
+std::string whyUnusable(const FollowInput& input) {
+  if (!std::isfinite(input.time)) return "the time is not finite";
+  if (!input.pose) return "";
+  const Pose& pose = *input.pose;
+  const bool usable = pose.position.allFinite() && std::isfinite(pose.yaw) &&
+                      pose.position.cwiseAbs().maxCoeff() <= kLargestCoordinate;
+  if (usable) return "";
+  std::ostringstream text;
+  text << "the vehicle's pose must be finite and within 1e6 m of 0, got x " << pose.position.x()
+       << ", y " << pose.position.y() << ", z " << pose.position.z() << ", yaw " << pose.yaw;
+  return text.str();
+}
+
+bool isFinite(const BodyVelocity& v) {
+  return std::isfinite(v.surge) && std::isfinite(v.sway) && std::isfinite(v.heave) &&
+         std::isfinite(v.yaw_rate);
+}
 
 const Pose& currentPose(const PathFollower& follower) {
   return follower.path().poses[static_cast<std::size_t>(follower.currentWaypoint())];
@@ -85,6 +107,20 @@ PathFollower::Answer PathFollower::cancel(const std::string& reason) {
 }
 
 BodyVelocity PathFollower::update(const FollowInput& input) {
+  const bool moves = state_ == FollowState::DRIVING || state_ == FollowState::BLOCKED ||
+                     state_ == FollowState::ARRIVED;
+  const std::string why = whyUnusable(input);
+  if (!why.empty()) {
+    if (moves) end({FollowState::FAILED, DriveStatus::INVALID_POSE, why});
+    return {};
+  }
+  const BodyVelocity velocity = velocityFor(input);
+  if (isFinite(velocity)) return velocity;
+  end({FollowState::FAILED, DriveStatus::INVALID_POSE, "the velocity would not be finite"});
+  return {};
+}
+
+BodyVelocity PathFollower::velocityFor(const FollowInput& input) {
   const double seconds = time_ ? input.time - *time_ : 0.0;
   time_ = input.time;
   if (seconds < 0.0) {
@@ -92,7 +128,7 @@ BodyVelocity PathFollower::update(const FollowInput& input) {
     return {};
   }
   if (input.pose) pose_ = input.pose;
-  if (state_ == FollowState::ARRIVED && input.pose)
+  if (state_ == FollowState::ARRIVED && input.pose && input.hold.empty())
     return controller_->holdPose(path().poses.back(), *input.pose, seconds);
   if (state_ != FollowState::DRIVING && state_ != FollowState::BLOCKED) {
     standStill();
@@ -107,18 +143,11 @@ BodyVelocity PathFollower::update(const FollowInput& input) {
 }
 
 bool PathFollower::isBlocked(const FollowInput& input) {
-  if (!input.pose) {
-    const bool explained = !input.pose_problem.empty();
-    block(input.time, DriveStatus::TF_STALE,
-          explained ? input.pose_problem : "the vehicle's pose is not known");
+  const std::string why = whyNot(input);
+  if (!why.empty()) {
+    const bool lost = input.hold.empty() && !input.pose;
+    block(input.time, lost ? DriveStatus::TF_STALE : DriveStatus::BLOCKED, why);
     return true;
-  }
-  if (input.check) {
-    const std::string why = input.check(progress_->ahead(input.pose->position, options_.lookahead));
-    if (!why.empty()) {
-      block(input.time, DriveStatus::BLOCKED, why);
-      return true;
-    }
   }
   if (state_ == FollowState::BLOCKED) {
     state_ = FollowState::DRIVING;
@@ -127,6 +156,14 @@ bool PathFollower::isBlocked(const FollowInput& input) {
   }
   blocked_since_.reset();
   return false;
+}
+
+std::string PathFollower::whyNot(const FollowInput& input) const {
+  if (!input.hold.empty()) return input.hold;
+  if (!input.pose)
+    return input.pose_problem.empty() ? "the vehicle's pose is not known" : input.pose_problem;
+  if (!input.check) return "";
+  return input.check(progress_->ahead(input.pose->position, options_.lookahead));
 }
 
 void PathFollower::block(double time, DriveStatus cause, const std::string& why) {

@@ -136,7 +136,8 @@ bool RouteProgress::isPassed(const Vector3d& position) const {
   if (away <= options_.position_tolerance) return true;
   if (route_->turnsBack(segment_))
     return away <= std::min(options_.acceptance_radius, 0.5 * options_.pursuit_distance);
-  return route_->distance(segment_ + 1, position) <= route_->distance(segment_, position);
+  return route_->distance(route_->next(segment_), position) <=
+         route_->distance(segment_, position);
 }
 
 // Where the policy is to drive to a missed waypoint again: a new route from `vehicle` on.
@@ -217,7 +218,13 @@ RoutePosition RouteProgress::position(const Vector3d& vehicle) const {
 }
 
 std::vector<Vector3d> RouteProgress::ahead(const Vector3d& vehicle, double distance) const {
-  return route_->piece(segment_, position(vehicle).share, distance);
+  const RoutePosition nearest = position(vehicle);
+  const Vector3d back = nearest.point() - vehicle;
+  const double way = back.norm();
+  if (way > distance) return {vehicle, vehicle + back * (distance / way)};
+  std::vector<Vector3d> points = route_->piece(segment_, nearest.share, distance);
+  points.insert(points.begin(), vehicle);
+  return points;
 }
 
 double RouteProgress::distanceRemaining(const Vector3d& vehicle) const {

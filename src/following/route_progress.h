@@ -55,7 +55,8 @@ class RouteProgress {
   void restartSettling() { settled_since_.reset(); }
 
   RoutePosition position(const Eigen::Vector3d& vehicle) const;
-  // The route from the point nearest to `vehicle` on, `distance` metres of it.
+  // From `vehicle` straight to the nearest point of the route, at most `distance` metres, and where
+  // that is reached the route from there on, `distance` metres of it.
   std::vector<Eigen::Vector3d> ahead(const Eigen::Vector3d& vehicle, double distance) const;
   // Metres along the path to its end, of this lap in a loop.
   double distanceRemaining(const Eigen::Vector3d& vehicle) const;

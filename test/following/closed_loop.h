@@ -38,11 +38,14 @@ struct ClosedLoop {
                       const Eigen::Vector3d& at = {0, 0, 0}, double yaw = 0.0)
       : follower(options), vehicle({}, {at, yaw, {}}) {}
 
-  path::Pose pose() const { return {vehicle.state().position, vehicle.state().yaw}; }
+  path::Pose pose() const { return {vehicle.state().position + pushed, vehicle.state().yaw}; }
   double speed() const {
     const base::BodyVelocity& v = vehicle.state().velocity;
     return std::sqrt(v.surge * v.surge + v.sway * v.sway + v.heave * v.heave);
   }
+
+  // A current takes the vehicle there.
+  void putAt(const Eigen::Vector3d& position) { pushed = position - vehicle.state().position; }
 
   // One control step of 0.05 s.
   void step() {
@@ -79,6 +82,7 @@ struct ClosedLoop {
 
   following::PathFollower follower;
   simulation::Vehicle vehicle;
+  Eigen::Vector3d pushed = Eigen::Vector3d::Zero();
   following::PathClearanceCheck check;
   bool pose_known = true;
   std::function<void()> each_step;

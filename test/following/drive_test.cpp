@@ -279,10 +279,11 @@ TEST(Drive, ThePathAheadIsWhatIsStillToBeDriven) {
   };
   const double x = loop.pose().position.x();
   loop.step();
-  ASSERT_EQ(seen.size(), 3u);
-  EXPECT_NEAR(seen[0].x(), x, 0.01);
-  EXPECT_TRUE(seen[1].isApprox(Eigen::Vector3d(3, 0, 0)));
-  EXPECT_NEAR(seen[2].y(), 2.5 - (3.0 - x), 0.01);
+  ASSERT_EQ(seen.size(), 4u);
+  EXPECT_NEAR(seen[0].x(), x, 0.01) << "the vehicle";
+  EXPECT_NEAR(seen[1].x(), x, 0.01) << "the nearest point of the path";
+  EXPECT_TRUE(seen[2].isApprox(Eigen::Vector3d(3, 0, 0)));
+  EXPECT_NEAR(seen[3].y(), 2.5 - (3.0 - x), 0.01);
 }
 
 // Over random paths, dense and sparse: arrives, reaches every waypoint, stays near the path, keeps

@@ -1,4 +1,6 @@
-// Whether the path ahead is free in a map.
+// Whether the way ahead of a vehicle is free in a map: its way back to the path, and the path.
+//
+//   if (const auto found = firstObstruction(map, {{25, 65}, 0.35, true}, ahead)) stop(found->at);
 #pragma once
 
 #include <Eigen/Core>
@@ -15,5 +17,25 @@ namespace grid_path_planner::following {
 // meets nothing; unknown cells and what lies outside the map are free.
 std::optional<grid::Cell> firstOccupied(const grid::OccupancyGrid& map, int occupied_min,
                                         const std::vector<Eigen::Vector3d>& ahead, double radius);
+
+struct ClearanceLimits {
+  grid::OccupancyThresholds thresholds = {};
+  double radius = 0.0;           // m, to occupied cells
+  bool stop_at_unknown = false;  // whether unknown cells and the outside of the map obstruct too
+};
+
+struct Obstruction {
+  enum class Kind { OCCUPIED, UNKNOWN, OUTSIDE };
+  Kind kind;
+  Eigen::Vector2d at;  // map frame, metres
+};
+
+// What obstructs the polyline `ahead`, which begins at the vehicle and leads by its second point
+// back to the path; none where it is free. The way back may be as near to occupied cells as the
+// vehicle itself is, and no nearer: a vehicle that was pushed into the radius comes out of it.
+// Unknown cells and the outside obstruct where the polyline meets them, without a radius.
+std::optional<Obstruction> firstObstruction(const grid::OccupancyGrid& map,
+                                            const ClearanceLimits& limits,
+                                            const std::vector<Eigen::Vector3d>& ahead);
 
 }  // namespace grid_path_planner::following

@@ -6,7 +6,7 @@
 //   BodyVelocity velocity = follower.update({time, pose, check});
 //   for (const FollowEvent& event : follower.takeEvents()) use(event.message);
 //
-//             start               pose lost, path occupied
+//             start               pose lost, path occupied, held
 //   any state ------> DRIVING <---------------------------> BLOCKED ----> FAILED (blocked_timeout)
 //                      |  ^ |                                 |
 //                pause |  | +--> ARRIVED, FAILED              | pause
@@ -17,9 +17,11 @@
 // drifted off is brought back (hold_pose). A pause outlives a new path: only `resume` ends it. The
 // speeds of the options are never exceeded. Every waypoint is either reached (the vehicle came
 // within acceptance_radius), or reported as missed, or lies before the point where the path was
-// joined, which is reported too. Time that goes back cancels. The same calls give the same
+// joined, which is reported too. Time that goes back cancels. Velocities are finite: a pose or a
+// time that cannot be used ends the drive with INVALID_POSE. The same calls give the same
 // velocities. Not guaranteed: that the vehicle stays on the path whatever pushes it. Farther off
-// than acceptance_radius it comes straight back to it before it goes on.
+// than acceptance_radius it comes straight back to it before it goes on; this way back is checked
+// like the path.
 #pragma once
 
 #include <Eigen/Core>
@@ -52,7 +54,8 @@ enum class DriveStatus {
   BLOCKED,
   TF_STALE,
   NO_PROGRESS,
-  MISSED_WAYPOINT
+  MISSED_WAYPOINT,
+  INVALID_POSE
 };
 // The enumerator's own name.
 const char* toString(DriveStatus status);
@@ -67,8 +70,8 @@ struct FollowEvent {
   std::string message;  // counts waypoints from 1
 };
 
-// Why the path ahead (points in the path's frame) cannot be driven, in a sentence; empty where it
-// can.
+// Why the way ahead (points in the path's frame: the vehicle's own, the nearest of the path, and the
+// path from there on) cannot be driven, in a sentence; empty where it can.
 using PathClearanceCheck = std::function<std::string(const std::vector<Eigen::Vector3d>& ahead)>;
 
 struct FollowInput {
@@ -76,7 +79,8 @@ struct FollowInput {
   std::optional<path::Pose> pose;  // in the path's frame; none where it is not known now
   PathClearanceCheck check = {};   // none: every path is free
   std::string pose_problem =
-      {};  // why there is no pose, in a sentence; empty: nothing more is known
+      {};                 // why there is no pose, in a sentence; empty: nothing more is known
+  std::string hold = {};  // why the vehicle must not move now, in a sentence; empty: it may
 };
 
 class PathFollower {
@@ -129,7 +133,9 @@ class PathFollower {
   std::vector<FollowEvent> takeEvents();
 
  private:
+  base::BodyVelocity velocityFor(const FollowInput& input);
   bool isBlocked(const FollowInput& input);
+  std::string whyNot(const FollowInput& input) const;
   void block(double time, DriveStatus cause, const std::string& why);
   base::BodyVelocity drive(const path::Pose& vehicle, double time, double seconds);
   void end(const DriveEnd& ending);
