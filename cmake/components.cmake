@@ -29,8 +29,8 @@ set(GPP_CONFIGURATIONS PathPlanner MapPublisher)
 set(GPP_CATKIN_EXPORTS actionlib actionlib_msgs dynamic_reconfigure geometry_msgs message_runtime nav_msgs
   nodelet roscpp std_msgs tf2_ros visualization_msgs)
 set(GPP_CATKIN_COMPONENTS actionlib actionlib_msgs diagnostic_msgs diagnostic_updater dynamic_reconfigure
-  geometry_msgs map_msgs message_generation nav_msgs nodelet pluginlib rosbag roscpp std_msgs tf2 tf2_geometry_msgs tf2_ros
-  visualization_msgs)
+  geometry_msgs map_msgs message_generation nav_msgs nodelet pluginlib rosbag roscpp std_msgs tf2 tf2_geometry_msgs
+  tf2_msgs tf2_ros visualization_msgs)
 set(GPP_EXPORTED_LIBRARIES EIGEN3)
 set(GPP_LAUNCH_FILES map_file planner rviz)
 

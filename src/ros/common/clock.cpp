@@ -25,7 +25,12 @@ bool ClockWatch::hasTime() {
 std::optional<double> ClockWatch::jumpedBack(const ros::Time& now) {
   std::lock_guard<std::mutex> lock(mutex_);
   const ros::Time before = std::exchange(latest_, now);
-  return now < before ? std::make_optional((before - now).toSec()) : std::nullopt;
+  return now < before ? std::make_optional(secondsBetween(now, before)) : std::nullopt;
+}
+
+double secondsBetween(const ros::Time& from, const ros::Time& to) {
+  const auto seconds = [](std::uint32_t count) { return static_cast<double>(count); };
+  return seconds(to.sec) - seconds(from.sec) + 1e-9 * (seconds(to.nsec) - seconds(from.nsec));
 }
 
 void waitForClock(const StopToken& stop) {

@@ -28,6 +28,10 @@ class ClockWatch {
   std::chrono::steady_clock::time_point next_warning_{};
 };
 
+// From `from` to `to` in seconds. roscpp's difference of times throws beyond 2^31 s, as a stamp from
+// 2106 or, from 2038 on, one of 0 has it.
+double secondsBetween(const ros::Time& from, const ros::Time& to);
+
 // Waits until there is a ROS time. Throws Stopped.
 void waitForClock(const base::StopToken& stop);
 

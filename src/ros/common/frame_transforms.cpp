@@ -10,6 +10,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/clock.h"
 
 namespace grid_path_planner::nodes {
 
@@ -47,7 +48,7 @@ std::string reasonOf(const tf2_ros::Buffer& buffer, const std::string& target,
 
 }  // namespace
 
-FrameTransforms::FrameTransforms(const ros::NodeHandle& nh) : listener_(buffer_, nh, true) {}
+FrameTransforms::FrameTransforms(const ros::NodeHandle& nh) : receiver_(nh, buffer_) {}
 
 Pose FrameTransforms::poseIn(const std::string& frame, const geometry_msgs::PoseStamped& pose,
                              double limit, const StopToken& stop) const {
@@ -65,8 +66,20 @@ Pose FrameTransforms::poseIn(const std::string& frame, const geometry_msgs::Pose
 }
 
 Pose FrameTransforms::poseOf(const std::string& vehicle, const std::string& frame, double limit,
-                             const StopToken& stop) const {
-  return poseOfTransform(waitFor(frame, frameName(vehicle), ros::Time(0), limit, stop).transform);
+                             const StopToken& stop, std::optional<double> max_age) const {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
+  const std::string source = frameName(vehicle);
+  const auto latest = waitFor(frame, source, ros::Time(0), limit, stop);
+  while (max_age) {
+    try {
+      return recentPoseOf(source, frame, ros::Time::now(), *max_age);
+    } catch (const TransformError&) {
+      if (std::chrono::steady_clock::now() >= end) throw;
+    }
+    if (stop.reason() != StopReason::NONE) throw Stopped(stop.reason());
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return poseOfTransform(latest.transform);
 }
 
 geometry_msgs::TransformStamped FrameTransforms::waitFor(const std::string& target,
@@ -106,7 +119,7 @@ Pose FrameTransforms::recentPoseOf(const std::string& vehicle, const std::string
   } catch (const TransformError& error) {
     throw TransformError(pose + " is not known: " + error.what());
   }
-  const double age = (now - found.header.stamp).toSec();
+  const double age = secondsBetween(found.header.stamp, now);
   if (!found.header.stamp.isZero() && std::abs(age) > max_age)  // 0: all of it is static
     throw TransformError(pose + " is " + std::to_string(age) + " s old");
   return poseOfTransform(found.transform);

@@ -14,7 +14,6 @@
 #include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <optional>
 #include <stdexcept>
@@ -23,6 +22,7 @@
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/path/path.h"
+#include "ros/common/transform_receiver.h"
 
 namespace grid_path_planner::nodes {
 
@@ -41,9 +41,10 @@ class FrameTransforms {
   path::Pose poseIn(const std::string& frame, const geometry_msgs::PoseStamped& pose, double limit,
                     const base::StopToken& stop) const;
 
-  // The latest pose of the frame `vehicle` in `frame`. Throws TransformError, Stopped.
+  // The latest pose of the frame `vehicle` in `frame`; with `max_age` one that is within so many
+  // seconds of now, which is waited for too. Throws TransformError, Stopped.
   path::Pose poseOf(const std::string& vehicle, const std::string& frame, double limit,
-                    const base::StopToken& stop) const;
+                    const base::StopToken& stop, std::optional<double> max_age = {}) const;
 
   // The latest transform, or that at `stamp`. Throws TransformError with tf2's reason.
   geometry_msgs::TransformStamped transform(const std::string& target, const std::string& source,
@@ -73,7 +74,7 @@ class FrameTransforms {
   void checkKnown(const std::string& frame, const std::string& vehicle) const;
 
   tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  TransformReceiver receiver_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -79,8 +79,10 @@ CellRect changedCells(const OccupancyGrid& before, const OccupancyGrid& after) {
   return changed;
 }
 
-void MapReceiver::start(ros::NodeHandle nh, std::function<void()> on_change) {
+void MapReceiver::start(ros::NodeHandle nh, std::function<void()> on_change,
+                        std::function<void()> on_heartbeat) {
   on_change_ = std::move(on_change);
+  on_heartbeat_ = std::move(on_heartbeat);
   nh_ = nh;
   subscribeToMaps();
   update_subscriber_ = nh.subscribe("projected_map_updates", 100, &MapReceiver::onUpdate, this);
@@ -189,8 +191,11 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   else if (!lost().empty())
     askForAWholeMap();
   if (isHeartbeat(message)) {
-    std::lock_guard<std::mutex> lock(mutex_);
-    heartbeat_ = {message.header.stamp, Clock::now()};
+    {
+      std::lock_guard<std::mutex> lock(mutex_);
+      heartbeat_ = {message.header.stamp, Clock::now(), event.getPublisherName()};
+    }
+    on_heartbeat_();
     return;
   }
   const ReceivedMap before = latest();

@@ -5,8 +5,8 @@
 // (unless the map is stamped later than now: then ROS time has jumped back). Maps handed out never
 // change; a piece makes a new one in time proportional to the piece (grid/double_buffered.h).
 //
-// A piece without cells (0x0) is a heartbeat: it changes nothing, calls nobody and is accepted
-// before there is a map; only its stamp and when it came are kept.
+// A piece without cells (0x0) is a heartbeat: it changes nothing and is accepted before there is a
+// map; only its stamp, who sent it and when it came are kept.
 //
 // An update that is lost is noticed by the numbers of those that come (update_sequence.h), also of
 // heartbeats. Then the topic of maps is subscribed anew, which makes projected_map send a whole map;
@@ -50,6 +50,7 @@ struct MapChange {
 struct MapHeartbeat {
   ros::Time stamp;  // of the newest cloud in the publisher's map, 0: none; any number may come
   std::chrono::steady_clock::time_point received;
+  std::string publisher;  // the node
 };
 
 // The cells of `map` that `update` replaces. Throws InputError for an update that does not lie in
@@ -66,8 +67,11 @@ grid::CellRect changedCells(const grid::OccupancyGrid& before, const grid::Occup
 
 class MapReceiver {
  public:
-  // Subscribes. `on_change` is called after every change, in the subscriber's thread.
-  void start(ros::NodeHandle nh, std::function<void()> on_change);
+  // Subscribes. `on_change` is called after every change, `on_heartbeat` after every heartbeat, in
+  // the subscriber's thread.
+  void start(
+      ros::NodeHandle nh, std::function<void()> on_change,
+      std::function<void()> on_heartbeat = [] {});
 
   // The resolved name of the topic of maps; empty before start().
   std::string topic() const;
@@ -103,7 +107,7 @@ class MapReceiver {
   void store(ReceivedMap map, const std::optional<grid::CellRect>& changed);
   void refuse(const std::string& topic, const std::string& reason);
 
-  std::function<void()> on_change_;
+  std::function<void()> on_change_, on_heartbeat_;
   mutable std::mutex mutex_;
   std::string topic_;
   grid::DoubleBuffered<grid::OccupancyGrid> grids_;  // the subscribers'

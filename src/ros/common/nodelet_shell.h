@@ -3,13 +3,18 @@
 // A nodelet is a class that derives from NodeletShell<Node> and is exported by
 // PLUGINLIB_EXPORT_CLASS.
 //
-// `Node` is constructed from a node handle and a private one.
+// `Node` is constructed from a node handle and a private one, whose callbacks may throw
+// (guarded_queue.h).
 #pragma once
 
 #include <nodelet/nodelet.h>
+#include <ros/node_handle.h>
 
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
+
+#include "ros/common/guarded_queue.h"
+#include "ros/common/master_watch.h"
 
 namespace grid_path_planner::nodes {
 
@@ -17,10 +22,20 @@ template <class Node>
 class NodeletShell : public nodelet::Nodelet {
  private:
   void onInit() override {
-    node_ = std::make_unique<Node>(getNodeHandle(), getPrivateNodeHandle());
+    nh_ = getNodeHandle();
+    private_nh_ = getPrivateNodeHandle();
+    queue_ = std::make_unique<GuardedQueue>(*nh_.getCallbackQueue());
+    nh_.setCallbackQueue(queue_.get());
+    private_nh_.setCallbackQueue(queue_.get());
+    node_ = std::make_unique<Node>(nh_, private_nh_);
+    registered_ = MasterWatch::shared();
   }
 
+  ros::NodeHandle nh_, private_nh_;
+  std::unique_ptr<GuardedQueue> queue_;
+
   std::unique_ptr<Node> node_;
+  std::shared_ptr<MasterWatch> registered_;
 };
 
 }  // namespace grid_path_planner::nodes

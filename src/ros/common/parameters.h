@@ -187,7 +187,7 @@ class Reconfigurable {
       apply_(wanted);
       options_ = wanted;
       storeParameters(private_nh_, options_, Stored::NESTED);  // the server stores the others
-    } catch (const base::InputError& error) {
+    } catch (const std::exception& error) {
       ROS_ERROR_STREAM("Reconfiguration of " << private_nh_.getNamespace()
                                              << " refused, the old values stay: " << error.what());
       config = configFromOptions<Config>(options_);

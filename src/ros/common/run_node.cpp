@@ -9,6 +9,9 @@
 #include <csignal>
 #include <mutex>
 
+#include "ros/common/guarded_queue.h"
+#include "ros/common/master_watch.h"
+
 namespace grid_path_planner::nodes {
 namespace {
 
@@ -67,10 +70,14 @@ std::string endReason() {
 }
 
 void serve(const std::string& name, const NodeMaker& make) {
+  static GuardedQueue queue(*ros::getGlobalCallbackQueue());  // waits in roscpp's longer than we do
   ros::NodeHandle nh;
   ros::NodeHandle private_nh("~");
+  nh.setCallbackQueue(&queue);
+  private_nh.setCallbackQueue(&queue);
   ShutdownRequest::instance().listen();
   const std::shared_ptr<void> node = make(nh, private_nh);
+  const auto registered = MasterWatch::shared();
   node_runs = true;
   // A process registers with the master at its first line of log. Were that the line that says why
   // it ends, the master would end the new node of this name in favour of the old one.

@@ -7,7 +7,8 @@
 // Guaranteed: on every orderly end of the process (SIGINT, SIGTERM, rosnode kill, a second
 // node of the same name, an exception), the node's destructor runs while its publishers still reach
 // others, and the log says why. roscpp by itself closes all connections first, so that no last
-// message leaves. Not guaranteed: anything after SIGKILL.
+// message leaves. An exception of a callback ends the callback (guarded_queue.h); a master that was
+// restarted knows the node again (master_watch.h). Not guaranteed: anything after SIGKILL.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -26,7 +27,7 @@ using NodeMaker =
     std::function<std::shared_ptr<void>(ros::NodeHandle& nh, ros::NodeHandle& private_nh)>;
 
 // Calls the global callback queue in this thread until the node ends. Returns the exit code:
-// 0, or 1 after an exception of the node's construction or of a callback.
+// 0, or 1 after an exception of the node's construction.
 int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make);
 
 // `Node` is constructed from a node handle and a private one. Returns 2 for arguments that are not

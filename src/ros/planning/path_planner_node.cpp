@@ -11,6 +11,7 @@
 #include "ros/common/file_kinds.h"
 #include "ros/common/network_text.h"
 #include "ros/common/parameters.h"
+#include "ros/common/system_state.h"
 
 namespace grid_path_planner::nodes {
 
@@ -65,6 +66,7 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
     : nh_(nh) {
   const PathPlannerNodeOptions options = loadOptions(private_nh, files);
   warnUnusedOptions(options.planner);
+  refuseOtherCommander({{}, {nh.resolveName("plan_path")}, "", false});
   server_ =
       std::make_unique<PlanningServer>(nh, options, files, [this] { active_goal_.forgetStart(); });
   services_ = std::make_unique<PlanServices>(private_nh, *server_);

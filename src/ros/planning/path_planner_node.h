@@ -35,7 +35,8 @@ class Reconfigurable;
 
 class PathPlannerNode {
  public:
-  // Throws InputError for parameters that cannot be used. Callbacks are called from the queue of
+  // Throws InputError for parameters that cannot be used, and for another node that offers the
+  // action. Callbacks are called from the queue of
   // `nh`, those of the services from their own threads.
   PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const NodeFiles& files = {});
   // Stops all planning; requests that wait are answered CANCELLED.

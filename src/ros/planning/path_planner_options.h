@@ -35,8 +35,11 @@ void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
   visit("base_frame", o.base_frame,
         base::OptionInfo{
             "Frame of the vehicle, where paths start, unless initialpose said otherwise", ""});
-  visit("tf_timeout", o.tf_timeout,
-        base::OptionInfo{"How long a transform is waited for before TRANSFORM_ERROR", "s", 0, 60});
+  visit(
+      "tf_timeout", o.tf_timeout,
+      base::OptionInfo{"How long a transform is waited for before TRANSFORM_ERROR, and how old the "
+                       "vehicle's pose may be as a start; 0: no wait, and any age",
+                       "s", 0, 60});
   visit("goal_z_from", o.goal_z_from,
         base::OptionInfo{
             "Where the z of a goal comes from; vehicle: it is that of the start, for goals "

@@ -36,7 +36,7 @@ void PlanDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("width", map.grid->width());
   status.add("height", map.grid->height());
   status.add("resolution", map.grid->geometry().resolution());
-  status.add("age_s", (ros::Time::now() - map.stamp).toSec());
+  status.add("age_s", secondsBetween(map.stamp, ros::Time::now()));
 }
 
 void PlanDiagnostics::reportPlan(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -47,7 +47,7 @@ std::vector<PlanningRequest> requestsOf(const ComparePlans::Request& compared) {
 
 PlanServices::PlanServices(ros::NodeHandle private_nh, PlanningServer& server)
     : server_(server), spinner_(2, &queue_) {
-  private_nh.setCallbackQueue(&queue_);
+  private_nh.setCallbackQueue(&guarded_);
   make_plan_ = private_nh.advertiseService("make_plan", &PlanServices::makePlan, this);
   compare_plans_ = private_nh.advertiseService("compare_plans", &PlanServices::comparePlans, this);
   save_waypoints_ =

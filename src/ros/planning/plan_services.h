@@ -12,6 +12,7 @@
 
 #include "grid_path_planner/ComparePlans.h"
 #include "grid_path_planner/SaveWaypoints.h"
+#include "ros/common/guarded_queue.h"
 #include "ros/planning/planning_server.h"
 
 namespace grid_path_planner::nodes {
@@ -29,6 +30,7 @@ class PlanServices {
 
   PlanningServer& server_;
   ros::CallbackQueue queue_;
+  GuardedQueue guarded_{queue_};
   ros::ServiceServer make_plan_;
   ros::ServiceServer compare_plans_;
   ros::ServiceServer save_waypoints_;

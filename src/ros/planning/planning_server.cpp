@@ -36,6 +36,11 @@ Pose named(const char* which, const std::function<Pose()>& pose) {
   }
 }
 
+// Of the vehicle's pose, in seconds.
+std::optional<double> oldestStart(const PathPlannerNodeOptions& options) {
+  return options.tf_timeout > 0.0 ? std::make_optional(options.tf_timeout) : std::nullopt;
+}
+
 }  // namespace
 
 PlanningServer::PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions& options,
@@ -113,9 +118,10 @@ PoseRequest PlanningServer::posesOf(const PlanningRequest& request,
     return transforms_.poseIn(map_frame, request.goal, options.tf_timeout, stop);
   });
   poses.start = named("start", [&] {
-    return request.start
-               ? transforms_.poseIn(map_frame, *request.start, options.tf_timeout, stop)
-               : transforms_.poseOf(options.base_frame, map_frame, options.tf_timeout, stop);
+    if (request.start)
+      return transforms_.poseIn(map_frame, *request.start, options.tf_timeout, stop);
+    return transforms_.poseOf(options.base_frame, map_frame, options.tf_timeout, stop,
+                              oldestStart(options));
   });
   if (options.goal_z_from == GoalZ::VEHICLE) poses.goal.position.z() = poses.start.position.z();
   return poses;

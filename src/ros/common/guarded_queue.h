@@ -1,0 +1,33 @@
+// A callback queue whose callbacks may throw.
+//
+//   GuardedQueue queue(*nh.getCallbackQueue());
+//   nh.setCallbackQueue(&queue);   // subscriptions, timers, services and actions of `nh` from now on
+//
+// Guaranteed: an exception ends its callback, never the thread that serves the queue; the log says
+// which, at most once a second. roscpp by itself lets it end the process, a nodelet manager with all
+// that it holds. The queue behind it does the work and outlives this; callbacks that wait in it may
+// outlive this too.
+#pragma once
+
+#include <ros/callback_queue_interface.h>
+
+#include <cstdint>
+#include <functional>
+
+namespace grid_path_planner::nodes {
+
+class GuardedQueue : public ros::CallbackQueueInterface {
+ public:
+  explicit GuardedQueue(ros::CallbackQueueInterface& queue) : queue_(queue) {}
+
+  void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner = 0) override;
+  void removeByID(std::uint64_t owner) override { queue_.removeByID(owner); }
+
+ private:
+  ros::CallbackQueueInterface& queue_;
+};
+
+// Work for the thread that serves a queue.
+ros::CallbackInterfacePtr callbackOf(std::function<void()> work);
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,128 @@
+#include "ros/common/master_watch.h"
+
+#include <ros/connection_manager.h>
+#include <ros/console.h>
+#include <ros/network.h>
+#include <ros/this_node.h>
+#include <ros/xmlrpc_manager.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "ros/common/system_state.h"
+#include "ros/common/xmlrpc_call.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using XmlRpc::XmlRpcValue;
+
+constexpr auto kPeriod = std::chrono::seconds(1);
+constexpr double kSeconds = 1.0;  // that the master is asked
+
+XmlRpcValue self() {
+  return XmlRpcValue(ros::this_node::getName());
+}
+
+std::string ownUri() {
+  return ros::XMLRPCManager::instance()->getServerURI();
+}
+
+std::optional<XmlRpcValue> askMaster(const char* method, std::vector<XmlRpcValue> arguments = {}) {
+  arguments.insert(arguments.begin(), self());
+  return callXmlRpc(masterUri(), method, arguments, kSeconds);
+}
+
+}  // namespace
+
+std::shared_ptr<MasterWatch> MasterWatch::shared() {
+  static std::mutex mutex;
+  static std::weak_ptr<MasterWatch> known;
+  const std::lock_guard<std::mutex> lock(mutex);
+  std::shared_ptr<MasterWatch> watch = known.lock();
+  if (!watch) known = watch = std::shared_ptr<MasterWatch>(new MasterWatch);
+  return watch;
+}
+
+MasterWatch::MasterWatch()
+    : answered_(Clock::now().time_since_epoch().count()), thread_([this] { run(); }) {}
+
+MasterWatch::~MasterWatch() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    done_ = true;
+  }
+  ends_.notify_all();
+  thread_.join();
+}
+
+double MasterWatch::silence() const {
+  const Clock::duration answered(answered_.load());
+  return std::chrono::duration<double>(Clock::now().time_since_epoch() - answered).count();
+}
+
+void MasterWatch::run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!done_) {
+    lock.unlock();
+    try {
+      ask();
+    } catch (const std::exception& error) {
+      ROS_ERROR_STREAM_THROTTLE(5.0, "The master's answer is not understood: " << error.what());
+    }
+    lock.lock();
+    ends_.wait_for(lock, kPeriod, [this] { return done_; });
+  }
+}
+
+void MasterWatch::ask() {
+  auto pid = askMaster("getPid");
+  if (!pid) {
+    ROS_WARN_STREAM_THROTTLE(10.0, "The master at " << masterUri() << " does not answer");
+    return;
+  }
+  answered_ = Clock::now().time_since_epoch().count();
+  const int before = std::exchange(pid_, static_cast<int&>(*pid));
+  const bool restarted = before != 0 && before != pid_;
+  const bool knows = askMaster("lookupNode", {self()}).has_value();
+  if (restarted || (known_ && !knows)) registerAgain();
+  known_ = known_ || knows;
+  rememberServices();
+}
+
+void MasterWatch::rememberServices() {
+  const auto state = systemState(kSeconds);
+  if (!state) return;
+  services_.clear();
+  const std::string name = ros::this_node::getName();
+  for (const auto& [service, nodes] : state->services)
+    if (std::find(nodes.begin(), nodes.end(), name) != nodes.end()) services_.push_back(service);
+}
+
+void MasterWatch::registerAgain() const {
+  ROS_WARN_STREAM("The master at " << masterUri()
+                                   << " does not know this node: it is registered again");
+  registerTopics("getPublications", "registerPublisher");
+  registerTopics("getSubscriptions", "registerSubscriber");
+  const std::string api = "rosrpc://" + ros::network::getHost() + ":" +
+                          std::to_string(ros::ConnectionManager::instance()->getTCPPort());
+  for (const std::string& service : services_)
+    askMaster("registerService", {XmlRpcValue(service), XmlRpcValue(api), XmlRpcValue(ownUri())});
+}
+
+// The master answers a subscriber with the publishers of its topic, and tells nobody else.
+void MasterWatch::registerTopics(const char* list, const char* method) const {
+  auto topics = callXmlRpc(ownUri(), list, {self()}, kSeconds);
+  for (int i = 0; topics && i < topics->size(); ++i) {
+    const XmlRpcValue& topic = (*topics)[i][0];
+    const auto known = askMaster(method, {topic, (*topics)[i][1], XmlRpcValue(ownUri())});
+    const bool publishers =
+        known && known->getType() == XmlRpcValue::TypeArray && known->size() > 0;
+    if (publishers && std::string(method) == "registerSubscriber")
+      callXmlRpc(ownUri(), "publisherUpdate", {XmlRpcValue("/master"), topic, *known}, kSeconds);
+  }
+}
+
+}  // namespace grid_path_planner::nodes

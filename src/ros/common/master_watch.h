@@ -1,0 +1,55 @@
+// Whether the master is there, and this process registered with it again where it was restarted.
+//
+//   const auto master = MasterWatch::shared();
+//   if (master->silence() > 30.0) stop();
+//
+// roscpp registers names once: a master that was restarted knows none of them, so that nobody finds
+// the services and topics of a node that runs on. The watch asks every second and registers all
+// topics and services of the process again, within 2 s of the master's return. Connections that
+// exist are not touched, but where the new master sends another list of publishers. Parameters are
+// lost with their master. Not guaranteed: names of nodes outside this package.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace grid_path_planner::nodes {
+
+class MasterWatch {
+ public:
+  // The one of the process; it ends with the last who holds it.
+  static std::shared_ptr<MasterWatch> shared();
+  ~MasterWatch();
+  MasterWatch(const MasterWatch&) = delete;
+  MasterWatch& operator=(const MasterWatch&) = delete;
+
+  // Seconds since the master answered last, to within one; takes no lock.
+  double silence() const;
+
+ private:
+  MasterWatch();
+  void run();
+  void ask();
+  void rememberServices();
+  void registerAgain() const;
+  void registerTopics(const char* list, const char* method) const;
+
+  std::atomic<std::chrono::steady_clock::rep> answered_;
+  // The thread's:
+  int pid_ = 0;         // of the master
+  bool known_ = false;  // to the master, once
+  std::vector<std::string> services_;
+
+  std::mutex mutex_;
+  std::condition_variable ends_;
+  bool done_ = false;
+  std::thread thread_;
+};
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,96 @@
+#include "ros/common/system_state.h"
+
+#include <ros/this_node.h>
+
+#include <algorithm>
+
+#include "grid_path_planner/base/errors.h"
+#include "ros/common/xmlrpc_call.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+constexpr double kSeconds = 1.0;  // that one is asked
+
+// [[name, [node, node]], ...]
+SystemState::Nodes nodesOf(XmlRpcValue& list) {
+  SystemState::Nodes nodes;
+  for (int i = 0; i < list.size(); ++i)
+    for (int n = 0; n < list[i][1].size(); ++n)
+      nodes[static_cast<std::string&>(list[i][0])].push_back(
+          static_cast<std::string&>(list[i][1][n]));
+  return nodes;
+}
+
+bool has(const SystemState::Nodes& nodes, const std::string& name, const std::string& node) {
+  const auto found = nodes.find(name);
+  return found != nodes.end() &&
+         std::find(found->second.begin(), found->second.end(), node) != found->second.end();
+}
+
+bool answers(const std::string& node) {
+  const auto uri = uriOfNode(node, kSeconds);
+  return uri && answersXmlRpc(*uri, kSeconds);
+}
+
+// The first other node among the publishers of `topic` that `counts` takes and that answers.
+template <class Counts>
+std::string otherPublisher(const SystemState& state, const std::string& topic, Counts counts) {
+  const auto publishers = state.publishers.find(topic);
+  if (publishers == state.publishers.end()) return "";
+  for (const std::string& node : publishers->second)
+    if (node != ros::this_node::getName() && counts(node) && answers(node)) return node;
+  return "";
+}
+
+[[noreturn]] void refuse(const OtherCommander& other) {
+  throw base::InputError(other.sentence + ": two must not command one vehicle");
+}
+
+}  // namespace
+
+std::optional<SystemState> systemState(double seconds) {
+  try {
+    auto lists = callXmlRpc(masterUri(), "getSystemState", {XmlRpcValue(ros::this_node::getName())},
+                            seconds);
+    if (!lists || lists->getType() != XmlRpcValue::TypeArray || lists->size() != 3)
+      return std::nullopt;
+    return SystemState{nodesOf((*lists)[0]), nodesOf((*lists)[1]), nodesOf((*lists)[2])};
+  } catch (const XmlRpc::XmlRpcException&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<OtherCommander> otherCommander(const Commands& commands) {
+  const auto state = systemState(kSeconds);
+  if (!state) return std::nullopt;
+  const SystemState::Nodes& partners =
+      commands.is_joystick ? state->subscribers : state->publishers;
+  const auto in_the_way = [&](const std::string& node) {
+    return !has(partners, commands.manual_control, node);
+  };
+  for (const std::string& topic : commands.topics) {
+    const std::string node = otherPublisher(*state, topic, in_the_way);
+    if (!node.empty()) return OtherCommander{node, "the node " + node + " publishes " + topic};
+  }
+  for (const std::string& action : commands.actions) {
+    const std::string node =
+        otherPublisher(*state, action + "/status", [](const std::string&) { return true; });
+    if (!node.empty()) return OtherCommander{node, "the node " + node + " offers " + action};
+  }
+  return std::nullopt;
+}
+
+void refuseOtherCommander(const Commands& commands) {
+  const auto other = otherCommander(commands);
+  if (other) refuse(*other);
+}
+
+void refuseSimultaneousCommander(const Commands& commands) {
+  const auto other = otherCommander(commands);
+  if (other && other->node < ros::this_node::getName()) refuse(*other);
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,45 @@
+// Who publishes and offers what, as the master knows it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grid_path_planner::nodes {
+
+struct SystemState {
+  using Nodes = std::map<std::string, std::vector<std::string>>;  // by topic or service
+  Nodes publishers, subscribers, services;
+};
+
+// None where the master does not answer within `seconds`.
+std::optional<SystemState> systemState(double seconds);
+
+// What a node commands, and nobody else may.
+struct Commands {
+  std::vector<std::string> topics;   // resolved names, of velocities
+  std::vector<std::string> actions;  // resolved names
+  // A topic: who publishes it (joysticks) and who subscribes to it (drivers) may publish the same
+  // velocities, since drivers give way to joysticks.
+  std::string manual_control;
+  bool is_joystick = false;
+};
+
+struct OtherCommander {
+  std::string node;
+  std::string sentence;
+};
+
+// Another node that answers and publishes one of the topics, or offers one of the actions; none
+// where there is none. A node that was killed stays registered, so each that is found is asked, for
+// a second at most.
+std::optional<OtherCommander> otherCommander(const Commands& commands);
+
+// Throws InputError naming it. Asked before a node advertises anything.
+void refuseOtherCommander(const Commands& commands);
+
+// The same after it has: of two nodes that start at once, that with the later name is refused.
+void refuseSimultaneousCommander(const Commands& commands);
+
+}  // namespace grid_path_planner::nodes

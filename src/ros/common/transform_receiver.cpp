@@ -1,0 +1,67 @@
+#include "ros/common/transform_receiver.h"
+
+#include <ros/console.h>
+
+#include <utility>
+
+#include "ros/common/clock.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
+
+constexpr double kWarningPeriod = 5.0;  // s
+constexpr int kMessages = 100;
+
+}  // namespace
+
+TransformReceiver::TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer)
+    : buffer_(buffer) {
+  nh.setCallbackQueue(&guarded_);
+  const auto subscribe = [&](const char* topic, bool is_static) {
+    return nh.subscribe<tf2_msgs::TFMessage, const Event&>(
+        topic, kMessages, [this, is_static](const Event& event) {
+          receive(*event.getMessage(), event.getPublisherName(), is_static);
+        });
+  };
+  moving_ = subscribe("/tf", false);
+  static_ = subscribe("/tf_static", true);
+  spinner_.start();
+}
+
+TransformReceiver::~TransformReceiver() {
+  moving_.shutdown();
+  static_.shutdown();
+  spinner_.stop();
+}
+
+void TransformReceiver::receive(const tf2_msgs::TFMessage& message, const std::string& node,
+                                bool is_static) {
+  const ros::Time now = ros::Time::now();
+  if (now < std::exchange(latest_, now)) buffer_.clear();
+  for (const geometry_msgs::TransformStamped& transform : message.transforms)
+    insert(transform, node, is_static);
+}
+
+void TransformReceiver::insert(geometry_msgs::TransformStamped transform, const std::string& node,
+                               bool is_static) {
+  if (is_static) transform.header.stamp = ros::Time();
+  const double ahead = secondsBetween(latest_, transform.header.stamp);
+  if (!is_static && (transform.header.stamp.isZero() || ahead > kFutureSeconds)) {
+    ROS_WARN_STREAM_THROTTLE(
+        kWarningPeriod, "A transform from " << transform.child_frame_id << " to "
+                                            << transform.header.frame_id << " of " << node
+                                            << " is dropped: it is stamped "
+                                            << transform.header.stamp << ", now is " << latest_);
+    return;
+  }
+  try {
+    buffer_.setTransform(transform, node, is_static);
+  } catch (const tf2::TransformException& error) {
+    ROS_ERROR_STREAM_THROTTLE(kWarningPeriod,
+                              "A transform of " << node << " is dropped: " << error.what());
+  }
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,47 @@
+// Receives /tf and /tf_static into a buffer, in a thread of its own, and refuses what would end the
+// process or stop all later transforms.
+//
+// In the place of tf2_ros::TransformListener: there a transform stamped near 2^32 s ends the process
+// inside tf2 (its arithmetic of times throws), and one stamped years ahead stays the latest for
+// years, since tf2 drops what is older than its newest by more than its length.
+//
+// Guaranteed: transforms that are stamped 0 or more than kFutureSeconds ahead of ROS time, and all
+// while there is none, are dropped with a warning; the stamps of static ones do not count. ROS time
+// that jumps back clears the buffer.
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <ros/subscriber.h>
+#include <tf2_msgs/TFMessage.h>
+#include <tf2_ros/buffer.h>
+
+#include <string>
+
+#include "ros/common/guarded_queue.h"
+
+namespace grid_path_planner::nodes {
+
+// Below the 5 s in which right transforms must count again; above what clocks of one vehicle's
+// computers, or /clock and /tf, differ by.
+constexpr double kFutureSeconds = 4.0;
+
+class TransformReceiver {
+ public:
+  TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer);
+  ~TransformReceiver();
+
+ private:
+  void receive(const tf2_msgs::TFMessage& message, const std::string& node, bool is_static);
+  void insert(geometry_msgs::TransformStamped transform, const std::string& node, bool is_static);
+
+  tf2_ros::Buffer& buffer_;
+  ros::Time latest_;
+  ros::CallbackQueue queue_;
+  GuardedQueue guarded_{queue_};
+  ros::Subscriber moving_, static_;
+  ros::AsyncSpinner spinner_{1, &queue_};
+};
+
+}  // namespace grid_path_planner::nodes
