@@ -136,8 +136,7 @@ bool RouteProgress::isPassed(const Vector3d& position) const {
   if (away <= options_.position_tolerance) return true;
   if (route_->turnsBack(segment_))
     return away <= std::min(options_.acceptance_radius, 0.5 * options_.pursuit_distance);
-  return route_->distance(route_->next(segment_), position) <=
-         route_->distance(segment_, position);
+  return route_->distance(route_->next(segment_), position) <= route_->distance(segment_, position);
 }
 
 // Where the policy is to drive to a missed waypoint again: a new route from `vehicle` on.

@@ -1,37 +1,36 @@
 #include "ros/driving/navigate_path_node.h"
 
 #include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/Twist.h>
+#include <ros/callback_queue_interface.h>
 #include <ros/console.h>
 
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "grid_path_planner/NavigatePathConfig.h"
-#include "grid_path_planner/following/path_clearance_check.h"
 #include "grid_path_planner/path/waypoint_file.h"
-#include "grid_path_planner/ros/conversions.h"
 #include "ros/common/file_kinds.h"
+#include "ros/common/guarded_queue.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
 
-using base::BodyVelocity;
 using base::InputError;
-using following::firstOccupied;
+using base::StopSource;
+using base::TaskQueue;
+using diagnostic_msgs::DiagnosticStatus;
 using following::FollowEvent;
-using following::FollowInput;
 using following::FollowState;
 using following::Join;
-using following::PathFollower;
 using path::Path;
 using path::readWaypointFile;
 
 namespace {
 
-constexpr double kFeedbackPeriod = 0.2;     // s, wall time
-constexpr double kDiagnosticsPeriod = 1.0;  // s, wall time
+// Wall time
+constexpr double kClockPeriod = 0.02;       // s
+constexpr double kFeedbackPeriod = 0.2;     // s
+constexpr double kDiagnosticsPeriod = 1.0;  // s
 
 NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles& files) {
   NavigatePathOptions options;
@@ -40,6 +39,23 @@ NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFil
   checkNavigatePathOptions(options);
   warnUnknownParameters(private_nh, optionNames<NavigatePathOptions>());
   return options;
+}
+
+Path readWaypoints(const NodeFiles& files, const std::string& filename) {
+  return files.read("config_filename", filename, waypointFiles(), readWaypointFile);
+}
+
+Path fileOf(const NavigatePathOptions& options, const NodeFiles& files) {
+  return options.config_filename.empty() ? Path() : readWaypoints(files, options.config_filename);
+}
+
+Commands commandsOf(const ros::NodeHandle& nh, const NavigatePathOptions& options) {
+  Commands commands;
+  if (!options.share_cmd_vel) commands.topics = {nh.resolveName("cmd_vel")};
+  commands.actions = {nh.resolveName("navigate_path")};
+  commands.manual_control = nh.resolveName("manual_control");
+  refuseOtherCommander(commands);
+  return commands;
 }
 
 bool isWarning(FollowEvent::Kind kind) {
@@ -54,34 +70,65 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
     : nh_(nh),
       files_(files),
       options_(loadOptions(private_nh, files)),
-      follower_(options_.follower),
+      file_(fileOf(options_, files)),
+      commands_(commandsOf(nh_, options_)),
       transforms_(nh),
       action_(nh, "navigate_path", false),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
-  if (!options_.config_filename.empty()) file_ = readWaypoints(options_.config_filename);
-  velocity_publisher_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10);
   waypoint_publisher_ = nh_.advertise<geometry_msgs::PoseStamped>("current_waypoint", 1, true);
-  map_.start(nh_, [] {});  // read by every check of the path ahead
+  loop_ = std::make_unique<DriveLoop>(nh_, options_, transforms_,
+                                      [this] { callLater([this] { takeReports(); }); });
+  map_ = std::make_unique<MapWatch>(nh_, [this](const MapLife& life) { loop_->setMap(life); });
+  reader_ = std::make_unique<TaskQueue>();
+  offerServices(private_nh);
+  startAction();
+  refuseSimultaneousCommander(commands_);
+  reconfigurable_ = std::make_unique<Reconfigurable<NavigatePathConfig, NavigatePathOptions>>(
+      private_nh, options_, [this](const NavigatePathOptions& options) { use(options); });
+  startTimers();
+}
 
+NavigatePathNode::~NavigatePathNode() {
+  clock_timer_.stop();
+  feedback_timer_.stop();
+  diagnostics_timer_.stop();
+  path_subscriber_.shutdown();
+  for (ros::ServiceServer& service : services_) service.shutdown();
+  reconfigurable_.reset();
+  reader_.reset();
+  map_.reset();
+  loop_->cancel("navigate_path ends");
+  takeReports();
+  loop_.reset();
+  nh_.getCallbackQueue()->removeByID(reinterpret_cast<std::uint64_t>(this));
+}
+
+void NavigatePathNode::offerServices(ros::NodeHandle& private_nh) {
   using Request = std_srvs::Trigger::Request;
   using Response = std_srvs::Trigger::Response;
   services_ = {
       private_nh.advertiseService<Request, Response>(
-          "pause", [this](Request&, Response& r) { return answer(follower_.pause(), r); }),
+          "pause", [this](Request&, Response& r) { return answer(loop_->pause(), r); }),
       private_nh.advertiseService<Request, Response>(
-          "resume", [this](Request&, Response& r) { return answer(follower_.resume(), r); }),
+          "resume", [this](Request&, Response& r) { return answer(loop_->resume(), r); }),
       private_nh.advertiseService<Request, Response>("cancel", [this](Request&, Response& r) {
-        return answer(follower_.cancel("asked for by ~cancel"), r);
+        return answer(cancel("asked for by ~cancel"), r);
       })};
+}
+
+void NavigatePathNode::startAction() {
   action_.registerGoalCallback([this] { onGoal(); });
   action_.registerPreemptCallback([this] { onPreempt(); });
   action_.start();
+}
 
+void NavigatePathNode::startTimers() {
   diagnostics_.setHardwareID("none");
   diagnostics_.add("path following", this, &NavigatePathNode::diagnose);
-  reconfigurable_ = std::make_unique<Reconfigurable<NavigatePathConfig, NavigatePathOptions>>(
-      private_nh, options_, [this](const NavigatePathOptions& options) { use(options); });
-  startTimer();
+  diagnostics_.add("map", this, &NavigatePathNode::diagnoseMap);
+  diagnostics_.add("other nodes", this, &NavigatePathNode::diagnoseOthers);
+  clock_timer_ = nh_.createSteadyTimer(ros::WallDuration(kClockPeriod),
+                                       [this](const ros::SteadyTimerEvent&) { watchClock(); });
   feedback_timer_ =
       nh_.createSteadyTimer(ros::WallDuration(kFeedbackPeriod),
                             [this](const ros::SteadyTimerEvent&) { publishFeedback(); });
@@ -91,59 +138,32 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
                             [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
 }
 
-NavigatePathNode::~NavigatePathNode() {
-  timer_.stop();
-  feedback_timer_.stop();
-  diagnostics_timer_.stop();
-  follower_.cancel("navigate_path ends");
-  stop();
-  if (velocity_publisher_.getNumSubscribers() > 0)
-    ros::WallDuration(0.1).sleep();  // roscpp sends in a thread of its own and says not when it has
-}
-
 void NavigatePathNode::use(const NavigatePathOptions& options) {
   checkNavigatePathOptions(options);
   if (options.config_filename != options_.config_filename)
     throw InputError("config_filename cannot be changed while the node runs: use the action");
-  follower_.setOptions(options.follower);
-  const bool other_rate = options.control_rate != options_.control_rate;
+  if (options.share_cmd_vel != options_.share_cmd_vel)
+    throw InputError("share_cmd_vel cannot be changed while the node runs");
+  loop_->setOptions(options);
   options_ = options;
-  if (other_rate) startTimer();
 }
 
-void NavigatePathNode::startTimer() {
-  timer_ = nh_.createSteadyTimer(ros::WallDuration(1.0 / options_.control_rate),
-                                 &NavigatePathNode::onTimer, this);
-}
-
-void NavigatePathNode::onTimer(const ros::SteadyTimerEvent&) {
+// The first time, and time that jumped back: only then is it known which paths are from before.
+void NavigatePathNode::watchClock() {
   if (!clock_.hasTime()) {
     waits_for_clock_ = true;
     return;
   }
   if (std::exchange(waits_for_clock_, false)) ROS_INFO("/clock is there");
   const ros::Time now = ros::Time::now();
-  if (now == now_) return;  // a clock that stands still
+  if (const std::optional<double> back = clock_.jumpedBack(now)) {
+    ROS_WARN_STREAM("ROS time went back by " << *back
+                                             << " s: tf is cleared and the drive cancelled");
+    started_ = now;
+  }
   if (started_.isZero()) startDriving(now);
-  cancelOnTimeJump(now);
-  now_ = now;
-  control(now);
 }
 
-// Time that goes back: paths from before the jump are not of this time.
-void NavigatePathNode::cancelOnTimeJump(const ros::Time& now) {
-  const std::optional<double> back = clock_.jumpedBack(now);
-  if (!back) return;
-  ROS_WARN_STREAM("ROS time went back by " << *back << " s: tf is cleared and the drive cancelled");
-  transforms_.clear();
-  FollowInput without_pose;
-  without_pose.time = now.toSec();
-  publishVelocity(follower_.update(without_pose));  // cancels, since time went back
-  reportEvents();
-  started_ = now_ = now;
-}
-
-// Only now is it known which paths are from before.
 void NavigatePathNode::startDriving(const ros::Time& now) {
   started_ = now;
   if (options_.config_filename.empty()) {
@@ -151,48 +171,11 @@ void NavigatePathNode::startDriving(const ros::Time& now) {
     return;
   }
   ROS_INFO_STREAM("Drives the waypoints of " << options_.config_filename);
-  if (!goal_active_) follower_.start(file_, options_.join_nearest ? Join::NEAREST : Join::FIRST);
-}
-
-void NavigatePathNode::control(const ros::Time& now) {
-  FollowInput input;
-  input.time = now.toSec();
-  if (!follower_.path().empty()) findVehicle(now, input);
-  if (options_.check_map)
-    input.check = [this](const std::vector<Eigen::Vector3d>& ahead) { return whyOccupied(ahead); };
-  publishVelocity(follower_.update(input));
-  reportEvents();
-  publishWaypoint(now);
-}
-
-void NavigatePathNode::findVehicle(const ros::Time& now, FollowInput& input) const {
-  try {
-    input.pose = transforms_.recentPoseOf(options_.base_frame, follower_.path().frame_id, now,
-                                          options_.tf_timeout);
-  } catch (const TransformError& error) {
-    input.pose_problem = error.what();
-  }
-}
-
-std::string NavigatePathNode::whyOccupied(const std::vector<Eigen::Vector3d>& ahead) const {
-  const ReceivedMap map = map_.latest();
-  if (!map.grid) return "";
-  try {
-    const auto points = transforms_.pointsIn(map.frame_id, follower_.path().frame_id, ahead);
-    const auto cell =
-        firstOccupied(*map.grid, options_.occupied_min, points, options_.check_radius);
-    if (!cell) return "";
-    const Eigen::Vector2d at = map.grid->geometry().centre(*cell);
-    std::ostringstream text;
-    text << "projected_map is occupied ahead, at x " << at.x() << ", y " << at.y() << " m";
-    return text.str();
-  } catch (const TransformError& error) {
-    return std::string("projected_map cannot be compared with the path: ") + error.what();
-  }
+  if (!goal_active_) loop_->start(file_, options_.join_nearest ? Join::NEAREST : Join::FIRST);
 }
 
 void NavigatePathNode::onPath(const nav_msgs::Path& message) {
-  cancelOnTimeJump(ros::Time::now());
+  watchClock();
   if (message.header.stamp < started_ && !options_.follow_latched) {
     ROS_WARN_STREAM("A path stamped " << message.header.stamp << " is not driven: navigate_path "
                                       << "started at " << started_
@@ -204,90 +187,112 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   if (message.poses.empty()) {
-    if (follower_.active()) follower_.cancel("the path is empty: none was found");
-    stop();
+    loop_->cancel("the path is empty: none was found");
     return;
   }
   try {
-    follower_.start(transforms_.pathIn(message, options_.base_frame), Join::NEAREST);
-    published_waypoint_ = -1;
+    loop_->start(transforms_.pathIn(message, options_.base_frame), Join::NEAREST);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
   }
 }
 
 void NavigatePathNode::onGoal() {
-  if (goal_active_) follower_.cancel("replaced by another goal");
-  reportEvents();
+  if (goal_active_) cancel("replaced by another goal");
+  takeReports();
   const auto goal = action_.acceptNewGoal();
   goal_active_ = true;
+  ++goals_;
+  if (goal->path.poses.empty() && !goal->filename.empty()) {
+    readGoal(goal->filename);
+  } else {
+    startGoal(
+        [&] {
+          if (!goal->filename.empty())
+            throw InputError("a goal must give a path or a filename, got both");
+          if (goal->path.poses.empty())
+            throw InputError("a goal must give a path of at least one waypoint, or a filename");
+          return transforms_.pathIn(goal->path, options_.base_frame);
+        },
+        Join::NEAREST);
+  }
+  if (action_.isPreemptRequested()) onPreempt();
+}
+
+void NavigatePathNode::startGoal(const std::function<Path()>& read, Join join) {
   try {
-    const bool from_file = goal->path.poses.empty();
-    follower_.start(pathOf(*goal),
-                    from_file && !options_.join_nearest ? Join::FIRST : Join::NEAREST);
-    published_waypoint_ = -1;
-    if (action_.isPreemptRequested()) onPreempt();
+    loop_->start(read(), join);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
-    finishGoal("INVALID_REQUEST", error.what());
+    finishGoal("INVALID_REQUEST", error.what(), loop_->standing());
   }
 }
 
-Path NavigatePathNode::readWaypoints(const std::string& filename) const {
-  return files_.read("config_filename", filename, waypointFiles(), readWaypointFile);
-}
-
-Path NavigatePathNode::pathOf(const NavigatePathGoal& goal) const {
-  if (!goal.path.poses.empty() && !goal.filename.empty())
-    throw InputError("a goal must give a path or a filename, got both");
-  if (!goal.path.poses.empty()) return transforms_.pathIn(goal.path, options_.base_frame);
-  if (goal.filename.empty())
-    throw InputError("a goal must give a path of at least one waypoint, or a filename");
-  return readWaypoints(goal.filename);
+// In the reader's thread, and back.
+void NavigatePathNode::readGoal(const std::string& filename) {
+  goal_is_read_ = true;
+  reader_->post([this, filename, number = goals_](const StopSource&) {
+    std::function<Path()> read;
+    try {
+      read = [path = readWaypoints(files_, filename)] { return path; };
+    } catch (const std::exception& error) {
+      read = [what = std::string(error.what())]() -> Path { throw InputError(what); };
+    }
+    callLater([this, read, number] {
+      if (!goal_active_ || number != goals_ || !std::exchange(goal_is_read_, false)) return;
+      startGoal(read, options_.join_nearest ? Join::NEAREST : Join::FIRST);
+    });
+  });
 }
 
 void NavigatePathNode::onPreempt() {
   if (action_.isNewGoalAvailable()) return;  // onGoal follows
-  follower_.cancel("the goal was cancelled");
-  stop();
+  cancel("the goal was cancelled");
 }
 
-bool NavigatePathNode::answer(const PathFollower::Answer& answer,
-                              std_srvs::Trigger::Response& response) {
+NavigatePathNode::Answer NavigatePathNode::cancel(const std::string& reason) {
+  const Answer answer = loop_->cancel(reason);
+  takeReports();
+  if (!std::exchange(goal_is_read_, false) || !goal_active_) return answer;
+  finishGoal("CANCELLED", reason, loop_->standing());
+  return {true, "cancelled while its file was read"};
+}
+
+bool NavigatePathNode::answer(const Answer& answer, std_srvs::Trigger::Response& response) {
   response.success = answer.done;
   response.message = answer.message;
   ROS_INFO_STREAM(answer.message);
-  if (follower_.state() != FollowState::DRIVING) stop();
   return true;
 }
 
-// At once, not with the next tick.
-void NavigatePathNode::stop() {
-  publishVelocity({});
-  reportEvents();
-}
-
-void NavigatePathNode::reportEvents() {
-  for (const FollowEvent& event : follower_.takeEvents()) {
-    if (event.kind == FollowEvent::Kind::REACHED)
-      ROS_DEBUG_STREAM(event.message);
-    else if (isWarning(event.kind))
-      ROS_WARN_STREAM(event.message);
-    else
-      ROS_INFO_STREAM(event.message);
-    if (event.kind == FollowEvent::Kind::ENDED && goal_active_)
-      finishGoal(toString(follower_.status()), follower_.message());
+void NavigatePathNode::takeReports() {
+  for (const DriveReport& report : loop_->takeReports()) {
+    if (report.waypoint) waypoint_publisher_.publish(*report.waypoint);
+    if (!report.note.empty()) ROS_WARN_STREAM(report.note);
+    if (!report.event) continue;
+    log(*report.event);
+    if (report.event->kind == FollowEvent::Kind::ENDED && goal_active_ && !goal_is_read_)
+      finishGoal(toString(report.standing.status), report.standing.message, report.standing);
   }
 }
 
-void NavigatePathNode::finishGoal(const std::string& status, const std::string& message) {
+void NavigatePathNode::log(const FollowEvent& event) {
+  if (event.kind == FollowEvent::Kind::REACHED)
+    ROS_DEBUG_STREAM(event.message);
+  else if (isWarning(event.kind))
+    ROS_WARN_STREAM(event.message);
+  else
+    ROS_INFO_STREAM(event.message);
+}
+
+void NavigatePathNode::finishGoal(const std::string& status, const std::string& message,
+                                  const DriveStanding& standing) {
   NavigatePathResult result;
   result.status = status;
   result.message = message;
-  result.missed_waypoints.assign(follower_.missedWaypoints().begin(),
-                                 follower_.missedWaypoints().end());
-  result.position_error_m = follower_.positionError();
-  result.yaw_error_rad = follower_.yawError();
+  result.missed_waypoints.assign(standing.missed.begin(), standing.missed.end());
+  result.position_error_m = standing.position_error;
+  result.yaw_error_rad = standing.yaw_error;
   goal_active_ = false;
   if (status == "ARRIVED")
     action_.setSucceeded(result, message);
@@ -297,48 +302,65 @@ void NavigatePathNode::finishGoal(const std::string& status, const std::string& 
     action_.setAborted(result, message);
 }
 
-void NavigatePathNode::publishVelocity(const BodyVelocity& velocity) {
-  const bool driven = follower_.active() && follower_.state() != FollowState::PAUSED;
-  if (!driven && velocity.isZero() && silent_) return;
-  silent_ = !driven && velocity.isZero();
-  geometry_msgs::Twist message;
-  message.linear.x = velocity.surge;
-  message.linear.y = velocity.sway;
-  message.linear.z = velocity.heave;
-  message.angular.z = velocity.yaw_rate;
-  velocity_publisher_.publish(message);
-}
-
-void NavigatePathNode::publishWaypoint(const ros::Time& now) {
-  const int current = follower_.currentWaypoint();
-  if (!follower_.active() || current == published_waypoint_) return;
-  published_waypoint_ = current;
-  geometry_msgs::PoseStamped message;
-  message.header.stamp = now;
-  message.header.frame_id = follower_.path().frame_id;
-  message.pose = poseToMessage(follower_.path().poses[static_cast<std::size_t>(current)]);
-  waypoint_publisher_.publish(message);
-}
-
 void NavigatePathNode::publishFeedback() {
-  if (!goal_active_) return;
+  if (!goal_active_ || goal_is_read_) return;
+  const DriveStanding standing = loop_->standing();
   NavigatePathFeedback feedback;
-  feedback.current_waypoint = static_cast<std::uint32_t>(follower_.currentWaypoint());
-  feedback.distance_remaining_m = follower_.distanceRemaining();
-  feedback.state = toString(follower_.state());
+  feedback.current_waypoint = static_cast<std::uint32_t>(standing.waypoint);
+  feedback.distance_remaining_m = standing.distance_remaining;
+  feedback.state = toString(standing.state);
   action_.publishFeedback(feedback);
 }
 
 void NavigatePathNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const FollowState state = follower_.state();
-  const bool warn = state == FollowState::BLOCKED || state == FollowState::FAILED;
-  status.summary(
-      warn ? diagnostic_msgs::DiagnosticStatus::WARN : diagnostic_msgs::DiagnosticStatus::OK,
-      std::string(toString(state)) + ": " + follower_.message());
-  status.add("waypoint", follower_.currentWaypoint() + 1);
-  status.add("waypoints", follower_.path().poses.size());
-  status.add("distance remaining (m)", follower_.distanceRemaining());
-  status.add("missed waypoints", follower_.missedWaypoints().size());
+  const DriveStanding standing = loop_->standing();
+  const bool warn = standing.state == FollowState::BLOCKED || standing.state == FollowState::FAILED;
+  status.summary(warn ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+                 std::string(toString(standing.state)) + ": " + standing.message);
+  status.add("waypoint", standing.waypoint + 1);
+  status.add("waypoints", standing.waypoints);
+  status.add("distance remaining (m)", standing.distance_remaining);
+  status.add("missed waypoints", standing.missed.size());
+}
+
+void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const MapLife life = map_->life();
+  const std::string why = whyNoMap(life, options_.map_timeout);
+  if (!options_.check_map)
+    status.summary(DiagnosticStatus::OK, "not watched: check_map is false");
+  else if (!why.empty())
+    status.summary(DiagnosticStatus::WARN, why);
+  else
+    status.summary(DiagnosticStatus::OK, "the map on " + life.topic + " is kept up");
+  status.add("topic", life.topic);
+  if (!life.map.grid) return;
+  status.add("publisher", life.map.publisher);
+  status.add("heartbeat", life.heartbeat);
+  status.add("age (s)", secondsBetween(life.newest, ros::Time::now()));
+  status.add("last sign of life (s ago)", life.silence());
+}
+
+void NavigatePathNode::diagnoseOthers(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const double silence = MasterWatch::shared()->silence();
+  if (other_)
+    status.summary(DiagnosticStatus::ERROR, other_->sentence + " too");
+  else if (silence > 3.0)
+    status.summary(DiagnosticStatus::WARN, "the ROS master does not answer");
+  else
+    status.summary(DiagnosticStatus::OK, "nobody else commands the vehicle");
+  status.add("last answer of the master (s ago)", silence);
+  reader_->post(
+      [this](const StopSource&) {
+        const auto found = otherCommander(commands_);
+        auto other = found ? std::make_shared<const OtherCommander>(*found) : nullptr;
+        callLater([this, other] { other_ = other; });
+      },
+      "others");
+}
+
+void NavigatePathNode::callLater(std::function<void()> work) {
+  nh_.getCallbackQueue()->addCallback(callbackOf(std::move(work)),
+                                      reinterpret_cast<std::uint64_t>(this));
 }
 
 }  // namespace grid_path_planner::nodes

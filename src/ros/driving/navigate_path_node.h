@@ -2,21 +2,28 @@
 //
 //   subscribes  path             nav_msgs/Path; not with ~config_filename. An empty one stops the
 //                                vehicle
-//               projected_map    nav_msgs/OccupancyGrid; the vehicle stops before occupied cells
+//               projected_map    nav_msgs/OccupancyGrid, with its updates and their heartbeat; the
+//                                vehicle stops before occupied cells, and stands without a map
 //               tf               the vehicle's pose; the vehicle stops while the pose is not known
+//               stop             std_msgs/Bool; zeros while it is true
+//               manual_control   std_msgs/Bool; a joystick commands: the drive is paused
 //   publishes   cmd_vel          geometry_msgs/Twist in base_link
 //               current_waypoint geometry_msgs/PoseStamped, latched; the waypoint that is driven to
 //               /diagnostics
 //   services    ~pause, ~resume, ~cancel   std_srvs/Trigger
 //   action      navigate_path    grid_path_planner/NavigatePathAction
 //
+// This class is the slow side: messages, services, action, logs. The velocity comes from DriveLoop,
+// whose thread waits for none of that. Waypoint files are read in a third thread.
+//
 // Guaranteed: cmd_vel is zeroed on every orderly shutdown, and at once by ~pause and ~cancel; without
 // a drive nothing is published, so that others may command the vehicle. A path that cannot be driven
 // is refused with an error and the present drive goes on. A goal of the action has priority over
 // `path`: paths received meanwhile are ignored with a warning. The rate follows the wall clock, the
 // control ROS time, so that both may run at different speeds. ROS time that goes back clears tf and
-// cancels the drive. Not guaranteed: a zero after SIGKILL, or as a nodelet when the manager is killed
-// or shut down: the vehicle itself must stop when commands cease.
+// cancels the drive. The node does not start where another publishes cmd_vel (but a joystick, and
+// with ~share_cmd_vel) or offers the action. Not guaranteed: a zero after SIGKILL, or as a nodelet
+// when the manager is killed or shut down: the vehicle itself must stop when commands cease.
 #pragma once
 
 #include <actionlib/server/simple_action_server.h>
@@ -28,15 +35,19 @@
 #include <ros/subscriber.h>
 #include <std_srvs/Trigger.h>
 
+#include <atomic>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "grid_path_planner/NavigatePathAction.h"
-#include "grid_path_planner/following/path_follower.h"
+#include "grid_path_planner/base/task_queue.h"
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
-#include "ros/common/map_receiver.h"
 #include "ros/common/node_files.h"
+#include "ros/common/system_state.h"
+#include "ros/driving/drive_loop.h"
+#include "ros/driving/map_watch.h"
 #include "ros/driving/navigate_path_options.h"
 
 namespace grid_path_planner {
@@ -53,62 +64,66 @@ class Reconfigurable;
 class NavigatePathNode {
  public:
   // A waypoint file that no argument names lies below the folder to load from. Throws InputError for
-  // parameters that cannot be used and a waypoint file that cannot be read.
-  // All callbacks are served by the queue of `nh`, which must be one thread's.
+  // parameters that cannot be used, a waypoint file that cannot be read, and another node that
+  // commands. All callbacks are served by the queue of `nh`, which must be one thread's.
   NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const NodeFiles& files = {});
   // Zeroes cmd_vel.
   ~NavigatePathNode();
 
  private:
+  using Answer = following::PathFollower::Answer;
+
+  void offerServices(ros::NodeHandle& private_nh);
+  void startAction();
+  void startTimers();
   void use(const NavigatePathOptions& options);
-  void startTimer();
-  void onTimer(const ros::SteadyTimerEvent& event);
+  void watchClock();
   void startDriving(const ros::Time& now);
-  void cancelOnTimeJump(const ros::Time& now);
-  void control(const ros::Time& now);
-  void findVehicle(const ros::Time& now, following::FollowInput& input) const;
-  std::string whyOccupied(const std::vector<Eigen::Vector3d>& ahead) const;
 
   void onPath(const nav_msgs::Path& message);
   void onGoal();
   void onPreempt();
-  path::Path readWaypoints(const std::string& filename) const;
-  path::Path pathOf(const NavigatePathGoal& goal) const;
-  bool answer(const following::PathFollower::Answer& answer, std_srvs::Trigger::Response& response);
+  void startGoal(const std::function<path::Path()>& read, following::Join join);
+  void readGoal(const std::string& filename);
+  bool answer(const Answer& answer, std_srvs::Trigger::Response& response);
+  Answer cancel(const std::string& reason);
 
-  void stop();
-  void reportEvents();
-  void finishGoal(const std::string& status, const std::string& message);
-  void publishVelocity(const base::BodyVelocity& velocity);
-  void publishWaypoint(const ros::Time& now);
+  void takeReports();
+  void log(const following::FollowEvent& event);
+  void finishGoal(const std::string& status, const std::string& message,
+                  const DriveStanding& standing);
   void publishFeedback();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void diagnoseOthers(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void callLater(std::function<void()> work);
 
   ros::NodeHandle nh_;
   NodeFiles files_;
   NavigatePathOptions options_;
-  following::PathFollower follower_;
+  path::Path file_;  // of config_filename
+  Commands commands_;
   FrameTransforms transforms_;
   ClockWatch clock_;
-  path::Path file_;  // of config_filename
   ros::Time started_;
-  ros::Time now_;
   bool waits_for_clock_ = false;
-  bool silent_ = true;  // nothing, or a zero, was sent last and there is no drive
   bool goal_active_ = false;
-  int published_waypoint_ = -1;
-  MapReceiver map_;
+  unsigned goals_ = 0;         // accepted so far
+  bool goal_is_read_ = false;  // its file, still
+  std::unique_ptr<DriveLoop> loop_;
+  std::unique_ptr<MapWatch> map_;
 
-  ros::Publisher velocity_publisher_;
   ros::Publisher waypoint_publisher_;
   ros::Subscriber path_subscriber_;
   std::vector<ros::ServiceServer> services_;
   actionlib::SimpleActionServer<NavigatePathAction> action_;
   diagnostic_updater::Updater diagnostics_;
-  ros::SteadyTimer timer_;
+  ros::SteadyTimer clock_timer_;
   ros::SteadyTimer feedback_timer_;
   ros::SteadyTimer diagnostics_timer_;
   std::unique_ptr<Reconfigurable<NavigatePathConfig, NavigatePathOptions>> reconfigurable_;
+  std::unique_ptr<base::TaskQueue> reader_;      // of waypoint files, and of the master's state
+  std::shared_ptr<const OtherCommander> other_;  // another commander that was found since the start
 };
 
 }  // namespace grid_path_planner::nodes

@@ -13,6 +13,10 @@ void checkNavigatePathOptions(const NavigatePathOptions& options) {
   checkOptionLimits(options);
   checkFollowerOptions(options.follower);
   checkNetworkText("base_frame", options.base_frame);
+  if (options.limits.thresholds.free_max >= options.limits.thresholds.occupied_min)
+    throw InputError("free_max must be below occupied_min, got " +
+                     std::to_string(options.limits.thresholds.free_max) + " and " +
+                     std::to_string(options.limits.thresholds.occupied_min) + " %");
   if (options.base_frame.empty()) throw InputError("base_frame must not be empty");
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "grid_path_planner/following/follower_options.h"
+#include "grid_path_planner/following/path_clearance_check.h"
 
 namespace grid_path_planner::nodes {
 
@@ -13,11 +14,13 @@ struct NavigatePathOptions {
   bool follow_latched = false;
   following::FollowerOptions follower;
   bool check_map = true;
-  double check_radius = 0.0;  // m
-  int occupied_min = 65;      // %
+  following::ClearanceLimits limits;
+  double map_timeout = 3.0;  // s, wall time
   std::string base_frame = "base_link";
-  double tf_timeout = 0.5;     // s
-  double control_rate = 50.0;  // Hz, wall time
+  double tf_timeout = 0.5;       // s
+  double control_rate = 50.0;    // Hz, wall time
+  double master_timeout = 30.0;  // s, wall time
+  bool share_cmd_vel = false;
 };
 
 template <class Visitor>
@@ -36,16 +39,28 @@ void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
             "Whether a path stamped before the node started is driven too, however old it is", ""});
   visitOptions(o.follower, visit);
   visit("check_map", o.check_map,
-        base::OptionInfo{"Whether the vehicle stops before occupied cells of projected_map; false: "
-                         "obstacles are ignored",
+        base::OptionInfo{"Whether the vehicle stops before occupied cells of projected_map, and "
+                         "stands while there is no map; false: obstacles are ignored",
                          ""}
             .under("The map"));
-  visit("check_radius", o.check_radius,
+  visit("check_radius", o.limits.radius,
         base::OptionInfo{"How far from the path cells count too; not above the planner's radius",
                          "m", 0.0, 100.0});
-  visit("occupied_min", o.occupied_min,
+  visit("occupied_min", o.limits.thresholds.occupied_min,
         base::OptionInfo{"Cells with at least this occupancy are occupied; lower: more obstacles",
                          "%", 1, 100});
+  visit("stop_at_unknown", o.limits.stop_at_unknown,
+        base::OptionInfo{"Whether the vehicle stops before unknown cells and the map's border too",
+                         ""});
+  visit("free_max", o.limits.thresholds.free_max,
+        base::OptionInfo{"Cells with more occupancy, and less than occupied_min, are unknown; "
+                         "counts with stop_at_unknown",
+                         "%", 0, 99});
+  visit("map_timeout", o.map_timeout,
+        base::OptionInfo{
+            "The vehicle stands while a map that has had a heartbeat has been without one for so "
+            "long, by the wall clock; above the heartbeat_period of projected_map",
+            "s", 0.1, 3600.0});
   visit(
       "base_frame", o.base_frame,
       base::OptionInfo{"Frame of the vehicle, whose pose tf gives and in which it is commanded", ""}
@@ -57,6 +72,15 @@ void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
       base::OptionInfo{"How often the velocity is computed, by the wall clock; simulated time that "
                        "runs faster needs more",
                        "Hz", 1.0, 1000.0});
+  visit("master_timeout", o.master_timeout,
+        base::OptionInfo{"The vehicle stands when the ROS master has not answered for so long, by "
+                         "the wall clock; 0: it drives on",
+                         "s", 0.0, 86400.0}
+            .under("Other nodes"));
+  visit("share_cmd_vel", o.share_cmd_vel,
+        base::OptionInfo{"Whether the node starts where another publishes cmd_vel too; true only "
+                         "where the two never drive at once",
+                         ""});
 }
 
 // Throws InputError naming the option for a value outside its limits, options that

@@ -6,6 +6,7 @@
 #include "grid_path_planner/TeleopJoyConfig.h"
 #include "grid_path_planner/base/options.h"
 #include "ros/common/parameters.h"
+#include "ros/common/system_state.h"
 
 namespace grid_path_planner::nodes {
 
@@ -42,7 +43,15 @@ void checkTeleopJoyOptions(const TeleopJoyOptions& options) {
 
 TeleopJoyNode::TeleopJoyNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
     : nh_(nh), options_(loadTeleopJoyOptions(private_nh)) {
+  Commands commands;
+  commands.topics = {nh_.resolveName("cmd_vel")};
+  commands.manual_control = nh_.resolveName("manual_control");
+  commands.is_joystick = true;
+  refuseOtherCommander(commands);
+  manual_publisher_ = nh_.advertise<std_msgs::Bool>("manual_control", 1, true);
   publisher_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10);
+  refuseSimultaneousCommander(commands);
+  stop_subscriber_ = nh_.subscribe("stop", 1, &TeleopJoyNode::onStop, this);
   subscriber_ = nh_.subscribe("joy", 10, &TeleopJoyNode::onJoy, this);
   reconfigurable_ = std::make_unique<Reconfigurable<TeleopJoyConfig, TeleopJoyOptions>>(
       private_nh, options_, [this](const TeleopJoyOptions& options) { use(options); });
@@ -74,7 +83,7 @@ void TeleopJoyNode::onJoy(const sensor_msgs::Joy& message) {
   try {
     const auto velocity = joystickVelocity(options_.joystick, stateOf(message));
     if (velocity)
-      velocity_ = velocity;
+      command(*velocity);
     else
       release();
   } catch (const InputError& error) {
@@ -83,8 +92,26 @@ void TeleopJoyNode::onJoy(const sensor_msgs::Joy& message) {
   }
 }
 
+void TeleopJoyNode::onStop(const std_msgs::Bool& message) {
+  stopped_ = message.data;
+  if (stopped_) publish({});
+}
+
+// The first command at once.
+void TeleopJoyNode::command(const BodyVelocity& velocity) {
+  const bool takes_over = !velocity_;
+  velocity_ = velocity;
+  if (!takes_over) return;
+  ROS_INFO("The joystick commands");
+  announce(true);
+  publish(stopped_ ? BodyVelocity{} : velocity);
+}
+
 void TeleopJoyNode::onTimer(const ros::SteadyTimerEvent&) {
-  if (!velocity_) return;
+  if (!velocity_) {
+    if (stopped_) publish({});
+    return;
+  }
   const double silence = (ros::SteadyTime::now() - heard_).toSec();
   if (silence > options_.joy_timeout) {
     ROS_WARN_STREAM("Nothing has come from the joystick for " << silence
@@ -92,7 +119,14 @@ void TeleopJoyNode::onTimer(const ros::SteadyTimerEvent&) {
     release();
     return;
   }
-  publish(*velocity_);
+  announce(true);
+  publish(stopped_ ? BodyVelocity{} : *velocity_);
+}
+
+void TeleopJoyNode::announce(bool manual) {
+  std_msgs::Bool message;
+  message.data = manual;
+  manual_publisher_.publish(message);
 }
 
 void TeleopJoyNode::publish(const BodyVelocity& velocity) {
@@ -108,6 +142,8 @@ void TeleopJoyNode::release() {
   if (!velocity_) return;
   velocity_.reset();
   publish({});
+  announce(false);
+  ROS_INFO("The joystick commands no longer");
 }
 
 }  // namespace grid_path_planner::nodes

@@ -1,12 +1,11 @@
 // Whatever happens to navigate_path or around it, the vehicle stops.
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
 
 #include <algorithm>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/support/navigate_fixture.h"
+#include "ros/support/still_fixture.h"
 #include "support/ascii_map.h"
 
 namespace grid_path_planner::nodes {
@@ -18,19 +17,9 @@ using test::pathOf;
 using test::Process;
 using test::StillWorld;
 
-class NavigateStops : public test::NavigateTest {
+class NavigateStops : public test::StillTest {
  protected:
-  // In a world that the test moves: driving a long path.
-  void driveIn(StillWorld&) {
-    startNavigate();
-    publishPath(pathOf({{0, 0}, {50, 0}}));
-    ASSERT_TRUE(isDriving());
-  }
-  bool isDriving() {
-    const std::size_t seen = velocity_.count();
-    return velocity_.waitFor(seen, [](const geometry_msgs::Twist& v) { return !isZero(v); })
-        .has_value();
-  }
+  void driveIn(StillWorld&) { drive(); }
 };
 
 // A vehicle whose commander dies stops.
@@ -101,18 +90,6 @@ TEST_F(NavigateStops, OnStaleTfAndGoesOnWhenItIsBack) {
 }
 
 TEST_F(NavigateStops, AndDiagnosticsSayWhy) {
-  Latest<diagnostic_msgs::DiagnosticArray> diagnostics(nh_, "/diagnostics");
-  const auto reports = [&](int level, const std::string& text) {
-    return diagnostics
-        .waitFor(
-            diagnostics.count(),
-            [&](const diagnostic_msgs::DiagnosticArray& array) {
-              return std::any_of(array.status.begin(), array.status.end(), [&](const auto& status) {
-                return status.level == level && status.message.find(text) != std::string::npos;
-              });
-            })
-        .has_value();
-  };
   StillWorld world(100.0);
   driveIn(world);
   EXPECT_TRUE(reports(diagnostic_msgs::DiagnosticStatus::OK, "driving"));
@@ -151,7 +128,7 @@ TEST_F(NavigateStops, BeforeOccupiedCellsAndGoesOnWhenTheyAreFree) {
   };
   startSimulator({"_initial_x:=0.5", "_initial_y:=0.5"});
   publishMap({".....#.."});
-  startNavigate();
+  startNavigate({"_check_map:=true"});
   publishPath(pathOf({{0.5, 0.5}, {7.5, 0.5}}));
   ASSERT_TRUE(moves());
   EXPECT_TRUE(staysStill());
@@ -168,7 +145,7 @@ TEST_F(NavigateStops, BeforeCellsThatAnUpdateOfTheMapOccupies) {
       nh_.advertise<map_msgs::OccupancyGridUpdate>("projected_map_updates", 1, true);
   maps.publish(occupancyToMessage(test::AsciiMap({"........"}).map, "map", ros::Time(1e6)));
   startSimulator({"_initial_x:=0.5", "_initial_y:=0.5"});
-  startNavigate();
+  startNavigate({"_check_map:=true"});
   publishPath(pathOf({{0.5, 0.5}, {7.5, 0.5}}));
   ASSERT_TRUE(moves());
   map_msgs::OccupancyGridUpdate update;
@@ -187,7 +164,7 @@ TEST_F(NavigateStops, RunsAsANodeletAndStopsWhenItIsUnloaded) {
   Process manager({"rosrun", "nodelet", "nodelet", "manager", "__name:=manager"});
   ASSERT_TRUE(test::waitFor([] { return ros::service::exists("/manager/load_nodelet", false); }));
   Process loader({"rosrun", "nodelet", "nodelet", "load", "grid_path_planner/navigate_path",
-                  "manager", "__name:=navigate_path"});
+                  "manager", "__name:=navigate_path", "_check_map:=false"});
   ASSERT_TRUE(test::waitFor([&] { return paths_.getNumSubscribers() > 0; }));
   publishPath(pathOf({{0, 0}, {50, 0}}));
   ASSERT_TRUE(isDriving());

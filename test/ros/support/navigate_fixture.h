@@ -96,8 +96,10 @@ class NavigateTest : public testing::Test {
     ASSERT_TRUE(odom_.waitForMoreThan(odom_.count()));
   }
 
+  // Without a map, where the arguments do not say otherwise.
   static std::vector<std::string> fast(std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"_control_rate:=200", "_tf_timeout:=3.0"});
+    arguments.insert(arguments.begin(),
+                     {"_control_rate:=200", "_tf_timeout:=3.0", "_check_map:=false"});
     return arguments;
   }
 

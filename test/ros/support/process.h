@@ -37,6 +37,7 @@ class Process {
         pid_(::fork()) {
     if (pid_ < 0) throw std::runtime_error("no process could be started");
     if (pid_ > 0) return;
+    ::setenv("ROSCONSOLE_STDOUT_LINE_BUFFERED", "1", 1);  // or its INFO comes at its end
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing is left behind by a test that is killed
     const int file = ::open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     ::dup2(file, STDOUT_FILENO);

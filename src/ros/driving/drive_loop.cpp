@@ -1,0 +1,316 @@
+#include "ros/driving/drive_loop.h"
+
+#include <geometry_msgs/Twist.h>
+
+#include <sstream>
+#include <utility>
+
+#include "grid_path_planner/following/path_clearance_check.h"
+#include "grid_path_planner/ros/conversions.h"
+
+namespace grid_path_planner::nodes {
+
+using base::BodyVelocity;
+using following::firstObstruction;
+using following::FollowEvent;
+using following::FollowInput;
+using following::FollowState;
+using following::Join;
+using following::Obstruction;
+using following::PathFollower;
+using path::Path;
+
+namespace {
+
+// By the wall clock.
+constexpr std::chrono::milliseconds kClockTimeout(500);
+constexpr std::chrono::milliseconds kManualTimeout(2500);
+
+std::string sentenceOf(const Obstruction& obstruction) {
+  std::ostringstream text;
+  switch (obstruction.kind) {
+    case Obstruction::Kind::OCCUPIED:
+      text << "projected_map is occupied ahead";
+      break;
+    case Obstruction::Kind::UNKNOWN:
+      text << "projected_map is unknown ahead";
+      break;
+    case Obstruction::Kind::OUTSIDE:
+      text << "projected_map ends ahead";
+      break;
+  }
+  text << ", at x " << obstruction.at.x() << ", y " << obstruction.at.y() << " m";
+  return text.str();
+}
+
+}  // namespace
+
+DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& options,
+                     FrameTransforms& transforms, std::function<void()> on_report)
+    : options_(options),
+      transforms_(transforms),
+      on_report_(std::move(on_report)),
+      follower_(options.follower) {
+  ros::NodeHandle own(nh);
+  own.setCallbackQueue(&guarded_);
+  velocity_publisher_ = own.advertise<geometry_msgs::Twist>("cmd_vel", 10);
+  manual_subscriber_ = own.subscribe("manual_control", 1, &DriveLoop::onManual, this);
+  stop_subscriber_ = own.subscribe("stop", 1, &DriveLoop::onStop, this);
+  thread_ = std::thread([this] { run(); });
+}
+
+DriveLoop::~DriveLoop() {
+  cancel("navigate_path ends");
+  done_ = true;
+  thread_.join();
+  if (numberOfListeners() > 0)
+    ros::WallDuration(0.1).sleep();  // roscpp sends in a thread of its own and says not when it has
+}
+
+// Exceptions of `work` come back; the tick shows its effect on cmd_vel at once.
+template <class Work>
+auto DriveLoop::ask(Work work) -> std::invoke_result_t<Work> {
+  const auto task = std::make_shared<std::packaged_task<std::invoke_result_t<Work>()>>(
+      [this, work = std::move(work)]() {
+        noticeTimeJump(ros::Time::now());
+        return work();
+      });
+  auto result = task->get_future();
+  const auto ticked = std::make_shared<std::promise<void>>();
+  post([this, task, ticked] {
+    (*task)();
+    tryToTick();
+    ticked->set_value();
+  });
+  ticked->get_future().wait();
+  return result.get();
+}
+
+void DriveLoop::post(std::function<void()> work) {
+  queue_.addCallback(callbackOf(std::move(work)));
+}
+
+void DriveLoop::start(const Path& path, Join join) {
+  ask([this, &path, join] {
+    follower_.start(path, join);
+    reported_waypoint_ = -1;
+  });
+}
+
+PathFollower::Answer DriveLoop::pause() {
+  return ask([this] { return follower_.pause(); });
+}
+
+PathFollower::Answer DriveLoop::resume() {
+  return ask([this] {
+    if (isManual()) return PathFollower::Answer{false, "the joystick commands: let it go first"};
+    return follower_.resume();
+  });
+}
+
+PathFollower::Answer DriveLoop::cancel(const std::string& reason) {
+  return ask([this, &reason] { return follower_.cancel(reason); });
+}
+
+void DriveLoop::setOptions(const NavigatePathOptions& options) {
+  ask([this, &options] {
+    follower_.setOptions(options.follower);
+    options_ = options;
+  });
+}
+
+DriveStanding DriveLoop::standing() {
+  return ask([this] { return standingNow(); });
+}
+
+void DriveLoop::setMap(const MapLife& life) {
+  post([this, life] { map_ = life; });
+}
+
+std::vector<DriveReport> DriveLoop::takeReports() {
+  const std::lock_guard<std::mutex> lock(reports_mutex_);
+  return std::exchange(reports_, {});
+}
+
+// Work that comes is done at once; ticks that were missed are not made up for.
+void DriveLoop::run() {
+  auto next = Clock::now();
+  while (!done_) {
+    const auto left = std::chrono::duration<double>(next - Clock::now()).count();
+    if (left > 0.0) {
+      queue_.callOne(ros::WallDuration(left));
+      continue;
+    }
+    const auto period = std::chrono::duration<double>(1.0 / options_.control_rate);
+    next = std::max(next + std::chrono::duration_cast<Clock::duration>(period), Clock::now());
+    queue_.callAvailable();
+    tryToTick();
+  }
+}
+
+void DriveLoop::tryToTick() {
+  try {
+    tick();
+  } catch (const std::exception& error) {
+    follower_.cancel(std::string("the control loop failed: ") + error.what());
+    publish({});
+  }
+}
+
+void DriveLoop::tick() {
+  if (!ros::Time::isValid()) {
+    publish({});
+    report({});
+    return;
+  }
+  const ros::Time now = ros::Time::now();
+  noticeTimeJump(now);
+  if (now != now_) moved_ = Clock::now();
+  now_ = now;
+  giveWay();
+  follow(now);
+  report(now);
+}
+
+// Paths from before the jump are not of this time.
+void DriveLoop::noticeTimeJump(const ros::Time& now) {
+  if (now >= now_) return;
+  transforms_.clear();
+  FollowInput without_pose;
+  without_pose.time = now.toSec();
+  publish(follower_.update(without_pose));  // cancels, since time went back
+  now_ = now;
+  moved_ = Clock::now();
+  report(now);
+}
+
+void DriveLoop::follow(const ros::Time& now) {
+  FollowInput input;
+  input.time = now.toSec();
+  input.hold = whyHeld();
+  if (!follower_.path().empty() && input.hold.empty()) findVehicle(now, input);
+  if (options_.check_map)
+    input.check = [this](const std::vector<Eigen::Vector3d>& ahead) { return whyNotFree(ahead); };
+  publish(follower_.update(input));
+}
+
+std::string DriveLoop::whyHeld() const {
+  if (stopped_) return "stopped by the topic " + stop_subscriber_.getTopic();
+  if (Clock::now() - moved_ > kClockTimeout) return "ROS time stands still: no /clock comes";
+  if (options_.check_map) {
+    const std::string why = whyNoMap(map_, options_.map_timeout);
+    if (!why.empty()) return why;
+  }
+  if (options_.master_timeout > 0.0 && master_->silence() > options_.master_timeout)
+    return "the ROS master has not answered for longer than master_timeout";
+  return "";
+}
+
+void DriveLoop::findVehicle(const ros::Time& now, FollowInput& input) const {
+  try {
+    input.pose = transforms_.recentPoseOf(options_.base_frame, follower_.path().frame_id, now,
+                                          options_.tf_timeout);
+  } catch (const TransformError& error) {
+    input.pose_problem = error.what();
+  }
+}
+
+std::string DriveLoop::whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const {
+  try {
+    const auto points = transforms_.pointsIn(map_.map.frame_id, follower_.path().frame_id, ahead);
+    const auto found = firstObstruction(*map_.map.grid, options_.limits, points);
+    return found ? sentenceOf(*found) : "";
+  } catch (const TransformError& error) {
+    return std::string("projected_map cannot be compared with the path: ") + error.what();
+  }
+}
+
+void DriveLoop::onManual(const std_msgs::Bool& message) {
+  const bool was = isManual();
+  if (message.data)
+    manual_ = Clock::now();
+  else
+    manual_.reset();
+  if (was != isManual()) tryToTick();
+}
+
+void DriveLoop::onStop(const std_msgs::Bool& message) {
+  if (std::exchange(stopped_, message.data) != message.data) tryToTick();
+}
+
+// A joystick whose node was killed says nothing any more.
+bool DriveLoop::isManual() const {
+  return manual_ && Clock::now() - *manual_ < kManualTimeout;
+}
+
+// Also where a drive begins meanwhile; a pose that was held would be returned to.
+void DriveLoop::giveWay() {
+  if (!isManual()) return;
+  if (follower_.active() && follower_.state() != FollowState::PAUSED) {
+    follower_.pause();
+    DriveReport report;
+    report.note = "The joystick commands: the drive is paused until ~resume";
+    hand({report});
+  }
+  if (follower_.state() == FollowState::ARRIVED) follower_.cancel("the joystick commands");
+}
+
+void DriveLoop::publish(const BodyVelocity& velocity) {
+  if (isManual() && !stopped_) {
+    silent_ = true;  // the joystick's velocities are in force, and its zero when it is let go
+    return;
+  }
+  const bool driven = follower_.active() && follower_.state() != FollowState::PAUSED;
+  if (!driven && !stopped_ && velocity.isZero() && silent_) return;
+  silent_ = !driven && velocity.isZero();
+  geometry_msgs::Twist message;
+  message.linear.x = velocity.surge;
+  message.linear.y = velocity.sway;
+  message.linear.z = velocity.heave;
+  message.angular.z = velocity.yaw_rate;
+  velocity_publisher_.publish(message);
+}
+
+void DriveLoop::report(const ros::Time& now) {
+  std::vector<DriveReport> reports;
+  for (FollowEvent& event : follower_.takeEvents()) {
+    reports.emplace_back();
+    reports.back().event = std::move(event);
+    reports.back().standing = standingNow();
+  }
+  const int current = follower_.currentWaypoint();
+  if (follower_.active() && std::exchange(reported_waypoint_, current) != current) {
+    geometry_msgs::PoseStamped message;
+    message.header.stamp = now;
+    message.header.frame_id = follower_.path().frame_id;
+    message.pose = poseToMessage(follower_.path().poses[static_cast<std::size_t>(current)]);
+    reports.emplace_back();
+    reports.back().waypoint = message;
+  }
+  hand(std::move(reports));
+}
+
+void DriveLoop::hand(std::vector<DriveReport> reports) {
+  if (reports.empty()) return;
+  bool first = false;
+  {
+    const std::lock_guard<std::mutex> lock(reports_mutex_);
+    first = reports_.empty();
+    for (DriveReport& report : reports) reports_.push_back(std::move(report));
+  }
+  if (first) on_report_();
+}
+
+DriveStanding DriveLoop::standingNow() const {
+  return {follower_.state(),
+          follower_.status(),
+          follower_.message(),
+          follower_.currentWaypoint(),
+          follower_.path().poses.size(),
+          follower_.distanceRemaining(),
+          follower_.missedWaypoints(),
+          follower_.positionError(),
+          follower_.yawError()};
+}
+
+}  // namespace grid_path_planner::nodes

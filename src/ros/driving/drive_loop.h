@@ -1,0 +1,143 @@
+// The control loop of navigate_path: a thread of its own that follows the path and publishes
+// cmd_vel, at a rate by the wall clock.
+//
+//   DriveLoop loop(nh, options, transforms, [&] { queue(&takeReports); });
+//   loop.start(path, Join::NEAREST);                  // throws InputError
+//   for (const DriveReport& report : loop.takeReports()) use(report.message);
+//
+// The follower belongs to this thread alone: others hand it work over a callback queue, and it serves
+// the topics that must be obeyed whatever else the node does. Guaranteed: the thread reads no file,
+// logs nothing, publishes nothing but cmd_vel, and takes no lock that code holds which does. A
+// non-zero velocity is followed by a zero within a tick when the drive ends, is paused or blocked,
+// and by the wall clock when ROS time stands still. While `stop` is true there are zeros only, and
+// while a joystick commands (`manual_control`) there is nothing at all: the drive is paused, and
+// resumed by hand. Not guaranteed: a bound on what roscpp takes to send a velocity.
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/subscriber.h>
+#include <std_msgs/Bool.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+#include "grid_path_planner/following/path_follower.h"
+#include "ros/common/frame_transforms.h"
+#include "ros/common/guarded_queue.h"
+#include "ros/common/master_watch.h"
+#include "ros/driving/map_life.h"
+#include "ros/driving/navigate_path_options.h"
+
+namespace grid_path_planner::nodes {
+
+// How a drive stands.
+struct DriveStanding {
+  following::FollowState state;
+  following::DriveStatus status;
+  std::string message;
+  int waypoint = 0;
+  std::size_t waypoints = 0;
+  double distance_remaining = 0.0;  // m
+  std::vector<int> missed;
+  double position_error = 0.0;  // m
+  double yaw_error = 0.0;       // rad
+};
+
+// What happened: an event of the follower with the standing after it, another waypoint, or what is
+// said in the note.
+struct DriveReport {
+  std::optional<following::FollowEvent> event;
+  DriveStanding standing;
+  std::optional<geometry_msgs::PoseStamped> waypoint;
+  std::string note;
+};
+
+class DriveLoop {
+ public:
+  // `on_report` is called in the loop's thread when there is the first report since takeReports().
+  DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& options,
+            FrameTransforms& transforms, std::function<void()> on_report);
+  // Cancels the drive and publishes a zero.
+  ~DriveLoop();
+
+  // These are carried out in the loop's thread, with a tick after them, and waited for.
+  void start(const path::Path& path, following::Join join);  // throws InputError
+  following::PathFollower::Answer pause();
+  following::PathFollower::Answer resume();
+  following::PathFollower::Answer cancel(const std::string& reason);
+  void setOptions(const NavigatePathOptions& options);  // precondition: checked
+  DriveStanding standing();
+
+  // Handed over, not waited for.
+  void setMap(const MapLife& life);
+
+  std::vector<DriveReport> takeReports();
+
+  // Resolved names.
+  std::string velocityTopic() const { return velocity_publisher_.getTopic(); }
+  std::string manualTopic() const { return manual_subscriber_.getTopic(); }
+  std::size_t numberOfListeners() const { return velocity_publisher_.getNumSubscribers(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  template <class Work>
+  auto ask(Work work) -> std::invoke_result_t<Work>;
+  void post(std::function<void()> work);
+
+  // In the loop's thread:
+  void run();
+  void tick();
+  void tryToTick();
+  void noticeTimeJump(const ros::Time& now);
+  void follow(const ros::Time& now);
+  std::string whyHeld() const;
+  void findVehicle(const ros::Time& now, following::FollowInput& input) const;
+  std::string whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const;
+  void onManual(const std_msgs::Bool& message);
+  void onStop(const std_msgs::Bool& message);
+  bool isManual() const;
+  void giveWay();
+  void publish(const base::BodyVelocity& velocity);
+  void report(const ros::Time& now);
+  void hand(std::vector<DriveReport> reports);
+  DriveStanding standingNow() const;
+
+  NavigatePathOptions options_;
+  FrameTransforms& transforms_;
+  const std::function<void()> on_report_;
+  const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
+  following::PathFollower follower_;
+  MapLife map_;
+  ros::Time now_;
+  Clock::time_point moved_;                  // when ROS time did last
+  std::optional<Clock::time_point> manual_;  // when the joystick last said that it commands
+  bool stopped_ = false;                     // by the topic
+  bool silent_ = true;  // nothing, or a zero, was sent last and there is no drive
+  int reported_waypoint_ = -1;
+
+  std::mutex reports_mutex_;
+  std::vector<DriveReport> reports_;
+
+  ros::CallbackQueue queue_;
+  GuardedQueue guarded_{queue_};
+  ros::Publisher velocity_publisher_;
+  ros::Subscriber manual_subscriber_;
+  ros::Subscriber stop_subscriber_;
+  std::atomic<bool> done_{false};
+  std::thread thread_;
+};
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,100 @@
+#include "ros/driving/map_watch.h"
+
+#include <utility>
+
+#include "ros/common/xmlrpc_call.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kPeriod = std::chrono::seconds(1);
+constexpr double kSeconds = 1.0;  // that the publisher is asked
+
+}  // namespace
+
+MapWatch::MapWatch(const ros::NodeHandle& nh, Listener listener) : listener_(std::move(listener)) {
+  receiver_.start(
+      nh, [this] { onMap(); }, [this] { onHeartbeat(); });
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    life_.topic = receiver_.topic();
+  }
+  tell();
+  thread_ = std::thread([this] { run(); });
+}
+
+MapWatch::~MapWatch() {
+  receiver_.shutdown();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    done_ = true;
+  }
+  ends_.notify_all();
+  thread_.join();
+}
+
+MapLife MapWatch::life() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return life_;
+}
+
+void MapWatch::tell() {
+  listener_(life());
+}
+
+void MapWatch::onMap() {
+  ReceivedMap map = receiver_.latest();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    life_.map = std::move(map);
+    life_.heartbeat = life_.map.publisher == heartbeat_of_;
+    if (!life_.heartbeat) life_.newest = life_.map.stamp;
+    life_.sign = Clock::now();
+  }
+  tell();
+}
+
+void MapWatch::onHeartbeat() {
+  const auto heartbeat = receiver_.heartbeat();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    heartbeat_of_ = heartbeat->publisher;
+    life_.heartbeat = life_.map.publisher == heartbeat_of_;
+    if (!life_.heartbeat) return;  // of a map that has not come
+    life_.newest = heartbeat->stamp;
+    life_.sign = heartbeat->received;
+  }
+  tell();
+}
+
+void MapWatch::run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!done_) {
+    if (life_.map.grid && !life_.heartbeat) {
+      const std::string node = life_.map.publisher;
+      if (node != std::exchange(node_, node)) uri_.clear();
+      lock.unlock();
+      const bool answers = publisherAnswers();
+      lock.lock();
+      if (answers && life_.map.publisher == node) {
+        life_.sign = Clock::now();
+        lock.unlock();
+        tell();
+        lock.lock();
+      }
+    }
+    ends_.wait_for(lock, kPeriod, [this] { return done_; });
+  }
+}
+
+// Where it does not, the next time at the URI that the master knows by then.
+bool MapWatch::publisherAnswers() {
+  if (uri_.empty()) uri_ = uriOfNode(node_, kSeconds).value_or("");
+  if (!uri_.empty() && answersXmlRpc(uri_, kSeconds)) return true;
+  uri_.clear();
+  return false;
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,50 @@
+// Receives the map and watches whether its publisher lives: by its heartbeats, and by its answers to
+// XML-RPC where it has sent none (roscpp's count of links does not see a publisher that was killed).
+//
+//   MapWatch watch(nh, [&](const MapLife& life) { use(life); });
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "ros/common/map_receiver.h"
+#include "ros/driving/map_life.h"
+
+namespace grid_path_planner::nodes {
+
+class MapWatch {
+ public:
+  using Listener = std::function<void(const MapLife&)>;
+
+  // `listener` is called with every sign of life, in the thread of `nh` or in one of this.
+  MapWatch(const ros::NodeHandle& nh, Listener listener);
+  ~MapWatch();
+
+  MapLife life() const;
+
+ private:
+  void onMap();
+  void onHeartbeat();
+  void tell();
+  void run();
+  bool publisherAnswers();
+
+  const Listener listener_;
+  MapReceiver receiver_;
+
+  mutable std::mutex mutex_;
+  MapLife life_;
+  std::string heartbeat_of_;  // the node
+  std::condition_variable ends_;
+  bool done_ = false;
+  std::string uri_;   // the thread's: of the publisher
+  std::string node_;  // the thread's: whose that is
+  std::thread thread_;
+};
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,223 @@
+// The control loop waits for nobody.
+//
+// What was seen before: everything ran in one thread. A waypoint file of 1,000, 5,000 or 20,000
+// waypoints silenced cmd_vel for 0.2, 2 and 5.7 s; a log that nobody read, for ever; a vehicle whose
+// /clock stopped drove on; and one whose roscore was restarted could not be cancelled any more.
+#include <actionlib/client/simple_action_client.h>
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <std_msgs/Bool.h>
+#include <sys/socket.h>
+
+#include <cstdio>
+
+#include "grid_path_planner/NavigatePathAction.h"
+#include "grid_path_planner/path/waypoint_file.h"
+#include "ros/common/xmlrpc_call.h"
+#include "ros/support/still_fixture.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using path::Path;
+using test::isZero;
+using test::pathOf;
+using test::Process;
+using test::StillWorld;
+using XmlRpc::XmlRpcValue;
+
+struct TemporaryName {
+  explicit TemporaryName(const std::string& end)
+      : name(testing::TempDir() + "navigate_loop_" + std::to_string(::getpid()) + end) {}
+  ~TemporaryName() { std::remove(name.c_str()); }
+  const std::string name;
+};
+
+using NavigateLoop = test::StillTest;
+
+TEST_F(NavigateLoop, ALogThatNobodyReadsDoesNotHoldIt) {
+  StillWorld world(100.0);
+  const TemporaryName pipe(".pipe");
+  // A pipe that is open and never read takes 64 kB; then who writes waits.
+  navigate_ = std::make_unique<Process>(std::vector<std::string>{
+      "bash", "-c",
+      "mkfifo " + pipe.name + "; exec 3<>" + pipe.name +
+          "; exec " GPP_DEVEL
+          "/lib/grid_path_planner/navigate_path _check_map:=false _no_progress_timeout:=0 "
+          "_tf_timeout:=3.0 >&3 2>&3"});
+  ASSERT_TRUE(test::waitFor([&] { return paths_.getNumSubscribers() > 0; }));
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(isDriving());
+  nav_msgs::Path refused = pathToMessage(pathOf({{1e180, 0}}), ros::Time::now());
+  std::size_t reports = 0;
+  ASSERT_TRUE(test::waitFor([&] {  // until the slow side of the node says nothing for two seconds
+    for (int i = 0; i < 200; ++i) {
+      refused.header.stamp = ros::Time::now();
+      paths_.publish(refused);
+      ros::WallDuration(0.002).sleep();
+    }
+    reports = diagnostics_.count();
+    return !test::waitFor([&] { return diagnostics_.count() > reports; }, std::chrono::seconds(2));
+  }));
+  EXPECT_TRUE(isDriving());
+  ros::Publisher stop = nh_.advertise<std_msgs::Bool>("stop", 1, true);
+  std_msgs::Bool on;
+  on.data = true;
+  stop.publish(on);
+  EXPECT_TRUE(stops()) << "and it obeys";
+  navigate_->signal(SIGKILL);  // the log holds its orderly end
+}
+
+TEST_F(NavigateLoop, AWaypointFileIsReadElsewhere) {
+  StillWorld world(100.0);
+  const TemporaryName file(".yaml");
+  Path path;
+  for (int i = 0; i < 20000; ++i) path.poses.push_back({{0.01 * i, 0.1 * (i % 7), 0}, 0.0});
+  path::writeWaypointFile(file.name, path);
+  drive();
+  actionlib::SimpleActionClient<NavigatePathAction> client("navigate_path", false);
+  ASSERT_TRUE(test::waitFor([&] { return client.isServerConnected(); }));
+  NavigatePathGoal goal;
+  goal.filename = file.name;
+  const auto begin = ros::WallTime::now();
+  client.sendGoal(goal);
+  double longest = 0.0;
+  std::size_t seen = velocity_.count();
+  auto last = ros::WallTime::now();
+  ASSERT_TRUE(test::waitFor([&] {
+    const auto now = ros::WallTime::now();
+    if (velocity_.count() > seen) last = now;
+    seen = velocity_.count();
+    longest = std::max(longest, (now - last).toSec());
+    return navigate_->output().find("of 20000 waypoints") != std::string::npos;
+  }));
+  const double reading = (ros::WallTime::now() - begin).toSec();
+  RecordProperty("longest_silence_ms", static_cast<int>(1000.0 * longest));
+  std::printf("20000 waypoints: %.0f ms to read, at most %.0f ms of silence\n", 1000.0 * reading,
+              1000.0 * longest);
+  EXPECT_LT(longest, std::max(0.25, 0.25 * reading)) << "the vehicle stops after 0.5 s";
+}
+
+TEST_F(NavigateLoop, AGoalWhoseFileIsReadCanBeCancelled) {
+  StillWorld world(100.0);
+  const TemporaryName file(".yaml");
+  Path path;
+  for (int i = 0; i < 20000; ++i) path.poses.push_back({{0.01 * i, 0, 0}, 0.0});
+  path::writeWaypointFile(file.name, path);
+  startNavigate();
+  actionlib::SimpleActionClient<NavigatePathAction> client("navigate_path", false);
+  ASSERT_TRUE(test::waitFor([&] { return client.isServerConnected(); }));
+  NavigatePathGoal goal;
+  goal.filename = file.name;
+  client.sendGoal(goal);
+  client.cancelGoal();
+  ASSERT_TRUE(test::waitFor([&] { return client.getState().isDone(); }));
+  EXPECT_EQ(client.getResult()->status, "CANCELLED");
+  goal.filename = "/no/such/file.yaml";
+  client.sendGoal(goal);
+  ASSERT_TRUE(test::waitFor([&] { return client.getState().isDone(); }));
+  EXPECT_EQ(client.getResult()->status, "INVALID_REQUEST");
+}
+
+TEST_F(NavigateLoop, AClockThatStopsEndsInAZeroAndGoesOn) {
+  auto world = std::make_unique<StillWorld>(100.0);
+  drive();
+  const double time = world->time();
+  world.reset();
+  EXPECT_TRUE(stops());
+  EXPECT_TRUE(navigate_->says("ROS time stands still"));
+  world = std::make_unique<StillWorld>(time);
+  EXPECT_TRUE(isDriving());
+}
+
+// A master of its own, which the test may kill; its nodes are seen by what they print.
+class NavigateMaster : public testing::Test {
+ protected:
+  NavigateMaster() : port_(freePort()), uri_("http://localhost:" + std::to_string(port_)) {
+    startMaster();
+    path::writeWaypointFile(file_.name, pathOf({{0, 0}, {500, 0}}));
+  }
+
+  void startMaster() {
+    master_ = std::make_unique<Process>(
+        std::vector<std::string>{"rosmaster", "--core", "-p", std::to_string(port_)});
+    ASSERT_TRUE(test::waitFor([&] { return answersXmlRpc(uri_, 1.0); }));
+    callXmlRpc(uri_, "setParam",
+               {XmlRpcValue("/test"), XmlRpcValue("/use_sim_time"), XmlRpcValue(true)}, 1.0);
+  }
+  void killMaster() {
+    master_->signal(SIGKILL);
+    ASSERT_TRUE(master_->waitForExit());
+  }
+  std::unique_ptr<Process> start(const std::string& node, std::vector<std::string> arguments) {
+    std::vector<std::string> command{"env", "ROS_MASTER_URI=" + uri_,
+                                     GPP_DEVEL "/lib/grid_path_planner/" + node};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return std::make_unique<Process>(command);
+  }
+  void drive(const std::string& file, const std::string& timeout) {
+    simulator_ = start("simulator", {"_real_time_factor:=4"});
+    navigate_ = start("navigate_path", {"_config_filename:=" + file, "_check_map:=false",
+                                        "_tf_timeout:=3.0", "_master_timeout:=" + timeout});
+    ASSERT_TRUE(navigate_->says("Drives the waypoints of"));
+    ASSERT_TRUE(test::waitFor([&] { return knows(2, "/navigate_path/cancel", "/navigate_path"); }));
+  }
+  // Of publishers (0), subscribers (1) or services (2).
+  bool knows(int kind, const std::string& name, const std::string& node) {
+    auto state = callXmlRpc(uri_, "getSystemState", {XmlRpcValue("/test")}, 1.0);
+    for (int i = 0; state && i < (*state)[kind].size(); ++i) {
+      XmlRpcValue& entry = (*state)[kind][i];
+      for (int n = 0; static_cast<std::string&>(entry[0]) == name && n < entry[1].size(); ++n)
+        if (static_cast<std::string&>(entry[1][n]) == node) return true;
+    }
+    return false;
+  }
+  bool knowsAll() {
+    return knows(0, "/cmd_vel", "/navigate_path") && knows(1, "/cmd_vel", "/simulator") &&
+           knows(1, "/tf", "/navigate_path") && knows(0, "/clock", "/simulator") &&
+           knows(1, "/path", "/navigate_path") == false &&
+           knows(2, "/navigate_path/cancel", "/navigate_path") &&
+           knows(1, "/navigate_path/goal", "/navigate_path") && knows(0, "/odom", "/simulator");
+  }
+
+  static int freePort() {
+    const int descriptor = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    ::bind(descriptor, reinterpret_cast<sockaddr*>(&address), sizeof(address));
+    socklen_t size = sizeof(address);
+    ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size);
+    ::close(descriptor);
+    return ntohs(address.sin_port);
+  }
+
+  const TemporaryName file_{".yaml"};
+  const int port_;
+  const std::string uri_;
+  std::unique_ptr<Process> master_, simulator_, navigate_;
+};
+
+TEST_F(NavigateMaster, OneThatIsRestartedKnowsAllNamesAgain) {
+  drive(file_.name, "3");
+  ASSERT_TRUE(test::waitFor([&] { return knowsAll(); }));
+  ros::WallDuration(3.0).sleep();  // its nodes have asked it for their services, once a second
+  killMaster();
+  EXPECT_TRUE(navigate_->says("the ROS master has not answered for longer than master_timeout"));
+  const auto back = ros::WallTime::now();
+  startMaster();
+  EXPECT_TRUE(test::waitFor([&] { return knowsAll(); }));
+  std::printf("all names again after %.1f s\n", (ros::WallTime::now() - back).toSec());
+  EXPECT_TRUE(navigate_->says("goes on"));
+}
+
+TEST_F(NavigateMaster, TheDriveGoesOnWithoutOne) {
+  const TemporaryName file("_short.yaml");
+  path::writeWaypointFile(file.name, pathOf({{0, 0}, {8, 0}}));
+  drive(file.name, "0");
+  killMaster();
+  EXPECT_TRUE(navigate_->says("ARRIVED: "));
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,123 @@
+// navigate_path drives by a map that is there and kept up, or not at all.
+//
+// What was seen before: with check_map it drove without any map, by one whose publisher was gone, and
+// by one of any age, without a word.
+#include <map_msgs/OccupancyGridUpdate.h>
+#include <nav_msgs/OccupancyGrid.h>
+
+#include <cstdio>
+
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/support/still_fixture.h"
+#include "support/ascii_map.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using test::pathOf;
+using test::Process;
+using test::StillWorld;
+
+class NavigateMap : public test::StillTest {
+ protected:
+  void publishMap() {
+    maps_.publish(occupancyToMessage(test::AsciiMap({"........"}).map, "map", ros::Time::now()));
+  }
+  void beat() {
+    map_msgs::OccupancyGridUpdate heartbeat;
+    heartbeat.header.frame_id = "map";
+    heartbeat.header.stamp = ros::Time::now() - ros::Duration(7.0);  // of the newest cloud
+    updates_.publish(heartbeat);
+  }
+  // Whether `condition` comes true while the heart beats.
+  bool beatsUntil(const std::function<bool()>& condition) {
+    return test::waitFor([&] {
+      beat();
+      return condition();
+    });
+  }
+  bool drivesNow() {
+    const auto all = velocity_.all();
+    return !all.empty() && !test::isZero(all.back());
+  }
+
+  ros::Publisher maps_ = nh_.advertise<nav_msgs::OccupancyGrid>("projected_map", 1, true);
+  ros::Publisher updates_ =
+      nh_.advertise<map_msgs::OccupancyGridUpdate>("projected_map_updates", 10);
+  StillWorld world_{100.0};
+};
+
+TEST_F(NavigateMap, WithoutOneItDoesNotStartAndSaysWhatToDo) {
+  startNavigate({"_check_map:=true", "projected_map:=/site/map"});
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  EXPECT_TRUE(navigate_->says("no map has come on /site/map yet"));
+  EXPECT_TRUE(navigate_->says("check_map:=false"));
+  EXPECT_TRUE(stops());
+  EXPECT_TRUE(reports(DiagnosticStatus::WARN, "no map has come on /site/map yet"));
+  EXPECT_EQ(reported("topic"), "/site/map");
+  ros::Publisher late = nh_.advertise<nav_msgs::OccupancyGrid>("/site/map", 1, true);
+  late.publish(occupancyToMessage(test::AsciiMap({"........"}).map, "map", ros::Time::now()));
+  EXPECT_TRUE(isDriving()) << "by itself when there is a map";
+}
+
+TEST_F(NavigateMap, AHeartThatStopsHoldsTheDriveUntilItBeatsAgain) {
+  publishMap();
+  startNavigate({"_check_map:=true", "_map_timeout:=1.0", "_no_progress_timeout:=0"});
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(beatsUntil([&] { return drivesNow() && reported("heartbeat") == "True"; }));
+  EXPECT_NEAR(std::stod(reported("age (s)")), 7.0, 5.0) << "of the newest cloud";
+  EXPECT_TRUE(stops());
+  EXPECT_TRUE(reports(DiagnosticStatus::WARN, "blocked: the map on /projected_map is not kept up"));
+  EXPECT_TRUE(beatsUntil([&] { return drivesNow(); }));
+  EXPECT_FALSE(navigate_->output().find("ENDED") != std::string::npos) << "it is no failure";
+}
+
+// A heartbeat is no change of the map, nor one that is older than it.
+TEST_F(NavigateMap, HeartbeatsChangeNothing) {
+  publishMap();
+  startNavigate({"_check_map:=true", "_no_progress_timeout:=0"});
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(beatsUntil([&] { return drivesNow() && reported("heartbeat") == "True"; }));
+  EXPECT_EQ(navigate_->output().find("was dropped"), std::string::npos);
+}
+
+// A map_publisher with a map of its own, which says nothing once the map is sent.
+class NavigateByMapServer : public test::StillTest {
+ protected:
+  NavigateByMapServer() : file_(testing::TempDir() + "map" + std::to_string(::getpid()) + ".map") {
+    std::FILE* out = std::fopen(file_.c_str(), "w");
+    std::fputs("type octile\nheight 1\nwidth 8\nmap\n........\n", out);
+    std::fclose(out);
+    serve();
+  }
+  ~NavigateByMapServer() override { std::remove(file_.c_str()); }
+
+  void serve() { server_ = std::make_unique<Process>("map_publisher", arguments()); }
+  std::vector<std::string> arguments() const { return {"_filename:=" + file_}; }
+
+  std::string file_;
+  std::unique_ptr<Process> server_;
+  StillWorld world_{100.0};
+};
+
+// roscpp keeps counting the link to a publisher that was killed.
+TEST_F(NavigateByMapServer, OneThatWasKilledHoldsTheDriveUntilItIsBack) {
+  drive({"_check_map:=true"});
+  server_->signal(SIGKILL);
+  EXPECT_TRUE(stops());
+  EXPECT_TRUE(reports(DiagnosticStatus::WARN, "/map_publisher has not answered for"));
+  serve();
+  EXPECT_TRUE(isDriving());
+}
+
+TEST_F(NavigateByMapServer, OneThatHangsHoldsTheDriveUntilItAnswers) {
+  drive({"_check_map:=true"});
+  server_->signal(SIGSTOP);
+  EXPECT_TRUE(stops());
+  server_->signal(SIGCONT);
+  EXPECT_TRUE(isDriving());
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes

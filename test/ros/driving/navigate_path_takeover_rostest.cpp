@@ -1,0 +1,210 @@
+// Who commands the vehicle: a joystick before navigate_path, `stop` before both, and nobody besides.
+//
+// What was seen before: a joystick and navigate_path commanded in turns, 50 times a second; nothing
+// but ~cancel stopped a drive; and two navigate_paths drove one vehicle along two paths.
+#include <sensor_msgs/Joy.h>
+#include <std_msgs/Bool.h>
+
+#include <mutex>
+#include <utility>
+
+#include "ros/support/still_fixture.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using geometry_msgs::Twist;
+using test::isZero;
+using test::pathOf;
+using test::Process;
+using test::StillWorld;
+
+// The commands that are not zero, with the nodes that they are of.
+class Commanders {
+ public:
+  explicit Commanders(ros::NodeHandle nh)
+      : subscriber_(nh.subscribe("cmd_vel", 100, &Commanders::onCommand, this)) {}
+
+  std::string latest() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return latest_;
+  }
+  // How many of `node` came since the first of `other` after the last call of forget().
+  int since(const std::string& node, const std::string& other) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto begin = std::find(nodes_.begin(), nodes_.end(), other);
+    return static_cast<int>(std::count(begin, nodes_.end(), node));
+  }
+  void forget() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    nodes_.clear();
+    latest_.clear();
+  }
+
+ private:
+  void onCommand(const ros::MessageEvent<Twist const>& event) {
+    if (isZero(*event.getMessage())) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    latest_ = event.getPublisherName();
+    nodes_.push_back(latest_);
+  }
+
+  mutable std::mutex mutex_;
+  std::string latest_;
+  std::vector<std::string> nodes_;
+  ros::Subscriber subscriber_;
+};
+
+class Takeover : public test::StillTest {
+ protected:
+  Takeover() { ros::param::del("/teleop_joy"); }
+
+  void startJoystick(std::uint32_t commanders = 2) {
+    joystick_ = std::make_unique<Process>("teleop_joy", std::vector<std::string>{});
+    ASSERT_TRUE(test::waitFor([&] { return joy_.getNumSubscribers() > 0; }));
+    ASSERT_TRUE(test::waitFor([&] { return velocity_.publishers() == commanders; }));
+  }
+  void push(bool deadman) {
+    sensor_msgs::Joy message;
+    message.axes.assign(8, 0.0F);
+    message.axes[1] = 1.0F;
+    message.buttons.assign(11, 0);
+    message.buttons[4] = deadman;
+    joy_.publish(message);
+  }
+  // Whether `condition` comes true with the deadman button held, or let go.
+  bool pushUntil(bool deadman, const std::function<bool()>& condition) {
+    return test::waitFor([&] {
+      push(deadman);
+      return condition();
+    });
+  }
+  bool takesOver() {
+    return pushUntil(true, [&] { return commanders_.latest() == "/teleop_joy"; });
+  }
+  void stop(bool on) {
+    std_msgs::Bool message;
+    message.data = on;
+    stop_.publish(message);
+  }
+
+  StillWorld world_{100.0};
+  Commanders commanders_{nh_};
+  ros::Publisher joy_ = nh_.advertise<sensor_msgs::Joy>("joy", 10);
+  ros::Publisher stop_ = nh_.advertise<std_msgs::Bool>("stop", 1, true);
+  std::unique_ptr<Process> joystick_;
+};
+
+TEST_F(Takeover, AJoystickCommandsAtOnceAndTheDriveIsResumedByHand) {
+  drive();
+  startJoystick();
+  commanders_.forget();
+  ASSERT_TRUE(takesOver());
+  EXPECT_TRUE(navigate_->says("The joystick commands: the drive is paused"));
+  EXPECT_FALSE(ask("resume")) << "while the joystick commands";
+  const int after = commanders_.since("/navigate_path", "/teleop_joy");
+  EXPECT_LE(after, 4) << "what was under way, of 200 a second";
+  publishPath(pathOf({{0, 0}, {0, 50}}));
+  ASSERT_TRUE(navigate_->says("drives a path of 2 waypoints"));
+  for (int i = 0; i < 20; ++i) push(true);
+  ASSERT_TRUE(pushUntil(false, [&] { return isZero(velocity_.all().back()); }));
+  commanders_.forget();
+  ASSERT_TRUE(test::waitFor([&, until = world_.time() + 8.0] { return world_.time() > until; }));
+  EXPECT_EQ(commanders_.latest(), "") << "it does not go on by itself";
+  EXPECT_TRUE(ask("resume"));
+  EXPECT_TRUE(test::waitFor([&] { return commanders_.latest() == "/navigate_path"; }));
+}
+
+TEST_F(Takeover, AJoystickThatWasKilledDoesNotHoldTheDriveForEver) {
+  drive();
+  startJoystick();
+  ASSERT_TRUE(takesOver());
+  joystick_->signal(SIGKILL);
+  ASSERT_TRUE(joystick_->waitForExit());
+  EXPECT_TRUE(test::waitFor([&] { return ask("resume"); }));
+  EXPECT_TRUE(isDriving());
+}
+
+TEST_F(Takeover, StopZeroesUntilItIsReleased) {
+  drive();
+  startJoystick();
+  stop(true);
+  EXPECT_TRUE(stops());
+  EXPECT_TRUE(navigate_->says("stopped by the topic /stop"));
+  EXPECT_TRUE(ask("pause"));
+  EXPECT_TRUE(ask("resume"));
+  EXPECT_TRUE(stops()) << "whoever resumes";
+  for (int i = 0; i < 20; ++i) push(true);
+  EXPECT_TRUE(stops()) << "the joystick too";
+  const std::size_t seen = velocity_.count();
+  EXPECT_TRUE(velocity_.waitForMoreThan(seen)) << "zeros come all the time";
+  ASSERT_TRUE(
+      pushUntil(false, [&] { return joystick_->output().find("no longer") != std::string::npos; }));
+  stop(false);
+  EXPECT_TRUE(test::waitFor([&] {
+    std_srvs::Trigger call;
+    ros::service::call("/navigate_path/resume", call);  // the joystick paused it
+    return commanders_.latest() == "/navigate_path" && !isZero(velocity_.all().back());
+  }));
+}
+
+TEST_F(Takeover, ALatchedStopHoldsANodeThatStartsLater) {
+  stop(true);
+  startNavigate();
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(navigate_->says("stopped by the topic /stop"));
+  EXPECT_TRUE(stops());
+  stop(false);
+  EXPECT_TRUE(isDriving());
+}
+
+TEST_F(Takeover, ASecondNodeThatCommandsRefusesToStartAndNamesTheFirst) {
+  drive();
+  const auto refusal = [](const std::string& node, const std::vector<std::string>& arguments) {
+    Process second(node, arguments);
+    EXPECT_TRUE(second.waitForExit());
+    EXPECT_EQ(second.exitCode(), 1);
+    return second.output();
+  };
+  EXPECT_NE(refusal("navigate_path", {"__name:=second"})
+                .find("the node /navigate_path publishes /cmd_vel"),
+            std::string::npos);
+  EXPECT_NE(refusal("navigate_path", {"__name:=second", "_share_cmd_vel:=true"})
+                .find("the node /navigate_path offers /navigate_path"),
+            std::string::npos);
+  EXPECT_TRUE(isDriving());
+  Process other("navigate_path", {"__ns:=survey", "_share_cmd_vel:=true", "cmd_vel:=/cmd_vel",
+                                  "manual_control:=/manual_control"});
+  EXPECT_TRUE(test::waitFor([&] { return velocity_.publishers() == 2; })) << "where that is meant";
+  startJoystick(3);
+}
+
+TEST_F(Takeover, ASecondJoystickRefusesToStart) {
+  joystick_ = std::make_unique<Process>("teleop_joy", std::vector<std::string>{});
+  ASSERT_TRUE(test::waitFor([&] { return velocity_.publishers() == 1; }));
+  Process second("teleop_joy", {"__name:=second"});
+  EXPECT_TRUE(second.waitForExit());
+  EXPECT_EQ(second.exitCode(), 1);
+  EXPECT_TRUE(second.says("the node /teleop_joy publishes /cmd_vel"));
+}
+
+TEST_F(Takeover, ASecondPlannerRefusesToStart) {
+  Process first("path_planner", {});
+  ASSERT_TRUE(test::waitFor([] { return ros::service::exists("/path_planner/make_plan", false); }));
+  Process second("path_planner", {"__name:=second"});
+  EXPECT_TRUE(second.waitForExit());
+  EXPECT_EQ(second.exitCode(), 1);
+  EXPECT_TRUE(second.says("the node /path_planner offers /plan_path"));
+}
+
+// A node that was killed stays registered with the master.
+TEST_F(Takeover, ANodeThatWasKilledIsNotInTheWay) {
+  drive();
+  navigate_->signal(SIGKILL);
+  ASSERT_TRUE(navigate_->waitForExit());
+  Process second("navigate_path", {"__name:=second", "_check_map:=false"});
+  EXPECT_TRUE(test::waitFor([] { return ros::service::exists("/second/cancel", false); }));
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
