@@ -6,19 +6,22 @@
 #include <cstddef>
 #include <cstring>
 #include <locale>
+#include <optional>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/base/yaml_file.h"
+#include "path/plain_waypoints.h"
 
 namespace grid_path_planner::path {
 
-using base::describeYaml, base::InputError, base::loadYamlFile, base::OutputFile,
-    base::writeFileAtomically, base::yamlAs, base::yamlError, base::yamlHas, base::yamlNode,
-    base::yamlValueOr, base::yawOfLevelQuaternion;
+using base::describeYaml, base::InputError, base::kLargestYaml, base::OutputFile, base::parseYaml,
+    base::readWholeFile, base::writeFileAtomically, base::yamlAs, base::yamlError, base::yamlHas,
+    base::yamlNode, base::yamlValueOr, base::yawOfLevelQuaternion;
 
 namespace {
 
@@ -163,7 +166,9 @@ void checkCanBeRead(const std::string& file, const Path& path) {
 }  // namespace
 
 Path readWaypointFile(const std::string& file) {
-  const YAML::Node root = loadYamlFile(file);
+  const std::string text = readWholeFile(file, kLargestYaml);
+  if (std::optional<Path> plain = plainWaypoints(text)) return *std::move(plain);
+  const YAML::Node root = parseYaml(text, file);
   const YAML::Node waypoints = yamlNode(root, "waypoints", file, "a list of waypoints");
   if (!waypoints.IsSequence() || waypoints.size() == 0)
     throw yamlError(waypoints, file,

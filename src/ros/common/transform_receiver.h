@@ -5,9 +5,9 @@
 // inside tf2 (its arithmetic of times throws), and one stamped years ahead stays the latest for
 // years, since tf2 drops what is older than its newest by more than its length.
 //
-// Guaranteed: transforms that are stamped 0 or more than kFutureSeconds ahead of ROS time, and all
-// while there is none, are dropped with a warning; the stamps of static ones do not count. ROS time
-// that jumps back clears the buffer.
+// Guaranteed: transforms that are stamped 0 or some seconds (4; 10 of simulated time, which may run
+// many times faster than messages) ahead of ROS time, and all while there is none, are dropped with
+// a warning; the stamps of static ones do not count. ROS time that jumps back clears the buffer.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -22,10 +22,6 @@
 #include "ros/common/guarded_queue.h"
 
 namespace grid_path_planner::nodes {
-
-// Below the 5 s in which right transforms must count again; above what clocks of one vehicle's
-// computers, or /clock and /tf, differ by.
-constexpr double kFutureSeconds = 4.0;
 
 class TransformReceiver {
  public:
