@@ -219,8 +219,8 @@ RoutePosition RouteProgress::position(const Vector3d& vehicle) const {
 std::vector<Vector3d> RouteProgress::ahead(const Vector3d& vehicle, double distance) const {
   const RoutePosition nearest = position(vehicle);
   const Vector3d back = nearest.point() - vehicle;
-  const double way = back.norm();
-  if (way > distance) return {vehicle, vehicle + back * (distance / way)};
+  const double length = back.norm();
+  if (length > distance) return {vehicle, vehicle + back * (distance / length)};
   std::vector<Vector3d> points = route_->piece(segment_, nearest.share, distance);
   points.insert(points.begin(), vehicle);
   return points;

@@ -1,4 +1,4 @@
-// Whether the way ahead of a vehicle is free in a map: its way back to the path, and the path.
+// Whether the path ahead of a vehicle is free in a map, and its return to the path.
 //
 //   if (const auto found = firstObstruction(map, {{25, 65}, 0.35, true}, ahead)) stop(found->at);
 #pragma once
@@ -31,7 +31,7 @@ struct Obstruction {
 };
 
 // What obstructs the polyline `ahead`, which begins at the vehicle and leads by its second point
-// back to the path; none where it is free. The way back may be as near to occupied cells as the
+// back to the path; none where it is free. The return may be as near to occupied cells as the
 // vehicle itself is, and no nearer: a vehicle that was pushed into the radius comes out of it.
 // Unknown cells and the outside obstruct where the polyline meets them, without a radius.
 std::optional<Obstruction> firstObstruction(const grid::OccupancyGrid& map,

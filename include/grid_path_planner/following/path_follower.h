@@ -20,7 +20,7 @@
 // joined, which is reported too. Time that goes back cancels. Velocities are finite: a pose or a
 // time that cannot be used ends the drive with INVALID_POSE. The same calls give the same
 // velocities. Not guaranteed: that the vehicle stays on the path whatever pushes it. Farther off
-// than acceptance_radius it comes straight back to it before it goes on; this way back is checked
+// than acceptance_radius it comes straight back to it before it goes on; this return is checked
 // like the path.
 #pragma once
 
@@ -70,7 +70,7 @@ struct FollowEvent {
   std::string message;  // counts waypoints from 1
 };
 
-// Why the way ahead (points in the path's frame: the vehicle's own, the nearest of the path, and the
+// Why the path ahead (points in the path's frame: the vehicle's own, the nearest of the path, and the
 // path from there on) cannot be driven, in a sentence; empty where it can.
 using PathClearanceCheck = std::function<std::string(const std::vector<Eigen::Vector3d>& ahead)>;
 

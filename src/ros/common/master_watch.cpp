@@ -19,8 +19,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using XmlRpc::XmlRpcValue;
 
-constexpr auto kPeriod = std::chrono::seconds(1);
-constexpr double kSeconds = 1.0;  // that the master is asked
+constexpr auto kMasterPeriod = std::chrono::seconds(1);
+constexpr double kMasterPatience = 1.0;  // that the master is asked
 
 XmlRpcValue self() {
   return XmlRpcValue(ros::this_node::getName());
@@ -32,7 +32,7 @@ std::string ownUri() {
 
 std::optional<XmlRpcValue> askMaster(const char* method, std::vector<XmlRpcValue> arguments = {}) {
   arguments.insert(arguments.begin(), self());
-  return callXmlRpc(masterUri(), method, arguments, kSeconds);
+  return callXmlRpc(masterUri(), method, arguments, kMasterPatience);
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ void MasterWatch::run() {
       ROS_ERROR_STREAM_THROTTLE(5.0, "The master's answer is not understood: " << error.what());
     }
     lock.lock();
-    ends_.wait_for(lock, kPeriod, [this] { return done_; });
+    ends_.wait_for(lock, kMasterPeriod, [this] { return done_; });
   }
 }
 
@@ -93,7 +93,7 @@ void MasterWatch::ask() {
 }
 
 void MasterWatch::rememberServices() {
-  const auto state = systemState(kSeconds);
+  const auto state = systemState(kMasterPatience);
   if (!state) return;
   services_.clear();
   const std::string name = ros::this_node::getName();
@@ -114,14 +114,15 @@ void MasterWatch::registerAgain() const {
 
 // The master answers a subscriber with the publishers of its topic, and tells nobody else.
 void MasterWatch::registerTopics(const char* list, const char* method) const {
-  auto topics = callXmlRpc(ownUri(), list, {self()}, kSeconds);
+  auto topics = callXmlRpc(ownUri(), list, {self()}, kMasterPatience);
   for (int i = 0; topics && i < topics->size(); ++i) {
     const XmlRpcValue& topic = (*topics)[i][0];
     const auto known = askMaster(method, {topic, (*topics)[i][1], XmlRpcValue(ownUri())});
     const bool publishers =
         known && known->getType() == XmlRpcValue::TypeArray && known->size() > 0;
     if (publishers && std::string(method) == "registerSubscriber")
-      callXmlRpc(ownUri(), "publisherUpdate", {XmlRpcValue("/master"), topic, *known}, kSeconds);
+      callXmlRpc(ownUri(), "publisherUpdate", {XmlRpcValue("/master"), topic, *known},
+                 kMasterPatience);
   }
 }
 

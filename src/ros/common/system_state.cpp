@@ -12,7 +12,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-constexpr double kSeconds = 1.0;  // that one is asked
+constexpr double kPatience = 1.0;  // that one is asked
 
 // [[name, [node, node]], ...]
 SystemState::Nodes nodesOf(XmlRpcValue& list) {
@@ -31,8 +31,8 @@ bool has(const SystemState::Nodes& nodes, const std::string& name, const std::st
 }
 
 bool answers(const std::string& node) {
-  const auto uri = uriOfNode(node, kSeconds);
-  return uri && answersXmlRpc(*uri, kSeconds);
+  const auto uri = uriOfNode(node, kPatience);
+  return uri && answersXmlRpc(*uri, kPatience);
 }
 
 // The first other node among the publishers of `topic` that `counts` takes and that answers.
@@ -64,15 +64,15 @@ std::optional<SystemState> systemState(double seconds) {
 }
 
 std::optional<OtherCommander> otherCommander(const Commands& commands) {
-  const auto state = systemState(kSeconds);
+  const auto state = systemState(kPatience);
   if (!state) return std::nullopt;
   const SystemState::Nodes& partners =
       commands.is_joystick ? state->subscribers : state->publishers;
-  const auto in_the_way = [&](const std::string& node) {
+  const auto conflicts = [&](const std::string& node) {
     return !has(partners, commands.manual_control, node);
   };
   for (const std::string& topic : commands.topics) {
-    const std::string node = otherPublisher(*state, topic, in_the_way);
+    const std::string node = otherPublisher(*state, topic, conflicts);
     if (!node.empty()) return OtherCommander{node, "the node " + node + " publishes " + topic};
   }
   for (const std::string& action : commands.actions) {

@@ -21,7 +21,7 @@ struct Commands {
   std::vector<std::string> topics;   // resolved names, of velocities
   std::vector<std::string> actions;  // resolved names
   // A topic: who publishes it (joysticks) and who subscribes to it (drivers) may publish the same
-  // velocities, since drivers give way to joysticks.
+  // velocities, since drivers yield to joysticks.
   std::string manual_control;
   bool is_joystick = false;
 };

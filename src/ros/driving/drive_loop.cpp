@@ -167,7 +167,7 @@ void DriveLoop::tick() {
   noticeTimeJump(now);
   if (now != now_) moved_ = Clock::now();
   now_ = now;
-  giveWay();
+  yieldToJoystick();
   follow(now);
   report(now);
 }
@@ -244,7 +244,7 @@ bool DriveLoop::isManual() const {
 }
 
 // Also where a drive begins meanwhile; a pose that was held would be returned to.
-void DriveLoop::giveWay() {
+void DriveLoop::yieldToJoystick() {
   if (!isManual()) return;
   if (follower_.active() && follower_.state() != FollowState::PAUSED) {
     follower_.pause();

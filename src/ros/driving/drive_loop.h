@@ -109,7 +109,7 @@ class DriveLoop {
   void onManual(const std_msgs::Bool& message);
   void onStop(const std_msgs::Bool& message);
   bool isManual() const;
-  void giveWay();
+  void yieldToJoystick();
   void publish(const base::BodyVelocity& velocity);
   void report(const ros::Time& now);
   void hand(std::vector<DriveReport> reports);

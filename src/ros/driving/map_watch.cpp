@@ -9,8 +9,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPeriod = std::chrono::seconds(1);
-constexpr double kSeconds = 1.0;  // that the publisher is asked
+constexpr auto kPublisherPeriod = std::chrono::seconds(1);
+constexpr double kPublisherPatience = 1.0;  // that the publisher is asked
 
 }  // namespace
 
@@ -85,14 +85,14 @@ void MapWatch::run() {
         lock.lock();
       }
     }
-    ends_.wait_for(lock, kPeriod, [this] { return done_; });
+    ends_.wait_for(lock, kPublisherPeriod, [this] { return done_; });
   }
 }
 
 // Where it does not, the next time at the URI that the master knows by then.
 bool MapWatch::publisherAnswers() {
-  if (uri_.empty()) uri_ = uriOfNode(node_, kSeconds).value_or("");
-  if (!uri_.empty() && answersXmlRpc(uri_, kSeconds)) return true;
+  if (uri_.empty()) uri_ = uriOfNode(node_, kPublisherPatience).value_or("");
+  if (!uri_.empty() && answersXmlRpc(uri_, kPublisherPatience)) return true;
   uri_.clear();
   return false;
 }

@@ -4,13 +4,13 @@
 //               stop     std_msgs/Bool; zeros while it is true
 //   publishes   cmd_vel  geometry_msgs/Twist in base_link, while the deadman button is held
 //               manual_control  std_msgs/Bool, latched; true with every command, false afterwards:
-//                        navigate_path pauses its drive and gives way
+//                        navigate_path pauses its drive and yields
 //
 // Guaranteed: it takes over with the first message with the deadman button held. A zero is published
 // when the deadman button is released, when no message has come for joy_timeout of the wall clock, on
 // a message that cannot be used, and when the node ends; after that nothing is published, so that
 // navigate_path may command the vehicle. ROS time has no effect. The node does not start where
-// another joystick's, or one that gives no way, publishes cmd_vel. Not guaranteed: a zero after
+// another joystick's, or one that does not yield, publishes cmd_vel. Not guaranteed: a zero after
 // SIGKILL.
 #pragma once
 

@@ -103,7 +103,7 @@ TEST_F(Takeover, AJoystickCommandsAtOnceAndTheDriveIsResumedByHand) {
   EXPECT_TRUE(navigate_->says("The joystick commands: the drive is paused"));
   EXPECT_FALSE(ask("resume")) << "while the joystick commands";
   const int after = commanders_.since("/navigate_path", "/teleop_joy");
-  EXPECT_LE(after, 4) << "what was under way, of 200 a second";
+  EXPECT_LE(after, 4) << "what was in flight, of 200 a second";
   publishPath(pathOf({{0, 0}, {0, 50}}));
   ASSERT_TRUE(navigate_->says("drives a path of 2 waypoints"));
   for (int i = 0; i < 20; ++i) push(true);
@@ -198,7 +198,7 @@ TEST_F(Takeover, ASecondPlannerRefusesToStart) {
 }
 
 // A node that was killed stays registered with the master.
-TEST_F(Takeover, ANodeThatWasKilledIsNotInTheWay) {
+TEST_F(Takeover, ANodeThatWasKilledIsNoConflict) {
   drive();
   navigate_->signal(SIGKILL);
   ASSERT_TRUE(navigate_->waitForExit());

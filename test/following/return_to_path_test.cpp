@@ -1,4 +1,4 @@
-// The way back to the path is looked at like the path.
+// The return to the path is looked at like the path.
 //
 // What was seen before: the check began at the point of the path nearest to the vehicle. A vehicle
 // pushed aside, with a wall between it and its path, drove straight through the wall.
@@ -24,7 +24,7 @@ const grid::OccupancyGrid& map() {
   return picture.map;
 }
 
-// The vehicle at `x`, `y`, on its way along y = 4.5 from x = 0.5 to 7.5 m, in the map whose first row is y = 0 to 1.
+// The vehicle at `x`, `y`, driving along y = 4.5 from x = 0.5 to 7.5 m, in the map whose first row is y = 0 to 1.
 ClosedLoop pushedTo(double x, double y) {
   FollowerOptions options;
   options.lookahead = 5.0;
@@ -35,7 +35,7 @@ std::string blockedBy(const std::vector<Eigen::Vector3d>& ahead, const Clearance
   return firstObstruction(map(), limits, ahead) ? "obstructed" : "";
 }
 
-TEST(WayBack, AWallBetweenTheVehicleAndItsPathStopsIt) {
+TEST(ReturnToPath, AWallBetweenTheVehicleAndItsPathStopsIt) {
   ClosedLoop loop = pushedTo(3.5, 4.5);
   loop.check = [](const auto& ahead) { return blockedBy(ahead, {}); };
   loop.follower.start(pathOf({{0.5, 4.5}, {7.5, 4.5}}), Join::NEAREST);
@@ -50,14 +50,14 @@ TEST(WayBack, AWallBetweenTheVehicleAndItsPathStopsIt) {
 
 // A vehicle abreast of the path's first waypoint came to rest beside it, for want of progress: the
 // corner there was followed by a segment without length, to which it never came nearer.
-TEST(WayBack, AFreeOneIsDriven) {
+TEST(ReturnToPath, AFreeOneIsDriven) {
   ClosedLoop loop = pushedTo(0.5, 1.5);
   loop.check = [](const auto& ahead) { return blockedBy(ahead, {}); };
   loop.follower.start(pathOf({{0.5, 4.5}, {7.5, 4.5}}), Join::NEAREST);
   EXPECT_TRUE(loop.runUntilState(FollowState::ARRIVED)) << loop.follower.message();
 }
 
-TEST(WayBack, IsCheckedAsFarAsTheVehicleLooks) {
+TEST(ReturnToPath, IsCheckedAsFarAsTheVehicleLooks) {
   std::vector<Eigen::Vector3d> seen;
   FollowerOptions options;
   options.lookahead = 2.0;
@@ -82,7 +82,7 @@ std::optional<Obstruction> found(const std::vector<Eigen::Vector3d>& ahead,
   return firstObstruction(map(), limits, ahead);
 }
 
-TEST(Obstruction, OccupiedCellsOfTheWayBackAndOfThePath) {
+TEST(Obstruction, OccupiedCellsOfTheReturnToPathAndOfThePath) {
   const auto back = found({{3.5, 1.5, 0}, {3.5, 4.5, 0}, {7.5, 4.5, 0}}, {});
   ASSERT_TRUE(back);
   EXPECT_EQ(back->kind, Kind::OCCUPIED);
@@ -93,7 +93,7 @@ TEST(Obstruction, OccupiedCellsOfTheWayBackAndOfThePath) {
 }
 
 // A vehicle that was pushed into the radius would never come out of it again.
-TEST(Obstruction, TheWayBackMayLeadOutOfTheRadiusAndNotFartherIn) {
+TEST(Obstruction, TheReturnToPathMayLeadOutOfTheRadiusAndNotFartherIn) {
   const ClearanceLimits limits{{}, 1.0, false};
   EXPECT_FALSE(found({{3.5, 3.2, 0}, {3.5, 4.5, 0}}, limits));
   EXPECT_TRUE(found({{3.5, 3.2, 0}, {3.5, 3.1, 0}}, limits));
@@ -106,9 +106,9 @@ TEST(Obstruction, UnknownCellsAndTheOutsideWhereThatIsAskedFor) {
   const std::vector<Eigen::Vector3d> outside = {{0.5, 1.5, 0}, {0.5, 1.5, 0}, {9.5, 1.5, 0}};
   const std::vector<Eigen::Vector3d> back = {{3.5, 0.5, 0}, {3.5, 1.5, 0}, {4.5, 1.5, 0}};
   const std::vector<Eigen::Vector3d> out = {{-1.0, 1.5, 0}, {0.5, 1.5, 0}, {4.5, 1.5, 0}};
-  for (const auto& way : {unknown, outside, back, out}) {
-    EXPECT_FALSE(found(way, {}));
-    EXPECT_TRUE(found(way, {{}, 0.0, true}));
+  for (const auto& points : {unknown, outside, back, out}) {
+    EXPECT_FALSE(found(points, {}));
+    EXPECT_TRUE(found(points, {{}, 0.0, true}));
   }
   EXPECT_EQ(found(unknown, {{}, 0.0, true})->kind, Kind::UNKNOWN);
   EXPECT_EQ(found(unknown, {{}, 0.0, true})->at, Eigen::Vector2d(2.5, 0.5));
