@@ -18,7 +18,8 @@ using grid::OccupancyGrid;
 
 namespace {
 
-MapPublisherOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles& files) {
+MapPublisherOptions loadMapPublisherOptions(const ros::NodeHandle& private_nh,
+                                            const NodeFiles& files) {
   MapPublisherOptions options;
   loadParameters(private_nh, options);
   options.filename = files.named("filename", options.filename);
@@ -43,7 +44,7 @@ void checkMapPublisherOptions(const MapPublisherOptions& options) {
 
 MapPublisherNode::MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
                                    const NodeFiles& files)
-    : files_(files), options_(loadOptions(private_nh, files)), nh_(nh) {
+    : files_(files), options_(loadMapPublisherOptions(private_nh, files)), nh_(nh) {
   map_ = readMap(options_.filename);
   map_publisher_ = nh.advertise<nav_msgs::OccupancyGrid>(options_.topic, 1, true);
   metadata_publisher_ = nh.advertise<nav_msgs::MapMetaData>("map_metadata", 1, true);
