@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "costmap/centre_lattice.h"
+
 namespace grid_path_planner::costmap {
 
 using grid::Cell;
@@ -192,6 +194,7 @@ Cell passableCellAt(const CostGrid& map, SegmentPoint point) {
 }
 
 bool lineOfSight(const CostGrid& map, SegmentPoint from, SegmentPoint to) {
+  if (map.segmentRule() == SegmentRule::CENTRE_LATTICE) return inCentreLattice(map, from, to);
   if (!inside(map, from) || !inside(map, to)) return false;
   if (from == to) return pointLegal(map, from);
   const Line line(from, to);
@@ -200,7 +203,7 @@ bool lineOfSight(const CostGrid& map, SegmentPoint from, SegmentPoint to) {
 
 double lineCost(const CostGrid& map, SegmentPoint from, SegmentPoint to) {
   if (from.x == to.x && from.y == to.y) return 0.0;
-  assert(lineOfSight(map, from, to));
+  assert(map.segmentRule() == SegmentRule::CENTRE_LATTICE || lineOfSight(map, from, to));
   const Line line(from, to);
   std::int64_t weighted = 0;  // weight x length along the major axis
   for (std::int64_t a = line.left(); a < line.right();) {
