@@ -182,8 +182,16 @@ SegmentPoint waypointOf(const CostGrid& map, Cell cell) {
 }
 
 Eigen::Vector2d worldOf(const CostGrid& map, SegmentPoint point) {
-  return map.geometry().worldFromGrid(
-      Eigen::Vector2d(double(point.x) / double(kUnit), double(point.y) / double(kUnit)));
+  Eigen::Vector2d cells(double(point.x) / double(kUnit), double(point.y) / double(kUnit));
+  if (map.kernel() > 1 && map.segmentRule() == SegmentRule::CENTRE_LATTICE) {
+    // The middles of the last blocks are rounded to 1/4096, which may be nearer to an obstacle.
+    const Cell last{map.geometry().width() - 1, map.geometry().height() - 1};
+    const SegmentPoint rounded = waypointOf(map, last);
+    const Eigen::Vector2d middle = map.geometry().gridFromWorld(map.waypoint(last));
+    if (point.x == rounded.x) cells.x() = middle.x();
+    if (point.y == rounded.y) cells.y() = middle.y();
+  }
+  return map.geometry().worldFromGrid(cells);
 }
 
 Cell passableCellAt(const CostGrid& map, SegmentPoint point) {

@@ -54,7 +54,7 @@ struct SegmentPoint {
 // The point of a path in the cell (CostGrid::waypoint): its centre but for the last column and row
 // of a kernel.
 SegmentPoint waypointOf(const CostGrid& map, grid::Cell cell);
-// The same point in the map's frame, in metres.
+// A point in the map's frame, in metres.
 Eigen::Vector2d worldOf(const CostGrid& map, SegmentPoint point);
 // A passable cell that the point lies in or, if it is a lattice point, is a corner of.
 // Precondition: there is one.
