@@ -1,6 +1,7 @@
 // distanceToClass() of metrics.h.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "grid_path_planner/path/metrics.h"
 #include "path/segment.h"
@@ -26,6 +27,14 @@ struct Span {
   int end;
 };
 
+// The first column from `column` on whose cell is `wanted`; `end` where none is.
+int next(const Occupancy* row, Occupancy wanted, int column, int end) {
+  if (column >= end) return end;
+  const void* found =
+      std::memchr(row + column, static_cast<int>(wanted), static_cast<std::size_t>(end - column));
+  return found == nullptr ? end : static_cast<int>(static_cast<const Occupancy*>(found) - row);
+}
+
 }  // namespace
 
 double distanceToClass(const Grid<Occupancy>& classes, Occupancy wanted,
@@ -33,11 +42,12 @@ double distanceToClass(const Grid<Occupancy>& classes, Occupancy wanted,
                        double inset) {
   const Segment segment{classes.geometry().gridFromWorld(from),
                         classes.geometry().gridFromWorld(to)};
-  const double reach = limit / classes.geometry().resolution() + 1e-9;
+  const double resolution = classes.geometry().resolution();
+  const double reach = limit / resolution + 1e-9;
   const Eigen::Vector2d low = segment.from.cwiseMin(segment.to);
   const Eigen::Vector2d high = segment.from.cwiseMax(segment.to);
   const Eigen::Vector2d rim(inset, inset);
-  double least = limit / classes.geometry().resolution();
+  double least = limit;
   const Span rows(low.y() - reach, high.y() + reach, classes.height());
   for (int row = rows.first; row < rows.end; ++row) {
     // The part of the line that is near enough to the row.
@@ -45,14 +55,14 @@ double distanceToClass(const Grid<Occupancy>& classes, Occupancy wanted,
     if (!near) continue;
     const auto [left, right] = std::minmax(near->from.x(), near->to.x());
     const Span columns(left - reach, right + reach, classes.width());
-    for (int column = columns.first; column < columns.end; ++column) {
-      if (classes.row(row)[column] != wanted) continue;
+    for (int column = next(classes.row(row), wanted, columns.first, columns.end);
+         column < columns.end; column = next(classes.row(row), wanted, column + 1, columns.end)) {
       const Eigen::Vector2d corner(column, row);
       const Box square{corner + rim, corner + Eigen::Vector2d(1.0, 1.0) - rim};
-      least = std::min(least, distanceBetween(segment, square));
+      least = std::min(least, distanceBetween(segment, square) * resolution);
     }
   }
-  return least * classes.geometry().resolution();
+  return least;
 }
 
 }  // namespace grid_path_planner::path

@@ -34,13 +34,15 @@ double EndSegments::toBorder(const Eigen::Vector2d& point) const {
 
 KeptDistances EndSegments::at(const Eigen::Vector2d& point) const {
   KeptDistances own = kept_;
-  const auto measure = [&](Occupancy wanted, double& distance) {
-    if (distance > 0.0)
-      distance = distanceToClass(costs_.classes(), wanted, point, point, distance);
+  const auto lower = [](double& kept, double distance) {
+    if (!atLeast(distance, kept)) kept = distance;
+  };
+  const auto measure = [&](Occupancy wanted, double& kept) {
+    if (kept > 0.0) lower(kept, distanceToClass(costs_.classes(), wanted, point, point, kept));
   };
   measure(Occupancy::OCCUPIED, own.occupied);
   measure(Occupancy::UNKNOWN, own.unknown);
-  own.outside = std::min(own.outside, toBorder(point));
+  lower(own.outside, std::max(0.0, toBorder(point)));
   return own;
 }
 
@@ -73,6 +75,7 @@ bool EndSegments::leavesStart(const Eigen::Vector2d& from, const Eigen::Vector2d
 KeptDistances EndSegments::loweredTo(const Eigen::Vector2d& start,
                                      const Eigen::Vector2d& goal) const {
   KeptDistances lowered = kept_;
+  if (kept_.unknown <= 0.0 && kept_.outside <= 0.0) return lowered;
   for (const Eigen::Vector2d& end : {start, goal}) {
     const auto cell = costs_.geometry().cellAt(end);
     if (!cell) continue;

@@ -50,14 +50,25 @@ std::optional<PathEnd> PathEnds::start(Plan& failure) const {
   return std::nullopt;
 }
 
+// The passable cell nearest a position to whose centre a straight line is legal: mostly its own.
+template <class Legal>
+std::optional<Cell> PathEnds::joinedCell(const Eigen::Vector2d& position, Legal&& legal) const {
+  const GridGeometry& geometry = costs_.geometry();
+  const auto joins = [&](Cell cell) {
+    return costs_.passable(cell) && legal(geometry.centre(cell));
+  };
+  const std::optional<Cell> own = geometry.cellAt(position);
+  if (own && joins(*own)) return own;
+  const auto nearest = nearestCell(geometry, position, kCellsAround * geometry.resolution(), joins);
+  return nearest ? std::optional<Cell>(nearest->cell) : std::nullopt;
+}
+
 // From a start in a passable cell: none where every line to a centre near by comes nearer.
 std::optional<PathEnd> PathEnds::measuredStart(const Eigen::Vector2d& position) const {
-  const GridGeometry& geometry = costs_.geometry();
-  const auto nearest =
-      nearestCell(geometry, position, kCellsAround * geometry.resolution(), [&](Cell cell) {
-        return costs_.passable(cell) && segments_.leavesStart(position, geometry.centre(cell));
-      });
-  if (!nearest) return std::nullopt;
+  const auto cell = joinedCell(position, [&](const Eigen::Vector2d& centre) {
+    return segments_.leavesStart(position, centre);
+  });
+  if (!cell) return std::nullopt;
   const double distance = segments_.at(position).occupied;
   const double radius = costs_.keptDistances().occupied;
   const std::string note = distance < radius
@@ -65,24 +76,21 @@ std::optional<PathEnd> PathEnds::measuredStart(const Eigen::Vector2d& position) 
                                      " from an occupied cell, nearer than the radius of " +
                                      metresText(radius)
                                : "";
-  return PathEnd{nearest->cell, position, note, false};
+  return PathEnd{*cell, position, note, false};
 }
 
 // At a goal in a passable cell.
 std::optional<PathEnd> PathEnds::measuredGoal(const Eigen::Vector2d& position,
                                               std::string& why) const {
-  const GridGeometry& geometry = costs_.geometry();
   if (!segments_.keeps(position, position)) {
     why = "is " + metresText(segments_.at(position).occupied) +
           " from an occupied cell, nearer than the radius of " +
           metresText(costs_.keptDistances().occupied);
     return std::nullopt;
   }
-  const auto nearest =
-      nearestCell(geometry, position, kCellsAround * geometry.resolution(), [&](Cell cell) {
-        return costs_.passable(cell) && segments_.keeps(geometry.centre(cell), position);
-      });
-  if (nearest) return PathEnd{nearest->cell, position, "", false};
+  const auto cell = joinedCell(
+      position, [&](const Eigen::Vector2d& centre) { return segments_.keeps(centre, position); });
+  if (cell) return PathEnd{*cell, position, "", false};
   why = "lies where no straight line leads to it at the radius of " +
         metresText(costs_.keptDistances().occupied);
   return std::nullopt;

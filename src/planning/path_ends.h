@@ -49,6 +49,8 @@ class PathEnds {
  private:
   template <class Usable>
   std::optional<PathEnd> escapeStart(Usable&& usable) const;
+  template <class Legal>
+  std::optional<grid::Cell> joinedCell(const Eigen::Vector2d& position, Legal&& legal) const;
   std::optional<PathEnd> measuredStart(const Eigen::Vector2d& position) const;
   std::optional<PathEnd> measuredGoal(const Eigen::Vector2d& position, std::string& why) const;
   std::string whyBlocked(grid::Cell cell) const;

@@ -172,6 +172,11 @@ TEST(RadiusLaw, NoPointOfAPathIsNearerThanItMay) {
       if (plan.status != Status::FOUND) continue;
       ++found;
       expectAllKept(pointsOf(plan.path), map, options.costmap);
+      const Points start = {request.start.position.head<2>()};
+      EXPECT_EQ(plan.message.find("nearer than the radius") != std::string::npos,
+                nearest(start, map, kOccupied, options.costmap.radius) <
+                    options.costmap.radius * (1.0 - 1e-7))
+          << plan.message;
       expectNotBlocked(plan, *planner.fullResolutionCosts(StopToken()), random);
     }
   }
