@@ -224,7 +224,7 @@ CellRect CostmapBuilder::rewriteWeights(const ClassChanges& changes, const StopT
   const auto inflated = [&](const CellRect& rect, const Inflation& inflation) {
     return rect.empty() ? rect : rect.grown(inflation.reach()).intersection(all);
   };
-  // Around unknown cells there is no weight but blocked, and they seldom appear: both ways anew.
+  // Around unknown cells there is no weight but blocked, so all of it is computed again.
   const Inflation& unknown = inflations_->unknown;
   const CellRect near_unknown = unknown.none() ? CellRect() : inflated(changes.all, unknown);
   const CellRect recomputed =

@@ -21,7 +21,7 @@ std::optional<double> shortestAnyAngle(const costmap::CostGrid& map, grid::Cell 
 bool inLattice(const costmap::CostGrid& map, const Eigen::Vector2d& from,
                const Eigen::Vector2d& to);
 
-// The length in cells of the shortest path in the centre lattice; none where no way leads.
+// The length in cells of the shortest path in the centre lattice; none where there is none.
 std::optional<double> shortestInLattice(const costmap::CostGrid& map, grid::Cell start,
                                         grid::Cell goal);
 

@@ -41,27 +41,7 @@ struct CostmapOptions {
 };
 
 template <class Visitor>
-void visitOptions(CostmapOptions& o, Visitor&& visit) {
-  visit("free_max", o.thresholds.free_max,
-        base::OptionInfo{"Occupancy up to this is free; lower: more cells count as unknown", "%", 0,
-                         99}
-            .under("What cells cost"));
-  visit("occupied_min", o.thresholds.occupied_min,
-        base::OptionInfo{"Occupancy from this on is occupied; lower: more obstacles", "%", 1, 100});
-  visit("free_weight", o.free_weight,
-        base::OptionInfo{"Cost of a cell length through free cells", "", 1, 65535});
-  visit("unknown_weight", o.unknown_weight,
-        base::OptionInfo{
-            "Cost of a cell length through unknown cells; higher: longer paths around them", "", 1,
-            65535});
-  visit("occupied_weight", o.occupied_weight,
-        base::OptionInfo{"Cost of a cell length through occupied cells, where they are passable",
-                         "", 1, 65535});
-  visit("unknown_is_passable", o.unknown_is_passable,
-        base::OptionInfo{"Whether paths may cross unknown cells; false: never, at any kernel", ""});
-  visit("occupied_is_passable", o.occupied_is_passable,
-        base::OptionInfo{"Whether paths may cross occupied cells; only for studies, needs radius 0",
-                         ""});
+void visitDistanceOptions(CostmapOptions& o, Visitor&& visit) {
   visit("radius", o.radius,
         base::OptionInfo{
             "Vehicle radius: no point of a path is nearer than this to an occupied cell; set it to "
@@ -88,6 +68,31 @@ void visitOptions(CostmapOptions& o, Visitor&& visit) {
             "Weight at the radius, where decay is not 0; higher: wider berth; keep it under "
             "unknown_weight",
             "", 1, 65535});
+}
+
+template <class Visitor>
+void visitOptions(CostmapOptions& o, Visitor&& visit) {
+  visit("free_max", o.thresholds.free_max,
+        base::OptionInfo{"Occupancy up to this is free; lower: more cells count as unknown", "%", 0,
+                         99}
+            .under("What cells cost"));
+  visit("occupied_min", o.thresholds.occupied_min,
+        base::OptionInfo{"Occupancy from this on is occupied; lower: more obstacles", "%", 1, 100});
+  visit("free_weight", o.free_weight,
+        base::OptionInfo{"Cost of a cell length through free cells", "", 1, 65535});
+  visit("unknown_weight", o.unknown_weight,
+        base::OptionInfo{
+            "Cost of a cell length through unknown cells; higher: longer paths around them", "", 1,
+            65535});
+  visit("occupied_weight", o.occupied_weight,
+        base::OptionInfo{"Cost of a cell length through occupied cells, where they are passable",
+                         "", 1, 65535});
+  visit("unknown_is_passable", o.unknown_is_passable,
+        base::OptionInfo{"Whether paths may cross unknown cells; false: never, at any kernel", ""});
+  visit("occupied_is_passable", o.occupied_is_passable,
+        base::OptionInfo{"Whether paths may cross occupied cells; only for studies, needs radius 0",
+                         ""});
+  visitDistanceOptions(o, visit);
   visit("kernel", o.kernel,
         base::OptionInfo{
             "Side of the blocks that are searched instead of cells; higher: faster, coarser paths",

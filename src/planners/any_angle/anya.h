@@ -5,7 +5,7 @@
 // maps, so an update of the map costs no more than theirs. Unlike the published algorithm it starts
 // and ends inside cells. The turning points of a path are corners of blocked cells.
 //
-// Where the map keeps distances it searches the centre lattice in the same way (lattice_search.h): the
+// Where the map keeps distances it searches the centre lattice too (lattice_search.h): the
 // turning points of a path are centres of cells.
 //
 // Guaranteed: no legal any-angle path (costmap/line_of_sight.h) between the two waypoints is shorter, up
