@@ -38,6 +38,7 @@ PlannerOptions optionsWith(int kernel) {
   options.costmap.radius = 0.05;
   options.costmap.decay = 5.0;
   options.costmap.kernel = kernel;
+  options.costmap.outside = grid_path_planner::costmap::Outside::FREE;
   options.start_escape_radius = options.tolerance = 5.0;
   return options;
 }

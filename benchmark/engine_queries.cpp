@@ -43,6 +43,7 @@ using grid_path_planner::base::StopToken;
 using grid_path_planner::costmap::CostGrid;
 using grid_path_planner::costmap::CostmapBuilder;
 using grid_path_planner::costmap::CostmapOptions;
+using grid_path_planner::costmap::Outside;
 using grid_path_planner::grid::Cell;
 using grid_path_planner::grid::CellRect;
 using grid_path_planner::grid::Grid;
@@ -98,6 +99,7 @@ std::shared_ptr<const CostGrid> inflated(const Arguments& arguments) {
   options.radius = arguments.number("--radius") * map->geometry().resolution();
   options.decay = arguments.number("--decay") / map->geometry().resolution();
   options.inflation_weight = kInflationWeight;
+  options.outside = Outside::FREE;
   CostmapBuilder builder(options);
   builder.setMap(map);
   return builder.downsampled(StopToken());

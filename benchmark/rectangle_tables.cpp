@@ -35,6 +35,7 @@ using grid_path_planner::costmap::Connectivity;
 using grid_path_planner::costmap::CostGrid;
 using grid_path_planner::costmap::CostmapBuilder;
 using grid_path_planner::costmap::CostmapOptions;
+using grid_path_planner::costmap::Outside;
 using grid_path_planner::grid::Cell;
 using grid_path_planner::grid::MapFileOptions;
 using grid_path_planner::grid::OccupancyGrid;
@@ -80,6 +81,7 @@ std::shared_ptr<const CostGrid> costmapOf(const OccupancyGrid& map,
                                           Connectivity connectivity = Connectivity::EIGHT) {
   CostmapOptions options;
   options.motion.connectivity = connectivity;
+  options.outside = Outside::FREE;
   CostmapBuilder builder(options);
   builder.setMap(std::make_shared<const OccupancyGrid>(map));
   return builder.downsampled(StopToken());

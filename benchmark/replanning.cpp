@@ -34,6 +34,7 @@ using grid_path_planner::base::Status;
 using grid_path_planner::base::StopToken;
 using grid_path_planner::costmap::CostmapBuilder;
 using grid_path_planner::costmap::CostmapOptions;
+using grid_path_planner::costmap::Outside;
 using grid_path_planner::grid::Cell;
 using grid_path_planner::grid::CellRect;
 using grid_path_planner::grid::copyCells;
@@ -99,6 +100,7 @@ CostmapOptions inflated() {
   CostmapOptions options;
   options.radius = 0.6;
   options.decay = std::log(78.0) / 1.0;  // 1/m: a half above free one metre beyond the radius
+  options.outside = Outside::FREE;
   return options;
 }
 

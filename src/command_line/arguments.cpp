@@ -109,8 +109,8 @@ MapFileOptions readingOptionsFrom(const po::variables_map& values) {
   return options;
 }
 
-void describePlannerOptions(po::options_description& known) {
-  for (const OptionDescription& option : describeOptions(PlannerOptions())) {
+void describePlannerOptions(po::options_description& known, const PlannerOptions& defaults) {
+  for (const OptionDescription& option : describeOptions(defaults)) {
     std::string text = option.description;
     if (!option.unit.empty()) text += " [" + option.unit + "]";
     std::string choices;

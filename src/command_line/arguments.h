@@ -30,7 +30,8 @@ std::vector<double> numbersOf(const std::string& name, const std::string& text, 
 grid::MapFileOptions readingOptionsFrom(const boost::program_options::variables_map& values);
 
 // Adds an option --some-name for every option some_name of PlannerOptions, and --weights F,U,O.
-void describePlannerOptions(boost::program_options::options_description& known);
+void describePlannerOptions(boost::program_options::options_description& known,
+                            const planning::PlannerOptions& defaults = {});
 
 // The options given on the command line over `defaults`. Throws InputError naming the option.
 planning::PlannerOptions plannerOptionsFrom(const boost::program_options::variables_map& values,

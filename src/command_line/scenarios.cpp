@@ -25,7 +25,8 @@
 namespace grid_path_planner::command_line {
 
 using base::InputError, base::Status, base::StopToken, base::writeFileAtomically;
-using costmap::CostGrid, costmap::CostmapBuilder, costmap::CostmapOptions, costmap::MotionModel;
+using costmap::CostGrid, costmap::CostmapBuilder, costmap::CostmapOptions, costmap::MotionModel,
+    costmap::Outside;
 using grid::Cell, grid::GridGeometry, grid::OccupancyGrid;
 using nodes::readAnyMapFile;
 using planners::BackgroundWork, planners::makePlanner, planners::Planner, planners::PlannerTraits,
@@ -67,6 +68,13 @@ struct Totals {
   }
 };
 
+// Benchmark maps end where the queries' world ends: nothing is kept from their border.
+PlannerOptions defaultOptions() {
+  PlannerOptions options;
+  options.costmap.outside = Outside::FREE;
+  return options;
+}
+
 po::options_description scenariosOptions() {
   po::options_description known("Options");
   known.add_options()("scen", po::value<std::string>()->required(), "MovingAI scenario file")(
@@ -77,7 +85,7 @@ po::options_description scenariosOptions() {
       "reference", po::value<std::string>(),
       "what costs are compared with: file, or a planner's answers; default: file where its optima "
       "hold, dijkstra where inflation, a kernel, weights or other steps change them");
-  describePlannerOptions(known);
+  describePlannerOptions(known, defaultOptions());
   return known;
 }
 
@@ -310,7 +318,7 @@ int runScenarios(int argc, char** argv) {
                       values))
     return 0;
   const std::string file = values["scen"].as<std::string>();
-  const PlannerOptions options = plannerOptionsFrom(values);
+  const PlannerOptions options = plannerOptionsFrom(values, defaultOptions());
   warnAboutUnusedOptions(options);
   warnAboutOptionsOfPoses(options);
   const std::vector<ScenarioQuery> all = readScenarioFile(file);

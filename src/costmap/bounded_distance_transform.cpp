@@ -20,19 +20,20 @@ constexpr int kLargestAcross = 2 * BoundedDistanceTransform::kLargestReach;  // 
 static_assert(kBeyond > (kLargestAcross + 1) * (kLargestAcross + 1));
 static_assert(kBeyond + (kLargestAcross - 1) * (kLargestAcross - 1) < kFar);
 
-// The index of the first occupied cell from cells[at] on; `count` where there is none.
-int occupiedFrom(const Occupancy* cells, int at, int count) {
-  const void* found = std::memchr(cells + at, static_cast<int>(Occupancy::OCCUPIED),
-                                  static_cast<std::size_t>(count - at));
+// The index of the first source from cells[at] on; `count` where there is none.
+int sourceFrom(const Occupancy* cells, Occupancy source, int at, int count) {
+  const void* found =
+      std::memchr(cells + at, static_cast<int>(source), static_cast<std::size_t>(count - at));
   return found == nullptr ? count : static_cast<int>(static_cast<const Occupancy*>(found) - cells);
 }
 
 }  // namespace
 
-BoundedDistanceTransform::BoundedDistanceTransform(const Grid<Occupancy>& classes,
+BoundedDistanceTransform::BoundedDistanceTransform(const Grid<Occupancy>& classes, Occupancy source,
                                                    const CellRect& sources, const CellRect& rect,
                                                    int reach)
     : classes_(classes),
+      source_(source),
       rect_(rect),
       window_(rect.grown(reach).intersection(sources)),
       reach_(reach),
@@ -90,14 +91,14 @@ BoundedDistanceTransform::Eight BoundedDistanceTransform::least(int row, std::si
 
 void BoundedDistanceTransform::measure(int row) {
   const Occupancy* cells = classes_.row(row) + window_.column;
-  const int first = occupiedFrom(cells, 0, window_.width);
+  const int first = sourceFrom(cells, source_, 0, window_.width);
   if (first == window_.width) return;
 
   Distance* line = memory_.data() + static_cast<std::size_t>(row % period_) * stride_;
   constexpr int kNone = 1 << 29;
   const int skipped = rect_.column - window_.column;
   int before = -kNone;
-  for (int next = first;; next = occupiedFrom(cells, before + 1, window_.width)) {
+  for (int next = first;; next = sourceFrom(cells, source_, before + 1, window_.width)) {
     fillBetween(before, next == window_.width ? kNone : next, line);
     if (next == window_.width) return append(row, line);
     if (next >= skipped && next < skipped + rect_.width) line[next - skipped] = 0;

@@ -1,12 +1,12 @@
 // Distances to the nearest obstacle up to a limit, for inflation: those of obstacleDistances() of
 // inflation.h, up to a reach of a few dozen cells, in a fraction of its time.
 //
-//   BoundedDistanceTransform transform(classes, sources, rect, reach);
+//   BoundedDistanceTransform transform(classes, Occupancy::OCCUPIED, sources, rect, reach);
 //   for (int row = rect.row; row < rect.row + rect.height; ++row)
 //     if (const std::int16_t* distances = transform.row(row)) use(distances);
 //
-// Distances are in (half cells)^2, from a cell's centre to the nearest edge of an occupied cell of
-// `sources`, exact below (2 reach + 1)^2 and any larger value beyond. Separable: along each row the
+// Distances are in (half cells)^2, from a cell's centre to the nearest edge of a cell of
+// `sources` that is of the given class, exact below (2 reach + 1)^2 and any larger value beyond. Separable: along each row the
 // distance to the nearest occupied cell; then along the columns the least over the 2 reach + 1 rows
 // around, eight columns at once, from the nearest row outwards until no row can give less; rows
 // without an occupied cell are skipped. Values have sixteen bits, so that the rows around stay in
@@ -28,7 +28,7 @@ class BoundedDistanceTransform {
 
   // Precondition: `rect` and `sources` lie in the map of `classes`, which outlives this; 0 < reach
   // <= kLargestReach.
-  BoundedDistanceTransform(const grid::Grid<grid::Occupancy>& classes,
+  BoundedDistanceTransform(const grid::Grid<grid::Occupancy>& classes, grid::Occupancy source,
                            const grid::CellRect& sources, const grid::CellRect& rect, int reach);
 
   // The distances of the rectangle's cells in `row`, valid until the next call; null where all are
@@ -66,6 +66,7 @@ class BoundedDistanceTransform {
   Eight least(int row, std::size_t above, std::size_t first) const;
 
   const grid::Grid<grid::Occupancy>& classes_;
+  grid::Occupancy source_;
   grid::CellRect rect_;
   grid::CellRect window_;  // the part of the sources that is in reach of the rectangle
   int reach_;

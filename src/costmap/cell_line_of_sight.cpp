@@ -27,9 +27,52 @@ Cell cellOf(SegmentPoint point) {
   return {static_cast<int>(point.x / kUnit), static_cast<int>(point.y / kUnit)};
 }
 
-}  // namespace
+// Whether a line between two centres lies in the centre lattice. `bits` hold the line's major axis
+// in their rows; the line rises by `rise` rows from `from` to the right.
+bool inLattice(const BitMap& bits, Cell from, int run, int rise, std::ptrdiff_t stride) {
+  const BitMap::Word* row = bits.row(from.row);
+  if (rise == 0) return allOnes(row, from.column, from.column + run + 1);
+  // Of each row, the centres of the squares above and below that the line meets.
+  for (std::int64_t i = 0; i <= rise; ++i, row += stride) {
+    const std::int64_t first = i == 0 ? 0 : (i - 1) * run / rise;
+    const std::int64_t last = i == rise ? run : ((i + 1) * run + rise - 1) / rise;
+    if (!allOnes(row, from.column + static_cast<int>(first),
+                 from.column + static_cast<int>(last) + 1))
+      return false;
+  }
+  return true;
+}
 
-std::optional<double> lineCostWithin(const CostGrid& map, Cell from, Cell to, double limit) {
+// The same by the weights.
+bool inLattice(const CostGrid& map, Cell from, Cell to) {
+  const bool steep = std::abs(to.row - from.row) > std::abs(to.column - from.column);
+  const std::ptrdiff_t width = map.geometry().width();
+  const std::ptrdiff_t along_columns = signOf(to.column - from.column);
+  const std::ptrdiff_t along_rows = signOf(to.row - from.row) * width;
+  const std::ptrdiff_t major = steep ? along_rows : along_columns;
+  const std::ptrdiff_t minor = steep ? along_columns : along_rows;
+  const std::int64_t columns = std::abs(to.column - from.column);
+  const std::int64_t rows = std::abs(to.row - from.row);
+  const std::int64_t across = std::max(columns, rows), aside = std::min(columns, rows);
+  const CostGrid::Weight* at = map.weights().row(from.row) + from.column;
+  std::int64_t height = 0;  // above the centre of *at, in 1 / across cells
+  for (std::int64_t piece = 0; piece < across; ++piece, at += major) {
+    const std::int64_t end = height + aside;
+    const std::ptrdiff_t last = end > across ? 2 : end > 0 ? 1 : 0;
+    for (std::ptrdiff_t i = 0; i <= last; ++i)
+      if (at[i * minor] == CostGrid::kBlocked || at[i * minor + major] == CostGrid::kBlocked)
+        return false;
+    height = end;
+    if (height >= across) {
+      height -= across;
+      at += minor;
+    }
+  }
+  return *at != CostGrid::kBlocked;
+}
+
+// By the rule of cells.
+std::optional<double> costOverCells(const CostGrid& map, Cell from, Cell to, double limit) {
   const std::ptrdiff_t width = map.geometry().width();
   const int columns = to.column - from.column, rows = to.row - from.row;
   const bool steep = std::abs(rows) > std::abs(columns);
@@ -90,7 +133,15 @@ std::optional<double> lineCostWithin(const CostGrid& map, Cell from, Cell to, do
   return double(weighted) * length_per_unit * map.kernel();
 }
 
-bool lineOfSight(const BitMaps& bits, Cell from, Cell to, bool cut_corners) {
+}  // namespace
+
+std::optional<double> lineCostWithin(const CostGrid& map, Cell from, Cell to, double limit) {
+  const std::optional<double> cost = costOverCells(map, from, to, limit);
+  const bool lattice = map.segmentRule() == SegmentRule::CENTRE_LATTICE;
+  return cost && lattice && !inLattice(map, from, to) ? std::nullopt : cost;
+}
+
+bool lineOfSight(const BitMaps& bits, Cell from, Cell to, SegmentRule rule) {
   const bool steep = std::abs(to.row - from.row) > std::abs(to.column - from.column);
   const BitMap& map = steep ? bits.columns : bits.rows;
   if (steep) {
@@ -105,6 +156,8 @@ bool lineOfSight(const BitMaps& bits, Cell from, Cell to, bool cut_corners) {
   // The column at which the line crosses to the next row: its whole part, and 1 / (2 rise) columns.
   const std::ptrdiff_t stride = (to.row > from.row ? 1 : -1) * map.stride();
   const int run = to.column - from.column;
+  if (rule == SegmentRule::CENTRE_LATTICE) return inLattice(map, from, run, rise, stride);
+  const bool cut_corners = rule == SegmentRule::CUT_CORNERS;
   const int column = 2 * rise;
   int whole = from.column + (rise + run) / column;
   int part = (rise + run) % column;
@@ -136,7 +189,7 @@ std::optional<double> lineCostWithin(const CostGrid& map, const BitMaps* bits, S
   if (!bits) return lineCostWithin(map, a, b, limit);
   const double columns = a.column - b.column, rows = a.row - b.row;
   const double cost = std::sqrt(columns * columns + rows * rows) * (map.kernel() * map.minWeight());
-  if (cost > limit || !lineOfSight(*bits, a, b, map.motion().cut_corners)) return std::nullopt;
+  if (cost > limit || !lineOfSight(*bits, a, b, map.segmentRule())) return std::nullopt;
   return cost;
 }
 

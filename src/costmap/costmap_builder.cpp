@@ -22,6 +22,34 @@ struct ClassChanges {
   CellRect vacated;  // those of `opened` that were occupied before
 };
 
+// What raises the weights of a map.
+struct Inflations {
+  Inflations(const CostmapOptions& options, const KeptDistances& kept, double resolution)
+      : occupied(Occupancy::OCCUPIED, profileOf(options, kept.occupied, true), resolution),
+        unknown(Occupancy::UNKNOWN, profileOf(options, kept.unknown, false), resolution),
+        outside(Occupancy::OCCUPIED,
+                profileOf(options, kept.outside, options.outside == Outside::OCCUPIED),
+                resolution) {}
+
+  static InflationProfile profileOf(const CostmapOptions& options, double radius, bool decays) {
+    return {std::max(0.0, radius), decays ? options.decay : 0.0, options.free_weight,
+            options.inflation_weight};
+  }
+
+  // Of a whole map's weights by class, those of `rect`.
+  void apply(const Grid<Occupancy>& classes, const CellRect& rect, Grid<CostGrid::Weight>& weights,
+             const StopToken& stop) const {
+    const CellRect all = classes.geometry().rect();
+    occupied.apply(classes, all, rect, weights, stop);
+    unknown.apply(classes, all, rect, weights, stop);
+    outside.applyBorder(rect, weights, stop);
+  }
+
+  Inflation occupied;
+  Inflation unknown;
+  Inflation outside;
+};
+
 namespace {
 
 void classify(const OccupancyGrid& map, const OccupancyThresholds& thresholds, const CellRect& rect,
@@ -106,14 +134,18 @@ void writeOccupiedWeights(const Grid<Occupancy>& classes, const CostmapOptions& 
 
 }  // namespace
 
-CostmapBuilder::CostmapBuilder(const CostmapOptions& options) : options_(options) {
+CostmapBuilder::CostmapBuilder(const CostmapOptions& options)
+    : CostmapBuilder(options, costmap::keptDistances(options)) {}
+
+CostmapBuilder::CostmapBuilder(const CostmapOptions& options, const KeptDistances& kept)
+    : options_(options), kept_(kept) {
   checkCostmapOptions(options);
 }
 
 void CostmapBuilder::setMap(std::shared_ptr<const OccupancyGrid> map) {
   assert(map);
   map_ = std::move(map);
-  inflation_ = std::make_shared<const Inflation>(options_, map_->geometry().resolution());
+  inflations_ = std::make_shared<const Inflations>(options_, kept_, map_->geometry().resolution());
   full_.reset(nullptr);
   downsampled_.reset(nullptr);
   downsampled_dirty_ = {};
@@ -149,8 +181,9 @@ void CostmapBuilder::build(const StopToken& stop) {
   Grid<CostGrid::Weight> weights(map_->geometry());
   classify(*map_, options_.thresholds, all, classes, stop);
   writeWeights(classes, options_, all, weights, stop);
-  inflation_->apply(classes, all, all, weights, stop);
+  inflations_->apply(classes, all, weights, stop);
   auto full = std::make_shared<CostGrid>(std::move(weights), std::move(classes), options_.motion);
+  full->setKeptDistances(kept_);
   full->setRevision(++revision_);
   if (options_.kernel > 1) downsampled_.reset(buildDownsampled(*full, stop));
   full_change_ = all;
@@ -167,6 +200,7 @@ std::shared_ptr<CostGrid> CostmapBuilder::buildDownsampled(const CostGrid& full,
   applyKernel(full, options_, full.geometry().rect(), weights, classes, stop);
   auto blocks = std::make_shared<CostGrid>(std::move(weights), std::move(classes), options_.motion,
                                            options_.kernel, full.geometry());
+  blocks->setKeptDistances(kept_);
   blocks->setRevision(revision_);
   return blocks;
 }
@@ -187,22 +221,28 @@ void CostmapBuilder::updateFullResolution(const StopToken& stop) {
 
 CellRect CostmapBuilder::rewriteWeights(const ClassChanges& changes, const StopToken& stop) {
   const CellRect all = map_->geometry().rect();
-  const auto inflated = [&](const CellRect& rect) {
-    return rect.empty() ? rect : rect.grown(inflation_->reach()).intersection(all);
+  const auto inflated = [&](const CellRect& rect, const Inflation& inflation) {
+    return rect.empty() ? rect : rect.grown(inflation.reach()).intersection(all);
   };
-  const CellRect recomputed = changes.opened.hull(inflated(changes.vacated));
-  const CellRect raised = inflated(changes.filled);
+  // Around unknown cells there is no weight but blocked, so all of it is computed again.
+  const Inflation& unknown = inflations_->unknown;
+  const CellRect near_unknown = unknown.none() ? CellRect() : inflated(changes.all, unknown);
+  const CellRect recomputed =
+      changes.opened.hull(inflated(changes.vacated, inflations_->occupied)).hull(near_unknown);
+  const CellRect raised = inflated(changes.filled, inflations_->occupied);
   const CellRect rewritten = recomputed.hull(raised);
   prefetchRows(full_.current()->weights(), rewritten);
   full_.advance({rewritten, changes.all}, [&](CostGrid& next) {
     prefetchRows(next.weights(), rewritten);
-    prefetchRows(next.classes(), inflated(recomputed));
+    prefetchRows(next.classes(), inflated(recomputed, inflations_->occupied));
     next.edit(*full_.current(), rewritten, [&](auto& weights, auto& classes) {
       classify(*map_, options_.thresholds, changes.all, classes, stop);
       writeWeights(classes, options_, recomputed, weights, stop);
-      inflation_->apply(classes, all, recomputed, weights, stop);
+      inflations_->apply(classes, recomputed, weights, stop);
       writeOccupiedWeights(classes, options_, changes.filled, weights, stop);
-      inflation_->apply(classes, changes.filled, raised, weights, stop);
+      inflations_->occupied.apply(classes, changes.filled, raised, weights, stop);
+      inflations_->unknown.apply(classes, all, changes.filled, weights, stop);
+      inflations_->outside.applyBorder(changes.filled, weights, stop);
     });
     next.setRevision(revision_ + 1);
   });

@@ -14,7 +14,7 @@ using grid::CellRect, grid::Grid, grid::Occupancy;
 namespace {
 
 // Resolutions come as 32-bit floats: their rounding must not change a radius of whole cells.
-constexpr double kResolutionSlack = 1e-6;
+constexpr double kResolutionSlack = 1e-7;
 // In cells, for the rounding of the logarithm.
 constexpr double kReachSlack = 1e-6;
 constexpr int kLargestReach = 1 << 19;
@@ -24,18 +24,18 @@ constexpr HalfCellsSquared kLargestTable = 1 << 20;
 constexpr int kNearStrip = 512;
 constexpr int kFarStrip = 128;
 
-// Distance along the row from each cell to the nearest occupied one, in half cells to its edge,
-// squared: 0 for the cell itself, else (2n - 1)^2.
-void rowDistances(const Occupancy* row, int width, HalfCellsSquared* out) {
+// Distance along the row from each cell to the nearest source, in half cells to its edge, squared: 0
+// for the cell itself, else (2n - 1)^2.
+void rowDistances(const Occupancy* row, Occupancy source, int width, HalfCellsSquared* out) {
   int last = -1;
   for (int i = 0; i < width; ++i) {
-    if (row[i] == Occupancy::OCCUPIED) last = i;
+    if (row[i] == source) last = i;
     const HalfCellsSquared edge = 2 * HalfCellsSquared{i - last} - 1;
     out[i] = last < 0 ? kNoObstacle : last == i ? 0 : edge * edge;
   }
   last = -1;
   for (int i = width - 1; i >= 0; --i) {
-    if (row[i] == Occupancy::OCCUPIED) last = i;
+    if (row[i] == source) last = i;
     if (last < 0 || last == i) continue;
     const HalfCellsSquared edge = 2 * HalfCellsSquared{last - i} - 1;
     if (out[i] == kNoObstacle || edge * edge < out[i]) out[i] = edge * edge;
@@ -117,7 +117,7 @@ class ColumnTransform {
 };
 
 // Along the rows of `window`, for the columns of `rect`.
-std::vector<HalfCellsSquared> distancesAlongRows(const Grid<Occupancy>& classes,
+std::vector<HalfCellsSquared> distancesAlongRows(const Grid<Occupancy>& classes, Occupancy source,
                                                  const CellRect& rect, const CellRect& window,
                                                  const StopToken& stop) {
   const auto width = static_cast<std::size_t>(rect.width);
@@ -126,7 +126,7 @@ std::vector<HalfCellsSquared> distancesAlongRows(const Grid<Occupancy>& classes,
   std::vector<HalfCellsSquared> line(window.width);
   for (int row = 0; row < window.height; ++row) {
     poll();
-    rowDistances(classes.row(window.row + row) + window.column, window.width, line.data());
+    rowDistances(classes.row(window.row + row) + window.column, source, window.width, line.data());
     std::copy_n(line.begin() + (rect.column - window.column), width,
                 distances.begin() + row * width);
   }
@@ -135,12 +135,13 @@ std::vector<HalfCellsSquared> distancesAlongRows(const Grid<Occupancy>& classes,
 
 }  // namespace
 
-std::vector<HalfCellsSquared> obstacleDistances(const Grid<Occupancy>& classes,
+std::vector<HalfCellsSquared> obstacleDistances(const Grid<Occupancy>& classes, Occupancy source,
                                                 const CellRect& rect, int reach,
                                                 const StopToken& stop) {
   assert(classes.geometry().rect().intersection(rect) == rect);
   const CellRect window = rect.grown(reach).intersection(classes.geometry().rect());
-  const std::vector<HalfCellsSquared> along_rows = distancesAlongRows(classes, rect, window, stop);
+  const std::vector<HalfCellsSquared> along_rows =
+      distancesAlongRows(classes, source, rect, window, stop);
 
   // A few columns together, so that every cache line that is fetched is used.
   constexpr int kTogether = 8;
@@ -163,16 +164,19 @@ std::vector<HalfCellsSquared> obstacleDistances(const Grid<Occupancy>& classes,
   return distances;
 }
 
-Inflation::Inflation(const CostmapOptions& options, double resolution)
-    : radius_(2.0 * options.radius / resolution * (1.0 - kResolutionSlack)),
-      decay_(options.decay * resolution / 2.0),
-      free_(options.free_weight),
-      rise_(options.inflation_weight - options.free_weight) {
+Inflation::Inflation(Occupancy source, const InflationProfile& profile, double resolution)
+    : source_(source),
+      radius_(2.0 * profile.radius / resolution * (1.0 - kResolutionSlack)),
+      decay_(profile.decay * resolution / 2.0),
+      free_(profile.free_weight),
+      rise_(profile.inflation_weight - profile.free_weight) {
   double half_cells = radius_;
   if (decay_ > 0.0 && rise_ > 0.5) half_cells = radius_ + std::log(2.0 * rise_) / decay_;
   if (half_cells > 0.0)
     reach_ = static_cast<int>(
         std::min<double>(kLargestReach, std::floor((half_cells + 1.0) / 2.0 + kReachSlack)));
+  // Unknown cells that a small radius is kept from are blocked themselves, which their class is not.
+  if (source == Occupancy::UNKNOWN && radius_ > 0.0) reach_ = std::max(reach_, 1);
   const HalfCellsSquared across = 2 * HalfCellsSquared{reach_} + 1;  // of the first out of reach
   farthest_ = across * across - 1;
   const HalfCellsSquared entries = std::min(kLargestTable, farthest_ + 2);
@@ -197,7 +201,7 @@ void Inflation::apply(const Grid<Occupancy>& classes, const CellRect& sources, c
 void Inflation::applyNear(const Grid<Occupancy>& classes, const CellRect& sources,
                           const CellRect& rect, Grid<CostGrid::Weight>& weights,
                           const StopToken& stop) const {
-  BoundedDistanceTransform near(classes, sources, rect, reach_);
+  BoundedDistanceTransform near(classes, source_, sources, rect, reach_);
   const Rank* const ranks = ranks_.data();
   const int beyond = static_cast<int>(farthest_) + 1;
   StopPoll poll(stop, 64);
@@ -213,12 +217,38 @@ void Inflation::applyNear(const Grid<Occupancy>& classes, const CellRect& source
 
 void Inflation::applyFar(const Grid<Occupancy>& classes, const CellRect& rect,
                          Grid<CostGrid::Weight>& weights, const StopToken& stop) const {
-  const std::vector<HalfCellsSquared> distances = obstacleDistances(classes, rect, reach_, stop);
+  const std::vector<HalfCellsSquared> distances =
+      obstacleDistances(classes, source_, rect, reach_, stop);
   for (int row = 0; row < rect.height; ++row) {
     const HalfCellsSquared* distance = distances.data() + std::size_t(row) * rect.width;
     CostGrid::Weight* weight = weights.row(rect.row + row) + rect.column;
     for (int i = 0; i < rect.width; ++i)
       if (distance[i] != kNoObstacle) weight[i] = atLeast(rankAt(distance[i]), weight[i]);
+  }
+}
+
+void Inflation::applyBorder(const CellRect& rect, Grid<CostGrid::Weight>& weights,
+                            const StopToken& stop) const {
+  if (none()) return;
+  const int width = weights.width(), height = weights.height();
+  StopPoll poll(stop, 64);
+  for (int row = rect.row; row < rect.row + rect.height; ++row) {
+    poll();
+    const int to_row = std::min(row, height - 1 - row);
+    const auto raise = [&](int first, int end) {
+      for (int i = std::max(first, rect.column); i < std::min(end, rect.column + rect.width); ++i) {
+        const HalfCellsSquared half_cells =
+            2 * HalfCellsSquared{std::min({to_row, i, width - 1 - i})} + 1;
+        CostGrid::Weight& weight = weights.row(row)[i];
+        weight = atLeast(rankAt(half_cells * half_cells), weight);
+      }
+    };
+    if (to_row < reach_ || 2 * reach_ >= width) {
+      raise(0, width);
+    } else {
+      raise(0, reach_);
+      raise(width - reach_, width);
+    }
   }
 }
 

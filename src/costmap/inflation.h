@@ -1,9 +1,9 @@
-// Inflation: cells near occupied ones are blocked or become more expensive.
+// Inflation: cells near those of one class, the sources, or near the map's border are blocked or
+// become more expensive.
 //
-// The distance is from a cell's centre to the nearest edge of an occupied cell, exact: the integer
-// (2 distance / resolution)^2. Below `radius` a cell is blocked; beyond it weight = max(class
-// weight, free + (inflation_weight - free) e^(-decay (distance - radius))), rounded. Unknown cells
-// do not inflate.
+// The distance is from a cell's centre to the nearest edge of a source, exact: the integer
+// (2 distance / resolution)^2. Below the radius a cell is blocked; beyond it weight = max(class
+// weight, free + (inflation_weight - free) e^(-decay (distance - radius))), rounded.
 //
 // The distances come from a separable exact distance transform (Felzenszwalb & Huttenlocher 2012)
 // over the edges of the cells: time in proportion to the cells, whatever the radius. Up to a reach
@@ -24,30 +24,42 @@ namespace grid_path_planner::costmap {
 using HalfCellsSquared = std::int64_t;
 constexpr HalfCellsSquared kNoObstacle = -1;
 
-// From the centre of every cell of `rect` to the nearest edge of an occupied cell of `classes`,
-// row-major over `rect`. Occupied cells more than `reach` columns or rows outside `rect` do not
+// From the centre of every cell of `rect` to the nearest edge of a cell of `classes` that is
+// `source`, row-major over `rect`. Those more than `reach` columns or rows outside `rect` do not
 // count; kNoObstacle where no other is. Precondition: `rect` lies in the map. Throws Stopped.
 std::vector<HalfCellsSquared> obstacleDistances(const grid::Grid<grid::Occupancy>& classes,
-                                                const grid::CellRect& rect, int reach,
-                                                const base::StopToken& stop);
+                                                grid::Occupancy source, const grid::CellRect& rect,
+                                                int reach, const base::StopToken& stop);
 
-// The weights that distances to obstacles give.
+// How weights fall with the distance: blocked below `radius`, beyond it as `options` say if there
+// is a decay.
+struct InflationProfile {
+  double radius = 0.0;  // m
+  double decay = 0.0;   // 1/m
+  int free_weight = 1;
+  int inflation_weight = 1;
+};
+
+// The weights that distances to sources give.
 class Inflation {
  public:
-  Inflation(const CostmapOptions& options, double resolution);
+  Inflation(grid::Occupancy source, const InflationProfile& profile, double resolution);
 
   // Whether no weight changes at any distance.
   bool none() const { return reach_ == 0; }
-  // Occupied cells farther away than this many columns or rows change nothing.
+  // Sources farther away than this many columns or rows change nothing.
   int reach() const { return reach_; }
 
-  // Raises the weights of `rect` to those that the occupied cells of `sources` give, and lowers
-  // none; occupied cells outside `sources` may count or not. So `sources` is the whole map where
-  // `weights` are those of the classes, and the cells that became occupied where they are inflated
-  // already. Throws Stopped. Precondition: both rectangles lie in the map.
+  // Raises the weights of `rect` to those that the sources in `sources` give, and lowers none;
+  // sources outside `sources` may count or not. So `sources` is the whole map where `weights` are
+  // those of the classes, and the cells that became sources where they are inflated already. Throws
+  // Stopped. Precondition: both rectangles lie in the map.
   void apply(const grid::Grid<grid::Occupancy>& classes, const grid::CellRect& sources,
              const grid::CellRect& rect, grid::Grid<CostGrid::Weight>& weights,
              const base::StopToken& stop) const;
+  // The same for the distances to the map's border. Throws Stopped.
+  void applyBorder(const grid::CellRect& rect, grid::Grid<CostGrid::Weight>& weights,
+                   const base::StopToken& stop) const;
 
  private:
   // A weight less one, so that blocked, which is 0, is the largest.
@@ -65,6 +77,7 @@ class Inflation {
   // The largest one inside the radius, that of the inflated weight beyond, 0 beyond the reach.
   Rank computeRank(HalfCellsSquared distance) const;
 
+  grid::Occupancy source_;
   double radius_;  // half cells
   double decay_;   // 1 / half cell
   double free_;

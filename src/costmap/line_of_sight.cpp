@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "costmap/centre_lattice.h"
+
 namespace grid_path_planner::costmap {
 
 using grid::Cell;
@@ -180,8 +182,16 @@ SegmentPoint waypointOf(const CostGrid& map, Cell cell) {
 }
 
 Eigen::Vector2d worldOf(const CostGrid& map, SegmentPoint point) {
-  return map.geometry().worldFromGrid(
-      Eigen::Vector2d(double(point.x) / double(kUnit), double(point.y) / double(kUnit)));
+  Eigen::Vector2d cells(double(point.x) / double(kUnit), double(point.y) / double(kUnit));
+  if (map.kernel() > 1 && map.segmentRule() == SegmentRule::CENTRE_LATTICE) {
+    // The middles of the last blocks are rounded to 1/4096, which may be nearer to an obstacle.
+    const Cell last{map.geometry().width() - 1, map.geometry().height() - 1};
+    const SegmentPoint rounded = waypointOf(map, last);
+    const Eigen::Vector2d middle = map.geometry().gridFromWorld(map.waypoint(last));
+    if (point.x == rounded.x) cells.x() = middle.x();
+    if (point.y == rounded.y) cells.y() = middle.y();
+  }
+  return map.geometry().worldFromGrid(cells);
 }
 
 Cell passableCellAt(const CostGrid& map, SegmentPoint point) {
@@ -192,6 +202,7 @@ Cell passableCellAt(const CostGrid& map, SegmentPoint point) {
 }
 
 bool lineOfSight(const CostGrid& map, SegmentPoint from, SegmentPoint to) {
+  if (map.segmentRule() == SegmentRule::CENTRE_LATTICE) return inCentreLattice(map, from, to);
   if (!inside(map, from) || !inside(map, to)) return false;
   if (from == to) return pointLegal(map, from);
   const Line line(from, to);
@@ -200,7 +211,7 @@ bool lineOfSight(const CostGrid& map, SegmentPoint from, SegmentPoint to) {
 
 double lineCost(const CostGrid& map, SegmentPoint from, SegmentPoint to) {
   if (from.x == to.x && from.y == to.y) return 0.0;
-  assert(lineOfSight(map, from, to));
+  assert(map.segmentRule() == SegmentRule::CENTRE_LATTICE || lineOfSight(map, from, to));
   const Line line(from, to);
   std::int64_t weighted = 0;  // weight x length along the major axis
   for (std::int64_t a = line.left(); a < line.right();) {

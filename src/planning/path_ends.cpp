@@ -15,6 +15,9 @@ using path::Pose;
 
 namespace {
 
+// How far the cell may be that a path's end is joined to, where the end's own centre is not in sight.
+constexpr double kCellsAround = 2.0;
+
 Eigen::Vector2d planar(const Pose& pose) {
   return pose.position.head<2>();
 }
@@ -29,15 +32,67 @@ std::optional<PathEnd> PathEnds::start(Plan& failure) const {
     failure.message = "start " + positionText(position) + outsideMap();
     return std::nullopt;
   }
-  if (costs_.passable(*cell)) return PathEnd{*cell, position, "", false};
-
+  const bool passable = costs_.passable(*cell);
+  if (passable && !segments_.measured()) return PathEnd{*cell, position, "", false};
+  if (passable) {
+    if (const auto measured = measuredStart(position)) return measured;
+  }
   const std::optional<PathEnd> escape =
       escapeStart([this](Cell other) { return costs_.passable(other); });
   if (escape) return escape;
   const double radius = options_.start_escape_radius;
   failure.status = Status::START_OCCUPIED;
-  failure.message = "start " + positionText(position) + " " + whyBlocked(*cell);
+  failure.message =
+      "start " + positionText(position) + " " +
+      (passable ? "is nearer to obstacles than every straight line away from it allows"
+                : whyBlocked(*cell));
   if (radius > 0.0) failure.message += ", with no passable cell within " + metresText(radius);
+  return std::nullopt;
+}
+
+// The passable cell nearest a position to whose centre a straight line is legal: mostly its own.
+template <class Legal>
+std::optional<Cell> PathEnds::joinedCell(const Eigen::Vector2d& position, Legal&& legal) const {
+  const GridGeometry& geometry = costs_.geometry();
+  const auto joins = [&](Cell cell) {
+    return costs_.passable(cell) && legal(geometry.centre(cell));
+  };
+  const std::optional<Cell> own = geometry.cellAt(position);
+  if (own && joins(*own)) return own;
+  const auto nearest = nearestCell(geometry, position, kCellsAround * geometry.resolution(), joins);
+  return nearest ? std::optional<Cell>(nearest->cell) : std::nullopt;
+}
+
+// From a start in a passable cell: none where every line to a centre near by comes nearer.
+std::optional<PathEnd> PathEnds::measuredStart(const Eigen::Vector2d& position) const {
+  const auto cell = joinedCell(position, [&](const Eigen::Vector2d& centre) {
+    return segments_.leavesStart(position, centre);
+  });
+  if (!cell) return std::nullopt;
+  const double distance = segments_.at(position).occupied;
+  const double radius = costs_.keptDistances().occupied;
+  const std::string note = distance < radius
+                               ? "the start is " + metresText(distance) +
+                                     " from an occupied cell, nearer than the radius of " +
+                                     metresText(radius)
+                               : "";
+  return PathEnd{*cell, position, note, false};
+}
+
+// At a goal in a passable cell.
+std::optional<PathEnd> PathEnds::measuredGoal(const Eigen::Vector2d& position,
+                                              std::string& why) const {
+  if (!segments_.keeps(position, position)) {
+    why = "is " + metresText(segments_.at(position).occupied) +
+          " from an occupied cell, nearer than the radius of " +
+          metresText(costs_.keptDistances().occupied);
+    return std::nullopt;
+  }
+  const auto cell = joinedCell(
+      position, [&](const Eigen::Vector2d& centre) { return segments_.keeps(centre, position); });
+  if (cell) return PathEnd{*cell, position, "", false};
+  why = "lies where no straight line leads to it at the radius of " +
+        metresText(costs_.keptDistances().occupied);
   return std::nullopt;
 }
 
@@ -71,15 +126,21 @@ std::optional<PathEnd> PathEnds::goal(const PathEnd& start, Plan& failure) const
     failure.message = "goal " + positionText(position) + outsideMap();
     return std::nullopt;
   }
-  if (costs_.passable(*cell)) return PathEnd{*cell, position, "", false};
+  std::string why;
+  if (!costs_.passable(*cell)) {
+    why = whyBlocked(*cell);
+  } else {
+    if (!segments_.measured()) return PathEnd{*cell, position, "", false};
+    if (const auto measured = measuredGoal(position, why)) return measured;
+  }
 
   const double tolerance = options_.tolerance;
   if (tolerance > 0.0) {
-    const std::optional<PathEnd> substitute = substituteGoal(start, whyBlocked(*cell));
+    const std::optional<PathEnd> substitute = substituteGoal(start, why);
     if (substitute) return substitute;
   }
   failure.status = Status::GOAL_OCCUPIED;
-  failure.message = "goal " + positionText(position) + " " + whyBlocked(*cell);
+  failure.message = "goal " + positionText(position) + " " + why;
   if (tolerance > 0.0)
     failure.message += ", with no reachable cell within the tolerance of " + metresText(tolerance);
   return std::nullopt;
@@ -112,6 +173,13 @@ std::string PathEnds::whyBlocked(Cell cell) const {
     case Occupancy::FREE:
       break;
   }
+  const costmap::KeptDistances kept = costs_.keptDistances();
+  const costmap::KeptDistances own = segments_.at(costs_.geometry().centre(cell));
+  if (own.unknown < kept.unknown)
+    return "is nearer than the radius_to_unknown of " + metresText(kept.unknown) +
+           " to an unknown cell";
+  if (own.outside < kept.outside)
+    return "is nearer than " + metresText(kept.outside) + " to the border of the map";
   return "is nearer than the radius of " + metresText(costmap.radius) + " to an occupied cell";
 }
 

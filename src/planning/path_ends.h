@@ -7,6 +7,7 @@
 #include <string>
 
 #include "grid_path_planner/planning/path_planner.h"
+#include "planning/end_segments.h"
 #include "planning/multi_resolution_planner.h"
 
 namespace grid_path_planner::planning {
@@ -25,10 +26,16 @@ class PathEnds {
   PathEnds(const PoseRequest& request, const PlannerOptions& options,
            const costmap::CostGrid& costs, MultiResolutionPlanner& search,
            const base::StopToken& stop)
-      : request_(request), options_(options), costs_(costs), search_(search), stop_(stop) {}
+      : request_(request),
+        options_(options),
+        costs_(costs),
+        segments_(costs),
+        search_(search),
+        stop_(stop) {}
 
   // None where `failure` says why. A blocked start is replaced by the nearest passable cell within
-  // start_escape_radius, a blocked goal by substituteGoal(). Throw Stopped.
+  // start_escape_radius, a blocked goal by substituteGoal(). Where distances are kept, the cell is
+  // the nearest one to whose centre a straight line keeps them. Throw Stopped.
   std::optional<PathEnd> start(Plan& failure) const;
   std::optional<PathEnd> goal(const PathEnd& start, Plan& failure) const;
 
@@ -42,12 +49,17 @@ class PathEnds {
  private:
   template <class Usable>
   std::optional<PathEnd> escapeStart(Usable&& usable) const;
+  template <class Legal>
+  std::optional<grid::Cell> joinedCell(const Eigen::Vector2d& position, Legal&& legal) const;
+  std::optional<PathEnd> measuredStart(const Eigen::Vector2d& position) const;
+  std::optional<PathEnd> measuredGoal(const Eigen::Vector2d& position, std::string& why) const;
   std::string whyBlocked(grid::Cell cell) const;
   std::string outsideMap() const;
 
   const PoseRequest& request_;
   const PlannerOptions& options_;
   const costmap::CostGrid& costs_;
+  EndSegments segments_;
   MultiResolutionPlanner& search_;
   const base::StopToken& stop_;
 };

@@ -20,7 +20,7 @@ namespace grid_path_planner::planning {
 using base::checkOptionLimits, base::choiceName, base::InputError, base::sameOptions,
     base::Statistics, base::Status, base::Stopped, base::StopSource, base::StopToken;
 using costmap::checkCostmapOptions, costmap::Connectivity, costmap::CostGrid,
-    costmap::CostmapBuilder, costmap::DiagonalCost, costmap::MotionModel;
+    costmap::CostmapBuilder, costmap::DiagonalCost, costmap::KeptDistances, costmap::MotionModel;
 using grid::CellRect, grid::checkOccupancyValues, grid::OccupancyGrid;
 using path::applyHeadings, path::applyZ, path::lengthOf, path::Path, path::Pose;
 using planners::checkSearchOptions, planners::PlannerMaker, planners::TooExpensive,
@@ -65,13 +65,16 @@ void checkOtherOptions(const PlannerOptions& options) {
 }
 
 Path pathOf(const Route& route, const PathEnd& start, const PathEnd& goal,
-            const PoseRequest& request, const PlannerOptions& options) {
+            const PoseRequest& request, const PlannerOptions& options, const CostGrid& costs) {
   Path path;
   if (!goal.moved && !start.moved && samePose(request.start, request.goal)) {
     path.poses.push_back(request.goal);
     return path;
   }
-  path = pathOfRoute(route, start.position, goal.position, start.moved);
+  const auto end = [&costs](const PathEnd& of) {
+    return RouteEnd{of.position, costs.geometry().centre(of.cell)};
+  };
+  path = pathOfRoute(route, end(start), end(goal), start.moved, EndSegments(costs));
   applyZ(path, request.start.position.z(), request.goal.position.z(), options.fixed_z,
          options.path_z);
   applyHeadings(path, request.start.yaw, request.goal.yaw, options.heading);
@@ -90,6 +93,21 @@ std::string foundMessage(const Plan& plan, const PathEnd& start, const PathEnd& 
   return message;
 }
 
+// "it keeps only 0.2 m from unknown cells, as near as its ends are".
+std::string loweredNote(const KeptDistances& asked, const KeptDistances& kept) {
+  std::string note;
+  if (kept.unknown < asked.unknown) note += metresText(kept.unknown) + " from unknown cells";
+  if (kept.outside < asked.outside)
+    note += (note.empty() ? "" : " and ") + metresText(kept.outside) + " from the map's border";
+  return "it keeps only " + note + ", as near as its ends are";
+}
+
+CostmapPair costmapsOf(CostmapBuilder& costmap, const StopToken& stop) {
+  const auto downsampled = costmap.downsampled(stop);
+  return {costmap.fullResolution(stop), downsampled, costmap.fullResolutionChange(),
+          costmap.downsampledChange()};
+}
+
 std::string unreachableMessage(const PathEnd& start, const PathEnd& goal, double tolerance) {
   std::string message =
       "no path leads from " + positionText(start.position) + " to " + positionText(goal.position);
@@ -98,7 +116,8 @@ std::string unreachableMessage(const PathEnd& start, const PathEnd& goal, double
 }
 
 Plan completedPlan(Route route, const PathEnd& start, const PathEnd& goal,
-                   const PoseRequest& request, const PlannerOptions& options) {
+                   const PoseRequest& request, const PlannerOptions& options,
+                   const CostGrid& costs) {
   Plan plan = std::move(route.plan);
   if (plan.status == Status::UNREACHABLE)
     plan.message = unreachableMessage(start, goal, options.tolerance);
@@ -109,13 +128,23 @@ Plan completedPlan(Route route, const PathEnd& start, const PathEnd& goal,
   }
   for (const Leg& leg : route.legs) plan.cells += leg.result.cells.size();
   plan.cells -= route.legs.size() - 1;
-  plan.path = pathOf(route, start, goal, request, options);
+  plan.path = pathOf(route, start, goal, request, options, costs);
   plan.length_m = lengthOf(plan.path);
   plan.message = foundMessage(plan, start, goal);
   return plan;
 }
 
 }  // namespace
+
+// A costmap that keeps less from unknown cells and from the border, and its search.
+struct PathPlanner::Lowered {
+  Lowered(const PlannerOptions& options, const KeptDistances& kept, PlannerMaker make_planner)
+      : costmap(options.costmap, kept),
+        search(options.planner, options.search, std::move(make_planner)) {}
+
+  CostmapBuilder costmap;
+  MultiResolutionPlanner search;
+};
 
 void checkPlannerOptions(const PlannerOptions& options) {
   checkOtherOptions(options);
@@ -138,6 +167,7 @@ void PathPlanner::setOptions(const PlannerOptions& options) {
   if (new_search)
     search_ =
         std::make_unique<MultiResolutionPlanner>(options.planner, options.search, make_planner_);
+  lowered_.reset();
   if (new_costmap) {
     costmap_ = std::make_unique<CostmapBuilder>(options.costmap);
     if (map_) costmap_->setMap(map_);
@@ -150,6 +180,7 @@ void PathPlanner::setMap(std::shared_ptr<const OccupancyGrid> map) {
   checkOccupancyValues(*map);
   map_ = std::move(map);
   costmap_->setMap(map_);
+  lowered_.reset();
 }
 
 void PathPlanner::updateMap(std::shared_ptr<const OccupancyGrid> map, const CellRect& changed) {
@@ -157,6 +188,7 @@ void PathPlanner::updateMap(std::shared_ptr<const OccupancyGrid> map, const Cell
   checkOccupancyValues(*map, changed);
   map_ = std::move(map);
   costmap_->updateMap(map_, changed);
+  if (lowered_) lowered_->costmap.updateMap(map_, changed);
 }
 
 std::shared_ptr<const CostGrid> PathPlanner::fullResolutionCosts(const StopToken& stop) {
@@ -169,9 +201,21 @@ std::shared_ptr<const CostGrid> PathPlanner::downsampledCosts(const StopToken& s
 
 CostmapPair PathPlanner::costmaps(const StopToken& stop) {
   assert(hasMap());
-  const auto downsampled = costmap_->downsampled(stop);
-  return {costmap_->fullResolution(stop), downsampled, costmap_->fullResolutionChange(),
-          costmap_->downsampledChange()};
+  return costmapsOf(*costmap_, stop);
+}
+
+// Where an end of the request is nearer to unknown cells or to the border than what is kept, what is
+// searched keeps no more than the end has; else null.
+PathPlanner::Lowered* PathPlanner::loweredFor(const CostGrid& costs, const PoseRequest& request) {
+  const KeptDistances kept = EndSegments(costs).loweredTo(request.start.position.head<2>(),
+                                                          request.goal.position.head<2>());
+  if (kept == costs.keptDistances()) {
+    lowered_.reset();
+  } else if (!lowered_ || lowered_->costmap.keptDistances() != kept) {
+    lowered_ = std::make_unique<Lowered>(options_, kept, make_planner_);
+    lowered_->costmap.setMap(map_);
+  }
+  return lowered_.get();
 }
 
 CostmapPair PathPlanner::followedCostmaps(const StopToken& stop) {
@@ -193,10 +237,16 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
   try {
     const StopToken token = limited(stop, options_.timeout);
     const auto begin = StopToken::Clock::now();
-    const CostmapPair maps = costmaps(token);
-    search_->prepare(maps, token);
+    CostmapPair maps = costmaps(token);
+    Lowered* lowered = loweredFor(*maps.full_resolution, request);
+    if (lowered) maps = costmapsOf(lowered->costmap, token);
+    MultiResolutionPlanner& search = lowered ? lowered->search : *search_;
+    search.prepare(maps, token);
     const auto prepared = StopToken::Clock::now();
-    plan = planOn(*maps.full_resolution, request, token);
+    plan = planOn(*maps.full_resolution, search, request, token);
+    if (lowered && plan.found())
+      addNote(plan.message,
+              loweredNote(costmap_->keptDistances(), lowered->costmap.keptDistances()));
     plan.preparation_time_s = std::chrono::duration<double>(prepared - begin).count();
   } catch (const Stopped& stopped) {
     plan = failedPlan(stopped.status(), "");
@@ -210,18 +260,22 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
   return plan;
 }
 
-Plan PathPlanner::planOn(const CostGrid& costs, const PoseRequest& request, const StopToken& stop) {
-  const PathEnds ends(request, options_, costs, *search_, stop);
+Plan PathPlanner::planOn(const CostGrid& costs, MultiResolutionPlanner& search,
+                         const PoseRequest& request, const StopToken& stop) {
+  const PathEnds ends(request, options_, costs, search, stop);
   Plan failure;
   std::optional<PathEnd> start = ends.start(failure);
   if (!start) return failure;
   std::optional<PathEnd> goal = ends.goal(*start, failure);
   if (!goal) return failure;
 
-  Route route = search(*start, *goal, request.record_expanded, stop);
+  const auto routeBetween = [&](const PathEnd& from, const PathEnd& to) {
+    return findRoute(search, from, to, request.record_expanded, stop);
+  };
+  Route route = routeBetween(*start, *goal);
   const auto searchAgain = [&] {
     const Statistics before = route.plan.statistics;
-    route = search(*start, *goal, request.record_expanded, stop);
+    route = routeBetween(*start, *goal);
     route.plan.statistics += before;
   };
   if (route.plan.status == Status::UNREACHABLE && start->moved && !goal->moved) {
@@ -236,12 +290,13 @@ Plan PathPlanner::planOn(const CostGrid& costs, const PoseRequest& request, cons
       searchAgain();
     }
   }
-  return completedPlan(std::move(route), *start, *goal, request, options_);
+  return completedPlan(std::move(route), *start, *goal, request, options_, costs);
 }
 
-Route PathPlanner::search(const PathEnd& start, const PathEnd& goal, bool record_expanded,
-                          const StopToken& stop) {
-  Route route = search_->find(start.cell, goal.cell, options_.retry_finer, record_expanded, stop);
+Route PathPlanner::findRoute(MultiResolutionPlanner& search, const PathEnd& start,
+                             const PathEnd& goal, bool record_expanded,
+                             const StopToken& stop) const {
+  Route route = search.find(start.cell, goal.cell, options_.retry_finer, record_expanded, stop);
   if (options_.smooth && route.plan.found()) smoothRoute(route, stop);
   return route;
 }

@@ -5,10 +5,12 @@
 #include <limits>
 
 #include "grid_path_planner/costmap/line_of_sight.h"
+#include "planning/end_segments.h"
 
 namespace grid_path_planner::planning {
 
-using costmap::CostGrid, costmap::lineCost, costmap::lineOfSight, costmap::SegmentPoint;
+using costmap::CostGrid, costmap::KeptDistances, costmap::lineCost, costmap::lineOfSight,
+    costmap::SegmentPoint;
 using grid::GridGeometry;
 using path::Path, path::Pose;
 
@@ -34,6 +36,20 @@ bool sameEnd(const Path& a, const Path& b) {
   return (one.position - other.position).norm() < 1e-6 && std::abs(one.yaw - other.yaw) < 1e-6;
 }
 
+// The points of a path and of what remains of it need not be centres, so the distances are measured.
+// The first two segments lead from where the vehicle is, which may be nearer, to the path and along
+// it.
+bool keepsDistances(const Polyline& line, const CostGrid& costs) {
+  const KeptDistances lowered = EndSegments(costs).loweredTo(line.front(), line.back());
+  const EndSegments segments(costs, lowered);
+  const KeptDistances at_start = segments.at(line.front());
+  for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    if (i < 2 ? !segments.leavesStart(line[i], line[i + 1], at_start)
+              : !segments.keeps(line[i], line[i + 1]))
+      return false;
+  return true;
+}
+
 }  // namespace
 
 Polyline remainingPath(const Path& path, const Eigen::Vector2d& position) {
@@ -56,13 +72,15 @@ Polyline remainingPath(const Path& path, const Eigen::Vector2d& position) {
 }
 
 std::optional<double> costOf(const Polyline& line, const CostGrid& costs) {
+  const GridGeometry& geometry = costs.geometry();
+  for (const Eigen::Vector2d& point : line)
+    if (!geometry.cellAt(point)) return std::nullopt;
+  if (EndSegments(costs).measured() && !keepsDistances(line, costs)) return std::nullopt;
   double cost = 0.0;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const GridGeometry& geometry = costs.geometry();
-    if (!geometry.cellAt(line[i]) || !geometry.cellAt(line[i + 1])) return std::nullopt;
     const SegmentPoint from = SegmentPoint::nearest(geometry.gridFromWorld(line[i]));
     const SegmentPoint to = SegmentPoint::nearest(geometry.gridFromWorld(line[i + 1]));
-    if (!lineOfSight(costs, from, to)) return std::nullopt;
+    if (!EndSegments(costs).measured() && !lineOfSight(costs, from, to)) return std::nullopt;
     cost += lineCost(costs, from, to);
   }
   return cost;

@@ -86,6 +86,23 @@ bool straightLineLegal(const CostGrid& map, const Eigen::Vector2d& from,
                      SegmentPoint::nearest(map.geometry().gridFromWorld(to)));
 }
 
+using Positions = std::vector<Eigen::Vector2d>;
+
+Path pathThrough(const Eigen::Vector2d& start, const Positions& between,
+                 const Eigen::Vector2d& goal) {
+  Path path;
+  const auto add = [&path](const Eigen::Vector2d& position) {
+    Pose pose;
+    pose.position << position, 0.0;
+    path.poses.push_back(pose);
+  };
+  add(start);
+  for (const Eigen::Vector2d& position : between)
+    if (!samePlace(position, start) && !samePlace(position, goal)) add(position);
+  add(goal);
+  return path;
+}
+
 }  // namespace
 
 void smoothRoute(Route& route, const StopToken& stop) {
@@ -106,34 +123,36 @@ void smoothRoute(Route& route, const StopToken& stop) {
   route.plan.segment_cost = cost;
 }
 
-Path pathOfRoute(const Route& route, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
-                 bool keep_first) {
-  std::vector<RoutePoint> points = pointsOf(route);
+Path pathOfRoute(const Route& route, const RouteEnd& start, const RouteEnd& goal, bool keep_first,
+                 const EndSegments& segments) {
+  const std::vector<RoutePoint> points = pointsOf(route);
   assert(!points.empty());
-  const CostGrid* first_map = points.front().map;
-  const CostGrid* last_map = points.back().map;
-  if (!keep_first) {
-    const Eigen::Vector2d& next = points.size() > 1 ? points[1].position : goal;
-    if (straightLineLegal(*first_map, start, next)) points.erase(points.begin());
-  }
-  if (!points.empty()) {
-    const Eigen::Vector2d& previous =
-        points.size() > 1 ? points[points.size() - 2].position : start;
-    const bool only_kept = keep_first && points.size() == 1;
-    if (!only_kept && straightLineLegal(*last_map, previous, goal)) points.pop_back();
-  }
-
-  Path path;
-  const auto add = [&path](const Eigen::Vector2d& position) {
-    Pose pose;
-    pose.position << position, 0.0;
-    path.poses.push_back(pose);
+  const CostGrid &first_map = *points.front().map, &last_map = *points.back().map;
+  const auto leaves = [&](const Eigen::Vector2d& to) {
+    return segments.measured() ? segments.leavesStart(start.position, to)
+                               : straightLineLegal(first_map, start.position, to);
   };
-  add(start);
-  for (const RoutePoint& point : points)
-    if (!samePlace(point.position, start) && !samePlace(point.position, goal)) add(point.position);
-  add(goal);
-  return path;
+  const auto arrives = [&](const Eigen::Vector2d& from) {
+    return segments.measured() ? segments.keeps(from, goal.position)
+                               : straightLineLegal(last_map, from, goal.position);
+  };
+  Positions positions;
+  for (const RoutePoint& point : points) positions.push_back(point.position);
+  if (!keep_first) {
+    const Eigen::Vector2d next = positions.size() > 1 ? positions[1] : goal.position;
+    if (leaves(next))
+      positions.erase(positions.begin());
+    else if (segments.measured() && !leaves(positions[0]))
+      positions.insert(positions.begin(), start.centre);
+  }
+  if (positions.size() > (keep_first ? 1U : 0U)) {
+    const bool at_start = positions.size() == 1;
+    if (at_start ? leaves(goal.position) : arrives(positions[positions.size() - 2]))
+      positions.pop_back();
+    else if (segments.measured() && !arrives(positions.back()))
+      positions.push_back(goal.centre);
+  }
+  return pathThrough(start.position, positions, goal.position);
 }
 
 }  // namespace grid_path_planner::planning

@@ -8,6 +8,7 @@
 #include "grid_path_planner/costmap/cost_grid.h"
 #include "grid_path_planner/planners/planner.h"
 #include "grid_path_planner/planning/plan.h"
+#include "planning/end_segments.h"
 
 namespace grid_path_planner::planning {
 
@@ -26,11 +27,19 @@ struct Route {
 // Smooths every leg by itself. Preconditions as for smoothResult().
 void smoothRoute(Route& route, const base::StopToken& stop);
 
-// The positions (z 0) and no headings yet. The ends are `start` and `goal`, in metres. The centre
-// of the first or last cell stays between an end and the rest only where the straight line past it
-// is not legal, or where `keep_first` asks for it (a start that is itself blocked). start = goal:
-// one pose. Precondition: the route was found.
-path::Path pathOfRoute(const Route& route, const Eigen::Vector2d& start,
-                       const Eigen::Vector2d& goal, bool keep_first);
+// An end of the path, in metres: the pose's position, and the centre of the cell that was searched
+// from, which a straight line joins to it.
+struct RouteEnd {
+  Eigen::Vector2d position;
+  Eigen::Vector2d centre;
+};
+
+// The positions (z 0) and no headings yet. The middle of the first or last cell or block stays
+// between an end and the rest only where the straight line past it is not legal, or where
+// `keep_first` asks for it (a start that is itself blocked); the cell's centre beside it only where
+// the line to that middle is not. start = goal: one pose. Precondition: the route was found;
+// `segments` are of the costmap at full resolution.
+path::Path pathOfRoute(const Route& route, const RouteEnd& start, const RouteEnd& goal,
+                       bool keep_first, const EndSegments& segments);
 
 }  // namespace grid_path_planner::planning

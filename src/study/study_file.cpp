@@ -45,7 +45,9 @@ std::string stemOf(const std::string& file) {
 // Reads one study file; every method reads a node of it and reports errors with its line.
 class StudyReader {
  public:
-  explicit StudyReader(const std::string& file) : file_(file) {}
+  explicit StudyReader(const std::string& file) : file_(file) {
+    study_.base.costmap.outside = costmap::Outside::FREE;  // comparisons use all of their maps
+  }
 
   Study read() {
     const YAML::Node root = loadYamlFile(file_);

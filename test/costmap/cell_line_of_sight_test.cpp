@@ -20,8 +20,7 @@ namespace {
 void expectTheSame(const CostGrid& map, Cell from, Cell to, int& legal) {
   const SegmentPoint a = SegmentPoint::centreOf(from), b = SegmentPoint::centreOf(to);
   const bool expected = lineOfSight(map, a, b);
-  const bool cut_corners = map.motion().cut_corners;
-  ASSERT_EQ(lineOfSight(map.bitMaps(StopToken()), from, to, cut_corners), expected);
+  ASSERT_EQ(lineOfSight(map.bitMaps(StopToken()), from, to, map.segmentRule()), expected);
   const std::optional<double> cost = lineCostWithin(map, from, to);
   ASSERT_EQ(cost.has_value(), expected);
   if (!expected) return;
@@ -38,7 +37,8 @@ TEST(CellLineOfSightLaw, EqualsTheGeneralOne) {
     SCOPED_TRACE("trial " + std::to_string(trial));
     MotionModel motion;
     motion.cut_corners = trial % 4 == 0;
-    const CostGrid map = test::randomCosts(random, trial % 3 == 0 ? 150 : 16, motion);
+    CostGrid map = test::randomCosts(random, trial % 3 == 0 ? 150 : 16, motion);
+    if (trial % 2 == 1) map.setKeptDistances({0.5, -1.0, 0.0});
     for (int i = 0; i < 60; ++i) {
       const Cell from = test::randomCell(random, map.geometry());
       const Cell near{from.column + static_cast<int>(random() % 13) - 6,
@@ -55,10 +55,11 @@ TEST(CellLineOfSightLaw, EqualsTheGeneralOne) {
 TEST(CellLineOfSightLaw, EqualsTheGeneralOneOverLongLines) {
   std::mt19937 random(64);
   int legal = 0;
-  for (int trial = 0; trial < 40; ++trial) {
+  for (int trial = 0; trial < 80; ++trial) {
     Grid<CostGrid::Weight> weights(GridGeometry(300, 200, 1.0), 1);
     for (int i = 0; i < 300; ++i) weights[test::randomCell(random, weights.geometry())] = 0;
-    const CostGrid map = test::costMap(weights);
+    CostGrid map = test::costMap(weights);
+    if (trial % 2 == 1) map.setKeptDistances({0.5, -1.0, 0.0});
     for (int i = 0; i < 60; ++i) {
       const Cell from = test::randomCell(random, map.geometry());
       const Cell to = test::randomCell(random, map.geometry());

@@ -55,6 +55,9 @@ CostmapOptions randomOptions(std::mt19937& random) {
   options.radius = static_cast<double>(random() % 3) * 0.8;
   options.decay = static_cast<double>(random() % 2) * 0.7;
   options.free_weight = random() % 4 == 0 ? 60 : 1;
+  options.unknown_is_passable = random() % 2 == 0;
+  options.radius_to_unknown = static_cast<double>(random() % 4) * 0.9 - 1.0;
+  options.outside = choicesOf(Outside{})[random() % 3].second;
   return options;
 }
 
@@ -164,6 +167,8 @@ TEST(CostmapUpdatesLaw, EqualsAFreshGridAfterEveryKindOfChange) {
       options.unknown_weight = trial % 5 == 0 ? 1 : 50;
       options.free_weight = trial % 7 == 0 ? 45 : 1;
       options.kernel = 1 + trial % 3 / 2;
+      options.radius_to_unknown = trial % 6 == 5 ? 2.2 : -1.0;
+      options.outside = choicesOf(Outside{})[trial % 3].second;
       CostmapBuilder builder(options);
       builder.setMap(std::make_shared<const OccupancyGrid>(map));
       for (int edit = 0; edit < 12; ++edit) {

@@ -24,11 +24,12 @@ using test::costsOf;
 
 namespace {
 
-// Metres from a cell's centre to the nearest edge of an occupied cell, by looking at all of them.
-double distanceByBruteForce(const OccupancyGrid& map, Cell cell) {
+// Metres from a cell's centre to the nearest edge of a cell that is one, by looking at all of them.
+template <class IsOne>
+double distanceByBruteForce(const OccupancyGrid& map, Cell cell, const IsOne& is_one) {
   double nearest = std::numeric_limits<double>::infinity();
   for (std::uint32_t i = 0; i < map.values().size(); ++i) {
-    if (map.values()[i] < 65) continue;
+    if (!is_one(map.values()[i])) continue;
     const Cell other = map.geometry().cell(CellIndex(i));
     const double x = std::max(std::abs(other.column - cell.column) - 0.5, 0.0);
     const double y = std::max(std::abs(other.row - cell.row) - 0.5, 0.0);
@@ -37,11 +38,31 @@ double distanceByBruteForce(const OccupancyGrid& map, Cell cell) {
   return nearest;
 }
 
+double distanceToBorder(const OccupancyGrid& map, Cell cell) {
+  const int cells =
+      std::min({cell.column, cell.row, map.width() - 1 - cell.column, map.height() - 1 - cell.row});
+  return (cells + 0.5) * map.geometry().resolution();
+}
+
 int weightByDefinition(const OccupancyGrid& map, Cell cell, const CostmapOptions& options) {
   const int value = map[cell];
-  const double distance = distanceByBruteForce(map, cell);
-  if (value >= 65 || distance < options.radius * (1.0 - 1e-9)) return 0;
-  const int weight = value == 0 ? options.free_weight : options.unknown_weight;
+  const bool unknown = value < 0 || (value > 25 && value < 65);
+  double distance = distanceByBruteForce(map, cell, [](int other) { return other >= 65; });
+  if (options.outside == Outside::OCCUPIED)
+    distance = std::min(distance, distanceToBorder(map, cell));
+  const auto nearer = [](double at, double radius) { return at < radius * (1.0 - 1e-9); };
+  if (value >= 65 || nearer(distance, options.radius)) return 0;
+  if (unknown && !options.unknown_is_passable) return 0;
+
+  double to_unknown = distanceByBruteForce(
+      map, cell, [](int other) { return other < 0 || (other > 25 && other < 65); });
+  if (options.outside == Outside::UNKNOWN)
+    to_unknown = std::min(to_unknown, distanceToBorder(map, cell));
+  const bool by_default = options.radius_to_unknown < 0.0;
+  const double default_radius = options.unknown_is_passable ? 0.0 : options.radius;
+  if (nearer(to_unknown, by_default ? default_radius : options.radius_to_unknown)) return 0;
+
+  const int weight = unknown ? options.unknown_weight : options.free_weight;
   if (options.decay == 0.0 || std::isinf(distance)) return weight;
   const double ring =
       options.free_weight + (options.inflation_weight - options.free_weight) *
@@ -89,6 +110,34 @@ TEST(Inflation, WeightFallsFromTheRadiusOn) {
   EXPECT_EQ(costs->weight({3, 0}), std::lround(1 + 39 * std::exp(-2.0)));
 }
 
+// Paths ran along the very border of the map, 0.05 m from the end of the world with a radius of 0.6.
+TEST(Inflation, KeepsTheRadiusFromTheBorderWhereThatIsAskedFor) {
+  const OccupancyGrid map(GridGeometry(7, 5, 1.0), 0);
+  CostmapOptions options;
+  options.radius = 1.5;
+  EXPECT_TRUE(costsOf(map, options)->passable({0, 0}));
+  options.outside = Outside::OCCUPIED;
+  const auto costs = costsOf(map, options);
+  EXPECT_FALSE(costs->passable({0, 2}));
+  EXPECT_FALSE(costs->passable({3, 4}));
+  EXPECT_TRUE(costs->passable({1, 1}));
+}
+
+TEST(Inflation, KeepsTheRadiusFromUnknownCellsAndTheBorderWhereUnknownIsNotPassable) {
+  const OccupancyGrid map = test::AsciiMap({".......", ".......", ".......", "......?"}).map;
+  CostmapOptions options;
+  options.radius = 1.0;
+  options.unknown_is_passable = false;
+  const auto costs = costsOf(map, options);
+  EXPECT_FALSE(costs->passable({5, 2}));
+  EXPECT_FALSE(costs->passable({0, 1}));
+  EXPECT_TRUE(costs->passable({4, 2}));
+  options.radius_to_unknown = 0.0;
+  const auto free_ends = costsOf(map, options);
+  EXPECT_TRUE(free_ends->passable({5, 3}));
+  EXPECT_TRUE(free_ends->passable({0, 1}));
+}
+
 TEST(Inflation, RefusesWhatContradictsItself) {
   CostmapOptions options;
   options.occupied_is_passable = true;
@@ -115,6 +164,9 @@ TEST(InflationLaw, WeightsAreThoseOfTheDefinition) {
     CostmapOptions options;
     options.radius = trial % 4 * 0.9;
     options.decay = trial % 5 * 0.3;
+    options.unknown_is_passable = trial % 2 == 0;
+    options.radius_to_unknown = trial % 7 == 6 ? 1.3 : trial % 7 == 5 ? 0.2 : -1.0;
+    options.outside = choicesOf(Outside{})[trial % 3].second;
     const auto costs = costsOf(map, options);
     for (std::uint32_t i = 0; i < map.values().size(); ++i) {
       const Cell cell = map.geometry().cell(CellIndex(i));
@@ -154,7 +206,8 @@ TEST(InflationLaw, EveryPassableCellIsAtLeastTheRadiusAway) {
     for (std::uint32_t i = 0; i < map.values().size(); ++i) {
       const Cell cell = map.geometry().cell(CellIndex(i));
       if (costs->passable(cell)) {
-        ASSERT_GE(distanceByBruteForce(map, cell), options.radius);
+        ASSERT_GE(distanceByBruteForce(map, cell, [](int value) { return value >= 65; }),
+                  options.radius);
       }
     }
   }

@@ -35,6 +35,13 @@ class CostGrid {
 
   const grid::GridGeometry& geometry() const { return weights_.geometry(); }
   const MotionModel& motion() const { return motion_; }
+  // None of them where corners may be cut, since the promise is not made then.
+  const KeptDistances& keptDistances() const { return kept_; }
+  void setKeptDistances(const KeptDistances& kept) { kept_ = kept; }
+  SegmentRule segmentRule() const {
+    if (motion_.cut_corners) return SegmentRule::CUT_CORNERS;
+    return kept_.any() ? SegmentRule::CENTRE_LATTICE : SegmentRule::CELLS;
+  }
   int kernel() const { return kernel_; }
   const grid::GridGeometry& original() const { return original_; }
 
@@ -99,6 +106,7 @@ class CostGrid {
   grid::Grid<Weight> weights_;
   grid::Grid<grid::Occupancy> classes_;
   MotionModel motion_;
+  KeptDistances kept_;
   int kernel_ = 1;
   grid::GridGeometry original_;
   Weight min_weight_ = 0;

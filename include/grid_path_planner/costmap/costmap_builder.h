@@ -19,13 +19,14 @@
 
 namespace grid_path_planner::costmap {
 
-class Inflation;
 struct ClassChanges;
+struct Inflations;
 
 class CostmapBuilder {
  public:
-  // Throws InputError for options that cannot be used.
+  // Throws InputError for options that cannot be used. `kept` replaces the distances of the options.
   explicit CostmapBuilder(const CostmapOptions& options);
+  CostmapBuilder(const CostmapOptions& options, const KeptDistances& kept);
 
   void setMap(std::shared_ptr<const grid::OccupancyGrid> map);
   // `map` has the geometry of the current one and differs from it only inside `changed`.
@@ -43,6 +44,7 @@ class CostmapBuilder {
   const grid::CellRect& downsampledChange() const { return downsampled_change_; }
 
   const CostmapOptions& options() const { return options_; }
+  const KeptDistances& keptDistances() const { return kept_; }
 
  private:
   void bringUpToDate(const base::StopToken& stop);
@@ -54,10 +56,11 @@ class CostmapBuilder {
   void updateDownsampled(const base::StopToken& stop);
 
   CostmapOptions options_;
+  KeptDistances kept_;
   std::shared_ptr<const grid::OccupancyGrid> map_;
-  std::shared_ptr<const Inflation> inflation_;  // for the resolution of map_
-  grid::CellRect full_dirty_;                   // cells of map_ that changed since full_
-  grid::CellRect downsampled_dirty_;            // cells of full_ that changed since downsampled_
+  std::shared_ptr<const Inflations> inflations_;  // for the resolution of map_
+  grid::CellRect full_dirty_;                     // cells of map_ that changed since full_
+  grid::CellRect downsampled_dirty_;              // cells of full_ that changed since downsampled_
   grid::CellRect full_change_;
   grid::CellRect downsampled_change_;
   grid::DoubleBuffered<CostGrid, CostGrid::Change> full_;

@@ -14,6 +14,10 @@ namespace grid_path_planner::costmap {
 enum class KernelRule { CONSERVATIVE, FILTER2D };
 const std::vector<std::pair<const char*, KernelRule>>& choicesOf(KernelRule);
 
+// What lies outside the map is treated like cells of this class.
+enum class Outside { FREE, UNKNOWN, OCCUPIED };
+const std::vector<std::pair<const char*, Outside>>& choicesOf(Outside);
+
 struct CostmapOptions {
   grid::OccupancyThresholds thresholds;
 
@@ -24,7 +28,10 @@ struct CostmapOptions {
   bool occupied_is_passable = false;
 
   double radius = 0.0;  // m; a cell whose centre is nearer than this to an occupied cell is blocked
-  double decay = 0.0;   // 1/m; of the weight beyond the radius; 0: no weight beyond it
+  // m, to unknown cells; -1: `radius` where unknown is not passable, else nothing
+  double radius_to_unknown = -1.0;
+  Outside outside = Outside::UNKNOWN;
+  double decay = 0.0;         // 1/m; of the weight beyond the radius; 0: no weight beyond it
   int inflation_weight = 40;  // at the radius
 
   int kernel = 1;  // cells of a block's side
@@ -32,6 +39,36 @@ struct CostmapOptions {
 
   MotionModel motion;
 };
+
+template <class Visitor>
+void visitDistanceOptions(CostmapOptions& o, Visitor&& visit) {
+  visit("radius", o.radius,
+        base::OptionInfo{
+            "Vehicle radius: no point of a path is nearer than this to an occupied cell; set it to "
+            "your vehicle's",
+            "m", 0, 1000}
+            .under("The distance to obstacles"));
+  visit("radius_to_unknown", o.radius_to_unknown,
+        base::OptionInfo{
+            "The same to unknown cells, which are not entered then; -1: radius where unknown is "
+            "not passable, else 0",
+            "m", -1, 1000});
+  visit("outside", o.outside,
+        base::OptionInfo{
+            "What the map's border is treated as: occupied keeps radius from it, unknown "
+            "radius_to_unknown, free nothing",
+            ""});
+  visit("decay", o.decay,
+        base::OptionInfo{
+            "How fast the weight falls beyond the radius; 0: no weight beyond the radius; "
+            "smaller: wider berth",
+            "1/m", 0, 10000});
+  visit("inflation_weight", o.inflation_weight,
+        base::OptionInfo{
+            "Weight at the radius, where decay is not 0; higher: wider berth; keep it under "
+            "unknown_weight",
+            "", 1, 65535});
+}
 
 template <class Visitor>
 void visitOptions(CostmapOptions& o, Visitor&& visit) {
@@ -55,22 +92,7 @@ void visitOptions(CostmapOptions& o, Visitor&& visit) {
   visit("occupied_is_passable", o.occupied_is_passable,
         base::OptionInfo{"Whether paths may cross occupied cells; only for studies, needs radius 0",
                          ""});
-  visit("radius", o.radius,
-        base::OptionInfo{
-            "Vehicle radius: cells nearer than this to an occupied cell are blocked; set it "
-            "to your vehicle's",
-            "m", 0, 1000}
-            .under("The distance to obstacles"));
-  visit("decay", o.decay,
-        base::OptionInfo{
-            "How fast the weight falls beyond the radius; 0: no weight beyond the radius; "
-            "smaller: wider berth",
-            "1/m", 0, 10000});
-  visit("inflation_weight", o.inflation_weight,
-        base::OptionInfo{
-            "Weight at the radius, where decay is not 0; higher: wider berth; keep it under "
-            "unknown_weight",
-            "", 1, 65535});
+  visitDistanceOptions(o, visit);
   visit("kernel", o.kernel,
         base::OptionInfo{
             "Side of the blocks that are searched instead of cells; higher: faster, coarser paths",
@@ -89,6 +111,9 @@ void visitOptions(CostmapOptions& o, Visitor&& visit) {
   visit("cut_corners", o.motion.cut_corners,
         base::OptionInfo{"Whether a diagonal step may pass a blocked cell's corner", ""});
 }
+
+// What paths keep away from with these options.
+KeptDistances keptDistances(const CostmapOptions& options);
 
 // Throws InputError naming the option for a value outside its limits and for combinations that
 // contradict each other: free_max >= occupied_min, occupied_is_passable with a radius.

@@ -6,6 +6,13 @@
 // cells, and touches no lattice point whose diagonal pair is blocked; grazing a corner is legal.
 // Where corners may be cut, lattice points do not matter. Outside the map is blocked.
 //
+// Where the map keeps distances (radius > 0) a line is legal exactly if it lies in the centre
+// lattice: the closed squares spanned by four neighbouring cell centres that are all passable, the
+// closed lines between two neighbouring passable centres, and the passable centres. No point of the
+// lattice is nearer to an obstacle than the nearest of its centres, so along every legal line the
+// distance is that of centres. Every path of grid steps that cuts no corner lies in it. With a
+// kernel the centres are the waypoints of the blocks.
+//
 // Cost: the line is cut where it crosses the centre lines of the columns (of the rows where it is
 // steep); each piece costs its length x the largest weight of the cells whose interior it enters,
 // or along an edge the smaller weight of the passable sides. On every path of grid steps this
@@ -47,7 +54,7 @@ struct SegmentPoint {
 // The point of a path in the cell (CostGrid::waypoint): its centre but for the last column and row
 // of a kernel.
 SegmentPoint waypointOf(const CostGrid& map, grid::Cell cell);
-// The same point in the map's frame, in metres.
+// A point in the map's frame, in metres.
 Eigen::Vector2d worldOf(const CostGrid& map, SegmentPoint point);
 // A passable cell that the point lies in or, if it is a lattice point, is a corner of.
 // Precondition: there is one.
@@ -56,9 +63,10 @@ grid::Cell passableCellAt(const CostGrid& map, SegmentPoint point);
 // Whether the line is legal.
 bool lineOfSight(const CostGrid& map, SegmentPoint from, SegmentPoint to);
 // The same between the centres of two cells. `bits`: of the map. Precondition: both lie in it.
-bool lineOfSight(const BitMaps& bits, grid::Cell from, grid::Cell to, bool cut_corners);
+bool lineOfSight(const BitMaps& bits, grid::Cell from, grid::Cell to, SegmentRule rule);
 
-// In cells of the original map x weight. Precondition: lineOfSight.
+// In cells of the original map x weight. Precondition: lineOfSight, or the map keeps distances; then
+// blocked cells, which an end of a path may cross, cost nothing.
 double lineCost(const CostGrid& map, SegmentPoint from, SegmentPoint to);
 
 // lineCost(); none where the line is not legal or costs more than `limit`. Fast between centres.

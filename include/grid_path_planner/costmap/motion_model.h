@@ -1,4 +1,4 @@
-// Which steps a vehicle may take between cells, and how long they are.
+// Which steps a vehicle may take between cells, how long they are, and what it keeps away from.
 #pragma once
 
 #include <utility>
@@ -24,5 +24,22 @@ struct MotionModel {
            a.cut_corners == b.cut_corners;
   }
 };
+
+// The distances in metres that paths keep from the squares of cells and from the map's outside; 0:
+// these are not entered, below 0: nothing is asked.
+struct KeptDistances {
+  double occupied = 0.0;
+  double unknown = -1.0;
+  double outside = 0.0;
+
+  bool any() const { return occupied > 0.0 || unknown > 0.0 || outside > 0.0; }
+  friend bool operator==(const KeptDistances& a, const KeptDistances& b) {
+    return a.occupied == b.occupied && a.unknown == b.unknown && a.outside == b.outside;
+  }
+  friend bool operator!=(const KeptDistances& a, const KeptDistances& b) { return !(a == b); }
+};
+
+// Which straight lines are legal (line_of_sight.h).
+enum class SegmentRule { CELLS, CUT_CORNERS, CENTRE_LATTICE };
 
 }  // namespace grid_path_planner::costmap

@@ -21,6 +21,13 @@ double turningOf(const Path& path);
 double clearanceOf(const Path& path, const grid::OccupancyGrid& map,
                    const grid::OccupancyThresholds& thresholds);
 
+// The least distance in metres from a straight line to the edge of a cell of one class, `limit` where
+// none is nearer. `inset`, in cells: of the squares' edges, so that a line that only touches one
+// meets none. Looks only at the cells around the line. Precondition: the points are finite.
+double distanceToClass(const grid::Grid<grid::Occupancy>& classes, grid::Occupancy wanted,
+                       const Eigen::Vector2d& from, const Eigen::Vector2d& to, double limit,
+                       double inset = 0.0);
+
 // Metres of the polyline in the plane through cells of each class; the part outside the map is in
 // none. Along an edge between two cells a segment counts for the one with the larger index.
 struct ClassLengths {

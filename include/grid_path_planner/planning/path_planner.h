@@ -7,6 +7,11 @@
 // The path starts and ends at the requested poses. Whether these are passable is decided on the
 // inflated map at full resolution; where only the block of the kernel around one is blocked, the
 // search runs at full resolution until it reaches an open block. No call changes the caller's map.
+//
+// No point of the path is nearer to an occupied cell than `radius`, nor to unknown cells and the
+// map's border than radius_to_unknown and outside ask, for every planner, kernel and smoothing;
+// except on the first segment of a start that is itself nearer, with cut_corners, and with the rule
+// filter2d. Where an end is nearer to unknown cells or to the border, the path keeps what it has.
 // Not thread-safe: one call at a time.
 #pragma once
 
@@ -129,21 +134,25 @@ class PathPlanner {
   Plan plan(const PoseRequest& request, const base::StopSource& stop = {});
 
  private:
+  struct Lowered;
+
   // The costmaps, brought up to date.
   CostmapPair costmaps(const base::StopToken& stop);
   // The same, after the planner was updated to them where that is cheap.
   CostmapPair followedCostmaps(const base::StopToken& stop);
   // Precondition: the search is prepared, and `costs` is the costmap at full resolution.
-  Plan planOn(const costmap::CostGrid& costs, const PoseRequest& request,
-              const base::StopToken& stop);
-  Route search(const PathEnd& start, const PathEnd& goal, bool record_expanded,
-               const base::StopToken& stop);
+  Plan planOn(const costmap::CostGrid& costs, MultiResolutionPlanner& search,
+              const PoseRequest& request, const base::StopToken& stop);
+  Route findRoute(MultiResolutionPlanner& search, const PathEnd& start, const PathEnd& goal,
+                  bool record_expanded, const base::StopToken& stop) const;
+  Lowered* loweredFor(const costmap::CostGrid& costs, const PoseRequest& request);
 
   planners::PlannerMaker make_planner_;
   PlannerOptions options_;
   std::shared_ptr<const grid::OccupancyGrid> map_;
   std::unique_ptr<costmap::CostmapBuilder> costmap_;
   std::unique_ptr<MultiResolutionPlanner> search_;
+  std::unique_ptr<Lowered> lowered_;  // for the last request, if it needed one
 };
 
 }  // namespace grid_path_planner::planning

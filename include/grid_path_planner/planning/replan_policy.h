@@ -22,7 +22,9 @@ using Polyline = std::vector<Eigen::Vector2d>;  // metres, map frame
 Polyline remainingPath(const path::Path& path, const Eigen::Vector2d& position);
 
 // Cost in cells of the original map x weight; none where a segment of `line` is not legal on
-// `costs`.
+// `costs`. Where these keep distances a segment is legal if it keeps them, but for the first two,
+// which may leave a nearer start; to unknown cells and to the border no more is asked than both
+// ends have.
 std::optional<double> costOf(const Polyline& line, const costmap::CostGrid& costs);
 
 // Whether the remainder of `path` meets an obstacle. Without a `position` all of it remains.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "planners/any_angle/anya_search.h"
+#include "planners/any_angle/lattice_planner.h"
 #include "planners/core/any_angle_traits.h"
 
 namespace grid_path_planner::planners {
@@ -41,11 +42,18 @@ Anya::Anya() : Planner(declaredTraits()), search_(std::make_unique<AnyaSearch>()
 Anya::~Anya() = default;
 
 std::size_t Anya::bytesFor(const GridGeometry& geometry) const {
-  return BitMaps::bytesFor(geometry) + geometry.size() * kBytesPerCell;
+  return BitMaps::bytesFor(geometry) + LatticePlanner::bytesFor(geometry) +
+         geometry.size() * kBytesPerCell;
 }
 
 void Anya::doPrepare(const StopToken& stop) {
   rows_ = &map().bitMaps(stop).rows;
+  lattice_ = latticePlannerFor(map(), stop);
+}
+
+void Anya::doUpdate(const grid::CellRect& changed, const StopToken& stop) {
+  rows_ = &map().bitMaps(stop).rows;
+  if (lattice_) lattice_->update(map(), changed, stop);
 }
 
 SearchResult Anya::doSearch(const SearchRequest& request, const StopToken& stop) {
@@ -58,6 +66,7 @@ SearchResult Anya::doSearch(const SearchRequest& request, const StopToken& stop)
     result.points = {from};
     return result;
   }
+  if (lattice_) return lattice_->search(map(), request, stop);
   std::vector<Cell> expanded;
   const AnyaSearch::Answer answer =
       search_->run(*rows_, inCells(from), inCells(to), stop, result.statistics,

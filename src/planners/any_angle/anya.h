@@ -5,6 +5,9 @@
 // maps, so an update of the map costs no more than theirs. Unlike the published algorithm it starts
 // and ends inside cells. The turning points of a path are corners of blocked cells.
 //
+// Where the map keeps distances it searches the centre lattice too (lattice_search.h): the
+// turning points of a path are centres of cells.
+//
 // Guaranteed: no legal any-angle path (costmap/line_of_sight.h) between the two waypoints is shorter, up
 // to rounding (1e-12 of the length). Refused: maps of several weights, 4-connected ones, unit
 // diagonals and cut corners.
@@ -17,6 +20,7 @@
 namespace grid_path_planner::planners {
 
 class AnyaSearch;
+class LatticePlanner;
 
 class Anya : public Planner {
  public:
@@ -30,10 +34,12 @@ class Anya : public Planner {
 
  private:
   void doPrepare(const base::StopToken& stop) override;
+  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
   const costmap::BitMap* rows_ = nullptr;
   std::unique_ptr<AnyaSearch> search_;
+  std::unique_ptr<LatticePlanner> lattice_;  // where distances are kept
 };
 
 }  // namespace grid_path_planner::planners

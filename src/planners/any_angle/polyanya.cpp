@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "grid_path_planner/planners/decomposition.h"
+#include "planners/any_angle/lattice_planner.h"
 #include "planners/any_angle/polyanya_search.h"
 #include "planners/core/any_angle_traits.h"
 
@@ -62,6 +63,8 @@ std::string Polyanya::refusal(const CostGrid& map) const {
 }
 
 void Polyanya::doPrepare(const StopToken& stop) {
+  lattice_ = latticePlannerFor(map(), stop);
+  if (lattice_) return;
   const BitMaps& free = map().bitMaps(stop);
   // The list of rectangles may be as long as there are runs, and doubles as it grows.
   const std::size_t list = 2 * sizeof(CellRect) * countRuns(free.rows);
@@ -92,6 +95,7 @@ SearchResult Polyanya::doSearch(const SearchRequest& request, const StopToken& s
     result.points = {waypointOf(map(), start)};
     return result;
   }
+  if (lattice_) return lattice_->search(map(), request, stop);
   std::vector<std::uint32_t> expanded;
   const PolyanyaSearch::Answer answer =
       search_->run(mesh_, {inMesh(waypointOf(map(), start)), *index_.at(start)},

@@ -7,6 +7,9 @@
 // ends can enter, projects an interval until it is split before it is pushed, and makes a node of a
 // turn only if that has a successor.
 //
+// Where the map keeps distances it searches the centre lattice as Anya does (lattice_search.h), without
+// rectangles: passages of one cell, which only a line leads through, are no part of a mesh.
+//
 // Guaranteed: no legal any-angle path (costmap/line_of_sight.h) between the two waypoints is shorter, up
 // to rounding (1e-12 of the length). Refused: maps of several weights, 4-connected ones, unit
 // diagonals, cut corners and maps of more than PolyanyaMesh::kMaxSide cells a side.
@@ -22,6 +25,7 @@
 
 namespace grid_path_planner::planners {
 
+class LatticePlanner;
 class PolyanyaSearch;
 
 class Polyanya : public Planner {
@@ -48,6 +52,7 @@ class Polyanya : public Planner {
   RectangleIndex index_;
   PolyanyaMesh mesh_;
   std::unique_ptr<PolyanyaSearch> search_;
+  std::unique_ptr<LatticePlanner> lattice_;  // where distances are kept
 };
 
 }  // namespace grid_path_planner::planners

@@ -1,8 +1,13 @@
 #include "planners/rectangles/funnel.h"
 
+#include <array>
+
 namespace grid_path_planner::planners {
 
+using costmap::CostGrid;
 using costmap::SegmentPoint;
+using costmap::waypointOf;
+using grid::Cell;
 using grid::CellRect;
 
 namespace {
@@ -31,12 +36,35 @@ Opening openingOf(const CellRect& from, const Connection& step) {
   return high_is_left ? Opening{high, low} : Opening{low, high};
 }
 
+// The centres of the border's cells on the side of the rectangle, and beyond.
+std::array<Opening, 2> openingsBetweenCentres(const CostGrid& lattice, const CellRect& from,
+                                              const Connection& step) {
+  const bool upright = step.side == Side::EAST || step.side == Side::WEST;
+  const bool ahead = step.side == Side::EAST || step.side == Side::NORTH;
+  const int nearest = upright ? from.column : from.row;
+  const int line = ahead ? nearest + (upright ? from.width : from.height) - 1 : nearest;
+  const bool high_is_left = step.side == Side::EAST || step.side == Side::SOUTH;
+  const auto opening = [&](int at) {
+    const auto point = [&](int along) {
+      return waypointOf(lattice, upright ? Cell{at, along} : Cell{along, at});
+    };
+    const SegmentPoint low = point(step.first), high = point(step.first + step.length - 1);
+    return high_is_left ? Opening{high, low} : Opening{low, high};
+  };
+  return {opening(line), opening(ahead ? line + 1 : line - 1)};
+}
+
 std::vector<Opening> openingsOf(const RectangleGraph& map, const RectangleRoute& route,
-                                SegmentPoint goal) {
+                                SegmentPoint goal, const CostGrid* lattice) {
   std::vector<Opening> openings;
   std::uint32_t rectangle = route.first;
   for (const Connection& step : route.steps) {
-    openings.push_back(openingOf(map.rectangles()[rectangle], step));
+    const CellRect& from = map.rectangles()[rectangle];
+    if (lattice)
+      for (const Opening& opening : openingsBetweenCentres(*lattice, from, step))
+        openings.push_back(opening);
+    else
+      openings.push_back(openingOf(from, step));
     rectangle = step.to;
   }
   openings.push_back({goal, goal});
@@ -51,8 +79,9 @@ std::int64_t turn(SegmentPoint a, SegmentPoint b, SegmentPoint c) {
 }  // namespace
 
 std::vector<SegmentPoint> shortestThrough(const RectangleGraph& map, const RectangleRoute& route,
-                                          SegmentPoint start, SegmentPoint goal) {
-  const std::vector<Opening> openings = openingsOf(map, route, goal);
+                                          SegmentPoint start, SegmentPoint goal,
+                                          const CostGrid* lattice) {
+  const std::vector<Opening> openings = openingsOf(map, route, goal, lattice);
   std::vector<SegmentPoint> points = {start};
   SegmentPoint left = start, right = start;
   std::size_t left_opening = 0, right_opening = 0;  // of the funnel's sides

@@ -94,8 +94,9 @@ void RectangleMapPlanner::addPath(const RectangleRoute& route, const SearchReque
                                   SearchResult& result) const {
   const Cell start = request.start, goal = request.goals.front();
   if (options_.rectangle_funnel) {
-    result.points =
-        shortestThrough(rectangles(), route, waypointOf(map(), start), waypointOf(map(), goal));
+    const bool lattice = map().segmentRule() == costmap::SegmentRule::CENTRE_LATTICE;
+    result.points = shortestThrough(rectangles(), route, waypointOf(map(), start),
+                                    waypointOf(map(), goal), lattice ? &map() : nullptr);
     for (const SegmentPoint point : result.points)
       result.cells.push_back(passableCellAt(map(), point));
     result.cells.front() = start;

@@ -1,0 +1,187 @@
+// The promise of `radius`: no point of a published path is nearer to an occupied cell, whatever the
+// planner, the kernel and the smoothing. Any-angle and smoothed paths came 0.7 cells too near, since
+// the distance was kept at the centres of cells only; so did the ends.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "grid_path_planner/planners/planner_factory.h"
+#include "grid_path_planner/planning/path_planner.h"
+#include "grid_path_planner/planning/replan_policy.h"
+#include "support/kept_distance.h"
+#include "support/random_map.h"
+
+namespace grid_path_planner::planning {
+
+using base::Status;
+using base::StopToken;
+using costmap::CostGrid;
+using costmap::CostmapOptions;
+using costmap::Outside;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+using path::Path;
+using path::Pose;
+using planners::plannerNames;
+using planners::PlannerTraits;
+using planners::traitsOf;
+
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+constexpr double kRounding = 1e-6;  // m
+
+Pose randomPose(std::mt19937& random, const GridGeometry& geometry) {
+  std::uniform_real_distribution<double> x(0.0, geometry.width()), y(0.0, geometry.height());
+  Pose pose;
+  const double column = x(random);
+  pose.position << geometry.worldFromGrid({column, y(random)}), 0.0;
+  return pose;
+}
+
+// Noise, or blocks as rooms and walls are.
+OccupancyGrid randomMap(std::mt19937& random, int side) {
+  const bool noise = random() % 2 == 0;
+  OccupancyGrid map = test::randomOccupancy(random, side, noise ? 0.002 * (random() % 40) : 0.0,
+                                            random() % 3 == 0 ? 0.03 : 0.0);
+  for (unsigned block = noise ? 0 : 1 + random() % 8; block > 0; --block) {
+    const grid::Cell low = test::randomCell(random, map.geometry());
+    const int width = 1 + random() % 6, height = 1 + random() % 6;
+    for (int row = low.row; row < std::min(low.row + height, map.height()); ++row)
+      for (int column = low.column; column < std::min(low.column + width, map.width()); ++column)
+        map[grid::Cell{column, row}] = 100;
+  }
+  const grid::Origin origin{-1.3, 0.7, random() % 2 == 0 ? 0.0 : 0.6};
+  return OccupancyGrid(GridGeometry(map.width(), map.height(), 0.05, origin), map.values());
+}
+
+PlannerOptions randomOptions(std::mt19937& random) {
+  PlannerOptions options;
+  options.planner = plannerNames()[random() % plannerNames().size()];
+  const PlannerTraits traits = traitsOf(options.planner);
+  options.costmap.radius = 0.01 + 0.19 * (random() % 1000) / 1000.0;
+  if (random() % 3 == 0) options.costmap.radius = 0.025 * (1 + random() % 7);
+  options.costmap.unknown_is_passable = random() % 3 != 0;
+  if (random() % 4 == 0) options.costmap.radius_to_unknown = 0.02 * (random() % 6);
+  options.costmap.outside = choicesOf(Outside{})[random() % 3].second;
+  options.costmap.kernel = random() % 2 == 0 ? 1 : 1 + random() % 6;
+  options.costmap.decay = traits.weights && random() % 2 == 0 ? 5.0 : 0.0;
+  if (!traits.weights || random() % 3 == 0) options.costmap.unknown_weight = 1;
+  options.smooth = random() % 2 == 0;
+  options.search.rectangle_funnel = random() % 2 == 0;
+  return options;
+}
+
+Points pointsOf(const Path& path) {
+  Points points;
+  for (const Pose& pose : path.poses) points.push_back(pose.position.head<2>());
+  return points;
+}
+
+std::string describe(const PlannerOptions& options, const OccupancyGrid& map) {
+  return options.planner + " radius " + std::to_string(options.costmap.radius) + " kernel " +
+         std::to_string(options.costmap.kernel) + (options.smooth ? " smooth" : "") + " map " +
+         std::to_string(map.width()) + "x" + std::to_string(map.height());
+}
+
+using test::KeptFrom;
+
+constexpr KeptFrom kOccupied{true, false, false};
+constexpr KeptFrom kUnknown{false, true, false};
+constexpr KeptFrom kBorder{false, false, true};
+
+double nearest(const Points& points, const OccupancyGrid& map, const KeptFrom& from, double limit) {
+  return test::leastDistance(points, map, from, limit);
+}
+
+// The polyline without the first `length` metres of its first segment.
+Points beyond(const Points& points, double length) {
+  Points rest = points;
+  const Eigen::Vector2d first = points[1] - points[0];
+  const double share = first.norm() > 0.0 ? std::min(1.0, length / first.norm()) : 1.0;
+  rest[0] = points[0] + share * first;
+  return rest;
+}
+
+// The start may be nearer than what is kept: then the path is never nearer than the start and has
+// left it within a cell's diagonal.
+void expectDistanceKept(const Points& points, const OccupancyGrid& map, const KeptFrom& from,
+                        double kept) {
+  if (kept <= 0.0) return;
+  const double at_start = nearest({points[0]}, map, from, kept);
+  EXPECT_GE(nearest(points, map, from, kept), at_start - kRounding) << "nearer than the start";
+  if (at_start >= kept - kRounding || points.size() < 2) return;
+  const double diagonal = M_SQRT2 * map.geometry().resolution();
+  EXPECT_GE(nearest(beyond(points, diagonal), map, from, kept), kept - kRounding)
+      << "nearer beyond a diagonal";
+}
+
+// To unknown cells and the border no more is kept than the ends of the path and the centres of their
+// cells have.
+double loweredTo(const Points& points, const OccupancyGrid& map, const KeptFrom& from,
+                 double kept) {
+  for (const Eigen::Vector2d& end : {points.front(), points.back()})
+    for (const Eigen::Vector2d& point : {end, map.geometry().centre(*map.geometry().cellAt(end))})
+      kept = std::min(kept, nearest({point}, map, from, std::max(kept, 0.0)));
+  return kept;
+}
+
+void expectAllKept(const Points& points, const OccupancyGrid& map, const CostmapOptions& options) {
+  expectDistanceKept(points, map, kOccupied, options.radius);
+  double unknown = options.radius_to_unknown;
+  if (unknown < 0.0) unknown = options.unknown_is_passable ? 0.0 : options.radius;
+  expectDistanceKept(points, map, kUnknown, loweredTo(points, map, kUnknown, unknown));
+  const double outside = options.outside == Outside::FREE      ? 0.0
+                         : options.outside == Outside::UNKNOWN ? unknown
+                                                               : options.radius;
+  expectDistanceKept(points, map, kBorder, loweredTo(points, map, kBorder, outside));
+}
+
+// What was just planned is not blocked, for a vehicle at the start and for one along the path; but
+// where less was kept because of the start, a vehicle that has left it may plan anew.
+void expectNotBlocked(const Plan& plan, const CostGrid& costs, std::mt19937& random) {
+  const Path& path = plan.path;
+  EXPECT_FALSE(pathBlocked(path, std::nullopt, costs)) << "blocked";
+  for (const char* less : {"keeps only", "nearer than the radius"})
+    if (plan.message.find(less) != std::string::npos) return;
+  const std::size_t i = random() % path.poses.size();
+  const Eigen::Vector2d from = path.poses[i].position.head<2>();
+  const Eigen::Vector2d to = path.poses[std::min(i + 1, path.poses.size() - 1)].position.head<2>();
+  const double share = std::uniform_real_distribution<double>(0.0, 1.0)(random);
+  const Eigen::Vector2d position = from + share * (to - from);
+  EXPECT_FALSE(pathBlocked(path, position, costs))
+      << "blocked at segment " << i << " of " << path.poses.size();
+}
+
+TEST(RadiusLaw, NoPointOfAPathIsNearerThanItMay) {
+  std::mt19937 random(13);
+  int found = 0;
+  for (int trial = 0; trial < 1500; ++trial) {
+    const OccupancyGrid map = randomMap(random, 48);
+    const PlannerOptions options = randomOptions(random);
+    SCOPED_TRACE("trial " + std::to_string(trial) + ' ' + describe(options, map));
+    PathPlanner planner(options);
+    planner.setMap(std::make_shared<const OccupancyGrid>(map));
+    for (int query = 0; query < 3; ++query) {
+      const PoseRequest request{randomPose(random, map.geometry()),
+                                randomPose(random, map.geometry()), false};
+      const Plan plan = planner.plan(request);
+      if (plan.status != Status::FOUND) continue;
+      ++found;
+      expectAllKept(pointsOf(plan.path), map, options.costmap);
+      const Points start = {request.start.position.head<2>()};
+      EXPECT_EQ(plan.message.find("nearer than the radius") != std::string::npos,
+                nearest(start, map, kOccupied, options.costmap.radius) <
+                    options.costmap.radius * (1.0 - 1e-7))
+          << plan.message;
+      expectNotBlocked(plan, *planner.fullResolutionCosts(StopToken()), random);
+    }
+  }
+  EXPECT_GT(found, 1000);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::planning
