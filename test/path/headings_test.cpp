@@ -8,7 +8,7 @@
 namespace grid_path_planner::path {
 namespace {
 
-Path pathThrough(const std::vector<Eigen::Vector2d>& points) {
+Path pathOfWrongYaws(const std::vector<Eigen::Vector2d>& points) {
   Path path;
   for (const Eigen::Vector2d& point : points) {
     Pose pose;
@@ -27,7 +27,7 @@ std::vector<double> yawsOf(const Path& path) {
 
 std::vector<double> headings(const std::vector<Eigen::Vector2d>& points, double start_yaw,
                              double goal_yaw, HeadingMode mode) {
-  Path path = pathThrough(points);
+  Path path = pathOfWrongYaws(points);
   applyHeadings(path, start_yaw, goal_yaw, mode);
   return yawsOf(path);
 }
@@ -110,7 +110,7 @@ TEST(Headings, EmptyPathStaysEmpty) {
   EXPECT_TRUE(path.empty());
 }
 
-Path randomPath(std::mt19937& random) {
+Path randomPathWithRepeats(std::mt19937& random) {
   std::uniform_real_distribution<double> place(-50.0, 50.0);
   std::vector<Eigen::Vector2d> points;
   const int count = std::uniform_int_distribution<int>(1, 12)(random);
@@ -118,7 +118,7 @@ Path randomPath(std::mt19937& random) {
     const bool repeat = i > 0 && std::bernoulli_distribution(0.2)(random);
     points.push_back(repeat ? points.back() : Eigen::Vector2d(place(random), place(random)));
   }
-  return pathThrough(points);
+  return pathOfWrongYaws(points);
 }
 
 // navigation2#2482, #2162: headings missing, the last yaw 0.
@@ -126,7 +126,7 @@ TEST(HeadingsLaw, LastYawIsTheGoalsAndAllAreFiniteInEveryMode) {
   std::mt19937 random(2482);
   std::uniform_real_distribution<double> angle(-M_PI, M_PI);
   for (int trial = 0; trial < 300; ++trial) {
-    Path path = randomPath(random);
+    Path path = randomPathWithRepeats(random);
     const Path before = path;
     const double start = angle(random), goal = angle(random);
     for (const auto& [name, mode] : choicesOf(HeadingMode{})) {
@@ -143,7 +143,7 @@ TEST(HeadingsLaw, LastYawIsTheGoalsAndAllAreFiniteInEveryMode) {
 TEST(HeadingsLaw, ForwardIsTheTangent) {
   std::mt19937 random(2162);
   for (int trial = 0; trial < 300; ++trial) {
-    Path path = randomPath(random);
+    Path path = randomPathWithRepeats(random);
     applyHeadings(path, 0.0, 0.0, HeadingMode::FORWARD);
     for (std::size_t i = 0; i + 1 < path.poses.size(); ++i) {
       const Eigen::Vector3d step = path.poses[i + 1].position - path.poses[i].position;
@@ -158,7 +158,7 @@ TEST(HeadingsLaw, InterpolateNeverTurnsMoreThanHalfRound) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> angle(-10.0, 10.0);
   for (int trial = 0; trial < 300; ++trial) {
-    Path path = randomPath(random);
+    Path path = randomPathWithRepeats(random);
     const double start = angle(random), goal = angle(random);
     applyHeadings(path, start, goal, HeadingMode::INTERPOLATE);
     double turned = 0.0;
@@ -170,7 +170,7 @@ TEST(HeadingsLaw, InterpolateNeverTurnsMoreThanHalfRound) {
 }
 
 std::vector<double> heights(const std::vector<Eigen::Vector2d>& points, PathZ mode) {
-  Path path = pathThrough(points);
+  Path path = pathOfWrongYaws(points);
   applyZ(path, 1.0, 5.0, -7.0, mode);
   std::vector<double> z;
   for (const Pose& pose : path.poses) z.push_back(pose.position.z());
@@ -192,7 +192,7 @@ TEST(PathHeight, WithoutLength) {
 }
 
 TEST(PathHeight, LengthIsHorizontal) {
-  Path path = pathThrough({{0, 0}, {1, 0}, {2, 0}});
+  Path path = pathOfWrongYaws({{0, 0}, {1, 0}, {2, 0}});
   path.poses[1].position.z() = 1000.0;
   applyZ(path, 0.0, 4.0, 0.0, PathZ::INTERPOLATE);
   EXPECT_DOUBLE_EQ(path.poses[1].position.z(), 2.0);

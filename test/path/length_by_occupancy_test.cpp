@@ -5,6 +5,7 @@
 
 #include "grid_path_planner/path/metrics.h"
 #include "support/ascii_map.h"
+#include "support/path_through.h"
 
 namespace grid_path_planner::path {
 
@@ -12,15 +13,7 @@ using grid::OccupancyGrid;
 
 namespace {
 
-Path pathThrough(const std::vector<Eigen::Vector2d>& points) {
-  Path path;
-  for (const Eigen::Vector2d& point : points) {
-    Pose pose;
-    pose.position << point, 0.0;
-    path.poses.push_back(pose);
-  }
-  return path;
-}
+using test::pathThrough;
 
 TEST(Crossing, SplitsALineAtTheCells) {
   const OccupancyGrid map = test::AsciiMap({".?#."}, 0.5).map;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "support/ascii_map.h"
+#include "support/path_through.h"
 
 namespace grid_path_planner::path {
 
@@ -18,15 +19,7 @@ using grid::OccupancyThresholds;
 namespace {
 
 using test::AsciiMap;
-
-Path pathThrough(const std::vector<Eigen::Vector2d>& points) {
-  Path path;
-  for (const Eigen::Vector2d& point : points) {
-    path.poses.emplace_back();
-    path.poses.back().position << point, 0.0;
-  }
-  return path;
-}
+using test::pathThrough;
 
 TEST(Metrics, Square) {
   const Path square = pathThrough({{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}});

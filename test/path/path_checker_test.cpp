@@ -7,6 +7,7 @@
 
 #include "support/ascii_map.h"
 #include "support/error_text.h"
+#include "support/path_through.h"
 
 namespace grid_path_planner::path {
 
@@ -19,16 +20,8 @@ namespace {
 using test::AsciiMap;
 using test::kNoViolations;
 using test::PathRules;
+using test::pathThrough;
 using test::pathViolations;
-
-Path pathThrough(const std::vector<Eigen::Vector2d>& points) {
-  Path path;
-  for (const Eigen::Vector2d& point : points) {
-    path.poses.emplace_back();
-    path.poses.back().position << point, 0.0;
-  }
-  return path;
-}
 
 // The violations of a path through points in cell units, whose ends are the ones asked for.
 std::vector<std::string> violations(const std::vector<std::string>& lines,

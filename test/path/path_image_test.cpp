@@ -8,6 +8,7 @@
 
 #include "support/ascii_map.h"
 #include "support/error_text.h"
+#include "support/path_through.h"
 #include "support/temporary_folder.h"
 
 namespace grid_path_planner::path {
@@ -23,6 +24,7 @@ using test::AsciiMap;
 using test::contains;
 using test::contentOf;
 using test::errorText;
+using test::pathThrough;
 using test::TemporaryFolder;
 
 using Colour = std::array<int, 3>;
@@ -44,16 +46,6 @@ bool isOrange(const Colour& c) {
 }
 bool isBlue(const Colour& c) {
   return c[2] > c[0] + 60 && c[2] > c[1] + 30;
-}
-
-Path pathThrough(const std::vector<Eigen::Vector2d>& points, double goal_yaw = 0.0) {
-  Path path;
-  for (const Eigen::Vector2d& point : points) {
-    path.poses.emplace_back();
-    path.poses.back().position << point, 0.0;
-  }
-  if (!path.empty()) path.poses.back().yaw = goal_yaw;
-  return path;
 }
 
 PictureContent along(const Path& path, const std::vector<Cell>& expanded = {}) {

@@ -287,7 +287,7 @@ TEST(WaypointFile, FullDiskLeavesTheOldFileWhole) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"path.yaml"});
 }
 
-Path randomPath(std::mt19937& random) {
+Path pathOfRandomNumbers(std::mt19937& random) {
   std::uniform_real_distribution<double> yaw(-M_PI, M_PI), exponent(-12.0, 6.0), sign(-1.0, 1.0);
   Path path;
   path.poses.resize(std::uniform_int_distribution<int>(1, 30)(random));
@@ -305,7 +305,7 @@ TEST(WaypointFileLaw, RoundTripIsLossless) {
   const TemporaryFolder folder;
   const std::string file = folder.path("path.yaml");
   for (int trial = 0; trial < 100; ++trial) {
-    const Path path = randomPath(random);
+    const Path path = pathOfRandomNumbers(random);
     writeWaypointFile(file, path);
     const Path again = readWaypointFile(file);
     ASSERT_EQ(again.poses.size(), path.poses.size());
@@ -334,7 +334,7 @@ TEST(WaypointFileLaw, ExtremeNumbersComeBack) {
 TEST(WaypointFileLaw, TruncatedFilesNeverInventAWaypoint) {
   std::mt19937 random(3165);
   const TemporaryFolder folder;
-  Path path = randomPath(random);
+  Path path = pathOfRandomNumbers(random);
   path.poses.resize(4);
   const std::string file = folder.path("path.yaml");
   writeWaypointFile(file, path);
@@ -356,7 +356,7 @@ TEST(WaypointFileLaw, RandomDamageIsRefusedOrHarmless) {
   std::mt19937 random(180);
   const TemporaryFolder folder;
   const std::string file = folder.path("path.yaml");
-  Path path = randomPath(random);
+  Path path = pathOfRandomNumbers(random);
   writeWaypointFile(file, path);
   const std::string whole = contentOf(file);
   const std::string letters = "{}[]:,-#&*!|>'\"%@`\n\t 019.eE\\x";

@@ -28,16 +28,10 @@ using grid::CellIndex;
 using grid::Grid;
 using grid::GridGeometry;
 using grid::Occupancy;
+using test::cellsOf;
 using test::costsOf;
 
 namespace {
-
-std::vector<Cell> cellsOf(const CostGrid& map) {
-  std::vector<Cell> cells;
-  for (std::uint32_t i = 0; i < map.geometry().size(); ++i)
-    cells.push_back(map.geometry().cell(CellIndex(i)));
-  return cells;
-}
 
 Cell passableCell(std::mt19937& random, const CostGrid& map) {
   for (;;) {

@@ -24,7 +24,7 @@ using grid::Grid;
 
 namespace {
 
-SearchKey keyOf(const ExactCost& cost) {
+SearchKey searchKeyOf(const ExactCost& cost) {
   return static_cast<SearchKey>(cost.straight) * kStraightKey +
          static_cast<SearchKey>(cost.diagonal) * kDiagonalKey;
 }
@@ -54,7 +54,7 @@ void expectBounds(const Bound& bound, const CostGrid& map, std::uint32_t goal) {
   EXPECT_EQ(bound(goal), 0U);
   for (std::uint32_t i = 0; i < costs.size(); ++i)
     if (costs[i]) {
-      ASSERT_LE(bound(i), keyOf(*costs[i])) << "from " << map.geometry().cell(CellIndex(i));
+      ASSERT_LE(bound(i), searchKeyOf(*costs[i])) << "from " << map.geometry().cell(CellIndex(i));
     }
 }
 
@@ -83,9 +83,10 @@ TEST(LandmarkTable, KnowsTheCostsOfItsLandmarks) {
       const auto costs = test::referenceCosts(map, landmark);
       for (std::uint32_t i = 0; i < costs.size(); ++i)
         if (costs[i] && table.unit().exact()) {
-          EXPECT_EQ(bound(i), keyOf(*costs[i]));
+          EXPECT_EQ(bound(i), searchKeyOf(*costs[i]));
         } else if (costs[i]) {
-          EXPECT_GE(static_cast<double>(bound(i)), 0.999 * static_cast<double>(keyOf(*costs[i])));
+          EXPECT_GE(static_cast<double>(bound(i)),
+                    0.999 * static_cast<double>(searchKeyOf(*costs[i])));
         }
     }
     (table.unit().exact() ? exact : rounded) += 1;
@@ -175,7 +176,8 @@ TEST(ExactTable, BoundsAreTheCost) {
     const auto costs = test::referenceCosts(map, map.geometry().cell(CellIndex(goal)));
     for (std::uint32_t i = 0; i < costs.size(); ++i) {
       if (costs[i])
-        EXPECT_GE(static_cast<double>(bound(i)), 0.999999 * static_cast<double>(keyOf(*costs[i])));
+        EXPECT_GE(static_cast<double>(bound(i)),
+                  0.999999 * static_cast<double>(searchKeyOf(*costs[i])));
       else
         EXPECT_TRUE(bound(i) == kInfiniteKey || !map.passable(map.geometry().cell(CellIndex(i))));
     }

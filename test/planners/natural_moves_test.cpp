@@ -22,7 +22,7 @@ using grid::GridGeometry;
 
 namespace {
 
-constexpr unsigned kEast = 0, kNorthEast = 4;
+constexpr unsigned kStepEast = 0, kStepNorthEast = 4;
 
 unsigned naturalIn(const Window& window, unsigned step) {
   return naturalMoves(window) >> (8 * step) & 255U;
@@ -42,7 +42,7 @@ TEST(NaturalMoves, TurnPastACorner) {
   EXPECT_EQ(naturalIn({1, 1, 1,  //
                        1, 1, 1,  //
                        0, 1, 1},
-                      kEast),
+                      kStepEast),
             1U << 0 | 1U << 1 | 1U << 4)
       << "north and north-east too, which the blocked cell hides from the cell before";
 }
@@ -51,7 +51,7 @@ TEST(NaturalMoves, EndBeforeAWall) {
   EXPECT_EQ(naturalIn({1, 1, 0,  //
                        1, 1, 0,  //
                        1, 1, 0},
-                      kEast),
+                      kStepEast),
             0U);
 }
 
@@ -59,7 +59,7 @@ TEST(NaturalMoves, GoAroundAnExpensiveMiddle) {
   EXPECT_EQ(naturalIn({1, 1, 1,  //
                        1, 9, 1,  //
                        1, 1, 1},
-                      kNorthEast),
+                      kStepNorthEast),
             0U);
 }
 
@@ -67,7 +67,7 @@ TEST(NaturalMoves, GoStraightBeforeWeightsIncrease) {
   const Window downhill = {3, 2, 1,  //
                            3, 2, 1,  //
                            3, 2, 1};
-  EXPECT_EQ(naturalIn(downhill, kEast), 1U << 0 | 1U << 4 | 1U << 7)
+  EXPECT_EQ(naturalIn(downhill, kStepEast), 1U << 0 | 1U << 4 | 1U << 7)
       << "3 + 2 root 2 is less than 3 root 2 + 2";
 }
 

@@ -16,35 +16,35 @@ using grid::OccupancyGrid;
 
 namespace {
 
-SearchResult planOn(const test::AsciiMap& picture) {
+SearchResult polyanyaOn(const test::AsciiMap& picture) {
   Polyanya planner;
   planner.prepare(test::costsOf(picture.map), StopToken());
   return planner.search({picture.start, {picture.goal}, false}, StopToken());
 }
 
 TEST(Polyanya, SeesTheGoalInItsOwnRectangle) {
-  const SearchResult result = planOn(test::AsciiMap({"S......",  //
-                                                     ".......",  //
-                                                     "......G"}));
+  const SearchResult result = polyanyaOn(test::AsciiMap({"S......",  //
+                                                         ".......",  //
+                                                         "......G"}));
   EXPECT_EQ(result.status, Status::FOUND);
   EXPECT_EQ(result.statistics.expanded, 0U);
 }
 
 TEST(Polyanya, ExpandsNothingWhereThereIsNoPath) {
-  const SearchResult result = planOn(test::AsciiMap({"...#...",  //
-                                                     ".S.#.G.",  //
-                                                     "...#..."}));
+  const SearchResult result = polyanyaOn(test::AsciiMap({"...#...",  //
+                                                         ".S.#.G.",  //
+                                                         "...#..."}));
   EXPECT_EQ(result.status, Status::UNREACHABLE);
   EXPECT_EQ(result.statistics.generated, 0U);
 }
 
 // Neither the bay above nor the chambers below are on the path.
 TEST(Polyanya, LeavesOutWhatLeadsNowhereElse) {
-  const SearchResult result = planOn(test::AsciiMap({"##...##########",  //
-                                                     "S.............G",  //
-                                                     "####.#####.####",  //
-                                                     "####.#####...##",  //
-                                                     "####...####..##"}));
+  const SearchResult result = polyanyaOn(test::AsciiMap({"##...##########",  //
+                                                         "S.............G",  //
+                                                         "####.#####.####",  //
+                                                         "####.#####...##",  //
+                                                         "####...####..##"}));
   ASSERT_EQ(result.status, Status::FOUND);
   EXPECT_EQ(result.statistics.generated, 0U);
 }

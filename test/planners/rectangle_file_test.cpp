@@ -29,13 +29,13 @@ using test::FreeCells;
 
 constexpr std::size_t kHeaderSize = 61;  // as the header file of the format says
 
-std::vector<CellRect> cut(const FreeCells& free) {
+std::vector<CellRect> largestRectangles(const FreeCells& free) {
   return largestFirst(test::bitMapsOf(free), {}, StopToken());
 }
 
 RectangleGraph publishedMap() {
   const FreeCells free = test::publishedExample();
-  return RectangleGraph(GridGeometry(10, 10, 0.05, {-1.5, 2.25, 0.3}), cut(free),
+  return RectangleGraph(GridGeometry(10, 10, 0.05, {-1.5, 2.25, 0.3}), largestRectangles(free),
                         Touching::BORDERS);
 }
 
@@ -102,7 +102,7 @@ TEST_F(RectangleFile, comesBackInEveryOrder) {
   for (int trial = 0; trial < 300; ++trial) {
     const FreeCells free = trial % 2 ? test::randomBlocks(random_, 60)
                                      : test::randomFreeCells(random_, 40, trial % 10 / 9.0);
-    std::vector<CellRect> rectangles = cut(free);
+    std::vector<CellRect> rectangles = largestRectangles(free);
     expectComesBack(free.geometry(), rectangles);
     expectComesBack(free.geometry(), mergedRuns(test::bitMapsOf(free).rows, StopToken()));
     std::shuffle(rectangles.begin(), rectangles.end(), random_);
@@ -124,7 +124,7 @@ TEST_F(RectangleFile, keepsTheGeometryToTheBit) {
 
 TEST_F(RectangleFile, leavesOutWhatEditsLeftVacant) {
   FreeCells free = test::randomBlocks(random_, 40);
-  RectangleGraph map(free.geometry(), cut(free), Touching::BORDERS);
+  RectangleGraph map(free.geometry(), largestRectangles(free), Touching::BORDERS);
   map.edit(BitMap(free.width(), free.height()), free.geometry().rect(), StopToken());
   for (std::uint8_t& cell : free.values()) cell = 0;
   free.values()[0] = 1;
@@ -143,7 +143,7 @@ TEST_F(RectangleFile, aMapWithoutCellsHasNone) {
 
 TEST_F(RectangleFile, largestFirstCostsNothingToKeep) {
   const FreeCells free = test::randomFreeCells(random_, 60, 0.8);
-  std::vector<CellRect> rectangles = cut(free);
+  std::vector<CellRect> rectangles = largestRectangles(free);
   const auto sizeOf = [&free](const std::vector<CellRect>& list) {
     return rectangleFileContent(RectangleGraph(free.geometry(), list, Touching::BORDERS)).size();
   };

@@ -20,27 +20,28 @@ namespace {
 
 using test::FreeCells;
 
-std::vector<CellRect> cut(const std::vector<CellRect>& free, const std::vector<CellRect>& blocked) {
+std::vector<CellRect> fewest(const std::vector<CellRect>& free,
+                             const std::vector<CellRect>& blocked) {
   return fewestRectangles(free, blocked, StopToken());
 }
 
 TEST(FewestRectangles, JoinsWhatIsOneRectangle) {
-  EXPECT_TRUE(cut({}, {}).empty());
-  EXPECT_TRUE(cut({{2, 3, 4, 5}}, {{0, 0, 10, 10}}).empty());
-  EXPECT_EQ(cut({{3, 1, 2, 4}, {5, 1, 6, 4}}, {}), (std::vector<CellRect>{{3, 1, 8, 4}}));
-  EXPECT_EQ(cut({{0, 0, 500, 30}}, {{499, 0, 1, 30}}), (std::vector<CellRect>{{0, 0, 499, 30}}));
+  EXPECT_TRUE(fewest({}, {}).empty());
+  EXPECT_TRUE(fewest({{2, 3, 4, 5}}, {{0, 0, 10, 10}}).empty());
+  EXPECT_EQ(fewest({{3, 1, 2, 4}, {5, 1, 6, 4}}, {}), (std::vector<CellRect>{{3, 1, 8, 4}}));
+  EXPECT_EQ(fewest({{0, 0, 500, 30}}, {{499, 0, 1, 30}}), (std::vector<CellRect>{{0, 0, 499, 30}}));
 }
 
 TEST(FewestRectangles, IsLargestFirstWhereThatIsAsFew) {
   EXPECT_EQ(
-      cut({{0, 0, 500, 30}}, {{77, 12, 1, 1}}),
+      fewest({{0, 0, 500, 30}}, {{77, 12, 1, 1}}),
       (std::vector<CellRect>{{78, 0, 422, 30}, {0, 0, 77, 30}, {77, 13, 1, 17}, {77, 0, 1, 12}}));
 }
 
 // Largest first would start with a bar of the cross, and need six more rectangles.
 TEST(FewestRectangles, UsesRunsWhereTheseAreFewer) {
   const std::vector<CellRect> cross = {{4, 0, 4, 12}, {0, 4, 12, 4}, {3, 3, 6, 6}};
-  const std::vector<CellRect> rectangles = cut(cross, {});
+  const std::vector<CellRect> rectangles = fewest(cross, {});
   EXPECT_EQ(rectangles.size(), 5U);
 }
 
@@ -64,7 +65,7 @@ TEST(FewestRectangles, IsAPartitionAndTheSmallestOfThree) {
     };
     draw(free, 1, 50);
     draw(blocked, 0, trial % 2 == 0 ? 10 : 2);
-    const std::vector<CellRect> rectangles = cut(free, blocked);
+    const std::vector<CellRect> rectangles = fewest(free, blocked);
     ASSERT_TRUE(test::isPartition(cells, rectangles));
     const BitMaps bits = test::bitMapsOf(cells);
     EXPECT_EQ(rectangles.size(), std::min({largestFirst(bits, {}, StopToken()).size(),

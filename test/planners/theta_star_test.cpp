@@ -20,29 +20,29 @@ namespace {
 
 using test::costsOf;
 
-SearchResult planOn(const std::shared_ptr<const CostGrid>& map, Cell start, Cell goal) {
+SearchResult thetaStarOn(const std::shared_ptr<const CostGrid>& map, Cell start, Cell goal) {
   LazyThetaStar planner;
   planner.prepare(map, StopToken());
   return planner.search({start, {goal}, false}, StopToken());
 }
 
-SearchResult planOn(const test::AsciiMap& picture) {
-  return planOn(costsOf(picture.map), picture.start, picture.goal);
+SearchResult thetaStarOn(const test::AsciiMap& picture) {
+  return thetaStarOn(costsOf(picture.map), picture.start, picture.goal);
 }
 
 TEST(LazyThetaStar, CrossesOpenWaterInOneLine) {
-  const SearchResult result = planOn(test::AsciiMap({"S......",  //
-                                                     ".......",  //
-                                                     "......G"}));
+  const SearchResult result = thetaStarOn(test::AsciiMap({"S......",  //
+                                                          ".......",  //
+                                                          "......G"}));
   EXPECT_EQ(result.cells, (std::vector<Cell>{{0, 0}, {6, 2}}));
   EXPECT_NEAR(result.costValue(), std::hypot(6, 2), 1e-12);
 }
 
 TEST(LazyThetaStar, TurnsOnlyAtCorners) {
-  const SearchResult result = planOn(test::AsciiMap({"S..#...",  //
-                                                     "...#...",  //
-                                                     ".......",  //
-                                                     "......G"}));
+  const SearchResult result = thetaStarOn(test::AsciiMap({"S..#...",  //
+                                                          "...#...",  //
+                                                          ".......",  //
+                                                          "......G"}));
   ASSERT_EQ(result.status, Status::FOUND);
   EXPECT_LE(result.cells.size(), 4u);
   EXPECT_LT(result.costValue(), 3.0 + 3.0 * std::sqrt(2.0)) << "what a grid path costs";
@@ -53,15 +53,15 @@ TEST(LazyThetaStar, AvoidsExpensiveCells) {
   const test::AsciiMap picture({"........",  //
                                 "S.????.G",  //
                                 "..????.."});
-  const SearchResult result = planOn(picture);
+  const SearchResult result = thetaStarOn(picture);
   ASSERT_EQ(result.status, Status::FOUND);
   EXPECT_LT(result.costValue(), 10.0) << "straight through unknown cells: 50 a cell";
 }
 
 // navigation2#5863: a segment squeezes between two obstacles that touch at a corner.
 TEST(LazyThetaStar, DoesNotSqueezeThroughACorner) {
-  EXPECT_EQ(planOn(test::AsciiMap({"S#",  //
-                                   "#G"}))
+  EXPECT_EQ(thetaStarOn(test::AsciiMap({"S#",  //
+                                        "#G"}))
                 .status,
             Status::UNREACHABLE);
 }
@@ -89,7 +89,8 @@ TEST(LazyThetaStar, ALateQueryIsAnsweredLikeTheFirst) {
 TEST(LazyThetaStar, SaysWhatItCannotPlanWith) {
   CostmapOptions options;
   options.motion.connectivity = Connectivity::FOUR;
-  const SearchResult result = planOn(costsOf(test::AsciiMap({"S.G"}).map, options), {0, 0}, {2, 0});
+  const SearchResult result =
+      thetaStarOn(costsOf(test::AsciiMap({"S.G"}).map, options), {0, 0}, {2, 0});
   EXPECT_EQ(result.status, Status::INVALID_REQUEST);
   EXPECT_EQ(result.message, "lazy_theta_star does not plan with connectivity 4, which a_star does");
 }

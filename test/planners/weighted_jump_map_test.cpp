@@ -19,6 +19,7 @@ using grid::CellIndex;
 using grid::CellRect;
 using grid::Grid;
 using grid::GridGeometry;
+using test::cellsOf;
 
 namespace {
 
@@ -64,13 +65,6 @@ void expectJumpsFollowSteps(const WeightedJumpMap& jumps, const CostGrid& map, C
     ASSERT_EQ(jump.weights, weights) << from << " step " << step;
     ASSERT_EQ(deadEndAt(jumps, step, from), steps == 0) << from << " step " << step;
   }
-}
-
-std::vector<Cell> cellsOf(const CostGrid& map) {
-  std::vector<Cell> cells;
-  for (std::uint32_t i = 0; i < map.geometry().size(); ++i)
-    cells.push_back(map.geometry().cell(CellIndex(i)));
-  return cells;
 }
 
 void expectAlike(const WeightedJumpMap& a, const WeightedJumpMap& b, const CostGrid& map) {

@@ -9,6 +9,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "support/ascii_map.h"
+#include "support/vehicle_run.h"
 
 namespace grid_path_planner::simulation {
 
@@ -16,18 +17,11 @@ using base::BodyVelocity;
 using base::InputError;
 using grid::OccupancyGrid;
 using grid::Origin;
+using test::run;
 
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-void run(Vehicle& vehicle, const BodyVelocity& velocity, double seconds) {
-  const int steps = static_cast<int>(std::lround(seconds / vehicle.options().time_step));
-  for (int i = 0; i < steps; ++i) {
-    vehicle.command(velocity);
-    vehicle.step();
-  }
-}
 
 void coast(Vehicle& vehicle, double seconds) {
   const int steps = static_cast<int>(std::lround(seconds / vehicle.options().time_step));

@@ -7,11 +7,13 @@
 
 #include "grid_path_planner/simulation/vehicle.h"
 #include "support/ascii_map.h"
+#include "support/vehicle_run.h"
 
 namespace grid_path_planner::simulation {
 
 using base::BodyVelocity;
 using grid::OccupancyGrid;
+using test::run;
 
 namespace {
 
@@ -33,14 +35,6 @@ Vehicle vehicleIn(const std::shared_ptr<const World>& world, const Vector3d& pos
   Vehicle vehicle(options, {position, 0.0});
   vehicle.setWorld(world);
   return vehicle;
-}
-
-void run(Vehicle& vehicle, const BodyVelocity& velocity, double seconds) {
-  const int steps = static_cast<int>(std::lround(seconds / vehicle.options().time_step));
-  for (int i = 0; i < steps; ++i) {
-    vehicle.command(velocity);
-    vehicle.step();
-  }
 }
 
 TEST(VehicleInWorld, TheSphereEndsAtTheSurfaceAndSaysWhatItIs) {

@@ -78,4 +78,11 @@ std::shared_ptr<const CostGrid> costsOf(const OccupancyGrid& map, const CostmapO
   return builder.downsampled(base::StopToken());
 }
 
+std::vector<Cell> cellsOf(const CostGrid& map) {
+  std::vector<Cell> cells;
+  for (std::uint32_t i = 0; i < map.geometry().size(); ++i)
+    cells.push_back(map.geometry().cell(grid::CellIndex(i)));
+  return cells;
+}
+
 }  // namespace grid_path_planner::test

@@ -39,4 +39,7 @@ std::shared_ptr<const costmap::CostGrid> costsOf(const FreeCells& free, std::uin
 std::shared_ptr<const costmap::CostGrid> costsOf(const grid::OccupancyGrid& map,
                                                  const costmap::CostmapOptions& options = {});
 
+// All cells, row by row.
+std::vector<grid::Cell> cellsOf(const costmap::CostGrid& map);
+
 }  // namespace grid_path_planner::test

@@ -14,7 +14,7 @@ using grid::GridGeometry;
 
 namespace {
 
-GridGeometry randomGeometry(std::mt19937& random, int largest_side) {
+GridGeometry geometryUpTo(std::mt19937& random, int largest_side) {
   std::uniform_int_distribution<int> side(1, largest_side);
   const int width = side(random);
   return GridGeometry(width, side(random), 1.0);
@@ -50,14 +50,14 @@ FreeCells publishedExample() {
 }
 
 FreeCells randomFreeCells(std::mt19937& random, int largest_side, double free) {
-  FreeCells cells(randomGeometry(random, largest_side));
+  FreeCells cells(geometryUpTo(random, largest_side));
   std::bernoulli_distribution draw(free);
   for (std::uint8_t& cell : cells.values()) cell = draw(random) ? 1 : 0;
   return cells;
 }
 
 FreeCells randomBlocks(std::mt19937& random, int largest_side) {
-  FreeCells cells(randomGeometry(random, largest_side), 1);
+  FreeCells cells(geometryUpTo(random, largest_side), 1);
   std::uniform_int_distribution<int> count(0, 12), side(1, 1 + largest_side / 5);
   std::uniform_int_distribution<int> column(0, cells.width() - 1), row(0, cells.height() - 1);
   for (int blocks = count(random); blocks > 0; --blocks) {

@@ -21,20 +21,20 @@ namespace {
 
 using test::errorText;
 
-RectangleMap goodMessage() {
+RectangleMap goodRectangles() {
   return rectanglesToMessage(GridGeometry(10, 6, 0.05, {-1.5, 2.0, 0.0}),
                              {{0, 0, 4, 3}, {4, 0, 2, 1}, {9, 5, 1, 1}}, "map", ros::Time(12, 34));
 }
 
 // What is said of a good message after `spoil`.
-std::string errorOf(const std::function<void(RectangleMap&)>& spoil) {
-  RectangleMap message = goodMessage();
+std::string errorOfRectangles(const std::function<void(RectangleMap&)>& spoil) {
+  RectangleMap message = goodRectangles();
   spoil(message);
   return errorText([&message] { rectanglesFromMessage(message, Touching::BORDERS); });
 }
 
 TEST(RectangleMessages, SayWhereAndWhat) {
-  const RectangleMap message = goodMessage();
+  const RectangleMap message = goodRectangles();
   EXPECT_EQ(message.header.frame_id, "map");
   EXPECT_EQ(message.header.stamp, ros::Time(12, 34));
   EXPECT_EQ(message.info.width, 10u);
@@ -75,19 +75,19 @@ TEST(RectangleMessages, LeaveOutVacantNumbers) {
 }
 
 TEST(RectangleMessages, BadOnesAreRefusedByName) {
-  EXPECT_EQ(errorOf([](RectangleMap&) {}), "");
-  EXPECT_EQ(errorOf([](auto& message) { message.rectangles[1].width = 0; }),
+  EXPECT_EQ(errorOfRectangles([](RectangleMap&) {}), "");
+  EXPECT_EQ(errorOfRectangles([](auto& message) { message.rectangles[1].width = 0; }),
             "rectangle 1 [4, 0, 0, 1] holds no cell");
-  EXPECT_EQ(errorOf([](auto& message) { message.rectangles[2].height = 2; }),
+  EXPECT_EQ(errorOfRectangles([](auto& message) { message.rectangles[2].height = 2; }),
             "rectangle 2 [9, 5, 1, 2] leaves the map of 10x6 cells");
-  EXPECT_EQ(errorOf([](auto& message) { message.rectangles[1].column = 3; }),
+  EXPECT_EQ(errorOfRectangles([](auto& message) { message.rectangles[1].column = 3; }),
             "rectangle 0 [0, 0, 4, 3] overlaps rectangle 1 [3, 0, 2, 1]");
-  EXPECT_EQ(errorOf([](auto& message) { message.rectangles[1].row = 0xffffffffu; }),
+  EXPECT_EQ(errorOfRectangles([](auto& message) { message.rectangles[1].row = 0xffffffffu; }),
             "rectangle 1 has a number beyond any map, 4294967295");
-  EXPECT_EQ(errorOf([](auto& message) { message.rectangles[1].column = 0x7fffffffu; }),
+  EXPECT_EQ(errorOfRectangles([](auto& message) { message.rectangles[1].column = 0x7fffffffu; }),
             "rectangle 1 [2147483647, 0, 2, 1] leaves the map of 10x6 cells");
-  EXPECT_NE(errorOf([](auto& message) { message.info.width = 0; }), "");
-  EXPECT_NE(errorOf([](auto& message) { message.info.resolution = 0; }), "");
+  EXPECT_NE(errorOfRectangles([](auto& message) { message.info.width = 0; }), "");
+  EXPECT_NE(errorOfRectangles([](auto& message) { message.info.resolution = 0; }), "");
 }
 
 }  // namespace
