@@ -1,6 +1,7 @@
 #include "ros/common/system_state.h"
 
 #include <ros/this_node.h>
+#include <xmlrpcpp/XmlRpcException.h>
 
 #include <algorithm>
 

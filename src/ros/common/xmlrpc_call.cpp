@@ -5,6 +5,7 @@
 #include <ros/this_node.h>
 #include <xmlrpcpp/XmlRpcClient.h>
 #include <xmlrpcpp/XmlRpcDispatch.h>
+#include <xmlrpcpp/XmlRpcException.h>
 
 #include <cstdint>
 
