@@ -13,9 +13,8 @@ namespace {
 
 using test::ClosedLoop;
 using test::pathOf;
-using Kind = Obstruction::Kind;
 
-const grid::OccupancyGrid& map() {
+const grid::OccupancyGrid& wallMap() {
   static const test::AsciiMap picture({"..????..",  // y 0 to 1
                                        "........",  //
                                        "..####..",  // y 2 to 3
@@ -32,7 +31,7 @@ ClosedLoop pushedTo(double x, double y) {
 }
 
 std::string blockedBy(const std::vector<Eigen::Vector3d>& ahead, const ClearanceLimits& limits) {
-  return firstObstruction(map(), limits, ahead) ? "obstructed" : "";
+  return firstObstruction(wallMap(), limits, ahead) ? "obstructed" : "";
 }
 
 TEST(ReturnToPath, AWallBetweenTheVehicleAndItsPathStopsIt) {
@@ -79,13 +78,13 @@ TEST(ReturnToPath, IsCheckedAsFarAsTheVehicleLooks) {
 
 std::optional<Obstruction> found(const std::vector<Eigen::Vector3d>& ahead,
                                  const ClearanceLimits& limits) {
-  return firstObstruction(map(), limits, ahead);
+  return firstObstruction(wallMap(), limits, ahead);
 }
 
 TEST(Obstruction, OccupiedCellsOfTheReturnToPathAndOfThePath) {
   const auto back = found({{3.5, 1.5, 0}, {3.5, 4.5, 0}, {7.5, 4.5, 0}}, {});
   ASSERT_TRUE(back);
-  EXPECT_EQ(back->kind, Kind::OCCUPIED);
+  EXPECT_EQ(back->kind, Obstruction::Kind::OCCUPIED);
   EXPECT_EQ(back->at, Eigen::Vector2d(3.5, 2.5));
   EXPECT_TRUE(found({{0.5, 2.5, 0}, {0.5, 2.5, 0}, {7.5, 2.5, 0}}, {}));
   EXPECT_FALSE(found({{0.5, 1.5, 0}, {0.5, 4.5, 0}, {7.5, 4.5, 0}}, {}));
@@ -110,11 +109,11 @@ TEST(Obstruction, UnknownCellsAndTheOutsideWhereThatIsAskedFor) {
     EXPECT_FALSE(found(points, {}));
     EXPECT_TRUE(found(points, {{}, 0.0, true}));
   }
-  EXPECT_EQ(found(unknown, {{}, 0.0, true})->kind, Kind::UNKNOWN);
+  EXPECT_EQ(found(unknown, {{}, 0.0, true})->kind, Obstruction::Kind::UNKNOWN);
   EXPECT_EQ(found(unknown, {{}, 0.0, true})->at, Eigen::Vector2d(2.5, 0.5));
-  EXPECT_EQ(found(outside, {{}, 0.0, true})->kind, Kind::OUTSIDE);
-  EXPECT_EQ(found(back, {{}, 0.0, true})->kind, Kind::UNKNOWN);
-  EXPECT_EQ(found(out, {{}, 0.0, true})->kind, Kind::OUTSIDE);
+  EXPECT_EQ(found(outside, {{}, 0.0, true})->kind, Obstruction::Kind::OUTSIDE);
+  EXPECT_EQ(found(back, {{}, 0.0, true})->kind, Obstruction::Kind::UNKNOWN);
+  EXPECT_EQ(found(out, {{}, 0.0, true})->kind, Obstruction::Kind::OUTSIDE);
   EXPECT_FALSE(found({{0.5, 1.5, 0}, {0.5, 4.5, 0}}, {{}, 0.0, true}));
 }
 

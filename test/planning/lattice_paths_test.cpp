@@ -118,7 +118,7 @@ Map randomMap(std::mt19937& random, int largest_side, std::uint64_t revision = 0
   return keeping(CostGrid(weights, Grid<Occupancy>(geometry), MotionModel()), revision);
 }
 
-void expectShortest(Planner& planner, const Map& map, Cell start, Cell goal, int& found) {
+void expectShortestInLattice(Planner& planner, const Map& map, Cell start, Cell goal, int& found) {
   const SearchResult result = planner.search({start, {goal}, false}, StopToken());
   const auto shortest = test::shortestInLattice(*map, start, goal);
   ASSERT_EQ(result.status, shortest ? Status::FOUND : Status::UNREACHABLE);
@@ -145,7 +145,7 @@ TEST_P(LatticePaths, AreAsShortAsTheVisibilityGraphs) {
     const Cell start = test::randomCell(random, map->geometry());
     const Cell goal = test::randomCell(random, map->geometry());
     if (map->passable(start) && map->passable(goal))
-      expectShortest(*planner, map, start, goal, found);
+      expectShortestInLattice(*planner, map, start, goal, found);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(found, 800);
@@ -165,7 +165,7 @@ TEST_P(LatticePaths, AreAsShortAsTheVisibilityGraphsOnWideMaps) {
     const Cell start{static_cast<int>(random() % 60), static_cast<int>(random() % 4)};
     const Cell goal{66 + static_cast<int>(random() % 9), static_cast<int>(random() % 4)};
     if (map->passable(start) && map->passable(goal))
-      expectShortest(*planner, map, start, goal, found);
+      expectShortestInLattice(*planner, map, start, goal, found);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(found, 3);
@@ -186,7 +186,7 @@ TEST_P(LatticePaths, AreAsShortAsTheVisibilityGraphsOverBlocks) {
     const Cell start = test::randomCell(random, map->geometry());
     const Cell goal = test::randomCell(random, map->geometry());
     if (map->passable(start) && map->passable(goal))
-      expectShortest(*planner, map, start, goal, found);
+      expectShortestInLattice(*planner, map, start, goal, found);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(found, 150);
