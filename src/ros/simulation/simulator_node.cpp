@@ -152,6 +152,8 @@ void SimulatorNode::onTimer(const ros::SteadyTimerEvent&) {
   for (; pending_time_ >= time_step && !mustWaitForCamera() && !mustWaitForCommand();
        pending_time_ -= time_step)
     step();
+  // What was waited for is not made up for: it would be many steps without an odometry between them.
+  if (mustWaitForCommand()) pending_time_ = std::min(pending_time_, time_step);
   if (vehicle_->timeNs() == before) return;
   publishState();
   contact_publisher_.update(*vehicle_);

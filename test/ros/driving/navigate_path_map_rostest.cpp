@@ -94,7 +94,7 @@ class NavigateByMapServer : public test::StillTest {
   ~NavigateByMapServer() override { std::remove(file_.c_str()); }
 
   void serve() { server_ = std::make_unique<Process>("map_publisher", arguments()); }
-  std::vector<std::string> arguments() const { return {"_filename:=" + file_}; }
+  std::vector<std::string> arguments() const { return {"--filename", file_}; }
 
   std::string file_;
   std::unique_ptr<Process> server_;
