@@ -3,7 +3,7 @@
 // distances are measured.
 //
 //   EndSegments ends(costs);                             // the costmap at full resolution
-//   if (ends.leavesStart(pose, centre)) ...
+//   use(ends.leavesStart(pose, centre));
 //
 // A start may be nearer than the distances that are kept: then the line is never nearer than the
 // start, and keeps them beyond one cell diagonal.

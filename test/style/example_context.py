@@ -6,6 +6,20 @@ COMMON = "extern const StopToken stop; template <class... T> void use(const T&..
 
 CONTEXT = {
     "background.h": "struct Table { Table(int, const StopToken&); }; extern std::shared_ptr<int> map;",
+    "guarded_queue.h": "extern ros::NodeHandle nh;",
+    "master_watch.h": "void halt();",
+    "update_sequence.h": "#include <map_msgs/OccupancyGridUpdate.h>\n#include <ros/message_event.h>\nextern UpdateSequence sequence;"
+                         "extern ros::MessageEvent<map_msgs::OccupancyGridUpdate const> event;"
+                         "extern map_msgs::OccupancyGridUpdate message; void askForAWholeMap();",
+    "drive_loop.h": "extern ros::NodeHandle nh; extern NavigatePathOptions options; extern FrameTransforms transforms;"
+                    "extern Path path; void queue(std::function<void()>); void takeReports();",
+    "map_watch.h": "extern ros::NodeHandle nh;",
+    "map_autosave.h": "extern std::string folder; extern ros::NodeHandle private_nh; extern ProjectedMapOptions options;"
+                      "extern ros::Time newest_cloud;",
+    "path_clearance_check.h": "extern const OccupancyGrid& map; extern std::vector<Eigen::Vector3d> ahead; void halt(const Eigen::Vector2d&);",
+    "extent.h": "extern double x, y; extern CellRect cells; extern std::vector<BrickColumn> changed;"
+                "extern const OccupancyBricks& bricks; extern ProjectionOptions options;",
+    "end_segments.h": "extern const CostGrid& costs; extern Eigen::Vector2d pose, centre;",
     "bit_maps.h": "extern const CostGrid& map;",
     "bucket_queue.h": "extern SearchKey f, f_of_the_start; extern unsigned width_shift;"
                       "extern BucketQueue::Index index;",

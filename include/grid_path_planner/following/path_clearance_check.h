@@ -1,6 +1,6 @@
 // Whether the path ahead of a vehicle is free in a map, and its return to the path.
 //
-//   if (const auto found = firstObstruction(map, {{25, 65}, 0.35, true}, ahead)) stop(found->at);
+//   if (const auto found = firstObstruction(map, {{25, 65}, 0.35, true}, ahead)) halt(found->at);
 #pragma once
 
 #include <Eigen/Core>

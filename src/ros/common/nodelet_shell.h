@@ -14,7 +14,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "ros/common/guarded_queue.h"
-#include "ros/common/master_watch.h"
+#include "ros/common/master/master_watch.h"
 
 namespace grid_path_planner::nodes {
 

@@ -10,7 +10,7 @@
 #include <mutex>
 
 #include "ros/common/guarded_queue.h"
-#include "ros/common/master_watch.h"
+#include "ros/common/master/master_watch.h"
 
 namespace grid_path_planner::nodes {
 namespace {

@@ -3,7 +3,7 @@
 //
 //   DriveLoop loop(nh, options, transforms, [&] { queue(&takeReports); });
 //   loop.start(path, Join::NEAREST);                  // throws InputError
-//   for (const DriveReport& report : loop.takeReports()) use(report.message);
+//   for (const DriveReport& report : loop.takeReports()) use(report.note);
 //
 // The follower belongs to this thread alone: others hand it work over a callback queue, and it serves
 // the topics that must be obeyed whatever else the node does. Guaranteed: the thread reads no file,
@@ -36,7 +36,7 @@
 #include "grid_path_planner/following/path_follower.h"
 #include "ros/common/frame_transforms.h"
 #include "ros/common/guarded_queue.h"
-#include "ros/common/master_watch.h"
+#include "ros/common/master/master_watch.h"
 #include "ros/driving/map_life.h"
 #include "ros/driving/navigate_path_options.h"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "ros/common/xmlrpc_call.h"
+#include "ros/common/master/xmlrpc_call.h"
 
 namespace grid_path_planner::nodes {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "grid_path_planner/TeleopJoyConfig.h"
 #include "grid_path_planner/base/options.h"
+#include "ros/common/master/system_state.h"
 #include "ros/common/parameters.h"
-#include "ros/common/system_state.h"
 
 namespace grid_path_planner::nodes {
 

@@ -7,8 +7,8 @@
 //           left_out_m2: what the 2-D map does not hold of the tree, for projection_max_cells, with a
 //           warning, tree_messages: how often the 3-D topics were built
 //
-//   autosave: age_s of the file that a node begins with when it starts again, below 0: none yet;
-//           newest_cloud: the stamp of the newest cloud in it; a warning where it cannot be written
+// autosave: age_s of the file that a node begins with when it starts again, below 0: none yet;
+// newest_cloud: the stamp of the newest cloud in it; a warning where it cannot be written.
 //
 // All received clouds are in the map when waiting is 0 and received is inserted + dropped.
 #pragma once

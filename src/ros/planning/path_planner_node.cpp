@@ -9,9 +9,9 @@
 #include "grid_path_planner/planning/unused_options.h"
 #include "ros/common/clock.h"
 #include "ros/common/file_kinds.h"
+#include "ros/common/master/system_state.h"
 #include "ros/common/network_text.h"
 #include "ros/common/parameters.h"
-#include "ros/common/system_state.h"
 
 namespace grid_path_planner::nodes {
 

@@ -13,7 +13,7 @@
 
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/path/waypoint_file.h"
-#include "ros/common/xmlrpc_call.h"
+#include "ros/common/master/xmlrpc_call.h"
 #include "ros/support/still_fixture.h"
 
 namespace grid_path_planner::nodes {

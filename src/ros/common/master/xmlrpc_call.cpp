@@ -1,4 +1,4 @@
-#include "ros/common/xmlrpc_call.h"
+#include "ros/common/master/xmlrpc_call.h"
 
 #include <ros/master.h>
 #include <ros/network.h>

@@ -1,7 +1,7 @@
 // Whether the master is there, and this process registered with it again where it was restarted.
 //
 //   const auto master = MasterWatch::shared();
-//   if (master->silence() > 30.0) stop();
+//   if (master->silence() > 30.0) halt();
 //
 // roscpp registers names once: a master that was restarted knows none of them, so that nobody finds
 // the services and topics of a node that runs on. The watch asks every second and registers all

@@ -1,4 +1,4 @@
-#include "ros/common/system_state.h"
+#include "ros/common/master/system_state.h"
 
 #include <ros/this_node.h>
 #include <xmlrpcpp/XmlRpcException.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "grid_path_planner/base/errors.h"
-#include "ros/common/xmlrpc_call.h"
+#include "ros/common/master/xmlrpc_call.h"
 
 namespace grid_path_planner::nodes {
 namespace {

@@ -1,4 +1,4 @@
-#include "ros/common/master_watch.h"
+#include "ros/common/master/master_watch.h"
 
 #include <ros/connection_manager.h>
 #include <ros/console.h>
@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
-#include "ros/common/system_state.h"
-#include "ros/common/xmlrpc_call.h"
+#include "ros/common/master/system_state.h"
+#include "ros/common/master/xmlrpc_call.h"
 
 namespace grid_path_planner::nodes {
 namespace {
