@@ -111,7 +111,7 @@ TEST_F(PathPlannerRectanglesTest, NothingIsAdvertisedUnlessWantedAndThatMayChang
 
 // Noise takes many times as long to cut as a path to find: the answer is there before.
 TEST_F(PathPlannerRectanglesTest, PlansDoNotWaitForTheRectangles) {
-  startPlanner({"_publish_rectangles:=true"});
+  startPlanner({"_publish_rectangles:=true", "_timeout:=20"});  // a Debug build took more than 5 s
   std::mt19937 random(1);
   OccupancyGrid noise(GridGeometry(2000, 2000, 1.0));
   for (std::int8_t& value : noise.values()) value = random() % 3 == 0 ? 100 : 0;
