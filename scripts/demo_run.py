@@ -121,7 +121,7 @@ def survey(nodes, vehicle, mapping, map_file):
 
 def plan_rows(s, path):
     return [("status", s.status),
-            ("planner", "%s, %s, kernel %d" % (s.planner, s.heuristic, s.kernel)),
+            ("planner", ", ".join(filter(None, (s.planner, s.heuristic, "kernel %d" % s.kernel)))),
             ("path", "%.2f m, %d waypoints" % (s.length_m, len(path.poses))),
             ("cost", "%.3f" % s.cost),
             ("clearance", "%.2f m" % s.clearance_m),
