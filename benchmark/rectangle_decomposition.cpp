@@ -21,6 +21,7 @@ using namespace grid_path_planner::base;
 using namespace grid_path_planner::costmap;
 using namespace grid_path_planner::grid;
 using namespace grid_path_planner::planners;
+namespace test = grid_path_planner::test;
 
 test::FreeCells freeCellsOf(const OccupancyGrid& map) {
   test::FreeCells free(map.geometry());
