@@ -60,6 +60,8 @@ void MapWatch::onHeartbeat() {
   const auto heartbeat = receiver_.heartbeat();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    // Another's heartbeat does not end the watch of those of the map's own publisher.
+    if (life_.heartbeat && heartbeat->publisher != heartbeat_of_) return;
     heartbeat_of_ = heartbeat->publisher;
     life_.heartbeat = life_.map.publisher == heartbeat_of_;
     if (!life_.heartbeat) return;  // of a map that has not come

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <utility>
 
@@ -16,6 +15,7 @@
 namespace grid_path_planner::nodes {
 
 using base::InputError;
+using base::RegularFile;
 using base::StopSource;
 using base::TaskQueue;
 using base::writeFileAtomically;
@@ -24,7 +24,8 @@ using mapping::MapModel;
 namespace {
 
 constexpr char kSlot[] = "autosave";
-constexpr int kPause = 9;  // times what making the text took
+constexpr std::size_t kBeginning = 4096;  // bytes, that hold the lines before the octree
+constexpr int kPause = 9;                 // times what making the text took
 constexpr char kNewestCloud[] = "# newest cloud ";
 
 // "/a/projected_map" to "a.projected_map": names of nodes have no dots.
@@ -63,12 +64,17 @@ std::string MapAutosave::marker() const {
 
 // The lines of the file that say whose it is and what is in it; "" without such a file.
 std::string MapAutosave::beginning() const {
-  std::ifstream file(file_, std::ios::binary);
-  std::string first, whose, newest;
-  if (run_.empty() || !std::getline(file, first) || !std::getline(file, whose) ||
-      !std::getline(file, newest) || whose != "# " + marker())
+  if (run_.empty()) return "";
+  try {
+    std::istringstream file(RegularFile(file_).read(0, kBeginning));
+    std::string first, whose, newest;
+    if (!std::getline(file, first) || !std::getline(file, whose) || !std::getline(file, newest) ||
+        whose != "# " + marker())
+      return "";
+    return newest;
+  } catch (const InputError&) {  // none, or no regular file
     return "";
-  return newest;
+  }
 }
 
 std::string MapAutosave::begin() const {

@@ -5,6 +5,7 @@
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
@@ -42,6 +43,14 @@ class NavigateMap : public test::StillTest {
     return !all.empty() && !test::isZero(all.back());
   }
 
+  std::size_t beatsOfAnother() const {
+    const auto all = beats_.all();
+    return static_cast<std::size_t>(std::count_if(
+        all.begin(), all.end(),
+        [](const map_msgs::OccupancyGridUpdate& update) { return update.header.stamp.isZero(); }));
+  }
+
+  test::Latest<map_msgs::OccupancyGridUpdate> beats_{nh_, "projected_map_updates"};
   ros::Publisher maps_ = nh_.advertise<nav_msgs::OccupancyGrid>("projected_map", 1, true);
   ros::Publisher updates_ =
       nh_.advertise<map_msgs::OccupancyGridUpdate>("projected_map_updates", 10);
@@ -80,6 +89,20 @@ TEST_F(NavigateMap, HeartbeatsChangeNothing) {
   publishPath(pathOf({{0, 0}, {50, 0}}));
   ASSERT_TRUE(beatsUntil([&] { return drivesNow() && reported("heartbeat") == "True"; }));
   EXPECT_EQ(navigate_->output().find("was dropped"), std::string::npos);
+}
+
+// What was seen before: the beats of another node, as of a second mapping, ended the watch of those of
+// the map's own publisher, which then needed only to answer XML-RPC.
+TEST_F(NavigateMap, HeartbeatsOfAnotherNodeDoNotCount) {
+  publishMap();
+  startNavigate({"_check_map:=true", "_map_timeout:=1.0", "_no_progress_timeout:=0"});
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(beatsUntil([&] { return drivesNow() && reported("heartbeat") == "True"; }));
+  const test::Process other("projected_map", {"__name:=another_mapping", "projected_map:=elsewhere",
+                                              "_heartbeat_period:=0.1", "_autosave_period:=0"});
+  ASSERT_TRUE(beatsUntil([&] { return updates_.getNumSubscribers() > 0 && beatsOfAnother() > 2; }));
+  EXPECT_TRUE(stops());
+  EXPECT_TRUE(reports(DiagnosticStatus::WARN, "blocked: the map on /projected_map is not kept up"));
 }
 
 // A map_publisher with a map of its own, which says nothing once the map is sent.

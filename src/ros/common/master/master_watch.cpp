@@ -5,6 +5,7 @@
 #include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
+#include <xmlrpcpp/XmlRpcException.h>
 
 #include <algorithm>
 #include <optional>
@@ -69,6 +70,9 @@ void MasterWatch::run() {
     lock.unlock();
     try {
       ask();
+    } catch (const XmlRpc::XmlRpcException& error) {  // no std::exception
+      ROS_ERROR_STREAM_THROTTLE(5.0,
+                                "The master's answer is not understood: " << error.getMessage());
     } catch (const std::exception& error) {
       ROS_ERROR_STREAM_THROTTLE(5.0, "The master's answer is not understood: " << error.what());
     }

@@ -52,7 +52,11 @@ std::optional<XmlRpcValue> callXmlRpc(const std::string& uri, const std::string&
 }
 
 bool answersXmlRpc(const std::string& uri, double seconds) {
-  return ask(uri, "getPid", {XmlRpcValue(ros::this_node::getName())}, seconds).has_value();
+  try {
+    return ask(uri, "getPid", {XmlRpcValue(ros::this_node::getName())}, seconds).has_value();
+  } catch (const XmlRpc::XmlRpcException&) {
+    return false;
+  }
 }
 
 std::string masterUri() {
