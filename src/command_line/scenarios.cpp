@@ -38,7 +38,7 @@ namespace {
 
 namespace po = boost::program_options;
 
-constexpr double kRelativeError = 1e-5;  // the files' costs are rounded
+constexpr double kRelativeError = 1e-5;  // the files' costs are sums of single precision
 constexpr double kRounding = 1e-12;      // a planner's once, by exact integers
 constexpr double kRootsRounding = 1e-9;
 
@@ -158,26 +158,28 @@ class Reference {
 
   const std::string& name() const { return name_; }
 
+  struct Cost {
+    double value;
+    double error;  // at most, up or down
+  };
+
   // None where there is no path.
-  std::optional<double> costOf(const ScenarioQuery& query) const {
-    if (!planner_) return query.optimum;
+  std::optional<Cost> costOf(const ScenarioQuery& query) const {
+    if (!planner_)
+      return Cost{query.optimum, std::max(kRelativeError * query.optimum, query.rounding)};
     const SearchResult result = searchOrThrow(*planner_, requestOf(query, kernel_));
-    if (result.status == Status::FOUND) return result.costValue();
-    return std::nullopt;
+    if (result.status != Status::FOUND) return std::nullopt;
+    // The lengths of any angle are sums of roots.
+    const double relative = planner_->traits().any_angle ? kRootsRounding : kRounding;
+    return Cost{result.costValue(), relative * result.costValue()};
   }
 
-  bool contradicts(const SearchResult& result, const std::optional<double>& least) const {
+  bool contradicts(const SearchResult& result, const std::optional<Cost>& least) const {
     if ((result.status == Status::FOUND) != least.has_value()) return true;
     if (!least) return false;
-    const double more = result.costValue() - *least, allowed = tolerance() * *least;
-    return (correct_ != Comparison::NOT_MORE && more < -allowed) ||
-           (correct_ != Comparison::NOT_LESS && more > allowed);
-  }
-
-  // Relative: the file's optima are rounded, and the lengths of any angle are sums of roots.
-  double tolerance() const {
-    if (!planner_) return kRelativeError;
-    return planner_->traits().any_angle ? kRootsRounding : kRounding;
+    const double more = result.costValue() - least->value;
+    return (correct_ != Comparison::NOT_MORE && more < -least->error) ||
+           (correct_ != Comparison::NOT_LESS && more > least->error);
   }
 
  private:
@@ -243,14 +245,14 @@ struct Results {
 
   void add(const ScenarioQuery& query, const SearchResult& result, const Reference& reference) {
     paths.add(result);
-    const std::optional<double> least = reference.costOf(query);
+    const std::optional<Reference::Cost> least = reference.costOf(query);
     const bool wrong = reference.contradicts(result, least);
     totals.wrong += wrong ? 1 : 0;
     if (least)
-      totals.add(result, *least);
+      totals.add(result, least->value);
     else
       ++totals.unsolvable;
-    if (least || wrong) csv += csvLine(query, result, least.value_or(-1.0), wrong);
+    if (least || wrong) csv += csvLine(query, result, least ? least->value : -1.0, wrong);
   }
 };
 

@@ -1,5 +1,6 @@
 #include "grid_path_planner/study/scenario_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -14,6 +15,12 @@ using grid::GridGeometry;
 namespace {
 
 constexpr std::size_t kLargestScenarioFile = std::size_t{1} << 28;  // bytes
+
+// How many decimals a number is printed with.
+std::size_t decimalsOf(const std::string& number) {
+  const std::size_t point = number.find('.');
+  return point == std::string::npos ? 0 : number.size() - point - 1;
+}
 
 ScenarioQuery queryOf(const std::string& file, int line, const std::string& text) {
   ScenarioQuery query;
@@ -38,6 +45,7 @@ std::vector<ScenarioQuery> readScenarioFile(const std::string& file) {
   std::istringstream in(readWholeFile(file, kLargestScenarioFile));
   std::vector<ScenarioQuery> queries;
   int line = 0;
+  std::size_t decimals = 0;
   for (std::string text; std::getline(in, text);) {
     ++line;
     if (!text.empty() && text.back() == '\r') text.pop_back();
@@ -48,8 +56,10 @@ std::vector<ScenarioQuery> readScenarioFile(const std::string& file) {
     }
     if (text.find_first_not_of(" \t") == std::string::npos) continue;
     queries.push_back(queryOf(file, line, text));
+    decimals = std::max(decimals, decimalsOf(text.substr(text.find_last_of(" \t") + 1)));
   }
   if (queries.empty()) throw InputError(file, "has no queries");
+  for (ScenarioQuery& query : queries) query.rounding = 0.5 * std::pow(10.0, -double(decimals));
   return queries;
 }
 

@@ -15,8 +15,9 @@ struct ScenarioQuery {
   int height = 0;
   grid::Cell start;
   grid::Cell goal;
-  double optimum = 0.0;  // cell lengths, diagonals sqrt 2, corners not cut
-  int line = 0;          // in the file, from 1
+  double optimum = 0.0;   // cell lengths, diagonals sqrt 2, corners not cut
+  double rounding = 0.0;  // of the optimum: half a unit of the last decimal that the file prints
+  int line = 0;           // in the file, from 1
 };
 
 // Throws InputError naming file and line.
