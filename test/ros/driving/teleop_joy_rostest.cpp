@@ -5,12 +5,14 @@
 #include <sensor_msgs/Joy.h>
 
 #include "ros/support/latest.h"
+#include "ros/support/navigate_fixture.h"
 #include "ros/support/process.h"
 
 namespace grid_path_planner::nodes {
 namespace {
 
 using geometry_msgs::Twist;
+using test::isZero;
 using test::Latest;
 using test::Process;
 
@@ -21,10 +23,6 @@ sensor_msgs::Joy joyOf(float surge, bool deadman) {
   message.buttons.assign(11, 0);
   message.buttons[4] = deadman;
   return message;
-}
-
-bool isZero(const Twist& t) {
-  return t.linear.x == 0.0 && t.linear.y == 0.0 && t.linear.z == 0.0 && t.angular.z == 0.0;
 }
 
 class TeleopJoyTest : public testing::Test {

@@ -20,6 +20,7 @@ using planners::Touching;
 namespace {
 
 using test::AsciiMap;
+using test::kRoom;
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
@@ -56,10 +57,6 @@ class PathPlannerRectanglesTest : public test::PlannerTest {
   test::Latest<RectangleMap> maps_told_{nh_, "rectangle_map"};
   test::Latest<MarkerArray> markers_{nh_, "rectangle_markers"};
 };
-
-const std::vector<std::string> kRoom = {"......",  //
-                                        ".####.",  //
-                                        "......"};
 
 TEST_F(PathPlannerRectanglesTest, TheSearchedMapIsToldAndToldAgainWhenItChanges) {
   startPlanner({"_publish_rectangles:=true"});

@@ -18,13 +18,10 @@ using path::readWaypointFile;
 namespace {
 
 using test::AsciiMap;
+using test::kRoom;
 using test::poseAt;
 
 class PathPlannerTest : public test::PlannerTest {};
-
-const std::vector<std::string> kRoom = {"......",  //
-                                        ".####.",  //
-                                        "......"};
 
 TEST_F(PathPlannerTest, AGoalGetsAPathFromWhereTheVehicleIs) {
   startPlanner();

@@ -26,11 +26,8 @@ using planners::plannerNames;
 namespace {
 
 using dynamic_reconfigure::ConfigTools;
+using test::kRoom;
 using test::poseAt;
-
-const std::vector<std::string> kRoom = {"......",  //
-                                        ".####.",  //
-                                        "......"};
 
 class ServicesTest : public test::PlannerTest {
  protected:

@@ -27,6 +27,10 @@
 
 namespace grid_path_planner::test {
 
+const std::vector<std::string> kRoom = {"......",  //
+                                        ".####.",  //
+                                        "......"};
+
 inline geometry_msgs::PoseStamped poseAt(double x, double y, double yaw = 0.0,
                                          const std::string& frame = "map") {
   geometry_msgs::PoseStamped message;
