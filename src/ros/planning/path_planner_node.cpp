@@ -66,6 +66,8 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
     : nh_(nh) {
   const PathPlannerNodeOptions options = loadOptions(private_nh, files);
   warnUnusedOptions(options.planner);
+  ROS_INFO("Planning may take %zu MB (memory_limit)",
+           memoryLimitOf(options.planner.search) / 1000000);
   refuseOtherCommander({{}, {nh.resolveName("plan_path")}, "", false});
   server_ =
       std::make_unique<PlanningServer>(nh, options, files, [this] { active_goal_.forgetStart(); });

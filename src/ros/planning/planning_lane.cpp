@@ -1,5 +1,6 @@
 #include "ros/planning/planning_lane.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/current_error.h"
@@ -21,9 +22,11 @@ using base::StopToken;
 using costmap::CostGrid;
 using path::clearanceOf;
 using path::Pose;
+using planners::memoryLimitOf;
 using planning::failedPlan;
 using planning::PathPlanner;
 using planning::Plan;
+using planning::PlannerOptions;
 using planning::PoseRequest;
 
 namespace {
@@ -43,10 +46,12 @@ std::optional<double> oldestStart(const PathPlannerNodeOptions& options) {
 
 }  // namespace
 
-PlanningLane::PlanningLane(MapReceiver& maps, std::size_t reader, const FrameTransforms& transforms)
+PlanningLane::PlanningLane(MapReceiver& maps, std::size_t reader, const FrameTransforms& transforms,
+                           const PlanningLane* other)
     : maps_(maps),
       reader_(reader),
       transforms_(transforms),
+      other_(other),
       planner_(std::make_unique<PathPlanner>()),
       worker_([this](const std::string& error) {
         tellGivenUp("What follows a map", error);
@@ -68,13 +73,15 @@ Plan PlanningLane::tryToPlan(const PlanningRequest& request, const PathPlannerNo
     waitForClock(stop.token());
     if (on_phase) on_phase("preparing");
     updateMap();
-    planner_->setOptions(optionsFor(request, options));
+    setOptions(optionsFor(request, options));
     if (!planner_->hasMap())
       return failedPlan(Status::NO_MAP, "no map has come on " + maps_.topic() + " yet");
     PoseRequest poses = posesOf(request, options, stop.token());
     poses.record_expanded = options.record_search;
     if (on_phase) on_phase("searching");
-    return planner_->plan(poses, stop);
+    Plan plan = planner_->plan(poses, stop);
+    bytes_ = planner_->bytes();
+    return plan;
   } catch (const InputError& error) {
     return failedPlan(Status::INVALID_REQUEST, error.what());
   } catch (const TransformError& error) {
@@ -142,24 +149,33 @@ void PlanningLane::useMap(const MapChange& change) {
     planner_->updateMap(change.map.grid, *change.changed);
 }
 
+void PlanningLane::setOptions(const PlannerOptions& options) {
+  planner_->setOptions(options);
+  const std::size_t limit = memoryLimitOf(options.search);
+  planner_->limitMemory(limit - std::min(limit, other_ ? other_->bytes_.load() : 0));
+}
+
 // An exception may have left the costmaps or the planner half made; and what they held is free.
 void PlanningLane::beginAnew() {
   anew_ = true;
   planner_.reset();
+  bytes_ = 0;
   planner_ = std::make_unique<PathPlanner>();
 }
 
 std::shared_ptr<const CostGrid> PlanningLane::downsampledCosts(
     const PathPlannerNodeOptions& options, const StopToken& stop) {
   updateMap();
-  planner_->setOptions(options.planner);
-  return planner_->hasMap() ? planner_->downsampledCosts(stop) : nullptr;
+  setOptions(options.planner);
+  auto costs = planner_->hasMap() ? planner_->downsampledCosts(stop) : nullptr;
+  bytes_ = planner_->bytes();
+  return costs;
 }
 
 std::shared_ptr<const CostGrid> PlanningLane::fullResolutionCosts(
     const PathPlannerNodeOptions& options, const StopToken& stop) {
   updateMap();
-  planner_->setOptions(options.planner);
+  setOptions(options.planner);
   return planner_->hasMap() ? planner_->fullResolutionCosts(stop) : nullptr;
 }
 

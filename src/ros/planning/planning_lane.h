@@ -9,6 +9,7 @@
 // begins anew with the newest map.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -28,7 +29,9 @@ class PlanningLane {
   using PhaseListener = std::function<void(const char* phase)>;
 
   // `reader` is the lane's number among those of `maps`. Both outlive this, or its worker's stop().
-  PlanningLane(MapReceiver& maps, std::size_t reader, const FrameTransforms& transforms);
+  // What `other` holds (null: none) is not there for this one: they share memory_limit.
+  PlanningLane(MapReceiver& maps, std::size_t reader, const FrameTransforms& transforms,
+               const PlanningLane* other);
 
   base::TaskQueue& worker() { return worker_; }
 
@@ -60,10 +63,14 @@ class PlanningLane {
   void updateMap();
   void useMap(const MapChange& change);
   void beginAnew();
+  // Of the options, and the memory that the other lane leaves.
+  void setOptions(const planning::PlannerOptions& options);
 
   MapReceiver& maps_;
   const std::size_t reader_;
   const FrameTransforms& transforms_;
+  const PlanningLane* const other_;
+  std::atomic<std::size_t> bytes_{0};               // that the planner holds
   std::unique_ptr<planning::PathPlanner> planner_;  // the worker's, as are the next two
   std::string map_frame_id_;
   bool anew_ = false;  // the newest map is taken whole

@@ -115,8 +115,8 @@ class PlanningServer {
   FrameTransforms transforms_;
   PlanPublisher publisher_;
   MapReceiver maps_{2};
-  PlanningLane vehicle_lane_{maps_, 0, transforms_};
-  PlanningLane question_lane_{maps_, 1, transforms_};
+  PlanningLane vehicle_lane_{maps_, 0, transforms_, nullptr};
+  PlanningLane question_lane_{maps_, 1, transforms_, &vehicle_lane_};
 };
 
 }  // namespace grid_path_planner::nodes

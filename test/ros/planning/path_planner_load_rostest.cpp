@@ -80,8 +80,8 @@ TEST_F(LoadTest, ABlockedPathIsReplannedWhateverIsAsked) {
     maps_.publish(occupancyToMessage(wall, "map", ros::Time::now()));
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     return paths_.count() > paths;
-  })) << "not replanned; planning maps: " << planning_maps_.count() - maps << ", answers "
-      << answers_;
+  })) << "not replanned; planning maps: "
+      << planning_maps_.count() - maps << ", answers " << answers_;
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   EXPECT_TRUE(passes(paths_.all().back(), kSide / 2 + 0.5, kSide - 0.5, 2.0));
   std::cout << "replanned after " << took.count() << " s, a plan of "

@@ -7,7 +7,7 @@
 #include <boost/thread/mutex.hpp>
 #include <vector>
 
-// The links of a service's clients are private in roscpp, which has no other way from a call to its
+// The links of a service's clients are private in roscpp, and nothing else leads from a call to its
 // connection. Naming private members in an explicit instantiation is the one thing that C++ allows.
 namespace grid_path_planner::nodes {
 namespace {
