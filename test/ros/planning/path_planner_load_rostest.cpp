@@ -1,4 +1,5 @@
 // path_planner while it is asked more than it can answer: the vehicle's map and path come first.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -29,6 +30,9 @@ OccupancyGrid divided(OccupancyGrid map) {
   return map;
 }
 
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
 class LoadTest : public test::PlannerTest {
  protected:
   ~LoadTest() override {
@@ -43,7 +47,13 @@ class LoadTest : public test::PlannerTest {
         nav_msgs::GetPlan call;
         call.request.start = poseAt(0.5, 0.5);
         call.request.goal = poseAt(side - 0.5, side - 0.5);
-        while (!done_ && ros::service::call("/path_planner/make_plan", call)) ++answers_;
+        auto asked = Clock::now();
+        while (!done_ && ros::service::call("/path_planner/make_plan", call)) {
+          const auto answered = Clock::now();
+          slowest_ = std::max(slowest_.load(), Seconds(answered - asked).count());
+          asked = answered;
+          ++answers_;
+        }
       });
   }
 
@@ -57,6 +67,7 @@ class LoadTest : public test::PlannerTest {
 
   std::atomic<bool> done_{false};
   std::atomic<int> answers_{0};
+  std::atomic<double> slowest_{0.0};  // s
 
  private:
   std::vector<std::thread> clients_;
@@ -75,17 +86,16 @@ TEST_F(LoadTest, ABlockedPathIsReplannedWhateverIsAsked) {
   startClients(4, kSide);
   ASSERT_TRUE(waitFor([this] { return answers_ > 0; }));
   const std::size_t paths = paths_.count(), maps = planning_maps_.count();
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   ASSERT_TRUE(waitFor([&] {
     maps_.publish(occupancyToMessage(wall, "map", ros::Time::now()));
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     return paths_.count() > paths;
   })) << "not replanned; planning maps: "
       << planning_maps_.count() - maps << ", answers " << answers_;
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  const double took = Seconds(Clock::now() - begin).count();
+  EXPECT_LT(took, 1.0 + 4.0 * slowest_) << "an answer took " << slowest_ << " s";
   EXPECT_TRUE(passes(paths_.all().back(), kSide / 2 + 0.5, kSide - 0.5, 2.0));
-  std::cout << "replanned after " << took.count() << " s, a plan of "
-            << statistics_.all().back().planning_time_ms << " ms\n";
 }
 
 TEST_F(LoadTest, AComparisonOfTooManyQuestionsIsRefused) {
@@ -127,6 +137,36 @@ TEST_F(LoadTest, AComparisonEndsWithItsClient) {
   EXPECT_TRUE(waitFor([&] { return answered.load(); })) << "it compares for nobody";
   if (!answered) planner_->signal(SIGKILL);
   asks.join();
+}
+
+// A path_planner that may take so many KiB of address space. std::bad_alloc ended it.
+std::vector<std::string> limited(int kibibytes, const std::string& arguments) {
+  return {"sh", "-c",
+          "ulimit -v " + std::to_string(kibibytes) +
+              " && exec " GPP_DEVEL
+              "/lib/grid_path_planner/path_planner _planner:=dijkstra "
+              "_timeout:=0 " +
+              arguments};
+}
+
+TEST_F(LoadTest, MemoryThatIsNotThereIsAStatus) {
+  constexpr int kSide = 9000;
+  for (const char* limit : {"_memory_limit:=0", "_memory_limit:=1000000"}) {
+    startPlanner(std::make_unique<test::Process>(limited(2500000, limit)));
+    maps_.publish(occupancyToMessage(field(kSide), "map", ros::Time::now()));
+    ASSERT_TRUE(waitFor([this] {
+      makePlan(poseAt(0.5, 0.5), poseAt(kSide - 0.5, kSide - 0.5));
+      return answer_.status != "NO_MAP";
+    }));
+    EXPECT_EQ(answer_.status, "INVALID_REQUEST") << answer_.message;
+    EXPECT_NE(answer_.message.find("memory"), std::string::npos) << answer_.message;
+    publishMap(field(10));
+    makePlan(poseAt(0.5, 0.5), poseAt(9.5, 9.5));
+    EXPECT_EQ(answer_.status, "FOUND") << answer_.message;
+    EXPECT_TRUE(planner_->running());
+    planner_.reset();
+    ASSERT_TRUE(waitFor([this] { return maps_.getNumSubscribers() == 0; }));
+  }
 }
 
 }  // namespace
