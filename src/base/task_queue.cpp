@@ -1,9 +1,17 @@
 #include "grid_path_planner/base/task_queue.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "base/current_error.h"
+
 namespace grid_path_planner::base {
+namespace {
+
+constexpr int kMostOvertaken = 3;
+
+}  // namespace
 
 void TaskQueue::Task::wait() const {
   std::unique_lock<std::mutex> lock(mutex_);
@@ -15,7 +23,8 @@ bool TaskQueue::Task::waitFor(std::chrono::duration<double> limit) const {
   return changed_.wait_for(lock, limit, [this] { return ended_; });
 }
 
-TaskQueue::TaskQueue() : thread_([this] { loop(); }) {}
+TaskQueue::TaskQueue(OnError on_error)
+    : on_error_(std::move(on_error)), thread_([this] { loop(); }) {}
 
 TaskQueue::~TaskQueue() {
   stop();
@@ -25,20 +34,39 @@ std::shared_ptr<TaskQueue::Task> TaskQueue::post(Work work, const std::string& s
   auto task = std::make_shared<Task>();
   task->work_ = std::move(work);
   task->slot_ = slot;
-  std::unique_lock<std::mutex> lock(mutex_);
+  const std::lock_guard<std::mutex> lock(mutex_);
   if (stopping_) {
-    lock.unlock();
     task->cancel();
-    run(*task);
+    end(*task);
     return task;
   }
-  if (!slot.empty())
-    waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(),
-                                  [&](const auto& other) { return other->slot_ == slot; }),
-                   waiting_.end());
-  waiting_.insert(turn == Turn::NEXT ? waiting_.begin() : waiting_.end(), task);
+  insert(task, turn);
   posted_.notify_one();
   return task;
+}
+
+void TaskQueue::insert(const std::shared_ptr<Task>& task, Turn turn) {
+  const auto same = std::find_if(waiting_.begin(), waiting_.end(), [&](const auto& other) {
+    return !task->slot_.empty() && other->slot_ == task->slot_;
+  });
+  if (same != waiting_.end()) {
+    end(**same);
+    if (turn == Turn::LAST) {
+      task->overtaken_ = (*same)->overtaken_;
+      *same = task;
+      return;
+    }
+    waiting_.erase(same);
+  }
+  waiting_.insert(turn == Turn::NEXT ? overtake() : waiting_.end(), task);
+}
+
+// The place behind what may not be overtaken any more.
+TaskQueue::Waiting::iterator TaskQueue::overtake() {
+  auto place = waiting_.end();
+  while (place != waiting_.begin() && (*std::prev(place))->overtaken_ < kMostOvertaken)
+    ++(*--place)->overtaken_;
+  return place;
 }
 
 void TaskQueue::cancel(const std::string& slot) {
@@ -74,7 +102,15 @@ void TaskQueue::loop() {
 }
 
 void TaskQueue::run(Task& task) {
-  task.work_(task.stop_);
+  try {
+    task.work_(task.stop_);
+  } catch (...) {
+    if (on_error_) on_error_(currentErrorText());
+  }
+  end(task);
+}
+
+void TaskQueue::end(Task& task) {
   task.work_ = nullptr;
   std::lock_guard<std::mutex> lock(task.mutex_);
   task.ended_ = true;

@@ -61,7 +61,7 @@ po::options_description describeRectangles() {
       "write a picture with a legend: rectangles with their numbers from 1, connections with "
       "--weight")("output", po::value<std::string>(), "write the rectangles as a compact file")(
       "memory-limit", po::value<std::string>(),
-      "refuse a map that may need more, before it is cut [MB]; default 6000")(
+      "refuse a map that may need more, before it is cut [MB]; default: half of what is available")(
       "json", "print one JSON object instead of sentences");
   return known;
 }

@@ -21,7 +21,8 @@ struct RectanglesRequest {
   planners::DecompositionLimits limits;
   std::optional<planners::RectangleWeight> weight;
   planners::Touching touching = planners::Touching::BORDERS;
-  std::int64_t memory_limit = planners::SearchOptions().memory_limit;  // MB
+  std::int64_t memory_limit =  // MB
+      static_cast<std::int64_t>(planners::memoryLimitOf({}) / 1000000);
 };
 
 // The options of the command line, with those of the output.

@@ -142,6 +142,14 @@ CostmapBuilder::CostmapBuilder(const CostmapOptions& options, const KeptDistance
   checkCostmapOptions(options);
 }
 
+std::size_t CostmapBuilder::bytesFor(const GridGeometry& geometry, int kernel) {
+  const auto twice = [](const GridGeometry& of) {
+    const std::size_t cell = sizeof(CostGrid::Weight) + sizeof(Occupancy);
+    return 2 * (of.size() * cell + BitMaps::bytesFor(of));
+  };
+  return twice(geometry) + (kernel > 1 ? twice(blockGeometry(geometry, kernel)) : 0);
+}
+
 void CostmapBuilder::setMap(std::shared_ptr<const OccupancyGrid> map) {
   assert(map);
   map_ = std::move(map);

@@ -11,8 +11,8 @@ namespace grid_path_planner::planning {
 using base::Status, base::StopPoll, base::StopToken;
 using costmap::CostGrid;
 using grid::Cell, grid::CellIndex;
-using planners::BucketSearch, planners::noEstimate, planners::PlannerMaker, planners::reachableFrom,
-    planners::SearchOptions, planners::SearchResult;
+using planners::BucketSearch, planners::noEstimate, planners::memoryLimitOf, planners::PlannerMaker,
+    planners::reachableFrom, planners::SearchOptions, planners::SearchResult;
 
 namespace {
 
@@ -31,6 +31,15 @@ void append(Route& route, const std::shared_ptr<const CostGrid>& map, SearchResu
   route.legs.push_back({map, std::move(result)});
 }
 
+SearchResult tooLarge() {
+  SearchResult result;
+  result.status = Status::INVALID_REQUEST;
+  result.message =
+      "an end lies in a blocked block, and to search at full resolution takes more than "
+      "memory_limit leaves";
+  return result;
+}
+
 // Adds what another search did and how it ended, but not its path.
 void addSearch(Plan& plan, const Plan& other) {
   plan.status = other.status;
@@ -45,14 +54,24 @@ MultiResolutionPlanner::MultiResolutionPlanner(std::string planner, const Search
     : make_planner_(std::move(make_planner)),
       planner_name_(std::move(planner)),
       options_(options),
+      memory_limit_(memoryLimitOf(options)),
       planner_(make_planner_(planner_name_, options)) {}
 
 void MultiResolutionPlanner::prepare(const CostmapPair& maps, const StopToken& stop) {
   if (full_resolution_ != maps.full_resolution) followFullResolution(maps, stop);
   if (downsampled_ == maps.downsampled) return;
   downsampled_.reset();  // a stopped preparation begins anew
+  planner_->limitMemory(memory_limit_);
   planner_->update(maps.downsampled, maps.downsampled_change, stop);
   downsampled_ = maps.downsampled;
+}
+
+std::size_t MultiResolutionPlanner::bytes() const {
+  std::size_t bytes = 0;
+  if (downsampled_) bytes += planner_->bytesFor(downsampled_->geometry());
+  if (finer_map_) bytes += finer_planner_->bytesFor(finer_map_->geometry());
+  if (open_block_map_) bytes += BucketSearch::bytesFor(open_block_map_->geometry());
+  return bytes;
 }
 
 void MultiResolutionPlanner::follow(const CostmapPair& maps, const StopToken& stop) {
@@ -115,6 +134,9 @@ Route MultiResolutionPlanner::findOnKernelOne(Cell start, Cell goal, bool record
 
 SearchResult MultiResolutionPlanner::searchOpenBlock(Cell from, Cell other, const Blocks& wanted,
                                                      bool record_expanded, const StopToken& stop) {
+  if (!open_block_map_ &&
+      bytes() + BucketSearch::bytesFor(full_resolution_->geometry()) > memory_limit_)
+    return tooLarge();
   if (!open_block_search_) open_block_search_ = std::make_unique<BucketSearch>();
   if (open_block_map_ != full_resolution_) {
     open_block_map_.reset();
@@ -186,6 +208,7 @@ Route MultiResolutionPlanner::findAtFullResolution(Cell start, Cell goal, bool r
   if (!finer_planner_) finer_planner_ = make_planner_(planner_name_, options_);
   if (finer_map_ != full_resolution_) {
     finer_map_.reset();
+    finer_planner_->limitMemory(memory_limit_ - std::min(memory_limit_, bytes()));
     finer_planner_->prepare(full_resolution_, stop);
     finer_map_ = full_resolution_;
   }

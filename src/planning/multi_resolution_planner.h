@@ -7,6 +7,7 @@
 // repeated at full resolution, if that is allowed.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,6 +36,12 @@ class MultiResolutionPlanner {
   // Throws InputError for an unknown planner or options that cannot be used.
   MultiResolutionPlanner(std::string planner, const planners::SearchOptions& options,
                          planners::PlannerMaker make_planner);
+
+  // Of all searches together; memoryLimitOf() the options until then. Where it does not suffice,
+  // find() gives INVALID_REQUEST.
+  void limitMemory(std::size_t bytes) { memory_limit_ = bytes; }
+  // Memory that they may take on the maps that they are prepared for.
+  std::size_t bytes() const;
 
   // Prepares the planner for the costmaps. Where they follow those of the last call by one
   // revision, the planner is updated instead. Throws Stopped.
@@ -82,6 +89,7 @@ class MultiResolutionPlanner {
   planners::PlannerMaker make_planner_;
   std::string planner_name_;
   planners::SearchOptions options_;
+  std::size_t memory_limit_;
   std::shared_ptr<const costmap::CostGrid> full_resolution_;
   std::shared_ptr<const costmap::CostGrid> downsampled_;
   std::unique_ptr<planners::Planner> planner_;  // on downsampled_

@@ -1,5 +1,6 @@
 #include "grid_path_planner/planning/path_planner.h"
 
+#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <cmath>
@@ -21,10 +22,10 @@ using base::checkOptionLimits, base::choiceName, base::InputError, base::sameOpt
     base::Statistics, base::Status, base::Stopped, base::StopSource, base::StopToken;
 using costmap::checkCostmapOptions, costmap::Connectivity, costmap::CostGrid,
     costmap::CostmapBuilder, costmap::DiagonalCost, costmap::KeptDistances, costmap::MotionModel;
-using grid::CellRect, grid::checkOccupancyValues, grid::OccupancyGrid;
+using grid::CellRect, grid::checkOccupancyValues, grid::GridGeometry, grid::OccupancyGrid;
 using path::applyHeadings, path::applyZ, path::lengthOf, path::Path, path::Pose;
-using planners::checkSearchOptions, planners::PlannerMaker, planners::TooExpensive,
-    planners::traitsOf;
+using planners::checkSearchOptions, planners::memoryLimitOf, planners::PlannerMaker,
+    planners::TooExpensive, planners::traitsOf;
 
 namespace {
 
@@ -199,8 +200,35 @@ std::shared_ptr<const CostGrid> PathPlanner::downsampledCosts(const StopToken& s
   return followedCostmaps(stop).downsampled;
 }
 
+std::size_t PathPlanner::memoryLimit() const {
+  return std::min(memory_limit_, memoryLimitOf(options_.search));
+}
+
+std::size_t PathPlanner::bytes() const {
+  if (!hasMap()) return 0;
+  const std::size_t costs = CostmapBuilder::bytesFor(map_->geometry(), options_.costmap.kernel);
+  return bytesBesideLowered() + (lowered_ ? costs + lowered_->search.bytes() : 0);
+}
+
+std::size_t PathPlanner::bytesBesideLowered() const {
+  return 2 * map_->values().size() + search_->bytes() +
+         CostmapBuilder::bytesFor(map_->geometry(), options_.costmap.kernel);
+}
+
+std::size_t PathPlanner::memoryLeft(std::size_t taken) const {
+  const GridGeometry& geometry = map_->geometry();
+  const std::size_t needed = taken + CostmapBuilder::bytesFor(geometry, options_.costmap.kernel);
+  if (needed <= memoryLimit()) return memoryLimit() - needed;
+  std::ostringstream text;
+  text << "a map of " << geometry.width() << "x" << geometry.height() << " cells takes "
+       << needed / 1000000 + 1 << " MB with its costmaps, and memory_limit leaves "
+       << memoryLimit() / 1000000 << " MB: raise it or publish a smaller map";
+  throw InputError(text.str());
+}
+
 CostmapPair PathPlanner::costmaps(const StopToken& stop) {
   assert(hasMap());
+  search_->limitMemory(memoryLeft(2 * map_->values().size()));
   return costmapsOf(*costmap_, stop);
 }
 
@@ -239,7 +267,10 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     const auto begin = StopToken::Clock::now();
     CostmapPair maps = costmaps(token);
     Lowered* lowered = loweredFor(*maps.full_resolution, request);
-    if (lowered) maps = costmapsOf(lowered->costmap, token);
+    if (lowered) {
+      lowered->search.limitMemory(memoryLeft(bytesBesideLowered()));
+      maps = costmapsOf(lowered->costmap, token);
+    }
     MultiResolutionPlanner& search = lowered ? lowered->search : *search_;
     search.prepare(maps, token);
     const auto prepared = StopToken::Clock::now();
@@ -252,6 +283,8 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     plan = failedPlan(stopped.status(), "");
   } catch (const TooExpensive&) {
     plan = failedPlan(Status::INVALID_REQUEST, TooExpensive::kMessage);
+  } catch (const InputError& error) {
+    plan = failedPlan(Status::INVALID_REQUEST, error.what());
   }
   if (plan.status == Status::TIMEOUT)
     plan.message = "planning reached its time limit of " + number(options_.timeout) + " s";

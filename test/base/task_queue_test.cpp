@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <future>
+#include <new>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace grid_path_planner::base {
@@ -83,9 +87,55 @@ TEST(TaskQueue, EveryTaskEndsWhenTheWorkerStops) {
   waiting->wait();
   EXPECT_TRUE(hold.cancelled());
   EXPECT_TRUE(cancelled);
-  bool late_cancelled = false;
-  worker.post([&](const StopSource& stop) { late_cancelled = stop.cancelled(); })->wait();
-  EXPECT_TRUE(late_cancelled);
+}
+
+TEST(TaskQueue, NoTaskRunsInACallersThread) {
+  TaskQueue worker;
+  worker.stop();
+  bool ran = false;
+  worker.post([&](const StopSource&) { ran = true; })->wait();
+  EXPECT_FALSE(ran);
+}
+
+TEST(TaskQueue, AnExceptionEndsItsTaskAndIsTold) {
+  std::vector<std::string> told;
+  TaskQueue worker([&](const std::string& error) { told.push_back(error); });
+  worker.post([](const StopSource&) { throw std::runtime_error("the map is odd"); })->wait();
+  worker.post([](const StopSource&) { throw std::bad_alloc(); })->wait();
+  worker.post([](const StopSource&) { throw 7; })->wait();
+  EXPECT_EQ(told, (std::vector<std::string>{"the map is odd", "there is not enough memory",
+                                            "an error without a name"}));
+}
+
+// Each new map went behind the questions that waited, so it never had its turn.
+TEST(TaskQueue, AReplacedTaskKeepsItsPlace) {
+  std::vector<int> order;
+  Hold hold;
+  TaskQueue worker;
+  worker.post(hold.work());
+  hold.waitUntilHeld();
+  const auto replaced = worker.post([](const StopSource&) {}, "map");
+  const auto question = worker.post([&](const StopSource&) { order.push_back(2); });
+  worker.post([&](const StopSource&) { order.push_back(1); }, "map");
+  replaced->wait();
+  hold.release();
+  question->wait();
+  EXPECT_EQ(order, (std::vector<int>{1, 2}));
+}
+
+// Goals at 1 kHz would keep the map waiting for ever.
+TEST(TaskQueue, ATaskIsOvertakenAFewTimesOnly) {
+  std::vector<int> order;
+  Hold hold;
+  TaskQueue worker;
+  worker.post(hold.work());
+  hold.waitUntilHeld();
+  worker.post([&](const StopSource&) { order.push_back(0); });
+  for (int i = 1; i <= 5; ++i)
+    worker.post([&, i](const StopSource&) { order.push_back(i); }, "", TaskQueue::Turn::NEXT);
+  hold.release();
+  worker.post([](const StopSource&) {})->wait();
+  EXPECT_LE(std::find(order.begin(), order.end(), 0) - order.begin(), 3);
 }
 
 }  // namespace

@@ -58,10 +58,9 @@ TEST(Polyanya, RefusesMapsOfTooManyRectangles) {
   planner.prepare(test::costsOf(board), StopToken());
   const SearchResult result = planner.search({{1, 0}, {{3, 0}}, false}, StopToken());
   EXPECT_EQ(result.status, Status::INVALID_REQUEST);
-  EXPECT_EQ(
-      result.message,
-      "polyanya needs up to 4 MB to cut this map into rectangles, more than its memory_limit of "
-      "2 MB");
+  EXPECT_EQ(result.message,
+            "polyanya needs up to 4 MB to cut this map into rectangles, more than the 2 MB that "
+            "memory_limit leaves it");
   EXPECT_TRUE(planner.rectangles().empty());
 }
 

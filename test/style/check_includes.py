@@ -23,6 +23,8 @@ PLANNER_FLOORS = {
 }
 # Private headers that rooms above include too, though no other package should.
 LENT = {
+    "base/available_memory.h": {"planners"},
+    "base/current_error.h": {"ros_common", "ros_driving", "ros_planning", "ros_simulation"},
     "base/deflate.h": {"grid", "planners"},
     "base/zeroed_array.h": {"planners"},
     "grid/float_decimal.h": {"ros_common"},

@@ -7,7 +7,9 @@
 //   task->wait();
 //
 // Tasks run one at a time. A task that was cancelled before its turn is run too, with a stop source
-// that is cancelled already, so that every task comes to an end by itself and answers who asked.
+// that is cancelled already, so that every task comes to an end by itself and answers who asked. No
+// task runs in a caller's thread: one that is posted after stop() is not run at all, and has ended.
+// An exception ends its task and no other; the queue's owner is told of it.
 #pragma once
 
 #include <chrono>
@@ -26,7 +28,10 @@ namespace grid_path_planner::base {
 class TaskQueue {
  public:
   using Work = std::function<void(const StopSource&)>;
+  // NEXT goes before what waits; what was overtaken a few times is not overtaken again.
   enum class Turn { NEXT, LAST };
+  // Gets the sentence of a task's exception, in the worker's thread.
+  using OnError = std::function<void(const std::string& error)>;
 
   class Task {
    public:
@@ -40,31 +45,39 @@ class TaskQueue {
     Work work_;
     std::string slot_;
     StopSource stop_;
+    int overtaken_ = 0;  // how often
     mutable std::mutex mutex_;
     mutable std::condition_variable changed_;
     bool ended_ = false;
   };
 
-  TaskQueue();
+  explicit TaskQueue(OnError on_error = {});
   // Cancels everything and waits for its end.
   ~TaskQueue();
 
-  // A task that still waits in the same slot (not "") is dropped in favour of this one.
+  // A task that still waits in the same slot (not "") is dropped in favour of this one, which with
+  // LAST takes its place.
   std::shared_ptr<Task> post(Work work, const std::string& slot = "", Turn turn = Turn::LAST);
 
   // Cancels the task that runs and those that wait in `slot`.
   void cancel(const std::string& slot);
 
-  // As the destructor does; later posts are run at once with a cancelled stop source.
+  // As the destructor does.
   void stop();
 
  private:
-  void loop();
-  static void run(Task& task);
+  using Waiting = std::deque<std::shared_ptr<Task>>;
 
+  void loop();
+  void run(Task& task);
+  static void end(Task& task);
+  void insert(const std::shared_ptr<Task>& task, Turn turn);
+  Waiting::iterator overtake();
+
+  const OnError on_error_;
   std::mutex mutex_;
   std::condition_variable posted_;
-  std::deque<std::shared_ptr<Task>> waiting_;
+  Waiting waiting_;
   std::shared_ptr<Task> running_;
   bool stopping_ = false;
   std::thread thread_;

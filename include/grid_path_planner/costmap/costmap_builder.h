@@ -11,6 +11,7 @@
 // with a higher revision. The caller's map is never changed.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "grid_path_planner/base/stop_token.h"
@@ -27,6 +28,9 @@ class CostmapBuilder {
   // Throws InputError for options that cannot be used. `kept` replaces the distances of the options.
   explicit CostmapBuilder(const CostmapOptions& options);
   CostmapBuilder(const CostmapOptions& options, const KeptDistances& kept);
+
+  // Memory that the costmaps of a map of this geometry take, each of them twice (double_buffered.h).
+  static std::size_t bytesFor(const grid::GridGeometry& geometry, int kernel);
 
   void setMap(std::shared_ptr<const grid::OccupancyGrid> map);
   // `map` has the geometry of the current one and differs from it only inside `changed`.

@@ -10,7 +10,7 @@
 namespace grid_path_planner::planners {
 
 struct SearchOptions : AStarOptions, RectangleMapOptions {
-  int memory_limit = 6000;  // MB; of every planner
+  int memory_limit = 0;  // MB; of every planner; 0: half of what is available
 };
 
 template <class Visitor>
@@ -18,13 +18,14 @@ void visitOptions(SearchOptions& o, Visitor&& visit) {
   visitOptions(static_cast<AStarOptions&>(o), visit);
   visit("memory_limit", o.memory_limit,
         base::OptionInfo{
-            "What a planner may take for itself, the map not counted: it refuses a map that "
-            "needs more, before it takes anything",
-            "MB", 1, 1000000});
+            "What planning may take, maps and costmaps counted: a map that needs more is refused "
+            "before anything is taken; 0: half of what is available at the start, of the machine, "
+            "the control group and ulimit -v",
+            "MB", 0, 1000000});
   visitOptions(static_cast<RectangleMapOptions&>(o), visit);
 }
 
-// memory_limit in bytes.
+// memory_limit in bytes, of 0 too.
 std::size_t memoryLimitOf(const SearchOptions& options);
 
 // Throws InputError naming the option.

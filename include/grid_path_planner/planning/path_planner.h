@@ -15,6 +15,8 @@
 // Not thread-safe: one call at a time.
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -119,7 +121,14 @@ class PathPlanner {
   bool hasMap() const { return map_ != nullptr; }
   const std::shared_ptr<const grid::OccupancyGrid>& map() const { return map_; }
 
-  // The costmaps that plan() works on, made if the map or the options changed. Throw Stopped.
+  // What planning may take where that is less than options().search.memory_limit: the maps (two, as
+  // grid/double_buffered.h has them), the costmaps and the planner.
+  void limitMemory(std::size_t bytes) { memory_limit_ = bytes; }
+  // What it takes for the present map; 0 without one.
+  std::size_t bytes() const;
+
+  // The costmaps that plan() works on, made if the map or the options changed. Throw Stopped, and
+  // InputError where they would take more than the limit.
   // Precondition: hasMap().
   std::shared_ptr<const costmap::CostGrid> fullResolutionCosts(
       const base::StopToken& stop);  // kernel 1, inflated
@@ -136,6 +145,10 @@ class PathPlanner {
  private:
   struct Lowered;
 
+  std::size_t memoryLimit() const;
+  std::size_t bytesBesideLowered() const;
+  // Of costmaps and searches; throws InputError where `taken` leaves none for the costmaps.
+  std::size_t memoryLeft(std::size_t taken) const;
   // The costmaps, brought up to date.
   CostmapPair costmaps(const base::StopToken& stop);
   // The same, after the planner was updated to them where that is cheap.
@@ -148,6 +161,7 @@ class PathPlanner {
   Lowered* loweredFor(const costmap::CostGrid& costs, const PoseRequest& request);
 
   planners::PlannerMaker make_planner_;
+  std::size_t memory_limit_ = std::numeric_limits<std::size_t>::max();
   PlannerOptions options_;
   std::shared_ptr<const grid::OccupancyGrid> map_;
   std::unique_ptr<costmap::CostmapBuilder> costmap_;

@@ -82,8 +82,8 @@ void Polyanya::doPrepare(const StopToken& stop) {
 
 void Polyanya::refuseFor(std::size_t bytes) {
   refuse("needs up to " + std::to_string(bytes / 1000000 + 1) +
-         " MB to cut this map into rectangles, more than its memory_limit of " +
-         std::to_string(memoryLimit() / 1000000) + " MB");
+         " MB to cut this map into rectangles, more than the " +
+         std::to_string(memoryLimit() / 1000000) + " MB that memory_limit leaves it");
 }
 
 SearchResult Polyanya::doSearch(const SearchRequest& request, const StopToken& stop) {

@@ -184,8 +184,8 @@ std::string Planner::reasonAgainst(const CostGrid& map) const {
   const std::size_t bytes = bytesFor(map.geometry());
   if (bytes > memory_limit_)
     return sentence("needs ", megabytes(bytes), " MB to search a map of ", sizeOf(map),
-                    ", more than its memory_limit of ", megabytes(memory_limit_),
-                    " MB: ", lessMemoryAdvice());
+                    ", more than the ", memory_limit_ / 1000000,
+                    " MB that memory_limit leaves it: ", lessMemoryAdvice());
   return refusal(map);
 }
 

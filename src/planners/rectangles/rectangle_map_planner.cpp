@@ -75,9 +75,9 @@ void RectangleMapPlanner::doPrepare(const StopToken& stop) {
   rectangles_ = RectangleGraph();
   const std::size_t bytes = bytesForRuns(map().geometry(), countRuns(map().bitMaps(stop).rows));
   const auto megabytes = [](std::size_t number) { return std::to_string(number / 1000000 + 1); };
-  const std::string too_much =
-      " MB to cut this map into rectangles, more than its memory_limit of " +
-      std::to_string(memoryLimit() / 1000000) + " MB";
+  const std::string too_much = " MB to cut this map into rectangles, more than the " +
+                               std::to_string(memoryLimit() / 1000000) +
+                               " MB that memory_limit leaves it";
   if (bytes > memoryLimit()) return refuse("needs up to " + megabytes(bytes) + too_much);
   try {
     rectangles_ = decomposed(map(), memoryLimit(), stop);

@@ -16,6 +16,7 @@
 #include <memory>
 #include <mutex>
 #include <new>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -37,19 +38,23 @@ class Background {
   void start(Compute compute) {
     stop();
     source_ = base::StopSource();
-    running_ = true;
-    thread_ = std::thread([this, compute = std::move(compute), token = source_.token()]() mutable {
+    auto work = [this, compute = std::move(compute), token = source_.token()]() mutable {
       std::shared_ptr<const Result> result;
       try {
         result = std::make_shared<const Result>(compute(token));
-      } catch (const base::Stopped&) {
-      } catch (const std::bad_alloc&) {
+      } catch (...) {  // stopped, or no memory: there is no result
       }
       const std::lock_guard<std::mutex> lock(mutex_);
       result_ = std::move(result);
       running_ = false;
       ended_.notify_all();
-    });
+    };
+    running_ = true;
+    try {
+      thread_ = std::thread(std::move(work));
+    } catch (const std::system_error&) {  // no memory for its stack
+      running_ = false;
+    }
   }
 
   // Returns when the thread has ended: some thousand steps of its computation later.

@@ -34,7 +34,11 @@ void TiledDijkstra<Label>::addGoal(Cell goal) {
 template <class Label>
 void TiledDijkstra<Label>::run(int threads) {
   std::vector<std::thread> others;
-  for (int i = 1; i < threads; ++i) others.emplace_back([this] { workSafely(); });
+  try {
+    for (int i = 1; i < threads; ++i) others.emplace_back([this] { workSafely(); });
+  } catch (const std::system_error&) {
+    // No memory for another thread's stack: those that there are do the work.
+  }
   workSafely();
   for (std::thread& other : others) other.join();
   if (failure_) std::rethrow_exception(failure_);

@@ -3,10 +3,14 @@
 #include <ros/console.h>
 
 #include <boost/make_shared.hpp>
-#include <exception>
 #include <utility>
 
+#include "base/current_error.h"
+
 namespace grid_path_planner::nodes {
+
+using base::currentErrorText;
+
 namespace {
 
 class GuardedCallback : public ros::CallbackInterface {
@@ -16,8 +20,8 @@ class GuardedCallback : public ros::CallbackInterface {
   CallResult call() override {
     try {
       return callback_->call();
-    } catch (const std::exception& error) {
-      ROS_ERROR_STREAM_THROTTLE(1.0, "A callback was given up, the node goes on: " << error.what());
+    } catch (...) {
+      tellGivenUp("A callback", currentErrorText());
       return Success;
     }
   }
@@ -43,6 +47,10 @@ class Work : public ros::CallbackInterface {
 
 void GuardedQueue::addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) {
   queue_.addCallback(boost::make_shared<GuardedCallback>(callback), owner);
+}
+
+void tellGivenUp(const std::string& what, const std::string& error) {
+  ROS_ERROR_STREAM_THROTTLE(1.0, what << " was given up, the node goes on: " << error);
 }
 
 ros::CallbackInterfacePtr callbackOf(std::function<void()> work) {

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 namespace grid_path_planner::nodes {
 
@@ -26,6 +27,9 @@ class GuardedQueue : public ros::CallbackQueueInterface {
  private:
   ros::CallbackQueueInterface& queue_;
 };
+
+// Into the log, at most once a second: an exception ended `what`, and nothing else.
+void tellGivenUp(const std::string& what, const std::string& error);
 
 // Work for the thread that serves a queue.
 ros::CallbackInterfacePtr callbackOf(std::function<void()> work);

@@ -9,6 +9,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/incoming/claimed_lengths.h"
 
 namespace grid_path_planner::nodes {
 
@@ -18,7 +19,8 @@ using grid::OccupancyGrid;
 
 namespace {
 
-constexpr std::chrono::seconds kAnswer(2);  // to wait for a whole map that was asked for
+constexpr std::size_t kMostWaiting = 64 << 20;  // bytes of updates
+constexpr std::chrono::seconds kAnswer(2);      // to wait for a whole map that was asked for
 
 CellRect rectOf(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update) {
   const auto end = [](std::int64_t from, std::uint32_t length) { return from + length; };
@@ -85,7 +87,9 @@ void MapReceiver::start(ros::NodeHandle nh, std::function<void()> on_change,
   on_heartbeat_ = std::move(on_heartbeat);
   nh_ = nh;
   subscribeToMaps();
-  update_subscriber_ = nh.subscribe("projected_map_updates", 100, &MapReceiver::onUpdate, this);
+  updates_ = std::make_unique<BoundedSubscription<map_msgs::OccupancyGridUpdate>>(
+      nh, "projected_map_updates", kMostWaiting,
+      [this](const UpdateEvent& event) { onUpdate(event); });
   std::lock_guard<std::mutex> lock(mutex_);
   topic_ = map_subscriber_.getTopic();
 }
@@ -100,9 +104,9 @@ ReceivedMap MapReceiver::latest() const {
   return map_;
 }
 
-std::optional<MapChange> MapReceiver::take() {
+std::optional<MapChange> MapReceiver::take(std::size_t reader) {
   std::lock_guard<std::mutex> lock(mutex_);
-  return std::exchange(untaken_, std::nullopt);
+  return std::exchange(untaken_.at(reader), std::nullopt);
 }
 
 std::string MapReceiver::refusal() const {
@@ -117,7 +121,7 @@ std::optional<MapHeartbeat> MapReceiver::heartbeat() const {
 
 void MapReceiver::shutdown() {
   map_subscriber_.shutdown();
-  update_subscriber_.shutdown();
+  if (updates_) updates_->shutdown();
 }
 
 std::string MapReceiver::lost() const {
@@ -126,7 +130,8 @@ std::string MapReceiver::lost() const {
 }
 
 void MapReceiver::subscribeToMaps() {
-  map_subscriber_ = nh_.subscribe("projected_map", 1, &MapReceiver::onMap, this);
+  map_subscriber_ = subscribeChecked<nav_msgs::OccupancyGrid, const MapEvent&>(
+      nh_, "projected_map", 1, [this](const MapEvent& event) { onMap(event); });
 }
 
 void MapReceiver::onMap(const MapEvent& event) {
@@ -214,7 +219,7 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   try {
     apply(message);
   } catch (const InputError& error) {
-    refuse(update_subscriber_.getTopic(), error.what());
+    refuse(updates_->topic(), error.what());
     return;
   }
   on_change_();
@@ -235,9 +240,11 @@ void MapReceiver::store(ReceivedMap map, const std::optional<CellRect>& changed)
   std::lock_guard<std::mutex> lock(mutex_);
   map_ = std::move(map);
   refusal_.clear();
-  const bool all = !changed || (untaken_ && !untaken_->changed);
-  const CellRect since = untaken_ && untaken_->changed ? *untaken_->changed : CellRect{};
-  untaken_ = MapChange{map_, all ? std::nullopt : std::make_optional(since.hull(*changed))};
+  for (std::optional<MapChange>& untaken : untaken_) {
+    const bool all = !changed || (untaken && !untaken->changed);
+    const CellRect since = untaken && untaken->changed ? *untaken->changed : CellRect{};
+    untaken = MapChange{map_, all ? std::nullopt : std::make_optional(since.hull(*changed))};
+  }
 }
 
 void MapReceiver::refuse(const std::string& topic, const std::string& reason) {

@@ -8,6 +8,8 @@
 // A piece without cells (0x0) is a heartbeat: it changes nothing and is accepted before there is a
 // map; only its stamp, who sent it and when it came are kept.
 //
+// Of updates that come faster than they are applied at most 64 MB wait; the oldest are lost first.
+//
 // An update that is lost is noticed by the numbers of those that come (update_sequence.h), also of
 // heartbeats. Then the topic of maps is subscribed anew, which makes projected_map send a whole map;
 // another publisher is waited for. Until a whole map is there, lost() says so and the updates that
@@ -26,9 +28,11 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "grid_path_planner/grid/double_buffered.h"
 #include "grid_path_planner/grid/occupancy.h"
+#include "ros/common/incoming/bounded_subscription.h"
 #include "ros/common/update_sequence.h"
 
 namespace grid_path_planner::nodes {
@@ -67,6 +71,9 @@ grid::CellRect changedCells(const grid::OccupancyGrid& before, const grid::Occup
 
 class MapReceiver {
  public:
+  // `readers`: how many threads take().
+  explicit MapReceiver(std::size_t readers = 1) : untaken_(readers) {}
+
   // Subscribes. `on_change` is called after every change, `on_heartbeat` after every heartbeat, in
   // the subscriber's thread.
   void start(
@@ -78,8 +85,8 @@ class MapReceiver {
 
   // The newest map; its grid is null before the first.
   ReceivedMap latest() const;
-  // The newest map if it changed since the last call. For one caller.
-  std::optional<MapChange> take();
+  // The newest map if it changed since this reader's last call. A reader's number is for one caller.
+  std::optional<MapChange> take(std::size_t reader = 0);
   // The newest one; none before the first.
   std::optional<MapHeartbeat> heartbeat() const;
   // Why the last message was refused; empty after one that was accepted.
@@ -112,7 +119,7 @@ class MapReceiver {
   std::string topic_;
   grid::DoubleBuffered<grid::OccupancyGrid> grids_;  // the subscribers'
   ReceivedMap map_;
-  std::optional<MapChange> untaken_;
+  std::vector<std::optional<MapChange>> untaken_;  // of each reader
   std::string refusal_;
   std::optional<MapHeartbeat> heartbeat_;
   std::string lost_;
@@ -120,7 +127,7 @@ class MapReceiver {
   Clock::time_point asked_at_;  // for a whole map
   ros::NodeHandle nh_;
   ros::Subscriber map_subscriber_;
-  ros::Subscriber update_subscriber_;
+  std::unique_ptr<BoundedSubscription<map_msgs::OccupancyGridUpdate>> updates_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ros/common/clock.h"
+#include "ros/common/incoming/claimed_lengths.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -26,8 +27,8 @@ TransformReceiver::TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer
     : buffer_(buffer) {
   nh.setCallbackQueue(&guarded_);
   const auto subscribe = [&](const char* topic, bool is_static) {
-    return nh.subscribe<tf2_msgs::TFMessage, const Event&>(
-        topic, kMessages, [this, is_static](const Event& event) {
+    return subscribeChecked<tf2_msgs::TFMessage, const Event&>(
+        nh, topic, kMessages, [this, is_static](const Event& event) {
           receive(*event.getMessage(), event.getPublisherName(), is_static);
         });
   };

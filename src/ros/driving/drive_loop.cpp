@@ -5,10 +5,14 @@
 #include <sstream>
 #include <utility>
 
+#include "base/current_error.h"
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "grid_path_planner/ros/conversions.h"
+#include "ros/common/guarded_queue.h"
 
 namespace grid_path_planner::nodes {
+
+using base::currentErrorText;
 
 using base::BodyVelocity;
 using following::firstObstruction;
@@ -87,7 +91,7 @@ auto DriveLoop::ask(Work work) -> std::invoke_result_t<Work> {
 }
 
 void DriveLoop::post(std::function<void()> work) {
-  queue_.addCallback(callbackOf(std::move(work)));
+  guarded_.addCallback(callbackOf(std::move(work)));
 }
 
 void DriveLoop::start(const Path& path, Join join) {
@@ -151,9 +155,10 @@ void DriveLoop::run() {
 void DriveLoop::tryToTick() {
   try {
     tick();
-  } catch (const std::exception& error) {
-    follower_.cancel(std::string("the control loop failed: ") + error.what());
+  } catch (...) {
+    const std::string error = currentErrorText();
     publish({});
+    follower_.cancel("the control loop failed: " + error);
   }
 }
 

@@ -2,9 +2,13 @@
 
 #include <utility>
 
+#include "base/current_error.h"
+#include "ros/common/guarded_queue.h"
 #include "ros/common/master/xmlrpc_call.h"
 
 namespace grid_path_planner::nodes {
+
+using base::currentErrorText;
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -93,8 +97,12 @@ void MapWatch::run() {
 
 // Where it does not, the next time at the URI that the master knows by then.
 bool MapWatch::publisherAnswers() {
-  if (uri_.empty()) uri_ = uriOfNode(node_, kPublisherPatience).value_or("");
-  if (!uri_.empty() && answersXmlRpc(uri_, kPublisherPatience)) return true;
+  try {
+    if (uri_.empty()) uri_ = uriOfNode(node_, kPublisherPatience).value_or("");
+    if (!uri_.empty() && answersXmlRpc(uri_, kPublisherPatience)) return true;
+  } catch (...) {
+    tellGivenUp("A question to the map's publisher", currentErrorText());
+  }
   uri_.clear();
   return false;
 }

@@ -11,6 +11,7 @@
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
+#include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
@@ -79,7 +80,8 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
   loop_ = std::make_unique<DriveLoop>(nh_, options_, transforms_,
                                       [this] { callLater([this] { takeReports(); }); });
   map_ = std::make_unique<MapWatch>(nh_, [this](const MapLife& life) { loop_->setMap(life); });
-  reader_ = std::make_unique<TaskQueue>();
+  reader_ = std::make_unique<TaskQueue>(
+      [](const std::string& error) { tellGivenUp("A file or question", error); });
   offerServices(private_nh);
   startAction();
   refuseSimultaneousCommander(commands_);
@@ -167,7 +169,8 @@ void NavigatePathNode::watchClock() {
 void NavigatePathNode::startDriving(const ros::Time& now) {
   started_ = now;
   if (options_.config_filename.empty()) {
-    path_subscriber_ = nh_.subscribe("path", 1, &NavigatePathNode::onPath, this);
+    path_subscriber_ = subscribeChecked<nav_msgs::Path>(
+        nh_, "path", 1, [this](const nav_msgs::Path& path) { onPath(path); });
     return;
   }
   ROS_INFO_STREAM("Drives the waypoints of " << options_.config_filename);

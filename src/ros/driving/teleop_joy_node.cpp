@@ -5,6 +5,7 @@
 
 #include "grid_path_planner/TeleopJoyConfig.h"
 #include "grid_path_planner/base/options.h"
+#include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/master/system_state.h"
 #include "ros/common/parameters.h"
 
@@ -52,7 +53,8 @@ TeleopJoyNode::TeleopJoyNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
   publisher_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10);
   refuseSimultaneousCommander(commands);
   stop_subscriber_ = nh_.subscribe("stop", 1, &TeleopJoyNode::onStop, this);
-  subscriber_ = nh_.subscribe("joy", 10, &TeleopJoyNode::onJoy, this);
+  subscriber_ = subscribeChecked<sensor_msgs::Joy>(
+      nh_, "joy", 10, [this](const sensor_msgs::Joy& message) { onJoy(message); });
   reconfigurable_ = std::make_unique<Reconfigurable<TeleopJoyConfig, TeleopJoyOptions>>(
       private_nh, options_, [this](const TeleopJoyOptions& options) { use(options); });
   startTimer();

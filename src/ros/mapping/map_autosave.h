@@ -22,6 +22,7 @@
 
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/mapping/map_model.h"
+#include "ros/common/guarded_queue.h"
 
 namespace grid_path_planner::nodes {
 
@@ -65,7 +66,7 @@ class MapAutosave {
   mutable std::mutex mutex_;
   State state_;
   Clock::time_point written_;
-  base::TaskQueue writer_;
+  base::TaskQueue writer_{[](const std::string& error) { tellGivenUp("Keeping the map", error); }};
 };
 
 }  // namespace grid_path_planner::nodes

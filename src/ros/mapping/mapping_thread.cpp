@@ -3,17 +3,22 @@
 #include <exception>
 #include <utility>
 
+#include "grid_path_planner/base/errors.h"
+
 namespace grid_path_planner::nodes {
 
+using base::InputError;
 using base::StopSource;
 using base::TaskQueue;
 
 void MappingThread::run(const Work& work) {
-  std::exception_ptr thrown;
+  std::exception_ptr thrown =
+      std::make_exception_ptr(InputError("the mapping ends and does nothing more"));
   const auto task = worker_.post(
       [&](const StopSource&) {
         try {
           work(map_);
+          thrown = nullptr;
         } catch (...) {
           thrown = std::current_exception();
         }

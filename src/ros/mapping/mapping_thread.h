@@ -14,6 +14,7 @@
 
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/mapping/map_model.h"
+#include "ros/common/guarded_queue.h"
 
 namespace grid_path_planner::nodes {
 
@@ -26,19 +27,20 @@ class MappingThread {
                          const std::string& begin_with = "")
       : map_(options, begin_with) {}
 
-  // Does `work` next and waits for its end. Rethrows its exceptions.
+  // Does `work` next and waits for its end. Rethrows its exceptions; throws InputError after stop().
   void run(const Work& work);
 
   // Does `work` after the tasks that wait already; work posted to the same slot before then replaces
-  // it. Not done after stop(). `work` throws nothing.
+  // it. Not done after stop(). An exception of `work` goes into the log.
   void post(const std::string& slot, Work work);
 
-  // Ends the thread; from now on run() works in the thread of its caller.
+  // Ends the thread.
   void stop() { worker_.stop(); }
 
  private:
   mapping::MapModel map_;
-  base::TaskQueue worker_;
+  base::TaskQueue worker_{
+      [](const std::string& error) { tellGivenUp("A task of the mapping", error); }};
 };
 
 }  // namespace grid_path_planner::nodes

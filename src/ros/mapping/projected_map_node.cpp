@@ -6,6 +6,7 @@
 #include "grid_path_planner/ProjectedMapConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/file_kinds.h"
+#include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
 #include "ros/mapping/cloud_reader.h"
 
@@ -104,8 +105,10 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
                                                       *octree_publisher_, autosave_.get());
   service_spinner_.start();
 
-  cloud_subscriber_ = nh.subscribe<sensor_msgs::PointCloud2>(
-      "cloud_in", static_cast<std::uint32_t>(options.queue_size), &ProjectedMapNode::onCloud, this);
+  using Cloud = sensor_msgs::PointCloud2::ConstPtr;
+  cloud_subscriber_ = subscribeChecked<sensor_msgs::PointCloud2, const Cloud&>(
+      nh, "cloud_in", static_cast<std::uint32_t>(options.queue_size),
+      [this](const Cloud& cloud) { onCloud(cloud); });
   cloud_timer_ = nh.createWallTimer(ros::WallDuration(kCloudPeriod),
                                     [this](const ros::WallTimerEvent&) { resolveTransforms(); });
   startPublishing(options);

@@ -66,6 +66,8 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
     : nh_(nh) {
   const PathPlannerNodeOptions options = loadOptions(private_nh, files);
   warnUnusedOptions(options.planner);
+  ROS_INFO("Planning may take %zu MB (memory_limit)",
+           memoryLimitOf(options.planner.search) / 1000000);
   refuseOtherCommander({{}, {nh.resolveName("plan_path")}, "", false});
   server_ =
       std::make_unique<PlanningServer>(nh, options, files, [this] { active_goal_.forgetStart(); });
@@ -94,7 +96,7 @@ PathPlannerNode::~PathPlannerNode() {
 void PathPlannerNode::onGoal(const geometry_msgs::PoseStamped& message) {
   server_->checkClock();
   active_goal_.setGoal(message);
-  server_->worker().cancel(kGoalSlot);
+  server_->vehicleLane().worker().cancel(kGoalSlot);
   postPlanForGoal();
 }
 
@@ -117,7 +119,8 @@ void PathPlannerNode::onOptions(const PathPlannerNodeOptions& options) {
 }
 
 void PathPlannerNode::onMapChange() {
-  server_->worker().post([this](const StopSource& stop) { processMap(stop); }, kMapSlot);
+  server_->vehicleLane().worker().post([this](const StopSource& stop) { processMap(stop); },
+                                       kMapSlot);
 }
 
 void PathPlannerNode::startReplanTimer(double period) {
@@ -130,19 +133,21 @@ void PathPlannerNode::startReplanTimer(double period) {
 }
 
 void PathPlannerNode::postPlanForGoal() {
-  server_->worker().post([this](const StopSource& stop) { planForGoal(stop); }, kGoalSlot,
-                         TaskQueue::Turn::NEXT);
+  server_->vehicleLane().worker().post([this](const StopSource& stop) { planForGoal(stop); },
+                                       kGoalSlot, TaskQueue::Turn::NEXT);
 }
 
 void PathPlannerNode::planForGoal(const StopSource& stop) {
   const std::optional<GoalState> goal = active_goal_.goal();
   const PlanningServer::Settings settings = server_->settings();
-  const Plan plan = server_->plan(goal->request, settings.options, stop);
-  const PlanStatistics statistics = server_->statistics(plan, goal->request, settings.options);
+  server_->checkClock();
+  PlanningLane& lane = server_->vehicleLane();
+  const Plan plan = lane.plan(goal->request, settings.options, stop);
+  const PlanStatistics statistics = lane.statistics(plan, goal->request, settings.options);
   if (stop.cancelled() || keepsOldPath(*goal, plan, settings, stop)) return;
   active_goal_.commit(goal->id, plan.path, settings.revision, [&] {
     server_->publisher().publishPath(plan);
-    server_->publish(plan, statistics);
+    server_->publish(lane, plan, statistics);
   });
 }
 
@@ -151,7 +156,7 @@ bool PathPlannerNode::keepsOldPath(const GoalState& goal, const Plan& plan,
                                    const StopSource& stop) {
   if (goal.path.empty() || !plan.found() || goal.path_settings != settings.revision) return false;
   try {
-    const auto costs = server_->fullResolutionCosts(settings.options, stop.token());
+    const auto costs = server_->vehicleLane().fullResolutionCosts(settings.options, stop.token());
     return keepsPath(goal.path, plan.path, *costs, settings.options.replan_hysteresis);
   } catch (const Stopped&) {
     return true;  // a new goal has come
@@ -171,9 +176,10 @@ void PathPlannerNode::processMap(const StopSource& stop) {
 
 void PathPlannerNode::publishSearchedMap(const PathPlannerNodeOptions& options,
                                          const StopSource& stop) {
-  const auto costs = server_->downsampledCosts(options, stop.token());
+  PlanningLane& lane = server_->vehicleLane();
+  const auto costs = lane.downsampledCosts(options, stop.token());
   const bool changed = costs && costs != published_costs_;
-  if (changed) server_->publisher().publishMap(*costs, server_->frame(options));
+  if (changed) server_->publisher().publishMap(*costs, lane.frame(options));
   published_costs_ = costs;
   publishRectangles(options, changed);
 }
@@ -186,7 +192,7 @@ void PathPlannerNode::publishRectangles(const PathPlannerNodeOptions& options, b
   }
   if (!rectangles_) rectangles_ = std::make_unique<RectanglePublisher>(nh_);
   if (published_costs_ && (map_changed || !shown))
-    rectangles_->publish(published_costs_, server_->frame(options),
+    rectangles_->publish(published_costs_, server_->vehicleLane().frame(options),
                          memoryLimitOf(options.planner.search));
 }
 
@@ -194,8 +200,10 @@ bool PathPlannerNode::goalPathBlocked(const PathPlannerNodeOptions& options,
                                       const StopSource& stop) {
   const std::optional<GoalState> goal = active_goal_.goal();
   if (!goal || goal->path.empty()) return false;
-  const auto costs = server_->fullResolutionCosts(options, stop.token());
-  if (!pathBlocked(goal->path, server_->vehicle(options), *costs)) return false;
+  PlanningLane& lane = server_->vehicleLane();
+  const auto costs = lane.fullResolutionCosts(options, stop.token());
+  if (!pathBlocked(goal->path, server_->vehicle(lane.frame(options), options), *costs))
+    return false;
   ROS_INFO("What remains of the path is blocked: planning again");
   return true;
 }

@@ -3,10 +3,12 @@
 #include <boost/bind/bind.hpp>
 #include <chrono>
 
+#include "base/current_error.h"
 #include "grid_path_planner/ros/conversions.h"
 
 namespace grid_path_planner::nodes {
 
+using base::currentErrorText;
 using base::Status;
 using planning::failedPlan;
 using planning::Plan;
@@ -18,11 +20,23 @@ PlanAction::PlanAction(const ros::NodeHandle& nh, PlanningServer& server)
   action_.start();
 }
 
+// actionlib calls it in a thread of its own, which no exception may leave.
 void PlanAction::execute(const PlanPathGoalConstPtr& goal) {
+  try {
+    answer(*goal);
+  } catch (...) {
+    PlanPathResult result;
+    result.status = std::string(toString(Status::INVALID_REQUEST));
+    result.message = "the request was given up: " + currentErrorText();
+    action_.setAborted(result, result.message);
+  }
+}
+
+void PlanAction::answer(const PlanPathGoal& goal) {
   PlanningRequest request;
-  if (!goal->start.header.frame_id.empty()) request.start = goal->start;
-  request.goal = goal->goal;
-  request.planner = goal->planner;
+  if (!goal.start.header.frame_id.empty()) request.start = goal.start;
+  request.goal = goal.goal;
+  request.planner = goal.planner;
   const auto ticket = server_.ask(request, PlanningServer::Publish::YES);
   if (answeredUncancelled(*ticket)) {
     finish(ticket->plan(), ticket->statistics());

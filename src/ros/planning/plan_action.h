@@ -21,6 +21,7 @@ class PlanAction {
 
  private:
   void execute(const PlanPathGoalConstPtr& goal);
+  void answer(const PlanPathGoal& goal);
   bool answeredUncancelled(PlanTicket& ticket);
   void finish(const planning::Plan& plan, const PlanStatistics& statistics);
 

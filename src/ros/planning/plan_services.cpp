@@ -1,8 +1,8 @@
 #include "ros/planning/plan_services.h"
 
+#include <chrono>
 #include <optional>
-#include <string>
-#include <vector>
+#include <utility>
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/waypoint_file.h"
@@ -13,18 +13,24 @@
 namespace grid_path_planner::nodes {
 
 using base::InputError;
+using base::Status;
 using path::Path;
 using path::writeWaypointFile;
 using planners::plannerNames;
+using planning::failedPlan;
 
 namespace {
+
+constexpr std::size_t kMostQuestions = 1000;  // of one comparison
+constexpr std::chrono::milliseconds kAsksCaller(20);
 
 // A start without a frame stands for the vehicle's pose.
 std::optional<geometry_msgs::PoseStamped> startOf(const geometry_msgs::PoseStamped& start) {
   return start.header.frame_id.empty() ? std::nullopt : std::make_optional(start);
 }
 
-// One request for every planner with each of the heuristics that it can use.
+// One request for every planner with each of the heuristics that it can use; where they are too many,
+// one more than may be asked.
 std::vector<PlanningRequest> requestsOf(const ComparePlans::Request& compared) {
   std::vector<PlanningRequest> requests;
   PlanningRequest request;
@@ -38,21 +44,37 @@ std::vector<PlanningRequest> requestsOf(const ComparePlans::Request& compared) {
          several ? compared.heuristics : std::vector<std::string>{""}) {
       request.heuristic = heuristic;
       requests.push_back(request);
+      if (requests.size() > kMostQuestions) return requests;
     }
   }
   return requests;
 }
 
+// Cancels what is asked for nobody.
+void waitForAnswer(PlanTicket& ticket, const ServiceCaller& caller) {
+  while (!ticket.waitFor(kAsksCaller))
+    if (caller.gone()) ticket.cancel();
+}
+
+void add(PlanStatistics statistics, const Path& path, ComparePlans::Response& response) {
+  const ros::Time now = ros::Time::now();
+  statistics.header.stamp = now;
+  response.results.push_back(std::move(statistics));
+  response.paths.push_back(pathToMessage(path, now));
+}
+
 }  // namespace
 
 PlanServices::PlanServices(ros::NodeHandle private_nh, PlanningServer& server)
-    : server_(server), spinner_(2, &queue_) {
+    : server_(server), spinner_(2, &queue_), file_spinner_(1, &file_queue_) {
   private_nh.setCallbackQueue(&guarded_);
   make_plan_ = private_nh.advertiseService("make_plan", &PlanServices::makePlan, this);
   compare_plans_ = private_nh.advertiseService("compare_plans", &PlanServices::comparePlans, this);
+  private_nh.setCallbackQueue(&guarded_files_);
   save_waypoints_ =
       private_nh.advertiseService("save_waypoints", &PlanServices::saveWaypoints, this);
   spinner_.start();
+  file_spinner_.start();
 }
 
 PlanServices::~PlanServices() {
@@ -60,30 +82,44 @@ PlanServices::~PlanServices() {
   compare_plans_.shutdown();
   save_waypoints_.shutdown();
   spinner_.stop();
+  file_spinner_.stop();
 }
 
-bool PlanServices::makePlan(nav_msgs::GetPlan::Request& request,
-                            nav_msgs::GetPlan::Response& response) {
+bool PlanServices::makePlan(MakePlan& call) {
+  const ServiceCaller caller(make_plan_.getService(), call.getConnectionHeader());
+  const nav_msgs::GetPlan::Request& request = call.getRequest();
   PlanningRequest plan_request;
   plan_request.start = startOf(request.start);
   plan_request.goal = request.goal;
   if (request.tolerance != 0.0F) plan_request.tolerance = request.tolerance;
   const auto ticket = server_.ask(plan_request, PlanningServer::Publish::YES);
-  ticket->wait();
-  response.plan = pathToMessage(ticket->plan().path, ros::Time::now());
+  waitForAnswer(*ticket, caller);
+  call.getResponse().plan = pathToMessage(ticket->plan().path, ros::Time::now());
   return true;
 }
 
-bool PlanServices::comparePlans(ComparePlans::Request& request, ComparePlans::Response& response) {
-  for (const PlanningRequest& plan_request : requestsOf(request)) {
-    const auto ticket = server_.ask(plan_request, PlanningServer::Publish::NO);
-    ticket->wait();
-    const ros::Time now = ros::Time::now();
-    response.results.push_back(ticket->statistics());
-    response.results.back().header.stamp = now;
-    response.paths.push_back(pathToMessage(ticket->plan().path, now));
+bool PlanServices::comparePlans(Comparison& call) {
+  const ServiceCaller caller(compare_plans_.getService(), call.getConnectionHeader());
+  const std::vector<PlanningRequest> requests = requestsOf(call.getRequest());
+  if (requests.size() <= kMostQuestions) {
+    compare(requests, caller, call.getResponse());
+  } else {
+    PlanStatistics refusal = statisticsMessage(failedPlan(
+        Status::INVALID_REQUEST, "a comparison has at most " + std::to_string(kMostQuestions) +
+                                     " questions, which planners times heuristics exceed"));
+    add(refusal, Path(), call.getResponse());
   }
   return true;
+}
+
+void PlanServices::compare(const std::vector<PlanningRequest>& requests,
+                           const ServiceCaller& caller, ComparePlans::Response& response) {
+  for (const PlanningRequest& request : requests) {
+    if (caller.gone()) return;
+    const auto ticket = server_.ask(request, PlanningServer::Publish::NO);
+    waitForAnswer(*ticket, caller);
+    add(ticket->statistics(), ticket->plan().path, response);
+  }
 }
 
 bool PlanServices::saveWaypoints(SaveWaypoints::Request& request,

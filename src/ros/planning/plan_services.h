@@ -1,7 +1,8 @@
 // The services of path_planner: ~make_plan, ~compare_plans, ~save_waypoints.
 //
-// Two threads of their own call them, so that a request that takes long delays neither the node's
-// other callbacks nor the arrival of a second request.
+// Threads of their own call them, two for plans and one for files, so that a request that takes long
+// delays neither the node's other callbacks nor the arrival of a second request. A client that closes
+// its connection cancels what it asked for.
 #pragma once
 
 #include <nav_msgs/GetPlan.h>
@@ -10,9 +11,13 @@
 #include <ros/service_server.h>
 #include <ros/spinner.h>
 
+#include <string>
+#include <vector>
+
 #include "grid_path_planner/ComparePlans.h"
 #include "grid_path_planner/SaveWaypoints.h"
 #include "ros/common/guarded_queue.h"
+#include "ros/common/incoming/service_caller.h"
 #include "ros/planning/planning_server.h"
 
 namespace grid_path_planner::nodes {
@@ -24,17 +29,22 @@ class PlanServices {
   ~PlanServices();
 
  private:
-  bool makePlan(nav_msgs::GetPlan::Request& request, nav_msgs::GetPlan::Response& response);
-  bool comparePlans(ComparePlans::Request& request, ComparePlans::Response& response);
+  using MakePlan = ros::ServiceEvent<nav_msgs::GetPlan::Request, nav_msgs::GetPlan::Response>;
+  using Comparison = ros::ServiceEvent<ComparePlans::Request, ComparePlans::Response>;
+
+  bool makePlan(MakePlan& call);
+  bool comparePlans(Comparison& call);
+  void compare(const std::vector<PlanningRequest>& requests, const ServiceCaller& caller,
+               ComparePlans::Response& response);
   bool saveWaypoints(SaveWaypoints::Request& request, SaveWaypoints::Response& response);
 
   PlanningServer& server_;
-  ros::CallbackQueue queue_;
-  GuardedQueue guarded_{queue_};
+  ros::CallbackQueue queue_, file_queue_;
+  GuardedQueue guarded_{queue_}, guarded_files_{file_queue_};
   ros::ServiceServer make_plan_;
   ros::ServiceServer compare_plans_;
   ros::ServiceServer save_waypoints_;
-  ros::AsyncSpinner spinner_;
+  ros::AsyncSpinner spinner_, file_spinner_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -1,5 +1,6 @@
-// Takes requests for paths from any thread and answers them, one after the other, in a thread of
-// its own, on the newest map with the node's options.
+// Takes requests for paths from any thread and answers them, one after the other, on the newest map
+// with the node's options. It has two lanes (planning_lane.h): ask() puts questions into one of them;
+// the other is for the node that follows the map and plans for the vehicle.
 //
 //   PlanningServer server(nh, options, files, [] {});  // nothing to do where ROS time jumps back
 //   auto ticket = server.ask(request, PlanningServer::Publish::YES);
@@ -24,6 +25,7 @@
 #include "ros/common/map_receiver.h"
 #include "ros/common/node_files.h"
 #include "ros/planning/plan_publisher.h"
+#include "ros/planning/planning_lane.h"
 #include "ros/planning/planning_request.h"
 
 namespace grid_path_planner::nodes {
@@ -36,7 +38,7 @@ class PlanTicket {
   // Whether the answer is there before `limit` passed (steady clock).
   bool waitFor(std::chrono::duration<double> limit) const { return task_->waitFor(limit); }
   // Precondition of both: the wait is over. The path's frame is that of the map; the statistics
-  // have no stamp.
+  // have no stamp. CANCELLED where the server ended before.
   const planning::Plan& plan() const { return plan_; }
   const PlanStatistics& statistics() const { return statistics_; }
   // "waiting", "preparing" or "searching".
@@ -45,16 +47,14 @@ class PlanTicket {
  private:
   friend class PlanningServer;
   std::atomic<const char*> phase_{"waiting"};
-  planning::Plan plan_;
-  PlanStatistics statistics_;
+  planning::Plan plan_ = planning::failedPlan(base::Status::CANCELLED, "planning was cancelled");
+  PlanStatistics statistics_ = statisticsMessage(plan_);
   std::shared_ptr<base::TaskQueue::Task> task_;
 };
 
 class PlanningServer {
  public:
   enum class Publish { NO, YES };
-  using PhaseListener = std::function<void(const char* phase)>;
-
   // Options and how often they were changed.
   struct Settings {
     PathPlannerNodeOptions options;
@@ -86,39 +86,22 @@ class PlanningServer {
   std::optional<Outcome> lastOutcome() const;
   std::optional<path::Path> lastPath() const;
 
-  base::TaskQueue& worker() { return worker_; }
+  PlanningLane& vehicleLane() { return vehicle_lane_; }
   MapReceiver& maps() { return maps_; }
   const NodeFiles& files() const { return files_; }
   PlanPublisher& publisher() { return publisher_; }
 
-  // In the worker's thread only:
+  // Publishes a plan just made in `lane`, whose thread calls.
+  void publish(const PlanningLane& lane, const planning::Plan& plan,
+               const PlanStatistics& statistics);
 
-  planning::Plan plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                      const base::StopSource& stop, const PhaseListener& on_phase = {});
-  // Of a plan just made for this request; no stamp yet.
-  PlanStatistics statistics(const planning::Plan& plan, const PlanningRequest& request,
-                            const PathPlannerNodeOptions& options) const;
-  void publish(const planning::Plan& plan, const PlanStatistics& statistics);
-
-  // The costmaps of the newest map; null before the first. Throw Stopped.
-  std::shared_ptr<const costmap::CostGrid> downsampledCosts(const PathPlannerNodeOptions& options,
-                                                            const base::StopToken& stop);
-  std::shared_ptr<const costmap::CostGrid> fullResolutionCosts(
-      const PathPlannerNodeOptions& options, const base::StopToken& stop);
-
-  // Of the newest map; map_frame where there is none or it names none.
-  std::string frame(const PathPlannerNodeOptions& options) const;
-
-  // The vehicle's position from tf, without waiting; none where tf has none.
-  std::optional<Eigen::Vector2d> vehicle(const PathPlannerNodeOptions& options) const;
+  // The vehicle's position in this frame from tf, without waiting; none where tf has none.
+  std::optional<Eigen::Vector2d> vehicle(const std::string& frame,
+                                         const PathPlannerNodeOptions& options) const;
 
  private:
-  planning::Plan tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                           const base::StopSource& stop, const PhaseListener& on_phase);
-  planning::PoseRequest posesOf(const PlanningRequest& request,
-                                const PathPlannerNodeOptions& options,
-                                const base::StopToken& stop) const;
-  void updateMap();
+  void answer(PlanTicket& ticket, const PlanningRequest& request, Publish publish,
+              const base::StopSource& stop);
   void writeWaypoints(const path::Path& path);
 
   NodeFiles files_;
@@ -131,10 +114,9 @@ class PlanningServer {
 
   FrameTransforms transforms_;
   PlanPublisher publisher_;
-  MapReceiver maps_;
-  planning::PathPlanner planner_;  // the worker's, as is the next
-  std::string map_frame_id_;
-  base::TaskQueue worker_;
+  MapReceiver maps_{2};
+  PlanningLane vehicle_lane_{maps_, 0, transforms_, nullptr};
+  PlanningLane question_lane_{maps_, 1, transforms_, &vehicle_lane_};
 };
 
 }  // namespace grid_path_planner::nodes

@@ -17,6 +17,7 @@
 
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/costmap/cost_grid.h"
+#include "ros/common/guarded_queue.h"
 #include "ros/planning/rectangle_messages.h"
 
 namespace grid_path_planner::nodes {
@@ -46,7 +47,8 @@ class RectanglePublisher {
   ros::Publisher map_;  // the worker's, as is markers_
   ros::Publisher markers_;
   bool shown_ = false;
-  base::TaskQueue worker_;
+  base::TaskQueue worker_{
+      [](const std::string& error) { tellGivenUp("A publication of rectangles", error); }};
 };
 
 }  // namespace grid_path_planner::nodes

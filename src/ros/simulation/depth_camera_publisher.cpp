@@ -3,9 +3,13 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/current_error.h"
 #include "grid_path_planner/base/options.h"
+#include "ros/common/guarded_queue.h"
 
 namespace grid_path_planner::nodes {
+
+using base::currentErrorText;
 
 using base::sameOptions;
 using simulation::CameraIntrinsics;
@@ -120,7 +124,11 @@ void DepthCameraPublisher::renderLoop() {
     if (stopping_) return;
     const Shot shot = *shot_;
     lock.unlock();
-    render(shot);
+    try {
+      render(shot);
+    } catch (...) {
+      tellGivenUp("A picture of the camera", currentErrorText());
+    }
     lock.lock();
     shot_.reset();
   }

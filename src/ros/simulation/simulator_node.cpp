@@ -9,6 +9,7 @@
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "grid_path_planner/simulation/world.h"
 #include "ros/common/file_kinds.h"
+#include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
@@ -69,7 +70,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
   odometry_.reset(vehicle_->state());
   if (options_.publish_clock) clock_publisher_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
   if (options_.world.empty())
-    map_subscriber_ = nh_.subscribe("projected_map", 1, &SimulatorNode::onMap, this);
+    map_subscriber_ = subscribeChecked<nav_msgs::OccupancyGrid>(
+        nh_, "projected_map", 1, [this](const nav_msgs::OccupancyGrid& map) { onMap(map); });
   else
     loadWorld();
   updateCamera(options_);

@@ -47,7 +47,10 @@ class PlannerTest : public testing::Test {
   // Parameters as "_name:=value".
   void startPlanner(const std::vector<std::string>& arguments = {}) {
     ros::param::del("/path_planner");  // what the test before has set
-    planner_ = std::make_unique<Process>("path_planner", arguments);
+    startPlanner(std::make_unique<Process>("path_planner", arguments));
+  }
+  void startPlanner(std::unique_ptr<Process> planner) {
+    planner_ = std::move(planner);
     ASSERT_TRUE(waitFor([this] {
       return goals_.getNumSubscribers() > 0 && maps_.getNumSubscribers() > 0 &&
              updates_.getNumSubscribers() > 0 && starts_.getNumSubscribers() > 0 &&

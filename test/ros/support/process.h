@@ -12,11 +12,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -28,7 +32,9 @@ class Process {
  public:
   // An executable of this package in the devel space.
   Process(const std::string& node, const std::vector<std::string>& arguments)
-      : Process(joined(GPP_DEVEL "/lib/grid_path_planner/" + node, arguments)) {}
+      : Process(joined(GPP_DEVEL "/lib/grid_path_planner/" + node, arguments)) {
+    is_node_ = true;
+  }
 
   // Any program, looked up in PATH; the first argument is its name.
   explicit Process(const std::vector<std::string>& command)
@@ -51,11 +57,7 @@ class Process {
   }
 
   ~Process() {
-    signal(SIGINT);
-    if (!waitForExit(std::chrono::seconds(10))) {
-      signal(SIGKILL);
-      waitForExit();
-    }
+    end(SIGINT);
     if (testing::Test::HasFailure()) std::cerr << output();
     ::unlink(output_.c_str());
   }
@@ -69,6 +71,14 @@ class Process {
   void signal(int number) {
     if (running()) ::kill(pid_, number);
   }
+  // What it held at most, in bytes; 0 where it has ended.
+  std::size_t peakMemory() const {
+    std::ifstream file("/proc/" + std::to_string(pid_) + "/status");
+    std::string word;
+    while (file >> word)
+      if (word == "VmHWM:" && file >> word) return std::stoul(word) * 1024;
+    return 0;
+  }
   bool waitForExit(std::chrono::duration<double> deadline = kDeadline) {
     return waitFor([this] { return !running(); }, deadline);
   }
@@ -81,10 +91,32 @@ class Process {
   bool says(const std::string& text) {
     return waitFor([&] { return output().find(text) != std::string::npos; });
   }
+  // Sends the signal and waits for the end: a law of every test is that nodes end in time.
+  void end(int number) {
+    if (!running()) return;
+    signal(number);
+    const bool ended = waitForExit(patience());
+    EXPECT_TRUE(ended || !is_node_)
+        << "it did not end within " << patience().count() << " s of signal " << number;
+    if (ended) return;
+    signal(SIGKILL);
+    waitForExit();
+  }
   // Of a process that exited by itself; -1 of one that was killed.
   int exitCode() const { return exited_ && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1; }
 
  private:
+  // How long a node may take to end: 2 s on a machine of its own, in proportion on one that has other
+  // work, 30 s with a sanitizer.
+  static std::chrono::duration<double> patience() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    return std::chrono::seconds(30);
+#else
+    double load = 0.0;
+    ::getloadavg(&load, 1);
+    return std::chrono::seconds(2) * std::max(1.0, load / std::thread::hardware_concurrency());
+#endif
+  }
   static int& count() {
     static int processes = 0;
     return processes;
@@ -100,6 +132,7 @@ class Process {
   pid_t pid_;
   int status_ = 0;
   bool exited_ = false;
+  bool is_node_ = false;
 };
 
 }  // namespace grid_path_planner::test

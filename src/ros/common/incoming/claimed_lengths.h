@@ -1,0 +1,96 @@
+// Whether a message in its serialized form holds what its lengths claim, asked before it is unpacked.
+//
+//   checkClaimedLengths<nav_msgs::OccupancyGrid>(bytes, length);     // throws InputError
+//   subscriber = subscribeChecked<nav_msgs::Path>(nh, "path", 1, callback);
+//
+// roscpp makes room for as many elements as a message claims to have before it looks whether they are
+// there: 200 bytes that claim 2^32 - 1 cells take 4 GB and seconds, before they are refused. Here
+// the lengths alone are read, in time in proportion to the bytes; nothing is allocated.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/serialization.h>
+#include <ros/subscribe_options.h>
+#include <ros/subscription_callback_helper.h>
+
+#include <boost/make_shared.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/base/errors.h"
+
+namespace grid_path_planner::nodes {
+
+// Goes over a serialized message as roscpp's Serializer does, but steps over its arrays.
+class ClaimedLengths : public ros::serialization::Stream {
+ public:
+  ClaimedLengths(std::uint8_t* bytes, std::uint32_t count) : Stream(bytes, count) {}
+
+  template <class T>
+  void next(T& value) {
+    ros::serialization::deserialize(*this, value);
+  }
+  void next(std::string&) { step(length(), 1); }
+  template <class T>
+  void next(std::vector<T>&) {
+    const std::uint32_t count = length();
+    T element{};
+    if constexpr (ros::message_traits::IsFixedSize<T>::value) {
+      step(count, ros::serialization::serializationLength(element));
+    } else {
+      // None is serialized to nothing: it holds an array, whose length alone is 4 bytes.
+      step(0, count);
+      for (std::uint32_t i = 0; i < count; ++i) next(element);
+    }
+  }
+
+ private:
+  std::uint32_t length() {
+    std::uint32_t count = 0;
+    next(count);
+    return count;
+  }
+  void step(std::uint64_t count, std::uint64_t size) {
+    if (count * size > getLength())
+      throw base::InputError("it claims " + std::to_string(count) + " elements of " +
+                             std::to_string(size) + " bytes in the last " +
+                             std::to_string(getLength()));
+    advance(static_cast<std::uint32_t>(count * size));
+  }
+};
+
+// Throws base::InputError, or roscpp's StreamOverrunException.
+template <class Message>
+void checkClaimedLengths(std::uint8_t* bytes, std::uint32_t count) {
+  ClaimedLengths lengths(bytes, count);
+  Message message;
+  lengths.next(message);
+}
+
+// `Parameter` is that of the callback, as in ros::SubscriptionCallbackHelperT.
+template <class Parameter>
+class CheckedMessages : public ros::SubscriptionCallbackHelperT<Parameter> {
+ public:
+  using Base = ros::SubscriptionCallbackHelperT<Parameter>;
+  using Base::Base;
+
+  ros::VoidConstPtr deserialize(
+      const ros::SubscriptionCallbackHelperDeserializeParams& given) override {
+    checkClaimedLengths<typename Base::NonConstType>(given.buffer, given.length);
+    return Base::deserialize(given);
+  }
+};
+
+// As NodeHandle::subscribe(); messages whose lengths lie are dropped, with roscpp's line in the log.
+// Parameter: `const ros::MessageEvent<const Message>&` for a callback that asks who sent it.
+template <class Message, class Parameter = const Message&, class Callback>
+ros::Subscriber subscribeChecked(ros::NodeHandle nh, const std::string& topic,
+                                 std::uint32_t queue_size, const Callback& callback) {
+  ros::SubscribeOptions options(topic, queue_size, ros::message_traits::md5sum<Message>(),
+                                ros::message_traits::datatype<Message>());
+  options.helper = boost::make_shared<CheckedMessages<Parameter>>(callback);
+  return nh.subscribe(options);
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,30 @@
+// Who waits for the answer to a service call, and whether they still do.
+//
+//   bool ask(ros::ServiceEvent<Request, Response>& event) {
+//     const ServiceCaller caller(service_.getService(), event.getConnectionHeader());
+//     while (!ticket.waitFor(milliseconds(20))) if (caller.gone()) ticket.cancel();
+//
+// roscpp notices at once that a client has closed its connection, or died, and says so to nobody: a
+// call is computed to its end for no one. This asks the connection itself.
+#pragma once
+
+#include <ros/connection.h>
+#include <ros/datatypes.h>
+
+#include <string>
+
+namespace grid_path_planner::nodes {
+
+class ServiceCaller {
+ public:
+  // `service` is the resolved name; `header` that of the event, not a copy of it.
+  ServiceCaller(const std::string& service, const ros::M_string& header);
+
+  // Whether nobody would get an answer.
+  bool gone() const { return !connection_ || connection_->isDropped(); }
+
+ private:
+  ros::ConnectionPtr connection_;  // null: it was closed before
+};
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,186 @@
+#include "ros/planning/planning_lane.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/current_error.h"
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/path/metrics.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/clock.h"
+#include "ros/common/guarded_queue.h"
+#include "ros/planning/plan_publisher.h"
+
+namespace grid_path_planner::nodes {
+
+using base::currentErrorText;
+using base::InputError;
+using base::Status;
+using base::Stopped;
+using base::StopSource;
+using base::StopToken;
+using costmap::CostGrid;
+using path::clearanceOf;
+using path::Pose;
+using planners::memoryLimitOf;
+using planning::failedPlan;
+using planning::PathPlanner;
+using planning::Plan;
+using planning::PlannerOptions;
+using planning::PoseRequest;
+
+namespace {
+
+Pose named(const char* which, const std::function<Pose()>& pose) {
+  try {
+    return pose();
+  } catch (const InputError& error) {
+    throw InputError(std::string("the ") + which + ": " + error.what());
+  }
+}
+
+// Of the vehicle's pose, in seconds.
+std::optional<double> oldestStart(const PathPlannerNodeOptions& options) {
+  return options.tf_timeout > 0.0 ? std::make_optional(options.tf_timeout) : std::nullopt;
+}
+
+}  // namespace
+
+PlanningLane::PlanningLane(MapReceiver& maps, std::size_t reader, const FrameTransforms& transforms,
+                           const PlanningLane* other)
+    : maps_(maps),
+      reader_(reader),
+      transforms_(transforms),
+      other_(other),
+      planner_(std::make_unique<PathPlanner>()),
+      worker_([this](const std::string& error) {
+        tellGivenUp("What follows a map", error);
+        beginAnew();
+      }) {}
+
+Plan PlanningLane::plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
+                        const StopSource& stop, const PhaseListener& on_phase) {
+  Plan plan = tryToPlan(request, options, stop, on_phase);
+  plan.path.frame_id = frame(options);
+  if (!plan.found()) plan.path.poses.clear();
+  return plan;
+}
+
+Plan PlanningLane::tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
+                             const StopSource& stop, const PhaseListener& on_phase) {
+  try {
+    checkText(request);
+    waitForClock(stop.token());
+    if (on_phase) on_phase("preparing");
+    updateMap();
+    setOptions(optionsFor(request, options));
+    if (!planner_->hasMap())
+      return failedPlan(Status::NO_MAP, "no map has come on " + maps_.topic() + " yet");
+    PoseRequest poses = posesOf(request, options, stop.token());
+    poses.record_expanded = options.record_search;
+    if (on_phase) on_phase("searching");
+    Plan plan = planner_->plan(poses, stop);
+    bytes_ = planner_->bytes();
+    return plan;
+  } catch (const InputError& error) {
+    return failedPlan(Status::INVALID_REQUEST, error.what());
+  } catch (const TransformError& error) {
+    return failedPlan(Status::TRANSFORM_ERROR, error.what());
+  } catch (const Stopped& stopped) {
+    return failedPlan(stopped.status(), stopped.status() == Status::TIMEOUT
+                                            ? "planning reached its time limit"
+                                            : "planning was cancelled");
+  } catch (...) {
+    const std::string error = currentErrorText();
+    beginAnew();
+    return failedPlan(Status::INVALID_REQUEST, "the request was given up: " + error);
+  }
+}
+
+PoseRequest PlanningLane::posesOf(const PlanningRequest& request,
+                                  const PathPlannerNodeOptions& options,
+                                  const StopToken& stop) const {
+  const std::string map_frame = frame(options);
+  PoseRequest poses;
+  poses.goal = named("goal", [&] {
+    return transforms_.poseIn(map_frame, request.goal, options.tf_timeout, stop);
+  });
+  poses.start = named("start", [&] {
+    if (request.start)
+      return transforms_.poseIn(map_frame, *request.start, options.tf_timeout, stop);
+    return transforms_.poseOf(options.base_frame, map_frame, options.tf_timeout, stop,
+                              oldestStart(options));
+  });
+  if (options.goal_z_from == GoalZ::VEHICLE) poses.goal.position.z() = poses.start.position.z();
+  return poses;
+}
+
+PlanStatistics PlanningLane::statistics(const Plan& plan, const PlanningRequest& request,
+                                        const PathPlannerNodeOptions& options) const {
+  PlanStatistics message = statisticsMessage(plan);
+  const PlanningRequest asked = printable(request);
+  message.goal = asked.goal;
+  message.planner = plannerOf(asked, options);
+  message.heuristic = heuristicOf(asked, options);
+  if (plan.found())
+    message.clearance_m =
+        clearanceOf(plan.path, *planner_->map(), options.planner.costmap.thresholds);
+  return message;
+}
+
+double PlanningLane::cellSize(const Plan& plan) const {
+  return planner_->hasMap() ? planner_->map()->geometry().resolution() * plan.kernel : 1.0;
+}
+
+void PlanningLane::updateMap() {
+  const std::optional<MapChange> change = maps_.take(reader_);
+  if (!anew_ && !change) return;
+  const bool whole = std::exchange(anew_, true);  // until the map is taken
+  useMap(whole ? MapChange{maps_.latest(), std::nullopt} : *change);
+  anew_ = false;
+}
+
+void PlanningLane::useMap(const MapChange& change) {
+  if (!change.map.grid) return;
+  map_frame_id_ = change.map.frame_id;
+  if (!change.changed || !planner_->hasMap())
+    planner_->setMap(change.map.grid);
+  else if (!change.changed->empty())
+    planner_->updateMap(change.map.grid, *change.changed);
+}
+
+void PlanningLane::setOptions(const PlannerOptions& options) {
+  planner_->setOptions(options);
+  const std::size_t limit = memoryLimitOf(options.search);
+  planner_->limitMemory(limit - std::min(limit, other_ ? other_->bytes_.load() : 0));
+}
+
+// An exception may have left the costmaps or the planner half made; and what they held is free.
+void PlanningLane::beginAnew() {
+  anew_ = true;
+  planner_.reset();
+  bytes_ = 0;
+  planner_ = std::make_unique<PathPlanner>();
+}
+
+std::shared_ptr<const CostGrid> PlanningLane::downsampledCosts(
+    const PathPlannerNodeOptions& options, const StopToken& stop) {
+  updateMap();
+  setOptions(options.planner);
+  auto costs = planner_->hasMap() ? planner_->downsampledCosts(stop) : nullptr;
+  bytes_ = planner_->bytes();
+  return costs;
+}
+
+std::shared_ptr<const CostGrid> PlanningLane::fullResolutionCosts(
+    const PathPlannerNodeOptions& options, const StopToken& stop) {
+  updateMap();
+  setOptions(options.planner);
+  return planner_->hasMap() ? planner_->fullResolutionCosts(stop) : nullptr;
+}
+
+std::string PlanningLane::frame(const PathPlannerNodeOptions& options) const {
+  return map_frame_id_.empty() ? frameName(options.map_frame) : map_frame_id_;
+}
+
+}  // namespace grid_path_planner::nodes

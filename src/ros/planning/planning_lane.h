@@ -1,0 +1,80 @@
+// Answers requests on the newest map in a thread of its own, with a planner and costmaps of its own.
+//
+//   PlanningLane lane(maps, reader, transforms);
+//   lane.worker().post([&](const StopSource& stop) { use(lane.plan(request, options, stop)); });
+//
+// path_planner has two: in one it follows the map and plans for the vehicle, in the other it answers
+// questions of services and actions, so that no question delays the vehicle. Whatever goes wrong
+// with a request is a status with a sentence, memory that is not there included: the lane then
+// begins anew with the newest map.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "grid_path_planner/PlanStatistics.h"
+#include "grid_path_planner/base/task_queue.h"
+#include "grid_path_planner/planning/path_planner.h"
+#include "ros/common/frame_transforms.h"
+#include "ros/common/map_receiver.h"
+#include "ros/planning/planning_request.h"
+
+namespace grid_path_planner::nodes {
+
+class PlanningLane {
+ public:
+  using PhaseListener = std::function<void(const char* phase)>;
+
+  // `reader` is the lane's number among those of `maps`. Both outlive this, or its worker's stop().
+  // What `other` holds (null: none) is not there for this one: they share memory_limit.
+  PlanningLane(MapReceiver& maps, std::size_t reader, const FrameTransforms& transforms,
+               const PlanningLane* other);
+
+  base::TaskQueue& worker() { return worker_; }
+
+  // In the worker's thread only:
+
+  planning::Plan plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
+                      const base::StopSource& stop, const PhaseListener& on_phase = {});
+  // Of a plan just made for this request; no stamp yet.
+  PlanStatistics statistics(const planning::Plan& plan, const PlanningRequest& request,
+                            const PathPlannerNodeOptions& options) const;
+  // Of the map that this plan was searched on, in metres.
+  double cellSize(const planning::Plan& plan) const;
+
+  // The costmaps of the newest map; null before the first. Throw Stopped.
+  std::shared_ptr<const costmap::CostGrid> downsampledCosts(const PathPlannerNodeOptions& options,
+                                                            const base::StopToken& stop);
+  std::shared_ptr<const costmap::CostGrid> fullResolutionCosts(
+      const PathPlannerNodeOptions& options, const base::StopToken& stop);
+
+  // Of the newest map; map_frame where there is none or it names none.
+  std::string frame(const PathPlannerNodeOptions& options) const;
+
+ private:
+  planning::Plan tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
+                           const base::StopSource& stop, const PhaseListener& on_phase);
+  planning::PoseRequest posesOf(const PlanningRequest& request,
+                                const PathPlannerNodeOptions& options,
+                                const base::StopToken& stop) const;
+  void updateMap();
+  void useMap(const MapChange& change);
+  void beginAnew();
+  // Of the options, and the memory that the other lane leaves.
+  void setOptions(const planning::PlannerOptions& options);
+
+  MapReceiver& maps_;
+  const std::size_t reader_;
+  const FrameTransforms& transforms_;
+  const PlanningLane* const other_;
+  std::atomic<std::size_t> bytes_{0};               // that the planner holds
+  std::unique_ptr<planning::PathPlanner> planner_;  // the worker's, as are the next two
+  std::string map_frame_id_;
+  bool anew_ = false;  // the newest map is taken whole
+  base::TaskQueue worker_;
+};
+
+}  // namespace grid_path_planner::nodes

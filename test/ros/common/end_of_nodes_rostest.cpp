@@ -1,0 +1,90 @@
+// Every node ends within 2 s of SIGINT and of SIGTERM, also while it works.
+#include <nav_msgs/GetPlan.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <thread>
+
+#include "ros/support/planner_fixture.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using test::poseAt;
+using test::Process;
+using test::waitFor;
+
+struct Node {
+  const char* name;
+  std::vector<std::string> arguments;
+};
+
+std::vector<Node> everyNode() {
+  return {{"path_planner", {}},
+          {"map_publisher", {"--filename", GPP_TEST_DATA "/projected_map.bag"}},
+          {"navigate_path", {}},
+          {"teleop_joy", {}},
+          {"projected_map", {"_autosave_period:=0"}},
+          {"simulator", {}}};
+}
+
+// Those that the package has, by nodelet_plugins.xml.
+std::set<std::string> knownNodes() {
+  std::ifstream file(GPP_TEST_DATA "/../../nodelet_plugins.xml");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string before = "class name=\"grid_path_planner/";
+  std::set<std::string> names;
+  for (std::size_t at = 0; (at = text.find(before, at)) != std::string::npos;) {
+    at += before.size();
+    names.insert(text.substr(at, text.find('"', at) - at));
+  }
+  return names;
+}
+
+TEST(EndOfNodes, EveryNodeOfThePackageIsTested) {
+  std::set<std::string> tested;
+  for (const Node& node : everyNode()) tested.insert(node.name);
+  EXPECT_EQ(tested, knownNodes());
+}
+
+TEST(EndOfNodes, BySignal) {
+  for (const Node& node : everyNode())
+    for (const int number : {SIGINT, SIGTERM}) {
+      Process process(node.name, node.arguments);
+      ASSERT_TRUE(process.says(" runs")) << node.name;
+      process.end(number);
+      EXPECT_EQ(process.exitCode(), 0) << node.name;
+    }
+}
+
+class EndOfPlanner : public test::PlannerTest {};
+
+// A plan without a time limit, and clients that wait for its answer.
+TEST_F(EndOfPlanner, BySignalWhileItPlans) {
+  constexpr int kSide = 3000;
+  grid::OccupancyGrid map(grid::GridGeometry(kSide, kSide, 1.0));
+  for (std::int8_t& value : map.values()) value = 0;
+  for (const int number : {SIGINT, SIGTERM}) {
+    startPlanner({"_planner:=dijkstra", "_timeout:=0"});
+    publishMap(map);
+    std::vector<std::thread> clients;
+    for (int i = 0; i < 4; ++i)
+      clients.emplace_back([] {
+        nav_msgs::GetPlan call;
+        call.request.start = poseAt(0.5, 0.5);
+        call.request.goal = poseAt(kSide - 0.5, kSide - 0.5);
+        while (ros::service::call("/path_planner/make_plan", call)) {
+        }
+      });
+    goals_.publish(poseAt(kSide - 0.5, kSide - 0.5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    planner_->end(number);
+    EXPECT_EQ(planner_->exitCode(), 0);
+    for (std::thread& client : clients) client.join();
+    ASSERT_TRUE(waitFor([this] { return maps_.getNumSubscribers() == 0; }));
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes

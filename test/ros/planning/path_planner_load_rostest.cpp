@@ -1,0 +1,173 @@
+// path_planner while it is asked more than it can answer: the vehicle's map and path come first.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "grid_path_planner/ComparePlans.h"
+#include "ros/support/planner_fixture.h"
+
+namespace grid_path_planner::nodes {
+
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+
+namespace {
+
+using test::poseAt;
+using test::waitFor;
+
+// Free, 1 m cells. A search without a heuristic goes over all of them.
+OccupancyGrid field(int side) {
+  OccupancyGrid map(GridGeometry(side, side, 1.0));
+  for (std::int8_t& value : map.values()) value = 0;
+  return map;
+}
+
+// With a wall from the first row to all but the last.
+OccupancyGrid divided(OccupancyGrid map) {
+  for (int row = 0; row < map.height() - 1; ++row) map.row(row)[map.width() / 2] = 100;
+  return map;
+}
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+class LoadTest : public test::PlannerTest {
+ protected:
+  ~LoadTest() override {
+    done_ = true;
+    for (std::thread& client : clients_) client.join();
+  }
+
+  // Clients that ask one plan after the other, until the test ends.
+  void startClients(int count, int side) {
+    for (int i = 0; i < count; ++i)
+      clients_.emplace_back([this, side] {
+        nav_msgs::GetPlan call;
+        call.request.start = poseAt(0.5, 0.5);
+        call.request.goal = poseAt(side - 0.5, side - 0.5);
+        auto asked = Clock::now();
+        while (!done_ && ros::service::call("/path_planner/make_plan", call)) {
+          const auto answered = Clock::now();
+          slowest_ = std::max(slowest_.load(), Seconds(answered - asked).count());
+          asked = answered;
+          ++answers_;
+        }
+      });
+  }
+
+  static ComparePlans comparison(std::size_t questions, int side) {
+    ComparePlans call;
+    call.request.start = poseAt(0.5, 0.5);
+    call.request.goal = poseAt(side - 0.5, side - 0.5);
+    call.request.planners.assign(questions, "dijkstra");
+    return call;
+  }
+
+  std::atomic<bool> done_{false};
+  std::atomic<int> answers_{0};
+  std::atomic<double> slowest_{0.0};  // s
+
+ private:
+  std::vector<std::thread> clients_;
+};
+
+// Four clients kept the thread that follows the map busy, and each new map went to the end of its
+// queue: no planning map in 15 s, and the vehicle drove on towards the wall.
+TEST_F(LoadTest, ABlockedPathIsReplannedWhateverIsAsked) {
+  constexpr int kSide = 1500;
+  startPlanner({"_planner:=dijkstra", "_timeout:=60", "_replan_period:=0"});
+  placeVehicle(0.5, kSide / 2 + 0.5);
+  const OccupancyGrid open = field(kSide), wall = divided(open);
+  publishMap(open);
+  sendGoal(poseAt(kSide - 0.5, kSide / 2 + 0.5));
+  ASSERT_EQ(answer_.status, "FOUND") << answer_.message;
+  startClients(4, kSide);
+  ASSERT_TRUE(waitFor([this] { return answers_ > 0; }));
+  const std::size_t paths = paths_.count(), maps = planning_maps_.count();
+  const auto begin = Clock::now();
+  ASSERT_TRUE(waitFor([&] {
+    maps_.publish(occupancyToMessage(wall, "map", ros::Time::now()));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    return paths_.count() > paths;
+  })) << "not replanned; planning maps: "
+      << planning_maps_.count() - maps << ", answers " << answers_;
+  const double took = Seconds(Clock::now() - begin).count();
+  EXPECT_LT(took, 1.0 + 4.0 * slowest_) << "an answer took " << slowest_ << " s";
+  EXPECT_TRUE(passes(paths_.all().back(), kSide / 2 + 0.5, kSide - 0.5, 2.0));
+}
+
+TEST_F(LoadTest, AComparisonOfTooManyQuestionsIsRefused) {
+  startPlanner();
+  publishMap(field(10));
+  ComparePlans call = comparison(1001, 10);
+  ASSERT_TRUE(ros::service::call("/path_planner/compare_plans", call));
+  ASSERT_EQ(call.response.results.size(), 1u);
+  ASSERT_EQ(call.response.paths.size(), 1u);
+  EXPECT_EQ(call.response.results[0].status, "INVALID_REQUEST");
+  EXPECT_NE(call.response.results[0].message.find("at most 1000"), std::string::npos);
+  call = comparison(1000, 10);
+  ASSERT_TRUE(ros::service::call("/path_planner/compare_plans", call));
+  EXPECT_EQ(call.response.results.size(), 1000u);
+}
+
+// Both threads of the services compared for clients that were gone, minutes long.
+TEST_F(LoadTest, AComparisonEndsWithItsClient) {
+  constexpr int kSide = 1000;
+  startPlanner();
+  publishMap(field(kSide));
+  for (int i = 0; i < 4; ++i) {
+    ros::ServiceClient client =
+        nh_.serviceClient<ComparePlans>("/path_planner/compare_plans", true);
+    std::thread asks([client]() mutable {
+      ComparePlans call = comparison(1000, kSide);
+      client.call(call);
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // time to be asked
+    client.shutdown();
+    asks.join();
+  }
+  std::atomic<bool> answered{false};
+  std::thread asks([&] {
+    nav_msgs::GetPlan call;
+    call.request.start = call.request.goal = poseAt(0.5, 0.5);
+    answered = ros::service::call("/path_planner/make_plan", call);
+  });
+  EXPECT_TRUE(waitFor([&] { return answered.load(); })) << "it compares for nobody";
+  if (!answered) planner_->signal(SIGKILL);
+  asks.join();
+}
+
+// A path_planner that may take so many KiB of address space. std::bad_alloc ended it.
+std::vector<std::string> limited(int kibibytes, const std::string& arguments) {
+  return {"sh", "-c",
+          "ulimit -v " + std::to_string(kibibytes) +
+              " && exec " GPP_DEVEL
+              "/lib/grid_path_planner/path_planner _planner:=dijkstra "
+              "_timeout:=0 " +
+              arguments};
+}
+
+TEST_F(LoadTest, MemoryThatIsNotThereIsAStatus) {
+  constexpr int kSide = 9000;
+  for (const char* limit : {"_memory_limit:=0", "_memory_limit:=1000000"}) {
+    startPlanner(std::make_unique<test::Process>(limited(2500000, limit)));
+    maps_.publish(occupancyToMessage(field(kSide), "map", ros::Time::now()));
+    ASSERT_TRUE(waitFor([this] {
+      makePlan(poseAt(0.5, 0.5), poseAt(kSide - 0.5, kSide - 0.5));
+      return answer_.status != "NO_MAP";
+    }));
+    EXPECT_EQ(answer_.status, "INVALID_REQUEST") << answer_.message;
+    EXPECT_NE(answer_.message.find("memory"), std::string::npos) << answer_.message;
+    publishMap(field(10));
+    makePlan(poseAt(0.5, 0.5), poseAt(9.5, 9.5));
+    EXPECT_EQ(answer_.status, "FOUND") << answer_.message;
+    EXPECT_TRUE(planner_->running());
+    planner_.reset();
+    ASSERT_TRUE(waitFor([this] { return maps_.getNumSubscribers() == 0; }));
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes

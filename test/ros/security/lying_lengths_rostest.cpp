@@ -1,0 +1,134 @@
+// Messages of 200 bytes that claim to hold gigabytes: three of them took 4.17 GB of two nodes.
+#include <gtest/gtest.h>
+#include <map_msgs/OccupancyGridUpdate.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Path.h>
+#include <ros/ros.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros/support/process.h"
+#include "ros/support/wait.h"
+
+namespace grid_path_planner::nodes {
+
+// A message as it goes over the wire, of the type of another one.
+template <class Message>
+struct RawBytes {
+  std::vector<std::uint8_t> bytes;
+};
+
+}  // namespace grid_path_planner::nodes
+
+namespace ros::message_traits {
+
+template <class Message>
+struct MD5Sum<grid_path_planner::nodes::RawBytes<Message>> : MD5Sum<Message> {
+  static const char* value(const grid_path_planner::nodes::RawBytes<Message>&) {
+    return MD5Sum<Message>::value();
+  }
+  static const char* value() { return MD5Sum<Message>::value(); }
+};
+template <class Message>
+struct DataType<grid_path_planner::nodes::RawBytes<Message>> : DataType<Message> {
+  static const char* value(const grid_path_planner::nodes::RawBytes<Message>&) {
+    return DataType<Message>::value();
+  }
+  static const char* value() { return DataType<Message>::value(); }
+};
+template <class Message>
+struct Definition<grid_path_planner::nodes::RawBytes<Message>> : Definition<Message> {
+  static const char* value(const grid_path_planner::nodes::RawBytes<Message>&) {
+    return Definition<Message>::value();
+  }
+  static const char* value() { return Definition<Message>::value(); }
+};
+
+}  // namespace ros::message_traits
+
+namespace ros::serialization {
+
+template <class Message>
+struct Serializer<grid_path_planner::nodes::RawBytes<Message>> {
+  template <class Stream>
+  static void write(Stream& stream, const grid_path_planner::nodes::RawBytes<Message>& message) {
+    std::memcpy(stream.advance(static_cast<std::uint32_t>(message.bytes.size())),
+                message.bytes.data(), message.bytes.size());
+  }
+  static std::uint32_t serializedLength(
+      const grid_path_planner::nodes::RawBytes<Message>& message) {
+    return static_cast<std::uint32_t>(message.bytes.size());
+  }
+};
+
+}  // namespace ros::serialization
+
+namespace grid_path_planner::nodes {
+namespace {
+
+// A message whose last array, empty at its end, claims so many elements of which 100 bytes are there.
+template <class Message>
+RawBytes<Message> lie(std::uint32_t claimed) {
+  const Message message;
+  RawBytes<Message> raw;
+  raw.bytes.resize(ros::serialization::serializationLength(message));
+  ros::serialization::OStream stream(raw.bytes.data(),
+                                     static_cast<std::uint32_t>(raw.bytes.size()));
+  ros::serialization::serialize(stream, message);
+  const std::size_t is_dense = std::is_same<Message, sensor_msgs::PointCloud2>::value ? 1 : 0;
+  std::memcpy(&raw.bytes[raw.bytes.size() - 4 - is_dense], &claimed, 4);
+  raw.bytes.resize(raw.bytes.size() + 100);
+  return raw;
+}
+
+template <class Message>
+void tellLies(test::Process& node, const std::string& topic, std::uint32_t claimed) {
+  ros::NodeHandle nh;
+  ros::Publisher publisher = nh.advertise<RawBytes<Message>>(topic, 10);
+  ASSERT_TRUE(test::waitFor([&] { return publisher.getNumSubscribers() > 0; })) << topic;
+  const auto refusals = [&] {
+    const std::string text = node.output();
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = text.find("it claims", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  const std::size_t before = refusals();
+  publisher.publish(lie<Message>(claimed));
+  EXPECT_TRUE(test::waitFor([&] { return refusals() > before; })) << topic;
+}
+
+constexpr std::size_t kMostMemory = std::size_t{1} << 30;  // bytes
+
+TEST(LyingLengths, TakeNoMemoryOfPathPlanner) {
+  test::Process node("path_planner", {});
+  tellLies<nav_msgs::OccupancyGrid>(node, "/projected_map", 4000000000U);
+  tellLies<map_msgs::OccupancyGridUpdate>(node, "/projected_map_updates", 4000000000U);
+  tellLies<tf2_msgs::TFMessage>(node, "/tf", 20000000U);
+  EXPECT_TRUE(node.running());
+  EXPECT_LT(node.peakMemory(), kMostMemory);
+}
+
+TEST(LyingLengths, TakeNoMemoryOfNavigatePath) {
+  test::Process node("navigate_path", {});
+  tellLies<nav_msgs::OccupancyGrid>(node, "/projected_map", 4000000000U);
+  tellLies<nav_msgs::Path>(node, "/path", 20000000U);
+  EXPECT_TRUE(node.running());
+  EXPECT_LT(node.peakMemory(), kMostMemory);
+}
+
+TEST(LyingLengths, TakeNoMemoryOfProjectedMap) {
+  test::Process node("projected_map", {"_autosave_period:=0"});
+  tellLies<sensor_msgs::PointCloud2>(node, "/cloud_in", 4000000000U);
+  EXPECT_TRUE(node.running());
+  EXPECT_LT(node.peakMemory(), kMostMemory);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
