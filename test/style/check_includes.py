@@ -23,6 +23,7 @@ PLANNER_FLOORS = {
 }
 # Private headers that rooms above include too, though no other package should.
 LENT = {
+    "base/available_memory.h": {"planners", "ros_common", "ros_planning"},
     "base/deflate.h": {"grid", "planners"},
     "base/zeroed_array.h": {"planners"},
     "grid/float_decimal.h": {"ros_common"},
