@@ -34,8 +34,11 @@ ScenarioQuery queryOf(const std::string& file, int line, const std::string& text
 
 }  // namespace
 
-std::vector<ScenarioQuery> readScenarioFile(const std::string& file) {
-  std::istringstream in(readWholeFile(file, kLargestScenarioFile));
+namespace {
+
+std::vector<ScenarioQuery> queriesWithin(const std::string& file, base::ReadLimits& limits) {
+  std::istringstream in(readWholeFile(file, kLargestScenarioFile, limits));
+  base::ReadPoll poll(limits, file);
   std::vector<ScenarioQuery> queries;
   int line = 0;
   for (std::string text; std::getline(in, text);) {
@@ -47,10 +50,20 @@ std::vector<ScenarioQuery> readScenarioFile(const std::string& file) {
       continue;
     }
     if (text.find_first_not_of(" \t") == std::string::npos) continue;
+    poll();
+    limits.take(file, 2 * sizeof(ScenarioQuery) + text.size());  // the list grows by doubling
     queries.push_back(queryOf(file, line, text));
   }
   if (queries.empty()) throw InputError(file, "has no queries");
   return queries;
+}
+
+}  // namespace
+
+std::vector<ScenarioQuery> readScenarioFile(const std::string& file,
+                                            const base::ReadLimits& limits) {
+  return base::readWithin(
+      file, limits, [&](base::ReadLimits& within) { return queriesWithin(file, within); });
 }
 
 std::vector<ScenarioQuery> spreadOver(const std::vector<ScenarioQuery>& queries,

@@ -4,6 +4,8 @@
 #include <set>
 
 #include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/base/files.h"
+#include "grid_path_planner/base/read_limits.h"
 #include "grid_path_planner/base/yaml_file.h"
 #include "study/study.h"
 #include "study/study_planners.h"
@@ -11,7 +13,7 @@
 namespace grid_path_planner::study {
 
 using base::choiceFromName, base::choiceName, base::describeYaml, base::InputError,
-    base::loadYamlFile, base::OptionInfo, base::parseOption, base::yamlAs, base::yamlError,
+    base::kLargestYaml, base::OptionInfo, base::parseYaml, base::readWholeFile, base::parseOption, base::yamlAs, base::yamlError,
     base::yamlNode, base::yamlValue, base::yamlValueOr;
 using costmap::checkCostmapOptions, costmap::CostmapOptions, costmap::KernelRule;
 using grid::Cell;
@@ -21,6 +23,10 @@ namespace {
 
 constexpr int kMostRepeats = 1000;
 constexpr int kMostQueries = 1000000;
+// Few letters may ask for many, by lists that are multiplied and by YAML's aliases.
+constexpr std::size_t kMostSettings = 100000, kMostVariants = 10000;
+constexpr std::size_t kBytesOfSetting = 1000, kBytesOfVariant = 1000, kBytesOfMap = 500,
+                      kBytesOfPair = 2 * sizeof(Cell);
 
 std::string weightsLabel(const Weights& weights) {
   return std::to_string(weights.free) + '/' + std::to_string(weights.unknown) + '/' +
@@ -50,7 +56,8 @@ class StudyReader {
   }
 
   Study read() {
-    const YAML::Node root = loadYamlFile(file_);
+    limits_.start();
+    const YAML::Node root = parseYaml(readWholeFile(file_, kLargestYaml, limits_), file_, limits_);
     checkKeys(root, "the study",
               {"title", "maps", "planners", "heuristics", "tie_breaks", "kernels", "kernel_rules",
                "weights", "options", "queries", "repeats", "published"});
@@ -201,12 +208,20 @@ class StudyReader {
       queries.scenario_limit = wholeNumber(node["limit"], "limit", 1, kMostQueries);
   }
 
+  void readPairs(const YAML::Node& node, QuerySource& queries) const {
+    limits_.check(file_, 2 * kBytesOfPair * entriesOf(node, "pairs").size());
+    base::ReadPoll poll(limits_, file_, 16);
+    for (const YAML::Node& pair : node) {
+      poll();
+      queries.pairs.push_back(pairOf(pair));
+    }
+  }
+
   QuerySource queriesOf(const YAML::Node& node) const {
     checkKeys(node, "queries", {"pairs", "random", "scenario"});
     QuerySource queries;
     if (node["pairs"])
-      for (const YAML::Node& pair : entriesOf(node["pairs"], "pairs"))
-        queries.pairs.push_back(pairOf(pair));
+      readPairs(node["pairs"], queries);
     if (node["random"]) readRandom(node["random"], queries);
     if (node["scenario"]) readScenario(node["scenario"], queries);
     if (queries.empty()) throw yamlError(node, file_, "queries names none");
@@ -235,6 +250,8 @@ class StudyReader {
       if (map.queries.empty())
         throw yamlError(entry, file_, "map '" + map.name + "' has no queries");
       refuseTwice(entry, names, map.name, "maps");
+      limits_.goOn(file_);
+      limits_.take(file_, kBytesOfMap + map.queries.pairs.size() * kBytesOfPair);
       study_.maps.push_back(map);
     }
   }
@@ -258,6 +275,11 @@ class StudyReader {
   void addVariant(const YAML::Node& node, const StudyVariant& variant) {
     atLine(node,
            [&] { makeStudyPlanner(variant.planner, variant.search, variant.published_cross); });
+    if (study_.variants.size() == kMostVariants)
+      throw yamlError(node, file_,
+                      "the study has more than " + std::to_string(kMostVariants) + " planners");
+    limits_.goOn(file_);
+    limits_.take(file_, kBytesOfVariant);
     study_.variants.push_back(variant);
   }
 
@@ -342,6 +364,14 @@ class StudyReader {
     const std::vector<int> kernels = kernelsOf(root);
     const auto rules = choicesUnder(root, "kernel_rules", study_.base.costmap.kernel_rule);
     const std::vector<Weights> weights = weightsOf(root);
+    const std::size_t most = kMostSettings / study_.maps.size();
+    if (kernels.size() * rules.size() > most || weights.size() > most ||
+        kernels.size() * rules.size() * weights.size() > most)
+      throw yamlError(root, file_,
+                      "the study has more than " + std::to_string(kMostSettings) +
+                          " combinations of maps, kernels, rules and weights");
+    limits_.take(file_, kBytesOfSetting * study_.maps.size() * kernels.size() * rules.size() *
+                            weights.size());
     for (std::size_t map = 0; map < study_.maps.size(); ++map)
       for (const int kernel : kernels)
         for (const KernelRule rule : rules)
@@ -386,6 +416,7 @@ class StudyReader {
   }
 
   std::string file_;
+  base::ReadLimits limits_;
   Study study_;
   QuerySource common_queries_;
   StudyTieBreak tie_break_ = StudyTieBreak::NONE;  // of the options
@@ -394,7 +425,7 @@ class StudyReader {
 }  // namespace
 
 Study readStudyFile(const std::string& file) {
-  return StudyReader(file).read();
+  return base::readWithin(file, {}, [&](const base::ReadLimits&) { return StudyReader(file).read(); });
 }
 
 }  // namespace grid_path_planner::study
