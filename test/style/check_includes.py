@@ -24,6 +24,7 @@ PLANNER_FLOORS = {
 # Private headers that rooms above include too, though no other package should.
 LENT = {
     "base/available_memory.h": {"planners", "ros_common", "ros_planning"},
+    "base/child_process.h": {"simulation"},
     "base/deflate.h": {"grid", "planners"},
     "base/zeroed_array.h": {"planners"},
     "grid/float_decimal.h": {"ros_common"},
@@ -31,6 +32,7 @@ LENT = {
     "planners/astar/a_star.h": {"study"},          # the base of its published A*
     "planners/astar/bucket_search.h": {"planning"},
     "planners/rectangles/rectangle_route.h": {"command_line"},
+    "simulation/read_world_main.h": {"nodes"},
 }
 ROS_HEADER = re.compile(
     r"(ros|tf2\w*|nodelet|pluginlib|rosbag|actionlib|dynamic_reconfigure|diagnostic_updater|topic_tools"
