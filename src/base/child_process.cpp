@@ -32,8 +32,8 @@ std::string pathOfProgram(const std::string& name) {
   std::error_code ignored;
   const fs::path library = fs::canonical(here.dli_fname ? here.dli_fname : "", ignored);
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  for (const fs::path& folder : {library.parent_path() / kFolder, library.parent_path(),
-                                 program.parent_path()})
+  for (const fs::path& folder :
+       {library.parent_path() / kFolder, library.parent_path(), program.parent_path()})
     if (::access((folder / name).c_str(), X_OK) == 0) return (folder / name).string();
   throw InputError("the program " + name + " of this package is missing: it belongs into " +
                    (library.parent_path() / kFolder).string());
@@ -144,10 +144,9 @@ class Child {
 };
 
 InputError unexpectedEnd(const std::string& file, int status) {
-  const std::string how =
-      WIFSIGNALED(status) ? "by signal " + std::to_string(WTERMSIG(status)) + " (" +
-                                ::strsignal(WTERMSIG(status)) + ")"
-                          : "with code " + std::to_string(WEXITSTATUS(status));
+  const std::string how = WIFSIGNALED(status) ? "by signal " + std::to_string(WTERMSIG(status)) +
+                                                    " (" + ::strsignal(WTERMSIG(status)) + ")"
+                                              : "with code " + std::to_string(WEXITSTATUS(status));
   return InputError(file, "cannot be read: the process that read it ended " + how);
 }
 

@@ -34,8 +34,7 @@ void ReadLimits::check(const std::string& file, std::size_t bytes) const {
   if (bytes <= bytesLeft()) return;
   const std::size_t needed = taken_ + std::min(bytes, std::size_t{1} << 60);
   throw InputError(file, "takes " + std::to_string(needed / kMegabyte) +
-                             " MB to be read, more than the " +
-                             std::to_string(bytes_ / kMegabyte) +
+                             " MB to be read, more than the " + std::to_string(bytes_ / kMegabyte) +
                              " MB that reading a file may take (read_memory_limit)");
 }
 

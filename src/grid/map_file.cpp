@@ -10,14 +10,14 @@
 #include "grid/formats/map_server_file.h"
 #include "grid/formats/moving_ai_file.h"
 #include "grid/formats/occupancy_dump.h"
+#include "grid/formats/rectangle_map_file.h"
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/yaml_file.h"
-#include "grid_path_planner/grid/rectangle_map_file.h"
 
 namespace grid_path_planner::grid {
 
-using base::extensionOf, base::InputError, base::kLargestYaml, base::parseYaml,
-    base::ReadLimits, base::readWholeFile, base::readWithin;
+using base::extensionOf, base::InputError, base::kLargestYaml, base::parseYaml, base::ReadLimits,
+    base::readWholeFile, base::readWithin;
 
 namespace {
 
@@ -112,9 +112,8 @@ OccupancyGrid readUnlessReplaced(const std::string& file, const MapFileOptions& 
 }  // namespace
 
 OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options) {
-  return readWithin(file, options.limits, [&](ReadLimits& limits) {
-    return readUnlessReplaced(file, options, limits);
-  });
+  return readWithin(file, options.limits,
+                    [&](ReadLimits& limits) { return readUnlessReplaced(file, options, limits); });
 }
 
 RowOrder rowOrderOf(const std::string& file) {

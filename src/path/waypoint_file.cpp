@@ -192,8 +192,8 @@ Path waypointsWithin(const std::string& file, base::ReadLimits& limits) {
 }  // namespace
 
 Path readWaypointFile(const std::string& file, const base::ReadLimits& limits) {
-  return base::readWithin(
-      file, limits, [&](base::ReadLimits& within) { return waypointsWithin(file, within); });
+  return base::readWithin(file, limits,
+                          [&](base::ReadLimits& within) { return waypointsWithin(file, within); });
 }
 
 void writeWaypointFile(const OutputFile& file, const Path& path) {

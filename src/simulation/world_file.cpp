@@ -36,13 +36,13 @@ World worldWithin(const std::string& file, ReadLimits& limits) {
 }  // namespace
 
 int readWorldMain(int argc, char** argv) {
-  return base::childMain(
-      argc, argv, [](const std::string& file) { return bytesOf(readWorldMeshes(file)); });
+  return base::childMain(argc, argv,
+                         [](const std::string& file) { return bytesOf(readWorldMeshes(file)); });
 }
 
 World readWorld(const std::string& file, const ReadLimits& limits) {
-  return base::readWithin(
-      file, limits, [&](ReadLimits& within) { return worldWithin(file, within); });
+  return base::readWithin(file, limits,
+                          [&](ReadLimits& within) { return worldWithin(file, within); });
 }
 
 }  // namespace grid_path_planner::simulation

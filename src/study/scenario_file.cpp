@@ -62,8 +62,8 @@ std::vector<ScenarioQuery> queriesWithin(const std::string& file, base::ReadLimi
 
 std::vector<ScenarioQuery> readScenarioFile(const std::string& file,
                                             const base::ReadLimits& limits) {
-  return base::readWithin(
-      file, limits, [&](base::ReadLimits& within) { return queriesWithin(file, within); });
+  return base::readWithin(file, limits,
+                          [&](base::ReadLimits& within) { return queriesWithin(file, within); });
 }
 
 std::vector<ScenarioQuery> spreadOver(const std::vector<ScenarioQuery>& queries,

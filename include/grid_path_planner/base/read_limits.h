@@ -32,11 +32,13 @@ struct ReadOptions {
 
 template <class Visitor>
 void visitOptions(ReadOptions& o, Visitor&& visit) {
-  visit("read_memory_limit", o.read_memory_limit,
-        OptionInfo{"Memory that reading one file may take, with what is made of it; never more than half of "
-                   "what is available at the start; a file that needs more is refused before it is taken",
-                   "MB", 1, 1e6}
-            .under("Reading files"));
+  visit(
+      "read_memory_limit", o.read_memory_limit,
+      OptionInfo{
+          "Memory that reading one file may take, with what is made of it; never more than half of "
+          "what is available at the start; a file that needs more is refused before it is taken",
+          "MB", 1, 1e6}
+          .under("Reading files"));
   visit("read_time_limit", o.read_time_limit,
         OptionInfo{"Time that reading one file may take; then it is refused", "s", 0.01, 86400});
 }
@@ -65,7 +67,7 @@ class ReadLimits {
   double secondsLeft() const;
   bool stopped() const { return stop_.reason() != StopReason::NONE; }
 
-  // Errors, for readers that find out in ways of their own.
+  // Errors, for readers that find out by themselves.
   InputError tooLarge(const std::string& file) const;
   InputError tooSlow(const std::string& file) const;
 

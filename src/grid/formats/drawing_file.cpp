@@ -15,8 +15,8 @@
 
 namespace grid_path_planner::grid {
 
-using base::decimalText, base::describeYaml, base::InputError, base::ReadLimits, base::yamlAs, base::yamlError,
-    base::yamlNode, base::yamlValue;
+using base::decimalText, base::describeYaml, base::InputError, base::ReadLimits, base::yamlAs,
+    base::yamlError, base::yamlNode, base::yamlValue;
 
 namespace {
 
@@ -41,8 +41,9 @@ double coordinateOf(const YAML::Node& node, const std::string& name, const std::
   constexpr double kFarthest = 1e9;
   const auto metres = yamlAs<double>(node, name, file, "a number of metres");
   if (std::abs(metres) <= kFarthest) return metres;
-  throw yamlError(node, file,
-                  name + " must be a number of metres within 1e9 m of 0, got " + decimalText(metres));
+  throw yamlError(
+      node, file,
+      name + " must be a number of metres within 1e9 m of 0, got " + decimalText(metres));
 }
 
 Vector2d pointOf(const YAML::Node& node, const std::string& name, const std::string& file) {
@@ -54,8 +55,7 @@ Vector2d pointOf(const YAML::Node& node, const std::string& name, const std::str
 // Draws one obstacle after the other. Few letters may name many, by YAML's aliases.
 class ObstacleReader {
  public:
-  ObstacleReader(OccupancyGrid& map, double resolution, const std::string& file,
-                 ReadLimits& limits)
+  ObstacleReader(OccupancyGrid& map, double resolution, const std::string& file, ReadLimits& limits)
       : file_(file),
         limits_(limits),
         canvas_(map, resolution, file, limits),

@@ -147,9 +147,8 @@ void Canvas::drawCircle(const Vector2d& centre, double radius) {
   const auto holds = [&](const Vector2d& point) { return (point - centre).norm() <= radius; };
   for (int row = box.first_row; row < box.end_row; ++row) {
     poll_();
-    const int begin = firstColumnNot(box, row, [&](const Vector2d& point) {
-      return point.x() < centre.x() && !holds(point);
-    });
+    const int begin = firstColumnNot(
+        box, row, [&](const Vector2d& point) { return point.x() < centre.x() && !holds(point); });
     const int end = firstColumnNot(
         box, row, [&](const Vector2d& point) { return point.x() < centre.x() || holds(point); });
     if (begin < end) std::fill(map_.row(row) + begin, map_.row(row) + end, kDrawn);

@@ -70,8 +70,8 @@ class JpegReader : private LongjmpDecoder {
     const auto channels = static_cast<std::size_t>(jpeg_.num_components);
     const std::size_t pixels = bytesOfPixels(width, height, channels == 4 ? 7 : channels);
     if (jpeg_has_multiple_scans(&jpeg_) == FALSE) return pixels;
-    return pixels + sizeof(JCOEF) *
-                        bytesOfPixels(width + kLargestBlock, height + kLargestBlock, channels);
+    return pixels +
+           sizeof(JCOEF) * bytesOfPixels(width + kLargestBlock, height + kLargestBlock, channels);
   }
   void start() {
     progress_.progress_monitor = [](j_common_ptr jpeg) {
@@ -138,8 +138,7 @@ class JpegReader : private LongjmpDecoder {
 
 }  // namespace
 
-cv::Mat decodeJpeg(const std::string& content, const std::string& file,
-                   const ImageLimits& limits) {
+cv::Mat decodeJpeg(const std::string& content, const std::string& file, const ImageLimits& limits) {
   return JpegReader(content, file, limits).read();
 }
 

@@ -1,4 +1,4 @@
-#include "grid_path_planner/grid/rectangle_map_file.h"
+#include "grid/formats/rectangle_map_file.h"
 
 #include <zlib.h>
 
@@ -210,9 +210,8 @@ bool looksLikeRectangleMap(const std::string& content) {
 
 RectangleMap parseRectangles(const std::string& content, const std::string& file,
                              ReadLimits limits) {
-  return readWithin(file, std::move(limits), [&](ReadLimits& within) {
-    return rectanglesWithin(content, file, within);
-  });
+  return readWithin(file, std::move(limits),
+                    [&](ReadLimits& within) { return rectanglesWithin(content, file, within); });
 }
 
 OccupancyGrid parseRectangleMap(const std::string& content, const std::string& file,

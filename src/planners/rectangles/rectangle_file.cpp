@@ -2,10 +2,10 @@
 
 #include <utility>
 
+#include "grid/formats/rectangle_map_file.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/grid/map_file.h"
-#include "grid_path_planner/grid/rectangle_map_file.h"
 
 namespace grid_path_planner::planners {
 
@@ -23,8 +23,7 @@ void writeRectangleFile(const std::string& file, const RectangleGraph& map) {
 
 RectangleGraph readRectangleFile(const std::string& file, Touching touching) {
   return readWithin(file, {}, [&](ReadLimits& limits) {
-    RectangleMap map =
-        parseRectangles(readWholeFile(file, kLargestMapFile, limits), file, limits);
+    RectangleMap map = parseRectangles(readWholeFile(file, kLargestMapFile, limits), file, limits);
     limits.check(file, RectangleGraph::bytesFor(map.rectangles.size()));
     try {
       return RectangleGraph(map.geometry, std::move(map.rectangles), touching);

@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::string_view kSignature = "#ROSBAG V2.0\n";
 constexpr std::string_view kAnySignature = "#ROSBAG";
-constexpr std::uint32_t kLongestHeader = 1u << 16;  // bytes; those of rosbag take some hundred
+constexpr std::uint32_t kLongestHeader = 1u << 16;      // bytes; those of rosbag take some hundred
 constexpr std::uint32_t kLongestConnection = 1u << 24;  // bytes of its definition
-constexpr std::uint32_t kLargestChunk = 1u << 30;   // bytes, unpacked
+constexpr std::uint32_t kLargestChunk = 1u << 30;       // bytes, unpacked
 
 // What is kept of a record, and what reading a connection's fields takes for each byte of them.
 constexpr std::size_t kBytesOfChunk = 256, kBytesOfIndex = 64, kBytesOfConnection = 256;
@@ -169,9 +169,7 @@ BagReader::Chunk chunkFrom(const Record& record) {
 }  // namespace
 
 BagReader::BagReader(const std::string& file, const base::ReadLimits& limits)
-    : file_(file),
-      limits_(limits),
-      bytes_(std::make_shared<const base::RegularFile>(file)) {
+    : file_(file), limits_(limits), bytes_(std::make_shared<const base::RegularFile>(file)) {
   limits_.start();
   inFile(file, [this] { walk(); });
 }
