@@ -11,6 +11,7 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <limits>
 
 #include "grid_path_planner/base/errors.h"
 
@@ -75,7 +76,15 @@ std::string RegularFile::read(std::size_t begin, std::size_t count) const {
 // By the size that the file has when it is opened: one that others write to meanwhile is cut there,
 // or ends early, as if it had been read before or after.
 std::string readWholeFile(const std::string& file, std::size_t largest) {
+  ReadOptions any;
+  any.read_memory_limit = std::numeric_limits<int>::max();
+  ReadLimits limits(any);
+  return readWholeFile(file, largest, limits);
+}
+
+std::string readWholeFile(const std::string& file, std::size_t largest, ReadLimits& limits) {
   const RegularFile opened(file);
+  limits.take(file, opened.size());
   if (opened.size() > largest)
     throw InputError(file, "is larger than " + std::to_string(largest) + " bytes");
   std::string content = opened.read(0, opened.size());

@@ -5,25 +5,32 @@
 #include <algorithm>
 #include <cstddef>
 #include <sstream>
+#include <utility>
 
 #include "grid_path_planner/base/files.h"
 
 namespace grid_path_planner::base {
 namespace {
 
+// What a tree takes, measured with yaml-cpp 0.6 and 0.7.
+constexpr std::size_t kBytesOfNode = 512, kBytesOfAlias = 32;
+// The text itself, the copies that the parser makes of it, and what it holds in advance.
+constexpr std::size_t kCopiesOfText = 4;
+
 // Listens to a first pass over the text, which builds nothing, and ends it where the nesting gets
-// too deep or where there is more to hear than the text can say.
+// too deep, where there is more to hear than the text can say, or where the tree would be too large.
 class Guard : public YAML::EventHandler {
  public:
-  Guard(const std::string& file, std::size_t letters) : file_(file), most_(4 * letters + 64) {}
+  Guard(const std::string& file, std::size_t letters, ReadLimits& limits)
+      : file_(file), most_(4 * letters + 64), limits_(limits), poll_(limits, file) {}
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { count(mark); }
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { count(mark); }
-  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
-                const std::string&) override {
-    count(mark);
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { count(mark, kBytesOfAlias); }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                const std::string& text) override {
+    count(mark, kBytesOfNode + tag.size() + text.size());
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
                        YAML::EmitterStyle::value) override {
@@ -43,14 +50,35 @@ class Guard : public YAML::EventHandler {
       throw InputError(file_, mark.line + 1,
                        "is nested deeper than " + std::to_string(kDeepestYaml) + " levels");
   }
-  void count(const YAML::Mark& mark) {
+  void count(const YAML::Mark& mark, std::size_t bytes = kBytesOfNode) {
     if (++heard_ > most_) throw InputError(file_, mark.line + 1, "is not YAML");
+    limits_.take(file_, bytes);
+    poll_();
   }
 
   const std::string& file_;
   std::size_t most_;
+  ReadLimits& limits_;
+  ReadPoll poll_;
   std::size_t heard_ = 0;
   int depth_ = 0;
+};
+
+// The pass that builds a tree cannot be interrupted. It takes some three times as long as the one that
+// was guarded, and is not begun where that is more than is left.
+class BuildingTime {
+ public:
+  explicit BuildingTime(const ReadLimits& limits)
+      : limits_(limits), before_(limits.secondsLeft()) {}
+  void check(const std::string& file) const {
+    constexpr double kTimesGuarding = 4.0;
+    const double left = limits_.secondsLeft();
+    if (kTimesGuarding * (before_ - left) > left) throw limits_.tooSlow(file);
+  }
+
+ private:
+  const ReadLimits& limits_;
+  double before_;
 };
 
 // The scanner of yaml-cpp 0.6.2 (Ubuntu 20.04) never ends on ":]", wherever it stands outside
@@ -64,19 +92,28 @@ void refuseEndlessText(const std::string& text, const std::string& file) {
 
 }  // namespace
 
-YAML::Node loadYamlFile(const std::string& file) {
-  return parseYaml(readWholeFile(file, kLargestYaml), file);
+YAML::Node loadYamlFile(const std::string& file, ReadLimits limits) {
+  return readWithin(file, std::move(limits), [&file](ReadLimits& left) {
+    return parseYaml(readWholeFile(file, kLargestYaml, left), file, left);
+  });
 }
 
 YAML::Node parseYaml(const std::string& text, const std::string& file) {
+  return readWithin(file, {}, [&](ReadLimits& limits) { return parseYaml(text, file, limits); });
+}
+
+YAML::Node parseYaml(const std::string& text, const std::string& file, ReadLimits& limits) {
+  limits.take(file, kCopiesOfText * text.size());
   checkIsText(text, file);
   refuseEndlessText(text, file);
   // yaml-cpp 0.6.2 fails an assertion where a text ends behind a tag ("!"); this one does not.
   const std::string ended = text + "\n...\n";
   try {
     std::istringstream stream(ended);
-    Guard guard(file, ended.size());
+    const BuildingTime time(limits);
+    Guard guard(file, ended.size(), limits);
     YAML::Parser(stream).HandleNextDocument(guard);
+    time.check(file);
     return YAML::Load(ended);
   } catch (const YAML::Exception& error) {
     if (error.mark.is_null()) throw InputError(file, "is not YAML: " + error.msg);

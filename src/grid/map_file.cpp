@@ -10,13 +10,14 @@
 #include "grid/formats/map_server_file.h"
 #include "grid/formats/moving_ai_file.h"
 #include "grid/formats/occupancy_dump.h"
+#include "grid/formats/rectangle_map_file.h"
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/yaml_file.h"
-#include "grid_path_planner/grid/rectangle_map_file.h"
 
 namespace grid_path_planner::grid {
 
-using base::extensionOf, base::InputError, base::kLargestYaml, base::parseYaml, base::readWholeFile;
+using base::extensionOf, base::InputError, base::kLargestYaml, base::parseYaml, base::ReadLimits,
+    base::readWholeFile, base::readWithin;
 
 namespace {
 
@@ -54,11 +55,11 @@ bool isMapServerYaml(const YAML::Node& root) {
 }
 
 OccupancyGrid readYamlMap(const std::string& content, const std::string& file,
-                          const MapFileOptions& options) {
+                          MapFileOptions& options) {
   if (looksLikeOccupancyDump(content)) return parseOccupancyDump(content, file, options);
   if (content.size() > kLargestYaml)
     throw InputError(file, "is no map: larger than any map_server file and without 'data'");
-  const YAML::Node root = parseYaml(content, file);
+  const YAML::Node root = parseYaml(content, file, options.limits);
   if (isMapServerYaml(root)) return readMapServerMap(root, file, options);
   if (looksLikeVectorMap(root)) return readVectorMap(root, file, options);
   throw InputError(
@@ -80,7 +81,7 @@ GridGeometry mapGeometry(const std::string& file, int width, int height, double 
 namespace {
 
 OccupancyGrid readMap(const std::string& content, const std::string& file,
-                      const MapFileOptions& options) {
+                      MapFileOptions& options) {
   const std::string extension = extensionOf(file);
   if (isBag(content, extension))
     throw InputError(file, "is a bag, which is read with ROS (grid_path_planner/ros/bag.h)");
@@ -90,21 +91,29 @@ OccupancyGrid readMap(const std::string& content, const std::string& file,
   return readYamlMap(content, file, options);
 }
 
-}  // namespace
-
 // A writer that replaces the map meanwhile removes the image that the old YAML names.
-OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options) {
+OccupancyGrid readUnlessReplaced(const std::string& file, const MapFileOptions& options,
+                                 ReadLimits& limits) {
   constexpr int kTries = 20;
-  std::string content = readWholeFile(file, kLargestMapFile);
+  std::string content = readWholeFile(file, kLargestMapFile, limits);
   for (int i = 1;; ++i) {
+    MapFileOptions within = options;
+    within.limits = limits;
     try {
-      return readMap(content, file, options);
+      return readMap(content, file, within);
     } catch (const InputError&) {
       std::string now = readWholeFile(file, kLargestMapFile);
-      if (i == kTries || now == content) throw;
+      if (i == kTries || now == content || now.size() > content.size() + limits.bytesLeft()) throw;
       content = std::move(now);
     }
   }
+}
+
+}  // namespace
+
+OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options) {
+  return readWithin(file, options.limits,
+                    [&](ReadLimits& limits) { return readUnlessReplaced(file, options, limits); });
 }
 
 RowOrder rowOrderOf(const std::string& file) {

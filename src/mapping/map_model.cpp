@@ -23,7 +23,7 @@ const ProjectedMapOptions& checked(const ProjectedMapOptions& options) {
 
 OctreeMap mapOf(const ProjectedMapOptions& options, const std::string& file) {
   OctreeMap map(options.octree);
-  if (!file.empty()) map.load(file);
+  if (!file.empty()) map.load(file, options.reading);
   return map;
 }
 

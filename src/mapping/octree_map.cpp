@@ -94,17 +94,15 @@ void OctreeMap::decay(double seconds) {
   fadeOccupied(*tree_, bricks_, static_cast<float>(range * seconds / options_.decay_time));
 }
 
-void OctreeMap::load(const std::string& file) {
-  auto tree = readTreeFile(file, options_);
-  try {
-    replace(std::move(tree));
-  } catch (const InputError& error) {
-    throw InputError(file, error.what());
-  }
+void OctreeMap::load(const std::string& file, const base::ReadLimits& limits) {
+  base::readWithin(file, limits, [&](base::ReadLimits& within) {
+    replace(readTreeFile(file, options_, within), file, within);
+  });
 }
 
 void OctreeMap::assign(const octomap::OcTree& tree) {
-  replace(std::make_unique<MapTree>(tree, options_));
+  base::ReadLimits limits;
+  replace(std::make_unique<MapTree>(tree, options_), "the tree", limits);
 }
 
 void OctreeMap::save(const base::OutputFile& file) const {
@@ -125,14 +123,21 @@ octomap::key_type OctreeMap::nearestKey(double coordinate) const {
   return coordinate < 0.0 ? 0 : 0xFFFF;
 }
 
-void OctreeMap::replace(std::unique_ptr<MapTree> tree) {
+void OctreeMap::replace(std::unique_ptr<MapTree> tree, const std::string& name,
+                        base::ReadLimits& limits) {
   if (const std::size_t bricks = countBricks(*tree); bricks > kMostBricks)
-    throw InputError("the tree covers " + std::to_string(bricks) +
-                     " bricks of 8x8x8 voxels, at most " + std::to_string(kMostBricks) +
-                     " can be held");
+    throw InputError(name, "covers " + std::to_string(bricks) +
+                               " bricks of 8x8x8 voxels, at most " + std::to_string(kMostBricks) +
+                               " can be held");
+  limits.take(name, bytesToMeasureBricks(*tree));
+  limits.take(name, bytesOfBricks(*tree));
   OctreeOptions options = options_;
   options.resolution = tree->getResolution();
-  checkOctreeOptions(options);
+  try {
+    checkOctreeOptions(options);
+  } catch (const InputError& error) {
+    throw InputError(name, error.what());
+  }
   options_ = options;
   tree_ = std::move(tree);
   bricks_.clear(options_.resolution);

@@ -1,5 +1,6 @@
 #include "mapping/tree_file.h"
 
+#include <bitset>
 #include <cmath>
 #include <cstring>
 #include <locale>
@@ -12,6 +13,7 @@ namespace grid_path_planner::mapping {
 
 using base::InputError;
 using base::OutputFile;
+using base::ReadLimits;
 using base::readWholeFile;
 using base::writeFileAtomically;
 
@@ -82,11 +84,20 @@ Header readHeader(const std::string& file, const std::string& content) {
   return header;
 }
 
+// What OctoMap takes, with what the allocator adds. Two bytes of a .bt file can make 300 of a tree.
+constexpr std::size_t kBytesOfNode = 32, kBytesOfChildren = 80;
+
 class TreeReader {
  public:
   TreeReader(const std::string& file, const std::string& content, const Header& header,
-             MapTree& tree)
-      : file_(file), content_(content), header_(header), at_(header.end), tree_(tree) {}
+             MapTree& tree, ReadLimits& limits)
+      : file_(file),
+        content_(content),
+        header_(header),
+        at_(header.end),
+        tree_(tree),
+        limits_(limits),
+        poll_(limits, file) {}
 
   void read() {
     if (header_.nodes > 0) {
@@ -111,6 +122,7 @@ class TreeReader {
   void readBinaryChildren(Node* node, int depth) {
     const unsigned low = readByte(), labels = low | readByte() << 8;
     if (labels == 0 || depth == kDepth) throwBadNode();
+    takeChildren((labels | labels >> 1) & 0x5555);
     for (unsigned i = 0; i < 8; ++i) {
       const unsigned label = labels >> (2 * i) & 3;
       if (label == UNKNOWN) continue;
@@ -127,8 +139,16 @@ class TreeReader {
     node->setLogOdds(readFloat());
     const unsigned children = readByte();
     if (children != 0 && depth == kDepth) throwBadNode();
+    takeChildren(children);
     for (unsigned i = 0; i < 8; ++i)
       if (children >> i & 1) readFull(tree_.createNodeChild(node, i), depth + 1);
+  }
+
+  // `children`: a bit for each.
+  void takeChildren(unsigned children) {
+    poll_();
+    if (children == 0) return;
+    limits_.take(file_, kBytesOfChildren + kBytesOfNode * std::bitset<16>(children).count());
   }
 
   unsigned readByte() {
@@ -158,6 +178,8 @@ class TreeReader {
   const Header& header_;
   std::size_t at_;
   MapTree& tree_;
+  ReadLimits& limits_;
+  base::ReadPoll poll_;
 };
 
 // Log odds, then a bit for each child, as octomap::OcTree writes them, some ten times as fast.
@@ -186,11 +208,12 @@ std::string treeText(const MapTree& tree, const std::vector<std::string>& commen
   return text;
 }
 
-std::unique_ptr<MapTree> readTreeFile(const std::string& file, const OctreeOptions& model) {
-  const std::string content = readWholeFile(file, kLargestFile);
+std::unique_ptr<MapTree> readTreeFile(const std::string& file, const OctreeOptions& model,
+                                      ReadLimits& limits) {
+  const std::string content = readWholeFile(file, kLargestFile, limits);
   const Header header = readHeader(file, content);
   auto tree = std::make_unique<MapTree>(header.resolution, model);
-  TreeReader(file, content, header, *tree).read();
+  TreeReader(file, content, header, *tree, limits).read();
   return tree;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <unordered_map>
 
 namespace grid_path_planner::mapping {
 namespace {
@@ -9,6 +10,17 @@ namespace {
 using Node = MapTree::Node;
 
 constexpr std::uint32_t kBrickEdge = 8;
+
+// What OccupancyBricks takes: a column with its entry among those that have changed, and for each brick
+// between its lowest and its highest one a handle, of which there is room for twice as many.
+constexpr std::size_t kBytesOfColumn = 160, kBytesOfHandle = 8;
+constexpr std::size_t kBytesOfMeasured = 48;  // an entry of what bytesOfBricks() makes
+
+// Bricks of a column, from `lowest` up to before `end`.
+struct Heights {
+  std::uint32_t lowest = 0xFFFF;
+  std::uint32_t end = 0;
+};
 
 BrickKey brickKey(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   return {static_cast<std::uint16_t>(x / kBrickEdge), static_cast<std::uint16_t>(y / kBrickEdge),
@@ -45,6 +57,36 @@ std::size_t countBricks(const MapTree& tree) {
       count += edge * edge * edge;
     });
   return count;
+}
+
+std::size_t bytesToMeasureBricks(const MapTree& tree) {
+  std::size_t columns = 0;
+  if (tree.getRoot())
+    forEachBrickNode(tree, tree.getRoot(), MapTree::kSpace, [&](const Node*, const Cube& cube) {
+      columns += (cube.edge / kBrickEdge) * (cube.edge / kBrickEdge);
+    });
+  return columns * kBytesOfMeasured;
+}
+
+std::size_t bytesOfBricks(const MapTree& tree) {
+  if (!tree.getRoot()) return 0;
+  std::unordered_map<std::uint32_t, Heights> columns;
+  std::size_t mixed = 0;
+  const auto measure = [&](const Node* node, const Cube& cube) {
+    mixed += tree.nodeHasChildren(node) ? 1 : 0;
+    const BrickKey low = brickKey(cube.x, cube.y, cube.z);
+    const std::uint32_t edge = cube.edge / kBrickEdge;
+    for (std::uint32_t x = low.x; x < low.x + edge; ++x)
+      for (std::uint32_t y = low.y; y < low.y + edge; ++y) {
+        Heights& heights = columns[x << 16 | y];
+        heights.lowest = std::min<std::uint32_t>(heights.lowest, low.z);
+        heights.end = std::max(heights.end, low.z + edge);
+      }
+  };
+  forEachBrickNode(tree, tree.getRoot(), MapTree::kSpace, measure);
+  std::size_t handles = 0;
+  for (const auto& [key, heights] : columns) handles += heights.end - heights.lowest;
+  return mixed * sizeof(Brick) + columns.size() * kBytesOfColumn + handles * kBytesOfHandle;
 }
 
 void treeToBricks(const MapTree& tree, OccupancyBricks& bricks) {

@@ -11,6 +11,12 @@ namespace grid_path_planner::mapping {
 // How many bricks hold a known voxel. Visits the nodes with an edge of 8 voxels and more.
 std::size_t countBricks(const MapTree& tree);
 
+// The bytes that treeToBricks() would take: a column takes some from its lowest to its highest brick,
+// so that a few nodes can ask for a lot. Precondition: countBricks() is small enough to hold, and there
+// are as many bytes left to find out as bytesToMeasureBricks() says.
+std::size_t bytesOfBricks(const MapTree& tree);
+std::size_t bytesToMeasureBricks(const MapTree& tree);
+
 // Sets every known voxel of the tree in `bricks`, which are empty.
 void treeToBricks(const MapTree& tree, OccupancyBricks& bricks);
 

@@ -165,10 +165,14 @@ void checkCanBeRead(const std::string& file, const Path& path) {
 
 }  // namespace
 
-Path readWaypointFile(const std::string& file) {
-  const std::string text = readWholeFile(file, kLargestYaml);
+namespace {
+
+// Few letters may name many waypoints, by YAML's aliases.
+Path waypointsWithin(const std::string& file, base::ReadLimits& limits) {
+  const std::string text = readWholeFile(file, kLargestYaml, limits);
+  limits.check(file, text.size());  // a waypoint takes less than its text
   if (std::optional<Path> plain = plainWaypoints(text)) return *std::move(plain);
-  const YAML::Node root = parseYaml(text, file);
+  const YAML::Node root = parseYaml(text, file, limits);
   const YAML::Node waypoints = yamlNode(root, "waypoints", file, "a list of waypoints");
   if (!waypoints.IsSequence() || waypoints.size() == 0)
     throw yamlError(waypoints, file,
@@ -176,9 +180,20 @@ Path readWaypointFile(const std::string& file) {
                         (waypoints.IsSequence() ? "an empty list" : describeYaml(waypoints)));
   Path path;
   path.frame_id = frameOf(root, file);
-  for (const YAML::Node& node : waypoints)
+  limits.take(file, waypoints.size() * sizeof(Pose));
+  path.poses.reserve(waypoints.size());
+  for (const YAML::Node& node : waypoints) {
+    limits.goOn(file);
     path.poses.push_back(Entry(node, path.poses.size() + 1, file).pose());
+  }
   return path;
+}
+
+}  // namespace
+
+Path readWaypointFile(const std::string& file, const base::ReadLimits& limits) {
+  return base::readWithin(file, limits,
+                          [&](base::ReadLimits& within) { return waypointsWithin(file, within); });
 }
 
 void writeWaypointFile(const OutputFile& file, const Path& path) {

@@ -46,6 +46,8 @@ class FindCallback {
   FindCallback& operator=(const FindCallback&) = delete;
 };
 
+constexpr std::size_t kLongestText = 2000;  // of a file that gives cause to a warning a line
+
 std::string withoutEnd(std::string text) {
   text.erase(text.find_last_not_of(" \n;.") + 1);
   return text;
@@ -62,7 +64,7 @@ sdf::Root loadSdf(const std::string& file,
   {
     const CapturedConsole console;
     errors = root.Load(file);
-    printed = withoutEnd(console.text());
+    printed = withoutEnd(console.text()).substr(0, kLongestText);
   }
   if (errors.empty()) {
     if (!printed.empty()) std::cerr << file << ": " << printed << "\n";

@@ -41,8 +41,11 @@ ScenarioQuery queryOf(const std::string& file, int line, const std::string& text
 
 }  // namespace
 
-std::vector<ScenarioQuery> readScenarioFile(const std::string& file) {
-  std::istringstream in(readWholeFile(file, kLargestScenarioFile));
+namespace {
+
+std::vector<ScenarioQuery> queriesWithin(const std::string& file, base::ReadLimits& limits) {
+  std::istringstream in(readWholeFile(file, kLargestScenarioFile, limits));
+  base::ReadPoll poll(limits, file);
   std::vector<ScenarioQuery> queries;
   int line = 0;
   std::size_t decimals = 0;
@@ -55,12 +58,22 @@ std::vector<ScenarioQuery> readScenarioFile(const std::string& file) {
       continue;
     }
     if (text.find_first_not_of(" \t") == std::string::npos) continue;
+    poll();
+    limits.take(file, 2 * sizeof(ScenarioQuery) + text.size());  // the list grows by doubling
     queries.push_back(queryOf(file, line, text));
     decimals = std::max(decimals, decimalsOf(text.substr(text.find_last_of(" \t") + 1)));
   }
   if (queries.empty()) throw InputError(file, "has no queries");
   for (ScenarioQuery& query : queries) query.rounding = 0.5 * std::pow(10.0, -double(decimals));
   return queries;
+}
+
+}  // namespace
+
+std::vector<ScenarioQuery> readScenarioFile(const std::string& file,
+                                            const base::ReadLimits& limits) {
+  return base::readWithin(file, limits,
+                          [&](base::ReadLimits& within) { return queriesWithin(file, within); });
 }
 
 std::vector<ScenarioQuery> spreadOver(const std::vector<ScenarioQuery>& queries,

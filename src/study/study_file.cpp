@@ -3,16 +3,19 @@
 #include <functional>
 #include <set>
 
+#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/base/read_limits.h"
 #include "grid_path_planner/base/yaml_file.h"
 #include "study/study.h"
 #include "study/study_planners.h"
+#include "study/study_yaml.h"
 
 namespace grid_path_planner::study {
 
 using base::choiceFromName, base::choiceName, base::describeYaml, base::InputError,
-    base::loadYamlFile, base::OptionInfo, base::parseOption, base::yamlAs, base::yamlError,
-    base::yamlNode, base::yamlValue, base::yamlValueOr;
+    base::kLargestYaml, base::OptionInfo, base::parseYaml, base::readWholeFile, base::parseOption,
+    base::yamlAs, base::yamlError, base::yamlNode, base::yamlValue, base::yamlValueOr;
 using costmap::checkCostmapOptions, costmap::CostmapOptions, costmap::KernelRule;
 using grid::Cell;
 using planners::Heuristic, planners::SearchOptions;
@@ -21,6 +24,10 @@ namespace {
 
 constexpr int kMostRepeats = 1000;
 constexpr int kMostQueries = 1000000;
+// Few letters may ask for many, by lists that are multiplied and by YAML's aliases.
+constexpr std::size_t kMostSettings = 100000, kMostVariants = 10000;
+constexpr std::size_t kBytesOfSetting = 1000, kBytesOfVariant = 1000, kBytesOfMap = 500,
+                      kBytesOfPair = 2 * sizeof(Cell);
 
 std::string weightsLabel(const Weights& weights) {
   return std::to_string(weights.free) + '/' + std::to_string(weights.unknown) + '/' +
@@ -50,8 +57,9 @@ class StudyReader {
   }
 
   Study read() {
-    const YAML::Node root = loadYamlFile(file_);
-    checkKeys(root, "the study",
+    limits_.start();
+    const YAML::Node root = parseYaml(readWholeFile(file_, kLargestYaml, limits_), file_, limits_);
+    checkKeys(root, "the study", file_,
               {"title", "maps", "planners", "heuristics", "tie_breaks", "kernels", "kernel_rules",
                "weights", "options", "queries", "repeats", "published"});
     study_.file = file_;
@@ -70,27 +78,6 @@ class StudyReader {
   }
 
  private:
-  void checkKeys(const YAML::Node& node, const std::string& what,
-                 const std::set<std::string>& known) const {
-    if (!node.IsMap())
-      throw yamlError(node, file_, what + " must be a mapping, got " + describeYaml(node));
-    std::set<std::string> seen;
-    for (const auto& entry : node) {
-      const auto key = yamlAs<std::string>(entry.first, "a key", file_, "a name");
-      if (known.count(key) == 0)
-        throw yamlError(entry.first, file_,
-                        what + " has no '" + key + "'; it has " + listOf(known));
-      if (!seen.insert(key).second)
-        throw yamlError(entry.first, file_, what + " has '" + key + "' twice");
-    }
-  }
-
-  static std::string listOf(const std::set<std::string>& names) {
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-    return list;
-  }
-
   // A list with at least one entry.
   YAML::Node entriesOf(const YAML::Node& node, const std::string& name) const {
     if (!node.IsSequence())
@@ -182,7 +169,7 @@ class StudyReader {
   }
 
   void readRandom(const YAML::Node& node, QuerySource& queries) const {
-    checkKeys(node, "random", {"count", "seed"});
+    checkKeys(node, "random", file_, {"count", "seed"});
     queries.random_count =
         wholeNumber(yamlNode(node, "count", file_, "how many"), "count", 1, kMostQueries);
     if (node["seed"])
@@ -195,18 +182,25 @@ class StudyReader {
       queries.scenario = resolved(node, "scenario");
       return;
     }
-    checkKeys(node, "scenario", {"file", "limit"});
+    checkKeys(node, "scenario", file_, {"file", "limit"});
     queries.scenario = resolved(yamlNode(node, "file", file_, "a .scen file"), "file");
     if (node["limit"])
       queries.scenario_limit = wholeNumber(node["limit"], "limit", 1, kMostQueries);
   }
 
+  void readPairs(const YAML::Node& node, QuerySource& queries) const {
+    limits_.check(file_, 2 * kBytesOfPair * entriesOf(node, "pairs").size());
+    base::ReadPoll poll(limits_, file_, 16);
+    for (const YAML::Node& pair : node) {
+      poll();
+      queries.pairs.push_back(pairOf(pair));
+    }
+  }
+
   QuerySource queriesOf(const YAML::Node& node) const {
-    checkKeys(node, "queries", {"pairs", "random", "scenario"});
+    checkKeys(node, "queries", file_, {"pairs", "random", "scenario"});
     QuerySource queries;
-    if (node["pairs"])
-      for (const YAML::Node& pair : entriesOf(node["pairs"], "pairs"))
-        queries.pairs.push_back(pairOf(pair));
+    if (node["pairs"]) readPairs(node["pairs"], queries);
     if (node["random"]) readRandom(node["random"], queries);
     if (node["scenario"]) readScenario(node["scenario"], queries);
     if (queries.empty()) throw yamlError(node, file_, "queries names none");
@@ -221,7 +215,7 @@ class StudyReader {
       map.name = stemOf(map.file);
       return map;
     }
-    checkKeys(entry, "a map", {"file", "name", "queries"});
+    checkKeys(entry, "a map", file_, {"file", "name", "queries"});
     map.file = resolved(yamlNode(entry, "file", file_, "a map file"), "file");
     map.name = yamlValueOr<std::string>(entry, "name", file_, "a name", stemOf(map.file));
     if (entry["queries"]) map.queries = queriesOf(entry["queries"]);
@@ -235,6 +229,8 @@ class StudyReader {
       if (map.queries.empty())
         throw yamlError(entry, file_, "map '" + map.name + "' has no queries");
       refuseTwice(entry, names, map.name, "maps");
+      limits_.goOn(file_);
+      limits_.take(file_, kBytesOfMap + map.queries.pairs.size() * kBytesOfPair);
       study_.maps.push_back(map);
     }
   }
@@ -258,6 +254,11 @@ class StudyReader {
   void addVariant(const YAML::Node& node, const StudyVariant& variant) {
     atLine(node,
            [&] { makeStudyPlanner(variant.planner, variant.search, variant.published_cross); });
+    if (study_.variants.size() == kMostVariants)
+      throw yamlError(node, file_,
+                      "the study has more than " + std::to_string(kMostVariants) + " planners");
+    limits_.goOn(file_);
+    limits_.take(file_, kBytesOfVariant);
     study_.variants.push_back(variant);
   }
 
@@ -342,25 +343,22 @@ class StudyReader {
     const std::vector<int> kernels = kernelsOf(root);
     const auto rules = choicesUnder(root, "kernel_rules", study_.base.costmap.kernel_rule);
     const std::vector<Weights> weights = weightsOf(root);
+    const std::size_t most = kMostSettings / study_.maps.size();
+    if (kernels.size() * rules.size() > most || weights.size() > most ||
+        kernels.size() * rules.size() * weights.size() > most)
+      throw yamlError(root, file_,
+                      "the study has more than " + std::to_string(kMostSettings) +
+                          " combinations of maps, kernels, rules and weights");
+    limits_.take(file_, kBytesOfSetting * study_.maps.size() * kernels.size() * rules.size() *
+                            weights.size());
     for (std::size_t map = 0; map < study_.maps.size(); ++map)
       for (const int kernel : kernels)
         for (const KernelRule rule : rules)
           for (const Weights& each : weights) addSetting(root, map, kernel, rule, each);
   }
 
-  template <class Key, class Value>
-  std::map<Key, Value> mappingOf(const YAML::Node& node, const std::string& name) const {
-    if (!node.IsMap())
-      throw yamlError(node, file_, name + " must be a mapping, got " + describeYaml(node));
-    std::map<Key, Value> values;
-    for (const auto& entry : node)
-      values[yamlAs<Key>(entry.first, "a key of " + name, file_, "a name or number")] =
-          yamlAs<Value>(entry.second, name, file_, "a value");
-    return values;
-  }
-
   void readPublished(const YAML::Node& node) {
-    checkKeys(node, "published",
+    checkKeys(node, "published", file_,
               {"source", "time_s", "expanded_ratio", "shortest_percent", "alone_percent",
                "crossing", "dijkstra_not_optimal"});
     PublishedFigures& published = study_.published;
@@ -370,22 +368,23 @@ class StudyReader {
         throw yamlError(node["time_s"], file_, "time_s must be a mapping");
       for (const auto& entry : node["time_s"])
         published.time_s[yamlAs<std::string>(entry.first, "time_s", file_, "a variant")] =
-            mappingOf<int, double>(entry.second, "time_s");
+            mappingOf<int, double>(entry.second, "time_s", file_);
     }
     published.expanded_ratio = yamlValueOr<double>(node, "expanded_ratio", file_, "a number", 0.0);
     if (node["shortest_percent"])
       published.shortest_percent =
-          mappingOf<std::string, double>(node["shortest_percent"], "shortest_percent");
+          mappingOf<std::string, double>(node["shortest_percent"], "shortest_percent", file_);
     if (node["alone_percent"])
       published.alone_percent =
-          mappingOf<std::string, double>(node["alone_percent"], "alone_percent");
+          mappingOf<std::string, double>(node["alone_percent"], "alone_percent", file_);
     if (node["crossing"])
-      published.crossing = mappingOf<std::string, std::string>(node["crossing"], "crossing");
+      published.crossing = mappingOf<std::string, std::string>(node["crossing"], "crossing", file_);
     published.dijkstra_not_optimal =
         yamlValueOr<bool>(node, "dijkstra_not_optimal", file_, "true or false", false);
   }
 
   std::string file_;
+  base::ReadLimits limits_;
   Study study_;
   QuerySource common_queries_;
   StudyTieBreak tie_break_ = StudyTieBreak::NONE;  // of the options
@@ -394,7 +393,8 @@ class StudyReader {
 }  // namespace
 
 Study readStudyFile(const std::string& file) {
-  return StudyReader(file).read();
+  return base::readWithin(file, {},
+                          [&](const base::ReadLimits&) { return StudyReader(file).read(); });
 }
 
 }  // namespace grid_path_planner::study

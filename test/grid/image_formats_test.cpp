@@ -174,7 +174,8 @@ const std::vector<PixelRule> kRules{{MapMode::RAW, false, 0.65, 0.196},
 class ImageFormats : public testing::Test {
  protected:
   std::vector<std::int8_t> read(const std::string& content, const PixelRule& rule = {}) const {
-    return readImageFile(folder_.write("image", content), rule, 1.0, {}, {}).values();
+    MapFileOptions options;
+    return readImageFile(folder_.write("image", content), rule, 1.0, {}, options).values();
   }
   void expectAsOpenCv(const std::string& content, int white = 0) const {
     for (const PixelRule& rule : kRules)

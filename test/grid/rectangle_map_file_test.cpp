@@ -1,6 +1,6 @@
 // A file of rectangles is one more map: its free cells come back, and damage gives an InputError.
 // What the file holds in bytes is tested where rectangles are cut (test/rectangles).
-#include "grid_path_planner/grid/rectangle_map_file.h"
+#include "grid/formats/rectangle_map_file.h"
 
 #include <gtest/gtest.h>
 

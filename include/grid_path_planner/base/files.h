@@ -18,6 +18,8 @@
 #include <memory>
 #include <string>
 
+#include "grid_path_planner/base/read_limits.h"
+
 namespace grid_path_planner::base {
 
 // A file open for reading. It is a regular one, which the descriptor itself was asked: a pipe or a
@@ -44,6 +46,8 @@ class RegularFile {
 // The bytes of `file`. Throws InputError naming the file where RegularFile does, where it is empty and
 // where it is larger than `largest` bytes.
 std::string readWholeFile(const std::string& file, std::size_t largest);
+// The same within `limits`, of which the bytes are taken.
+std::string readWholeFile(const std::string& file, std::size_t largest, ReadLimits& limits);
 
 // Throws InputError naming the file and the line (from 1) where `text` holds a NUL byte or another
 // control character that no text file has: a picture or a bag given by mistake.

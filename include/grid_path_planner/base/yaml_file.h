@@ -8,8 +8,9 @@
 // first pass that builds nothing therefore refuses what is nested deeper than kDeepestYaml or makes
 // the parser say more than a text of its length can.
 //
-// A parsed tree takes about a hundred times the memory of its text. Long lists of numbers (the data
-// of a map) are therefore read by grid/formats/occupancy_dump.h without one.
+// A parsed tree takes up to 250 times the memory of its text, which is counted in that first pass
+// and refused where it is more than base/read_limits.h allows. Long lists of numbers (the data of a
+// map) are therefore read by grid/formats/occupancy_dump.h without one.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -19,6 +20,7 @@
 #include <type_traits>
 
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/read_limits.h"
 
 namespace grid_path_planner::base {
 
@@ -27,9 +29,11 @@ constexpr std::size_t kLargestYaml = 64u * 1024u * 1024u;  // bytes
 
 // The first document of `file`. Throws InputError for a file that cannot be read (see
 // readWholeFile), is not text, is nested too deeply or is not YAML, with the line.
-YAML::Node loadYamlFile(const std::string& file);
+YAML::Node loadYamlFile(const std::string& file, ReadLimits limits = {});
 
-// The same for text that is already in memory; `file` is what errors name.
+// The same for text that is already in memory; `file` is what errors name. What the tree takes is
+// taken of `limits`.
+YAML::Node parseYaml(const std::string& text, const std::string& file, ReadLimits& limits);
 YAML::Node parseYaml(const std::string& text, const std::string& file);
 
 // An error about `node`, at its line.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/files.h"
+#include "grid_path_planner/base/read_limits.h"
 #include "grid_path_planner/grid/occupancy.h"
 
 namespace grid_path_planner::grid {
@@ -33,6 +34,8 @@ struct MapFileOptions {
   // Called with a message where a file is doubtful: a colour image, letters that the format does not
   // define.
   std::function<void(const std::string&)> warn;
+  // What reading may take, the map itself included.
+  base::ReadLimits limits;
 };
 
 // The geometry of a map in `file` with its own resolution and origin, where `options` do not override
@@ -41,7 +44,7 @@ GridGeometry mapGeometry(const std::string& file, int width, int height, double 
                          const Origin& origin, const MapFileOptions& options);
 
 // Reads any of the formats above, recognised by extension and content. Throws InputError naming the
-// file, and the line or value.
+// file, and the line or value, or the limit that the map would exceed, before memory is taken for it.
 OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options = {});
 
 // Which row of the map a file begins with: images (map_server's too) with the last, the uppermost;

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/files.h"
+#include "grid_path_planner/base/read_limits.h"
 #include "grid_path_planner/mapping/occupancy_bricks.h"
 #include "grid_path_planner/mapping/octree_options.h"
 #include "grid_path_planner/mapping/scan.h"
@@ -67,8 +68,8 @@ class OctreeMap {
 
   // Replaces the map by a .bt or .ot file, told apart by content; its resolution becomes ours.
   // Throws InputError naming the file where it is missing, damaged, of another kind or too large to
-  // be a map (see kMostBricks); then the map is as it was.
-  void load(const std::string& file);
+  // be a map (see kMostBricks) or for `limits`; then the map is as it was.
+  void load(const std::string& file, const base::ReadLimits& limits = {});
 
   // Replaces the map by a copy of `tree`; its resolution becomes ours. Throws InputError if it is
   // too large.
@@ -94,7 +95,7 @@ class OctreeMap {
 
  private:
   octomap::key_type nearestKey(double coordinate) const;
-  void replace(std::unique_ptr<MapTree> tree);
+  void replace(std::unique_ptr<MapTree> tree, const std::string& name, base::ReadLimits& limits);
 
   OctreeOptions options_;
   std::unique_ptr<MapTree> tree_;

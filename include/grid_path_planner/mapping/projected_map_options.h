@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "grid_path_planner/base/read_limits.h"
 #include "grid_path_planner/mapping/cloud_filter_options.h"
 #include "grid_path_planner/mapping/octree_options.h"
 #include "grid_path_planner/mapping/projection_options.h"
@@ -66,6 +67,7 @@ struct ProjectedMapOptions {
   std::string map_file;
   std::string octree_file;
   double autosave_period = 5.0;  // s of the wall clock; 0: never
+  base::ReadOptions reading;
 };
 
 // Groups of the options, in the order of visitOptions.
@@ -169,6 +171,7 @@ void visitOptions(ProjectedMapOptions& o, Visitor&& visit) {
                          "and starts again under the same roscore; 0: there is none, and such a "
                          "node begins empty; read at the start",
                          "s", 0.0, 3600.0});
+  visitOptions(o.reading, visit);
 }
 
 // The projection's options with their band. Throws InputError for a projection_min_z or

@@ -17,6 +17,7 @@
 #include <string>
 
 #include "grid_path_planner/base/files.h"
+#include "grid_path_planner/base/read_limits.h"
 #include "grid_path_planner/path/path.h"
 
 namespace grid_path_planner::path {
@@ -27,8 +28,8 @@ constexpr double kLargestCoordinate = 1e6;
 // A leading slash of the frame is dropped. Throws InputError naming the file, the line and the
 // entry (from 1) for anything but at least one waypoint with finite coordinates up to
 // kLargestCoordinate and a quaternion that can be normalised and is level (no roll or pitch beyond
-// 1e-3 rad).
-Path readWaypointFile(const std::string& file);
+// 1e-3 rad), and for a file that needs more than `limits`.
+Path readWaypointFile(const std::string& file, const base::ReadLimits& limits = {});
 
 // Throws InputError naming the file, and the waypoint where one could not be read back: none at
 // all, a coordinate beyond kLargestCoordinate or a number that is not finite. The old file stays

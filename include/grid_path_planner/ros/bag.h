@@ -12,9 +12,11 @@ namespace grid_path_planner::nodes {
 
 // The first nav_msgs/OccupancyGrid on `topic`, a leading slash here or in the bag ignored. Throws
 // InputError naming the file where there is no such bag, it is cut short, it has no map on that
-// topic (then naming the topics that have one) or the message is no valid map.
+// topic (then naming the topics that have one), the message is no valid map, or `limits` do not allow
+// for it.
 grid::OccupancyGrid readMapFromBag(const std::string& file,
-                                   const std::string& topic = "projected_map");
+                                   const std::string& topic = "projected_map",
+                                   const base::ReadLimits& limits = {});
 
 // A map from any file: a bag (known by its content, or the extension .bag) or what readMapFile
 // reads. `options` override a bag's resolution and origin too.

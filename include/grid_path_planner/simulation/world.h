@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grid_path_planner/base/read_limits.h"
 #include "grid_path_planner/simulation/triangle_mesh.h"
 
 namespace grid_path_planner::simulation {
@@ -67,8 +68,10 @@ class World {
 // for what it does not accept, and with the name of the collision or visual for a geometry of
 // another kind, for a mesh that is missing or damaged, and for a world without anything in it.
 //
-// libsdformat's warnings go to std::cerr. It is not safe to use libsdformat in another thread
-// meanwhile: where it finds files and where it writes are settings of the whole process.
-World readWorld(const std::string& file);
+// The file and all that it names are read by a program of this package in a process of its own, which
+// may take no more than `limits` and is killed where it does: what libsdformat and Assimp make of a
+// damaged or hostile file is a sentence of InputError. That process prints libsdformat's warnings on
+// the standard error. Several threads may read worlds at the same time.
+World readWorld(const std::string& file, const base::ReadLimits& limits = {});
 
 }  // namespace grid_path_planner::simulation

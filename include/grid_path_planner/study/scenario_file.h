@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "grid_path_planner/base/read_limits.h"
 #include "grid_path_planner/grid/grid_geometry.h"
 
 namespace grid_path_planner::study {
@@ -20,8 +21,9 @@ struct ScenarioQuery {
   int line = 0;           // in the file, from 1
 };
 
-// Throws InputError naming file and line.
-std::vector<ScenarioQuery> readScenarioFile(const std::string& file);
+// Throws InputError naming file and line, or the limit that the file exceeds.
+std::vector<ScenarioQuery> readScenarioFile(const std::string& file,
+                                            const base::ReadLimits& limits = {});
 
 // `limit` of the queries, evenly over the file; all where it is 0 or not below their number.
 std::vector<ScenarioQuery> spreadOver(const std::vector<ScenarioQuery>& queries, std::size_t limit);

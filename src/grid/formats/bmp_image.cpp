@@ -91,11 +91,14 @@ class BmpHeader {
 
 }  // namespace
 
-cv::Mat decodeBmp(const std::string& content, const std::string& file, const SizeCheck& checkSize) {
+cv::Mat decodeBmp(const std::string& content, const std::string& file, const ImageLimits& limits) {
   const BmpHeader header(content, file);
   header.check();
-  checkSize(header.width(), header.height());
+  limits.checkSize(header.width(), header.height());
   header.checkLength();
+  constexpr std::size_t kMostChannels = 4;
+  limits.limits.take(
+      file, content.size() + bytesOfPixels(header.width(), header.height(), kMostChannels));
   if (!header.isPacked()) return decodeWithOpenCv(content, file);
   // Zeros are ends of lines: a decoder that misreads the rest reaches the last one.
   const auto zeros = 4 * (static_cast<std::size_t>(header.height()) + 2);

@@ -10,8 +10,8 @@
 //
 // A cell is occupied where its centre lies in an obstacle or on its rim, and free elsewhere. A wall
 // is all that is no further than half its thickness from the line through its points. Walls and
-// circles thinner than the diagonal of a cell may have gaps, which is warned about. Users include
-// grid/map_file.h.
+// circles thinner than the diagonal of a cell may have gaps, which is warned about. Coordinates are
+// within 1e9 m of 0. Users include grid/map_file.h.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -27,6 +27,6 @@ bool looksLikeVectorMap(const YAML::Node& root);
 // The map has as many whole cells as its size holds, rounded to the nearest. Throws InputError
 // naming the file and the line of what is wrong.
 OccupancyGrid readVectorMap(const YAML::Node& root, const std::string& file,
-                            const MapFileOptions& options);
+                            MapFileOptions& options);
 
 }  // namespace grid_path_planner::grid

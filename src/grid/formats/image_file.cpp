@@ -31,15 +31,26 @@ bool isPnm(const std::string& content) {
   return content.size() > 1 && content[0] == 'P' && content[1] >= '1' && content[1] <= '6';
 }
 
-cv::Mat decode(const std::string& file, const SizeCheck& checkSize, const MapFileOptions& options) {
-  const std::string content = readWholeFile(file, kLargestMapFile);
+bool isTiff(const std::string& content) {
+  using namespace std::literals;
+  return startsWith(content, "II*\0"sv) || startsWith(content, "MM\0*"sv);
+}
+
+cv::Mat decode(const std::string& content, const std::string& file, const ImageLimits& limits) {
+  if (startsWith(content, "\x89PNG\r\n\x1a\n")) return decodePng(content, file, limits);
+  if (startsWith(content, "\xff\xd8\xff")) return decodeJpeg(content, file, limits);
+  if (startsWith(content, "BM")) return decodeBmp(content, file, limits);
+  if (isPnm(content)) return decodePnm(content, file, limits);
+  if (isTiff(content)) return decodeTiff(content, file, limits);
+  throw InputError(file, "is not an image that can be read: no PNG, JPEG, BMP, PNM or TIFF");
+}
+
+cv::Mat readPixels(const std::string& file, const ImageLimits& limits,
+                   const MapFileOptions& options) {
+  const std::string content = readWholeFile(file, kLargestMapFile, limits.limits);
   if (partState(file, content) == PartState::CHANGED)
     warnAbout(file, "was changed since it was written with its map", options);
-  if (startsWith(content, "\x89PNG\r\n\x1a\n")) return decodePng(content, file, checkSize);
-  if (startsWith(content, "\xff\xd8\xff")) return decodeJpeg(content, file, checkSize);
-  if (startsWith(content, "BM")) return decodeBmp(content, file, checkSize);
-  if (isPnm(content)) return decodePnm(content, file, checkSize);
-  return decodeWithOpenCv(content, file);
+  return decode(content, file, limits);
 }
 
 // What a pixel means, by the sum of its channels.
@@ -121,20 +132,22 @@ std::string greyRows(const OccupancyGrid& map, MapMode mode,
 }  // namespace
 
 OccupancyGrid readImageFile(const std::string& file, const PixelRule& rule, double resolution,
-                            const Origin& origin, const MapFileOptions& options) {
-  const cv::Mat image = decode(
-      file,
-      [&](int width, int height) {
-        if (mapGeometry(file, width, height, resolution, origin, options).size() > kMostPixels)
-          throw InputError(file, "is an image of " + std::to_string(width) + "x" +
-                                     std::to_string(height) + " pixels, more than 2^30");
-      },
-      options);
+                            const Origin& origin, MapFileOptions& options) {
+  const auto checkSize = [&](int width, int height) {
+    if (mapGeometry(file, width, height, resolution, origin, options).size() > kMostPixels)
+      throw InputError(file, "is an image of " + std::to_string(width) + "x" +
+                                 std::to_string(height) + " pixels, more than 2^30");
+  };
+  const cv::Mat image = readPixels(file, {checkSize, options.limits}, options);
   const int channels = image.channels();
   const bool has_alpha = channels > kAlphaChannel;
   const int averaged = has_alpha && rule.mode != MapMode::TRINARY ? kAlphaChannel : channels;
   warnAboutColour(file, channels, averaged, options);
-  OccupancyGrid map(mapGeometry(file, image.cols, image.rows, resolution, origin, options));
+  const GridGeometry geometry =
+      mapGeometry(file, image.cols, image.rows, resolution, origin, options);
+  options.limits.take(file, geometry.size());
+  options.limits.goOn(file);
+  OccupancyGrid map(geometry);
   const PixelTable table(rule, averaged);
   for (int row = 0; row < map.height(); ++row) {
     const std::uint8_t* pixel = image.ptr<std::uint8_t>(map.height() - 1 - row);

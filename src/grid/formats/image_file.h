@@ -25,7 +25,7 @@ struct PixelRule {
 // The image `file` with the geometry given, where `options` do not override it. Throws InputError
 // naming the file where it is no image that can be read.
 OccupancyGrid readImageFile(const std::string& file, const PixelRule& rule, double resolution,
-                            const Origin& origin, const MapFileOptions& options);
+                            const Origin& origin, MapFileOptions& options);
 
 // The bytes of a binary PGM of `map`. TRINARY: 254 free, 205 unknown, 0 occupied. RAW: the value,
 // 255 for -1. Throws InputError for SCALE, which would need transparency.

@@ -25,18 +25,20 @@ bool isHarmless(int warning) {
 
 class JpegReader : private LongjmpDecoder {
  public:
-  JpegReader(const std::string& content, const std::string& file) : LongjmpDecoder(content, file) {}
+  JpegReader(const std::string& content, const std::string& file, const ImageLimits& limits)
+      : LongjmpDecoder(content, file, limits) {}
   ~JpegReader() { jpeg_destroy_decompress(&jpeg_); }
 
-  cv::Mat read(const SizeCheck& checkSize) {
+  cv::Mat read() {
     run([this] { readHeader(); });
     const int width = static_cast<int>(jpeg_.image_width);
     const int height = static_cast<int>(jpeg_.image_height);
-    checkSize(width, height);
+    limits_.checkSize(width, height);
     if (!jpeg_.arith_code &&
         static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) >
             kMostPixelsOfByte * content_.size())
       refuseTooManyPixels(file_, width, height, content_.size());
+    limits_.limits.take(file_, bytesFor(width, height));
     run([this] { start(); });
     cv::Mat image(height, width, CV_8UC(jpeg_.output_components));
     run([this, &image] { readRows(image); });
@@ -61,7 +63,23 @@ class JpegReader : private LongjmpDecoder {
     jpeg_.src = &source_;
     jpeg_read_header(&jpeg_, TRUE);
   }
+  // Of the pixels, twice where they are inks; and of all coefficients, which are kept until the last
+  // scan where there are several.
+  std::size_t bytesFor(int width, int height) {
+    constexpr int kLargestBlock = 4 * DCTSIZE;
+    const auto channels = static_cast<std::size_t>(jpeg_.num_components);
+    const std::size_t pixels = bytesOfPixels(width, height, channels == 4 ? 7 : channels);
+    if (jpeg_has_multiple_scans(&jpeg_) == FALSE) return pixels;
+    return pixels +
+           sizeof(JCOEF) * bytesOfPixels(width + kLargestBlock, height + kLargestBlock, channels);
+  }
   void start() {
+    progress_.progress_monitor = [](j_common_ptr jpeg) {
+      JpegReader& reader = readerOf(jpeg->client_data);
+      reader.late_ = !reader.limits_.limits.mayGoOn();
+      if (reader.late_) std::longjmp(reader.jump_, 1);
+    };
+    jpeg_.progress = &progress_;
     if (jpeg_.num_components == 4)
       jpeg_.out_color_space = JCS_CMYK;
     else
@@ -115,13 +133,13 @@ class JpegReader : private LongjmpDecoder {
   jpeg_decompress_struct jpeg_{};
   jpeg_error_mgr errors_{};
   jpeg_source_mgr source_{};
+  jpeg_progress_mgr progress_{};
 };
 
 }  // namespace
 
-cv::Mat decodeJpeg(const std::string& content, const std::string& file,
-                   const SizeCheck& checkSize) {
-  return JpegReader(content, file).read(checkSize);
+cv::Mat decodeJpeg(const std::string& content, const std::string& file, const ImageLimits& limits) {
+  return JpegReader(content, file, limits).read();
 }
 
 }  // namespace grid_path_planner::grid

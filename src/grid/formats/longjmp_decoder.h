@@ -11,25 +11,28 @@ namespace grid_path_planner::grid {
 
 class LongjmpDecoder {
  protected:
-  // Both outlive this.
-  LongjmpDecoder(const std::string& content, const std::string& file)
-      : content_(content), file_(file) {}
+  // All outlive this.
+  LongjmpDecoder(const std::string& content, const std::string& file, const ImageLimits& limits)
+      : content_(content), file_(file), limits_(limits) {}
   LongjmpDecoder(const LongjmpDecoder&) = delete;
   LongjmpDecoder& operator=(const LongjmpDecoder&) = delete;
   ~LongjmpDecoder() = default;
 
-  // Throws InputError where the library found an error.
+  // Throws InputError where the library found an error, or the time is over.
   template <typename Calls>
   void run(const Calls& calls) {
     if (attempt(calls)) return;
+    if (late_) limits_.limits.goOn(file_);
     if (ends_early_) refuseEarlyEnd(file_, content_.size());
     refuseImage(file_, std::string("it is damaged: ") + message_);
   }
 
   const std::string& content_;
   const std::string& file_;
+  const ImageLimits& limits_;
   // Set before longjmp(jump_, 1).
   bool ends_early_ = false;
+  bool late_ = false;
   char message_[200] = "";  // as long as libjpeg's are at most
   std::jmp_buf jump_;
 

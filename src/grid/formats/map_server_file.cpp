@@ -107,7 +107,7 @@ const std::vector<std::pair<const char*, MapMode>>& choicesOf(MapMode) {
 }
 
 OccupancyGrid readMapServerMap(const YAML::Node& root, const std::string& file,
-                               const MapFileOptions& options) {
+                               MapFileOptions& options) {
   const std::string image = imagePath(root, file);
   const double resolution = options.resolution ? *options.resolution : readResolution(root, file);
   double own = resolution;

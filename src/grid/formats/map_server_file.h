@@ -21,6 +21,6 @@ namespace grid_path_planner::grid {
 // The map that `root`, the content of `file`, describes. Throws InputError naming the file and
 // line.
 OccupancyGrid readMapServerMap(const YAML::Node& root, const std::string& file,
-                               const MapFileOptions& options);
+                               MapFileOptions& options);
 
 }  // namespace grid_path_planner::grid

@@ -164,7 +164,7 @@ char letterOf(Occupancy occupancy) {
 }  // namespace
 
 OccupancyGrid parseMovingAi(const std::string& text, const std::string& file,
-                            const MapFileOptions& options) {
+                            MapFileOptions& options) {
   checkIsText(text, file);
   Lines lines(text);
   const Header header = readHeader(lines, file);
@@ -172,6 +172,8 @@ OccupancyGrid parseMovingAi(const std::string& text, const std::string& file,
   if (text.size() < geometry.size())
     throw InputError(file, "is too short for a map of " + std::to_string(header.width) + "x" +
                                std::to_string(header.height) + " cells");
+  options.limits.take(file, geometry.size());
+  options.limits.goOn(file);
   OccupancyGrid map(geometry);
   Strangers strangers;
   readRows(lines, file, map, strangers);

@@ -19,6 +19,6 @@ namespace grid_path_planner::grid {
 
 // The map that `text`, the content of `file`, holds. Throws InputError naming the file and line.
 OccupancyGrid parseMovingAi(const std::string& text, const std::string& file,
-                            const MapFileOptions& options);
+                            MapFileOptions& options);
 
 }  // namespace grid_path_planner::grid

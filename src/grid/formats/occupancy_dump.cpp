@@ -16,6 +16,8 @@ using base::checkIsText, base::InputError, base::parseYaml, base::yamlError, bas
 
 namespace {
 
+// The values, while their list grows, and the text around them, for each byte of the file.
+constexpr std::size_t kMostOfText = 3;
 constexpr std::string_view kDataKey = "data:";
 constexpr std::size_t kNone = std::string_view::npos;
 
@@ -181,7 +183,7 @@ Origin readOrigin(const YAML::Node& info, const std::string& file) {
 }
 
 GridGeometry readGeometry(const YAML::Node& root, const std::string& file,
-                          const MapFileOptions& options) {
+                          MapFileOptions& options) {
   const YAML::Node info = yamlNode(root, "info", file, "resolution, width, height and origin");
   const auto width = yamlValue<int>(info, "width", file, "a number of cells");
   const auto height = yamlValue<int>(info, "height", file, "a number of cells");
@@ -204,7 +206,8 @@ bool looksLikeOccupancyDump(const std::string& text) {
 }
 
 OccupancyGrid parseOccupancyDump(const std::string& text, const std::string& file,
-                                 const MapFileOptions& options) {
+                                 MapFileOptions& options) {
+  options.limits.take(file, kMostOfText * text.size());
   checkIsText(text, file);
   const std::string_view document = firstDocument(text);
   const std::size_t begin = findData(document);
@@ -215,7 +218,7 @@ OccupancyGrid parseOccupancyDump(const std::string& text, const std::string& fil
   std::string rest(document.substr(0, begin));
   rest.append(std::count(document.begin() + begin, document.begin() + data.end(), '\n'), '\n');
   rest.append(document.substr(data.end()));
-  const GridGeometry geometry = readGeometry(parseYaml(rest, file), file, options);
+  const GridGeometry geometry = readGeometry(parseYaml(rest, file, options.limits), file, options);
   try {
     return OccupancyGrid(geometry, std::move(values));
   } catch (const InputError& error) {

@@ -27,6 +27,6 @@ bool looksLikeOccupancyDump(const std::string& text);
 
 // The map that `text`, the content of `file`, holds. Throws InputError naming the file and line.
 OccupancyGrid parseOccupancyDump(const std::string& text, const std::string& file,
-                                 const MapFileOptions& options);
+                                 MapFileOptions& options);
 
 }  // namespace grid_path_planner::grid

@@ -19,19 +19,22 @@ constexpr png_uint_32 kLargestSide = 0x7fffffff;     // of the format
 
 class PngReader : private LongjmpDecoder {
  public:
-  PngReader(const std::string& content, const std::string& file) : LongjmpDecoder(content, file) {}
+  PngReader(const std::string& content, const std::string& file, const ImageLimits& limits)
+      : LongjmpDecoder(content, file, limits) {}
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
 
-  cv::Mat read(const SizeCheck& checkSize) {
+  cv::Mat read() {
     run([this] { create(); });
     if (info_ == nullptr) throw std::bad_alloc();
     run([this] { readHeader(); });
-    checkSize(width_, height_);
+    limits_.checkSize(width_, height_);
     if (std::uint64_t{png_get_channels(png_, info_)} * png_get_bit_depth(png_, info_) *
             static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_) / 8 >
         kMostOfDeflatedByte * content_.size())
       refuseTooManyPixels(file_, width_, height_, content_.size());
     run([this] { chooseConversions(); });
+    limits_.limits.take(file_, bytesOfPixels(width_, height_, png_get_channels(png_, info_)) +
+                                   sizeof(png_bytep) * static_cast<std::size_t>(height_));
     cv::Mat image(height_, width_, CV_8UC(static_cast<int>(png_get_channels(png_, info_))));
     std::vector<png_bytep> rows(static_cast<std::size_t>(height_));
     for (int row = 0; row < height_; ++row) rows[static_cast<std::size_t>(row)] = image.ptr(row);
@@ -81,6 +84,8 @@ class PngReader : private LongjmpDecoder {
   static void onWarning(png_structp, png_const_charp) {}
   static void giveBytes(png_structp png, png_bytep bytes, std::size_t count) {
     PngReader& reader = readerOf(png_get_io_ptr(png));
+    reader.late_ = !reader.limits_.limits.mayGoOn();
+    if (reader.late_) png_error(png, "");
     reader.ends_early_ = count > reader.content_.size() - reader.at_;
     if (reader.ends_early_) png_error(png, "");
     std::memcpy(bytes, reader.content_.data() + reader.at_, count);
@@ -96,8 +101,8 @@ class PngReader : private LongjmpDecoder {
 
 }  // namespace
 
-cv::Mat decodePng(const std::string& content, const std::string& file, const SizeCheck& checkSize) {
-  return PngReader(content, file).read(checkSize);
+cv::Mat decodePng(const std::string& content, const std::string& file, const ImageLimits& limits) {
+  return PngReader(content, file, limits).read();
 }
 
 }  // namespace grid_path_planner::grid

@@ -23,18 +23,27 @@ class PnmReader {
   PnmReader(const std::string& content, const std::string& file)
       : content_(content), file_(file), kind_(content[1]) {}
 
-  cv::Mat read(const SizeCheck& checkSize) {
+  cv::Mat read(const ImageLimits& limits) {
     readHeader();
-    checkSize(width_, height_);
+    limits.checkSize(width_, height_);
     if (content_.size() - at_ < leastBytes()) refuseEarlyEnd(file_, content_.size());
+    limits.limits.take(file_, bytesOfPixels(width_, height_, (colours() ? 3 : 1) * bytesOfValue()));
+    base::ReadPoll poll(limits.limits, file_, kRowsBetweenQuestions);
     cv::Mat image(height_, width_, CV_MAKETYPE(white_ > 255 ? CV_16U : CV_8U, colours() ? 3 : 1));
-    for (int row = 0; row < height_; ++row) readRow(image, row);
+    for (int row = 0; row < height_; ++row) {
+      poll();
+      readRow(image, row);
+    }
     const bool scaled = bits() || (isText() && white_ <= 255);  // pixel by pixel, as read
     if (!scaled && white_ != 255) image.convertTo(image, CV_8U, 255.0 / white_);
     return image;
   }
 
  private:
+  static constexpr std::uint32_t kRowsBetweenQuestions = 64;
+
+  // As read, and in 8 bits where it was read in 16 or is scaled.
+  std::size_t bytesOfValue() const { return white_ > 255 ? 3 : white_ == 255 ? 1 : 2; }
   bool bits() const { return kind_ == '1' || kind_ == '4'; }
   bool colours() const { return kind_ == '3' || kind_ == '6'; }
   bool isText() const { return kind_ <= '3'; }
@@ -132,8 +141,8 @@ class PnmReader {
 
 }  // namespace
 
-cv::Mat decodePnm(const std::string& content, const std::string& file, const SizeCheck& checkSize) {
-  return PnmReader(content, file).read(checkSize);
+cv::Mat decodePnm(const std::string& content, const std::string& file, const ImageLimits& limits) {
+  return PnmReader(content, file).read(limits);
 }
 
 }  // namespace grid_path_planner::grid

@@ -1,9 +1,10 @@
-#include "grid_path_planner/grid/rectangle_map_file.h"
+#include "grid/formats/rectangle_map_file.h"
 
 #include <zlib.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/deflate.h"
@@ -14,7 +15,7 @@
 
 namespace grid_path_planner::grid {
 
-using base::deflated, base::inflated, base::InputError;
+using base::deflated, base::inflated, base::InputError, base::ReadLimits, base::readWithin;
 
 namespace {
 
@@ -29,9 +30,9 @@ constexpr std::size_t kMostOfDeflatedByte = 1032;  // what one may unpack to, by
 
 struct Header {
   GridGeometry geometry;
-  std::size_t rectangles;
-  RectangleOrder order;
-  std::size_t body;  // bytes
+  std::size_t rectangles = 0;
+  RectangleOrder order = RectangleOrder::AS_LISTED;
+  std::size_t body = 0;  // bytes
 };
 
 std::uint64_t checksumOf(const std::string& bytes, std::size_t size) {
@@ -142,13 +143,35 @@ std::vector<std::string> listsIn(const std::string& body, std::size_t count,
   return lists;
 }
 
-RectangleMap rectanglesIn(const std::string& content) {
-  checkFormat(content);
-  checkWhole(content);
-  const Header header = headerOf(content);
+RectangleMap rectanglesIn(const std::string& content, const Header& header) {
   const std::vector<std::string> lists = listsIn(content.substr(kHeaderSize, header.body),
                                                  numberOfLists(header.order), header.rectangles);
   return {header.geometry, rectanglesOf(lists, header.rectangles, header.geometry, header.order)};
+}
+
+// Of `count` rectangles: what unpacks their lists, the numbers in these, the rectangles themselves twice.
+std::size_t bytesOfLists(std::size_t count) {
+  return count * (5 * (2 * kLongestNumber + sizeof(std::uint32_t)) + 2 * sizeof(CellRect));
+}
+
+RectangleMap rectanglesWithin(const std::string& content, const std::string& file,
+                              ReadLimits& limits) {
+  Header header;
+  try {
+    checkFormat(content);
+    checkWhole(content);
+    header = headerOf(content);
+  } catch (const InputError& error) {
+    throw InputError(file, error.what());
+  }
+  limits.take(file, 2 * content.size() + bytesOfLists(header.rectangles) +
+                        sizeof(int) * static_cast<std::size_t>(header.geometry.width()));
+  limits.goOn(file);
+  try {
+    return rectanglesIn(content, header);
+  } catch (const InputError& error) {
+    throw InputError(file, error.what());
+  }
 }
 
 [[noreturn]] void refuseOverlap(const std::string& file, std::size_t number, const CellRect& rect) {
@@ -185,20 +208,21 @@ bool looksLikeRectangleMap(const std::string& content) {
   return content.compare(0, kNameSize, kName) == 0;
 }
 
-RectangleMap parseRectangles(const std::string& content, const std::string& file) {
-  try {
-    return rectanglesIn(content);
-  } catch (const InputError& error) {
-    throw InputError(file, error.what());
-  }
+RectangleMap parseRectangles(const std::string& content, const std::string& file,
+                             ReadLimits limits) {
+  return readWithin(file, std::move(limits),
+                    [&](ReadLimits& within) { return rectanglesWithin(content, file, within); });
 }
 
 OccupancyGrid parseRectangleMap(const std::string& content, const std::string& file,
                                 const MapFileOptions& options) {
-  const RectangleMap rectangles = parseRectangles(content, file);
+  ReadLimits limits = options.limits;
+  const RectangleMap rectangles = rectanglesWithin(content, file, limits);
   const GridGeometry& own = rectangles.geometry;
-  OccupancyGrid map(
-      mapGeometry(file, own.width(), own.height(), own.resolution(), own.origin(), options));
+  const GridGeometry geometry =
+      mapGeometry(file, own.width(), own.height(), own.resolution(), own.origin(), options);
+  limits.take(file, geometry.size());
+  OccupancyGrid map(geometry);
   std::fill(map.values().begin(), map.values().end(), kOccupied);
   for (std::size_t i = 0; i < rectangles.rectangles.size(); ++i)
     if (!makeFree(rectangles.rectangles[i], map)) refuseOverlap(file, i, rectangles.rectangles[i]);

@@ -2,14 +2,15 @@
 
 #include <utility>
 
+#include "grid/formats/rectangle_map_file.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/grid/map_file.h"
-#include "grid_path_planner/grid/rectangle_map_file.h"
 
 namespace grid_path_planner::planners {
 
-using base::InputError, base::readWholeFile, base::writeFileAtomically;
+using base::InputError, base::ReadLimits, base::readWholeFile, base::readWithin,
+    base::writeFileAtomically;
 using grid::kLargestMapFile, grid::parseRectangles, grid::RectangleMap, grid::rectangleMapContent;
 
 std::string rectangleFileContent(const RectangleGraph& map) {
@@ -21,12 +22,15 @@ void writeRectangleFile(const std::string& file, const RectangleGraph& map) {
 }
 
 RectangleGraph readRectangleFile(const std::string& file, Touching touching) {
-  RectangleMap map = parseRectangles(readWholeFile(file, kLargestMapFile), file);
-  try {
-    return RectangleGraph(map.geometry, std::move(map.rectangles), touching);
-  } catch (const InputError& error) {
-    throw InputError(file, error.what());
-  }
+  return readWithin(file, {}, [&](ReadLimits& limits) {
+    RectangleMap map = parseRectangles(readWholeFile(file, kLargestMapFile, limits), file, limits);
+    limits.check(file, RectangleGraph::bytesFor(map.rectangles.size()));
+    try {
+      return RectangleGraph(map.geometry, std::move(map.rectangles), touching);
+    } catch (const InputError& error) {
+      throw InputError(file, error.what());
+    }
+  });
 }
 
 }  // namespace grid_path_planner::planners

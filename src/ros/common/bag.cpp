@@ -22,6 +22,8 @@ using grid::readMapFile;
 
 namespace {
 
+// The bytes of the message, the message, and the map made of it.
+constexpr std::size_t kCopiesOfMap = 3;
 constexpr std::string_view kBeginningOfBags = "#ROSBAG";
 
 // The first bytes of a file; fewer where it is shorter.
@@ -92,22 +94,26 @@ OccupancyGrid mapFromBytes(std::string bytes) {
 
 }  // namespace
 
-OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic) {
-  const BagReader bag(file);
-  const auto bytes = bag.firstMessage(mapConnections(bag, file, topic));
-  if (!bytes) throw InputError(file, "has no message on '" + topic + "'");
-  try {
-    return mapFromBytes(*bytes);
-  } catch (const InputError& error) {
-    throw InputError(file, "the first map on '" + topic + "': " + error.what());
-  }
+OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic,
+                             const base::ReadLimits& limits) {
+  return base::readWithin(file, limits, [&](base::ReadLimits& within) {
+    const BagReader bag(file, within);
+    auto bytes = bag.firstMessage(mapConnections(bag, file, topic));
+    if (!bytes) throw InputError(file, "has no message on '" + topic + "'");
+    within.take(file, kCopiesOfMap * bytes->size());
+    try {
+      return mapFromBytes(*std::move(bytes));
+    } catch (const InputError& error) {
+      throw InputError(file, "the first map on '" + topic + "': " + error.what());
+    }
+  });
 }
 
 OccupancyGrid readAnyMapFile(const std::string& file, const MapFileOptions& options) {
   const bool is_bag =
       extensionOf(file) == "bag" || beginningOf(file, kBeginningOfBags.size()) == kBeginningOfBags;
   if (!is_bag) return readMapFile(file, options);
-  OccupancyGrid map = readMapFromBag(file);
+  OccupancyGrid map = readMapFromBag(file, "projected_map", options.limits);
   const GridGeometry& own = map.geometry();
   const GridGeometry geometry =
       mapGeometry(file, own.width(), own.height(), own.resolution(), own.origin(), options);

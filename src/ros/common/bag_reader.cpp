@@ -16,8 +16,14 @@ namespace {
 
 constexpr std::string_view kSignature = "#ROSBAG V2.0\n";
 constexpr std::string_view kAnySignature = "#ROSBAG";
-constexpr std::uint32_t kLongestHeader = 1u << 24;  // bytes; a connection's definition is far less
-constexpr std::uint32_t kLargestChunk = 1u << 30;   // bytes, unpacked
+constexpr std::uint32_t kLongestHeader = 1u << 16;      // bytes; those of rosbag take some hundred
+constexpr std::uint32_t kLongestConnection = 1u << 24;  // bytes of its definition
+constexpr std::uint32_t kLargestChunk = 1u << 30;       // bytes, unpacked
+
+// What is kept of a record, and what reading a connection's fields takes for each byte of them.
+constexpr std::size_t kBytesOfChunk = 256, kBytesOfIndex = 64, kBytesOfConnection = 256;
+constexpr std::size_t kMostOfConnection = 32;
+constexpr std::uint32_t kRecordsBetweenQuestions = 64;
 
 enum Operation : unsigned char {
   MESSAGE = 0x02,
@@ -146,7 +152,9 @@ auto inFile(const std::string& file, const Action& action) {
   try {
     return action();
   } catch (const InputError& error) {
-    throw InputError(file, error.what());
+    const std::string text = error.what();
+    if (text.compare(0, file.size() + 1, file + ":") == 0) throw;  // of the limits
+    throw InputError(file, text);
   }
 }
 
@@ -160,8 +168,9 @@ BagReader::Chunk chunkFrom(const Record& record) {
 
 }  // namespace
 
-BagReader::BagReader(const std::string& file)
-    : file_(file), bytes_(std::make_shared<const base::RegularFile>(file)) {
+BagReader::BagReader(const std::string& file, const base::ReadLimits& limits)
+    : file_(file), limits_(limits), bytes_(std::make_shared<const base::RegularFile>(file)) {
+  limits_.start();
   inFile(file, [this] { walk(); });
 }
 
@@ -170,7 +179,9 @@ void BagReader::walk() {
   checkSignature(in);
   std::optional<Fields> bag_header;
   std::size_t chunk_infos = 0;
+  base::ReadPoll poll(limits_, file_, kRecordsBetweenQuestions);
   for (std::uint64_t at = kSignature.size(); at < in.size();) {
+    poll();
     const Record record = recordAt(at, in);
     at = record.data + record.size;
     switch (record.header.operation()) {
@@ -178,12 +189,17 @@ void BagReader::walk() {
         bag_header = record.header;
         break;
       case CHUNK:
+        take(kBytesOfChunk);
         chunks_.push_back(chunkFrom(record));
         break;
       case INDEX:
+        take(kBytesOfIndex);
         if (!chunks_.empty()) chunks_.back().connections.insert(record.header.id());
         break;
       case CONNECTION:
+        if (record.size > kLongestConnection) throwDamaged("a connection's definition is too long");
+        limits_.check(file_, kMostOfConnection * record.size);
+        take(kBytesOfConnection + record.size);
         connections_.push_back(connectionFrom(record.header, in.read(record.data, record.size)));
         break;
       case CHUNK_INFO:
@@ -205,11 +221,16 @@ std::optional<std::string> BagReader::firstMessage(const std::set<std::uint32_t>
     const auto isWanted = [&wanted](std::uint32_t id) { return wanted.count(id) != 0; };
     for (const Chunk& chunk : chunks_) {
       if (std::none_of(chunk.connections.begin(), chunk.connections.end(), isWanted)) continue;
+      limits_.goOn(file_);
       const std::string content = unpack(chunk);
+      base::ReadPoll poll(limits_, file_);
       for (Cursor cursor(content); !cursor.atEnd();) {
+        poll();
         const Fields header(cursor.takeBlock());
         const std::string_view data = cursor.takeBlock();
-        if (header.operation() == MESSAGE && isWanted(header.id())) return std::string(data);
+        if (header.operation() != MESSAGE || !isWanted(header.id())) continue;
+        limits_.check(file_, content.size() + data.size());
+        return std::string(data);
       }
     }
     return std::nullopt;
@@ -217,6 +238,7 @@ std::optional<std::string> BagReader::firstMessage(const std::set<std::uint32_t>
 }
 
 std::string BagReader::unpack(const Chunk& chunk) const {
+  limits_.check(file_, std::size_t{chunk.packed} + chunk.unpacked);
   std::string packed = BagFile(*bytes_).read(chunk.begin, chunk.packed);
   if (chunk.compression == "none") return packed;
   if (chunk.compression != "bz2" && chunk.compression != "lz4")

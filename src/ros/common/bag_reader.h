@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/files.h"
+#include "grid_path_planner/base/read_limits.h"
 
 namespace grid_path_planner::nodes {
 
@@ -42,8 +43,8 @@ class BagReader {
 
   // Reads the records of the whole file, without decompression. Throws InputError naming the file
   // where it cannot be read, is no bag of format 2.0, is encrypted, was not closed, is cut short or
-  // is damaged.
-  explicit BagReader(const std::string& file);
+  // is damaged, or needs more than `limits`, which are kept.
+  explicit BagReader(const std::string& file, const base::ReadLimits& limits = {});
 
   // By id.
   const std::vector<BagConnection>& connections() const { return connections_; }
@@ -55,8 +56,10 @@ class BagReader {
  private:
   void walk();
   std::string unpack(const Chunk& chunk) const;
+  void take(std::size_t bytes) { limits_.take(file_, bytes); }
 
   std::string file_;
+  base::ReadLimits limits_;
   std::shared_ptr<const base::RegularFile> bytes_;
   std::vector<BagConnection> connections_;
   std::vector<Chunk> chunks_;

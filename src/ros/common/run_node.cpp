@@ -17,6 +17,7 @@ namespace {
 
 std::atomic<bool> master_is_there{false};
 std::atomic<bool> node_runs{false};
+std::atomic<bool> node_process{false};
 std::atomic<int> signal_received{0};
 
 // A node that comes up ends as soon as it is up: roscpp breaks (SIGTRAP) when it is shut down under
@@ -92,7 +93,12 @@ void serve(const std::string& name, const NodeMaker& make) {
 
 }  // namespace
 
+bool nodeIsToEnd() {
+  return node_process && !endReason().empty();
+}
+
 int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make) {
+  node_process = true;
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);

@@ -26,6 +26,9 @@ namespace grid_path_planner::nodes {
 using NodeMaker =
     std::function<std::shared_ptr<void>(ros::NodeHandle& nh, ros::NodeHandle& private_nh)>;
 
+// Whether a signal or the master has asked the node of this process to end: false in others.
+bool nodeIsToEnd();
+
 // Calls the global callback queue in this thread until the node ends. Returns the exit code:
 // 0, or 1 after an exception of the node's construction.
 int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make);

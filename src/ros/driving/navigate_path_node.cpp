@@ -43,7 +43,8 @@ NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFil
 }
 
 Path readWaypoints(const NodeFiles& files, const std::string& filename) {
-  return files.read("config_filename", filename, waypointFiles(), readWaypointFile);
+  return files.read("config_filename", filename, waypointFiles(),
+                    [](const std::string& file) { return readWaypointFile(file); });
 }
 
 Path fileOf(const NavigatePathOptions& options, const NodeFiles& files) {

@@ -5,6 +5,7 @@
 #include "grid_path_planner/MapPublisherConfig.h"
 #include "grid_path_planner/ros/bag.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/network_text.h"
 #include "ros/common/parameters.h"
@@ -45,7 +46,7 @@ void checkMapPublisherOptions(const MapPublisherOptions& options) {
 MapPublisherNode::MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
                                    const NodeFiles& files)
     : files_(files), options_(loadMapPublisherOptions(private_nh, files)), nh_(nh) {
-  map_ = readMap(options_.filename);
+  map_ = readMap(options_);
   map_publisher_ = nh.advertise<nav_msgs::OccupancyGrid>(options_.topic, 1, true);
   metadata_publisher_ = nh.advertise<nav_msgs::MapMetaData>("map_metadata", 1, true);
   service_ = nh.advertiseService("static_map", &MapPublisherNode::getMap, this);
@@ -60,8 +61,11 @@ MapPublisherNode::~MapPublisherNode() {
   service_.shutdown();
 }
 
-OccupancyGrid MapPublisherNode::readMap(const std::string& filename) const {
+OccupancyGrid MapPublisherNode::readMap(const MapPublisherOptions& wanted) const {
+  const std::string& filename = wanted.filename;
+  const EndOfNode end;
   MapFileOptions options;
+  options.limits = {wanted.reading, end.token()};
   if (files_.isArgument("filename", filename))
     options.warn = [](const std::string& warning) { ROS_WARN_STREAM(warning); };
   OccupancyGrid map = files_.read("filename", filename, mapFiles(), [&](const std::string& file) {
@@ -75,7 +79,7 @@ void MapPublisherNode::use(const MapPublisherOptions& options) {
   checkMapPublisherOptions(options);
   if (options.topic != options_.topic)
     throw InputError("topic cannot be changed while the node runs, it is " + options_.topic);
-  map_ = readMap(options.filename);
+  map_ = readMap(options);
   options_ = options;
   timer_.start();
 }

@@ -41,7 +41,7 @@ class MapPublisherNode {
   ~MapPublisherNode();
 
  private:
-  grid::OccupancyGrid readMap(const std::string& filename) const;
+  grid::OccupancyGrid readMap(const MapPublisherOptions& wanted) const;
   void use(const MapPublisherOptions& options);
   void publishOnceThereIsTime();
   bool getMap(nav_msgs::GetMap::Request& request, nav_msgs::GetMap::Response& response);

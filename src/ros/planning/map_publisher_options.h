@@ -4,6 +4,7 @@
 #include <string>
 
 #include "grid_path_planner/base/options.h"
+#include "grid_path_planner/base/read_limits.h"
 
 namespace grid_path_planner::nodes {
 
@@ -11,6 +12,7 @@ struct MapPublisherOptions {
   std::string filename;  // required
   std::string frame_id = "map";
   std::string topic = "projected_map";
+  base::ReadOptions reading;
 };
 
 template <class Visitor>
@@ -24,6 +26,7 @@ void visitOptions(MapPublisherOptions& o, Visitor&& visit) {
   visit("topic", o.topic,
         base::OptionInfo{"Latched topic that the map is published on; fixed while the node runs",
                          ""});
+  visitOptions(o.reading, visit);
 }
 
 // Throws InputError naming the option.

@@ -8,6 +8,7 @@
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "grid_path_planner/simulation/world.h"
+#include "ros/common/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
@@ -86,8 +87,11 @@ SimulatorNode::~SimulatorNode() {
 }
 
 void SimulatorNode::loadWorld() {
-  world_ =
-      std::make_shared<const World>(files_.read("world", options_.world, worldFiles(), readWorld));
+  const EndOfNode end;
+  const auto read = [&](const std::string& file) {
+    return readWorld(file, {options_.reading, end.token()});
+  };
+  world_ = std::make_shared<const World>(files_.read("world", options_.world, worldFiles(), read));
   vehicle_->setWorld(world_);
   contact_publisher_.start(*vehicle_);
 }

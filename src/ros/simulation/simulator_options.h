@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "grid_path_planner/base/read_limits.h"
 #include "grid_path_planner/simulation/dead_reckoning.h"
 #include "grid_path_planner/simulation/depth_camera_options.h"
 #include "grid_path_planner/simulation/vehicle_options.h"
@@ -40,6 +41,8 @@ struct SimulatorOptions {
   bool publish_map_to_odom = true;
   std::string camera_frame = "camera_link";
   std::string camera_optical_frame = "camera_optical_frame";
+
+  base::ReadOptions reading;
 };
 
 template <class Visitor>
@@ -93,6 +96,7 @@ void visitOptions(SimulatorOptions& o, Visitor&& visit) {
   visitOptions(o.camera, [&](const char* name, auto& value, const base::OptionInfo& info) {
     visit((std::string("camera_") + name).c_str(), value, info);
   });
+  visitOptions(o.reading, visit);
 }
 
 // Throws InputError naming the option for a value outside its limits, a range of the camera that

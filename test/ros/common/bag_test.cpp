@@ -7,6 +7,7 @@
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "support/ascii_map.h"
+#include "support/bounded_run.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
@@ -147,6 +148,20 @@ TEST_F(MapBag, AMapThatIsNoneIsRefused) {
   }
   EXPECT_EQ(errorOf(file),
             "a.bag: the first map on 'projected_map': a map of 3x2 cells needs 6 values, got 5");
+}
+
+// 60 MB in some kB.
+TEST_F(MapBag, AChunkThatUnpacksToMoreThanTheLimitIsRefused) {
+  const OccupancyGrid large(GridGeometry(8000, 8000, 0.05));
+  const std::string file = write("projected_map", {large}, rosbag::compression::BZ2);
+  base::ReadOptions options;
+  options.read_memory_limit = 100;
+  const test::BoundedRun run =
+      test::runBounded([&] { readMapFromBag(file, "projected_map", options); });
+  EXPECT_TRUE(run.ended) << run;
+  EXPECT_TRUE(contains(run.refusal, "read_memory_limit")) << run;
+  EXPECT_LT(run.megabytes, 100.0) << run;
+  EXPECT_EQ(readMapFromBag(file), large);
 }
 
 }  // namespace

@@ -56,7 +56,8 @@ bool looksLikeRectangleMap(const std::string& content);
 // format number, ends early, goes on after its end, does not fit its checksum, or holds rectangles
 // that leave the map; overlapping ones are not noticed. What is taken of memory follows the size of
 // `content`.
-RectangleMap parseRectangles(const std::string& content, const std::string& file);
+RectangleMap parseRectangles(const std::string& content, const std::string& file,
+                             base::ReadLimits limits = {});
 
 // As cells. Throws InputError as parseRectangles, and for rectangles that overlap. Takes memory for
 // the cells once all else is checked.

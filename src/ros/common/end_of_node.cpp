@@ -1,0 +1,25 @@
+#include "ros/common/end_of_node.h"
+
+#include <ros/init.h>
+
+#include <chrono>
+
+#include "ros/common/run_node.h"
+
+namespace grid_path_planner::nodes {
+
+EndOfNode::EndOfNode() {
+  watch_ = std::thread([this] {
+    while (!over_) {
+      if (nodeIsToEnd() || ros::isShuttingDown()) stop_.cancel();
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  });
+}
+
+EndOfNode::~EndOfNode() {
+  over_ = true;
+  watch_.join();
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,154 @@
+#include "simulation/world_meshes.h"
+
+#include <filesystem>
+#include <map>
+#include <sdf/sdf.hh>
+#include <utility>
+#include <vector>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/files.h"
+#include "simulation/mesh_file.h"
+#include "simulation/resource_path.h"
+#include "simulation/sdf_file.h"
+
+namespace grid_path_planner::simulation {
+
+using base::InputError;
+
+namespace {
+
+Eigen::Vector3d vectorOf(const ignition::math::Vector3d& v) {
+  return {v.X(), v.Y(), v.Z()};
+}
+
+std::string folderOf(const std::string& file) {
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+// The meshes of one world, gathered from model to model.
+class WorldReader {
+ public:
+  explicit WorldReader(std::string file) : file_(std::move(file)), folder_(folderOf(file_)) {}
+
+  WorldMeshes read() {
+    const base::RegularFile regular(file_);  // libsdformat would wait for a pipe
+    const sdf::Root root = loadSdf(
+        file_, [this](const std::string& uri) { return resourcePath(uri, folder_, folder_); });
+    const sdf::World* world = root.WorldByIndex(0);
+    if (world == nullptr) throw InputError(file_, "has no <world>");
+    try {
+      for (std::size_t i = 0; i < world->ModelCount(); ++i)
+        addModel(*world->ModelByIndex(i), Eigen::Isometry3d::Identity(), "");
+      if (solid_.empty()) throw InputError("its world is empty");
+      return {std::move(solid_), std::move(visible_)};
+    } catch (const InputError& error) {
+      throw InputError(file_, error.what());
+    }
+  }
+
+ private:
+  // Where `thing` (model, link, collision or visual) is, given where its parent is.
+  template <class Thing>
+  Eigen::Isometry3d poseOf(const Thing& thing, const Eigen::Isometry3d& parent,
+                           const std::string& name) const {
+    ignition::math::Pose3d pose;
+    const sdf::Errors errors = thing.SemanticPose().Resolve(pose);
+    if (!errors.empty()) throw InputError(name, errors.front().Message());
+    const ignition::math::Quaterniond& turn = pose.Rot();
+    return parent * Eigen::Translation3d(vectorOf(pose.Pos())) *
+           Eigen::Quaterniond(turn.W(), turn.X(), turn.Y(), turn.Z());
+  }
+
+  void addModel(const sdf::Model& model, const Eigen::Isometry3d& parent,
+                const std::string& prefix) {
+    const std::string name = prefix + model.Name();
+    const Eigen::Isometry3d pose = poseOf(model, parent, name);
+    for (std::size_t i = 0; i < model.LinkCount(); ++i)
+      addLink(*model.LinkByIndex(i), pose, name + "::");
+    for (std::size_t i = 0; i < model.ModelCount(); ++i)
+      addModel(*model.ModelByIndex(i), pose, name + "::");
+  }
+
+  void addLink(const sdf::Link& link, const Eigen::Isometry3d& parent, const std::string& prefix) {
+    const std::string name = prefix + link.Name() + "::";
+    const Eigen::Isometry3d pose = poseOf(link, parent, prefix + link.Name());
+    std::vector<TriangleMesh> collisions;
+    std::vector<TriangleMesh> visuals;
+    for (std::size_t i = 0; i < link.CollisionCount(); ++i)
+      addShape(*link.CollisionByIndex(i), pose, name, collisions);
+    for (std::size_t i = 0; i < link.VisualCount(); ++i)
+      addShape(*link.VisualByIndex(i), pose, name, visuals);
+    const auto& touched = collisions.empty() ? visuals : collisions;
+    const auto& seen = visuals.empty() ? collisions : visuals;
+    solid_.insert(solid_.end(), touched.begin(), touched.end());
+    visible_.insert(visible_.end(), seen.begin(), seen.end());
+  }
+
+  template <class Shape>  // collision or visual
+  void addShape(const Shape& shape, const Eigen::Isometry3d& parent, const std::string& prefix,
+                std::vector<TriangleMesh>& meshes) {
+    const std::string name = prefix + shape.Name();
+    const sdf::Geometry* geometry = shape.Geom();
+    const std::string kind = kindOf(geometry);
+    if (kind == "empty") return;
+    meshes.push_back(meshOf(name, kind, *geometry).moved(poseOf(shape, parent, name)));
+  }
+
+  // The name of the element inside <geometry>; libsdformat's own list of kinds depends on its age.
+  static std::string kindOf(const sdf::Geometry* geometry) {
+    if (geometry == nullptr || !geometry->Element()) return "empty";
+    const sdf::ElementPtr element = geometry->Element()->GetFirstElement();
+    return element ? element->GetName() : "empty";
+  }
+
+  TriangleMesh meshOf(const std::string& name, const std::string& kind,
+                      const sdf::Geometry& geometry) {
+    switch (geometry.Type()) {
+      case sdf::GeometryType::BOX:
+        return boxMesh(name, vectorOf(geometry.BoxShape()->Size()));
+      case sdf::GeometryType::CYLINDER:
+        return cylinderMesh(name, geometry.CylinderShape()->Radius(),
+                            geometry.CylinderShape()->Length());
+      case sdf::GeometryType::SPHERE:
+        return sphereMesh(name, geometry.SphereShape()->Radius());
+      case sdf::GeometryType::PLANE:
+        return planeMesh(name, vectorOf(geometry.PlaneShape()->Normal()),
+                         {geometry.PlaneShape()->Size().X(), geometry.PlaneShape()->Size().Y()});
+      case sdf::GeometryType::MESH:
+        return fileMesh(name, *geometry.MeshShape());
+      default:
+        throw InputError(name + ": a <" + kind +
+                         "> is not read, only box, cylinder, sphere, plane and mesh");
+    }
+  }
+
+  TriangleMesh fileMesh(const std::string& name, const sdf::Mesh& shape) {
+    if (!shape.Submesh().empty())
+      throw InputError(name + ": a <submesh> is not read, only whole meshes");
+    const std::string path = resourcePath(shape.Uri(), folderOf(shape.FilePath()), folder_);
+    if (path.empty()) throw InputError(name + ": there is no mesh " + shape.Uri());
+    auto known = meshes_.find(path);
+    if (known == meshes_.end()) known = meshes_.emplace(path, readMesh(path)).first;
+    TriangleMesh mesh = known->second;
+    mesh.name = name;
+    const Eigen::Vector3f scale = vectorOf(shape.Scale()).cast<float>();
+    for (Eigen::Vector3f& vertex : mesh.vertices) vertex = vertex.cwiseProduct(scale);
+    return mesh;
+  }
+
+  const std::string file_;
+  const std::string folder_;
+  std::vector<TriangleMesh> solid_;
+  std::vector<TriangleMesh> visible_;
+  std::map<std::string, TriangleMesh> meshes_;  // by their files, each of which is read once
+};
+
+}  // namespace
+
+WorldMeshes readWorldMeshes(const std::string& file) {
+  return WorldReader(file).read();
+}
+
+}  // namespace grid_path_planner::simulation
