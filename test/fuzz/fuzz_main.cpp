@@ -11,10 +11,8 @@
 
 #include "fuzz/fuzz_target.h"
 
+namespace grid_path_planner::fuzz {
 namespace {
-
-using grid_path_planner::fuzz::FuzzTarget;
-using grid_path_planner::fuzz::fuzzTargets;
 
 const FuzzTarget* chosen = nullptr;
 
@@ -59,3 +57,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   chosen->run(std::string(reinterpret_cast<const char*>(data), size));
   return 0;
 }
+
+}  // namespace grid_path_planner::fuzz

@@ -1,7 +1,7 @@
 // Of a PNG with a wrong checksum nothing is read but that, so the checksums are put right.
 #include <boost/crc.hpp>
 
-#include "fuzz/fuzz_images.h"
+#include "fuzz/files/fuzz_images.h"
 #include "fuzz/fuzz_target.h"
 #include "grid/formats/image_formats.h"
 

@@ -1,7 +1,7 @@
 #include <grid_path_planner/ClearBox.h>
 
-#include "fuzz/fuzz_messages.h"
 #include "fuzz/fuzz_target.h"
+#include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/mapping/map_model.h"
 
 namespace grid_path_planner::fuzz {

@@ -1,4 +1,4 @@
-#include "fuzz/fuzz_images.h"
+#include "fuzz/files/fuzz_images.h"
 #include "fuzz/fuzz_target.h"
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/grid/occupancy.h"

@@ -2,8 +2,8 @@
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
 
-#include "fuzz/fuzz_messages.h"
 #include "fuzz/fuzz_target.h"
+#include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/map_receiver.h"
 
@@ -56,7 +56,8 @@ FUZZ_TARGET(map_update, seedsOfUpdates) {
     const grid::CellRect rect = nodes::checkedRect(before, *update);
     nodes::applyUpdate(*update, rect, after);
     const grid::CellRect changed = nodes::changedCells(before, after);
-    mustHold(changed.intersection(rect) == changed, "only cells of the update change");
+    mustHold(changed.empty() || changed.intersection(rect) == changed,
+             "only cells of the update change");
     grid::checkOccupancyValues(after);
   });
 }

@@ -1,6 +1,6 @@
 // What dynamic_reconfigure may ask of every node.
-#include "fuzz/fuzz_messages.h"
 #include "fuzz/fuzz_target.h"
+#include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
 #include "ros/common/parameters.h"
 #include "ros/driving/navigate_path_options.h"

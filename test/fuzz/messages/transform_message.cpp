@@ -1,8 +1,8 @@
 // What /tf may say, and what is asked of tf then.
 #include <tf2_msgs/TFMessage.h>
 
-#include "fuzz/fuzz_messages.h"
 #include "fuzz/fuzz_target.h"
+#include "fuzz/messages/fuzz_messages.h"
 #include "ros/common/transform_receiver.h"
 
 namespace grid_path_planner::fuzz {

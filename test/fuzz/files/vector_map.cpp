@@ -18,8 +18,7 @@ std::vector<std::string> seedsOfDrawings() {
 }
 
 // At most 64 cells along the longer side: what memory drawings may take is another matter.
-double fewCells(const YAML::Node& root) {
-  const YAML::Node size = root["vector_map"]["size"];
+double fewCells(const YAML::Node& size) {
   double longest = 1.0;
   for (const YAML::Node& side : size) longest = std::max(longest, side.as<double>(1.0));
   return std::isfinite(longest) ? longest / 64.0 : 1.0;
@@ -30,8 +29,9 @@ FUZZ_TARGET(vector_map, seedsOfDrawings) {
     const YAML::Node root = base::parseYaml(input, "fuzz.yaml");
     if (!grid::looksLikeVectorMap(root)) return;
     grid::MapFileOptions options;
-    if (root["vector_map"].IsMap() && root["vector_map"]["size"].IsSequence())
-      options.resolution = fewCells(root);
+    const YAML::Node map = root["vector_map"];
+    if (map.IsMap() && map["size"] && map["size"].IsSequence())
+      options.resolution = fewCells(map["size"]);
     grid::checkOccupancyValues(grid::readVectorMap(root, "fuzz.yaml", options));
   });
 }

@@ -4,8 +4,8 @@
 
 #include <cstring>
 
-#include "fuzz/fuzz_messages.h"
 #include "fuzz/fuzz_target.h"
+#include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/mapping/map_model.h"
 #include "ros/mapping/cloud_reader.h"
 
@@ -31,7 +31,7 @@ std::string cloudOf(const std::vector<float>& coordinates) {
     cloud.fields.back().count = 1;
   }
   cloud.data.resize(coordinates.size() * sizeof(float));
-  std::memcpy(cloud.data.data(), coordinates.data(), cloud.data.size());
+  if (!coordinates.empty()) std::memcpy(cloud.data.data(), coordinates.data(), cloud.data.size());
   return bytesOf(cloud);
 }
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "fuzz/fuzz_messages.h"
 #include "fuzz/fuzz_target.h"
+#include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/following/joystick.h"
 
 namespace grid_path_planner::fuzz {

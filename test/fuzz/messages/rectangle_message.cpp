@@ -1,5 +1,5 @@
-#include "fuzz/fuzz_messages.h"
 #include "fuzz/fuzz_target.h"
+#include "fuzz/messages/fuzz_messages.h"
 #include "ros/planning/rectangle_messages.h"
 
 namespace grid_path_planner::fuzz {

@@ -3,15 +3,15 @@
 
 #include <cmath>
 
-#include "fuzz/fuzz_messages.h"
 #include "fuzz/fuzz_target.h"
+#include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/following/path_follower.h"
 #include "grid_path_planner/ros/conversions.h"
 
 namespace grid_path_planner::fuzz {
 namespace {
 
-geometry_msgs::PoseStamped poseAt(double x, double y) {
+geometry_msgs::PoseStamped waypointAt(double x, double y) {
   geometry_msgs::PoseStamped pose;
   pose.header.frame_id = "map";
   pose.pose.position.x = x;
@@ -23,8 +23,8 @@ geometry_msgs::PoseStamped poseAt(double x, double y) {
 std::vector<std::string> seedsOfPaths() {
   nav_msgs::Path path;
   path.header.frame_id = "map";
-  path.poses = {poseAt(0.0, 0.0), poseAt(1.0, 0.5), poseAt(2.0, 0.0)};
-  const std::string vehicle = bytesOf(poseAt(0.1, 0.2).pose.position);
+  path.poses = {waypointAt(0.0, 0.0), waypointAt(1.0, 0.5), waypointAt(2.0, 0.0)};
+  const std::string vehicle = bytesOf(waypointAt(0.1, 0.2).pose.position);
   return {vehicle + bytesOf(path), vehicle + bytesOf(nav_msgs::Path())};
 }
 

@@ -27,7 +27,7 @@ std::vector<std::string> seedsOfAnswers() {
           list(success + "<value><base64>aGVsbG8=</base64></value>")};
 }
 
-// A parameter's value, which comes the same way.
+// A parameter's value, which is an answer too.
 template <class Value>
 void assign(const XmlRpcValue& value) {
   Value target{};

@@ -1,4 +1,4 @@
-#include "fuzz/fuzz_images.h"
+#include "fuzz/files/fuzz_images.h"
 #include "fuzz/fuzz_target.h"
 #include "grid/formats/image_formats.h"
 

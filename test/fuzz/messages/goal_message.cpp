@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "fuzz/fuzz_messages.h"
 #include "fuzz/fuzz_target.h"
+#include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/planning/path_planner.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/planning/planning_request.h"

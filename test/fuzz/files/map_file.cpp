@@ -1,6 +1,6 @@
 // Any content as a map file: which reader takes it is told by the content.
 #include "grid_path_planner/grid/map_file.h"
-#include "fuzz/fuzz_images.h"
+#include "fuzz/files/fuzz_images.h"
 #include "fuzz/fuzz_target.h"
 #include "grid_path_planner/grid/occupancy.h"
 
