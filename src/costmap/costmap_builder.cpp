@@ -190,7 +190,7 @@ void CostmapBuilder::build(const StopToken& stop) {
   classify(*map_, options_.thresholds, all, classes, stop);
   writeWeights(classes, options_, all, weights, stop);
   inflations_->apply(classes, all, weights, stop);
-  auto full = std::make_shared<CostGrid>(std::move(weights), std::move(classes), options_.motion);
+  auto full = std::make_unique<CostGrid>(std::move(weights), std::move(classes), options_.motion);
   full->setKeptDistances(kept_);
   full->setRevision(++revision_);
   if (options_.kernel > 1) downsampled_.reset(buildDownsampled(*full, stop));
@@ -200,13 +200,13 @@ void CostmapBuilder::build(const StopToken& stop) {
   full_dirty_ = {};
 }
 
-std::shared_ptr<CostGrid> CostmapBuilder::buildDownsampled(const CostGrid& full,
+std::unique_ptr<CostGrid> CostmapBuilder::buildDownsampled(const CostGrid& full,
                                                            const StopToken& stop) const {
   const GridGeometry geometry = blockGeometry(full.geometry(), options_.kernel);
   Grid<Occupancy> classes(geometry);
   Grid<CostGrid::Weight> weights(geometry);
   applyKernel(full, options_, full.geometry().rect(), weights, classes, stop);
-  auto blocks = std::make_shared<CostGrid>(std::move(weights), std::move(classes), options_.motion,
+  auto blocks = std::make_unique<CostGrid>(std::move(weights), std::move(classes), options_.motion,
                                            options_.kernel, full.geometry());
   blocks->setKeptDistances(kept_);
   blocks->setRevision(revision_);

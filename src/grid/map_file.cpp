@@ -1,5 +1,7 @@
 #include "grid_path_planner/grid/map_file.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <initializer_list>
 #include <string_view>
@@ -91,20 +93,32 @@ OccupancyGrid readMap(const std::string& content, const std::string& file,
   return readYamlMap(content, file, options);
 }
 
+// Another one where the file was replaced, even by one of the same content: several writers may take
+// turns with the same maps.
+struct FileVersion {
+  explicit FileVersion(const std::string& file) { ::stat(file.c_str(), &info); }
+  bool operator!=(const FileVersion& other) const {
+    return info.st_ino != other.info.st_ino || info.st_ctim.tv_sec != other.info.st_ctim.tv_sec ||
+           info.st_ctim.tv_nsec != other.info.st_ctim.tv_nsec;
+  }
+
+  struct stat info {};
+};
+
 // A writer that replaces the map meanwhile removes the image that the old YAML names.
 OccupancyGrid readUnlessReplaced(const std::string& file, const MapFileOptions& options,
-                                 ReadLimits& limits) {
+                                 const ReadLimits& limits) {
   constexpr int kTries = 20;
-  std::string content = readWholeFile(file, kLargestMapFile, limits);
   for (int i = 1;; ++i) {
+    const FileVersion before(file);
     MapFileOptions within = options;
     within.limits = limits;
+    const std::string content = readWholeFile(file, kLargestMapFile, within.limits);
     try {
       return readMap(content, file, within);
     } catch (const InputError&) {
-      std::string now = readWholeFile(file, kLargestMapFile);
-      if (i == kTries || now == content || now.size() > content.size() + limits.bytesLeft()) throw;
-      content = std::move(now);
+      const bool replaced = FileVersion(file) != before;
+      if (i == kTries || !replaced) throw;
     }
   }
 }
@@ -112,8 +126,9 @@ OccupancyGrid readUnlessReplaced(const std::string& file, const MapFileOptions& 
 }  // namespace
 
 OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options) {
-  return readWithin(file, options.limits,
-                    [&](ReadLimits& limits) { return readUnlessReplaced(file, options, limits); });
+  return readWithin(file, options.limits, [&](const ReadLimits& limits) {
+    return readUnlessReplaced(file, options, limits);
+  });
 }
 
 RowOrder rowOrderOf(const std::string& file) {

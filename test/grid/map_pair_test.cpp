@@ -107,6 +107,24 @@ TEST(MapPair, TheImagesNameIsOfItsContentAndItLiesBesideTheFile) {
   EXPECT_EQ(readMapFile(folder.path("a-b.yaml")), mapOf(3)) << "another file's image stays";
 }
 
+// A reader found the image gone and the YAML as it had been: two writers took turns with the same maps,
+// and one had put the reader's back meanwhile. It gave up, as if the image had been missing all along.
+TEST(MapPair, AMapThatWasReplacedByOneOfTheSameContentIsReadAgain) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path("a.yaml");
+  writeMapServerFile(file, mapOf(0));
+  const std::string yaml = test::contentOf(file);
+  int tries = 0;
+  MapFileOptions options;
+  options.resolution = 1.0;                 // is warned about before the image is read
+  options.warn = [&](const std::string&) {  // between YAML and image, in the place of other writers
+    writeMapServerFile(file, mapOf(++tries == 1 ? 1 : 0));
+    if (tries == 1) base::writeFileAtomically(file, yaml);
+  };
+  EXPECT_EQ(readMapFile(file, options).width(), mapOf(0).width());
+  EXPECT_EQ(tries, 2);
+}
+
 // People paint walls into the images of their maps.
 TEST(MapPair, AnImageThatSomebodyChangedIsReadWithAWarningAndNotRemoved) {
   const test::TemporaryFolder folder;

@@ -53,7 +53,7 @@ class CostmapBuilder {
  private:
   void bringUpToDate(const base::StopToken& stop);
   void build(const base::StopToken& stop);
-  std::shared_ptr<CostGrid> buildDownsampled(const CostGrid& full,
+  std::unique_ptr<CostGrid> buildDownsampled(const CostGrid& full,
                                              const base::StopToken& stop) const;
   void updateFullResolution(const base::StopToken& stop);
   grid::CellRect rewriteWeights(const ClassChanges& changes, const base::StopToken& stop);

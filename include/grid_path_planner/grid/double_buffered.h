@@ -3,7 +3,7 @@
 // copyCells() of its own, which may take another type of Change than a rectangle.
 //
 //   DoubleBuffered<OccupancyGrid> maps;
-//   maps.reset(std::make_shared<OccupancyGrid>(map));
+//   maps.reset(std::make_unique<OccupancyGrid>(map));
 //   reader = maps.current();                              // does not change
 //   maps.advance(changed, [&](OccupancyGrid& next) { next[cell] = 100; });
 //   reader = maps.current();                              // the next one
@@ -39,12 +39,12 @@ template <class Map, class Change = CellRect>
 class DoubleBuffered {
  public:
   // Null before reset().
-  std::shared_ptr<const Map> current() const { return current_; }
+  std::shared_ptr<const Map> current() const { return current_.shown; }
 
   // Starts a series; null: without a map.
-  void reset(std::shared_ptr<Map> first) {
-    current_ = std::move(first);
-    spare_.reset();
+  void reset(std::unique_ptr<Map> first) {
+    current_ = first ? shownTo(std::move(first)) : Buffer();
+    spare_ = {};
   }
 
   // Makes the map that differs from the current one by `change`: write(next) gets a map that equals
@@ -54,22 +54,40 @@ class DoubleBuffered {
   void advance(const Change& change, Write&& write) {
     std::shared_ptr<Map> next = copyOfCurrent();
     write(*next);
-    spare_ = std::exchange(current_, std::move(next));
+    spare_ = std::exchange(current_, shownTo(std::move(next)));
+    spare_.shown.reset();
     missed_ = change;
   }
 
  private:
-  std::shared_ptr<Map> copyOfCurrent() {
-    std::shared_ptr<Map> spare = std::move(spare_);
-    if (!spare || spare.use_count() > 1) return std::make_shared<Map>(*current_);
-    std::atomic_thread_fence(std::memory_order_acquire);  // after what others read of it
-    copyCells(*current_, missed_, *spare);
-    return spare;
+  // What is written to through `map` and read through `shown`. The last who reads it lets go of it in
+  // that pointer's deleter: a release that the next write acquires.
+  struct Buffer {
+    std::shared_ptr<Map> map;
+    std::shared_ptr<std::atomic<bool>> is_read;
+    std::shared_ptr<const Map> shown;
+  };
+
+  static Buffer shownTo(std::shared_ptr<Map> map) {
+    auto is_read = std::make_shared<std::atomic<bool>>(true);
+    const auto let_go = [map, is_read](const Map*) {
+      is_read->store(false, std::memory_order_release);
+    };
+    std::shared_ptr<const Map> shown(map.get(), let_go);
+    return {std::move(map), std::move(is_read), std::move(shown)};
   }
 
-  std::shared_ptr<Map> current_;
-  std::shared_ptr<Map> spare_;  // the previous map
-  Change missed_;               // in which the two maps differ
+  std::shared_ptr<Map> copyOfCurrent() {
+    const Buffer spare = std::exchange(spare_, {});
+    if (!spare.map || spare.is_read->load(std::memory_order_acquire))
+      return std::make_shared<Map>(*current_.map);
+    copyCells(*current_.map, missed_, *spare.map);
+    return spare.map;
+  }
+
+  Buffer current_;
+  Buffer spare_;   // the previous map, without `shown`
+  Change missed_;  // in which the two maps differ
 };
 
 }  // namespace grid_path_planner::grid

@@ -78,9 +78,9 @@ void DenseRayTraversal::markSlabs(Ray& ray, std::int64_t slabs, std::int64_t end
   for (; slabs > 0; --slabs) {
     const Times swapped{next[1], next[0]}, after = next + between;
     const Pair crosses = before<kMajor, kA, kB>(next, exit);
-    const Pair moves = crosses & steps;
+    const Pair moves = crosses & steps, in_order = next <= swapped;
     const std::int64_t a = moves[0], b = moves[1];
-    const std::int64_t second = place + either((next <= swapped)[0], a, b);
+    const std::int64_t second = place + either(in_order[0], a, b);
     const std::int64_t third = place + a + b;
     cells[place] = cells[second] = cells[third] = Mark::FREE;
     place = third + step_major;
@@ -97,8 +97,8 @@ void DenseRayTraversal::markSlabs(Ray& ray, std::int64_t slabs, std::int64_t end
   // The last slab: a border of another axis is crossed if its time comes before the ray's length.
   // The voxel entered by the last crossing stays unmarked, and so do the end and all voxels after it.
   const Times lengths{ray.length, ray.length}, swapped{next[1], next[0]};
-  const Pair crosses = next <= lengths, moves = crosses & steps;
-  const std::int64_t second = place + either((next <= swapped)[0], moves[0], moves[1]);
+  const Pair crosses = next <= lengths, moves = crosses & steps, in_order = next <= swapped;
+  const std::int64_t second = place + either(in_order[0], moves[0], moves[1]);
   const std::int64_t first_counts = -static_cast<std::int64_t>(place != end);
   const std::int64_t second_counts = first_counts & -static_cast<std::int64_t>(second != end);
   cells[either((crosses[0] | crosses[1]) & first_counts, place, window_.sink())] = Mark::FREE;

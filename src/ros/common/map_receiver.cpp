@@ -158,7 +158,7 @@ bool MapReceiver::isOlder(const MapEvent& event) const {
 
 void MapReceiver::use(const MapEvent& event) {
   const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
-  auto grid = std::make_shared<OccupancyGrid>(occupancyFromMessage(message));
+  auto grid = std::make_unique<OccupancyGrid>(occupancyFromMessage(message));
   const ReceivedMap before = latest();
   std::optional<CellRect> changed;
   const std::string frame_id = frameName(message.header.frame_id);

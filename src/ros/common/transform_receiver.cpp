@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <sstream>
 #include <utility>
 
 #include "ros/common/clock.h"
@@ -47,28 +48,29 @@ void TransformReceiver::receive(const tf2_msgs::TFMessage& message, const std::s
                                 bool is_static) {
   const ros::Time now = ros::Time::now();
   if (now < std::exchange(latest_, now)) buffer_.clear();
-  for (const geometry_msgs::TransformStamped& transform : message.transforms)
-    insert(transform, node, is_static);
+  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+    const std::string why = insertTransform(buffer_, transform, node, is_static, now);
+    if (!why.empty()) ROS_WARN_STREAM_THROTTLE(kWarningPeriod, why);
+  }
 }
 
-void TransformReceiver::insert(geometry_msgs::TransformStamped transform, const std::string& node,
-                               bool is_static) {
+std::string insertTransform(tf2::BufferCore& buffer, geometry_msgs::TransformStamped transform,
+                            const std::string& node, bool is_static, const ros::Time& now) {
+  std::ostringstream why;
   if (is_static) transform.header.stamp = ros::Time();
-  const double ahead = secondsBetween(latest_, transform.header.stamp);
+  const double ahead = secondsBetween(now, transform.header.stamp);
   if (!is_static && (transform.header.stamp.isZero() || ahead > mostAhead())) {
-    ROS_WARN_STREAM_THROTTLE(
-        kWarningPeriod, "A transform from " << transform.child_frame_id << " to "
-                                            << transform.header.frame_id << " of " << node
-                                            << " is dropped: it is stamped "
-                                            << transform.header.stamp << ", now is " << latest_);
-    return;
+    why << "A transform from " << transform.child_frame_id << " to " << transform.header.frame_id
+        << " of " << node << " is dropped: it is stamped " << transform.header.stamp << ", now is "
+        << now;
+    return why.str();
   }
   try {
-    buffer_.setTransform(transform, node, is_static);
+    buffer.setTransform(transform, node, is_static);
   } catch (const tf2::TransformException& error) {
-    ROS_ERROR_STREAM_THROTTLE(kWarningPeriod,
-                              "A transform of " << node << " is dropped: " << error.what());
+    why << "A transform of " << node << " is dropped: " << error.what();
   }
+  return why.str();
 }
 
 }  // namespace grid_path_planner::nodes

@@ -10,6 +10,7 @@
 // a warning; the stamps of static ones do not count. ROS time that jumps back clears the buffer.
 #pragma once
 
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
@@ -23,6 +24,11 @@
 
 namespace grid_path_planner::nodes {
 
+// Puts the transform of `node` into the buffer where the rules above let it. Why not, in a sentence;
+// empty where it was.
+std::string insertTransform(tf2::BufferCore& buffer, geometry_msgs::TransformStamped transform,
+                            const std::string& node, bool is_static, const ros::Time& now);
+
 class TransformReceiver {
  public:
   TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer);
@@ -30,7 +36,6 @@ class TransformReceiver {
 
  private:
   void receive(const tf2_msgs::TFMessage& message, const std::string& node, bool is_static);
-  void insert(geometry_msgs::TransformStamped transform, const std::string& node, bool is_static);
 
   tf2_ros::Buffer& buffer_;
   ros::Time latest_;

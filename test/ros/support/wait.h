@@ -7,7 +7,14 @@
 
 namespace grid_path_planner::test {
 
-constexpr std::chrono::seconds kDeadline(20);
+// Sanitizers make nodes some ten times slower.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kSlowdown = 4;
+#else
+constexpr int kSlowdown = 1;
+#endif
+
+constexpr std::chrono::seconds kDeadline(20 * kSlowdown);
 
 // Whether `condition` came true before the deadline, asked every 5 ms of the steady clock.
 inline bool waitFor(const std::function<bool()>& condition,

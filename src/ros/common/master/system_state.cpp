@@ -52,16 +52,19 @@ std::string otherPublisher(const SystemState& state, const std::string& topic, C
 
 }  // namespace
 
-std::optional<SystemState> systemState(double seconds) {
+std::optional<SystemState> systemStateOf(XmlRpcValue lists) {
   try {
-    auto lists = callXmlRpc(masterUri(), "getSystemState", {XmlRpcValue(ros::this_node::getName())},
-                            seconds);
-    if (!lists || lists->getType() != XmlRpcValue::TypeArray || lists->size() != 3)
-      return std::nullopt;
-    return SystemState{nodesOf((*lists)[0]), nodesOf((*lists)[1]), nodesOf((*lists)[2])};
+    if (lists.getType() != XmlRpcValue::TypeArray || lists.size() != 3) return std::nullopt;
+    return SystemState{nodesOf(lists[0]), nodesOf(lists[1]), nodesOf(lists[2])};
   } catch (const XmlRpc::XmlRpcException&) {
     return std::nullopt;
   }
+}
+
+std::optional<SystemState> systemState(double seconds) {
+  const auto lists =
+      callXmlRpc(masterUri(), "getSystemState", {XmlRpcValue(ros::this_node::getName())}, seconds);
+  return lists ? systemStateOf(*lists) : std::nullopt;
 }
 
 std::optional<OtherCommander> otherCommander(const Commands& commands) {

@@ -1,6 +1,8 @@
 // Who publishes and offers what, as the master knows it.
 #pragma once
 
+#include <xmlrpcpp/XmlRpcValue.h>
+
 #include <map>
 #include <optional>
 #include <string>
@@ -12,6 +14,9 @@ struct SystemState {
   using Nodes = std::map<std::string, std::vector<std::string>>;  // by topic or service
   Nodes publishers, subscribers, services;
 };
+
+// What the master answers to getSystemState; none where it is no such list of lists.
+std::optional<SystemState> systemStateOf(XmlRpc::XmlRpcValue lists);
 
 // None where the master does not answer within `seconds`.
 std::optional<SystemState> systemState(double seconds);

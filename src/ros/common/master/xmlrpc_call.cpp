@@ -38,14 +38,18 @@ std::optional<XmlRpcValue> ask(const std::string& uri, const std::string& method
 
 }  // namespace
 
+std::optional<XmlRpcValue> valueOfAnswer(XmlRpcValue answer) {
+  if (answer.getType() != XmlRpcValue::TypeArray || answer.size() != 3 ||
+      static_cast<int&>(answer[0]) != 1)
+    return std::nullopt;
+  return XmlRpcValue(answer[2]);
+}
+
 std::optional<XmlRpcValue> callXmlRpc(const std::string& uri, const std::string& method,
                                       const std::vector<XmlRpcValue>& arguments, double seconds) {
   try {
-    std::optional<XmlRpcValue> response = ask(uri, method, arguments, seconds);
-    if (!response || response->getType() != XmlRpcValue::TypeArray || response->size() != 3 ||
-        static_cast<int&>((*response)[0]) != 1)
-      return std::nullopt;
-    return XmlRpcValue((*response)[2]);
+    const std::optional<XmlRpcValue> answer = ask(uri, method, arguments, seconds);
+    return answer ? valueOfAnswer(*answer) : std::nullopt;
   } catch (const XmlRpc::XmlRpcException&) {
     return std::nullopt;
   }

@@ -21,6 +21,9 @@ std::optional<XmlRpc::XmlRpcValue> callXmlRpc(const std::string& uri, const std:
                                               const std::vector<XmlRpc::XmlRpcValue>& arguments,
                                               double seconds);
 
+// The third element of an answer that is a success. Throws XmlRpc::XmlRpcException.
+std::optional<XmlRpc::XmlRpcValue> valueOfAnswer(XmlRpc::XmlRpcValue answer);
+
 // Whether one answers at all at `uri`, be it with an error.
 bool answersXmlRpc(const std::string& uri, double seconds);
 

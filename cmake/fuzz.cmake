@@ -1,0 +1,12 @@
+# -DGRID_PATH_PLANNER_FUZZ=ON with clang: everything with libFuzzer's coverage and the address and undefined behaviour
+# sanitizers, and test/fuzz as the fuzzer's program. scripts/fuzz configures such a build.
+option(GRID_PATH_PLANNER_FUZZ "Build for libFuzzer, with clang" OFF)
+if(GRID_PATH_PLANNER_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "GRID_PATH_PLANNER_FUZZ needs -DCMAKE_CXX_COMPILER=clang++, got ${CMAKE_CXX_COMPILER_ID}")
+  endif()
+  set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")
+  set(sanitizers address,undefined,float-cast-overflow)
+  add_compile_options(-fsanitize=fuzzer-no-link,${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${sanitizers})
+endif()

@@ -1,0 +1,17 @@
+#include "fuzz/files/fuzz_images.h"
+#include "fuzz/fuzz_target.h"
+#include "grid/formats/image_formats.h"
+
+namespace grid_path_planner::fuzz {
+namespace {
+
+std::vector<std::string> seedsOfBmp() {
+  return {encodedPicture(".bmp", 1), encodedPicture(".bmp", 3), encodedPicture(".bmp", 4)};
+}
+
+FUZZ_TARGET(bmp_image, seedsOfBmp) {
+  mayRefuse([&] { grid::decodeBmp(input, "fuzz.bmp", checkSizeOfPicture); });
+}
+
+}  // namespace
+}  // namespace grid_path_planner::fuzz

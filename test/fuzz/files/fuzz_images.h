@@ -1,0 +1,29 @@
+// Seeds and limits of the targets that read images.
+#pragma once
+
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/base/errors.h"
+
+namespace grid_path_planner::fuzz {
+
+// A picture of a few cells, in this format and with this many channels.
+inline std::string encodedPicture(const std::string& extension, int channels,
+                                  const std::vector<int>& how = {}) {
+  cv::Mat picture(5, 7, CV_8UC(channels));
+  for (int byte = 0; byte < 5 * 7 * channels; ++byte)
+    picture.data[byte] = static_cast<unsigned char>(byte * 37);
+  std::vector<unsigned char> bytes;
+  cv::imencode(extension, picture, bytes, how);
+  return {bytes.begin(), bytes.end()};
+}
+
+// Pictures that are larger are another matter: what memory they may take.
+inline void checkSizeOfPicture(int width, int height) {
+  constexpr long kMostPixels = 1L << 20;
+  if (static_cast<long>(width) * height > kMostPixels) throw base::InputError("too large");
+}
+
+}  // namespace grid_path_planner::fuzz

@@ -1,0 +1,47 @@
+// What dynamic_reconfigure may ask of every node.
+#include "fuzz/fuzz_target.h"
+#include "fuzz/messages/fuzz_messages.h"
+#include "grid_path_planner/mapping/projected_map_options.h"
+#include "ros/common/parameters.h"
+#include "ros/driving/navigate_path_options.h"
+#include "ros/driving/teleop_joy_options.h"
+#include "ros/planning/map_publisher_options.h"
+#include "ros/planning/path_planner_options.h"
+#include "ros/simulation/simulator_options.h"
+
+namespace grid_path_planner::fuzz {
+namespace {
+
+std::vector<std::string> seedsOfConfigs() {
+  return {bytesOf(nodes::configMessage(nodes::PathPlannerNodeOptions())),
+          bytesOf(nodes::configMessage(nodes::NavigatePathOptions())),
+          bytesOf(nodes::configMessage(mapping::ProjectedMapOptions())),
+          bytesOf(nodes::configMessage(nodes::SimulatorOptions())),
+          bytesOf(nodes::configMessage(nodes::TeleopJoyOptions())),
+          bytesOf(nodes::configMessage(nodes::MapPublisherOptions()))};
+}
+
+// Options that are taken are inside their limits, and as text they are the same again.
+template <class Options, class Check>
+void reconfigure(const dynamic_reconfigure::Config& message, const Check& check) {
+  mayRefuse([&] {
+    const Options options = nodes::withConfigMessage(Options(), message);
+    check(options);
+    base::checkOptionLimits(options);
+    nodes::withConfigMessage(Options(), nodes::configMessage(options));
+  });
+}
+
+FUZZ_TARGET(config_message, seedsOfConfigs) {
+  const auto message = messageOf<dynamic_reconfigure::Config>(input);
+  if (!message) return;
+  reconfigure<nodes::PathPlannerNodeOptions>(*message, nodes::checkPathPlannerNodeOptions);
+  reconfigure<nodes::NavigatePathOptions>(*message, nodes::checkNavigatePathOptions);
+  reconfigure<mapping::ProjectedMapOptions>(*message, mapping::checkProjectedMapOptions);
+  reconfigure<nodes::SimulatorOptions>(*message, nodes::checkSimulatorOptions);
+  reconfigure<nodes::TeleopJoyOptions>(*message, nodes::checkTeleopJoyOptions);
+  reconfigure<nodes::MapPublisherOptions>(*message, nodes::checkMapPublisherOptions);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::fuzz
