@@ -24,11 +24,11 @@ BRAKING = 1.2           # s: from 0.8 m/s, and what a message takes
 
 
 class Kills:
-    def __init__(self, demo, seed=1):
+    def __init__(self, demo, seed=1, nodes=None):
         self.demo, self.nodes, self.vehicle, self.drive = demo, demo.nodes, demo.vehicle, demo.drive
         self.map = SeenMap()
         self.random = random.Random(seed)
-        self.counts = dict.fromkeys(demo.NODES, 0)
+        self.counts = dict.fromkeys(nodes or demo.NODES, 0)
         self.crossed = 0
         self.longest_stop = 0.0
 
@@ -58,9 +58,9 @@ class Kills:
             time.sleep(0.01)
 
     def round(self, number):
-        order = [node for node in self.demo.NODES if node != "/simulator"]
+        order = [node for node in self.counts if node != "/simulator"]
         self.random.shuffle(order)
-        if number % SIMULATOR_EVERY == SIMULATOR_EVERY - 1:
+        if "/simulator" in self.counts and number % SIMULATOR_EVERY == SIMULATOR_EVERY - 1:
             order.insert(0, "/simulator")
         killed = []
         for node in order:

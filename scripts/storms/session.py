@@ -8,11 +8,12 @@ from ros_session import START_SECONDS, Nodes, SessionFailed, Vehicle, free_port,
 
 BACK_SECONDS = 30.0  # for a node that was killed, an answer, and a vehicle that is to go on; of the wall clock of a
                      # machine that has nothing else to do, see patience()
-# x, y, z in m, yaw in rad: between them lies what stands on the demo's site.
+# x, y, z in m, yaw in rad: between them lies what stands on the demo's site, of which rocks and chains reach so high.
 ENDS = ((10.6115, -12.4845, 2.947, 1.7279), (1.2191, 4.8549, 2.883, 1.6864))
 BEGIN = ("initial_x", "initial_y", "initial_z", "initial_yaw")  # of the simulator
 SURVEY_SPEED = 4.0       # simulated seconds in one of the wall clock
 SURVEY_SECONDS = 1500.0  # of the wall clock, if nothing else ends it
+ABOVE = 4.5          # m: the survey's height
 THERE = 0.4          # m: so near to an end the vehicle is sent to the other
 
 
@@ -99,14 +100,15 @@ class Master:
 
 class Demo:
     """The demo's nodes with the vehicle at the first of ENDS, and a drive from there. Without a survey before, it
-    begins there and knows nothing of the site."""
+    begins there and knows nothing of the site: it drives above the rocks, which it maps as obstacles all the same."""
 
     NODES = ("/simulator", "/projected_map", "/path_planner", "/navigate_path", "/teleop_joy")
 
     def __init__(self, folder, given=(), simulator=(), mapping=(), navigate=(), arguments=(),
                  survey=False):
         overrides = Overrides(folder, given)
-        begin = {} if survey else dict(zip(BEGIN, ENDS[0]))
+        self.ends = ENDS if survey else [(x, y, ABOVE, yaw) for x, y, _, yaw in ENDS]
+        begin = {} if survey else dict(zip(BEGIN, self.ends[0]))
         self.folder, self.survey = folder, survey
         os.environ["GRID_PATH_PLANNER_SAVE_FOLDER"] = os.path.join(folder, "kept")
         self.arguments = list(arguments) + [
@@ -123,7 +125,7 @@ class Demo:
         try:
             self.vehicle = Vehicle(self.nodes)
             self.vehicle.wait_until_ready()
-            self.drive = Drive(self.nodes, self.vehicle)
+            self.drive = Drive(self.nodes, self.vehicle, self.ends)
             self.wait_for_nodes()
             if self.survey:
                 self.run_survey()
@@ -154,14 +156,14 @@ class Demo:
 
 
 class Drive:
-    """Sends the vehicle to and fro between ENDS by path_planner and navigate_path."""
+    """Sends the vehicle to and fro between two ends by path_planner and navigate_path."""
 
-    def __init__(self, nodes, vehicle):
+    def __init__(self, nodes, vehicle, ends=ENDS):
         import rospy
         from geometry_msgs.msg import PoseStamped
         from grid_path_planner.msg import PlanStatistics
         from nav_msgs.msg import Path
-        self.nodes, self.vehicle = nodes, vehicle
+        self.nodes, self.vehicle, self.ends = nodes, vehicle, ends
         self.goal_type, self.path, self.found, self.reason = PoseStamped, None, 0, "nothing"
         self.end, self.stood = 1, False
         self.goals = rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=1)
@@ -174,12 +176,12 @@ class Drive:
             self.path = message
 
     def send_goal(self):
-        if self.vehicle.distance(ENDS[self.end]) < THERE:
+        if self.vehicle.distance(self.ends[self.end]) < THERE:
             self.end = 1 - self.end
         goal = self.goal_type()
         goal.header.frame_id = "map"
         goal.header.stamp = self.vehicle.clock.clock
-        x, y, z, _ = ENDS[self.end]
+        x, y, z, _ = self.ends[self.end]
         goal.pose.position.x, goal.pose.position.y, goal.pose.position.z = x, y, z
         goal.pose.orientation.w = 1.0
         self.goals.publish(goal)
@@ -219,6 +221,6 @@ class Drive:
             self.stood = self.stood or self.vehicle.speed() < 0.02
             self.nodes.check()
             self.vehicle.check_untouched()
-            if self.vehicle.distance(ENDS[self.end]) < THERE:
+            if self.vehicle.distance(self.ends[self.end]) < THERE:
                 self.ask()
             time.sleep(0.05)

@@ -9,7 +9,7 @@
 
 #include "grid_path_planner/NavigatePathConfig.h"
 #include "grid_path_planner/path/waypoint_file.h"
-#include "ros/common/action_topics.h"
+#include "ros/common/action/action_topics.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/parameters.h"

@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "grid_path_planner/ros/conversions.h"
-#include "ros/common/action_topics.h"
+#include "ros/common/action/action_topics.h"
 
 namespace actionlib {
 

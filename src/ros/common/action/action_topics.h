@@ -23,7 +23,7 @@
 
 #include <boost/make_shared.hpp>
 
-#include "ros/common/action_stamps.h"
+#include "ros/common/action/action_stamps.h"
 
 namespace grid_path_planner::nodes {
 
