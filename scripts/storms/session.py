@@ -105,11 +105,11 @@ class Demo:
     NODES = ("/simulator", "/projected_map", "/path_planner", "/navigate_path", "/teleop_joy")
 
     def __init__(self, folder, given=(), simulator=(), mapping=(), navigate=(), arguments=(),
-                 survey=False):
+                 survey=False, host="localhost"):
         overrides = Overrides(folder, given)
         self.ends = ENDS if survey else [(x, y, ABOVE, yaw) for x, y, _, yaw in ENDS]
         begin = {} if survey else dict(zip(BEGIN, self.ends[0]))
-        self.folder, self.survey = folder, survey
+        self.folder, self.survey, self.master = folder, survey, Master(host)
         os.environ["GRID_PATH_PLANNER_SAVE_FOLDER"] = os.path.join(folder, "kept")
         self.arguments = list(arguments) + [
             "simulator_overrides:=" + overrides.write("simulator", "demo_simulator.yaml", **dict(begin, **dict(simulator))),
@@ -120,7 +120,7 @@ class Demo:
                                                      **dict(navigate))]
 
     def __enter__(self):
-        self.master = Master().__enter__()
+        self.master.__enter__()
         self.nodes = Nodes("demo.launch", self.arguments, os.path.join(self.folder, "log"), own_master=False)
         try:
             self.vehicle = Vehicle(self.nodes)
