@@ -18,7 +18,7 @@ import subprocess
 import sys
 import time
 
-from ros_session import (START_SECONDS, Mapping, Nodes, SessionFailed, Vehicle, executable, set_camera_rate,
+from ros_session import (START_SECONDS, Mapping, Nodes, SessionFailed, Vehicle, executable, set_simulator,
                          share_file)
 
 START = (10.6115, -12.4845, 2.947, 1.7279)  # x, y, z in m, yaw in rad: where the survey ends
@@ -110,7 +110,7 @@ def survey(nodes, vehicle, mapping, map_file):
     seconds = vehicle.drive_file("/survey", share_file("config", "survey_waypoints.yaml"), SURVEY_SECONDS)
     if vehicle.distance(START) > LARGEST_START_ERROR:
         raise SessionFailed("the survey ended %.2f m from the start of the path" % vehicle.distance(START))
-    set_camera_rate(HELD_RATE)  # the map that is saved is the one that is planned on
+    set_simulator("camera_rate", HELD_RATE)  # the map that is saved is the one that is planned on
     mapping.wait_until_mapped(SURVEY_SECONDS)
     mapping.save(map_file)
     return [("survey", "%.1f m in %.0f s, %.0f s of the wall clock" % (

@@ -27,6 +27,15 @@ def free_port():
         return probe.getsockname()[1]
 
 
+def own_master_arguments():
+    """Those of a roslaunch that starts a master on a free port, which is everybody's then."""
+    port = free_port()
+    os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
+    os.environ["ROS_HOSTNAME"] = "localhost"
+    os.environ.pop("ROS_IP", None)
+    return ["-p", str(port)]
+
+
 def share_file(*parts):
     import rospkg
     return os.path.join(rospkg.RosPack().get_path(PACKAGE), *parts)
@@ -44,16 +53,13 @@ def executable(name):
 class Nodes:
     """A launch file as a child process, with everything that it starts. Stops it at the end."""
 
-    def __init__(self, launch_file, arguments, log):
-        port = free_port()
-        os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
-        os.environ["ROS_HOSTNAME"] = "localhost"
-        os.environ.pop("ROS_IP", None)
+    def __init__(self, launch_file, arguments, log, own_master=True):
+        """Without a master of their own they take the one of ROS_MASTER_URI."""
         self.log_name = log
         self.log = open(log, "w")
         # A session of its own: Ctrl-C reaches this program alone, which then stops the nodes in order.
         self.process = subprocess.Popen(
-            ["roslaunch", "-p", str(port), PACKAGE, launch_file] + arguments,
+            ["roslaunch"] + (own_master_arguments() if own_master else []) + [PACKAGE, launch_file] + arguments,
             stdout=self.log, stderr=subprocess.STDOUT, start_new_session=True)
 
     def __enter__(self):
@@ -215,10 +221,9 @@ class Mapping:
             raise SessionFailed(answer.message)
 
 
-def set_camera_rate(rate):
-    """Pictures in a simulated second."""
+def set_simulator(parameter, value):
+    """A number, while it runs."""
     import rospy
     from dynamic_reconfigure.msg import Config, DoubleParameter
     from dynamic_reconfigure.srv import Reconfigure
-    rospy.ServiceProxy("/simulator/set_parameters", Reconfigure)(
-        Config(doubles=[DoubleParameter("camera_rate", rate)]))
+    rospy.ServiceProxy("/simulator/set_parameters", Reconfigure)(Config(doubles=[DoubleParameter(parameter, value)]))

@@ -222,7 +222,10 @@ void DriveLoop::findVehicle(const ros::Time& now, FollowInput& input) const {
 
 std::string DriveLoop::whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const {
   try {
-    const auto points = transforms_.pointsIn(map_.map.frame_id, follower_.path().frame_id, ahead);
+    const std::string& path_frame = follower_.path().frame_id;
+    const std::string& map_frame = map_.map.frame_id;
+    const auto points =
+        transforms_.pointsIn(map_frame.empty() ? path_frame : map_frame, path_frame, ahead);
     const auto found = firstObstruction(*map_.map.grid, options_.limits, points);
     return found ? sentenceOf(*found) : "";
   } catch (const TransformError& error) {

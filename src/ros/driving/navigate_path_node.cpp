@@ -9,10 +9,24 @@
 
 #include "grid_path_planner/NavigatePathConfig.h"
 #include "grid_path_planner/path/waypoint_file.h"
+#include "ros/common/action/action_topics.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
+
+namespace actionlib {
+
+template <>
+void ActionServer<grid_path_planner::NavigatePathAction>::initialize() {
+  grid_path_planner::nodes::openActionTopics(
+      *this, node_, {goal_sub_, cancel_sub_, result_pub_, feedback_pub_, status_pub_});
+  status_list_timeout_ = ros::Duration(grid_path_planner::nodes::kActionStatusTimeout);
+  status_timer_ = node_.createTimer(ros::Duration(grid_path_planner::nodes::kActionStatusPeriod),
+                                    [this](const ros::TimerEvent&) { publishStatus(); });
+}
+
+}  // namespace actionlib
 
 namespace grid_path_planner::nodes {
 

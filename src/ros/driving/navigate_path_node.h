@@ -54,6 +54,14 @@ namespace grid_path_planner {
 class NavigatePathConfig;
 }  // namespace grid_path_planner
 
+namespace actionlib {
+
+// With the stamps of action_topics.h.
+template <>
+void ActionServer<grid_path_planner::NavigatePathAction>::initialize();
+
+}  // namespace actionlib
+
 namespace grid_path_planner::None {}  // namespace grid_path_planner::None
 
 namespace grid_path_planner::nodes {

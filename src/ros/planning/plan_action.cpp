@@ -5,6 +5,20 @@
 
 #include "base/current_error.h"
 #include "grid_path_planner/ros/conversions.h"
+#include "ros/common/action/action_topics.h"
+
+namespace actionlib {
+
+template <>
+void ActionServer<grid_path_planner::PlanPathAction>::initialize() {
+  grid_path_planner::nodes::openActionTopics(
+      *this, node_, {goal_sub_, cancel_sub_, result_pub_, feedback_pub_, status_pub_});
+  status_list_timeout_ = ros::Duration(grid_path_planner::nodes::kActionStatusTimeout);
+  status_timer_ = node_.createTimer(ros::Duration(grid_path_planner::nodes::kActionStatusPeriod),
+                                    [this](const ros::TimerEvent&) { publishStatus(); });
+}
+
+}  // namespace actionlib
 
 namespace grid_path_planner::nodes {
 

@@ -12,6 +12,14 @@
 #include "grid_path_planner/PlanPathAction.h"
 #include "ros/planning/planning_server.h"
 
+namespace actionlib {
+
+// With the stamps of action_topics.h.
+template <>
+void ActionServer<grid_path_planner::PlanPathAction>::initialize();
+
+}  // namespace actionlib
+
 namespace grid_path_planner::nodes {
 
 class PlanAction {

@@ -1,0 +1,1 @@
+"""What `scripts/storm` runs: one storm a file, and what they share: session.py, seen_map.py, silence.py."""

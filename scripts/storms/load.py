@@ -1,0 +1,232 @@
+"""More is asked of the nodes than they can do: maps of 4000x4000 cells, goals at 1 kHz, service clients, and a
+subscriber that never reads.
+
+On path_planner and navigate_path with a simulated vehicle, without a world; the map is free but for a wall. Holds if
+no node ends, resident memory ends up below MOST_MB, every answer of ~make_plan comes within LONGEST_ANSWER and once the
+load is over within 1 s, and cmd_vel is silent no longer than silence.py allows. The 95th per cent of the answers is
+told; 0.5 s at 5 Hz are what a machine with cores of its own reaches.
+"""
+import os
+import socket
+import struct
+import subprocess
+import sys
+import threading
+import time
+
+from ros_session import START_SECONDS, SessionFailed, executable
+
+from .session import Master, patience, process_id, resident_mb
+from .silence import Silence, quantile
+
+SIDE, RESOLUTION = 4000, 0.05
+MAP_RATE, GOAL_RATE, CLIENTS = 10.0, 1000.0, 50
+MOST_MB = 2500.0
+LONGEST_ANSWER = 30.0  # s
+NODES = {"simulator": [], "path_planner": ["_unknown_is_passable:=true"],
+         "navigate_path": ["_check_map:=false", "_loop:=true", "_no_progress_timeout:=0"]}
+
+
+def serialized_map():
+    """Of bytes: rospy's own message of 16 million cells takes seconds to write."""
+    header = struct.pack("<III", 0, 0, 0) + struct.pack("<I", 3) + b"map"
+    info = struct.pack("<IIfII7d", 0, 0, RESOLUTION, SIDE, SIDE, 0, 0, 0, 0, 0, 0, 1)
+    cells = bytearray(SIDE * SIDE)
+    wall = SIDE // 2 * SIDE
+    cells[wall:wall + SIDE // 2] = b"\x64" * (SIDE // 2)
+    return header + info + struct.pack("<I", len(cells)) + bytes(cells)
+
+
+def publish_maps():
+    import rospy
+    from nav_msgs.msg import OccupancyGrid
+    content = serialized_map()
+
+    class Whole(OccupancyGrid):
+        __slots__ = ()
+
+        def serialize(self, buff):
+            now = time.time()
+            buff.write(content[:4] + struct.pack("<II", int(now), int(now % 1 * 1e9)) + content[12:])
+    publisher = rospy.Publisher("projected_map", OccupancyGrid, queue_size=1)
+    return lambda: publisher.publish(Whole()), MAP_RATE
+
+
+def publish_goals():
+    import rospy
+    from geometry_msgs.msg import PoseStamped
+    publisher = rospy.Publisher("goal", PoseStamped, queue_size=100)
+    goal = PoseStamped()
+    goal.header.frame_id, goal.pose.orientation.w = "map", 1.0
+    goal.pose.position.x = goal.pose.position.y = 150.0
+    return lambda: publisher.publish(goal), GOAL_RATE
+
+
+def plan(x, y):
+    import rospy
+    from nav_msgs.srv import GetPlan, GetPlanRequest
+    request = GetPlanRequest()
+    request.start.header.frame_id = request.goal.header.frame_id = "map"
+    request.start.pose.position.x = request.start.pose.position.y = 1.0
+    request.goal.pose.position.x, request.goal.pose.position.y = x, y
+    request.start.pose.orientation.w = request.goal.pose.orientation.w = 1.0
+    begin = time.monotonic()
+    answer = rospy.ServiceProxy("/path_planner/make_plan", GetPlan)(request)
+    return time.monotonic() - begin, len(answer.plan.poses)
+
+
+def ask_for_plans():
+    """CLIENTS threads; prints what each answer took."""
+    def ask():
+        while True:
+            print("%.4f" % plan(5.0, 5.0)[0], flush=True)
+    for _ in range(CLIENTS):
+        threading.Thread(target=ask, daemon=True).start()
+    return lambda: None, 1.0
+
+
+def never_read():
+    """Connections to planning_map that take no byte after the header."""
+    import rosgraph
+    import xmlrpc.client
+    kept = []
+
+    def connect():
+        if kept:
+            return
+        node = xmlrpc.client.ServerProxy(rosgraph.Master("/deaf").lookupNode("/path_planner"))
+        _, host, port = node.requestTopic("/deaf", "/planning_map", [["TCPROS"]])[2]
+        connection = socket.create_connection((host, port))
+        fields = ("callerid=/deaf", "topic=/planning_map", "type=nav_msgs/OccupancyGrid", "md5sum=*")
+        header = b"".join(struct.pack("<I", len(field)) + field.encode() for field in fields)
+        connection.sendall(struct.pack("<I", len(header)) + header)
+        kept.append(connection)
+    return connect, 1.0
+
+
+LOADS = {"maps": publish_maps, "goals": publish_goals, "clients": ask_for_plans, "deaf": never_read}
+
+
+def put_load(kind):
+    """In a process of its own, until it is killed."""
+    import rospy
+    rospy.init_node("load_" + kind, disable_signals=True)
+    act, rate = LOADS[kind]()
+    while True:
+        begin = time.monotonic()
+        act()
+        time.sleep(max(0.0, 1.0 / rate - (time.monotonic() - begin)))
+
+
+class Nodes:
+    def __init__(self, folder, given):
+        self.log = open(os.path.join(folder, "log"), "w")
+        extra = {}
+        for text in given:
+            node, _, parameter = text.partition("/")
+            extra.setdefault(node, []).append("_" + parameter.replace("=", ":=", 1))
+        self.processes = {name: self.start([executable(name), "goal:=goal"] + arguments + extra.get(name, []))
+                          for name, arguments in NODES.items()}
+        self.loads = []
+
+    def start(self, command, **more):
+        return subprocess.Popen(command, **dict(dict(stdout=self.log, stderr=subprocess.STDOUT), **more))
+
+    def load(self, kind):
+        self.loads.append(self.start([sys.executable, "-m", "storms.load", kind], stdout=subprocess.PIPE, text=True,
+                                     cwd=os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+        return self.loads[-1]
+
+    def check(self):
+        ended = [name for name, process in self.processes.items() if process.poll() is not None]
+        if ended:
+            raise SessionFailed("these have ended: " + ", ".join(ended))
+
+    def resident(self):
+        return {name: resident_mb(process.pid) for name, process in self.processes.items()}
+
+    def stop(self):
+        for process in self.loads + list(self.processes.values()):
+            process.kill()
+        for process in self.loads + list(self.processes.values()):
+            process.wait()
+        self.log.close()
+
+
+def drive_a_line(nodes):
+    """A path to and fro over free space, again and again."""
+    import rospy
+    from geometry_msgs.msg import PoseStamped
+    from nav_msgs.msg import Path
+    publisher = rospy.Publisher("path", Path, queue_size=1)
+    wait(nodes, lambda: publisher.get_num_connections() > 0, "navigate_path")
+    path = Path()
+    path.header.frame_id, path.header.stamp = "map", rospy.Time.now()
+    for x in (0.0, 10.0, 0.1):
+        pose = PoseStamped()
+        pose.pose.position.x, pose.pose.orientation.w = x, 1.0
+        path.poses.append(pose)
+    publisher.publish(path)
+
+
+def wait(nodes, done, what):
+    deadline = time.monotonic() + patience(START_SECONDS)
+    while not done():
+        nodes.check()
+        if time.monotonic() > deadline:
+            raise SessionFailed("no " + what)
+        time.sleep(0.1)
+
+
+def suffer(nodes, seconds, silence):
+    nodes.load("maps")
+    wait(nodes, lambda: plan(5.0, 5.0)[1] > 1, "plan")
+    for kind in list(LOADS)[1:]:
+        nodes.load(kind)
+    answers = []
+    clients = nodes.loads[list(LOADS).index("clients")]
+    threading.Thread(target=lambda: answers.extend(map(float, clients.stdout)), daemon=True).start()
+    silence.begin()
+    deadline, most = time.monotonic() + seconds, 0.0
+    while time.monotonic() < deadline:
+        nodes.check()
+        most = max(most, *nodes.resident().values())
+        time.sleep(0.2)
+    silence.end()
+    for process in nodes.loads:
+        process.kill()
+        process.wait()
+    return answers, most
+
+
+def verdict(answers, most, calm, silent):
+    if not answers:
+        raise SessionFailed("no answer under load")
+    text = "%d answers, p95 %.2f s, longest %.1f s, after it %.2f s; at most %.0f MB; %s" % (
+        len(answers), quantile(answers, 0.95), max(answers), calm, most, silent)
+    if max(answers) > patience(LONGEST_ANSWER) or calm > patience(1.0) or most > MOST_MB:
+        raise SessionFailed(text)
+    return text
+
+
+def storm(minutes, folder, given):
+    import rospy
+    with Master():
+        rospy.init_node("storm", anonymous=True, disable_signals=True)
+        rospy.set_param("/use_sim_time", False)
+        rospy.set_param("/simulator/publish_clock", False)
+        nodes = Nodes(folder, given)
+        try:
+            wait(nodes, lambda: all(process_id("/" + name) for name in NODES), "nodes")
+            drive_a_line(nodes)
+            with Silence() as silence:
+                answers, most = suffer(nodes, 60.0 * minutes, silence)
+                time.sleep(2.0)
+                calm, _ = plan(5.0, 5.0)
+                return verdict(answers, most, calm, silence.verdict())
+        finally:
+            nodes.stop()
+
+
+if __name__ == "__main__":
+    put_load(sys.argv[1])

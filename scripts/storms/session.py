@@ -1,0 +1,226 @@
+"""What the storms share: the demo's nodes under a master of their own, and a vehicle that drives to and fro."""
+import os
+import subprocess
+import time
+import xmlrpc.client
+
+from ros_session import START_SECONDS, Nodes, SessionFailed, Vehicle, free_port, set_simulator, share_file
+
+BACK_SECONDS = 30.0  # for a node that was killed, an answer, and a vehicle that is to go on; of the wall clock of a
+                     # machine that has nothing else to do, see patience()
+# x, y, z in m, yaw in rad: between them lies what stands on the demo's site, of which rocks and chains reach so high.
+ENDS = ((10.6115, -12.4845, 2.947, 1.7279), (1.2191, 4.8549, 2.883, 1.6864))
+BEGIN = ("initial_x", "initial_y", "initial_z", "initial_yaw")  # of the simulator
+SURVEY_SPEED = 4.0       # simulated seconds in one of the wall clock
+SURVEY_SECONDS = 1500.0  # of the wall clock, if nothing else ends it
+ABOVE = 4.5          # m: the survey's height
+THERE = 0.4          # m: so near to an end the vehicle is sent to the other
+
+
+class NotRun(Exception):
+    """The machine does not allow this storm; the message says why."""
+
+
+def patience(seconds):
+    """So many seconds of the wall clock, or more where the machine has more to do than it can."""
+    return seconds * max(1.0, os.getloadavg()[0] / os.cpu_count() / 2.0)
+
+
+def process_id(node):
+    """None where the node is not there."""
+    import rosgraph
+    try:
+        return xmlrpc.client.ServerProxy(rosgraph.Master("/storm").lookupNode(node)).getPid("/storm")[2]
+    except (rosgraph.MasterError, OSError, xmlrpc.client.Error):
+        return None
+
+
+def resident_mb(pid):
+    """0 where the process has ended."""
+    try:
+        with open("/proc/%d/status" % pid) as file:
+            for line in file:
+                if line.startswith("VmRSS:"):
+                    return int(line.split()[1]) / 1e3
+    except OSError:
+        pass
+    return 0.0
+
+
+class Overrides:
+    """Parameter files of config/ with some values replaced. Those that the user gave as NODE/NAME=VALUE win: with
+    them a storm is shown to fail."""
+
+    def __init__(self, folder, given=()):
+        self.folder, self.given = folder, {}
+        for text in given:
+            name, _, value = text.partition("=")
+            node, _, parameter = name.partition("/")
+            self.given.setdefault(node, {})[parameter] = value
+
+    def write(self, node, config, **values):
+        import yaml
+        with open(share_file("config", config)) as file:
+            parameters = dict(yaml.safe_load(file) or {}, **values)
+        parameters.update((key, yaml.safe_load(text)) for key, text in self.given.get(node, {}).items())
+        name = os.path.join(self.folder, config)
+        with open(name, "w") as file:
+            yaml.safe_dump(parameters, file)
+        return name
+
+
+class Master:
+    """A rosmaster as a child process, which may be killed and started again."""
+
+    def __init__(self, host="localhost"):
+        self.port = free_port()
+        os.environ["ROS_MASTER_URI"] = "http://%s:%d" % (host, self.port)
+        os.environ["ROS_HOSTNAME"] = host
+        os.environ.pop("ROS_IP", None)
+        self.process = None
+
+    def __enter__(self):
+        import rosgraph
+        self.process = subprocess.Popen(["rosmaster", "--core", "-p", str(self.port)], stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.DEVNULL, start_new_session=True)
+        deadline = time.monotonic() + START_SECONDS
+        while not rosgraph.is_master_online():
+            if time.monotonic() > deadline:
+                raise SessionFailed("no rosmaster")
+            time.sleep(0.05)
+        return self
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+
+    def __exit__(self, *_):
+        self.kill()
+
+
+class Demo:
+    """The demo's nodes with the vehicle at the first of ENDS, and a drive from there. Without a survey before, it
+    begins there and knows nothing of the site: it drives above the rocks, which it maps as obstacles all the same."""
+
+    NODES = ("/simulator", "/projected_map", "/path_planner", "/navigate_path", "/teleop_joy")
+
+    def __init__(self, folder, given=(), simulator=(), mapping=(), navigate=(), arguments=(),
+                 survey=False, host="localhost"):
+        overrides = Overrides(folder, given)
+        self.ends = ENDS if survey else [(x, y, ABOVE, yaw) for x, y, _, yaw in ENDS]
+        begin = {} if survey else dict(zip(BEGIN, self.ends[0]))
+        self.folder, self.survey, self.master = folder, survey, Master(host)
+        os.environ["GRID_PATH_PLANNER_SAVE_FOLDER"] = os.path.join(folder, "kept")
+        self.arguments = list(arguments) + [
+            "simulator_overrides:=" + overrides.write("simulator", "demo_simulator.yaml", **dict(begin, **dict(simulator))),
+            # whole maps are what is compared
+            "mapping_overrides:=" + overrides.write("projected_map", "demo_mapping.yaml",
+                                                    always_send_full_map=True, **dict(mapping)),
+            "navigate_overrides:=" + overrides.write("navigate_path", "demo_navigate.yaml", control_rate=50.0,
+                                                     **dict(navigate))]
+
+    def __enter__(self):
+        self.master.__enter__()
+        self.nodes = Nodes("demo.launch", self.arguments, os.path.join(self.folder, "log"), own_master=False)
+        try:
+            self.vehicle = Vehicle(self.nodes)
+            self.vehicle.wait_until_ready()
+            self.drive = Drive(self.nodes, self.vehicle, self.ends)
+            self.wait_for_nodes()
+            if self.survey:
+                self.run_survey()
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def wait_for_nodes(self):
+        for node in self.NODES:
+            self.nodes.wait_until(lambda: process_id(node), START_SECONDS, node)
+
+    def run_survey(self):
+        """As fast as the machine can; then the simulator is one that starts at the first of ENDS."""
+        import rospy
+        set_simulator("real_time_factor", SURVEY_SPEED)
+        self.vehicle.drive_file("/survey", share_file("config", "survey_waypoints.yaml"), SURVEY_SECONDS)
+        set_simulator("real_time_factor", 1.0)
+        for name, value in zip(BEGIN, ENDS[0]):
+            rospy.set_param("/simulator/" + name, value)
+
+    def pids(self):
+        return {node: process_id(node) for node in self.NODES}
+
+    def __exit__(self, *_):
+        self.nodes.__exit__()
+        self.master.__exit__()
+
+
+class Drive:
+    """Sends the vehicle to and fro between two ends by path_planner and navigate_path."""
+
+    def __init__(self, nodes, vehicle, ends=ENDS):
+        import rospy
+        from geometry_msgs.msg import PoseStamped
+        from grid_path_planner.msg import PlanStatistics
+        from nav_msgs.msg import Path
+        self.nodes, self.vehicle, self.ends = nodes, vehicle, ends
+        self.goal_type, self.path, self.found, self.reason = PoseStamped, None, 0, "nothing"
+        self.end, self.stood = 1, False
+        self.goals = rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=1)
+        rospy.Subscriber("path", Path, self.on_path)
+        rospy.Subscriber("plan_statistics", PlanStatistics,
+                         lambda m: setattr(self, "reason", "%s: %s" % (m.status, m.message)))
+
+    def on_path(self, message):
+        if message.poses:
+            self.path = message
+
+    def send_goal(self):
+        if self.vehicle.distance(self.ends[self.end]) < THERE:
+            self.end = 1 - self.end
+        goal = self.goal_type()
+        goal.header.frame_id = "map"
+        goal.header.stamp = self.vehicle.clock.clock
+        x, y, z, _ = self.ends[self.end]
+        goal.pose.position.x, goal.pose.position.y, goal.pose.position.z = x, y, z
+        goal.pose.orientation.w = 1.0
+        self.goals.publish(goal)
+
+    def retry(self, done, what, every=2.0):
+        """Sends the goal again, every so many seconds, until it is done: one may come before a node is there."""
+        deadline, due = time.monotonic() + patience(BACK_SECONDS), 0.0
+        while not done():
+            self.nodes.check()
+            self.vehicle.check_untouched()
+            if time.monotonic() > deadline:
+                raise SessionFailed("no %s within %.0f s; path_planner says %s; see %s" % (
+                    what, BACK_SECONDS, self.reason, self.nodes.log_name))
+            if time.monotonic() > due and self.goals.get_num_connections() > 0:
+                self.send_goal()
+                due = time.monotonic() + every
+            time.sleep(0.02)
+
+    def ask(self):
+        """A path from where the vehicle is."""
+        self.path = None
+        self.retry(lambda: self.path is not None, "path")
+        self.found += 1
+        return self.path
+
+    def goes_on(self, metres=0.3):
+        """Until the vehicle has driven so far, on a path that was asked for now."""
+        self.ask()
+        begin = self.vehicle.driven_m
+        self.retry(lambda: self.vehicle.driven_m > begin + metres, "motion", every=5.0)
+        self.vehicle.check_untouched()
+
+    def seconds(self, seconds):
+        """Drives on for so long, wall clock, and keeps in `stood` whether the vehicle has stood."""
+        deadline, self.stood = time.monotonic() + seconds, False
+        while time.monotonic() < deadline:
+            self.stood = self.stood or self.vehicle.speed() < 0.02
+            self.nodes.check()
+            self.vehicle.check_untouched()
+            if self.vehicle.distance(self.ends[self.end]) < THERE:
+                self.ask()
+            time.sleep(0.05)

@@ -1,0 +1,24 @@
+"""A minute of the others in one session, for the tests: kills, jumps of time, a master that is gone."""
+from ros_session import SessionFailed
+
+from . import clocks, master
+from .kills import Kills
+from .session import Demo
+from .silence import Silence
+
+KILLED = ("/projected_map", "/path_planner", "/teleop_joy")
+JUMPS = (-2.0, 3600.0)  # s
+
+
+def storm(rounds, folder, given):
+    with Demo(folder, given) as demo, Silence() as silence:
+        kills = Kills(demo, nodes=KILLED)
+        text = kills.run(int(rounds))
+        for seconds in JUMPS:
+            clocks.jump(demo, seconds)
+        silence.begin()
+        slowest, driven = master.lose(demo, master.SHORT)
+        silence.end()
+        if driven < 0.1:
+            raise SessionFailed("without a master the vehicle drove %.2f m" % driven)
+        return "%s; all names there %.1f s after the master; %s" % (text, slowest, silence.verdict())

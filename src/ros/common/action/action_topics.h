@@ -1,0 +1,70 @@
+// The topics of an action server, with the stamps of ActionStamps instead of the senders'.
+//
+//   // in a header that everything includes which has such a server:
+//   namespace actionlib {
+//   template <>
+//   void ActionServer<FooAction>::initialize();
+//   }
+//   // in one .cpp:
+//   template <>
+//   void actionlib::ActionServer<FooAction>::initialize() {
+//     nodes::openActionTopics(*this, node_,
+//                             {goal_sub_, cancel_sub_, result_pub_, feedback_pub_, status_pub_});
+//     status_list_timeout_ = ...; status_timer_ = ...;
+//   }
+//
+// A member of the library's class is specialized because SimpleActionServer makes its ActionServer
+// itself. What it replaces does the same but for the stamps and for parameters that nobody sets.
+#pragma once
+
+#include <actionlib/server/action_server.h>
+#include <actionlib_msgs/GoalStatusArray.h>
+#include <ros/node_handle.h>
+
+#include <boost/make_shared.hpp>
+
+#include "ros/common/action/action_stamps.h"
+
+namespace grid_path_planner::nodes {
+
+constexpr double kActionStatusPeriod = 0.2;  // s of ROS time, as actionlib's
+constexpr double kActionStatusTimeout =
+    5.0;  // s; how long the status of an ended goal is published
+constexpr std::uint32_t kActionQueueSize = 50;  // messages
+
+struct ActionTopics {
+  ros::Subscriber& goals;
+  ros::Subscriber& cancels;
+  ros::Publisher& results;
+  ros::Publisher& feedback;
+  ros::Publisher& status;
+};
+
+// `node` is the action's own namespace.
+template <class Action>
+void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHandle& node,
+                      const ActionTopics& topics) {
+  using Goal = typename Action::_action_goal_type;
+  using Cancel = actionlib_msgs::GoalID;
+  topics.results = node.advertise<typename Action::_action_result_type>("result", kActionQueueSize);
+  topics.feedback =
+      node.advertise<typename Action::_action_feedback_type>("feedback", kActionQueueSize);
+  topics.status = node.advertise<actionlib_msgs::GoalStatusArray>("status", kActionQueueSize, true);
+  const auto stamps = boost::make_shared<ActionStamps>();
+  const boost::function<void(const boost::shared_ptr<const Goal>&)> on_goal =
+      [&server, stamps](const boost::shared_ptr<const Goal>& message) {
+        const auto goal = boost::make_shared<Goal>(*message);
+        goal->goal_id.stamp = stamps->ofGoal(ros::Time::now());
+        server.goalCallback(goal);
+      };
+  const boost::function<void(const boost::shared_ptr<const Cancel>&)> on_cancel =
+      [&server, stamps](const boost::shared_ptr<const Cancel>& message) {
+        const auto cancel = boost::make_shared<Cancel>(*message);
+        cancel->stamp = stamps->ofCancel(message->stamp, ros::Time::now());
+        server.cancelCallback(cancel);
+      };
+  topics.goals = node.subscribe<Goal>("goal", kActionQueueSize, on_goal);
+  topics.cancels = node.subscribe<Cancel>("cancel", kActionQueueSize, on_cancel);
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,205 @@
+"""Right data for each node, and the right answer to it: `probe(node)` tries until it came or the deadline is over.
+
+`node` is a RunningNode of running_nodes.py. A probe begins anew: it relies on nothing that was sent before.
+"""
+import struct
+import time
+import uuid
+
+from genpy.message import fill_message_args
+from message_classes import message_class
+from roslib.message import get_service_class
+
+
+def of(kind, **fields):
+    message = message_class(kind)()
+    fill_message_args(message, [fields])
+    return message
+
+
+def pose(x, y):
+    return {"position": {"x": x, "y": y}, "orientation": {"w": 1.0}}
+
+
+def header(node, frame="map"):
+    now = node.clock.now()
+    return {"frame_id": frame, "stamp": {"secs": now.secs, "nsecs": now.nsecs}}
+
+
+def grid(node):
+    """8 m by 8 m and free."""
+    return of("nav_msgs/OccupancyGrid", header=header(node), data=[0] * 64, info={
+        "width": 8, "height": 8, "resolution": 1.0, "origin": pose(0.0, 0.0)})
+
+
+def update(node):
+    return of("map_msgs/OccupancyGridUpdate", header=header(node), x=7, y=7, width=1, height=1, data=[0])
+
+
+def pose_stamped(node):
+    return of("geometry_msgs/PoseStamped", header=header(node), pose=pose(6.5, 0.5))
+
+
+def initial_pose(node):
+    return of("geometry_msgs/PoseWithCovarianceStamped", header=header(node), pose={"pose": pose(0.5, 0.5)})
+
+
+def path(node):
+    poses = [{"header": header(node), "pose": pose(x, 0.5)} for x in (0.5, 6.5)]
+    return of("nav_msgs/Path", header=header(node), poses=poses)
+
+
+def joystick(_):
+    return of("sensor_msgs/Joy", axes=[0.0, 1.0] + [0.0] * 6, buttons=[0, 0, 0, 0, 1] + [0] * 6)
+
+
+def cloud(node):
+    """A wall a metre wide, four metres ahead of the sensor."""
+    points = [(4.0, 0.05 * i, 0.0) for i in range(-10, 10)]
+    message = of("sensor_msgs/PointCloud2", header=header(node, "base_link"), height=1, width=len(points),
+                 point_step=12, row_step=12 * len(points), is_dense=True)
+    message.fields = [message_class("sensor_msgs/PointField")(name, 4 * i, 7, 1) for i, name in enumerate("xyz")]
+    message.data = b"".join(struct.pack("<fff", *point) for point in points)
+    return message
+
+
+def goal_id(node):
+    now = node.clock.now()
+    return {"id": uuid.uuid4().hex, "stamp": {"secs": now.secs, "nsecs": now.nsecs}}
+
+
+def drive_goal(node):
+    goal = of("grid_path_planner/NavigatePathActionGoal", header=header(node), goal_id=goal_id(node))
+    goal.goal.path = path(node)
+    return goal
+
+
+def plan_goal(node):
+    goal = of("grid_path_planner/PlanPathActionGoal", header=header(node), goal_id=goal_id(node))
+    goal.goal.start, goal.goal.goal = pose_stamped(node), pose_stamped(node)
+    goal.goal.start.pose.position.x = 0.5
+    return goal
+
+
+RIGHT = {
+    "nav_msgs/OccupancyGrid": grid, "map_msgs/OccupancyGridUpdate": update, "nav_msgs/Path": path,
+    "geometry_msgs/PoseStamped": pose_stamped, "geometry_msgs/PoseWithCovarianceStamped": initial_pose,
+    "sensor_msgs/Joy": joystick, "sensor_msgs/PointCloud2": cloud,
+    "geometry_msgs/Twist": lambda _: of("geometry_msgs/Twist", linear={"x": 0.5}),
+    "std_msgs/Bool": lambda _: of("std_msgs/Bool", data=False),
+    "grid_path_planner/NavigatePathActionGoal": drive_goal, "grid_path_planner/PlanPathActionGoal": plan_goal,
+    "actionlib_msgs/GoalID": lambda node: of("actionlib_msgs/GoalID", **goal_id(node)),
+    "tf2_msgs/TFMessage": lambda node: node.transforms(node.clock.now()),
+}
+
+
+def right(kind, node):
+    return RIGHT[kind](node)
+
+
+def until(node, answered, deadline, send=lambda: None, every=0.2):
+    """Sends again and again until it is answered. False after the deadline (monotonic), or when the node has ended."""
+    due = 0.0
+    while time.monotonic() < deadline and node.lives():
+        if answered():
+            return True
+        if time.monotonic() > due:
+            send()
+            due = time.monotonic() + every
+        time.sleep(0.02)
+    return False
+
+
+def moving(twist):
+    return twist.linear.x > 0.0
+
+
+def succeeds(node, action, goal, deadline, done):
+    """Sends the goal once, which has to be enough, and waits for `done(goal id)`."""
+    node.send(action + "/goal", goal)
+    return until(node, lambda: done(goal.goal_id.id), deadline)
+
+
+def status_of(node, action, identity):
+    for result in node.heard(action + "/result"):
+        if result.status.goal_id.id == identity:
+            return result.status.status
+    return None
+
+
+SUCCEEDED = 3
+
+
+def plans(node, deadline):
+    """By service and by action."""
+    request = get_service_class("nav_msgs/GetPlan")._request_class()
+    request.start, request.goal = initial_pose(node), pose_stamped(node)
+    request.start = pose_stamped(node)
+    request.start.pose.position.x = 0.5
+
+    def answered():
+        node.send("projected_map", grid(node))
+        answer = node.call("~make_plan", request)
+        return answer is not None and len(answer.plan.poses) > 1
+    return until(node, answered, deadline) and succeeds(
+        node, "plan_path", plan_goal(node), deadline,
+        lambda identity: status_of(node, "plan_path", identity) == SUCCEEDED)
+
+
+def drives(node, deadline):
+    """A path of the topic, then a goal of the action, which is cancelled at last."""
+    def offer():
+        node.send("manual_control", of("std_msgs/Bool", data=False))
+        node.send("stop", of("std_msgs/Bool", data=False))
+        node.send("projected_map", grid(node))
+        node.send("navigate_path/cancel", of("actionlib_msgs/GoalID"))
+        node.call("~cancel", get_service_class("std_srvs/Trigger")._request_class())
+        node.forget("cmd_vel")
+        node.send("path", path(node))
+
+    def is_driven():
+        return any(moving(twist) for twist in node.heard("cmd_vel"))
+    node.forget("cmd_vel")
+    if not until(node, is_driven, deadline, offer, every=0.5):
+        return False
+    goal = drive_goal(node)
+    fed = succeeds(node, "navigate_path", goal, deadline, lambda identity: any(
+        feedback.status.goal_id.id == identity and feedback.feedback.state == "driving"
+        for feedback in node.heard("navigate_path/feedback")))
+    node.send("navigate_path/cancel", of("actionlib_msgs/GoalID", id=goal.goal_id.id))
+    return fed and until(node, lambda: status_of(node, "navigate_path", goal.goal_id.id) is not None, deadline)
+
+
+def maps(node, deadline):
+    node.call("~reset", get_service_class("std_srvs/Empty")._request_class())
+    node.forget("projected_map")
+    return until(node, lambda: any(max(grid.data, default=0) == 100 for grid in node.heard("projected_map")), deadline,
+                 lambda: node.send("cloud_in", cloud(node)))
+
+
+def serves_a_map(node, deadline):
+    request = get_service_class("nav_msgs/GetMap")._request_class()
+
+    def answered():
+        answer = node.call("static_map", request)
+        return answer is not None and answer.map.info.width > 0
+    return until(node, answered, deadline)
+
+
+def moves(node, deadline):
+    """It stops before walls: the map is free first. It has its own time to catch up with when time jumped."""
+    node.send("projected_map", grid(node))
+    node.forget("ground_truth")
+
+    def moved():
+        truth = node.heard("ground_truth")
+        return bool(truth) and any(abs(odometry.twist.twist.linear.x) > 0.05 for odometry in truth)
+    there = of("geometry_msgs/Twist", linear={"x": 0.5})
+    return until(node, moved, deadline, lambda: node.send("cmd_vel", there), every=0.1)
+
+
+def takes_over(node, deadline):
+    node.send("stop", of("std_msgs/Bool", data=False))
+    node.forget("cmd_vel")
+    return until(node, lambda: any(moving(twist) for twist in node.heard("cmd_vel")), deadline,
+                 lambda: node.send("joy", joystick(node)), every=0.1)

@@ -1,0 +1,62 @@
+"""Every node of this package: what it hears, says and serves, and what it answers to right data.
+
+A row is complete: every_node_rostest.py compares it with what the running node has registered, and the names of the
+rows with nodelet_plugins.xml and the package's programs. Whoever adds a node adds a row.
+
+    inputs      topics that are subscribed, with their types; those of actions are under `actions`
+    outputs     topics that are published; /diagnostics, /rosout and those of dynamic_reconfigure are left out
+    services    private ones begin with ~
+    actions     name: type without its ending
+    arguments   of the program, so that it starts with nothing but a master; parameters go to the nodelet too
+    tf          whether it listens to tf, or publishes it
+    probe       of node_probes.py: gives right data and says whether the right answer came
+"""
+import collections
+
+import node_probes as probes
+
+Row = collections.namedtuple("Row", "inputs outputs services actions arguments tf probe")
+
+MAPS = {"projected_map": "nav_msgs/OccupancyGrid", "projected_map_updates": "map_msgs/OccupancyGridUpdate"}
+TRIGGER = "std_srvs/Trigger"
+
+NODES = {
+    "path_planner": Row(
+        inputs=dict(MAPS, goal="geometry_msgs/PoseStamped", initialpose="geometry_msgs/PoseWithCovarianceStamped"),
+        outputs={"path": "nav_msgs/Path", "planning_map": "nav_msgs/OccupancyGrid",
+                 "plan_statistics": "grid_path_planner/PlanStatistics",
+                 "search_markers": "visualization_msgs/MarkerArray",
+                 "rectangle_map": "grid_path_planner/RectangleMap",
+                 "rectangle_markers": "visualization_msgs/MarkerArray"},
+        services={"~make_plan": "nav_msgs/GetPlan", "~compare_plans": "grid_path_planner/ComparePlans",
+                  "~save_waypoints": "grid_path_planner/SaveWaypoints"},
+        actions={"plan_path": "grid_path_planner/PlanPath"},
+        arguments=["_publish_rectangles:=true"], tf="listens", probe=probes.plans),
+    "navigate_path": Row(
+        inputs=dict(MAPS, path="nav_msgs/Path", stop="std_msgs/Bool", manual_control="std_msgs/Bool"),
+        outputs={"cmd_vel": "geometry_msgs/Twist", "current_waypoint": "geometry_msgs/PoseStamped"},
+        services={"~pause": TRIGGER, "~resume": TRIGGER, "~cancel": TRIGGER},
+        actions={"navigate_path": "grid_path_planner/NavigatePath"},
+        arguments=["_no_progress_timeout:=0"], tf="listens", probe=probes.drives),
+    "projected_map": Row(
+        inputs={"cloud_in": "sensor_msgs/PointCloud2"},
+        outputs=dict(MAPS, occupied_cells_vis_array="visualization_msgs/MarkerArray",
+                     free_cells_vis_array="visualization_msgs/MarkerArray",
+                     octomap_point_cloud_centers="sensor_msgs/PointCloud2"),
+        services={"~reset": "std_srvs/Empty", "~clear_bbx": None, "~save_map": "grid_path_planner/SaveFile",
+                  "~save_octree": "grid_path_planner/SaveFile"},
+        actions={}, arguments=["_autosave_period:=0"], tf="listens", probe=probes.maps),
+    "map_publisher": Row(
+        inputs={}, outputs={"projected_map": "nav_msgs/OccupancyGrid", "map_metadata": "nav_msgs/MapMetaData"},
+        services={"static_map": "nav_msgs/GetMap"}, actions={},
+        arguments=["_filename:=projected_map.bag"], tf="", probe=probes.serves_a_map),
+    "simulator": Row(
+        inputs={"cmd_vel": "geometry_msgs/Twist", "projected_map": "nav_msgs/OccupancyGrid"},
+        outputs={"ground_truth": "nav_msgs/Odometry", "odom": "nav_msgs/Odometry", "contacts": "std_msgs/UInt32",
+                 "contact": "std_msgs/String"},
+        services={}, actions={}, arguments=["_publish_clock:=false"], tf="publishes", probe=probes.moves),
+    "teleop_joy": Row(
+        inputs={"joy": "sensor_msgs/Joy", "stop": "std_msgs/Bool"},
+        outputs={"cmd_vel": "geometry_msgs/Twist", "manual_control": "std_msgs/Bool"},
+        services={}, actions={}, arguments=[], tf="", probe=probes.takes_over),
+}

@@ -1,0 +1,190 @@
+"""A node of node_table.py that runs, as a process or as a nodelet, in a namespace and with a tf topic of its own."""
+import os
+import re
+import resource
+import subprocess
+import threading
+import time
+
+import rosgraph
+import roslib.packages
+import rospy
+from genpy import Time
+from roslib.message import get_service_class
+
+import node_probes as probes
+from message_classes import message_class
+PACKAGE = "grid_path_planner"
+MEMORY_LIMIT = 4 << 30  # bytes of address space: a length that a message claims is refused, not taken
+
+
+class Clock:
+    """The wall's, or one that is published here and begins where a simulation would."""
+
+    def __init__(self, simulated):
+        self.simulated = simulated
+        self.begin = time.monotonic()
+        if simulated:
+            from rosgraph_msgs.msg import Clock as Message
+            self.publisher, self.message = rospy.Publisher("/clock", Message, queue_size=10), Message
+            threading.Thread(target=self.run, daemon=True).start()
+
+    def now(self):
+        if not self.simulated:
+            return Time.from_sec(time.time())
+        return Time.from_sec(100.0 + time.monotonic() - self.begin)
+
+    def run(self):
+        while not rospy.is_shutdown():
+            try:
+                self.publisher.publish(self.message(clock=self.now()))
+            except rospy.ROSException:
+                return  # shut down meanwhile
+            time.sleep(0.02)
+
+
+def executable(name):
+    return os.path.join(os.environ["CMAKE_PREFIX_PATH"].split(":")[0], "lib", PACKAGE, name)
+
+
+def is_sanitized(program):
+    """A sanitizer needs more addresses than any limit allows."""
+    with open(program, "rb") as file:
+        return re.search(b"__(asan|tsan|msan)_init", file.read()) is not None
+
+
+def limit_memory():
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_LIMIT, MEMORY_LIMIT))
+
+
+class RunningNode:
+    def __init__(self, name, row, kind, clock, log_folder):
+        self.name, self.row, self.kind, self.clock = name, row, kind, clock
+        self.space = "/%s_as_%s" % (name, kind)
+        self.messages, self.publishers, self.processes = {}, {}, []
+        self.log = open(os.path.join(log_folder, self.space[1:] + ".log"), "w")
+        self.lock = threading.Lock()
+        self.start()
+        for topic, message_type in self.listened():
+            rospy.Subscriber(self.resolved(topic), message_class(message_type) or rospy.AnyMsg, self.keep, topic)
+        for topic, message_type in self.fed():
+            self.publishers[topic] = rospy.Publisher(self.resolved(topic), message_class(message_type),
+                                                     queue_size=1000, latch=topic == "projected_map")
+        if row.tf == "listens":
+            threading.Thread(target=self.feed_transforms, daemon=True).start()
+
+    def __str__(self):
+        return "%s as %s" % (self.name, self.kind)
+
+    def full_name(self):
+        return "%s/%s" % (self.space, self.name)
+
+    def resolved(self, topic):
+        return "/".join((self.full_name(), topic[1:]) if topic[0] == "~" else (self.space, topic))
+
+    def fed(self):
+        """Topics that it is to hear, with their types."""
+        topics = dict(self.row.inputs)
+        for action, kind in self.row.actions.items():
+            topics[action + "/goal"] = kind + "ActionGoal"
+            topics[action + "/cancel"] = "actionlib_msgs/GoalID"
+        if self.row.tf == "listens":
+            topics["tf"] = topics["tf_static"] = "tf2_msgs/TFMessage"
+        return topics.items()
+
+    def listened(self):
+        topics = dict(self.row.outputs)
+        for action, kind in self.row.actions.items():
+            topics[action + "/feedback"], topics[action + "/result"] = kind + "ActionFeedback", kind + "ActionResult"
+        return topics.items()
+
+    def start(self):
+        remaps = ["__ns:=" + self.space, "__name:=" + self.name, "/tf:=%s/tf" % self.space,
+                  "/tf_static:=%s/tf_static" % self.space] + self.row.arguments
+        if self.kind == "process":
+            self.run([executable(self.name)] + remaps)
+            return
+        nodelet = roslib.packages.find_node("nodelet", "nodelet")[0]
+        self.run([nodelet, "manager", "__ns:=" + self.space, "__name:=manager"])
+        self.run([nodelet, "load", "%s/%s" % (PACKAGE, self.name), "manager"] + remaps)
+
+    def run(self, command):
+        limited = not is_sanitized(executable(self.name))
+        self.processes.append(subprocess.Popen(command, stdout=self.log, stderr=subprocess.STDOUT,
+                                               preexec_fn=limit_memory if limited else None))
+
+    def lives(self):
+        return all(process.poll() is None for process in self.processes)
+
+    def keep(self, message, topic):
+        with self.lock:
+            self.messages.setdefault(topic, []).append(message)
+            del self.messages[topic][:-50]
+
+    def heard(self, topic):
+        with self.lock:
+            return list(self.messages.get(topic, ()))
+
+    def forget(self, topic):
+        with self.lock:
+            self.messages.pop(topic, None)
+
+    def send(self, topic, message):
+        self.publishers[topic].publish(message)
+
+    def call(self, service, request):
+        """None where there is no answer."""
+        kind = self.row.services[service]
+        try:
+            return rospy.ServiceProxy(self.resolved(service), get_service_class(kind))(request)
+        except (rospy.ServiceException, rospy.ROSException):
+            return None
+
+    def transforms(self, stamp):
+        message = message_class("tf2_msgs/TFMessage")()
+        transform = message_class("geometry_msgs/TransformStamped")()
+        transform.header.frame_id, transform.child_frame_id = "map", "base_link"
+        transform.header.stamp = stamp
+        transform.transform.translation.x = transform.transform.translation.y = 0.5
+        transform.transform.rotation.w = 1.0
+        message.transforms = [transform]
+        return message
+
+    def feed_transforms(self):
+        while not rospy.is_shutdown() and self.lives():
+            try:
+                self.send("tf", self.transforms(self.clock.now()))
+            except rospy.ROSException:
+                return  # shut down meanwhile
+            time.sleep(0.05)
+
+    def is_connected(self):
+        return self.lives() and all(publisher.get_num_connections() > 0 for topic, publisher in
+                                    self.publishers.items())
+
+    def registered(self):
+        """Its topics and services as the master has them: (inputs, outputs, services), without its namespace."""
+        names = {self.full_name()} if self.kind == "process" else {self.full_name(), self.space + "/manager"}
+        publishers, subscribers, services = rosgraph.Master("/every_node").getSystemState()
+        types = dict(rosgraph.Master("/every_node").getTopicTypes())
+
+        def of(entries):
+            return {name[len(self.space) + 1:]: types.get(name) for name, nodes in entries
+                    if names & set(nodes) and name.startswith(self.space + "/")}
+        return of(subscribers), of(publishers), of(services)
+
+    def right(self, message_type):
+        return probes.right(message_type, self)
+
+    def end(self, number):
+        """Sends the signal and returns the seconds until all of its processes had ended, None if they did not."""
+        begin = time.monotonic()
+        for process in reversed(self.processes):
+            process.send_signal(number)
+        for process in self.processes:
+            try:
+                process.wait(10)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                return None
+        return time.monotonic() - begin
