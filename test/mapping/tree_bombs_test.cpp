@@ -26,11 +26,11 @@ void addFullTree(int depth, Nodes& nodes) {
   for (int i = 0; depth > 1 && i < 8; ++i) addFullTree(depth - 1, nodes);
 }
 
-// A node with one child, the lowest, or with the highest instead, down to a voxel.
+// A node with one child, the lowest, or with the one above that instead, down to a voxel.
 void addChain(int depth, bool high, Nodes& nodes) {
   nodes.count += 1;
   const char label = depth == 1 ? 2 : 3;
-  nodes.bytes += high ? std::string{'\0', static_cast<char>(label << 6)} : std::string{label, '\0'};
+  nodes.bytes += high ? std::string{'\0', label} : std::string{label, '\0'};
   if (depth > 1) addChain(depth - 1, high, nodes);
 }
 
@@ -88,6 +88,8 @@ TEST_F(TreeBombs, ColumnsAsHighAsSpaceAreCountedBeforeTheyAreMade) {
 
 TEST_F(TreeBombs, ATreeThatFitsIsRead) {
   Nodes nodes;
+  for (int level = 0; level < 11; ++level) nodes.bytes += std::string{3, '\0'};
+  nodes.count += 11;
   addFullTree(5, nodes);
   const BoundedRun run = loading(fileOf(nodes));
   EXPECT_TRUE(run.ended);

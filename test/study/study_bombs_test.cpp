@@ -23,7 +23,7 @@ class StudyBombs : public testing::Test {
     const BoundedRun run = test::runBounded([&] { read(file); });
     EXPECT_TRUE(run.ended) << run;
     EXPECT_TRUE(contains(run.refusal, file)) << run;
-    EXPECT_LT(run.megabytes, 1000.0) << run;
+    EXPECT_LT(run.megabytes, 2100.0) << run;
     EXPECT_LT(run.cpu_seconds, 60.0) << run;
     return run;
   }

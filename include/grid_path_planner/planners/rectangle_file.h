@@ -1,4 +1,4 @@
-// A rectangle map in a compact file, whose bytes grid/rectangle_map_file.h describes.
+// A rectangle map in a compact file, whose bytes grid/formats/rectangle_map_file.h describes.
 //
 //   writeRectangleFile("site.rectangles", map);
 //   RectangleGraph same = readRectangleFile("site.rectangles", Touching::BORDERS);

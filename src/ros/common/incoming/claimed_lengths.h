@@ -40,7 +40,7 @@ class ClaimedLengths : public ros::serialization::Stream {
       step(count, ros::serialization::serializationLength(element));
     } else {
       // None is serialized to nothing: it holds an array, whose length alone is 4 bytes.
-      step(0, count);
+      require(count, 4);
       for (std::uint32_t i = 0; i < count; ++i) next(element);
     }
   }
@@ -52,11 +52,14 @@ class ClaimedLengths : public ros::serialization::Stream {
     return count;
   }
   void step(std::uint64_t count, std::uint64_t size) {
+    require(count, size);
+    advance(static_cast<std::uint32_t>(count * size));
+  }
+  void require(std::uint64_t count, std::uint64_t size) {
     if (count * size > getLength())
       throw base::InputError("it claims " + std::to_string(count) + " elements of " +
                              std::to_string(size) + " bytes in the last " +
                              std::to_string(getLength()));
-    advance(static_cast<std::uint32_t>(count * size));
   }
 };
 

@@ -1,0 +1,50 @@
+// path_planner where there is not enough memory for a map.
+#include "ros/support/planner_fixture.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using test::poseAt;
+using test::waitFor;
+
+class MemoryTest : public test::PlannerTest {};
+
+// Free, 1 m cells.
+grid::OccupancyGrid emptyMap(int side) {
+  grid::OccupancyGrid map(grid::GridGeometry(side, side, 1.0));
+  for (std::int8_t& value : map.values()) value = 0;
+  return map;
+}
+
+// A path_planner that may take so many KiB of address space. std::bad_alloc ended it.
+std::vector<std::string> limitedTo(int kibibytes, const std::string& arguments) {
+  return {"sh", "-c",
+          "ulimit -v " + std::to_string(kibibytes) +
+              " && exec " GPP_DEVEL
+              "/lib/grid_path_planner/path_planner _planner:=dijkstra "
+              "_timeout:=0 " +
+              arguments};
+}
+
+TEST_F(MemoryTest, MemoryThatIsNotThereIsAStatus) {
+  constexpr int kSide = 9000;
+  for (const char* limit : {"_memory_limit:=0", "_memory_limit:=1000000"}) {
+    startPlanner(std::make_unique<test::Process>(limitedTo(2500000, limit)));
+    maps_.publish(occupancyToMessage(emptyMap(kSide), "map", ros::Time::now()));
+    ASSERT_TRUE(waitFor([this] {
+      makePlan(poseAt(0.5, 0.5), poseAt(kSide - 0.5, kSide - 0.5));
+      return answer_.status != "NO_MAP";
+    }));
+    EXPECT_EQ(answer_.status, "INVALID_REQUEST") << answer_.message;
+    EXPECT_NE(answer_.message.find("memory"), std::string::npos) << answer_.message;
+    publishMap(emptyMap(10));
+    makePlan(poseAt(0.5, 0.5), poseAt(9.5, 9.5));
+    EXPECT_EQ(answer_.status, "FOUND") << answer_.message;
+    EXPECT_TRUE(planner_->running());
+    planner_.reset();
+    ASSERT_TRUE(waitFor([this] { return maps_.getNumSubscribers() == 0; }));
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
