@@ -2,6 +2,7 @@
 import os
 import re
 import resource
+import signal
 import subprocess
 import threading
 import time
@@ -15,6 +16,7 @@ from roslib.message import get_service_class
 import node_probes as probes
 from message_classes import message_class
 PACKAGE = "grid_path_planner"
+LATCHED = ("projected_map", "path")  # as those who publish them do
 MEMORY_LIMIT = 4 << 30  # bytes of address space: a length that a message claims is refused, not taken
 
 
@@ -69,7 +71,7 @@ class RunningNode:
             rospy.Subscriber(self.resolved(topic), message_class(message_type) or rospy.AnyMsg, self.keep, topic)
         for topic, message_type in self.fed():
             self.publishers[topic] = rospy.Publisher(self.resolved(topic), message_class(message_type),
-                                                     queue_size=1000, latch=topic == "projected_map")
+                                                     queue_size=1000, latch=topic in LATCHED)
         if row.tf == "listens":
             threading.Thread(target=self.feed_transforms, daemon=True).start()
 
@@ -175,6 +177,14 @@ class RunningNode:
 
     def right(self, message_type):
         return probes.right(message_type, self)
+
+    def restart(self):
+        """As after kill -9; what it said before is forgotten."""
+        self.end(signal.SIGKILL)
+        self.processes = []
+        with self.lock:
+            self.messages.clear()
+        self.start()
 
     def end(self, number):
         """Sends the signal and returns the seconds until all of its processes had ended, None if they did not."""
