@@ -9,7 +9,7 @@
 namespace grid_path_planner::fuzz {
 namespace {
 
-constexpr int kCopies = 50;  // of each seed
+constexpr int kCopies = 10;  // of each seed
 
 class FuzzReplay : public testing::TestWithParam<FuzzTarget> {};
 
