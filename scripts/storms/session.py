@@ -165,7 +165,7 @@ class Drive:
         from nav_msgs.msg import Path
         self.nodes, self.vehicle, self.ends = nodes, vehicle, ends
         self.goal_type, self.path, self.found, self.reason = PoseStamped, None, 0, "nothing"
-        self.end, self.stood = 1, False
+        self.end = 1
         self.goals = rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=1)
         rospy.Subscriber("path", Path, self.on_path)
         rospy.Subscriber("plan_statistics", PlanStatistics,
@@ -215,10 +215,9 @@ class Drive:
         self.vehicle.check_untouched()
 
     def seconds(self, seconds):
-        """Drives on for so long, wall clock, and keeps in `stood` whether the vehicle has stood."""
-        deadline, self.stood = time.monotonic() + seconds, False
+        """Drives on for so long, wall clock."""
+        deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:
-            self.stood = self.stood or self.vehicle.speed() < 0.02
             self.nodes.check()
             self.vehicle.check_untouched()
             if self.vehicle.distance(self.ends[self.end]) < THERE:
