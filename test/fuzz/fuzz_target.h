@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/read_limits.h"
 
 namespace grid_path_planner::fuzz {
 
@@ -42,6 +43,11 @@ void mayRefuse(const Calls& calls) {
     calls();
   } catch (const base::InputError&) {
   }
+}
+
+// Of readers whose inputs may ask for much: 64 MB, 5 s.
+inline base::ReadLimits smallLimits() {
+  return base::ReadLimits({64, 5.0});
 }
 
 // Ends the program where it does not hold, in every build.

@@ -10,7 +10,8 @@ std::vector<std::string> seedsOfBmp() {
 }
 
 FUZZ_TARGET(bmp_image, seedsOfBmp) {
-  mayRefuse([&] { grid::decodeBmp(input, "fuzz.bmp", checkSizeOfPicture); });
+  LimitsOfPicture picture;
+  mayRefuse([&] { grid::decodeBmp(input, "fuzz.bmp", picture.limits()); });
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/base/errors.h"
+#include "fuzz/fuzz_target.h"
+#include "grid/formats/image_formats.h"
 
 namespace grid_path_planner::fuzz {
 
@@ -20,10 +21,15 @@ inline std::string encodedPicture(const std::string& extension, int channels,
   return {bytes.begin(), bytes.end()};
 }
 
-// Pictures that are larger are another matter: what memory they may take.
-inline void checkSizeOfPicture(int width, int height) {
-  constexpr long kMostPixels = 1L << 20;
-  if (static_cast<long>(width) * height > kMostPixels) throw base::InputError("too large");
-}
+// Of which each picture that is read takes its part.
+class LimitsOfPicture {
+ public:
+  grid::ImageLimits limits() {
+    return {[](int, int) {}, limits_};
+  }
+
+ private:
+  base::ReadLimits limits_ = smallLimits();
+};
 
 }  // namespace grid_path_planner::fuzz

@@ -11,7 +11,8 @@ std::vector<std::string> seedsOfJpeg() {
 }
 
 FUZZ_TARGET(jpeg_image, seedsOfJpeg) {
-  mayRefuse([&] { grid::decodeJpeg(input, "fuzz.jpg", checkSizeOfPicture); });
+  LimitsOfPicture picture;
+  mayRefuse([&] { grid::decodeJpeg(input, "fuzz.jpg", picture.limits()); });
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ std::vector<std::string> seedsOfMaps() {
 }
 
 FUZZ_TARGET(moving_ai_map, seedsOfMaps) {
-  mayRefuse([&] { grid::parseMovingAi(input, "fuzz.map", {}); });
+  grid::MapFileOptions options;
+  mayRefuse([&] { grid::parseMovingAi(input, "fuzz.map", options); });
 }
 
 }  // namespace

@@ -18,7 +18,9 @@ std::vector<std::string> seedsOfDumps() {
 
 FUZZ_TARGET(occupancy_dump, seedsOfDumps) {
   if (!grid::looksLikeOccupancyDump(input)) return;
-  mayRefuse([&] { grid::checkOccupancyValues(grid::parseOccupancyDump(input, "fuzz.txt", {})); });
+  grid::MapFileOptions options;
+  mayRefuse(
+      [&] { grid::checkOccupancyValues(grid::parseOccupancyDump(input, "fuzz.txt", options)); });
 }
 
 }  // namespace

@@ -3,8 +3,9 @@
 
 #include "fuzz/fuzz_target.h"
 #include "grid/formats/byte_order.h"
+#include "grid/formats/rectangle_map_file.h"
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/grid/rectangle_map_file.h"
+#include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/planners/rectangle_graph.h"
 
 namespace grid_path_planner::fuzz {
@@ -28,9 +29,10 @@ FUZZ_TARGET(rectangle_file, seedsOfRectangles) {
   sum.process_bytes(input.data(), input.size());
   std::string content = input;
   grid::putInteger(content, sum.checksum(), 4);
+  grid::MapFileOptions options;
   mayRefuse([&] {
     const grid::RectangleMap map = grid::parseRectangles(content, "fuzz.rectangles");
-    if (map.geometry.size() < 1000000) grid::parseRectangleMap(content, "fuzz.rectangles", {});
+    if (map.geometry.size() < 1000000) grid::parseRectangleMap(content, "fuzz.rectangles", options);
     planners::RectangleGraph(map.geometry, map.rectangles, planners::Touching::BORDERS);
   });
 }

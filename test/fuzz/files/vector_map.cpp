@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "fuzz/fuzz_target.h"
 #include "grid/formats/drawing_file.h"
 #include "grid_path_planner/base/yaml_file.h"
@@ -17,21 +15,12 @@ std::vector<std::string> seedsOfDrawings() {
       "{vector_map: {size: [1, 1], resolution: 1, obstacles: []}}"};
 }
 
-// At most 64 cells along the longer side: what memory drawings may take is another matter.
-double fewCells(const YAML::Node& size) {
-  double longest = 1.0;
-  for (const YAML::Node& side : size) longest = std::max(longest, side.as<double>(1.0));
-  return std::isfinite(longest) ? longest / 64.0 : 1.0;
-}
-
 FUZZ_TARGET(vector_map, seedsOfDrawings) {
   mayRefuse([&] {
     const YAML::Node root = base::parseYaml(input, "fuzz.yaml");
     if (!grid::looksLikeVectorMap(root)) return;
     grid::MapFileOptions options;
-    const YAML::Node map = root["vector_map"];
-    if (map.IsMap() && map["size"] && map["size"].IsSequence())
-      options.resolution = fewCells(map["size"]);
+    options.limits = smallLimits();
     grid::checkOccupancyValues(grid::readVectorMap(root, "fuzz.yaml", options));
   });
 }

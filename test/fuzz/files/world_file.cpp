@@ -1,5 +1,10 @@
+// What the process that reads a world does, without that process.
+#include <utility>
+
 #include "fuzz/fuzz_target.h"
 #include "grid_path_planner/simulation/world.h"
+#include "simulation/mesh_bytes.h"
+#include "simulation/world_meshes.h"
 
 namespace grid_path_planner::fuzz {
 namespace {
@@ -27,7 +32,12 @@ FUZZ_TARGET(world_file, seedsOfWorlds) {
   static const std::string mesh =
       fileOf("fuzz_mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n");
   const std::string file = fileOf("fuzz.sdf", input);
-  mayRefuse([&] { simulation::readWorld(file).nearest({0.1, 0.2, 0.3}, 10.0); });
+  mayRefuse([&] {
+    simulation::WorldMeshes meshes =
+        simulation::worldMeshesFrom(simulation::bytesOf(simulation::readWorldMeshes(file)));
+    simulation::World(std::move(meshes.solid), std::move(meshes.visible))
+        .nearest({0.1, 0.2, 0.3}, 10.0);
+  });
 }
 
 }  // namespace
