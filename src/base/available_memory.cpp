@@ -3,7 +3,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -15,9 +14,9 @@ constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
 // "max" and the empty text are no limit.
 std::size_t bytesOf(const std::string& digits) {
+  std::istringstream text(digits);
   std::size_t bytes = 0;
-  const char* end = digits.data() + digits.size();
-  return std::from_chars(digits.data(), end, bytes).ec == std::errc() ? bytes : kNoLimit;
+  return text >> bytes ? bytes : kNoLimit;
 }
 
 std::size_t machineMemory(const std::string& root) {

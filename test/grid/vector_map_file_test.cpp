@@ -118,6 +118,8 @@ TEST_F(VectorMapFile, MistakesAreToldWithFileAndLine) {
   expect(errorOfObstacle("3"), "an obstacle must be one of polygon");
   expect(errorOfObstacle("{polygon: [[0, 0], [1, 1], [2, 0]], circle: 3}"), "got 2 entries");
   expect(errorOf("vector_map: {size: [8, 5], origin: [0, 0], obstacles: []}\n"), "got 'origin'");
+  expect(errorOf("vector_map: {[8, 5]: 1}\n"), "got a list");  // an exception of yaml-cpp went on
+  expect(errorOfObstacle("{[1, 1]: circle}"), "got a list");
   expect(errorOf("vector_map: 3\n"), "size");
   expect(errorOf("vector_map: {size: [8, 5], obstacles: []}\n"), "resolution");
   expect(errorOf("vector_map: {size: [8, 5], resolution: 0, obstacles: []}\n"), "resolution");

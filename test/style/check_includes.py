@@ -23,7 +23,7 @@ PLANNER_FLOORS = {
 }
 # Private headers that rooms above include too, though no other package should.
 LENT = {
-    "base/available_memory.h": {"planners", "ros_common", "ros_planning"},
+    "base/available_memory.h": {"planners"},
     "base/child_process.h": {"simulation"},
     "base/current_error.h": {"ros_common", "ros_driving", "ros_planning", "ros_simulation"},
     "base/deflate.h": {"grid", "planners"},

@@ -30,6 +30,26 @@ CONTEXT = {
     "cloud_queue.h": "extern const FrameTransforms transforms; extern CloudQueueOptions options;"
                      "extern sensor_msgs::PointCloud2::ConstPtr cloud;",
     "cloud_reader.h": "extern sensor_msgs::PointCloud2::ConstPtr message;",
+    "read_limits.h": "extern ReadOptions options; extern StopToken stop_token; extern std::string file;"
+                     "extern std::size_t cells; extern int row, height; void readRow(int);",
+    "child_process.h": "extern std::string file; extern ReadLimits limits;",
+    "drawn_shapes.h": "extern OccupancyGrid map; extern double resolution; extern std::string file;"
+                      "extern ReadLimits limits;",
+    "action_stamps.h": "#include <actionlib_msgs/GoalID.h>\nextern actionlib_msgs::GoalID goal_id;",
+    "end_of_node.h": """#include "grid_path_planner/simulation/world.h"
+        extern std::string file; extern ReadOptions read_options;""",
+    "bounded_subscription.h": """#include <map_msgs/OccupancyGridUpdate.h>
+        extern ros::NodeHandle nh; void use(const map_msgs::OccupancyGridUpdate&);""",
+    "claimed_lengths.h": """#include <nav_msgs/OccupancyGrid.h>
+        #include <nav_msgs/Path.h>
+        extern std::uint8_t* bytes; extern std::uint32_t length; extern ros::NodeHandle nh;
+        extern ros::Subscriber subscriber; void onPath(const nav_msgs::Path&);""",
+    "service_caller.h": """#include <ros/service_server.h>
+        #include <nav_msgs/GetPlan.h>
+        extern ros::ServiceServer service; bool answered(); void waitAWhile();
+        extern ros::ServiceEvent<nav_msgs::GetPlan::Request, nav_msgs::GetPlan::Response> event;""",
+    "planning_lane.h": """extern MapReceiver maps; extern std::size_t reader; extern FrameTransforms transforms;
+        extern PlanningRequest request; extern PathPlannerNodeOptions options; void use(const Plan&);""",
     "connections.h": "extern std::vector<CellRect> rectangles;",
     "conversions.h": "extern geometry_msgs::PoseStamped message; extern Path path;"
                      "extern ros::Publisher publisher;",

@@ -2,11 +2,10 @@
 // their number, or ask for more steps than anyone waits for; so every reader of the package asks
 // these limits before it takes memory, and again and again while it works.
 //
-//   OccupancyGrid readMap(const std::string& file, ReadLimits limits) {
-//     limits.start();                                       // the time runs from here
-//     limits.take(file, cells);                             // before the cells are made
-//     for (ReadPoll poll(limits, file); row < height; ++row) poll(), readRow(row);
-//   }
+//   ReadLimits limits(options, stop_token);
+//   limits.start();                                       // the time runs from here
+//   limits.take(file, cells);                             // before the cells are made
+//   for (ReadPoll poll(limits, file); row < height; ++row) poll(), readRow(row);
 //
 // All failures are InputErrors that name the file and the option to raise. Not counted: what the
 // caller makes of the result afterwards.

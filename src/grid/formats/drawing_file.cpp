@@ -73,8 +73,8 @@ class ObstacleReader {
     if (node["circle"]) return drawCircle(node["circle"]);
     if (node["wall"]) return drawWall(node["wall"]);
     throw yamlError(node, file_,
-                    std::string("an obstacle must be ") + kShape + ", got '" +
-                        node.begin()->first.as<std::string>() + "'");
+                    std::string("an obstacle must be ") + kShape + ", got " +
+                        describeYaml(node.begin()->first));
   }
 
   // How many walls and circles may have gaps.
@@ -126,10 +126,11 @@ class ObstacleReader {
 void checkKeys(const YAML::Node& drawing, const std::string& file) {
   if (!drawing.IsMap()) return;  // told by whoever looks for a key
   for (const auto& entry : drawing) {
-    const auto key = entry.first.as<std::string>();
+    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
     if (key != "size" && key != "resolution" && key != "obstacles")
-      throw yamlError(entry.first, file,
-                      "a vector_map has size, resolution and obstacles, got '" + key + "'");
+      throw yamlError(
+          entry.first, file,
+          "a vector_map has size, resolution and obstacles, got " + describeYaml(entry.first));
   }
 }
 

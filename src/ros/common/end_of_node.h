@@ -1,7 +1,7 @@
 // Tells work that a node waits for, above all reading a file, that the node is to end.
 //
 //   const EndOfNode end;
-//   readWorld(file, {options, end.token()});    // gives up on SIGTERM, rosnode kill, unload by shutdown
+//   readWorld(file, {read_options, end.token()});    // gives up on SIGTERM, rosnode kill, unload by shutdown
 //
 // A node's main thread and a nodelet's onInit look at no signal while they wait; a thread of this looks
 // for them, for as long as it lives.

@@ -1,6 +1,6 @@
 // Answers requests on the newest map in a thread of its own, with a planner and costmaps of its own.
 //
-//   PlanningLane lane(maps, reader, transforms);
+//   PlanningLane lane(maps, reader, transforms, nullptr);
 //   lane.worker().post([&](const StopSource& stop) { use(lane.plan(request, options, stop)); });
 //
 // path_planner has two: in one it follows the map and plans for the vehicle, in the other it answers

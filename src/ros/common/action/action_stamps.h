@@ -1,7 +1,7 @@
 // Goals and cancels of an action in the order in which they come, whatever their stamps say.
 //
 //   ActionStamps stamps;
-//   goal.goal_id.stamp = stamps.ofGoal(ros::Time::now());
+//   goal_id.stamp = stamps.ofGoal(ros::Time::now());
 //
 // actionlib orders goals by the stamps that their senders give. One goal stamped 2^32 - 1 s makes a
 // SimpleActionServer refuse every later one, as does /clock that begins anew; a cancel stamped so

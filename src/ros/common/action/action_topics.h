@@ -1,17 +1,8 @@
 // The topics of an action server, with the stamps of ActionStamps instead of the senders'.
 //
-//   // in a header that everything includes which has such a server:
-//   namespace actionlib {
-//   template <>
-//   void ActionServer<FooAction>::initialize();
-//   }
-//   // in one .cpp:
-//   template <>
-//   void actionlib::ActionServer<FooAction>::initialize() {
-//     nodes::openActionTopics(*this, node_,
-//                             {goal_sub_, cancel_sub_, result_pub_, feedback_pub_, status_pub_});
-//     status_list_timeout_ = ...; status_timer_ = ...;
-//   }
+// A header that everything includes which has such a server declares a specialization of
+// actionlib::ActionServer<FooAction>::initialize(); one source defines it by openActionTopics(), which
+// takes the server's own members, and by its status timer (plan_action.cpp).
 //
 // A member of the library's class is specialized because SimpleActionServer makes its ActionServer
 // itself. What it replaces does the same but for the stamps and for parameters that nobody sets.

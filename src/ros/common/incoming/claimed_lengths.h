@@ -1,7 +1,7 @@
 // Whether a message in its serialized form holds what its lengths claim, asked before it is unpacked.
 //
 //   checkClaimedLengths<nav_msgs::OccupancyGrid>(bytes, length);     // throws InputError
-//   subscriber = subscribeChecked<nav_msgs::Path>(nh, "path", 1, callback);
+//   subscriber = subscribeChecked<nav_msgs::Path>(nh, "path", 1, onPath);
 //
 // roscpp makes room for as many elements as a message claims to have before it looks whether they are
 // there: 200 bytes that claim 2^32 - 1 cells take 4 GB and seconds, before they are refused. Here

@@ -1,8 +1,7 @@
 // Who waits for the answer to a service call, and whether they still do.
 //
-//   bool ask(ros::ServiceEvent<Request, Response>& event) {
-//     const ServiceCaller caller(service_.getService(), event.getConnectionHeader());
-//     while (!ticket.waitFor(milliseconds(20))) if (caller.gone()) ticket.cancel();
+//   const ServiceCaller caller(service.getService(), event.getConnectionHeader());
+//   while (!answered() && !caller.gone()) waitAWhile();
 //
 // roscpp notices at once that a client has closed its connection, or died, and says so to nobody: a
 // call is computed to its end for no one. This asks the connection itself.
