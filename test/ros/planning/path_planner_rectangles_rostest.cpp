@@ -123,7 +123,7 @@ TEST_F(PathPlannerRectanglesTest, PlansDoNotWaitForTheRectangles) {
 }
 
 TEST_F(PathPlannerRectanglesTest, AMapThatWouldTakeTooMuchMemoryIsRefused) {
-  startPlanner({"_publish_rectangles:=true", "_memory_limit:=10"});  // 4 to plan, 15 to cut
+  startPlanner({"_publish_rectangles:=true", "_memory_limit:=5"});  // costmaps take 4
   publishMap(kRoom);
   expectRectanglesOf(kRoom, 0);
   OccupancyGrid stripes(GridGeometry(600, 600, 1.0));
@@ -131,7 +131,7 @@ TEST_F(PathPlannerRectanglesTest, AMapThatWouldTakeTooMuchMemoryIsRefused) {
   const std::size_t seen = log_.count();
   publishMap(stripes);
   EXPECT_TRUE(log_.waitFor(seen, [](const rosgraph_msgs::Log& line) {
-    return line.msg.find("more than memory_limit, 10 MB: they are not published") !=
+    return line.msg.find("more than memory_limit, 5 MB: they are not published") !=
            std::string::npos;
   }));
   EXPECT_EQ(maps_told_.count(), 1u);
