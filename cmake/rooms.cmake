@@ -42,8 +42,8 @@ endfunction()
 # gpp_add_room(<room> [FOLDER folder] [UNITY] [APART source...] [ROOMS room...] [LIBRARIES library...])
 # The library grid_path_planner_<room> from all sources below src/<folder> (default: src/<room>).
 # UNITY: several sources are compiled as one, so no two of them have a name of an anonymous namespace in common; not
-# those that are named APART, where a class has members of such a type. costmap, grid, mapping and planners,
-# whose speed counts most, are not built so.
+# those that are named APART, where a class has members of such a type. costmap, grid and planners, whose
+# speed counts most, are not built so.
 function(gpp_add_room room)
   cmake_parse_arguments(ARG "UNITY" "FOLDER" "APART;ROOMS;LIBRARIES" ${ARGN})
   if(NOT ARG_FOLDER)
@@ -100,6 +100,6 @@ function(gpp_add_room_test room)
     endforeach()
     target_link_libraries(${target} ${PROJECT_NAME}_test_support gtest gtest_main)
     gpp_precompile_headers(${target} ${ARG_PRECOMPILED})
-    gpp_unite_sources(${target} 8)
+    gpp_unite_sources(${target} 16)
   endif()
 endfunction()

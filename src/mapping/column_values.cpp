@@ -7,11 +7,8 @@
 namespace grid_path_planner::mapping {
 namespace {
 
-constexpr int kKeyOfZero = 32768;  // of the voxel whose lower side is z = 0
 constexpr int kLargestKey = 65535;
 constexpr std::uint64_t kOnes = 0x0101010101010101;  // a 1 in every byte
-constexpr double kOnTheLattice =
-    1e-6;  // voxels; how near to a voxel's side a height counts as on it
 
 // For each cell a byte with a bit for each voxel, laid out as in a brick: all bricks united.
 using Seen = Brick;

@@ -8,6 +8,10 @@
 
 namespace grid_path_planner::mapping {
 
+constexpr int kKeyOfZero = 32768;  // of the voxel whose lower side is 0
+constexpr double kOnTheLattice =
+    1e-6;  // voxels; how near to a voxel's side a bound counts as on it
+
 // Voxels by the z of their keys, both ends included; empty where lowest > highest.
 struct VoxelBand {
   int lowest = 0;

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <cstdint>
 
+#include "mapping/column_values.h"
+
 namespace grid_path_planner::mapping {
 
 using grid::CellRect;
 
 namespace {
 
-constexpr int kKeyOfZero = 32768;   // of the voxel whose lower side is 0
 constexpr int kBricks = 65536 / 8;  // along a side
 constexpr int kBrickCells = 64;
 

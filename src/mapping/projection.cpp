@@ -18,10 +18,8 @@ using grid::OccupancyGrid;
 
 namespace {
 
-constexpr int kKeyOfZero = 32768;   // of the voxel whose lower side is 0
 constexpr int kBricks = 65536 / 8;  // along a side
 constexpr std::int64_t kMostCells = std::int64_t{1} << 28;
-constexpr double kOnTheLattice = 1e-6;  // cells; how near to a cell's side a bound counts as on it
 
 bool inOrder(BrickColumn a, BrickColumn b) {
   return a.y != b.y ? a.y < b.y : a.x < b.x;

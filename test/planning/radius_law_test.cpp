@@ -34,7 +34,7 @@ using Points = std::vector<Eigen::Vector2d>;
 
 constexpr double kRounding = 1e-6;  // m
 
-Pose randomPose(std::mt19937& random, const GridGeometry& geometry) {
+Pose randomRadiusPose(std::mt19937& random, const GridGeometry& geometry) {
   std::uniform_real_distribution<double> x(0.0, geometry.width()), y(0.0, geometry.height());
   Pose pose;
   const double column = x(random);
@@ -43,7 +43,7 @@ Pose randomPose(std::mt19937& random, const GridGeometry& geometry) {
 }
 
 // Noise, or blocks as rooms and walls are.
-OccupancyGrid randomMap(std::mt19937& random, int side) {
+OccupancyGrid randomRadiusMap(std::mt19937& random, int side) {
   const bool noise = random() % 2 == 0;
   OccupancyGrid map = test::randomOccupancy(random, side, noise ? 0.002 * (random() % 40) : 0.0,
                                             random() % 3 == 0 ? 0.03 : 0.0);
@@ -58,7 +58,7 @@ OccupancyGrid randomMap(std::mt19937& random, int side) {
   return OccupancyGrid(GridGeometry(map.width(), map.height(), 0.05, origin), map.values());
 }
 
-PlannerOptions randomOptions(std::mt19937& random) {
+PlannerOptions randomRadiusOptions(std::mt19937& random) {
   PlannerOptions options;
   options.planner = plannerNames()[random() % plannerNames().size()];
   const PlannerTraits traits = traitsOf(options.planner);
@@ -160,14 +160,14 @@ TEST(RadiusLaw, NoPointOfAPathIsNearerThanItMay) {
   std::mt19937 random(13);
   int found = 0;
   for (int trial = 0; trial < 1500; ++trial) {
-    const OccupancyGrid map = randomMap(random, 48);
-    const PlannerOptions options = randomOptions(random);
+    const OccupancyGrid map = randomRadiusMap(random, 48);
+    const PlannerOptions options = randomRadiusOptions(random);
     SCOPED_TRACE("trial " + std::to_string(trial) + ' ' + describe(options, map));
     PathPlanner planner(options);
     planner.setMap(std::make_shared<const OccupancyGrid>(map));
     for (int query = 0; query < 3; ++query) {
-      const PoseRequest request{randomPose(random, map.geometry()),
-                                randomPose(random, map.geometry()), false};
+      const PoseRequest request{randomRadiusPose(random, map.geometry()),
+                                randomRadiusPose(random, map.geometry()), false};
       const Plan plan = planner.plan(request);
       if (plan.status != Status::FOUND) continue;
       ++found;

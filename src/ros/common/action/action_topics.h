@@ -2,7 +2,7 @@
 //
 // A header that everything includes which has such a server declares a specialization of
 // actionlib::ActionServer<FooAction>::initialize(); one source defines it by openActionTopics(), which
-// takes the server's own members, and by its status timer (plan_action.cpp).
+// takes the server's own members (plan_action.cpp).
 //
 // A member of the library's class is specialized because SimpleActionServer makes its ActionServer
 // itself. What it replaces does the same but for the stamps and for parameters that nobody sets.
@@ -29,12 +29,14 @@ struct ActionTopics {
   ros::Publisher& results;
   ros::Publisher& feedback;
   ros::Publisher& status;
+  ros::Timer& status_timer;
+  ros::Duration& status_timeout;
 };
 
 // `node` is the action's own namespace.
 template <class Action>
 void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHandle& node,
-                      const ActionTopics& topics) {
+                      const ActionTopics& topics, const ros::TimerCallback& publish_status) {
   using Goal = typename Action::_action_goal_type;
   using Cancel = actionlib_msgs::GoalID;
   topics.results = node.advertise<typename Action::_action_result_type>("result", kActionQueueSize);
@@ -56,6 +58,8 @@ void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHand
       };
   topics.goals = node.subscribe<Goal>("goal", kActionQueueSize, on_goal);
   topics.cancels = node.subscribe<Cancel>("cancel", kActionQueueSize, on_cancel);
+  topics.status_timeout = ros::Duration(kActionStatusTimeout);
+  topics.status_timer = node.createTimer(ros::Duration(kActionStatusPeriod), publish_status);
 }
 
 }  // namespace grid_path_planner::nodes
