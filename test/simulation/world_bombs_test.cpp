@@ -27,7 +27,7 @@ std::string worldOf(const std::string& content) {
   return "<sdf version='1.6'><world name='w'>" + content + "</world></sdf>";
 }
 
-std::string modelOf(const std::string& shapes) {
+std::string modelWith(const std::string& shapes) {
   return "<model name='m'><static>1</static><link name='l'>" + shapes + "</link></model>";
 }
 
@@ -79,14 +79,14 @@ TEST_F(WorldBombs, AMeshThatIsNamedAThousandTimesIsRefused) {
     obj += "v " + std::to_string(i) + " 1 2\nf 1 2 " + std::to_string(i + 4) + "\n";
   folder_.write("rock.obj", obj);
   for (int i = 0; i < 1000; ++i) visuals += meshVisual("v" + std::to_string(i), "rock.obj");
-  const BoundedRun run = reading(worldOf(modelOf(visuals)));
+  const BoundedRun run = reading(worldOf(modelWith(visuals)));
   expectBounded(run);
   if (!test::hasShadowMemory()) EXPECT_TRUE(contains(run.refusal, "read_")) << run;
 }
 
 TEST_F(WorldBombs, AMeshFileThatTakesTooMuchIsRefused) {
   folder_.write("faces.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + repeated("f 1 2 3\n", 1200000));
-  const BoundedRun run = reading(worldOf(modelOf(meshVisual("v", "faces.obj"))));
+  const BoundedRun run = reading(worldOf(modelWith(meshVisual("v", "faces.obj"))));
   expectBounded(run);
   if (!test::hasShadowMemory()) EXPECT_TRUE(contains(run.refusal, "read_")) << run;
 }
@@ -98,7 +98,7 @@ TEST_F(WorldBombs, ColladaWhoseCountsLieIsRefused) {
       "version='1.4.1'><library_geometries><geometry id='g'><mesh><source id='s'>"
       "<float_array id='a' count='4000000000'>0 0 0</float_array></source></mesh>"
       "</geometry></library_geometries></COLLADA>");
-  const BoundedRun run = reading(worldOf(modelOf(meshVisual("v", "count.dae"))));
+  const BoundedRun run = reading(worldOf(modelWith(meshVisual("v", "count.dae"))));
   expectBounded(run);
   EXPECT_NE(run.refusal, "");
 }
@@ -110,7 +110,7 @@ TEST_F(WorldBombs, BinaryMeshesWhoseCountsLieAreRefused) {
       "ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\nproperty float "
       "y\nproperty float z\nend_header\n0 0 0\n");
   for (const char* name : {"count.stl", "count.ply"}) {
-    const BoundedRun run = reading(worldOf(modelOf(meshVisual("v", name))));
+    const BoundedRun run = reading(worldOf(modelWith(meshVisual("v", name))));
     expectBounded(run);
     EXPECT_NE(run.refusal, "") << name;
   }
@@ -140,7 +140,7 @@ TEST_F(WorldBombs, AWorldOfMoreThanTheTimeAllowsIsRefused) {
 
 TEST_F(WorldBombs, NeitherProcessesNorDescriptorsAreLeft) {
   const std::string good =
-      folder_.write("good.sdf", worldOf(modelOf(visualOf("v", "<box><size>1 1 1</size></box>"))));
+      folder_.write("good.sdf", worldOf(modelWith(visualOf("v", "<box><size>1 1 1</size></box>"))));
   const std::string bad = folder_.write("bad.sdf", "<sdf");
   base::ReadOptions short_time;
   short_time.read_time_limit = 0.01;
@@ -155,7 +155,7 @@ TEST_F(WorldBombs, NeitherProcessesNorDescriptorsAreLeft) {
 TEST_F(WorldBombs, AReadingThatIsCancelledEndsAtOnceAndLeavesNothing) {
   const std::string file = folder_.write(
       "slow.sdf",
-      worldOf(modelOf(repeated(visualOf("v", "<box><size>1 1 1</size></box>"), 50000))));
+      worldOf(modelWith(repeated(visualOf("v", "<box><size>1 1 1</size></box>"), 50000))));
   const int descriptors = openDescriptors();
   base::StopSource stop;
   std::thread canceller([&stop] {
@@ -171,7 +171,7 @@ TEST_F(WorldBombs, AReadingThatIsCancelledEndsAtOnceAndLeavesNothing) {
 // A nodelet manager reads in one thread and makes whatever it makes in others.
 TEST_F(WorldBombs, SeveralThreadsReadAtTheSameTime) {
   const std::string file =
-      folder_.write("good.sdf", worldOf(modelOf(visualOf("v", "<box><size>1 1 1</size></box>"))));
+      folder_.write("good.sdf", worldOf(modelWith(visualOf("v", "<box><size>1 1 1</size></box>"))));
   std::vector<std::thread> threads;
   std::atomic<int> read{0};
   for (int i = 0; i < 4; ++i)
