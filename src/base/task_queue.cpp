@@ -105,9 +105,18 @@ void TaskQueue::run(Task& task) {
   try {
     task.work_(task.stop_);
   } catch (...) {
-    if (on_error_) on_error_(currentErrorText());
+    tellError();
   }
   end(task);
+}
+
+// Of the exception that is being handled. Telling may want memory that is not there: the thread
+// lives on.
+void TaskQueue::tellError() const noexcept {
+  try {
+    if (on_error_) on_error_(currentErrorText());
+  } catch (...) {
+  }
 }
 
 void TaskQueue::end(Task& task) {

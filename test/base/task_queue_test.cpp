@@ -123,6 +123,18 @@ TEST(TaskQueue, AReplacedTaskKeepsItsPlace) {
   EXPECT_EQ(order, (std::vector<int>{1, 2}));
 }
 
+// The owner makes itself anew where its memory ended: what it throws then would end the process.
+TEST(TaskQueue, AnOwnerThatThrowsWhenToldEndsNothing) {
+  std::atomic<int> told{0};
+  TaskQueue worker([&](const std::string&) {
+    ++told;
+    throw std::bad_alloc();
+  });
+  worker.post([](const StopSource&) { throw std::runtime_error("first"); })->wait();
+  worker.post([](const StopSource&) { throw std::bad_alloc(); })->wait();
+  EXPECT_EQ(told, 2);
+}
+
 // Goals at 1 kHz would keep the map waiting for ever.
 TEST(TaskQueue, ATaskIsOvertakenAFewTimesOnly) {
   std::vector<int> order;

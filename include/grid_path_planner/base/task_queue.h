@@ -9,7 +9,8 @@
 // Tasks run one at a time. A task that was cancelled before its turn is run too, with a stop source
 // that is cancelled already, so that every task comes to an end by itself and answers who asked. No
 // task runs in a caller's thread: one that is posted after stop() is not run at all, and has ended.
-// An exception ends its task and no other; the queue's owner is told of it.
+// An exception ends its task and no other; the queue's owner is told of it, and what the owner throws
+// then is dropped.
 #pragma once
 
 #include <chrono>
@@ -70,6 +71,7 @@ class TaskQueue {
 
   void loop();
   void run(Task& task);
+  void tellError() const noexcept;
   static void end(Task& task);
   void insert(const std::shared_ptr<Task>& task, Turn turn);
   Waiting::iterator overtake();

@@ -52,7 +52,6 @@ PlanningLane::PlanningLane(MapReceiver& maps, std::size_t reader, const FrameTra
       reader_(reader),
       transforms_(transforms),
       other_(other),
-      planner_(std::make_unique<PathPlanner>()),
       worker_([this](const std::string& error) {
         tellGivenUp("What follows a map", error);
         beginAnew();
@@ -129,10 +128,12 @@ PlanStatistics PlanningLane::statistics(const Plan& plan, const PlanningRequest&
 }
 
 double PlanningLane::cellSize(const Plan& plan) const {
-  return planner_->hasMap() ? planner_->map()->geometry().resolution() * plan.kernel : 1.0;
+  const bool has_map = planner_ && planner_->hasMap();
+  return has_map ? planner_->map()->geometry().resolution() * plan.kernel : 1.0;
 }
 
 void PlanningLane::updateMap() {
+  if (!planner_) planner_ = std::make_unique<PathPlanner>();
   const std::optional<MapChange> change = maps_.take(reader_);
   if (!anew_ && !change) return;
   const bool whole = std::exchange(anew_, true);  // until the map is taken
@@ -155,12 +156,12 @@ void PlanningLane::setOptions(const PlannerOptions& options) {
   planner_->limitMemory(limit - std::min(limit, other_ ? other_->bytes_.load() : 0));
 }
 
-// An exception may have left the costmaps or the planner half made; and what they held is free.
+// An exception may have left the costmaps or the planner half made. Nothing is made here: after a
+// std::bad_alloc there may be no memory for it yet.
 void PlanningLane::beginAnew() {
   anew_ = true;
   planner_.reset();
   bytes_ = 0;
-  planner_ = std::make_unique<PathPlanner>();
 }
 
 std::shared_ptr<const CostGrid> PlanningLane::downsampledCosts(

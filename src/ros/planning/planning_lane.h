@@ -70,8 +70,9 @@ class PlanningLane {
   const std::size_t reader_;
   const FrameTransforms& transforms_;
   const PlanningLane* const other_;
-  std::atomic<std::size_t> bytes_{0};               // that the planner holds
-  std::unique_ptr<planning::PathPlanner> planner_;  // the worker's, as are the next two
+  std::atomic<std::size_t> bytes_{0};  // that the planner holds
+  // The worker's, as are the next two; null before updateMap().
+  std::unique_ptr<planning::PathPlanner> planner_;
   std::string map_frame_id_;
   bool anew_ = false;  // the newest map is taken whole
   base::TaskQueue worker_;
