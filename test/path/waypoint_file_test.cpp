@@ -192,14 +192,6 @@ TEST(WaypointFile, TheYawOfATiltedWaypointIsTakenAndItsTiltTold) {
   EXPECT_EQ(published.path.poses[1].yaw, 0.0);
 }
 
-TEST(WaypointFile, TheTiltOfLevelWaypointsIsNone) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(readWaypointFile(folder.write("a.yaml", "waypoints:\n" + entry("x: 0, y: 0, z: 0",
-                                                                           "z: 0.745, w: 0.663")))
-                .tilt,
-            0.0);
-}
-
 TEST(WaypointFile, ALargeTiltIsRefused) {
   for (const std::string tilted : {"x: 0.5, y: 0, z: 0, w: 1", "x: 0, y: -0.4, z: 0.7, w: 0.7",
                                    "x: 1, y: 0, z: 0, w: 0", "x: 1e300, y: 1e300, z: 1, w: 1"}) {
