@@ -18,129 +18,41 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/costmap/costmap_builder.h"
-#include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/path/path_image.h"
-#include "grid_path_planner/planners/decomposition.h"
-#include "grid_path_planner/planners/map_sizes.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "planners/any_angle/polyanya.h"
 #include "planners/rectangles/rectangle_map_planner.h"
+#include "rectangle_sizes_report.h"
 
 namespace {
 
 using grid_path_planner::base::Status;
 using grid_path_planner::base::StopToken;
+using grid_path_planner::benchmark::costmapOf;
+using grid_path_planner::benchmark::Drawing;
+using grid_path_planner::benchmark::kCampus;
+using grid_path_planner::benchmark::kComplex;
+using grid_path_planner::benchmark::kIndoor;
+using grid_path_planner::benchmark::kSimple;
+using grid_path_planner::benchmark::printBytes;
+using grid_path_planner::benchmark::printCounts;
+using grid_path_planner::benchmark::rectanglesOf;
+using grid_path_planner::benchmark::render;
 using grid_path_planner::costmap::Connectivity;
 using grid_path_planner::costmap::CostGrid;
-using grid_path_planner::costmap::CostmapBuilder;
-using grid_path_planner::costmap::CostmapOptions;
-using grid_path_planner::costmap::Outside;
 using grid_path_planner::grid::Cell;
-using grid_path_planner::grid::MapFileOptions;
 using grid_path_planner::grid::OccupancyGrid;
-using grid_path_planner::grid::readMapFile;
 using grid_path_planner::path::PictureContent;
 using grid_path_planner::path::writePicture;
-using grid_path_planner::planners::largestFirst;
 using grid_path_planner::planners::makePlanner;
-using grid_path_planner::planners::MapSizes;
-using grid_path_planner::planners::mapSizes;
 using grid_path_planner::planners::Planner;
 using grid_path_planner::planners::Polyanya;
-using grid_path_planner::planners::RectangleGraph;
 using grid_path_planner::planners::RectangleMapPlanner;
 using grid_path_planner::planners::RectangleWeight;
 using grid_path_planner::planners::SearchOptions;
 using grid_path_planner::planners::SearchResult;
-using grid_path_planner::planners::Touching;
 
 bool failed = false;
-
-// ---- Maps
-
-struct Drawing {
-  const char* name;
-  double side;            // m
-  double from_x, from_y;  // m; the path across the map
-  double to_x, to_y;
-};
-
-const Drawing kIndoor{"indoor", 40, 6, 37, 30, 4.5};
-const Drawing kCampus{"campus", 160, 4, 4, 156, 156};
-const Drawing kComplex{"complex", 64, 2, 2, 62, 62};
-const Drawing kSimple{"simple", 64, 2, 2, 62, 62};
-
-OccupancyGrid render(const std::string& folder, const Drawing& drawing, int cells) {
-  MapFileOptions options;
-  options.resolution = drawing.side / cells;
-  return readMapFile(folder + "/" + drawing.name + ".yaml", options);
-}
-
-std::shared_ptr<const CostGrid> costmapOf(const OccupancyGrid& map,
-                                          Connectivity connectivity = Connectivity::EIGHT) {
-  CostmapOptions options;
-  options.motion.connectivity = connectivity;
-  options.outside = Outside::FREE;
-  CostmapBuilder builder(options);
-  builder.setMap(std::make_shared<const OccupancyGrid>(map));
-  return builder.downsampled(StopToken());
-}
-
-RectangleGraph rectanglesOf(const OccupancyGrid& map) {
-  const auto costmap = costmapOf(map);
-  return RectangleGraph(map.geometry(),
-                        largestFirst(costmap->bitMaps(StopToken()), {}, StopToken()),
-                        Touching::BORDERS);
-}
-
-// ---- Counts and bytes
-
-struct Resolution {
-  int cells;
-  int published_cells;       // 0: not published
-  int published_rectangles;  // 0: not published
-};
-
-void printCounts(const std::string& folder, const Drawing& drawing,
-                 const std::vector<Resolution>& resolutions) {
-  std::printf(
-      "| cells a side | free cells | growth | rectangles | growth | published: free cells | growth "
-      "| rectangles | growth |\n|---|---|---|---|---|---|---|---|---|\n");
-  std::vector<double> before(4, 0.0);
-  for (const Resolution& resolution : resolutions) {
-    const RectangleGraph map = rectanglesOf(render(folder, drawing, resolution.cells));
-    const std::vector<double> now = {double(map.freeCells()), double(map.rectangles().size()),
-                                     double(resolution.published_cells),
-                                     double(resolution.published_rectangles)};
-    std::printf("| %d |", resolution.cells);
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      std::printf(" %.0f |", now[i]);
-      if (before[i] > 0.0)
-        std::printf(" ×%.2f |", now[i] / before[i]);
-      else
-        std::printf(" |");
-    }
-    std::printf("\n");
-    before = now;
-  }
-  std::printf("\n");
-}
-
-void printBytes(const std::string& folder, const Drawing& drawing) {
-  std::printf(
-      "| cells a side | free cells | rectangles | entire map in bits | empty cells | rectangles, "
-      "listed | rectangles, our file | PNG | bits in zlib "
-      "|\n|---|---|---|---|---|---|---|---|---|\n");
-  for (const int cells : {10, 50, 250, 1250}) {
-    const RectangleGraph map = rectanglesOf(render(folder, drawing, cells));
-    const MapSizes sizes = mapSizes(map);
-    std::printf("| %d | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %zu |\n", cells, map.freeCells(),
-                map.rectangles().size(), sizes.entire_map, sizes.empty_cells, sizes.rectangles,
-                sizes.file, sizes.png, sizes.zlib);
-  }
-  std::printf("\n");
-}
 
 // ---- Planning
 
@@ -264,9 +176,12 @@ Measured measure(const Contender& contender, const OccupancyGrid& map,
   return measured;
 }
 
+Contender dijkstraOnCells() {
+  return {"Dijkstra on cells, 4-connected", "dijkstra", {}, Connectivity::FOUR};
+}
+
 std::vector<Contender> gridContenders() {
-  Contender dijkstra{"Dijkstra on cells, 4-connected", "dijkstra", {}, Connectivity::FOUR};
-  return {dijkstra, {"`jump_point`", "jump_point", {}}, {"`anya`", "anya", {}}};
+  return {dijkstraOnCells(), {"`jump_point`", "jump_point", {}}, {"`anya`", "anya", {}}};
 }
 
 std::vector<Contender> rectangleContenders() {
@@ -308,6 +223,15 @@ double meanExcess(const Measured& measured, const Measured& shortest) {
   return meanOf(ratios, measured);
 }
 
+// How many plans (of the mean time) the preparation and the plans take less time from than those of
+// `other`.
+std::string breakEven(const Measured& measured, const Measured& other) {
+  const double saved = meanOf(other.plan_ms, other) - meanOf(measured.plan_ms, measured);
+  const double spent = measured.prepare_ms - other.prepare_ms;
+  if (saved <= 0.0) return "never";
+  return std::to_string(std::max(0L, static_cast<long>(spent / saved)) + 1);
+}
+
 void printPlanning(const std::string& folder, const Drawing& drawing, int cells,
                    const std::vector<Contender>& contenders) {
   const OccupancyGrid map = render(folder, drawing, cells);
@@ -317,14 +241,20 @@ void printPlanning(const std::string& folder, const Drawing& drawing, int cells,
 
   std::printf("### %s, %d×%d\n\n", drawing.name, cells, cells);
   std::printf(
-      "| | elements | connections | prepared | across: expanded | time | length | through the "
-      "middles | 100 pairs: mean time | length ÷ shortest | through the middles |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "| | elements | connections | prepared | across: expanded | time | prepared and planned once "
+      "| ahead of Dijkstra from plan | length | through the middles | 100 pairs: mean time | "
+      "length "
+      "÷ shortest | through the middles "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  const Measured cells_searched = measure(dijkstraOnCells(), map, queries);
   for (const Contender& contender : contenders) {
     const Measured measured = measure(contender, map, queries);
-    std::printf("| %s | %zu | %zu | %.3f ms | %zu | %.1f µs | %.1f | ", contender.name.c_str(),
-                measured.elements, measured.connections, measured.prepare_ms, measured.expanded,
-                1e3 * measured.plan_ms.front(), measured.lengths.front());
+    std::printf("| %s | %zu | %zu | %.3f ms | %zu | %.1f µs | %.3f ms | %s | %.1f | ",
+                contender.name.c_str(), measured.elements, measured.connections,
+                measured.prepare_ms, measured.expanded, 1e3 * measured.plan_ms.front(),
+                measured.prepare_ms + measured.plan_ms.front(),
+                contender.planner == "dijkstra" ? "" : breakEven(measured, cells_searched).c_str(),
+                measured.lengths.front());
     std::optional<Measured> plain;
     if (contender.planner == "rectangle_map")
       plain = measure(throughTheMiddles(contender), map, queries);

@@ -9,7 +9,7 @@ from ros_session import START_SECONDS, Nodes, SessionFailed, Vehicle, free_port,
 BACK_SECONDS = 30.0  # for a node that was killed, an answer, and a vehicle that is to go on; of the wall clock of a
                      # machine that has nothing else to do, see patience()
 # x, y, z in m, yaw in rad: between them lies what stands on the demo's site, of which rocks and chains reach so high.
-ENDS = ((10.6115, -12.4845, 2.947, 1.7279), (1.2191, 4.8549, 2.883, 1.6864))
+ENDS = ((10.6115, -12.4845, 2.947, 2.464), (1.2191, 4.8549, 2.883, -1.478))
 BEGIN = ("initial_x", "initial_y", "initial_z", "initial_yaw")  # of the simulator
 SURVEY_SPEED = 4.0       # simulated seconds in one of the wall clock
 SURVEY_SECONDS = 1500.0  # of the wall clock, if nothing else ends it

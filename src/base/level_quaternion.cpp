@@ -7,22 +7,33 @@
 #include "grid_path_planner/base/errors.h"
 
 namespace grid_path_planner::base {
+namespace {
+
+[[noreturn]] void refuse(double x, double y, double z, double w, const std::string& reason) {
+  std::ostringstream text;
+  text << "orientation x " << x << " y " << y << " z " << z << " w " << w << ' ' << reason;
+  throw InputError(text.str());
+}
+
+}  // namespace
+
+YawAndTilt yawAndTiltOfQuaternion(double x, double y, double z, double w) {
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || !std::isfinite(w))
+    refuse(x, y, z, w, "must be finite");
+  const double length = std::hypot(std::hypot(x, y), std::hypot(z, w));
+  if (!(length >= 1e-6)) refuse(x, y, z, w, "has length zero");
+  if (!std::isfinite(length)) refuse(x, y, z, w, "is too long to be normalised");
+  const double a = x / length, b = y / length, c = z / length, d = w / length;
+  const double tilt = 2.0 * std::asin(std::fmin(1.0, std::hypot(a, b)));
+  if (a == 0.0 && b == 0.0) return {std::remainder(2.0 * std::atan2(c, d), 2.0 * M_PI), 0.0};
+  return {std::atan2(2.0 * (d * c + a * b), d * d + a * a - b * b - c * c), tilt};
+}
 
 double yawOfLevelQuaternion(double x, double y, double z, double w) {
-  const auto refuse = [&](const std::string& reason) {
-    std::ostringstream text;
-    text << "orientation x " << x << " y " << y << " z " << z << " w " << w << ' ' << reason;
-    throw InputError(text.str());
-  };
-  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || !std::isfinite(w))
-    refuse("must be finite");
-  const double length = std::hypot(std::hypot(x, y), std::hypot(z, w));
-  if (!(length >= 1e-6)) refuse("has length zero");
-  if (!std::isfinite(length)) refuse("is too long to be normalised");
-  const double tilt = 2.0 * std::asin(std::fmin(1.0, std::hypot(x, y) / length));
-  if (tilt > kLargestTilt)
-    refuse("must be level, but is tilted by " + std::to_string(tilt) + " rad");
-  return std::remainder(2.0 * std::atan2(z, w), 2.0 * M_PI);
+  const YawAndTilt of = yawAndTiltOfQuaternion(x, y, z, w);
+  if (of.tilt > kLargestTilt)
+    refuse(x, y, z, w, "must be level, but is tilted by " + std::to_string(of.tilt) + " rad");
+  return of.yaw;
 }
 
 }  // namespace grid_path_planner::base

@@ -13,12 +13,12 @@ namespace grid_path_planner::command_line {
 
 using base::InputError;
 using costmap::BitMaps;
-using grid::Cell, grid::CellRect, grid::GridGeometry, grid::OccupancyGrid, grid::RowOrder,
-    grid::rowOrderOf;
+using grid::CellRect, grid::GridGeometry, grid::OccupancyGrid, grid::RowOrder, grid::rowOrderOf;
 using planners::Connection, planners::countRuns, planners::DecompositionLimits,
     planners::DecompositionTooLarge, planners::freeCellsOf, planners::largestFirst,
     planners::largestFirstBytes, planners::mapSizes, planners::mergedRuns, planners::middleOf,
-    planners::RectangleGraph, planners::RectangleWeight, planners::Side, planners::stepWeight;
+    planners::BorderMiddle, planners::RectangleGraph, planners::RectangleWeight, planners::Side,
+    planners::stepWeight;
 
 namespace {
 
@@ -56,15 +56,14 @@ std::vector<CellRect> cutWithinMemory(const RectanglesRequest& request,
   }
 }
 
-// From centre to centre through the cells on both sides of the border's middle, in cells. A planner
+// From centre to centre through both sides of the border's middle, in cells. A planner
 // measures the same from where it crossed into `from`.
 double lengthThrough(const RectangleGraph& map, std::uint32_t from, const Connection& step) {
   const Eigen::Vector2d a = centreOf(map.rectangles()[from]),
                         b = centreOf(map.rectangles()[step.to]);
   if (step.side == Side::CORNER) return (a - b).norm();
-  const auto [outward, inward] = middleOf(map.rectangles()[from], step);
-  const auto centre = [](Cell cell) { return Eigen::Vector2d(cell.column + 0.5, cell.row + 0.5); };
-  return (centre(outward) - a).norm() + 1.0 + (centre(inward) - b).norm();
+  const BorderMiddle middle = middleOf(map.rectangles()[from], step);
+  return (middle.outward - a).norm() + 1.0 + (middle.inward - b).norm();
 }
 
 }  // namespace

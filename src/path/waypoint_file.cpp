@@ -21,7 +21,7 @@ namespace grid_path_planner::path {
 
 using base::describeYaml, base::InputError, base::kLargestYaml, base::OutputFile, base::parseYaml,
     base::readWholeFile, base::writeFileAtomically, base::yamlAs, base::yamlError, base::yamlHas,
-    base::yamlNode, base::yamlValueOr, base::yawOfLevelQuaternion;
+    base::yamlNode, base::yamlValueOr, base::YawAndTilt, base::yawAndTiltOfQuaternion;
 
 namespace {
 
@@ -31,14 +31,16 @@ class Entry {
   Entry(const YAML::Node& node, std::size_t number, const std::string& file)
       : node_(node), name_("waypoint " + std::to_string(number)), file_(file) {}
 
-  Pose pose() const {
+  void appendTo(WaypointFile& waypoints) const {
     const YAML::Node position = part("position");
     const YAML::Node orientation = part("orientation");
     Pose pose;
     for (int axis = 0; axis < 3; ++axis)
       pose.position[axis] = coordinate(position, std::string(1, "xyz"[axis]));
-    pose.yaw = yaw(orientation);
-    return pose;
+    const YawAndTilt turned = yawAndTilt(orientation);
+    pose.yaw = turned.yaw;
+    waypoints.path.poses.push_back(pose);
+    waypoints.tilt = std::max(waypoints.tilt, turned.tilt);
   }
 
  private:
@@ -70,12 +72,15 @@ class Entry {
         key + " of " + name_ + " must be within 1e6 m of 0, got " + describeYaml(position[key]));
   }
 
-  double yaw(const YAML::Node& orientation) const {
+  YawAndTilt yawAndTilt(const YAML::Node& orientation) const {
     const double x = orientation["x"] ? number(orientation, "x") : 0.0;
     const double y = orientation["y"] ? number(orientation, "y") : 0.0;
     const double z = number(orientation, "z"), w = number(orientation, "w");
     try {
-      return yawOfLevelQuaternion(x, y, z, w);
+      const YawAndTilt turned = yawAndTiltOfQuaternion(x, y, z, w);
+      if (turned.tilt <= kLargestWaypointTilt) return turned;
+      throw InputError("the orientation must tilt by at most 0.7 rad, got " +
+                       std::to_string(turned.tilt) + " rad");
     } catch (const InputError& error) {
       throw yamlError(orientation, file_, name_ + ": " + error.what());
     }
@@ -168,30 +173,30 @@ void checkCanBeRead(const std::string& file, const Path& path) {
 namespace {
 
 // Few letters may name many waypoints, by YAML's aliases.
-Path waypointsWithin(const std::string& file, base::ReadLimits& limits) {
+WaypointFile waypointsWithin(const std::string& file, base::ReadLimits& limits) {
   const std::string text = readWholeFile(file, kLargestYaml, limits);
   limits.check(file, text.size());  // a waypoint takes less than its text
-  if (std::optional<Path> plain = plainWaypoints(text)) return *std::move(plain);
+  if (std::optional<Path> plain = plainWaypoints(text)) return {*std::move(plain), 0.0};
   const YAML::Node root = parseYaml(text, file, limits);
   const YAML::Node waypoints = yamlNode(root, "waypoints", file, "a list of waypoints");
   if (!waypoints.IsSequence() || waypoints.size() == 0)
     throw yamlError(waypoints, file,
                     "waypoints must be a list of at least one waypoint, got " +
                         (waypoints.IsSequence() ? "an empty list" : describeYaml(waypoints)));
-  Path path;
-  path.frame_id = frameOf(root, file);
+  WaypointFile read;
+  read.path.frame_id = frameOf(root, file);
   limits.take(file, waypoints.size() * sizeof(Pose));
-  path.poses.reserve(waypoints.size());
+  read.path.poses.reserve(waypoints.size());
   for (const YAML::Node& node : waypoints) {
     limits.goOn(file);
-    path.poses.push_back(Entry(node, path.poses.size() + 1, file).pose());
+    Entry(node, read.path.poses.size() + 1, file).appendTo(read);
   }
-  return path;
+  return read;
 }
 
 }  // namespace
 
-Path readWaypointFile(const std::string& file, const base::ReadLimits& limits) {
+WaypointFile readWaypointFile(const std::string& file, const base::ReadLimits& limits) {
   return base::readWithin(file, limits,
                           [&](base::ReadLimits& within) { return waypointsWithin(file, within); });
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
@@ -32,6 +33,21 @@ TEST(LevelQuaternion, WhatHasNoLevelYawIsRefusedWithItsNumbers) {
   EXPECT_TRUE(contains(errorText([] { yawOfLevelQuaternion(0, 0.1, 0, 0.995); }), "must be level"));
   EXPECT_TRUE(contains(errorText([] { yawOfLevelQuaternion(1, 0, 0, 0); }), "must be level"));
   EXPECT_TRUE(contains(errorText([&] { yawOfLevelQuaternion(0, 0, nan, 1); }), "must be finite"));
+}
+
+// Yaw, then pitch, then roll, as vehicles turn: the pitch and the roll leave the yaw as it is.
+TEST(YawAndTilt, OfAnyTurnIsThatOfItsXAxisAndItsZAxis) {
+  for (const double yaw : {-3.0, -1.0, 0.0, 0.4, 2.5})
+    for (const double pitch : {-1.2, -0.1, 0.0, 0.6})
+      for (const double roll : {-2.5, -0.3, 0.0, 0.9}) {
+        const Eigen::Quaterniond turn = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+                                        Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+                                        Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
+        const YawAndTilt got =
+            yawAndTiltOfQuaternion(3 * turn.x(), 3 * turn.y(), 3 * turn.z(), 3 * turn.w());
+        EXPECT_NEAR(got.yaw, yaw, 1e-12);
+        EXPECT_NEAR(std::cos(got.tilt), (turn * Eigen::Vector3d::UnitZ()).z(), 1e-12);
+      }
 }
 
 TEST(LevelQuaternion, TheNoiseOfAFloatIsLevel) {

@@ -46,7 +46,7 @@ TEST(PlainWaypointsLaw, AreReadAsByTheYamlParser) {
     ASSERT_TRUE(plain) << text;
     write(slow, "# by the parser\n" + text);
     EXPECT_FALSE(plainWaypoints(contentOf(slow)));
-    const Path parsed = readWaypointFile(slow);
+    const Path parsed = readWaypointFile(slow).path;
     EXPECT_EQ(plain->frame_id, parsed.frame_id);
     ASSERT_EQ(plain->poses.size(), parsed.poses.size());
     for (std::size_t i = 0; i < parsed.poses.size(); ++i) {
@@ -72,7 +72,7 @@ TEST(PlainWaypointsLaw, WhatDiffersIsLeftToTheParser) {
     if (!plain) continue;
     ++plain_ones;
     write(file, "# by the parser\n" + changed);
-    const Path parsed = readWaypointFile(file);
+    const Path parsed = readWaypointFile(file).path;
     ASSERT_EQ(plain->frame_id, parsed.frame_id) << changed;
     ASSERT_EQ(plain->poses.size(), parsed.poses.size()) << changed;
     for (std::size_t i = 0; i < parsed.poses.size(); ++i)
@@ -89,7 +89,7 @@ TEST(PlainWaypoints, ManyAreReadInLittleTime) {
   write(slow, "# by the parser\n" + contentOf(file));
   const auto microseconds = [](const std::string& name) {
     const auto begin = std::chrono::steady_clock::now();
-    const std::size_t poses = readWaypointFile(name).poses.size();
+    const std::size_t poses = readWaypointFile(name).path.poses.size();
     return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
                .count() /
            static_cast<double>(poses);

@@ -17,6 +17,7 @@ using base::StopToken;
 using costmap::BitMaps;
 using costmap::CostGrid;
 using costmap::lineOfSight;
+using costmap::SegmentPoint;
 using grid::Cell;
 using grid::CellRect;
 using grid::GridGeometry;
@@ -140,6 +141,26 @@ TEST(RectangleMapPlanner, SeesThatADoorWasShutAndOpened) {
   free[Cell{3, 1}] = 1;
   planner.update(costsOf(free, 2), {3, 1, 1, 1}, StopToken());
   EXPECT_EQ(plan(planner, {0, 0}, {6, 2}).status, Status::FOUND);
+}
+
+// As published: an even border has its middle between two cells.
+TEST(RectangleMapPlanner, CrossesBordersInTheirMiddle) {
+  const FreeCells free = freeCells({"..####",  //
+                                    "..####",  //
+                                    "......",  //
+                                    "......",  //
+                                    "......"});
+  RectangleMapOptions options;
+  options.rectangle_funnel = false;
+  RectangleMapPlanner planner(options);
+  planner.prepare(costsOf(free), StopToken());
+  const SearchResult result = plan(planner, {0, 0}, {5, 4});
+  ASSERT_EQ(result.status, Status::FOUND);
+  constexpr std::int64_t kHalf = SegmentPoint::kUnitsPerCell / 2;
+  EXPECT_EQ(result.points, (std::vector<SegmentPoint>{{kHalf, kHalf},
+                                                      {2 * kHalf, 3 * kHalf},
+                                                      {2 * kHalf, 5 * kHalf},
+                                                      {11 * kHalf, 9 * kHalf}}));
 }
 
 TEST(RectangleMapPlanner, FindsPathsAfterUpdatesWhereAFreshOneDoes) {

@@ -6,12 +6,13 @@
 //       orientation: {x: 0.0, y: 0.0, z: 0.745, w: 0.663}
 //
 //   writeWaypointFile("waypoints.yaml", path);
-//   Path same = readWaypointFile("waypoints.yaml");
+//   Path same = readWaypointFile("waypoints.yaml").path;
 //
 // Whatever is written can be read, and gives the frame and the positions to the last bit and the
-// yaws to within rounding, in [-pi, pi]. The files of the original study are read too. The x and y
-// of an orientation may be left out, it need not be of length 1, and keys that are not named above
-// are passed over.
+// yaws to within rounding, in [-pi, pi]. The files of the original study are read too, whose
+// orientations tilt by 0.12 rad: the yaw is taken and the tilt is told. The x and y of an
+// orientation may be left out, it need not be of length 1, and keys that are not named above are
+// passed over.
 #pragma once
 
 #include <string>
@@ -25,11 +26,20 @@ namespace grid_path_planner::path {
 // Largest coordinate that is taken for one, in metres.
 constexpr double kLargestCoordinate = 1e6;
 
+// Largest angle between the z axis of a waypoint and the vertical, in radians: beyond, where it looks
+// horizontally means little.
+constexpr double kLargestWaypointTilt = 0.7;
+
+struct WaypointFile {
+  Path path;
+  double tilt = 0.0;  // rad, the largest of a waypoint; paths have none
+};
+
 // A leading slash of the frame is dropped. Throws InputError naming the file, the line and the
 // entry (from 1) for anything but at least one waypoint with finite coordinates up to
-// kLargestCoordinate and a quaternion that can be normalised and is level (no roll or pitch beyond
-// 1e-3 rad), and for a file that needs more than `limits`.
-Path readWaypointFile(const std::string& file, const base::ReadLimits& limits = {});
+// kLargestCoordinate and a quaternion that can be normalised and tilts by no more than
+// kLargestWaypointTilt, and for a file that needs more than `limits`.
+WaypointFile readWaypointFile(const std::string& file, const base::ReadLimits& limits = {});
 
 // Throws InputError naming the file, and the waypoint where one could not be read back: none at
 // all, a coordinate beyond kLargestCoordinate or a number that is not finite. The old file stays

@@ -1,6 +1,7 @@
 #include "planners/rectangles/rectangle_map_planner.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -36,22 +37,31 @@ Cell middleOf(const CellRect& rect) {
   return {rect.column + rect.width / 2, rect.row + rect.height / 2};
 }
 
-// The outward and inward cells of every border, between the two ends.
-std::vector<Cell> throughTheMiddles(const RectangleGraph& map, const RectangleRoute& route,
-                                    Cell start, Cell goal) {
-  std::vector<Cell> cells = {start};
-  const auto add = [&cells](Cell cell) {
-    if (cell != cells.back()) cells.push_back(cell);
+// The middle of every border, outward and inward, between the two ends.
+std::vector<SegmentPoint> throughTheMiddles(const CostGrid& map, const RectangleGraph& rectangles,
+                                            const RectangleRoute& route, SegmentPoint start,
+                                            SegmentPoint goal) {
+  std::vector<SegmentPoint> points = {start};
+  const auto add = [&points](SegmentPoint point) {
+    if (!(point == points.back())) points.push_back(point);
+  };
+  // Between the waypoints of the cells on either side, or that of the cell around it.
+  const auto addMiddle = [&](const Eigen::Vector2d& at) {
+    const auto below = [](double x) { return static_cast<int>(std::ceil(x)) - 1; };
+    const auto above = [](double x) { return static_cast<int>(std::floor(x)); };
+    const SegmentPoint lower = waypointOf(map, {below(at.x()), below(at.y())});
+    const SegmentPoint upper = waypointOf(map, {above(at.x()), above(at.y())});
+    add({(lower.x + upper.x) / 2, (lower.y + upper.y) / 2});
   };
   std::uint32_t rectangle = route.first;
   for (const Connection& step : route.steps) {
-    const auto [outward, inward] = middleOf(map.rectangles()[rectangle], step);
-    add(outward);
-    add(inward);
+    const BorderMiddle middle = middleOf(rectangles.rectangles()[rectangle], step);
+    addMiddle(middle.outward);
+    addMiddle(middle.inward);
     rectangle = step.to;
   }
   add(goal);
-  return cells;
+  return points;
 }
 
 }  // namespace
@@ -93,18 +103,16 @@ void RectangleMapPlanner::doUpdate(const CellRect& changed, const StopToken& sto
 void RectangleMapPlanner::addPath(const RectangleRoute& route, const SearchRequest& request,
                                   SearchResult& result) const {
   const Cell start = request.start, goal = request.goals.front();
-  if (options_.rectangle_funnel) {
-    const bool lattice = map().segmentRule() == costmap::SegmentRule::CENTRE_LATTICE;
-    result.points = shortestThrough(rectangles(), route, waypointOf(map(), start),
-                                    waypointOf(map(), goal), lattice ? &map() : nullptr);
-    for (const SegmentPoint point : result.points)
-      result.cells.push_back(passableCellAt(map(), point));
-    result.cells.front() = start;
-    result.cells.back() = goal;
-  } else {
-    result.cells = throughTheMiddles(rectangles(), route, start, goal);
-    for (const Cell cell : result.cells) result.points.push_back(waypointOf(map(), cell));
-  }
+  const SegmentPoint first = waypointOf(map(), start), last = waypointOf(map(), goal);
+  const bool lattice = map().segmentRule() == costmap::SegmentRule::CENTRE_LATTICE;
+  result.points =
+      options_.rectangle_funnel
+          ? shortestThrough(rectangles(), route, first, last, lattice ? &map() : nullptr)
+          : throughTheMiddles(map(), rectangles(), route, first, last);
+  for (const SegmentPoint point : result.points)
+    result.cells.push_back(passableCellAt(map(), point));
+  result.cells.front() = start;
+  result.cells.back() = goal;
   for (std::size_t i = 1; i < result.points.size(); ++i)
     result.segment_cost += lineCost(map(), result.points[i - 1], result.points[i]);
 }

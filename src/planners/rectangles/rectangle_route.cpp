@@ -15,8 +15,13 @@ Eigen::Vector2d centreOf(const CellRect& rect) {
   return {rect.column + 0.5 * rect.width, rect.row + 0.5 * rect.height};
 }
 
-double distance(Cell a, Cell b) {
-  return std::hypot(a.column - b.column, a.row - b.row);
+// In cells, from the corner of the map.
+Eigen::Vector2d pointOf(Cell cell) {
+  return {cell.column + 0.5, cell.row + 0.5};
+}
+
+double distance(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return (a - b).norm();
 }
 
 }  // namespace
@@ -39,17 +44,18 @@ double stepWeight(const RectangleGraph& map, RectangleWeight weight, std::uint32
   return 0.0;
 }
 
-std::pair<Cell, Cell> middleOf(const CellRect& from, const Connection& step) {
-  const int middle = step.first + (step.length - 1) / 2;
+BorderMiddle middleOf(const CellRect& from, const Connection& step) {
+  const double middle = step.first + 0.5 * step.length;
+  const double east = from.column + from.width, north = from.row + from.height;
   switch (step.side) {
     case Side::EAST:
-      return {{from.column + from.width - 1, middle}, {from.column + from.width, middle}};
+      return {{east - 0.5, middle}, {east + 0.5, middle}};
     case Side::WEST:
-      return {{from.column, middle}, {from.column - 1, middle}};
+      return {{from.column + 0.5, middle}, {from.column - 0.5, middle}};
     case Side::NORTH:
-      return {{middle, from.row + from.height - 1}, {middle, from.row + from.height}};
+      return {{middle, north - 0.5}, {middle, north + 0.5}};
     case Side::SOUTH:
-      return {{middle, from.row}, {middle, from.row - 1}};
+      return {{middle, from.row + 0.5}, {middle, from.row - 0.5}};
     case Side::CORNER:
       break;
   }
@@ -134,8 +140,8 @@ RectangleRoute RectangleSearch::findOverRectangles(const RectangleGraph& map,
   return route;
 }
 
-// A node is a connection that was crossed, and stands for its inward cell. The last two nodes are
-// the start and the goal.
+// A node is a connection that was crossed, and stands for its middle on the inward side. The last two
+// nodes are the start and the goal.
 RectangleRoute RectangleSearch::findOverBorders(const RectangleGraph& map, Cell start, Cell goal,
                                                 const StopToken& stop) {
   const Connections& connections = map.connections();
@@ -147,14 +153,15 @@ RectangleRoute RectangleSearch::findOverBorders(const RectangleGraph& map, Cell 
   const auto rectangleOf = [&](std::uint32_t node) {
     return node == origin ? route.first : connections[node].to;
   };
-  const auto cellOf = [&](std::uint32_t node) {
-    if (node == origin) return start;
+  const Eigen::Vector2d begin = pointOf(start), end = pointOf(goal);
+  const auto placeOf = [&](std::uint32_t node) {
+    if (node == origin) return begin;
     const std::uint32_t from = rectangleOf(nodes_[node].parent);
-    return middleOf(map.rectangles()[from], connections[node]).second;
+    return middleOf(map.rectangles()[from], connections[node]).inward;
   };
 
   startQuery(connections.size() + 2);
-  relax(origin, 0.0, distance(start, goal), origin, 0, route.statistics);
+  relax(origin, 0.0, distance(begin, end), origin, 0, route.statistics);
   StopPoll poll(stop);
   for (std::uint32_t from = 0; popNode(from, route.statistics);) {
     poll();
@@ -166,15 +173,15 @@ RectangleRoute RectangleSearch::findOverBorders(const RectangleGraph& map, Cell 
         route.steps.push_back(connections[at]);
       break;
     }
-    const Cell here = cellOf(from);
+    const Eigen::Vector2d here = placeOf(from);
     const double g = nodes_[from].g;
     const std::uint32_t rectangle = rectangleOf(from);
-    if (rectangle == last) relax(target, g + distance(here, goal), 0.0, from, 0, route.statistics);
+    if (rectangle == last) relax(target, g + distance(here, end), 0.0, from, 0, route.statistics);
     auto number = static_cast<std::uint32_t>(connections.firstOf(rectangle));
     for (const Connection& step : connections.of(rectangle)) {
-      const auto [outward, inward] = middleOf(map.rectangles()[rectangle], step);
-      relax(number, g + distance(here, outward) + 1.0, distance(inward, goal), from, number,
-            route.statistics);
+      const BorderMiddle middle = middleOf(map.rectangles()[rectangle], step);
+      relax(number, g + distance(here, middle.outward) + 1.0, distance(middle.inward, end), from,
+            number, route.statistics);
       ++number;
     }
   }

@@ -12,8 +12,8 @@
 // the next, the start's and the goal's cells included.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "grid_path_planner/base/statistics.h"
@@ -29,9 +29,14 @@ namespace grid_path_planner::planners {
 double stepWeight(const RectangleGraph& map, RectangleWeight weight, std::uint32_t from,
                   const Connection& step);
 
-// The cells on both sides of the middle of a border: the outward one in `from`, the inward one in
-// the neighbour. Of an even number of cells the middle is the lower one.
-std::pair<grid::Cell, grid::Cell> middleOf(const grid::CellRect& from, const Connection& step);
+// The middle of a border on both its sides, at the centres of cells or, where the border has an even
+// number of cells, between two, as published. In cells from the corner of the map.
+struct BorderMiddle {
+  Eigen::Vector2d outward;  // in the rectangle that is left
+  Eigen::Vector2d inward;   // in the neighbour
+};
+
+BorderMiddle middleOf(const grid::CellRect& from, const Connection& step);
 
 struct RectangleRoute {
   bool found = false;

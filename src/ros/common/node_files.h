@@ -3,8 +3,9 @@
 //
 //   const base::OutputFile file = files.toWrite("waypoints_file", request.filename, waypointFiles());
 //
-//   const Path path = files.read("config_filename", goal.filename, waypointFiles(),
-//                                [](const std::string& file) { return readWaypointFile(file); });
+//   const WaypointFile waypoints =
+//       files.read("config_filename", goal.filename, waypointFiles(),
+//                  [](const std::string& file) { return readWaypointFile(file); });
 //
 // Any ROS client can set a parameter, call a service and end a node so that roslaunch starts it
 // again. The folders are therefore no parameters: they are arguments of the process, --save-folder

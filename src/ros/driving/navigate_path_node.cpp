@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "grid_path_planner/NavigatePathConfig.h"
+#include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/common/action/action_topics.h"
 #include "ros/common/file_kinds.h"
@@ -38,6 +39,7 @@ using following::FollowState;
 using following::Join;
 using path::Path;
 using path::readWaypointFile;
+using path::WaypointFile;
 
 namespace {
 
@@ -56,8 +58,12 @@ NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFil
 }
 
 Path readWaypoints(const NodeFiles& files, const std::string& filename) {
-  return files.read("config_filename", filename, waypointFiles(),
-                    [](const std::string& file) { return readWaypointFile(file); });
+  WaypointFile read = files.read("config_filename", filename, waypointFiles(),
+                                 [](const std::string& file) { return readWaypointFile(file); });
+  if (read.tilt > base::kLargestTilt)
+    ROS_WARN_STREAM("Waypoints of " << filename << " tilt by up to " << read.tilt
+                                    << " rad: the vehicle stays level, their yaw is taken");
+  return std::move(read.path);
 }
 
 Path fileOf(const NavigatePathOptions& options, const NodeFiles& files) {

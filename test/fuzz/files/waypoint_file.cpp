@@ -19,12 +19,12 @@ FUZZ_TARGET(waypoint_file, seedsOfWaypoints) {
   const std::string file = fileOf("fuzz.yaml", input);
   path::Path path;
   try {
-    path = path::readWaypointFile(file);
+    path = path::readWaypointFile(file).path;
   } catch (const base::InputError&) {
     return;
   }
   path::writeWaypointFile(file, path);
-  const path::Path again = path::readWaypointFile(file);
+  const path::Path again = path::readWaypointFile(file).path;
   mustHold(again.frame_id == path.frame_id, "the frame is read back");
   mustHold(again.poses.size() == path.poses.size(), "all waypoints are read back");
   for (std::size_t i = 0; i < path.poses.size(); ++i)

@@ -120,7 +120,7 @@ TEST_F(Study, SurveyMapPlanAndDrive) {
   call.request.filename = folder_.path("waypoints.yaml");
   ASSERT_TRUE(ros::service::call("/path_planner/save_waypoints", call));
   ASSERT_TRUE(call.response.success) << call.response.message;
-  EXPECT_EQ(readWaypointFile(call.request.filename).poses.back().position, kGoal);
+  EXPECT_EQ(readWaypointFile(call.request.filename).path.poses.back().position, kGoal);
 
   EXPECT_TRUE(test::waitFor([&] { return distanceTo(kGoal) < 0.1; }, std::chrono::seconds(40)));
   ASSERT_TRUE(contacts_.waitForMoreThan(0));

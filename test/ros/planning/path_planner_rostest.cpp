@@ -304,7 +304,7 @@ TEST_F(PathPlannerTest, EveryFoundPlanIsWrittenToTheWaypointsFile) {
   sendGoal(poseAt(5.5, 2.5, 1.0));
   ASSERT_EQ(answer_.status, "FOUND");
   ASSERT_TRUE(test::waitFor([&] {
-    const Path written = readWaypointFile(file);
+    const Path written = readWaypointFile(file).path;
     return written.poses.size() == path_.poses.size() && written.poses.back().position.x() == 5.5;
   }));
   ::unlink(file.c_str());

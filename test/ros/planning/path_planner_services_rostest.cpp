@@ -106,7 +106,7 @@ TEST_F(ServicesTest, SaveWaypointsWritesTheLastPathOrSaysWhyNot) {
   const std::string file = directory_ + "gpp_save.yaml";
   const auto saved = save(file);
   ASSERT_TRUE(saved.success) << saved.message;
-  const Path path = readWaypointFile(file);
+  const Path path = readWaypointFile(file).path;
   EXPECT_EQ(path.frame_id, "map");
   ASSERT_EQ(path.poses.size(), path_.poses.size());
   EXPECT_NEAR(path.poses.back().yaw, 1.0, 1e-9);

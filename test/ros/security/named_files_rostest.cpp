@@ -113,7 +113,7 @@ TEST_F(NamedFiles, TheAttackOnAShellsStartUpFileIsRefused) {
   for (const std::string& name : namesOutside()) EXPECT_FALSE(save_waypoints(name).success) << name;
   const auto saved = save_waypoints("site.yaml");
   EXPECT_TRUE(saved.success) << saved.message;
-  EXPECT_EQ(path::readWaypointFile(files() + "/site.yaml").frame_id, "map");
+  EXPECT_EQ(path::readWaypointFile(files() + "/site.yaml").path.frame_id, "map");
 }
 
 // ~waypoints_file is set by any client, and roslaunch starts the node again with it.
