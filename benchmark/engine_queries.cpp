@@ -159,7 +159,7 @@ double repairMilliseconds(Planner& planner, std::shared_ptr<const CostGrid>& map
     next->setRevision(map->revision() + 1);
     map = std::move(next);
     const auto begin = Clock::now();
-    planner.update(map, changed, StopToken());
+    planner.update(map, {changed}, StopToken());
     planner.finishBackgroundWork(StopToken());
     times.push_back(millisecondsSince(begin));
   }

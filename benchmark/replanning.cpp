@@ -245,10 +245,10 @@ class Run {
   }
 
   void takeEdit() {
-    maps_.advance(edit_.rect, [this](OccupancyGrid& next) {
+    maps_.advance({edit_.rect}, [this](OccupancyGrid& next) {
       edit_.appears ? fill(next, edit_.rect, 100) : copyCells(world_, edit_.rect, next);
     });
-    builder_.updateMap(maps_.current(), edit_.rect);
+    builder_.updateMap(maps_.current(), {edit_.rect});
     const auto costs = builder_.downsampled(StopToken());
     replanner_.update(costs, builder_.downsampledChange(), StopToken());
   }

@@ -1,7 +1,7 @@
 // The map changes while a vehicle drives: is the path blocked, and what does a new one cost?
 //
-// updateMap() takes the new map and the rectangle in which it differs. All that was made of the old
-// map is repaired in proportion to that rectangle. The planner incremental_a_star keeps its search
+// updateMap() takes the new map and the rectangles in which it differs. All that was made of the old
+// map is repaired in proportion to these. The planner incremental_a_star keeps its search
 // tree as well, so that a new plan expands only the cells that the change concerns.
 #include <iostream>
 #include <memory>
@@ -51,7 +51,7 @@ int main() {
   const CellRect changed = {6, 5, 3, 2};
   auto seen = std::make_shared<OccupancyGrid>(*map);
   for (const Cell cell : {Cell{6, 5}, Cell{7, 5}, Cell{8, 6}}) (*seen)[cell] = 100;
-  planner.updateMap(seen, changed);
+  planner.updateMap(seen, {changed});
 
   const Pose vehicle = {{1.5, 3.5, 0.0}, 0.0};
   const bool blocked = pathBlocked(first.path, vehicle.position.head<2>().eval(),

@@ -48,8 +48,9 @@ struct CostGrid::Derived {
     return other;
   }
 
-  void updateBits(const Grid<Weight>& weights, const CellRect& rect) {
-    if (has_bits) bits.update(weights, rect, StopToken());
+  void updateBits(const Grid<Weight>& weights, const std::vector<CellRect>& rects) {
+    if (!has_bits) return;
+    for (const CellRect& rect : rects) bits.update(weights, rect, StopToken());
   }
 };
 
@@ -96,17 +97,16 @@ std::size_t CostGrid::bytes() const {
   return geometry().size() * (sizeof(Weight) + sizeof(Occupancy)) + derived_->counts.bytes() + bits;
 }
 
-void CostGrid::finishEdit(const CostGrid& before, const CellRect& rect) {
-  assert(geometry().rect().intersection(rect) == rect);
+void CostGrid::finishEdit(const CostGrid& before, const std::vector<CellRect>& rects) {
   ownDerived();
   WeightCounts& counts = derived_->counts;
   if (counts.empty())
     counts.add(weights_);
   else
-    counts.replace(before.weights_, weights_, rect);
+    for (const CellRect& rect : rects) counts.replace(before.weights_, weights_, rect);
   min_weight_ = counts.minWeight();
   max_weight_ = counts.maxWeight();
-  derived_->updateBits(weights_, rect);
+  derived_->updateBits(weights_, rects);
 }
 
 void CostGrid::catchUp(const CostGrid& with, const Change& change) {

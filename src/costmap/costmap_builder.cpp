@@ -11,16 +11,29 @@
 namespace grid_path_planner::costmap {
 
 using base::StopPoll, base::StopToken;
-using grid::CellRect, grid::Grid, grid::GridGeometry, grid::Occupancy, grid::OccupancyGrid,
-    grid::OccupancyThresholds, grid::prefetchRows;
+using grid::CellRect, grid::disjointRects, grid::Grid, grid::GridGeometry, grid::grownRects,
+    grid::Occupancy, grid::OccupancyGrid, grid::OccupancyThresholds, grid::prefetchRows;
 
-// Rectangles around the cells whose class has changed.
+// Of a part of the map: rectangles around the cells whose class has changed.
 struct ClassChanges {
   CellRect all;
   CellRect filled;   // those that are occupied now
   CellRect opened;   // those that are not occupied now
   CellRect vacated;  // those of `opened` that were occupied before
 };
+
+namespace {
+
+// The cells in reach of those of `rect`.
+CellRect grown(const CellRect& rect, const Inflation& inflation, const CellRect& within) {
+  return rect.empty() ? rect : rect.grown(inflation.reach()).intersection(within);
+}
+
+void append(const std::vector<CellRect>& rects, std::vector<CellRect>& to) {
+  to.insert(to.end(), rects.begin(), rects.end());
+}
+
+}  // namespace
 
 // What raises the weights of a map.
 struct Inflations {
@@ -45,12 +58,47 @@ struct Inflations {
     outside.applyBorder(rect, weights, stop);
   }
 
+  // Where cells of `filled` became occupied, which have the weight of their class, and nothing else
+  // changed.
+  void raise(const Grid<Occupancy>& classes, const CellRect& filled,
+             Grid<CostGrid::Weight>& weights, const StopToken& stop) const {
+    const CellRect all = classes.geometry().rect();
+    occupied.apply(classes, filled, grown(filled, occupied, all), weights, stop);
+    unknown.apply(classes, all, filled, weights, stop);
+    outside.applyBorder(filled, weights, stop);
+  }
+
   Inflation occupied;
   Inflation unknown;
   Inflation outside;
 };
 
 namespace {
+
+// What follows from changes of classes.
+struct Rewriting {
+  Rewriting(const std::vector<ClassChanges>& changes, const Inflations& inflations,
+            const CellRect& map) {
+    const Inflation& occupied = inflations.occupied;
+    // Around unknown cells there is no weight but blocked, so all of it is computed again.
+    const Inflation& unknown = inflations.unknown;
+    for (const ClassChanges& each : changes) {
+      classes.push_back(each.all);
+      recomputed.push_back(each.opened.hull(grown(each.vacated, occupied, map))
+                               .hull(unknown.none() ? CellRect() : grown(each.all, unknown, map)));
+      all.push_back(grown(each.filled, occupied, map));
+      if (!each.filled.empty()) raised.push_back(each.filled);
+    }
+    append(recomputed, all);
+    recomputed = disjointRects(recomputed);
+    all = disjointRects(all);
+  }
+
+  std::vector<CellRect> classes;     // cells whose class changed
+  std::vector<CellRect> recomputed;  // disjoint; whose weights are computed again
+  std::vector<CellRect> raised;      // around which weights rise
+  std::vector<CellRect> all;         // disjoint; whose weights are written
+};
 
 void classify(const OccupancyGrid& map, const OccupancyThresholds& thresholds, const CellRect& rect,
               Grid<Occupancy>& classes, const StopToken& stop) {
@@ -156,14 +204,16 @@ void CostmapBuilder::setMap(std::shared_ptr<const OccupancyGrid> map) {
   inflations_ = std::make_shared<const Inflations>(options_, kept_, map_->geometry().resolution());
   full_.reset(nullptr);
   downsampled_.reset(nullptr);
-  downsampled_dirty_ = {};
-  full_dirty_ = {};
+  downsampled_dirty_.clear();
+  full_dirty_.clear();
 }
 
-void CostmapBuilder::updateMap(std::shared_ptr<const OccupancyGrid> map, const CellRect& changed) {
+void CostmapBuilder::updateMap(std::shared_ptr<const OccupancyGrid> map,
+                               const std::vector<CellRect>& changed) {
   assert(map && map_ && map->geometry() == map_->geometry());
   map_ = std::move(map);
-  full_dirty_ = full_dirty_.hull(changed.intersection(map_->geometry().rect()));
+  append(changed, full_dirty_);
+  full_dirty_ = grownRects(full_dirty_, 0, map_->geometry().rect());
 }
 
 std::shared_ptr<const CostGrid> CostmapBuilder::fullResolution(const StopToken& stop) {
@@ -194,10 +244,10 @@ void CostmapBuilder::build(const StopToken& stop) {
   full->setKeptDistances(kept_);
   full->setRevision(++revision_);
   if (options_.kernel > 1) downsampled_.reset(buildDownsampled(*full, stop));
-  full_change_ = all;
-  downsampled_change_ = blocksOf(all, options_.kernel);
+  full_change_ = {all};
+  downsampled_change_ = {blocksOf(all, options_.kernel)};
   full_.reset(std::move(full));
-  full_dirty_ = {};
+  full_dirty_.clear();
 }
 
 std::unique_ptr<CostGrid> CostmapBuilder::buildDownsampled(const CostGrid& full,
@@ -216,58 +266,61 @@ std::unique_ptr<CostGrid> CostmapBuilder::buildDownsampled(const CostGrid& full,
 // Around cells that are no longer occupied all weights are computed again; around cells that are
 // occupied now the weights only rise, by the inflation of these cells.
 void CostmapBuilder::updateFullResolution(const StopToken& stop) {
-  const ClassChanges changes =
-      changesOf(*map_, options_.thresholds, full_dirty_, full_.current()->classes(), stop);
-  if (!changes.all.empty()) {
-    const CellRect rewritten = rewriteWeights(changes, stop);
-    ++revision_;
-    full_change_ = rewritten;
-    downsampled_dirty_ = downsampled_dirty_.hull(rewritten);
+  std::vector<ClassChanges> changes;
+  for (const CellRect& rect : full_dirty_) {
+    changes.push_back(
+        changesOf(*map_, options_.thresholds, rect, full_.current()->classes(), stop));
+    if (changes.back().all.empty()) changes.pop_back();
   }
-  full_dirty_ = {};
+  if (!changes.empty()) {
+    full_change_ = rewriteWeights(changes, stop);
+    ++revision_;
+    append(full_change_, downsampled_dirty_);
+    downsampled_dirty_ = disjointRects(downsampled_dirty_);
+  }
+  full_dirty_.clear();
 }
 
-CellRect CostmapBuilder::rewriteWeights(const ClassChanges& changes, const StopToken& stop) {
+std::vector<CellRect> CostmapBuilder::rewriteWeights(const std::vector<ClassChanges>& changes,
+                                                     const StopToken& stop) {
   const CellRect all = map_->geometry().rect();
-  const auto inflated = [&](const CellRect& rect, const Inflation& inflation) {
-    return rect.empty() ? rect : rect.grown(inflation.reach()).intersection(all);
-  };
-  // Around unknown cells there is no weight but blocked, so all of it is computed again.
-  const Inflation& unknown = inflations_->unknown;
-  const CellRect near_unknown = unknown.none() ? CellRect() : inflated(changes.all, unknown);
-  const CellRect recomputed =
-      changes.opened.hull(inflated(changes.vacated, inflations_->occupied)).hull(near_unknown);
-  const CellRect raised = inflated(changes.filled, inflations_->occupied);
-  const CellRect rewritten = recomputed.hull(raised);
-  prefetchRows(full_.current()->weights(), rewritten);
-  full_.advance({rewritten, changes.all}, [&](CostGrid& next) {
-    prefetchRows(next.weights(), rewritten);
-    prefetchRows(next.classes(), inflated(recomputed, inflations_->occupied));
-    next.edit(*full_.current(), rewritten, [&](auto& weights, auto& classes) {
-      classify(*map_, options_.thresholds, changes.all, classes, stop);
-      writeWeights(classes, options_, recomputed, weights, stop);
-      inflations_->apply(classes, recomputed, weights, stop);
-      writeOccupiedWeights(classes, options_, changes.filled, weights, stop);
-      inflations_->occupied.apply(classes, changes.filled, raised, weights, stop);
-      inflations_->unknown.apply(classes, all, changes.filled, weights, stop);
-      inflations_->outside.applyBorder(changes.filled, weights, stop);
+  const Rewriting rewriting(changes, *inflations_, all);
+  for (const CellRect& rect : rewriting.all) prefetchRows(full_.current()->weights(), rect);
+  full_.advance({rewriting.all, rewriting.classes}, [&](CostGrid& next) {
+    for (const CellRect& rect : rewriting.all) prefetchRows(next.weights(), rect);
+    for (const CellRect& rect : rewriting.recomputed)
+      prefetchRows(next.classes(), grown(rect, inflations_->occupied, all));
+    next.edit(*full_.current(), rewriting.all, [&](auto& weights, auto& classes) {
+      for (const CellRect& rect : rewriting.classes)
+        classify(*map_, options_.thresholds, rect, classes, stop);
+      for (const CellRect& rect : rewriting.recomputed) {
+        writeWeights(classes, options_, rect, weights, stop);
+        inflations_->apply(classes, rect, weights, stop);
+      }
+      for (const CellRect& filled : rewriting.raised) {
+        writeOccupiedWeights(classes, options_, filled, weights, stop);
+        inflations_->raise(classes, filled, weights, stop);
+      }
     });
     next.setRevision(revision_ + 1);
   });
-  return rewritten;
+  return rewriting.all;
 }
 
 void CostmapBuilder::updateDownsampled(const StopToken& stop) {
-  const CellRect blocks = blocksOf(downsampled_dirty_, options_.kernel);
+  std::vector<CellRect> blocks;
+  for (const CellRect& rect : downsampled_dirty_) blocks.push_back(blocksOf(rect, options_.kernel));
+  blocks = disjointRects(blocks);
   if (options_.kernel > 1)
     downsampled_.advance({blocks, blocks}, [&](CostGrid& next) {
       next.edit(*downsampled_.current(), blocks, [&](auto& weights, auto& classes) {
-        applyKernel(*full_.current(), options_, downsampled_dirty_, weights, classes, stop);
+        for (const CellRect& rect : downsampled_dirty_)
+          applyKernel(*full_.current(), options_, rect, weights, classes, stop);
       });
       next.setRevision(revision_);
     });
-  downsampled_change_ = blocks;
-  downsampled_dirty_ = {};
+  downsampled_change_ = std::move(blocks);
+  downsampled_dirty_.clear();
 }
 
 }  // namespace grid_path_planner::costmap

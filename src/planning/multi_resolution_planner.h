@@ -27,8 +27,8 @@ namespace grid_path_planner::planning {
 struct CostmapPair {
   std::shared_ptr<const costmap::CostGrid> full_resolution;
   std::shared_ptr<const costmap::CostGrid> downsampled;
-  grid::CellRect full_resolution_change;
-  grid::CellRect downsampled_change;
+  std::vector<grid::CellRect> full_resolution_change;
+  std::vector<grid::CellRect> downsampled_change;
 };
 
 class MultiResolutionPlanner {

@@ -184,9 +184,10 @@ void PathPlanner::setMap(std::shared_ptr<const OccupancyGrid> map) {
   lowered_.reset();
 }
 
-void PathPlanner::updateMap(std::shared_ptr<const OccupancyGrid> map, const CellRect& changed) {
+void PathPlanner::updateMap(std::shared_ptr<const OccupancyGrid> map,
+                            const std::vector<CellRect>& changed) {
   if (!map_ || map->geometry() != map_->geometry()) return setMap(std::move(map));
-  checkOccupancyValues(*map, changed);
+  for (const CellRect& rect : changed) checkOccupancyValues(*map, rect);
   map_ = std::move(map);
   costmap_->updateMap(map_, changed);
   if (lowered_) lowered_->costmap.updateMap(map_, changed);

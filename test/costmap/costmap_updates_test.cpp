@@ -61,24 +61,37 @@ CostmapOptions randomOptions(std::mt19937& random) {
   return options;
 }
 
-// Draws new values in a rectangle of the map and gives it.
-CellRect scribble(std::mt19937& random, OccupancyGrid& map) {
-  const Cell low = test::randomCell(random, map.geometry());
-  const CellRect rect = CellRect{low.column, low.row, 1 + static_cast<int>(random() % 6),
-                                 1 + static_cast<int>(random() % 6)}
-                            .intersection(map.geometry().rect());
+// Draws new values in a few rectangles of the map and gives them.
+std::vector<CellRect> scribble(std::mt19937& random, OccupancyGrid& map) {
+  const std::vector<CellRect> rects = test::randomRects(random, map.geometry(), 6);
   const std::int8_t values[] = {0, 0, 0, 100, -1, 10};
-  for (int row = rect.row; row < rect.row + rect.height; ++row)
-    for (int column = rect.column; column < rect.column + rect.width; ++column)
-      map[Cell{column, row}] = values[random() % 6];
-  return rect;
+  for (const CellRect& each : rects) {
+    const CellRect rect = each.intersection(map.geometry().rect());
+    for (int row = rect.row; row < rect.row + rect.height; ++row)
+      for (int column = rect.column; column < rect.column + rect.width; ++column)
+        map[Cell{column, row}] = values[random() % 6];
+  }
+  return rects;
+}
+
+bool anyContains(const std::vector<CellRect>& rects, Cell cell) {
+  return std::any_of(rects.begin(), rects.end(),
+                     [cell](const CellRect& rect) { return rect.contains(cell); });
+}
+
+void expectOnlyThereDiffer(const CostGrid& before, const CostGrid& after,
+                           const std::vector<CellRect>& changed) {
+  for (std::uint32_t i = 0; i < after.geometry().size(); ++i)
+    if (after.weights()[CellIndex(i)] != before.weights()[CellIndex(i)]) {
+      ASSERT_TRUE(anyContains(changed, after.geometry().cell(CellIndex(i))));
+    }
 }
 
 TEST(CostmapUpdates, AnEarlierGridDoesNotChange) {
   CostmapBuilder builder({});
   builder.setMap(shared({"...", "..."}));
   const Costs first = builder.fullResolution(StopToken());
-  builder.updateMap(shared({"...", ".#."}), {1, 1, 1, 1});
+  builder.updateMap(shared({"...", ".#."}), {{1, 1, 1, 1}});
   const Costs second = builder.fullResolution(StopToken());
   EXPECT_TRUE(first->passable({1, 1}));
   EXPECT_FALSE(second->passable({1, 1}));
@@ -89,11 +102,11 @@ TEST(CostmapUpdates, TwoGridsAreReusedOnceNobodyHoldsThem) {
   CostmapBuilder builder({});
   builder.setMap(shared({"...", "..."}));
   const CostGrid* first = builder.fullResolution(StopToken()).get();
-  builder.updateMap(shared({"..#", "..."}), {2, 0, 1, 1});
+  builder.updateMap(shared({"..#", "..."}), {{2, 0, 1, 1}});
   Costs second = builder.fullResolution(StopToken());
-  builder.updateMap(shared({"..#", "#.."}), {0, 1, 1, 1});
+  builder.updateMap(shared({"..#", "#.."}), {{0, 1, 1, 1}});
   EXPECT_EQ(builder.fullResolution(StopToken()).get(), first);
-  builder.updateMap(shared({"...", "#.."}), {2, 0, 1, 1});
+  builder.updateMap(shared({"...", "#.."}), {{2, 0, 1, 1}});
   EXPECT_NE(builder.fullResolution(StopToken()), second);  // it is held
 }
 
@@ -103,7 +116,7 @@ TEST(CostmapUpdates, AnUpdateWithoutNewClassesKeepsTheGrid) {
   builder.setMap(map);
   const Costs before = builder.downsampled(StopToken());
   (*map)[Cell{1, 1}] = 7;  // free as before
-  builder.updateMap(map, map->geometry().rect());
+  builder.updateMap(map, {map->geometry().rect()});
   EXPECT_EQ(builder.downsampled(StopToken()), before);
 }
 
@@ -116,7 +129,7 @@ TEST(CostmapUpdates, AStoppedUpdateLosesNothing) {
   builder.setMap(std::make_shared<const OccupancyGrid>(map));
   const Costs before = builder.downsampled(StopToken());
   for (std::uint32_t i = 0; i < map.values().size(); i += 900) map[CellIndex(i)] = 100;
-  builder.updateMap(std::make_shared<const OccupancyGrid>(map), map.geometry().rect());
+  builder.updateMap(std::make_shared<const OccupancyGrid>(map), {map.geometry().rect()});
   StopSource source;
   source.cancel();
   EXPECT_THROW(builder.downsampled(source.token()), Stopped);
@@ -174,19 +187,36 @@ TEST(CostmapUpdatesLaw, EqualsAFreshGridAfterEveryKindOfChange) {
       for (int edit = 0; edit < 12; ++edit) {
         const Costs before = builder.downsampled(StopToken());
         for (unsigned i = 0; i <= random() % 4 / 3; ++i) {
-          const CellRect changed = see(random, kinds[random() % kinds.size()], map);
+          std::vector<CellRect> changed;
+          for (unsigned places = 1 + random() % 3; places > 0; --places)
+            changed.push_back(see(random, kinds[random() % kinds.size()], map));
           builder.updateMap(std::make_shared<const OccupancyGrid>(map), changed);
         }
         const Costs after = builder.downsampled(StopToken());
         expectSame(*after, *freshlyDownsampled(map, options));
         if (HasFatalFailure()) return;
-        for (std::uint32_t i = 0; i < after->geometry().size(); ++i)
-          if (after->weights()[CellIndex(i)] != before->weights()[CellIndex(i)]) {
-            ASSERT_TRUE(builder.downsampledChange().contains(after->geometry().cell(CellIndex(i))));
-          }
+        expectOnlyThereDiffer(*before, *after, builder.downsampledChange());
       }
     }
   }
+}
+
+// A hull around two edits at opposite corners would be the map, and take as long.
+TEST(CostmapUpdates, EditsFarApartChangeTheirSurroundingsOnly) {
+  CostmapOptions options;
+  options.radius = 2.0;
+  CostmapBuilder builder(options);
+  OccupancyGrid map(GridGeometry(500, 400, 1.0), 0);
+  builder.setMap(std::make_shared<const OccupancyGrid>(map));
+  builder.downsampled(StopToken());
+  map[Cell{0, 0}] = map[Cell{499, 399}] = map[Cell{250, 100}] = 100;
+  builder.updateMap(std::make_shared<const OccupancyGrid>(map), {map.geometry().rect()});
+  expectSame(*builder.downsampled(StopToken()), *freshlyDownsampled(map, options));
+  for (const Cell each : {Cell{0, 0}, Cell{499, 399}}) map[each] = 0;
+  builder.updateMap(std::make_shared<const OccupancyGrid>(map),
+                    {{0, 0, 1, 1}, {499, 399, 1, 1}, {250, 100, 1, 1}});
+  expectSame(*builder.downsampled(StopToken()), *freshlyDownsampled(map, options));
+  EXPECT_EQ(builder.downsampledChange(), (std::vector<CellRect>{{0, 0, 3, 3}, {497, 397, 3, 3}}));
 }
 
 // Only what a sensor makes occupied, or no longer so, reaches farther than it.
@@ -197,16 +227,17 @@ TEST(CostmapUpdates, AChangeReachesNoFartherThanInflation) {
   OccupancyGrid map(GridGeometry(20, 20, 1.0), -1);
   const auto changeAfter = [&](std::int8_t value) {
     map[Cell{10, 10}] = value;
-    builder.updateMap(std::make_shared<const OccupancyGrid>(map), map.geometry().rect());
+    builder.updateMap(std::make_shared<const OccupancyGrid>(map), {map.geometry().rect()});
     builder.downsampled(StopToken());
     return builder.downsampledChange();
   };
   builder.setMap(std::make_shared<const OccupancyGrid>(map));
   builder.downsampled(StopToken());
-  EXPECT_EQ(changeAfter(0), (CellRect{10, 10, 1, 1}));
-  EXPECT_EQ(changeAfter(-1), (CellRect{10, 10, 1, 1}));
-  EXPECT_EQ(changeAfter(100), (CellRect{8, 8, 5, 5}));
-  EXPECT_EQ(changeAfter(0), (CellRect{8, 8, 5, 5}));
+  using Rects = std::vector<CellRect>;
+  EXPECT_EQ(changeAfter(0), (Rects{{10, 10, 1, 1}}));
+  EXPECT_EQ(changeAfter(-1), (Rects{{10, 10, 1, 1}}));
+  EXPECT_EQ(changeAfter(100), (Rects{{8, 8, 5, 5}}));
+  EXPECT_EQ(changeAfter(0), (Rects{{8, 8, 5, 5}}));
 }
 
 TEST(CostmapUpdatesLaw, EqualsAFreshGridAfterUpdatesAndEarlierGridsStay) {
@@ -228,7 +259,7 @@ TEST(CostmapUpdatesLaw, EqualsAFreshGridAfterUpdatesAndEarlierGridsStay) {
       while (random() % 2 == 0 && !held.empty()) held.pop_front();
 
       for (unsigned i = 0; i <= random() % 3; ++i) {
-        const CellRect changed = scribble(random, map);
+        const std::vector<CellRect> changed = scribble(random, map);
         builder.updateMap(std::make_shared<const OccupancyGrid>(map), changed);
       }
       const Costs after = builder.downsampled(StopToken());
@@ -242,10 +273,7 @@ TEST(CostmapUpdatesLaw, EqualsAFreshGridAfterUpdatesAndEarlierGridsStay) {
       }
       if (after == before) continue;
       EXPECT_EQ(after->revision(), before->revision() + 1);
-      for (std::uint32_t i = 0; i < after->weights().values().size(); ++i)
-        if (after->weights().values()[i] != before->weights().values()[i]) {
-          ASSERT_TRUE(builder.downsampledChange().contains(after->geometry().cell(CellIndex(i))));
-        }
+      expectOnlyThereDiffer(*before, *after, builder.downsampledChange());
     }
   }
 }

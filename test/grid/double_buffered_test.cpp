@@ -21,7 +21,7 @@ std::unique_ptr<OccupancyGrid> freeMap() {
 }
 
 void write(Maps& maps, std::int8_t value) {
-  maps.advance(kSomeCells, [&](OccupancyGrid& next) {
+  maps.advance({kSomeCells}, [&](OccupancyGrid& next) {
     for (int row = 0; row < kSomeCells.height; ++row)
       for (int column = 6; column < 8; ++column) next[{column, row}] = value;
   });

@@ -270,7 +270,7 @@ TEST(IncrementalAStarLaw, PlansWhileDrivingCostTheLeast) {
         if (HasFatalFailure()) return;
       }
       const CellRect changed = journey.edit();
-      planner.update(journey.map(), changed, StopToken());
+      planner.update(journey.map(), {changed}, StopToken());
       journey.move(result.cells);
     }
   }
@@ -289,7 +289,7 @@ class Crossing {
       for (int column = rect.column; column < rect.column + rect.width; ++column)
         weights_[Cell{column, row}] = weight;
     ++revision_;
-    planner_.update(map(), rect, StopToken());
+    planner_.update(map(), {rect}, StopToken());
   }
   // The cells that a plan took, which costs the least.
   std::uint64_t expanded() {
@@ -379,7 +379,7 @@ TEST(IncrementalAStar, FindsPathsThatTheTreesKeysCannotHold) {
   const CellRect wall{30, 0, 1, 59};
   for (int row = 0; row < 59; ++row) weights[Cell{30, row}] = CostGrid::kBlocked;
   const Map changed = test::costsOf(weights, {}, 1);
-  planner.update(changed, wall, StopToken());
+  planner.update(changed, {wall}, StopToken());
   const SearchResult around = planned({59, 0});
   expectLeast(*changed, {0, 0}, {59, 0}, around.status == Status::FOUND, around);
 }

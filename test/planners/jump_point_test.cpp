@@ -141,7 +141,7 @@ TEST(JumpPoint, PlansAfterEditsAsIfPreparedAnew) {
         for (int column = changed.column; column < changed.column + changed.width; ++column)
           weights[Cell{column, row}] = blocked(random) ? CostGrid::kBlocked : 1;
       map = costsOf(weights, {}, map->revision() + 1);
-      planner.update(map, changed, StopToken());
+      planner.update(map, {changed}, StopToken());
       JumpPoint fresh;
       fresh.prepare(map, StopToken());
       for (int query = 0; query < 5; ++query) {

@@ -72,7 +72,7 @@ TEST_P(InTheBackground, AnswersAreTheLeastCostWhateverIsReady) {
       expectLeastCost(planner, *map, random);
       CellRect changed;
       map = next(random, *map, changed);
-      planner.update(map, changed, StopToken());
+      planner.update(map, {changed}, StopToken());
       expectLeastCost(planner, *map, random);
     }
   }
@@ -133,8 +133,8 @@ TEST(PrecomputedTable, GuidesOnAfterChanges) {
     after->setRevision(map->revision() + 1);
     map = after;
     const CellRect changed{60 + change, 90, 1, 6};
-    guided.update(map, changed, StopToken());
-    plain.update(map, changed, StopToken());
+    guided.update(map, {changed}, StopToken());
+    plain.update(map, {changed}, StopToken());
     EXPECT_FALSE(guided.backgroundWork().pending);
     const SearchResult a = guided.search(request, StopToken());
     const SearchResult b = plain.search(request, StopToken());

@@ -135,11 +135,11 @@ TEST(RectangleMapPlanner, SeesThatADoorWasShutAndOpened) {
   planner.prepare(costsOf(free), StopToken());
   EXPECT_EQ(plan(planner, {0, 0}, {6, 2}).status, Status::FOUND);
   free[Cell{3, 1}] = 0;
-  planner.update(costsOf(free, 1), {3, 1, 1, 1}, StopToken());
+  planner.update(costsOf(free, 1), {{3, 1, 1, 1}}, StopToken());
   EXPECT_EQ(plan(planner, {0, 0}, {6, 2}).status, Status::UNREACHABLE);
   EXPECT_EQ(plan(planner, {0, 0}, {3, 1}).status, Status::GOAL_OCCUPIED);
   free[Cell{3, 1}] = 1;
-  planner.update(costsOf(free, 2), {3, 1, 1, 1}, StopToken());
+  planner.update(costsOf(free, 2), {{3, 1, 1, 1}}, StopToken());
   EXPECT_EQ(plan(planner, {0, 0}, {6, 2}).status, Status::FOUND);
 }
 
@@ -180,7 +180,7 @@ TEST(RectangleMapPlanner, FindsPathsAfterUpdatesWhereAFreshOneDoes) {
           CellRect{low.column, low.row, side, side}.intersection(free.geometry().rect());
       test::fillCells(free, changed, random() % 2 == 0 ? 1 : 0);
       const auto map = costsOf(free, step);
-      updated.update(map, changed, StopToken());
+      updated.update(map, {changed}, StopToken());
       if (step % 4 != 0) continue;
       RectangleMapPlanner fresh;
       fresh.prepare(map, StopToken());

@@ -76,7 +76,7 @@ TEST(WeightedJumpPoint, AnswersNoiseByAStarAndPlateausByJumps) {
   EXPECT_EQ(planner.search(request, StopToken()).statistics.expanded,
             a_star.search(request, StopToken()).statistics.expanded);
   map = costsOf(Grid<CostGrid::Weight>(map->geometry(), 5), {}, 1);
-  planner.update(map, map->geometry().rect(), StopToken());
+  planner.update(map, {map->geometry().rect()}, StopToken());
   EXPECT_EQ(planner.search(request, StopToken()).statistics.expanded, 1U);
 }
 
@@ -110,7 +110,7 @@ TEST(WeightedJumpPointLaw, AfterEditsPlansLikeAFreshOne) {
         for (int column = changed.column; column < changed.column + changed.width; ++column)
           weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 5);
       map = costsOf(weights, {}, map->revision() + 1);
-      edited.update(map, changed, StopToken());
+      edited.update(map, {changed}, StopToken());
       WeightedJumpPoint fresh;
       fresh.prepare(map, StopToken());
       for (int query = 0; query < 5; ++query) {

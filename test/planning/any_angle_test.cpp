@@ -137,7 +137,7 @@ TEST_P(AnyAngle, SeesAMapThatChanged) {
   auto after =
       std::make_shared<CostGrid>(*costsOf(test::AsciiMap({".....", ".....", "....."}).map));
   after->setRevision(before->revision() + 1);
-  planner->update(after, {2, 1, 1, 1}, StopToken());
+  planner->update(after, {{2, 1, 1, 1}}, StopToken());
   EXPECT_DOUBLE_EQ(planner->search({{0, 1}, {{4, 1}}, false}, StopToken()).costValue(), 4.0);
 }
 

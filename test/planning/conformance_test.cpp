@@ -202,14 +202,16 @@ TEST_P(Conformance, SameQuestionSameAnswer) {
 TEST_P(Conformance, AnUpdatedMapIsPlannedLikeAFreshOne) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 20; ++trial) {
-    CostGrid before = test::randomCosts(random, 30, {});
+    CostGrid before =
+        test::randomCosts(random, trial % 4 == 3 ? test::sideFor(GetParam(), 90) : 30, {});
     Grid<CostGrid::Weight> weights = before.weights();
-    const Cell low = test::randomCell(random, before.geometry());
-    const CellRect changed =
-        CellRect{low.column, low.row, 5, 4}.intersection(before.geometry().rect());
-    for (int row = changed.row; row < changed.row + changed.height; ++row)
-      for (int column = changed.column; column < changed.column + changed.width; ++column)
-        weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 3);
+    const std::vector<CellRect> changed = test::randomRects(random, before.geometry(), 5);
+    for (const CellRect& each : changed) {
+      const CellRect rect = each.intersection(before.geometry().rect());
+      for (int row = rect.row; row < rect.row + rect.height; ++row)
+        for (int column = rect.column; column < rect.column + rect.width; ++column)
+          weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 3);
+    }
     auto after = std::make_shared<CostGrid>(weights, before.classes(), before.motion());
     after->setRevision(before.revision() + 1);
 

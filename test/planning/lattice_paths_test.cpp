@@ -209,7 +209,7 @@ TEST_P(LatticePaths, AreThoseOfAFreshPlannerAfterUpdates) {
         for (int column = changed.column; column < changed.column + changed.width; ++column)
           weights[Cell{column, row}] = random() % 2 == 0 ? 2 : CostGrid::kBlocked;
       map = keeping(CostGrid(weights, map->classes(), map->motion()), edit);
-      planner->update(map, changed, StopToken());
+      planner->update(map, {changed}, StopToken());
       const auto fresh = makePlanner(GetParam(), {});
       fresh->prepare(map, StopToken());
       const SearchRequest request{test::randomCell(random, map->geometry()),

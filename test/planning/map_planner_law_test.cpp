@@ -164,7 +164,7 @@ TEST(MapPlannerLaw, AnUpdatedMapIsPlannedLikeAFreshOne) {
       const Cell cell = test::randomCell(random, map.geometry());
       map[cell] = static_cast<std::int8_t>(map[cell] == 100 ? 0 : 100);
       const auto now = std::make_shared<const OccupancyGrid>(map);
-      updated.updateMap(now, {cell.column, cell.row, 1, 1});
+      updated.updateMap(now, {{cell.column, cell.row, 1, 1}});
       PathPlanner fresh(options);
       fresh.setMap(now);
       const Plan a = updated.plan(request);

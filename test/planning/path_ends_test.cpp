@@ -110,9 +110,9 @@ TEST(PathEnds, WhatOneRequestKeepsIsNotKeptForTheNext) {
   EXPECT_EQ(planner.plan(at_border).path.poses.size(), 7U);
   auto walled = std::make_shared<OccupancyGrid>(*map);
   for (int row = 0; row < 7; ++row) (*walled)[grid::Cell{3, row}] = 100;
-  planner.updateMap(walled, {3, 0, 1, 7});
+  planner.updateMap(walled, {{3, 0, 1, 7}});
   EXPECT_EQ(planner.plan(at_border).status, Status::UNREACHABLE);
-  planner.updateMap(map, {3, 0, 1, 7});
+  planner.updateMap(map, {{3, 0, 1, 7}});
   EXPECT_EQ(planner.plan(at_border).status, Status::FOUND);
   const Plan inside = planner.plan({poseAt(1.5, 1.5), poseAt(5.5, 1.5), false});
   ASSERT_EQ(inside.status, Status::FOUND);

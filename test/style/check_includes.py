@@ -29,6 +29,7 @@ LENT = {
     "base/deflate.h": {"grid", "planners"},
     "base/zeroed_array.h": {"planners"},
     "grid/float_decimal.h": {"ros_common"},
+    "grid/map_differences.h": {"ros_common"},
     "grid/formats/rectangle_map_file.h": {"planners"},
     "planners/any_angle/theta_star.h": {"study"},  # the base of its published Theta*
     "planners/astar/a_star.h": {"study"},          # the base of its published A*

@@ -21,6 +21,7 @@ CONTEXT = {
                 "extern const OccupancyBricks& bricks; extern ProjectionOptions options;",
     "end_segments.h": "extern const CostGrid& costs; extern Eigen::Vector2d pose, centre;",
     "bit_maps.h": "extern const CostGrid& map;",
+    "map_differences.h": "extern const OccupancyGrid before, after;",
     "bucket_queue.h": "extern SearchKey f, f_of_the_start; extern unsigned width_shift;"
                       "extern BucketQueue::Index index;",
     "natural_moves.h": "extern Window window; extern unsigned d;",

@@ -142,4 +142,17 @@ CostGrid randomInflated(std::mt19937& random, const GridGeometry& geometry,
   return *builder.downsampled(StopToken());
 }
 
+std::vector<grid::CellRect> randomRects(std::mt19937& random, const grid::GridGeometry& geometry,
+                                        int largest_side) {
+  const auto side = [&] { return 1 + static_cast<int>(random() % unsigned(largest_side)); };
+  std::vector<grid::CellRect> rects;
+  for (unsigned count = random() % 7; count > 0; --count) {
+    grid::Cell low = randomCell(random, geometry);
+    if (random() % 4 == 0) low.column = random() % 2 == 0 ? -1 : geometry.width() - 1;
+    if (random() % 4 == 0) low.row = random() % 2 == 0 ? -1 : geometry.height() - 1;
+    rects.push_back({low.column, low.row, side(), side()});
+  }
+  return rects;
+}
+
 }  // namespace grid_path_planner::test

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <random>
+#include <vector>
 
 #include "grid_path_planner/costmap/cost_grid.h"
 #include "grid_path_planner/grid/occupancy.h"
@@ -25,5 +26,10 @@ costmap::CostGrid randomInflated(std::mt19937& random, const grid::GridGeometry&
                                  const costmap::MotionModel& motion);
 
 grid::Cell randomCell(std::mt19937& random, const grid::GridGeometry& geometry);
+
+// What may change at once: none to six rectangles of up to `largest_side` cells a side, anywhere in
+// the map, at its corners or over its edges; they may overlap.
+std::vector<grid::CellRect> randomRects(std::mt19937& random, const grid::GridGeometry& geometry,
+                                        int largest_side);
 
 }  // namespace grid_path_planner::test

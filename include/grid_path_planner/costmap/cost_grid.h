@@ -80,17 +80,17 @@ class CostGrid {
 
   // The cells in which two maps differ; `classes` lies in `weights`.
   struct Change {
-    grid::CellRect weights;
-    grid::CellRect classes;
+    std::vector<grid::CellRect> weights;
+    std::vector<grid::CellRect> classes;
   };
 
-  // Changes the map, which equals `before`, in place, in time proportional to `rect` (the first
-  // time, to the map). write(weights, classes) writes cells of `rect` only; if it throws, the map
-  // must not be used any more. Precondition: nobody else holds the map.
+  // Changes the map, which equals `before`, in place, in time proportional to `rects` (the first
+  // time, to the map). write(weights, classes) writes cells of them only; if it throws, the map must
+  // not be used any more. Precondition: nobody else holds the map; `rects` are disjoint.
   template <class Write>
-  void edit(const CostGrid& before, const grid::CellRect& rect, Write&& write) {
+  void edit(const CostGrid& before, const std::vector<grid::CellRect>& rects, Write&& write) {
     write(weights_, classes_);
-    finishEdit(before, rect);
+    finishEdit(before, rects);
   }
 
   // Makes the map equal to `with`, which differs from it by `change`, in time proportional to that;
@@ -100,7 +100,7 @@ class CostGrid {
  private:
   struct Derived;
 
-  void finishEdit(const CostGrid& before, const grid::CellRect& rect);
+  void finishEdit(const CostGrid& before, const std::vector<grid::CellRect>& rects);
   void ownDerived();
 
   grid::Grid<Weight> weights_;

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/costmap/cost_grid.h"
@@ -34,7 +35,8 @@ class CostmapBuilder {
 
   void setMap(std::shared_ptr<const grid::OccupancyGrid> map);
   // `map` has the geometry of the current one and differs from it only inside `changed`.
-  void updateMap(std::shared_ptr<const grid::OccupancyGrid> map, const grid::CellRect& changed);
+  void updateMap(std::shared_ptr<const grid::OccupancyGrid> map,
+                 const std::vector<grid::CellRect>& changed);
 
   // The inflated costmap before the kernel, and the one that the kernel makes of it (the same object
   // where the kernel is 1). Each call computes both. Throw Stopped; the next call goes on.
@@ -42,10 +44,10 @@ class CostmapBuilder {
   std::shared_ptr<const CostGrid> fullResolution(const base::StopToken& stop);
   std::shared_ptr<const CostGrid> downsampled(const base::StopToken& stop);
 
-  // The cells in which each of the two differs from that of the revision before: all cells after
-  // setMap().
-  const grid::CellRect& fullResolutionChange() const { return full_change_; }
-  const grid::CellRect& downsampledChange() const { return downsampled_change_; }
+  // The cells in which each of the two differs from that of the revision before, disjoint: all cells
+  // after setMap().
+  const std::vector<grid::CellRect>& fullResolutionChange() const { return full_change_; }
+  const std::vector<grid::CellRect>& downsampledChange() const { return downsampled_change_; }
 
   const CostmapOptions& options() const { return options_; }
   const KeptDistances& keptDistances() const { return kept_; }
@@ -56,17 +58,18 @@ class CostmapBuilder {
   std::unique_ptr<CostGrid> buildDownsampled(const CostGrid& full,
                                              const base::StopToken& stop) const;
   void updateFullResolution(const base::StopToken& stop);
-  grid::CellRect rewriteWeights(const ClassChanges& changes, const base::StopToken& stop);
+  std::vector<grid::CellRect> rewriteWeights(const std::vector<ClassChanges>& changes,
+                                             const base::StopToken& stop);
   void updateDownsampled(const base::StopToken& stop);
 
   CostmapOptions options_;
   KeptDistances kept_;
   std::shared_ptr<const grid::OccupancyGrid> map_;
-  std::shared_ptr<const Inflations> inflations_;  // for the resolution of map_
-  grid::CellRect full_dirty_;                     // cells of map_ that changed since full_
-  grid::CellRect downsampled_dirty_;              // cells of full_ that changed since downsampled_
-  grid::CellRect full_change_;
-  grid::CellRect downsampled_change_;
+  std::shared_ptr<const Inflations> inflations_;   // for the resolution of map_
+  std::vector<grid::CellRect> full_dirty_;         // cells of map_ that changed since full_
+  std::vector<grid::CellRect> downsampled_dirty_;  // cells of full_ that did since downsampled_
+  std::vector<grid::CellRect> full_change_;
+  std::vector<grid::CellRect> downsampled_change_;
   grid::DoubleBuffered<CostGrid, CostGrid::Change> full_;
   grid::DoubleBuffered<CostGrid, CostGrid::Change> downsampled_;  // empty where the kernel is 1
   std::uint64_t revision_ = 0;

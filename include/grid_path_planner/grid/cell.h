@@ -1,10 +1,13 @@
-// A cell of a map by column and row, a cell by its position in row-major memory, and a rectangle of
-// cells. The three cannot be mixed up: none converts to another without a geometry.
+// A cell of a map by column and row, a cell by its position in row-major memory, a rectangle of
+// cells, and lists of these. A cell, its position and a rectangle cannot be mixed up: none converts to
+// another without a geometry.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <ostream>
+#include <vector>
 
 namespace grid_path_planner::grid {
 
@@ -60,5 +63,19 @@ struct CellRect {
     return a.column == b.column && a.row == b.row && a.width == b.width && a.height == b.height;
   }
 };
+
+// What changed of a map is a list of rectangles. Whoever takes one takes any: rectangles that
+// overlap, empty ones, none at all. These make lists that are worth their length:
+
+constexpr std::size_t kMostRects = 256;
+
+// Disjoint rectangles, none empty and at most kMostRects, that hold the cells of `rects`, and others
+// near them where that joins rectangles: as many in the worst case as lie in the hull of all. Lists
+// that are so already stay as they are. Takes time in proportion to the list.
+std::vector<CellRect> disjointRects(const std::vector<CellRect>& rects);
+
+// disjointRects() of the rectangles grown by `margin` cells on every side, of the cells in `within`.
+std::vector<CellRect> grownRects(const std::vector<CellRect>& rects, int margin,
+                                 const CellRect& within);
 
 }  // namespace grid_path_planner::grid

@@ -1,16 +1,16 @@
-// Double buffering: the newest map of a series in which each differs from the one before in a
-// rectangle, made in time proportional to the rectangles. Map: a Grid<T>, or a class with a
-// copyCells() of its own, which may take another type of Change than a rectangle.
+// Double buffering: the newest map of a series in which each differs from the one before in a few
+// rectangles, made in time proportional to these. Map: a Grid<T>, or a class with a copyCells() of
+// its own, which may take another type of Change than a list of rectangles.
 //
 //   DoubleBuffered<OccupancyGrid> maps;
 //   maps.reset(std::make_unique<OccupancyGrid>(map));
 //   reader = maps.current();                              // does not change
-//   maps.advance(changed, [&](OccupancyGrid& next) { next[cell] = 100; });
+//   maps.advance({changed}, [&](OccupancyGrid& next) { next[cell] = 100; });
 //   reader = maps.current();                              // the next one
 //
-// Two maps alternate: the rectangle that the previous map missed is copied into it, and then it is
-// written. Where a reader still holds the previous map, the current one is copied instead. So a
-// change costs time in proportion to its rectangle as long as every reader drops its map before the
+// Two maps alternate: what the previous map missed is copied into it, and then it is written. Where a
+// reader still holds the previous map, the current one is copied instead. So a change costs time in
+// proportion to its rectangles as long as every reader drops its map before the
 // second change after it. Memory: two maps from the first change on.
 //
 // For one thread; the maps returned may be read, and released, in any.
@@ -20,6 +20,7 @@
 #include <atomic>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "grid_path_planner/grid/grid.h"
 #include "grid_path_planner/grid/prefetch.h"
@@ -35,7 +36,13 @@ void copyCells(const Grid<T>& from, const CellRect& rect, Grid<T>& to) {
     std::copy_n(from.row(row) + rect.column, rect.width, to.row(row) + rect.column);
 }
 
-template <class Map, class Change = CellRect>
+// Precondition: each of `rects` does.
+template <class T>
+void copyCells(const Grid<T>& from, const std::vector<CellRect>& rects, Grid<T>& to) {
+  for (const CellRect& rect : rects) copyCells(from, rect, to);
+}
+
+template <class Map, class Change = std::vector<CellRect>>
 class DoubleBuffered {
  public:
   // Null before reset().

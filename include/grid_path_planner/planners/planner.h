@@ -95,8 +95,8 @@ class Planner {
 
   // `map` differs from the prepared one only inside `changed`, and its revision is the next one.
   // With any other map this is prepare(); with the prepared map itself it does nothing.
-  void update(std::shared_ptr<const costmap::CostGrid> map, const grid::CellRect& changed,
-              const base::StopToken& stop);
+  void update(std::shared_ptr<const costmap::CostGrid> map,
+              const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
 
   // Searches take longer until background work is done. An optimal planner finds the same cost
   // before and after, though perhaps another path of that cost.
@@ -112,7 +112,7 @@ class Planner {
   const costmap::CostGrid& map() const { return *map_; }
   // The same, for a planner inside this one.
   const std::shared_ptr<const costmap::CostGrid>& sharedMap() const { return map_; }
-  // The map that update() replaces. Precondition: called by doUpdate().
+  // The map that update() replaces, before all of its changes. Precondition: called by doUpdate().
   const costmap::CostGrid& previousMap() const { return *map_before_; }
 
   // What a user can do where bytesFor() exceeds the limit.
@@ -124,7 +124,10 @@ class Planner {
   // For doPrepare(), where it finds that the map cannot be searched.
   void refuse(std::string reason) { refusal_ = std::move(reason); }
   std::size_t memoryLimit() const { return memory_limit_; }
-  virtual void doUpdate(const grid::CellRect&, const base::StopToken& stop) { doPrepare(stop); }
+  // `changed`: disjoint rectangles in the map, none empty.
+  virtual void doUpdate(const std::vector<grid::CellRect>&, const base::StopToken& stop) {
+    doPrepare(stop);
+  }
   // Precondition: start and goals are in the map and passable. May throw Stopped; TIMEOUT or
   // CANCELLED with the statistics so far is better.
   virtual SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) = 0;

@@ -117,7 +117,8 @@ class PathPlanner {
   void setMap(std::shared_ptr<const grid::OccupancyGrid> map);
   // `map` has the geometry of the present one and differs from it only inside `changed`. Takes time
   // in proportion to `changed`, as does the update of the costmaps by the next call.
-  void updateMap(std::shared_ptr<const grid::OccupancyGrid> map, const grid::CellRect& changed);
+  void updateMap(std::shared_ptr<const grid::OccupancyGrid> map,
+                 const std::vector<grid::CellRect>& changed);
   bool hasMap() const { return map_ != nullptr; }
   const std::shared_ptr<const grid::OccupancyGrid>& map() const { return map_; }
 

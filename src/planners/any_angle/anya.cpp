@@ -10,7 +10,7 @@ namespace grid_path_planner::planners {
 
 using base::Status, base::StopToken;
 using costmap::BitMaps, costmap::passableCellAt, costmap::SegmentPoint, costmap::waypointOf;
-using grid::Cell, grid::GridGeometry;
+using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
@@ -51,9 +51,10 @@ void Anya::doPrepare(const StopToken& stop) {
   lattice_ = latticePlannerFor(map(), stop);
 }
 
-void Anya::doUpdate(const grid::CellRect& changed, const StopToken& stop) {
+void Anya::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
   rows_ = &map().bitMaps(stop).rows;
-  if (lattice_) lattice_->update(map(), changed, stop);
+  if (!lattice_) return;
+  for (const CellRect& rect : changed) lattice_->update(map(), rect, stop);
 }
 
 SearchResult Anya::doSearch(const SearchRequest& request, const StopToken& stop) {

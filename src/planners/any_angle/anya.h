@@ -14,6 +14,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "grid_path_planner/planners/planner.h"
 
@@ -34,7 +35,7 @@ class Anya : public Planner {
 
  private:
   void doPrepare(const base::StopToken& stop) override;
-  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
+  void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
   const costmap::BitMap* rows_ = nullptr;

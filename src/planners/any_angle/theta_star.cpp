@@ -11,7 +11,7 @@ namespace grid_path_planner::planners {
 
 using base::Statistics, base::Status, base::StopPoll, base::StopToken, base::ZeroedArray;
 using costmap::BitMaps, costmap::lineCostWithin, costmap::SegmentPoint, costmap::waypointOf;
-using grid::Cell, grid::GridGeometry;
+using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
@@ -44,8 +44,8 @@ void ThetaStar::doPrepare(const StopToken& stop) {
   doUpdate({}, stop);
 }
 
-void ThetaStar::doUpdate(const grid::CellRect& changed, const StopToken& stop) {
-  if (!changed.empty()) masks_.update(map(), changed, stop);
+void ThetaStar::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
+  for (const CellRect& rect : changed) masks_.update(map(), rect, stop);
   bits_ = map().uniform() ? &map().bitMaps(stop) : nullptr;
   const GridGeometry& original = map().original();
   centred_ = {original.width() / map().kernel(), original.height() / map().kernel()};

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "base/zeroed_array.h"
 #include "grid_path_planner/costmap/line_of_sight.h"
@@ -82,7 +83,7 @@ class ThetaStar : public Planner {
 
  private:
   void doPrepare(const base::StopToken& stop) override;
-  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
+  void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
   struct Entry {

@@ -97,7 +97,7 @@ void AStar::doPrepare(const StopToken& stop) {
   tables_.prepare(sharedMap());
 }
 
-void AStar::doUpdate(const CellRect& changed, const StopToken& stop) {
+void AStar::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
   if (strictly_ordered_)
     in_order_.update(map(), changed, stop);
   else

@@ -10,6 +10,8 @@
 // (best_first_search.h), at several times the cost.
 #pragma once
 
+#include <vector>
+
 #include "grid_path_planner/planners/a_star_options.h"
 #include "grid_path_planner/planners/planner.h"
 #include "planners/astar/best_first_search.h"
@@ -42,7 +44,7 @@ class AStar : public Planner {
  private:
   std::string lessMemoryAdvice() const override;
   void doPrepare(const base::StopToken& stop) override;
-  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
+  void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
   SearchResult planByBuckets(const SearchRequest& request, const base::StopToken& stop);
   SearchResult planWithTables(const SearchRequest& request, const base::StopToken& stop);

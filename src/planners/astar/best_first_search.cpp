@@ -14,8 +14,9 @@ void BestFirstSearch::prepare(const CostGrid& map, const StopToken& stop) {
   stamp_.restart();
 }
 
-void BestFirstSearch::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
-  masks_.update(map, changed, stop);
+void BestFirstSearch::update(const CostGrid& map, const std::vector<CellRect>& changed,
+                             const StopToken& stop) {
+  for (const CellRect& rect : changed) masks_.update(map, rect, stop);
 }
 
 void BestFirstSearch::beginQuery() {

@@ -30,7 +30,7 @@ class BestFirstSearch {
 
   // Throws Stopped.
   void prepare(const costmap::CostGrid& map, const base::StopToken& stop);
-  void update(const costmap::CostGrid& map, const grid::CellRect& changed,
+  void update(const costmap::CostGrid& map, const std::vector<grid::CellRect>& changed,
               const base::StopToken& stop);
 
   enum class GoalTest { WHEN_EXPANDED, WHEN_GENERATED };

@@ -14,8 +14,9 @@ void BucketSearch::prepare(const CostGrid& map, const StopToken& stop) {
     makeNodes(wide_, map);
 }
 
-void BucketSearch::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
-  moves_.update(map, changed, stop);
+void BucketSearch::update(const CostGrid& map, const std::vector<CellRect>& changed,
+                          const StopToken& stop) {
+  for (const CellRect& rect : changed) moves_.update(map, rect, stop);
 }
 
 // A winding path may still cost more.

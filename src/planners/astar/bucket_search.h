@@ -37,7 +37,7 @@ class BucketSearch {
 
   // Throw Stopped.
   void prepare(const costmap::CostGrid& map, const base::StopToken& stop);
-  void update(const costmap::CostGrid& map, const grid::CellRect& changed,
+  void update(const costmap::CostGrid& map, const std::vector<grid::CellRect>& changed,
               const base::StopToken& stop);
 
   // The moves of the prepared map.

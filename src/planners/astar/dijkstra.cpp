@@ -29,7 +29,7 @@ void Dijkstra::doPrepare(const StopToken& stop) {
     by_buckets_.prepare(map(), stop);
 }
 
-void Dijkstra::doUpdate(const CellRect& changed, const StopToken& stop) {
+void Dijkstra::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
   if (strictly_ordered_)
     in_order_.update(map(), changed, stop);
   else

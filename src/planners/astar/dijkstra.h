@@ -8,6 +8,8 @@
 // comparison of the two is not one of their open lists.
 #pragma once
 
+#include <vector>
+
 #include "grid_path_planner/planners/a_star_options.h"
 #include "grid_path_planner/planners/planner.h"
 #include "planners/astar/best_first_search.h"
@@ -25,7 +27,7 @@ class Dijkstra : public Planner {
 
  private:
   void doPrepare(const base::StopToken& stop) override;
-  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
+  void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
   bool strictly_ordered_;

@@ -11,7 +11,7 @@ namespace grid_path_planner::planners {
 
 using base::Status, base::Stopped, base::StopReason, base::StopToken;
 using costmap::Connectivity, costmap::CostGrid, costmap::DiagonalCost, costmap::MotionModel;
-using grid::Cell, grid::CellRect, grid::Grid, grid::Occupancy;
+using grid::Cell, grid::CellRect, grid::Grid, grid::grownRects, grid::Occupancy;
 
 namespace {
 
@@ -137,7 +137,7 @@ void Planner::prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop
   prepared_ = true;
 }
 
-void Planner::update(std::shared_ptr<const CostGrid> map, const CellRect& changed,
+void Planner::update(std::shared_ptr<const CostGrid> map, const std::vector<CellRect>& changed,
                      const StopToken& stop) {
   if (prepared_ && map == map_) return;
   const bool follows = prepared_ && refusal_.empty() && map->geometry() == map_->geometry() &&
@@ -145,7 +145,7 @@ void Planner::update(std::shared_ptr<const CostGrid> map, const CellRect& change
   if (!follows || !reasonAgainst(*map).empty()) return prepare(std::move(map), stop);
   map_before_ = std::exchange(map_, std::move(map));
   prepared_ = false;
-  doUpdate(changed, stop);
+  doUpdate(grownRects(changed, 0, map_->geometry().rect()), stop);
   prepared_ = true;
   map_before_.reset();
 }

@@ -338,8 +338,8 @@ void JumpPoint::doPrepare(const StopToken& stop) {
   jump_points_.build(map().bitMaps(stop), stop);
 }
 
-void JumpPoint::doUpdate(const CellRect& changed, const StopToken& stop) {
-  jump_points_.update(map().bitMaps(stop), changed, stop);
+void JumpPoint::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
+  for (const CellRect& rect : changed) jump_points_.update(map().bitMaps(stop), rect, stop);
 }
 
 template <class Scale>

@@ -32,7 +32,7 @@ class JumpPoint : public Planner {
 
  private:
   void doPrepare(const base::StopToken& stop) override;
-  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
+  void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
   template <class Key>

@@ -90,10 +90,12 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
   jumps_ready_ = true;
 }
 
-void WeightedJumpPoint::doUpdate(const CellRect& changed, const StopToken& stop) {
-  if (jumpsSupport(map().motion())) pruning_.update(map(), changed);
+void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
+  if (jumpsSupport(map().motion()))
+    for (const CellRect& rect : changed) pruning_.update(map(), rect);
   if (shouldJump() != jumps_ready_) return doPrepare(stop);
-  if (jumps_ready_) jumps_.update(map(), changed, stop);
+  if (jumps_ready_)
+    for (const CellRect& rect : changed) jumps_.update(map(), rect, stop);
   if (a_star_) a_star_->update(sharedMap(), changed, stop);
 }
 

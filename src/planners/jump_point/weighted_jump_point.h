@@ -14,6 +14,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "grid_path_planner/planners/a_star_options.h"
 #include "grid_path_planner/planners/planner.h"
@@ -38,7 +39,7 @@ class WeightedJumpPoint : public Planner {
  private:
   std::string lessMemoryAdvice() const override;
   void doPrepare(const base::StopToken& stop) override;
-  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
+  void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
   bool shouldJump() const;

@@ -96,8 +96,8 @@ void RectangleMapPlanner::doPrepare(const StopToken& stop) {
   }
 }
 
-void RectangleMapPlanner::doUpdate(const CellRect& changed, const StopToken& stop) {
-  rectangles_.edit(map().bitMaps(stop).rows, changed, stop);
+void RectangleMapPlanner::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
+  for (const CellRect& rect : changed) rectangles_.edit(map().bitMaps(stop).rows, rect, stop);
 }
 
 void RectangleMapPlanner::addPath(const RectangleRoute& route, const SearchRequest& request,

@@ -13,6 +13,8 @@
 // updates the path that a fresh planner finds.
 #pragma once
 
+#include <vector>
+
 #include "grid_path_planner/planners/planner.h"
 #include "grid_path_planner/planners/rectangle_graph.h"
 #include "grid_path_planner/planners/rectangle_map_options.h"
@@ -33,7 +35,7 @@ class RectangleMapPlanner : public Planner {
 
  private:
   void doPrepare(const base::StopToken& stop) override;
-  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
+  void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
   void addPath(const RectangleRoute& route, const SearchRequest& request,

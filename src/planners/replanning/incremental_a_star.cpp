@@ -42,10 +42,10 @@ void IncrementalAStar::doPrepare(const StopToken& stop) {
   tree_->prepare(map(), moves_);
 }
 
-void IncrementalAStar::doUpdate(const CellRect& changed, const StopToken& stop) {
+void IncrementalAStar::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
   if (a_star_) return a_star_->update(sharedMap(), changed, stop);
-  moves_.update(map(), changed, stop);
-  tree_->update(previousMap(), map(), changed);
+  for (const CellRect& rect : changed) moves_.update(map(), rect, stop);
+  for (const CellRect& rect : changed) tree_->update(previousMap(), map(), rect);
 }
 
 SearchResult IncrementalAStar::doSearch(const SearchRequest& request, const StopToken& stop) {

@@ -4,7 +4,7 @@
 //   IncrementalAStar planner;
 //   planner.prepare(map, stop);
 //   planner.search({start, {goal}}, stop);           // a whole search, backwards from the goal
-//   planner.update(changed_map, changed, stop);
+//   planner.update(changed_map, {changed}, stop);
 //   planner.search({moved_start, {goal}}, stop);     // a search around the change
 //
 // The g-values of the first search are kept (backward_search_tree.h). Where the start's path is
@@ -24,6 +24,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "grid_path_planner/planners/planner.h"
 #include "planners/astar/a_star.h"
@@ -42,7 +43,7 @@ class IncrementalAStar : public Planner {
 
  private:
   void doPrepare(const base::StopToken& stop) override;
-  void doUpdate(const grid::CellRect& changed, const base::StopToken& stop) override;
+  void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
   static std::size_t treeBytes(const grid::GridGeometry& geometry);

@@ -43,7 +43,7 @@ void PrecomputedHeuristic::prepare(std::shared_ptr<const CostGrid> map) {
 }
 
 void PrecomputedHeuristic::update(const CostGrid& before, std::shared_ptr<const CostGrid> map,
-                                  const CellRect& changed) {
+                                  const std::vector<CellRect>& changed) {
   if (landmarks_)
     landmarks_->update(before, std::move(map), changed);
   else if (exact_)

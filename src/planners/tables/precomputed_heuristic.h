@@ -14,6 +14,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "grid_path_planner/planners/a_star_options.h"
 #include "planners/tables/exact_table.h"
@@ -38,7 +39,7 @@ class PrecomputedHeuristic {
   // As those of PrecomputedTable; nothing where there is no table to make.
   void prepare(std::shared_ptr<const costmap::CostGrid> map);
   void update(const costmap::CostGrid& before, std::shared_ptr<const costmap::CostGrid> map,
-              const grid::CellRect& changed);
+              const std::vector<grid::CellRect>& changed);
   void wait(const base::StopToken& stop) const;
   BackgroundWork work();
 

@@ -51,18 +51,18 @@ class PrecomputedTable {
     begin(std::move(map));
   }
 
-  // `map` differs from `before`, the one of the last call, only inside `changed`.
+  // `map` differs from `before`, the one of the last call, only inside `changed`: rectangles in the
+  // map.
   void update(const costmap::CostGrid& before, std::shared_ptr<const costmap::CostGrid> map,
-              const grid::CellRect& changed) {
+              const std::vector<grid::CellRect>& changed) {
     adopt();
-    const grid::CellRect rect = changed.intersection(geometry_.rect());
-    const grid::CellRect decreased = costDecreases(before, *map, rect);
-    changed_cells_ += static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
-    if (!decreased.empty() && made_) decreases_.add(made_->table, geometry_, decreased);
-    if (begun_)
-      since_begin_.push_back({rect, decreased});
-    else if (made_ &&
-             (!decreases_.usable() || looseAfter(geometry_, changed_cells_, decreases_.hull())))
+    for (const grid::CellRect& rect : changed) {
+      const Change change = {rect, costDecreases(before, *map, rect)};
+      add(change);
+      if (begun_) since_begin_.push_back(change);
+    }
+    if (!begun_ && made_ &&
+        (!decreases_.usable() || looseAfter(geometry_, changed_cells_, decreases_.hull())))
       begin(std::move(map));
   }
 
@@ -120,12 +120,16 @@ class PrecomputedTable {
     made_ = std::move(made);
     decreases_ = Decreases();
     changed_cells_ = 0;
-    for (const Change& change : since_begin_) {
-      changed_cells_ += static_cast<std::size_t>(change.rect.width) *
-                        static_cast<std::size_t>(change.rect.height);
-      if (!change.decreased.empty()) decreases_.add(made_->table, geometry_, change.decreased);
-    }
+    for (const Change& change : since_begin_) add(change);
     since_begin_.clear();
+  }
+
+  // To what changed since made_ was begun, if there is one.
+  void add(const Change& change) {
+    changed_cells_ +=
+        static_cast<std::size_t>(change.rect.width) * static_cast<std::size_t>(change.rect.height);
+    if (made_ && !change.decreased.empty())
+      decreases_.add(made_->table, geometry_, change.decreased);
   }
 
   Make make_;

@@ -3,10 +3,10 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <cstring>
 #include <sstream>
 #include <utility>
 
+#include "grid/map_differences.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/incoming/claimed_lengths.h"
@@ -15,6 +15,9 @@ namespace grid_path_planner::nodes {
 
 using base::InputError;
 using grid::CellRect;
+using grid::checkOccupancyValues;
+using grid::differences;
+using grid::disjointRects;
 using grid::OccupancyGrid;
 
 namespace {
@@ -39,8 +42,23 @@ bool isHeartbeat(const map_msgs::OccupancyGridUpdate& update) {
   return update.width == 0 && update.height == 0 && update.data.empty();
 }
 
-bool sameRow(const OccupancyGrid& a, const OccupancyGrid& b, int row) {
-  return std::memcmp(a.row(row), b.row(row), static_cast<std::size_t>(a.width())) == 0;
+// Of two changes one after the other; nullopt: all cells.
+std::optional<std::vector<CellRect>> joined(std::optional<std::vector<CellRect>> first,
+                                            const std::vector<CellRect>& next) {
+  if (!first) return std::nullopt;
+  first->insert(first->end(), next.begin(), next.end());
+  return disjointRects(*first);
+}
+
+// Copies the cells of `rects` and checks them.
+void copyChecked(const std::vector<std::int8_t>& values, const std::vector<CellRect>& rects,
+                 OccupancyGrid& map) {
+  for (const CellRect& rect : rects) {
+    for (int row = rect.row; row < rect.row + rect.height; ++row)
+      std::copy_n(values.data() + static_cast<std::size_t>(row) * map.width() + rect.column,
+                  rect.width, map.row(row) + rect.column);
+    checkOccupancyValues(map, rect);
+  }
 }
 
 }  // namespace
@@ -64,21 +82,6 @@ void applyUpdate(const map_msgs::OccupancyGridUpdate& update, const CellRect& re
   for (int row = 0; row < rect.height; ++row)
     std::copy_n(update.data.begin() + static_cast<std::ptrdiff_t>(row) * rect.width, rect.width,
                 map.row(rect.row + row) + rect.column);
-}
-
-CellRect changedCells(const OccupancyGrid& before, const OccupancyGrid& after) {
-  CellRect changed;
-  for (int row = 0; row < after.height(); ++row) {
-    if (sameRow(before, after, row)) continue;
-    const std::int8_t* a = before.row(row);
-    const std::int8_t* b = after.row(row);
-    int first = 0;
-    int last = after.width() - 1;
-    while (a[first] == b[first]) ++first;
-    while (a[last] == b[last]) --last;
-    changed = changed.hull({first, row, last - first + 1, 1});
-  }
-  return changed;
 }
 
 void MapReceiver::start(ros::NodeHandle nh, std::function<void()> on_change,
@@ -158,16 +161,26 @@ bool MapReceiver::isOlder(const MapEvent& event) const {
 
 void MapReceiver::use(const MapEvent& event) {
   const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
-  auto grid = std::make_unique<OccupancyGrid>(occupancyFromMessage(message));
-  const ReceivedMap before = latest();
-  std::optional<CellRect> changed;
   const std::string frame_id = frameName(message.header.frame_id);
-  if (before.grid && before.frame_id == frame_id && before.grid->geometry() == grid->geometry())
-    changed = changedCells(*before.grid, *grid);
-  grids_.reset(std::move(grid));
+  const auto changed = takeGrid(message, frame_id);
   store({nullptr, frame_id, message.header.stamp, event.getPublisherName()}, changed);
   std::lock_guard<std::mutex> lock(mutex_);
   lost_.clear();
+}
+
+std::optional<std::vector<CellRect>> MapReceiver::takeGrid(const nav_msgs::OccupancyGrid& message,
+                                                           const std::string& frame_id) {
+  const ReceivedMap before = latest();
+  if (!before.grid || before.frame_id != frame_id ||
+      before.grid->geometry() != geometryFromMessage(message.info) ||
+      before.grid->values().size() != message.data.size()) {
+    grids_.reset(std::make_unique<OccupancyGrid>(occupancyFromMessage(message)));
+    return std::nullopt;
+  }
+  std::vector<CellRect> changed = differences(*before.grid, message.data);
+  if (!changed.empty())
+    grids_.advance(changed, [&](OccupancyGrid& next) { copyChecked(message.data, changed, next); });
+  return changed;
 }
 
 void MapReceiver::noteLoss(const std::string& what) {
@@ -231,19 +244,20 @@ void MapReceiver::apply(const map_msgs::OccupancyGridUpdate& message) {
   if (!frame_id.empty() && frame_id != before.frame_id)
     throw InputError("an update in frame " + frame_id + " for a map in frame " + before.frame_id);
   const CellRect changed = checkedRect(*before.grid, message);
-  grids_.advance(changed, [&](OccupancyGrid& next) { applyUpdate(message, changed, next); });
-  store({nullptr, before.frame_id, message.header.stamp, before.publisher}, changed);
+  grids_.advance({changed}, [&](OccupancyGrid& next) { applyUpdate(message, changed, next); });
+  store({nullptr, before.frame_id, message.header.stamp, before.publisher},
+        std::vector<CellRect>{changed});
 }
 
-void MapReceiver::store(ReceivedMap map, const std::optional<CellRect>& changed) {
+void MapReceiver::store(ReceivedMap map, const std::optional<std::vector<CellRect>>& changed) {
   map.grid = grids_.current();
   std::lock_guard<std::mutex> lock(mutex_);
   map_ = std::move(map);
   refusal_.clear();
   for (std::optional<MapChange>& untaken : untaken_) {
-    const bool all = !changed || (untaken && !untaken->changed);
-    const CellRect since = untaken && untaken->changed ? *untaken->changed : CellRect{};
-    untaken = MapChange{map_, all ? std::nullopt : std::make_optional(since.hull(*changed))};
+    std::optional<std::vector<CellRect>> since = changed;
+    if (untaken && since) since = joined(untaken->changed, *since);
+    untaken = MapChange{map_, std::move(since)};
   }
 }
 

@@ -1,5 +1,8 @@
 // Receives the map: whole on `projected_map`, in pieces on `projected_map_updates`.
 //
+// A whole map that lies where the one before did costs one comparison with it, and what differs is
+// taken as a piece is.
+//
 // An invalid message is refused with an error that says why, and the map before it stays; so is a
 // piece outside the map. A piece older than the map is dropped: it is part of the map already
 // (unless the map is stamped later than now: then ROS time has jumped back). Maps handed out never
@@ -47,8 +50,8 @@ struct ReceivedMap {
 // What changed since the last call of take().
 struct MapChange {
   ReceivedMap map;
-  // The cells that may differ from those of the map before; none: all may.
-  std::optional<grid::CellRect> changed;
+  // The cells that may differ from those of the map before, disjoint; nullopt: all may.
+  std::optional<std::vector<grid::CellRect>> changed;
 };
 
 struct MapHeartbeat {
@@ -65,9 +68,6 @@ grid::CellRect checkedRect(const grid::OccupancyGrid& map,
 // Replaces them. Precondition: `rect` is checkedRect(map, update).
 void applyUpdate(const map_msgs::OccupancyGridUpdate& update, const grid::CellRect& rect,
                  grid::OccupancyGrid& map);
-
-// The smallest rectangle around the cells in which two maps of the same geometry differ.
-grid::CellRect changedCells(const grid::OccupancyGrid& before, const grid::OccupancyGrid& after);
 
 class MapReceiver {
  public:
@@ -105,13 +105,16 @@ class MapReceiver {
   void onMap(const MapEvent& event);
   void onUpdate(const UpdateEvent& event);
   void use(const MapEvent& event);
+  // Makes the grid of `message` the present one. What changed; nullopt where it lies elsewhere.
+  std::optional<std::vector<grid::CellRect>> takeGrid(const nav_msgs::OccupancyGrid& message,
+                                                      const std::string& frame_id);
   bool isOlder(const MapEvent& event) const;
   void noteLoss(const std::string& what);
   void subscribeToMaps();
   void askForAWholeMap();
   void apply(const map_msgs::OccupancyGridUpdate& message);
   // The map whose grid is the present one of grids_.
-  void store(ReceivedMap map, const std::optional<grid::CellRect>& changed);
+  void store(ReceivedMap map, const std::optional<std::vector<grid::CellRect>>& changed);
   void refuse(const std::string& topic, const std::string& reason);
 
   std::function<void()> on_change_, on_heartbeat_;

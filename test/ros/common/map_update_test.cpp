@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <random>
 
 #include "grid_path_planner/base/errors.h"
 #include "ros/common/map_receiver.h"
@@ -10,9 +9,6 @@
 namespace grid_path_planner::nodes {
 
 using base::InputError;
-using grid::CellIndex;
-using grid::CellRect;
-using grid::GridGeometry;
 using grid::OccupancyGrid;
 
 namespace {
@@ -53,29 +49,6 @@ TEST(MapUpdate, WrongSizesAndValuesAreRefused) {
   EXPECT_THROW(updatedMap(map, updateOf(0, 0, 2, 2, {0, 0, 0})), InputError);
   EXPECT_THROW(updatedMap(map, updateOf(0, 0, 1, 1, {101})), InputError);
   EXPECT_THROW(updatedMap(map, updateOf(0, 0, 1, 1, {-2})), InputError);
-}
-
-TEST(ChangedCells, AreTheSmallestRectangleAroundTheDifferences) {
-  const OccupancyGrid before = test::AsciiMap({"....", "....", "...."}).map;
-  EXPECT_TRUE(changedCells(before, before).empty());
-  const OccupancyGrid after = test::AsciiMap({"....", "..#.", ".#.."}).map;
-  EXPECT_EQ(changedCells(before, after), (CellRect{1, 1, 2, 2}));
-}
-
-TEST(ChangedCellsLaw, NothingOutsideDiffers) {
-  std::mt19937 random(5);
-  for (int trial = 0; trial < 200; ++trial) {
-    const GridGeometry geometry(9, 7, 1.0);
-    OccupancyGrid before(geometry, 0);
-    OccupancyGrid after = before;
-    std::uniform_int_distribution<std::uint32_t> anywhere(0, 62);
-    for (int i = 0; i < trial % 4; ++i) after[CellIndex(anywhere(random))] = 100;
-    const CellRect changed = changedCells(before, after);
-    for (std::uint32_t i = 0; i < geometry.size(); ++i)
-      if (!changed.contains(geometry.cell(CellIndex(i)))) {
-        EXPECT_EQ(before[CellIndex(i)], after[CellIndex(i)]) << "trial " << trial;
-      }
-  }
 }
 
 }  // namespace
