@@ -198,7 +198,7 @@ TEST_P(Optimality, CostsAreThoseOfBoostGraph) {
       planner->finishBackgroundWork(StopToken());
       ask(*planner, name, questions.front());
       if (questions.size() < 2) continue;
-      planner->update(questions.back().map, rect, StopToken());
+      planner->update(questions.back().map, {rect}, StopToken());
       planner->finishBackgroundWork(StopToken());
       ask(*planner, name + " updated", questions.back());
     }
