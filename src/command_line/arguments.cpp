@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <sstream>
 #include <type_traits>
 
@@ -98,15 +99,36 @@ std::vector<double> numbersOf(const std::string& name, const std::string& text, 
                    " numbers separated by commas, got '" + text + "'");
 }
 
+std::int64_t countFrom(const po::variables_map& values, const std::string& name) {
+  const std::string& text = values[name].as<std::string>();
+  const double number = numbersOf(name, text, 1, 1)[0];
+  if (number != std::floor(number) || number < 1.0 || number > 1e15)
+    throw InputError("--" + name + " must be a whole number from 1, got '" + text + "'");
+  return static_cast<std::int64_t>(number);
+}
+
 MapFileOptions readingOptionsFrom(const po::variables_map& values) {
   MapFileOptions options;
   options.warn = [](const std::string& warning) { std::cerr << "warning: " << warning << '\n'; };
+  options.plain_image.otsu = values.count("otsu") != 0;
+  if (values.count("columns") != 0)
+    options.plain_image.columns = static_cast<int>(
+        std::min<std::int64_t>(countFrom(values, "columns"), std::numeric_limits<int>::max()));
   if (values.count("resolution") == 0) return options;
   const std::string& text = values["resolution"].as<std::string>();
   options.resolution = numbersOf("resolution", text, 1, 1)[0];
   if (*options.resolution <= 0.0)
     throw InputError("--resolution must be a positive number of metres, got " + text);
   return options;
+}
+
+void describeReading(po::options_description& known) {
+  known.add_options()(
+      "otsu",
+      "an image without a YAML: free and occupied by the threshold that separates dark "
+      "and bright best")(
+      "columns", po::value<std::string>(),
+      "an image without a YAML: resampled to so many columns, rows in proportion");
 }
 
 void describePlannerOptions(po::options_description& known, const PlannerOptions& defaults) {

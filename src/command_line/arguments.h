@@ -26,7 +26,15 @@ bool parseArguments(int argc, char** argv, const boost::program_options::options
 std::vector<double> numbersOf(const std::string& name, const std::string& text, std::size_t fewest,
                               std::size_t most);
 
-// Options by --resolution, with warnings to the standard error. Throws InputError.
+// The value of --name. Throws InputError for anything but a whole number above 0.
+std::int64_t countFrom(const boost::program_options::variables_map& values,
+                       const std::string& name);
+
+// --otsu and --columns.
+void describeReading(boost::program_options::options_description& known);
+
+// Options by --resolution, --otsu and --columns, with warnings to the standard error. Throws
+// InputError.
 grid::MapFileOptions readingOptionsFrom(const boost::program_options::variables_map& values);
 
 // Adds an option --some-name for every option some_name of PlannerOptions, and --weights F,U,O.

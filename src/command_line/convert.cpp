@@ -40,6 +40,7 @@ po::options_description convertOptions() {
       "kernel-rule", po::value<std::string>(),
       "conservative: occupied if any cell is, else unknown if any is; filter2d: as the original "
       "study; default conservative");
+  describeReading(known);
   return known;
 }
 

@@ -13,14 +13,6 @@ namespace {
 
 namespace po = boost::program_options;
 
-std::int64_t countFrom(const po::variables_map& values, const std::string& name) {
-  const std::string& text = values[name].as<std::string>();
-  const double number = numbersOf(name, text, 1, 1)[0];
-  if (number != std::floor(number) || number < 1.0 || number > 1e15)
-    throw InputError("--" + name + " must be a whole number from 1, got '" + text + "'");
-  return static_cast<std::int64_t>(number);
-}
-
 bool asksForMergedRuns(const po::variables_map& values) {
   if (values.count("partition") == 0) return false;
   const std::string& name = values["partition"].as<std::string>();
@@ -63,6 +55,7 @@ po::options_description describeRectangles() {
       "memory-limit", po::value<std::string>(),
       "refuse a map that may need more, before it is cut [MB]; default: half of what is available")(
       "json", "print one JSON object instead of sentences");
+  describeReading(known);
   return known;
 }
 

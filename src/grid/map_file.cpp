@@ -87,7 +87,10 @@ OccupancyGrid readMap(const std::string& content, const std::string& file,
   const std::string extension = extensionOf(file);
   if (isBag(content, extension))
     throw InputError(file, "is a bag, which is read with ROS (grid_path_planner/ros/bag.h)");
-  if (isImage(content, extension)) return readImageFile(file, {}, 1.0, {}, options);
+  if (isImage(content, extension)) return readPlainImage(file, options);
+  if (!options.plain_image.none())
+    throw InputError(file,
+                     "is no image: a threshold by Otsu and a number of columns are for images");
   if (isMovingAi(content, extension)) return parseMovingAi(content, file, options);
   if (isRectangleMap(content, extension)) return parseRectangleMap(content, file, options);
   return readYamlMap(content, file, options);

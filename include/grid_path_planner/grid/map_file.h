@@ -26,11 +26,25 @@ constexpr std::size_t kLargestMapFile = std::size_t{1} << 30;  // bytes
 enum class MapMode { TRINARY, SCALE, RAW };
 const std::vector<std::pair<const char*, MapMode>>& choicesOf(MapMode);
 
+// How an image without a YAML becomes a map; Park (2013), appendix, has it with 32 to 256 columns.
+struct PlainImageOptions {
+  // Pixels above the threshold that separates dark and bright best are free, all others occupied
+  // (Otsu 1979); false: as map_server takes them.
+  bool otsu = false;
+  // Resampled, by the pixel nearest the middle of each cell, to so many columns and rows in
+  // proportion; 0: a cell a pixel.
+  int columns = 0;
+
+  bool none() const { return !otsu && columns == 0; }
+};
+
 struct MapFileOptions {
   // For files that have none of their own (MovingAI, image): 1 m cells and origin 0 by default. For
   // others they override.
   std::optional<double> resolution;
   std::optional<Origin> origin;
+  // Other files are refused with any of these.
+  PlainImageOptions plain_image;
   // Called with a message where a file is doubtful: a colour image, letters that the format does not
   // define.
   std::function<void(const std::string&)> warn;

@@ -1,8 +1,11 @@
 #include "grid/formats/image_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <vector>
 
@@ -129,33 +132,118 @@ std::string greyRows(const OccupancyGrid& map, MapMode mode,
   return grey;
 }
 
-}  // namespace
+// The pixels nearest the middles of cells.
+class Sampling {
+ public:
+  // `columns`: of cells; 0: a cell a pixel.
+  Sampling(const cv::Mat& image, int columns)
+      : image_(image),
+        offsets_(static_cast<std::size_t>(columns > 0 ? columns : image.cols)),
+        rows_(std::max(
+            1, static_cast<int>(std::lround(double(image.rows) * this->columns() / image.cols)))) {
+    for (int column = 0; column < this->columns(); ++column)
+      offsets_[static_cast<std::size_t>(column)] =
+          std::ptrdiff_t{nearest(column, this->columns(), image.cols)} * image.channels();
+  }
 
-OccupancyGrid readImageFile(const std::string& file, const PixelRule& rule, double resolution,
-                            const Origin& origin, MapFileOptions& options) {
+  int columns() const { return static_cast<int>(offsets_.size()); }
+  int rows() const { return rows_; }
+  // Row 0 is the image's last.
+  const std::uint8_t* line(int row) const {
+    return image_.ptr<std::uint8_t>(nearest(rows_ - 1 - row, rows_, image_.rows));
+  }
+  // From the line's begin to the pixel.
+  std::ptrdiff_t offset(int column) const { return offsets_[static_cast<std::size_t>(column)]; }
+
+ private:
+  static int nearest(int cell, int cells, int pixels) {
+    return static_cast<int>((2 * std::int64_t{cell} + 1) * pixels / (2 * std::int64_t{cells}));
+  }
+
+  const cv::Mat& image_;
+  std::vector<std::ptrdiff_t> offsets_;
+  int rows_;
+};
+
+struct GreyImage {
+  cv::Mat pixels;
+  int averaged;  // channels of a pixel that make its grey
+  bool has_alpha;
+};
+
+GreyImage readGrey(const std::string& file, MapMode mode, double resolution, const Origin& origin,
+                   MapFileOptions& options) {
   const auto checkSize = [&](int width, int height) {
     if (mapGeometry(file, width, height, resolution, origin, options).size() > kMostPixels)
       throw InputError(file, "is an image of " + std::to_string(width) + "x" +
                                  std::to_string(height) + " pixels, more than 2^30");
   };
-  const cv::Mat image = readPixels(file, {checkSize, options.limits}, options);
-  const int channels = image.channels();
-  const bool has_alpha = channels > kAlphaChannel;
-  const int averaged = has_alpha && rule.mode != MapMode::TRINARY ? kAlphaChannel : channels;
-  warnAboutColour(file, channels, averaged, options);
-  const GridGeometry geometry =
-      mapGeometry(file, image.cols, image.rows, resolution, origin, options);
-  options.limits.take(file, geometry.size());
-  options.limits.goOn(file);
+  GreyImage image{readPixels(file, {checkSize, options.limits}, options), 0, false};
+  const int channels = image.pixels.channels();
+  image.has_alpha = channels > kAlphaChannel;
+  image.averaged = image.has_alpha && mode != MapMode::TRINARY ? kAlphaChannel : channels;
+  warnAboutColour(file, channels, image.averaged, options);
+  return image;
+}
+
+// 0 or 100 for each cell, by the threshold between the greys of all cells.
+OccupancyGrid byOtsu(const GreyImage& image, const Sampling& sampling,
+                     const GridGeometry& geometry) {
+  cv::Mat grey(sampling.rows(), sampling.columns(), CV_8UC1);
+  for (int row = 0; row < sampling.rows(); ++row)
+    for (int column = 0; column < sampling.columns(); ++column) {
+      const std::uint8_t* pixel = sampling.line(row) + sampling.offset(column);
+      int sum = 0;
+      for (int channel = 0; channel < image.averaged; ++channel) sum += pixel[channel];
+      grey.at<std::uint8_t>(row, column) = static_cast<std::uint8_t>(sum / image.averaged);
+    }
+  cv::threshold(grey, grey, 0.0, 100.0, cv::THRESH_BINARY_INV | cv::THRESH_OTSU);
   OccupancyGrid map(geometry);
-  const PixelTable table(rule, averaged);
+  for (int row = 0; row < map.height(); ++row)
+    std::copy_n(grey.ptr<std::int8_t>(row), map.width(), map.row(row));
+  return map;
+}
+
+OccupancyGrid byRule(const GreyImage& image, const Sampling& sampling, const PixelRule& rule,
+                     const GridGeometry& geometry) {
+  OccupancyGrid map(geometry);
+  const PixelTable table(rule, image.averaged);
   for (int row = 0; row < map.height(); ++row) {
-    const std::uint8_t* pixel = image.ptr<std::uint8_t>(map.height() - 1 - row);
+    const std::uint8_t* line = sampling.line(row);
     std::int8_t* values = map.row(row);
-    for (int column = 0; column < map.width(); ++column, pixel += channels)
-      values[column] = occupancyOfPixel(pixel, averaged, has_alpha, table);
+    for (int column = 0; column < map.width(); ++column)
+      values[column] = occupancyOfPixel(line + sampling.offset(column), image.averaged,
+                                        image.has_alpha, table);
   }
   return map;
+}
+
+}  // namespace
+
+OccupancyGrid readImageFile(const std::string& file, const PixelRule& rule, double resolution,
+                            const Origin& origin, MapFileOptions& options) {
+  const GreyImage image = readGrey(file, rule.mode, resolution, origin, options);
+  const Sampling sampling(image.pixels, 0);
+  const GridGeometry geometry =
+      mapGeometry(file, sampling.columns(), sampling.rows(), resolution, origin, options);
+  options.limits.take(file, geometry.size());
+  options.limits.goOn(file);
+  return byRule(image, sampling, rule, geometry);
+}
+
+OccupancyGrid readPlainImage(const std::string& file, MapFileOptions& options) {
+  const PlainImageOptions& wanted = options.plain_image;
+  const GreyImage image = readGrey(file, MapMode::TRINARY, 1.0, {}, options);
+  if (wanted.columns > image.pixels.cols)
+    throw InputError(file, "has " + std::to_string(image.pixels.cols) +
+                               " columns of pixels, fewer than the " +
+                               std::to_string(wanted.columns) + " asked for");
+  const Sampling sampling(image.pixels, wanted.columns);
+  const GridGeometry geometry =
+      mapGeometry(file, sampling.columns(), sampling.rows(), 1.0, {}, options);
+  options.limits.take(file, (wanted.otsu ? 2 : 1) * geometry.size());
+  options.limits.goOn(file);
+  return wanted.otsu ? byOtsu(image, sampling, geometry) : byRule(image, sampling, {}, geometry);
 }
 
 std::string pgmOfMap(const OccupancyGrid& map, MapMode mode,

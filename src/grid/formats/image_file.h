@@ -27,6 +27,10 @@ struct PixelRule {
 OccupancyGrid readImageFile(const std::string& file, const PixelRule& rule, double resolution,
                             const Origin& origin, MapFileOptions& options);
 
+// The image `file` without a YAML, with cells of 1 m. Throws InputError naming the file where it is no
+// image that can be read, or has fewer columns than `options` ask for.
+OccupancyGrid readPlainImage(const std::string& file, MapFileOptions& options);
+
 // The bytes of a binary PGM of `map`. TRINARY: 254 free, 205 unknown, 0 occupied. RAW: the value,
 // 255 for -1. Throws InputError for SCALE, which would need transparency.
 std::string pgmOfMap(const OccupancyGrid& map, MapMode mode, const OccupancyThresholds& thresholds);
