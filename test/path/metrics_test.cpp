@@ -7,7 +7,9 @@
 #include <random>
 
 #include "support/ascii_map.h"
+#include "support/kept_distance.h"
 #include "support/path_through.h"
+#include "support/random_map.h"
 
 namespace grid_path_planner::path {
 
@@ -150,6 +152,27 @@ double sampledClearance(const Path& path, const OccupancyGrid& map, double step)
     for (int k = 0; k <= pieces; ++k) look(from + (to - from) * k / pieces);
   }
   return least;
+}
+
+// Long paths of short steps, where most segments are spared by what is known around those before, and
+// short paths of long ones; from maps full of obstacles to such with none.
+TEST(ClearanceLaw, WanderingPathsHaveThatOfAnIndependentJudge) {
+  std::mt19937 random(1419);
+  for (int trial = 0; trial < 80; ++trial) {
+    const double occupied =
+        std::pow(10.0, -std::uniform_real_distribution<double>(1.5, 4.5)(random));
+    const OccupancyGrid map = test::randomOccupancy(random, 150, occupied, 0.2);
+    const double step = trial % 2 == 0 ? 1.0 : 20.0;
+    std::uniform_real_distribution<double> place(-5.0, 155.0);
+    std::normal_distribution<double> move(0.0, step);
+    std::vector<Eigen::Vector2d> points = {{place(random), place(random)}};
+    while (points.size() < 1 + 200.0 / step)
+      points.push_back(points.back() + Eigen::Vector2d(move(random), move(random)));
+    const double none = 1e6;
+    const double judged = test::leastDistance(points, map, {}, none);
+    const double clearance = clearanceOf(pathThrough(points), map, {});
+    EXPECT_NEAR(std::min(clearance, none), judged, 1e-9) << "trial " << trial;
+  }
 }
 
 TEST(ClearanceLaw, IsTheLeastOverAllPointsAndCells) {

@@ -58,7 +58,7 @@ struct ProjectedMapOptions {
 
   double publish_rate = 5.0;  // Hz
   bool latch = true;
-  bool always_send_full_map = true;
+  bool always_send_full_map = false;
   double full_map_period = 10.0;  // s of the wall clock
   double heartbeat_period = 1.0;  // s of the wall clock; 0: none
   bool publish_free_space = false;
@@ -119,7 +119,8 @@ void visitPublishingOptions(ProjectedMapOptions& o, Visitor&& visit) {
                        ""});
   visit("always_send_full_map", o.always_send_full_map,
         base::OptionInfo{"Whether every change sends all of projected_map; false: that for new "
-                         "subscribers and new geometry, else projected_map_updates",
+                         "geometry, new subscribers and those that do not take "
+                         "projected_map_updates, else these",
                          ""});
   visit(
       "full_map_period", o.full_map_period,

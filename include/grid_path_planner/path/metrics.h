@@ -16,8 +16,8 @@ double turningOf(const Path& path);
 
 // The least distance in metres from the polyline to the edge of an occupied cell of `map`; 0 where
 // the path meets one or touches its edge, infinity where map or path are empty. Exact but for
-// rounding, not sampled. Takes time for one pass over the map and then a little a segment.
-// Precondition: the positions are finite.
+// rounding, not sampled. Looks only at the cells around the path, at all of them where none is
+// occupied. Precondition: the positions are finite.
 double clearanceOf(const Path& path, const grid::OccupancyGrid& map,
                    const grid::OccupancyThresholds& thresholds);
 

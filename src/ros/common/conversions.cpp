@@ -84,6 +84,7 @@ nav_msgs::Path pathToMessage(const Path& path, const ros::Time& stamp) {
   nav_msgs::Path message;
   message.header.frame_id = path.frame_id;
   message.header.stamp = stamp;
+  message.poses.reserve(path.poses.size());
   for (const Pose& pose : path.poses) {
     message.poses.emplace_back();
     message.poses.back().header = message.header;

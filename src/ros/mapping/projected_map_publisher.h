@@ -1,9 +1,9 @@
 // projected_map and projected_map_updates: whole maps where they are needed, else the changed cells.
 //
 // A whole map is published when the geometry changed, for a new subscriber (unless ~latch is off and
-// every change publishes a whole map anyway), for a new subscriber of the updates, with
-// always_send_full_map on every change, and full_map_period after the last one if there was an
-// update since.
+// every change publishes a whole map anyway), for a new subscriber of the updates, on every change
+// for a subscriber that does not take the updates or with always_send_full_map, and full_map_period
+// after the last one if there was an update since.
 // Otherwise an update holds the smallest rectangle around the changed cells. Without subscribers
 // nothing is projected: the changes wait in the tree.
 //
@@ -16,14 +16,12 @@
 #pragma once
 
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
 
-#include <atomic>
-#include <chrono>
 #include <functional>
 #include <string>
 
 #include "grid_path_planner/mapping/map_model.h"
+#include "ros/common/outgoing/map_topic.h"
 
 namespace grid_path_planner::nodes {
 
@@ -45,18 +43,14 @@ class ProjectedMapPublisher {
   void publishHeartbeat(const std::string& frame_id);
 
  private:
-  bool hasSubscribers() const;
-  bool wholeMapIsDue(const mapping::ProjectedMapOptions& options) const;
+  bool wholeMapIsWanted(const mapping::ProjectionChange& change,
+                        const mapping::ProjectedMapOptions& options);
   void send(mapping::MapModel& map, const ros::Time& stamp);
 
-  std::atomic<bool> new_subscriber_{false};
-  bool sent_ = false;     // a whole map
-  bool updated_ = false;  // since then, by updates
-  std::chrono::steady_clock::time_point sent_at_;
+  bool sent_ = false;                 // a whole map
   ros::Time newest_cloud_;            // in the tree
   ros::Time newest_published_cloud_;  // in the map as it was published last
-  ros::Publisher map_publisher_;
-  ros::Publisher update_publisher_;
+  MapTopic topic_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -18,6 +18,7 @@ namespace grid_path_planner::nodes {
 using base::Stopped;
 using base::StopSource;
 using base::TaskQueue;
+using costmap::CostGrid;
 using planners::memoryLimitOf;
 using planning::keepsPath;
 using planning::pathBlocked;
@@ -30,6 +31,7 @@ namespace {
 
 constexpr char kGoalSlot[] = "goal";
 constexpr char kMapSlot[] = "map";
+constexpr char kSearchedMapSlot[] = "searched map";
 
 // Nothing is planned for a file or a frame that will be refused.
 void checkNames(const PathPlannerNodeOptions& options, const NodeFiles& files) {
@@ -71,6 +73,7 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   refuseOtherCommander({{}, {nh.resolveName("plan_path")}, "", false});
   server_ =
       std::make_unique<PlanningServer>(nh, options, files, [this] { active_goal_.forgetStart(); });
+  planning_map_ = std::make_unique<PlanningMapPublisher>(nh, [this] { postSearchedMap(); });
   services_ = std::make_unique<PlanServices>(private_nh, *server_);
   action_ = std::make_unique<PlanAction>(nh, *server_);
   diagnostics_ = std::make_unique<PlanDiagnostics>(nh, private_nh, *server_);
@@ -81,6 +84,10 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   initial_pose_subscriber_ = nh.subscribe("initialpose", 1, &PathPlannerNode::onInitialPose, this);
   clock_timer_ = nh.createWallTimer(ros::WallDuration(0.05),
                                     [this](const ros::WallTimerEvent&) { server_->checkClock(); });
+  full_map_timer_ = nh.createWallTimer(ros::WallDuration(0.1), [this](const ros::WallTimerEvent&) {
+    if (planning_map_->wholeMapIsDue(server_->settings().options.full_map_period))
+      postSearchedMap();
+  });
   startReplanTimer(options.replan_period);
 }
 
@@ -89,6 +96,7 @@ PathPlannerNode::~PathPlannerNode() {
   initial_pose_subscriber_.shutdown();
   replan_timer_.stop();
   clock_timer_.stop();
+  full_map_timer_.stop();
   reconfigurable_.reset();
   server_->stop();
 }
@@ -137,12 +145,17 @@ void PathPlannerNode::postPlanForGoal() {
                                        kGoalSlot, TaskQueue::Turn::NEXT);
 }
 
+void PathPlannerNode::postSearchedMap() {
+  server_->vehicleLane().worker().post([this](const StopSource& stop) { publishSearchedMap(stop); },
+                                       kSearchedMapSlot);
+}
+
 void PathPlannerNode::planForGoal(const StopSource& stop) {
   const std::optional<GoalState> goal = active_goal_.goal();
   const PlanningServer::Settings settings = server_->settings();
   server_->checkClock();
   PlanningLane& lane = server_->vehicleLane();
-  const Plan plan = lane.plan(goal->request, settings.options, stop);
+  const Plan plan = lane.plan(goal->request, server_->recordingOptions(settings.options), stop);
   const PlanStatistics statistics = lane.statistics(plan, goal->request, settings.options);
   if (stop.cancelled() || keepsOldPath(*goal, plan, settings, stop)) return;
   active_goal_.commit(goal->id, plan.path, settings.revision, [&] {
@@ -163,37 +176,46 @@ bool PathPlannerNode::keepsOldPath(const GoalState& goal, const Plan& plan,
   }
 }
 
+// What shows the map waits until the path is planned again.
 void PathPlannerNode::processMap(const StopSource& stop) {
   const PathPlannerNodeOptions options = server_->settings().options;
   try {
     waitForClock(stop.token());
-    publishSearchedMap(options, stop);
+    server_->vehicleLane().downsampledCosts(options, stop.token());
     if (goalPathBlocked(options, stop)) postPlanForGoal();
+    postSearchedMap();
   } catch (const Stopped&) {
     // The node ends.
   }
 }
 
-void PathPlannerNode::publishSearchedMap(const PathPlannerNodeOptions& options,
-                                         const StopSource& stop) {
+void PathPlannerNode::publishSearchedMap(const StopSource& stop) {
+  const PathPlannerNodeOptions options = server_->settings().options;
   PlanningLane& lane = server_->vehicleLane();
-  const auto costs = lane.downsampledCosts(options, stop.token());
-  const bool changed = costs && costs != published_costs_;
-  if (changed) server_->publisher().publishMap(*costs, lane.frame(options));
-  published_costs_ = costs;
-  publishRectangles(options, changed);
+  try {
+    const auto costs = lane.downsampledCosts(options, stop.token());
+    if (!costs) return;
+    waitForClock(stop.token());
+    planning_map_->publish(costs, lane.frame(options), options.full_map_period);
+    publishRectangles(options, costs);
+  } catch (const Stopped&) {
+    // The node ends.
+  }
 }
 
-void PathPlannerNode::publishRectangles(const PathPlannerNodeOptions& options, bool map_changed) {
+void PathPlannerNode::publishRectangles(const PathPlannerNodeOptions& options,
+                                        const std::shared_ptr<const CostGrid>& costs) {
   const bool shown = rectangles_ && rectangles_->shown();
   if (!options.publish_rectangles) {
     if (shown) rectangles_->clear();
+    cut_costs_.reset();
     return;
   }
   if (!rectangles_) rectangles_ = std::make_unique<RectanglePublisher>(nh_);
-  if (published_costs_ && (map_changed || !shown))
-    rectangles_->publish(published_costs_, server_->vehicleLane().frame(options),
+  if (costs != cut_costs_ || !shown)
+    rectangles_->publish(costs, server_->vehicleLane().frame(options),
                          memoryLimitOf(options.planner.search));
+  cut_costs_ = costs;
 }
 
 bool PathPlannerNode::goalPathBlocked(const PathPlannerNodeOptions& options,

@@ -19,6 +19,7 @@
 #include "ros/planning/plan_action.h"
 #include "ros/planning/plan_diagnostics.h"
 #include "ros/planning/plan_services.h"
+#include "ros/planning/planning_map_publisher.h"
 #include "ros/planning/planning_server.h"
 #include "ros/planning/rectangle_publisher.h"
 
@@ -55,17 +56,20 @@ class PathPlannerNode {
   bool keepsOldPath(const GoalState& goal, const planning::Plan& plan,
                     const PlanningServer::Settings& settings, const base::StopSource& stop);
   void processMap(const base::StopSource& stop);
-  void publishSearchedMap(const PathPlannerNodeOptions& options, const base::StopSource& stop);
-  void publishRectangles(const PathPlannerNodeOptions& options, bool map_changed);
+  void publishSearchedMap(const base::StopSource& stop);
+  void publishRectangles(const PathPlannerNodeOptions& options,
+                         const std::shared_ptr<const costmap::CostGrid>& costs);
   bool goalPathBlocked(const PathPlannerNodeOptions& options, const base::StopSource& stop);
 
   void postPlanForGoal();
+  void postSearchedMap();
 
   ros::NodeHandle nh_;
   ActiveGoal active_goal_;
-  std::shared_ptr<const costmap::CostGrid> published_costs_;  // the worker's
-  std::unique_ptr<RectanglePublisher> rectangles_;            // the worker's; null until wanted
+  std::shared_ptr<const costmap::CostGrid> cut_costs_;  // into rectangles; the worker's
+  std::unique_ptr<RectanglePublisher> rectangles_;      // the worker's; null until wanted
   std::unique_ptr<PlanningServer> server_;
+  std::unique_ptr<PlanningMapPublisher> planning_map_;  // the worker's, once there is a map
   std::unique_ptr<PlanServices> services_;
   std::unique_ptr<PlanAction> action_;
   std::unique_ptr<PlanDiagnostics> diagnostics_;
@@ -74,6 +78,7 @@ class PathPlannerNode {
   ros::Subscriber initial_pose_subscriber_;
   ros::Timer replan_timer_;
   ros::WallTimer clock_timer_;
+  ros::WallTimer full_map_timer_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -23,6 +23,7 @@ struct PathPlannerNodeOptions {
   double replan_hysteresis = 0.1;  // of the new path's cost
   std::string waypoints_file;      // "": none
   bool record_search = true;
+  double full_map_period = 10.0;  // s, steady clock
   bool publish_rectangles = false;
 };
 
@@ -63,7 +64,14 @@ void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
             ""});
   visit("record_search", o.record_search,
         base::OptionInfo{
-            "Whether search_markers show the expanded cells; false saves 16 bytes for each", ""});
+            "Whether search_markers, while someone listens, show the expanded cells; false saves "
+            "16 bytes for each",
+            ""});
+  visit("full_map_period", o.full_map_period,
+        base::OptionInfo{
+            "How long after a change all of planning_map is sent at the latest, by the wall clock; "
+            "until then a receiver that lost an update may go without it",
+            "s", 0.1, 3600.0});
   visit("publish_rectangles", o.publish_rectangles,
         base::OptionInfo{"Whether rectangle_map and rectangle_markers show the searched map as "
                          "rectangles, cut anew whenever it changes",

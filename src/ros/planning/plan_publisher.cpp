@@ -1,18 +1,10 @@
 #include "ros/planning/plan_publisher.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/ros/conversions.h"
-#include "grid_path_planner/ros/occupancy_conversion.h"
 
 namespace grid_path_planner::nodes {
 
-using costmap::CostGrid;
-using grid::CellIndex;
-using grid::Occupancy;
-using grid::OccupancyGrid;
 using path::Pose;
 using path::turningOf;
 using planning::Plan;
@@ -71,24 +63,6 @@ PlanStatistics statisticsMessage(const Plan& plan) {
   return message;
 }
 
-nav_msgs::OccupancyGrid planningMapMessage(const CostGrid& costs, const std::string& frame_id,
-                                           const ros::Time& stamp) {
-  const auto& weights = costs.weights().values();
-  const int largest = weights.empty() ? 1 : *std::max_element(weights.begin(), weights.end());
-  OccupancyGrid shown(costs.geometry());
-  for (std::uint32_t i = 0; i < shown.values().size(); ++i) {
-    const CellIndex index(i);
-    const int weight = costs.weights()[index];
-    if (weight == CostGrid::kBlocked)
-      shown[index] = 100;
-    else if (costs.classes()[index] == Occupancy::UNKNOWN)
-      shown[index] = -1;
-    else if (largest > 1)
-      shown[index] = static_cast<std::int8_t>(std::lround(99.0 * (weight - 1) / (largest - 1)));
-  }
-  return occupancyToMessage(shown, frame_id, stamp);
-}
-
 visualization_msgs::MarkerArray searchMarkers(const Plan& plan, double cell_size,
                                               const ros::Time& stamp) {
   visualization_msgs::MarkerArray array;
@@ -116,9 +90,10 @@ visualization_msgs::MarkerArray searchMarkers(const Plan& plan, double cell_size
 
 PlanPublisher::PlanPublisher(ros::NodeHandle nh)
     : path_(nh.advertise<nav_msgs::Path>("path", 1, true)),
-      map_(nh.advertise<nav_msgs::OccupancyGrid>("planning_map", 1, true)),
-      statistics_(nh.advertise<PlanStatistics>("plan_statistics", 1, true)),
-      markers_(nh.advertise<visualization_msgs::MarkerArray>("search_markers", 1, true)) {}
+      statistics_(nh.advertise<PlanStatistics>("plan_statistics", 1, true)) {
+  markers_ = nh.advertise<visualization_msgs::MarkerArray>(
+      "search_markers", 1, [this](const auto&) { showUnseenSearch(); }, {}, {}, true);
+}
 
 void PlanPublisher::publishPath(const Plan& plan) {
   path_.publish(pathToMessage(plan.path, ros::Time::now()));
@@ -128,11 +103,19 @@ void PlanPublisher::publishSearch(const Plan& plan, PlanStatistics statistics, d
   const ros::Time now = ros::Time::now();
   statistics.header.stamp = now;
   statistics_.publish(statistics);
-  markers_.publish(searchMarkers(plan, cell_size, now));
+  std::lock_guard<std::mutex> lock(mutex_);
+  if (markers_.getNumSubscribers() > 0) {
+    unseen_.reset();
+    markers_.publish(searchMarkers(plan, cell_size, now));
+  } else {
+    unseen_ = {plan, cell_size, now};
+  }
 }
 
-void PlanPublisher::publishMap(const CostGrid& costs, const std::string& frame_id) {
-  map_.publish(planningMapMessage(costs, frame_id, ros::Time::now()));
+void PlanPublisher::showUnseenSearch() {
+  std::lock_guard<std::mutex> lock(mutex_);
+  if (unseen_) markers_.publish(searchMarkers(unseen_->plan, unseen_->cell_size, unseen_->stamp));
+  unseen_.reset();
 }
 
 }  // namespace grid_path_planner::nodes

@@ -50,7 +50,8 @@ std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& request, 
 
 void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, Publish publish,
                             const StopSource& stop) {
-  const PathPlannerNodeOptions options = settings().options;
+  PathPlannerNodeOptions options = recordingOptions(settings().options);
+  if (publish == Publish::NO) options.record_search = false;
   checkClock();
   Plan plan = question_lane_.plan(request, options, stop,
                                   [&](const char* phase) { ticket.phase_ = phase; });
@@ -64,6 +65,11 @@ void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, 
         failedPlan(Status::INVALID_REQUEST, "the request was given up: " + currentErrorText());
     ticket.statistics_ = statisticsMessage(ticket.plan_);
   }
+}
+
+PathPlannerNodeOptions PlanningServer::recordingOptions(PathPlannerNodeOptions options) const {
+  options.record_search = options.record_search && publisher_.searchIsShown();
+  return options;
 }
 
 std::optional<Eigen::Vector2d> PlanningServer::vehicle(

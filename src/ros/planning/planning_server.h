@@ -90,6 +90,8 @@ class PlanningServer {
   MapReceiver& maps() { return maps_; }
   const NodeFiles& files() const { return files_; }
   PlanPublisher& publisher() { return publisher_; }
+  // The options for a plan that is published: a search is recorded only where someone wants to see it.
+  PathPlannerNodeOptions recordingOptions(PathPlannerNodeOptions options) const;
 
   // Publishes a plan just made in `lane`, whose thread calls.
   void publish(const PlanningLane& lane, const planning::Plan& plan,

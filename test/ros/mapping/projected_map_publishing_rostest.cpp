@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <random>
+
+#include "ros/support/map_copy.h"
 #include "ros/support/mapping_fixture.h"
 
 namespace grid_path_planner::nodes {
@@ -120,14 +123,43 @@ TEST_F(Publishing, AWholeMapFollowsUpdatesForWhoLostOne) {
   EXPECT_TRUE(becomes(maps, 2.05, 0.05, 100));
 }
 
-TEST_F(Publishing, ByDefaultEveryChangeSendsTheWholeMap) {
-  startMapping(bounds_);
+TEST_F(Publishing, EveryChangeSendsTheWholeMapWhereThatIsAsked) {
+  std::vector<std::string> arguments = bounds_;
+  arguments.push_back("_always_send_full_map:=true");
+  startMapping(arguments);
   const Maps maps(nh_, "projected_map");
   const Updates updates(nh_, "projected_map_updates");
   ASSERT_TRUE(maps.waitForMoreThan(0));
   publish(wallAt(2.0F));
   EXPECT_TRUE(becomes(maps, 2.05, 0.05, 100));
   EXPECT_EQ(updates.count(), 0u);
+}
+
+// octomap_server's users, who know of no updates, have every change by default too.
+TEST_F(Publishing, WhoTakesUpdatesAndWhoDoesNotHaveTheSameMap) {
+  startMapping(bounds_);
+  const test::MapCopy both(nh_, "projected_map");
+  ASSERT_TRUE(test::waitFor([&] { return both.connected() && both.maps() > 0; }));
+  test::WholeMapListener whole("/projected_map");
+  ASSERT_TRUE(whole.hasMap());
+  std::mt19937 random(1405);
+  std::uniform_real_distribution<float> place(-4.5F, 4.5F);
+  const auto see = [&](int walls) {
+    for (int i = 0; i < walls; ++i) {
+      publish(wallAt(place(random)));
+      ros::Duration(0.02).sleep();
+    }
+  };
+  see(50);
+  ASSERT_TRUE(insertsAll(50));
+  EXPECT_EQ(both.updates(), 0u) << "whole maps serve both";
+  whole.end();
+  see(50);
+  ASSERT_TRUE(insertsAll(100));
+  EXPECT_TRUE(test::waitFor([&] { return both.updates() > 0; }));
+  test::WholeMapListener late("/projected_map");
+  ASSERT_TRUE(late.hasMap());
+  EXPECT_TRUE(test::waitFor([&] { return late.grid() == both.grid(); }));
 }
 
 // octomap_server2#26: the grid does not grow with the tree.

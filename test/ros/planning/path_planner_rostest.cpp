@@ -280,6 +280,7 @@ TEST_F(PathPlannerTest, MarkersShowExpandedCellsAndWaypoints) {
   startPlanner();
   publishMap(kRoom);
   test::Latest<visualization_msgs::MarkerArray> markers(nh_, "search_markers");
+  ASSERT_TRUE(test::waitFor([&] { return markers.connected(); }));
   makePlan(poseAt(0.5, 0.5), poseAt(5.5, 2.5));
   const auto shown = markers.waitForMoreThan(0);
   ASSERT_TRUE(shown);
@@ -293,6 +294,19 @@ TEST_F(PathPlannerTest, MarkersShowExpandedCellsAndWaypoints) {
   ASSERT_TRUE(markers.waitFor(1, [](const visualization_msgs::MarkerArray& array) {
     return array.markers[1].action == visualization_msgs::Marker::DELETE;
   })) << "waypoints of the plan before";
+}
+
+// A search that nobody watches is not recorded; who comes later sees where it led.
+TEST_F(PathPlannerTest, MarkersForALaterSubscriberShowTheNewestPath) {
+  startPlanner();
+  publishMap(kRoom);
+  makePlan(poseAt(0.5, 0.5), poseAt(2.5, 0.5));
+  makePlan(poseAt(0.5, 0.5), poseAt(5.5, 2.5));
+  test::Latest<visualization_msgs::MarkerArray> markers(nh_, "search_markers");
+  const auto shown = markers.waitForMoreThan(0);
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(shown->markers[0].action, visualization_msgs::Marker::DELETE);
+  EXPECT_EQ(shown->markers[1].points.size(), path_.poses.size());
 }
 
 TEST_F(PathPlannerTest, EveryFoundPlanIsWrittenToTheWaypointsFile) {

@@ -24,6 +24,7 @@ NODES = {
     "path_planner": Row(
         inputs=dict(MAPS, goal="geometry_msgs/PoseStamped", initialpose="geometry_msgs/PoseWithCovarianceStamped"),
         outputs={"path": "nav_msgs/Path", "planning_map": "nav_msgs/OccupancyGrid",
+                 "planning_map_updates": "map_msgs/OccupancyGridUpdate",
                  "plan_statistics": "grid_path_planner/PlanStatistics",
                  "search_markers": "visualization_msgs/MarkerArray",
                  "rectangle_map": "grid_path_planner/RectangleMap",

@@ -1,0 +1,221 @@
+"""The cases of node_latency: each a small function (node, generator, quick, result) whose title is its docstring."""
+import time
+
+import node_latency_maps as maps
+from node_latency_ros import Missed, Service, as_bytes, wait_until
+
+
+class Result:
+    def __init__(self):
+        self.times, self.remark = [], ""
+
+
+CASES = []
+
+
+def case(needs_goals=False):
+    """`needs_goals`: only of nodes that answer goals and plan again by themselves."""
+    def add(function):
+        function.title, function.needs_goals = function.__doc__.split(". ")[0], needs_goals
+        CASES.append(function)
+        return function
+    return add
+
+
+def first_time(measured, result):
+    """What the first plan's time is for: the case about it counts it, the others do not."""
+    return result.times.append if measured is first_plan else lambda time_s: None
+
+
+def a_cell_of_the_path(node, generator, low=0.3, high=0.7):
+    """A free cell that the path crosses, far from its ends."""
+    for _ in range(100):
+        at = int(node.path.count * generator.uniform(low, high))
+        cell = node.world.cell(*node.path[at])
+        if node.world.at(*cell) == maps.FREE:
+            return cell
+    raise Missed("the path has no free cell between %.1f and %.1f of it" % (low, high))
+
+
+def rounds(quick, of=20):
+    return range(5 if quick else of)
+
+
+@case()
+def first_plan(node, generator, quick, result):
+    """first plan on a new map. Four more on other maps of the same kind."""
+    for _ in range(1 if quick else 4):
+        ends = [node.world.cell(*end) for end in node.ends]
+        node.world = maps.scattered(node.world.grown(8), 0.002, generator, ends)
+        node.first_plan(result.times.append)
+
+
+@case()
+def make_plan(node, generator, quick, result):
+    """`~make_plan` on one connection. Of our node also what it takes above the engine's planning time."""
+    places = [node.world.centre(column, row) for column, row in free_places(node, generator, 40)]
+    first = len(node.statistics.received) if node.has_goals else 0
+    found, goals = 0, []
+    for _ in range(40 if quick else 200):
+        start, goal = generator.sample(places, 2)
+        goals.append(goal)
+        request = node.request(start, goal)
+        begin = time.monotonic()
+        path = node.plan(request)
+        result.times.append(time.monotonic() - begin)
+        found += bool(path and path.count > 1)
+    result.remark = "%d found" % found
+    if node.has_goals:
+        time.sleep(0.5)  # for the last statistics
+        told = zip(result.times, node.planning_times(first, goals))
+        above = sorted(total - planning for total, planning in told if planning is not None)
+        if not above:
+            raise Missed("no plan statistics came")
+        result.remark += "; above `planning_time` (%d told): median %.2f ms, p95 %.2f, max %.2f" % ((len(above),) + tuple(
+            1e3 * above[int(share * (len(above) - 1))] for share in (0.5, 0.95, 1.0)))
+
+
+def free_places(node, generator, count):
+    places = []
+    while len(places) < count:
+        column, row = generator.randrange(10, node.world.width - 10), generator.randrange(10, node.world.height - 10)
+        if not any(node.world.at(column + c, row + r) for c in range(-9, 10, 3) for r in range(-9, 10, 3)):
+            places.append((column, row))
+    return places
+
+
+@case()
+def one_cell(node, generator, quick, result):
+    """one cell changed. It is on the path; until a path avoids it."""
+    for _ in rounds(quick):
+        cell = a_cell_of_the_path(node, generator)
+        result.times.append(node.path_around([cell], lambda: node.update([cell])))
+
+
+@case()
+def two_cells(node, generator, quick, result):
+    """two cells at opposite corners. Both are on the path, an update each; until a path avoids both."""
+    for _ in rounds(quick):
+        cells = [a_cell_of_the_path(node, generator, 0.05, 0.15), a_cell_of_the_path(node, generator, 0.85, 0.95)]
+        result.times.append(node.path_around(cells, lambda: node.update(cells)))
+
+
+def publish_blocked(node, generator, share, result):
+    cell = a_cell_of_the_path(node, generator)
+    ends = [node.world.cell(*end) for end in node.ends]
+    node.world = maps.scattered(node.world, share, generator, ends)
+    node.world.set(*cell, maps.OCCUPIED)
+    result.times.append(node.path_around([cell], lambda: node.publish_map(node.world)))
+
+
+@case()
+def republished_one(node, generator, quick, result):
+    """whole map again, one cell changed. What receiving and comparing a map takes is in it."""
+    for _ in rounds(quick):
+        publish_blocked(node, generator, 0.0, result)
+
+
+@case()
+def republished_scattered(node, generator, quick, result):
+    """whole map again, 0.1 % scattered changes. As SLAM and octomap_server publish."""
+    before = node.world.copy()
+    for _ in rounds(quick):
+        node.world = before.copy()
+        publish_blocked(node, generator, 0.001, result)
+
+
+@case()
+def grown(node, generator, quick, result):
+    """map that grows and shifts its origin. By eight cells on each of two sides."""
+    for _ in rounds(quick, 10):
+        cell = a_cell_of_the_path(node, generator)
+        node.world = node.world.grown(8)
+        cell = (cell[0] + 8, cell[1] + 8)
+        node.world.set(*cell, maps.OCCUPIED)
+        result.times.append(node.path_around([cell], lambda: node.publish_map(node.world)))
+
+
+@case(needs_goals=True)
+def options_changed(node, generator, quick, result):
+    """options changed live, then `~make_plan`. `decay`, so that every weight changes."""
+    from dynamic_reconfigure.msg import Config, DoubleParameter
+    from dynamic_reconfigure.srv import Reconfigure
+    reconfigure = Service(node.namespace + "/set_parameters", Reconfigure)
+    for i in rounds(quick):
+        config = Config(doubles=[DoubleParameter("decay", 3.0 + 0.1 * (i % 2))])
+        request, plan = as_bytes(Reconfigure._request_class(config)), node.request(*node.ends)
+        begin = time.monotonic()
+        reconfigure.call(request)
+        path = node.plan(plan)
+        result.times.append(time.monotonic() - begin)
+        if not path or path.count == 0:
+            raise Missed("no plan after an option changed")
+
+
+@case(needs_goals=True)
+def another_planner(node, generator, quick, result):
+    """`~make_plan` after another planner was asked. That was `a_star`, by `~compare_plans`."""
+    from grid_path_planner.srv import ComparePlans
+    compare = Service(node.namespace + "/compare_plans", ComparePlans)
+    start, goal = node.pose(node.ends[0]), node.pose(node.ends[1])
+    request = as_bytes(ComparePlans._request_class(start=start, goal=goal, planners=["a_star"], heuristics=[]))
+    for _ in rounds(quick):
+        compare.call(request)
+        plan = node.request(*node.ends)
+        begin = time.monotonic()
+        node.plan(plan)
+        result.times.append(time.monotonic() - begin)
+
+
+@case(needs_goals=True)
+def many_goals(node, generator, quick, result):
+    """goals at 100 Hz. Of those that are answered; a newer goal cancels the one before."""
+    places = [node.world.centre(column, row) for column, row in free_places(node, generator, 60)]
+    sent, first = {}, len(node.paths.received)
+    count = 100 if quick else 500
+    for i in range(count):
+        begin = time.monotonic()
+        place = places[i % len(places)]
+        position = (place[0] + 1e-6 * i, place[1])  # so that each can be told from its path
+        sent[position] = begin
+        node.goals.publish(node.pose(position))
+        time.sleep(max(0.0, 0.01 - (time.monotonic() - begin)))
+    last = position
+
+    def answered():
+        paths = [(at, maps_end(data)) for at, data in node.paths.received[first:]]
+        return {position: at for at, position in paths if position in sent}
+    wait_until(lambda: last in answered(), "path to the last goal")
+    result.times = [at - sent[position] for position, at in answered().items()]
+    result.remark = "%d of %d answered" % (len(result.times), count)
+
+
+def maps_end(data):
+    from node_latency_ros import Positions
+    path = Positions(data)
+    return path[path.count - 1] if path.count else None
+
+
+@case()
+def many_maps(node, generator, quick, result):
+    """`~make_plan` while whole maps come at 5 Hz. Each with 0.1 % of its cells changed."""
+    from threading import Thread
+    ends = [node.world.cell(*end) for end in node.ends]
+    versions = [maps.scattered(node.world, 0.001, generator, ends) for _ in range(3)]
+    stop_at = time.monotonic() + (3.0 if quick else 10.0)
+
+    def publish():
+        i = 0
+        while time.monotonic() < stop_at:
+            begin = node.publish_map(versions[i % 3])
+            i += 1
+            time.sleep(max(0.0, 0.2 - (time.monotonic() - begin)))
+    publisher = Thread(target=publish)
+    publisher.start()
+    while time.monotonic() < stop_at:
+        request = node.request(*node.ends)
+        begin = time.monotonic()
+        node.plan(request)
+        result.times.append(time.monotonic() - begin)
+        time.sleep(0.02)
+    publisher.join()

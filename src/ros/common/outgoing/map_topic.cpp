@@ -1,0 +1,118 @@
+#include "ros/common/outgoing/map_topic.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace grid_path_planner::nodes {
+
+using grid::CellRect;
+using grid::OccupancyGrid;
+
+map_msgs::OccupancyGridUpdate updateOf(const CellRect& cells, const std::string& frame_id,
+                                       const ros::Time& stamp) {
+  map_msgs::OccupancyGridUpdate message;
+  message.header.frame_id = frame_id;
+  message.header.stamp = stamp;
+  message.x = cells.column;
+  message.y = cells.row;
+  message.width = static_cast<std::uint32_t>(cells.width);
+  message.height = static_cast<std::uint32_t>(cells.height);
+  message.data.reserve(static_cast<std::size_t>(cells.width) * cells.height);
+  return message;
+}
+
+map_msgs::OccupancyGridUpdate updateOf(const OccupancyGrid& map, const CellRect& cells,
+                                       const std::string& frame_id, const ros::Time& stamp) {
+  map_msgs::OccupancyGridUpdate message = updateOf(cells, frame_id, stamp);
+  for (int row = cells.row; row < cells.row + cells.height; ++row) {
+    const std::int8_t* first = map.row(row) + cells.column;
+    message.data.insert(message.data.end(), first, first + cells.width);
+  }
+  return message;
+}
+
+MapTopic::MapTopic(ros::NodeHandle nh, const std::string& topic, bool latch,
+                   std::function<void()> on_subscriber)
+    : nh_(std::move(nh)), topic_(topic), latch_(latch), on_subscriber_(std::move(on_subscriber)) {
+  advertiseMaps();
+  updates_ = nh_.advertise<map_msgs::OccupancyGridUpdate>(
+      topic_ + "_updates", 100, adding(of_updates_), removing(of_updates_));
+}
+
+void MapTopic::advertiseMaps() {
+  maps_ = nh_.advertise<nav_msgs::OccupancyGrid>(topic_, 5, adding(of_maps_), removing(of_maps_),
+                                                 {}, latch_);
+}
+
+ros::SubscriberStatusCallback MapTopic::adding(Subscribers& to) {
+  return [this, &to](const ros::SingleSubscriberPublisher& subscriber) {
+    {
+      std::lock_guard<std::mutex> lock(mutex_);
+      to.insert(subscriber.getSubscriberName());
+      new_subscriber_ = true;
+    }
+    on_subscriber_();
+  };
+}
+
+ros::SubscriberStatusCallback MapTopic::removing(Subscribers& from) {
+  return [this, &from](const ros::SingleSubscriberPublisher& subscriber) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    const auto gone = from.find(subscriber.getSubscriberName());
+    if (gone != from.end()) from.erase(gone);
+  };
+}
+
+bool MapTopic::hasSubscribers() const {
+  return maps_.getNumSubscribers() > 0 || updates_.getNumSubscribers() > 0;
+}
+
+bool MapTopic::takeNewSubscriber() {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(new_subscriber_, false);
+}
+
+bool MapTopic::needsWholeMaps() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return std::any_of(of_maps_.begin(), of_maps_.end(),
+                     [this](const std::string& name) { return of_updates_.count(name) == 0; });
+}
+
+bool MapTopic::wholeMapIsDue(double period) const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - sent_at_;
+  return updated_ && passed.count() >= period;
+}
+
+void MapTopic::send(const nav_msgs::OccupancyGrid& map) {
+  maps_.publish(map);
+  std::lock_guard<std::mutex> lock(mutex_);
+  sent_ = true;
+  updated_ = false;
+  sent_at_ = std::chrono::steady_clock::now();
+}
+
+void MapTopic::send(const map_msgs::OccupancyGridUpdate& update) {
+  updates_.publish(update);
+  std::lock_guard<std::mutex> lock(mutex_);
+  updated_ = true;
+}
+
+// roscpp has no other way to drop a latched message.
+void MapTopic::forget() {
+  {
+    std::lock_guard<std::mutex> lock(mutex_);
+    updated_ = false;
+    if (!std::exchange(sent_, false)) return;
+  }
+  if (!latch_) return;
+  maps_.shutdown();
+  {
+    // Whoever came in between comes again, and its going was not told.
+    std::lock_guard<std::mutex> lock(mutex_);
+    of_maps_.clear();
+  }
+  advertiseMaps();
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,82 @@
+// A topic of whole maps and, as <topic>_updates, of what changes in them: what a publisher of both
+// must know to send each subscriber what it can use, and no more.
+//
+//   MapTopic topic(nh, "planning_map", latch, [this] { post(publishing); });
+//   if (!topic.hasSubscribers()) return topic.forget();
+//   if (topic.takeNewSubscriber() || topic.needsWholeMaps() || topic.wholeMapIsDue(10.0))
+//     topic.send(occupancyToMessage(map, frame_id, stamp));
+//   else
+//     topic.send(updateOf(map, changed, frame_id, stamp));
+//
+// One thread sends; the callbacks come in that of the node's queue. Subscribers are told apart by
+// the names of their nodes, so nodelets of one manager count as one.
+#pragma once
+
+#include <map_msgs/OccupancyGridUpdate.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "grid_path_planner/grid/occupancy.h"
+
+namespace grid_path_planner::nodes {
+
+// An update of a rectangle whose values are still to come, row by row.
+map_msgs::OccupancyGridUpdate updateOf(const grid::CellRect& cells, const std::string& frame_id,
+                                       const ros::Time& stamp);
+// With those that `map`, in which the rectangle lies, has there.
+map_msgs::OccupancyGridUpdate updateOf(const grid::OccupancyGrid& map, const grid::CellRect& cells,
+                                       const std::string& frame_id, const ros::Time& stamp);
+
+class MapTopic {
+ public:
+  // `on_subscriber` is called for a new subscriber of either topic.
+  MapTopic(ros::NodeHandle nh, const std::string& topic, bool latch,
+           std::function<void()> on_subscriber);
+
+  bool hasSubscribers() const;
+  // Whether one came since the last call.
+  bool takeNewSubscriber();
+  // Whether a subscriber of the maps does not take the updates.
+  bool needsWholeMaps() const;
+  // Whether updates were sent since the last whole map, and that was so many seconds ago.
+  bool wholeMapIsDue(double period) const;
+
+  void send(const nav_msgs::OccupancyGrid& map);
+  void send(const map_msgs::OccupancyGridUpdate& update);
+  // An update of no cells, after which no whole map is due.
+  void sendHeartbeat(const map_msgs::OccupancyGridUpdate& heartbeat) {
+    updates_.publish(heartbeat);
+  }
+  // The map that was sent last is not latched any longer: it is out of date, and nobody listens.
+  void forget();
+
+ private:
+  using Subscribers = std::multiset<std::string>;
+
+  void advertiseMaps();
+  ros::SubscriberStatusCallback adding(Subscribers& to);
+  ros::SubscriberStatusCallback removing(Subscribers& from);
+
+  ros::NodeHandle nh_;
+  const std::string topic_;
+  const bool latch_;
+  const std::function<void()> on_subscriber_;
+  mutable std::mutex mutex_;  // of what follows up to the publishers
+  Subscribers of_maps_;       // names of their nodes
+  Subscribers of_updates_;
+  bool new_subscriber_ = false;
+  bool sent_ = false;     // a whole map, which is latched
+  bool updated_ = false;  // since then
+  std::chrono::steady_clock::time_point sent_at_;
+  ros::Publisher maps_;
+  ros::Publisher updates_;
+};
+
+}  // namespace grid_path_planner::nodes

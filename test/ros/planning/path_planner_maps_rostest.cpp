@@ -1,0 +1,121 @@
+// planning_map and planning_map_updates: who gets what of a map that changes.
+#include <algorithm>
+#include <random>
+
+#include "ros/common/outgoing/map_topic.h"
+#include "ros/support/map_copy.h"
+#include "ros/support/planner_fixture.h"
+
+namespace grid_path_planner::nodes {
+
+using grid::Cell;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+
+namespace {
+
+constexpr int kEdits = 100;
+constexpr int kSide = 60;
+
+class PlanningMaps : public test::PlannerTest {
+ protected:
+  // The fixture and shown_ are one node, which takes updates.
+  PlanningMaps() {
+    startPlanner({"_full_map_period:=3600", "_decay:=0"});
+    EXPECT_TRUE(test::waitFor([&] { return shown_.connected(); }));
+    publishMap(map_);
+    EXPECT_TRUE(editArrives());
+  }
+
+  // Sets a rectangle of the map to one value.
+  void edit() {
+    std::uniform_int_distribution<int> corner(0, kSide - 5), side(1, 4), value(0, 2);
+    map_msgs::OccupancyGridUpdate update;
+    update.header.frame_id = "map";
+    update.header.stamp = ros::Time::now();
+    update.x = corner(random_);
+    update.y = corner(random_);
+    update.width = static_cast<std::uint32_t>(side(random_));
+    update.height = static_cast<std::uint32_t>(side(random_));
+    const std::int8_t values[] = {-1, 0, 100};
+    update.data.assign(update.width * update.height, values[value(random_)]);
+    for (std::size_t i = 0; i < update.data.size(); ++i)
+      map_[Cell{update.x + static_cast<int>(i % update.width),
+                update.y + static_cast<int>(i / update.width)}] = update.data[i];
+    updates_.publish(update);
+  }
+
+  bool editArrives() {
+    edit();
+    return arrives();
+  }
+  void editOften() {
+    for (int i = 0; i < kEdits; ++i) ASSERT_TRUE(editArrives()) << "edit " << i;
+  }
+
+  // With no radius and no decay what is searched is shown as it is.
+  bool arrives() const {
+    return test::waitFor([&] { return shown_.grid().values() == map_.values(); });
+  }
+
+  std::mt19937 random_{1404};
+  // One cell keeps the largest weight in the map.
+  OccupancyGrid map_ = [] {
+    OccupancyGrid map(GridGeometry(kSide, kSide, 1.0));
+    map[Cell{kSide - 1, kSide - 1}] = -1;
+    return map;
+  }();
+  test::MapCopy shown_{nh_, "planning_map"};
+};
+
+TEST_F(PlanningMaps, UpdatesAreAllThatIsSentToWhoTakesThem) {
+  const std::size_t maps = shown_.maps();
+  editOften();
+  EXPECT_GT(shown_.updates(), 0u);
+  EXPECT_LE(shown_.maps(), maps + 1) << "but one that was under way";
+}
+
+TEST_F(PlanningMaps, WhoTakesUpdatesAndWhoDoesNotHaveTheSameMap) {
+  test::WholeMapListener other("/planning_map");
+  ASSERT_TRUE(other.hasMap());
+  const std::size_t updates = shown_.updates();
+  editOften();
+  EXPECT_EQ(shown_.updates(), updates) << "whole maps serve both";
+  EXPECT_TRUE(test::waitFor([&] { return other.grid().values() == map_.values(); }));
+}
+
+// Two far edits were one rectangle, the whole map.
+TEST_F(PlanningMaps, TwoCornersAreTwoRectangles) {
+  map_[Cell{0, 0}] = map_[Cell{kSide - 1, kSide - 2}] = 100;
+  const std::size_t updates = shown_.updates();
+  maps_.publish(occupancyToMessage(map_, "map", ros::Time::now()));
+  EXPECT_TRUE(arrives());
+  EXPECT_EQ(shown_.updates(), updates + 2);
+}
+
+TEST_F(PlanningMaps, ANewSubscriberHasTheMapAsItIsAfterUpdates) {
+  editOften();
+  test::WholeMapListener late("/planning_map");
+  ASSERT_TRUE(late.hasMap());
+  EXPECT_TRUE(test::waitFor([&] { return late.grid().values() == map_.values(); }));
+}
+
+// What was latched when the last subscriber left is not the newest map that a later one gets first.
+TEST(MapTopic, WhatIsForgottenIsNotLatched) {
+  ros::NodeHandle nh;
+  const auto mapOf = [](std::int8_t value) {
+    return occupancyToMessage(OccupancyGrid(GridGeometry(1, 1, 1.0), {value}), "map",
+                              ros::Time::now());
+  };
+  MapTopic topic(nh, "forgotten_map", true, [] {});
+  topic.send(mapOf(100));
+  topic.forget();
+  test::WholeMapListener late("/forgotten_map");
+  ASSERT_TRUE(test::waitFor([&] { return topic.takeNewSubscriber(); }));
+  topic.send(mapOf(0));
+  ASSERT_TRUE(late.hasMap());
+  EXPECT_EQ(late.firstGrid().values(), std::vector<std::int8_t>{0});
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
