@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/study_planners.h"
+
 namespace grid_path_planner::study {
 
 using base::Status;
@@ -44,7 +46,7 @@ std::size_t StudyData::queries() const {
 
 ProblemSize StudyData::sizeOf(std::size_t setting) const {
   const StudySetting& chosen = study().settings[setting];
-  return {chosen.map, chosen.costmap.kernel, chosen.costmap.kernel_rule};
+  return {chosen.map, chosen.costmap.kernel, chosen.costmap.kernel_rule, chosen.border};
 }
 
 std::vector<ProblemSize> StudyData::sizes() const {
@@ -61,6 +63,20 @@ std::size_t StudyData::baseline() const {
   for (std::size_t variant = 0; variant < study().variants.size(); ++variant)
     if (study().variants[variant].planner == "dijkstra") return variant;
   return 0;
+}
+
+std::size_t StudyData::baselineOf(std::size_t variant) const {
+  const std::vector<StudyVariant>& variants = study().variants;
+  const bool published = inStudiesOnly(variants[variant].planner);
+  std::size_t first = variants.size();
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    const bool same_kind = published ? variants[i].planner == variants[variant].planner
+                                     : !inStudiesOnly(variants[i].planner);
+    if (!same_kind) continue;
+    if (variants[i].planner == "dijkstra") return i;
+    first = std::min(first, i);
+  }
+  return first;
 }
 
 std::vector<double> StudyData::ratios(std::size_t a, std::size_t b, const ProblemSize* size,

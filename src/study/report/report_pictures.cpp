@@ -100,10 +100,11 @@ json pictureOf(const StudyData& data, const ProblemSize& size, const StudySettin
   const auto blocks = geometry.size() / static_cast<std::size_t>(size.kernel * size.kernel);
   if (blocks > kLargestPicture) return {};
   CostmapBuilder builder(setting.costmap);
-  builder.setMap(map);
+  builder.setMap(data.plan().mapOf(setting));
   const auto costs = builder.downsampled(StopToken());
   json picture = {{"name", data.study().maps[size.map].name + ", kernel " +
-                               std::to_string(size.kernel) + ' ' + choiceName(size.rule)},
+                               std::to_string(size.kernel) + ' ' + choiceName(size.rule) +
+                               (size.border == Border::UNFILLED ? ", border unfilled" : "")},
                   {"width", geometry.width()},
                   {"height", geometry.height()},
                   // Blocks of the last column and row may reach beyond the map.
