@@ -93,4 +93,23 @@ std::vector<double> StudyData::ratios(std::size_t a, std::size_t b, const Proble
   return all.values();
 }
 
+std::vector<double> mediansOf(const StudyData& data, const ProblemSize& size, std::size_t variant) {
+  std::vector<double> times;
+  for (const UnitRow& unit : data.units()) {
+    const StudyRun* run = unit[variant];
+    if (run == nullptr || run->status != Status::FOUND) continue;
+    const ProblemSize of = data.sizeOf(run->setting);
+    if (of == size) times.push_back(medianTime(*run));
+  }
+  return times;
+}
+
+double blocksOf(const StudyData& data, const ProblemSize& size) {
+  const grid::GridGeometry& geometry = data.plan().map(size.map)->geometry();
+  const auto side = [&size](int cells) {
+    return std::ceil(static_cast<double>(cells) / size.kernel);
+  };
+  return side(geometry.width()) * side(geometry.height());
+}
+
 }  // namespace grid_path_planner::study

@@ -83,4 +83,10 @@ class StudyData {
   std::vector<UnitRow> units_;
 };
 
+// Median times in ms of the runs of one variant on one size that found a path.
+std::vector<double> mediansOf(const StudyData& data, const ProblemSize& size, std::size_t variant);
+
+// Blocks of the map that such a setting searches.
+double blocksOf(const StudyData& data, const ProblemSize& size);
+
 }  // namespace grid_path_planner::study

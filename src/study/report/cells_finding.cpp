@@ -19,15 +19,6 @@ std::string joined(const PublishedCase& each, const std::vector<std::size_t>& va
   return text;
 }
 
-// Null where no such case is among them.
-const PublishedCase* sameCase(const std::vector<PublishedCase>& cases, const PublishedCase& as) {
-  const auto same = std::find_if(cases.begin(), cases.end(), [&as](const PublishedCase& each) {
-    return each.number == as.number && each.setting->map == as.setting->map &&
-           each.setting->costmap.kernel == as.setting->costmap.kernel;
-  });
-  return same == cases.end() ? nullptr : &*same;
-}
-
 template <class Figures>
 std::string figureOf(const Figures& figures, int number, int kernel) {
   const auto query = figures.find(number);
@@ -47,12 +38,17 @@ struct BorderUse {
   std::size_t filled = 0;  // with the blocks filled
 };
 
+// With more than its ends.
+bool runsThrough(const StudyRun& run) {
+  return run.border_cells > 2;
+}
+
 void addUse(const PublishedCase& off, const PublishedCase* on, std::size_t variant,
             BorderUse& use) {
   if (on == nullptr || on->found(variant) == nullptr || off.found(variant) == nullptr) return;
   ++use.cases;
-  use.here += on->found(variant)->border_cells > 0 ? 1 : 0;
-  use.filled += off.found(variant)->border_cells > 0 ? 1 : 0;
+  use.here += runsThrough(*on->found(variant)) ? 1 : 0;
+  use.filled += runsThrough(*off.found(variant)) ? 1 : 0;
 }
 
 std::string borderAnswer(const BorderUse& use, const std::string& label) {
@@ -60,8 +56,9 @@ std::string borderAnswer(const BorderUse& use, const std::string& label) {
          std::to_string(use.cases) + " cases were repeated here: " + std::to_string(use.here) +
          " of ours (" + label + ") run there too with these blocks unfilled, " +
          std::to_string(use.filled) +
-         " with them filled. It needs a border that is dearer than free without the fault: unknown "
-         "or occupied cells, as the original's map must have had.";
+         " with them filled. The fault shows only where the border is unknown or occupied: where "
+         "it "
+         "is free it costs the same without it.";
 }
 
 }  // namespace

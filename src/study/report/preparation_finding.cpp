@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -56,6 +57,22 @@ std::string winsFrom(const Times& times, const Times& once) {
   return std::isinf(queries) ? "never" : shownNumber(queries, 6);
 }
 
+// Who is the fastest for one query, and who is after more.
+std::string answerFor(const StudyData& data, const ProblemSize& size, const std::vector<Times>& all,
+                      std::size_t best) {
+  const std::vector<StudyVariant>& variants = data.study().variants;
+  std::string later;
+  for (std::size_t variant = 0; variant < all.size(); ++variant) {
+    if (variant == best || all[variant].plans == 0) continue;
+    const std::string from = winsFrom(all[variant], all[best]);
+    if (from != "never")
+      later += (later.empty() ? "" : ", ") + variants[variant].label + " from " + from + " on";
+  }
+  return "At " + sizeText(data, size) + ' ' + variants[best].label +
+         " takes the least time for one query; over more of them " +
+         (later.empty() ? "no other takes less" : "less is taken by " + later) + '.';
+}
+
 }  // namespace
 
 double queriesUntilCheaper(double preparation, double plan, double other_preparation,
@@ -82,6 +99,8 @@ Finding preparationFinding(const StudyData& data) {
     for (std::size_t variant = 0; variant < data.study().variants.size(); ++variant)
       all.push_back(timesFor(data, size, variant));
     const std::size_t best = fastestOnce(all);
+    if (best == all.size()) continue;
+    finding.answers.push_back(answerFor(data, size, all, best));
     for (std::size_t variant = 0; variant < all.size(); ++variant) {
       const Times& times = all[variant];
       if (times.plans == 0) continue;

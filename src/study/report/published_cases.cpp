@@ -1,5 +1,6 @@
 #include "study/report/published_cases.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace grid_path_planner::study {
@@ -25,6 +26,14 @@ std::vector<PublishedCase> publishedCases(const StudyData& data, const std::stri
       cases.push_back({&data.units()[i], &setting, query.number});
   }
   return cases;
+}
+
+const PublishedCase* sameCase(const std::vector<PublishedCase>& cases, const PublishedCase& as) {
+  const auto same = std::find_if(cases.begin(), cases.end(), [&as](const PublishedCase& each) {
+    return each.number == as.number && each.setting->map == as.setting->map &&
+           each.setting->costmap.kernel == as.setting->costmap.kernel;
+  });
+  return same == cases.end() ? nullptr : &*same;
 }
 
 std::optional<std::size_t> variantOf(const StudyData& data, const std::string& planner,

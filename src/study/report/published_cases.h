@@ -25,6 +25,9 @@ struct PublishedCase {
 std::vector<PublishedCase> publishedCases(const StudyData& data, const std::string& group,
                                           Border border);
 
+// The one of `cases` that is the same query on the same map at the same kernel; null where none is.
+const PublishedCase* sameCase(const std::vector<PublishedCase>& cases, const PublishedCase& as);
+
 // The first variant of a planner, with a heuristic where one is given; none where there is none.
 std::optional<std::size_t> variantOf(const StudyData& data, const std::string& planner,
                                      std::optional<planners::Heuristic> heuristic = {});

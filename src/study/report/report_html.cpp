@@ -76,15 +76,6 @@ std::vector<BoxGroup> boxesOf(const StudyData& data, Value&& value) {
   return groups;
 }
 
-// Blocks of the map that a setting searches.
-double blocksOf(const StudyData& data, const ProblemSize& size) {
-  const GridGeometry& geometry = data.plan().map(size.map)->geometry();
-  const auto side = [&size](int cells) {
-    return std::ceil(static_cast<double>(cells) / size.kernel);
-  };
-  return side(geometry.width()) * side(geometry.height());
-}
-
 std::vector<LineSeries> scalingOf(const StudyData& data) {
   std::vector<LineSeries> series;
   const std::vector<BoxGroup> boxes = boxesOf(data, medianTime);
@@ -104,7 +95,9 @@ std::vector<LineSeries> scalingOf(const StudyData& data) {
 std::string chartsFor(const StudyData& data, const Finding& finding, const std::string& command) {
   if (finding.table.name == "time")
     return figureHtml(boxPlot("Planning time", "ms", boxesOf(data, medianTime)),
-                      "Box: quartiles and median; whiskers: extremes. Made by", command) +
+                      "Box: quartiles and median; whiskers: extremes. Compare within a "
+                      "program: published ones are of another kind than this package's. Made by",
+                      command) +
            figureHtml(linePlot("Planning time against the size of the map searched",
                                "cells (blocks) of the map", "ms, median", scalingOf(data)),
                       "Medians. Made by", command);

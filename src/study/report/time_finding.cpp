@@ -7,18 +7,6 @@ using base::choiceName, base::Status;
 
 namespace {
 
-// Medians of the runs of one variant on one size that found a path, in ms.
-std::vector<double> timesOf(const StudyData& data, const ProblemSize& size, std::size_t variant) {
-  std::vector<double> times;
-  for (const UnitRow& unit : data.units()) {
-    const StudyRun* run = unit[variant];
-    if (run == nullptr || run->status != Status::FOUND) continue;
-    const ProblemSize of = data.sizeOf(run->setting);
-    if (of == size) times.push_back(medianTime(*run));
-  }
-  return times;
-}
-
 // The published time in seconds, 0 where none was.
 double publishedTime(const StudyData& data, const ProblemSize& size, std::size_t variant) {
   const auto& published = data.study().published.time_s;
@@ -63,7 +51,7 @@ Finding timeFinding(const StudyData& data) {
                    {}};
   for (const ProblemSize& size : data.sizes())
     for (std::size_t variant = 0; variant < data.study().variants.size(); ++variant) {
-      const std::vector<double> times = timesOf(data, size, variant);
+      const std::vector<double> times = mediansOf(data, size, variant);
       const auto quantile = [&times](double part) {
         return times.empty() ? TableCell("–") : TableCell(quantileOf(times, part), 3);
       };

@@ -41,11 +41,9 @@ void correctForAll(std::vector<Conclusion>& conclusions) {
   std::size_t next = 0;
   for (Conclusion& each : conclusions) {
     if (each.p) each.corrected_p = corrected[next++];
-    if (each.needs_test && each.corrected_p >= kSignificant &&
-        each.verdict != Verdict::CANNOT_BE_TESTED) {
-      each.verdict = Verdict::CANNOT_BE_TESTED;
-      each.reason += " So many pairs do not separate it from chance.";
-    }
+    if (!each.needs_test || each.corrected_p < kSignificant) continue;
+    each.verdict = Verdict::CANNOT_BE_TESTED;
+    each.reason += " These pairs do not separate it from chance.";
   }
 }
 
