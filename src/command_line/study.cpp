@@ -57,7 +57,7 @@ po::options_description studyOptions() {
                        "also write the results as a page of Markdown to keep in a repository, with "
                        "two pictures (SVG) beside it")(
       "commit", po::value<std::string>()->default_value(""),
-      "the commit that the page says it was made at")(
+      "the commit of the runs, for the page to say")(
       "jobs", po::value<int>()->default_value(1),
       "worker processes; with more than there are cores times are not to be "
       "trusted");

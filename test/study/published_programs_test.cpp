@@ -98,9 +98,9 @@ TEST(PublishedAStar, TakesTheSmallerRowWhereTheCutFIsTheSame) {
   EXPECT_EQ(found.result.statistics.generated, 9u) << "the start, five, two and one";
 }
 
-// (0,1) is unknown and weighs 5: f = 5 + 1. On the way around, (1,0) has 1 + 2.24, (2,0) 2 + 2.83 and
+// (0,1) is unknown and weighs 5: f = 5 + 1. Around it, (1,0) has 1 + 2.24, (2,0) 2 + 2.83 and
 // (3,0) 3 + 3.61, cut to 6: the tie goes to the smaller row, (0,1), which generates the goal. That
-// path costs 10; the way around costs 8.
+// path costs 10; the one around costs 8.
 TEST(PublishedAStar, EndsWhenTheGoalIsGenerated) {
   const std::vector<std::string> rows = {"S?G",  //
                                          ".#.",  //
@@ -114,8 +114,8 @@ TEST(PublishedAStar, EndsWhenTheGoalIsGenerated) {
   EXPECT_EQ(answer("a_star", rows).result.costValue(), 8.0) << "the correct one";
 }
 
-// A step costs the larger of two cells: (0,1) 5 + 2, then (0,2) 10 + 1. The way around costs 9. A
-// step that costs the cell entered: (0,2) 6 + 1 is taken before any of the way around with f 7.
+// A step costs the larger of two cells: (0,1) 5 + 2, then (0,2) 10 + 1. The path around costs 9. A
+// step that costs the cell entered: (0,2) 6 + 1 is taken before any cell of that with f 7.
 TEST(PublishedAStar, CostsTheLargerOfTwoCellsOrTheOneEntered) {
   const std::vector<std::string> rows = {"S?.G",  //
                                          ".##.",  //
@@ -311,7 +311,7 @@ TEST(PublishedDijkstraLaw, CostsTheLeast) {
 
 TEST(PublishedAStarLaw, NeverCostsLessThanTheLeastAndSometimesMore) {
   std::mt19937 random(1968);
-  int dearer = 0;
+  int costlier = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const RandomQuery query = randomQuery(random);
     const auto least = test::referenceCosts(
@@ -320,9 +320,9 @@ TEST(PublishedAStarLaw, NeverCostsLessThanTheLeastAndSometimesMore) {
                                   guidedBy(Heuristic::EUCLIDEAN));
     ASSERT_EQ(found.result.status, Status::FOUND) << "trial " << trial;
     EXPECT_FALSE(found.result.cost < *least) << "trial " << trial;
-    dearer += *least < found.result.cost ? 1 : 0;
+    costlier += *least < found.result.cost ? 1 : 0;
   }
-  EXPECT_GT(dearer, 0);
+  EXPECT_GT(costlier, 0);
 }
 
 // --- what they refuse ---------------------------------------------------------------------------

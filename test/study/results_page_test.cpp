@@ -54,8 +54,10 @@ TEST(StudyResults, OfTheRepositoryAreFoundAgain) {
       const std::string head = "| " + map.name + " | " + std::to_string(pair) + " | " +
                                std::to_string(kRepeatedKernel) + " | ";
       const std::string page = resultsPage(data, {cellsFinding(data)}, {}, "", "");
-      EXPECT_EQ(linesIn(kept, head), linesIn(page, head));
-      compared += linesIn(page, head).size();
+      for (const std::string& line : linesIn(page, head)) {
+        EXPECT_TRUE(contains(kept, line + '\n')) << line;
+        ++compared;
+      }
     }
   EXPECT_EQ(compared, 20u) << "ten pairs on two maps";
 }
@@ -70,7 +72,8 @@ TEST(ResultsPage, SaysWhereItIsFromAndHoldsTheTables) {
   finding.answers = {"A* and a|b"};
   const std::string page = resultsPage(
       data, {finding}, {"grid_path study x.yaml", "25a6d1f", "2026-11-22"}, "t.svg", "");
-  EXPECT_TRUE(contains(page, "Written on 2026-11-22 at commit 25a6d1f by\n\n    grid_path study"));
+  EXPECT_TRUE(contains(
+      page, "Written on 2026-11-22, with the runs of commit 25a6d1f by\n\n    grid_path study"));
   EXPECT_TRUE(contains(page, "- A\\* and a\\|b\n"));
   EXPECT_TRUE(contains(page, "| site | 7 | 6 | 1 |"));
   EXPECT_TRUE(contains(page, "](t.svg)"));

@@ -196,6 +196,18 @@ TEST(Preparation, PaysFromTheFirstQueryThatMakesTheSumLess) {
   EXPECT_TRUE(std::isinf(queriesUntilCheaper(10.0, 3.0, 0.0, 2.0)));
 }
 
+TEST_F(VerdictsTest, PreparationIsComparedWithinOneProgram) {
+  change(0, [](StudyRun& run) { run.times_ms = {0.001}; });
+  change(1, [](StudyRun& run) { run.preparation_ms = 10.0; });
+  change(2, [](StudyRun& run) { run.times_ms = {3.0}; });
+  const Table table = preparationFinding(StudyData(plan_, runs_)).table;
+  ASSERT_EQ(table.rows.size(), 6u) << "three variants at two kernels";
+  EXPECT_EQ(table.rows[0][9].text, "the first") << "Dijkstra alone of its kind";
+  EXPECT_EQ(table.rows[1][9].text, "6") << "10 + 6 is less than 18, 10 + 5 is 15";
+  EXPECT_EQ(table.rows[2][9].text, "the first") << "of the A*, though Dijkstra takes less";
+  EXPECT_EQ(table.rows[1][6].number, 11.0) << "the first plan, preparation and all";
+}
+
 TEST(PreparationLaw, IsTheFirstQueryOfACount) {
   std::mt19937 random(15);
   for (int trial = 0; trial < 300; ++trial) {

@@ -39,7 +39,7 @@ struct StudyTarget {
   std::string folder;
   std::string command;  // shown in the report
   std::string results;  // page.md, with page_times.svg and page_paths.svg beside it; "" for none
-  std::string commit;   // shown there; "" where it is not known
+  std::string commit;   // of the runs, shown there; "" where it is not known
 };
 
 class StudyJob {

@@ -2,6 +2,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "study/report/finding_text.h"
 #include "study/report/findings.h"
@@ -39,38 +40,33 @@ Times timesFor(const StudyData& data, const ProblemSize& size, std::size_t varia
   return {meanOf(each), meanOf(plans), plans.size()};
 }
 
-// The variant that is the fastest for one single query, among those with times.
-std::size_t fastestOnce(const std::vector<Times>& times) {
-  std::size_t best = times.size();
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (times[i].plans == 0) continue;
-    const auto once = [](const Times& each) { return each.preparation_ms + each.plan_ms; };
-    if (best == times.size() || once(times[i]) < once(times[best])) best = i;
-  }
+// Of the programs whose times can be compared with those of `variant`, the one that is the fastest for
+// one single query. Precondition: `variant` has times.
+std::size_t fastestOnce(const StudyData& data, const std::vector<Times>& times,
+                        std::size_t variant) {
+  std::size_t best = variant;
+  const auto once = [](const Times& each) { return each.preparation_ms + each.plan_ms; };
+  for (std::size_t i = 0; i < times.size(); ++i)
+    if (times[i].plans > 0 && data.baselineOf(i) == data.baselineOf(variant) &&
+        once(times[i]) < once(times[best]))
+      best = i;
   return best;
 }
 
-// "" where it never is.
-std::string winsFrom(const Times& times, const Times& once) {
-  const double queries =
-      queriesUntilCheaper(times.preparation_ms, times.plan_ms, once.preparation_ms, once.plan_ms);
-  return std::isinf(queries) ? "never" : shownNumber(queries, 6);
+// From how many queries `variant` takes less than `best`; none where the interval of the ratio of their
+// times does not say which plans faster.
+std::optional<double> queriesToWin(const StudyData& data, const ProblemSize& size,
+                                   const std::vector<Times>& times, std::size_t variant,
+                                   std::size_t best) {
+  const std::vector<double> ratios = data.ratios(best, variant, &size, medianTime);
+  if (ratios.empty() || !differs(meanRatio(ratios))) return {};
+  return queriesUntilCheaper(times[variant].preparation_ms, times[variant].plan_ms,
+                             times[best].preparation_ms, times[best].plan_ms);
 }
 
-// Who is the fastest for one query, and who is after more.
-std::string answerFor(const StudyData& data, const ProblemSize& size, const std::vector<Times>& all,
-                      std::size_t best) {
-  const std::vector<StudyVariant>& variants = data.study().variants;
-  std::string later;
-  for (std::size_t variant = 0; variant < all.size(); ++variant) {
-    if (variant == best || all[variant].plans == 0) continue;
-    const std::string from = winsFrom(all[variant], all[best]);
-    if (from != "never")
-      later += (later.empty() ? "" : ", ") + variants[variant].label + " from " + from + " on";
-  }
-  return "At " + sizeText(data, size) + ' ' + variants[best].label +
-         " takes the least time for one query; over more of them " +
-         (later.empty() ? "no other takes less" : "less is taken by " + later) + '.';
+TableCell winsCell(const std::optional<double>& queries) {
+  if (!queries) return "not certain";
+  return std::isinf(*queries) ? TableCell("never") : TableCell(*queries, 6);
 }
 
 }  // namespace
@@ -90,7 +86,8 @@ Finding preparationFinding(const StudyData& data) {
       "Preparation: what the planner does for a new map, after the costmap, which all share; mean "
       "of the settings. Plan: mean of all plans. First plan: both. Wins from: so many queries on "
       "one map from which preparation and plans together take less than those of the variant that "
-      "is the fastest for one query; times of means, without an interval.",
+      "is the fastest of its kind for one query; not certain: the interval of the ratio of "
+      "their times does not say which plans faster.",
       {"map", "kernel", "rule", "border", "variant", "preparation [ms]", "first plan [ms]",
        "plan [ms]", "plans", "wins from"},
       {}};
@@ -98,18 +95,22 @@ Finding preparationFinding(const StudyData& data) {
     std::vector<Times> all;
     for (std::size_t variant = 0; variant < data.study().variants.size(); ++variant)
       all.push_back(timesFor(data, size, variant));
-    const std::size_t best = fastestOnce(all);
-    if (best == all.size()) continue;
-    finding.answers.push_back(answerFor(data, size, all, best));
     for (std::size_t variant = 0; variant < all.size(); ++variant) {
       const Times& times = all[variant];
       if (times.plans == 0) continue;
+      const std::size_t best = fastestOnce(data, all, variant);
+      const auto wins = queriesToWin(data, size, all, variant, best);
+      if (variant != best && wins && !std::isinf(*wins))
+        finding.answers.push_back("At " + sizeText(data, size) + ' ' +
+                                  data.study().variants[variant].label + " takes less than " +
+                                  data.study().variants[best].label + " from " +
+                                  shownNumber(*wins, 6) + " queries on.");
       finding.table.rows.push_back(
           {data.study().maps[size.map].name, TableCell(size.kernel, 3), choiceName(size.rule),
            choiceName(size.border), data.study().variants[variant].label,
            TableCell(times.preparation_ms, 3), TableCell(times.preparation_ms + times.plan_ms, 3),
            TableCell(times.plan_ms, 3), TableCell(static_cast<double>(times.plans), 6),
-           variant == best ? "the first" : winsFrom(times, all[best])});
+           variant == best ? TableCell("the first") : winsCell(wins)});
     }
   }
   return finding;

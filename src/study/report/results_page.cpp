@@ -57,8 +57,8 @@ std::string resultsPage(const StudyData& data, const std::vector<Finding>& findi
                         const std::string& paths_picture) {
   std::ostringstream page;
   page << "# Results: " << markdown(data.study().title) << "\n\nWritten on " << origin.date
-       << " at commit " << (origin.commit.empty() ? "(not told)" : origin.commit) << " by\n\n    "
-       << origin.command
+       << ", with the runs of commit " << (origin.commit.empty() ? "(not told)" : origin.commit)
+       << " by\n\n    " << origin.command
        << "\n\nDo not edit: the command writes it anew. Times are of one machine at one time; "
           "everything else is the same wherever it runs. "
        << shownNumber(static_cast<double>(data.runs().size()), 9)

@@ -12,7 +12,7 @@ namespace grid_path_planner::study {
 // What made the page.
 struct ResultsOrigin {
   std::string command;
-  std::string commit;  // "" where it was not told
+  std::string commit;  // of the runs, "" where it was not told
   std::string date;    // "2026-11-22"
 };
 
