@@ -21,7 +21,7 @@ using base::InputError, base::StopSource;
 using grid::MapFileOptions, grid::OccupancyGrid;
 using nodes::readAnyMapFile;
 using study::ProcessPool, study::StudyFailure, study::StudyJob, study::StudyOutcome,
-    study::WorkerGroup;
+    study::StudyTarget, study::WorkerGroup;
 
 namespace {
 
@@ -53,9 +53,14 @@ po::options_description studyOptions() {
   known.add_options()("study", po::value<std::string>()->required(), "study file (YAML)")(
       "out", po::value<std::string>()->required(),
       "folder for report.html, the tables (CSV, JSON) and the runs; a study that was interrupted "
-      "goes on there")("jobs", po::value<int>()->default_value(1),
-                       "worker processes; with more than there are cores times are not to be "
-                       "trusted");
+      "goes on there")("results", po::value<std::string>()->default_value(""),
+                       "also write the results as a page of Markdown to keep in a repository, with "
+                       "two pictures (SVG) beside it")(
+      "commit", po::value<std::string>()->default_value(""),
+      "the commit of the runs, for the page to say")(
+      "jobs", po::value<int>()->default_value(1),
+      "worker processes; with more than there are cores times are not to be "
+      "trusted");
   return known;
 }
 
@@ -74,13 +79,12 @@ int printOutcome(const StudyOutcome& outcome, std::size_t units, const std::stri
   return outcome.failures.empty() && !outcome.interrupted ? 0 : kIncomplete;
 }
 
-int runAndReport(const StudyJob& job, const std::string& out, WorkerGroup& workers,
-                 const std::string& command) {
+int runAndReport(const StudyJob& job, const StudyTarget& target, WorkerGroup& workers) {
   const CatchInterrupt catching;
   ProgressBar bar(job.units());
-  const StudyOutcome outcome = job.run(out, command, workers, interrupted.token(),
-                                       [&bar](std::size_t done) { bar.done(done); });
-  return printOutcome(outcome, job.units(), out);
+  const StudyOutcome outcome =
+      job.run(target, workers, interrupted.token(), [&bar](std::size_t done) { bar.done(done); });
+  return printOutcome(outcome, job.units(), target.folder);
 }
 
 // Turns `grid_path study FILE --out DIR` into `grid_path study --study FILE --out DIR`.
@@ -105,14 +109,18 @@ int runStudyCommand(int argc, char** argv) {
   std::vector<char*> arguments = withNamedFile(argc, argv);
   po::variables_map values;
   if (!parseArguments(static_cast<int>(arguments.size()), arguments.data(), studyOptions(),
-                      "grid_path study FILE.yaml --out DIR [--jobs N]", values))
+                      "grid_path study FILE.yaml --out DIR [--jobs N] [--results PAGE.md]", values))
     return 0;
   const std::string file = values["study"].as<std::string>();
   const std::string out = values["out"].as<std::string>();
+  const std::string results = values["results"].as<std::string>();
   const int jobs = jobsFrom(values);
   const StudyJob job(file, readMap);
   ProcessPool pool(static_cast<std::size_t>(jobs), job.work());
-  const std::string command = "rosrun grid_path_planner grid_path study " + file + " --out " + out;
+  const StudyTarget target = {out,
+                              "rosrun grid_path_planner grid_path study " + file + " --out " + out +
+                                  (results.empty() ? "" : " --results " + results),
+                              results, values["commit"].as<std::string>()};
 #ifdef GPP_HAVE_MPI
   if (startedByMpi()) {
     const MpiSession session;
@@ -121,10 +129,10 @@ int runStudyCommand(int argc, char** argv) {
       return 0;
     }
     MpiWorkers workers(session, pool);
-    return runAndReport(job, out, workers, command);
+    return runAndReport(job, target, workers);
   }
 #endif
-  return runAndReport(job, out, pool, command);
+  return runAndReport(job, target, pool);
 }
 
 }  // namespace grid_path_planner::command_line

@@ -4,6 +4,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace grid_path_planner::study {
 namespace {
@@ -31,6 +32,32 @@ Interval meanRatio(const std::vector<double>& ratios) {
   for (const double ratio : ratios) logarithms.push_back(std::log(ratio));
   const Interval mean = meanDifference(logarithms);
   return {std::exp(mean.value), std::exp(mean.low), std::exp(mean.high)};
+}
+
+double pairedP(const std::vector<double>& differences) {
+  if (differences.size() < 2) return 1.0;
+  const Interval mean = meanDifference(differences);
+  const boost::math::students_t distribution(static_cast<double>(differences.size()) - 1.0);
+  const double error = (mean.high - mean.value) /
+                       boost::math::quantile(boost::math::complement(distribution, kTail));
+  if (error == 0.0) return mean.value == 0.0 ? 1.0 : 0.0;
+  return 2.0 *
+         boost::math::cdf(boost::math::complement(distribution, std::abs(mean.value) / error));
+}
+
+std::vector<double> holmCorrected(const std::vector<double>& p_values) {
+  std::vector<std::size_t> order(p_values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&p_values](std::size_t a, std::size_t b) { return p_values[a] < p_values[b]; });
+  std::vector<double> corrected(p_values.size());
+  double largest = 0.0;
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    const auto left = static_cast<double>(order.size() - rank);
+    largest = std::min(1.0, std::max(largest, left * p_values[order[rank]]));
+    corrected[order[rank]] = largest;
+  }
+  return corrected;
 }
 
 Interval share(std::size_t some, std::size_t all, std::size_t samples) {

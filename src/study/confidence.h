@@ -30,6 +30,15 @@ inline bool differs(const Interval& ratio) {
 // Precondition: not empty.
 Interval meanDifference(const std::vector<double>& differences);
 
+// The p-value of Student's test, two-sided, that the mean of `differences` is 0. Without spread: 1 for
+// a mean of 0, else 0; one alone: 1. Precondition: not empty.
+double pairedP(const std::vector<double>& differences);
+
+// p-values corrected for several tests by Holm's step-down procedure (Holm 1979): the smallest of n
+// times n, the next times n - 1, and so on, none less than the one before and none above 1. The
+// chance of rejecting any true hypothesis is then at most that of one test. In the order given.
+std::vector<double> holmCorrected(const std::vector<double>& p_values);
+
 // `some` of `all` as a share, with Wilson's score interval (Wilson 1927), which holds for small
 // numbers and shares near 0 and 1 too, for `samples` independent ones among them. Precondition:
 // all > 0, samples > 0.

@@ -22,6 +22,8 @@ namespace grid_path_planner::study {
 struct CellPair {
   grid::Cell start;
   grid::Cell goal;
+  std::string group;  // of pairs under a name of their own, "" for none
+  int number = 0;     // in its group, from 1
 };
 
 // The sources of the queries on a map; all given ones are used, in this order.
@@ -41,6 +43,12 @@ struct StudyMap {
   QuerySource queries;
 };
 
+// What the blocks of a kernel get whose middle lies outside the map, in the last columns and rows:
+// what the kernel's rule says, or nothing, as in the original study, where they stayed free as its
+// downsampled map was made.
+enum class Border { FILLED, UNFILLED };
+const std::vector<std::pair<const char*, Border>>& choicesOf(Border);
+
 struct Weights {
   int free = 1;
   int unknown = 50;
@@ -57,19 +65,32 @@ struct StudyVariant {
 struct StudySetting {
   std::string label;  // "dexrov_site, kernel 3 filter2d, weights 1/50/100"
   std::size_t map = 0;
+  Border border = Border::FILLED;
   std::string weights;  // "1/50/100"
   costmap::CostmapOptions costmap;
 };
 
+// Numbers of cells of the paths of one query, by heuristic in the order of publication.
+struct PublishedCells {
+  std::string text;          // as published, "104/?/?"
+  std::vector<int> figures;  // 0 where the page is missing
+};
+PublishedCells publishedCells(const std::string& text);
+
 // Published figures of the same comparison, shown beside the measured ones.
 struct PublishedFigures {
-  std::string source;                                   // "" where nothing was published
-  std::map<std::string, std::map<int, double>> time_s;  // by variant and kernel
-  double expanded_ratio = 0.0;                          // Dijkstra's over A*'s; 0: not published
-  std::map<std::string, double> shortest_percent;       // by heuristic
-  std::map<std::string, double> alone_percent;          // by heuristic: shortest, and no other is
-  std::map<std::string, std::string> crossing;          // by weights: "unknown" or "occupied"
-  bool dijkstra_not_optimal = false;                    // whether that was concluded
+  std::string source;   // "" where nothing was published
+  std::string group;    // of the pairs that `cells` and `border_cells` number
+  std::string planner;  // the variants' planner that repeats the published one
+  std::map<std::string, std::map<int, double>> time_s;     // by variant and kernel
+  std::map<int, std::map<int, PublishedCells>> cells;      // by pair and kernel
+  std::map<int, std::map<int, std::string>> border_cells;  // "61 of 128": in unfilled blocks
+  std::string other_group;                                 // of the pairs of Dijkstra's cells
+  std::map<int, std::map<int, std::string>> other_cells;   // by pair and kernel
+  std::map<std::string, double> shortest_percent;          // by heuristic
+  std::map<std::string, double> alone_percent;             // by heuristic: and no other is
+  std::map<std::string, std::string> crossing;             // by weights: "unknown", "occupied"
+  bool conclusions = false;  // whether the original study's nine conclusions get verdicts
 };
 
 struct Study {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/study_planners.h"
+
 namespace grid_path_planner::study {
 
 using base::Status;
@@ -44,7 +46,7 @@ std::size_t StudyData::queries() const {
 
 ProblemSize StudyData::sizeOf(std::size_t setting) const {
   const StudySetting& chosen = study().settings[setting];
-  return {chosen.map, chosen.costmap.kernel, chosen.costmap.kernel_rule};
+  return {chosen.map, chosen.costmap.kernel, chosen.costmap.kernel_rule, chosen.border};
 }
 
 std::vector<ProblemSize> StudyData::sizes() const {
@@ -63,6 +65,20 @@ std::size_t StudyData::baseline() const {
   return 0;
 }
 
+std::size_t StudyData::baselineOf(std::size_t variant) const {
+  const std::vector<StudyVariant>& variants = study().variants;
+  const bool published = inStudiesOnly(variants[variant].planner);
+  std::size_t first = variants.size();
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    const bool same_kind = published ? variants[i].planner == variants[variant].planner
+                                     : !inStudiesOnly(variants[i].planner);
+    if (!same_kind) continue;
+    if (variants[i].planner == "dijkstra") return i;
+    first = std::min(first, i);
+  }
+  return first;
+}
+
 std::vector<double> StudyData::ratios(std::size_t a, std::size_t b, const ProblemSize* size,
                                       const std::function<double(const StudyRun&)>& value) const {
   RatiosByQuery all;
@@ -75,6 +91,25 @@ std::vector<double> StudyData::ratios(std::size_t a, std::size_t b, const Proble
     all.add(queryOf(*first), value(*first), value(*second));
   }
   return all.values();
+}
+
+std::vector<double> mediansOf(const StudyData& data, const ProblemSize& size, std::size_t variant) {
+  std::vector<double> times;
+  for (const UnitRow& unit : data.units()) {
+    const StudyRun* run = unit[variant];
+    if (run == nullptr || run->status != Status::FOUND) continue;
+    const ProblemSize of = data.sizeOf(run->setting);
+    if (of == size) times.push_back(medianTime(*run));
+  }
+  return times;
+}
+
+double blocksOf(const StudyData& data, const ProblemSize& size) {
+  const grid::GridGeometry& geometry = data.plan().map(size.map)->geometry();
+  const auto side = [&size](int cells) {
+    return std::ceil(static_cast<double>(cells) / size.kernel);
+  };
+  return side(geometry.width()) * side(geometry.height());
 }
 
 }  // namespace grid_path_planner::study

@@ -19,17 +19,17 @@ double medianTime(const StudyRun& run);  // ms
 // The runs of one query on one setting, by variant; a null pointer where there is none.
 using UnitRow = std::vector<const StudyRun*>;
 
-// Settings that differ only in weights have the same number of cells to search.
+// Settings that differ only in weights are the same map to search.
 struct ProblemSize {
   std::size_t map = 0;
   int kernel = 1;
   costmap::KernelRule rule = costmap::KernelRule::CONSERVATIVE;
+  Border border = Border::FILLED;
 
-  friend bool operator<(const ProblemSize& a, const ProblemSize& b) {
-    return std::tie(a.map, a.kernel, a.rule) < std::tie(b.map, b.kernel, b.rule);
-  }
+  auto tied() const { return std::tie(map, kernel, rule, border); }
+  friend bool operator<(const ProblemSize& a, const ProblemSize& b) { return a.tied() < b.tied(); }
   friend bool operator==(const ProblemSize& a, const ProblemSize& b) {
-    return std::tie(a.map, a.kernel, a.rule) == std::tie(b.map, b.kernel, b.rule);
+    return a.tied() == b.tied();
   }
   friend bool operator!=(const ProblemSize& a, const ProblemSize& b) { return !(a == b); }
 };
@@ -67,6 +67,10 @@ class StudyData {
 
   // The variant with which the others are compared: Dijkstra, or the first.
   std::size_t baseline() const;
+  // The same among the programs whose times can be compared with those of `variant`: those of this
+  // package, or the published programs of one name. A scan of all cells against an open list is a
+  // comparison of programs, not of planners.
+  std::size_t baselineOf(std::size_t variant) const;
 
   // value(a) / value(b) for every query on `size` (null: any), geometric means over the settings
   // where both variants found a path and both values are positive.
@@ -78,5 +82,11 @@ class StudyData {
   const std::vector<StudyRun>& runs_;
   std::vector<UnitRow> units_;
 };
+
+// Median times in ms of the runs of one variant on one size that found a path.
+std::vector<double> mediansOf(const StudyData& data, const ProblemSize& size, std::size_t variant);
+
+// Blocks of the map that such a setting searches.
+double blocksOf(const StudyData& data, const ProblemSize& size);
 
 }  // namespace grid_path_planner::study

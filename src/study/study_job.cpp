@@ -1,18 +1,47 @@
 #include "grid_path_planner/study/study_job.h"
 
+#include <ctime>
+
 #include "grid_path_planner/base/files.h"
 #include "study/report/report.h"
+#include "study/report/results_page.h"
 #include "study/study_runner.h"
 #include "study/study_worker.h"
 
 namespace grid_path_planner::study {
 
-using base::StopToken, base::writeFileAtomically;
+using base::StopToken, base::withoutExtension, base::writeFileAtomically;
 
 namespace {
 
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  char text[16];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &parts);
+  return text;
+}
+
+// The name under which a picture is linked; "" where it is empty.
+std::string writePicture(const std::string& page, const std::string& what, const std::string& svg) {
+  if (svg.empty()) return "";
+  const std::string file = withoutExtension(page) + '_' + what + ".svg";
+  writeFileAtomically(file, svg);
+  return file.substr(file.rfind('/') + 1);
+}
+
+void writeResults(const StudyData& data, const std::vector<Finding>& findings,
+                  const StudyTarget& target) {
+  const std::string times = writePicture(target.results, "times", timesPicture(data));
+  const std::string paths = writePicture(target.results, "paths", pathsPicture(data));
+  writeFileAtomically(
+      target.results,
+      resultsPage(data, findings, {target.command, target.commit, today()}, times, paths));
+}
+
 void writeReport(const StudyPlan& plan, const StudyFolder& folder, const StudyResult& result,
-                 const std::string& command) {
+                 const StudyTarget& target) {
   const StudyData data(plan, result.runs);
   const std::vector<Finding> findings = findingsOf(data);
   writeFileAtomically(folder.file("runs.csv"), csvOf(runsTable(data)));
@@ -20,7 +49,9 @@ void writeReport(const StudyPlan& plan, const StudyFolder& folder, const StudyRe
     writeFileAtomically(folder.file(finding.table.name + ".csv"), csvOf(finding.table));
   writeFileAtomically(folder.file("study.json"), jsonReport(data, findings, result.failures));
   writeFileAtomically(folder.file("report.html"),
-                      reportHtml(data, findings, result.failures, command));
+                      reportHtml(data, findings, result.failures, target.command));
+  const bool complete = result.failures.empty() && !result.interrupted;
+  if (!target.results.empty() && complete) writeResults(data, findings, target);
 }
 
 }  // namespace
@@ -40,13 +71,12 @@ std::function<std::string(std::size_t)> StudyJob::work() const {
       [plan = plan_.get(), worker](std::size_t unit) { return linesOfUnit(*worker, *plan, unit); };
 }
 
-StudyOutcome StudyJob::run(const std::string& folder, const std::string& command,
-                           WorkerGroup& workers, const StopToken& stop,
+StudyOutcome StudyJob::run(const StudyTarget& target, WorkerGroup& workers, const StopToken& stop,
                            const std::function<void(std::size_t)>& progress) const {
-  StudyFolder files(folder, plan_->fingerprint());
+  StudyFolder files(target.folder, plan_->fingerprint());
   const StudyResult result = runStudy(
       *plan_, files, workers, stop, [&progress](std::size_t done, std::size_t) { progress(done); });
-  writeReport(*plan_, files, result, command);
+  writeReport(*plan_, files, result, target);
   return {result.runs.size(), result.resumed, result.failures, result.interrupted};
 }
 

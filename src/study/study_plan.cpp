@@ -4,10 +4,11 @@
 #include <utility>
 
 #include "grid_path_planner/base/option_text.h"
+#include "study/unfilled_border.h"
 
 namespace grid_path_planner::study {
 
-using base::optionText;
+using base::choiceName, base::optionText;
 using grid::GridGeometry, grid::OccupancyGrid;
 
 namespace {
@@ -62,6 +63,12 @@ StudyPlan::StudyPlan(Study study, const MapReader& read_map) : study_(std::move(
       units_.push_back({setting, query});
 }
 
+std::shared_ptr<const OccupancyGrid> StudyPlan::mapOf(const StudySetting& setting) const {
+  if (setting.border == Border::FILLED) return maps_[setting.map];
+  return std::make_shared<const OccupancyGrid>(
+      withUnfilledBorder(*maps_[setting.map], setting.costmap.kernel));
+}
+
 std::string StudyPlan::nameOf(const StudyUnit& unit) const {
   const StudySetting& setting = study_.settings[unit.setting];
   return setting.label + ", " + placesOf(queries_[setting.map][unit.query]);
@@ -71,7 +78,10 @@ std::uint64_t StudyPlan::fingerprint() const {
   Hash hash;
   hash.add(std::to_string(study_.repeats));
   addOptions(hash, study_.base);
-  for (const StudySetting& setting : study_.settings) addOptions(hash, setting.costmap);
+  for (const StudySetting& setting : study_.settings) {
+    addOptions(hash, setting.costmap);
+    hash.add(choiceName(setting.border));
+  }
   for (const StudyVariant& variant : study_.variants) {
     hash.add(variant.planner);
     addOptions(hash, variant.search);

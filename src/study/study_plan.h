@@ -26,6 +26,8 @@ class StudyPlan {
 
   const Study& study() const { return study_; }
   const std::shared_ptr<const grid::OccupancyGrid>& map(std::size_t i) const { return maps_[i]; }
+  // The map that a setting searches: the file's, or the same without its unfilled border.
+  std::shared_ptr<const grid::OccupancyGrid> mapOf(const StudySetting& setting) const;
   const std::vector<StudyQuery>& queries(std::size_t map) const { return queries_[map]; }
   const std::vector<StudyUnit>& units() const { return units_; }
 

@@ -1,35 +1,54 @@
 #include "study/study_planners.h"
 
-#include "study/eager_theta_star.h"
-#include "study/published_a_star.h"
+#include <algorithm>
+#include <array>
+
+#include "study/programs/eager_theta_star.h"
+#include "study/programs/published_a_star.h"
+#include "study/programs/published_dijkstra.h"
 
 namespace grid_path_planner::study {
 
+using base::InputError;
 using planners::checkSearchOptions, planners::makePlanner, planners::memoryLimitOf,
     planners::Planner, planners::SearchOptions, planners::TieBreak, planners::traitsOf;
 
 namespace {
 
-// The published tie-break orders cells by their estimates alone.
-SearchOptions withoutTieBreak(SearchOptions options) {
-  options.tie_break = TieBreak::NONE;
-  return options;
-}
+struct PublishedProgram {
+  const char* name;
+  PublishedAStar::Variation variation;
+};
 
-// Planners that let A* answer where a tie-break is asked for.
-bool leftToAStar(const std::string& planner) {
-  return planner == "a_star" || planner == "weighted_jump_point";
+constexpr std::array<PublishedProgram, 3> kPublishedAStars = {{
+    {"a_star_published", {true, false, false}},
+    {"a_star_published_crossing", {false, false, false}},
+    {"a_star_published_values", {false, true, false}},
+}};
+
+// Null where it is none of them.
+const PublishedProgram* publishedAStar(const std::string& name) {
+  const auto* found =
+      std::find_if(kPublishedAStars.begin(), kPublishedAStars.end(),
+                   [&name](const PublishedProgram& program) { return name == program.name; });
+  return found == kPublishedAStars.end() ? nullptr : found;
 }
 
 // None where it is one of the package's.
 std::unique_ptr<Planner> ownPlanner(const std::string& name, const SearchOptions& options,
                                     bool published_cross) {
+  if (const PublishedProgram* program = publishedAStar(name)) {
+    PublishedAStar::Variation variation = program->variation;
+    variation.published_cross = published_cross;
+    return std::make_unique<PublishedAStar>(program->name, options, variation);
+  }
+  if (published_cross)
+    throw InputError(
+        "tie_break cross_product_published is for a_star_published and its variations, "
+        "not for " +
+        name);
   if (name == EagerThetaStar::kName) return std::make_unique<EagerThetaStar>();
-  if (name == PublishedAStar::kName)
-    return std::make_unique<PublishedAStar>(published_cross ? withoutTieBreak(options) : options,
-                                            published_cross);
-  if (published_cross && leftToAStar(name))
-    return std::make_unique<PublishedAStar>(withoutTieBreak(options));
+  if (name == PublishedDijkstra::kName) return std::make_unique<PublishedDijkstra>();
   return nullptr;
 }
 
@@ -57,6 +76,10 @@ TieBreak orderOf(StudyTieBreak tie_break) {
   return TieBreak::CROSS_PRODUCT;
 }
 
+bool isPublishedAStar(const std::string& planner) {
+  return publishedAStar(planner) != nullptr;
+}
+
 std::unique_ptr<Planner> makeStudyPlanner(const std::string& name, const SearchOptions& options,
                                           bool published_cross) {
   std::unique_ptr<Planner> own = ownPlanner(name, options, published_cross);
@@ -67,13 +90,13 @@ std::unique_ptr<Planner> makeStudyPlanner(const std::string& name, const SearchO
 }
 
 bool guidedInStudies(const std::string& planner) {
-  if (planner == EagerThetaStar::kName) return false;
-  return planner == PublishedAStar::kName || traitsOf(planner).heuristic;
+  if (isPublishedAStar(planner)) return true;
+  return !inStudiesOnly(planner) && traitsOf(planner).heuristic;
 }
 
-bool inStudiesOnly(const std::string& planner, bool published_cross) {
-  return planner == EagerThetaStar::kName || planner == PublishedAStar::kName ||
-         (published_cross && leftToAStar(planner));
+bool inStudiesOnly(const std::string& planner) {
+  return planner == EagerThetaStar::kName || planner == PublishedDijkstra::kName ||
+         isPublishedAStar(planner);
 }
 
 }  // namespace grid_path_planner::study

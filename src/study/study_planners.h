@@ -2,9 +2,10 @@
 //
 //   std::unique_ptr<Planner> planner = makeStudyPlanner("a_star_published", options, false);
 //
-// `theta_star` is Theta* as first published, superseded by lazy_theta_star; `a_star_published` is the
-// original study's program, and tie-break `cross_product_published` the term that it added to its
-// estimates. None of the three is for driving, so path_planner and `grid_path plan` have none.
+// `theta_star` is Theta* as first published, superseded by lazy_theta_star; `dijkstra_published` and
+// the three `a_star_published…` are the original study's programs (programs/), and tie-break
+// `cross_product_published` is what those A* can have instead of a heuristic. None of these is for
+// driving, so path_planner and `grid_path plan` have none.
 #pragma once
 
 #include <memory>
@@ -23,8 +24,11 @@ const std::vector<std::pair<const char*, StudyTieBreak>>& choicesOf(StudyTieBrea
 // The tie-break for planners without the published one: as strict an order.
 planners::TieBreak orderOf(StudyTieBreak tie_break);
 
-// With `published_cross`, tie-break cross_product_published takes the place of options.tie_break.
-// Throws InputError for options that cannot be used, and as makePlanner() does for unknown names.
+// Whether it is one of the original's A*, whose heuristic tie-break cross_product_published replaces.
+bool isPublishedAStar(const std::string& planner);
+
+// Throws InputError for options that cannot be used, for `published_cross` unless it is a published
+// A*, and as makePlanner() does for unknown names.
 std::unique_ptr<planners::Planner> makeStudyPlanner(const std::string& name,
                                                     const planners::SearchOptions& options,
                                                     bool published_cross);
@@ -33,6 +37,6 @@ std::unique_ptr<planners::Planner> makeStudyPlanner(const std::string& name,
 bool guidedInStudies(const std::string& planner);
 
 // Whether it is not among the package's planners.
-bool inStudiesOnly(const std::string& planner, bool published_cross);
+bool inStudiesOnly(const std::string& planner);
 
 }  // namespace grid_path_planner::study

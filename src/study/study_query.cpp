@@ -46,7 +46,11 @@ class QueryMaker {
         costs_(strictCosts(occupancy, costmap)) {}
 
   std::vector<StudyQuery> make() {
-    for (const CellPair& pair : map_.queries.pairs) add(pair.start, pair.goal);
+    for (const CellPair& pair : map_.queries.pairs) {
+      add(pair.start, pair.goal);
+      queries_.back().group = pair.group;
+      queries_.back().number = pair.number;
+    }
     addRandom();
     addScenario();
     return queries_;
@@ -113,7 +117,7 @@ class QueryMaker {
     for (int tries = 0; tries < 20; ++tries) {
       const Cell goal = draw();
       if (reached[occupancy_.geometry().index(goal).value()] == 0 || goal == start) continue;
-      queries_.push_back({start, goal, ""});
+      queries_.push_back({start, goal, "", 0, ""});
       return true;
     }
     return false;

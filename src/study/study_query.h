@@ -13,7 +13,9 @@ namespace grid_path_planner::study {
 struct StudyQuery {
   grid::Cell start;
   grid::Cell goal;
-  std::string note;  // which end was blocked and which cell replaced it; "" where none was
+  std::string group;  // CellPair::group, "" for queries that are not pairs
+  int number = 0;     // CellPair::number
+  std::string note;   // which end was blocked and which cell replaced it; "" where none was
 };
 
 // The queries of `map` on `occupancy`. Ends that are occupied or too near to something that is (by

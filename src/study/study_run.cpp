@@ -58,9 +58,11 @@ std::string lineOf(const StudyRun& run) {
               {"unknown_m", run.unknown_m},
               {"occupied_m", run.occupied_m},
               {"cells", run.cells},
+              {"border_cells", run.border_cells},
               {"expanded", run.expanded},
               {"generated", run.generated},
               {"bytes", run.bytes},
+              {"preparation_ms", run.preparation_ms},
               {"times_ms", run.times_ms},
               {"path_xy", run.path_xy}}
       .dump(-1, ' ', false, json::error_handler_t::replace);
@@ -86,9 +88,11 @@ StudyRun runFromLine(const std::string& line) {
     object.at("unknown_m").get_to(run.unknown_m);
     object.at("occupied_m").get_to(run.occupied_m);
     object.at("cells").get_to(run.cells);
+    object.at("border_cells").get_to(run.border_cells);
     object.at("expanded").get_to(run.expanded);
     object.at("generated").get_to(run.generated);
     object.at("bytes").get_to(run.bytes);
+    object.at("preparation_ms").get_to(run.preparation_ms);
     object.at("times_ms").get_to(run.times_ms);
     object.at("path_xy").get_to(run.path_xy);
     if (run.times_ms.empty()) throw InputError("a run without times");

@@ -27,10 +27,14 @@ struct StudyRun {
   double clearance_m = 0.0;  // to occupied cells of the full map; infinite where there are none
   double unknown_m = 0.0;    // metres of the path through unknown cells of the full map
   double occupied_m = 0.0;
-  std::uint64_t cells = 0;     // of the path, on the map searched; the original's "explored"
-  std::uint64_t expanded = 0;  // for every status, as the two below
+  std::uint64_t cells = 0;         // of the path, on the map searched; the original's "explored"
+  std::uint64_t border_cells = 0;  // of those in blocks that Border::UNFILLED leaves unfilled
+  std::uint64_t expanded = 0;      // for every status, as the two below
   std::uint64_t generated = 0;
   std::uint64_t bytes = 0;
+  // What the variant does for a new map before its first plan, without the costmap; measured once
+  // for a setting, and in every run of it.
+  double preparation_ms = 0.0;
   std::vector<double> times_ms;  // of each repeat, planning alone
 
   std::vector<float> path_xy;  // x, y in metres, for pictures

@@ -1,12 +1,16 @@
 #include "study/study_worker.h"
 
+#include <chrono>
+
 #include "grid_path_planner/path/metrics.h"
 #include "study/study_planners.h"
+#include "study/unfilled_border.h"
 
 namespace grid_path_planner::study {
 
-using base::Status;
-using grid::Cell, grid::OccupancyGrid, grid::OccupancyThresholds;
+using base::Status, base::StopToken;
+using costmap::CostmapOptions;
+using grid::Cell, grid::OccupancyGrid;
 using path::ClassLengths, path::clearanceOf, path::lengthsByClass, path::Path, path::Pose,
     path::turningOf;
 using planners::SearchOptions;
@@ -52,16 +56,17 @@ void fillAnswer(const Plan& report, StudyRun& run) {
   run.bytes = report.statistics.search_bytes;
 }
 
-void fillPath(const Plan& report, const OccupancyGrid& map, const OccupancyThresholds& thresholds,
+void fillPath(const Plan& report, const OccupancyGrid& map, const CostmapOptions& costmap,
               bool keep_path, StudyRun& run) {
   run.cost = report.costValue();
   run.length_m = report.length_m;
   run.turning_rad = turningOf(report.path);
-  run.clearance_m = clearanceOf(report.path, map, thresholds);
-  const ClassLengths lengths = lengthsByClass(report.path, map, thresholds);
+  run.clearance_m = clearanceOf(report.path, map, costmap.thresholds);
+  const ClassLengths lengths = lengthsByClass(report.path, map, costmap.thresholds);
   run.unknown_m = lengths.unknown_m;
   run.occupied_m = lengths.occupied_m;
   run.cells = report.cells;
+  run.border_cells = unfilledBlocksOf(report.path, map.geometry(), costmap.kernel);
   if (keep_path) run.path_xy = cornersOf(report.path);
 }
 
@@ -78,16 +83,28 @@ PathPlanner StudyWorker::plannerFor(const StudySetting& setting,
                                                               const SearchOptions& search) {
     return makeStudyPlanner(name, search, cross);
   });
-  made.setMap(plan_.map(setting.map));
+  made.setMap(searched_);
   return made;
+}
+
+// What the planner itself does for a map, after the costmap that all planners share.
+double StudyWorker::preparationTime(PathPlanner& planner) {
+  planner.downsampledCosts(StopToken());
+  const auto begin = StopToken::Clock::now();
+  planner.finishPreparation(StopToken());
+  return std::chrono::duration<double, std::milli>(StopToken::Clock::now() - begin).count();
 }
 
 void StudyWorker::prepare(std::size_t setting) {
   if (prepared_ == setting) return;
   planners_.clear();
+  preparations_ms_.clear();
   const StudySetting& chosen = plan_.study().settings[setting];
-  for (const StudyVariant& variant : plan_.study().variants)
+  searched_ = plan_.mapOf(chosen);
+  for (const StudyVariant& variant : plan_.study().variants) {
     planners_.push_back(plannerFor(chosen, variant));
+    preparations_ms_.push_back(preparationTime(planners_.back()));
+  }
   exact_ = std::make_unique<PathPlanner>(plannerFor(chosen, {"", "dijkstra", {}}));
   prepared_ = setting;
 }
@@ -110,11 +127,12 @@ std::vector<StudyRun> StudyWorker::run(const StudyUnit& unit) {
       run.times_ms.push_back(report.statistics.time_s * 1e3);
       if (repeat > 0) continue;
       run.variant = variant;
+      run.preparation_ms = preparations_ms_[variant];
       fillQuestion(unit, query, run);
       fillAnswer(report, run);
       if (exact.status == Status::FOUND) run.optimum = exact.cost.toDouble();
       if (report.status == Status::FOUND)
-        fillPath(report, map, setting.costmap.thresholds, unit.query < kDrawnQueries, run);
+        fillPath(report, map, setting.costmap, unit.query < kDrawnQueries, run);
     }
   return runs;
 }

@@ -28,10 +28,13 @@ class StudyWorker {
  private:
   void prepare(std::size_t setting);
   planning::PathPlanner plannerFor(const StudySetting& setting, const StudyVariant& variant) const;
+  static double preparationTime(planning::PathPlanner& planner);
 
   const StudyPlan& plan_;
   std::size_t prepared_ = static_cast<std::size_t>(-1);  // the setting that the planners are for
+  std::shared_ptr<const grid::OccupancyGrid> searched_;  // the setting's map
   std::vector<planning::PathPlanner> planners_;          // one a variant
+  std::vector<double> preparations_ms_;                  // of each
   std::unique_ptr<planning::PathPlanner> exact_;
 };
 

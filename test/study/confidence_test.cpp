@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -16,6 +17,44 @@ TEST(Confidence, OfAMeanIsStudentsInterval) {
   EXPECT_DOUBLE_EQ(mean.value, 3.0);
   EXPECT_NEAR(mean.high - 3.0, 2.776445 * std::sqrt(0.5), 1e-5);
   EXPECT_NEAR(3.0 - mean.low, 2.776445 * std::sqrt(0.5), 1e-5);
+}
+
+// t = 3 / sqrt(2.5 / 5) = 4.2426 with 4 degrees of freedom: p = 0.01324 (R: t.test(1:5)).
+TEST(PairedTest, IsStudents) {
+  EXPECT_NEAR(pairedP({1, 2, 3, 4, 5}), 0.01324, 1e-5);
+  EXPECT_NEAR(pairedP({-1, -2, -3, -4, -5}), 0.01324, 1e-5) << "two-sided";
+  EXPECT_EQ(pairedP({2.0}), 1.0) << "one alone says nothing";
+  EXPECT_EQ(pairedP({0.0, 0.0}), 1.0);
+  EXPECT_EQ(pairedP({1.0, 1.0}), 0.0);
+}
+
+// R: p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm").
+TEST(HolmsCorrection, OfFourTests) {
+  const std::vector<double> corrected = holmCorrected({0.01, 0.04, 0.03, 0.005});
+  const std::vector<double> expected = {0.03, 0.06, 0.06, 0.02};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(corrected[i], expected[i], 1e-12) << i;
+  EXPECT_TRUE(holmCorrected({}).empty());
+  EXPECT_EQ(holmCorrected({0.7, 0.9}).front(), 1.0) << "never above 1";
+}
+
+// A corrected value below the level is a rejection by the procedure as Holm wrote it: step through
+// the sorted values while p < level / (tests left), and stop at the first that is not.
+TEST(HolmsCorrectionLaw, RejectsWhatTheStepDownProcedureRejects) {
+  std::mt19937 random(1979);
+  for (int trial = 0; trial < 500; ++trial) {
+    std::vector<double> values(1 + random() % 9);
+    for (double& value : values) value = std::pow(static_cast<double>(random() % 10007) / 1e4, 3);
+    const std::vector<double> corrected = holmCorrected(values);
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    std::size_t rejected = 0;
+    while (rejected < sorted.size() &&
+           sorted[rejected] * static_cast<double>(sorted.size() - rejected) < 0.05)
+      ++rejected;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      EXPECT_EQ(corrected[i]<0.05, rejected> 0 && values[i] <= sorted[rejected - 1])
+          << "trial " << trial << ", p " << values[i];
+  }
 }
 
 TEST(Confidence, OfARatioIsThatOfItsLogarithm) {

@@ -96,9 +96,9 @@ TEST_F(StudyFileTest, TheTwoThatComeWithThePackageAreRead) {
     EXPECT_GT(plan.units().size(), 0u) << file;
   }
   const Study thesis = readStudyFile("config/study_thesis.yaml");
-  EXPECT_EQ(thesis.settings.size(), 9u) << "three kernels, three sets of weights";
-  EXPECT_EQ(thesis.variants.size(), 7u) << "Dijkstra, three A*, three as published";
-  EXPECT_EQ(thesis.maps[0].queries.pairs.size(), 10u);
+  EXPECT_EQ(thesis.settings.size(), 36u) << "two maps, three kernels, two borders, three weights";
+  EXPECT_EQ(thesis.variants.size(), 14u) << "Dijkstra and three A*, twice; six variations";
+  EXPECT_EQ(thesis.maps[0].queries.pairs.size(), 23u) << "ten as run, ten as printed, Dijkstra's";
   EXPECT_TRUE(thesis.settings[0].costmap.occupied_is_passable);
 }
 
@@ -106,13 +106,42 @@ TEST_F(StudyFileTest, KnowsTheProgramsThatAreInStudiesOnly) {
   const Study study = read(with("planners: [dijkstra, a_star]",
                                 "planners: [theta_star, a_star, a_star_published]\n"
                                 "tie_breaks: [larger_g, cross_product_published]"));
-  ASSERT_EQ(study.variants.size(), 9u) << "theta_star is not guided by a heuristic";
-  EXPECT_EQ(study.variants[1].label, "a_star octile, larger_g");
-  EXPECT_FALSE(study.variants[1].published_cross);
-  EXPECT_EQ(study.variants[2].label, "a_star octile, cross_product_published");
-  EXPECT_TRUE(study.variants[2].published_cross);
-  const Study by_option = read(with("radius: 0", "tie_break: cross_product_published"));
-  EXPECT_TRUE(by_option.variants[1].published_cross);
+  ASSERT_EQ(study.variants.size(), 6u) << "theta_star is not guided by a heuristic";
+  EXPECT_EQ(study.variants[1].label, "a_star octile");
+  EXPECT_EQ(study.variants[3].label, "a_star_published octile");
+  EXPECT_FALSE(study.variants[3].published_cross);
+  EXPECT_EQ(study.variants[5].label, "a_star_published cross_product_published")
+      << "once, since it takes the place of the heuristic";
+  EXPECT_TRUE(study.variants[5].published_cross);
+  EXPECT_TRUE(contains(refusal(with("radius: 0", "tie_break: cross_product_published")),
+                       "is for a_star_published"));
+}
+
+TEST_F(StudyFileTest, BordersAndGroupsOfPairs) {
+  const Study study = read(
+      with("pairs: [[[0, 0], [3, 1]]]",
+           "pairs: {as_run: [[[0, 0], [3, 1]], [[1, 0], [3, 1]]], other: [[[2, 0], [0, 1]]]}") +
+      "borders: [filled, unfilled]\n");
+  EXPECT_EQ(study.settings.size(), 8u) << "two kernels, two borders, two sets of weights";
+  EXPECT_EQ(study.settings[0].border, Border::FILLED);
+  EXPECT_EQ(study.settings[2].border, Border::UNFILLED);
+  EXPECT_TRUE(contains(study.settings[2].label, "border unfilled"));
+  const StudyPlan plan(study, readMap);
+  ASSERT_EQ(plan.queries(0).size(), 3u);
+  EXPECT_EQ(plan.queries(0)[1].group, "as_run");
+  EXPECT_EQ(plan.queries(0)[1].number, 2);
+  EXPECT_EQ(plan.queries(0)[2].group, "other");
+  EXPECT_EQ(plan.queries(0)[2].number, 1);
+}
+
+TEST_F(StudyFileTest, PublishedCellsAreFiguresWhereTheyCanBe) {
+  EXPECT_EQ(publishedCells("164/165/196").figures, (std::vector<int>{164, 165, 196}));
+  EXPECT_EQ(publishedCells("104/?/?").figures, (std::vector<int>{104, 0, 0}));
+  EXPECT_EQ(publishedCells("?").figures, std::vector<int>{0});
+  EXPECT_EQ(publishedCells("97, one of the three").text, "97, one of the three");
+  const Study thesis = readStudyFile("config/study_thesis.yaml");
+  EXPECT_EQ(thesis.published.cells.at(5).at(5).text, "104/?/?");
+  EXPECT_EQ(thesis.published.border_cells.at(1).at(7), "43 of 92");
 }
 
 struct BadLine {

@@ -56,14 +56,13 @@ void expectTraitsOf(const std::string& name) {
 TEST(StudyPlanners, AreThePackagesAndTheirOwn) {
   for (const std::string& name : plannerNames()) {
     expectTraitsOf(name);
-    EXPECT_FALSE(inStudiesOnly(name, false)) << name;
+    EXPECT_FALSE(inStudiesOnly(name)) << name;
   }
-  for (const char* name : {"theta_star", "a_star_published"}) {
+  for (const char* name : {"theta_star", "a_star_published", "a_star_published_crossing",
+                           "a_star_published_values", "dijkstra_published"}) {
     expectTraitsOf(name);
-    EXPECT_TRUE(inStudiesOnly(name, false)) << name;
+    EXPECT_TRUE(inStudiesOnly(name)) << name;
   }
-  EXPECT_TRUE(inStudiesOnly("a_star", true));
-  EXPECT_FALSE(inStudiesOnly("dijkstra", true)) << "it has nothing to break ties by";
   EXPECT_NE(errorText([] { makeStudyPlanner("a_starr", {}, false); }), "");
   EXPECT_NE(errorText([] { guidedInStudies("a_starr"); }), "");
   SearchOptions bad;
@@ -75,60 +74,10 @@ TEST(StudyPlanners, RefuseAMapForWhichTheyHaveNoMemory) {
   const auto map = costsOf(OccupancyGrid(GridGeometry(400, 400, 1.0), 0));
   SearchOptions options;
   options.memory_limit = 1;
-  for (const char* name : {"theta_star", "a_star_published"})
+  for (const char* name : {"theta_star", "a_star_published", "dijkstra_published"})
     EXPECT_EQ(answerOf(makeStudyPlanner(name, options, false), map, {0, 0}, {1, 1}).status,
               Status::INVALID_REQUEST)
         << name;
-}
-
-// --- a_star_published and cross_product_published ------------------------------------------------
-
-struct Counts {
-  int found = 0;
-  int more_expensive = 0;
-};
-
-// How often the answers on random maps cost more than the least.
-Counts countsOf(const char* name, bool published_cross) {
-  std::mt19937 random(1968);
-  Counts counts;
-  for (int trial = 0; trial < 100; ++trial) {
-    const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 30, {}));
-    const Cell start = test::randomCell(random, map->geometry());
-    const Cell goal = test::randomCell(random, map->geometry());
-    const auto planner = makeStudyPlanner(name, {}, published_cross);
-    EXPECT_FALSE(planner->optimalFor(*map));
-    planner->prepare(map, StopToken());
-    const SearchResult result = planner->search({start, {goal}, false}, StopToken());
-    const auto least = test::referenceCosts(*map, start)[map->geometry().index(goal).value()];
-    const bool solvable = least && map->passable(start) && map->passable(goal);
-    EXPECT_EQ(result.status == Status::FOUND, solvable) << "trial " << trial;
-    if (result.status != Status::FOUND) continue;
-    EXPECT_FALSE(result.cost < *least) << "trial " << trial;
-    ++counts.found;
-    counts.more_expensive += *least < result.cost ? 1 : 0;
-  }
-  return counts;
-}
-
-TEST(PublishedAStar, StopsAtTheFirstPathToTheGoal) {
-  const Counts counts = countsOf("a_star_published", false);
-  EXPECT_GT(counts.found, 40);
-  EXPECT_GT(counts.more_expensive, 0)
-      << "the first path that generates the goal may cost more than another";
-}
-
-TEST(PublishedAStar, AddsTheCrossProductToItsEstimate) {
-  EXPECT_GT(countsOf("a_star", true).found, 40);
-  // Off the line from start to goal everything seems more expensive, so less of it is expanded.
-  const auto open = costsOf(OccupancyGrid(GridGeometry(41, 41, 1.0), 0));
-  SearchOptions options;
-  options.heuristic = Heuristic::ZERO;
-  const auto expanded = [&](bool published_cross) {
-    return answerOf(makeStudyPlanner("a_star", options, published_cross), open, {0, 20}, {40, 20})
-        .statistics.expanded;
-  };
-  EXPECT_LT(expanded(true), expanded(false));
 }
 
 // --- theta_star ----------------------------------------------------------------------------------

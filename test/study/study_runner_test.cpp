@@ -25,6 +25,7 @@ using test::TemporaryFolder;
 
 std::string withoutTimes(StudyRun run) {
   run.times_ms = {0.0};
+  run.preparation_ms = 0.0;
   return lineOf(run);
 }
 

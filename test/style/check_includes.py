@@ -32,7 +32,6 @@ LENT = {
     "grid/map_differences.h": {"ros_common"},
     "grid/formats/rectangle_map_file.h": {"planners"},
     "planners/any_angle/theta_star.h": {"study"},  # the base of its published Theta*
-    "planners/astar/a_star.h": {"study"},          # the base of its published A*
     "planners/astar/bucket_search.h": {"planning"},
     "planners/rectangles/rectangle_route.h": {"command_line"},
     "simulation/read_world_main.h": {"read_world"},

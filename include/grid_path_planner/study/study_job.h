@@ -2,7 +2,7 @@
 //
 //   const StudyJob job("config/study_thesis.yaml", read_map);
 //   ProcessPool workers(4, job.work());
-//   const StudyOutcome outcome = job.run("results", "what made it", workers, stop, progress);
+//   const StudyOutcome outcome = job.run({"out", "what made it", "", ""}, workers, stop, progress);
 //
 // The work is cut into units: one query on one setting, by every variant. A unit is done by one
 // worker, is lost with its worker, and is what an interrupted study resumes after.
@@ -34,6 +34,14 @@ struct StudyOutcome {
   bool interrupted = false;  // some units were not started
 };
 
+// What a study writes besides its folder, and what is told there of how it was made.
+struct StudyTarget {
+  std::string folder;
+  std::string command;  // shown in the report
+  std::string results;  // page.md, with page_times.svg and page_paths.svg beside it; "" for none
+  std::string commit;   // of the runs, shown there; "" where it is not known
+};
+
 class StudyJob {
  public:
   using MapReader = std::function<grid::OccupancyGrid(const std::string& file)>;
@@ -49,13 +57,12 @@ class StudyJob {
   // the job must outlive it.
   std::function<std::string(std::size_t unit)> work() const;
 
-  // Has `workers` do the units of which `folder` has no runs, and writes report.html, the tables as
+  // Has `workers` do the units of which the folder has no runs, and writes report.html, the tables as
   // CSV and study.json there. When `stop` asks to end, the units that were started are completed. A
   // unit that fails is named and tried again when the study is resumed. `progress` is called with the
-  // number of units done, earlier ones included. `command` is shown in the report. Throws InputError
-  // where the folder cannot be written.
-  StudyOutcome run(const std::string& folder, const std::string& command, WorkerGroup& workers,
-                   const base::StopToken& stop,
+  // number of units done, earlier ones included. The page of results is written where no unit is
+  // missing. Throws InputError where a file cannot be written.
+  StudyOutcome run(const StudyTarget& target, WorkerGroup& workers, const base::StopToken& stop,
                    const std::function<void(std::size_t done)>& progress) const;
 
  private:

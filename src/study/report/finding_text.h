@@ -37,6 +37,7 @@ inline TableCell shareCell(std::size_t some, std::size_t all, std::size_t sample
 
 inline std::string sizeText(const StudyData& data, const ProblemSize& size) {
   std::string text = "kernel " + std::to_string(size.kernel);
+  if (size.border == Border::UNFILLED) text += ", border unfilled";
   if (data.study().maps.size() > 1) text = data.study().maps[size.map].name + ", " + text;
   return text;
 }

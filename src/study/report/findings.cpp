@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "study/report/finding_text.h"
+#include "study/report/verdicts.h"
 
 namespace grid_path_planner::study {
 
@@ -28,6 +29,7 @@ std::vector<TableCell> rowOf(const StudyData& data, const StudyRun& run) {
   std::vector<TableCell> row = {data.study().maps[setting.map].name,
                                 TableCell(setting.costmap.kernel, 3),
                                 choiceName(setting.costmap.kernel_rule),
+                                choiceName(setting.border),
                                 setting.weights,
                                 data.study().variants[run.variant].label,
                                 cellOf(run.start),
@@ -41,6 +43,7 @@ std::vector<TableCell> rowOf(const StudyData& data, const StudyRun& run) {
   add(gapOf(run));
   add(run.length_m);
   add(static_cast<double>(run.cells));
+  add(static_cast<double>(run.border_cells));
   add(run.turning_rad);
   add(run.clearance_m);
   add(run.unknown_m);
@@ -48,6 +51,7 @@ std::vector<TableCell> rowOf(const StudyData& data, const StudyRun& run) {
   row.emplace_back(static_cast<double>(run.expanded), 6);
   row.emplace_back(static_cast<double>(run.generated), 6);
   row.emplace_back(static_cast<double>(run.bytes), 6);
+  row.emplace_back(run.preparation_ms, 4);
   row.emplace_back(medianTime(run), 4);
   row.emplace_back(*std::min_element(run.times_ms.begin(), run.times_ms.end()), 4);
   row.emplace_back(*std::max_element(run.times_ms.begin(), run.times_ms.end()), 4);
@@ -64,12 +68,22 @@ bool several(const std::vector<StudySetting>& settings, int CostmapOptions::*opt
 }  // namespace
 
 std::vector<Finding> findingsOf(const StudyData& data) {
-  std::vector<Finding> findings = {timeFinding(data), effortFinding(data), optimalFinding(data)};
-  const Finding shortest = shortestFinding(data);
-  if (!shortest.table.rows.empty()) findings.push_back(shortest);
-  if (several(data.study().settings, &CostmapOptions::kernel))
-    findings.insert(findings.begin() + 1, kernelFinding(data));
+  std::vector<Finding> findings;
+  const auto add = [&findings](const Finding& finding) {
+    if (!finding.table.rows.empty()) findings.push_back(finding);
+  };
+  add(verdictsFinding(data));
+  findings.push_back(timeFinding(data));
+  if (several(data.study().settings, &CostmapOptions::kernel)) add(kernelFinding(data));
+  add(preparationFinding(data));
+  findings.push_back(effortFinding(data));
+  findings.push_back(optimalFinding(data));
+  add(shortestFinding(data));
+  add(countsFinding(data));
+  add(cellsFinding(data));
+  add(otherCellsFinding(data));
   findings.push_back(weightsFinding(data));
+  add(mapsFinding(data));
   return findings;
 }
 
@@ -77,12 +91,32 @@ Table runsTable(const StudyData& data) {
   Table table;
   table.name = "runs";
   table.caption = "Every run. Times are of planning alone.";
-  table.columns = {"map",           "kernel",        "rule",        "weights",
-                   "variant",       "start",         "goal",        "status",
-                   "cost",          "gap",           "length [m]",  "cells of the path",
-                   "turning [rad]", "clearance [m]", "unknown [m]", "occupied [m]",
-                   "expanded",      "generated",     "bytes",       "time [ms]",
-                   "fastest [ms]",  "slowest [ms]",  "note"};
+  table.columns = {"map",
+                   "kernel",
+                   "rule",
+                   "border",
+                   "weights",
+                   "variant",
+                   "start",
+                   "goal",
+                   "status",
+                   "cost",
+                   "gap",
+                   "length [m]",
+                   "cells of the path",
+                   "in unfilled blocks",
+                   "turning [rad]",
+                   "clearance [m]",
+                   "unknown [m]",
+                   "occupied [m]",
+                   "expanded",
+                   "generated",
+                   "bytes",
+                   "preparation [ms]",
+                   "time [ms]",
+                   "fastest [ms]",
+                   "slowest [ms]",
+                   "note"};
   for (const StudyRun& run : data.runs()) table.rows.push_back(rowOf(data, run));
   return table;
 }

@@ -25,6 +25,25 @@ Finding shortestFinding(const StudyData& data);  // which heuristic gives the sh
 Finding optimalFinding(const StudyData& data);   // how far from the least cost
 Finding weightsFinding(const StudyData& data);   // where weights send paths
 
+Finding countsFinding(const StudyData& data);  // the same, counted as the original study counted
+Finding cellsFinding(const StudyData& data);   // cells of the published paths, and of ours
+Finding otherCellsFinding(const StudyData& data);   // of Dijkstra's, on its own queries
+Finding preparationFinding(const StudyData& data);  // what it costs, and when it pays
+Finding mapsFinding(const StudyData& data);         // what the maps hold
+
+// The least number of queries from which `preparation` and so many `plan`s take less than another's;
+// infinity where they never do.
+double queriesUntilCheaper(double preparation, double plan, double other_preparation,
+                           double other_plan);
+
+struct ClassShares {
+  double free = 0.0;
+  double unknown = 0.0;
+  double occupied = 0.0;
+};
+ClassShares classSharesOf(const grid::OccupancyGrid& map,
+                          const grid::OccupancyThresholds& thresholds);
+
 // The findings for which the study has data.
 std::vector<Finding> findingsOf(const StudyData& data);
 

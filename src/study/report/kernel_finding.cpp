@@ -17,14 +17,14 @@ struct KernelPair {
 };
 
 std::vector<KernelPair> pairsOf(const StudyData& data, std::size_t variant, int fine, int coarse) {
-  using Key = std::tuple<std::size_t, KernelRule, std::string, std::size_t>;
+  using Key = std::tuple<std::size_t, KernelRule, Border, std::string, std::size_t>;
   std::map<Key, KernelPair> pairs;
   for (const UnitRow& unit : data.units()) {
     const StudyRun* run = unit[variant];
     if (run == nullptr || run->status != Status::FOUND) continue;
     const StudySetting& setting = data.settingOf(*run);
-    KernelPair& pair =
-        pairs[{setting.map, setting.costmap.kernel_rule, setting.weights, run->query}];
+    KernelPair& pair = pairs[{setting.map, setting.costmap.kernel_rule, setting.border,
+                              setting.weights, run->query}];
     if (setting.costmap.kernel == fine) pair.fine = run;
     if (setting.costmap.kernel == coarse) pair.coarse = run;
   }

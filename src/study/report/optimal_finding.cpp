@@ -4,6 +4,7 @@
 #include "grid_path_planner/base/options.h"
 #include "study/report/finding_text.h"
 #include "study/report/findings.h"
+#include "study/study_planners.h"
 
 namespace grid_path_planner::study {
 
@@ -65,7 +66,7 @@ std::string dijkstraAnswer(const StudyData& data, const Gaps& gaps) {
   std::string text = "Dijkstra finds the least cost of grid steps in " +
                      std::to_string(gaps.optimal) + " of " + std::to_string(gaps.found) +
                      " queries.";
-  if (!data.study().published.dijkstra_not_optimal || gaps.optimal != gaps.found) return text;
+  if (!data.study().published.conclusions || gaps.optimal != gaps.found) return text;
   return text +
          " The published conclusion that Dijkstra does not find the optimal path does not hold: "
          "every cost here is compared exactly, as a + b√2 with integers, so none of this is "
@@ -138,7 +139,10 @@ void addAnswers(const StudyData& data, std::size_t variant, const Gaps& gaps,
     const std::string lengths = lengthsAnswer(data, variant);
     if (!lengths.empty()) answers.push_back(lengths);
   }
-  if (each.planner == "a_star_published")
+  // Where occupied cells are passable the one that skips them solves another problem.
+  const bool other_problem =
+      each.planner == "a_star_published" && data.study().base.costmap.occupied_is_passable;
+  if (isPublishedAStar(each.planner) && !other_problem)
     answers.push_back(publishedProgramAnswer(data, each, gaps));
 }
 

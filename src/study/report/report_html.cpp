@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "study/report/finding_text.h"
 #include "study/report/markup.h"
 #include "study/report/report.h"
 #include "study/report/report_assets.h"
@@ -62,9 +63,7 @@ std::vector<BoxGroup> boxesOf(const StudyData& data, Value&& value) {
   std::vector<BoxGroup> groups;
   for (const ProblemSize& size : data.sizes()) {
     BoxGroup group;
-    group.label = "kernel " + std::to_string(size.kernel);
-    if (data.study().maps.size() > 1)
-      group.label = data.study().maps[size.map].name + ", " + group.label;
+    group.label = sizeText(data, size);
     for (const StudyVariant& variant : data.study().variants)
       group.series.push_back({variant.label, {}});
     for (const StudyRun& run : data.runs()) {
@@ -75,15 +74,6 @@ std::vector<BoxGroup> boxesOf(const StudyData& data, Value&& value) {
     groups.push_back(group);
   }
   return groups;
-}
-
-// Blocks of the map that a setting searches.
-double blocksOf(const StudyData& data, const ProblemSize& size) {
-  const GridGeometry& geometry = data.plan().map(size.map)->geometry();
-  const auto side = [&size](int cells) {
-    return std::ceil(static_cast<double>(cells) / size.kernel);
-  };
-  return side(geometry.width()) * side(geometry.height());
 }
 
 std::vector<LineSeries> scalingOf(const StudyData& data) {
@@ -105,7 +95,9 @@ std::vector<LineSeries> scalingOf(const StudyData& data) {
 std::string chartsFor(const StudyData& data, const Finding& finding, const std::string& command) {
   if (finding.table.name == "time")
     return figureHtml(boxPlot("Planning time", "ms", boxesOf(data, medianTime)),
-                      "Box: quartiles and median; whiskers: extremes. Made by", command) +
+                      "Box: quartiles and median; whiskers: extremes. Compare within a "
+                      "program: published ones are of another kind than this package's. Made by",
+                      command) +
            figureHtml(linePlot("Planning time against the size of the map searched",
                                "cells (blocks) of the map", "ms, median", scalingOf(data)),
                       "Medians. Made by", command);
@@ -120,7 +112,7 @@ std::string chartsFor(const StudyData& data, const Finding& finding, const std::
 
 std::string answersHtml(const std::vector<std::string>& answers) {
   if (answers.empty()) return "";
-  constexpr std::size_t kShown = 6;
+  constexpr std::size_t kShown = 9;
   std::string html = "<ul>";
   for (std::size_t i = 0; i < answers.size(); ++i) {
     if (i == kShown)
@@ -206,6 +198,18 @@ std::string viewerHtml(const StudyData& data, const nlohmann::json& pictures) {
          "<ul id=\"results\" aria-live=\"polite\"></ul></section>";
 }
 
+// Browsers are slow with more rows; the file has all.
+Table firstRuns(const StudyData& data) {
+  constexpr std::size_t kMostRows = 2000;
+  Table table = runsTable(data);
+  if (table.rows.size() <= kMostRows) return table;
+  table.caption += " The first " + shownNumber(kMostRows) + " of " +
+                   shownNumber(static_cast<double>(table.rows.size()), 9) +
+                   "; runs.csv has them all.";
+  table.rows.erase(table.rows.begin() + kMostRows, table.rows.end());
+  return table;
+}
+
 }  // namespace
 
 std::string reportHtml(const StudyData& data, const std::vector<Finding>& findings,
@@ -229,7 +233,7 @@ std::string reportHtml(const StudyData& data, const std::vector<Finding>& findin
   for (const Finding& finding : findings) html += findingHtml(data, finding, command);
   html += viewerHtml(data, pictures);
   html += "<section><h2 id=\"about-runs\">Every run</h2>" +
-          tableHtml(runsTable(data), "wide tall") +
+          tableHtml(firstRuns(data), "wide tall") +
           "</section></main><script type=\"application/json\" id=\"pictures-data\">" +
           scriptSafe(pictures.dump()) + "</script><script>" + kReportScript +
           "</script></body></html>\n";

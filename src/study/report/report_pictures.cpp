@@ -15,7 +15,8 @@ namespace grid_path_planner::study {
 
 using base::choiceName, base::Status, base::StopToken;
 using costmap::CostmapBuilder;
-using grid::Cell, grid::Grid, grid::GridGeometry, grid::Occupancy;
+using grid::Cell, grid::Grid, grid::GridGeometry, grid::Occupancy, grid::OccupancyGrid,
+    grid::OccupancyThresholds;
 
 namespace {
 
@@ -62,10 +63,9 @@ std::string imageOf(const Grid<Occupancy>& classes) {
 
 json pointsOf(const StudyRun& run, const GridGeometry& geometry) {
   json points = json::array();
-  for (std::size_t i = 0; i + 1 < run.path_xy.size(); i += 2) {
-    const Eigen::Vector2d cell = geometry.gridFromWorld({run.path_xy[i], run.path_xy[i + 1]});
-    points.push_back(std::round(cell.x() * 100.0) / 100.0);
-    points.push_back(std::round((geometry.height() - cell.y()) * 100.0) / 100.0);
+  for (const Eigen::Vector2d& at : cornersInPicture(run, geometry)) {
+    points.push_back(at.x());
+    points.push_back(at.y());
   }
   return points;
 }
@@ -100,10 +100,11 @@ json pictureOf(const StudyData& data, const ProblemSize& size, const StudySettin
   const auto blocks = geometry.size() / static_cast<std::size_t>(size.kernel * size.kernel);
   if (blocks > kLargestPicture) return {};
   CostmapBuilder builder(setting.costmap);
-  builder.setMap(map);
+  builder.setMap(data.plan().mapOf(setting));
   const auto costs = builder.downsampled(StopToken());
   json picture = {{"name", data.study().maps[size.map].name + ", kernel " +
-                               std::to_string(size.kernel) + ' ' + choiceName(size.rule)},
+                               std::to_string(size.kernel) + ' ' + choiceName(size.rule) +
+                               (size.border == Border::UNFILLED ? ", border unfilled" : "")},
                   {"width", geometry.width()},
                   {"height", geometry.height()},
                   // Blocks of the last column and row may reach beyond the map.
@@ -120,6 +121,24 @@ json pictureOf(const StudyData& data, const ProblemSize& size, const StudySettin
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector2d> cornersInPicture(const StudyRun& run, const GridGeometry& geometry) {
+  const auto rounded = [](double number) { return std::round(number * 100.0) / 100.0; };
+  std::vector<Eigen::Vector2d> corners;
+  for (std::size_t i = 0; i + 1 < run.path_xy.size(); i += 2) {
+    const Eigen::Vector2d cell = geometry.gridFromWorld({run.path_xy[i], run.path_xy[i + 1]});
+    corners.emplace_back(rounded(cell.x()), rounded(geometry.height() - cell.y()));
+  }
+  return corners;
+}
+
+std::string mapImage(const OccupancyGrid& map, const OccupancyThresholds& thresholds) {
+  Grid<Occupancy> classes(map.geometry());
+  for (int row = 0; row < classes.height(); ++row)
+    for (int column = 0; column < classes.width(); ++column)
+      classes[Cell{column, row}] = thresholds.classify(map[Cell{column, row}]);
+  return imageOf(classes);
+}
 
 json pictureData(const StudyData& data) {
   json result = {{"variants", json::array()}, {"pictures", json::array()}};

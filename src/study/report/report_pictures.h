@@ -14,6 +14,13 @@ namespace grid_path_planner::study {
 // kLargestPicture blocks get no picture.
 nlohmann::json pictureData(const StudyData& data);
 
+// The corners of a run's path in cells of the full map, y downwards, to a hundredth.
+std::vector<Eigen::Vector2d> cornersInPicture(const StudyRun& run,
+                                              const grid::GridGeometry& geometry);
+
+// The full map as a PNG, as a data URI.
+std::string mapImage(const grid::OccupancyGrid& map, const grid::OccupancyThresholds& thresholds);
+
 constexpr std::size_t kLargestPicture = 4u << 20;  // blocks
 
 }  // namespace grid_path_planner::study

@@ -23,6 +23,7 @@ table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabu
 caption { text-align: left; padding: .3rem 0; }
 th, td { padding: .25rem .6rem; border-bottom: 1px solid var(--line); text-align: left; white-space: nowrap; }
 td.number, th.number { text-align: right; }
+#table-verdicts td { white-space: normal; }
 thead th { position: sticky; top: 0; background: var(--tint); padding: 0; }
 th button { all: unset; display: block; width: 100%; padding: .35rem .6rem; cursor: pointer; font-weight: 600; box-sizing: border-box; }
 th button::after { content: " \2195"; color: var(--soft); }

@@ -18,7 +18,7 @@ constexpr double kRight = 12.0;
 constexpr double kTop = 30.0;
 constexpr double kPlotHeight = 300.0;
 constexpr double kLegendLine = 20.0;
-constexpr std::size_t kLegendColumns = 3;
+constexpr std::size_t kShortName = 26;  // letters that fit into a third of the legend
 
 // Maps values to coordinates of a logarithmic axis.
 class LogAxis {
@@ -75,20 +75,28 @@ std::string strokeOf(std::size_t series) {
   return dash.empty() ? style : style + " stroke-dasharray=\"" + dash + '"';
 }
 
+std::size_t legendColumns(const std::vector<std::string>& names) {
+  const bool fits = std::all_of(names.begin(), names.end(),
+                                [](const std::string& name) { return name.size() <= kShortName; });
+  return fits ? 3 : 2;
+}
+
 std::string legend(const std::vector<std::string>& names, double top) {
   std::string svg;
-  const double column = (kWidth - kLeft) / kLegendColumns;
+  const std::size_t columns = legendColumns(names);
+  const double column = (kWidth - kLeft) / static_cast<double>(columns);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const double x = kLeft + column * static_cast<double>(i % kLegendColumns);
-    const double y = top + kLegendLine * static_cast<double>(i / kLegendColumns);
+    const double x = kLeft + column * static_cast<double>(i % columns);
+    const double y = top + kLegendLine * static_cast<double>(i / columns);
     svg += line(x, y, x + 28.0, y, strokeOf(i) + " stroke-width=\"4\"");
     svg += text(x + 34.0, y + 4.0, "start", names[i]);
   }
   return svg;
 }
 
-double legendHeight(std::size_t names) {
-  return kLegendLine * static_cast<double>((names + kLegendColumns - 1) / kLegendColumns);
+double legendHeight(const std::vector<std::string>& names) {
+  const std::size_t columns = legendColumns(names);
+  return kLegendLine * static_cast<double>((names.size() + columns - 1) / columns);
 }
 
 std::string frame(const std::string& title, double height, const std::string& body) {
@@ -170,7 +178,7 @@ std::string boxPlot(const std::string& title, const std::string& axis_name,
     body += text(left + 0.5 * group_width, kTop + kPlotHeight + 18.0, "middle", groups[g].label);
   }
   body += legend(names, kTop + kPlotHeight + 42.0);
-  return frame(title, kTop + kPlotHeight + 40.0 + legendHeight(names.size()), body);
+  return frame(title, kTop + kPlotHeight + 40.0 + legendHeight(names), body);
 }
 
 std::string linePlot(const std::string& title, const std::string& x_axis, const std::string& y_axis,
@@ -212,7 +220,7 @@ std::string linePlot(const std::string& title, const std::string& x_axis, const 
             places.str() + "\"/>" + marks;
   }
   body += legend(names, kTop + kPlotHeight + 58.0);
-  return frame(title, kTop + kPlotHeight + 56.0 + legendHeight(names.size()), body);
+  return frame(title, kTop + kPlotHeight + 56.0 + legendHeight(names), body);
 }
 
 }  // namespace grid_path_planner::study

@@ -3,43 +3,40 @@
 
 #include "study/report/finding_text.h"
 #include "study/report/findings.h"
+#include "study/report/published_cases.h"
 
 namespace grid_path_planner::study {
 
-using base::Status;
+using base::choiceName, base::Status;
 
 namespace {
 
 struct Crossing {
   std::string weights;
-  int kernel = 1;
-  std::string map;
+  ProblemSize size;
   std::size_t paths = 0;
   std::size_t unknown = 0;   // paths that cross unknown cells
   std::size_t occupied = 0;  // paths that cross occupied cells
   std::vector<double> unknown_m, occupied_m, length_m;
 };
 
-// The one of these weights, kernel and map, which may be new.
-Crossing& crossingOf(const StudyData& data, const StudySetting& setting,
+// The one of these weights and this size, which may be new.
+Crossing& crossingOf(const std::string& weights, const ProblemSize& size,
                      std::vector<Crossing>& all) {
-  const std::string& map = data.study().maps[setting.map].name;
   const auto crossing = std::find_if(all.begin(), all.end(), [&](const Crossing& each) {
-    return each.weights == setting.weights && each.kernel == setting.costmap.kernel &&
-           each.map == map;
+    return each.weights == weights && each.size == size;
   });
   if (crossing != all.end()) return *crossing;
-  all.push_back({setting.weights, setting.costmap.kernel, map, 0, 0, 0, {}, {}, {}});
+  all.push_back({weights, size, 0, 0, 0, {}, {}, {}});
   return all.back();
 }
 
-// By the baseline's paths, which cost the least.
-std::vector<Crossing> crossingsOf(const StudyData& data) {
+std::vector<Crossing> crossingsOf(const StudyData& data, std::size_t variant) {
   std::vector<Crossing> all;
   for (const UnitRow& unit : data.units()) {
-    const StudyRun* run = unit[data.baseline()];
+    const StudyRun* run = unit[variant];
     if (run == nullptr || run->status != Status::FOUND) continue;
-    Crossing& crossing = crossingOf(data, data.settingOf(*run), all);
+    Crossing& crossing = crossingOf(data.settingOf(*run).weights, data.sizeOf(run->setting), all);
     ++crossing.paths;
     crossing.unknown += run->unknown_m > 0.0 ? 1 : 0;
     crossing.occupied += run->occupied_m > 0.0 ? 1 : 0;
@@ -51,11 +48,11 @@ std::vector<Crossing> crossingsOf(const StudyData& data) {
 }
 
 // For every query, the share of the kernels at which its path crosses such cells.
-std::map<QueryKey, double> crossingShares(const StudyData& data, const std::string& weights,
-                                          double StudyRun::*metres) {
+std::map<QueryKey, double> crossingShares(const StudyData& data, std::size_t variant,
+                                          const std::string& weights, double StudyRun::*metres) {
   std::map<QueryKey, std::pair<int, int>> counts;
   for (const UnitRow& unit : data.units()) {
-    const StudyRun* run = unit[data.baseline()];
+    const StudyRun* run = unit[variant];
     if (run == nullptr || run->status != Status::FOUND || data.settingOf(*run).weights != weights)
       continue;
     auto& [crossing, all] = counts[data.queryOf(*run)];
@@ -69,11 +66,11 @@ std::map<QueryKey, double> crossingShares(const StudyData& data, const std::stri
 }
 
 // "" where one of the two weights has no paths.
-std::string publishedAnswer(const StudyData& data, const std::string& what,
+std::string publishedAnswer(const StudyData& data, std::size_t variant, const std::string& what,
                             const std::string& weights, const std::string& others) {
   const auto metres = what == "unknown" ? &StudyRun::unknown_m : &StudyRun::occupied_m;
-  const auto here = crossingShares(data, weights, metres);
-  const auto there = crossingShares(data, others, metres);
+  const auto here = crossingShares(data, variant, weights, metres);
+  const auto there = crossingShares(data, variant, others, metres);
   std::vector<double> differences;
   double sum_here = 0.0, sum_there = 0.0;
   for (const auto& share : here) {
@@ -87,7 +84,8 @@ std::string publishedAnswer(const StudyData& data, const std::string& what,
   const auto n = static_cast<double>(differences.size());
   const Interval more = meanDifference(differences);
   std::string text = "Published: weights " + weights + " send paths through " + what +
-                     " cells. Here " + percentText(sum_here / n) + " of those paths cross them, " +
+                     " cells. Here " + percentText(sum_here / n) + " of those paths of " +
+                     data.study().variants[variant].label + " cross them, " +
                      percentText(sum_there / n) + " with weights " + others;
   text += " (by query " + percentText(more.low) + " to " + percentText(more.high) + " more)";
   if (more.low > 0.0) return text + ": it holds.";
@@ -97,35 +95,57 @@ std::string publishedAnswer(const StudyData& data, const std::string& what,
          "claimed.";
 }
 
+// The one whose paths cost the least, and the published programs, by their first heuristic: those
+// whose steps cost the larger of two cells, and those whose steps cost the cell entered.
+std::vector<std::size_t> variantsShown(const StudyData& data) {
+  std::vector<std::size_t> shown = {data.baseline()};
+  for (const std::string& planner :
+       {data.study().published.planner, std::string("a_star_published_values")})
+    if (const auto variant = variantOf(data, planner))
+      if (std::find(shown.begin(), shown.end(), *variant) == shown.end()) shown.push_back(*variant);
+  return shown;
+}
+
+TableCell meanCell(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return TableCell(sum / static_cast<double>(values.size()), 3);
+}
+
+std::vector<TableCell> rowOf(const StudyData& data, std::size_t variant, const Crossing& each) {
+  return {data.study().maps[each.size.map].name,
+          TableCell(each.size.kernel, 3),
+          choiceName(each.size.border),
+          data.study().variants[variant].label,
+          each.weights,
+          TableCell(static_cast<double>(each.paths), 3),
+          shareCell(each.unknown, each.paths, each.paths),
+          meanCell(each.unknown_m),
+          shareCell(each.occupied, each.paths, each.paths),
+          meanCell(each.occupied_m),
+          meanCell(each.length_m)};
+}
+
 }  // namespace
 
 Finding weightsFinding(const StudyData& data) {
   Finding finding;
   finding.question = "Where do the weights send the paths?";
   finding.table = {"weights",
-                   "Paths of " + data.study().variants[data.baseline()].label +
-                       " that cross unknown or occupied cells of the full map, with 95 % "
-                       "intervals, and metres in them (mean).",
-                   {"map", "kernel", "weights", "paths", "cross unknown", "metres unknown",
-                    "cross occupied", "metres occupied", "length [m]"},
+                   "Paths that cross unknown or occupied cells of the full map, with 95 % "
+                   "intervals, and metres in them (mean). A step costs the larger of its two "
+                   "cells; of a_star_published_values the cell that it enters.",
+                   {"map", "kernel", "border", "variant", "weights", "paths", "cross unknown",
+                    "metres unknown", "cross occupied", "metres occupied", "length [m]"},
                    {}};
-  const std::vector<Crossing> all = crossingsOf(data);
-  const auto mean = [](const std::vector<double>& values) {
-    double sum = 0.0;
-    for (const double value : values) sum += value;
-    return TableCell(sum / static_cast<double>(values.size()), 3);
-  };
-  for (const Crossing& each : all)
-    finding.table.rows.push_back({each.map, TableCell(each.kernel, 3), each.weights,
-                                  TableCell(static_cast<double>(each.paths), 3),
-                                  shareCell(each.unknown, each.paths, each.paths),
-                                  mean(each.unknown_m),
-                                  shareCell(each.occupied, each.paths, each.paths),
-                                  mean(each.occupied_m), mean(each.length_m)});
-  for (const auto& published : data.study().published.crossing) {
-    const std::string answer = publishedAnswer(data, published.second, published.first,
-                                               data.study().settings.front().weights);
-    if (!answer.empty()) finding.answers.push_back(answer);
+  for (const std::size_t variant : variantsShown(data)) {
+    for (const Crossing& each : crossingsOf(data, variant))
+      finding.table.rows.push_back(rowOf(data, variant, each));
+    for (const auto& published : data.study().published.crossing) {
+      const std::string answer = publishedAnswer(data, variant, published.second, published.first,
+                                                 data.study().settings.front().weights);
+      if (!answer.empty()) finding.answers.push_back(answer);
+    }
   }
   return finding;
 }

@@ -1,4 +1,4 @@
-#include "study/eager_theta_star.h"
+#include "study/programs/eager_theta_star.h"
 
 namespace grid_path_planner::study {
 
