@@ -101,8 +101,10 @@ void BoundedDistanceTransform::measure(int row) {
   for (int next = first;; next = sourceFrom(cells, source_, before + 1, window_.width)) {
     fillBetween(before, next == window_.width ? kNone : next, line);
     if (next == window_.width) return append(row, line);
-    if (next >= skipped && next < skipped + rect_.width) line[next - skipped] = 0;
     before = next;
+    while (before + 1 < window_.width && cells[before + 1] == source_) ++before;
+    const int low = std::max(next, skipped), high = std::min(before + 1, skipped + rect_.width);
+    if (low < high) std::fill(line + low - skipped, line + high - skipped, Distance{0});
   }
 }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <cstring>
 #include <limits>
 #include <mutex>
+#include <tuple>
 #include <utility>
 
 #include "costmap/weight_counts.h"
@@ -16,18 +18,29 @@ using grid::Cell, grid::CellRect, grid::copyCells, grid::Grid, grid::GridGeometr
 
 namespace {
 
-CostGrid::Weight minWeightOf(const std::vector<CostGrid::Weight>& weights) {
+// The least weight but blocked, and the largest.
+std::pair<CostGrid::Weight, CostGrid::Weight> rangeOf(
+    const std::vector<CostGrid::Weight>& weights) {
+  constexpr std::size_t kTogether = 8;
+  using Eight = CostGrid::Weight __attribute__((vector_size(kTogether * sizeof(weights[0]))));
   // Blocked is 0: one below it wraps to the largest value and never wins.
-  CostGrid::Weight least = std::numeric_limits<CostGrid::Weight>::max();
-  for (const CostGrid::Weight weight : weights)
-    least = std::min(least, static_cast<CostGrid::Weight>(weight - 1));
-  return static_cast<CostGrid::Weight>(least + 1);
-}
-
-CostGrid::Weight maxWeightOf(const std::vector<CostGrid::Weight>& weights) {
-  CostGrid::Weight most = CostGrid::kBlocked;
-  for (const CostGrid::Weight weight : weights) most = std::max(most, weight);
-  return most;
+  Eight least_eight = Eight{} - 1, most_eight = {};
+  std::size_t i = 0;
+  for (; i + kTogether <= weights.size(); i += kTogether) {
+    Eight eight;
+    std::memcpy(&eight, weights.data() + i, sizeof eight);
+    most_eight = eight > most_eight ? eight : most_eight;
+    eight -= 1;
+    least_eight = eight < least_eight ? eight : least_eight;
+  }
+  CostGrid::Weight least = std::numeric_limits<CostGrid::Weight>::max(), most = CostGrid::kBlocked;
+  const auto add = [&](CostGrid::Weight lower, CostGrid::Weight upper) {
+    least = std::min(least, lower);
+    most = std::max(most, upper);
+  };
+  for (std::size_t lane = 0; lane < kTogether; ++lane) add(least_eight[lane], most_eight[lane]);
+  for (; i < weights.size(); ++i) add(static_cast<CostGrid::Weight>(weights[i] - 1), weights[i]);
+  return {static_cast<CostGrid::Weight>(least + 1), most};
 }
 
 }  // namespace
@@ -68,10 +81,9 @@ CostGrid::CostGrid(Grid<Weight> weights, Grid<Occupancy> classes, const MotionMo
       motion_(motion),
       kernel_(kernel),
       original_(original),
-      min_weight_(minWeightOf(weights_.values())),
-      max_weight_(maxWeightOf(weights_.values())),
       derived_(std::make_shared<Derived>()) {
   assert(weights_.geometry() == classes_.geometry());
+  std::tie(min_weight_, max_weight_) = rangeOf(weights_.values());
 }
 
 Eigen::Vector2d CostGrid::waypoint(Cell cell) const {

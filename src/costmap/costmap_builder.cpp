@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "costmap/class_changes.h"
 #include "costmap/inflation.h"
 #include "costmap/kernel.h"
 #include "grid_path_planner/grid/prefetch.h"
@@ -14,19 +15,10 @@ using base::StopPoll, base::StopToken;
 using grid::CellRect, grid::disjointRects, grid::Grid, grid::GridGeometry, grid::grownRects,
     grid::Occupancy, grid::OccupancyGrid, grid::OccupancyThresholds, grid::prefetchRows;
 
-// Of a part of the map: rectangles around the cells whose class has changed.
-struct ClassChanges {
-  CellRect all;
-  CellRect filled;   // those that are occupied now
-  CellRect opened;   // those that are not occupied now
-  CellRect vacated;  // those of `opened` that were occupied before
-};
-
 namespace {
 
-// The cells in reach of those of `rect`.
-CellRect grown(const CellRect& rect, const Inflation& inflation, const CellRect& within) {
-  return rect.empty() ? rect : rect.grown(inflation.reach()).intersection(within);
+CellRect grown(const CellRect& rect, int margin, const CellRect& within) {
+  return rect.grown(margin).intersection(within);
 }
 
 void append(const std::vector<CellRect>& rects, std::vector<CellRect>& to) {
@@ -63,9 +55,20 @@ struct Inflations {
   void raise(const Grid<Occupancy>& classes, const CellRect& filled,
              Grid<CostGrid::Weight>& weights, const StopToken& stop) const {
     const CellRect all = classes.geometry().rect();
-    occupied.apply(classes, filled, grown(filled, occupied, all), weights, stop);
+    occupied.apply(classes, filled, grown(filled, occupied.reach(), all), weights, stop);
     unknown.apply(classes, all, filled, weights, stop);
     outside.applyBorder(filled, weights, stop);
+  }
+
+  // The same for occupied cells that are blocked, each by itself.
+  void raiseEach(const Grid<Occupancy>& classes, const CellRect& filled,
+                 Grid<CostGrid::Weight>& weights) const {
+    for (int row = filled.row; row < filled.row + filled.height; ++row)
+      for (int column = filled.column; column < filled.column + filled.width; ++column) {
+        if (classes.row(row)[column] != Occupancy::OCCUPIED) continue;
+        weights.row(row)[column] = CostGrid::kBlocked;
+        occupied.raiseAround({column, row}, weights);
+      }
   }
 
   Inflation occupied;
@@ -77,80 +80,35 @@ namespace {
 
 // What follows from changes of classes.
 struct Rewriting {
-  Rewriting(const std::vector<ClassChanges>& changes, const Inflations& inflations,
+  Rewriting(const ClassChanges& changes, const Inflations& inflations, bool occupied_is_blocked,
             const CellRect& map) {
-    const Inflation& occupied = inflations.occupied;
+    const int reach = inflations.occupied.reach();
+    const bool stamped = occupied_is_blocked && inflations.occupied.hasStamp();
+    recomputed = joinedRects(changes.opened, 0);
+    for (const CellRect& rect : joinedRects(changes.vacated, reach))
+      recomputed.push_back(grown(rect, reach, map));
     // Around unknown cells there is no weight but blocked, so all of it is computed again.
-    const Inflation& unknown = inflations.unknown;
-    for (const ClassChanges& each : changes) {
-      classes.push_back(each.all);
-      recomputed.push_back(each.opened.hull(grown(each.vacated, occupied, map))
-                               .hull(unknown.none() ? CellRect() : grown(each.all, unknown, map)));
-      all.push_back(grown(each.filled, occupied, map));
-      if (!each.filled.empty()) raised.push_back(each.filled);
-    }
-    append(recomputed, all);
-    recomputed = disjointRects(recomputed);
+    if (!inflations.unknown.none())
+      for (const CellRect& rect : joinedRects(changes.all, inflations.unknown.reach()))
+        recomputed.push_back(grown(rect, inflations.unknown.reach(), map));
+    if (recomputed.size() <= grid::kMostRects) recomputed = disjointRects(recomputed);
+    for (const CellRect& rect : changes.filled)
+      (stamped && rect.width * rect.height <= kMostStamps ? few : raised).push_back(rect);
+    raised = joinedRects(raised, reach);
+    all = recomputed;
+    for (const auto* filled : {&few, &raised})
+      for (const CellRect& rect : *filled) all.push_back(grown(rect, reach, map));
     all = disjointRects(all);
   }
 
-  std::vector<CellRect> classes;     // cells whose class changed
-  std::vector<CellRect> recomputed;  // disjoint; whose weights are computed again
+  // Cells that an inflation one by one takes less time for than one of all together.
+  static constexpr int kMostStamps = 16;
+
+  std::vector<CellRect> recomputed;  // whose weights are computed again
   std::vector<CellRect> raised;      // around which weights rise
+  std::vector<CellRect> few;         // the same, where few cells are filled
   std::vector<CellRect> all;         // disjoint; whose weights are written
 };
-
-void classify(const OccupancyGrid& map, const OccupancyThresholds& thresholds, const CellRect& rect,
-              Grid<Occupancy>& classes, const StopToken& stop) {
-  StopPoll poll(stop, 64);
-  for (int row = rect.row; row < rect.row + rect.height; ++row) {
-    poll();
-    const std::int8_t* from = map.row(row);
-    Occupancy* to = classes.row(row);
-    for (int column = rect.column; column < rect.column + rect.width; ++column)
-      to[column] = thresholds.classify(from[column]);
-  }
-}
-
-// The smallest rectangle around the cells of `rect` for whose value and former class
-// changed(value, before) is true.
-template <class Changed>
-CellRect hullOf(const OccupancyGrid& map, const Grid<Occupancy>& classes, const CellRect& rect,
-                const StopToken& stop, const Changed& changed) {
-  StopPoll poll(stop, 64);
-  CellRect hull;
-  for (int row = rect.row; row < rect.row + rect.height; ++row) {
-    poll();
-    const std::int8_t* values = map.row(row);
-    const Occupancy* before = classes.row(row);
-    int first = rect.column;
-    int end = rect.column + rect.width;
-    while (first < end && !changed(values[first], before[first])) ++first;
-    if (first == end) continue;
-    while (!changed(values[end - 1], before[end - 1])) --end;
-    hull = hull.hull({first, row, end - first, 1});
-  }
-  return hull;
-}
-
-ClassChanges changesOf(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
-                       const CellRect& rect, const Grid<Occupancy>& classes,
-                       const StopToken& stop) {
-  const auto around = [&](const CellRect& within, const auto& is) {
-    return hullOf(map, classes, within, stop, [&](std::int8_t value, Occupancy before) {
-      const Occupancy now = thresholds.classify(value);
-      return now != before && is(now, before);
-    });
-  };
-  constexpr Occupancy kOccupied = Occupancy::OCCUPIED;
-  ClassChanges changes;
-  changes.all = around(rect, [](Occupancy, Occupancy) { return true; });
-  changes.filled = around(changes.all, [](Occupancy now, Occupancy) { return now == kOccupied; });
-  changes.opened = around(changes.all, [](Occupancy now, Occupancy) { return now != kOccupied; });
-  changes.vacated =
-      around(changes.opened, [](Occupancy, Occupancy before) { return before == kOccupied; });
-  return changes;
-}
 
 void writeWeights(const Grid<Occupancy>& classes, const CostmapOptions& options,
                   const CellRect& rect, Grid<CostGrid::Weight>& weights, const StopToken& stop) {
@@ -266,13 +224,9 @@ std::unique_ptr<CostGrid> CostmapBuilder::buildDownsampled(const CostGrid& full,
 // Around cells that are no longer occupied all weights are computed again; around cells that are
 // occupied now the weights only rise, by the inflation of these cells.
 void CostmapBuilder::updateFullResolution(const StopToken& stop) {
-  std::vector<ClassChanges> changes;
-  for (const CellRect& rect : full_dirty_) {
-    changes.push_back(
-        changesOf(*map_, options_.thresholds, rect, full_.current()->classes(), stop));
-    if (changes.back().all.empty()) changes.pop_back();
-  }
-  if (!changes.empty()) {
+  const ClassChanges changes(*map_, options_.thresholds, full_dirty_, full_.current()->classes(),
+                             stop);
+  if (!changes.all.empty()) {
     full_change_ = rewriteWeights(changes, stop);
     ++revision_;
     append(full_change_, downsampled_dirty_);
@@ -281,26 +235,31 @@ void CostmapBuilder::updateFullResolution(const StopToken& stop) {
   full_dirty_.clear();
 }
 
-std::vector<CellRect> CostmapBuilder::rewriteWeights(const std::vector<ClassChanges>& changes,
+std::vector<CellRect> CostmapBuilder::rewriteWeights(const ClassChanges& changes,
                                                      const StopToken& stop) {
   const CellRect all = map_->geometry().rect();
-  const Rewriting rewriting(changes, *inflations_, all);
+  const bool blocked = classWeight(Occupancy::OCCUPIED, options_) == CostGrid::kBlocked;
+  const Rewriting rewriting(changes, *inflations_, blocked, all);
+  StopPoll poll(stop, 16);
   for (const CellRect& rect : rewriting.all) prefetchRows(full_.current()->weights(), rect);
-  full_.advance({rewriting.all, rewriting.classes}, [&](CostGrid& next) {
+  full_.advance({rewriting.all, full_dirty_}, [&](CostGrid& next) {
     for (const CellRect& rect : rewriting.all) prefetchRows(next.weights(), rect);
-    for (const CellRect& rect : rewriting.recomputed)
-      prefetchRows(next.classes(), grown(rect, inflations_->occupied, all));
+    for (const CellRect& rect : rewriting.all)
+      prefetchRows(next.classes(), grown(rect, inflations_->occupied.reach(), all));
     next.edit(*full_.current(), rewriting.all, [&](auto& weights, auto& classes) {
-      for (const CellRect& rect : rewriting.classes)
+      for (const CellRect& rect : full_dirty_)
         classify(*map_, options_.thresholds, rect, classes, stop);
       for (const CellRect& rect : rewriting.recomputed) {
+        poll();
         writeWeights(classes, options_, rect, weights, stop);
         inflations_->apply(classes, rect, weights, stop);
       }
       for (const CellRect& filled : rewriting.raised) {
+        poll();
         writeOccupiedWeights(classes, options_, filled, weights, stop);
         inflations_->raise(classes, filled, weights, stop);
       }
+      for (const CellRect& filled : rewriting.few) inflations_->raiseEach(classes, filled, weights);
     });
     next.setRevision(revision_ + 1);
   });

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 #include "costmap/bounded_distance_transform.h"
 
 namespace grid_path_planner::costmap {
 
 using base::StopPoll, base::StopToken;
-using grid::CellRect, grid::Grid, grid::Occupancy;
+using grid::Cell, grid::CellRect, grid::Grid, grid::Occupancy;
 
 namespace {
 
@@ -23,6 +24,29 @@ constexpr HalfCellsSquared kLargestTable = 1 << 20;
 // than the map.
 constexpr int kNearStrip = 512;
 constexpr int kFarStrip = 128;
+
+constexpr int kLanes = 8;  // of vectors of sixteen bits each
+
+// Whether one of eight distances is below the limit.
+bool anyBelow(const std::int16_t* distances, int limit) {
+  using Eight = std::int16_t __attribute__((vector_size(2 * kLanes)));
+  using Halves = std::int64_t __attribute__((vector_size(2 * kLanes)));
+  Eight eight;
+  std::memcpy(&eight, distances, sizeof eight);
+  const auto below = reinterpret_cast<Halves>(eight < static_cast<std::int16_t>(limit));
+  return (below[0] | below[1]) != 0;
+}
+
+// Raises eight weights to at least those of the ranks.
+void raise(const std::uint16_t* ranks, CostGrid::Weight* weights) {
+  using Eight = std::uint16_t __attribute__((vector_size(2 * kLanes)));
+  Eight least, weight;
+  std::memcpy(&least, ranks, sizeof least);
+  std::memcpy(&weight, weights, sizeof weight);
+  weight -= 1;
+  weight = (weight > least ? weight : least) + 1;
+  std::memcpy(weights, &weight, sizeof weight);
+}
 
 // Distance along the row from each cell to the nearest source, in half cells to its edge, squared: 0
 // for the cell itself, else (2n - 1)^2.
@@ -183,6 +207,35 @@ Inflation::Inflation(Occupancy source, const InflationProfile& profile, double r
   ranks_.reserve(static_cast<std::size_t>(entries));
   for (HalfCellsSquared distance = 0; distance < entries; ++distance)
     ranks_.push_back(computeRank(distance));
+  makeStamp();
+}
+
+void Inflation::makeStamp() {
+  if (none() || reach_ > BoundedDistanceTransform::kLargestReach) return;
+  const auto edge = [](int cells) {
+    return cells == 0 ? HalfCellsSquared{0} : (2 * HalfCellsSquared{cells} - 1) * (2 * cells - 1);
+  };
+  stamp_stride_ = (2 * std::size_t(reach_) + kLanes) / kLanes * kLanes;
+  stamp_.assign(stamp_stride_ * (std::size_t(reach_) + 1), 0);
+  for (int row = 0; row <= reach_; ++row)
+    for (int column = -reach_; column <= reach_; ++column)
+      stamp_[std::size_t(row) * stamp_stride_ + std::size_t(column + reach_)] =
+          rankAt(edge(row) + edge(std::abs(column)));
+}
+
+void Inflation::raiseAround(Cell source, Grid<CostGrid::Weight>& weights) const {
+  const int width = weights.width(), left = source.column - reach_;
+  const int first = std::max(0, -left), end = std::min(2 * reach_ + 1, width - left);
+  const bool whole = left >= 0 && left + static_cast<int>(stamp_stride_) <= width;
+  const int last_row = std::min(weights.height() - 1, source.row + reach_);
+  for (int row = std::max(0, source.row - reach_); row <= last_row; ++row) {
+    const Rank* ranks = stamp_.data() + std::size_t(std::abs(row - source.row)) * stamp_stride_;
+    CostGrid::Weight* weight = weights.row(row) + left;
+    if (whole)
+      for (std::size_t i = 0; i < stamp_stride_; i += kLanes) raise(ranks + i, weight + i);
+    else
+      for (int i = first; i < end; ++i) weight[i] = atLeast(ranks[i], weight[i]);
+  }
 }
 
 void Inflation::apply(const Grid<Occupancy>& classes, const CellRect& sources, const CellRect& rect,
@@ -210,8 +263,11 @@ void Inflation::applyNear(const Grid<Occupancy>& classes, const CellRect& source
     const std::int16_t* distances = near.row(row);
     if (distances == nullptr) continue;
     CostGrid::Weight* weight = weights.row(row) + rect.column;
-    for (int i = 0; i < rect.width; ++i)
-      weight[i] = atLeast(ranks[std::min<int>(distances[i], beyond)], weight[i]);
+    for (int first = 0; first < rect.width; first += kLanes) {
+      if (!anyBelow(distances + first, beyond)) continue;
+      for (int i = first; i < std::min(first + kLanes, rect.width); ++i)
+        weight[i] = atLeast(ranks[std::min<int>(distances[i], beyond)], weight[i]);
+    }
   }
 }
 

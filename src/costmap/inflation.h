@@ -57,6 +57,10 @@ class Inflation {
   void apply(const grid::Grid<grid::Occupancy>& classes, const grid::CellRect& sources,
              const grid::CellRect& rect, grid::Grid<CostGrid::Weight>& weights,
              const base::StopToken& stop) const;
+  // What apply() does for one source, faster. Preconditions: hasStamp(); the cell lies in the map.
+  void raiseAround(grid::Cell source, grid::Grid<CostGrid::Weight>& weights) const;
+  bool hasStamp() const { return stamp_stride_ > 0; }
+
   // The same for the distances to the map's border. Throws Stopped.
   void applyBorder(const grid::CellRect& rect, grid::Grid<CostGrid::Weight>& weights,
                    const base::StopToken& stop) const;
@@ -85,6 +89,12 @@ class Inflation {
   int reach_ = 0;
   HalfCellsSquared farthest_ = 0;  // beyond it nothing changes
   std::vector<Rank> ranks_;        // computeRank(), up to farthest_ + 1 if that is not too long
+
+  // The ranks around a source, from its row to that `reach_` rows away; rows are filled up with
+  // zeros to whole vectors. Empty where the reach is long.
+  void makeStamp();
+  std::vector<Rank> stamp_;
+  std::size_t stamp_stride_ = 0;
 };
 
 }  // namespace grid_path_planner::costmap

@@ -219,6 +219,33 @@ TEST(CostmapUpdates, EditsFarApartChangeTheirSurroundingsOnly) {
   EXPECT_EQ(builder.downsampledChange(), (std::vector<CellRect>{{0, 0, 3, 3}, {497, 397, 3, 3}}));
 }
 
+// As a map that is published again differs: here and there, from a few cells to whole areas.
+TEST(CostmapUpdatesLaw, EqualsAFreshGridAfterChangesAllOverTheMap) {
+  std::mt19937 random(31);
+  for (int trial = 0; trial < 40; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    const GridGeometry geometry(100 + int(random() % 300), 100 + int(random() % 300), 1.0);
+    OccupancyGrid map(geometry, 0);
+    CostmapOptions options = randomOptions(random);
+    options.radius = trial % 3 * 2.5;
+    options.decay = trial % 2 * 0.5;
+    options.occupied_is_passable = trial % 6 == 3;
+    CostmapBuilder builder(options);
+    builder.setMap(std::make_shared<const OccupancyGrid>(map));
+    for (const std::size_t share : {20U, 1000U, 300U, 30U, 5U, 2000U}) {
+      const Costs before = builder.downsampled(StopToken());
+      const std::int8_t values[] = {100, 100, 0, -1};
+      for (std::size_t i = 0; i < geometry.size() / share; ++i)
+        map[test::randomCell(random, geometry)] = values[random() % 4];
+      builder.updateMap(std::make_shared<const OccupancyGrid>(map), {geometry.rect()});
+      const Costs after = builder.downsampled(StopToken());
+      expectSame(*after, *freshlyDownsampled(map, options));
+      expectOnlyThereDiffer(*before, *after, builder.downsampledChange());
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
 // Only what a sensor makes occupied, or no longer so, reaches farther than it.
 TEST(CostmapUpdates, AChangeReachesNoFartherThanInflation) {
   CostmapOptions options;

@@ -22,6 +22,9 @@ CONTEXT = {
     "end_segments.h": "extern const CostGrid& costs; extern Eigen::Vector2d pose, centre;",
     "bit_maps.h": "extern const CostGrid& map;",
     "map_differences.h": "extern const OccupancyGrid before, after;",
+    "class_changes.h": """#include "grid_path_planner/costmap/cost_grid.h"
+        extern const OccupancyGrid map; extern OccupancyThresholds thresholds; extern const CostGrid& costs;
+        extern std::vector<CellRect> changed;""",
     "bucket_queue.h": "extern SearchKey f, f_of_the_start; extern unsigned width_shift;"
                       "extern BucketQueue::Index index;",
     "natural_moves.h": "extern Window window; extern unsigned d;",

@@ -58,7 +58,7 @@ class CostmapBuilder {
   std::unique_ptr<CostGrid> buildDownsampled(const CostGrid& full,
                                              const base::StopToken& stop) const;
   void updateFullResolution(const base::StopToken& stop);
-  std::vector<grid::CellRect> rewriteWeights(const std::vector<ClassChanges>& changes,
+  std::vector<grid::CellRect> rewriteWeights(const ClassChanges& changes,
                                              const base::StopToken& stop);
   void updateDownsampled(const base::StopToken& stop);
 
