@@ -71,9 +71,12 @@ std::string functionOf(const void* site) {
   return ::dladdr(site, &info) != 0 && info.dli_sname != nullptr ? info.dli_sname : "?";
 }
 
-bool isWatched(const char* library) {
-  return std::strstr(library, "grid_path_planner") != nullptr ||
-         std::strstr(library, "libtf2.so") != nullptr;
+// Of the template that locks roscpp's recursive mutexes the linker may take the copy in our libraries.
+bool isWatched(const void* site) {
+  const char* const library = libraryOf(site);
+  const bool ours = std::strstr(library, "grid_path_planner") != nullptr ||
+                    std::strstr(library, "libtf2.so") != nullptr;
+  return ours && functionOf(site).find("recursive_mutex") == std::string::npos;
 }
 
 bool publishesOrLogs(const char* library) {
@@ -100,9 +103,8 @@ void markSlow() {
 void noteLocked(const void* mutex, const void* site) {
   if (inside) return;
   inside = true;
-  const char* library = libraryOf(site);
-  const bool watched = isWatched(library);
-  if (publishesOrLogs(library)) markSlow();
+  const bool watched = isWatched(site);
+  if (publishesOrLogs(libraryOf(site))) markSlow();
   if (depth < kDeepest) held[depth++] = {mutex, site, watched};
   if (watched) {
     const std::string function = functionOf(site);
