@@ -67,13 +67,13 @@ TEST_F(ControlThread, TakesNoLockThatFilesMapsOrLogsAreHandledUnder) {
   GTEST_SKIP() << "the sanitizers watch the same calls";
 #endif
   StillWorld world(100.0);
-  path::writeWaypointFile(base::OutputFile(folder_.path("way.yaml")), pathOf({{0, 0}, {50, 0}}));
+  path::writeWaypointFile(base::OutputFile(folder_.path("line.yaml")), pathOf({{0, 0}, {50, 0}}));
   navigate_ = std::make_unique<Process>(
       std::vector<std::string>{"env", "LD_PRELOAD=" GPP_LOCK_WATCH, "LOCK_WATCH_REPORT=" + report_,
                                GPP_DEVEL "/lib/grid_path_planner/navigate_path", "--load-folder",
                                folder_.path("."), "_no_progress_timeout:=0", "_tf_timeout:=3.0"});
   ASSERT_TRUE(test::waitFor([&] { return paths_.getNumSubscribers() > 0; }));
-  keepBusy("way.yaml");
+  keepBusy("line.yaml");
   navigate_->end(SIGINT);
   ASSERT_EQ(navigate_->exitCode(), 0);
   EXPECT_GT(counted("control"), 0) << "the thread is watched";

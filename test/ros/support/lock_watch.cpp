@@ -21,6 +21,7 @@
 #include <cstring>
 #include <string>
 
+namespace grid_path_planner::test {
 namespace {
 
 struct Lock {
@@ -154,6 +155,12 @@ struct Report {
 } report;
 
 }  // namespace
+}  // namespace grid_path_planner::test
+
+using grid_path_planner::test::next;
+using grid_path_planner::test::noteFile;
+using grid_path_planner::test::noteLocked;
+using grid_path_planner::test::noteUnlocked;
 
 extern "C" {
 

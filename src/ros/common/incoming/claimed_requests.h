@@ -1,7 +1,8 @@
 // Requests of services whose lengths lie are refused before they are unpacked (claimed_lengths.h).
 //
-//   service = advertiseChecked<ros::ServiceEvent<Compare::Request, Compare::Response>>(
-//       nh, "compare", [this](auto& call) { return compare(call); });
+//   using Spec = ros::ServiceSpec<ComparePlans::Request, ComparePlans::Response>;
+//   service = advertiseChecked<Spec>(nh, "compare_plans",
+//                                    [](auto& request, auto&) { return answer(request); });
 //
 // The client gets roscpp's answer to a service that failed, the log the reason. Needed where a request
 // has an array; one of numbers and strings alone takes no memory for what is not there. So are those
