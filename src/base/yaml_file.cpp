@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <istream>
 #include <sstream>
+#include <streambuf>
 #include <utility>
 
 #include "grid_path_planner/base/files.h"
@@ -64,21 +66,29 @@ class Guard : public YAML::EventHandler {
   int depth_ = 0;
 };
 
-// The pass that builds a tree cannot be interrupted. It takes some three times as long as the one that
-// was guarded, and is not begun where that is more than is left.
-class BuildingTime {
+// Hands the text to yaml-cpp in pieces, and ends the reading between two of them: what builds the tree
+// asks nobody.
+class TextInPieces : public std::streambuf {
  public:
-  explicit BuildingTime(const ReadLimits& limits)
-      : limits_(limits), before_(limits.secondsLeft()) {}
-  void check(const std::string& file) const {
-    constexpr double kTimesGuarding = 4.0;
-    const double left = limits_.secondsLeft();
-    if (kTimesGuarding * (before_ - left) > left) throw limits_.tooSlow(file);
-  }
+  TextInPieces(std::string& text, const std::string& file, const ReadLimits& limits)
+      : file_(file), limits_(limits), next_(text.data()), end_(text.data() + text.size()) {}
 
  private:
+  // yaml-cpp asks the buffer, not the stream, which would keep exceptions for itself.
+  int_type underflow() override {
+    limits_.goOn(file_);
+    if (next_ == end_) return traits_type::eof();
+    constexpr std::ptrdiff_t kPiece = 4096;
+    char* const begin = next_;
+    next_ += std::min(kPiece, end_ - next_);
+    setg(begin, begin, next_);
+    return traits_type::to_int_type(*begin);
+  }
+
+  const std::string& file_;
   const ReadLimits& limits_;
-  double before_;
+  char* next_;
+  char* const end_;
 };
 
 // The scanner of yaml-cpp 0.6.2 (Ubuntu 20.04) never ends on ":]", wherever it stands outside
@@ -107,14 +117,14 @@ YAML::Node parseYaml(const std::string& text, const std::string& file, ReadLimit
   checkIsText(text, file);
   refuseEndlessText(text, file);
   // yaml-cpp 0.6.2 fails an assertion where a text ends behind a tag ("!"); this one does not.
-  const std::string ended = text + "\n...\n";
+  std::string ended = text + "\n...\n";
   try {
-    std::istringstream stream(ended);
-    const BuildingTime time(limits);
+    std::istringstream first(ended);
     Guard guard(file, ended.size(), limits);
-    YAML::Parser(stream).HandleNextDocument(guard);
-    time.check(file);
-    return YAML::Load(ended);
+    YAML::Parser(first).HandleNextDocument(guard);
+    TextInPieces pieces(ended, file, limits);
+    std::istream second(&pieces);
+    return YAML::Load(second);
   } catch (const YAML::Exception& error) {
     if (error.mark.is_null()) throw InputError(file, "is not YAML: " + error.msg);
     throw InputError(file, error.mark.line + 1, "is not YAML: " + error.msg);

@@ -11,6 +11,7 @@ namespace grid_path_planner::mapping {
 
 using base::decimalText;
 using base::InputError;
+using base::StopToken;
 using grid::OccupancyGrid;
 using grid::writeMapServerFile;
 
@@ -21,22 +22,24 @@ const ProjectedMapOptions& checked(const ProjectedMapOptions& options) {
   return options;
 }
 
-OctreeMap mapOf(const ProjectedMapOptions& options, const std::string& file) {
+OctreeMap mapOf(const ProjectedMapOptions& options, const std::string& file,
+                const StopToken& stop) {
   OctreeMap map(options.octree);
-  if (!file.empty()) map.load(file, options.reading);
+  if (!file.empty()) map.load(file, {options.reading, stop});
   return map;
 }
 
 }  // namespace
 
-MapModel::MapModel(const ProjectedMapOptions& options, const std::string& begin_with)
+MapModel::MapModel(const ProjectedMapOptions& options, const std::string& begin_with,
+                   const StopToken& stop)
     : options_(checked(options)),
-      map_(mapOf(options, begin_with.empty() ? options.filename : begin_with)),
+      map_(mapOf(options, begin_with.empty() ? options.filename : begin_with, stop)),
       projection_(map_.options().resolution, projectionOptions(options)) {
   options_.octree.resolution = map_.options().resolution;
 }
 
-void MapModel::setOptions(const ProjectedMapOptions& options) {
+void MapModel::setOptions(const ProjectedMapOptions& options, const StopToken& stop) {
   checkProjectedMapOptions(options);
   if (options.frame_id != options_.frame_id)
     throw InputError("frame_id cannot be changed while the node runs, it is " + options_.frame_id);
@@ -46,7 +49,7 @@ void MapModel::setOptions(const ProjectedMapOptions& options) {
     throw InputError("resolution cannot be changed while the node runs, it is " +
                      decimalText(options_.octree.resolution) + " m");
   if (options.filename != options_.filename && !options.filename.empty()) {
-    replaceMap(options);
+    replaceMap(options, stop);
   } else {
     projection_.setOptions(projectionOptions(options));
     map_.setOptions(options.octree);
@@ -56,8 +59,8 @@ void MapModel::setOptions(const ProjectedMapOptions& options) {
 }
 
 // By the map of another file.
-void MapModel::replaceMap(const ProjectedMapOptions& options) {
-  MapModel other(options);
+void MapModel::replaceMap(const ProjectedMapOptions& options, const StopToken& stop) {
+  MapModel other(options, "", stop);
   options_ = other.options_;
   map_ = std::move(other.map_);
   projection_ = std::move(other.projection_);

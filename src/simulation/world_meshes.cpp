@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <map>
-#include <sdf/sdf.hh>
 #include <utility>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "simulation/mesh_file.h"
 #include "simulation/resource_path.h"
 #include "simulation/sdf_file.h"
+#include "simulation/world_walk.h"
 
 namespace grid_path_planner::simulation {
 
@@ -30,12 +30,10 @@ std::string folderOf(const std::string& file) {
 // The meshes of one world, gathered from model to model.
 class WorldReader {
  public:
-  explicit WorldReader(std::string file) : file_(std::move(file)), folder_(folderOf(file_)) {}
+  WorldReader(std::string file, const ReadOfMesh& read_mesh)
+      : file_(std::move(file)), folder_(folderOf(file_)), read_mesh_(read_mesh) {}
 
-  WorldMeshes read() {
-    const base::RegularFile regular(file_);  // libsdformat would wait for a pipe
-    const sdf::Root root = loadSdf(
-        file_, [this](const std::string& uri) { return resourcePath(uri, folder_, folder_); });
+  WorldMeshes read(const sdf::Root& root) {
     const sdf::World* world = root.WorldByIndex(0);
     if (world == nullptr) throw InputError(file_, "has no <world>");
     try {
@@ -130,7 +128,7 @@ class WorldReader {
     const std::string path = resourcePath(shape.Uri(), folderOf(shape.FilePath()), folder_);
     if (path.empty()) throw InputError(name + ": there is no mesh " + shape.Uri());
     auto known = meshes_.find(path);
-    if (known == meshes_.end()) known = meshes_.emplace(path, readMesh(path)).first;
+    if (known == meshes_.end()) known = meshes_.emplace(path, read_mesh_(path)).first;
     TriangleMesh mesh = known->second;
     mesh.name = name;
     const Eigen::Vector3f scale = vectorOf(shape.Scale()).cast<float>();
@@ -140,6 +138,7 @@ class WorldReader {
 
   const std::string file_;
   const std::string folder_;
+  const ReadOfMesh& read_mesh_;
   std::vector<TriangleMesh> solid_;
   std::vector<TriangleMesh> visible_;
   std::map<std::string, TriangleMesh> meshes_;  // by their files, each of which is read once
@@ -147,8 +146,17 @@ class WorldReader {
 
 }  // namespace
 
+WorldMeshes meshesOfWorld(const sdf::Root& root, const std::string& file,
+                          const ReadOfMesh& read_mesh) {
+  return WorldReader(file, read_mesh).read(root);
+}
+
 WorldMeshes readWorldMeshes(const std::string& file) {
-  return WorldReader(file).read();
+  const base::RegularFile regular(file);  // libsdformat would wait for a pipe
+  const std::string folder = folderOf(file);
+  const sdf::Root root =
+      loadSdf(file, [&](const std::string& uri) { return resourcePath(uri, folder, folder); });
+  return meshesOfWorld(root, file, readMesh);
 }
 
 }  // namespace grid_path_planner::simulation

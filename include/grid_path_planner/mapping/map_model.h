@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/files.h"
+#include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/mapping/cloud_filter.h"
 #include "grid_path_planner/mapping/octree_map.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
@@ -25,12 +26,13 @@ class MapModel {
  public:
   // Throws InputError for options and for a file that cannot be used. The resolution of a file
   // replaces that of the options. `begin_with`, where it is not empty, is loaded instead of
-  // options.filename.
-  explicit MapModel(const ProjectedMapOptions& options, const std::string& begin_with = "");
+  // options.filename. `stop` ends a loading.
+  explicit MapModel(const ProjectedMapOptions& options, const std::string& begin_with = "",
+                    const base::StopToken& stop = {});
 
   // Throws InputError for options that cannot be used or not be changed (frame_id, resolution,
   // latch), and for a new filename that cannot be loaded; then nothing has changed.
-  void setOptions(const ProjectedMapOptions& options);
+  void setOptions(const ProjectedMapOptions& options, const base::StopToken& stop = {});
   const ProjectedMapOptions& options() const { return options_; }
 
   struct Inserted {
@@ -67,7 +69,7 @@ class MapModel {
   void saveOctree(const base::OutputFile& file) const { map_.save(file); }
 
  private:
-  void replaceMap(const ProjectedMapOptions& options);
+  void replaceMap(const ProjectedMapOptions& options, const base::StopToken& stop);
 
   ProjectedMapOptions options_;
   OctreeMap map_;

@@ -3,12 +3,13 @@
 #include <ros/init.h>
 
 #include <chrono>
+#include <utility>
 
 #include "ros/common/run_node.h"
 
 namespace grid_path_planner::nodes {
 
-EndOfNode::EndOfNode() {
+EndOfNode::EndOfNode(base::StopSource stop) : stop_(std::move(stop)) {
   watch_ = std::thread([this] {
     while (!over_) {
       if (nodeIsToEnd() || ros::isShuttingDown()) stop_.cancel();

@@ -16,7 +16,8 @@ namespace grid_path_planner::nodes {
 
 class EndOfNode {
  public:
-  EndOfNode();
+  // `stop` is cancelled then; whoever has it may cancel it before.
+  explicit EndOfNode(base::StopSource stop = {});
   ~EndOfNode();
   EndOfNode(const EndOfNode&) = delete;
   EndOfNode& operator=(const EndOfNode&) = delete;

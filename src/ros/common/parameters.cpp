@@ -5,6 +5,26 @@
 #include <set>
 #include <sstream>
 
+#include "ros/common/incoming/claimed_requests.h"
+
+namespace ros {
+namespace {
+
+using Reconfigure =
+    ServiceSpec<dynamic_reconfigure::ReconfigureRequest, dynamic_reconfigure::ReconfigureResponse>;
+struct UncheckedReconfigure : Reconfigure {};  // for roscpp's own code, by another name
+
+}  // namespace
+
+template <>
+bool ServiceCallbackHelperT<Reconfigure>::call(ServiceCallbackHelperCallParams& given) {
+  grid_path_planner::nodes::checkRequest<RequestType>(given.request);
+  return ServiceCallbackHelperT<UncheckedReconfigure>(callback_, create_req_, create_res_)
+      .call(given);
+}
+
+}  // namespace ros
+
 namespace grid_path_planner::nodes {
 
 using base::configName;

@@ -34,6 +34,17 @@
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/base/options.h"
 
+namespace ros {
+
+// Of the service ~set_parameters, which dynamic_reconfigure's server offers by itself: with arrays whose
+// lengths may lie (claimed_requests.h).
+template <>
+bool ServiceCallbackHelperT<
+    ServiceSpec<dynamic_reconfigure::ReconfigureRequest,
+                dynamic_reconfigure::ReconfigureResponse>>::call(ServiceCallbackHelperCallParams&);
+
+}  // namespace ros
+
 namespace grid_path_planner::nodes {
 
 // `name` in every message is the parameter's full name. An int is taken for a double, a number for

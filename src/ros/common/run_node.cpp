@@ -109,8 +109,9 @@ int runNode(int argc, char** argv, const std::string& name, const NodeMaker& mak
   try {
     serve(name, make);
   } catch (const std::exception& error) {
-    ROS_FATAL_STREAM(name << " ends: " << error.what());
-    result = 1;
+    const std::string asked = endReason();  // before it was up: what it waited for was given up
+    ROS_FATAL_STREAM(name << " ends: " << (asked.empty() ? error.what() : asked));
+    result = asked.empty() ? 1 : 0;
   }
   ros::shutdown();
   return result;

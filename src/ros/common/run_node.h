@@ -30,7 +30,7 @@ using NodeMaker =
 bool nodeIsToEnd();
 
 // Calls the global callback queue in this thread until the node ends. Returns the exit code:
-// 0, or 1 after an exception of the node's construction.
+// 0, or 1 after an exception of the node's construction that nobody asked for by ending it.
 int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make);
 
 // `Node` is constructed from a node handle and a private one. Returns 2 for arguments that are not

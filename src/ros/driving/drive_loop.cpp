@@ -1,6 +1,7 @@
 #include "ros/driving/drive_loop.h"
 
 #include <geometry_msgs/Twist.h>
+#include <sys/prctl.h>
 
 #include <sstream>
 #include <utility>
@@ -60,7 +61,10 @@ DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& optio
   velocity_publisher_ = own.advertise<geometry_msgs::Twist>("cmd_vel", 10);
   manual_subscriber_ = own.subscribe("manual_control", 1, &DriveLoop::onManual, this);
   stop_subscriber_ = own.subscribe("stop", 1, &DriveLoop::onStop, this);
-  thread_ = std::thread([this] { run(); });
+  thread_ = std::thread([this] {
+    ::prctl(PR_SET_NAME, "control");  // for top, debuggers and navigate_path_locks_rostest.cpp
+    run();
+  });
 }
 
 DriveLoop::~DriveLoop() {

@@ -11,6 +11,7 @@
 #include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/common/action/action_topics.h"
+#include "ros/common/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"
@@ -57,9 +58,14 @@ NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFil
   return options;
 }
 
-Path readWaypoints(const NodeFiles& files, const std::string& filename) {
-  WaypointFile read = files.read("config_filename", filename, waypointFiles(),
-                                 [](const std::string& file) { return readWaypointFile(file); });
+// `stop` ends it, and so does the end of the node.
+Path readWaypoints(const NodeFiles& files, const std::string& filename,
+                   const StopSource& stop = {}) {
+  const EndOfNode end(stop);
+  WaypointFile read =
+      files.read("config_filename", filename, waypointFiles(), [&](const std::string& file) {
+        return readWaypointFile(file, {{}, end.token()});
+      });
   if (read.tilt > base::kLargestTilt)
     ROS_WARN_STREAM("Waypoints of " << filename << " tilt by up to " << read.tilt
                                     << " rad: the vehicle stays level, their yaw is taken");
@@ -254,10 +260,10 @@ void NavigatePathNode::startGoal(const std::function<Path()>& read, Join join) {
 // In the reader's thread, and back.
 void NavigatePathNode::readGoal(const std::string& filename) {
   goal_is_read_ = true;
-  reader_->post([this, filename, number = goals_](const StopSource&) {
+  reader_->post([this, filename, number = goals_](const StopSource& stop) {
     std::function<Path()> read;
     try {
-      read = [path = readWaypoints(files_, filename)] { return path; };
+      read = [path = readWaypoints(files_, filename, stop)] { return path; };
     } catch (const std::exception& error) {
       read = [what = std::string(error.what())]() -> Path { throw InputError(what); };
     }

@@ -21,6 +21,7 @@ constexpr std::chrono::seconds kSilence(5);  // between two warnings for the sam
 constexpr char kNoTransform[] = "no transform";
 constexpr char kTooMany[] = "too many waiting for tf";
 constexpr char kTooSlow[] = "faster than they are mapped";
+constexpr char kTooLarge[] = "too many bytes waiting";
 constexpr char kTimeJumped[] = "time jumped back";
 
 Eigen::Isometry3d isometryOf(const geometry_msgs::Transform& t) {
@@ -70,18 +71,41 @@ bool CloudQueue::resolveTransforms() {
   }
   waiting_ = std::move(still_waiting);
   dropTooMany();
+  dropTooLarge();
   return !ready_.empty();
 }
 
 void CloudQueue::dropTooMany() {
   const auto most = static_cast<std::size_t>(options_.queue_size);
-  while (waiting_.size() > most) dropWaiting();
-  for (; ready_.size() > most; ready_.pop_front())
-    drop(kTooSlow, describe(*ready_.front().cloud) + ": clouds come faster than they are mapped");
+  while (waiting_.size() > most) dropWaiting(kTooMany, "more clouds than queue_size wait for tf");
+  while (ready_.size() > most) dropReady(kTooSlow, "clouds come faster than they are mapped");
+}
+
+void CloudQueue::dropTooLarge() {
+  const std::string why =
+      "the clouds that wait hold more than " + std::to_string(kMostCloudBytes >> 20) + " MiB";
+  while (waiting_.size() + ready_.size() > 1 && bytes() > kMostCloudBytes) {
+    if (waiting_.empty())
+      dropReady(kTooLarge, why);
+    else
+      dropWaiting(kTooLarge, why);
+  }
+}
+
+std::size_t CloudQueue::bytes() const {
+  std::size_t sum = 0;
+  for (const Waiting& waiting : waiting_) sum += waiting.cloud->data.size();
+  for (const Ready& ready : ready_) sum += ready.cloud->data.size();
+  return sum;
+}
+
+void CloudQueue::dropReady(const std::string& reason, const std::string& why) {
+  drop(reason, describe(*ready_.front().cloud) + ": " + why);
+  ready_.pop_front();
 }
 
 // The oldest of the frame that has the most, so that no frame crowds out another.
-void CloudQueue::dropWaiting() {
+void CloudQueue::dropWaiting(const std::string& reason, const std::string& why) {
   std::map<std::string, int> numbers;
   for (const Waiting& waiting : waiting_) ++numbers[waiting.cloud->header.frame_id];
   const auto most = std::max_element(numbers.begin(), numbers.end(),
@@ -89,7 +113,7 @@ void CloudQueue::dropWaiting() {
   const auto oldest = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
     return waiting.cloud->header.frame_id == most->first;
   });
-  drop(kTooMany, describe(*oldest->cloud) + ": more clouds than queue_size wait for tf");
+  drop(reason, describe(*oldest->cloud) + ": " + why);
   waiting_.erase(oldest);
 }
 

@@ -7,9 +7,10 @@
 //   while (auto ready = queue.pop()) use(*ready);  // in the mapping thread
 //
 // Guaranteed: the order of stamps does not matter; a cloud whose frame tf does not know waits for
-// tf_timeout (steady clock) and delays no other; at most queue_size clouds wait for tf, and at most
-// queue_size for insertion. More are dropped: of those that wait for tf the oldest of the frame that
-// has the most, of those that wait for insertion the oldest. Each loss is counted with its reason
+// tf_timeout (steady clock) and delays no other; at most queue_size clouds wait for tf, at most
+// queue_size for insertion, and all of them hold at most kMostCloudBytes, or are one. More are
+// dropped: of those that wait for tf, which are dropped first for their bytes, the oldest of the frame
+// that has the most, of those that wait for insertion the oldest. Each loss is counted with its reason
 // and logged, at most once in five seconds. Thread-safe.
 #pragma once
 
@@ -27,6 +28,8 @@
 #include "ros/common/frame_transforms.h"
 
 namespace grid_path_planner::nodes {
+
+constexpr std::size_t kMostCloudBytes = std::size_t{256} << 20;
 
 struct CloudQueueOptions {
   std::string frame = "map";
@@ -77,7 +80,10 @@ class CloudQueue {
   std::optional<mapping::CloudFrames> framesOf(const sensor_msgs::PointCloud2& cloud,
                                                std::string& problem) const;
   void dropTooMany();
-  void dropWaiting();
+  void dropTooLarge();
+  void dropWaiting(const std::string& reason, const std::string& why);
+  void dropReady(const std::string& reason, const std::string& why);
+  std::size_t bytes() const;
   void drop(const std::string& reason, const std::string& sentence);
 
   const FrameTransforms& transforms_;

@@ -1,7 +1,7 @@
 // The map of projected_map and the one thread in which it is read and changed: clouds, services,
 // publications and changed parameters are tasks of this thread, so that each sees a consistent map.
 //
-//   MappingThread thread(options);
+//   MappingThread thread(options, "", stop);
 //   thread.post("publish", [](MapModel& map) { use(map); });  // later, not twice in the queue
 //   thread.run([](MapModel& map) { map.reset(); });           // next, and waits for it
 //
@@ -23,9 +23,9 @@ class MappingThread {
   using Work = std::function<void(mapping::MapModel&)>;
 
   // Throws as MapModel does.
-  explicit MappingThread(const mapping::ProjectedMapOptions& options,
-                         const std::string& begin_with = "")
-      : map_(options, begin_with) {}
+  MappingThread(const mapping::ProjectedMapOptions& options, const std::string& begin_with,
+                const base::StopToken& stop)
+      : map_(options, begin_with, stop) {}
 
   // Does `work` next and waits for its end. Rethrows its exceptions; throws InputError after stop().
   void run(const Work& work);

@@ -5,14 +5,15 @@
 
 #include "grid_path_planner/ProjectedMapConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/end_of_node.h"
 #include "ros/common/file_kinds.h"
-#include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
 #include "ros/mapping/cloud_reader.h"
 
 namespace grid_path_planner::nodes {
 
 using base::InputError;
+using base::StopReason;
 using mapping::checkProjectedMapOptions;
 using mapping::ignoredParameter;
 using mapping::MapModel;
@@ -21,6 +22,7 @@ using mapping::ProjectionReference;
 
 namespace {
 
+constexpr std::size_t kMostArriving = 64 << 20;  // bytes of clouds, before the queue has them
 constexpr double kCloudPeriod = 0.01;  // s of the wall clock between two lookups of transforms
 constexpr double kDecayPeriod = 1.0;   // s of ROS time; decay visits every occupied voxel
 
@@ -54,16 +56,18 @@ CloudQueueOptions queueOptions(const ProjectedMapOptions& options) {
           options.tf_timeout, options.queue_size};
 }
 
-// With the map that was kept; where it cannot be read, as without it.
+// With the map that was kept; where it cannot be read, as without it. A reading that ends with the node
+// is no such case: the file is still good.
 std::unique_ptr<MappingThread> makeThread(const ProjectedMapOptions& options,
                                           const MapAutosave* autosave) {
+  const EndOfNode end;
   const std::string kept = autosave ? autosave->begin() : "";
-  if (kept.empty()) return std::make_unique<MappingThread>(options);
   try {
-    return std::make_unique<MappingThread>(options, kept);
+    return std::make_unique<MappingThread>(options, kept, end.token());
   } catch (const InputError& error) {
+    if (kept.empty() || end.token().reason() != StopReason::NONE) throw;
     ROS_ERROR_STREAM("The map that was kept is lost: " << error.what());
-    return std::make_unique<MappingThread>(options);
+    return std::make_unique<MappingThread>(options, "", end.token());
   }
 }
 
@@ -105,10 +109,10 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
                                                       *octree_publisher_, autosave_.get());
   service_spinner_.start();
 
-  using Cloud = sensor_msgs::PointCloud2::ConstPtr;
-  cloud_subscriber_ = subscribeChecked<sensor_msgs::PointCloud2, const Cloud&>(
-      nh, "cloud_in", static_cast<std::uint32_t>(options.queue_size),
-      [this](const Cloud& cloud) { onCloud(cloud); });
+  using CloudEvent = ros::MessageEvent<const sensor_msgs::PointCloud2>;
+  cloud_subscription_ = std::make_unique<BoundedSubscription<sensor_msgs::PointCloud2>>(
+      nh, "cloud_in", kMostArriving,
+      [this](const CloudEvent& event) { onCloud(event.getMessage()); });
   cloud_timer_ = nh.createWallTimer(ros::WallDuration(kCloudPeriod),
                                     [this](const ros::WallTimerEvent&) { resolveTransforms(); });
   startPublishing(options);
@@ -119,7 +123,7 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
 }
 
 ProjectedMapNode::~ProjectedMapNode() {
-  cloud_subscriber_.shutdown();
+  cloud_subscription_->shutdown();
   cloud_timer_.stop();
   publish_timer_.stop();
   heartbeat_timer_.stop();
@@ -145,7 +149,8 @@ ProjectedMapOptions ProjectedMapNode::withFile(ProjectedMapOptions options) {
 
 void ProjectedMapNode::use(const ProjectedMapOptions& options) {
   const ProjectedMapOptions with_file = withFile(options);
-  thread_->run([&](MapModel& map) { map.setOptions(with_file); });
+  const EndOfNode end;
+  thread_->run([&](MapModel& map) { map.setOptions(with_file, end.token()); });
   queue_.setOptions(queueOptions(options));
   startPublishing(options);
   postPublishing();

@@ -21,7 +21,6 @@
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
-#include <ros/subscriber.h>
 #include <ros/wall_timer.h>
 #include <sensor_msgs/PointCloud2.h>
 
@@ -31,6 +30,7 @@
 
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
+#include "ros/common/incoming/bounded_subscription.h"
 #include "ros/common/node_files.h"
 #include "ros/mapping/cloud_queue.h"
 #include "ros/mapping/map_autosave.h"
@@ -99,7 +99,7 @@ class ProjectedMapNode {
   std::unique_ptr<MappingServices> services_;
   std::unique_ptr<MappingDiagnostics> diagnostics_;
   std::unique_ptr<Reconfigurable<ProjectedMapConfig, mapping::ProjectedMapOptions>> reconfigurable_;
-  ros::Subscriber cloud_subscriber_;
+  std::unique_ptr<BoundedSubscription<sensor_msgs::PointCloud2>> cloud_subscription_;
   ros::WallTimer cloud_timer_;
   ros::WallTimer publish_timer_;
   ros::WallTimer heartbeat_timer_;

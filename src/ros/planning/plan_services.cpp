@@ -9,6 +9,7 @@
 #include "grid_path_planner/planners/planner_factory.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/common/file_kinds.h"
+#include "ros/common/incoming/claimed_requests.h"
 
 namespace grid_path_planner::nodes {
 
@@ -69,7 +70,8 @@ PlanServices::PlanServices(ros::NodeHandle private_nh, PlanningServer& server)
     : server_(server), spinner_(2, &queue_), file_spinner_(1, &file_queue_) {
   private_nh.setCallbackQueue(&guarded_);
   make_plan_ = private_nh.advertiseService("make_plan", &PlanServices::makePlan, this);
-  compare_plans_ = private_nh.advertiseService("compare_plans", &PlanServices::comparePlans, this);
+  compare_plans_ = advertiseChecked<Comparison>(
+      private_nh, "compare_plans", [this](Comparison& call) { return comparePlans(call); });
   private_nh.setCallbackQueue(&guarded_files_);
   save_waypoints_ =
       private_nh.advertiseService("save_waypoints", &PlanServices::saveWaypoints, this);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ros/mapping/cloud_queue.h"
 #include "ros/support/mapping_fixture.h"
 
 namespace grid_path_planner::nodes {
@@ -40,6 +41,24 @@ TEST_F(HostileClouds, AnUnknownFrameHoldsUpNoOther) {
   EXPECT_TRUE(reports("dropped", "30"));
   clouds_.publish(cloudOf(wallAt(2.0F), "", ros::Time::now()));
   EXPECT_TRUE(drops("no frame", "1"));
+}
+
+// They were bounded by number alone: queue_size clouds of any size waited for a transform.
+TEST_F(HostileClouds, CloudsThatWaitAreBoundedInBytes) {
+  startMapping({"_tf_timeout:=100", "_queue_size:=100"});
+  const sensor_msgs::PointCloud2 cloud =
+      cloudOf(CloudPoints(3500000, {2.0F, 0.0F, 0.0F}), "no_such_frame", ros::Time::now());
+  constexpr std::size_t kClouds = 16;  // 900 MB
+  for (std::size_t i = 1; i <= kClouds; ++i) {
+    clouds_.publish(cloud);
+    ASSERT_TRUE(reports("received", std::to_string(i)));
+  }
+  const std::size_t wait = kMostCloudBytes / cloud.data.size();
+  EXPECT_TRUE(reports("waiting", std::to_string(wait)));
+  EXPECT_TRUE(drops("too many bytes waiting", std::to_string(kClouds - wait)));
+  EXPECT_LT(node_->peakMemory(), std::size_t{600} << 20);
+  placeSensor(0.0, 0.0, 0.0);
+  EXPECT_TRUE(stillMaps());
 }
 
 TEST_F(HostileClouds, ACloudWaitsForTheTransformOfItsStamp) {

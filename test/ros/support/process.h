@@ -102,10 +102,6 @@ class Process {
     signal(SIGKILL);
     waitForExit();
   }
-  // Of a process that exited by itself; -1 of one that was killed.
-  int exitCode() const { return exited_ && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1; }
-
- private:
   // How long a node may take to end: 2 s on a machine of its own, in proportion on one that has other
   // work, 30 s with a sanitizer.
   static std::chrono::duration<double> patience() {
@@ -117,6 +113,12 @@ class Process {
     return std::chrono::seconds(2) * std::max(1.0, load / std::thread::hardware_concurrency());
 #endif
   }
+  // Of a process that exited by itself; -1 of one that was killed.
+  int exitCode() const {
+    return exited_ && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
+  }
+
+ private:
   static int& count() {
     static int processes = 0;
     return processes;

@@ -5,7 +5,8 @@
 // takes the server's own members (plan_action.cpp).
 //
 // A member of the library's class is specialized because SimpleActionServer makes its ActionServer
-// itself. What it replaces does the same but for the stamps and for parameters that nobody sets.
+// itself. What it replaces does the same but for the stamps, for goals whose lengths lie
+// (claimed_lengths.h) and for parameters that nobody sets.
 #pragma once
 
 #include <actionlib/server/action_server.h>
@@ -15,6 +16,7 @@
 #include <boost/make_shared.hpp>
 
 #include "ros/common/action/action_stamps.h"
+#include "ros/common/incoming/claimed_lengths.h"
 
 namespace grid_path_planner::nodes {
 
@@ -44,19 +46,19 @@ void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHand
       node.advertise<typename Action::_action_feedback_type>("feedback", kActionQueueSize);
   topics.status = node.advertise<actionlib_msgs::GoalStatusArray>("status", kActionQueueSize, true);
   const auto stamps = boost::make_shared<ActionStamps>();
-  const boost::function<void(const boost::shared_ptr<const Goal>&)> on_goal =
-      [&server, stamps](const boost::shared_ptr<const Goal>& message) {
-        const auto goal = boost::make_shared<Goal>(*message);
-        goal->goal_id.stamp = stamps->ofGoal(ros::Time::now());
-        server.goalCallback(goal);
-      };
+  using GoalPtr = boost::shared_ptr<const Goal>;
+  const auto on_goal = [&server, stamps](const GoalPtr& message) {
+    const auto goal = boost::make_shared<Goal>(*message);
+    goal->goal_id.stamp = stamps->ofGoal(ros::Time::now());
+    server.goalCallback(goal);
+  };
   const boost::function<void(const boost::shared_ptr<const Cancel>&)> on_cancel =
       [&server, stamps](const boost::shared_ptr<const Cancel>& message) {
         const auto cancel = boost::make_shared<Cancel>(*message);
         cancel->stamp = stamps->ofCancel(message->stamp, ros::Time::now());
         server.cancelCallback(cancel);
       };
-  topics.goals = node.subscribe<Goal>("goal", kActionQueueSize, on_goal);
+  topics.goals = subscribeChecked<Goal, const GoalPtr&>(node, "goal", kActionQueueSize, on_goal);
   topics.cancels = node.subscribe<Cancel>("cancel", kActionQueueSize, on_cancel);
   topics.status_timeout = ros::Duration(kActionStatusTimeout);
   topics.status_timer = node.createTimer(ros::Duration(kActionStatusPeriod), publish_status);

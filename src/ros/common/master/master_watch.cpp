@@ -2,6 +2,7 @@
 
 #include <ros/connection_manager.h>
 #include <ros/console.h>
+#include <ros/init.h>
 #include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
@@ -31,6 +32,11 @@ std::string ownUri() {
   return ros::XMLRPCManager::instance()->getServerURI();
 }
 
+std::string servicesUri() {
+  return "rosrpc://" + ros::network::getHost() + ":" +
+         std::to_string(ros::ConnectionManager::instance()->getTCPPort());
+}
+
 std::optional<XmlRpcValue> askMaster(const char* method, std::vector<XmlRpcValue> arguments = {}) {
   arguments.insert(arguments.begin(), self());
   return callXmlRpc(masterUri(), method, arguments, kMasterPatience);
@@ -48,7 +54,9 @@ std::shared_ptr<MasterWatch> MasterWatch::shared() {
 }
 
 MasterWatch::MasterWatch()
-    : answered_(Clock::now().time_since_epoch().count()), thread_([this] { run(); }) {}
+    : services_uri_(servicesUri()),
+      answered_(Clock::now().time_since_epoch().count()),
+      thread_([this] { run(); }) {}
 
 MasterWatch::~MasterWatch() {
   {
@@ -91,6 +99,7 @@ void MasterWatch::ask() {
   const int before = std::exchange(pid_, static_cast<int&>(*pid));
   const bool restarted = before != 0 && before != pid_;
   const bool knows = askMaster("lookupNode", {self()}).has_value();
+  if (ros::isShuttingDown()) return;  // its names are gone because they were given back
   if (restarted || (known_ && !knows)) registerAgain();
   known_ = known_ || knows;
   rememberServices();
@@ -110,10 +119,9 @@ void MasterWatch::registerAgain() const {
                                    << " does not know this node: it is registered again");
   registerTopics("getPublications", "registerPublisher");
   registerTopics("getSubscriptions", "registerSubscriber");
-  const std::string api = "rosrpc://" + ros::network::getHost() + ":" +
-                          std::to_string(ros::ConnectionManager::instance()->getTCPPort());
   for (const std::string& service : services_)
-    askMaster("registerService", {XmlRpcValue(service), XmlRpcValue(api), XmlRpcValue(ownUri())});
+    askMaster("registerService",
+              {XmlRpcValue(service), XmlRpcValue(services_uri_), XmlRpcValue(ownUri())});
 }
 
 // The master answers a subscriber with the publishers of its topic, and tells nobody else.

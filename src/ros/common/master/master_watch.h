@@ -40,6 +40,7 @@ class MasterWatch {
   void registerAgain() const;
   void registerTopics(const char* list, const char* method) const;
 
+  const std::string services_uri_;  // asked for once: roscpp has none when it is shut down
   std::atomic<std::chrono::steady_clock::rep> answered_;
   // The thread's:
   int pid_ = 0;         // of the master

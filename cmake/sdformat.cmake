@@ -1,0 +1,15 @@
+# gpp_find_sdformat(): SDFORMAT_TARGET is libsdformat, for the folder that calls it. The package's name carries its major
+# version.
+macro(gpp_find_sdformat)
+  foreach(version 12 11 10 9)
+    if(NOT SDFORMAT_TARGET)
+      find_package(sdformat${version} QUIET)
+      if(sdformat${version}_FOUND)
+        set(SDFORMAT_TARGET sdformat${version}::sdformat${version})
+      endif()
+    endif()
+  endforeach()
+  if(NOT SDFORMAT_TARGET)
+    message(FATAL_ERROR "libsdformat 9 to 12 not found: install libsdformat-dev")
+  endif()
+endmacro()
