@@ -3,55 +3,19 @@
 #include <algorithm>
 
 #include "planners/core/steps.h"
-#include "planners/jump_point/dead_ends.h"
+#include "planners/jump_point/tile_stops.h"
 
 namespace grid_path_planner::planners {
 
-using base::StopPoll, base::StopToken;
+using base::StopPoll, base::StopToken, base::ZeroedArray;
 using costmap::CostGrid;
 using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
-constexpr int kBand = 128;  // rows whose dead branches are found together
-
-// A cache of natural steps by window, as windows repeat. A new window overwrites another of the same
-// hash.
-class WindowCache {
- public:
-  // `cells`: about as many windows will be asked for.
-  explicit WindowCache(std::size_t cells) {
-    while (bits_ < 15 && std::size_t{1} << bits_ < cells) ++bits_;
-    entries_.resize(std::size_t{1} << bits_);
-  }
-
-  NaturalMoves steps(const Window& window) {
-    Entry& entry = entries_[hashOf(window)];
-    if (!entry.used || entry.window != window) entry = {naturalMoves(window), window, true};
-    return entry.steps;
-  }
-
- private:
-  struct Entry {
-    NaturalMoves steps = 0;
-    Window window{};
-    bool used = false;
-  };
-
-  std::size_t hashOf(const Window& window) const {
-    std::uint64_t hash = 0;
-    for (const CostGrid::Weight weight : window) hash = (hash ^ weight) * 0x9E3779B97F4A7C15U;
-    return hash >> (64 - bits_);
-  }
-
-  int bits_ = 1;
-  std::vector<Entry> entries_;
-};
-
-bool allEqual(const Window& window) {
-  return std::all_of(window.begin(), window.end(),
-                     [&window](CostGrid::Weight weight) { return weight == window[0]; });
-}
+// Where more of a tile changed, it is given up: a repair takes longer a cell than a new tile, and a
+// tile that no search comes to again costs nothing.
+constexpr int kRepairedCells = WeightedJumpMap::kTile * WeightedJumpMap::kTile / 3;
 
 void setBit(std::uint64_t& word, int at, bool value) {
   const std::uint64_t bit = std::uint64_t{1} << (unsigned(at) & 63U);
@@ -62,43 +26,116 @@ Cell before(Cell cell, unsigned step) {
   return {cell.column - kSteps[step].column, cell.row - kSteps[step].row};
 }
 
+std::size_t tilesAlong(int cells) {
+  return (std::size_t(cells) + WeightedJumpMap::kTile - 1) / WeightedJumpMap::kTile;
+}
+
+// Calls use() for the tiles that meet a rectangle inside the map, cut off at the map's border.
+template <class Use>
+void forTiles(const CellRect& rect, const CellRect& map, const Use& use) {
+  constexpr int kTile = WeightedJumpMap::kTile;
+  for (int row = rect.row / kTile * kTile; row < rect.row + rect.height; row += kTile)
+    for (int column = rect.column / kTile * kTile; column < rect.column + rect.width;
+         column += kTile)
+      use(CellRect{column, row, kTile, kTile}.intersection(map));
+}
+
+bool weightChanges(const CostGrid& map, Cell from, Cell to) {
+  return !map.geometry().contains(to) || map.weight(from) != map.weight(to);
+}
+
+template <class Use>
+void forCells(const CellRect& rect, const Use& use) {
+  for (int row = rect.row; row < rect.row + rect.height; ++row)
+    for (int column = rect.column; column < rect.column + rect.width; ++column)
+      use(Cell{column, row});
+}
+
 }  // namespace
 
 std::size_t WeightedJumpMap::bytesFor(const GridGeometry& geometry) {
   const auto width = std::size_t(geometry.width()), height = std::size_t(geometry.height());
   return StraightJumpTable::bytesFor(height, width) + StraightJumpTable::bytesFor(width, height) +
-         geometry.size() * sizeof(Mark);
+         geometry.size() * sizeof(Mark) + tilesAlong(geometry.width()) * tilesAlong(geometry.height()) +
+         WindowCache::bytesFor(geometry.size());
 }
 
-void WeightedJumpMap::build(const CostGrid& map, const StopToken& stop) {
+void WeightedJumpMap::reset(const CostGrid& map) {
   const GridGeometry& geometry = map.geometry();
   width_ = geometry.width();
+  tile_columns_ = tilesAlong(geometry.width());
+  tile_ready_.assign(tile_columns_ * tilesAlong(geometry.height()), 0);
   rows_.reset(std::size_t(geometry.height()), std::size_t(geometry.width()));
   columns_.reset(std::size_t(geometry.width()), std::size_t(geometry.height()));
-  marks_.assign(geometry.size(), Mark());
-  natural_of_id_.clear();
+  marks_ = ZeroedArray<Mark>();
+  marks_ = ZeroedArray<Mark>(geometry.size());
+  windows_ = WindowCache(geometry.size());
   id_of_natural_.clear();
   Window open;
   open.fill(1);
-  idOf(naturalMoves(open));  // kOpenId
-  idOf(0);                   // kBlockedId
-  computeNaturalIds(map, geometry.rect(), stop);
-  for (int row = 0; row < geometry.height(); row += kBand)
-    computeLiveSteps(map, CellRect{0, row, width_, kBand}.intersection(geometry.rect()), stop);
-  buildStops(map, stop);
+  natural_of_id_ = {0, naturalMoves(open), 0};  // kUnknownId, kOpenId, kBlockedId
+}
+
+void WeightedJumpMap::makeReady(const CostGrid& map, Cell cell) {
+  makeReady(map, CellRect{cell.column, cell.row, 1, 1});
+}
+
+void WeightedJumpMap::makeReady(const CostGrid& map, const CellRect& rect) {
+  forTiles(rect, map.geometry().rect(), [&](const CellRect& tile) {
+    if (tileReady({tile.column, tile.row}) == 0) makeTile(map, tile);
+  });
 }
 
 void WeightedJumpMap::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
   const CellRect all = map.geometry().rect();
-  computeNaturalIds(map, changed.grown(1).intersection(all), stop);
+  const CellRect windows = changed.grown(1).intersection(all);
+  StopPoll poll(stop, 1);
+  forCells(windows, [&](Cell cell) {
+    marks_[map.geometry().index(cell).value()].setNaturalId(kUnknownId);
+  });
   const CellRect near = changed.grown(kDepth + 2).intersection(all);
-  computeLiveSteps(map, near, stop);
-  StopPoll poll(stop, 16);
-  for (int row = near.row; row < near.row + near.height; ++row) {
+  const auto partOf = [&near](const CellRect& tile) { return tile.intersection(near); };
+  const auto large = [&](const CellRect& tile) {
+    return partOf(tile).width * partOf(tile).height > kRepairedCells;
+  };
+  forTiles(near, all, [&](const CellRect& tile) {
+    if (tileReady({tile.column, tile.row}) != 0 && large(tile)) giveUpTile(map, tile);
+  });
+  forTiles(near, all, [&](const CellRect& tile) {
     poll();
-    for (int column = near.column; column < near.column + near.width; ++column)
-      setStops({column, row}, steps(map, map.geometry().index({column, row}).value()));
+    if (tileReady({tile.column, tile.row}) != 0) repair(map, partOf(tile), windows);
+  });
+}
+
+void WeightedJumpMap::giveUpTile(const CostGrid& map, const CellRect& tile) {
+  tileReady({tile.column, tile.row}) = 0;
+  forCells(tile,
+           [&](Cell cell) { marks_[map.geometry().index(cell).value()].setReady(false); });
+  for (int row = tile.row; row < tile.row + tile.height; ++row) {
+    rows_.word(std::size_t(row), unsigned(tile.column)) = {};
+    rows_.setEndsBefore<true>(std::size_t(row), unsigned(tile.column), End::UNKNOWN);
+    rows_.setEndsBefore<false>(std::size_t(row), unsigned(tile.column + kTile - 1), End::UNKNOWN);
   }
+  for (int column = tile.column; column < tile.column + tile.width; ++column) {
+    columns_.word(std::size_t(column), unsigned(tile.row)) = {};
+    columns_.setEndsBefore<true>(std::size_t(column), unsigned(tile.row), End::UNKNOWN);
+    columns_.setEndsBefore<false>(std::size_t(column), unsigned(tile.row + kTile - 1),
+                                  End::UNKNOWN);
+  }
+}
+
+void WeightedJumpMap::repair(const CostGrid& map, const CellRect& part, const CellRect& changed) {
+  computeLiveSteps(map, part);
+  forCells(part.intersection(changed), [&](Cell cell) {
+    setOpen(cell, marks_[map.geometry().index(cell).value()].naturalId() == kOpenId);
+    setBit(rows_.word(std::size_t(cell.row), unsigned(cell.column)).change, cell.column,
+           weightChanges(map, cell, {cell.column + 1, cell.row}));
+    setBit(columns_.word(std::size_t(cell.column), unsigned(cell.row)).change, cell.row,
+           weightChanges(map, cell, {cell.column, cell.row + 1}));
+  });
+  forCells(part, [&](Cell cell) {
+    setStops(cell, steps(map, map.geometry().index(cell).value()));
+  });
 }
 
 unsigned WeightedJumpMap::idOf(NaturalMoves natural) {
@@ -111,65 +148,139 @@ unsigned WeightedJumpMap::idOf(NaturalMoves natural) {
   return id;
 }
 
-void WeightedJumpMap::computeNaturalIds(const CostGrid& map, const CellRect& rect,
-                                        const StopToken& stop) {
-  WindowCache cache(std::size_t(rect.width) * std::size_t(rect.height));
-  StopPoll poll(stop, 8);
+void WeightedJumpMap::computeNaturalIds(const CostGrid& map, const CellRect& rect) {
+  forCells(rect, [&](Cell cell) {
+    Mark& mark = marks_[map.geometry().index(cell).value()];
+    if (mark.naturalId() == kUnknownId) mark.setNaturalId(naturalIdAt(map, cell));
+  });
+}
+
+unsigned WeightedJumpMap::naturalIdAt(const CostGrid& map, Cell cell) {
+  if (map.weight(cell) == CostGrid::kBlocked) return kBlockedId;
+  const Window window = windowAt(map, cell);
+  if (std::all_of(window.begin(), window.end(),
+                  [&window](CostGrid::Weight weight) { return weight == window[4]; }))
+    return kOpenId;
+  return windows_.find(window, [this](const Window& fresh) { return idOf(naturalMoves(fresh)); });
+}
+
+void WeightedJumpMap::computeLiveSteps(const CostGrid& map, const CellRect& rect) {
+  const GridGeometry& geometry = map.geometry();
+  const CellRect window = rect.grown(kDepth + 1);
+  const CellRect inside = window.intersection(geometry.rect());
+  computeNaturalIds(map, inside);
+  const int width = window.width + 2, height = window.height + 2;
+  std::vector<NaturalMoves>& natural = branches_.window(width, height);
+  std::fill(natural.begin(), natural.end(), DeadBranches::kNotEntered);
+  for (int row = inside.row; row < inside.row + inside.height; ++row) {
+    NaturalMoves* to = &natural[std::size_t(row - window.row + 1) * width + 1 +
+                                std::size_t(inside.column - window.column)];
+    std::uint32_t index = geometry.index({inside.column, row}).value();
+    for (int column = 0; column < inside.width; ++column, ++index)
+      to[column] = marks_[index].naturalId() == kBlockedId ? DeadBranches::kNotEntered
+                                                           : this->natural(map, index);
+  }
+  const std::vector<std::uint8_t>& live = branches_.liveSteps(kDepth);
   for (int row = rect.row; row < rect.row + rect.height; ++row) {
-    poll();
-    for (int column = rect.column; column < rect.column + rect.width; ++column) {
-      const Cell cell{column, row};
-      const Window window = windowAt(map, cell);
-      const bool blocked = window[4] == CostGrid::kBlocked, equal = !blocked && allEqual(window);
-      Mark& mark = marks_[map.geometry().index(cell).value()];
-      mark.setNaturalId(equal ? kOpenId : blocked ? kBlockedId : idOf(cache.steps(window)));
-      StraightJumpTable::Word& in_row = rows_.word(std::size_t(row), unsigned(column));
-      setBit(in_row.open, column, equal);
-      setBit(in_row.change, column, window[4] != window[5]);
-      setBit(columns_.word(std::size_t(column), unsigned(row)).change, row, window[4] != window[7]);
-    }
+    const std::uint8_t* from = &live[std::size_t(row - window.row + 1) * width + 1 + kDepth + 1];
+    std::uint32_t index = geometry.index({rect.column, row}).value();
+    for (int column = 0; column < rect.width; ++column, ++index) marks_[index].live = from[column];
   }
 }
 
-void WeightedJumpMap::computeLiveSteps(const CostGrid& map, const CellRect& rect,
-                                       const StopToken& stop) {
-  const CellRect window = rect.grown(kDepth + 1).intersection(map.geometry().rect());
-  std::vector<NaturalMoves> natural;
-  natural.reserve(std::size_t(window.width) * window.height);
-  StopPoll poll(stop, 16);
-  for (int row = window.row; row < window.row + window.height; ++row) {
-    poll();
-    for (int column = window.column; column < window.column + window.width; ++column)
-      natural.push_back(this->natural(map, map.geometry().index({column, row}).value()));
-  }
-  const std::vector<std::uint8_t> live = liveSteps(natural, window.width, window.height, kDepth);
-  for (int row = rect.row; row < rect.row + rect.height; ++row)
-    for (int column = rect.column; column < rect.column + rect.width; ++column)
-      marks_[map.geometry().index({column, row}).value()].live =
-          live[std::size_t(row - window.row) * window.width + (column - window.column)];
+void WeightedJumpMap::makeTile(const CostGrid& map, const CellRect& tile) {
+  computeLiveSteps(map, tile);
+  TileStops stops;
+  forCells(tile, [&](Cell cell) {
+    marks_[map.geometry().index(cell).value()].setReady(true);
+    addStops(map, cell, stops);
+  });
+  writeTile(map, tile, stops);
+  tileReady({tile.column, tile.row}) = 1;
+  ++tiles_made_;
 }
 
-// Against the direction of the jumps, so that the dead ends before each stop are written once.
-void WeightedJumpMap::buildStops(const CostGrid& map, const StopToken& stop) {
-  const int height = map.geometry().height();
-  StopPoll poll(stop, 16);
-  for (int row = 0; row < height; ++row) {
-    poll();
-    for (int column = 0; column < width_; ++column) buildStopsOf<true>(map, {column, row});
+void WeightedJumpMap::addStops(const CostGrid& map, Cell cell, TileStops& stops) const {
+  const std::uint32_t index = map.geometry().index(cell).value();
+  const Mark& mark = marks_[index];
+  const bool open = mark.naturalId() == kOpenId;
+  if (open)
+    stops.addOpen(cell);
+  else
+    stops.addChange(cell, weightChanges(map, cell, {cell.column + 1, cell.row}),
+                    weightChanges(map, cell, {cell.column, cell.row + 1}));
+  if (!open || mark.live != 255) stops.add(cell, steps(map, index));
+}
+
+void WeightedJumpMap::writeTile(const CostGrid& map, const CellRect& tile, const TileStops& stops) {
+  for (int i = 0; i < tile.height; ++i) {
+    StraightJumpTable::Word& word = rows_.word(std::size_t(tile.row + i), unsigned(tile.column));
+    word.change = stops.row_change[i];
+    word.open = stops.open[i];
   }
-  for (int row = height - 1; row >= 0; --row) {
-    poll();
-    for (int column = width_ - 1; column >= 0; --column) buildStopsOf<false>(map, {column, row});
-  }
+  for (int i = 0; i < tile.width; ++i)
+    columns_.word(std::size_t(tile.column + i), unsigned(tile.row)).change = stops.column_change[i];
+  writeStopsOf<true>(map, tile, stops);
+  writeStopsOf<false>(map, tile, stops);
 }
 
 template <bool kForward>
-void WeightedJumpMap::buildStopsOf(const CostGrid& map, Cell cell) {
-  const std::uint32_t index = map.geometry().index(cell).value();
-  const Mark& mark = marks_[index];
-  if (mark.naturalId() != kOpenId || mark.live != 255)
-    setStopsOf<kForward>(cell, steps(map, index));
+void WeightedJumpMap::writeStopsOf(const CostGrid& map, const CellRect& tile,
+                                   const TileStops& stops) {
+  constexpr unsigned kAlongRow = kForward ? 0 : 2, kAlongColumn = kForward ? 1 : 3;
+  const Bits beyond_row = TileStops::beyond(tile.width), beyond_column = TileStops::beyond(tile.height);
+  for (int i = 0; i < tile.height; ++i) {
+    const Cell next{kForward ? tile.column + kTile : tile.column - 1, tile.row + i};
+    StraightJumpTable::writeStops<kForward>(
+        rows_.word(std::size_t(tile.row + i), unsigned(tile.column)),
+        stops.stop[kAlongRow][i] | beyond_row, stops.dead[kAlongRow][i] | beyond_row,
+        endAt<kAlongRow>(map, next));
+  }
+  for (int i = 0; i < tile.width; ++i) {
+    const Cell next{tile.column + i, kForward ? tile.row + kTile : tile.row - 1};
+    StraightJumpTable::writeStops<kForward>(
+        columns_.word(std::size_t(tile.column + i), unsigned(tile.row)),
+        stops.stop[kAlongColumn][i] | beyond_column, stops.dead[kAlongColumn][i] | beyond_column,
+        endAt<kAlongColumn>(map, next));
+  }
 }
+
+// What a jump by the step that comes to this cell ends at.
+template <unsigned kStep>
+WeightedJumpMap::End WeightedJumpMap::endAt(const CostGrid& map, Cell cell) {
+  constexpr bool kForward = kStep / 2 == 0;
+  if (!map.geometry().contains(cell)) return End::DEAD;
+  if (tileReady(cell) == 0) return End::UNKNOWN;
+  const bool stop =
+      kStep % 2 == 0 ? rows_.isStop<kForward>(std::size_t(cell.row), unsigned(cell.column))
+                     : columns_.isStop<kForward>(std::size_t(cell.column), unsigned(cell.row));
+  if (!stop) return endOf<kStep>(cell);
+  const NaturalMoves steps = this->steps(map, map.geometry().index(cell).value());
+  return cell != goal_ && (steps >> (8 * kStep) & 255U) == 0 ? End::DEAD : End::LIVE;
+}
+
+template <unsigned kStep>
+bool WeightedJumpMap::findEnd(const CostGrid& map, Cell cell) {
+  constexpr bool kForward = kStep / 2 == 0;
+  const int at = kStep % 2 == 0 ? cell.column : cell.row;
+  int next = kForward ? at / kTile * kTile + kTile : at / kTile * kTile - 1;
+  for (End end = End::UNKNOWN;; next += kForward ? kTile : -kTile) {
+    const Cell to = kStep % 2 == 0 ? Cell{next, cell.row} : Cell{cell.column, next};
+    makeReady(map, to);
+    end = endAt<kStep>(map, to);
+    if (end == End::UNKNOWN) continue;
+    if (kStep % 2 == 0)
+      rows_.setEndsBefore<kForward>(std::size_t(cell.row), unsigned(next), end);
+    else
+      columns_.setEndsBefore<kForward>(std::size_t(cell.column), unsigned(next), end);
+    return end == End::DEAD;
+  }
+}
+
+template bool WeightedJumpMap::findEnd<0>(const CostGrid&, Cell);
+template bool WeightedJumpMap::findEnd<1>(const CostGrid&, Cell);
+template bool WeightedJumpMap::findEnd<2>(const CostGrid&, Cell);
+template bool WeightedJumpMap::findEnd<3>(const CostGrid&, Cell);
 
 template <bool kForward>
 void WeightedJumpMap::setStopsOf(Cell cell, NaturalMoves steps) {
@@ -192,7 +303,12 @@ void WeightedJumpMap::setOpen(Cell cell, bool open) {
 }
 
 WeightedJumpMap::ScopedGoal::ScopedGoal(WeightedJumpMap& jumps, const CostGrid& map, Cell goal)
-    : jumps_(jumps), map_(map), goal_(goal), was_open_(jumps.open(goal)) {
+    : jumps_(jumps), map_(map), goal_(goal) {
+  jumps_.makeReady(map, CellRect{goal.column, goal.row, 1, 1}
+                            .grown(kDepth + 2)
+                            .intersection(map.geometry().rect()));
+  was_open_ = jumps_.open(goal);
+  jumps_.goal_ = goal;
   restoreStepsTo(goal, deadAfter(jumps.steps(map, map.geometry().index(goal).value())));
   for (const Change& change : changes_)
     jumps_.setStops(change.cell, jumps_.steps(map, map.geometry().index(change.cell).value()));
@@ -232,6 +348,7 @@ void WeightedJumpMap::ScopedGoal::restoreStepsTo(Cell cell, unsigned dead) {
 WeightedJumpMap::ScopedGoal::~ScopedGoal() {
   for (auto change = changes_.rbegin(); change != changes_.rend(); ++change)
     jumps_.marks_[map_.geometry().index(change->cell).value()].live = change->live;
+  jumps_.goal_ = {-1, -1};
   changes_.push_back({goal_, 0});
   for (const Change& change : changes_)
     jumps_.setStops(change.cell, jumps_.steps(map_, map_.geometry().index(change.cell).value()));

@@ -86,7 +86,7 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
     prepareAStar(stop);
     return;
   }
-  jumps_.prepare(map(), stop);
+  jumps_.prepare(map());
   jumps_ready_ = true;
 }
 

@@ -3,7 +3,7 @@
 // cut no corners.
 //
 //   WeightedJumpSearch search;
-//   search.prepare(map, stop);
+//   search.prepare(map);
 //   SearchResult result = search.run(map, request, stop);
 //
 // Guaranteed: the cost is the least there is, whatever the weights.
@@ -39,8 +39,8 @@ class WeightedJumpSearch {
     return WeightedJumpMap::bytesFor(geometry) + geometry.size() * sizeof(StampedG);
   }
 
-  // Throw Stopped. `changed`: the cells whose weights changed since.
-  void prepare(const costmap::CostGrid& map, const base::StopToken& stop);
+  void prepare(const costmap::CostGrid& map);
+  // `changed`: the cells whose weights changed since. Throws Stopped.
   void update(const costmap::CostGrid& map, const grid::CellRect& changed,
               const base::StopToken& stop);
   // Frees all memory; prepare() must be called before the next run().
