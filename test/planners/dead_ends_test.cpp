@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -48,14 +47,13 @@ class Branches {
 std::vector<std::uint8_t> liveSteps(DeadBranches& dead, const Branches& branches,
                                     const CostGrid& map, int depth) {
   const int width = map.geometry().width(), height = map.geometry().height();
-  std::vector<NaturalMoves>& natural = dead.window(width + 2, height + 2);
-  std::fill(natural.begin(), natural.end(), DeadBranches::kNotEntered);
+  dead.reset(width + 2, height + 2);
   const auto at = [width](Cell cell) {
-    return std::size_t(cell.row + 1) * std::size_t(width + 2) + std::size_t(cell.column + 1);
+    return std::uint32_t(cell.row + 1) * std::uint32_t(width + 2) + std::uint32_t(cell.column + 1);
   };
   for (const Cell cell : test::cellsOf(map))
     if (map.passable(cell))
-      natural[at(cell)] = branches.natural[map.geometry().index(cell).value()];
+      dead.set(at(cell), branches.natural[map.geometry().index(cell).value()]);
   const std::vector<std::uint8_t>& of_window = dead.liveSteps(depth);
   std::vector<std::uint8_t> live;
   for (const Cell cell : test::cellsOf(map)) live.push_back(of_window[at(cell)]);

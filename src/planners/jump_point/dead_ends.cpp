@@ -12,22 +12,18 @@ constexpr std::uint64_t kEachByte = 0x0101010101010101U;
 
 }  // namespace
 
-std::vector<NaturalMoves>& DeadBranches::window(int width, int height) {
+void DeadBranches::reset(int width, int height) {
   width_ = width;
-  natural_.resize(std::size_t(width) * std::size_t(height));
-  return natural_;
+  const std::size_t cells = std::size_t(width) * std::size_t(height);
+  natural_.assign(cells, ~NaturalMoves{0});  // never a dead branch
+  live_.assign(cells, 255);
+  dead_.assign(cells, 0);
+  ended_.clear();
 }
 
 // Each level removes the steps into the branches that ended, then finds the steps after which no
 // step is left.
 const std::vector<std::uint8_t>& DeadBranches::liveSteps(int depth) {
-  live_.assign(natural_.size(), 255);
-  dead_.resize(natural_.size());
-  ended_.clear();
-  for (std::uint32_t i = 0; i < natural_.size(); ++i) {
-    dead_[i] = static_cast<std::uint8_t>(deadAfter(natural_[i]));
-    if (dead_[i] != 0) ended_.push_back({i, dead_[i]});
-  }
   for (int level = 0; level <= depth && !ended_.empty(); ++level) {
     removeStepsInto(ended_);
     ended_.clear();

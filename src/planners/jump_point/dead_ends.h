@@ -17,19 +17,23 @@ constexpr unsigned deadAfter(NaturalMoves steps) {
   return static_cast<unsigned>(((~filled & ~kLow) >> 7) * 0x0102040810204080U >> 56);
 }
 
-// Dead branches of windows of cells, whose memory is used again by the next window.
+// Dead branches of windows of cells, one after the other.
 class DeadBranches {
  public:
-  // In the place of the natural steps of a cell that no step enters.
-  static constexpr NaturalMoves kNotEntered = ~NaturalMoves{0};
-
-  // A window: the natural steps of its cells, row by row, kNotEntered along its border. Contents
-  // are not cleared.
-  std::vector<NaturalMoves>& window(int width, int height);
+  // A window whose cells no step enters, as those along its border never are.
+  void reset(int width, int height);
+  // The natural steps of a cell that steps enter, by its index in the window; once a cell.
+  void set(std::uint32_t index, NaturalMoves natural) {
+    natural_[index] = natural;
+    const auto dead = static_cast<std::uint8_t>(deadAfter(natural));
+    if (dead == 0) return;
+    dead_[index] = dead;
+    ended_.push_back({index, dead});
+  }
 
   // The steps at every cell of the window that do not begin a dead branch, a bit for each; without
   // meaning at cells that are not entered. A branch is dead if every sequence of natural steps that
-  // begins with it ends inside the window after at most `depth` further steps.
+  // begins with it ends inside the window after at most `depth` further steps. To be called once.
   const std::vector<std::uint8_t>& liveSteps(int depth);
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planners/core/simd_neighbourhood.h"
 #include "planners/core/steps.h"
 #include "planners/jump_point/tile_stops.h"
 
@@ -26,18 +27,17 @@ Cell before(Cell cell, unsigned step) {
   return {cell.column - kSteps[step].column, cell.row - kSteps[step].row};
 }
 
-std::size_t tilesAlong(int cells) {
-  return (std::size_t(cells) + WeightedJumpMap::kTile - 1) / WeightedJumpMap::kTile;
+std::size_t squaresAlong(int cells, int side) {
+  return (std::size_t(cells) + std::size_t(side) - 1) / std::size_t(side);
 }
 
-// Calls use() for the tiles that meet a rectangle inside the map, cut off at the map's border.
+// Calls use() for the squares of a raster that meet a rectangle inside the map, cut off at the map's
+// border.
 template <class Use>
-void forTiles(const CellRect& rect, const CellRect& map, const Use& use) {
-  constexpr int kTile = WeightedJumpMap::kTile;
-  for (int row = rect.row / kTile * kTile; row < rect.row + rect.height; row += kTile)
-    for (int column = rect.column / kTile * kTile; column < rect.column + rect.width;
-         column += kTile)
-      use(CellRect{column, row, kTile, kTile}.intersection(map));
+void forSquares(int side, const CellRect& rect, const CellRect& map, const Use& use) {
+  for (int row = rect.row / side * side; row < rect.row + rect.height; row += side)
+    for (int column = rect.column / side * side; column < rect.column + rect.width; column += side)
+      use(CellRect{column, row, side, side}.intersection(map));
 }
 
 bool weightChanges(const CostGrid& map, Cell from, Cell to) {
@@ -56,15 +56,17 @@ void forCells(const CellRect& rect, const Use& use) {
 std::size_t WeightedJumpMap::bytesFor(const GridGeometry& geometry) {
   const auto width = std::size_t(geometry.width()), height = std::size_t(geometry.height());
   return StraightJumpTable::bytesFor(height, width) + StraightJumpTable::bytesFor(width, height) +
-         geometry.size() * sizeof(Mark) + tilesAlong(geometry.width()) * tilesAlong(geometry.height()) +
+         geometry.size() * sizeof(Mark) + squaresAlong(geometry.width(), kBlock) * squaresAlong(geometry.height(), kBlock) * 2 +
          WindowCache::bytesFor(geometry.size());
 }
 
 void WeightedJumpMap::reset(const CostGrid& map) {
   const GridGeometry& geometry = map.geometry();
   width_ = geometry.width();
-  tile_columns_ = tilesAlong(geometry.width());
-  tile_ready_.assign(tile_columns_ * tilesAlong(geometry.height()), 0);
+  tile_columns_ = squaresAlong(width_, kTile);
+  tile_ready_.assign(tile_columns_ * squaresAlong(geometry.height(), kTile), 0);
+  block_columns_ = squaresAlong(width_, kBlock);
+  block_ready_.assign(block_columns_ * squaresAlong(geometry.height(), kBlock), 0);
   rows_.reset(std::size_t(geometry.height()), std::size_t(geometry.width()));
   columns_.reset(std::size_t(geometry.width()), std::size_t(geometry.height()));
   marks_ = ZeroedArray<Mark>();
@@ -73,7 +75,7 @@ void WeightedJumpMap::reset(const CostGrid& map) {
   id_of_natural_.clear();
   Window open;
   open.fill(1);
-  natural_of_id_ = {0, naturalMoves(open), 0};  // kUnknownId, kOpenId, kBlockedId
+  natural_of_id_ = {naturalMoves(open), 0};  // kOpenId, kBlockedId
 }
 
 void WeightedJumpMap::makeReady(const CostGrid& map, Cell cell) {
@@ -81,7 +83,7 @@ void WeightedJumpMap::makeReady(const CostGrid& map, Cell cell) {
 }
 
 void WeightedJumpMap::makeReady(const CostGrid& map, const CellRect& rect) {
-  forTiles(rect, map.geometry().rect(), [&](const CellRect& tile) {
+  forSquares(kTile, rect, map.geometry().rect(), [&](const CellRect& tile) {
     if (tileReady({tile.column, tile.row}) == 0) makeTile(map, tile);
   });
 }
@@ -90,18 +92,17 @@ void WeightedJumpMap::update(const CostGrid& map, const CellRect& changed, const
   const CellRect all = map.geometry().rect();
   const CellRect windows = changed.grown(1).intersection(all);
   StopPoll poll(stop, 1);
-  forCells(windows, [&](Cell cell) {
-    marks_[map.geometry().index(cell).value()].setNaturalId(kUnknownId);
-  });
+  forSquares(kBlock, windows, all,
+             [&](const CellRect& block) { blockReady({block.column, block.row}) = 0; });
   const CellRect near = changed.grown(kDepth + 2).intersection(all);
   const auto partOf = [&near](const CellRect& tile) { return tile.intersection(near); };
   const auto large = [&](const CellRect& tile) {
     return partOf(tile).width * partOf(tile).height > kRepairedCells;
   };
-  forTiles(near, all, [&](const CellRect& tile) {
+  forSquares(kTile, near, all, [&](const CellRect& tile) {
     if (tileReady({tile.column, tile.row}) != 0 && large(tile)) giveUpTile(map, tile);
   });
-  forTiles(near, all, [&](const CellRect& tile) {
+  forSquares(kTile, near, all, [&](const CellRect& tile) {
     poll();
     if (tileReady({tile.column, tile.row}) != 0) repair(map, partOf(tile), windows);
   });
@@ -149,18 +150,36 @@ unsigned WeightedJumpMap::idOf(NaturalMoves natural) {
 }
 
 void WeightedJumpMap::computeNaturalIds(const CostGrid& map, const CellRect& rect) {
-  forCells(rect, [&](Cell cell) {
-    Mark& mark = marks_[map.geometry().index(cell).value()];
-    if (mark.naturalId() == kUnknownId) mark.setNaturalId(naturalIdAt(map, cell));
+  forSquares(kBlock, rect, map.geometry().rect(), [&](const CellRect& block) {
+    std::uint8_t& ready = blockReady({block.column, block.row});
+    if (ready == 0) computeNaturalIdsOf(map, block);
+    ready = 1;
   });
 }
 
-unsigned WeightedJumpMap::naturalIdAt(const CostGrid& map, Cell cell) {
-  if (map.weight(cell) == CostGrid::kBlocked) return kBlockedId;
-  const Window window = windowAt(map, cell);
-  if (std::all_of(window.begin(), window.end(),
-                  [&window](CostGrid::Weight weight) { return weight == window[4]; }))
-    return kOpenId;
+void WeightedJumpMap::computeNaturalIdsOf(const CostGrid& map, const CellRect& block) {
+  using Eight = SimdNeighbourhood::Eight;
+  forEachEight(map, block, StopToken(),
+               [this](std::size_t index, int number, const SimdNeighbourhood& cells) {
+                 const Eight blocked = cells.blocked(0, 0), alike = cells.alike();
+                 if (all(blocked | alike)) {
+                   for (int i = 0; i < number; ++i)
+                     marks_[index + i].setNaturalId(blocked[i] != 0 ? kBlockedId : kOpenId);
+                   return;
+                 }
+                 std::array<Eight, 9> around;
+                 for (int i = 0; i < 9; ++i) around[i] = cells.weights(i % 3 - 1, i / 3 - 1);
+                 for (int i = 0; i < number; ++i)
+                   marks_[index + i].setNaturalId(blocked[i] != 0 ? kBlockedId
+                                                  : alike[i] != 0 ? kOpenId
+                                                                  : naturalIdOf(around, i));
+               });
+}
+
+template <class Eights>
+unsigned WeightedJumpMap::naturalIdOf(const Eights& around, int cell) {
+  Window window;
+  for (int i = 0; i < 9; ++i) window[i] = around[i][cell];
   return windows_.find(window, [this](const Window& fresh) { return idOf(naturalMoves(fresh)); });
 }
 
@@ -169,16 +188,14 @@ void WeightedJumpMap::computeLiveSteps(const CostGrid& map, const CellRect& rect
   const CellRect window = rect.grown(kDepth + 1);
   const CellRect inside = window.intersection(geometry.rect());
   computeNaturalIds(map, inside);
-  const int width = window.width + 2, height = window.height + 2;
-  std::vector<NaturalMoves>& natural = branches_.window(width, height);
-  std::fill(natural.begin(), natural.end(), DeadBranches::kNotEntered);
+  const int width = window.width + 2;
+  branches_.reset(width, window.height + 2);
   for (int row = inside.row; row < inside.row + inside.height; ++row) {
-    NaturalMoves* to = &natural[std::size_t(row - window.row + 1) * width + 1 +
-                                std::size_t(inside.column - window.column)];
     std::uint32_t index = geometry.index({inside.column, row}).value();
-    for (int column = 0; column < inside.width; ++column, ++index)
-      to[column] = marks_[index].naturalId() == kBlockedId ? DeadBranches::kNotEntered
-                                                           : this->natural(map, index);
+    std::uint32_t at = std::uint32_t(row - window.row + 1) * std::uint32_t(width) + 1 +
+                       std::uint32_t(inside.column - window.column);
+    for (int column = 0; column < inside.width; ++column, ++index, ++at)
+      if (marks_[index].naturalId() != kBlockedId) branches_.set(at, natural(map, index));
   }
   const std::vector<std::uint8_t>& live = branches_.liveSteps(kDepth);
   for (int row = rect.row; row < rect.row + rect.height; ++row) {
@@ -191,35 +208,51 @@ void WeightedJumpMap::computeLiveSteps(const CostGrid& map, const CellRect& rect
 void WeightedJumpMap::makeTile(const CostGrid& map, const CellRect& tile) {
   computeLiveSteps(map, tile);
   TileStops stops;
-  forCells(tile, [&](Cell cell) {
-    marks_[map.geometry().index(cell).value()].setReady(true);
-    addStops(map, cell, stops);
-  });
+  addStops(map, tile, stops);
+  stops.finish();
   writeTile(map, tile, stops);
   tileReady({tile.column, tile.row}) = 1;
   ++tiles_made_;
 }
 
-void WeightedJumpMap::addStops(const CostGrid& map, Cell cell, TileStops& stops) const {
-  const std::uint32_t index = map.geometry().index(cell).value();
-  const Mark& mark = marks_[index];
-  const bool open = mark.naturalId() == kOpenId;
-  if (open)
-    stops.addOpen(cell);
-  else
-    stops.addChange(cell, weightChanges(map, cell, {cell.column + 1, cell.row}),
-                    weightChanges(map, cell, {cell.column, cell.row + 1}));
-  if (!open || mark.live != 255) stops.add(cell, steps(map, index));
+void WeightedJumpMap::addStops(const CostGrid& map, const CellRect& tile, TileStops& stops) {
+  using Eight = SimdNeighbourhood::Eight;
+  int at = 0;  // which eight cells of the tile
+  const int in_row = (tile.width + kSimdCells - 1) / kSimdCells;
+  forEachEight(map, tile, StopToken(),
+               [&](std::size_t index, int number, const SimdNeighbourhood& cells) {
+                 const Eight here = cells.weights(0, 0);
+                 const auto along_row = reinterpret_cast<Eight>(here != cells.weights(1, 0));
+                 const auto along_column = reinterpret_cast<Eight>(here != cells.weights(0, 1));
+                 std::uint64_t changes = 0, stops_of_cells = 0;
+                 storeBytes((along_row & TileStops::kRowChange) |
+                                (along_column & TileStops::kColumnChange),
+                            kSimdCells, reinterpret_cast<std::uint8_t*>(&changes));
+                 for (int i = 0; i < number; ++i) {
+                   Mark& mark = marks_[index + i];
+                   mark.setReady(true);
+                   const unsigned id = mark.naturalId();
+                   if (id == kOpenId) changes |= std::uint64_t{TileStops::kOpen} << (8 * i);
+                   if (id == kOpenId && mark.live == 255) continue;
+                   const std::uint8_t stop =
+                       id == kBlockedId
+                           ? TileStops::kBlocked
+                           : TileStops::stopsOf(steps(map, std::uint32_t(index + i)));
+                   stops_of_cells |= std::uint64_t{stop} << (8 * i);
+                 }
+                 stops.add(at / in_row, at % in_row, stops_of_cells, changes);
+                 ++at;
+               });
 }
 
 void WeightedJumpMap::writeTile(const CostGrid& map, const CellRect& tile, const TileStops& stops) {
   for (int i = 0; i < tile.height; ++i) {
     StraightJumpTable::Word& word = rows_.word(std::size_t(tile.row + i), unsigned(tile.column));
-    word.change = stops.row_change[i];
-    word.open = stops.open[i];
+    word.change = stops.rowChange()[i];
+    word.open = stops.open()[i];
   }
   for (int i = 0; i < tile.width; ++i)
-    columns_.word(std::size_t(tile.column + i), unsigned(tile.row)).change = stops.column_change[i];
+    columns_.word(std::size_t(tile.column + i), unsigned(tile.row)).change = stops.columnChange()[i];
   writeStopsOf<true>(map, tile, stops);
   writeStopsOf<false>(map, tile, stops);
 }
@@ -233,14 +266,14 @@ void WeightedJumpMap::writeStopsOf(const CostGrid& map, const CellRect& tile,
     const Cell next{kForward ? tile.column + kTile : tile.column - 1, tile.row + i};
     StraightJumpTable::writeStops<kForward>(
         rows_.word(std::size_t(tile.row + i), unsigned(tile.column)),
-        stops.stop[kAlongRow][i] | beyond_row, stops.dead[kAlongRow][i] | beyond_row,
+        stops.stop(kAlongRow)[i] | beyond_row, stops.dead(kAlongRow)[i] | beyond_row,
         endAt<kAlongRow>(map, next));
   }
   for (int i = 0; i < tile.width; ++i) {
     const Cell next{tile.column + i, kForward ? tile.row + kTile : tile.row - 1};
     StraightJumpTable::writeStops<kForward>(
         columns_.word(std::size_t(tile.column + i), unsigned(tile.row)),
-        stops.stop[kAlongColumn][i] | beyond_column, stops.dead[kAlongColumn][i] | beyond_column,
+        stops.stop(kAlongColumn)[i] | beyond_column, stops.dead(kAlongColumn)[i] | beyond_column,
         endAt<kAlongColumn>(map, next));
   }
 }

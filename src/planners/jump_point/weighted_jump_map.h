@@ -41,7 +41,7 @@
 
 namespace grid_path_planner::planners {
 
-struct TileStops;
+class TileStops;
 
 class WeightedJumpMap {
  public:
@@ -148,9 +148,9 @@ class WeightedJumpMap {
   using Bits = StraightJumpTable::Bits;
   using End = StraightJumpTable::End;
 
-  static constexpr unsigned kUnknownId = 0;  // not looked at yet
-  static constexpr unsigned kOpenId = 1;     // the nine cells around have one weight
-  static constexpr unsigned kBlockedId = 2;  // no step enters the cell
+  static constexpr int kBlock = 16;          // natural steps are computed by blocks of cells
+  static constexpr unsigned kOpenId = 0;     // the nine cells around have one weight
+  static constexpr unsigned kBlockedId = 1;  // no step enters the cell
   static constexpr unsigned kNoId = 32767;
   static constexpr std::uint64_t kEveryByte = 0x0101010101010101U;
 
@@ -159,6 +159,9 @@ class WeightedJumpMap {
   std::uint8_t& tileReady(grid::Cell cell) {
     return tile_ready_[std::size_t(cell.row / kTile) * tile_columns_ + cell.column / kTile];
   }
+  std::uint8_t& blockReady(grid::Cell cell) {
+    return block_ready_[std::size_t(cell.row / kBlock) * block_columns_ + cell.column / kBlock];
+  }
 
   // Of a tile, or of a part of it
   void makeTile(const costmap::CostGrid& map, const grid::CellRect& tile);
@@ -166,9 +169,11 @@ class WeightedJumpMap {
   void repair(const costmap::CostGrid& map, const grid::CellRect& part,
               const grid::CellRect& changed);
   void computeNaturalIds(const costmap::CostGrid& map, const grid::CellRect& rect);
-  unsigned naturalIdAt(const costmap::CostGrid& map, grid::Cell cell);
+  void computeNaturalIdsOf(const costmap::CostGrid& map, const grid::CellRect& block);
+  template <class Eights>
+  unsigned naturalIdOf(const Eights& around, int cell);
   void computeLiveSteps(const costmap::CostGrid& map, const grid::CellRect& rect);
-  void addStops(const costmap::CostGrid& map, grid::Cell cell, TileStops& stops) const;
+  void addStops(const costmap::CostGrid& map, const grid::CellRect& tile, TileStops& stops);
   void writeTile(const costmap::CostGrid& map, const grid::CellRect& tile, const TileStops& stops);
   template <bool kForward>
   void writeStopsOf(const costmap::CostGrid& map, const grid::CellRect& tile,
@@ -191,12 +196,14 @@ class WeightedJumpMap {
 
   int width_ = 0;
   std::size_t tile_columns_ = 0;
+  std::size_t block_columns_ = 0;
   std::uint64_t tiles_made_ = 0;
   grid::Cell goal_{-1, -1};  // of the ScopedGoal, while one lives
   StraightJumpTable rows_;
   StraightJumpTable columns_;
   base::ZeroedArray<Mark> marks_;
-  std::vector<std::uint8_t> tile_ready_;  // not 0 where it is
+  std::vector<std::uint8_t> tile_ready_;   // not 0 where it is
+  std::vector<std::uint8_t> block_ready_;  // not 0 where the natural steps are computed
   std::vector<NaturalMoves> natural_of_id_;
   std::unordered_map<NaturalMoves, unsigned> id_of_natural_;
   WindowCache windows_;
