@@ -79,6 +79,11 @@ PathPlanner StudyWorker::plannerFor(const StudySetting& setting,
     return makeStudyPlanner(name, search, cross);
   });
   made.setMap(plan_.map(setting.map));
+  try {
+    made.finishPreparation(StopToken());
+  } catch (const InputError&) {
+    // Every plan says why.
+  }
   return made;
 }
 

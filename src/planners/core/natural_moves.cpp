@@ -57,12 +57,8 @@ class WindowPaths {
         if (kInside.to[from][step] != kOutside)
           least_[from][kInside.to[from][step]] = steps_[from][step];
     }
-    for (int by = 0; by < 9; ++by) {
-      if (window[by] == CostGrid::kBlocked) continue;
-      for (int from = 0; from < 9; ++from)
-        for (int to = 0; to < 9; ++to)
-          least_[from][to] = std::min(least_[from][to], least_[from][by] + least_[by][to]);
-    }
+    for (int by = 0; by < 9; ++by)
+      if (window[by] != CostGrid::kBlocked) lowerBy(by);
     for (int e = 0; e < 8; ++e) {
       const double cost = steps_[kMiddle][e];
       if (cost < kFar && !precededBy(kMiddle, e, kInside.to[kMiddle][e], cost)) canonical_ |= 1U << e;
@@ -87,6 +83,16 @@ class WindowPaths {
     const int column = from + kSteps[step].column;
     const int row = from + 3 * kSteps[step].row;
     return window[column] == 0 || window[row] == 0 ? kFar : weight * kDiagonal;
+  }
+
+  // A path costs the same in both directions.
+  void lowerBy(int by) {
+    const std::array<double, 9> row = least_[by];
+    for (int from = 1; from < 9; ++from)
+      for (int to = 0; to < from; ++to) {
+        const double cost = row[from] + row[to];
+        if (cost < least_[from][to]) least_[from][to] = least_[to][from] = cost;
+      }
   }
 
   // Whether a path of `cost` from `from` to `to` may begin with a step that precedes `step`.

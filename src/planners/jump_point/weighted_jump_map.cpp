@@ -64,6 +64,7 @@ void WeightedJumpMap::reset(const CostGrid& map) {
   const GridGeometry& geometry = map.geometry();
   width_ = geometry.width();
   tile_columns_ = squaresAlong(width_, kTile);
+  tiles_ready_ = 0;
   tile_ready_.assign(tile_columns_ * squaresAlong(geometry.height(), kTile), 0);
   block_columns_ = squaresAlong(width_, kBlock);
   block_ready_.assign(block_columns_ * squaresAlong(geometry.height(), kBlock), 0);
@@ -85,6 +86,15 @@ void WeightedJumpMap::makeReady(const CostGrid& map, Cell cell) {
 void WeightedJumpMap::makeReady(const CostGrid& map, const CellRect& rect) {
   forSquares(kTile, rect, map.geometry().rect(), [&](const CellRect& tile) {
     if (tileReady({tile.column, tile.row}) == 0) makeTile(map, tile);
+  });
+}
+
+void WeightedJumpMap::makeAllReady(const CostGrid& map, const StopToken& stop) {
+  if (allReady()) return;
+  StopPoll poll(stop, 1);
+  forSquares(kTile, map.geometry().rect(), map.geometry().rect(), [&](const CellRect& tile) {
+    poll();
+    makeReady(map, tile);
   });
 }
 
@@ -110,6 +120,7 @@ void WeightedJumpMap::update(const CostGrid& map, const CellRect& changed, const
 
 void WeightedJumpMap::giveUpTile(const CostGrid& map, const CellRect& tile) {
   tileReady({tile.column, tile.row}) = 0;
+  --tiles_ready_;
   forCells(tile,
            [&](Cell cell) { marks_[map.geometry().index(cell).value()].setReady(false); });
   for (int row = tile.row; row < tile.row + tile.height; ++row) {
@@ -213,6 +224,7 @@ void WeightedJumpMap::makeTile(const CostGrid& map, const CellRect& tile) {
   writeTile(map, tile, stops);
   tileReady({tile.column, tile.row}) = 1;
   ++tiles_made_;
+  ++tiles_ready_;
 }
 
 void WeightedJumpMap::addStops(const CostGrid& map, const CellRect& tile, TileStops& stops) {

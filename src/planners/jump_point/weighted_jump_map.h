@@ -59,6 +59,9 @@ class WeightedJumpMap {
   // Makes the tile of the cell ready, or the tiles that meet the rectangle.
   void makeReady(const costmap::CostGrid& map, grid::Cell cell);
   void makeReady(const costmap::CostGrid& map, const grid::CellRect& rect);
+  // Makes all tiles ready. Throws Stopped; the tiles that are made stay.
+  void makeAllReady(const costmap::CostGrid& map, const base::StopToken& stop);
+  bool allReady() const { return tiles_ready_ == tile_ready_.size(); }
   // How often a tile was made ready; each takes tens of microseconds.
   std::uint64_t tilesMade() const { return tiles_made_; }
 
@@ -198,6 +201,7 @@ class WeightedJumpMap {
   std::size_t tile_columns_ = 0;
   std::size_t block_columns_ = 0;
   std::uint64_t tiles_made_ = 0;
+  std::size_t tiles_ready_ = 0;
   grid::Cell goal_{-1, -1};  // of the ScopedGoal, while one lives
   StraightJumpTable rows_;
   StraightJumpTable columns_;

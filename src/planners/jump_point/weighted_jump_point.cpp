@@ -66,10 +66,13 @@ std::string WeightedJumpPoint::lessMemoryAdvice() const {
 }
 
 BackgroundWork WeightedJumpPoint::backgroundWork() {
-  return a_star_ ? a_star_->backgroundWork() : BackgroundWork();
+  BackgroundWork work = a_star_ ? a_star_->backgroundWork() : BackgroundWork();
+  work.pending = work.pending || (jumps_ready_ && !jumps_.finished());
+  return work;
 }
 
 void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
+  if (jumps_ready_) jumps_.finish(map(), stop);
   if (a_star_) a_star_->finishBackgroundWork(stop);
 }
 

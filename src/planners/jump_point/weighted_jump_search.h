@@ -43,6 +43,12 @@ class WeightedJumpSearch {
   // `changed`: the cells whose weights changed since. Throws Stopped.
   void update(const costmap::CostGrid& map, const grid::CellRect& changed,
               const base::StopToken& stop);
+  // Makes all tiles ready, so that no run() makes one; those made stay where it is stopped. Throws
+  // Stopped.
+  void finish(const costmap::CostGrid& map, const base::StopToken& stop) {
+    jumps_.makeAllReady(map, stop);
+  }
+  bool finished() const { return jumps_.allReady(); }
   // Frees all memory; prepare() must be called before the next run().
   void release();
 

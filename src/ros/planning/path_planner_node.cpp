@@ -119,8 +119,8 @@ void PathPlannerNode::onOptions(const PathPlannerNodeOptions& options) {
 }
 
 void PathPlannerNode::onMapChange() {
-  server_->vehicleLane().worker().post([this](const StopSource& stop) { processMap(stop); },
-                                       kMapSlot);
+  server_->vehicleLane().post([this](const StopSource& stop) { processMap(stop); }, kMapSlot);
+  server_->prepareForQuestions();
 }
 
 void PathPlannerNode::startReplanTimer(double period) {
@@ -133,8 +133,12 @@ void PathPlannerNode::startReplanTimer(double period) {
 }
 
 void PathPlannerNode::postPlanForGoal() {
-  server_->vehicleLane().worker().post([this](const StopSource& stop) { planForGoal(stop); },
-                                       kGoalSlot, TaskQueue::Turn::NEXT);
+  server_->vehicleLane().post(
+      [this](const StopSource& stop) {
+        planForGoal(stop);
+        server_->vehicleLane().finishLater(server_->settings().options);
+      },
+      kGoalSlot, TaskQueue::Turn::NEXT);
 }
 
 void PathPlannerNode::planForGoal(const StopSource& stop) {
@@ -169,6 +173,8 @@ void PathPlannerNode::processMap(const StopSource& stop) {
     waitForClock(stop.token());
     publishSearchedMap(options, stop);
     if (goalPathBlocked(options, stop)) postPlanForGoal();
+    server_->vehicleLane().prepare(options, stop.token());
+    server_->vehicleLane().finishLater(options);
   } catch (const Stopped&) {
     // The node ends.
   }
