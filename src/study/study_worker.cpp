@@ -1,11 +1,12 @@
 #include "study/study_worker.h"
 
+#include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/metrics.h"
 #include "study/study_planners.h"
 
 namespace grid_path_planner::study {
 
-using base::Status;
+using base::InputError, base::Status, base::StopToken;
 using grid::Cell, grid::OccupancyGrid, grid::OccupancyThresholds;
 using path::ClassLengths, path::clearanceOf, path::lengthsByClass, path::Path, path::Pose,
     path::turningOf;

@@ -148,6 +148,44 @@ TEST(WeightedJumpMapLaw, EqualsAFreshBuildAfterEdits) {
   }
 }
 
+CellRect randomRect(std::mt19937& random, const GridGeometry& geometry, int longest) {
+  const Cell low = test::randomCell(random, geometry);
+  return CellRect{low.column, low.row, 1 + int(random() % longest), 1 + int(random() % longest)}
+      .intersection(geometry.rect());
+}
+
+// Tiles are made in the order of the questions, and edits come in between: of a few cells, which are
+// repaired, and of more than a tile, for which tiles are given up.
+TEST(WeightedJumpMapLaw, IsTheSameWhateverTilesWereMadeBefore) {
+  std::mt19937 random(35);
+  for (int trial = 0; trial < 30; ++trial) {
+    Grid<CostGrid::Weight> weights(
+        GridGeometry(100 + int(random() % 160), 100 + int(random() % 160), 1.0), 1);
+    for (auto& weight : weights.values())
+      if (random() % 40 == 0) weight = static_cast<CostGrid::Weight>(random() % 3);
+    CostGrid map = test::costMap(weights);
+    WeightedJumpMap jumps;
+    jumps.reset(map);
+    for (int question = 0; question < 60; ++question) {
+      const Cell cell = test::randomCell(random, map.geometry());
+      jumps.makeReady(map, cell);
+      if (map.passable(cell))
+        for (unsigned step = 0; step < 4; ++step)
+          if (stepAllowed(map, cell, after(cell, step))) deadEndAt(jumps, map, step, cell);
+      if (question % 20 != 19) continue;
+      const CellRect changed = randomRect(random, map.geometry(), question % 40 == 19 ? 5 : 120);
+      for (int row = changed.row; row < changed.row + changed.height; ++row)
+        for (int column = changed.column; column < changed.column + changed.width; ++column)
+          weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 4);
+      map = test::costMap(weights);
+      jumps.update(map, changed, StopToken());
+    }
+    WeightedJumpMap fresh = built(map);
+    expectAlike(jumps, fresh, map);
+    if (HasFatalFailure()) FAIL() << "trial " << trial;
+  }
+}
+
 TEST(WeightedJumpMapLaw, AScopedGoalStopsEveryJumpAndLeavesNoTrace) {
   std::mt19937 random(34);
   for (int trial = 0; trial < 60; ++trial) {
