@@ -154,7 +154,7 @@ void print(const Plan& report, const std::string& planner, double preparation_ms
     std::cout << jsonOf(report, preparation_ms).dump() << '\n';
   else
     std::cout << toString(report.status) << ": " << report.message << answeredBy(report, planner)
-             << '\n';
+              << '\n';
 }
 
 }  // namespace

@@ -14,8 +14,8 @@
 #include "grid_path_planner/planners/planner_factory.h"
 #include "planning/message_text.h"
 #include "planning/multi_resolution_planner.h"
-#include "planning/prepared_planners.h"
 #include "planning/path_ends.h"
+#include "planning/prepared_planners.h"
 
 namespace grid_path_planner::planning {
 

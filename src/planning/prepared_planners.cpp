@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t kFollowedShare = 16;
 
 bool small(const grid::CellRect& change, const grid::GridGeometry& geometry) {
-  const auto cells = static_cast<std::size_t>(change.width) * static_cast<std::size_t>(change.height);
+  const auto cells =
+      static_cast<std::size_t>(change.width) * static_cast<std::size_t>(change.height);
   return cells * kFollowedShare <= geometry.size();
 }
 
@@ -41,8 +42,7 @@ void PreparedPlanners::followOthers(const CostmapPair& maps, const StopToken& st
   const bool follow = small(maps.downsampled_change, maps.downsampled->geometry()) &&
                       small(maps.full_resolution_change, maps.full_resolution->geometry());
   for (auto each = std::next(entries_.begin()); each != entries_.end();) {
-    const bool kept = each->search.isPreparedFor(maps) ||
-                      (follow && each->search.canFollow(maps));
+    const bool kept = each->search.isPreparedFor(maps) || (follow && each->search.canFollow(maps));
     if (!kept) {
       each = entries_.erase(each);
       continue;

@@ -3,9 +3,9 @@
 //
 //   PreparedPlanners searches(planners::makePlanner);
 //   searches.use("a_star", options);
-//   searches.keepWithin(bytes);           // those asked longest ago go first
+//   searches.keepWithin(bytes, bytes_of_current);  // those asked longest ago go first
 //   searches.current().prepare(maps, stop);
-//   searches.followOthers(maps, stop);    // a map changed a little
+//   searches.followOthers(maps, stop);  // a map changed a little
 //
 // The searches that are not current follow a change of the map where it is small and their planner
 // repairs what it prepared; otherwise they are given up, as they are for another map.

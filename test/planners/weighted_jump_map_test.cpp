@@ -74,7 +74,8 @@ void expectAlike(WeightedJumpMap& a, WeightedJumpMap& b, const CostGrid& map) {
     ASSERT_EQ(stepsAt(a, map, cell), stepsAt(b, map, cell)) << cell;
     for (unsigned step = 0; step < 4; ++step) {
       if (stepAllowed(map, cell, after(cell, step))) {
-        ASSERT_EQ(deadEndAt(a, map, step, cell), deadEndAt(b, map, step, cell)) << cell << " step " << step;
+        ASSERT_EQ(deadEndAt(a, map, step, cell), deadEndAt(b, map, step, cell))
+            << cell << " step " << step;
       }
     }
   }

@@ -99,13 +99,15 @@ TEST(WeightedJumpPointLaw, FindsTheLeastCostInEveryMotionModel) {
 }
 
 SearchRequest randomRequest(std::mt19937& random, const CostGrid& map) {
-  return {test::randomCell(random, map.geometry()), {test::randomCell(random, map.geometry())}, true};
+  return {
+      test::randomCell(random, map.geometry()), {test::randomCell(random, map.geometry())}, true};
 }
 
 // Three planners of one map: one that has prepared nothing, one as earlier questions left it (some
-// of them stopped on the way) and one that has prepared everything.
-void expectAlikeInEveryState(std::mt19937& random, WeightedJumpPoint& asked, WeightedJumpPoint& done,
-                             const std::shared_ptr<const CostGrid>& map, int queries) {
+// of them stopped before their end) and one that has prepared everything.
+void expectAlikeInEveryState(std::mt19937& random, WeightedJumpPoint& asked,
+                             WeightedJumpPoint& done, const std::shared_ptr<const CostGrid>& map,
+                             int queries) {
   done.finishBackgroundWork(StopToken());
   EXPECT_FALSE(done.backgroundWork().pending);
   for (int query = 0; query < queries; ++query) {
@@ -143,9 +145,9 @@ TEST(WeightedJumpPointLaw, PreparationChangesNoAnswer) {
       if (::testing::Test::HasFatalFailure()) FAIL() << "trial " << trial << ", edit " << edit;
       const Cell low = test::randomCell(random, map->geometry());
       const int longest = edit == 0 ? 4 : 90;
-      const CellRect changed = CellRect{low.column, low.row, 1 + int(random() % longest),
-                                        1 + int(random() % longest)}
-                                   .intersection(map->geometry().rect());
+      const CellRect changed =
+          CellRect{low.column, low.row, 1 + int(random() % longest), 1 + int(random() % longest)}
+              .intersection(map->geometry().rect());
       for (int row = changed.row; row < changed.row + changed.height; ++row)
         for (int column = changed.column; column < changed.column + changed.width; ++column)
           weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 3);

@@ -175,7 +175,7 @@ class PathPlanner {
   std::shared_ptr<const grid::OccupancyGrid> map_;
   std::unique_ptr<costmap::CostmapBuilder> costmap_;
   std::unique_ptr<PreparedPlanners> searches_;  // of these costmaps
-  std::unique_ptr<Lowered> lowered_;  // for the last request, if it needed one
+  std::unique_ptr<Lowered> lowered_;            // for the last request, if it needed one
 };
 
 }  // namespace grid_path_planner::planning

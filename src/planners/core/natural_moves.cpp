@@ -61,7 +61,8 @@ class WindowPaths {
       if (window[by] != CostGrid::kBlocked) lowerBy(by);
     for (int e = 0; e < 8; ++e) {
       const double cost = steps_[kMiddle][e];
-      if (cost < kFar && !precededBy(kMiddle, e, kInside.to[kMiddle][e], cost)) canonical_ |= 1U << e;
+      if (cost < kFar && !precededBy(kMiddle, e, kInside.to[kMiddle][e], cost))
+        canonical_ |= 1U << e;
     }
   }
 

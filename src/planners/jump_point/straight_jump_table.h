@@ -1,7 +1,8 @@
 // Where straight jumps over weighted cells end and what they cost: bits for all rows, or all
 // columns, of a map, 64 cells in a word.
 //
-//   if (table.deadEnd<true>(row, column)) return;  // a jump forwards reaches nothing
+//   using End = StraightJumpTable::End;
+//   if (table.end<true>(row, column) == End::DEAD) return;  // a jump forwards reaches nothing
 //   StraightJumpTable::Jump jump = table.straightJump<true>(row, column, weights, 1);
 //   use(jump.to, jump.weights);  // the cell where the jump ends, and the cost of its steps
 //

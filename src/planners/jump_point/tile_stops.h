@@ -41,8 +41,7 @@ class TileStops {
   }
   // To be called once, after the last add().
   void finish() {
-    for (const std::size_t columns : {1U, 3U, 5U, 7U, 9U})
-      costmap::transpose(all_[columns]);
+    for (const std::size_t columns : {1U, 3U, 5U, 7U, 9U}) costmap::transpose(all_[columns]);
   }
 
   // By row for the steps 0 and 2, by column for 1 and 3.

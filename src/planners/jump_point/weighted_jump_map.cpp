@@ -23,10 +23,6 @@ void setBit(std::uint64_t& word, int at, bool value) {
   word = value ? word | bit : word & ~bit;
 }
 
-Cell before(Cell cell, unsigned step) {
-  return {cell.column - kSteps[step].column, cell.row - kSteps[step].row};
-}
-
 std::size_t squaresAlong(int cells, int side) {
   return (std::size_t(cells) + std::size_t(side) - 1) / std::size_t(side);
 }
@@ -56,7 +52,8 @@ void forCells(const CellRect& rect, const Use& use) {
 std::size_t WeightedJumpMap::bytesFor(const GridGeometry& geometry) {
   const auto width = std::size_t(geometry.width()), height = std::size_t(geometry.height());
   return StraightJumpTable::bytesFor(height, width) + StraightJumpTable::bytesFor(width, height) +
-         geometry.size() * sizeof(Mark) + squaresAlong(geometry.width(), kBlock) * squaresAlong(geometry.height(), kBlock) * 2 +
+         geometry.size() * sizeof(Mark) +
+         squaresAlong(geometry.width(), kBlock) * squaresAlong(geometry.height(), kBlock) * 2 +
          WindowCache::bytesFor(geometry.size());
 }
 
@@ -102,8 +99,9 @@ void WeightedJumpMap::update(const CostGrid& map, const CellRect& changed, const
   const CellRect all = map.geometry().rect();
   const CellRect windows = changed.grown(1).intersection(all);
   StopPoll poll(stop, 1);
-  forSquares(kBlock, windows, all,
-             [&](const CellRect& block) { blockReady({block.column, block.row}) = 0; });
+  forSquares(kBlock, windows, all, [&](const CellRect& block) {
+    blockReady({block.column, block.row}) = 0;
+  });
   const CellRect near = changed.grown(kDepth + 2).intersection(all);
   const auto partOf = [&near](const CellRect& tile) { return tile.intersection(near); };
   const auto large = [&](const CellRect& tile) {
@@ -121,8 +119,7 @@ void WeightedJumpMap::update(const CostGrid& map, const CellRect& changed, const
 void WeightedJumpMap::giveUpTile(const CostGrid& map, const CellRect& tile) {
   tileReady({tile.column, tile.row}) = 0;
   --tiles_ready_;
-  forCells(tile,
-           [&](Cell cell) { marks_[map.geometry().index(cell).value()].setReady(false); });
+  forCells(tile, [&](Cell cell) { marks_[map.geometry().index(cell).value()].setReady(false); });
   for (int row = tile.row; row < tile.row + tile.height; ++row) {
     rows_.word(std::size_t(row), unsigned(tile.column)) = {};
     rows_.setEndsBefore<true>(std::size_t(row), unsigned(tile.column), End::UNKNOWN);
@@ -145,9 +142,8 @@ void WeightedJumpMap::repair(const CostGrid& map, const CellRect& part, const Ce
     setBit(columns_.word(std::size_t(cell.column), unsigned(cell.row)).change, cell.row,
            weightChanges(map, cell, {cell.column, cell.row + 1}));
   });
-  forCells(part, [&](Cell cell) {
-    setStops(cell, steps(map, map.geometry().index(cell).value()));
-  });
+  forCells(part,
+           [&](Cell cell) { setStops(cell, steps(map, map.geometry().index(cell).value())); });
 }
 
 unsigned WeightedJumpMap::idOf(NaturalMoves natural) {
@@ -231,30 +227,28 @@ void WeightedJumpMap::addStops(const CostGrid& map, const CellRect& tile, TileSt
   using Eight = SimdNeighbourhood::Eight;
   int at = 0;  // which eight cells of the tile
   const int in_row = (tile.width + kSimdCells - 1) / kSimdCells;
-  forEachEight(map, tile, StopToken(),
-               [&](std::size_t index, int number, const SimdNeighbourhood& cells) {
-                 const Eight here = cells.weights(0, 0);
-                 const auto along_row = reinterpret_cast<Eight>(here != cells.weights(1, 0));
-                 const auto along_column = reinterpret_cast<Eight>(here != cells.weights(0, 1));
-                 std::uint64_t changes = 0, stops_of_cells = 0;
-                 storeBytes((along_row & TileStops::kRowChange) |
-                                (along_column & TileStops::kColumnChange),
-                            kSimdCells, reinterpret_cast<std::uint8_t*>(&changes));
-                 for (int i = 0; i < number; ++i) {
-                   Mark& mark = marks_[index + i];
-                   mark.setReady(true);
-                   const unsigned id = mark.naturalId();
-                   if (id == kOpenId) changes |= std::uint64_t{TileStops::kOpen} << (8 * i);
-                   if (id == kOpenId && mark.live == 255) continue;
-                   const std::uint8_t stop =
-                       id == kBlockedId
-                           ? TileStops::kBlocked
-                           : TileStops::stopsOf(steps(map, std::uint32_t(index + i)));
-                   stops_of_cells |= std::uint64_t{stop} << (8 * i);
-                 }
-                 stops.add(at / in_row, at % in_row, stops_of_cells, changes);
-                 ++at;
-               });
+  forEachEight(
+      map, tile, StopToken(), [&](std::size_t index, int number, const SimdNeighbourhood& cells) {
+        const Eight here = cells.weights(0, 0);
+        const auto along_row = reinterpret_cast<Eight>(here != cells.weights(1, 0));
+        const auto along_column = reinterpret_cast<Eight>(here != cells.weights(0, 1));
+        std::uint64_t changes = 0, stops_of_cells = 0;
+        storeBytes((along_row & TileStops::kRowChange) | (along_column & TileStops::kColumnChange),
+                   kSimdCells, reinterpret_cast<std::uint8_t*>(&changes));
+        for (int i = 0; i < number; ++i) {
+          Mark& mark = marks_[index + i];
+          mark.setReady(true);
+          const unsigned id = mark.naturalId();
+          if (id == kOpenId) changes |= std::uint64_t{TileStops::kOpen} << (8 * i);
+          if (id == kOpenId && mark.live == 255) continue;
+          const std::uint8_t stop = id == kBlockedId
+                                        ? TileStops::kBlocked
+                                        : TileStops::stopsOf(steps(map, std::uint32_t(index + i)));
+          stops_of_cells |= std::uint64_t{stop} << (8 * i);
+        }
+        stops.add(at / in_row, at % in_row, stops_of_cells, changes);
+        ++at;
+      });
 }
 
 void WeightedJumpMap::writeTile(const CostGrid& map, const CellRect& tile, const TileStops& stops) {
@@ -264,7 +258,8 @@ void WeightedJumpMap::writeTile(const CostGrid& map, const CellRect& tile, const
     word.open = stops.open()[i];
   }
   for (int i = 0; i < tile.width; ++i)
-    columns_.word(std::size_t(tile.column + i), unsigned(tile.row)).change = stops.columnChange()[i];
+    columns_.word(std::size_t(tile.column + i), unsigned(tile.row)).change =
+        stops.columnChange()[i];
   writeStopsOf<true>(map, tile, stops);
   writeStopsOf<false>(map, tile, stops);
 }
@@ -273,7 +268,8 @@ template <bool kForward>
 void WeightedJumpMap::writeStopsOf(const CostGrid& map, const CellRect& tile,
                                    const TileStops& stops) {
   constexpr unsigned kAlongRow = kForward ? 0 : 2, kAlongColumn = kForward ? 1 : 3;
-  const Bits beyond_row = TileStops::beyond(tile.width), beyond_column = TileStops::beyond(tile.height);
+  const Bits beyond_row = TileStops::beyond(tile.width),
+             beyond_column = TileStops::beyond(tile.height);
   for (int i = 0; i < tile.height; ++i) {
     const Cell next{kForward ? tile.column + kTile : tile.column - 1, tile.row + i};
     StraightJumpTable::writeStops<kForward>(
@@ -296,9 +292,9 @@ WeightedJumpMap::End WeightedJumpMap::endAt(const CostGrid& map, Cell cell) {
   constexpr bool kForward = kStep / 2 == 0;
   if (!map.geometry().contains(cell)) return End::DEAD;
   if (tileReady(cell) == 0) return End::UNKNOWN;
-  const bool stop =
-      kStep % 2 == 0 ? rows_.isStop<kForward>(std::size_t(cell.row), unsigned(cell.column))
-                     : columns_.isStop<kForward>(std::size_t(cell.column), unsigned(cell.row));
+  const bool stop = kStep % 2 == 0
+                        ? rows_.isStop<kForward>(std::size_t(cell.row), unsigned(cell.column))
+                        : columns_.isStop<kForward>(std::size_t(cell.column), unsigned(cell.row));
   if (!stop) return endOf<kStep>(cell);
   const NaturalMoves steps = this->steps(map, map.geometry().index(cell).value());
   return cell != goal_ && (steps >> (8 * kStep) & 255U) == 0 ? End::DEAD : End::LIVE;
@@ -345,59 +341,6 @@ void WeightedJumpMap::setStops(Cell cell, NaturalMoves steps) {
 
 void WeightedJumpMap::setOpen(Cell cell, bool open) {
   setBit(rows_.word(std::size_t(cell.row), unsigned(cell.column)).open, cell.column, open);
-}
-
-WeightedJumpMap::ScopedGoal::ScopedGoal(WeightedJumpMap& jumps, const CostGrid& map, Cell goal)
-    : jumps_(jumps), map_(map), goal_(goal) {
-  jumps_.makeReady(map, CellRect{goal.column, goal.row, 1, 1}
-                            .grown(kDepth + 2)
-                            .intersection(map.geometry().rect()));
-  was_open_ = jumps_.open(goal);
-  jumps_.goal_ = goal;
-  restoreStepsTo(goal, deadAfter(jumps.steps(map, map.geometry().index(goal).value())));
-  for (const Change& change : changes_)
-    jumps_.setStops(change.cell, jumps_.steps(map, map.geometry().index(change.cell).value()));
-  jumps_.setOpen(goal, false);
-  jumps_.setStops(goal, ~NaturalMoves{0});
-}
-
-// Makes live the steps of `dead` that lead to the cell, although no step is natural after them, and
-// likewise the dead steps that lead to these.
-void WeightedJumpMap::ScopedGoal::restoreStepsTo(Cell cell, unsigned dead) {
-  struct Entry {
-    Cell cell;
-    unsigned dead;
-  };
-  std::vector<Entry> stack = {{cell, dead}};
-  while (!stack.empty()) {
-    const Entry next = stack.back();
-    stack.pop_back();
-    for (unsigned bits = next.dead; bits != 0; bits &= bits - 1) {
-      const auto step = unsigned(__builtin_ctz(bits));
-      const Cell from = before(next.cell, step);
-      if (!map_.passable(from)) continue;
-      const std::uint32_t index = map_.geometry().index(from).value();
-      Mark& mark = jumps_.marks_[index];
-      if ((mark.live >> step & 1U) != 0) continue;
-      const NaturalMoves natural = jumps_.natural(map_, index);
-      const unsigned taken = ~deadAfter(natural & (kEveryByte << step)) & 255U;
-      const unsigned was_dead = deadAfter(natural & (mark.live * kEveryByte));
-      if (taken == 0) continue;
-      changes_.push_back({from, mark.live});
-      mark.live |= static_cast<std::uint8_t>(1U << step);
-      if ((taken & was_dead) != 0) stack.push_back({from, taken & was_dead});
-    }
-  }
-}
-
-WeightedJumpMap::ScopedGoal::~ScopedGoal() {
-  for (auto change = changes_.rbegin(); change != changes_.rend(); ++change)
-    jumps_.marks_[map_.geometry().index(change->cell).value()].live = change->live;
-  jumps_.goal_ = {-1, -1};
-  changes_.push_back({goal_, 0});
-  for (const Change& change : changes_)
-    jumps_.setStops(change.cell, jumps_.steps(map_, map_.geometry().index(change.cell).value()));
-  jumps_.setOpen(goal_, was_open_);
 }
 
 }  // namespace grid_path_planner::planners

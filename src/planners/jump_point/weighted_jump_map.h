@@ -20,7 +20,7 @@
 //
 // Tiles of 64x64 cells are made ready when they are first needed: most searches come to a part of
 // the map, and nothing waits for the rest. A tile depends on the cells within kDepth of it. The
-// steps and jumps are the same whatever tiles were made before, so a search takes the same way on
+// steps and jumps are the same whatever tiles were made before, so a search goes the same path on
 // a new map as later. Around an edit tiles are repaired, or given up where much of them changed.
 #pragma once
 
@@ -185,8 +185,9 @@ class WeightedJumpMap {
   // Of stops and ends
   template <unsigned kStep>
   End endOf(grid::Cell cell) const {
-    return kStep % 2 == 0 ? rows_.end<kStep / 2 == 0>(std::size_t(cell.row), unsigned(cell.column))
-                          : columns_.end<kStep / 2 == 0>(std::size_t(cell.column), unsigned(cell.row));
+    return kStep % 2 == 0
+               ? rows_.end<kStep / 2 == 0>(std::size_t(cell.row), unsigned(cell.column))
+               : columns_.end<kStep / 2 == 0>(std::size_t(cell.column), unsigned(cell.row));
   }
   template <unsigned kStep>
   bool findEnd(const costmap::CostGrid& map, grid::Cell cell);

@@ -35,9 +35,9 @@ class PlanningLane {
                const PlanningLane* other);
 
   // A task for the lane's thread, as TaskQueue::post(). It interrupts finishLater().
-  std::shared_ptr<base::TaskQueue::Task> post(base::TaskQueue::Work work,
-                                              const std::string& slot = "",
-                                              base::TaskQueue::Turn turn = base::TaskQueue::Turn::LAST);
+  std::shared_ptr<base::TaskQueue::Task> post(
+      base::TaskQueue::Work work, const std::string& slot = "",
+      base::TaskQueue::Turn turn = base::TaskQueue::Turn::LAST);
   base::TaskQueue& worker() { return worker_; }
 
   // In the worker's thread only:

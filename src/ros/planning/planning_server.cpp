@@ -43,11 +43,10 @@ void PlanningServer::setOptions(const PathPlannerNodeOptions& options) {
 std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& request, Publish publish) {
   auto ticket = std::make_shared<PlanTicket>();
   asked_ = true;
-  ticket->task_ =
-      question_lane_.post([this, ticket, request, publish](const StopSource& stop) {
-        answer(*ticket, request, publish, stop);
-        question_lane_.finishLater(settings().options);
-      });
+  ticket->task_ = question_lane_.post([this, ticket, request, publish](const StopSource& stop) {
+    answer(*ticket, request, publish, stop);
+    question_lane_.finishLater(settings().options);
+  });
   return ticket;
 }
 
