@@ -213,13 +213,17 @@ void WeightedJumpMap::computeLiveSteps(const CostGrid& map, const CellRect& rect
 }
 
 void WeightedJumpMap::makeTile(const CostGrid& map, const CellRect& tile) {
+  if (stop_ != nullptr) {
+    if (tiles_left_-- == 0) throw TooManyTiles();
+    const base::StopReason reason = stop_->reason();
+    if (reason != base::StopReason::NONE) throw base::Stopped(reason);
+  }
   computeLiveSteps(map, tile);
   TileStops stops;
   addStops(map, tile, stops);
   stops.finish();
   writeTile(map, tile, stops);
   tileReady({tile.column, tile.row}) = 1;
-  ++tiles_made_;
   ++tiles_ready_;
 }
 

@@ -43,6 +43,9 @@ namespace grid_path_planner::planners {
 
 class TileStops;
 
+// Thrown where a ScopedLimit forbids another tile.
+struct TooManyTiles {};
+
 class WeightedJumpMap {
  public:
   static constexpr int kDepth = 12;
@@ -62,8 +65,23 @@ class WeightedJumpMap {
   // Makes all tiles ready. Throws Stopped; the tiles that are made stay.
   void makeAllReady(const costmap::CostGrid& map, const base::StopToken& stop);
   bool allReady() const { return tiles_ready_ == tile_ready_.size(); }
-  // How often a tile was made ready; each takes tens of microseconds.
-  std::uint64_t tilesMade() const { return tiles_made_; }
+
+  // While one lives, at most `most` tiles are made, which each take tens of microseconds; then what
+  // needs another one throws TooManyTiles, and Stopped where it is to stop.
+  class ScopedLimit {
+   public:
+    ScopedLimit(WeightedJumpMap& jumps, const base::StopToken& stop, std::uint64_t most)
+        : jumps_(jumps) {
+      jumps_.stop_ = &stop;
+      jumps_.tiles_left_ = most;
+    }
+    ~ScopedLimit() { jumps_.stop_ = nullptr; }
+    ScopedLimit(const ScopedLimit&) = delete;
+    ScopedLimit& operator=(const ScopedLimit&) = delete;
+
+   private:
+    WeightedJumpMap& jumps_;
+  };
 
   // The five bytes of a cell that a search reads together.
   class Mark {
@@ -201,7 +219,8 @@ class WeightedJumpMap {
   int width_ = 0;
   std::size_t tile_columns_ = 0;
   std::size_t block_columns_ = 0;
-  std::uint64_t tiles_made_ = 0;
+  const base::StopToken* stop_ = nullptr;  // of the ScopedLimit, while one lives
+  std::uint64_t tiles_left_ = 0;           // for it
   std::size_t tiles_ready_ = 0;
   grid::Cell goal_{-1, -1};  // of the ScopedGoal, while one lives
   StraightJumpTable rows_;

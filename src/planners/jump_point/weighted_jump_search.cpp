@@ -50,7 +50,8 @@ void WeightedJumpSearch::release() {
 }
 
 SearchResult WeightedJumpSearch::run(const CostGrid& map, const SearchRequest& request,
-                                     const StopToken& stop) {
+                                     const StopToken& stop, std::uint64_t most_tiles) {
+  const WeightedJumpMap::ScopedLimit scoped_limit(jumps_, stop, most_tiles);
   const WeightedJumpMap::ScopedGoal scoped_goal(jumps_, map, request.goals.front());
   startQuery(map, request);
   return search(request, stop);
@@ -76,12 +77,10 @@ void WeightedJumpSearch::startQuery(const CostGrid& map, const SearchRequest& re
 SearchResult WeightedJumpSearch::search(const SearchRequest& request, const StopToken& stop) {
   SearchResult result;
   StopPoll poll(stop, kExpansionsBetweenPolls);
-  std::uint64_t tiles = jumps_.tilesMade();
   if (request.record_expanded) result.expanded.emplace_back(indexOf(request.start));
   expandStart(request.start);
   while (!open_.empty() && open_.lowest() < bound_) {
-    const bool new_tiles = std::exchange(tiles, jumps_.tilesMade()) != jumps_.tilesMade();
-    const StopReason reason = new_tiles ? stop.reason() : poll.ask();
+    const StopReason reason = poll.ask();
     if (reason != StopReason::NONE) return withStatus(Stopped(reason).status(), std::move(result));
     counts_.peak_open = std::max(counts_.peak_open, open_.size());
     const std::uint32_t index = open_.pop();

@@ -22,6 +22,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "base/zeroed_array.h"
@@ -52,11 +53,13 @@ class WeightedJumpSearch {
   // Frees all memory; prepare() must be called before the next run().
   void release();
 
-  // FOUND, UNREACHABLE, TIMEOUT or CANCELLED. Throws TooExpensive where there is no path that costs
+  // FOUND, UNREACHABLE, TIMEOUT or CANCELLED. Throws TooManyTiles where it has to make more than
+  // `most_tiles` tiles, which stay, and Stopped while it makes one. Throws TooExpensive where there is no path that costs
   // less than the keys hold, 17.6e6 cell lengths x weight, but there may be a more expensive one.
   // Precondition: `map` is the prepared one, start and goal are passable.
   SearchResult run(const costmap::CostGrid& map, const SearchRequest& request,
-                   const base::StopToken& stop);
+                   const base::StopToken& stop,
+                   std::uint64_t most_tiles = std::numeric_limits<std::uint64_t>::max());
 
  private:
   using Key = SearchKey;
