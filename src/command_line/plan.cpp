@@ -69,6 +69,7 @@ nlohmann::json jsonOf(const Plan& report, double preparation_ms) {
   nlohmann::json object = {
       {"status", std::string(toString(report.status))},
       {"message", report.message},
+      {"answered_by", report.answered_by},
       {"cost", nullptr},
       {"optimal", report.optimal},
       {"length_m", nullptr},
@@ -142,11 +143,18 @@ void writeFiles(const po::variables_map& values, const OccupancyGrid& map,
     writeWaypointFile(values["waypoints"].as<std::string>(), report.path);
 }
 
-void print(const Plan& report, double preparation_ms, bool as_json) {
+// Where the planner let another one answer.
+std::string answeredBy(const Plan& report, const std::string& planner) {
+  if (report.answered_by.empty() || report.answered_by == planner) return "";
+  return "; answered by " + report.answered_by;
+}
+
+void print(const Plan& report, const std::string& planner, double preparation_ms, bool as_json) {
   if (as_json)
     std::cout << jsonOf(report, preparation_ms).dump() << '\n';
   else
-    std::cout << toString(report.status) << ": " << report.message << '\n';
+    std::cout << toString(report.status) << ": " << report.message << answeredBy(report, planner)
+              << '\n';
 }
 
 }  // namespace
@@ -169,7 +177,7 @@ int runPlan(int argc, char** argv) {
   const Plan report = planner.plan(request);
   if (report.status == Status::FOUND && !report.optimal) warnIfNotOptimal(options);
   writeFiles(values, *map, options.costmap.thresholds, report);
-  print(report, preparation_ms, values.count("json") != 0);
+  print(report, options.planner, preparation_ms, values.count("json") != 0);
   return exitCodeOf(report.status);
 }
 

@@ -10,7 +10,7 @@ namespace grid_path_planner::planning {
 
 using base::Status, base::StopPoll, base::StopToken;
 using costmap::CostGrid;
-using grid::Cell, grid::CellIndex;
+using grid::Cell, grid::CellIndex, grid::GridGeometry;
 using planners::BucketSearch, planners::noEstimate, planners::memoryLimitOf, planners::PlannerMaker,
     planners::reachableFrom, planners::SearchOptions, planners::SearchResult;
 
@@ -22,6 +22,7 @@ void append(Route& route, const std::shared_ptr<const CostGrid>& map, SearchResu
   plan.status = result.status;
   plan.message = std::move(result.message);
   plan.statistics += result.statistics;
+  if (!result.answered_by.empty()) plan.answered_by = std::move(result.answered_by);
   for (const CellIndex index : result.expanded)
     plan.expanded.push_back(map->waypoint(map->geometry().cell(index)));
   if (!plan.found()) return;
@@ -72,6 +73,15 @@ std::size_t MultiResolutionPlanner::bytes() const {
   if (finer_map_) bytes += finer_planner_->bytesFor(finer_map_->geometry());
   if (open_block_map_) bytes += BucketSearch::bytesFor(open_block_map_->geometry());
   return bytes;
+}
+
+std::size_t MultiResolutionPlanner::bytesFor(const GridGeometry& downsampled) const {
+  return std::max(bytes(), planner_->bytesFor(downsampled));
+}
+
+bool MultiResolutionPlanner::canFollow(const CostmapPair& maps) const {
+  return downsampled_ && planner_->traits().repairs &&
+         downsampled_->revision() + 1 == maps.downsampled->revision();
 }
 
 void MultiResolutionPlanner::follow(const CostmapPair& maps, const StopToken& stop) {

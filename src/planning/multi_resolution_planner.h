@@ -42,6 +42,8 @@ class MultiResolutionPlanner {
   void limitMemory(std::size_t bytes) { memory_limit_ = bytes; }
   // Memory that they may take on the maps that they are prepared for.
   std::size_t bytes() const;
+  // The same once prepare() was called for a costmap of this geometry.
+  std::size_t bytesFor(const grid::GridGeometry& downsampled) const;
 
   // Prepares the planner for the costmaps. Where they follow those of the last call by one
   // revision, the planner is updated instead. Throws Stopped.
@@ -50,6 +52,10 @@ class MultiResolutionPlanner {
   // Updates the planner to costmaps that no request needs yet, if prepare() was called and an
   // update is cheap: so the planner misses no revision. Throws Stopped.
   void follow(const CostmapPair& maps, const base::StopToken& stop);
+
+  bool isPreparedFor(const CostmapPair& maps) const { return downsampled_ == maps.downsampled; }
+  // Whether follow() to these costmaps costs no more than what changed.
+  bool canFollow(const CostmapPair& maps) const;
 
   // Returns when the planner's background work is done. Throws Stopped.
   void finishBackgroundWork(const base::StopToken& stop) { planner_->finishBackgroundWork(stop); }

@@ -15,6 +15,7 @@
 #include "planning/message_text.h"
 #include "planning/multi_resolution_planner.h"
 #include "planning/path_ends.h"
+#include "planning/prepared_planners.h"
 
 namespace grid_path_planner::planning {
 
@@ -165,9 +166,12 @@ void PathPlanner::setOptions(const PlannerOptions& options) {
   const bool new_costmap = !costmap_ || !sameOptions(options.costmap, options_.costmap);
   const bool new_search = new_costmap || options.planner != options_.planner ||
                           !sameOptions(options.search, options_.search);
-  if (new_search)
-    search_ =
-        std::make_unique<MultiResolutionPlanner>(options.planner, options.search, make_planner_);
+  if (new_search) {
+    if (!searches_) searches_ = std::make_unique<PreparedPlanners>(make_planner_);
+    searches_->use(options.planner, options.search);
+    if (new_costmap) searches_->giveUpOthers();
+    if (new_costmap) searches_->current() = {options.planner, options.search, make_planner_};
+  }
   lowered_.reset();
   if (new_costmap) {
     costmap_ = std::make_unique<CostmapBuilder>(options.costmap);
@@ -212,7 +216,7 @@ std::size_t PathPlanner::bytes() const {
 }
 
 std::size_t PathPlanner::bytesBesideLowered() const {
-  return 2 * map_->values().size() + search_->bytes() +
+  return 2 * map_->values().size() + search().bytes() + searches_->bytesOfOthers() +
          CostmapBuilder::bytesFor(map_->geometry(), options_.costmap.kernel);
 }
 
@@ -229,8 +233,17 @@ std::size_t PathPlanner::memoryLeft(std::size_t taken) const {
 
 CostmapPair PathPlanner::costmaps(const StopToken& stop) {
   assert(hasMap());
-  search_->limitMemory(memoryLeft(2 * map_->values().size()));
+  search().limitMemory(memoryLeft(2 * map_->values().size()));
   return costmapsOf(*costmap_, stop);
+}
+
+void PathPlanner::makeRoom(const CostmapPair& maps) {
+  searches_->keepWithin(memoryLeft(2 * map_->values().size()),
+                        search().bytesFor(maps.downsampled->geometry()));
+}
+
+MultiResolutionPlanner& PathPlanner::search() const {
+  return searches_->current();
 }
 
 // Where an end of the request is nearer to unknown cells or to the border than what is kept, what is
@@ -249,13 +262,21 @@ PathPlanner::Lowered* PathPlanner::loweredFor(const CostGrid& costs, const PoseR
 
 CostmapPair PathPlanner::followedCostmaps(const StopToken& stop) {
   CostmapPair maps = costmaps(stop);
-  search_->follow(maps, stop);
+  search().follow(maps, stop);
+  searches_->followOthers(maps, stop);
   return maps;
 }
 
+void PathPlanner::prepare(const StopToken& stop) {
+  const CostmapPair maps = costmaps(stop);
+  makeRoom(maps);
+  search().prepare(maps, stop);
+  searches_->followOthers(maps, stop);
+}
+
 void PathPlanner::finishPreparation(const StopToken& stop) {
-  search_->prepare(costmaps(stop), stop);
-  search_->finishBackgroundWork(stop);
+  prepare(stop);
+  search().finishBackgroundWork(stop);
 }
 
 Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
@@ -266,14 +287,17 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
   try {
     const StopToken token = limited(stop, options_.timeout);
     const auto begin = StopToken::Clock::now();
-    CostmapPair maps = costmaps(token);
+    const CostmapPair asked_for = costmaps(token);
+    CostmapPair maps = asked_for;
+    makeRoom(maps);
     Lowered* lowered = loweredFor(*maps.full_resolution, request);
     if (lowered) {
       lowered->search.limitMemory(memoryLeft(bytesBesideLowered()));
       maps = costmapsOf(lowered->costmap, token);
     }
-    MultiResolutionPlanner& search = lowered ? lowered->search : *search_;
+    MultiResolutionPlanner& search = lowered ? lowered->search : this->search();
     search.prepare(maps, token);
+    searches_->followOthers(asked_for, token);
     const auto prepared = StopToken::Clock::now();
     plan = planOn(*maps.full_resolution, search, request, token);
     if (lowered && plan.found())

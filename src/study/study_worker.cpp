@@ -2,13 +2,14 @@
 
 #include <chrono>
 
+#include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/metrics.h"
 #include "study/study_planners.h"
 #include "study/unfilled_border.h"
 
 namespace grid_path_planner::study {
 
-using base::Status, base::StopToken;
+using base::InputError, base::Status, base::StopToken;
 using costmap::CostmapOptions;
 using grid::Cell, grid::OccupancyGrid;
 using path::ClassLengths, path::clearanceOf, path::lengthsByClass, path::Path, path::Pose,
@@ -87,12 +88,17 @@ PathPlanner StudyWorker::plannerFor(const StudySetting& setting,
   return made;
 }
 
-// What the planner itself does for a map, after the costmap that all planners share.
+// What the planner itself does for a map, after the costmap that all planners share; 0 where it
+// cannot be used on it, which every plan says then.
 double StudyWorker::preparationTime(PathPlanner& planner) {
-  planner.downsampledCosts(StopToken());
-  const auto begin = StopToken::Clock::now();
-  planner.finishPreparation(StopToken());
-  return std::chrono::duration<double, std::milli>(StopToken::Clock::now() - begin).count();
+  try {
+    planner.downsampledCosts(StopToken());
+    const auto begin = StopToken::Clock::now();
+    planner.finishPreparation(StopToken());
+    return std::chrono::duration<double, std::milli>(StopToken::Clock::now() - begin).count();
+  } catch (const InputError&) {
+    return 0.0;
+  }
 }
 
 void StudyWorker::prepare(std::size_t setting) {
@@ -106,6 +112,7 @@ void StudyWorker::prepare(std::size_t setting) {
     preparations_ms_.push_back(preparationTime(planners_.back()));
   }
   exact_ = std::make_unique<PathPlanner>(plannerFor(chosen, {"", "dijkstra", {}}));
+  preparationTime(*exact_);
   prepared_ = setting;
 }
 

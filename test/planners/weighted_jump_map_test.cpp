@@ -40,15 +40,15 @@ WeightedJumpMap::Jump jumpOf(const WeightedJumpMap& jumps, const CostGrid& map, 
                      : jumps.straightJump<3>(cell, weights);
 }
 
-bool deadEndAt(const WeightedJumpMap& jumps, unsigned step, Cell cell) {
-  return step == 0   ? jumps.deadEnd<0>(cell)
-         : step == 1 ? jumps.deadEnd<1>(cell)
-         : step == 2 ? jumps.deadEnd<2>(cell)
-                     : jumps.deadEnd<3>(cell);
+bool deadEndAt(WeightedJumpMap& jumps, const CostGrid& map, unsigned step, Cell cell) {
+  return step == 0   ? jumps.deadEnd<0>(map, cell)
+         : step == 1 ? jumps.deadEnd<1>(map, cell)
+         : step == 2 ? jumps.deadEnd<2>(map, cell)
+                     : jumps.deadEnd<3>(map, cell);
 }
 
 // Jumps end where following the steps cell by cell ends.
-void expectJumpsFollowSteps(const WeightedJumpMap& jumps, const CostGrid& map, Cell from) {
+void expectJumpsFollowSteps(WeightedJumpMap& jumps, const CostGrid& map, Cell from) {
   for (unsigned step = 0; step < 4; ++step) {
     if (!stepAllowed(map, from, after(from, step))) continue;
     std::uint64_t weights = 0;
@@ -60,20 +60,22 @@ void expectJumpsFollowSteps(const WeightedJumpMap& jumps, const CostGrid& map, C
       at = next;
       steps = stepsAt(jumps, map, at) >> (8 * step) & 255U;
     } while (steps == kNaturalInTheOpen[step]);
+    ASSERT_EQ(deadEndAt(jumps, map, step, from), steps == 0) << from << " step " << step;
     const WeightedJumpMap::Jump jump = jumpOf(jumps, map, step, from);
     ASSERT_EQ(jump.to, at) << from << " step " << step;
     ASSERT_EQ(jump.weights, weights) << from << " step " << step;
-    ASSERT_EQ(deadEndAt(jumps, step, from), steps == 0) << from << " step " << step;
   }
 }
 
-void expectAlike(const WeightedJumpMap& a, const WeightedJumpMap& b, const CostGrid& map) {
+void expectAlike(WeightedJumpMap& a, WeightedJumpMap& b, const CostGrid& map) {
+  a.makeReady(map, map.geometry().rect());
   for (const Cell cell : cellsOf(map)) {
     ASSERT_EQ(a.open(cell), b.open(cell)) << cell;
     ASSERT_EQ(stepsAt(a, map, cell), stepsAt(b, map, cell)) << cell;
     for (unsigned step = 0; step < 4; ++step) {
       if (stepAllowed(map, cell, after(cell, step))) {
-        ASSERT_EQ(deadEndAt(a, step, cell), deadEndAt(b, step, cell)) << cell << " step " << step;
+        ASSERT_EQ(deadEndAt(a, map, step, cell), deadEndAt(b, map, step, cell))
+            << cell << " step " << step;
       }
     }
   }
@@ -81,7 +83,8 @@ void expectAlike(const WeightedJumpMap& a, const WeightedJumpMap& b, const CostG
 
 WeightedJumpMap built(const CostGrid& map) {
   WeightedJumpMap jumps;
-  jumps.build(map, StopToken());
+  jumps.reset(map);
+  jumps.makeReady(map, map.geometry().rect());
   return jumps;
 }
 
@@ -94,16 +97,16 @@ TEST(WeightedJumpMap, JumpsPastDeadBranchesOfSlopes) {
   const CostGrid map = test::costMap(weights);
   WeightedJumpMap jumps = built(map);
   EXPECT_GE(jumpOf(jumps, map, 0, {20, 6}).to.column, 100 - WeightedJumpMap::kDepth - 5);
-  EXPECT_TRUE(deadEndAt(jumps, 1, {20, 6})) << "up the slope";
+  EXPECT_TRUE(deadEndAt(jumps, map, 1, {20, 6})) << "up the slope";
   const WeightedJumpMap::ScopedGoal scoped_goal(jumps, map, {20, 8});
-  EXPECT_FALSE(deadEndAt(jumps, 1, {20, 6})) << "but the goal is there";
+  EXPECT_FALSE(deadEndAt(jumps, map, 1, {20, 6})) << "but the goal is there";
 }
 
 TEST(WeightedJumpMapLaw, JumpsFollowTheSteps) {
   std::mt19937 random(31);
   for (int trial = 0; trial < 60; ++trial) {
     const CostGrid map = test::randomCosts(random, trial % 4 == 0 ? 140 : 30, {});
-    const WeightedJumpMap jumps = built(map);
+    WeightedJumpMap jumps = built(map);
     for (const Cell cell : cellsOf(map)) expectJumpsFollowSteps(jumps, map, cell);
     if (HasFatalFailure()) FAIL() << "trial " << trial;
   }
@@ -139,8 +142,47 @@ TEST(WeightedJumpMapLaw, EqualsAFreshBuildAfterEdits) {
       map = CostGrid(weights, map.classes(), map.motion());
       jumps.update(map, changed, StopToken());
     }
-    expectAlike(jumps, built(map), map);
+    WeightedJumpMap fresh = built(map);
+    expectAlike(jumps, fresh, map);
     for (const Cell cell : cellsOf(map)) expectJumpsFollowSteps(jumps, map, cell);
+    if (HasFatalFailure()) FAIL() << "trial " << trial;
+  }
+}
+
+CellRect randomRect(std::mt19937& random, const GridGeometry& geometry, int longest) {
+  const Cell low = test::randomCell(random, geometry);
+  return CellRect{low.column, low.row, 1 + int(random() % longest), 1 + int(random() % longest)}
+      .intersection(geometry.rect());
+}
+
+// Tiles are made in the order of the questions, and edits come in between: of a few cells, which are
+// repaired, and of more than a tile, for which tiles are given up.
+TEST(WeightedJumpMapLaw, IsTheSameWhateverTilesWereMadeBefore) {
+  std::mt19937 random(35);
+  for (int trial = 0; trial < 30; ++trial) {
+    Grid<CostGrid::Weight> weights(
+        GridGeometry(100 + int(random() % 160), 100 + int(random() % 160), 1.0), 1);
+    for (auto& weight : weights.values())
+      if (random() % 40 == 0) weight = static_cast<CostGrid::Weight>(random() % 3);
+    CostGrid map = test::costMap(weights);
+    WeightedJumpMap jumps;
+    jumps.reset(map);
+    for (int question = 0; question < 60; ++question) {
+      const Cell cell = test::randomCell(random, map.geometry());
+      jumps.makeReady(map, cell);
+      if (map.passable(cell))
+        for (unsigned step = 0; step < 4; ++step)
+          if (stepAllowed(map, cell, after(cell, step))) deadEndAt(jumps, map, step, cell);
+      if (question % 20 != 19) continue;
+      const CellRect changed = randomRect(random, map.geometry(), question % 40 == 19 ? 5 : 120);
+      for (int row = changed.row; row < changed.row + changed.height; ++row)
+        for (int column = changed.column; column < changed.column + changed.width; ++column)
+          weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 4);
+      map = test::costMap(weights);
+      jumps.update(map, changed, StopToken());
+    }
+    WeightedJumpMap fresh = built(map);
+    expectAlike(jumps, fresh, map);
     if (HasFatalFailure()) FAIL() << "trial " << trial;
   }
 }
@@ -149,8 +191,7 @@ TEST(WeightedJumpMapLaw, AScopedGoalStopsEveryJumpAndLeavesNoTrace) {
   std::mt19937 random(34);
   for (int trial = 0; trial < 60; ++trial) {
     const CostGrid map = test::randomCosts(random, 60, {});
-    const WeightedJumpMap fresh = built(map);
-    WeightedJumpMap jumps = fresh;
+    WeightedJumpMap fresh = built(map), jumps = built(map);
     for (int query = 0; query < 5; ++query) {
       const Cell goal = test::randomCell(random, map.geometry());
       if (!map.passable(goal)) continue;
@@ -160,7 +201,7 @@ TEST(WeightedJumpMapLaw, AScopedGoalStopsEveryJumpAndLeavesNoTrace) {
         const Cell before{goal.column - kSteps[step].column, goal.row - kSteps[step].row};
         if (!stepAllowed(map, before, goal)) continue;
         EXPECT_EQ(jumpOf(jumps, map, step, before).to, goal);
-        EXPECT_FALSE(deadEndAt(jumps, step, before));
+        EXPECT_FALSE(deadEndAt(jumps, map, step, before));
       }
     }
     expectAlike(jumps, fresh, map);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
 #include <random>
 
@@ -73,11 +74,14 @@ TEST(WeightedJumpPoint, AnswersNoiseByAStarAndPlateausByJumps) {
   auto map = costsOf(noise(random, 100));
   planner.prepare(map, StopToken());
   a_star.prepare(map, StopToken());
-  EXPECT_EQ(planner.search(request, StopToken()).statistics.expanded,
-            a_star.search(request, StopToken()).statistics.expanded);
+  const SearchResult in_noise = planner.search(request, StopToken());
+  EXPECT_EQ(in_noise.statistics.expanded, a_star.search(request, StopToken()).statistics.expanded);
+  EXPECT_EQ(in_noise.answered_by, "a_star");
   map = costsOf(Grid<CostGrid::Weight>(map->geometry(), 5), {}, 1);
   planner.update(map, {map->geometry().rect()}, StopToken());
-  EXPECT_EQ(planner.search(request, StopToken()).statistics.expanded, 1U);
+  const SearchResult on_plateau = planner.search(request, StopToken());
+  EXPECT_EQ(on_plateau.statistics.expanded, 1U);
+  EXPECT_EQ(on_plateau.answered_by, "weighted_jump_point");
 }
 
 TEST(WeightedJumpPointLaw, FindsTheLeastCostInEveryMotionModel) {
@@ -91,6 +95,66 @@ TEST(WeightedJumpPointLaw, FindsTheLeastCostInEveryMotionModel) {
     planner.prepare(map, StopToken());
     expectLeast(planner, *map, random, 6);
     if (HasFatalFailure()) FAIL() << "trial " << trial;
+  }
+}
+
+SearchRequest randomRequest(std::mt19937& random, const CostGrid& map) {
+  return {
+      test::randomCell(random, map.geometry()), {test::randomCell(random, map.geometry())}, true};
+}
+
+// Three planners of one map: one that has prepared nothing, one as earlier questions left it (some
+// of them stopped before their end) and one that has prepared everything.
+void expectAlikeInEveryState(std::mt19937& random, WeightedJumpPoint& asked,
+                             WeightedJumpPoint& done, const std::shared_ptr<const CostGrid>& map,
+                             int queries) {
+  done.finishBackgroundWork(StopToken());
+  EXPECT_FALSE(done.backgroundWork().pending);
+  for (int query = 0; query < queries; ++query) {
+    WeightedJumpPoint fresh;
+    fresh.prepare(map, StopToken());
+    const SearchRequest request = randomRequest(random, *map);
+    const auto soon = std::chrono::duration<double>(20e-6 * (query % 8));
+    if (query % 2 == 0) asked.search(randomRequest(random, *map), base::StopSource().token(soon));
+    const SearchResult a = fresh.search(request, StopToken());
+    const SearchResult b = asked.search(request, StopToken());
+    const SearchResult c = done.search(request, StopToken());
+    ASSERT_EQ(a.status, c.status);
+    ASSERT_EQ(b.status, c.status);
+    ASSERT_EQ(a.cost, c.cost);
+    ASSERT_EQ(b.cost, c.cost);
+    ASSERT_EQ(a.cells, c.cells);
+    ASSERT_EQ(b.cells, c.cells);
+    ASSERT_EQ(a.expanded, c.expanded);
+    ASSERT_EQ(b.expanded, c.expanded);
+  }
+}
+
+// 1,020 queries: the same cost, cells and expanded cells before, during and after preparation.
+TEST(WeightedJumpPointLaw, PreparationChangesNoAnswer) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 34; ++trial) {
+    Grid<CostGrid::Weight> weights =
+        test::randomCosts(random, GridGeometry(130, 70, 1.0), {}).weights();
+    auto map = costsOf(weights);
+    WeightedJumpPoint asked, done;
+    asked.prepare(map, StopToken());
+    done.prepare(map, StopToken());
+    for (int edit = 0; edit < 3; ++edit) {
+      expectAlikeInEveryState(random, asked, done, map, 10);
+      if (::testing::Test::HasFatalFailure()) FAIL() << "trial " << trial << ", edit " << edit;
+      const Cell low = test::randomCell(random, map->geometry());
+      const int longest = edit == 0 ? 4 : 90;
+      const CellRect changed =
+          CellRect{low.column, low.row, 1 + int(random() % longest), 1 + int(random() % longest)}
+              .intersection(map->geometry().rect());
+      for (int row = changed.row; row < changed.row + changed.height; ++row)
+        for (int column = changed.column; column < changed.column + changed.width; ++column)
+          weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 3);
+      map = costsOf(weights, {}, map->revision() + 1);
+      asked.update(map, changed, StopToken());
+      done.update(map, changed, StopToken());
+    }
   }
 }
 

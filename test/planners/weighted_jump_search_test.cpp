@@ -25,7 +25,7 @@ namespace {
 
 WeightedJumpSearch prepared(const CostGrid& map) {
   WeightedJumpSearch search;
-  search.prepare(map, StopToken());
+  search.prepare(map);
   return search;
 }
 

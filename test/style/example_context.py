@@ -54,6 +54,8 @@ CONTEXT = {
         #include <nav_msgs/GetPlan.h>
         extern ros::ServiceServer service; bool answered(); void waitAWhile();
         extern ros::ServiceEvent<nav_msgs::GetPlan::Request, nav_msgs::GetPlan::Response> event;""",
+    "prepared_planners.h": """extern planners::SearchOptions options; extern std::size_t bytes;
+        extern std::size_t bytes_of_current; extern CostmapPair maps;""",
     "planning_lane.h": """extern MapReceiver maps; extern std::size_t reader; extern FrameTransforms transforms;
         extern PlanningRequest request; extern PathPlannerNodeOptions options; void use(const Plan&);""",
     "connections.h": "extern std::vector<CellRect> rectangles;",

@@ -51,6 +51,7 @@ struct SearchRequest {
 struct SearchResult {
   base::Status status = base::Status::NO_MAP;
   std::string message;            // one sentence that holds the values
+  std::string answered_by;        // the planner that searched; empty where none did
   std::vector<grid::Cell> cells;  // start and goal included; start = goal: one cell
   // Of any-angle planners only: the turning points on the searched map, from the waypoint of the
   // start to that of the goal, which may be corners of cells. `cells` then has as many, each
@@ -66,9 +67,10 @@ struct SearchResult {
   std::vector<grid::CellIndex> expanded;  // in order, where the request asks for it
 };
 
-// What a planner computes in a background thread, to be faster once it is done.
+// What a planner computes in a background thread, or when a search first needs it, to be faster
+// once it is done.
 struct BackgroundWork {
-  bool pending = false;   // still computing
+  bool pending = false;   // not all of it is done
   double time_s = 0.0;    // of the last computation; 0 where there is none
   std::size_t bytes = 0;  // that its result holds
 };
@@ -101,7 +103,7 @@ class Planner {
   // Searches take longer until background work is done. An optimal planner finds the same cost
   // before and after, though perhaps another path of that cost.
   virtual BackgroundWork backgroundWork() { return {}; }
-  // Waits for background work. Throws Stopped; the work continues then.
+  // Does the rest of it, or waits for it. Throws Stopped; what is done stays, and a thread continues.
   virtual void finishBackgroundWork(const base::StopToken&) {}
 
   SearchResult search(const SearchRequest& request, const base::StopToken& stop);

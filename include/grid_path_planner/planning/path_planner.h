@@ -12,6 +12,8 @@
 // map's border than radius_to_unknown and outside ask, for every planner, kernel and smoothing;
 // except on the first segment of a start that is itself nearer, with cut_corners, and with the rule
 // filter2d. Where an end is nearer to unknown cells or to the border, the path keeps what it has.
+// What a planner prepared of the map is kept for each planner and options that were asked for, as
+// far as the memory limit goes, so that a question to another one in between costs nothing later.
 // Not thread-safe: one call at a time.
 #pragma once
 
@@ -37,6 +39,7 @@ class CostmapBuilder;
 namespace grid_path_planner::planning {
 
 class MultiResolutionPlanner;
+class PreparedPlanners;
 struct CostmapPair;
 struct PathEnd;
 struct Route;
@@ -136,8 +139,11 @@ class PathPlanner {
   std::shared_ptr<const costmap::CostGrid> downsampledCosts(
       const base::StopToken& stop);  // options().costmap.kernel
 
-  // Returns when everything that plan() uses is computed, the planner's background work included,
-  // without which the first plans take longer. Throws Stopped. Precondition: hasMap().
+  // What plan() would do first: the costmaps, and what the planner cannot do without. Throws Stopped,
+  // and InputError where the costmaps would take more than the limit. Precondition: hasMap().
+  void prepare(const base::StopToken& stop);
+  // The same, and everything else that searches use, without which the first plans take longer;
+  // waits for the planner's background work. Throws Stopped too; what is done stays.
   void finishPreparation(const base::StopToken& stop);
 
   // Every failure but a bug is a status; options().timeout runs beside the token's own limit.
@@ -154,6 +160,9 @@ class PathPlanner {
   CostmapPair costmaps(const base::StopToken& stop);
   // The same, after the planner was updated to them where that is cheap.
   CostmapPair followedCostmaps(const base::StopToken& stop);
+  // Gives up searches that were asked for long ago, where the one to be prepared needs their memory.
+  void makeRoom(const CostmapPair& maps);
+  MultiResolutionPlanner& search() const;
   // Precondition: the search is prepared, and `costs` is the costmap at full resolution.
   Plan planOn(const costmap::CostGrid& costs, MultiResolutionPlanner& search,
               const PoseRequest& request, const base::StopToken& stop);
@@ -166,8 +175,8 @@ class PathPlanner {
   PlannerOptions options_;
   std::shared_ptr<const grid::OccupancyGrid> map_;
   std::unique_ptr<costmap::CostmapBuilder> costmap_;
-  std::unique_ptr<MultiResolutionPlanner> search_;
-  std::unique_ptr<Lowered> lowered_;  // for the last request, if it needed one
+  std::unique_ptr<PreparedPlanners> searches_;  // of these costmaps
+  std::unique_ptr<Lowered> lowered_;            // for the last request, if it needed one
 };
 
 }  // namespace grid_path_planner::planning

@@ -17,6 +17,8 @@ namespace grid_path_planner::planning {
 struct Plan {
   base::Status status = base::Status::NO_MAP;
   std::string message;      // one sentence that holds the values
+  std::string answered_by;  // the planner that searched the longest part, where it lets another one
+                            // answer the name of that; empty where none searched
   path::Path path;          // empty unless FOUND
   costmap::ExactCost cost;  // between the end cells, as in SearchResult
   double segment_cost = 0.0;

@@ -58,17 +58,20 @@ class WindowPaths {
           least_[from][kInside.to[from][step]] = steps_[from][step];
     }
     for (int by = 0; by < 9; ++by)
-      for (int from = 0; from < 9; ++from)
-        for (int to = 0; to < 9; ++to)
-          least_[from][to] = std::min(least_[from][to], least_[from][by] + least_[by][to]);
+      if (window[by] != CostGrid::kBlocked) lowerBy(by);
+    for (int e = 0; e < 8; ++e) {
+      const double cost = steps_[kMiddle][e];
+      if (cost < kFar && !precededBy(kMiddle, e, kInside.to[kMiddle][e], cost))
+        canonical_ |= 1U << e;
+    }
   }
 
   unsigned naturalAfter(int d) const {
     const int from = kInside.to[kMiddle][oppositeStep(static_cast<std::uint32_t>(d))];
     unsigned mask = 0;
     if (steps_[from][d] >= kFar) return 0;
-    for (int e = 0; e < 8; ++e)
-      if (canonical(from, d, e)) mask |= 1U << e;
+    for (unsigned rest = canonical_; rest != 0; rest &= rest - 1)
+      if (canonical(from, d, __builtin_ctz(rest))) mask |= rest & -rest;
     return mask;
   }
 
@@ -83,6 +86,16 @@ class WindowPaths {
     return window[column] == 0 || window[row] == 0 ? kFar : weight * kDiagonal;
   }
 
+  // A path costs the same in both directions.
+  void lowerBy(int by) {
+    const std::array<double, 9> row = least_[by];
+    for (int from = 1; from < 9; ++from)
+      for (int to = 0; to < from; ++to) {
+        const double cost = row[from] + row[to];
+        if (cost < least_[from][to]) least_[from][to] = least_[to][from] = cost;
+      }
+  }
+
   // Whether a path of `cost` from `from` to `to` may begin with a step that precedes `step`.
   bool precededBy(int from, int step, int to, double cost) const {
     for (int other = 0; other < 8; ++other) {
@@ -93,16 +106,16 @@ class WindowPaths {
     return false;
   }
 
+  // Precondition: the step e is the canonical path by itself.
   bool canonical(int from, int d, int e) const {
     const int to = kInside.to[kMiddle][e];
-    const double second = steps_[kMiddle][e];
-    const double cost = steps_[from][d] + second;
-    if (second >= kFar || least_[from][to] < cost) return false;
-    return !precededBy(from, d, to, cost) && !precededBy(kMiddle, e, to, second);
+    const double cost = steps_[from][d] + steps_[kMiddle][e];
+    return least_[from][to] >= cost && !precededBy(from, d, to, cost);
   }
 
   std::array<std::array<double, 8>, 9> steps_;
   std::array<std::array<double, 9>, 9> least_;
+  unsigned canonical_ = 0;  // the steps from the middle that no other path to their end precedes
 };
 
 }  // namespace

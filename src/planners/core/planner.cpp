@@ -167,6 +167,7 @@ SearchResult Planner::search(const SearchRequest& request, const StopToken& stop
   } catch (const Stopped& stopped) {
     result = failure(stopped.status(), "");
   }
+  if (result.answered_by.empty()) result.answered_by = traits_.name;
   if (result.message.empty()) result.message = usualMessage(result.status, request, traits_.name);
   result.statistics.time_s = std::chrono::duration<double>(StopToken::Clock::now() - begin).count();
   return result;

@@ -17,10 +17,39 @@ constexpr unsigned deadAfter(NaturalMoves steps) {
   return static_cast<unsigned>(((~filled & ~kLow) >> 7) * 0x0102040810204080U >> 56);
 }
 
-// The steps at every cell that do not begin a dead branch, a bit for each. `natural`: the natural
-// steps of a window of cells, row by row. A branch is dead if every sequence of natural steps that
-// begins with it ends inside the window after at most `depth` further steps.
-std::vector<std::uint8_t> liveSteps(const std::vector<NaturalMoves>& natural, int width, int height,
-                                    int depth);
+// Dead branches of windows of cells, one after the other.
+class DeadBranches {
+ public:
+  // A window whose cells no step enters, as those along its border never are.
+  void reset(int width, int height);
+  // The natural steps of a cell that steps enter, by its index in the window; once a cell.
+  void set(std::uint32_t index, NaturalMoves natural) {
+    natural_[index] = natural;
+    const auto dead = static_cast<std::uint8_t>(deadAfter(natural));
+    if (dead == 0) return;
+    dead_[index] = dead;
+    ended_.push_back({index, dead});
+  }
+
+  // The steps at every cell of the window that do not begin a dead branch, a bit for each; without
+  // meaning at cells that are not entered. A branch is dead if every sequence of natural steps that
+  // begins with it ends inside the window after at most `depth` further steps. To be called once.
+  const std::vector<std::uint8_t>& liveSteps(int depth);
+
+ private:
+  struct Ended {
+    std::uint32_t index;
+    std::uint8_t after;  // steps after which nothing is natural any more
+  };
+
+  void removeStepsInto(const std::vector<Ended>& ended);
+
+  int width_ = 0;
+  std::vector<NaturalMoves> natural_;
+  std::vector<std::uint8_t> live_;
+  std::vector<std::uint8_t> dead_;
+  std::vector<Ended> ended_;
+  std::vector<std::uint32_t> touched_;
+};
 
 }  // namespace grid_path_planner::planners

@@ -13,13 +13,21 @@ using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
-constexpr std::size_t kCells = 4096;  // a few milliseconds
+constexpr std::size_t kCells = 4096;  // a millisecond
+
+bool allEqual(const Window& window) {
+  return std::all_of(window.begin(), window.end(),
+                     [&window](CostGrid::Weight weight) { return weight == window[0]; });
+}
 
 }  // namespace
 
 PruningEstimate::Count PruningEstimate::countAt(const CostGrid& map, Cell cell) {
   Count count;
-  const NaturalMoves natural = naturalMoves(windowAt(map, cell));
+  const Window window = windowAt(map, cell);
+  if (window[4] == CostGrid::kBlocked) return count;
+  if (allEqual(window)) return {4, 4};
+  const NaturalMoves natural = naturalMoves(window);
   for (unsigned step = 4; step < 8; ++step) {
     const Cell from{cell.column - kSteps[step].column, cell.row - kSteps[step].row};
     if (!stepAllowed(map, from, cell)) continue;

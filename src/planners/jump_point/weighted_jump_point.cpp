@@ -1,6 +1,7 @@
 #include "planners/jump_point/weighted_jump_point.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "planners/astar/heuristic.h"
@@ -56,7 +57,10 @@ bool WeightedJumpPoint::optimalFor(const CostGrid& map) const {
   return optimalWith(optionsOfAStar(map.motion()), map);
 }
 
+// Both where A* answers searches until the jumps are prepared.
 std::size_t WeightedJumpPoint::bytesFor(const GridGeometry& geometry) const {
+  if (jumps_ready_ && a_star_)
+    return WeightedJumpSearch::bytesFor(geometry) + AStar(options_).bytesFor(geometry);
   return std::max(WeightedJumpSearch::bytesFor(geometry), AStar(options_).bytesFor(geometry));
 }
 
@@ -66,10 +70,16 @@ std::string WeightedJumpPoint::lessMemoryAdvice() const {
 }
 
 BackgroundWork WeightedJumpPoint::backgroundWork() {
-  return a_star_ ? a_star_->backgroundWork() : BackgroundWork();
+  BackgroundWork work = a_star_ ? a_star_->backgroundWork() : BackgroundWork();
+  work.pending = work.pending || (jumps_ready_ && !jumps_.finished());
+  return work;
 }
 
 void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
+  if (jumps_ready_) {
+    jumps_.finish(map(), stop);
+    a_star_.reset();
+  }
   if (a_star_) a_star_->finishBackgroundWork(stop);
 }
 
@@ -86,8 +96,9 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
     prepareAStar(stop);
     return;
   }
-  jumps_.prepare(map(), stop);
+  jumps_.prepare(map());
   jumps_ready_ = true;
+  too_many_tiles_ = 0;
 }
 
 void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
@@ -105,10 +116,25 @@ void WeightedJumpPoint::prepareAStar(const StopToken& stop) {
   a_star_ = std::move(a_star);
 }
 
+// That a search may make: all of them where memory for A* is not left.
+std::uint64_t WeightedJumpPoint::mostTiles() const {
+  constexpr std::uint64_t kFewest = 8;
+  const GridGeometry& geometry = map().geometry();
+  const std::size_t both =
+      WeightedJumpSearch::bytesFor(geometry) + AStar(options_).bytesFor(geometry);
+  if (both > memoryLimit() || too_many_tiles_ >= 5)
+    return std::numeric_limits<std::uint64_t>::max();
+  constexpr std::size_t kTileCells = WeightedJumpMap::kTile * WeightedJumpMap::kTile;
+  return std::max<std::uint64_t>(kFewest, geometry.size() / kTileCells / 32 << too_many_tiles_);
+}
+
 SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const StopToken& stop) {
   if (jumps_ready_) {
     try {
-      return jumps_.run(map(), request, stop);
+      return jumps_.run(map(), request, stop, mostTiles());
+    } catch (const TooManyTiles&) {
+      ++too_many_tiles_;
+      if (!a_star_) prepareAStar(stop);
     } catch (const TooExpensive&) {
       if (!a_star_) prepareAStar(stop);
     }

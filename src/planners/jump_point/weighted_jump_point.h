@@ -8,7 +8,10 @@
 // plateaus, many of the slopes around obstacles, few where every cell has another weight. Whether
 // jumping pays is estimated when a map is prepared and updated
 // (planners/jump_point/pruning_estimate.h). Where it does not, and for other motion models, A*
-// answers, with the heuristic that fits the motion model. No map is refused: where a path costs
+// answers, with the heuristic that fits the motion model. The jumps are prepared by tiles, when a
+// search first comes to them or by finishBackgroundWork(); until then A* answers searches that come
+// to many new ones, at the same cost: the first to more than 1/32 of the map, the next to 1/16, and
+// so on, so that no answer waits for preparation. No map is refused: where a path costs
 // more than the keys of the jumps hold, A* answers too. No option is ignored: with a search option
 // (heuristic, scale, epsilon, tie-break) that is not the default, A* answers with it.
 #pragma once
@@ -43,6 +46,7 @@ class WeightedJumpPoint : public Planner {
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
   bool shouldJump() const;
+  std::uint64_t mostTiles() const;
   void prepareAStar(const base::StopToken& stop);
   AStarOptions optionsOfAStar(const costmap::MotionModel& motion) const;
 
@@ -50,6 +54,7 @@ class WeightedJumpPoint : public Planner {
   bool a_star_asked_for_;
   PruningEstimate pruning_;
   bool jumps_ready_ = false;
+  int too_many_tiles_ = 0;  // how often a search came to too many since the map was prepared
   WeightedJumpSearch jumps_;
   std::unique_ptr<AStar> a_star_;  // null until it is prepared
 };

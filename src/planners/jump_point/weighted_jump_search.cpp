@@ -32,8 +32,8 @@ Cell moved(Cell cell, unsigned step) {
 
 }  // namespace
 
-void WeightedJumpSearch::prepare(const CostGrid& map, const StopToken& stop) {
-  jumps_.build(map, stop);
+void WeightedJumpSearch::prepare(const CostGrid& map) {
+  jumps_.reset(map);
   if (g_.size() == map.geometry().size()) return;
   g_ = ZeroedArray<StampedG>(map.geometry().size());
   stamp_.restart();
@@ -50,7 +50,8 @@ void WeightedJumpSearch::release() {
 }
 
 SearchResult WeightedJumpSearch::run(const CostGrid& map, const SearchRequest& request,
-                                     const StopToken& stop) {
+                                     const StopToken& stop, std::uint64_t most_tiles) {
+  const WeightedJumpMap::ScopedLimit scoped_limit(jumps_, stop, most_tiles);
   const WeightedJumpMap::ScopedGoal scoped_goal(jumps_, map, request.goals.front());
   startQuery(map, request);
   return search(request, stop);
@@ -99,6 +100,7 @@ SearchResult WeightedJumpSearch::search(const SearchRequest& request, const Stop
 
 void WeightedJumpSearch::expandStart(Cell start) {
   const std::uint32_t index = indexOf(start);
+  jumps_.makeReady(*map_, start);
   relax(index, 0);
   ++counts_.expanded;
   if (index == goal_index_) {
@@ -141,7 +143,7 @@ inline bool WeightedJumpSearch::beyondBound(Key f) {
 
 template <unsigned kStep>
 void WeightedJumpSearch::jumpStraight(Cell cell, Key g) {
-  if (jumps_.deadEnd<kStep>(cell)) return;
+  if (jumps_.deadEnd<kStep>(*map_, cell)) return;
   const WeightedJumpMap::Jump jump = jumps_.straightJump<kStep>(cell, weights_);
   g += jump.weights * kStraight;
   const Key f = g + estimate(jump.to);
@@ -164,9 +166,15 @@ void WeightedJumpSearch::jumpDiagonally(std::uint32_t index, Cell cell, Key g) {
   for (;;) {
     index += offset;
     cell = moved(cell, kStep);
-    if (jumps_.open(cell)) {
+    bool open = jumps_.open(cell);
+    if (!open && !jumps_.ready(index)) {
+      jumps_.makeReady(*map_, cell);
+      open = jumps_.open(cell);
+    }
+    if (open) {
       g += kDiagonal * weight;
-      if (jumps_.deadEnd<kRowStep>(cell) && jumps_.deadEnd<kColumnStep>(cell)) continue;
+      if (jumps_.deadEnd<kRowStep>(*map_, cell) && jumps_.deadEnd<kColumnStep>(*map_, cell))
+        continue;
     } else {
       const Key next = weights_[index];
       g += kDiagonal * std::max(weight, next);

@@ -3,7 +3,7 @@
 // cut no corners.
 //
 //   WeightedJumpSearch search;
-//   search.prepare(map, stop);
+//   search.prepare(map);
 //   SearchResult result = search.run(map, request, stop);
 //
 // Guaranteed: the cost is the least there is, whatever the weights.
@@ -22,6 +22,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "base/zeroed_array.h"
@@ -39,18 +40,26 @@ class WeightedJumpSearch {
     return WeightedJumpMap::bytesFor(geometry) + geometry.size() * sizeof(StampedG);
   }
 
-  // Throw Stopped. `changed`: the cells whose weights changed since.
-  void prepare(const costmap::CostGrid& map, const base::StopToken& stop);
+  void prepare(const costmap::CostGrid& map);
+  // `changed`: the cells whose weights changed since. Throws Stopped.
   void update(const costmap::CostGrid& map, const grid::CellRect& changed,
               const base::StopToken& stop);
+  // Makes all tiles ready, so that no run() makes one; those made stay where it is stopped. Throws
+  // Stopped.
+  void finish(const costmap::CostGrid& map, const base::StopToken& stop) {
+    jumps_.makeAllReady(map, stop);
+  }
+  bool finished() const { return jumps_.allReady(); }
   // Frees all memory; prepare() must be called before the next run().
   void release();
 
-  // FOUND, UNREACHABLE, TIMEOUT or CANCELLED. Throws TooExpensive where there is no path that costs
+  // FOUND, UNREACHABLE, TIMEOUT or CANCELLED. Throws TooManyTiles where it has to make more than
+  // `most_tiles` tiles, which stay, and Stopped while it makes one. Throws TooExpensive where there is no path that costs
   // less than the keys hold, 17.6e6 cell lengths x weight, but there may be a more expensive one.
   // Precondition: `map` is the prepared one, start and goal are passable.
   SearchResult run(const costmap::CostGrid& map, const SearchRequest& request,
-                   const base::StopToken& stop);
+                   const base::StopToken& stop,
+                   std::uint64_t most_tiles = std::numeric_limits<std::uint64_t>::max());
 
  private:
   using Key = SearchKey;

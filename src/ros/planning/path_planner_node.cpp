@@ -127,8 +127,8 @@ void PathPlannerNode::onOptions(const PathPlannerNodeOptions& options) {
 }
 
 void PathPlannerNode::onMapChange() {
-  server_->vehicleLane().worker().post([this](const StopSource& stop) { processMap(stop); },
-                                       kMapSlot);
+  server_->vehicleLane().post([this](const StopSource& stop) { processMap(stop); }, kMapSlot);
+  server_->prepareForQuestions();
 }
 
 void PathPlannerNode::startReplanTimer(double period) {
@@ -141,13 +141,17 @@ void PathPlannerNode::startReplanTimer(double period) {
 }
 
 void PathPlannerNode::postPlanForGoal() {
-  server_->vehicleLane().worker().post([this](const StopSource& stop) { planForGoal(stop); },
-                                       kGoalSlot, TaskQueue::Turn::NEXT);
+  server_->vehicleLane().post(
+      [this](const StopSource& stop) {
+        planForGoal(stop);
+        server_->vehicleLane().finishLater(server_->settings().options);
+      },
+      kGoalSlot, TaskQueue::Turn::NEXT);
 }
 
 void PathPlannerNode::postSearchedMap() {
-  server_->vehicleLane().worker().post([this](const StopSource& stop) { publishSearchedMap(stop); },
-                                       kSearchedMapSlot);
+  server_->vehicleLane().post([this](const StopSource& stop) { publishSearchedMap(stop); },
+                              kSearchedMapSlot);
 }
 
 void PathPlannerNode::planForGoal(const StopSource& stop) {
@@ -184,6 +188,8 @@ void PathPlannerNode::processMap(const StopSource& stop) {
     server_->vehicleLane().downsampledCosts(options, stop.token());
     if (goalPathBlocked(options, stop)) postPlanForGoal();
     postSearchedMap();
+    server_->vehicleLane().prepare(options, stop.token());
+    server_->vehicleLane().finishLater(options);
   } catch (const Stopped&) {
     // The node ends.
   }

@@ -19,6 +19,7 @@ using base::Status;
 using base::Stopped;
 using base::StopSource;
 using base::StopToken;
+using base::TaskQueue;
 using costmap::CostGrid;
 using path::clearanceOf;
 using path::Pose;
@@ -30,6 +31,8 @@ using planning::PlannerOptions;
 using planning::PoseRequest;
 
 namespace {
+
+constexpr char kFinishingSlot[] = "finishing";
 
 Pose named(const char* which, const std::function<Pose()>& pose) {
   try {
@@ -56,6 +59,41 @@ PlanningLane::PlanningLane(MapReceiver& maps, std::size_t reader, const FrameTra
         tellGivenUp("What follows a map", error);
         beginAnew();
       }) {}
+
+std::shared_ptr<TaskQueue::Task> PlanningLane::post(TaskQueue::Work work, const std::string& slot,
+                                                    TaskQueue::Turn turn) {
+  const std::lock_guard<std::mutex> lock(finishing_mutex_);
+  if (finishing_) finishing_->cancel();
+  return worker_.post(std::move(work), slot, turn);
+}
+
+void PlanningLane::prepare(const PathPlannerNodeOptions& options, const StopToken& stop) {
+  updateMap();
+  setOptions(options.planner);
+  if (!planner_->hasMap()) return;
+  try {
+    planner_->prepare(stop);
+    bytes_ = planner_->bytes();
+  } catch (const InputError&) {
+    // There is too little memory: whoever asks for a path is told.
+  }
+}
+
+void PlanningLane::finishLater(const PathPlannerNodeOptions& options) {
+  const std::lock_guard<std::mutex> lock(finishing_mutex_);
+  finishing_ = worker_.post(
+      [this, options](const StopSource& stop) {
+        if (!planner_ || !planner_->hasMap()) return;
+        if (planner_->map()->geometry().size() > kMostFinished) return;
+        try {
+          setOptions(options.planner);
+          planner_->finishPreparation(stop.token());
+        } catch (const Stopped&) {
+        } catch (const InputError&) {
+        }
+      },
+      kFinishingSlot);
+}
 
 Plan PlanningLane::plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
                         const StopSource& stop, const PhaseListener& on_phase) {
@@ -121,6 +159,7 @@ PlanStatistics PlanningLane::statistics(const Plan& plan, const PlanningRequest&
   message.goal = asked.goal;
   message.planner = plannerOf(asked, options);
   message.heuristic = heuristicOf(asked, options);
+  message.answered_by = plan.answered_by;
   if (plan.found())
     message.clearance_m =
         clearanceOf(plan.path, *planner_->map(), options.planner.costmap.thresholds);

@@ -1,7 +1,7 @@
 // Answers requests on the newest map in a thread of its own, with a planner and costmaps of its own.
 //
 //   PlanningLane lane(maps, reader, transforms, nullptr);
-//   lane.worker().post([&](const StopSource& stop) { use(lane.plan(request, options, stop)); });
+//   lane.post([&](const StopSource& stop) { use(lane.plan(request, options, stop)); });
 //
 // path_planner has two: in one it follows the map and plans for the vehicle, in the other it answers
 // questions of services and actions, so that no question delays the vehicle. Whatever goes wrong
@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "grid_path_planner/PlanStatistics.h"
@@ -33,9 +34,19 @@ class PlanningLane {
   PlanningLane(MapReceiver& maps, std::size_t reader, const FrameTransforms& transforms,
                const PlanningLane* other);
 
+  // A task for the lane's thread, as TaskQueue::post(). It interrupts finishLater().
+  std::shared_ptr<base::TaskQueue::Task> post(
+      base::TaskQueue::Work work, const std::string& slot = "",
+      base::TaskQueue::Turn turn = base::TaskQueue::Turn::LAST);
   base::TaskQueue& worker() { return worker_; }
 
   // In the worker's thread only:
+
+  // What a plan on the newest map would do first, outside its time limit.
+  void prepare(const PathPlannerNodeOptions& options, const base::StopToken& stop);
+  // Computes whatever makes plans faster on the newest map while the thread has nothing else to do;
+  // what is done when a task comes stays. Nothing for maps of more than kMostFinished cells.
+  void finishLater(const PathPlannerNodeOptions& options);
 
   planning::Plan plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
                       const base::StopSource& stop, const PhaseListener& on_phase = {});
@@ -55,6 +66,8 @@ class PlanningLane {
   std::string frame(const PathPlannerNodeOptions& options) const;
 
  private:
+  static constexpr std::size_t kMostFinished = std::size_t{1} << 22;
+
   planning::Plan tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
                            const base::StopSource& stop, const PhaseListener& on_phase);
   planning::PoseRequest posesOf(const PlanningRequest& request,
@@ -75,6 +88,8 @@ class PlanningLane {
   std::unique_ptr<planning::PathPlanner> planner_;
   std::string map_frame_id_;
   bool anew_ = false;  // the newest map is taken whole
+  std::mutex finishing_mutex_;
+  std::shared_ptr<base::TaskQueue::Task> finishing_;  // posted by finishLater()
   base::TaskQueue worker_;
 };
 

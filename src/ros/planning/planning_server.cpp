@@ -14,6 +14,7 @@ namespace grid_path_planner::nodes {
 using base::currentErrorText;
 using base::InputError;
 using base::Status;
+using base::Stopped;
 using base::StopSource;
 using base::StopToken;
 using path::Path;
@@ -41,11 +42,27 @@ void PlanningServer::setOptions(const PathPlannerNodeOptions& options) {
 
 std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& request, Publish publish) {
   auto ticket = std::make_shared<PlanTicket>();
-  ticket->task_ =
-      question_lane_.worker().post([this, ticket, request, publish](const StopSource& stop) {
-        answer(*ticket, request, publish, stop);
-      });
+  asked_ = true;
+  ticket->task_ = question_lane_.post([this, ticket, request, publish](const StopSource& stop) {
+    answer(*ticket, request, publish, stop);
+    question_lane_.finishLater(settings().options);
+  });
   return ticket;
+}
+
+void PlanningServer::prepareForQuestions() {
+  if (!asked_.exchange(false)) return;
+  question_lane_.post(
+      [this](const StopSource& stop) {
+        const PathPlannerNodeOptions options = settings().options;
+        try {
+          question_lane_.prepare(options, stop.token());
+        } catch (const Stopped&) {
+          return;  // the node ends
+        }
+        question_lane_.finishLater(options);
+      },
+      "map");
 }
 
 void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, Publish publish,

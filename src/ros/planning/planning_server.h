@@ -75,6 +75,10 @@ class PlanningServer {
 
   std::shared_ptr<PlanTicket> ask(const PlanningRequest& request, Publish publish);
 
+  // A map has come: what questions on it would wait for is begun, before the first question and where
+  // there was one since the last call.
+  void prepareForQuestions();
+
   // Cancels all requests and accepts no more.
   void stop();
 
@@ -113,6 +117,7 @@ class PlanningServer {
   Settings settings_;
   std::optional<Outcome> outcome_;
   std::optional<path::Path> last_path_;
+  std::atomic<bool> asked_{true};  // since the last prepareForQuestions()
 
   FrameTransforms transforms_;
   PlanPublisher publisher_;
