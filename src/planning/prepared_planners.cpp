@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "grid_path_planner/base/options.h"
 
@@ -16,9 +17,10 @@ namespace {
 // that is asked for more than what is kept for one that may come.
 constexpr std::size_t kFollowedShare = 16;
 
-bool small(const grid::CellRect& change, const grid::GridGeometry& geometry) {
-  const auto cells =
-      static_cast<std::size_t>(change.width) * static_cast<std::size_t>(change.height);
+bool small(const std::vector<grid::CellRect>& change, const grid::GridGeometry& geometry) {
+  std::size_t cells = 0;
+  for (const grid::CellRect& rect : change)
+    cells += static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
   return cells * kFollowedShare <= geometry.size();
 }
 

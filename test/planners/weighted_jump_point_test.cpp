@@ -152,8 +152,8 @@ TEST(WeightedJumpPointLaw, PreparationChangesNoAnswer) {
         for (int column = changed.column; column < changed.column + changed.width; ++column)
           weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 3);
       map = costsOf(weights, {}, map->revision() + 1);
-      asked.update(map, changed, StopToken());
-      done.update(map, changed, StopToken());
+      asked.update(map, {changed}, StopToken());
+      done.update(map, {changed}, StopToken());
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "grid_path_planner/planning/path_planner.h"
 
@@ -44,7 +45,7 @@ class Counting : public Planner {
     return traits;
   }
   void doPrepare(const StopToken&) override { ++counts_.prepared; }
-  void doUpdate(const CellRect&, const StopToken&) override { ++counts_.updated; }
+  void doUpdate(const std::vector<CellRect>&, const StopToken&) override { ++counts_.updated; }
   SearchResult doSearch(const SearchRequest&, const StopToken&) override {
     SearchResult result;
     result.status = Status::UNREACHABLE;
@@ -72,7 +73,7 @@ class PreparedState : public ::testing::Test {
       for (int column = rect.column; column < rect.column + rect.width; ++column)
         (*next)[Cell{column, row}] = 100;
     map_ = next;
-    planner_.updateMap(map_, rect);
+    planner_.updateMap(map_, {rect});
   }
   path::Pose poseAt(Cell cell) const {
     path::Pose pose;
