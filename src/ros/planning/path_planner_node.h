@@ -19,9 +19,9 @@
 #include "ros/planning/plan_action.h"
 #include "ros/planning/plan_diagnostics.h"
 #include "ros/planning/plan_services.h"
-#include "ros/planning/planning_map_publisher.h"
 #include "ros/planning/planning_server.h"
 #include "ros/planning/rectangle_publisher.h"
+#include "ros/planning/shown/planning_map_publisher.h"
 
 namespace grid_path_planner {
 class PathPlannerConfig;

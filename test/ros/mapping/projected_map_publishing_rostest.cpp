@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "ros/support/map_copy.h"
+#include "ros/support/map_listeners.h"
 #include "ros/support/mapping_fixture.h"
 
 namespace grid_path_planner::nodes {

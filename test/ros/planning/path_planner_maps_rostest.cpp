@@ -3,7 +3,7 @@
 #include <random>
 
 #include "ros/common/outgoing/map_topic.h"
-#include "ros/support/map_copy.h"
+#include "ros/support/map_listeners.h"
 #include "ros/support/planner_fixture.h"
 
 namespace grid_path_planner::nodes {
@@ -72,7 +72,7 @@ TEST_F(PlanningMaps, UpdatesAreAllThatIsSentToWhoTakesThem) {
   const std::size_t maps = shown_.maps();
   editOften();
   EXPECT_GT(shown_.updates(), 0u);
-  EXPECT_LE(shown_.maps(), maps + 1) << "but one that was under way";
+  EXPECT_LE(shown_.maps(), maps + 1) << "but one that was being sent";
 }
 
 TEST_F(PlanningMaps, WhoTakesUpdatesAndWhoDoesNotHaveTheSameMap) {

@@ -98,7 +98,7 @@ void MapTopic::send(const map_msgs::OccupancyGridUpdate& update) {
   updated_ = true;
 }
 
-// roscpp has no other way to drop a latched message.
+// No other call of roscpp drops a latched message.
 void MapTopic::forget() {
   {
     std::lock_guard<std::mutex> lock(mutex_);

@@ -1,12 +1,9 @@
 // A topic of whole maps and, as <topic>_updates, of what changes in them: what a publisher of both
 // must know to send each subscriber what it can use, and no more.
 //
-//   MapTopic topic(nh, "planning_map", latch, [this] { post(publishing); });
-//   if (!topic.hasSubscribers()) return topic.forget();
-//   if (topic.takeNewSubscriber() || topic.needsWholeMaps() || topic.wholeMapIsDue(10.0))
-//     topic.send(occupancyToMessage(map, frame_id, stamp));
-//   else
-//     topic.send(updateOf(map, changed, frame_id, stamp));
+// The owner asks: hasSubscribers(), without whom nothing need be made and forget() drops what is
+// latched; takeNewSubscriber(), needsWholeMaps() and wholeMapIsDue(), any of which asks for a whole
+// map; else an update will do.
 //
 // One thread sends; the callbacks come in that of the node's queue. Subscribers are told apart by
 // the names of their nodes, so nodelets of one manager count as one.

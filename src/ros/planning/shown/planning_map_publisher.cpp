@@ -1,4 +1,4 @@
-#include "ros/planning/planning_map_publisher.h"
+#include "ros/planning/shown/planning_map_publisher.h"
 
 #include <algorithm>
 #include <cmath>
