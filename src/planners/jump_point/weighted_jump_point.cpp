@@ -122,6 +122,9 @@ std::uint64_t WeightedJumpPoint::mostTiles() const {
       WeightedJumpSearch::bytesFor(geometry) + AStar(options_).bytesFor(geometry);
   if (both > memoryLimit() || too_many_tiles_ >= 5)
     return std::numeric_limits<std::uint64_t>::max();
+  // Tiles far from each other touch so many new pages of memory that they cost more than A*.
+  constexpr std::size_t kMostCells = std::size_t{1} << 26;
+  if (geometry.size() > kMostCells) return 0;
   constexpr std::size_t kTileCells = WeightedJumpMap::kTile * WeightedJumpMap::kTile;
   return std::max<std::uint64_t>(kFewest, geometry.size() / kTileCells / 32 << too_many_tiles_);
 }
