@@ -122,8 +122,12 @@ std::uint64_t WeightedJumpPoint::mostTiles() const {
   const GridGeometry& geometry = map().geometry();
   const std::size_t both =
       WeightedJumpSearch::bytesFor(geometry) + AStar(options_).bytesFor(geometry);
-  if (both > memoryLimit() || too_many_tiles_ >= 5)
-    return std::numeric_limits<std::uint64_t>::max();
+  constexpr auto kAll = std::numeric_limits<std::uint64_t>::max();
+  if (both > memoryLimit()) return kAll;
+  // Tiles far from each other touch so many new pages of memory that they cost more than A*.
+  constexpr std::size_t kMostCells = std::size_t{1} << 26;
+  if (geometry.size() > kMostCells) return 0;
+  if (too_many_tiles_ >= 5) return kAll;
   constexpr std::size_t kTileCells = WeightedJumpMap::kTile * WeightedJumpMap::kTile;
   return std::max<std::uint64_t>(kFewest, geometry.size() / kTileCells / 32 << too_many_tiles_);
 }

@@ -11,8 +11,7 @@
 // answers, with the heuristic that fits the motion model. The jumps are prepared by tiles, when a
 // search first comes to them or by finishBackgroundWork(); until then A* answers searches that come
 // to many new ones, at the same cost: the first to more than 1/32 of the map, the next to 1/16, and
-// so on, so that no answer waits for preparation. No map is refused: where a path costs
-// more than the keys of the jumps hold, A* answers too. No option is ignored: with a search option
+// so on; of maps above 2^26 cells to any. No map is refused: where a path costs more than the keys of the jumps hold, A* answers too. No option is ignored: with a search option
 // (heuristic, scale, epsilon, tie-break) that is not the default, A* answers with it.
 #pragma once
 
