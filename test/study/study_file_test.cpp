@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "grid_path_planner/grid/map_file.h"
+#include "study/report/report.h"
 #include "study/study.h"
 #include "study/study_plan.h"
 #include "support/ascii_map.h"
@@ -132,6 +133,13 @@ TEST_F(StudyFileTest, BordersAndGroupsOfPairs) {
   EXPECT_EQ(plan.queries(0)[1].number, 2);
   EXPECT_EQ(plan.queries(0)[2].group, "other");
   EXPECT_EQ(plan.queries(0)[2].number, 1);
+
+  const std::vector<StudyRun> no_runs;
+  const StudyData data(plan, no_runs);
+  StudyRun run;
+  EXPECT_NE(planCommand(data, run), "");
+  run.setting = 2;
+  EXPECT_EQ(planCommand(data, run), "") << "grid_path plan has no unfilled border";
 }
 
 TEST_F(StudyFileTest, PublishedCellsAreFiguresWhereTheyCanBe) {

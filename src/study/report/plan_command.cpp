@@ -46,7 +46,7 @@ std::string cellArgument(Cell cell) {
 std::string planCommand(const StudyData& data, const StudyRun& run) {
   const StudySetting& setting = data.settingOf(run);
   const StudyVariant& variant = data.study().variants[run.variant];
-  if (inStudiesOnly(variant.planner)) return "";
+  if (inStudiesOnly(variant.planner) || setting.border != Border::FILLED) return "";
   PlannerOptions options = data.study().base;
   options.costmap = setting.costmap;
   options.planner = variant.planner;

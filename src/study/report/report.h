@@ -22,7 +22,8 @@ std::string csvOf(const Table& table);
 std::string jsonReport(const StudyData& data, const std::vector<Finding>& findings,
                        const std::vector<StudyFailure>& failures);
 
-// The command that repeats `run`, with map and ends; "" for planners that only studies have.
+// The command that repeats `run`, with map and ends; "" for planners and borders that only
+// studies have.
 std::string planCommand(const StudyData& data, const StudyRun& run);
 
 }  // namespace grid_path_planner::study
