@@ -140,7 +140,7 @@ TEST(WeightedJumpMapLaw, EqualsAFreshBuildAfterEdits) {
         for (int column = changed.column; column < changed.column + changed.width; ++column)
           weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 4);
       map = CostGrid(weights, map.classes(), map.motion());
-      jumps.update(map, changed, StopToken());
+      jumps.update(map, {changed}, StopToken());
     }
     WeightedJumpMap fresh = built(map);
     expectAlike(jumps, fresh, map);
@@ -174,10 +174,14 @@ TEST(WeightedJumpMapLaw, IsTheSameWhateverTilesWereMadeBefore) {
         for (unsigned step = 0; step < 4; ++step)
           if (stepAllowed(map, cell, after(cell, step))) deadEndAt(jumps, map, step, cell);
       if (question % 20 != 19) continue;
-      const CellRect changed = randomRect(random, map.geometry(), question % 40 == 19 ? 5 : 120);
-      for (int row = changed.row; row < changed.row + changed.height; ++row)
-        for (int column = changed.column; column < changed.column + changed.width; ++column)
-          weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 4);
+      std::vector<CellRect> changed;
+      for (int i = 0; i < 1 + trial % 6; ++i)
+        changed.push_back(randomRect(random, map.geometry(), question % 40 == 19 ? 5 : 120));
+      changed = grid::disjointRects(changed);
+      for (const CellRect& rect : changed)
+        for (int row = rect.row; row < rect.row + rect.height; ++row)
+          for (int column = rect.column; column < rect.column + rect.width; ++column)
+            weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 4);
       map = test::costMap(weights);
       jumps.update(map, changed, StopToken());
     }

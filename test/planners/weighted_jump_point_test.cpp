@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "support/cost_maps.h"
 #include "support/random_map.h"
@@ -156,6 +160,52 @@ TEST(WeightedJumpPointLaw, PreparationChangesNoAnswer) {
       done.update(map, {changed}, StopToken());
     }
   }
+}
+
+std::vector<CellRect> randomRects(std::mt19937& random, const GridGeometry& geometry, int most) {
+  std::vector<CellRect> rects;
+  for (int i = 0; i < 1 + int(random() % most); ++i) {
+    const Cell low = test::randomCell(random, geometry);
+    rects.push_back(
+        CellRect{low.column, low.row, 1 + int(random() % 60), 1 + int(random() % 60)}.intersection(
+            geometry.rect()));
+  }
+  return grid::disjointRects(rects);
+}
+
+void fill(Grid<CostGrid::Weight>& weights, const std::vector<CellRect>& rects,
+          std::mt19937& random) {
+  for (const CellRect& rect : rects) {
+    const auto weight = static_cast<CostGrid::Weight>(random() % 4);
+    for (int row = rect.row; row < rect.row + rect.height; ++row)
+      std::fill_n(weights.row(row) + rect.column, rect.width, weight);
+  }
+}
+
+// On maps of more tiles than one search may make, A* answers until the jumps are prepared.
+TEST(WeightedJumpPointLaw, CostsAreLeastWhicheverSearchAnswers) {
+  std::mt19937 random(7);
+  std::map<std::string, int> answers;
+  for (int trial = 0; trial < 3; ++trial) {
+    Grid<CostGrid::Weight> weights(GridGeometry(900, 500 + trial, 1.0), 1);
+    fill(weights, randomRects(random, weights.geometry(), 150), random);
+    auto map = costsOf(weights);
+    WeightedJumpPoint planner;
+    planner.prepare(map, StopToken());
+    for (int edit = 0; edit < 3; ++edit) {
+      const SearchRequest across{{0, 0}, {{899, 499}}, false};
+      if (map->passable({0, 0}) && map->passable({899, 499}))
+        ++answers[planner.search(across, StopToken()).answered_by];
+      expectLeast(planner, *map, random, 8);
+      if (::testing::Test::HasFatalFailure()) FAIL() << "trial " << trial << ", edit " << edit;
+      const std::vector<CellRect> changed = randomRects(random, weights.geometry(), 12);
+      fill(weights, changed, random);
+      map = costsOf(weights, {}, map->revision() + 1);
+      planner.update(map, changed, StopToken());
+    }
+  }
+  EXPECT_GT(answers["a_star"], 0);
+  EXPECT_GT(answers["weighted_jump_point"], 0);
 }
 
 TEST(WeightedJumpPointLaw, AfterEditsPlansLikeAFreshOne) {

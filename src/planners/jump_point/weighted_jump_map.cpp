@@ -95,25 +95,41 @@ void WeightedJumpMap::makeAllReady(const CostGrid& map, const StopToken& stop) {
   });
 }
 
-void WeightedJumpMap::update(const CostGrid& map, const CellRect& changed, const StopToken& stop) {
+void WeightedJumpMap::update(const CostGrid& map, const std::vector<CellRect>& changed,
+                             const StopToken& stop) {
   const CellRect all = map.geometry().rect();
-  const CellRect windows = changed.grown(1).intersection(all);
-  StopPoll poll(stop, 1);
-  forSquares(kBlock, windows, all, [&](const CellRect& block) {
-    blockReady({block.column, block.row}) = 0;
-  });
-  const CellRect near = changed.grown(kDepth + 2).intersection(all);
-  const auto partOf = [&near](const CellRect& tile) { return tile.intersection(near); };
-  const auto large = [&](const CellRect& tile) {
-    return partOf(tile).width * partOf(tile).height > kRepairedCells;
+  const auto windowsOf = [&all](const CellRect& rect) { return rect.grown(1).intersection(all); };
+  const auto near = [&all](const CellRect& rect) {
+    return rect.grown(kDepth + 2).intersection(all);
   };
-  forSquares(kTile, near, all, [&](const CellRect& tile) {
-    if (tileReady({tile.column, tile.row}) != 0 && large(tile)) giveUpTile(map, tile);
-  });
-  forSquares(kTile, near, all, [&](const CellRect& tile) {
-    poll();
-    if (tileReady({tile.column, tile.row}) != 0) repair(map, partOf(tile), windows);
-  });
+  for (const CellRect& rect : changed)
+    forSquares(kBlock, windowsOf(rect), all, [&](const CellRect& block) {
+      blockReady({block.column, block.row}) = 0;
+    });
+  giveUpTiles(map, changed);
+  StopPoll poll(stop, 1);
+  for (const CellRect& rect : changed)
+    forSquares(kTile, near(rect), all, [&](const CellRect& tile) {
+      poll();
+      if (tileReady({tile.column, tile.row}) != 0)
+        repair(map, tile.intersection(near(rect)), windowsOf(rect));
+    });
+}
+
+// Those of which the changes together reach much.
+void WeightedJumpMap::giveUpTiles(const CostGrid& map, const std::vector<CellRect>& changed) {
+  const CellRect all = map.geometry().rect();
+  std::unordered_map<std::size_t, int> reached;  // cells of each tile
+  for (const CellRect& rect : changed) {
+    const CellRect near = rect.grown(kDepth + 2).intersection(all);
+    forSquares(kTile, near, all, [&](const CellRect& tile) {
+      if (tileReady({tile.column, tile.row}) == 0) return;
+      const CellRect part = tile.intersection(near);
+      int& cells = reached[map.geometry().index({tile.column, tile.row}).value()];
+      cells += part.width * part.height;
+      if (cells > kRepairedCells) giveUpTile(map, tile);
+    });
+  }
 }
 
 void WeightedJumpMap::giveUpTile(const CostGrid& map, const CellRect& tile) {

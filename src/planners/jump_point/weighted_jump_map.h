@@ -56,7 +56,7 @@ class WeightedJumpMap {
   // No tile is ready.
   void reset(const costmap::CostGrid& map);
   // `changed`: the cells whose weights changed since. Throws Stopped.
-  void update(const costmap::CostGrid& map, const grid::CellRect& changed,
+  void update(const costmap::CostGrid& map, const std::vector<grid::CellRect>& changed,
               const base::StopToken& stop);
 
   // Makes the tile of the cell ready, or the tiles that meet the rectangle.
@@ -186,6 +186,7 @@ class WeightedJumpMap {
 
   // Of a tile, or of a part of it
   void makeTile(const costmap::CostGrid& map, const grid::CellRect& tile);
+  void giveUpTiles(const costmap::CostGrid& map, const std::vector<grid::CellRect>& changed);
   void giveUpTile(const costmap::CostGrid& map, const grid::CellRect& tile);
   void repair(const costmap::CostGrid& map, const grid::CellRect& part,
               const grid::CellRect& changed);

@@ -105,8 +105,7 @@ void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const Sto
   if (jumpsSupport(map().motion()))
     for (const CellRect& rect : changed) pruning_.update(map(), rect);
   if (shouldJump() != jumps_ready_) return doPrepare(stop);
-  if (jumps_ready_)
-    for (const CellRect& rect : changed) jumps_.update(map(), rect, stop);
+  if (jumps_ready_) jumps_.update(map(), changed, stop);
   if (a_star_) a_star_->update(sharedMap(), changed, stop);
 }
 

@@ -39,7 +39,7 @@ void WeightedJumpSearch::prepare(const CostGrid& map) {
   stamp_.restart();
 }
 
-void WeightedJumpSearch::update(const CostGrid& map, const CellRect& changed,
+void WeightedJumpSearch::update(const CostGrid& map, const std::vector<CellRect>& changed,
                                 const StopToken& stop) {
   jumps_.update(map, changed, stop);
 }

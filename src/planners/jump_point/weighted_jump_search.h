@@ -42,7 +42,7 @@ class WeightedJumpSearch {
 
   void prepare(const costmap::CostGrid& map);
   // `changed`: the cells whose weights changed since. Throws Stopped.
-  void update(const costmap::CostGrid& map, const grid::CellRect& changed,
+  void update(const costmap::CostGrid& map, const std::vector<grid::CellRect>& changed,
               const base::StopToken& stop);
   // Makes all tiles ready, so that no run() makes one; those made stay where it is stopped. Throws
   // Stopped.
