@@ -200,7 +200,7 @@ class Run {
         builder_(inflated()),
         vehicle_{kBorder / 2, kBorder / 2},
         goal_{arguments.side - kBorder / 2, arguments.side - kBorder / 2} {
-    maps_.reset(std::make_shared<OccupancyGrid>(world_));
+    maps_.reset(std::make_unique<OccupancyGrid>(world_));
     builder_.setMap(maps_.current());
     const auto costs = builder_.downsampled(StopToken());
     replanner_.prepare(costs, StopToken());

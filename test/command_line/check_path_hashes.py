@@ -94,7 +94,7 @@ def main():
     print("%d lines compared, %d differ" % (len(expected.splitlines()), changed))
     if difference:
         print("map planner variant queries hash: these answer other paths, or other costs, than were recorded. Where "
-              "that is meant, record them anew, in the same commit:\n    python3 test/tools/check_path_hashes.py %s "
+              "that is meant, record them anew, in the same commit:\n    python3 test/command_line/check_path_hashes.py %s "
               "%s --record" % (program, folder))
         sys.exit(1)
 

@@ -212,8 +212,8 @@ OccupancyGrid byRule(const GreyImage& image, const Sampling& sampling, const Pix
     const std::uint8_t* line = sampling.line(row);
     std::int8_t* values = map.row(row);
     for (int column = 0; column < map.width(); ++column)
-      values[column] = occupancyOfPixel(line + sampling.offset(column), image.averaged,
-                                        image.has_alpha, table);
+      values[column] =
+          occupancyOfPixel(line + sampling.offset(column), image.averaged, image.has_alpha, table);
   }
   return map;
 }

@@ -14,13 +14,6 @@ using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
-PlannerTraits guidedTraits(const char* name) {
-  PlannerTraits traits{name};
-  traits.heuristic = true;
-  traits.repairs = true;
-  return traits;
-}
-
 // The second key of the open list: the least comes first.
 SearchKey tieKey(TieBreak tie_break, SearchKey g, const Estimate& estimate, Cell cell) {
   switch (tie_break) {
@@ -52,7 +45,9 @@ std::optional<SearchResult> unreachableBy(SearchKey bound_of_start) {
 }  // namespace
 
 PlannerTraits AStar::declaredTraits() {
-  PlannerTraits traits = guidedTraits("a_star");
+  PlannerTraits traits{"a_star"};
+  traits.heuristic = true;
+  traits.repairs = true;
   traits.optimal = true;
   return traits;
 }
@@ -61,15 +56,6 @@ AStar::AStar(const AStarOptions& options)
     : Planner(declaredTraits()),
       options_(options),
       strictly_ordered_(options.tie_break != TieBreak::NONE),
-      tables_(options) {
-  checkAStarOptions(options);
-}
-
-AStar::AStar(const char* name, const AStarOptions& options, const Variation& variation)
-    : Planner(guidedTraits(name)),
-      options_(options),
-      strictly_ordered_(true),
-      variation_(variation),
       tables_(options) {
   checkAStarOptions(options);
 }
@@ -86,7 +72,7 @@ std::string AStar::lessMemoryAdvice() const {
 }
 
 bool AStar::optimalFor(const CostGrid& map) const {
-  return traits().optimal && optimalWith(options_, map);
+  return optimalWith(options_, map);
 }
 
 void AStar::doPrepare(const StopToken& stop) {
@@ -154,7 +140,6 @@ SearchResult AStar::planInOrder(const SearchRequest& request, const StopToken& s
   const std::uint32_t goal_index = map().geometry().index(goal).value();
   const Estimate estimate(options_, map(), request.start, goal);
   const TieBreak tie_break = options_.tie_break;
-  const long double cross_share = variation_.cross_share;
   const GridGeometry& geometry = map().geometry();
   const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
   return tables_.withBound(goal_index, [&](const auto& boundIn) {
@@ -163,12 +148,10 @@ SearchResult AStar::planInOrder(const SearchRequest& request, const StopToken& s
       return std::move(*result);
     const auto priorityOf = [&](SearchKey g, Cell cell) {
       const SearchKey least = stretched(bound(geometry.index(cell).value()), options_.epsilon);
-      const SearchKey to_go = cross_share == 0.0L ? estimate(cell) : estimate(cell, cross_share);
-      return BestFirstSearch::Priority{saturatingSum(g, std::max(to_go, least)),
+      return BestFirstSearch::Priority{saturatingSum(g, std::max(estimate(cell), least)),
                                        tieKey(tie_break, g, estimate, cell)};
     };
-    return in_order_.run(map(), request.start, isGoal, priorityOf, request.record_expanded, stop,
-                         variation_.goal_test);
+    return in_order_.run(map(), request.start, isGoal, priorityOf, request.record_expanded, stop);
   });
 }
 

@@ -32,15 +32,6 @@ class AStar : public Planner {
   BackgroundWork backgroundWork() override { return tables_.work(); }
   void finishBackgroundWork(const base::StopToken& stop) override { tables_.wait(stop); }
 
- protected:
-  // How a program that a study repeats differs from A*.
-  struct Variation {
-    BestFirstSearch::GoalTest goal_test = BestFirstSearch::GoalTest::WHEN_EXPANDED;
-    long double cross_share = 0.0L;  // of Estimate::cross(), added to every estimate
-  };
-  // Such a program: it keeps a strict order whatever the tie-break, and promises no least cost.
-  AStar(const char* name, const AStarOptions& options, const Variation& variation);
-
  private:
   std::string lessMemoryAdvice() const override;
   void doPrepare(const base::StopToken& stop) override;
@@ -52,7 +43,6 @@ class AStar : public Planner {
 
   AStarOptions options_;
   bool strictly_ordered_;
-  Variation variation_;
   BucketSearch by_buckets_;  // one of the two is used
   BestFirstSearch in_order_;
   PrecomputedHeuristic tables_;

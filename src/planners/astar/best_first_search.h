@@ -33,21 +33,18 @@ class BestFirstSearch {
   void update(const costmap::CostGrid& map, const std::vector<grid::CellRect>& changed,
               const base::StopToken& stop);
 
-  enum class GoalTest { WHEN_EXPANDED, WHEN_GENERATED };
-
   // Cells are expanded in the order of f, those of equal f in the order of tie.
   struct Priority {
     SearchKey f;
     SearchKey tie;
   };
 
-  // Searches from `start` until isGoal(index) is true of the cell that is expanded (or generated).
+  // Searches from `start` until isGoal(index) is true of the cell that is expanded.
   // priorityOf(g, cell) orders the open list. FOUND with cells and cost, or UNREACHABLE. Throws
   // Stopped and TooExpensive. Precondition: `map` is the prepared one and `start` is passable.
   template <class IsGoal, class PriorityOf>
   SearchResult run(const costmap::CostGrid& map, grid::Cell start, IsGoal&& isGoal,
-                   PriorityOf&& priorityOf, bool record_expanded, const base::StopToken& stop,
-                   GoalTest goal_test = GoalTest::WHEN_EXPANDED);
+                   PriorityOf&& priorityOf, bool record_expanded, const base::StopToken& stop);
 
  private:
   struct Entry {
@@ -89,12 +86,11 @@ class BestFirstSearch {
 template <class IsGoal, class PriorityOf>
 SearchResult BestFirstSearch::run(const costmap::CostGrid& map, grid::Cell start, IsGoal&& isGoal,
                                   PriorityOf&& priorityOf, bool record_expanded,
-                                  const base::StopToken& stop, GoalTest goal_test) {
+                                  const base::StopToken& stop) {
   const grid::GridGeometry& geometry = map.geometry();
   const costmap::CostGrid::Weight* weights = map.weights().values().data();
   const SearchKey diagonal = diagonalKey(map.motion().diagonal_cost);
   const std::uint32_t start_index = geometry.index(start).value();
-  const bool when_generated = goal_test == GoalTest::WHEN_GENERATED;
   SearchResult result;
   base::Statistics& counts = result.statistics;
   base::StopPoll poll(stop);
@@ -105,7 +101,6 @@ SearchResult BestFirstSearch::run(const costmap::CostGrid& map, grid::Cell start
   const Priority first = priorityOf(SearchKey{0}, start);
   open_.push({first.f, first.tie, start_index});
   counts.generated = 1;
-  if (when_generated && isGoal(start_index)) return finish(map, start_index, start_index, result);
 
   while (!open_.empty()) {
     const base::StopReason reason = poll.ask();
@@ -119,7 +114,7 @@ SearchResult BestFirstSearch::run(const costmap::CostGrid& map, grid::Cell start
     words_[from] |= kClosed;
     ++counts.expanded;
     if (record_expanded) result.expanded.emplace_back(from);
-    if (!when_generated && isGoal(from)) return finish(map, start_index, from, result);
+    if (isGoal(from)) return finish(map, start_index, from, result);
 
     // 3. Its steps.
     const SearchKey g = costs_[from];
@@ -138,7 +133,6 @@ SearchResult BestFirstSearch::run(const costmap::CostGrid& map, grid::Cell start
       const Priority priority = priorityOf(to_g, geometry.cell(grid::CellIndex(to)));
       open_.push({priority.f, priority.tie, to});
       ++counts.generated;
-      if (when_generated && isGoal(to)) return finish(map, start_index, to, result);
     }
   }
   return withStatus(map, base::Status::UNREACHABLE, result);

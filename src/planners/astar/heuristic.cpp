@@ -102,13 +102,4 @@ SearchKey Estimate::general(std::uint64_t columns, std::uint64_t rows) const {
   return roundedDown(static_cast<long double>(cells) * static_cast<long double>(factor_));
 }
 
-SearchKey Estimate::operator()(Cell cell, long double cross_share) const {
-  const auto columns = static_cast<std::uint64_t>(std::abs(cell.column - goal_.column));
-  const auto rows = static_cast<std::uint64_t>(std::abs(cell.row - goal_.row));
-  return roundedDown(static_cast<long double>(distance(columns, rows)) *
-                         static_cast<long double>(factor_) +
-                     cross_share * static_cast<long double>(cross(cell)) *
-                         static_cast<long double>(scale_.straight));
-}
-
 }  // namespace grid_path_planner::planners

@@ -37,9 +37,6 @@ class Estimate {
     return general(columns, rows);
   }
 
-  // With `cross_share` cell lengths more for each unit of cross(): no lower bound of anything.
-  SearchKey operator()(grid::Cell cell, long double cross_share) const;
-
   // Whether OctileEstimate gives the same.
   bool plainOctile() const { return integral_ && heuristic_ == Heuristic::OCTILE; }
 

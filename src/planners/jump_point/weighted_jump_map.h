@@ -60,7 +60,7 @@ class WeightedJumpMap {
               const base::StopToken& stop);
 
   // Makes the tile of the cell ready, or the tiles that meet the rectangle.
-  void makeReady(const costmap::CostGrid& map, grid::Cell cell);
+  [[gnu::cold]] void makeReady(const costmap::CostGrid& map, grid::Cell cell);
   void makeReady(const costmap::CostGrid& map, const grid::CellRect& rect);
   // Makes all tiles ready. Throws Stopped; the tiles that are made stay.
   void makeAllReady(const costmap::CostGrid& map, const base::StopToken& stop);
@@ -131,8 +131,9 @@ class WeightedJumpMap {
   template <unsigned kStep>
   bool deadEnd(const costmap::CostGrid& map, grid::Cell cell) {
     const StraightJumpTable::End end = endOf<kStep>(cell);
-    if (end != StraightJumpTable::End::UNKNOWN) return end == StraightJumpTable::End::DEAD;
-    return findEnd<kStep>(map, cell);
+    if (__builtin_expect(end == StraightJumpTable::End::UNKNOWN, 0))
+      return findEnd<kStep>(map, cell);
+    return end == StraightJumpTable::End::DEAD;
   }
   // Where the straight jump by the step ends, and the sum of max(weight, weight) over its steps.
   // Precondition: the step is legal, and deadEnd() was asked for it.
@@ -209,7 +210,7 @@ class WeightedJumpMap {
                : columns_.end<kStep / 2 == 0>(std::size_t(cell.column), unsigned(cell.row));
   }
   template <unsigned kStep>
-  bool findEnd(const costmap::CostGrid& map, grid::Cell cell);
+  [[gnu::cold, gnu::noinline]] bool findEnd(const costmap::CostGrid& map, grid::Cell cell);
   template <unsigned kStep>
   End endAt(const costmap::CostGrid& map, grid::Cell cell);
   void setStops(grid::Cell cell, NaturalMoves steps);

@@ -118,10 +118,11 @@ void WeightedJumpPoint::prepareAStar(const StopToken& stop) {
 // That a search may make: all of them where memory for A* is not left.
 std::uint64_t WeightedJumpPoint::mostTiles() const {
   constexpr std::uint64_t kFewest = 8;
+  constexpr auto kAll = std::numeric_limits<std::uint64_t>::max();
+  if (jumps_.finished()) return kAll;
   const GridGeometry& geometry = map().geometry();
   const std::size_t both =
       WeightedJumpSearch::bytesFor(geometry) + AStar(options_).bytesFor(geometry);
-  constexpr auto kAll = std::numeric_limits<std::uint64_t>::max();
   if (both > memoryLimit()) return kAll;
   // Tiles far from each other touch so many new pages of memory that they cost more than A*.
   constexpr std::size_t kMostCells = std::size_t{1} << 26;

@@ -167,7 +167,7 @@ void WeightedJumpSearch::jumpDiagonally(std::uint32_t index, Cell cell, Key g) {
     index += offset;
     cell = moved(cell, kStep);
     bool open = jumps_.open(cell);
-    if (!open && !jumps_.ready(index)) {
+    if (__builtin_expect(!open && !jumps_.ready(index), 0)) {
       jumps_.makeReady(*map_, cell);
       open = jumps_.open(cell);
     }

@@ -171,10 +171,15 @@ def drives(node, deadline):
 
 
 def maps(node, deadline):
+    """Who takes the updates gets the first map whole, and then what changes."""
+    topics = ("projected_map", "projected_map_updates")
     node.call("~reset", get_service_class("std_srvs/Empty")._request_class())
-    node.forget("projected_map")
-    return until(node, lambda: any(max(grid.data, default=0) == 100 for grid in node.heard("projected_map")), deadline,
-                 lambda: node.send("cloud_in", cloud(node)))
+    for topic in topics:
+        node.forget(topic)
+
+    def mapped():
+        return any(max(message.data, default=0) == 100 for topic in topics for message in node.heard(topic))
+    return until(node, mapped, deadline, lambda: node.send("cloud_in", cloud(node)))
 
 
 def serves_a_map(node, deadline):
