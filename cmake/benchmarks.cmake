@@ -17,6 +17,7 @@ if(CATKIN_ENABLE_TESTING AND GPP_WITH_study AND GPP_WITH_mapping AND GPP_WITH_si
     target_link_libraries(${PROJECT_NAME}_${name} PRIVATE
       ${PROJECT_NAME}_study ${PROJECT_NAME}_mapping ${PROJECT_NAME}_simulation
       ${PROJECT_NAME}_test_support)
+    gpp_precompile_headers(${PROJECT_NAME}_${name} ${PROJECT_NAME}_base)
     add_dependencies(${PROJECT_NAME}_benchmarks ${PROJECT_NAME}_${name})
   endforeach()
   add_dependencies(tests ${PROJECT_NAME}_benchmarks)

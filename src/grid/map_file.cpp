@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <chrono>
 #include <initializer_list>
 #include <string_view>
 #include <utility>
@@ -108,11 +109,12 @@ struct FileVersion {
   struct stat info {};
 };
 
-// A writer that replaces the map meanwhile removes the image that the old YAML names.
+// A writer that replaces the map meanwhile removes the image that the old YAML names. Writers that
+// never rest may be faster than a reader on a busy machine, many times in a row.
 OccupancyGrid readUnlessReplaced(const std::string& file, const MapFileOptions& options,
                                  const ReadLimits& limits) {
-  constexpr int kTries = 20;
-  for (int i = 1;; ++i) {
+  const auto last_try = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+  while (true) {
     const FileVersion before(file);
     MapFileOptions within = options;
     within.limits = limits;
@@ -121,7 +123,7 @@ OccupancyGrid readUnlessReplaced(const std::string& file, const MapFileOptions& 
       return readMap(content, file, within);
     } catch (const InputError&) {
       const bool replaced = FileVersion(file) != before;
-      if (i == kTries || !replaced) throw;
+      if (!replaced || std::chrono::steady_clock::now() > last_try) throw;
     }
   }
 }

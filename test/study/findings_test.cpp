@@ -23,13 +23,7 @@ class FindingsTest : public testing::Test {
   FindingsTest() {
     for (const StudyUnit& unit : plan_.units())
       for (std::size_t variant = 0; variant < 3; ++variant) {
-        StudyRun run;
-        run.setting = unit.setting;
-        run.query = unit.query;
-        run.variant = variant;
-        run.status = Status::FOUND;
-        run.cost = run.optimum = 10.0;
-        run.length_m = 10.0;
+        StudyRun run = test::inventedRun(unit, variant);
         run.cells = 8;
         run.expanded = 100;
         run.times_ms = {1.0, 1.0};

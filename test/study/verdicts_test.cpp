@@ -6,6 +6,7 @@
 #include <random>
 
 #include "grid_path_planner/grid/map_file.h"
+#include "small_study.h"
 #include "study/report/published_cases.h"
 #include "study/study_plan.h"
 #include "support/ascii_map.h"
@@ -13,8 +14,6 @@
 #include "support/temporary_folder.h"
 
 namespace grid_path_planner::study {
-
-using base::Status;
 
 namespace {
 
@@ -56,13 +55,7 @@ class VerdictsTest : public testing::Test {
   VerdictsTest() {
     for (const StudyUnit& unit : plan_.units())
       for (std::size_t variant = 0; variant < 3; ++variant) {
-        StudyRun run;
-        run.setting = unit.setting;
-        run.query = unit.query;
-        run.variant = variant;
-        run.status = Status::FOUND;
-        run.cost = run.optimum = 10.0;
-        run.length_m = 10.0;
+        StudyRun run = test::inventedRun(unit, variant);
         run.cells = 100;
         run.bytes = 1000;
         run.times_ms = {1.0};
