@@ -27,7 +27,7 @@ std::vector<std::string> limitedTo(int kibibytes, const std::string& arguments) 
 }
 
 TEST_F(MemoryTest, MemoryThatIsNotThereIsAStatus) {
-  constexpr int kSide = 9000;
+  constexpr int kSide = 12000;  // cells; a search takes more than the limit below
   for (const char* limit : {"_memory_limit:=0", "_memory_limit:=1000000"}) {
     startPlanner(std::make_unique<test::Process>(limitedTo(2500000, limit)));
     maps_.publish(occupancyToMessage(emptyMap(kSide), "map", ros::Time::now()));
