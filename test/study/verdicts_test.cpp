@@ -255,6 +255,19 @@ TEST_F(VerdictsTest, PreparationIsComparedWithinOneProgram) {
   EXPECT_EQ(table.rows[1][6].number, 11.0) << "the first plan, preparation and all";
 }
 
+// Long repeats turned the mean: "euclidean takes less than manhattan from 2 queries on" stood above an
+// interval of medians by which manhattan plans faster.
+TEST_F(VerdictsTest, PreparationPaysOnlyWhereMeansAndIntervalAgree) {
+  change(1, [](StudyRun& run) {
+    run.preparation_ms = 8.0;
+    run.times_ms = {1.2 + 0.01 * static_cast<double>(run.query)};
+  });
+  change(2, [](StudyRun& run) { run.times_ms = {1.0, 1.0, 19.0}; });
+  const Table table = preparationFinding(StudyData(plan_, runs_)).table;
+  EXPECT_EQ(table.rows[2][9].text, "the first") << "7 ms on average, less than 8 + 1.2";
+  EXPECT_EQ(table.rows[1][9].text, "not certain") << "its mean is less, its medians are not";
+}
+
 TEST(PreparationLaw, IsTheFirstQueryOfACount) {
   std::mt19937 random(15);
   for (int trial = 0; trial < 300; ++trial) {
