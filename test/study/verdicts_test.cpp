@@ -1,4 +1,4 @@
-#include "study/report/verdicts.h"
+#include "study/findings/verdicts.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "grid_path_planner/grid/map_file.h"
 #include "small_study.h"
-#include "study/report/published_cases.h"
+#include "study/findings/published_cases.h"
 #include "study/study_plan.h"
 #include "support/ascii_map.h"
 #include "support/error_text.h"

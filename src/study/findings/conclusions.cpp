@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/findings/finding_text.h"
+#include "study/findings/published_cases.h"
+#include "study/findings/verdicts.h"
 #include "study/programs/published_dijkstra.h"
-#include "study/report/finding_text.h"
-#include "study/report/published_cases.h"
-#include "study/report/verdicts.h"
 #include "study/study_planners.h"
 
 namespace grid_path_planner::study {

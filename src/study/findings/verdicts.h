@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "study/report/findings.h"
+#include "study/findings/findings.h"
 
 namespace grid_path_planner::study {
 

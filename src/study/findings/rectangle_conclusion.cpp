@@ -3,9 +3,9 @@
 
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/planners/decomposition.h"
-#include "study/report/finding_text.h"
-#include "study/report/published_cases.h"
-#include "study/report/verdicts.h"
+#include "study/findings/finding_text.h"
+#include "study/findings/published_cases.h"
+#include "study/findings/verdicts.h"
 
 namespace grid_path_planner::study {
 namespace {
