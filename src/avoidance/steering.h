@@ -1,0 +1,32 @@
+// From the path to a velocity: as fast as the rules allow, looking where the path is not yet seen.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "avoidance/braking.h"
+#include "avoidance/flown_path.h"
+#include "grid_path_planner/base/body_velocity.h"
+
+namespace grid_path_planner::avoidance {
+
+struct Steering {
+  base::BodyVelocity velocity = {};
+  double clear_path = 0.0;                  // m
+  std::optional<Eigen::Vector3d> closed;    // where the path is not open
+  double look_error = 0.0;                  // rad, between where it looks and where it should
+  bool held = false;  // the path is open, but no velocity along it stops in the open
+};
+
+// Under the rules `safe`.
+Steering steerSafely(const Motion& motion, const FlownPath& path, const OpenSpace& space,
+                     const std::vector<Eigen::Vector3f>& moving, const PilotOptions& options);
+// Full speed along the path, whatever is seen.
+Steering steerAtFullSpeed(const Motion& motion, const FlownPath& path, const PilotOptions& options);
+
+// Rad/s that turn by `error`.
+double turnRate(double error, const PilotOptions& options);
+double angleDifference(double from, double to);
+
+}  // namespace grid_path_planner::avoidance
