@@ -3,13 +3,14 @@
 #
 #   planning    path_planner, map_publisher, grid_path (plan, convert, rectangles): always built
 #   driving     navigate_path, teleop_joy
+#   avoidance   local_planner
 #   mapping     projected_map, grid_path project: needs OctoMap
 #   simulation  simulator: needs SDFormat, Assimp and Embree
 #   study       grid_path scenarios, grid_path study
 #
 # Sets GPP_WITH_<component>, GPP_FOLDERS (of src/, from the ground up), GPP_ROOMS (the libraries that
 # they make), GPP_NODES, GPP_CONFIGURATIONS, GPP_LAUNCH_FILES and what the components need of catkin.
-set(GPP_ALL_COMPONENTS planning driving mapping simulation study)
+set(GPP_ALL_COMPONENTS planning driving avoidance mapping simulation study)
 set(GRID_PATH_PLANNER_COMPONENTS "${GPP_ALL_COMPONENTS}" CACHE STRING
   "Components to build beside planning, of: ${GPP_ALL_COMPONENTS}")
 string(REPLACE "," ";" components "${GRID_PATH_PLANNER_COMPONENTS}")
@@ -45,6 +46,10 @@ if(GPP_WITH_driving)
   list(APPEND GPP_NODES navigate_path teleop_joy)
   list(APPEND GPP_CONFIGURATIONS NavigatePath TeleopJoy)
   list(APPEND GPP_LAUNCH_FILES navigate_path teleop_joy)
+endif()
+if(GPP_WITH_avoidance)
+  list(APPEND GPP_FOLDERS avoidance)
+  list(APPEND GPP_ROOMS avoidance)
 endif()
 if(GPP_WITH_mapping)
   find_package(octomap REQUIRED)
