@@ -9,10 +9,10 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kTick = 0.05;          // s
-constexpr double kBodySpeed = 1.0;      // m/s, of things that move
-constexpr double kStands = 0.1;         // m/s
-constexpr double kLongest = 30.0;       // s
+constexpr double kTick = 0.05;      // s
+constexpr double kBodySpeed = 1.0;  // m/s, of things that move
+constexpr double kStands = 0.1;     // m/s
+constexpr double kLongest = 30.0;   // s
 
 Vector3d turned(const Vector3d& v, double yaw) {
   const double c = std::cos(yaw), s = std::sin(yaw);
@@ -23,8 +23,7 @@ Vector3d turned(const Vector3d& v, double yaw) {
 Vector3d changed(const Vector3d& velocity, const Vector3d& target, double yaw, double most) {
   Vector3d v = turned(velocity, -yaw);
   const Vector3d wanted = turned(target, -yaw);
-  for (int axis = 0; axis < 3; ++axis)
-    v[axis] += std::clamp(wanted[axis] - v[axis], -most, most);
+  for (int axis = 0; axis < 3; ++axis) v[axis] += std::clamp(wanted[axis] - v[axis], -most, most);
   return turned(v, yaw);
 }
 

@@ -34,9 +34,8 @@ bool Candidates::isFree(const OpenSpace& space, const PilotOptions& options,
 }
 
 bool Candidates::isApart(const Eigen::Vector3d& end, double spacing) const {
-  return std::all_of(found_.begin(), found_.end(), [&](const Candidate& other) {
-    return (other.end - end).norm() >= spacing;
-  });
+  return std::all_of(found_.begin(), found_.end(),
+                     [&](const Candidate& other) { return (other.end - end).norm() >= spacing; });
 }
 
 const std::vector<Candidate>& Candidates::find(const OpenSpace& space, const PilotOptions& options,

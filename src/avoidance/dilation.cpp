@@ -101,12 +101,13 @@ void erode(const SlotBits& in, double radius, SlotBits& out) {
         if (worth[rowAway(row, y, z)]) return true;
     return false;
   };
-  scatter(radius,
-          [&](int row) {
-            const Row missing = ~rowAt(in, row);
-            return missing.none() || !matters(row) ? Row{0, 0} : missing;
-          },
-          out);
+  scatter(
+      radius,
+      [&](int row) {
+        const Row missing = ~rowAt(in, row);
+        return missing.none() || !matters(row) ? Row{0, 0} : missing;
+      },
+      out);
   for (int row = 0; row < kRows; ++row) {
     out.words()[2 * row] = worth[row] ? ~out.words()[2 * row] : 0;
     out.words()[2 * row + 1] = worth[row] ? ~out.words()[2 * row + 1] : 0;
@@ -115,7 +116,8 @@ void erode(const SlotBits& in, double radius, SlotBits& out) {
 
 void dilate(const SlotBits& in, double radius, SlotBits& out) {
   out.fill(false);
-  scatter(radius, [&](int row) { return rowAt(in, row); }, out);
+  scatter(
+      radius, [&](int row) { return rowAt(in, row); }, out);
 }
 
 }  // namespace grid_path_planner::avoidance

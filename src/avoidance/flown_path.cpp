@@ -10,10 +10,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kPassed = 0.25;     // m, within which a corner counts as passed
-constexpr double kBeside = 1.0;      // m, within which one beside the vehicle does
-constexpr double kClearStep = 0.1;   // m
-constexpr double kBeyond = 3.0;      // m of the way beyond the end
+constexpr double kPassed = 0.25;    // m, within which a corner counts as passed
+constexpr double kBeside = 1.0;     // m, within which one beside the vehicle does
+constexpr double kClearStep = 0.1;  // m
+constexpr double kBeyond = 3.0;     // m of the way beyond the end
 
 }  // namespace
 

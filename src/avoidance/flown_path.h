@@ -24,8 +24,8 @@ class FlownPath {
   Eigen::Vector3d ahead(double metres) const;
 
   struct Clear {
-    double metres = 0.0;                     // from the vehicle on
-    std::optional<Eigen::Vector3d> closed;   // the first point that is not open
+    double metres = 0.0;                    // from the vehicle on
+    std::optional<Eigen::Vector3d> closed;  // the first point that is not open
   };
   // Looked for up to `longest` metres ahead.
   Clear clear(const KeptRoom& room, double longest) const;

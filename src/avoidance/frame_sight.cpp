@@ -13,6 +13,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr double kHalfDiagonal = 0.5 * kVoxel * 1.7320508075688772;
+constexpr double kBesideCentre = 0.06;     // m from a voxel's centre
 constexpr double kPinholeTolerance = 1.5;  // pixels
 constexpr int kPinholeSamples = 200;
 
@@ -151,21 +152,38 @@ void FrameSight::crossPicture(const Frame& frame, const PilotOptions& options,
     }
 }
 
+bool FrameSight::rayPasses(const Frame& frame, double column, double row,
+                           const Vector3d& centre) const {
+  const int c = static_cast<int>(std::lround(column)), r = static_cast<int>(std::lround(row));
+  if (c < 0 || c >= frame.width || r < 0 || r >= frame.height) return false;
+  const std::size_t pixel = static_cast<std::size_t>(r) * frame.width + c;
+  if (centre.z() + kHalfDiagonal < depths_[pixel]) return true;
+  const double range = ranges_[pixel];
+  return range > 0.0 && centre.squaredNorm() < range * range;
+}
+
+// The ray through the centre; where that pixel holds nothing, one of four rays beside it.
+bool FrameSight::anyRayPasses(const Frame& frame, const Vector3d& centre) const {
+  const Pinhole& p = *frame.pinhole;
+  const double inverse = 1.0 / centre.z();
+  const double column = p.cx + p.fx * centre.x() * inverse;
+  const double row = p.cy + p.fy * centre.y() * inverse;
+  if (rayPasses(frame, column, row, centre)) return true;
+  const double aside = kBesideCentre * p.fx * inverse;
+  const int c = static_cast<int>(std::lround(column)), r = static_cast<int>(std::lround(row));
+  const bool outside = c < 0 || c >= frame.width || r < 0 || r >= frame.height;
+  if (outside || aside < 1.0 || depths_[static_cast<std::size_t>(r) * frame.width + c] != 0.0f)
+    return false;
+  return rayPasses(frame, column - aside, row, centre) ||
+         rayPasses(frame, column + aside, row, centre) ||
+         rayPasses(frame, column, row - aside, centre) ||
+         rayPasses(frame, column, row + aside, centre);
+}
+
 void FrameSight::crossRow(const Frame& frame, const Vector3d& first, const Vector3d& along,
                           const Voxel& from, int count, VoxelMemory& memory) const {
-  const Pinhole& p = *frame.pinhole;
-  for (int i = 0; i < count; ++i) {
-    const Vector3d centre = first + i * along;
-    const double inverse = 1.0 / centre.z();
-    const int column = static_cast<int>(p.cx + p.fx * centre.x() * inverse + 0.5);
-    const int row = static_cast<int>(p.cy + p.fy * centre.y() * inverse + 0.5);
-    if (column < 0 || column >= frame.width || row < 0 || row >= frame.height) continue;
-    const std::size_t pixel = static_cast<std::size_t>(row) * frame.width + column;
-    const double range = ranges_[pixel];
-    const bool passed = centre.z() + kHalfDiagonal < depths_[pixel] ||
-                        (range > 0.0 && centre.squaredNorm() < range * range);
-    if (passed) memory.cross(slotOf(from.x + i, from.y, from.z));
-  }
+  for (int i = 0; i < count; ++i)
+    if (anyRayPasses(frame, first + i * along)) memory.cross(slotOf(from.x + i, from.y, from.z));
 }
 
 void FrameSight::crossRays(const Frame& frame, const PilotOptions& options, VoxelMemory& memory) {

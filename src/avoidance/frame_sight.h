@@ -37,14 +37,17 @@ class FrameSight {
   void fillDepths(const Frame& frame, const PilotOptions& options);
   void fillNoReturns(const Frame& frame, double clears);
   void crossPicture(const Frame& frame, const PilotOptions& options, VoxelMemory& memory) const;
+  bool rayPasses(const Frame& frame, double column, double row,
+                 const Eigen::Vector3d& centre) const;
+  bool anyRayPasses(const Frame& frame, const Eigen::Vector3d& centre) const;
   void crossRow(const Frame& frame, const Eigen::Vector3d& first, const Eigen::Vector3d& along,
                 const Voxel& from, int count, VoxelMemory& memory) const;
   void crossRays(const Frame& frame, const PilotOptions& options, VoxelMemory& memory);
 
   std::size_t measured_ = 0;
   bool pinhole_disagrees_ = false;
-  std::vector<float> depths_;         // m along z up to which a pixel's ray is free; 0: not known
-  std::vector<float> ranges_;         // m along the ray, of pixels that clear without return; else 0
+  std::vector<float> depths_;  // m along z up to which a pixel's ray is free; 0: not known
+  std::vector<float> ranges_;  // m along the ray, of pixels that clear without return; else 0
   std::vector<unsigned char> found_;  // whether a pixel or its neighbours in the row measured
   std::vector<std::size_t> rays_;     // pixels whose rays are traversed
   SlotBits ray_ends_;                 // where they end

@@ -21,10 +21,9 @@ void LookAheadTree::grow(int parent, const OpenSpace& space, const PilotOptions&
   const auto& found = candidates_.find(space, options, at.position, anglesOf(goal - at.position),
                                        at.angles, closed);
   for (const Candidate& candidate : found) {
-    const double cost =
-        options.accumulate
-            ? at.cost + candidate.cost
-            : directionCost(options, anglesOf(candidate.end - root), root_goal, before);
+    const double cost = options.accumulate ? at.cost + candidate.cost
+                                           : directionCost(options, anglesOf(candidate.end - root),
+                                                           root_goal, before);
     const double total = cost + options.heuristic_weight * (candidate.end - goal).norm();
     nodes_.push_back({candidate.end, parent, candidate.angles, cost, total, false});
   }

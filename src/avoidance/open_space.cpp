@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr int kCells = kSlots >> (3 * kCellShift);
-constexpr double kPiece = 1.0;         // m of a segment that are looked at together
-constexpr double kDiagonal = 0.3465;   // m, of a voxel
+constexpr double kPiece = 1.0;        // m of a segment that are looked at together
+constexpr double kDiagonal = 0.3465;  // m, of a voxel
 constexpr int kAppearedFrames = 10;
 
 double squaredDistanceToSegment(const Vector3d& point, const Vector3d& from, const Vector3d& way,
@@ -33,6 +33,17 @@ void openOutsideBand(const HeightBand& band, const Window& window, SlotBits& bit
     auto* layer = &bits.words()[static_cast<std::size_t>(z & (kRingZ - 1)) * kWordsOfLayer];
     std::fill_n(layer, kWordsOfLayer, ~std::uint64_t{0});
   }
+}
+
+// Whether no voxel beside this one has been occupied for longer: not the noise of a surface.
+bool isDetached(const VoxelMemory& memory, const Voxel& voxel) {
+  for (int z = voxel.z - 1; z <= voxel.z + 1; ++z)
+    for (int y = voxel.y - 1; y <= voxel.y + 1; ++y)
+      for (int x = voxel.x - 1; x <= voxel.x + 1; ++x) {
+        const int slot = slotOf(x, y, z);
+        if (memory.occupied(slot) && !memory.appeared(slot, kAppearedFrames)) return false;
+      }
+  return true;
 }
 
 }  // namespace
@@ -65,7 +76,8 @@ void OpenSpace::collectPoints(const VoxelMemory& memory, const HeightBand& band)
       found_.push_back(point);
       found_cells_.push_back(cell);
       ++cell_begins_[cell + 1];
-      if (memory.appeared(slot, kAppearedFrames)) appeared_.push_back(point);
+      if (memory.appeared(slot, kAppearedFrames) && isDetached(memory, voxel))
+        appeared_.push_back(point);
     }
   for (int cell = 0; cell < kCells; ++cell) cell_begins_[cell + 1] += cell_begins_[cell];
   points_.resize(found_.size());

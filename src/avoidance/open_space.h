@@ -35,7 +35,9 @@ class OpenSpace {
   double nearest(const Eigen::Vector3d& from, double reach) const;
   // Whether no remembered point is nearer to the segment than `radius` <= d_safe + kRoom.
   bool clear(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) const;
-  bool clear(const Eigen::Vector3d& point, double radius) const { return clear(point, point, radius); }
+  bool clear(const Eigen::Vector3d& point, double radius) const {
+    return clear(point, point, radius);
+  }
   // To the centre of the nearest voxel that was not seen; `reach` where none is nearer.
   double nearestUnseen(const Eigen::Vector3d& from, double reach) const;
 
@@ -43,7 +45,8 @@ class OpenSpace {
   template <class Action>
   void forPoints(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
                  const Action& action) const;
-  // Voxels that became occupied after they had been free, less than a second ago.
+  // Points of voxels that became occupied in the last frames after they had been free, away from all that
+  // was there before: something moves.
   const std::vector<Eigen::Vector3f>& appeared() const { return appeared_; }
 
   static constexpr double kRoom = 0.3;  // m
@@ -54,14 +57,15 @@ class OpenSpace {
 
   Window window_;
   SlotBits all_seen_, seen_, crowded_;
-  std::vector<int> cell_begins_;           // of the points of each cell of 4 x 4 x 4 voxels
-  std::vector<Eigen::Vector3f> points_;    // cell by cell
-  std::vector<Eigen::Vector3f> found_;     // in the order of their slots
+  std::vector<int> cell_begins_;         // of the points of each cell of 4 x 4 x 4 voxels
+  std::vector<Eigen::Vector3f> points_;  // cell by cell
+  std::vector<Eigen::Vector3f> found_;   // in the order of their slots
   std::vector<int> found_cells_;
   std::vector<Eigen::Vector3f> appeared_;
 };
 
-constexpr double kClosedPlace = 0.5;  // m about a place that was given up, in which searches are closed
+constexpr double kClosedPlace =
+    0.5;                       // m about a place that was given up, in which searches are closed
 constexpr int kCellShift = 2;  // voxels are gathered in cells of 4 x 4 x 4
 
 inline int cellOf(int x, int y, int z) {

@@ -12,12 +12,18 @@ using Points = std::vector<Vector3d>;
 
 namespace {
 
-constexpr double kPlanRoom = 0.05;     // m more than d_safe that plans keep
-constexpr double kSameHeight = 0.4;    // m between vehicle and goal
-constexpr double kLongWay = 1.3;       // times the straight distance
-constexpr double kLongMore = 2.0;      // m
+constexpr double kPlanRoom = 0.05;   // m more than d_safe that plans keep
+constexpr double kSameHeight = 0.4;  // m between vehicle and goal
+constexpr double kLongWay = 1.3;     // times the straight distance
+constexpr double kLongMore = 2.0;    // m
 constexpr std::size_t kMostClosed = 24;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double lengthOf(const Points& path) {
+  double length = 0.0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) length += (path[i + 1] - path[i]).norm();
+  return length;
+}
 
 }  // namespace
 
@@ -62,8 +68,7 @@ VoxelPath PathFinder::gridPath(const OpenSpace& space, const PathQuery& query) {
   }
   voxels.flat = false;
   VoxelPath any = grid_.search(space, voxels);
-  const bool level_wins =
-      !level.points.empty() && (any.points.empty() || level.cost <= any.cost);
+  const bool level_wins = !level.points.empty() && (any.points.empty() || level.cost <= any.cost);
   if (!level_wins) return any;
   return level;
 }
@@ -97,9 +102,9 @@ double PathFinder::treeCost(const Points& path, const Vector3d& goal) const {
 bool PathFinder::isFree(const OpenSpace& space, const Points& path) const {
   const double room = space.nearest(path.front(), options_.d_safe);
   for (std::size_t i = 0; i + 1 < path.size(); ++i)
-    if (!space.clear(path[i], path[i + 1],
-                     i == 0 ? std::min(options_.d_safe, std::max(0.0, room - 0.02))
-                            : options_.d_safe))
+    if (!space.clear(
+            path[i], path[i + 1],
+            i == 0 ? std::min(options_.d_safe, std::max(0.0, room - 0.02)) : options_.d_safe))
       return false;
   return true;
 }
@@ -111,6 +116,12 @@ double PathFinder::gridCost(const OpenSpace& space, const Points& path, const Pa
     cost += grid_.lineCost(space, path[i], path[i + 1], voxels);
   const double rest = (path.back() - query.goal).norm();
   return rest > query.goal_radius ? cost + rest : cost;
+}
+
+// A path that leads to the goal, or still half as far as the new one.
+bool PathFinder::leadsOn(const Points& kept, const Points& path, const PathQuery& query) const {
+  return (kept.back() - query.goal).norm() <= query.goal_radius ||
+         lengthOf(kept) >= 0.5 * lengthOf(path);
 }
 
 std::optional<Points> PathFinder::find(const OpenSpace& space, const PathQuery& query,
@@ -134,7 +145,8 @@ std::optional<Points> PathFinder::find(const OpenSpace& space, const PathQuery& 
       kept_cost = treeCost(kept, query.goal);
     }
   }
-  if (keep && (path.size() < 2 || cost >= (1.0 - options_.hysteresis) * kept_cost))
+  if (keep && leadsOn(kept, path, query) &&
+      (path.size() < 2 || cost >= (1.0 - options_.hysteresis) * kept_cost))
     return std::nullopt;
   if (path.size() >= 2) before_ = anglesOf(path[1] - path[0]);
   return path;

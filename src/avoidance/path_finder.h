@@ -27,8 +27,7 @@ class PathFinder {
 
   // The best path now, in `kept` the one that is flown (from the vehicle on, empty: none). Nothing where
   // that is to be kept.
-  std::optional<std::vector<Eigen::Vector3d>> find(const OpenSpace& space,
-                                                   const PathQuery& query,
+  std::optional<std::vector<Eigen::Vector3d>> find(const OpenSpace& space, const PathQuery& query,
                                                    const std::vector<Eigen::Vector3d>& kept);
   // Whether the last path found was none although everything that can be reached was looked at.
   bool exhausted() const { return exhausted_; }
@@ -45,6 +44,8 @@ class PathFinder {
   VoxelPath gridPath(const OpenSpace& space, const PathQuery& query);
   VoxelQuery voxelQuery(const PathQuery& query) const;
   double treeCost(const std::vector<Eigen::Vector3d>& path, const Eigen::Vector3d& goal) const;
+  bool leadsOn(const std::vector<Eigen::Vector3d>& kept, const std::vector<Eigen::Vector3d>& path,
+               const PathQuery& query) const;
   bool isFree(const OpenSpace& space, const std::vector<Eigen::Vector3d>& path) const;
   double gridCost(const OpenSpace& space, const std::vector<Eigen::Vector3d>& path,
                   const PathQuery& query);

@@ -20,14 +20,14 @@ using Points = std::vector<Vector3d>;
 
 namespace {
 
-constexpr double kFarthestGoal = 1e6;   // m
+constexpr double kFarthestGoal = 1e6;    // m
 constexpr double kMostClearance = 12.0;  // m
-constexpr double kHovers = 0.02;        // m/s
-constexpr double kLooksAt = 0.1;        // rad, to where the path is not seen
-constexpr double kLooked = 1.0;         // s of looking in vain after which a place is given up
-constexpr double kGivenUp = 30.0;       // s
-constexpr double kShortWay = 0.4;       // m of open path that are as good as none
-constexpr int kFramesBetween = 5;       // of searches while there is no way
+constexpr double kHovers = 0.02;         // m/s
+constexpr double kLooksAt = 0.1;         // rad, to where the path is not seen
+constexpr double kLooked = 1.0;          // s of looking in vain after which a place is given up
+constexpr double kGivenUp = 30.0;        // s
+constexpr double kShortWay = 0.4;        // m of open path that are as good as none
+constexpr int kFramesBetween = 5;        // of searches while there is no way
 
 void checkPoint(const Vector3d& point, std::size_t index, const PilotOptions& options) {
   const std::string name = "waypoint " + std::to_string(index + 1);
@@ -86,11 +86,11 @@ class Pilot::Parts {
 
   PilotStatus status_ = PilotStatus::IDLE;
   std::string sentence_ = "nothing was asked for yet";
-  bool ended_ = false;       // the status stays until a new route
-  bool restarts_ = false;    // the next pose begins the way to a waypoint
-  bool fresh_ = false;       // the newest update brought a frame
+  bool ended_ = false;     // the status stays until a new route
+  bool restarts_ = false;  // the next pose begins the way to a waypoint
+  bool fresh_ = false;     // the newest update brought a frame
   bool new_path_ = false;
-  int frames_without_ = 0;   // since the last search that found no way
+  int frames_without_ = 0;  // since the last search that found no way
   double time_ = 0.0;
   bool has_time_ = false;
   Motion motion_;
@@ -140,8 +140,8 @@ PilotAnswer Pilot::Parts::update(const PilotInput& input) {
   new_path_ = false;
   if (has_time_ && !(input.time >= time_)) {
     surroundings.forget();
-    end(PilotStatus::CANCELLED, "time went back from " + shortNumber(time_) + " to " +
-                                    shortNumber(input.time) + " s");
+    end(PilotStatus::CANCELLED,
+        "time went back from " + shortNumber(time_) + " to " + shortNumber(input.time) + " s");
   }
   time_ = input.time;
   has_time_ = true;
@@ -169,14 +169,13 @@ bool Pilot::Parts::cannotFly(const PilotInput& input) {
   const std::optional<double>& seen = surroundings.frameTime();
   const std::string why = surroundings.problem().empty() ? "" : " (" + surroundings.problem() + ")";
   if (!known)
-    hover(PilotStatus::TRANSFORM_ERROR, input.pose_problem.empty()
-                                            ? "the vehicle's pose is not known"
-                                            : input.pose_problem);
+    hover(PilotStatus::TRANSFORM_ERROR,
+          input.pose_problem.empty() ? "the vehicle's pose is not known" : input.pose_problem);
   else if (!seen)
     hover(PilotStatus::NO_CLOUD, "no cloud has come yet" + why);
   else if (time_ - *seen > options.cloud_timeout)
-    hover(PilotStatus::NO_CLOUD, "the newest cloud is " + shortNumber(time_ - *seen) +
-                                     " s old" + why);
+    hover(PilotStatus::NO_CLOUD,
+          "the newest cloud is " + shortNumber(time_ - *seen) + " s old" + why);
   else
     return false;
   return true;
@@ -196,8 +195,7 @@ void Pilot::Parts::followRoute() {
   const int before = route.index();
   route.advance(motion_.position, options);
   if (!plan.empty()) plan.advance(motion_.position, options);
-  if (route.done())
-    return end(PilotStatus::ARRIVED, "arrived at " + placeText(route.goal()));
+  if (route.done()) return end(PilotStatus::ARRIVED, "arrived at " + placeText(route.goal()));
   if (route.index() == before && !restarts_) return;
   restarts_ = false;
   plan = Route();
@@ -243,19 +241,18 @@ void Pilot::Parts::fly() {
   if (paused) return hover(PilotStatus::BLOCKED, "paused");
   if (options.rules == Rules::SAFE && goalIsOccupied()) {
     flown.clear();
-    return hover(PilotStatus::GOAL_OCCUPIED,
-                 "the goal " + placeText(target()) + " is nearer than " +
-                     shortNumber(options.d_safe) + " m to something that was seen");
+    return hover(PilotStatus::GOAL_OCCUPIED, "the goal " + placeText(target()) +
+                                                 " is nearer than " + shortNumber(options.d_safe) +
+                                                 " m to something that was seen");
   }
   findPath();
   if (recovers()) return;
   if (flown.empty())
     return hover(PilotStatus::BLOCKED, "no way to " + placeText(target()) + " is free");
-  const Steering steering =
-      options.rules == Rules::SAFE
-          ? steerSafely(motion_, flown, surroundings.space(), surroundings.space().appeared(),
-                        options)
-          : steerAtFullSpeed(motion_, flown, options);
+  const Steering steering = options.rules == Rules::SAFE
+                                ? steerSafely(motion_, flown, surroundings.space(),
+                                              surroundings.space().appeared(), options)
+                                : steerAtFullSpeed(motion_, flown, options);
   command_ = steering.velocity;
   clear_path_ = steering.clear_path;
   giveUpUnseen(steering);
@@ -300,11 +297,13 @@ void Pilot::Parts::describe(const Steering& steering) {
 // Whether something else is done than to fly.
 bool Pilot::Parts::recovers() {
   const bool exhausted = flown.empty() && finder.exhausted();
-  switch (recovery.update({time_, motion_.position, motion_.yaw, route.goal(), exhausted}, options)) {
+  switch (
+      recovery.update({time_, motion_.position, motion_.yaw, route.goal(), exhausted}, options)) {
     case RecoveryStep::FLY:
       return false;
     case RecoveryStep::LOOK:
-      hover(PilotStatus::BLOCKED, "no progress towards " + placeText(target()) + "; looking around");
+      hover(PilotStatus::BLOCKED,
+            "no progress towards " + placeText(target()) + "; looking around");
       command_.yaw_rate = options.max_yaw_rate;
       return true;
     case RecoveryStep::PLAN:
@@ -413,7 +412,8 @@ HistogramView Pilot::histogram() const {
 
 bool Pilot::isOpen(const Vector3d& point) const {
   const OpenSpace& space = parts_->surroundings.space();
-  return space.seen(point) && space.nearest(point, parts_->options.d_safe) >= parts_->options.d_safe;
+  return space.seen(point) &&
+         space.nearest(point, parts_->options.d_safe) >= parts_->options.d_safe;
 }
 
 }  // namespace grid_path_planner::avoidance

@@ -21,10 +21,11 @@ void forVoxelsOfRay(const Eigen::Vector3d& from, const Eigen::Vector3d& to, cons
   double next[3], each[3];
   for (int axis = 0; axis < 3; ++axis) {
     step[axis] = way[axis] > 0.0 ? 1 : -1;
-    each[axis] = way[axis] == 0.0 ? std::numeric_limits<double>::infinity()
-                                  : kVoxel / std::abs(way[axis]);
+    each[axis] =
+        way[axis] == 0.0 ? std::numeric_limits<double>::infinity() : kVoxel / std::abs(way[axis]);
     const double share = from[axis] / kVoxel - index[axis];
-    next[axis] = way[axis] == 0.0 ? each[axis] : each[axis] * (step[axis] > 0 ? 1.0 - share : share);
+    next[axis] =
+        way[axis] == 0.0 ? each[axis] : each[axis] * (step[axis] > 0 ? 1.0 - share : share);
   }
   for (; steps > 1; --steps) {
     action(slotOf(index[0], index[1], index[2]));

@@ -24,7 +24,8 @@ class Route {
   int index() const;
 
   // Where to fly now: the waypoint, or the first point of the path some metres ahead that is not occupied.
-  Eigen::Vector3d target(const Eigen::Vector3d& vehicle, const OpenSpace& space, double d_safe) const;
+  Eigen::Vector3d target(const Eigen::Vector3d& vehicle, const OpenSpace& space,
+                         double d_safe) const;
   // How near it must come, and where it goes on then.
   double radius(const PilotOptions& options) const;
   std::optional<Eigen::Vector3d> after() const;

@@ -10,13 +10,14 @@ using base::BodyVelocity;
 using Eigen::Vector3d;
 
 constexpr double kShares[] = {1.0, 0.85, 0.7, 0.55, 0.4, 0.25, 0.12};
-constexpr double kEscapeSpeed = 0.3;       // m/s
-constexpr double kSteerNear = 0.4;         // m ahead on the path to which it steers
-constexpr double kSteerTime = 0.4;         // s, the same for each metre a second
+constexpr double kEscapeSpeed = 0.3;               // m/s
+constexpr double kSteerNear = 0.4;                 // m ahead on the path to which it steers
+constexpr double kSteerTime = 0.4;                 // s, the same for each metre a second
 constexpr double kLookNear = 1.5, kLookFar = 5.0;  // m ahead on the path
 constexpr double kLookAside = 30.0 * M_PI / 180.0;
-constexpr double kTurnGain = 2.0;          // 1/s
-constexpr double kAhead = 25.0 * M_PI / 180.0;  // of the path within which a vehicle without sway drives
+constexpr double kTurnGain = 2.0;  // 1/s
+constexpr double kAhead =
+    25.0 * M_PI / 180.0;  // of the path within which a vehicle without sway drives
 
 BodyVelocity inBody(const Vector3d& velocity, double yaw, double yaw_rate) {
   const double c = std::cos(yaw), s = std::sin(yaw);

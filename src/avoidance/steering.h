@@ -13,9 +13,9 @@ namespace grid_path_planner::avoidance {
 
 struct Steering {
   base::BodyVelocity velocity = {};
-  double clear_path = 0.0;                  // m
-  std::optional<Eigen::Vector3d> closed;    // where the path is not open
-  double look_error = 0.0;                  // rad, between where it looks and where it should
+  double clear_path = 0.0;                // m
+  std::optional<Eigen::Vector3d> closed;  // where the path is not open
+  double look_error = 0.0;                // rad, between where it looks and where it should
   bool held = false;  // the path is open, but no velocity along it stops in the open
 };
 

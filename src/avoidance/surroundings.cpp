@@ -8,10 +8,10 @@
 namespace grid_path_planner::avoidance {
 namespace {
 
-constexpr double kSkirts = 2.0;      // m about the vehicle, in which nothing ages
-constexpr double kFuture = 0.5;      // s, of stamps
-constexpr double kFarthest = 1e6;    // m
-constexpr double kLongestTime = 2e6; // s, that milliseconds can count
+constexpr double kSkirts = 2.0;       // m about the vehicle, in which nothing ages
+constexpr double kFuture = 0.5;       // s, of stamps
+constexpr double kFarthest = 1e6;     // m
+constexpr double kLongestTime = 2e6;  // s, that milliseconds can count
 
 HeightBand bandAbout(double height, const PilotOptions& options) {
   return {height - options.band_below, height + options.band_above};
@@ -32,7 +32,8 @@ std::string Surroundings::refusal(const Frame& frame, double now) const {
   if (frame.time > now + kFuture)
     return "the cloud is stamped " + shortNumber(frame.time - now) + " s in the future";
   if (frame_time_ && frame.time < *frame_time_)
-    return "the cloud is " + shortNumber(*frame_time_ - frame.time) + " s older than the one before";
+    return "the cloud is " + shortNumber(*frame_time_ - frame.time) +
+           " s older than the one before";
   if (origin_ && frame.time - *origin_ > kLongestTime) return "the flight has lasted too long";
   return "";
 }
@@ -78,8 +79,8 @@ std::vector<RememberedPoint> Surroundings::points() const {
   for (int word = 0; word < kSlots / 64; ++word)
     for (std::uint64_t bits = words[word]; bits != 0; bits &= bits - 1) {
       const int slot = word * 64 + __builtin_ctzll(bits);
-      points.push_back({memory_.point(memory_.window().voxelOf(slot)),
-                        *origin_ + 1e-3 * memory_.seenAt(slot)});
+      points.push_back(
+          {memory_.point(memory_.window().voxelOf(slot)), *origin_ + 1e-3 * memory_.seenAt(slot)});
     }
   return points;
 }

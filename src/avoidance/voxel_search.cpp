@@ -13,10 +13,10 @@ using Eigen::Vector3d;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kNearCost = 1.7;
-constexpr double kNearRoom = 0.2;        // m beyond the distance kept, in which it costs more
-constexpr double kVertical = 2.0;        // cost of a metre of height
-constexpr double kEscape = 1.0;          // m about a start that is itself too near
-constexpr int kSides = kReach - 4;       // voxels from the centre to where a far goal is given up
+constexpr double kNearRoom = 0.2;   // m beyond the distance kept, in which it costs more
+constexpr double kVertical = 2.0;   // cost of a metre of height
+constexpr double kEscape = 1.0;     // m about a start that is itself too near
+constexpr int kSides = kReach - 4;  // voxels from the centre to where a far goal is given up
 
 struct Step {
   int x, y, z;
@@ -74,8 +74,8 @@ VoxelSearch::Room VoxelSearch::judge(const Vector3d& centre, int slot) const {
   const double room = space_->nearest(centre, query_->distance + kNearRoom);
   const double away = (centre - query_->start).norm();
   const bool escapes = start_room_ < query_->distance && away < kEscape;
-  const double asked = escapes ? std::min(query_->distance, start_room_ + 0.2 * away - 0.05)
-                               : query_->distance;
+  const double asked =
+      escapes ? std::min(query_->distance, start_room_ + 0.2 * away - 0.05) : query_->distance;
   if (room < asked) return Room::CLOSED;
   return room < query_->distance + kNearRoom ? Room::NEAR : Room::FREE;
 }
