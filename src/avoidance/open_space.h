@@ -28,6 +28,7 @@ class OpenSpace {
     const Voxel voxel = voxelAt(point);
     return window_.contains(voxel) && seen_.get(slotOf(voxel));
   }
+  bool observed(int slot) const { return all_seen_.get(slot); }  // the voxel itself
   // Whether a point may be nearer than d_safe + kRoom somewhere in the voxel.
   bool crowded(int slot) const { return crowded_.get(slot); }
 

@@ -16,7 +16,6 @@ constexpr double kPlanRoom = 0.05;   // m more than d_safe that plans keep
 constexpr double kSameHeight = 0.4;  // m between vehicle and goal
 constexpr double kLongWay = 1.3;     // times the straight distance
 constexpr double kLongMore = 2.0;    // m
-constexpr std::size_t kMostClosed = 24;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double lengthOf(const Points& path) {
@@ -33,11 +32,6 @@ void PathFinder::setOptions(const PilotOptions& options) {
   const bool other_bins = options.bin != options_.bin || options.elevation != options_.elevation;
   options_ = options;
   if (other_bins) tree_ = LookAheadTree(options);
-}
-
-void PathFinder::close(const Vector3d& place) {
-  if (closed_.size() >= kMostClosed) closed_.erase(closed_.begin());
-  closed_.push_back(place);
 }
 
 VoxelQuery PathFinder::voxelQuery(const PathQuery& query) const {
@@ -125,7 +119,8 @@ bool PathFinder::leadsOn(const Points& kept, const Points& path, const PathQuery
 }
 
 std::optional<Points> PathFinder::find(const OpenSpace& space, const PathQuery& query,
-                                       const Points& kept) {
+                                       const Points& kept, const Points& closed) {
+  closed_ = closed;
   const bool keep = kept.size() >= 2 && isFree(space, kept);
   Points path;
   double cost = kInfinity, kept_cost = kInfinity;

@@ -26,18 +26,14 @@ class PathFinder {
   void setOptions(const PilotOptions& options);
 
   // The best path now, in `kept` the one that is flown (from the vehicle on, empty: none). Nothing where
-  // that is to be kept.
+  // that is to be kept. Ways through places in `closed` are closed.
   std::optional<std::vector<Eigen::Vector3d>> find(const OpenSpace& space, const PathQuery& query,
-                                                   const std::vector<Eigen::Vector3d>& kept);
+                                                   const std::vector<Eigen::Vector3d>& kept,
+                                                   const std::vector<Eigen::Vector3d>& closed);
   // Whether the last path found was none although everything that can be reached was looked at.
   bool exhausted() const { return exhausted_; }
 
-  // A place that cannot be seen closes ways until `forget`.
-  void close(const Eigen::Vector3d& place);
-  void openAll() { closed_.clear(); }
-  // A new target: nothing is kept of the direction before.
   const LookAheadTree& tree() const { return tree_; }
-  void setBefore(const Angles& before) { before_ = before; }
 
  private:
   std::vector<Eigen::Vector3d> treePath(const OpenSpace& space, const PathQuery& query);

@@ -10,6 +10,7 @@
 #include "avoidance/sentence.h"
 #include "avoidance/steering.h"
 #include "avoidance/surroundings.h"
+#include "avoidance/unseen_places.h"
 
 namespace grid_path_planner::avoidance {
 
@@ -67,6 +68,7 @@ class Pilot::Parts {
   PathFinder finder;
   FlownPath flown;
   Recovery recovery;
+  UnseenPlaces unseen;
   MapPlan map_plan;
   bool paused = false;
 
@@ -79,7 +81,7 @@ class Pilot::Parts {
   bool recovers();
   void askForPlan();
   bool goalIsOccupied() const;
-  void giveUpUnseen(const Steering& steering);
+  void lookAtUnseen(const Steering& steering);
   void describe(const Steering& steering);
   Vector3d target() const;
   double targetRadius() const;
@@ -88,6 +90,7 @@ class Pilot::Parts {
   std::string sentence_ = "nothing was asked for yet";
   bool ended_ = false;     // the status stays until a new route
   bool restarts_ = false;  // the next pose begins the way to a waypoint
+  bool kept_ = false;      // the path leads to the present target
   bool fresh_ = false;     // the newest update brought a frame
   bool new_path_ = false;
   int frames_without_ = 0;  // since the last search that found no way
@@ -96,14 +99,12 @@ class Pilot::Parts {
   Motion motion_;
   BodyVelocity command_;
   double clear_path_ = 0.0;
-  std::optional<double> looks_since_;
-  double given_up_at_ = 0.0;
 };
 
 void Pilot::Parts::start() {
   flown.clear();
   plan = Route();
-  finder.openAll();
+  unseen.forget();
   ended_ = false;
   restarts_ = true;
   status_ = PilotStatus::BLOCKED;
@@ -197,9 +198,9 @@ void Pilot::Parts::followRoute() {
   if (!plan.empty()) plan.advance(motion_.position, options);
   if (route.done()) return end(PilotStatus::ARRIVED, "arrived at " + placeText(route.goal()));
   if (route.index() == before && !restarts_) return;
-  restarts_ = false;
+  restarts_ = kept_ = false;
   plan = Route();
-  flown.clear();
+  unseen.forget();
   recovery.restart(time_, motion_.position, route.goal());
 }
 
@@ -220,13 +221,15 @@ bool Pilot::Parts::goalIsOccupied() const {
 }
 
 void Pilot::Parts::findPath() {
-  if (!fresh_) return;
+  if (!fresh_ || unseen.vantage()) return;
   if (flown.empty() && frames_without_ > 0 && frames_without_ < kFramesBetween) {
     ++frames_without_;
     return;
   }
   const PathQuery query{motion_.position, target(), targetRadius()};
-  auto found = finder.find(surroundings.space(), query, flown.points());
+  auto found =
+      finder.find(surroundings.space(), query, kept_ ? flown.points() : Points(), unseen.closed());
+  kept_ = true;
   if (!found) return;
   new_path_ = true;
   frames_without_ = found->size() < 2 ? 1 : 0;
@@ -249,28 +252,26 @@ void Pilot::Parts::fly() {
   if (recovers()) return;
   if (flown.empty())
     return hover(PilotStatus::BLOCKED, "no way to " + placeText(target()) + " is free");
-  const Steering steering = options.rules == Rules::SAFE
-                                ? steerSafely(motion_, flown, surroundings.space(),
-                                              surroundings.space().appeared(), options)
-                                : steerAtFullSpeed(motion_, flown, options);
+  const Steering steering =
+      options.rules == Rules::SAFE
+          ? steerSafely(motion_, flown, surroundings.space(), surroundings.space().appeared(),
+                        options, unseen.lookAt())
+          : steerAtFullSpeed(motion_, flown, options);
   command_ = steering.velocity;
   clear_path_ = steering.clear_path;
-  giveUpUnseen(steering);
+  if (options.rules == Rules::SAFE) lookAtUnseen(steering);
   describe(steering);
 }
 
-// What stays unseen although the vehicle stands and looks there is taken for closed.
-void Pilot::Parts::giveUpUnseen(const Steering& steering) {
-  if (time_ - given_up_at_ > kGivenUp) finder.openAll();
-  const bool waits = steering.closed && steering.clear_path < kShortWay &&
-                     std::abs(steering.look_error) < kLooksAt;
-  if (!waits) return looks_since_.reset();
-  if (!looks_since_) looks_since_ = time_;
-  if (time_ - *looks_since_ < kLooked) return;
-  finder.close(*steering.closed);
-  given_up_at_ = time_;
-  looks_since_.reset();
-  flown.clear();
+// What cannot be seen from here is looked at from elsewhere; in vain, it closes ways.
+void Pilot::Parts::lookAtUnseen(const Steering& steering) {
+  const KeptRoom room(surroundings.space(), options.d_safe, motion_.position);
+  if (!unseen.update(time_, motion_.position, steering, surroundings.space(), room, options.d_safe))
+    return;
+  if (unseen.vantage())
+    flown.set({motion_.position, *unseen.vantage()}, std::nullopt);
+  else
+    flown.clear();
 }
 
 void Pilot::Parts::describe(const Steering& steering) {
@@ -320,7 +321,7 @@ bool Pilot::Parts::recovers() {
 void Pilot::Parts::askForPlan() {
   const Points way = map_plan ? map_plan(motion_.position, route.goal()) : Points();
   recovery.planned(way.size() >= 2, time_);
-  finder.openAll();
+  unseen.forget();
   flown.clear();
   if (way.size() >= 2) plan.setPath(way);
   hover(PilotStatus::BLOCKED, way.size() >= 2 ? "follows a plan on the map"

@@ -15,6 +15,8 @@ constexpr double kSteerNear = 0.4;                 // m ahead on the path to whi
 constexpr double kSteerTime = 0.4;                 // s, the same for each metre a second
 constexpr double kLookNear = 1.5, kLookFar = 5.0;  // m ahead on the path
 constexpr double kLookAside = 30.0 * M_PI / 180.0;
+constexpr double kViewRoom =
+    0.6;  // m before what was not seen, from where the camera sees all of it
 constexpr double kTurnGain = 2.0;  // 1/s
 constexpr double kAhead =
     25.0 * M_PI / 180.0;  // of the path within which a vehicle without sway drives
@@ -78,17 +80,20 @@ double turnRate(double error, const PilotOptions& options) {
 }
 
 Steering steerSafely(const Motion& motion, const FlownPath& path, const OpenSpace& space,
-                     const std::vector<Eigen::Vector3f>& moving, const PilotOptions& options) {
+                     const std::vector<Eigen::Vector3f>& moving, const PilotOptions& options,
+                     const std::optional<Vector3d>& look_at) {
   const KeptRoom room(space, options.d_safe, motion.position);
   const double tau = options.frame_period + options.response_time, top = options.max_speed;
-  const double braking = top * tau + 0.5 * top * top / options.max_acceleration;
+  const double braking = top * tau + 0.5 * top * top / options.max_acceleration + kViewRoom;
   const FlownPath::Clear clear = path.clear(room, std::max(braking, kLookFar) + 0.2);
   Steering steering;
   steering.clear_path = clear.metres;
   steering.closed = clear.closed;
-  const double yaw = wantedYaw(motion, path, clear);
+  steering.unseen = clear.closed && !space.seen(*clear.closed);
+  const double yaw = look_at ? yawTo(*look_at, motion) : wantedYaw(motion, path, clear);
   steering.look_error = angleDifference(motion.yaw, yaw);
-  double speed = std::min(top, speedWithin(clear.metres, options));
+  const double room_to_look = steering.unseen ? kViewRoom : 0.0;
+  double speed = std::min(top, speedWithin(clear.metres - room_to_look, options));
   if (room.escapes()) speed = std::min(speed, kEscapeSpeed);
   Vector3d velocity = Vector3d::Zero();
   if (speed > 0.02) {

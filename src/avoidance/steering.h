@@ -16,12 +16,14 @@ struct Steering {
   double clear_path = 0.0;                // m
   std::optional<Eigen::Vector3d> closed;  // where the path is not open
   double look_error = 0.0;                // rad, between where it looks and where it should
+  bool unseen = false;                    // what closes it there was never seen
   bool held = false;  // the path is open, but no velocity along it stops in the open
 };
 
-// Under the rules `safe`.
+// Under the rules `safe`; looks at `look_at`, if it is given, instead of along the path.
 Steering steerSafely(const Motion& motion, const FlownPath& path, const OpenSpace& space,
-                     const std::vector<Eigen::Vector3f>& moving, const PilotOptions& options);
+                     const std::vector<Eigen::Vector3f>& moving, const PilotOptions& options,
+                     const std::optional<Eigen::Vector3d>& look_at);
 // Full speed along the path, whatever is seen.
 Steering steerAtFullSpeed(const Motion& motion, const FlownPath& path, const PilotOptions& options);
 

@@ -1,0 +1,83 @@
+#include "avoidance/unseen_places.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "avoidance/vantage.h"
+
+namespace grid_path_planner::avoidance {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kLooksAt = 0.1;      // rad, of the direction to look in
+constexpr double kLooked = 0.6;       // s of looking in vain
+constexpr double kShortWay = 0.75;    // m of open path that the vehicle does not fly
+constexpr double kSamePlace = 0.4;    // m
+constexpr double kAtVantage = 0.15;   // m
+constexpr double kLongestLook = 6.0;  // s
+constexpr double kGivenUp = 30.0;     // s
+constexpr std::size_t kMostPlaces = 32;
+
+void add(const Vector3d& place, std::vector<Vector3d>& places) {
+  if (places.size() >= kMostPlaces) places.erase(places.begin());
+  places.push_back(place);
+}
+
+}  // namespace
+
+void UnseenPlaces::forget() {
+  vantage_.reset();
+  look_at_.reset();
+  waits_since_.reset();
+  tried_.clear();
+  closed_.clear();
+}
+
+bool UnseenPlaces::wasTried(const Vector3d& place) const {
+  return std::any_of(tried_.begin(), tried_.end(),
+                     [&](const Vector3d& tried) { return (tried - place).norm() < kSamePlace; });
+}
+
+// Until the place is seen, or the vehicle has been there and looked, or cannot come there.
+bool UnseenPlaces::look(double time, const Vector3d& vehicle, const Steering& steering,
+                        const OpenSpace& space) {
+  const bool there = (vehicle - *vantage_).norm() < kAtVantage || steering.clear_path < 0.05;
+  if (!there || std::abs(steering.look_error) > kLooksAt) waits_since_ = time;
+  const bool done = space.seen(*look_at_) || time - *waits_since_ > kLooked;
+  if (!done && time - began_ < kLongestLook) return false;
+  vantage_.reset();
+  look_at_.reset();
+  waits_since_.reset();
+  return true;
+}
+
+bool UnseenPlaces::update(double time, const Vector3d& vehicle, const Steering& steering,
+                          const OpenSpace& space, const KeptRoom& room, double d_safe) {
+  if (!closed_.empty() && time - closed_at_ > kGivenUp) forget();
+  if (vantage_) return look(time, vehicle, steering, space);
+  const bool waits = steering.unseen && steering.clear_path < kShortWay &&
+                     std::abs(steering.look_error) < kLooksAt;
+  if (!waits) {
+    waits_since_.reset();
+    return false;
+  }
+  if (!waits_since_) waits_since_ = time;
+  if (time - *waits_since_ < kLooked) return false;
+  waits_since_ = time;
+  const Vector3d place = *steering.closed;
+  if (!wasTried(place)) {
+    add(place, tried_);
+    vantage_ = vantageOf(space, room, vehicle, place, d_safe);
+    if (vantage_) {
+      look_at_ = place;
+      began_ = time;
+      return true;
+    }
+  }
+  add(place, closed_);
+  closed_at_ = time;
+  return true;
+}
+
+}  // namespace grid_path_planner::avoidance

@@ -1,0 +1,42 @@
+// Places on the way that stay unseen although the vehicle stands and looks there.
+//
+// Such a place is looked at from a vantage first; where that shows nothing more, it closes ways for a while.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "avoidance/kept_room.h"
+#include "avoidance/steering.h"
+
+namespace grid_path_planner::avoidance {
+
+class UnseenPlaces {
+ public:
+  void forget();
+
+  // With what was steered along the present path. Whether that path is to be given up: for the one to the
+  // vantage, or to be searched for anew.
+  bool update(double time, const Eigen::Vector3d& vehicle, const Steering& steering,
+              const OpenSpace& space, const KeptRoom& room, double d_safe);
+
+  // Where the vehicle flies to look, if it does, and at what.
+  const std::optional<Eigen::Vector3d>& vantage() const { return vantage_; }
+  const std::optional<Eigen::Vector3d>& lookAt() const { return look_at_; }
+  const std::vector<Eigen::Vector3d>& closed() const { return closed_; }
+
+ private:
+  bool look(double time, const Eigen::Vector3d& vehicle, const Steering& steering,
+            const OpenSpace& space);
+  bool wasTried(const Eigen::Vector3d& place) const;
+
+  std::optional<Eigen::Vector3d> vantage_, look_at_;
+  std::vector<Eigen::Vector3d> tried_;   // looked at from a vantage
+  std::vector<Eigen::Vector3d> closed_;  // given up
+  std::optional<double> waits_since_;
+  double began_ = 0.0;      // s, when the vantage was chosen
+  double closed_at_ = 0.0;  // s, when a place was given up last
+};
+
+}  // namespace grid_path_planner::avoidance
