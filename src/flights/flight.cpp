@@ -85,7 +85,8 @@ bool gaveUp(PilotStatus status) {
 
 class Flight {
  public:
-  Flight(const FlightSetup& setup, std::size_t variant, int seed, const std::string& log)
+  Flight(const FlightSetup& setup, std::size_t variant, int seed, const std::string& log,
+         const FlightWatch& watch)
       : setup_(setup),
         study_(setup.study()),
         variant_(study_.variants[variant]),
@@ -97,7 +98,8 @@ class Flight {
         pilot_(makeFlightPilot(study_, variant_, setup.camera().intrinsics(), log)),
         command_steps_(stepsOf(1.0 / study_.command_rate, study_.vehicle.time_step, "commands")),
         frame_steps_(stepsOf(1.0 / study_.camera.rate, study_.vehicle.time_step, "frames")),
-        first_frame_(static_cast<std::uint64_t>(seed) << 32) {
+        first_frame_(static_cast<std::uint64_t>(seed) << 32),
+        watch_(watch) {
     vehicle_.setWorld(setup.world());
     vehicle_.setBodies(setup.bodies());
     odometry_.reset(start_);
@@ -157,6 +159,7 @@ class Flight {
       const PilotAnswer answer = pilot_->update(input);
       if (with_frame) update_ms_.push_back(cpuMs() - before);
       ++record_.updates;
+      if (watch_) watch_(input, answer);
       vehicle_.command(answer.velocity);
       judge(answer);
       hash(answer.velocity);
@@ -253,6 +256,7 @@ class Flight {
   std::unique_ptr<FlightPilot> pilot_;
   int command_steps_, frame_steps_;
   std::uint64_t first_frame_;
+  const FlightWatch& watch_;
   Frame frame_;
   FlightRecord record_;
   BitsHash bits_;
@@ -272,8 +276,9 @@ FlightSetup::FlightSetup(const FlightStudy& study, std::size_t world)
       bodies_(std::make_shared<const simulation::MovingBodies>(study.bodies)),
       camera_(*world_, study.camera) {}
 
-FlightRecord fly(const FlightSetup& setup, std::size_t variant, int seed, const std::string& log) {
-  return Flight(setup, variant, seed, log).fly();
+FlightRecord fly(const FlightSetup& setup, std::size_t variant, int seed, const std::string& log,
+                 const FlightWatch& watch) {
+  return Flight(setup, variant, seed, log, watch).fly();
 }
 
 }  // namespace grid_path_planner::flights

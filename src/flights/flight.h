@@ -8,11 +8,13 @@
 // clearance are the truth's.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "flights/flight_record.h"
 #include "flights/flight_study.h"
+#include "grid_path_planner/avoidance/pilot.h"
 #include "grid_path_planner/simulation/depth_camera.h"
 #include "grid_path_planner/simulation/world.h"
 
@@ -37,7 +39,12 @@ class FlightSetup {
   simulation::DepthCamera camera_;
 };
 
+// Told of every update.
+using FlightWatch =
+    std::function<void(const avoidance::PilotInput& input, const avoidance::PilotAnswer& answer)>;
+
 // `log`: a file for the pilot's log, "" for none.
-FlightRecord fly(const FlightSetup& setup, std::size_t variant, int seed, const std::string& log);
+FlightRecord fly(const FlightSetup& setup, std::size_t variant, int seed,
+                 const std::string& log = "", const FlightWatch& watch = {});
 
 }  // namespace grid_path_planner::flights

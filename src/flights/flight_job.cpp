@@ -1,5 +1,7 @@
 #include "grid_path_planner/flights/flight_job.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -17,8 +19,8 @@
 namespace grid_path_planner::flights {
 
 using base::InputError, base::StopToken;
-using study::forEachLine, study::RunFolder, study::StudyFailure, study::StudyOutcome, study::StudyTarget,
-    study::TaskEnd, study::WorkerGroup;
+using study::forEachLine, study::RunFolder, study::StudyFailure, study::StudyOutcome,
+    study::StudyTarget, study::TaskEnd, study::WorkerGroup;
 
 namespace {
 
@@ -30,7 +32,7 @@ class FlightWorker {
   std::string lineOfUnit(std::size_t number) {
     const FlightUnit& unit = plan_.units()[number];
     if (!setup_ || setup_->worldNumber() != unit.world) setup_.emplace(plan_.study(), unit.world);
-    return lineOf(fly(*setup_, unit.variant, unit.seed, "")) + '\n';
+    return lineOf(fly(*setup_, unit.variant, unit.seed)) + '\n';
   }
 
  private:
@@ -82,6 +84,28 @@ std::string outcomeText(const FlightRecord& flight) {
          study::shownNumber(flight.time_s, 4) + " s and " + study::shownNumber(flight.length_m, 4) +
          " m: " + flight.sentence;
 }
+
+// What the pilot says, with every change of its status and every two seconds.
+class Diary {
+ public:
+  void note(const avoidance::PilotInput& input, const avoidance::PilotAnswer& answer) {
+    constexpr double kEvery = 2.0;  // s
+    if (answer.status == status_ && input.time < next_) return;
+    status_ = answer.status;
+    next_ = input.time + kEvery;
+    char place[96];
+    std::snprintf(place, sizeof place, "%7.2f s (%.2f, %.2f, %.2f) yaw %.2f %s: ", input.time,
+                  input.pose->position.x(), input.pose->position.y(), input.pose->position.z(),
+                  input.pose->yaw, toString(answer.status));
+    text_ += place + answer.sentence + '\n';
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  avoidance::PilotStatus status_ = avoidance::PilotStatus::IDLE;
+  double next_ = 0.0;  // s
+  std::string text_;
+};
 
 }  // namespace
 
@@ -138,7 +162,11 @@ FlownAgain FlightJob::flyOne(const std::string& name, const std::string& folder)
   if (study.variants[unit.variant].program.empty()) result.log = folder + '/' + stem + ".log";
   result.picture = folder + '/' + stem + ".svg";
   const FlightSetup setup(study, unit.world);
-  const FlightRecord flight = fly(setup, unit.variant, unit.seed, result.log);
+  Diary diary;
+  const FlightRecord flight =
+      fly(setup, unit.variant, unit.seed, result.log,
+          [&diary](const auto& input, const auto& answer) { diary.note(input, answer); });
+  base::writeFileAtomically(folder + '/' + stem + ".txt", diary.text());
   result.outcome = outcomeText(flight);
   result.came_home = flight.success();
   WorldOutlines outlines(study);
