@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 constexpr double kLooksAt = 0.1;      // rad, of the direction to look in
 constexpr double kLooked = 0.6;       // s of looking in vain
-constexpr double kShortWay = 0.75;    // m of open path that the vehicle does not fly
+constexpr double kShortWay = 1.3;     // m of open path that the vehicle does not fly
 constexpr double kSamePlace = 0.4;    // m
 constexpr double kAtVantage = 0.15;   // m
 constexpr double kLongestLook = 6.0;  // s

@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSlope = 0.45;      // height by distance that a camera sees for certain
+constexpr double kSlope = 0.52;      // height by distance that a camera sees for certain
 constexpr double kLeastRange = 0.5;  // m
 constexpr double kThin = 0.1;        // m about a line of sight
 constexpr double kTurnStep = M_PI / 6.0;
@@ -56,7 +56,7 @@ std::optional<Vector3d> vantageOf(const OpenSpace& space, const KeptRoom& room,
   std::optional<Vector3d> best;
   const Vector3d way = place - vehicle;
   const double ahead = std::atan2(way.y(), way.x());
-  for (const double metres : {0.3, 0.6, 0.9, 1.2, 1.6})
+  for (const double metres : {0.3, 0.6, 0.9, 1.2, 1.6, 2.0, 2.5})
     for (int turn = 0; turn < 12; ++turn) {
       const double angle = ahead + M_PI + (turn % 2 == 0 ? -1 : 1) * ((turn + 1) / 2) * kTurnStep;
       const Vector3d from = vehicle + metres * Vector3d(std::cos(angle), std::sin(angle), 0.0);
