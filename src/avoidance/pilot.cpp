@@ -217,7 +217,7 @@ bool Pilot::Parts::goalIsOccupied() const {
 }
 
 void Pilot::Parts::findPath() {
-  if (!fresh_ || unseen.vantage()) return;
+  if (!fresh_ || unseen.looks()) return;
   if (flown.empty() && frames_without_ > 0 && frames_without_ < kFramesBetween) {
     ++frames_without_;
     return;
@@ -264,8 +264,8 @@ void Pilot::Parts::lookAtUnseen(const Steering& steering) {
   const KeptRoom room(surroundings.space(), options.d_safe, motion_.position);
   if (!unseen.update(time_, motion_.position, steering, surroundings.space(), room, options.d_safe))
     return;
-  if (unseen.vantage())
-    flown.set({motion_.position, *unseen.vantage()}, std::nullopt);
+  if (unseen.looks())
+    flown.set(unseen.way(), std::nullopt);
   else
     flown.clear();
 }
