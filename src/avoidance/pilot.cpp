@@ -24,10 +24,6 @@ namespace {
 constexpr double kFarthestGoal = 1e6;    // m
 constexpr double kMostClearance = 12.0;  // m
 constexpr double kHovers = 0.02;         // m/s
-constexpr double kLooksAt = 0.1;         // rad, to where the path is not seen
-constexpr double kLooked = 1.0;          // s of looking in vain after which a place is given up
-constexpr double kGivenUp = 30.0;        // s
-constexpr double kShortWay = 0.4;        // m of open path that are as good as none
 constexpr int kFramesBetween = 5;        // of searches while there is no way
 
 void checkPoint(const Vector3d& point, std::size_t index, const PilotOptions& options) {
@@ -221,7 +217,7 @@ bool Pilot::Parts::goalIsOccupied() const {
 }
 
 void Pilot::Parts::findPath() {
-  if (!fresh_ || unseen.vantage()) return;
+  if (!fresh_ || unseen.looks()) return;
   if (flown.empty() && frames_without_ > 0 && frames_without_ < kFramesBetween) {
     ++frames_without_;
     return;
@@ -268,8 +264,8 @@ void Pilot::Parts::lookAtUnseen(const Steering& steering) {
   const KeptRoom room(surroundings.space(), options.d_safe, motion_.position);
   if (!unseen.update(time_, motion_.position, steering, surroundings.space(), room, options.d_safe))
     return;
-  if (unseen.vantage())
-    flown.set({motion_.position, *unseen.vantage()}, std::nullopt);
+  if (unseen.looks())
+    flown.set(unseen.way(), std::nullopt);
   else
     flown.clear();
 }

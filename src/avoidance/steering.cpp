@@ -15,8 +15,8 @@ constexpr double kSteerNear = 0.4;                 // m ahead on the path to whi
 constexpr double kSteerTime = 0.4;                 // s, the same for each metre a second
 constexpr double kLookNear = 1.5, kLookFar = 5.0;  // m ahead on the path
 constexpr double kLookAside = 30.0 * M_PI / 180.0;
-constexpr double kViewRoom =
-    0.6;  // m before what was not seen, from where the camera sees all of it
+// m before what was not seen, from where the camera sees all of the ball about the path
+constexpr double kViewRoom = 1.1;
 constexpr double kTurnGain = 2.0;  // 1/s
 constexpr double kAhead =
     25.0 * M_PI / 180.0;  // of the path within which a vehicle without sway drives

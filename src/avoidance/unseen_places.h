@@ -22,16 +22,20 @@ class UnseenPlaces {
               const OpenSpace& space, const KeptRoom& room, double d_safe);
 
   // Where the vehicle flies to look, if it does, and at what.
-  const std::optional<Eigen::Vector3d>& vantage() const { return vantage_; }
+  bool looks() const { return !way_.empty(); }
+  const std::vector<Eigen::Vector3d>& way() const { return way_; }
   const std::optional<Eigen::Vector3d>& lookAt() const { return look_at_; }
   const std::vector<Eigen::Vector3d>& closed() const { return closed_; }
 
  private:
   bool look(double time, const Eigen::Vector3d& vehicle, const Steering& steering,
             const OpenSpace& space);
+  void remember(const Eigen::Vector3d& vehicle);
   bool wasTried(const Eigen::Vector3d& place) const;
 
-  std::optional<Eigen::Vector3d> vantage_, look_at_;
+  std::vector<Eigen::Vector3d> way_;  // to the vantage; empty: none
+  std::optional<Eigen::Vector3d> look_at_;
+  std::vector<Eigen::Vector3d> track_;   // where the vehicle was, the newest last
   std::vector<Eigen::Vector3d> tried_;   // looked at from a vantage
   std::vector<Eigen::Vector3d> closed_;  // given up
   std::optional<double> waits_since_;

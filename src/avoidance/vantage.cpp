@@ -1,14 +1,14 @@
 #include "avoidance/vantage.h"
 
 #include <cmath>
-#include <vector>
+#include <optional>
 
 namespace grid_path_planner::avoidance {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSlope = 0.45;      // height by distance that a camera sees for certain
+constexpr double kSlope = 0.52;      // height by distance that a camera sees for certain
 constexpr double kLeastRange = 0.5;  // m
 constexpr double kThin = 0.1;        // m about a line of sight
 constexpr double kTurnStep = M_PI / 6.0;
@@ -47,16 +47,14 @@ bool isOpenWay(const KeptRoom& room, const Vector3d& from, const Vector3d& to) {
   return true;
 }
 
-}  // namespace
-
-std::optional<Vector3d> vantageOf(const OpenSpace& space, const KeptRoom& room,
-                                  const Vector3d& vehicle, const Vector3d& place, double d_safe) {
-  const std::vector<Vector3d> unseen = unseenAbout(space, place, d_safe);
-  int most = inView(space, unseen, vehicle);
+// The best place that is reached straight.
+std::optional<Vector3d> straightVantage(const OpenSpace& space, const KeptRoom& room,
+                                        const Vector3d& vehicle, const Vector3d& place,
+                                        const std::vector<Vector3d>& unseen, int& most) {
   std::optional<Vector3d> best;
   const Vector3d way = place - vehicle;
   const double ahead = std::atan2(way.y(), way.x());
-  for (const double metres : {0.3, 0.6, 0.9, 1.2, 1.6})
+  for (const double metres : {0.3, 0.6, 0.9, 1.2, 1.6, 2.0, 2.5})
     for (int turn = 0; turn < 12; ++turn) {
       const double angle = ahead + M_PI + (turn % 2 == 0 ? -1 : 1) * ((turn + 1) / 2) * kTurnStep;
       const Vector3d from = vehicle + metres * Vector3d(std::cos(angle), std::sin(angle), 0.0);
@@ -67,6 +65,28 @@ std::optional<Vector3d> vantageOf(const OpenSpace& space, const KeptRoom& room,
       best = from;
       if (most == static_cast<int>(unseen.size())) return best;
     }
+  return best;
+}
+
+}  // namespace
+
+std::vector<Vector3d> wayToVantage(const OpenSpace& space, const KeptRoom& room,
+                                   const Vector3d& vehicle, const Vector3d& place, double d_safe,
+                                   const std::vector<Vector3d>& track) {
+  const std::vector<Vector3d> unseen = unseenAbout(space, place, d_safe);
+  const int all = static_cast<int>(unseen.size());
+  int most = inView(space, unseen, vehicle);
+  const auto straight = straightVantage(space, room, vehicle, place, unseen, most);
+  std::vector<Vector3d> way = {vehicle}, best;
+  if (straight) best = {vehicle, *straight};
+  for (std::size_t i = track.size(); i-- > 0 && most < all;) {
+    if (!isOpenWay(room, way.back(), track[i])) break;
+    way.push_back(track[i]);
+    const int seen = inView(space, unseen, track[i]);
+    if (seen <= most) continue;
+    most = seen;
+    best = way;
+  }
   return best;
 }
 

@@ -6,14 +6,17 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
+#include <vector>
 
 #include "avoidance/kept_room.h"
 
 namespace grid_path_planner::avoidance {
 
-std::optional<Eigen::Vector3d> vantageOf(const OpenSpace& space, const KeptRoom& room,
-                                         const Eigen::Vector3d& vehicle,
-                                         const Eigen::Vector3d& place, double d_safe);
+// The way there, which begins at the vehicle: straight, or back along `track`, where the vehicle was, the
+// newest last. Empty where no place shows more than here.
+std::vector<Eigen::Vector3d> wayToVantage(const OpenSpace& space, const KeptRoom& room,
+                                          const Eigen::Vector3d& vehicle,
+                                          const Eigen::Vector3d& place, double d_safe,
+                                          const std::vector<Eigen::Vector3d>& track);
 
 }  // namespace grid_path_planner::avoidance
