@@ -19,12 +19,10 @@ Vector3d turned(const Vector3d& v, double yaw) {
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y(), v.z()};
 }
 
-// Axis by axis of the body.
-Vector3d changed(const Vector3d& velocity, const Vector3d& target, double yaw, double most) {
-  Vector3d v = turned(velocity, -yaw);
-  const Vector3d wanted = turned(target, -yaw);
-  for (int axis = 0; axis < 3; ++axis) v[axis] += std::clamp(wanted[axis] - v[axis], -most, most);
-  return turned(v, yaw);
+Vector3d changed(Vector3d velocity, const Vector3d& target, double most) {
+  for (int axis = 0; axis < 3; ++axis)
+    velocity[axis] += std::clamp(target[axis] - velocity[axis], -most, most);
+  return velocity;
 }
 
 bool keepsFromMoving(const Vector3d& point, double time, double d_safe,
@@ -37,20 +35,24 @@ bool keepsFromMoving(const Vector3d& point, double time, double d_safe,
 
 }  // namespace
 
-bool stopsInOpen(const Motion& motion, const Vector3d& command, const KeptRoom& room,
-                 const std::vector<Vector3f>& moving, const PilotOptions& options) {
+bool stopsInOpen(const Motion& motion, const Vector3d& command, double yaw_rate,
+                 const KeptRoom& room, const std::vector<Vector3f>& moving,
+                 const PilotOptions& options) {
   const double change_from = options.response_time;
   const double change_to = change_from + options.frame_period;
   const double brake_from = change_to + options.response_time;
   const double most = options.max_acceleration * kTick;
-  Vector3d position = motion.position, velocity = motion.velocity;
+  const Vector3d target = turned(command, -motion.yaw);
+  Vector3d position = motion.position, velocity = turned(motion.velocity, -motion.yaw);
+  double yaw = motion.yaw;
   for (double time = 0.0; time < kLongest; time += kTick) {
     const Vector3d before = velocity;
     if (time >= brake_from)
-      velocity = changed(velocity, Vector3d::Zero(), motion.yaw, most);
+      velocity = changed(velocity, Vector3d::Zero(), most);
     else if (time >= change_from && time < change_to)
-      velocity = changed(velocity, command, motion.yaw, most);
-    position += 0.5 * kTick * (before + velocity);
+      velocity = changed(velocity, target, most);
+    if (time < brake_from) yaw += kTick * (time < change_from ? motion.yaw_rate : yaw_rate);
+    position += turned(0.5 * kTick * (before + velocity), yaw);
     if (!room.open(position)) return false;
     if (velocity.norm() > kStands && !keepsFromMoving(position, time, options.d_safe, moving))
       return false;

@@ -28,7 +28,8 @@ class KeptRoom {
         space_.nearest(point, d_safe_) < asked(points_, away))
       return false;
     if (space_.seen(point)) return true;
-    return !start_seen_ && space_.nearestUnseen(point, d_safe_) >= asked(unseen_, away);
+    return !start_seen_ &&
+           space_.nearestUnseen(point, d_safe_) >= asked(unseen_ - kHalfVoxel, away);
   }
   // Whether the start itself is too near to something.
   bool escapes() const { return points_ < d_safe_ || !start_seen_; }
@@ -39,6 +40,7 @@ class KeptRoom {
   }
 
   static constexpr double kNoise = 0.02;  // m
+  static constexpr double kHalfVoxel = 0.1;  // m, by which distances to voxels jump
   static constexpr double kGrowth = 0.2;  // m for each metre
 
   const OpenSpace& space_;

@@ -43,7 +43,10 @@ void checkPoints(const Points& points, const PilotOptions& options) {
 
 Motion motionOf(const VehiclePose& pose, const BodyVelocity& v) {
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
-  return {pose.position, {c * v.surge - s * v.sway, s * v.surge + c * v.sway, v.heave}, pose.yaw};
+  return {pose.position,
+          {c * v.surge - s * v.sway, s * v.surge + c * v.sway, v.heave},
+          pose.yaw,
+          v.yaw_rate};
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ constexpr double kLookNear = 1.5, kLookFar = 5.0;  // m ahead on the path
 constexpr double kLookAside = 30.0 * M_PI / 180.0;
 // m before what was not seen, from where the camera sees all of the ball about the path
 constexpr double kViewRoom = 1.1;
-constexpr double kTurnGain = 2.0;  // 1/s
+constexpr double kBrakesStraight = 0.3;  // m/s
+constexpr double kTurnGain = 2.0;        // 1/s
 constexpr double kAhead =
     25.0 * M_PI / 180.0;  // of the path within which a vehicle without sway drives
 
@@ -56,7 +57,7 @@ double wantedYaw(const Motion& motion, const FlownPath& path, const FlownPath::C
   return next + std::clamp(turn, -kLookAside, kLookAside);
 }
 
-Vector3d openVelocity(const Motion& motion, const FlownPath& path, double speed,
+Vector3d openVelocity(const Motion& motion, const FlownPath& path, double speed, double yaw_rate,
                       const KeptRoom& room, const std::vector<Eigen::Vector3f>& moving,
                       const PilotOptions& options) {
   const double far = kSteerNear + kSteerTime * motion.velocity.norm();
@@ -64,7 +65,7 @@ Vector3d openVelocity(const Motion& motion, const FlownPath& path, double speed,
     for (const double metres : {far, 0.5 * kSteerNear}) {
       const Vector3d way = path.ahead(metres) - motion.position;
       const Vector3d velocity = velocityTowards(way, share * speed, motion, options);
-      if (stopsInOpen(motion, velocity, room, moving, options)) return velocity;
+      if (stopsInOpen(motion, velocity, yaw_rate, room, moving, options)) return velocity;
     }
   return Vector3d::Zero();
 }
@@ -95,12 +96,15 @@ Steering steerSafely(const Motion& motion, const FlownPath& path, const OpenSpac
   const double room_to_look = steering.unseen ? kViewRoom : 0.0;
   double speed = std::min(top, speedWithin(clear.metres - room_to_look, options));
   if (room.escapes()) speed = std::min(speed, kEscapeSpeed);
+  double yaw_rate = turnRate(steering.look_error, options);
   Vector3d velocity = Vector3d::Zero();
   if (speed > 0.02) {
-    velocity = openVelocity(motion, path, speed, room, moving, options);
+    velocity = openVelocity(motion, path, speed, yaw_rate, room, moving, options);
     steering.held = velocity.norm() < 0.01;
   }
-  steering.velocity = inBody(velocity, motion.yaw, turnRate(steering.look_error, options));
+  // Its velocity would turn with its body.
+  if (velocity.norm() < 0.01 && motion.velocity.norm() > kBrakesStraight) yaw_rate = 0.0;
+  steering.velocity = inBody(velocity, motion.yaw, yaw_rate);
   return steering;
 }
 
