@@ -154,10 +154,16 @@ class Flight {
     input.pose = VehiclePose{measured.position, measured.yaw};
     input.velocity = measured.velocity;
     if (with_frame) input.frame = &takeFrame(step, measured);
+    ask(input);
+    if (!audit_.seen(vehicle_.state().position)) ++record_.unseen;
+    measureClearance();
+  }
+
+  void ask(const PilotInput& input) {
     try {
       const double before = cpuMs();
       const PilotAnswer answer = pilot_->update(input);
-      if (with_frame) update_ms_.push_back(cpuMs() - before);
+      if (input.frame != nullptr) update_ms_.push_back(cpuMs() - before);
       ++record_.updates;
       if (watch_) watch_(input, answer);
       vehicle_.command(answer.velocity);
@@ -166,8 +172,6 @@ class Flight {
     } catch (const InputError& error) {
       end(FlightEnd::FAILED, error.what());
     }
-    if (!audit_.seen(vehicle_.state().position)) ++record_.unseen;
-    measureClearance();
   }
 
   void hash(const base::BodyVelocity& velocity) {

@@ -79,6 +79,15 @@ void addEarlier(const RunFolder& folder, FlownUnits& flown) {
   }
 }
 
+// The folder is made where there is none.
+std::string stemIn(const std::string& folder, std::string name) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(folder, "cannot be made a folder: " + error.message());
+  std::replace(name.begin(), name.end(), '/', '_');
+  return folder + '/' + name;
+}
+
 std::string outcomeText(const FlightRecord& flight) {
   return std::string(base::choiceName(flight.end)) + " after " +
          study::shownNumber(flight.time_s, 4) + " s and " + study::shownNumber(flight.length_m, 4) +
@@ -154,26 +163,22 @@ FlownAgain FlightJob::flyOne(const std::string& name, const std::string& folder)
   const FlightStudy& study = plan_->study();
   FlownAgain result;
   result.name = plan_->nameOf(unit);
-  std::string stem = result.name;
-  std::replace(stem.begin(), stem.end(), '/', '_');
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(folder, "cannot be made a folder: " + error.message());
-  if (study.variants[unit.variant].program.empty()) result.log = folder + '/' + stem + ".log";
-  result.picture = folder + '/' + stem + ".svg";
+  const std::string stem = stemIn(folder, result.name);
+  if (study.variants[unit.variant].program.empty()) result.log = stem + ".log";
+  result.picture = stem + ".svg";
   const FlightSetup setup(study, unit.world);
   Diary diary;
   const FlightRecord flight =
       fly(setup, unit.variant, unit.seed, result.log,
           [&diary](const auto& input, const auto& answer) { diary.note(input, answer); });
-  base::writeFileAtomically(folder + '/' + stem + ".txt", diary.text());
+  base::writeFileAtomically(stem + ".txt", diary.text());
   result.outcome = outcomeText(flight);
   result.came_home = flight.success();
   WorldOutlines outlines(study);
   base::writeFileAtomically(
       result.picture, standalonePicture(flightsPicture(study, outlines.of(unit.world), {&flight},
                                                        result.name + ", " + result.outcome)));
-  base::writeFileAtomically(folder + '/' + stem + ".json", lineOf(flight) + '\n');
+  base::writeFileAtomically(stem + ".json", lineOf(flight) + '\n');
   return result;
 }
 

@@ -36,7 +36,7 @@ struct FlightRecord {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  // m, where it ended
   double speed = 0.0;                            // m/s, before it ended
   double time_s = 0.0;
-  double length_m = 0.0;       // of the true way
+  double length_m = 0.0;       // along the true path
   double home_offset_m = 0.0;  // from the last waypoint at the end
   double clearance_m = 0.0;    // least, from the vehicle's middle to a surface; at most 3
   double max_speed = 0.0;      // m/s

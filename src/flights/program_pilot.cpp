@@ -77,6 +77,14 @@ json updateOf(const PilotInput& input) {
   return update;
 }
 
+void makePipes(const std::string& name, int* down, int* up) {
+  if (::pipe2(down, O_CLOEXEC) != 0) throw InputError(name, "no pipe can be made");
+  if (::pipe2(up, O_CLOEXEC) == 0) return;
+  ::close(down[0]);
+  ::close(down[1]);
+  throw InputError(name, "no pipe can be made");
+}
+
 PilotStatus pilotStatusFrom(const std::string& name) {
   for (int i = 0; i <= static_cast<int>(PilotStatus::INVALID_REQUEST); ++i)
     if (toString(static_cast<PilotStatus>(i)) == name) return static_cast<PilotStatus>(i);
@@ -115,12 +123,7 @@ ProgramPilot::~ProgramPilot() {
 
 void ProgramPilot::start(const std::vector<std::string>& program) {
   int down[2], up[2];
-  if (::pipe2(down, O_CLOEXEC) != 0) throw InputError(name_, "no pipe can be made");
-  if (::pipe2(up, O_CLOEXEC) != 0) {
-    ::close(down[0]);
-    ::close(down[1]);
-    throw InputError(name_, "no pipe can be made");
-  }
+  makePipes(name_, down, up);
   std::vector<char*> arguments;
   for (const std::string& word : program) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);

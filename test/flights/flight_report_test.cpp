@@ -88,7 +88,7 @@ TEST_F(FlightReport, EveryFailureHasItsCauseAndTheCommandThatRepeatsIt) {
   EXPECT_EQ(failures.table.rows[0].back().text, "grid_path flights f.yaml --flight slow/20/safe");
 }
 
-TEST_F(FlightReport, PicturesShowTheWorldTheWayAndTheEnd) {
+TEST_F(FlightReport, PicturesShowTheWorldThePathsAndTheEnd) {
   const FlightData data = dataOf(19, 20, 60.0);
   const simulation::World world(
       {simulation::boxMesh("ground", {40, 40, 0.1}),
@@ -98,9 +98,9 @@ TEST_F(FlightReport, PicturesShowTheWorldTheWayAndTheEnd) {
   ASSERT_EQ(outlines.size(), 1u) << "the ground is no obstacle";
   EXPECT_EQ(outlines.front().size(), 4u);
   const std::string svg = flightsPicture(data.study(), outlines, data.of(0), "slow");
-  std::size_t ways = 0;
-  for (std::size_t at = 0; (at = svg.find("<polyline", at)) != std::string::npos; ++at) ++ways;
-  EXPECT_EQ(ways, 20u);
+  std::size_t paths = 0;
+  for (std::size_t at = 0; (at = svg.find("<polyline", at)) != std::string::npos; ++at) ++paths;
+  EXPECT_EQ(paths, 20u);
   EXPECT_TRUE(contains(svg, "CONTACT: post::l::c"));
   EXPECT_TRUE(contains(endPicture(data.study(), outlines, data.records()[19], "end"),
                        "viewBox=\"-5.0 -10.0 16.0 16.0\""));

@@ -1,4 +1,4 @@
-// A small study of flights in a folder of its own: a field of 12 x 8 m with a post beside the way.
+// A small study of flights in a folder of its own: a field of 12 x 8 m with a post beside the path.
 #pragma once
 
 #include <filesystem>

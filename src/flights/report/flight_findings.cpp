@@ -63,6 +63,17 @@ double largestOver(const std::vector<const FlightRecord*>& flights,
   return largest;
 }
 
+// Lengths over L* of the flights that came home, on worlds of which that is known.
+std::vector<double> overShortest(const FlightData& data, std::size_t variant) {
+  std::vector<double> ratios;
+  for (const FlightRecord* flight : data.of(variant)) {
+    const auto shortest = data.study().shortest.find(data.study().worlds[flight->world].name);
+    if (flight->success() && shortest != data.study().shortest.end())
+      ratios.push_back(flight->length_m / shortest->second);
+  }
+  return ratios;
+}
+
 std::string placeText(const Eigen::Vector3d& at) {
   return "(" + shownNumber(at.x()) + ", " + shownNumber(at.y()) + ", " + shownNumber(at.z()) + ")";
 }
@@ -121,12 +132,12 @@ Finding safetyFinding(const FlightData& data) {
   return finding;
 }
 
-Finding wayFinding(const FlightData& data) {
+Finding pathsFinding(const FlightData& data) {
   Finding finding;
-  finding.question = "How good is the way, and what does it cost?";
+  finding.question = "How good is the path, and what does it cost?";
   finding.table = {
       "way",
-      "Length over L*, the shortest way of any angle that is known of a world; speed: "
+      "Length over L*, the shortest path of any angle that is known of a world; speed: "
       "length over time; both of the flights that came home. CPU ms of a frame, on the "
       "machine of the flights.",
       {"configuration", "rules", "length / L*", "speed m/s", "top speed m/s", "frame mean ms",
@@ -135,14 +146,9 @@ Finding wayFinding(const FlightData& data) {
   for (std::size_t i = 0; i < data.study().variants.size(); ++i) {
     const auto& flights = data.of(i);
     if (flights.empty()) continue;
-    std::vector<double> ratios;
-    for (const FlightRecord* flight : flights) {
-      const auto shortest = data.study().shortest.find(data.study().worlds[flight->world].name);
-      if (flight->success() && shortest != data.study().shortest.end())
-        ratios.push_back(flight->length_m / shortest->second);
-    }
     finding.table.rows.push_back(
-        {data.study().variants[i].name, data.study().variants[i].rules(), meanCell(ratios),
+        {data.study().variants[i].name, data.study().variants[i].rules(),
+         meanCell(overShortest(data, i)),
          meanCell(data.values(i, [](const FlightRecord& r) { return r.length_m / r.time_s; })),
          TableCell(largestOver(flights, [](const FlightRecord& r) { return r.max_speed; }), 3),
          TableCell(meanOver(flights, [](const FlightRecord& r) { return r.cost.pilot_mean; }), 3),
@@ -174,7 +180,7 @@ Finding failuresFinding(const FlightData& data, const std::string& command) {
 std::vector<Finding> flightFindings(const FlightData& data, const std::string& command) {
   std::vector<Finding> findings;
   for (const Finding& finding :
-       {figuresFinding(data), safetyFinding(data), wayFinding(data), testsFinding(data),
+       {figuresFinding(data), safetyFinding(data), pathsFinding(data), testsFinding(data),
         claimsFinding(data), failuresFinding(data, command)})
     if (!finding.table.rows.empty()) findings.push_back(finding);
   return findings;

@@ -11,8 +11,8 @@
 namespace grid_path_planner::flights {
 
 using base::writeFileAtomically;
-using study::escaped, study::figureHtml, study::Finding, study::ReportPage, study::shownNumber, study::StudyFailure,
-    study::StudyTarget;
+using study::escaped, study::figureHtml, study::Finding, study::ReportPage, study::shownNumber,
+    study::StudyFailure, study::StudyTarget;
 
 namespace {
 
