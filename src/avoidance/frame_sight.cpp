@@ -15,10 +15,27 @@ using Eigen::Vector3f;
 constexpr double kHalfDiagonal = 0.5 * kVoxel * 1.7320508075688772;
 constexpr double kBesideCentre = 0.06;     // m from a voxel's centre
 constexpr double kPinholeTolerance = 1.5;  // pixels
+constexpr double kPixelsOfVoxel = 3.0;
+constexpr float kAgrees = 0.3F;  // m
 constexpr int kPinholeSamples = 200;
 
 Vector3f pointOf(const Frame& frame, std::size_t pixel) {
   return Vector3f(&frame.points[3 * pixel]);
+}
+
+// A near point that none of the pixels around agrees with: a voxel there fills many pixels, so that
+// anything real shows in two of them.
+bool isAlone(const Frame& frame, std::size_t pixel) {
+  const float depth = frame.points[3 * pixel + 2];
+  if (frame.pinhole->fx * kVoxel < kPixelsOfVoxel * depth) return false;
+  const int column = static_cast<int>(pixel) % frame.width;
+  const int row = static_cast<int>(pixel) / frame.width;
+  for (int r = std::max(0, row - 1); r <= std::min(frame.height - 1, row + 1); ++r)
+    for (int c = std::max(0, column - 1); c <= std::min(frame.width - 1, column + 1); ++c) {
+      const std::size_t other = static_cast<std::size_t>(r) * frame.width + c;
+      if (other != pixel && std::abs(frame.points[3 * other + 2] - depth) < kAgrees) return false;
+    }
+  return true;
 }
 
 // A plane through the origin of the sensor, by its normal inwards.
@@ -81,6 +98,7 @@ bool FrameSight::pinholeFits(const Frame& frame) const {
 void FrameSight::hits(const Frame& frame, const PilotOptions& options, const HeightBand& band,
                       VoxelMemory& memory) {
   measured_ = 0;
+  const bool picture = frame.organised() && frame.pinhole.has_value();
   const auto nearest = static_cast<float>(options.range_min * options.range_min);
   const auto farthest = static_cast<float>(options.range_max * options.range_max);
   for (std::size_t pixel = 0; pixel < frame.pixels(); ++pixel) {
@@ -88,6 +106,7 @@ void FrameSight::hits(const Frame& frame, const PilotOptions& options, const Hei
     const float range = point.squaredNorm();
     if (!(range >= nearest && range <= farthest)) continue;
     ++measured_;
+    if (picture && isAlone(frame, pixel)) continue;
     const Vector3d in_map = frame.map_from_sensor * point.cast<double>();
     if (in_map.z() >= band.low && in_map.z() <= band.high) memory.hit(in_map);
   }

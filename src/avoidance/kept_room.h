@@ -39,9 +39,9 @@ class KeptRoom {
     return at_start < d_safe_ ? std::min(d_safe_, at_start - kNoise + kGrowth * away) : d_safe_;
   }
 
-  static constexpr double kNoise = 0.02;  // m
+  static constexpr double kNoise = 0.02;     // m
   static constexpr double kHalfVoxel = 0.1;  // m, by which distances to voxels jump
-  static constexpr double kGrowth = 0.2;  // m for each metre
+  static constexpr double kGrowth = 0.2;     // m for each metre
 
   const OpenSpace& space_;
   double d_safe_;

@@ -31,7 +31,10 @@ struct FlightSetup {
   int width = 80, height = 60;  // pixels
   double horizontal_fov = 1.3003;
   int seed = 1;
-  double seconds = 120.0;  // longest
+  double seconds = 120.0;    // longest
+  double last_frame = 1e9;   // s, after which the camera is cut
+  double focal_error = 1.0;  // of the intrinsics
+  int false_points = 0;      // in each frame
   MapPlan map_plan = {};
   // Called after each update, with the truth.
   std::function<void(const PilotInput&, const PilotAnswer&, const simulation::VehicleState&,
@@ -90,7 +93,7 @@ class SimulatedFlight {
   FlightResult run() {
     const int updates = static_cast<int>(setup_.seconds / kUpdate);
     for (int i = 0; i < updates && !isOver(); ++i) {
-      update(i % 2 == 0);
+      update(i % 2 == 0 && vehicle_.time() < setup_.last_frame);
       for (int k = 0; k < 5; ++k) step();
     }
     result_.seconds = vehicle_.time();
@@ -156,8 +159,25 @@ class SimulatedFlight {
     frame_.map_from_sensor = poseOf(measured) * camera_.baseFromOptical();
     frame_.width = setup_.width;
     frame_.height = setup_.height;
-    frame_.pinhole = Pinhole{intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy};
+    frame_.pinhole = Pinhole{setup_.focal_error * intrinsics.fx, setup_.focal_error * intrinsics.fy,
+                             intrinsics.cx, intrinsics.cy};
+    addFalsePoints();
     return frame_;
+  }
+
+  // On the rays of their pixels, anywhere.
+  void addFalsePoints() {
+    std::uniform_real_distribution<float> depth(0.3F, 9.0F);
+    std::uniform_int_distribution<int> pixels(0, static_cast<int>(frame_.pixels()) - 1);
+    const auto intrinsics = camera_.intrinsics();
+    for (int i = 0; i < setup_.false_points; ++i) {
+      const int pixel = pixels(random_);
+      const float z = depth(random_);
+      float* point = &frame_.points[3 * static_cast<std::size_t>(pixel)];
+      point[0] = z * static_cast<float>((pixel % frame_.width - intrinsics.cx) / intrinsics.fx);
+      point[1] = z * static_cast<float>((pixel / frame_.width - intrinsics.cy) / intrinsics.fy);
+      point[2] = z;
+    }
   }
 
   void step() {
@@ -183,6 +203,7 @@ class SimulatedFlight {
   Frame frame_;
   FlightResult result_;
   std::uint64_t frames_ = 0;
+  std::mt19937 random_{7};
 };
 
 inline FlightResult fly(FlightSetup setup) {

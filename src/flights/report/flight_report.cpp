@@ -110,6 +110,12 @@ study::Table shownFlights(const FlightData& data) {
   return table;
 }
 
+std::string summaryOf(const FlightData& data, const std::vector<Finding>& findings) {
+  return "<ul class=\"facts\">" + study::fact(data.records().size(), "flight") +
+         study::fact(data.study().variants.size(), "variant") +
+         study::fact(data.study().worlds.size(), "world") + "</ul>" + firstAnswersHtml(findings);
+}
+
 std::string reportOf(const FlightData& data, const std::vector<Finding>& findings,
                      const std::vector<StudyFailure>& failures, std::size_t missing,
                      const StudyTarget& target) {
@@ -120,10 +126,7 @@ std::string reportOf(const FlightData& data, const std::vector<Finding>& finding
   ReportPage page{data.study().title,
                   target.command,
                   origin,
-                  "<ul class=\"facts\">" + study::fact(data.records().size(), "flight") +
-                      study::fact(data.study().variants.size(), "variant") +
-                      study::fact(data.study().worlds.size(), "world") + "</ul>" +
-                      firstAnswersHtml(findings),
+                  summaryOf(data, findings),
                   {},
                   notFlownHtml(failures, missing)};
   for (const Finding& finding : findings) {
