@@ -6,6 +6,7 @@
 
 #include "flights/flight_plan.h"
 #include "flights/small_flights.h"
+#include "grid_path_planner/avoidance/flight_log.h"
 #include "grid_path_planner/flights/flight_job.h"
 #include "grid_path_planner/study/process_pool.h"
 #include "support/error_text.h"
@@ -112,6 +113,18 @@ TEST(FlightLaw, AnyNumberOfJobsAndAnInterruptionGiveTheSameFlights) {
   const std::string runs = test::contentOf(small.folder.path("one/runs.jsonl"));
   small.folder.write("one/runs.jsonl", runs.substr(0, runs.size() * 2 / 3));  // cut off in a line
   EXPECT_EQ(tableOf(file, small.folder.path("one"), 1), one);
+}
+
+TEST(FlightLaw, TheLogOfAFlightRepeatsToTheBit) {
+  const SmallFlights small;
+  const FlownAgain flight =
+      FlightJob(small.write(kOurs)).flyOne("ours/1", small.folder.path("one"));
+  EXPECT_TRUE(flight.came_home) << flight.outcome;
+  EXPECT_EQ(flight.name, "ours/1/safe");
+  const avoidance::ReplayResult replay = avoidance::replayFlight(flight.log);
+  EXPECT_EQ(replay.differing, 0u) << replay.first_difference;
+  EXPECT_GT(replay.updates, 100u);
+  EXPECT_TRUE(contains(test::contentOf(flight.picture), "<polyline"));
 }
 
 TEST(FlightRecord, ALineHoldsAllOfIt) {

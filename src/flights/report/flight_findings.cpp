@@ -136,7 +136,7 @@ Finding pathsFinding(const FlightData& data) {
   Finding finding;
   finding.question = "How good is the path, and what does it cost?";
   finding.table = {
-      "way",
+      "path",
       "Length over L*, the shortest path of any angle that is known of a world; speed: "
       "length over time; both of the flights that came home. CPU ms of a frame, on the "
       "machine of the flights.",
