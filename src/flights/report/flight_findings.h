@@ -13,7 +13,7 @@ namespace grid_path_planner::flights {
 study::Finding figuresFinding(
     const FlightData& data);                           // success, time and length, and as published
 study::Finding safetyFinding(const FlightData& data);  // how flights ended; clearance, unseen space
-study::Finding pathsFinding(const FlightData& data);     // against the shortest path; speed; CPU
+study::Finding pathsFinding(const FlightData& data);   // against the shortest path; speed; CPU
 study::Finding testsFinding(const FlightData& data);   // the published pairs
 study::Finding claimsFinding(const FlightData& data);  // the published conclusions
 // Each flight that did not come home. `command`: what repeats one, up to its name.
