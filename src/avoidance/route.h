@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "avoidance/open_space.h"
+#include "avoidance/memory/open_space.h"
 #include "grid_path_planner/avoidance/pilot_options.h"
 
 namespace grid_path_planner::avoidance {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "avoidance/drawn_world.h"
-#include "avoidance/look_ahead_tree.h"
+#include "avoidance/search/look_ahead_tree.h"
 #include "avoidance/simulated_flight.h"
 #include "grid_path_planner/avoidance/flight_log.h"
 #include "support/temporary_folder.h"
