@@ -3,13 +3,14 @@
 #
 #   planning    path_planner, map_publisher, grid_path (plan, convert, rectangles): always built
 #   driving     navigate_path, teleop_joy
+#   avoidance   local_planner
 #   mapping     projected_map, grid_path project: needs OctoMap
 #   simulation  simulator: needs SDFormat, Assimp and Embree
-#   study       grid_path scenarios, grid_path study
+#   study       grid_path scenarios, grid_path study; with avoidance, mapping and simulation grid_path flights
 #
 # Sets GPP_WITH_<component>, GPP_FOLDERS (of src/, from the ground up), GPP_ROOMS (the libraries that
 # they make), GPP_NODES, GPP_CONFIGURATIONS, GPP_LAUNCH_FILES and what the components need of catkin.
-set(GPP_ALL_COMPONENTS planning driving mapping simulation study)
+set(GPP_ALL_COMPONENTS planning driving avoidance mapping simulation study)
 set(GRID_PATH_PLANNER_COMPONENTS "${GPP_ALL_COMPONENTS}" CACHE STRING
   "Components to build beside planning, of: ${GPP_ALL_COMPONENTS}")
 string(REPLACE "," ";" components "${GRID_PATH_PLANNER_COMPONENTS}")
@@ -46,6 +47,14 @@ if(GPP_WITH_driving)
   list(APPEND GPP_CONFIGURATIONS NavigatePath TeleopJoy)
   list(APPEND GPP_LAUNCH_FILES navigate_path teleop_joy)
 endif()
+if(GPP_WITH_avoidance)
+  list(APPEND GPP_FOLDERS avoidance)
+  list(APPEND GPP_ROOMS avoidance)
+  list(APPEND ros_rooms ros_avoidance)
+  list(APPEND GPP_NODES local_planner)
+  list(APPEND GPP_CONFIGURATIONS LocalPlanner)
+  list(APPEND GPP_LAUNCH_FILES local_planner)
+endif()
 if(GPP_WITH_mapping)
   find_package(octomap REQUIRED)
   list(APPEND GPP_FOLDERS mapping)
@@ -68,11 +77,15 @@ endif()
 if(GPP_WITH_driving AND GPP_WITH_mapping AND GPP_WITH_simulation)
   list(APPEND GPP_LAUNCH_FILES demo)
 endif()
-if(GPP_WITH_driving OR GPP_WITH_mapping)
+if(GPP_WITH_avoidance AND GPP_WITH_mapping AND GPP_WITH_simulation AND GPP_WITH_study)
+  list(APPEND GPP_FOLDERS flights)
+  list(APPEND GPP_ROOMS flights)
+endif()
+if(GPP_WITH_driving OR GPP_WITH_mapping OR GPP_WITH_avoidance)
   list(APPEND GPP_CATKIN_COMPONENTS std_srvs)
   list(APPEND GPP_CATKIN_EXPORTS std_srvs)
 endif()
-if(GPP_WITH_driving OR GPP_WITH_mapping OR GPP_WITH_simulation)
+if(GPP_WITH_driving OR GPP_WITH_mapping OR GPP_WITH_simulation OR GPP_WITH_avoidance)
   list(APPEND GPP_CATKIN_COMPONENTS sensor_msgs)
   list(APPEND GPP_CATKIN_EXPORTS sensor_msgs)
 endif()

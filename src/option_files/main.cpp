@@ -12,6 +12,7 @@
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
 #include "option_files/option_files.h"
+#include "ros/avoidance/local_planner_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
 #include "ros/planning/map_publisher_options.h"
@@ -25,6 +26,7 @@ using base::InputError;
 using base::readWholeFile;
 using base::writeFileAtomically;
 using mapping::ProjectedMapOptions;
+using nodes::LocalPlannerOptions;
 using nodes::MapPublisherOptions;
 using nodes::NavigatePathOptions;
 using nodes::PathPlannerNodeOptions;
@@ -40,7 +42,8 @@ using Files = std::map<std::string, std::string>;  // their content by name
 constexpr std::size_t kLargestFile = 1 << 24;  // bytes
 
 std::vector<NodeOptions> allNodes() {
-  return {{"map_publisher", "MapPublisher", describeOptions(MapPublisherOptions())},
+  return {{"local_planner", "LocalPlanner", describeOptions(LocalPlannerOptions())},
+          {"map_publisher", "MapPublisher", describeOptions(MapPublisherOptions())},
           {"navigate_path", "NavigatePath", describeOptions(NavigatePathOptions())},
           {"path_planner", "PathPlanner", describeOptions(PathPlannerNodeOptions())},
           {"projected_map", "ProjectedMap", describeOptions(ProjectedMapOptions())},

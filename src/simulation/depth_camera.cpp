@@ -143,7 +143,7 @@ Eigen::Isometry3d DepthCamera::baseFromOptical() const {
 }
 
 void DepthCamera::render(const Eigen::Isometry3d& map_from_optical, std::uint64_t frame,
-                         std::vector<float>& points) const {
+                         std::vector<float>& points, const BodiesAt& bodies) const {
   const Eigen::Matrix3f turn = map_from_optical.linear().cast<float>();
   const Eigen::Vector3f origin = map_from_optical.translation().cast<float>();
   const RangeNoise noise(options_.seed, frame);
@@ -162,6 +162,10 @@ void DepthCamera::render(const Eigen::Isometry3d& map_from_optical, std::uint64_
     const std::size_t count = std::min(kPacket, rays_.size() - first);
     float ranges[kPacket];
     scene_->ranges(origin, turn, &rays_[first], count, farthest, ranges);
+    for (std::size_t i = 0; i < count && !bodies.empty(); ++i)
+      ranges[i] = std::min(ranges[i], static_cast<float>(bodies.range(
+                                          origin.cast<double>(),
+                                          (turn * rays_[first + i]).cast<double>().normalized())));
     for (std::size_t i = first; i < first + count; ++i) {
       Eigen::Map<Eigen::Vector3f> point(&points[3 * i]);
       point = measured(ranges[i - first], i) * rays_[i];

@@ -22,8 +22,9 @@ std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds * 1e9);
 }
 
-double towards(double value, double target, double largest_change) {
-  return value + std::clamp(target - value, -largest_change, largest_change);
+// `share` of the difference to the target, with a limit.
+double towards(double value, double target, double share, double largest_change) {
+  return value + std::clamp(share * (target - value), -largest_change, largest_change);
 }
 
 double normalized(double angle) {
@@ -50,6 +51,11 @@ void Vehicle::setMap(std::shared_ptr<const OccupancyGrid> map) {
 
 void Vehicle::setWorld(std::shared_ptr<const World> world) {
   world_ = std::move(world);
+  if (isClear()) in_contact_ = false;
+}
+
+void Vehicle::setBodies(std::shared_ptr<const MovingBodies> bodies) {
+  bodies_ = std::move(bodies);
   if (isClear()) in_contact_ = false;
 }
 
@@ -87,6 +93,7 @@ void Vehicle::step() {
   changeVelocity(options_.time_step);
   move(options_.time_step, before);
   time_ns_ += nanoseconds(options_.time_step);
+  touchBodies();
 }
 
 BodyVelocity Vehicle::setPoint() const {
@@ -101,11 +108,13 @@ BodyVelocity Vehicle::setPoint() const {
 void Vehicle::changeVelocity(double seconds) {
   const BodyVelocity target = setPoint();
   const double linear = options_.max_acceleration * seconds;
+  const double share =
+      options_.response_time > 0.0 ? -std::expm1(-seconds / options_.response_time) : 1.0;
   BodyVelocity& v = state_.velocity;
-  v.surge = towards(v.surge, target.surge, linear);
-  v.sway = towards(v.sway, target.sway, linear);
-  v.heave = towards(v.heave, target.heave, linear);
-  v.yaw_rate = towards(v.yaw_rate, target.yaw_rate, options_.max_yaw_acceleration * seconds);
+  v.surge = towards(v.surge, target.surge, share, linear);
+  v.sway = towards(v.sway, target.sway, share, linear);
+  v.heave = towards(v.heave, target.heave, share, linear);
+  v.yaw_rate = towards(v.yaw_rate, target.yaw_rate, share, options_.max_yaw_acceleration * seconds);
 }
 
 // Trapezoids in the body frame, turned by the yaw at half of the step.
@@ -172,6 +181,12 @@ bool Vehicle::moveInWorld(const Eigen::Vector3d& from) {
   return false;
 }
 
+void Vehicle::touchBodies() {
+  if (!bodies_) return;
+  const auto touched = bodies_->at(time()).nearest(state_.position, options_.vehicle_radius);
+  if (touched) startContact(std::string(touched->name));
+}
+
 void Vehicle::startContact(const std::string& name) {
   if (!in_contact_) ++contacts_;
   in_contact_ = true;
@@ -181,7 +196,8 @@ void Vehicle::startContact(const std::string& name) {
 bool Vehicle::isClear() const {
   const double reach = options_.vehicle_radius + kContactEnds;
   return (!map_ || clearance(state_.position.head<2>()) > reach) &&
-         (!world_ || !world_->nearest(state_.position, reach));
+         (!world_ || !world_->nearest(state_.position, reach)) &&
+         (!bodies_ || !bodies_->at(time()).nearest(state_.position, reach));
 }
 
 double Vehicle::clearance(const Eigen::Vector2d& position) const {

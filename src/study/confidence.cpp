@@ -1,6 +1,7 @@
 #include "study/confidence.h"
 
 #include <algorithm>
+#include <boost/math/distributions/hypergeometric.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
@@ -43,6 +44,41 @@ double pairedP(const std::vector<double>& differences) {
   if (error == 0.0) return mean.value == 0.0 ? 1.0 : 0.0;
   return 2.0 *
          boost::math::cdf(boost::math::complement(distribution, std::abs(mean.value) / error));
+}
+
+double welchP(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto spreadOf = [](const std::vector<double>& values, double mean) {
+    double squares = 0.0;
+    for (const double value : values) squares += std::pow(value - mean, 2);
+    const auto n = static_cast<double>(values.size());
+    return squares / (n - 1.0) / n;
+  };
+  const double mean_a = meanDifference(a).value, mean_b = meanDifference(b).value;
+  const double spread_a = spreadOf(a, mean_a), spread_b = spreadOf(b, mean_b);
+  const double spread = spread_a + spread_b;
+  if (spread == 0.0) return mean_a == mean_b ? 1.0 : 0.0;
+  const auto free = [](const std::vector<double>& values) {
+    return static_cast<double>(values.size()) - 1.0;
+  };
+  const boost::math::students_t distribution(
+      spread * spread / (spread_a * spread_a / free(a) + spread_b * spread_b / free(b)));
+  return 2.0 * boost::math::cdf(boost::math::complement(
+                   distribution, std::abs(mean_a - mean_b) / std::sqrt(spread)));
+}
+
+double fisherP(std::size_t some_a, std::size_t all_a, std::size_t some_b, std::size_t all_b) {
+  const auto some = static_cast<unsigned>(some_a + some_b);
+  const boost::math::hypergeometric distribution(some, static_cast<unsigned>(all_a),
+                                                 static_cast<unsigned>(all_a + all_b));
+  const unsigned least = some > all_b ? some - static_cast<unsigned>(all_b) : 0;
+  const unsigned most = std::min(some, static_cast<unsigned>(all_a));
+  const double here = boost::math::pdf(distribution, static_cast<unsigned>(some_a));
+  double p = 0.0;
+  for (unsigned i = least; i <= most; ++i) {
+    const double there = boost::math::pdf(distribution, i);
+    if (there <= here * (1.0 + 1e-9)) p += there;
+  }
+  return std::min(1.0, p);
 }
 
 std::vector<double> holmCorrected(const std::vector<double>& p_values) {

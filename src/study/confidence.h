@@ -34,6 +34,14 @@ Interval meanDifference(const std::vector<double>& differences);
 // a mean of 0, else 0; one alone: 1. Precondition: not empty.
 double pairedP(const std::vector<double>& differences);
 
+// The p-value of Welch's test (Welch 1947), two-sided, that two samples with variances of their own have
+// one mean. Without any spread: 1 for equal means, else 0. Precondition: at least two values each.
+double welchP(const std::vector<double>& a, const std::vector<double>& b);
+
+// The p-value of Fisher's exact test, two-sided (the sum of all tables no likelier than this one), that
+// `some_a` of `all_a` and `some_b` of `all_b` come from one share.
+double fisherP(std::size_t some_a, std::size_t all_a, std::size_t some_b, std::size_t all_b);
+
 // p-values corrected for several tests by Holm's step-down procedure (Holm 1979): the smallest of n
 // times n, the next times n - 1, and so on, none less than the one before and none above 1. The
 // chance of rejecting any true hypothesis is then at most that of one test. In the order given.

@@ -5,14 +5,13 @@
 #include <utility>
 
 #include "study/study_worker.h"
+#include "study/task_loop.h"
 
 namespace grid_path_planner::study {
 
-using base::StopReason, base::StopToken;
+using base::StopToken;
 
 namespace {
-
-constexpr int kWaitMs = 200;  // between two checks of the stop token
 
 // Runs by unit.
 class UnitRuns {
@@ -44,14 +43,6 @@ class UnitRuns {
   std::vector<std::map<std::size_t, StudyRun>> runs_;  // by variant
 };
 
-void addLines(const std::string& lines, UnitRuns& runs) {
-  for (std::size_t begin = 0; begin < lines.size();) {
-    const std::size_t end = lines.find('\n', begin);
-    runs.add(runFromLine(lines.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-}
-
 }  // namespace
 
 std::string linesOfUnit(StudyWorker& worker, const StudyPlan& plan, std::size_t task) {
@@ -69,28 +60,20 @@ StudyResult runStudy(const StudyPlan& plan, StudyFolder& folder, WorkerGroup& wo
 
   const std::size_t total = plan.units().size();
   std::vector<std::size_t> waiting;
-  for (std::size_t unit = total; unit-- > 0;)
+  for (std::size_t unit = 0; unit < total; ++unit)
     if (!runs.done(unit)) waiting.push_back(unit);
   result.resumed = total - waiting.size();
 
   std::size_t done = result.resumed;
-  while (!waiting.empty() || workers.busy() > 0) {
-    if (stop.reason() != StopReason::NONE && !waiting.empty()) {
-      result.interrupted = true;
-      waiting.clear();
+  result.interrupted = runTasks(waiting, workers, stop, [&](const TaskEnd& end) {
+    if (end.failed) {
+      result.failures.push_back({plan.nameOf(plan.units()[end.task]), end.text});
+    } else {
+      folder.add(end.text);
+      forEachLine(end.text, [&](const std::string& line) { runs.add(runFromLine(line)); });
     }
-    for (; !waiting.empty() && workers.idle() > 0; waiting.pop_back())
-      workers.start(waiting.back());
-    for (const TaskEnd& end : workers.wait(kWaitMs)) {
-      if (end.failed) {
-        result.failures.push_back({plan.nameOf(plan.units()[end.task]), end.text});
-      } else {
-        folder.add(end.text);
-        addLines(end.text, runs);
-      }
-      progress(++done, total);
-    }
-  }
+    progress(++done, total);
+  });
   result.runs = runs.inOrder();
   return result;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "grid_path_planner/planning/path_planner.h"
 #include "grid_path_planner/simulation/depth_camera.h"
@@ -43,6 +44,15 @@ const World& site() {
   return world;
 }
 
+const World& rescueCourse() {
+  static const World world = readWorld("worlds/rescue_course.sdf");
+  return world;
+}
+
+// The tour that is flown: it ends where it begins.
+const std::vector<Vector3d> kTour = {{0.0, 0.0, 1.5},  {30.0, 10.0, 1.5}, {40.0, 7.0, 1.5},
+                                     {47.0, 4.5, 1.5}, {38.7, -7.5, 1.5}, {0.0, 0.0, 1.5}};
+
 const World& forestMaze() {
   static const World world = readWorld("worlds/forest_maze.sdf");
   return world;
@@ -63,8 +73,9 @@ std::set<std::string> modelsBetween(const World& world, const Vector3d& from, co
 }
 
 Plan route(const OccupancyGrid& map, const Vector3d& from, const Vector3d& to, double radius = 0.0,
-           int kernel = 1) {
+           int kernel = 1, const std::string& planner_name = "weighted_jump_point") {
   PlannerOptions options;
+  options.planner = planner_name;
   options.costmap.radius = radius;
   options.costmap.kernel = kernel;
   options.retry_finer = false;
@@ -198,11 +209,53 @@ TEST(ForestMaze, AboveItsTreesIsNothing) {
       ASSERT_FALSE(forestMaze().nearest({x, y, 10.0}, 1.0)) << x << ", " << y;
 }
 
+TEST(RescueCourse, EveryPlaceOfTheTourIsClearByAMetre) {
+  for (const Vector3d& place : kTour)
+    if (const auto surface = rescueCourse().nearest(place, 1.0))
+      ADD_FAILURE() << surface->name << " is " << surface->distance << " m from "
+                    << place.transpose();
+}
+
+// A vehicle that only flies straight touches something twice out and home.
+TEST(RescueCourse, TheFirstLegAndTheLastAreBlockedTwice) {
+  const auto blocking = [](std::size_t leg) {
+    std::set<std::string> names;
+    for (double share = 0.0; share <= 1.0; share += 0.002)
+      if (const auto surface =
+              rescueCourse().nearest(kTour[leg] + share * (kTour[leg + 1] - kTour[leg]), 0.3))
+        names.emplace(surface->name);
+    return names.size();
+  };
+  EXPECT_GE(blocking(0), 2u);
+  EXPECT_GE(blocking(kTour.size() - 2), 2u);
+}
+
+// L*: what the reports of flights call the shortest tour.
+TEST(RescueCourse, TheShortestTourIsFrom108To116Metres) {
+  const OccupancyGrid slice =
+      test::occupiedAt(rescueCourse(), GridGeometry(640, 380, 0.1, {-4.0, -18.0, 0.0}), {1.5}, 0.6);
+  double length = 0.0;
+  for (std::size_t leg = 0; leg + 1 < kTour.size(); ++leg) {
+    const Plan plan = route(slice, kTour[leg], kTour[leg + 1], 0.0, 1, "anya");
+    ASSERT_EQ(plan.status, Status::FOUND) << "leg " << leg << ": " << plan.message;
+    length += plan.length_m;
+  }
+  EXPECT_GE(length, 108.0);
+  EXPECT_LE(length, 116.0);
+  RecordProperty("L_star_cm", static_cast<int>(std::lround(100.0 * length)));
+}
+
+TEST(RescueCourse, TheGroundIsUnderAllOfIt) {
+  for (double x = -8.0; x <= 58.0; x += 2.0)
+    for (double y = -20.0; y <= 22.0; y += 2.0)
+      ASSERT_TRUE(rescueCourse().nearest({x, y, 0.0}, 1e-3)) << x << ", " << y;
+}
+
 TEST(Worlds, AreSmall) {
   std::uintmax_t bytes = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator("worlds"))
     if (entry.is_regular_file()) bytes += entry.file_size();
-  EXPECT_LT(bytes, 400'000u);
+  EXPECT_LT(bytes, 450'000u);  // of which rescue_course.sdf has 58'000
 }
 
 }  // namespace

@@ -111,5 +111,23 @@ TEST(ShownNumber, IsForPeople) {
   EXPECT_EQ(shownNumber(std::numeric_limits<double>::infinity()), "∞");
 }
 
+// Equal spreads of two values each leave two degrees of freedom, for which Student's distribution has a
+// closed form: p = 1 - t / sqrt(2 + t^2).
+TEST(Welch, IsTheClosedFormAtTwoDegreesOfFreedom) {
+  const double t = 5.0 / std::sqrt(2.0);
+  EXPECT_NEAR(welchP({0.0, 2.0}, {5.0, 7.0}), 1.0 - t / std::sqrt(2.0 + t * t), 1e-12);
+  EXPECT_EQ(welchP({3.0, 3.0}, {3.0, 3.0}), 1.0);
+  EXPECT_EQ(welchP({3.0, 3.0}, {4.0, 4.0}), 0.0);
+}
+
+// Of 20 flights each: 17 against 19 says nothing, 4 against 18 does.
+TEST(Fisher, IsTheSumOfTheTablesThatAreNoLikelier) {
+  EXPECT_NEAR(fisherP(17, 20, 19, 20), 0.60, 0.01);
+  EXPECT_NEAR(fisherP(4, 20, 18, 20), 0.00002, 0.000005);
+  EXPECT_NEAR(fisherP(3, 4, 1, 4), 34.0 / 70.0, 1e-12) << "the lady who tastes tea, two-sided";
+  EXPECT_EQ(fisherP(0, 5, 0, 7), 1.0);
+  EXPECT_NEAR(fisherP(19, 20, 17, 20), fisherP(17, 20, 19, 20), 1e-12);
+}
+
 }  // namespace
 }  // namespace grid_path_planner::study

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "grid_path_planner/simulation/depth_camera_options.h"
+#include "grid_path_planner/simulation/moving_bodies.h"
 #include "grid_path_planner/simulation/world.h"
 
 namespace grid_path_planner::simulation {
@@ -50,7 +51,7 @@ class DepthCamera {
 
   // Fills `points` with x, y, z (m) of width x height pixels, row by row from the top left.
   void render(const Eigen::Isometry3d& map_from_optical, std::uint64_t frame,
-              std::vector<float>& points) const;
+              std::vector<float>& points, const BodiesAt& bodies = {}) const;
 
  private:
   class Scene;

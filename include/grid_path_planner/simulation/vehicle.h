@@ -1,6 +1,6 @@
 // An underwater vehicle with four degrees of freedom (surge, sway, heave, yaw) that follows
-// velocity commands as fast as its accelerations allow, and that obstacles stop: the cells of a map,
-// the surfaces of a world, or both.
+// velocity commands as fast as its response and accelerations allow, and that obstacles stop: the cells
+// of a map, the surfaces of a world, or both. Moving bodies touch it and do not stop it.
 //
 //   Vehicle vehicle(options, {Eigen::Vector3d(1.0, 2.0, -3.0), 0.0});
 //   vehicle.setWorld(world);
@@ -23,6 +23,7 @@
 
 #include "grid_path_planner/base/body_velocity.h"
 #include "grid_path_planner/grid/occupancy.h"
+#include "grid_path_planner/simulation/moving_bodies.h"
 #include "grid_path_planner/simulation/vehicle_options.h"
 #include "grid_path_planner/simulation/world.h"
 
@@ -48,6 +49,9 @@ class Vehicle {
   // The same for the solid surfaces of a world.
   void setWorld(std::shared_ptr<const World> world);
 
+  // The same for bodies, which move by this vehicle's time().
+  void setBodies(std::shared_ptr<const MovingBodies> bodies);
+
   // The velocity to reach, from now until cmd_vel_timeout later or the next command. Clamped to the
   // vehicle's limits, axis by axis. Throws InputError for numbers that are not finite; the command
   // before stays.
@@ -72,7 +76,7 @@ class Vehicle {
   // it ends when the vehicle is more than a millimetre clear.
   int contacts() const { return contacts_; }
   bool inContact() const { return in_contact_; }
-  // What it ran into last: the name of a mesh of the world, or "projected_map" for a cell of the
+  // What it ran into last: the name of a mesh of the world or of a body, or "projected_map" for a cell of the
   // map; "" where it has not run into anything since the construction or `reset`.
   const std::string& touched() const { return touched_; }
 
@@ -82,6 +86,7 @@ class Vehicle {
   void move(double seconds, const base::BodyVelocity& before);
   bool moveInPlane(const Eigen::Vector2d& motion);
   bool moveInWorld(const Eigen::Vector3d& from);
+  void touchBodies();
   void startContact(const std::string& name);
   bool isClear() const;
   double clearance(const Eigen::Vector2d& position) const;
@@ -93,6 +98,7 @@ class Vehicle {
   std::int64_t time_ns_ = 0;
   std::shared_ptr<const grid::OccupancyGrid> map_;
   std::shared_ptr<const World> world_;
+  std::shared_ptr<const MovingBodies> bodies_;
   std::string touched_;
   int contacts_ = 0;
   bool in_contact_ = false;

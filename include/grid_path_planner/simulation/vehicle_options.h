@@ -12,6 +12,7 @@ struct VehicleOptions {
   double max_yaw_rate = 1.5;          // rad/s
   double max_acceleration = 1.0;      // m/s^2, of surge, sway and heave each
   double max_yaw_acceleration = 2.0;  // rad/s^2
+  double response_time = 0.0;         // s
   double cmd_vel_timeout = 0.5;       // s
   double vehicle_radius = 0.3;        // m
   int occupied_min = 65;              // %
@@ -41,6 +42,11 @@ void visitOptions(VehicleOptions& o, Visitor&& visit) {
   visit("max_yaw_acceleration", o.max_yaw_acceleration,
         base::OptionInfo{"How fast the yaw rate may change; lower: a heavier vehicle", "rad/s^2",
                          0.001, 1000.0});
+  visit("response_time", o.response_time,
+        base::OptionInfo{"Time constant with which velocities approach what is commanded, inside "
+                         "the accelerations (first order); 0: at once; higher: a vehicle that "
+                         "brakes later",
+                         "s", 0.0, 10.0});
   visit("cmd_vel_timeout", o.cmd_vel_timeout,
         base::OptionInfo{"The vehicle stops this long after the last command", "s", 0.01, 3600.0});
   visit("vehicle_radius", o.vehicle_radius,

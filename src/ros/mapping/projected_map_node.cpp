@@ -7,8 +7,8 @@
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/end_of_node.h"
 #include "ros/common/file_kinds.h"
+#include "ros/common/incoming/cloud_reader.h"
 #include "ros/common/parameters.h"
-#include "ros/mapping/cloud_reader.h"
 
 namespace grid_path_planner::nodes {
 

@@ -7,16 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "study/report/table.h"
+#include "study/report/finding.h"
 #include "study/study_data.h"
 
 namespace grid_path_planner::study {
-
-struct Finding {
-  std::string question;
-  Table table;
-  std::vector<std::string> answers;
-};
 
 Finding timeFinding(const StudyData& data);      // planning time, and against the baseline's
 Finding kernelFinding(const StudyData& data);    // what larger kernels save, and cost in length

@@ -15,9 +15,6 @@ namespace grid_path_planner::study {
 std::string reportHtml(const StudyData& data, const std::vector<Finding>& findings,
                        const std::vector<StudyFailure>& failures, const std::string& command);
 
-// Comma-separated values (RFC 4180), the first line holding the columns. Numbers in full.
-std::string csvOf(const Table& table);
-
 // {"title", "maps", "variants", "settings", "findings", "failures", "runs"}.
 std::string jsonReport(const StudyData& data, const std::vector<Finding>& findings,
                        const std::vector<StudyFailure>& failures);

@@ -6,7 +6,7 @@
 #include "study/findings/finding_text.h"
 #include "study/report/markup.h"
 #include "study/report/report.h"
-#include "study/report/report_assets.h"
+#include "study/report/report_page.h"
 #include "study/report/report_pictures.h"
 #include "study/report/svg_chart.h"
 
@@ -16,47 +16,6 @@ using base::Status;
 using grid::GridGeometry;
 
 namespace {
-
-bool numeric(const Table& table, std::size_t column) {
-  for (const auto& row : table.rows)
-    if (row[column].number) return true;
-  return false;
-}
-
-std::string cellHtml(const TableCell& cell) {
-  std::string html = "<td";
-  if (cell.number) {
-    std::ostringstream number;
-    number.precision(12);
-    number << *cell.number;
-    html += " class=\"number\" data-n=\"" + number.str() + '"';
-  }
-  return html + '>' + escaped(cell.text) + "</td>";
-}
-
-std::string tableHtml(const Table& table, const std::string& frame) {
-  std::string html = "<div class=\"" + frame +
-                     "\" tabindex=\"0\"><table class=\"sorts\" id=\"table-" + escaped(table.name) +
-                     "\"><caption>" + escaped(table.caption) + "</caption><thead><tr>";
-  for (std::size_t i = 0; i < table.columns.size(); ++i)
-    html += std::string("<th scope=\"col\"") + (numeric(table, i) ? " class=\"number\"" : "") +
-            "><button type=\"button\">" + escaped(table.columns[i]) + "</button></th>";
-  html += "</tr></thead><tbody>";
-  for (const auto& row : table.rows) {
-    html += "<tr>";
-    for (const TableCell& cell : row) html += cellHtml(cell);
-    html += "</tr>\n";
-  }
-  return html + "</tbody></table></div>\n";
-}
-
-std::string figureHtml(const std::string& svg, const std::string& caption,
-                       const std::string& command) {
-  if (svg.empty()) return "";
-  return "<figure><div class=\"wide\" tabindex=\"0\"><div class=\"chart\">" + svg +
-         "</div></div><figcaption>" + escaped(caption) + " <code>" + escaped(command) +
-         "</code></figcaption></figure>\n";
-}
 
 template <class Value>
 std::vector<BoxGroup> boxesOf(const StudyData& data, Value&& value) {
@@ -108,40 +67,6 @@ std::string chartsFor(const StudyData& data, const Finding& finding, const std::
             boxesOf(data, [](const StudyRun& run) { return static_cast<double>(run.expanded); })),
         "Made by", command);
   return "";
-}
-
-std::string answersHtml(const std::vector<std::string>& answers) {
-  if (answers.empty()) return "";
-  constexpr std::size_t kShown = 9;
-  std::string html = "<ul>";
-  for (std::size_t i = 0; i < answers.size(); ++i) {
-    if (i == kShown)
-      html += "</ul><details><summary>" + std::to_string(answers.size() - kShown) +
-              " more</summary><ul>";
-    html += "<li>" + escaped(answers[i]) + "</li>";
-  }
-  return html + (answers.size() > kShown ? "</ul></details>" : "</ul>");
-}
-
-std::string findingHtml(const StudyData& data, const Finding& finding, const std::string& command) {
-  return "<section><h2 id=\"about-" + finding.table.name + "\">" + escaped(finding.question) +
-         "</h2>" + answersHtml(finding.answers) + chartsFor(data, finding, command) +
-         tableHtml(finding.table, finding.table.rows.size() > 24 ? "wide tall" : "wide") +
-         "</section>\n";
-}
-
-std::string fact(std::size_t number, const std::string& singular) {
-  return "<li><b>" + shownNumber(static_cast<double>(number), 6) + "</b> " + singular +
-         (number == 1 ? "" : "s") + "</li>";
-}
-
-std::string firstAnswersHtml(const std::vector<Finding>& findings) {
-  std::string html = "<ul>";
-  for (const Finding& finding : findings)
-    if (!finding.answers.empty())
-      html += "<li><a href=\"#about-" + finding.table.name + "\">" + escaped(finding.question) +
-              "</a> " + escaped(finding.answers.front()) + "</li>";
-  return html + "</ul>";
 }
 
 std::string summaryHtml(const StudyData& data, const std::vector<Finding>& findings) {
@@ -215,29 +140,19 @@ Table firstRuns(const StudyData& data) {
 std::string reportHtml(const StudyData& data, const std::vector<Finding>& findings,
                        const std::vector<StudyFailure>& failures, const std::string& command) {
   const nlohmann::json pictures = pictureData(data);
-  const std::string title = escaped(data.study().title);
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width, initial-scale=1\"><link rel=\"icon\" href=\"data:,\"><title>" +
-      title + "</title><style>" + kReportStyle + "</style></head><body><header><h1>" + title +
-      "</h1><p class=\"soft\">Made by <code>" + escaped(command) + "</code>";
+  std::string more = "";
   if (!data.study().published.source.empty())
-    html += "<br>Published figures: " + escaped(data.study().published.source);
-  html += "</p>" + summaryHtml(data, findings) + "</header><nav aria-label=\"Contents\"><ul>";
+    more = "<br>Published figures: " + escaped(data.study().published.source);
+  ReportPage page{data.study().title, command, more, summaryHtml(data, findings), {}, {}};
+  for (const Finding& finding : findings) page.links.push_back(linkTo(finding));
+  if (!pictures["pictures"].empty()) page.links.push_back({"pictures", "The paths"});
+  page.links.push_back({"runs", "Every run"});
+  page.main = failuresHtml(failures);
   for (const Finding& finding : findings)
-    html += "<li><a href=\"#about-" + finding.table.name + "\">" + escaped(finding.question) +
-            "</a></li>";
-  if (!pictures["pictures"].empty()) html += "<li><a href=\"#about-pictures\">The paths</a></li>";
-  html +=
-      "<li><a href=\"#about-runs\">Every run</a></li></ul></nav><main>" + failuresHtml(failures);
-  for (const Finding& finding : findings) html += findingHtml(data, finding, command);
-  html += viewerHtml(data, pictures);
-  html += "<section><h2 id=\"about-runs\">Every run</h2>" +
-          tableHtml(firstRuns(data), "wide tall") +
-          "</section></main><script type=\"application/json\" id=\"pictures-data\">" +
-          scriptSafe(pictures.dump()) + "</script><script>" + kReportScript +
-          "</script></body></html>\n";
-  return html;
+    page.main += findingHtml(finding, chartsFor(data, finding, command));
+  page.main += viewerHtml(data, pictures) + "<section><h2 id=\"about-runs\">Every run</h2>" +
+               tableHtml(firstRuns(data), "wide tall") + "</section>";
+  return pageHtml(page, pictures.dump());
 }
 
 }  // namespace grid_path_planner::study

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 namespace grid_path_planner::study {
 namespace {
@@ -13,6 +14,20 @@ std::string withCommas(std::string digits) {
     digits.insert(at, ",");
   }
   return digits;
+}
+
+std::string csvCell(const TableCell& cell) {
+  if (cell.number) {
+    std::ostringstream out;
+    out.precision(12);
+    out << *cell.number;
+    return out.str();
+  }
+  if (cell.text.find_first_of(",\"\n") == std::string::npos) return cell.text;
+  std::string quoted = "\"";
+  for (const char letter : cell.text)
+    quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return quoted + '"';
 }
 
 }  // namespace
@@ -41,6 +56,18 @@ std::string shownNumber(double number, int digits) {
   }
   std::snprintf(text, sizeof text, "%.*g", digits, number);
   return text;
+}
+
+std::string csvOf(const Table& table) {
+  std::string out;
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    out += (i > 0 ? "," : "") + csvCell(table.columns[i]);
+  out += "\r\n";
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) out += (i > 0 ? "," : "") + csvCell(row[i]);
+    out += "\r\n";
+  }
+  return out;
 }
 
 }  // namespace grid_path_planner::study

@@ -27,4 +27,7 @@ struct Table {
   std::vector<std::vector<TableCell>> rows;  // each as long as columns
 };
 
+// Comma-separated values (RFC 4180), the first line holding the columns. Numbers in full.
+std::string csvOf(const Table& table);
+
 }  // namespace grid_path_planner::study

@@ -1,5 +1,4 @@
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "study/report/report.h"
 
@@ -7,20 +6,6 @@ namespace grid_path_planner::study {
 namespace {
 
 using nlohmann::json;
-
-std::string csvCell(const TableCell& cell) {
-  if (cell.number) {
-    std::ostringstream out;
-    out.precision(12);
-    out << *cell.number;
-    return out.str();
-  }
-  if (cell.text.find_first_of(",\"\n") == std::string::npos) return cell.text;
-  std::string quoted = "\"";
-  for (const char letter : cell.text)
-    quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return quoted + '"';
-}
 
 json jsonOf(const Table& table) {
   json rows = json::array();
@@ -34,18 +19,6 @@ json jsonOf(const Table& table) {
 }
 
 }  // namespace
-
-std::string csvOf(const Table& table) {
-  std::string out;
-  for (std::size_t i = 0; i < table.columns.size(); ++i)
-    out += (i > 0 ? "," : "") + csvCell(table.columns[i]);
-  out += "\r\n";
-  for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) out += (i > 0 ? "," : "") + csvCell(row[i]);
-    out += "\r\n";
-  }
-  return out;
-}
 
 std::string jsonReport(const StudyData& data, const std::vector<Finding>& findings,
                        const std::vector<StudyFailure>& failures) {

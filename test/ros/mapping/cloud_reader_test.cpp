@@ -1,4 +1,4 @@
-#include "ros/mapping/cloud_reader.h"
+#include "ros/common/incoming/cloud_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -170,6 +170,23 @@ def drives(node, deadline):
     return fed and until(node, lambda: status_of(node, "navigate_path", goal.goal_id.id) is not None, deadline)
 
 
+def says_what_it_flies_to(node, deadline):
+    """A goal of the topic; whatever the clouds were, its status follows, and ~cancel ends it."""
+    def offer():
+        node.send("manual_control", of("std_msgs/Bool", data=False))
+        node.send("stop", of("std_msgs/Bool", data=False))
+        node.send("goal", pose_stamped(node))
+
+    def told(*statuses):
+        return any(message.status in statuses for message in node.heard("avoidance_status"))
+    node.forget("avoidance_status")
+    if not until(node, lambda: told("NO_CLOUD", "TRANSFORM_ERROR", "FLYING", "BLOCKED", "ARRIVED", "GOAL_OCCUPIED"),
+                 deadline, offer, every=0.5):
+        return False
+    return until(node, lambda: told("CANCELLED", "ARRIVED"), deadline,
+                 lambda: node.call("~cancel", get_service_class("std_srvs/Trigger")._request_class()), every=0.5)
+
+
 def maps(node, deadline):
     """Who takes the updates gets the first map whole, and then what changes."""
     topics = ("projected_map", "projected_map_updates")

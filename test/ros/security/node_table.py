@@ -39,6 +39,15 @@ NODES = {
         services={"~pause": TRIGGER, "~resume": TRIGGER, "~cancel": TRIGGER},
         actions={"navigate_path": "grid_path_planner/NavigatePath"},
         arguments=["_no_progress_timeout:=0"], tf="listens", probe=probes.drives),
+    "local_planner": Row(
+        inputs={"points": "sensor_msgs/PointCloud2", "camera_info": "sensor_msgs/CameraInfo", "odom": "nav_msgs/Odometry",
+                "goal": "geometry_msgs/PoseStamped", "path": "nav_msgs/Path", "stop": "std_msgs/Bool",
+                "manual_control": "std_msgs/Bool"},
+        outputs={"cmd_vel": "geometry_msgs/Twist", "setpoint_velocity": "geometry_msgs/TwistStamped",
+                 "local_path": "nav_msgs/Path", "avoidance_status": "grid_path_planner/AvoidanceStatus",
+                 "obstacle_distance": "sensor_msgs/LaserScan", "remembered_points": "sensor_msgs/PointCloud2"},
+        services={"~pause": TRIGGER, "~resume": TRIGGER, "~cancel": TRIGGER, "~explain": TRIGGER},
+        actions={}, arguments=["_cloud_timeout:=10"], tf="listens", probe=probes.says_what_it_flies_to),
     "projected_map": Row(
         inputs={"cloud_in": "sensor_msgs/PointCloud2"},
         outputs=dict(MAPS, occupied_cells_vis_array="visualization_msgs/MarkerArray",

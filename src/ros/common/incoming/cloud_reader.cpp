@@ -1,4 +1,4 @@
-#include "ros/mapping/cloud_reader.h"
+#include "ros/common/incoming/cloud_reader.h"
 
 #include <cstdint>
 #include <cstring>
@@ -73,23 +73,41 @@ void checkLayout(const PointCloud2& cloud) {
                      " bytes, got " + std::to_string(cloud.data.size()));
 }
 
-}  // namespace
-
-std::vector<Eigen::Vector3d> finitePoints(const PointCloud2& cloud) {
-  std::vector<Eigen::Vector3d> points;
+template <class Action>
+void forPoints(const PointCloud2& cloud, const Action& action) {
   checkLayout(cloud);
   const Coordinate x = coordinateOf(cloud, "x");
   const Coordinate y = coordinateOf(cloud, "y");
   const Coordinate z = coordinateOf(cloud, "z");
-  points.reserve(cloud.data.size() / cloud.point_step);
   const std::size_t rows = cloud.width == 0 ? 0 : cloud.height;  // no bytes stand for empty ones
   for (std::size_t row = 0; row < rows; ++row) {
     const std::uint8_t* point = cloud.data.data() + row * cloud.row_step;
-    for (std::size_t column = 0; column < cloud.width; ++column, point += cloud.point_step) {
-      const Eigen::Vector3d read(x.read(point), y.read(point), z.read(point));
-      if (read.allFinite()) points.push_back(read);
-    }
+    for (std::size_t column = 0; column < cloud.width; ++column, point += cloud.point_step)
+      action(Eigen::Vector3d(x.read(point), y.read(point), z.read(point)));
   }
+}
+
+std::size_t mostPoints(const PointCloud2& cloud) {
+  return cloud.point_step == 0 ? 0 : cloud.data.size() / cloud.point_step;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> finitePoints(const PointCloud2& cloud) {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(mostPoints(cloud));
+  forPoints(cloud, [&](const Eigen::Vector3d& point) {
+    if (point.allFinite()) points.push_back(point);
+  });
+  return points;
+}
+
+std::vector<float> allPoints(const PointCloud2& cloud) {
+  std::vector<float> points;
+  points.reserve(3 * mostPoints(cloud));
+  forPoints(cloud, [&](const Eigen::Vector3d& point) {
+    for (int axis = 0; axis < 3; ++axis) points.push_back(static_cast<float>(point[axis]));
+  });
   return points;
 }
 

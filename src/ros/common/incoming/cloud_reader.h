@@ -17,5 +17,7 @@ namespace grid_path_planner::nodes {
 // sentence for a big-endian cloud, a missing field or one of another type, and data that is shorter
 // than the fields say.
 std::vector<Eigen::Vector3d> finitePoints(const sensor_msgs::PointCloud2& cloud);
+// x, y, z of all points, row by row; those that measured nothing too. Throws InputError as above.
+std::vector<float> allPoints(const sensor_msgs::PointCloud2& cloud);
 
 }  // namespace grid_path_planner::nodes

@@ -1,0 +1,257 @@
+#include "avoidance/pilot_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "avoidance/sentence.h"
+
+namespace grid_path_planner::avoidance {
+
+using base::BodyVelocity;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kMostClearance = 12.0;  // m
+constexpr double kHovers = 0.02;         // m/s
+constexpr int kFramesBetween = 5;        // of searches while there is no way
+
+Motion motionOf(const VehiclePose& pose, const BodyVelocity& v) {
+  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
+  return {pose.position,
+          {c * v.surge - s * v.sway, s * v.surge + c * v.sway, v.heave},
+          pose.yaw,
+          v.yaw_rate};
+}
+
+}  // namespace
+
+void Pilot::Parts::start() {
+  flown.clear();
+  plan = Route();
+  unseen.forget();
+  ended_ = false;
+  restarts_ = true;
+  status_ = PilotStatus::BLOCKED;
+  sentence_ = "the flight begins";
+}
+
+void Pilot::Parts::end(PilotStatus status, const std::string& sentence) {
+  ended_ = true;
+  hover(status, sentence);
+}
+
+void Pilot::Parts::hover(PilotStatus status, const std::string& sentence) {
+  status_ = status;
+  sentence_ = sentence;
+  command_ = {};
+  clear_path_ = 0.0;
+}
+
+PilotAnswer Pilot::Parts::answer() const {
+  PilotAnswer answer;
+  answer.velocity = command_;
+  answer.status = status_;
+  answer.sentence = sentence_;
+  answer.clearance = surroundings.space().nearest(motion_.position, kMostClearance);
+  answer.clear_path = clear_path_;
+  const std::optional<double>& seen = surroundings.frameTime();
+  answer.frame_age = seen ? time_ - *seen : std::numeric_limits<double>::infinity();
+  answer.waypoint = route.empty() ? 0 : route.index();
+  answer.new_path = new_path_;
+  return answer;
+}
+
+PilotAnswer Pilot::Parts::update(const PilotInput& input) {
+  new_path_ = false;
+  if (has_time_ && !(input.time >= time_)) {
+    surroundings.forget();
+    end(PilotStatus::CANCELLED,
+        "time went back from " + shortNumber(time_) + " to " + shortNumber(input.time) + " s");
+  }
+  time_ = input.time;
+  has_time_ = true;
+  if (input.frame != nullptr) surroundings.see(*input.frame, time_, options);
+  if (cannotFly(input)) return answer();
+  motion_ = motionOf(*input.pose, input.velocity);
+  fresh_ = surroundings.refresh(motion_.position, options);
+  if (ended_ || route.empty()) {
+    command_ = {};
+    return answer();
+  }
+  followRoute();
+  if (!ended_) fly();
+  return answer();
+}
+
+// Says why, and stands.
+bool Pilot::Parts::cannotFly(const PilotInput& input) {
+  const bool known = input.pose && input.pose->position.allFinite() &&
+                     std::isfinite(input.pose->yaw) && input.velocity.isFinite();
+  if (ended_ || route.empty()) {
+    command_ = {};
+    return !known;
+  }
+  const std::optional<double>& seen = surroundings.frameTime();
+  const std::string why = surroundings.problem().empty() ? "" : " (" + surroundings.problem() + ")";
+  if (!known)
+    hover(PilotStatus::TRANSFORM_ERROR,
+          input.pose_problem.empty() ? "the vehicle's pose is not known" : input.pose_problem);
+  else if (!seen)
+    hover(PilotStatus::NO_CLOUD, "no cloud has come yet" + why);
+  else if (time_ - *seen > options.cloud_timeout)
+    hover(PilotStatus::NO_CLOUD,
+          "the newest cloud is " + shortNumber(time_ - *seen) + " s old" + why);
+  else
+    return false;
+  return true;
+}
+
+Vector3d Pilot::Parts::target() const {
+  const OpenSpace& space = surroundings.space();
+  return plan.empty() || plan.done() ? route.target(motion_.position, space, options.d_safe)
+                                     : plan.target(motion_.position, space, options.d_safe);
+}
+
+double Pilot::Parts::targetRadius() const {
+  return plan.empty() || plan.done() ? route.radius(options) : options.home_radius;
+}
+
+void Pilot::Parts::followRoute() {
+  const int before = route.index();
+  route.advance(motion_.position, options);
+  if (!plan.empty()) plan.advance(motion_.position, options);
+  if (route.done()) return end(PilotStatus::ARRIVED, "arrived at " + placeText(route.goal()));
+  if (route.index() == before && !restarts_) return;
+  restarts_ = kept_ = false;
+  plan = Route();
+  unseen.forget();
+  recovery.restart(time_, motion_.position, route.goal());
+}
+
+// No place within reach of the goal is free of remembered points.
+bool Pilot::Parts::goalIsOccupied() const {
+  const OpenSpace& space = surroundings.space();
+  const Vector3d goal = target();
+  if (!space.inside(goal)) return false;
+  const double radius = targetRadius() - 0.1;
+  for (double x = -radius; x <= radius; x += 0.5 * radius)
+    for (double y = -radius; y <= radius; y += 0.5 * radius)
+      for (double z = -radius; z <= radius; z += 0.5 * radius) {
+        const Vector3d off(x, y, options.elevation ? z : 0.0);
+        if (off.norm() <= radius && space.nearest(goal + off, options.d_safe) >= options.d_safe)
+          return false;
+      }
+  return true;
+}
+
+void Pilot::Parts::findPath() {
+  if (!fresh_ || unseen.looks()) return;
+  if (flown.empty() && frames_without_ > 0 && frames_without_ < kFramesBetween) {
+    ++frames_without_;
+    return;
+  }
+  const PathQuery query{motion_.position, target(), targetRadius()};
+  auto found =
+      finder.find(surroundings.space(), query, kept_ ? flown.points() : Points(), unseen.closed());
+  kept_ = true;
+  if (!found) return;
+  new_path_ = true;
+  frames_without_ = found->size() < 2 ? 1 : 0;
+  if (found->size() < 2)
+    flown.clear();
+  else
+    flown.set(std::move(*found), plan.empty() ? route.after() : std::nullopt);
+}
+
+void Pilot::Parts::fly() {
+  flown.advance(motion_.position);
+  if (paused) return hover(PilotStatus::BLOCKED, "paused");
+  if (options.rules == Rules::SAFE && goalIsOccupied()) {
+    flown.clear();
+    return hover(PilotStatus::GOAL_OCCUPIED, "the goal " + placeText(target()) +
+                                                 " is nearer than " + shortNumber(options.d_safe) +
+                                                 " m to something that was seen");
+  }
+  findPath();
+  if (recovers()) return;
+  if (flown.empty())
+    return hover(PilotStatus::BLOCKED, "no way to " + placeText(target()) + " is free");
+  const Steering steering =
+      options.rules == Rules::SAFE
+          ? steerSafely(motion_, flown, surroundings.space(), surroundings.space().appeared(),
+                        options, unseen.lookAt())
+          : steerAtFullSpeed(motion_, flown, options);
+  command_ = steering.velocity;
+  clear_path_ = steering.clear_path;
+  if (options.rules == Rules::SAFE) lookAtUnseen(steering);
+  describe(steering);
+}
+
+// What cannot be seen from here is looked at from elsewhere; in vain, it closes ways.
+void Pilot::Parts::lookAtUnseen(const Steering& steering) {
+  const KeptRoom room(surroundings.space(), options.d_safe, motion_.position);
+  if (!unseen.update(time_, motion_.position, steering, surroundings.space(), room, options.d_safe))
+    return;
+  if (unseen.looks())
+    flown.set(unseen.way(), std::nullopt);
+  else
+    flown.clear();
+}
+
+void Pilot::Parts::describe(const Steering& steering) {
+  const BodyVelocity& v = command_;
+  const double speed = std::sqrt(v.surge * v.surge + v.sway * v.sway + v.heave * v.heave);
+  status_ = speed > kHovers ? PilotStatus::FLYING : PilotStatus::BLOCKED;
+  if (status_ == PilotStatus::FLYING) {
+    sentence_ = "flying to " + placeText(target()) + ", " +
+                shortNumber((target() - motion_.position).norm()) + " m off";
+    return;
+  }
+  if (!steering.closed) {
+    sentence_ = "waiting for room to brake";
+    return;
+  }
+  const Vector3d& at = *steering.closed;
+  const double off = (at - motion_.position).norm();
+  const bool seen = surroundings.space().seen(at);
+  sentence_ = (seen ? "something closes the way at " : "nothing seen free at ") + placeText(at) +
+              ", " + shortNumber(off) + " m off; " +
+              (std::abs(v.yaw_rate) > 0.01 ? "turning" : "looking");
+}
+
+// Whether something else is done than to fly.
+bool Pilot::Parts::recovers() {
+  const bool exhausted = flown.empty() && finder.exhausted();
+  switch (
+      recovery.update({time_, motion_.position, motion_.yaw, route.goal(), exhausted}, options)) {
+    case RecoveryStep::FLY:
+      return false;
+    case RecoveryStep::LOOK:
+      hover(PilotStatus::BLOCKED,
+            "no progress towards " + placeText(target()) + "; looking around");
+      command_.yaw_rate = options.max_yaw_rate;
+      return true;
+    case RecoveryStep::PLAN:
+      askForPlan();
+      return true;
+    case RecoveryStep::STUCK:
+      break;
+  }
+  end(PilotStatus::STUCK, "came as near as " + shortNumber(recovery.nearest()) + " m to " +
+                              placeText(route.goal()) + "; tried: " + recovery.tried());
+  return true;
+}
+
+void Pilot::Parts::askForPlan() {
+  const Points way = map_plan ? map_plan(motion_.position, route.goal()) : Points();
+  recovery.planned(way.size() >= 2, time_);
+  unseen.forget();
+  flown.clear();
+  if (way.size() >= 2) plan.setPath(way);
+  hover(PilotStatus::BLOCKED, way.size() >= 2 ? "follows a plan on the map"
+                                              : "the map has no way to " + placeText(route.goal()));
+}
+
+}  // namespace grid_path_planner::avoidance

@@ -1,0 +1,51 @@
+// What is done when there is no progress: look around, then plan on the map, then give up.
+//
+//   FLYING --no progress--> LOOKING --turned once--> FLYING --no progress--> PLAN asked --> FLYING along it
+//                                                                                |
+//   a metre gained: from the beginning                                none, or no progress: STUCK
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "avoidance/progress_watch.h"
+#include "grid_path_planner/avoidance/pilot_options.h"
+
+namespace grid_path_planner::avoidance {
+
+enum class RecoveryStep { FLY, LOOK, PLAN, STUCK };
+
+class Recovery {
+ public:
+  void restart(double time, const Eigen::Vector3d& position, const Eigen::Vector3d& goal);
+
+  struct State {
+    double time;
+    Eigen::Vector3d position;
+    double yaw;
+    Eigen::Vector3d goal;
+    bool exhausted;  // every way was looked at, and there is none
+  };
+  // PLAN once; the caller says by `planned` whether there is one.
+  RecoveryStep update(const State& state, const PilotOptions& options);
+  void planned(bool found, double time);
+
+  // m, from the goal, in this flight to it.
+  double nearest() const { return watch_.nearest(); }
+  // "looked around, planned on the map"; "nothing" before.
+  std::string tried() const;
+
+ private:
+  bool noProgress(const State& state, const PilotOptions& options) const;
+  RecoveryStep look(const State& state);
+
+  ProgressWatch watch_;
+  RecoveryStep step_ = RecoveryStep::FLY;
+  bool looked_ = false, planned_ = false;
+  double turned_ = 0.0;  // rad
+  std::optional<double> yaw_;
+  std::optional<double> exhausted_since_;
+};
+
+}  // namespace grid_path_planner::avoidance

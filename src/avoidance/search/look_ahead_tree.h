@@ -1,0 +1,49 @@
+// The look-ahead tree of 3DVFH*: A* over steps in free directions.
+//
+// Of the node at hand at most `children` free directions, one step away and mutually at least `spacing`
+// apart, enter the open list; the next node is the one with the least F = C + H, H the weighted distance to
+// the goal. C is the sum of the costs of the directions along the branch, or (accumulate: false) the cost
+// of the node's direction as it is seen from the root. The search ends at the goal, at a node beyond the
+// look-ahead, which is not expanded, or after `nodes` nodes; the path leads to the last node at hand.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "avoidance/search/candidates.h"
+
+namespace grid_path_planner::avoidance {
+
+struct TreeNode {
+  Eigen::Vector3d position;
+  int parent;     // index; -1: the root
+  Angles angles;  // of the step that led here; of the root: chosen before
+  double cost;    // C
+  double total;   // F
+  bool closed;
+};
+
+class LookAheadTree {
+ public:
+  explicit LookAheadTree(const PilotOptions& options) : candidates_(options) {}
+
+  // The path from `start` on, which it contains; only that where no direction is free.
+  std::vector<Eigen::Vector3d> search(const OpenSpace& space, const PilotOptions& options,
+                                      const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
+                                      const Angles& before,
+                                      const std::vector<Eigen::Vector3d>& closed);
+
+  // Of the last search, the root first.
+  const std::vector<TreeNode>& nodes() const { return nodes_; }
+  Candidates& candidates() { return candidates_; }
+
+ private:
+  void grow(int parent, const OpenSpace& space, const PilotOptions& options,
+            const Eigen::Vector3d& goal, const std::vector<Eigen::Vector3d>& closed);
+  int cheapestOpen() const;
+
+  Candidates candidates_;
+  std::vector<TreeNode> nodes_;
+};
+
+}  // namespace grid_path_planner::avoidance

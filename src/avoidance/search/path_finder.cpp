@@ -1,0 +1,149 @@
+#include "avoidance/search/path_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace grid_path_planner::avoidance {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kPlanRoom = 0.05;   // m more than d_safe that plans keep
+constexpr double kSameHeight = 0.4;  // m between vehicle and goal
+constexpr double kLongWay = 1.3;     // times the straight distance
+constexpr double kLongMore = 2.0;    // m
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double lengthOf(const Points& path) {
+  double length = 0.0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) length += (path[i + 1] - path[i]).norm();
+  return length;
+}
+
+}  // namespace
+
+PathFinder::PathFinder(const PilotOptions& options) : options_(options), tree_(options) {}
+
+void PathFinder::setOptions(const PilotOptions& options) {
+  const bool other_bins = options.bin != options_.bin || options.elevation != options_.elevation;
+  options_ = options;
+  if (other_bins) tree_ = LookAheadTree(options);
+}
+
+VoxelQuery PathFinder::voxelQuery(const PathQuery& query) const {
+  VoxelQuery voxels;
+  voxels.start = query.start;
+  voxels.goal = query.goal;
+  voxels.goal_radius = std::max(0.1, query.goal_radius - 0.2);
+  voxels.distance = options_.d_safe + kPlanRoom;
+  voxels.z_min = options_.z_min;
+  voxels.z_max = options_.z_max;
+  voxels.unseen_cost = options_.unseen_cost;
+  voxels.most_nodes = options_.grid_nodes;
+  voxels.closed = &closed_;
+  return voxels;
+}
+
+// At the goal's height first; through all heights where that is a long way round, or none.
+VoxelPath PathFinder::gridPath(const OpenSpace& space, const PathQuery& query) {
+  VoxelQuery voxels = voxelQuery(query);
+  const double straight = (query.goal - query.start).norm();
+  VoxelPath level;
+  voxels.flat = !options_.elevation || std::abs(query.goal.z() - query.start.z()) <= kSameHeight;
+  if (!options_.elevation) voxels.goal.z() = query.start.z();
+  if (voxels.flat) {
+    level = grid_.search(space, voxels);
+    if (!options_.elevation) return level;
+    if (!level.points.empty() && level.cost <= kLongWay * straight + kLongMore) return level;
+  }
+  voxels.flat = false;
+  VoxelPath any = grid_.search(space, voxels);
+  const bool level_wins = !level.points.empty() && (any.points.empty() || level.cost <= any.cost);
+  if (!level_wins) return any;
+  return level;
+}
+
+Points PathFinder::treePath(const OpenSpace& space, const PathQuery& query) {
+  PilotOptions options = options_;
+  if (options.search == Search::DIRECTION) options.nodes = 1;
+  Points path = tree_.search(space, options, query.start, query.goal, before_, closed_);
+  if (options.search == Search::DIRECTION && path.size() < 2) {
+    const TreeNode* best = nullptr;
+    for (const TreeNode& node : tree_.nodes())
+      if (node.parent == 0 && (best == nullptr || node.total < best->total)) best = &node;
+    if (best != nullptr) path.push_back(best->position);
+  }
+  return path;
+}
+
+double PathFinder::treeCost(const Points& path, const Vector3d& goal) const {
+  double cost = 0.0;
+  Angles before = before_;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Vector3d way = path[i + 1] - path[i];
+    const Angles angles = anglesOf(way);
+    cost += directionCost(options_, angles, anglesOf(goal - path[i]), before) * way.norm() /
+            options_.step;
+    before = angles;
+  }
+  return cost + options_.heuristic_weight * (goal - path.back()).norm();
+}
+
+bool PathFinder::isFree(const OpenSpace& space, const Points& path) const {
+  const double room = space.nearest(path.front(), options_.d_safe);
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    if (!space.clear(
+            path[i], path[i + 1],
+            i == 0 ? std::min(options_.d_safe, std::max(0.0, room - 0.02)) : options_.d_safe))
+      return false;
+  return true;
+}
+
+double PathFinder::gridCost(const OpenSpace& space, const Points& path, const PathQuery& query) {
+  const VoxelQuery voxels = voxelQuery(query);
+  double cost = 0.0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    cost += grid_.lineCost(space, path[i], path[i + 1], voxels);
+  const double rest = (path.back() - query.goal).norm();
+  return rest > query.goal_radius ? cost + rest : cost;
+}
+
+// A path that leads to the goal, or still half as far as the new one.
+bool PathFinder::leadsOn(const Points& kept, const Points& path, const PathQuery& query) const {
+  return (kept.back() - query.goal).norm() <= query.goal_radius ||
+         lengthOf(kept) >= 0.5 * lengthOf(path);
+}
+
+std::optional<Points> PathFinder::find(const OpenSpace& space, const PathQuery& query,
+                                       const Points& kept, const Points& closed) {
+  closed_ = closed;
+  const bool keep = kept.size() >= 2 && isFree(space, kept);
+  Points path;
+  double cost = kInfinity, kept_cost = kInfinity;
+  if (options_.search == Search::GRID) {
+    VoxelPath found = gridPath(space, query);
+    exhausted_ = found.points.empty() && found.exhausted;
+    path = std::move(found.points);
+    if (keep && !path.empty()) {
+      cost = gridCost(space, path, query);
+      kept_cost = gridCost(space, kept, query);
+    }
+  } else {
+    path = treePath(space, query);
+    exhausted_ = path.size() < 2;
+    if (keep && path.size() >= 2) {
+      cost = treeCost(path, query.goal);
+      kept_cost = treeCost(kept, query.goal);
+    }
+  }
+  if (keep && leadsOn(kept, path, query) &&
+      (path.size() < 2 || cost >= (1.0 - options_.hysteresis) * kept_cost))
+    return std::nullopt;
+  if (path.size() >= 2) before_ = anglesOf(path[1] - path[0]);
+  return path;
+}
+
+}  // namespace grid_path_planner::avoidance

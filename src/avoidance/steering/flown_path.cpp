@@ -1,0 +1,69 @@
+#include "avoidance/steering/flown_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace grid_path_planner::avoidance {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kPassed = 0.25;    // m, within which a corner counts as passed
+constexpr double kBeside = 1.0;     // m, within which one beside the vehicle does
+constexpr double kClearStep = 0.1;  // m
+constexpr double kBeyond = 3.0;     // m of the way beyond the end
+
+}  // namespace
+
+void FlownPath::set(std::vector<Vector3d> points, std::optional<Vector3d> beyond) {
+  points_ = std::move(points);
+  beyond_ = std::move(beyond);
+}
+
+void FlownPath::advance(const Vector3d& vehicle) {
+  if (points_.empty()) return;
+  points_.front() = vehicle;
+  while (points_.size() > 2) {
+    const Vector3d off = vehicle - points_[1];
+    const bool beside = (points_[2] - points_[1]).dot(off) > 0.0 && off.norm() < kBeside;
+    if (off.norm() > kPassed && !beside) return;
+    points_.erase(points_.begin() + 1);
+  }
+}
+
+Vector3d FlownPath::ahead(double metres) const {
+  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+    const Vector3d way = points_[i + 1] - points_[i];
+    const double length = way.norm();
+    if (metres <= length && length > 0.0) return points_[i] + way * (metres / length);
+    metres -= length;
+  }
+  if (!beyond_) return points_.back();
+  const Vector3d way = *beyond_ - points_.back();
+  const double length = std::max(1e-9, way.norm());
+  return points_.back() + way * (std::min({metres, kBeyond, length}) / length);
+}
+
+FlownPath::Clear FlownPath::clear(const KeptRoom& room, double longest) const {
+  double length = 0.0;
+  for (std::size_t i = 0; i + 1 < points_.size(); ++i)
+    length += (points_[i + 1] - points_[i]).norm();
+  if (beyond_) length += std::min(kBeyond, (*beyond_ - points_.back()).norm());
+  const double end = std::min(length, longest);
+  const int samples = std::max(1, static_cast<int>(std::ceil(end / kClearStep)));
+  Clear clear;
+  for (int i = 0; i <= samples; ++i) {
+    const double metres = end * i / samples;
+    const Vector3d point = ahead(metres);
+    if (!room.open(point)) {
+      clear.closed = point;
+      return clear;
+    }
+    clear.metres = metres;
+  }
+  return clear;
+}
+
+}  // namespace grid_path_planner::avoidance

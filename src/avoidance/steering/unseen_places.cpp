@@ -1,0 +1,92 @@
+#include "avoidance/steering/unseen_places.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "avoidance/steering/vantage.h"
+
+namespace grid_path_planner::avoidance {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kLooksAt = 0.1;       // rad, of the direction to look in
+constexpr double kLooked = 0.6;        // s of looking in vain
+constexpr double kShortWay = 1.3;      // m of open path that the vehicle does not fly
+constexpr double kSamePlace = 0.4;     // m
+constexpr double kAtVantage = 0.15;    // m
+constexpr double kLongestLook = 10.0;  // s
+constexpr double kTrackStep = 0.3;     // m
+constexpr std::size_t kLongestTrack = 16;
+constexpr double kGivenUp = 30.0;  // s
+constexpr std::size_t kMostPlaces = 32;
+
+void add(const Vector3d& place, std::vector<Vector3d>& places) {
+  if (places.size() >= kMostPlaces) places.erase(places.begin());
+  places.push_back(place);
+}
+
+}  // namespace
+
+void UnseenPlaces::forget() {
+  way_.clear();
+  look_at_.reset();
+  waits_since_.reset();
+  tried_.clear();
+  closed_.clear();
+}
+
+void UnseenPlaces::remember(const Vector3d& vehicle) {
+  if (!track_.empty() && (track_.back() - vehicle).norm() < kTrackStep) return;
+  if (track_.size() >= kLongestTrack) track_.erase(track_.begin());
+  track_.push_back(vehicle);
+}
+
+bool UnseenPlaces::wasTried(const Vector3d& place) const {
+  return std::any_of(tried_.begin(), tried_.end(),
+                     [&](const Vector3d& tried) { return (tried - place).norm() < kSamePlace; });
+}
+
+// Until the place is seen, or the vehicle has been there and looked, or cannot come there.
+bool UnseenPlaces::look(double time, const Vector3d& vehicle, const Steering& steering,
+                        const OpenSpace& space) {
+  const bool there = (vehicle - way_.back()).norm() < kAtVantage || steering.clear_path < 0.05;
+  if (!there || std::abs(steering.look_error) > kLooksAt) waits_since_ = time;
+  const bool done = space.seen(*look_at_) || time - *waits_since_ > kLooked;
+  if (!done && time - began_ < kLongestLook) return false;
+  way_.clear();
+  look_at_.reset();
+  waits_since_.reset();
+  return true;
+}
+
+bool UnseenPlaces::update(double time, const Vector3d& vehicle, const Steering& steering,
+                          const OpenSpace& space, const KeptRoom& room, double d_safe) {
+  if (!closed_.empty() && time - closed_at_ > kGivenUp) forget();
+  remember(vehicle);
+  if (looks()) return look(time, vehicle, steering, space);
+  const bool waits = steering.unseen && steering.clear_path < kShortWay &&
+                     std::abs(steering.look_error) < kLooksAt;
+  if (!waits) {
+    waits_since_.reset();
+    return false;
+  }
+  if (!waits_since_) waits_since_ = time;
+  if (time - *waits_since_ < kLooked) return false;
+  waits_since_ = time;
+  const Vector3d place = *steering.closed;
+  if (!wasTried(place)) {
+    add(place, tried_);
+    way_ = wayToVantage(space, room, vehicle, place, d_safe, track_);
+    if (looks()) {
+      look_at_ = place;
+      began_ = time;
+      return true;
+    }
+  }
+  add(place, closed_);
+  closed_at_ = time;
+  return true;
+}
+
+}  // namespace grid_path_planner::avoidance

@@ -1,0 +1,46 @@
+// Places on the way that stay unseen although the vehicle stands and looks there.
+//
+// Such a place is looked at from a vantage first; where that shows nothing more, it closes ways for a while.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "avoidance/steering/kept_room.h"
+#include "avoidance/steering/steering.h"
+
+namespace grid_path_planner::avoidance {
+
+class UnseenPlaces {
+ public:
+  void forget();
+
+  // With what was steered along the present path. Whether that path is to be given up: for the one to the
+  // vantage, or to be searched for anew.
+  bool update(double time, const Eigen::Vector3d& vehicle, const Steering& steering,
+              const OpenSpace& space, const KeptRoom& room, double d_safe);
+
+  // Where the vehicle flies to look, if it does, and at what.
+  bool looks() const { return !way_.empty(); }
+  const std::vector<Eigen::Vector3d>& way() const { return way_; }
+  const std::optional<Eigen::Vector3d>& lookAt() const { return look_at_; }
+  const std::vector<Eigen::Vector3d>& closed() const { return closed_; }
+
+ private:
+  bool look(double time, const Eigen::Vector3d& vehicle, const Steering& steering,
+            const OpenSpace& space);
+  void remember(const Eigen::Vector3d& vehicle);
+  bool wasTried(const Eigen::Vector3d& place) const;
+
+  std::vector<Eigen::Vector3d> way_;  // to the vantage; empty: none
+  std::optional<Eigen::Vector3d> look_at_;
+  std::vector<Eigen::Vector3d> track_;   // where the vehicle was, the newest last
+  std::vector<Eigen::Vector3d> tried_;   // looked at from a vantage
+  std::vector<Eigen::Vector3d> closed_;  // given up
+  std::optional<double> waits_since_;
+  double began_ = 0.0;      // s, when the vantage was chosen
+  double closed_at_ = 0.0;  // s, when a place was given up last
+};
+
+}  // namespace grid_path_planner::avoidance

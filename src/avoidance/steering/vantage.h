@@ -1,0 +1,22 @@
+// Where to look from at a place that cannot be seen from here: the camera sees neither its own skirts nor
+// round corners.
+//
+// Of the places around the vehicle, in what is open, the nearest from which what is unseen about the place
+// lies in the picture and behind no remembered point.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "avoidance/steering/kept_room.h"
+
+namespace grid_path_planner::avoidance {
+
+// The way there, which begins at the vehicle: straight, or back along `track`, where the vehicle was, the
+// newest last. Empty where no place shows more than here.
+std::vector<Eigen::Vector3d> wayToVantage(const OpenSpace& space, const KeptRoom& room,
+                                          const Eigen::Vector3d& vehicle,
+                                          const Eigen::Vector3d& place, double d_safe,
+                                          const std::vector<Eigen::Vector3d>& track);
+
+}  // namespace grid_path_planner::avoidance

@@ -1,0 +1,75 @@
+#include "ros/avoidance/cloud_frames.h"
+
+#include <cmath>
+#include <utility>
+
+#include "grid_path_planner/base/errors.h"
+#include "ros/common/clock.h"
+#include "ros/common/incoming/cloud_reader.h"
+
+namespace grid_path_planner::nodes {
+
+using avoidance::Frame;
+using avoidance::Pinhole;
+
+namespace {
+
+constexpr double kLongestWait = 1.0;  // s for tf
+
+Eigen::Isometry3d poseOf(const geometry_msgs::Transform& transform) {
+  const auto& q = transform.rotation;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translate(
+      Eigen::Vector3d(transform.translation.x, transform.translation.y, transform.translation.z));
+  pose.rotate(Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized());
+  return pose;
+}
+
+}  // namespace
+
+void CloudFrames::setCamera(const sensor_msgs::CameraInfo& camera) {
+  camera_ = camera;
+}
+
+void CloudFrames::clear() {
+  waiting_.reset();
+  problem_.clear();
+}
+
+// Of the same frame and size; anything else is of another camera.
+std::optional<Pinhole> CloudFrames::pinholeOf(const sensor_msgs::PointCloud2& cloud) const {
+  if (!camera_ || camera_->header.frame_id != cloud.header.frame_id ||
+      camera_->width != cloud.width || camera_->height != cloud.height)
+    return std::nullopt;
+  const auto& k = camera_->K;
+  return Pinhole{k[0], k[4], k[2], k[5]};
+}
+
+std::optional<Frame> CloudFrames::next(const FrameTransforms& transforms,
+                                       const std::string& map_frame, const ros::Time& now) {
+  if (!waiting_) return std::nullopt;
+  const sensor_msgs::PointCloud2& cloud = *waiting_;
+  try {
+    const auto transform =
+        transforms.transform(map_frame, cloud.header.frame_id, cloud.header.stamp);
+    Frame frame;
+    frame.time = cloud.header.stamp.toSec();
+    frame.map_from_sensor = poseOf(transform.transform);
+    frame.points = allPoints(cloud);
+    frame.width = static_cast<int>(cloud.width);
+    frame.height = static_cast<int>(cloud.height);
+    frame.pinhole = pinholeOf(cloud);
+    waiting_.reset();
+    problem_.clear();
+    return frame;
+  } catch (const TransformError& error) {
+    problem_ = error.what();
+    if (secondsBetween(cloud.header.stamp, now) > kLongestWait) waiting_.reset();
+  } catch (const base::InputError& error) {
+    problem_ = error.what();
+    waiting_.reset();
+  }
+  return std::nullopt;
+}
+
+}  // namespace grid_path_planner::nodes

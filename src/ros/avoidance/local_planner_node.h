@@ -1,0 +1,111 @@
+// The node `local_planner`: flies to goals through space of which there is no map.
+//
+//   subscribes  points          sensor_msgs/PointCloud2
+//               camera_info     sensor_msgs/CameraInfo of the same frame and size; without it only
+//                               measured rays tell what is free
+//               odom            nav_msgs/Odometry; the velocity. Without it that commanded last counts
+//               goal            geometry_msgs/PoseStamped
+//               path            nav_msgs/Path; flown along. An empty one stops the vehicle
+//               stop            std_msgs/Bool; zeros while it is true
+//               manual_control  std_msgs/Bool; a joystick commands: the flight is paused
+//               tf              the poses of the vehicle and of the clouds' sensor
+//   publishes   cmd_vel            geometry_msgs/Twist in base_frame
+//               setpoint_velocity  geometry_msgs/TwistStamped in map_frame
+//               local_path         nav_msgs/Path, latched
+//               avoidance_status   grid_path_planner/AvoidanceStatus, latched
+//               obstacle_distance  sensor_msgs/LaserScan
+//               remembered_points  sensor_msgs/PointCloud2
+//               /diagnostics
+//   services    ~pause, ~resume, ~cancel, ~explain   std_srvs/Trigger
+//
+// Guaranteed: without a route nothing is published on cmd_vel, so that others may command the vehicle; a
+// zero at its end, and on every orderly shutdown. A cloud or a pose that is older than cloud_timeout or
+// tf_timeout stops the vehicle. A goal or path that cannot be flown is refused with an error, and the
+// present flight goes on. ROS time that goes back cancels the flight and forgets what was seen. The node
+// does not start where another publishes cmd_vel (but a joystick, and with ~share_cmd_vel). Not
+// guaranteed: a zero after SIGKILL: the vehicle itself must stop when commands cease.
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
+#include <ros/node_handle.h>
+#include <ros/steady_timer.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Bool.h>
+#include <std_srvs/Trigger.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/avoidance/pilot.h"
+#include "ros/avoidance/cloud_frames.h"
+#include "ros/avoidance/flight_publisher.h"
+#include "ros/avoidance/local_planner_options.h"
+#include "ros/common/clock.h"
+#include "ros/common/frame_transforms.h"
+#include "ros/common/incoming/bounded_subscription.h"
+#include "ros/common/node_files.h"
+
+namespace grid_path_planner {
+class LocalPlannerConfig;
+}  // namespace grid_path_planner
+
+namespace grid_path_planner::None {}  // namespace grid_path_planner::None
+
+namespace grid_path_planner::nodes {
+
+template <class Config, class Options>
+class Reconfigurable;
+
+class LocalPlannerNode {
+ public:
+  // A waypoint file that no argument names lies below the folder to load from. Throws InputError for
+  // parameters and files that cannot be used, and another node that commands. All callbacks are served
+  // by the queue of `nh`, which must be one thread's.
+  LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const NodeFiles& files = {});
+  // Zeroes cmd_vel.
+  ~LocalPlannerNode();
+
+ private:
+  void subscribe();
+  void offerServices(ros::NodeHandle& private_nh);
+  void use(const LocalPlannerOptions& options);
+  void startTimer();
+  void onGoal(const geometry_msgs::PoseStamped& goal);
+  void onPath(const nav_msgs::Path& path);
+  void fly(std::vector<Eigen::Vector3d> points, bool along);
+  void control();
+  avoidance::PilotInput input(const ros::Time& now);
+  void publish(const avoidance::PilotAnswer& answer, const ros::Time& now);
+  bool isHeld() const;
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  ros::NodeHandle nh_;
+  LocalPlannerOptions options_;
+  FrameTransforms transforms_;
+  ClockWatch clock_;
+  avoidance::Pilot pilot_;
+  avoidance::PilotAnswer answer_;
+  CloudFrames clouds_;
+  std::optional<avoidance::Frame> frame_;
+  FlightPublisher publisher_;
+  std::optional<nav_msgs::Odometry> odometry_;
+  ros::SteadyTime manual_until_;
+  double yaw_ = 0.0;
+  bool flies_ = false;    // there is a route, and cmd_vel is published
+  bool stopped_ = false;  // by the topic
+  bool paused_ = false;   // by the service
+
+  std::vector<ros::Subscriber> subscribers_;
+  std::unique_ptr<BoundedSubscription<sensor_msgs::PointCloud2>> cloud_subscription_;
+  std::vector<ros::ServiceServer> services_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::SteadyTimer control_timer_, diagnostics_timer_;
+  std::unique_ptr<Reconfigurable<LocalPlannerConfig, LocalPlannerOptions>> reconfigurable_;
+};
+
+}  // namespace grid_path_planner::nodes

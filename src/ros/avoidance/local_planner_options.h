@@ -1,0 +1,50 @@
+// The parameters of the node `local_planner`.
+#pragma once
+
+#include <string>
+
+#include "grid_path_planner/avoidance/pilot_options.h"
+
+namespace grid_path_planner::nodes {
+
+struct LocalPlannerOptions {
+  std::string config_filename;
+  avoidance::PilotOptions pilot;
+  std::string map_frame = "map";
+  std::string base_frame = "base_link";
+  double tf_timeout = 0.3;     // s
+  double control_rate = 20.0;  // Hz, wall time
+  bool share_cmd_vel = false;
+};
+
+template <class Visitor>
+void visitOptions(LocalPlannerOptions& o, Visitor&& visit) {
+  visit("config_filename", o.config_filename,
+        base::OptionInfo{"Waypoint file to fly at the start, below the folder to load from; empty: "
+                         "it waits for a goal or a path",
+                         ""}
+            .under("What is flown"));
+  visitOptions(o.pilot, visit);
+  visit("map_frame", o.map_frame,
+        base::OptionInfo{"Frame in which is remembered and planned; its z points up", ""}.under(
+            "The vehicle's pose"));
+  visit("base_frame", o.base_frame,
+        base::OptionInfo{"Frame of the vehicle, whose pose tf gives and in which it is commanded",
+                         ""});
+  visit("tf_timeout", o.tf_timeout,
+        base::OptionInfo{"The vehicle stops while its newest pose is older", "s", 0.01, 3600.0});
+  visit("control_rate", o.control_rate,
+        base::OptionInfo{"How often the velocity is computed, by the wall clock; PX4 wants more "
+                         "than 2",
+                         "Hz", 2.0, 1000.0});
+  visit("share_cmd_vel", o.share_cmd_vel,
+        base::OptionInfo{"Whether the node starts where another publishes cmd_vel too; true only "
+                         "where the two never drive at once",
+                         ""});
+}
+
+// Throws InputError naming the option for a value outside its limits, options that
+// checkPilotOptions refuses, and frames that are empty.
+void checkLocalPlannerOptions(const LocalPlannerOptions& options);
+
+}  // namespace grid_path_planner::nodes

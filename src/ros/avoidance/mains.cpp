@@ -1,0 +1,13 @@
+#include "ros/avoidance/mains.h"
+
+#include "ros/avoidance/local_planner_node.h"
+#include "ros/common/run_node.h"
+
+namespace grid_path_planner::nodes {
+
+int localPlannerMain(int argc, char** argv) {
+  return runNode<LocalPlannerNode>(argc, argv, "local_planner",
+                                   {{"config_filename", "WAYPOINTS.yaml"}});
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,162 @@
+// Clouds, poses and goals that cannot be used: the vehicle stands, and is told why.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "avoidance/drawn_world.h"
+#include "avoidance/simulated_flight.h"
+#include "grid_path_planner/base/errors.h"
+#include "support/error_text.h"
+
+namespace grid_path_planner::avoidance {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+FlightSetup fieldSetup() {
+  FlightSetup setup;
+  setup.world = worldOf(drawnMeshes({}, 1.0));
+  setup.options = flyingOptions();
+  setup.waypoints = {{20.0, 0.0, 1.5}};
+  return setup;
+}
+
+PilotInput inputAt(double time, const Frame* frame) {
+  PilotInput input;
+  input.time = time;
+  input.pose = VehiclePose{{0.0, 0.0, 1.5}, 0.0};
+  input.frame = frame;
+  return input;
+}
+
+Frame pictureOf(float value, double time) {
+  Frame frame;
+  frame.time = time;
+  frame.width = 8;
+  frame.height = 6;
+  frame.points.assign(3 * frame.pixels(), value);
+  frame.map_from_sensor.translation() = Vector3d(0.0, 0.0, 1.5);
+  return frame;
+}
+
+// Stands, with a status and words of its sentence.
+void expectStands(const PilotAnswer& answer, PilotStatus status, const std::string& words) {
+  EXPECT_TRUE(answer.velocity.isZero());
+  EXPECT_EQ(answer.status, status) << answer.sentence;
+  EXPECT_NE(answer.sentence.find(words), std::string::npos) << answer.sentence;
+}
+
+TEST(Input, WithoutACloudItStandsAndSaysSo) {
+  Pilot pilot(flyingOptions());
+  pilot.setRoute({{20.0, 0.0, 1.5}});
+  expectStands(pilot.update(inputAt(1.0, nullptr)), PilotStatus::NO_CLOUD, "no cloud has come");
+}
+
+TEST(Input, AnUnorganisedCloudWithoutPointsIsALostSensor) {
+  Pilot pilot(flyingOptions());
+  pilot.setRoute({{20.0, 0.0, 1.5}});
+  Frame frame;
+  expectStands(pilot.update(inputAt(0.0, &frame)), PilotStatus::NO_CLOUD, "holds no point");
+  frame = pictureOf(kNan, 0.1);
+  frame.width = 48;
+  frame.height = 1;
+  expectStands(pilot.update(inputAt(0.1, &frame)), PilotStatus::NO_CLOUD, "holds no point");
+}
+
+TEST(Input, FramesThatLieAreRefused) {
+  Pilot pilot(flyingOptions());
+  pilot.setRoute({{20.0, 0.0, 1.5}});
+  Frame frame = pictureOf(1.0F, 5.0);
+  expectStands(pilot.update(inputAt(1.0, &frame)), PilotStatus::NO_CLOUD, "in the future");
+  frame.time = 1.1;
+  frame.width = 9;
+  expectStands(pilot.update(inputAt(1.1, &frame)), PilotStatus::NO_CLOUD, "instead of 9 x 6");
+  frame.width = 8;
+  frame.map_from_sensor.translation().x() = std::nan("");
+  expectStands(pilot.update(inputAt(1.2, &frame)), PilotStatus::NO_CLOUD, "not finite");
+}
+
+TEST(Input, InfinitiesAndHugeNumbersAreNoPoints) {
+  Pilot pilot(flyingOptions());
+  for (const float value : {std::numeric_limits<float>::infinity(), 1e30F, -1e30F}) {
+    const Frame frame = pictureOf(value, 0.0);
+    pilot.see(frame);
+  }
+  EXPECT_TRUE(pilot.rememberedPoints().empty());
+}
+
+TEST(Input, APoseThatIsNotKnownStopsAtOnce) {
+  FlightSetup setup = fieldSetup();
+  Pilot pilot(setup.options);
+  pilot.setRoute(setup.waypoints);
+  PilotInput input = inputAt(0.0, nullptr);
+  input.pose.reset();
+  input.pose_problem = "tf knows no frame odom";
+  expectStands(pilot.update(input), PilotStatus::TRANSFORM_ERROR, "no frame odom");
+  input.pose = VehiclePose{{std::nan(""), 0.0, 0.0}, 0.0};
+  input.pose_problem.clear();
+  expectStands(pilot.update(input), PilotStatus::TRANSFORM_ERROR, "not known");
+}
+
+// In flight the clouds cease: zero within half a second.
+TEST(Input, ACameraThatIsCutStopsTheVehicle) {
+  FlightSetup setup = fieldSetup();
+  double last_frame = 0.0;
+  setup.each = [&](const PilotInput& input, const PilotAnswer& answer, const auto&, const Pilot&) {
+    if (input.frame != nullptr) last_frame = input.time;
+    if (input.time - last_frame > 0.45) {
+      EXPECT_TRUE(answer.velocity.isZero());
+      EXPECT_EQ(answer.status, PilotStatus::NO_CLOUD);
+    }
+  };
+  setup.last_frame = 4.0;
+  setup.seconds = 8.0;
+  EXPECT_LT(fly(setup).metres, 10.0);
+}
+
+TEST(Input, TimeThatGoesBackCancels) {
+  Pilot pilot(flyingOptions());
+  pilot.setRoute({{20.0, 0.0, 1.5}});
+  pilot.update(inputAt(10.0, nullptr));
+  expectStands(pilot.update(inputAt(9.0, nullptr)), PilotStatus::CANCELLED, "time went back");
+  pilot.setRoute({{20.0, 0.0, 1.5}});
+  expectStands(pilot.update(inputAt(9.1, nullptr)), PilotStatus::NO_CLOUD, "no cloud");
+}
+
+TEST(Input, WrongIntrinsicsAreNotBelieved) {
+  FlightSetup setup = fieldSetup();
+  setup.focal_error = 1.5;
+  setup.seconds = 5.0;
+  const FlightResult result = fly(setup);
+  EXPECT_EQ(result.contacts, 0);
+  EXPECT_LT(result.metres, 2.0);  // the sky clears nothing without intrinsics
+}
+
+TEST(Input, FalsePointsDoNotBendTheWay) {
+  FlightSetup setup = fieldSetup();
+  setup.false_points = 20;
+  const FlightResult result = fly(setup);
+  EXPECT_EQ(result.status, PilotStatus::ARRIVED) << result.sentence;
+  EXPECT_LE(result.metres, 1.05 * 20.0);
+}
+
+TEST(Input, GoalsThatCannotBeFlownAreRefusedByName) {
+  Pilot pilot(flyingOptions());
+  pilot.setRoute({{20.0, 0.0, 1.5}});
+  const auto refused = [&](const std::vector<Vector3d>& route) {
+    return test::errorText([&] { pilot.setRoute(route); });
+  };
+  EXPECT_NE(refused({}).find("at least one"), std::string::npos);
+  EXPECT_NE(refused({{1.0, 0.0, 1.5}, {std::nan(""), 0.0, 1.5}}).find("waypoint 2"),
+            std::string::npos);
+  EXPECT_NE(refused({{1e180, 0.0, 1.5}}).find("1e6"), std::string::npos);
+  EXPECT_NE(refused({{1.0, 0.0, 9.0}}).find("fence"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::avoidance
