@@ -196,9 +196,8 @@ def maps_end(data):
     return path[path.count - 1] if path.count else None
 
 
-@case()
-def many_maps(node, generator, quick, result):
-    """`~make_plan` of four clients while whole maps come at 5 Hz. Each with 0.1 % of its cells changed."""
+def ask_while_maps_come(node, generator, quick, result, goal):
+    """Four clients, each with a connection of its own."""
     from threading import Thread
     ends = [node.world.cell(*end) for end in node.ends]
     versions = [node.map_message(maps.scattered(node.world, 0.001, generator, ends)) for _ in range(3)]
@@ -207,7 +206,7 @@ def many_maps(node, generator, quick, result):
     def ask():
         service = Service(node.service_name, node.GetPlan)
         while time.monotonic() < stop_at:
-            request = node.request(*node.ends)
+            request = node.request(node.ends[0], goal)
             begin = time.monotonic()
             service.call(request)
             result.times.append(time.monotonic() - begin)
@@ -223,3 +222,19 @@ def many_maps(node, generator, quick, result):
     for client in clients:
         client.join()
     result.remark = "%d maps sent" % sent
+
+
+@case()
+def many_maps(node, generator, quick, result):
+    """`~make_plan` of four clients while whole maps come at 5 Hz, across the map. Each map with 0.1 % of its cells changed."""
+    ask_while_maps_come(node, generator, quick, result, node.ends[1])
+
+
+@case()
+def many_maps_near(node, generator, quick, result):
+    """the same over 20 m. What a plan itself takes is little then."""
+    middle = [node.world.cell(*end)[0] for end in node.ends]
+    reach = min(middle[1] - middle[0], 283)  # of 0.05 m, in both directions
+    at = next(i for i in range(middle[0] + reach, middle[0], -1)
+              if not any(node.world.at(i + c, i + r) for c in range(-10, 11) for r in range(-10, 11)))
+    ask_while_maps_come(node, generator, quick, result, node.world.centre(at, at))

@@ -52,22 +52,38 @@ SharedCostmap::SharedCostmap(std::shared_ptr<const MapSeries> series, const Cost
                              const KeptDistances& kept)
     : series_(std::move(series)), options_(options), kept_(kept), builder_(options, kept) {}
 
-SharedCostmap::Result SharedCostmap::newest(const StopToken& stop) {
+SharedCostmap::Result SharedCostmap::newest(const StopToken& stop, std::uint64_t at_least) {
+  const std::uint64_t wanted = std::min(at_least, series_->newest().changes.newest());
+  if (auto made = madeSince(wanted)) return *std::move(made);
   std::unique_lock<std::timed_mutex> lock(making_, std::defer_lock);
   while (!lock.try_lock_for(std::chrono::milliseconds(5)))
     if (const StopReason reason = stop.reason(); reason != StopReason::NONE) throw Stopped(reason);
+  if (auto made = madeSince(wanted)) return *std::move(made);  // by who had the lock
   try {
-    takeMap();
-    auto downsampled = builder_.downsampled(stop);
-    return {map_,
-            {builder_.fullResolution(stop), std::move(downsampled),
-             builder_.fullResolutionChanges(), builder_.downsampledChanges()}};
+    return make(stop);
   } catch (const Stopped&) {
     throw;  // the next one goes on
   } catch (...) {
     revision_.reset();  // the costmaps may be half made
     throw;
   }
+}
+
+std::optional<SharedCostmap::Result> SharedCostmap::madeSince(std::uint64_t revision) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return made_ && made_revision_ >= revision ? made_ : std::nullopt;
+}
+
+SharedCostmap::Result SharedCostmap::make(const StopToken& stop) {
+  takeMap();
+  auto downsampled = builder_.downsampled(stop);
+  Result result{map_,
+                {builder_.fullResolution(stop), std::move(downsampled),
+                 builder_.fullResolutionChanges(), builder_.downsampledChanges()}};
+  const std::lock_guard<std::mutex> lock(mutex_);
+  made_ = result;
+  made_revision_ = *revision_;
+  return result;
 }
 
 void SharedCostmap::takeMap() {
@@ -94,6 +110,11 @@ void MapStore::setMap(std::shared_ptr<const OccupancyGrid> map, const std::strin
 void MapStore::updateMap(std::shared_ptr<const OccupancyGrid> map,
                          const std::vector<CellRect>& changed) {
   series()->update(std::move(map), changed);
+}
+
+std::uint64_t MapStore::revision() const {
+  const std::shared_ptr<MapSeries> newest = series();
+  return newest ? newest->newest().changes.newest() : 0;
 }
 
 std::shared_ptr<MapSeries> MapStore::series() const {

@@ -8,10 +8,13 @@
 //
 // setMap() and updateMap() wait for nobody. Whoever asks for a costmap waits while another makes the
 // same one, and never while another plans: what is handed out does not change. Whoever comes seldom
-// gets the newest map, and what changed since the one before in one list.
+// gets the newest map, and what changed since the one before in one list. Whoever has waited is
+// content with the map that was the newest when he came: so maps that come faster than costmaps are
+// made hold nobody up.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -68,11 +71,15 @@ class SharedCostmap {
   const costmap::CostmapOptions& options() const { return options_; }
   const costmap::KeptDistances& keptDistances() const { return kept_; }
 
-  // Of the newest map. Throws Stopped, also while another thread makes them.
-  Result newest(const base::StopToken& stop);
+  // Of the newest map, or of an earlier one of at least this revision where these are there. Throws
+  // Stopped, also while another thread makes them.
+  Result newest(const base::StopToken& stop,
+                std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
 
  private:
+  std::optional<Result> madeSince(std::uint64_t revision) const;
   void takeMap();
+  Result make(const base::StopToken& stop);
 
   const std::shared_ptr<const MapSeries> series_;
   const costmap::CostmapOptions options_;
@@ -81,6 +88,9 @@ class SharedCostmap {
   costmap::CostmapBuilder builder_;
   std::shared_ptr<const grid::OccupancyGrid> map_;  // the builder's
   std::optional<std::uint64_t> revision_;           // of map_; none: the builder begins anew
+  mutable std::mutex mutex_;  // of what follows, held for no longer than it takes to read and write
+  std::optional<Result> made_;
+  std::uint64_t made_revision_ = 0;  // of its map
 };
 
 class MapStore {
@@ -92,6 +102,8 @@ class MapStore {
                  const std::vector<grid::CellRect>& changed);
   // Null before the first map.
   std::shared_ptr<MapSeries> series() const;
+  // Of the newest map; 0 before the first.
+  std::uint64_t revision() const;
 
  private:
   mutable std::mutex mutex_;

@@ -205,7 +205,8 @@ void PathPlanner::updateMap(std::shared_ptr<const OccupancyGrid> map,
   takeMap();
 }
 
-void PathPlanner::takeMap() {
+void PathPlanner::takeMap(std::uint64_t at_least) {
+  at_least_ = at_least;
   std::shared_ptr<MapSeries> series = store_->series();
   if (!series) return;
   if (series->geometry().size() == 0) throw InputError(kNoCells);
@@ -269,7 +270,7 @@ std::size_t PathPlanner::memoryLeft(std::size_t taken) const {
 CostmapPair PathPlanner::costmaps(const StopToken& stop) {
   assert(hasMap());
   search().limitMemory(memoryLeft(bytesOfMaps()));
-  SharedCostmap::Result newest = costmap_->newest(stop);
+  SharedCostmap::Result newest = costmap_->newest(stop, at_least_);
   map_ = std::move(newest.map);
   downsampled_changes_ = newest.costs.downsampled_changes;
   return std::move(newest.costs);

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
@@ -126,9 +127,10 @@ class PathPlanner {
   void updateMap(std::shared_ptr<const grid::OccupancyGrid> map,
                  const std::vector<grid::CellRect>& changed);
   // Takes the newest map that was set here or in the shared store; the calls that follow may take
-  // later ones of the same geometry and frame by themselves, and no others. Throws InputError for a
-  // map without cells.
-  void takeMap();
+  // later ones of the same geometry and frame by themselves, and no others. `at_least`: an earlier map
+  // of that revision (MapStore) or a higher one will do where its costmaps are there. Throws
+  // InputError for a map without cells.
+  void takeMap(std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
   bool hasMap() const { return map_ != nullptr; }
   // That of the last call.
   const std::shared_ptr<const grid::OccupancyGrid>& map() const { return map_; }
@@ -198,6 +200,7 @@ class PathPlanner {
   std::shared_ptr<MapSeries> series_;  // null before takeMap()
   std::shared_ptr<const grid::OccupancyGrid> map_;
   std::shared_ptr<SharedCostmap> costmap_;  // of series_ and the options; null before takeMap()
+  std::uint64_t at_least_ = std::numeric_limits<std::uint64_t>::max();  // as takeMap() was told
   costmap::CostChanges downsampled_changes_;
   std::unique_ptr<PreparedPlanners> searches_;  // of these costmaps
   std::unique_ptr<Lowered> lowered_;            // for the last request, if it needed one

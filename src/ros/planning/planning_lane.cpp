@@ -98,20 +98,22 @@ void PlanningLane::finishLater(const PathPlannerNodeOptions& options) {
 }
 
 Plan PlanningLane::plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                        const StopSource& stop, const PhaseListener& on_phase) {
-  Plan plan = tryToPlan(request, options, stop, on_phase);
+                        const StopSource& stop, const PhaseListener& on_phase,
+                        std::uint64_t at_least) {
+  Plan plan = tryToPlan(request, options, stop, on_phase, at_least);
   plan.path.frame_id = frame(options);
   if (!plan.found()) plan.path.poses.clear();
   return plan;
 }
 
 Plan PlanningLane::tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                             const StopSource& stop, const PhaseListener& on_phase) {
+                             const StopSource& stop, const PhaseListener& on_phase,
+                             std::uint64_t at_least) {
   try {
     checkText(request);
     waitForClock(stop.token());
     if (on_phase) on_phase("preparing");
-    takeMap();
+    takeMap(at_least);
     setOptions(optionsFor(request, options));
     if (!planner_->hasMap())
       return failedPlan(Status::NO_MAP, "no map has come on " + maps_.topic() + " yet");
@@ -173,9 +175,9 @@ double PlanningLane::cellSize(const Plan& plan) const {
   return has_map ? planner_->map()->geometry().resolution() * plan.kernel : 1.0;
 }
 
-void PlanningLane::takeMap() {
+void PlanningLane::takeMap(std::uint64_t at_least) {
   if (!planner_) planner_ = std::make_unique<PathPlanner>(store_);
-  planner_->takeMap();
+  planner_->takeMap(at_least);
   bytes_ = planner_->bytesOfSearches();
 }
 

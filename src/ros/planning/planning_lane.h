@@ -12,7 +12,9 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -49,16 +51,18 @@ class PlanningLane {
   // what is done when a task comes stays. Nothing for maps of more than kMostFinished cells.
   void finishLater(const PathPlannerNodeOptions& options);
 
+  // `at_least`: as PathPlanner::takeMap() has it.
   planning::Plan plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                      const base::StopSource& stop, const PhaseListener& on_phase = {});
+                      const base::StopSource& stop, const PhaseListener& on_phase = {},
+                      std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
   // Of a plan just made for this request; no stamp yet.
   PlanStatistics statistics(const planning::Plan& plan, const PlanningRequest& request,
                             const PathPlannerNodeOptions& options) const;
   // Of the map that this plan was searched on, in metres.
   double cellSize(const planning::Plan& plan) const;
 
-  // Lets go of a map that is not of the newest geometry and frame.
-  void takeMap();
+  // Takes the newest map, and lets go of one of another geometry or frame.
+  void takeMap(std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
 
   // The costmaps of the newest map; null before the first. Throw Stopped.
   std::shared_ptr<const costmap::CostGrid> downsampledCosts(const PathPlannerNodeOptions& options,
@@ -75,7 +79,8 @@ class PlanningLane {
   static constexpr std::size_t kMostFinished = std::size_t{1} << 22;
 
   planning::Plan tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                           const base::StopSource& stop, const PhaseListener& on_phase);
+                           const base::StopSource& stop, const PhaseListener& on_phase,
+                           std::uint64_t at_least);
   planning::PoseRequest posesOf(const PlanningRequest& request,
                                 const PathPlannerNodeOptions& options,
                                 const base::StopToken& stop) const;

@@ -46,6 +46,7 @@ void PlanningServer::setOptions(const PathPlannerNodeOptions& options) {
 std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& request, Publish publish) {
   auto ticket = std::make_shared<PlanTicket>();
   asked_ = true;
+  ticket->map_ = store_->revision();
   ticket->task_ = question_lane_.post([this, ticket, request, publish](const StopSource& stop) {
     answer(*ticket, request, publish, stop);
     question_lane_.finishLater(settings().options);
@@ -89,8 +90,8 @@ void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, 
   PathPlannerNodeOptions options = recordingOptions(settings().options);
   if (publish == Publish::NO) options.record_search = false;
   checkClock();
-  Plan plan = question_lane_.plan(request, options, stop,
-                                  [&](const char* phase) { ticket.phase_ = phase; });
+  Plan plan = question_lane_.plan(
+      request, options, stop, [&](const char* phase) { ticket.phase_ = phase; }, ticket.map_);
   try {
     ticket.statistics_ = question_lane_.statistics(plan, request, options);
     ticket.plan_ = std::move(plan);

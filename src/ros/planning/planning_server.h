@@ -12,6 +12,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -49,6 +50,7 @@ class PlanTicket {
   std::atomic<const char*> phase_{"waiting"};
   planning::Plan plan_ = planning::failedPlan(base::Status::CANCELLED, "planning was cancelled");
   PlanStatistics statistics_ = statisticsMessage(plan_);
+  std::uint64_t map_ = 0;  // the revision of the newest when it was handed in
   std::shared_ptr<base::TaskQueue::Task> task_;
 };
 
