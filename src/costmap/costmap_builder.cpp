@@ -245,12 +245,13 @@ std::vector<CellRect> CostmapBuilder::rewriteWeights(const ClassChanges& changes
   const Rewriting rewriting(changes, *inflations_, blocked, all);
   StopPoll poll(stop, 16);
   for (const CellRect& rect : rewriting.all) prefetchRows(full_.current()->weights(), rect);
-  full_.advance({rewriting.all, full_dirty_}, [&](CostGrid& next) {
+  const std::vector<CellRect> new_classes = disjointRects(changes.all);
+  full_.advance({rewriting.all, new_classes}, [&](CostGrid& next) {
     for (const CellRect& rect : rewriting.all) prefetchRows(next.weights(), rect);
     for (const CellRect& rect : rewriting.all)
       prefetchRows(next.classes(), grown(rect, inflations_->occupied.reach(), all));
     next.edit(*full_.current(), rewriting.all, [&](auto& weights, auto& classes) {
-      for (const CellRect& rect : full_dirty_)
+      for (const CellRect& rect : new_classes)
         classify(*map_, options_.thresholds, rect, classes, stop);
       for (const CellRect& rect : rewriting.recomputed) {
         poll();

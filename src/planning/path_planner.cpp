@@ -99,15 +99,6 @@ std::string foundMessage(const Plan& plan, const PathEnd& start, const PathEnd& 
   return message;
 }
 
-// "it keeps only 0.2 m from unknown cells, as near as its ends are".
-std::string loweredNote(const KeptDistances& asked, const KeptDistances& kept) {
-  std::string note;
-  if (kept.unknown < asked.unknown) note += metresText(kept.unknown) + " from unknown cells";
-  if (kept.outside < asked.outside)
-    note += (note.empty() ? "" : " and ") + metresText(kept.outside) + " from the map's border";
-  return "it keeps only " + note + ", as near as its ends are";
-}
-
 std::string unreachableMessage(const PathEnd& start, const PathEnd& goal, double tolerance) {
   std::string message =
       "no path leads from " + positionText(start.position) + " to " + positionText(goal.position);
