@@ -16,7 +16,8 @@
 namespace grid_path_planner::command_line {
 
 using base::InputError, base::Status, base::StopToken;
-using grid::Cell, grid::GridGeometry, grid::OccupancyGrid, grid::OccupancyThresholds;
+using grid::Cell, grid::GridGeometry, grid::MapFileOptions, grid::OccupancyGrid,
+    grid::OccupancyThresholds;
 using nodes::readAnyMapFile;
 using path::Pose, path::writePicture, path::writeWaypointFile;
 using planners::traitsOf;
@@ -167,8 +168,10 @@ int runPlan(int argc, char** argv) {
   const PlannerOptions options = plannerOptionsFrom(values);
   warnAboutUnusedOptions(options);
 
+  MapFileOptions reading = readingOptionsFrom(values);
+  reading.images_need_resolution = true;
   const auto map = std::make_shared<const OccupancyGrid>(
-      readAnyMapFile(values["map"].as<std::string>(), readingOptionsFrom(values)));
+      readAnyMapFile(values["map"].as<std::string>(), reading));
 
   const PoseRequest request = requestFrom(values, map->geometry());
   PathPlanner planner(options);
