@@ -54,6 +54,31 @@ TEST_F(Plan, NoPathIsExitCodeOneAndHasItsReason) {
   EXPECT_TRUE(object["cost"].is_null());
 }
 
+TEST_F(Plan, SaysWhyThereIsNoPathWhereAsked) {
+  const std::string map = folder_.write("door.map",
+                                        "type octile\nheight 7\nwidth 9\nmap\n"
+                                        "....@....\n"
+                                        "....@....\n"
+                                        ".........\n"
+                                        ".........\n"
+                                        ".........\n"
+                                        "....@....\n"
+                                        "....@....\n");
+  const std::vector<std::string> question = {"plan",  "--map",  map,        "--start", "1.5,3.5",
+                                             "--goal", "7.5,3.5", "--radius", "2"};
+  const auto asked = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), question.begin(), question.end());
+    return runCommand(runPlan, more);
+  };
+  EXPECT_FALSE(contains(asked({}).printed, "would pass"));
+  EXPECT_TRUE(contains(asked({"--explain"}).printed,
+                       "the gap at (4.5, 3.5) is 3 m wide; radius 2 m needs 4 m; 1.5 m would pass"))
+      << asked({"--explain"}).printed;
+  const auto object = nlohmann::json::parse(asked({"--explain", "--json"}).printed);
+  EXPECT_EQ(object["explanation"]["gap"]["largest_radius_m"], 1.5);
+  EXPECT_EQ(object["explanation"]["only_unknown"], false);
+}
+
 TEST_F(Plan, NegativeNumbersParse) {
   const Outcome outside = plan({"--start", "-1.5,2", "--goal", "0.5,0.5"});
   EXPECT_EQ(outside.code, 1) << outside.error;

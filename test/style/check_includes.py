@@ -28,12 +28,14 @@ LENT = {
     "base/current_error.h": {"ros_common", "ros_driving", "ros_planning", "ros_simulation"},
     "base/deflate.h": {"grid", "planners"},
     "base/zeroed_array.h": {"planners"},
+    "costmap/inflation.h": {"planning"},  # the distances that it keeps
     "grid/float_decimal.h": {"ros_common"},
     "grid/map_differences.h": {"ros_common"},
     "grid/formats/rectangle_map_file.h": {"planners"},
     "planners/any_angle/theta_star.h": {"study"},  # the base of its published Theta*
     "planners/astar/bucket_search.h": {"planning"},
     "planners/rectangles/rectangle_route.h": {"command_line"},
+    "planning/explanation.h": {"command_line", "ros_planning"},
     "simulation/read_world_main.h": {"read_world"},
 }
 ROS_HEADER = re.compile(

@@ -27,6 +27,7 @@
 #include "ros/planning/plan_publisher.h"
 #include "ros/planning/planning_lane.h"
 #include "ros/planning/planning_request.h"
+#include "ros/planning/shown/explanation_publisher.h"
 
 namespace grid_path_planner::nodes {
 
@@ -41,6 +42,8 @@ class PlanTicket {
   // have no stamp. CANCELLED where the server ended before.
   const planning::Plan& plan() const { return plan_; }
   const PlanStatistics& statistics() const { return statistics_; }
+  // Why there is no path, where that was asked for.
+  const planning::Explanation& explanation() const { return explanation_; }
   // "waiting", "preparing" or "searching".
   const char* phase() const { return phase_; }
 
@@ -49,12 +52,14 @@ class PlanTicket {
   std::atomic<const char*> phase_{"waiting"};
   planning::Plan plan_ = planning::failedPlan(base::Status::CANCELLED, "planning was cancelled");
   PlanStatistics statistics_ = statisticsMessage(plan_);
+  planning::Explanation explanation_;
   std::shared_ptr<base::TaskQueue::Task> task_;
 };
 
 class PlanningServer {
  public:
   enum class Publish { NO, YES };
+  enum class Explain { NO, YES };
   // Options and how often they were changed.
   struct Settings {
     PathPlannerNodeOptions options;
@@ -73,7 +78,12 @@ class PlanningServer {
   // For the requests that are answered after this. Precondition: the options are checked.
   void setOptions(const PathPlannerNodeOptions& options);
 
-  std::shared_ptr<PlanTicket> ask(const PlanningRequest& request, Publish publish);
+  std::shared_ptr<PlanTicket> ask(const PlanningRequest& request, Publish publish,
+                                  Explain explain = Explain::NO);
+
+  // Logs and shows why `plan`, made for the vehicle, found no path: in the lane of questions, so that
+  // the vehicle does not wait for it. What a plan showed before is removed.
+  void explainLater(const PlanningRequest& request, const planning::Plan& plan);
 
   // A map has come: what questions on it would wait for is begun, before the first question and where
   // there was one since the last call.
@@ -97,9 +107,9 @@ class PlanningServer {
   // The options for a plan that is published: a search is recorded only where someone wants to see it.
   PathPlannerNodeOptions recordingOptions(PathPlannerNodeOptions options) const;
 
-  // Publishes a plan just made in `lane`, whose thread calls.
+  // Publishes a plan just made in `lane`, whose thread calls. A failure `as_before` is not logged.
   void publish(const PlanningLane& lane, const planning::Plan& plan,
-               const PlanStatistics& statistics);
+               const PlanStatistics& statistics, bool as_before = false);
 
   // The vehicle's position in this frame from tf, without waiting; none where tf has none.
   std::optional<Eigen::Vector2d> vehicle(const std::string& frame,
@@ -108,6 +118,8 @@ class PlanningServer {
  private:
   void answer(PlanTicket& ticket, const PlanningRequest& request, Publish publish,
               const base::StopSource& stop);
+  void explain(const PlanningRequest& request, const planning::Plan& plan,
+               const base::StopSource& stop);
   void writeWaypoints(const path::Path& path);
 
   NodeFiles files_;
@@ -121,6 +133,7 @@ class PlanningServer {
 
   FrameTransforms transforms_;
   PlanPublisher publisher_;
+  ExplanationPublisher explanations_;
   MapReceiver maps_{2};
   PlanningLane vehicle_lane_{maps_, 0, transforms_, nullptr};
   PlanningLane question_lane_{maps_, 1, transforms_, &vehicle_lane_};
