@@ -46,8 +46,9 @@ po::options_description planOptions() {
       "write a picture of map, expanded cells and path, with a legend")(
       "waypoints", po::value<std::string>(), "write the path as a waypoint file")(
       "explain",
-      "where there is no path, say why: the narrowest gap on the way and the largest radius that "
-      "passes it, unknown cells that close the way, the place nearest the goal in reach")(
+      "where there is no path, say why: the narrowest gap of the widest path and the largest "
+      "radius "
+      "that passes it, whether only unknown cells lead there, the place nearest the goal in reach")(
       "json", "print one JSON object instead of a sentence");
   describePlannerOptions(known);
   return known;

@@ -203,7 +203,7 @@ void PathFollower::reportHalfway() {
   if (options_.loop || *length_ <= 0.0 || left > 0.5 * *length_) return;
   length_ = 0.0;
   events_->report(Kind::HALFWAY, currentWaypoint(),
-                  "half of the way is driven, " + metres(left) + " are left; " +
+                  "half of the path is driven, " + metres(left) + " are left; " +
                       progress_->currentName() + " is next");
 }
 

@@ -34,7 +34,7 @@ double roundedDown(double radius) {
   return std::floor(radius * 1000.0 + 1e-6) / 1000.0;
 }
 
-// Across the gap at a cell: from its centre straight to the nearest obstacle, and the other way.
+// Across the gap at a cell: from its centre straight to the nearest obstacle, and back to the one opposite.
 class Across {
  public:
   Across(const CostGrid& costs, const CostmapOptions& options) : costs_(costs), options_(options) {}
@@ -105,20 +105,20 @@ class Explainer {
 
   Explanation explain(Cell start, Cell goal, Status status) const {
     Explanation explanation;
-    if (status == Status::UNREACHABLE) explainWay(start, goal, explanation);
+    if (status == Status::UNREACHABLE) explainGap(start, goal, explanation);
     explainNearest(start, status, explanation);
     return explanation;
   }
 
  private:
-  void explainWay(Cell start, Cell goal, Explanation& explanation) const {
+  void explainGap(Cell start, Cell goal, Explanation& explanation) const {
     const CostmapOptions& costmap = options_.costmap;
     const auto widest = widestPath(costs_, costmap, costs_.keptDistances(), start, goal, stop_);
     if (!widest) {
       explainClosed(start, goal, explanation);
     } else if (widest->clearance >= costmap.radius) {
       if (costmap.kernel > 1)
-        explanation.text = "the kernel closes the way: kernel 1 or retry_finer finds a path";
+        explanation.text = "the kernel closes every path: kernel 1 or retry_finer finds a path";
     } else {
       const Gap gap = Across(costs_, costmap).at(widest->narrowest, widest->clearance);
       explanation.gap = gap;

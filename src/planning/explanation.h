@@ -1,5 +1,5 @@
-// Why there is no path, beyond the status: the narrowest gap on the way that a smaller vehicle would
-// take, unknown cells that close the way, and the place nearest the goal that can be reached.
+// Why there is no path, beyond the status: the narrowest gap on the path that a smaller vehicle
+// would take, unknown cells where no others lead, and the place nearest the goal in reach.
 //
 //   const Plan plan = planner.plan(request);
 //   if (!plan.found()) log(explainFailure(planner, request, plan.status, stop).text);

@@ -137,7 +137,7 @@ class WidestSearch {
     return {static_cast<int>(index % width), static_cast<int>(index / width)};
   }
 
-  // The first way to a cell is the widest: cells are expanded in the order of their widths.
+  // The first path to a cell is the widest: cells are expanded in the order of their widths.
   void push(Cell cell, HalfCellsSquared width, std::size_t from) {
     if (!geometry_.contains(cell)) return;
     const std::size_t index = geometry_.index(cell).value();

@@ -21,7 +21,7 @@ namespace grid_path_planner::planning {
 
 struct WidestPath {
   double clearance = 0.0;  // m; no more than the radius that was asked about
-  grid::Cell narrowest;    // the first cell on the way that has no more
+  grid::Cell narrowest;    // the first cell of the path that has no more
   std::vector<grid::Cell> cells;
 };
 

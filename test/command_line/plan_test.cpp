@@ -64,7 +64,7 @@ TEST_F(Plan, SaysWhyThereIsNoPathWhereAsked) {
                                         ".........\n"
                                         "....@....\n"
                                         "....@....\n");
-  const std::vector<std::string> question = {"plan",  "--map",  map,        "--start", "1.5,3.5",
+  const std::vector<std::string> question = {"plan",   "--map",   map,        "--start", "1.5,3.5",
                                              "--goal", "7.5,3.5", "--radius", "2"};
   const auto asked = [&](std::vector<std::string> more) {
     more.insert(more.begin(), question.begin(), question.end());

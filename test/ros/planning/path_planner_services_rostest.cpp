@@ -296,7 +296,8 @@ TEST_F(ServicesTest, AFailureIsExplained) {
   EXPECT_TRUE(planner_->says("Why: no path leads from (1.5, 3.5) to (7.5, 3.5); the gap at"));
   const auto shown = markers.waitForMoreThan(0);
   ASSERT_TRUE(shown);
-  EXPECT_EQ(shown->markers.size(), 4u) << "what was shown goes; the gap, the nearest place, the text";
+  EXPECT_EQ(shown->markers.size(), 4u)
+      << "what was shown goes; the gap, the nearest place, the text";
   const std::size_t seen = markers.count();
   sendGoal(poseAt(2.5, 3.5));
   EXPECT_EQ(answer_.status, "FOUND");
