@@ -104,7 +104,7 @@ TEST_F(Plan, WritesPictureAndWaypoints) {
   const Path path = readWaypointFile(waypoints).path;
   EXPECT_EQ(path.poses.front().position, Eigen::Vector3d(0.5, 0.5, 3.0));
   EXPECT_EQ(path.poses.back().position, Eigen::Vector3d(3.5, 2.5, 5.0));
-  EXPECT_NEAR(path.poses.back().yaw, 1.5, 1e-12);
+  EXPECT_NEAR(path.poses.back().yaw, 1.5, 1e-8);
 }
 
 TEST_F(Plan, OptionsReachThePlanner) {
