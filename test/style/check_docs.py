@@ -119,8 +119,11 @@ def unknown_scripts(page, text):
             yield "%s: there is no %s %s" % (page, script, option)
 
 
-def uninstalled_programs(page, text, installed):
+def uninstalled_programs(page, text):
     """Programs of ROS that a page asks to type and that scripts/install_dependencies does not bring."""
+    if not os.path.exists(os.path.join(ROOT, "scripts/install_dependencies")):
+        return
+    installed = read("scripts/install_dependencies")
     for program in sorted(set(re.findall(r"(?<![\w-])(ros(?:topic|service|node|param|bag|msg|srv)) +[a-z-]", text))):
         for package in ("python3-" + program, "ros-noetic-" + program):
             if package not in installed:
@@ -165,7 +168,7 @@ def main():
     for name, text in sorted(guides.items()):
         complaints += broken_links(name, text)
         complaints += unknown_scripts(name, text)
-        complaints += uninstalled_programs(name, text, read("scripts/install_dependencies"))
+        complaints += uninstalled_programs(name, text)
     finish(complaints, "%d pages, %d names" % (len(guides), len(names)))
 
 
