@@ -4,16 +4,18 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <type_traits>
 
+#include "command_line/node_config.h"
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/planning/unused_options.h"
 
 namespace grid_path_planner::command_line {
 
-using base::describeOptions, base::InputError, base::numberFromText, base::OptionDescription,
-    base::OptionInfo, base::parseOption;
+using base::closestName, base::describeOptions, base::InputError, base::numberFromText,
+    base::OptionDescription, base::OptionInfo, base::OptionType, base::parseOption;
 using grid::MapFileOptions;
 using planning::checkPlannerOptions, planning::PlannerOptions, planning::UnusedOption,
     planning::unusedOptions;
@@ -63,6 +65,31 @@ std::string missingOf(const po::options_description& known, const po::variables_
   return list + (missing.empty() ? "" : missing.size() == 1 ? " is" : " are");
 }
 
+po::parsed_options parsedBy(po::command_line_parser parser, const po::options_description& known) {
+  try {
+    return parser.run();
+  } catch (const po::unknown_option& error) {
+    std::vector<std::string> names;
+    for (const auto& option : known.options()) names.push_back("--" + option->long_name());
+    const std::string meant = closestName(error.get_option_name(), names);
+    throw InputError("there is no option " + error.get_option_name() +
+                     (meant.empty() ? "" : "; did you mean " + meant + "?"));
+  }
+}
+
+void printForCompletion(const po::options_description& known) {
+  std::map<std::string, std::vector<std::string>> choices;
+  for (const OptionDescription& option : describeOptions(PlannerOptions()))
+    choices[flagOf(option.name)] = option.type == OptionType::TRUTH
+                                       ? std::vector<std::string>{"true", "false"}
+                                       : option.choices;
+  for (const auto& option : known.options()) {
+    std::cout << "--" << option->long_name();
+    for (const std::string& choice : choices[option->long_name()]) std::cout << ' ' << choice;
+    std::cout << '\n';
+  }
+}
+
 }  // namespace
 
 bool parseArguments(int argc, char** argv, const po::options_description& known,
@@ -71,8 +98,13 @@ bool parseArguments(int argc, char** argv, const po::options_description& known,
   const int long_only = style::allow_long | style::long_allow_adjacent | style::long_allow_next;
   po::options_description all(known);
   all.add_options()("help", "print this");
+  const std::vector<std::string> arguments = hyphenated(argc, argv);
+  if (arguments == std::vector<std::string>{"--complete"}) {
+    printForCompletion(all);
+    return false;
+  }
   const po::parsed_options parsed =
-      po::command_line_parser(hyphenated(argc, argv)).options(all).style(long_only).run();
+      parsedBy(po::command_line_parser(arguments).options(all).style(long_only), all);
   for (const po::option& option : parsed.options)
     if (option.position_key >= 0)
       throw InputError("what is '" + option.value.front() + "'? Options are given as --name VALUE");
@@ -143,11 +175,14 @@ void describePlannerOptions(po::options_description& known, const PlannerOptions
     known.add_options()(flagOf(option.name).c_str(), po::value<std::string>(), text.c_str());
   }
   known.add_options()("weights", po::value<std::string>(),
-                      "weights of free, unknown and occupied cells as F,U,O");
+                      "weights of free, unknown and occupied cells as F,U,O")(
+      "config", po::value<std::string>(),
+      "YAML with parameters of the node path_planner, used where the command line gives no other");
 }
 
 PlannerOptions plannerOptionsFrom(const po::variables_map& values, const PlannerOptions& defaults) {
   PlannerOptions options = defaults;
+  if (values.count("config") != 0) readNodeConfig(values["config"].as<std::string>(), options);
   if (values.count("weights") != 0) {
     const std::string text = values["weights"].as<std::string>();
     const std::vector<double> weights = numbersOf("weights", text, 3, 3);

@@ -17,7 +17,8 @@ constexpr const char* kMapFiles =
     "dump or bag";
 
 // Long options only, so that negative numbers parse as values. Prints the help and returns false
-// for --help. Throws boost::program_options::error for unknown options.
+// for --help, and for --complete, which lists the options for shells: one a line, with its choices.
+// Throws InputError for unknown options, naming the closest known one.
 bool parseArguments(int argc, char** argv, const boost::program_options::options_description& known,
                     const std::string& usage, boost::program_options::variables_map& values);
 
@@ -37,11 +38,13 @@ void describeReading(boost::program_options::options_description& known);
 // InputError.
 grid::MapFileOptions readingOptionsFrom(const boost::program_options::variables_map& values);
 
-// Adds an option --some-name for every option some_name of PlannerOptions, and --weights F,U,O.
+// Adds an option --some-name for every option some_name of PlannerOptions, --weights F,U,O and
+// --config FILE.
 void describePlannerOptions(boost::program_options::options_description& known,
                             const planning::PlannerOptions& defaults = {});
 
-// The options given on the command line over `defaults`. Throws InputError naming the option.
+// The options given on the command line over those of --config over `defaults`. Throws InputError
+// naming the option, in the file with its line.
 planning::PlannerOptions plannerOptionsFrom(const boost::program_options::variables_map& values,
                                             const planning::PlannerOptions& defaults = {});
 

@@ -50,6 +50,9 @@ MapFileOptions optionsWithOrigin(const po::variables_map& values) {
     const auto numbers = numbersOf("origin", values["origin"].as<std::string>(), 3, 3);
     options.origin = Origin{numbers[0], numbers[1], numbers[2]};
   }
+  // Of the files that are written, only this one says how wide a cell is.
+  const std::string extension = extensionOf(values["output"].as<std::string>());
+  options.images_need_resolution = extension == "yaml" || extension == "yml";
   return options;
 }
 

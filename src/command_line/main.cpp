@@ -5,6 +5,7 @@
 #include <string>
 
 #include "command_line/commands.h"
+#include "grid_path_planner/base/option_text.h"
 
 namespace {
 
@@ -15,8 +16,15 @@ int usage(std::ostream& out, int code) {
   for (const Command& command : commands())
     out << "  " << command.name << std::string(12 - std::strlen(command.name), ' ')
         << command.purpose << '\n';
-  out << "\n'grid_path COMMAND --help' lists a command's options.\n";
+  out << "\n'grid_path COMMAND --help' lists a command's options, 'grid_path --version' prints the "
+         "version.\n";
   return code;
+}
+
+std::string closestCommand(const std::string& name) {
+  std::vector<std::string> known;
+  for (const Command& command : commands()) known.emplace_back(command.name);
+  return grid_path_planner::base::closestName(name, known);
 }
 
 }  // namespace
@@ -25,6 +33,10 @@ int main(int argc, char** argv) {
   using grid_path_planner::command_line::kBadInput;
   if (argc < 2) return usage(std::cerr, kBadInput);
   const std::string name = argv[1];
+  if (name == "--version") {
+    std::cout << "grid_path " << GPP_VERSION << '\n';
+    return 0;
+  }
   if (name == "--help" || name == "-h" || name == "help") return usage(std::cout, 0);
   try {
     for (const Command& command : commands())
@@ -33,6 +45,8 @@ int main(int argc, char** argv) {
     std::cerr << "grid_path " << name << ": " << error.what() << '\n';
     return kBadInput;
   }
-  std::cerr << "grid_path: there is no command '" << name << "'\n\n";
+  const std::string meant = closestCommand(name);
+  std::cerr << "grid_path: there is no command '" << name << "'"
+            << (meant.empty() ? "" : "; did you mean " + meant + "?") << "\n\n";
   return usage(std::cerr, kBadInput);
 }

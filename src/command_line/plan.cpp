@@ -8,19 +8,24 @@
 
 #include "command_line/arguments.h"
 #include "command_line/commands.h"
+#include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/path/path_image.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/planning/path_planner.h"
 #include "grid_path_planner/ros/bag.h"
+#include "planning/explanation.h"
 
 namespace grid_path_planner::command_line {
 
 using base::InputError, base::Status, base::StopToken;
-using grid::Cell, grid::GridGeometry, grid::OccupancyGrid, grid::OccupancyThresholds;
+using grid::Cell, grid::GridGeometry, grid::MapFileOptions, grid::OccupancyGrid,
+    grid::OccupancyThresholds;
 using nodes::readAnyMapFile;
-using path::Pose, path::writePicture, path::writeWaypointFile;
+using path::clearanceOf, path::measuresText, path::Pose, path::turningOf, path::writePicture,
+    path::writeWaypointFile;
 using planners::traitsOf;
-using planning::PathPlanner, planning::Plan, planning::PlannerOptions, planning::PoseRequest;
+using planning::explainFailure, planning::Explanation, planning::PathPlanner, planning::Plan,
+    planning::PlannerOptions, planning::PoseRequest;
 
 namespace {
 
@@ -40,6 +45,10 @@ po::options_description planOptions() {
       "image", po::value<std::string>(),
       "write a picture of map, expanded cells and path, with a legend")(
       "waypoints", po::value<std::string>(), "write the path as a waypoint file")(
+      "explain",
+      "where there is no path, say why: the narrowest gap of the widest path and the largest "
+      "radius "
+      "that passes it, whether only unknown cells lead there, the place nearest the goal in reach")(
       "json", "print one JSON object instead of a sentence");
   describePlannerOptions(known);
   return known;
@@ -112,6 +121,24 @@ void warnIfNotOptimal(const PlannerOptions& options) {
             << options.planner << " does not promise it\n";
 }
 
+// Adds to the message of a failure why there is no path.
+Explanation explain(PathPlanner& planner, const PoseRequest& request, Plan& report) {
+  Explanation explanation = explainFailure(planner, request, report.status, StopToken());
+  if (!explanation.text.empty()) report.message += "; " + explanation.text;
+  return explanation;
+}
+
+nlohmann::json jsonOf(const Explanation& explanation) {
+  nlohmann::json object = {{"only_unknown", explanation.only_unknown}};
+  if (explanation.gap)
+    object["gap"] = {{"x", explanation.gap->position.x()},
+                     {"y", explanation.gap->position.y()},
+                     {"width_m", explanation.gap->width},
+                     {"largest_radius_m", explanation.gap->largest_radius}};
+  if (explanation.nearest) object["nearest"] = {explanation.nearest->x(), explanation.nearest->y()};
+  return object;
+}
+
 int exitCodeOf(Status status) {
   if (status == Status::INVALID_REQUEST) return kBadInput;
   return status == Status::FOUND ? kFound : kNoPath;
@@ -149,12 +176,27 @@ std::string answeredBy(const Plan& report, const std::string& planner) {
   return "; answered by " + report.answered_by;
 }
 
-void print(const Plan& report, const std::string& planner, double preparation_ms, bool as_json) {
-  if (as_json)
-    std::cout << jsonOf(report, preparation_ms).dump() << '\n';
-  else
-    std::cout << toString(report.status) << ": " << report.message << answeredBy(report, planner)
-              << '\n';
+// What is printed beside the plan.
+struct Measures {
+  double clearance_m;
+  double turning_rad;
+  std::optional<Explanation> explanation;
+};
+
+void print(const Plan& report, const Measures& measures, const std::string& planner,
+           double preparation_ms, bool as_json) {
+  const bool found = report.status == Status::FOUND;
+  if (!as_json) {
+    std::cout << toString(report.status) << ": " << report.message << answeredBy(report, planner);
+    if (found) std::cout << "; " << measuresText(measures.clearance_m, measures.turning_rad);
+    std::cout << '\n';
+    return;
+  }
+  nlohmann::json object = jsonOf(report, preparation_ms);
+  if (found && std::isfinite(measures.clearance_m)) object["clearance_m"] = measures.clearance_m;
+  if (found) object["turning_rad"] = measures.turning_rad;
+  if (measures.explanation) object["explanation"] = jsonOf(*measures.explanation);
+  std::cout << object.dump() << '\n';
 }
 
 }  // namespace
@@ -167,17 +209,23 @@ int runPlan(int argc, char** argv) {
   const PlannerOptions options = plannerOptionsFrom(values);
   warnAboutUnusedOptions(options);
 
+  MapFileOptions reading = readingOptionsFrom(values);
+  reading.images_need_resolution = true;
   const auto map = std::make_shared<const OccupancyGrid>(
-      readAnyMapFile(values["map"].as<std::string>(), readingOptionsFrom(values)));
+      readAnyMapFile(values["map"].as<std::string>(), reading));
 
   const PoseRequest request = requestFrom(values, map->geometry());
   PathPlanner planner(options);
   planner.setMap(map);
   const double preparation_ms = preparationMs(planner);
-  const Plan report = planner.plan(request);
+  Plan report = planner.plan(request);
   if (report.status == Status::FOUND && !report.optimal) warnIfNotOptimal(options);
   writeFiles(values, *map, options.costmap.thresholds, report);
-  print(report, options.planner, preparation_ms, values.count("json") != 0);
+  Measures measures = {clearanceOf(report.path, *map, options.costmap.thresholds),
+                       turningOf(report.path), std::nullopt};
+  if (values.count("explain") != 0 && report.status != Status::FOUND)
+    measures.explanation = explain(planner, request, report);
+  print(report, measures, options.planner, preparation_ms, values.count("json") != 0);
   return exitCodeOf(report.status);
 }
 

@@ -1,6 +1,7 @@
 #include "grid_path_planner/following/path_follower.h"
 
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -9,12 +10,14 @@
 #include "following/route_progress.h"
 #include "following/velocity_controller.h"
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/path/waypoint_file.h"
 
 namespace grid_path_planner::following {
 
 using base::BodyVelocity;
 using path::kLargestCoordinate;
+using path::lengthOf;
 using path::Path;
 using path::Pose;
 
@@ -43,6 +46,12 @@ bool isFinite(const BodyVelocity& v) {
          std::isfinite(v.yaw_rate);
 }
 
+std::string metres(double length) {
+  std::ostringstream text;
+  text << std::setprecision(4) << length << " m";
+  return text.str();
+}
+
 const Pose& currentPose(const PathFollower& follower) {
   return follower.path().poses[static_cast<std::size_t>(follower.currentWaypoint())];
 }
@@ -69,7 +78,9 @@ void PathFollower::start(const Path& path, Join join) {
   progress_ = std::make_unique<RouteProgress>(path, join, options_, *events_);
   if (state_ != FollowState::PAUSED) state_ = FollowState::DRIVING;
   status_ = DriveStatus::NONE;
-  message_ = "drives a path of " + std::to_string(path.poses.size()) + " waypoints";
+  message_ = "drives a path of " + std::to_string(path.poses.size()) + " waypoints, " +
+             metres(lengthOf(path));
+  length_ = {};
   blocked_since_.reset();
   controller_->release();
   events_->report(Kind::STARTED, -1, message_);
@@ -182,7 +193,18 @@ BodyVelocity PathFollower::drive(const Pose& vehicle, double time, double second
     end(*ending);
     return {};
   }
+  reportHalfway();
   return controller_->follow(progress_->position(vehicle.position), vehicle, seconds);
+}
+
+void PathFollower::reportHalfway() {
+  const double left = distanceRemaining();
+  if (!length_) length_ = left;
+  if (options_.loop || *length_ <= 0.0 || left > 0.5 * *length_) return;
+  length_ = 0.0;
+  events_->report(Kind::HALFWAY, currentWaypoint(),
+                  "half of the path is driven, " + metres(left) + " are left; " +
+                      progress_->currentName() + " is next");
 }
 
 void PathFollower::end(const DriveEnd& ending) {

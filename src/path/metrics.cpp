@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <iomanip>
+#include <sstream>
 
 namespace grid_path_planner::path {
 
@@ -23,6 +25,14 @@ double turningOf(const Path& path) {
     before = now;
   }
   return turning;
+}
+
+std::string measuresText(double clearance, double turning) {
+  std::ostringstream text;
+  text << std::setprecision(3);
+  if (std::isfinite(clearance)) text << "clearance " << clearance << " m, ";
+  text << "turning " << turning << " rad";
+  return text.str();
 }
 
 }  // namespace grid_path_planner::path

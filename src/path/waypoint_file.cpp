@@ -4,7 +4,9 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
+#include <iomanip>
 #include <locale>
 #include <optional>
 #include <set>
@@ -25,6 +27,8 @@ using base::describeYaml, base::InputError, base::kLargestYaml, base::OutputFile
 
 namespace {
 
+constexpr int kDecimalsOfMetres = 6, kDecimalsOfTurns = 9;  // in the file
+
 // One entry of the list, with what an error about it has to say.
 class Entry {
  public:
@@ -32,8 +36,30 @@ class Entry {
       : node_(node), name_("waypoint " + std::to_string(number)), file_(file) {}
 
   void appendTo(WaypointFile& waypoints) const {
+    if (node_.IsMap()) checkKeys(node_, name_, {});
+    if (node_.IsMap() && node_["x"] && !node_["position"])
+      waypoints.path.poses.push_back(shortForm());
+    else
+      appendLongForm(waypoints);
+  }
+
+ private:
+  // {x: 13.5, y: -13.5, yaw: 1.69}, with or without a z.
+  Pose shortForm() const {
+    checkKeys(node_, name_, {"x", "y", "z", "yaw"});
+    Pose pose;
+    pose.position.x() = coordinate(node_, "x");
+    pose.position.y() = coordinate(node_, "y");
+    if (node_["z"]) pose.position.z() = coordinate(node_, "z");
+    pose.yaw = std::remainder(number(node_, "yaw"), 2.0 * M_PI);
+    return pose;
+  }
+
+  void appendLongForm(WaypointFile& waypoints) const {
     const YAML::Node position = part("position");
     const YAML::Node orientation = part("orientation");
+    checkKeys(position, "the position of " + name_, {"x", "y", "z"});
+    checkKeys(orientation, "the orientation of " + name_, {"x", "y", "z", "w"});
     Pose pose;
     for (int axis = 0; axis < 3; ++axis)
       pose.position[axis] = coordinate(position, std::string(1, "xyz"[axis]));
@@ -43,7 +69,23 @@ class Entry {
     waypoints.tilt = std::max(waypoints.tilt, turned.tilt);
   }
 
- private:
+  // `{x: 1,5, y: 2}` has a key 5, and yaml-cpp takes the first of two keys of one name. No `known`
+  // ones: any.
+  void checkKeys(const YAML::Node& map, const std::string& whose,
+                 const std::set<std::string>& known) const {
+    std::set<std::string> seen;
+    for (const auto& entry : map) {
+      const auto key = yamlAs<std::string>(entry.first, "a key of " + whose, file_, "a name");
+      const std::string at =
+          " '" + key + "' at column " + std::to_string(entry.first.Mark().column + 1);
+      if (!seen.insert(key).second)
+        throw yamlError(entry.first, file_, whose + " has a second key" + at);
+      if (!known.empty() && known.count(key) == 0)
+        throw yamlError(entry.first, file_,
+                        whose + " has the key" + at + ", which means nothing there");
+    }
+  }
+
   YAML::Node part(const std::string& key) const {
     if (!node_.IsMap())
       throw yamlError(
@@ -101,23 +143,33 @@ std::string frameOf(const YAML::Node& root, const std::string& file) {
   return frame;
 }
 
-// The shortest decimal that reads back as `value`, with a point in it: other readers of YAML take
-// 1e-05 for a string and 4 for an integer.
-std::string decimal(double value) {
-  std::string text;
-  for (const int digits : {15, 16, 17}) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(digits);
-    out << value;
-    text = out.str();
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
-    double back = 0.0;
-    if (in >> back && back == value) break;
-  }
-  if (text.find('.') == std::string::npos) text.insert(std::min(text.find('e'), text.size()), ".0");
-  return text;
+// With so many decimals, of which those that are 0 are left out but for the first: other readers of
+// YAML take 1e-05 for a string and 4 for an integer.
+std::string decimal(double value, int decimals) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::fixed << std::setprecision(decimals) << value;
+  std::string text = out.str();
+  text.erase(std::max(text.find_last_not_of('0') + 1, text.find('.') + 2));
+  return text == "-0.0" ? "0.0" : text;
+}
+
+double rounded(double value, int decimals) {
+  return std::strtod(decimal(value, decimals).c_str(), nullptr);
+}
+
+// The z and w of an orientation as they are written, which read and written again are the same: what
+// is nearest to them on the circle is rounded until nothing changes. Each step comes nearer to it.
+std::pair<double, double> writtenOrientation(double yaw) {
+  yaw = std::remainder(yaw, 2.0 * M_PI);
+  std::pair<double, double> before, written = {2.0, 2.0};
+  do {
+    before = written;
+    written = {rounded(std::sin(yaw / 2), kDecimalsOfTurns),
+               rounded(std::cos(yaw / 2), kDecimalsOfTurns)};
+    yaw = 2.0 * std::atan2(written.first, written.second);
+  } while (written != before);
+  return written;
 }
 
 // Whether every YAML reader takes it for text: 1.1 has words for yes and no, and numbers of digits.
@@ -206,10 +258,12 @@ void writeWaypointFile(const OutputFile& file, const Path& path) {
   std::string text = "header: {frame_id: " + scalar(path.frame_id) + "}\nwaypoints:\n";
   for (const Pose& pose : path.poses) {
     const Eigen::Vector3d& p = pose.position;
-    text += "  - position: {x: " + decimal(p.x()) + ", y: " + decimal(p.y()) +
-            ", z: " + decimal(p.z()) +
-            "}\n    orientation: {x: 0.0, y: 0.0, z: " + decimal(std::sin(pose.yaw / 2)) +
-            ", w: " + decimal(std::cos(pose.yaw / 2)) + "}\n";
+    const auto [z, w] = writtenOrientation(pose.yaw);
+    text += "  - position: {x: " + decimal(p.x(), kDecimalsOfMetres) +
+            ", y: " + decimal(p.y(), kDecimalsOfMetres) +
+            ", z: " + decimal(p.z(), kDecimalsOfMetres) +
+            "}\n    orientation: {x: 0.0, y: 0.0, z: " + decimal(z, kDecimalsOfTurns) +
+            ", w: " + decimal(w, kDecimalsOfTurns) + "}\n";
   }
   writeFileAtomically(file, text);
 }

@@ -40,6 +40,14 @@ void visitOptions(PaintOptions& o, Visitor&& visit) {
   visit("colour", o.colour, OptionInfo{"Colour of the paint", ""}.under("Looks"));
 }
 
+TEST(Options, TheClosestNameIsFoundWhereOneIsLikeIt) {
+  const std::vector<std::string> known = {"radius", "decay", "kernel"};
+  EXPECT_EQ(closestName("raduis", known), "radius");
+  EXPECT_EQ(closestName("kernl", known), "kernel");
+  EXPECT_EQ(closestName("tolerance", known), "");
+  EXPECT_EQ(closestName("radius", {}), "");
+}
+
 TEST(Options, AllHoldToTheLaws) {
   test::expectOptionLaws<PaintOptions>();
 }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "run_command.h"
 #include "support/error_text.h"
@@ -9,6 +10,8 @@
 
 namespace grid_path_planner::command_line {
 
+using grid::readMapFile;
+using grid::writeImageFile;
 using path::Path;
 using path::readWaypointFile;
 
@@ -51,6 +54,31 @@ TEST_F(Plan, NoPathIsExitCodeOneAndHasItsReason) {
   EXPECT_TRUE(object["cost"].is_null());
 }
 
+TEST_F(Plan, SaysWhyThereIsNoPathWhereAsked) {
+  const std::string map = folder_.write("door.map",
+                                        "type octile\nheight 7\nwidth 9\nmap\n"
+                                        "....@....\n"
+                                        "....@....\n"
+                                        ".........\n"
+                                        ".........\n"
+                                        ".........\n"
+                                        "....@....\n"
+                                        "....@....\n");
+  const std::vector<std::string> question = {"plan",   "--map",   map,        "--start", "1.5,3.5",
+                                             "--goal", "7.5,3.5", "--radius", "2"};
+  const auto asked = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), question.begin(), question.end());
+    return runCommand(runPlan, more);
+  };
+  EXPECT_FALSE(contains(asked({}).printed, "would pass"));
+  EXPECT_TRUE(contains(asked({"--explain"}).printed,
+                       "the gap at (4.5, 3.5) is 3 m wide; radius 2 m needs 4 m; 1.5 m would pass"))
+      << asked({"--explain"}).printed;
+  const auto object = nlohmann::json::parse(asked({"--explain", "--json"}).printed);
+  EXPECT_EQ(object["explanation"]["gap"]["largest_radius_m"], 1.5);
+  EXPECT_EQ(object["explanation"]["only_unknown"], false);
+}
+
 TEST_F(Plan, NegativeNumbersParse) {
   const Outcome outside = plan({"--start", "-1.5,2", "--goal", "0.5,0.5"});
   EXPECT_EQ(outside.code, 1) << outside.error;
@@ -76,7 +104,7 @@ TEST_F(Plan, WritesPictureAndWaypoints) {
   const Path path = readWaypointFile(waypoints).path;
   EXPECT_EQ(path.poses.front().position, Eigen::Vector3d(0.5, 0.5, 3.0));
   EXPECT_EQ(path.poses.back().position, Eigen::Vector3d(3.5, 2.5, 5.0));
-  EXPECT_NEAR(path.poses.back().yaw, 1.5, 1e-12);
+  EXPECT_NEAR(path.poses.back().yaw, 1.5, 1e-8);
 }
 
 TEST_F(Plan, OptionsReachThePlanner) {
@@ -113,6 +141,51 @@ TEST_F(Plan, SaysWhetherThePathIsOptimal) {
   EXPECT_FALSE(optimalWith({"--smooth", "true"}));
   EXPECT_FALSE(optimalWith({"--epsilon", "2"}));
   EXPECT_FALSE(optimalWith({"--heuristic", "manhattan"}));
+}
+
+// The vehicle's YAML is written once: a radius that only the node knew made the command line's path
+// another one.
+TEST_F(Plan, TakesTheYamlOfTheNode) {
+  const auto planWith = [&](const std::string& yaml, std::vector<std::string> more = {}) {
+    more.insert(more.end(), {"--config", folder_.write("vehicle.yaml", yaml), "--cells", "--start",
+                             "0,0", "--goal", "3,2", "--json"});
+    return plan(more);
+  };
+  const auto costWith = [&](const std::string& yaml, std::vector<std::string> more = {}) {
+    const Outcome outcome = planWith(yaml, more);
+    EXPECT_EQ(outcome.code, 0) << outcome.error << outcome.printed;
+    return nlohmann::json::parse(outcome.printed)["cost"].get<double>();
+  };
+  EXPECT_EQ(costWith("# nothing yet\n"), 5.0);
+  EXPECT_EQ(costWith("free_weight: 3\nbase_frame: base_link  # of the node alone\n"), 15.0);
+  EXPECT_EQ(costWith("free_weight: 3\n", {"--free-weight", "2"}), 10.0);
+  EXPECT_EQ(costWith("free_weight: 3\n", {"--weights", "2,50,100"}), 10.0);
+  EXPECT_EQ(planWith("radius: 0.6\n").code, 1);
+  EXPECT_TRUE(contains(planWith("cut_corners: false\nradius: wide\n").error,
+                       "vehicle.yaml:2: radius needs a finite number, got 'wide'"));
+  EXPECT_TRUE(contains(planWith("retry_finer: perhaps\n").error, "vehicle.yaml:1: retry_finer"));
+  EXPECT_TRUE(contains(planWith("- radius\n").error, "vehicle.yaml"));
+
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(costWith("raduis: 0.6\n"), 5.0);
+  const std::string warning = testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(contains(warning,
+                       "vehicle.yaml:1: unknown parameter raduis is not used; did you "
+                       "mean radius?"))
+      << warning;
+}
+
+// An office of 20 m was planned on as one of 400 m.
+TEST_F(Plan, AnImageAloneIsAskedForItsResolution) {
+  const std::string image = folder_.path("office.png");
+  writeImageFile(image, readMapFile(map_));
+  const auto planOn = [&](std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"plan", "--map", image, "--start", "0.05,0.05", "--goal", "0.35,0.25"});
+    return runCommand(runPlan, more);
+  };
+  EXPECT_TRUE(contains(planOn({}).error, "give its resolution in metres")) << planOn({}).error;
+  EXPECT_EQ(planOn({"--resolution", "0.1"}).code, 0);
 }
 
 TEST_F(Plan, OptionsThatChangeNothingAreTold) {
@@ -159,6 +232,8 @@ TEST_F(Plan, BadInputIsNamed) {
   EXPECT_TRUE(contains(errorWith(with({"--weights", "1,nan,2"})), "--weights"));
   EXPECT_TRUE(contains(errorWith(with({"--radius", "-1"})), "radius"));
   EXPECT_TRUE(contains(errorWith(with({"--no-such-option"})), "no-such-option"));
+  EXPECT_EQ(errorWith(with({"--raduis", "1"})),
+            "there is no option --raduis; did you mean --radius?");
   EXPECT_TRUE(contains(errorWith(with({"stray"})), "stray"));
   EXPECT_TRUE(contains(errorWith(with({"--waypoints", map_ + "/w.yaml"})), "w.yaml"));
   EXPECT_TRUE(contains(errorWith(with({"--image", map_ + "/p.png"})), "p.png"));

@@ -42,6 +42,22 @@ TEST(Drive, ArrivesAtTheLastPoseAndYaw) {
   EXPECT_EQ(loop.waypointsOf(Kind::REACHED), (std::vector<int>{0, 1, 2}));
 }
 
+// A drive of an hour said nothing between its first second and its last.
+TEST(Drive, TellsItsStartItsMiddleAndItsEndOnceEach) {
+  ClosedLoop loop;
+  loop.follower.start(pathOf({{0, 0}, {3, 0}, {6, 0}, {6, 4}}), Join::FIRST);
+  ASSERT_TRUE(loop.runUntilState(FollowState::ARRIVED));
+  loop.run(3.0);
+  ASSERT_EQ(loop.events.front().kind, Kind::STARTED);
+  EXPECT_EQ(loop.events.front().message, "drives a path of 4 waypoints, 10 m");
+  EXPECT_EQ(loop.waypointsOf(Kind::STARTED).size(), 1u);
+  EXPECT_EQ(loop.waypointsOf(Kind::HALFWAY), std::vector<int>{2});
+  EXPECT_EQ(loop.waypointsOf(Kind::ENDED), std::vector<int>{3});
+  for (const FollowEvent& event : loop.events)
+    if (event.kind == Kind::HALFWAY)
+      EXPECT_NE(event.message.find("waypoint 3 of 4 is next"), std::string::npos) << event.message;
+}
+
 // follow_waypoints #15, #7: the vehicle stopped at every point.
 TEST(Drive, ContinuousPassesIntermediateWaypointsWithoutStopping) {
   ClosedLoop loop;

@@ -32,8 +32,10 @@ class WaypointBombs : public testing::Test {
 };
 
 TEST_F(WaypointBombs, WaypointsThatAreNamedAgainAndAgainEndWithTheTime) {
-  const std::string pose = "&a {position: {x: 0, y: 0, z: 0}, orientation: {" +
-                           repeated("k: 0, ", 2000) + "x: 0, y: 0, z: 0, w: 1}}";
+  std::string others;
+  for (int i = 0; i < 2000; ++i) others += "k" + std::to_string(i) + ": 0, ";
+  const std::string pose =
+      "&a {" + others + "position: {x: 0, y: 0, z: 0}, orientation: {x: 0, y: 0, z: 0, w: 1}}";
   const BoundedRun run = reading("waypoints: [" + pose + repeated(", *a", 300000) + "]\n", 3.0);
   EXPECT_TRUE(contains(run.refusal, "read_time_limit")) << run;
 }

@@ -119,6 +119,17 @@ def unknown_scripts(page, text):
             yield "%s: there is no %s %s" % (page, script, option)
 
 
+def uninstalled_programs(page, text):
+    """Programs of ROS that a page asks to type and that scripts/install_dependencies does not bring."""
+    if not os.path.exists(os.path.join(ROOT, "scripts/install_dependencies")):
+        return
+    installed = read("scripts/install_dependencies")
+    for program in sorted(set(re.findall(r"(?<![\w-])(ros(?:topic|service|node|param|bag|msg|srv)) +[a-z-]", text))):
+        for package in ("python3-" + program, "ros-noetic-" + program):
+            if package not in installed:
+                yield "%s: %s is typed, but scripts/install_dependencies does not bring %s" % (page, program, package)
+
+
 def wrong_places():
     """Files and folders that doc/architecture.md names and that do not exist (x stands for any name), and folders
     of src/ that it leaves out."""
@@ -157,6 +168,7 @@ def main():
     for name, text in sorted(guides.items()):
         complaints += broken_links(name, text)
         complaints += unknown_scripts(name, text)
+        complaints += uninstalled_programs(name, text)
     finish(complaints, "%d pages, %d names" % (len(guides), len(names)))
 
 

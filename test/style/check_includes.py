@@ -28,6 +28,7 @@ LENT = {
     "base/current_error.h": {"ros_common", "ros_driving", "ros_planning", "ros_simulation"},
     "base/deflate.h": {"grid", "planners"},
     "base/zeroed_array.h": {"planners"},
+    "costmap/inflation.h": {"planning"},  # the distances that it keeps
     "grid/float_decimal.h": {"ros_common"},
     "grid/map_differences.h": {"ros_common"},
     "grid/formats/rectangle_map_file.h": {"planners"},
@@ -46,6 +47,7 @@ LENT = {
     "study/run_folder.h": {"flights"},
     "study/study_yaml.h": {"flights"},
     "study/task_loop.h": {"flights"},
+    "planning/explanation.h": {"command_line", "ros_planning"},
     "simulation/read_world_main.h": {"read_world"},
 }
 ROS_HEADER = re.compile(

@@ -104,6 +104,10 @@ std::string optionText(const Options& options) {
   return text;
 }
 
+// The name of `known` that was probably meant by `name`, which is none of them; "" where none is
+// like it.
+std::string closestName(const std::string& name, const std::vector<std::string>& known);
+
 // The name of an option where names are those of C++, as in dynamic_reconfigure:
 // sensor_model/hit is sensor_model_hit.
 std::string configName(std::string name);

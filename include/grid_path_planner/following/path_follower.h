@@ -64,7 +64,18 @@ const char* toString(DriveStatus status);
 enum class Join { FIRST, NEAREST };
 
 struct FollowEvent {
-  enum class Kind { STARTED, JOINED, REACHED, MISSED, RETRY, LAP, BLOCKED, UNBLOCKED, ENDED };
+  enum class Kind {
+    STARTED,
+    JOINED,
+    REACHED,
+    MISSED,
+    RETRY,
+    LAP,
+    HALFWAY,
+    BLOCKED,
+    UNBLOCKED,
+    ENDED
+  };
   Kind kind;
   int waypoint;         // index in the path; -1 where the event has none
   std::string message;  // counts waypoints from 1
@@ -138,6 +149,7 @@ class PathFollower {
   std::string whyNot(const FollowInput& input) const;
   void block(double time, DriveStatus cause, const std::string& why);
   base::BodyVelocity drive(const path::Pose& vehicle, double time, double seconds);
+  void reportHalfway();
   void end(const DriveEnd& ending);
   void standStill();
 
@@ -152,6 +164,7 @@ class PathFollower {
   std::optional<double> time_;
   std::optional<path::Pose> pose_;
   std::optional<double> blocked_since_;
+  std::optional<double> length_;  // m that were left when driving began; 0 once half are driven
 };
 
 }  // namespace grid_path_planner::following

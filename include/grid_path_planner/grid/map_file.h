@@ -43,6 +43,9 @@ struct MapFileOptions {
   // others they override.
   std::optional<double> resolution;
   std::optional<Origin> origin;
+  // Whether an image without a YAML is refused where `resolution` is not given: its cells are hardly
+  // ever 1 m wide.
+  bool images_need_resolution = false;
   // Other files are refused with any of these.
   PlainImageOptions plain_image;
   // Called with a message where a file is doubtful: a colour image, letters that the format does not

@@ -2,6 +2,8 @@
 // plane.
 #pragma once
 
+#include <string>
+
 #include "grid_path_planner/grid/occupancy.h"
 #include "grid_path_planner/path/path.h"
 
@@ -20,6 +22,9 @@ double turningOf(const Path& path);
 // occupied. Precondition: the positions are finite.
 double clearanceOf(const Path& path, const grid::OccupancyGrid& map,
                    const grid::OccupancyThresholds& thresholds);
+
+// "clearance 0.42 m, turning 3.3 rad" for what these two give.
+std::string measuresText(double clearance, double turning);
 
 // The least distance in metres from a straight line to the edge of a cell of one class, `limit` where
 // none is nearer. `inset`, in cells: of the squares' edges, so that a line that only touches one

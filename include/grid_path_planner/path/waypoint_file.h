@@ -4,15 +4,17 @@
 //   waypoints:
 //     - position: {x: 13.5, y: -13.5, z: 4.5}
 //       orientation: {x: 0.0, y: 0.0, z: 0.745, w: 0.663}
+//     - {x: 13.5, y: -12.0, yaw: 1.69}   # read too; z 0 unless it is given
 //
 //   writeWaypointFile("waypoints.yaml", path);
 //   Path same = readWaypointFile("waypoints.yaml").path;
 //
-// Whatever is written can be read, and gives the frame and the positions to the last bit and the
-// yaws to within rounding, in [-pi, pi]. The files of the original study are read too, whose
+// Whatever is written can be read, and gives the frame, the positions to a millionth of a metre and
+// the yaws, in [-pi, pi], to a few billionths of a radian; written again it is the same to the byte. The files of the original study are read too, whose
 // orientations tilt by 0.12 rad: the yaw is taken and the tilt is told. The x and y of an
-// orientation may be left out, it need not be of length 1, and keys that are not named above are
-// passed over.
+// orientation may be left out, and it need not be of length 1. Keys of a waypoint or of the file that
+// are not named above are passed over; second keys of one name, and others in a position, an
+// orientation or the short form, such as the 5 of `{x: 1,5}`, are refused.
 #pragma once
 
 #include <string>

@@ -232,6 +232,10 @@ OccupancyGrid readImageFile(const std::string& file, const PixelRule& rule, doub
 }
 
 OccupancyGrid readPlainImage(const std::string& file, MapFileOptions& options) {
+  if (options.images_need_resolution && !options.resolution)
+    throw InputError(file,
+                     "is an image without a YAML, and nothing says how wide a pixel is: "
+                     "give its resolution in metres, as in 0.05");
   const PlainImageOptions& wanted = options.plain_image;
   const GreyImage image = readGrey(file, MapMode::TRINARY, 1.0, {}, options);
   if (wanted.columns > image.pixels.cols)

@@ -1,5 +1,6 @@
 #include "ros/common/frame_transforms.h"
 
+#include <ros/console.h>
 #include <tf2_geometry_msgs/tf2_geometry_msgs.h>
 
 #include <chrono>
@@ -46,6 +47,21 @@ std::string reasonOf(const tf2_ros::Buffer& buffer, const std::string& target,
   return missing.empty() ? otherwise : "nothing on /tf names the frame " + missing;
 }
 
+// Says once that something waits for tf: with a long limit nobody would know why nothing happens.
+class LongWait {
+ public:
+  void tell(const std::string& why) {
+    if (told_ || std::chrono::steady_clock::now() < due_) return;
+    told_ = true;
+    ROS_WARN_STREAM("Waiting for tf: " << why);
+  }
+
+ private:
+  const std::chrono::steady_clock::time_point due_ =
+      std::chrono::steady_clock::now() + std::chrono::seconds(1);
+  bool told_ = false;
+};
+
 }  // namespace
 
 FrameTransforms::FrameTransforms(const ros::NodeHandle& nh) : receiver_(nh, buffer_) {}
@@ -70,11 +86,13 @@ Pose FrameTransforms::poseOf(const std::string& vehicle, const std::string& fram
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
   const std::string source = frameName(vehicle);
   const auto latest = waitFor(frame, source, ros::Time(0), limit, stop);
+  LongWait wait;
   while (max_age) {
     try {
       return recentPoseOf(source, frame, ros::Time::now(), *max_age);
-    } catch (const TransformError&) {
+    } catch (const TransformError& error) {
       if (std::chrono::steady_clock::now() >= end) throw;
+      wait.tell(error.what());
     }
     if (stop.reason() != StopReason::NONE) throw Stopped(stop.reason());
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -87,13 +105,15 @@ geometry_msgs::TransformStamped FrameTransforms::waitFor(const std::string& targ
                                                          const ros::Time& stamp, double limit,
                                                          const StopToken& stop) const {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
+  LongWait wait;
   while (true) {
     try {
       return transform(target, source, stamp);
     } catch (const TransformError& error) {
-      if (std::chrono::steady_clock::now() >= end)
-        throw TransformError(
-            sentence(target, source, stamp, reasonOf(buffer_, target, source, error.what())));
+      const std::string why =
+          sentence(target, source, stamp, reasonOf(buffer_, target, source, error.what()));
+      if (std::chrono::steady_clock::now() >= end) throw TransformError(why);
+      wait.tell(why);
     }
     if (stop.reason() != StopReason::NONE) throw Stopped(stop.reason());
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

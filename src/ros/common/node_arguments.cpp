@@ -3,8 +3,13 @@
 #include <ros/init.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <iostream>
 #include <stdexcept>
+
+#include "grid_path_planner/base/errors.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -83,6 +88,22 @@ class Reader {
 };
 
 }  // namespace
+
+void checkCanBeOpened(const std::string& file) {
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (in.get() != std::ifstream::traits_type::eof()) return;
+  throw base::InputError(
+      file, errno == 0 ? "is empty" : std::string("cannot be read: ") + std::strerror(errno));
+}
+
+void checkGivenFiles(const std::vector<FileArgument>& known,
+                     const std::map<std::string, std::string>& given) {
+  for (const FileArgument& argument : known) {
+    const auto file = given.find(argument.option);
+    if (argument.check && file != given.end()) argument.check(file->second);
+  }
+}
 
 NodeArguments nodeArguments(int argc, const char* const* argv, const std::string& name,
                             const std::vector<FileArgument>& files) {

@@ -8,6 +8,7 @@
 // for a path for ever.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,7 +21,17 @@ struct FileArgument {
   std::string option;
   std::string value;            // as the usage calls it
   bool without_option = false;  // may be given as FILE alone too
+  // Reads the file and throws InputError where that fails; none: it is written. Called before the
+  // node's name is registered, which would end a running node of this name.
+  std::function<void(const std::string& file)> check = {};
 };
+
+// Throws InputError for a file that is not there or cannot be opened.
+void checkCanBeOpened(const std::string& file);
+
+// The check of every file that was given. Throws InputError.
+void checkGivenFiles(const std::vector<FileArgument>& known,
+                     const std::map<std::string, std::string>& given);
 
 struct NodeArguments {
   std::map<std::string, std::string> files;  // by option; those that are given and not empty

@@ -1,7 +1,6 @@
 #include "ros/common/parameters.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -27,6 +26,7 @@ bool ServiceCallbackHelperT<Reconfigure>::call(ServiceCallbackHelperCallParams& 
 
 namespace grid_path_planner::nodes {
 
+using base::closestName;
 using base::configName;
 using base::InputError;
 
@@ -70,28 +70,6 @@ std::string shortest(double number) {
     if (std::strtod(text.c_str(), nullptr) == number) break;
   }
   return text;
-}
-
-std::size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
-
-std::string closest(const std::string& name, const std::vector<std::string>& known) {
-  const auto nearer = [&](const std::string& a, const std::string& b) {
-    return editDistance(name, a) < editDistance(name, b);
-  };
-  const auto best = std::min_element(known.begin(), known.end(), nearer);
-  return best != known.end() && editDistance(name, *best) <= name.size() / 2 ? *best : "";
 }
 
 bool isKnown(const std::string& name, const std::vector<std::string>& known) {
@@ -159,7 +137,7 @@ std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
 void warnUnknownParameters(const ros::NodeHandle& private_nh,
                            const std::vector<std::string>& known) {
   for (const std::string& name : unknownParameters(private_nh, known)) {
-    const std::string meant = closest(name, known);
+    const std::string meant = closestName(name, known);
     ROS_WARN_STREAM("Unknown parameter " << private_nh.getNamespace() << "/" << name
                                          << " is not used"
                                          << (meant.empty() ? "" : "; did you mean " + meant + "?"));

@@ -33,6 +33,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/base/options.h"
+#include "ros/common/outgoing/refused_parameter.h"
 
 namespace ros {
 
@@ -164,7 +165,8 @@ Config configFromOptions(const Options& options) {
 
 // Keeps `Options` open to dynamic_reconfigure. `apply` gets every accepted request once, in the
 // thread of the requests, and throws InputError to refuse one: then the old options stay in force,
-// the reason is logged and the answer to the request holds the old values.
+// the reason is logged and published (refused_parameter.h), and the answer to the request holds the
+// old values.
 template <class Config, class Options>
 class Reconfigurable {
  public:
@@ -174,6 +176,7 @@ class Reconfigurable {
   // that parameters, server and node agree also where a value was given as another type.
   Reconfigurable(const ros::NodeHandle& private_nh, const Options& initial, Apply apply)
       : private_nh_(private_nh),
+        refused_(private_nh),
         options_(initial),
         apply_(std::move(apply)),
         server_(mutex_, agreeing(private_nh, initial)) {
@@ -198,14 +201,17 @@ class Reconfigurable {
       apply_(wanted);
       options_ = wanted;
       storeParameters(private_nh_, options_, Stored::NESTED);  // the server stores the others
+      refused_.accept();
     } catch (const std::exception& error) {
       ROS_ERROR_STREAM("Reconfiguration of " << private_nh_.getNamespace()
                                              << " refused, the old values stay: " << error.what());
+      refused_.refuse(error.what());
       config = configFromOptions<Config>(options_);
     }
   }
 
   ros::NodeHandle private_nh_;
+  RefusedParameter refused_;
   Options options_;
   Apply apply_;
   bool started_ = false;

@@ -7,7 +7,9 @@
 
 #include <atomic>
 #include <csignal>
+#include <iostream>
 #include <mutex>
+#include <optional>
 
 #include "ros/common/guarded_queue.h"
 #include "ros/common/master/master_watch.h"
@@ -91,19 +93,34 @@ void serve(const std::string& name, const NodeMaker& make) {
   ROS_WARN_STREAM(name << " ends: " << (reason.empty() ? "ROS was shut down" : reason));
 }
 
+// Where the check fails: the node does not come up.
+std::optional<int> exitCodeOf(const std::function<void()>& check, const std::string& name) {
+  try {
+    if (check) check();
+    return std::nullopt;
+  } catch (const std::exception& error) {
+    const std::string asked = endReason();
+    std::cerr << name << (asked.empty() ? " does not start: " : " ends: ")
+              << (asked.empty() ? error.what() : asked) << '\n';
+    return asked.empty() ? 1 : 0;
+  }
+}
+
 }  // namespace
 
 bool nodeIsToEnd() {
   return node_process && !endReason().empty();
 }
 
-int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make) {
+int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make,
+            const std::function<void()>& check) {
   node_process = true;
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
   int result = 0;
   master_is_there = ros::master::check();
+  if (const auto exit_code = exitCodeOf(check, name)) return *exit_code;
   const ros::NodeHandle keeps_the_log_open;  // the last one to go shuts it, and the reason is lost
   master_is_there = true;
   try {

@@ -30,8 +30,11 @@ using NodeMaker =
 bool nodeIsToEnd();
 
 // Calls the global callback queue in this thread until the node ends. Returns the exit code:
-// 0, or 1 after an exception of the node's construction that nobody asked for by ending it.
-int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make);
+// 0, or 1 after an exception of the node's construction that nobody asked for by ending it, or of
+// `check`, which runs before the master hears of the node: a second one of its name that cannot run
+// does not end the first.
+int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make,
+            const std::function<void()>& check = {});
 
 // `Node` is constructed from a node handle and a private one. Returns 2 for arguments that are not
 // ROS's.
@@ -49,10 +52,11 @@ int runNode(int argc, char** argv, const std::string& name,
             const std::vector<FileArgument>& files) {
   const NodeArguments given = nodeArguments(argc, argv, name, files);
   if (given.exit_code) return *given.exit_code;
-  return runNode(argc, argv, name, [&given](ros::NodeHandle& nh, ros::NodeHandle& private_nh) {
+  const NodeMaker make = [&given](ros::NodeHandle& nh, ros::NodeHandle& private_nh) {
     return std::make_shared<Node>(nh, private_nh,
                                   NodeFiles(given.files, given.save_folder, given.load_folder));
-  });
+  };
+  return runNode(argc, argv, name, make, [&] { checkGivenFiles(files, given.files); });
 }
 
 }  // namespace grid_path_planner::nodes

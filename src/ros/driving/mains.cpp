@@ -1,14 +1,28 @@
 #include "ros/driving/mains.h"
 
+#include "grid_path_planner/path/waypoint_file.h"
+#include "ros/common/end_of_node.h"
 #include "ros/common/run_node.h"
 #include "ros/driving/navigate_path_node.h"
 #include "ros/driving/teleop_joy_node.h"
 
 namespace grid_path_planner::nodes {
 
+using path::readWaypointFile;
+
+namespace {
+
+void checkWaypointFile(const std::string& file) {
+  const EndOfNode end;
+  readWaypointFile(file, {{}, end.token()});
+}
+
+}  // namespace
+
 int navigatePathMain(int argc, char** argv) {
-  return runNode<NavigatePathNode>(argc, argv, "navigate_path",
-                                   {{"config_filename", "WAYPOINTS.yaml"}});
+  return runNode<NavigatePathNode>(
+      argc, argv, "navigate_path",
+      {{"config_filename", "WAYPOINTS.yaml", false, checkWaypointFile}});
 }
 
 int teleopJoyMain(int argc, char** argv) {

@@ -206,6 +206,7 @@ void NavigatePathNode::startDriving(const ros::Time& now) {
 void NavigatePathNode::onPath(const nav_msgs::Path& message) {
   watchClock();
   if (message.header.stamp < started_ && !options_.follow_latched) {
+    if (message.poses.empty()) return;  // nothing that could have been driven
     ROS_WARN_STREAM("A path stamped " << message.header.stamp << " is not driven: navigate_path "
                                       << "started at " << started_
                                       << " (~follow_latched drives it all the same)");

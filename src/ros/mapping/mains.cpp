@@ -7,7 +7,7 @@ namespace grid_path_planner::nodes {
 
 int projectedMapMain(int argc, char** argv) {
   return runNode<ProjectedMapNode>(argc, argv, "projected_map",
-                                   {{"filename", "FILE.bt|FILE.ot", true},
+                                   {{"filename", "FILE.bt|FILE.ot", true, checkCanBeOpened},
                                     {"map_file", "FILE.yaml"},
                                     {"octree_file", "FILE.bt|FILE.ot"}});
 }

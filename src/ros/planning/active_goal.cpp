@@ -4,7 +4,7 @@
 
 namespace grid_path_planner::nodes {
 
-using path::Path;
+using planning::Plan;
 
 void ActiveGoal::setStart(const geometry_msgs::PoseStamped& start) {
   std::lock_guard<std::mutex> lock(mutex_);
@@ -31,13 +31,32 @@ std::optional<GoalState> ActiveGoal::goal() const {
   return goal_;
 }
 
-bool ActiveGoal::commit(std::uint64_t id, const Path& path, unsigned path_settings,
+void ActiveGoal::mapChanged() {
+  std::lock_guard<std::mutex> lock(mutex_);
+  map_changed_ = true;
+}
+
+bool ActiveGoal::retryIsDue(Time now) const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return map_changed_ && goal_ && goal_->answered && goal_->path.empty() &&
+         now - planned_ >= kRetryPeriod;
+}
+
+std::optional<GoalState> ActiveGoal::beginPlanning(Time now) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  map_changed_ = false;
+  planned_ = now;
+  return goal_;
+}
+
+bool ActiveGoal::commit(std::uint64_t id, const Plan& plan, unsigned path_settings,
                         const std::function<void()>& publish) {
   std::lock_guard<std::mutex> lock(mutex_);
   if (!goal_ || goal_->id != id) return false;
   goal_->answered = true;
   goal_->request.start.reset();  // every replan starts from tf
-  goal_->path = path;
+  goal_->status = plan.status;
+  goal_->path = plan.path;
   goal_->path_settings = path_settings;
   publish();
   return true;

@@ -1,13 +1,17 @@
 // The goal that path_planner plans for, its present path, and the start pose of the next goal. A
-// result belongs to its goal: one for an older goal is dropped.
+// result belongs to its goal: one for an older goal is dropped. A goal without a path stands: it is
+// due again when the map has changed since its last planning began, once in kRetryPeriod.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <mutex>
 #include <optional>
 
+#include "grid_path_planner/base/status.h"
 #include "grid_path_planner/path/path.h"
+#include "grid_path_planner/planning/plan.h"
 #include "ros/planning/planning_request.h"
 
 namespace grid_path_planner::nodes {
@@ -15,9 +19,10 @@ namespace grid_path_planner::nodes {
 struct GoalState {
   std::uint64_t id = 0;
   PlanningRequest request;
-  bool answered = false;       // the start of the request holds until then
-  path::Path path;             // empty where the last planning found none
-  unsigned path_settings = 0;  // revision of the settings that it was planned with
+  bool answered = false;                       // the start of the request holds until then
+  base::Status status = base::Status::NO_MAP;  // of the last planning, once it is answered
+  path::Path path;                             // empty where that found none
+  unsigned path_settings = 0;                  // revision of the settings that it was planned with
 };
 
 class ActiveGoal {
@@ -30,9 +35,18 @@ class ActiveGoal {
   void setGoal(const geometry_msgs::PoseStamped& goal);
   std::optional<GoalState> goal() const;
 
-  // If `id` is still the goal's: stores the path and calls `publish` before any new goal is accepted.
-  // Returns whether it was.
-  bool commit(std::uint64_t id, const path::Path& path, unsigned path_settings,
+  using Time = std::chrono::steady_clock::time_point;
+  static constexpr std::chrono::seconds kRetryPeriod{1};
+
+  void mapChanged();
+  // Whether a goal without a path is due again.
+  bool retryIsDue(Time now) const;
+  // The goal, whose planning begins `now`, on a map with all changes so far.
+  std::optional<GoalState> beginPlanning(Time now);
+
+  // If `id` is still the goal's: stores the answer and calls `publish` before any new goal is
+  // accepted. Returns whether it was.
+  bool commit(std::uint64_t id, const planning::Plan& plan, unsigned path_settings,
               const std::function<void()>& publish);
 
  private:
@@ -40,6 +54,8 @@ class ActiveGoal {
   std::optional<geometry_msgs::PoseStamped> start_;
   std::optional<GoalState> goal_;
   std::uint64_t next_id_ = 1;
+  bool map_changed_ = false;  // since the last planning began
+  Time planned_;              // when that was
 };
 
 }  // namespace grid_path_planner::nodes

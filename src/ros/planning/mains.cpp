@@ -11,7 +11,8 @@ int pathPlannerMain(int argc, char** argv) {
 }
 
 int mapPublisherMain(int argc, char** argv) {
-  return runNode<MapPublisherNode>(argc, argv, "map_publisher", {{"filename", "MAP_FILE", true}});
+  return runNode<MapPublisherNode>(argc, argv, "map_publisher",
+                                   {{"filename", "MAP_FILE", true, checkCanBeOpened}});
 }
 
 }  // namespace grid_path_planner::nodes

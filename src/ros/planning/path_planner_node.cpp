@@ -1,6 +1,7 @@
 #include "ros/planning/path_planner_node.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 
 namespace grid_path_planner::nodes {
 
+using base::sameOptions;
 using base::Stopped;
 using base::StopSource;
 using base::TaskQueue;
@@ -61,6 +63,12 @@ void warnUnusedOptions(const PlannerOptions& options, const PlannerOptions& befo
       ROS_WARN_STREAM(option.name << " changes nothing with " << option.with);
 }
 
+// Whether the same goal may have another path.
+bool changesPath(const PathPlannerNodeOptions& a, const PathPlannerNodeOptions& b) {
+  return !sameOptions(a.planner, b.planner) || a.goal_z_from != b.goal_z_from ||
+         a.map_frame != b.map_frame || a.base_frame != b.base_frame;
+}
+
 }  // namespace
 
 PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
@@ -83,7 +91,7 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   goal_subscriber_ = nh.subscribe("goal", 1, &PathPlannerNode::onGoal, this);
   initial_pose_subscriber_ = nh.subscribe("initialpose", 1, &PathPlannerNode::onInitialPose, this);
   clock_timer_ = nh.createWallTimer(ros::WallDuration(0.05),
-                                    [this](const ros::WallTimerEvent&) { server_->checkClock(); });
+                                    [this](const ros::WallTimerEvent&) { checkTime(); });
   full_map_timer_ = nh.createWallTimer(ros::WallDuration(0.1), [this](const ros::WallTimerEvent&) {
     if (planning_map_->wholeMapIsDue(server_->settings().options.full_map_period))
       postSearchedMap();
@@ -99,6 +107,11 @@ PathPlannerNode::~PathPlannerNode() {
   full_map_timer_.stop();
   reconfigurable_.reset();
   server_->stop();
+}
+
+void PathPlannerNode::checkTime() {
+  server_->checkClock();
+  if (active_goal_.retryIsDue(std::chrono::steady_clock::now())) postPlanForGoal();
 }
 
 void PathPlannerNode::onGoal(const geometry_msgs::PoseStamped& message) {
@@ -123,10 +136,13 @@ void PathPlannerNode::onOptions(const PathPlannerNodeOptions& options) {
   warnUnusedOptions(options.planner, before.planner);
   server_->setOptions(options);
   if (options.replan_period != before.replan_period) startReplanTimer(options.replan_period);
+  const std::optional<GoalState> goal = active_goal_.goal();
+  if (goal && goal->answered && changesPath(options, before)) postPlanForGoal();
   onMapChange();
 }
 
 void PathPlannerNode::onMapChange() {
+  active_goal_.mapChanged();
   server_->vehicleLane().post([this](const StopSource& stop) { processMap(stop); }, kMapSlot);
   server_->prepareForQuestions();
 }
@@ -155,16 +171,18 @@ void PathPlannerNode::postSearchedMap() {
 }
 
 void PathPlannerNode::planForGoal(const StopSource& stop) {
-  const std::optional<GoalState> goal = active_goal_.goal();
+  const auto goal = active_goal_.beginPlanning(std::chrono::steady_clock::now());
   const PlanningServer::Settings settings = server_->settings();
   server_->checkClock();
   PlanningLane& lane = server_->vehicleLane();
   const Plan plan = lane.plan(goal->request, server_->recordingOptions(settings.options), stop);
   const PlanStatistics statistics = lane.statistics(plan, goal->request, settings.options);
   if (stop.cancelled() || keepsOldPath(*goal, plan, settings, stop)) return;
-  active_goal_.commit(goal->id, plan.path, settings.revision, [&] {
-    server_->publisher().publishPath(plan);
-    server_->publish(lane, plan, statistics);
+  const bool as_before = goal->answered && !plan.found() && plan.status == goal->status;
+  active_goal_.commit(goal->id, plan, settings.revision, [&] {
+    if (!as_before) server_->publisher().publishPath(plan);
+    server_->publish(lane, plan, statistics, as_before);
+    if (!as_before) server_->explainLater(goal->request, plan);
   });
 }
 

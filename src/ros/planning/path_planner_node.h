@@ -45,6 +45,7 @@ class PathPlannerNode {
 
  private:
   // Callbacks
+  void checkTime();
   void onGoal(const geometry_msgs::PoseStamped& message);
   void onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message);
   void onOptions(const PathPlannerNodeOptions& options);

@@ -18,6 +18,7 @@ using base::Status;
 using path::Path;
 using path::writeWaypointFile;
 using planners::plannerNames;
+using planning::Explanation;
 using planning::failedPlan;
 
 namespace {
@@ -64,6 +65,27 @@ void add(PlanStatistics statistics, const Path& path, ComparePlans::Response& re
   response.paths.push_back(pathToMessage(path, now));
 }
 
+geometry_msgs::Point pointAt(const Eigen::Vector2d& position) {
+  geometry_msgs::Point point;
+  point.x = position.x();
+  point.y = position.y();
+  return point;
+}
+
+ExplainPlan::Response explanationMessage(const Explanation& explanation) {
+  ExplainPlan::Response message;
+  message.only_unknown = explanation.only_unknown;
+  message.has_gap = explanation.gap.has_value();
+  if (explanation.gap) {
+    message.gap = pointAt(explanation.gap->position);
+    message.gap_width_m = explanation.gap->width;
+    message.largest_radius_m = explanation.gap->largest_radius;
+  }
+  message.has_nearest = explanation.nearest.has_value();
+  if (explanation.nearest) message.nearest = pointAt(*explanation.nearest);
+  return message;
+}
+
 }  // namespace
 
 PlanServices::PlanServices(ros::NodeHandle private_nh, PlanningServer& server)
@@ -72,6 +94,7 @@ PlanServices::PlanServices(ros::NodeHandle private_nh, PlanningServer& server)
   make_plan_ = private_nh.advertiseService("make_plan", &PlanServices::makePlan, this);
   compare_plans_ = advertiseChecked<Comparison>(
       private_nh, "compare_plans", [this](Comparison& call) { return comparePlans(call); });
+  explain_plan_ = private_nh.advertiseService("explain_plan", &PlanServices::explainPlan, this);
   private_nh.setCallbackQueue(&guarded_files_);
   save_waypoints_ =
       private_nh.advertiseService("save_waypoints", &PlanServices::saveWaypoints, this);
@@ -82,6 +105,7 @@ PlanServices::PlanServices(ros::NodeHandle private_nh, PlanningServer& server)
 PlanServices::~PlanServices() {
   make_plan_.shutdown();
   compare_plans_.shutdown();
+  explain_plan_.shutdown();
   save_waypoints_.shutdown();
   spinner_.stop();
   file_spinner_.stop();
@@ -122,6 +146,22 @@ void PlanServices::compare(const std::vector<PlanningRequest>& requests,
     waitForAnswer(*ticket, caller);
     add(ticket->statistics(), ticket->plan().path, response);
   }
+}
+
+bool PlanServices::explainPlan(Why& call) {
+  const ServiceCaller caller(explain_plan_.getService(), call.getConnectionHeader());
+  PlanningRequest request;
+  request.start = startOf(call.getRequest().start);
+  request.goal = call.getRequest().goal;
+  const auto ticket =
+      server_.ask(request, PlanningServer::Publish::NO, PlanningServer::Explain::YES);
+  waitForAnswer(*ticket, caller);
+  ExplainPlan::Response& response = call.getResponse();
+  response = explanationMessage(ticket->explanation());
+  response.status = toString(ticket->plan().status);
+  response.message = ticket->plan().message;
+  if (!ticket->explanation().text.empty()) response.message += "; " + ticket->explanation().text;
+  return true;
 }
 
 bool PlanServices::saveWaypoints(SaveWaypoints::Request& request,

@@ -1,4 +1,4 @@
-// The services of path_planner: ~make_plan, ~compare_plans, ~save_waypoints.
+// The services of path_planner: ~make_plan, ~compare_plans, ~explain_plan, ~save_waypoints.
 //
 // Threads of their own call them, two for plans and one for files, so that a request that takes long
 // delays neither the node's other callbacks nor the arrival of a second request. A client that closes
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "grid_path_planner/ComparePlans.h"
+#include "grid_path_planner/ExplainPlan.h"
 #include "grid_path_planner/SaveWaypoints.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/service_caller.h"
@@ -32,10 +33,13 @@ class PlanServices {
   using MakePlan = ros::ServiceEvent<nav_msgs::GetPlan::Request, nav_msgs::GetPlan::Response>;
   using Comparison = ros::ServiceEvent<ComparePlans::Request, ComparePlans::Response>;
 
+  using Why = ros::ServiceEvent<ExplainPlan::Request, ExplainPlan::Response>;
+
   bool makePlan(MakePlan& call);
   bool comparePlans(Comparison& call);
   void compare(const std::vector<PlanningRequest>& requests, const ServiceCaller& caller,
                ComparePlans::Response& response);
+  bool explainPlan(Why& call);
   bool saveWaypoints(SaveWaypoints::Request& request, SaveWaypoints::Response& response);
 
   PlanningServer& server_;
@@ -43,6 +47,7 @@ class PlanServices {
   GuardedQueue guarded_{queue_}, guarded_files_{file_queue_};
   ros::ServiceServer make_plan_;
   ros::ServiceServer compare_plans_;
+  ros::ServiceServer explain_plan_;
   ros::ServiceServer save_waypoints_;
   ros::AsyncSpinner spinner_, file_spinner_;
 };

@@ -1,6 +1,7 @@
 #include "ros/planning/planning_lane.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "base/current_error.h"
@@ -25,6 +26,8 @@ using costmap::CostGrid;
 using path::clearanceOf;
 using path::Pose;
 using planners::memoryLimitOf;
+using planning::explainFailure;
+using planning::Explanation;
 using planning::failedPlan;
 using planning::MapStore;
 using planning::PathPlanner;
@@ -34,6 +37,7 @@ using planning::PoseRequest;
 
 namespace {
 
+constexpr std::chrono::seconds kExplains(1);
 constexpr char kFinishingSlot[] = "finishing";
 
 Pose named(const char* which, const std::function<Pose()>& pose) {
@@ -136,6 +140,22 @@ Plan PlanningLane::tryToPlan(const PlanningRequest& request, const PathPlannerNo
     beginAnew();
     return failedPlan(Status::INVALID_REQUEST, "the request was given up: " + error);
   }
+}
+
+Explanation PlanningLane::explain(const PlanningRequest& request, Status status,
+                                  const PathPlannerNodeOptions& options, const StopSource& stop) {
+  try {
+    takeMap();
+    setOptions(optionsFor(request, options));
+    const PoseRequest poses = posesOf(request, options, stop.token());
+    return explainFailure(*planner_, poses, status, stop.token(kExplains));
+  } catch (const InputError&) {
+  } catch (const TransformError&) {
+  } catch (const Stopped&) {
+  } catch (...) {
+    beginAnew();
+  }
+  return {};
 }
 
 PoseRequest PlanningLane::posesOf(const PlanningRequest& request,

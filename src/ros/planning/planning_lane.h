@@ -22,6 +22,7 @@
 #include "grid_path_planner/PlanStatistics.h"
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/planning/path_planner.h"
+#include "planning/explanation.h"
 #include "ros/common/frame_transforms.h"
 #include "ros/common/map_receiver.h"
 #include "ros/planning/planning_request.h"
@@ -55,6 +56,11 @@ class PlanningLane {
   planning::Plan plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
                       const base::StopSource& stop, const PhaseListener& on_phase = {},
                       std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
+  // Why a request was answered with `status`, as far as there is more to say within a second;
+  // nothing where it cannot be said.
+  planning::Explanation explain(const PlanningRequest& request, base::Status status,
+                                const PathPlannerNodeOptions& options,
+                                const base::StopSource& stop);
   // Of a plan just made for this request; no stamp yet.
   PlanStatistics statistics(const planning::Plan& plan, const PlanningRequest& request,
                             const PathPlannerNodeOptions& options) const;

@@ -6,6 +6,7 @@
 
 #include "base/current_error.h"
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "planning/map_store.h"
 #include "ros/common/file_kinds.h"
@@ -18,6 +19,7 @@ using base::Status;
 using base::Stopped;
 using base::StopSource;
 using base::StopToken;
+using path::measuresText;
 using path::Path;
 using path::writeWaypointFile;
 using planning::failedPlan;
@@ -31,6 +33,7 @@ PlanningServer::PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions&
       settings_{options, 0},
       transforms_(nh),
       publisher_(nh),
+      explanations_(nh),
       store_(std::make_shared<MapStore>()) {}
 
 PlanningServer::Settings PlanningServer::settings() const {
@@ -43,14 +46,19 @@ void PlanningServer::setOptions(const PathPlannerNodeOptions& options) {
   settings_ = {options, settings_.revision + 1};
 }
 
-std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& request, Publish publish) {
+std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& request, Publish publish,
+                                                Explain explain) {
   auto ticket = std::make_shared<PlanTicket>();
   asked_ = true;
   ticket->map_ = store_->revision();
-  ticket->task_ = question_lane_.post([this, ticket, request, publish](const StopSource& stop) {
-    answer(*ticket, request, publish, stop);
-    question_lane_.finishLater(settings().options);
-  });
+  ticket->task_ =
+      question_lane_.post([this, ticket, request, publish, explain](const StopSource& stop) {
+        answer(*ticket, request, publish, stop);
+        if (explain == Explain::YES)
+          ticket->explanation_ =
+              question_lane_.explain(request, ticket->plan_.status, settings().options, stop);
+        question_lane_.finishLater(settings().options);
+      });
   return ticket;
 }
 
@@ -104,6 +112,28 @@ void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, 
   }
 }
 
+void PlanningServer::explainLater(const PlanningRequest& request, const Plan& plan) {
+  if (plan.found()) return explanations_.clear();
+  question_lane_.post(
+      [this, request, plan](const StopSource& stop) {
+        explain(request, plan, stop);
+        question_lane_.finishLater(settings().options);
+      },
+      "explanation");
+}
+
+void PlanningServer::explain(const PlanningRequest& request, const Plan& plan,
+                             const StopSource& stop) {
+  const planning::Explanation explanation =
+      question_lane_.explain(request, plan.status, settings().options, stop);
+  if (explanation.text.empty() || stop.cancelled()) return explanations_.clear();
+  const std::string message = plan.message + "; " + explanation.text;
+  ROS_WARN_STREAM("Why: " << message);
+  explanations_.publish(explanation, plan.path.frame_id);
+  std::lock_guard<std::mutex> lock(mutex_);
+  if (outcome_ && outcome_->message == plan.message) outcome_->message = message;
+}
+
 PathPlannerNodeOptions PlanningServer::recordingOptions(PathPlannerNodeOptions options) const {
   options.record_search = options.record_search && publisher_.searchIsShown();
   return options;
@@ -132,10 +162,11 @@ void PlanningServer::stop() {
 }
 
 void PlanningServer::publish(const PlanningLane& lane, const Plan& plan,
-                             const PlanStatistics& statistics) {
+                             const PlanStatistics& statistics, bool as_before) {
   if (plan.found())
-    ROS_INFO_STREAM("FOUND: " << plan.message);
-  else
+    ROS_INFO_STREAM("FOUND: " << plan.message << "; "
+                              << measuresText(statistics.clearance_m, statistics.turning_rad));
+  else if (!as_before)
     ROS_WARN_STREAM(toString(plan.status) << ": " << plan.message);
   publisher_.publishSearch(plan, statistics, lane.cellSize(plan));
   if (plan.found()) writeWaypoints(plan.path);

@@ -28,6 +28,7 @@
 #include "ros/planning/plan_publisher.h"
 #include "ros/planning/planning_lane.h"
 #include "ros/planning/planning_request.h"
+#include "ros/planning/shown/explanation_publisher.h"
 
 namespace grid_path_planner::nodes {
 
@@ -42,6 +43,8 @@ class PlanTicket {
   // have no stamp. CANCELLED where the server ended before.
   const planning::Plan& plan() const { return plan_; }
   const PlanStatistics& statistics() const { return statistics_; }
+  // Why there is no path, where that was asked for.
+  const planning::Explanation& explanation() const { return explanation_; }
   // "waiting", "preparing" or "searching".
   const char* phase() const { return phase_; }
 
@@ -51,12 +54,14 @@ class PlanTicket {
   planning::Plan plan_ = planning::failedPlan(base::Status::CANCELLED, "planning was cancelled");
   PlanStatistics statistics_ = statisticsMessage(plan_);
   std::uint64_t map_ = 0;  // the revision of the newest when it was handed in
+  planning::Explanation explanation_;
   std::shared_ptr<base::TaskQueue::Task> task_;
 };
 
 class PlanningServer {
  public:
   enum class Publish { NO, YES };
+  enum class Explain { NO, YES };
   // Options and how often they were changed.
   struct Settings {
     PathPlannerNodeOptions options;
@@ -75,7 +80,12 @@ class PlanningServer {
   // For the requests that are answered after this. Precondition: the options are checked.
   void setOptions(const PathPlannerNodeOptions& options);
 
-  std::shared_ptr<PlanTicket> ask(const PlanningRequest& request, Publish publish);
+  std::shared_ptr<PlanTicket> ask(const PlanningRequest& request, Publish publish,
+                                  Explain explain = Explain::NO);
+
+  // Logs and shows why `plan`, made for the vehicle, found no path: in the lane of questions, so that
+  // the vehicle does not wait for it. What a plan showed before is removed.
+  void explainLater(const PlanningRequest& request, const planning::Plan& plan);
 
   // Takes the maps that come and calls `on_map` after each, in the subscriber's thread.
   void startMaps(ros::NodeHandle nh, std::function<void()> on_map);
@@ -101,9 +111,9 @@ class PlanningServer {
   // The options for a plan that is published: a search is recorded only where someone wants to see it.
   PathPlannerNodeOptions recordingOptions(PathPlannerNodeOptions options) const;
 
-  // Publishes a plan just made in `lane`, whose thread calls.
+  // Publishes a plan just made in `lane`, whose thread calls. A failure `as_before` is not logged.
   void publish(const PlanningLane& lane, const planning::Plan& plan,
-               const PlanStatistics& statistics);
+               const PlanStatistics& statistics, bool as_before = false);
 
   // The vehicle's position in this frame from tf, without waiting; none where tf has none.
   std::optional<Eigen::Vector2d> vehicle(const std::string& frame,
@@ -113,6 +123,8 @@ class PlanningServer {
   void answer(PlanTicket& ticket, const PlanningRequest& request, Publish publish,
               const base::StopSource& stop);
   void storeMap(const MapChange& change);
+  void explain(const PlanningRequest& request, const planning::Plan& plan,
+               const base::StopSource& stop);
   void writeWaypoints(const path::Path& path);
 
   NodeFiles files_;
@@ -126,6 +138,7 @@ class PlanningServer {
 
   FrameTransforms transforms_;
   PlanPublisher publisher_;
+  ExplanationPublisher explanations_;
   MapReceiver maps_;
   const std::shared_ptr<planning::MapStore> store_;
   bool store_is_behind_ = true;  // it lacks a change; the subscriber's thread's

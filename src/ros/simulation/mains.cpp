@@ -6,7 +6,8 @@
 namespace grid_path_planner::nodes {
 
 int simulatorMain(int argc, char** argv) {
-  return runNode<SimulatorNode>(argc, argv, "simulator", {{"world", "WORLD.sdf"}});
+  return runNode<SimulatorNode>(argc, argv, "simulator",
+                                {{"world", "WORLD.sdf", false, checkCanBeOpened}});
 }
 
 }  // namespace grid_path_planner::nodes

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "ros/support/planner_fixture.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -56,6 +57,29 @@ TEST(EndOfNodes, BySignal) {
       process.end(number);
       EXPECT_EQ(process.exitCode(), 0) << node.name;
     }
+}
+
+// `rosrun grid_path_planner projected_map missing.bt` ended the projected_map that ran, and then itself:
+// the master ends the older of two nodes of one name.
+TEST(EndOfNodes, ASecondOneWhoseFileCannotBeReadDoesNotEndTheFirst) {
+  const test::TemporaryFolder folder;
+  const std::string damaged = folder.write("damaged.yaml", "waypoints:\n  - position: {x: 1}\n");
+  const std::vector<std::vector<std::string>> pairs = {
+      {"projected_map", folder.path("missing.bt"), "missing.bt: cannot be read"},
+      {"map_publisher", folder.path("missing.yaml"), "missing.yaml: cannot be read"},
+      {"navigate_path", "--config-filename=" + damaged, "damaged.yaml:2"}};
+  for (const auto& pair : pairs) {
+    std::vector<std::string> arguments;
+    if (pair[0] == "map_publisher") arguments = {GPP_TEST_DATA "/projected_map.bag"};
+    Process first(pair[0], arguments);
+    ASSERT_TRUE(first.says(" runs")) << pair[0];
+    Process second(pair[0], {pair[1]});
+    ASSERT_TRUE(second.waitForExit()) << pair[0];
+    EXPECT_EQ(second.exitCode(), 1) << pair[0];
+    EXPECT_NE(second.output().find(pair[2]), std::string::npos) << second.output();
+    EXPECT_TRUE(first.running()) << pair[0];
+    EXPECT_EQ(first.output().find("ends"), std::string::npos) << first.output();
+  }
 }
 
 class EndOfPlanner : public test::PlannerTest {};

@@ -1,8 +1,10 @@
 #include "ros/common/parameters.h"
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Log.h>
+#include <std_msgs/String.h>
 
 #include <limits>
 #include <memory>
@@ -195,6 +197,29 @@ TEST_F(Reconfiguration, AContradictionIsRevertedWithItsReason) {
   EXPECT_TRUE(ConfigTools::getParameter(answer, "free_max", free_max));
   EXPECT_EQ(free_max, 25);
   EXPECT_TRUE(loggedReason("free_max must be below occupied_min, got 70 and 65"));
+}
+
+// dynamic_reconfigure's answer is the old values and no reason: a slider of rqt jumped back, and nothing
+// said why.
+TEST_F(Reconfiguration, TheReasonOfARefusalIsLatched) {
+  dynamic_reconfigure::Config wanted;
+  ConfigTools::appendParameter(wanted, "radius", -1.0);
+  request(wanted);
+  test::Latest<std_msgs::String> reason(nh_, "parameter_refused");
+  test::Latest<diagnostic_msgs::DiagnosticArray> diagnostics(nh_, "/diagnostics");
+  const auto told = reason.waitForMoreThan(0);
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->data, "radius must be a number from 0 to 1000 m, got -1");
+  const auto warned = diagnostics.waitForMoreThan(0);
+  ASSERT_TRUE(warned);
+  EXPECT_EQ(warned->status.at(0).name, "reconfigured: parameters");
+  EXPECT_EQ(warned->status.at(0).level, diagnostic_msgs::DiagnosticStatus::WARN);
+  const std::size_t seen = reason.count();
+  ConfigTools::clear(wanted);
+  ConfigTools::appendParameter(wanted, "radius", 0.6);
+  request(wanted);
+  ASSERT_TRUE(reason.waitForMoreThan(seen));
+  EXPECT_EQ(reason.all().back().data, "");
 }
 
 TEST_F(Reconfiguration, AnUnknownChoiceIsReverted) {

@@ -1,5 +1,6 @@
 // path_planner while the vehicle drives: maps that change, replans, goals that change.
 
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <ros/advertise_options.h>
 
 #include <atomic>
@@ -197,6 +198,67 @@ TEST_F(ReplanTest, AGoalWithoutAPathIsTriedAgainEveryPeriod) {
   ASSERT_EQ(answer_.status, "UNREACHABLE");
   sendUpdate(2, 0, 1, 1, {0});
   ASSERT_TRUE(paths_.waitFor(0, [](const nav_msgs::Path& path) { return !path.poses.empty(); }));
+}
+
+// It was given up: a door that opened later was of no use to a goal that had been given before.
+TEST_F(ReplanTest, AGoalWithoutAPathStandsUntilTheMapHasOne) {
+  startPlanner();
+  publishMap({"..#..", "..#..", "..#.."});
+  placeVehicleAndWait(0.5, 0.5);
+  const std::size_t seen = log_.count();
+  sendGoal(poseAt(4.5, 0.5));
+  ASSERT_EQ(answer_.status, "UNREACHABLE");
+  const std::size_t answers = statistics_.count();
+  for (int i = 0; i < 20; ++i) sendUpdate(0, 2, 1, 1, {static_cast<std::int8_t>(i % 2 * 100)});
+  ASSERT_TRUE(statistics_.waitForMoreThan(answers)) << "it is tried again";
+  EXPECT_LE(statistics_.count(), answers + 3) << "and not once for every change";
+  sendUpdate(2, 0, 1, 1, {0});
+  ASSERT_TRUE(paths_.waitFor(0, [](const nav_msgs::Path& path) { return !path.poses.empty(); }));
+  ASSERT_TRUE(logged("FOUND", seen));
+  const auto lines = log_.all();
+  EXPECT_EQ(std::count_if(lines.begin() + static_cast<long>(seen), lines.end(),
+                          [](const rosgraph_msgs::Log& line) {
+                            return line.msg.find("UNREACHABLE") != std::string::npos;
+                          }),
+            1)
+      << "one warning, not one a try";
+}
+
+TEST_F(ReplanTest, AGoalBeforeTheFirstMapStands) {
+  startPlanner();
+  placeVehicle(0.5, 0.5);
+  sendGoal(poseAt(4.5, 0.5));
+  ASSERT_EQ(answer_.status, "NO_MAP");
+  publishMap({".....", "....."});
+  ASSERT_TRUE(paths_.waitFor(0, [](const nav_msgs::Path& path) { return !path.poses.empty(); }));
+}
+
+// A radius that was raised changed nothing until the next goal.
+TEST_F(ReplanTest, AChangedParameterPlansTheGoalAnew) {
+  startPlanner();
+  publishMap({".....", ".....", "..#..", ".....", "....."});
+  placeVehicleAndWait(0.5, 2.5);
+  sendGoal(poseAt(4.5, 2.5));
+  ASSERT_EQ(answer_.status, "FOUND");
+  const double near = answer_.clearance_m;
+  const std::size_t statistics = statistics_.count(), paths = paths_.count();
+  dynamic_reconfigure::Reconfigure call;
+  call.request.config.doubles.resize(1);
+  call.request.config.doubles[0].name = "radius";
+  call.request.config.doubles[0].value = 0.9;
+  ASSERT_TRUE(ros::service::call("/path_planner/set_parameters", call));
+  waitForAnswer(statistics, paths);
+  EXPECT_LT(near, 0.9);
+  EXPECT_GE(answer_.clearance_m, 0.9);
+}
+
+// With a large tf_timeout nothing was said before its end.
+TEST_F(ReplanTest, AGoalThatAnUnknownFrameHoldsUpIsWarnedOf) {
+  startPlanner({"_tf_timeout:=30"});
+  publishMap(kCorridors);
+  const std::size_t seen = log_.count();
+  goals_.publish(poseAt(6.5, 2.5, 0.0, "nowhere"));
+  EXPECT_TRUE(logged("Waiting for tf: no transform from nowhere to map", seen));
 }
 
 }  // namespace

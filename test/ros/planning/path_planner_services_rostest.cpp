@@ -3,11 +3,13 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <dynamic_reconfigure/config_tools.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <chrono>
 #include <fstream>
 
 #include "grid_path_planner/ComparePlans.h"
+#include "grid_path_planner/ExplainPlan.h"
 #include "grid_path_planner/PlanPathAction.h"
 #include "grid_path_planner/SaveWaypoints.h"
 #include "grid_path_planner/path/waypoint_file.h"
@@ -266,6 +268,42 @@ TEST_F(ActionTest, TheTimeLimitEndsTheSearch) {
   client_.sendGoal(goal(poseAt(0.5, 0.5), poseAt(2999.5, 1.5)));
   ASSERT_TRUE(ended());
   EXPECT_EQ(client_.getResult()->status, "TIMEOUT");
+}
+
+// Neither the answer of a service nor the vehicle's path waits for the explanation.
+TEST_F(ServicesTest, AFailureIsExplained) {
+  startPlanner({"_radius:=2"});
+  test::Latest<visualization_msgs::MarkerArray> markers(nh_, "explanation_markers");
+  publishMap({"....#....",  //
+              "....#....",  //
+              ".........",  //
+              ".........",  //
+              ".........",  //
+              "....#....",  //
+              "....#...."});
+  ExplainPlan call;
+  call.request.start = poseAt(1.5, 3.5);
+  call.request.goal = poseAt(7.5, 3.5);
+  ASSERT_TRUE(ros::service::call("/path_planner/explain_plan", call));
+  EXPECT_EQ(call.response.status, "UNREACHABLE");
+  ASSERT_TRUE(call.response.has_gap) << call.response.message;
+  EXPECT_NEAR(call.response.gap.x, 4.5, 1e-9);
+  EXPECT_EQ(call.response.largest_radius_m, 1.5);
+  EXPECT_NE(call.response.message.find("1.5 m would pass"), std::string::npos);
+  placeVehicle(1.5, 3.5);
+  sendGoal(poseAt(7.5, 3.5));
+  EXPECT_EQ(answer_.status, "UNREACHABLE");
+  EXPECT_TRUE(planner_->says("Why: no path leads from (1.5, 3.5) to (7.5, 3.5); the gap at"));
+  const auto shown = markers.waitForMoreThan(0);
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(shown->markers.size(), 4u)
+      << "what was shown goes; the gap, the nearest place, the text";
+  const std::size_t seen = markers.count();
+  sendGoal(poseAt(2.5, 3.5));
+  EXPECT_EQ(answer_.status, "FOUND");
+  const auto cleared = markers.waitForMoreThan(seen);
+  ASSERT_TRUE(cleared);
+  EXPECT_EQ(cleared->markers.size(), 1u);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ HALF = 1 << 31
 NUMBERS = (float("nan"), float("inf"), -float("inf"), 1e300, 1e38, -1e-300)
 SIZES = (0, (1 << 32) - 1)
 # Of roscpp, dynamic_reconfigure, nodelet and the libraries below; not of a node's own.
-COMMON = ("parameter_descriptions", "parameter_updates", "set_parameters", "get_loggers", "set_logger_level", "tf",
+COMMON = ("parameter_refused", "parameter_descriptions", "parameter_updates", "set_parameters", "get_loggers", "set_logger_level", "tf",
           "tf_static", "bond", "list", "load_nodelet", "unload_nodelet", "tf2_frames")
 # octomap_msgs may be there or not.
 OPTIONAL = ("octomap_binary", "octomap_full")

@@ -4,7 +4,7 @@ A row is complete: every_node_rostest.py compares it with what the running node 
 rows with nodelet_plugins.xml and the package's programs. Whoever adds a node adds a row.
 
     inputs      topics that are subscribed, with their types; those of actions are under `actions`
-    outputs     topics that are published; /diagnostics, /rosout and those of dynamic_reconfigure are left out
+    outputs     topics that are published; /diagnostics, /rosout, ~parameter_refused and those of dynamic_reconfigure are left out
     services    private ones begin with ~
     actions     name: type without its ending
     arguments   of the program, so that it starts with nothing but a master; parameters go to the nodelet too
@@ -27,9 +27,11 @@ NODES = {
                  "planning_map_updates": "map_msgs/OccupancyGridUpdate",
                  "plan_statistics": "grid_path_planner/PlanStatistics",
                  "search_markers": "visualization_msgs/MarkerArray",
+                 "explanation_markers": "visualization_msgs/MarkerArray",
                  "rectangle_map": "grid_path_planner/RectangleMap",
                  "rectangle_markers": "visualization_msgs/MarkerArray"},
         services={"~make_plan": "nav_msgs/GetPlan", "~compare_plans": "grid_path_planner/ComparePlans",
+                  "~explain_plan": "grid_path_planner/ExplainPlan",
                   "~save_waypoints": "grid_path_planner/SaveWaypoints"},
         actions={"plan_path": "grid_path_planner/PlanPath"},
         arguments=["_publish_rectangles:=true"], tf="listens", probe=probes.plans),

@@ -1,0 +1,192 @@
+#include "planning/explanation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "grid_path_planner/costmap/costmap_builder.h"
+#include "grid_path_planner/planners/reachable_cells.h"
+#include "grid_path_planner/planning/nearest_cell.h"
+#include "planning/end_segments.h"
+#include "planning/message_text.h"
+#include "planning/widest_path.h"
+
+namespace grid_path_planner::planning {
+
+using base::Status, base::StopToken;
+using costmap::CostGrid, costmap::CostmapBuilder, costmap::CostmapOptions, costmap::KeptDistances;
+using grid::Cell, grid::GridGeometry, grid::Occupancy;
+using planners::reachableFrom;
+
+namespace {
+
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+
+Eigen::Vector2d placeOf(const path::Pose& pose) {
+  return pose.position.head<2>();
+}
+
+// No more than it is: a vehicle of the radius that is told must pass.
+double roundedDown(double radius) {
+  return std::floor(radius * 1000.0 + 1e-6) / 1000.0;
+}
+
+// Across the gap at a cell: from its centre straight to the nearest obstacle, and back to the one opposite.
+class Across {
+ public:
+  Across(const CostGrid& costs, const CostmapOptions& options) : costs_(costs), options_(options) {}
+
+  Gap at(Cell cell, double largest_radius) const {
+    const GridGeometry& geometry = costs_.geometry();
+    const Eigen::Vector2d middle(cell.column + 0.5, cell.row + 0.5);
+    const Eigen::Vector2d side = nearestEdge(cell) - middle;
+    const double near = side.norm();
+    if (near == 0.0) return {geometry.centre(cell), 0.0, largest_radius};
+    const Eigen::Vector2d away = -side / near;
+    const double far = freeAlong(middle, away, 4.0 * options_.radius / geometry.resolution());
+    return {geometry.worldFromGrid(middle + away * 0.5 * (far - near)),
+            (near + far) * geometry.resolution(), largest_radius};
+  }
+
+ private:
+  bool closed(Cell cell) const {
+    if (!costs_.geometry().contains(cell)) return true;
+    const Occupancy occupancy = costs_.occupancy(cell);
+    return occupancy == Occupancy::OCCUPIED ||
+           (occupancy == Occupancy::UNKNOWN && !options_.unknown_is_passable);
+  }
+
+  // Of the closed cells around, the nearest point of the nearest one; the cell's own centre where
+  // there is none. In cells.
+  Eigen::Vector2d nearestEdge(Cell cell) const {
+    const Eigen::Vector2d middle(cell.column + 0.5, cell.row + 0.5);
+    const int reach =
+        static_cast<int>(std::ceil(options_.radius / costs_.geometry().resolution())) + 1;
+    Eigen::Vector2d nearest = middle;
+    double least = kEverywhere;
+    for (int row = cell.row - reach; row <= cell.row + reach; ++row)
+      for (int column = cell.column - reach; column <= cell.column + reach; ++column) {
+        if (!closed({column, row})) continue;
+        const Eigen::Vector2d low(column, row);
+        const Eigen::Vector2d point = middle.cwiseMax(low).cwiseMin(low + Eigen::Vector2d::Ones());
+        if ((point - middle).norm() >= least) continue;
+        least = (point - middle).norm();
+        nearest = point;
+      }
+    return nearest;
+  }
+
+  // How far, in cells and to a twentieth of one, nothing is closed; at most `limit`.
+  double freeAlong(const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
+                   double limit) const {
+    constexpr double kStep = 0.05;
+    double length = 0.0;
+    for (; length < limit; length += kStep) {
+      const Eigen::Vector2d at = from + direction * (length + 0.5 * kStep);
+      if (closed({static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))}))
+        break;
+    }
+    return length;
+  }
+
+  const CostGrid& costs_;
+  const CostmapOptions& options_;
+};
+
+// The parts of one explanation.
+class Explainer {
+ public:
+  Explainer(const CostGrid& costs, const PlannerOptions& options, const PoseRequest& request,
+            const StopToken& stop)
+      : costs_(costs), options_(options), request_(request), stop_(stop) {}
+
+  Explanation explain(Cell start, Cell goal, Status status) const {
+    Explanation explanation;
+    if (status == Status::UNREACHABLE) explainGap(start, goal, explanation);
+    explainNearest(start, status, explanation);
+    return explanation;
+  }
+
+ private:
+  void explainGap(Cell start, Cell goal, Explanation& explanation) const {
+    const CostmapOptions& costmap = options_.costmap;
+    const auto widest = widestPath(costs_, costmap, costs_.keptDistances(), start, goal, stop_);
+    if (!widest) {
+      explainClosed(start, goal, explanation);
+    } else if (widest->clearance >= costmap.radius) {
+      if (costmap.kernel > 1)
+        explanation.text = "the kernel closes every path: kernel 1 or retry_finer finds a path";
+    } else {
+      const Gap gap = Across(costs_, costmap).at(widest->narrowest, widest->clearance);
+      explanation.gap = gap;
+      explanation.text = "the gap at " + positionText(gap.position) + " is " +
+                         metresText(gap.width) + " wide; radius " + metresText(costmap.radius) +
+                         " needs " + metresText(2.0 * costmap.radius) + "; " +
+                         metresText(roundedDown(gap.largest_radius)) + " would pass";
+    }
+  }
+
+  // Whatever the vehicle's size.
+  void explainClosed(Cell start, Cell goal, Explanation& explanation) const {
+    CostmapOptions through = options_.costmap;
+    through.radius = 0.0;
+    through.radius_to_unknown = 0.0;
+    through.unknown_is_passable = true;
+    explanation.only_unknown =
+        !options_.costmap.unknown_is_passable &&
+        widestPath(costs_, through, costmap::keptDistances(through), start, goal, stop_);
+    explanation.text = explanation.only_unknown
+                           ? "only unknown cells lead there, and unknown_is_passable is false"
+                           : "obstacles lie all around, for a vehicle of any size";
+  }
+
+  void explainNearest(Cell start, Status status, Explanation& explanation) const {
+    const GridGeometry& geometry = costs_.geometry();
+    const std::vector<std::uint8_t> reached = reachableFrom(costs_, start, stop_);
+    const auto nearest = nearestCell(geometry, placeOf(request_.goal), kEverywhere, [&](Cell cell) {
+      return reached[geometry.index(cell).value()] != 0;
+    });
+    if (!nearest) return;
+    explanation.nearest = geometry.centre(nearest->cell);
+    explanation.text += std::string(explanation.text.empty() ? "" : "; ") +
+                        (status == Status::GOAL_OCCUPIED ? "the nearest possible goal is "
+                                                         : "the nearest place in reach is ") +
+                        positionText(*explanation.nearest) + ", " + metresText(nearest->distance) +
+                        " from the goal";
+  }
+
+  const CostGrid& costs_;
+  const PlannerOptions& options_;
+  const PoseRequest& request_;
+  const StopToken& stop_;
+};
+
+// What was searched: it keeps no more from unknown cells and from the border than the ends have.
+std::shared_ptr<const CostGrid> searchedCosts(PathPlanner& planner, const PoseRequest& request,
+                                              const StopToken& stop) {
+  const auto costs = planner.fullResolutionCosts(stop);
+  const KeptDistances kept =
+      EndSegments(*costs).loweredTo(placeOf(request.start), placeOf(request.goal));
+  if (kept == costs->keptDistances()) return costs;
+  CostmapBuilder lowered(planner.options().costmap, kept);
+  lowered.setMap(planner.map());
+  return lowered.fullResolution(stop);
+}
+
+}  // namespace
+
+Explanation explainFailure(PathPlanner& planner, const PoseRequest& request, Status status,
+                           const StopToken& stop) {
+  if (status != Status::UNREACHABLE && status != Status::GOAL_OCCUPIED) return {};
+  if (!planner.hasMap() || planner.map()->geometry().size() > kMostExplained) return {};
+  const auto costs = searchedCosts(planner, request, stop);
+  const auto start = costs->geometry().cellAt(placeOf(request.start));
+  const auto goal = costs->geometry().cellAt(placeOf(request.goal));
+  if (!start || !goal || !costs->passable(*start)) return {};
+  return Explainer(*costs, planner.options(), request, stop).explain(*start, *goal, status);
+}
+
+}  // namespace grid_path_planner::planning
