@@ -55,15 +55,17 @@ std::string required(const po::variables_map& values, const std::string& name) {
   return value;
 }
 
+constexpr char kUsage[] =
+    "grid_path flights FILE.yaml --out DIR [--jobs N] [--flight NAME/SEED]\n"
+    "       grid_path flights --log FILE";
+
 }  // namespace
 
 int runFlights(int argc, char** argv) {
   static char flag[] = "--flights";
   std::vector<char*> arguments = withNamedFile(argc, argv, flag);
   po::variables_map values;
-  if (!parseArguments(static_cast<int>(arguments.size()), arguments.data(), flightOptions(),
-                      "grid_path flights FILE.yaml --out DIR [--jobs N] [--flight NAME/SEED]\n"
-                      "       grid_path flights --log FILE",
+  if (!parseArguments(static_cast<int>(arguments.size()), arguments.data(), flightOptions(), kUsage,
                       values))
     return 0;
   if (!values["log"].as<std::string>().empty()) return repeatLog(values["log"].as<std::string>());

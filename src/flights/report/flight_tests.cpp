@@ -113,6 +113,21 @@ ClaimVerdict verdictOn(const PublishedConclusion& claim, const std::vector<Fligh
   return any && all ? ClaimVerdict::CONFIRMED : ClaimVerdict::UNDECIDED;
 }
 
+namespace {
+
+std::vector<TableCell> rowOfTest(const std::string& rules, const FlightTest& test) {
+  const TableCell none("–");
+  return {rules,
+          test.pair.worse + "–" + test.pair.better,
+          test.measure,
+          test.testable ? TableCell(test.difference, 3) : none,
+          test.testable ? TableCell(test.p, 2) : none,
+          test.testable ? TableCell(test.corrected, 2) : none,
+          test.published < 0.0 ? none : TableCell(test.published, 6)};
+}
+
+}  // namespace
+
 Finding testsFinding(const FlightData& data) {
   Finding finding;
   finding.question = "Are the published pairs apart?";
@@ -123,14 +138,8 @@ Finding testsFinding(const FlightData& data) {
                    {"rules", "pair", "of", "difference", "p", "corrected p", "published p"},
                    {}};
   for (const std::string& rules : data.rules())
-    for (const FlightTest& test : flightTests(data, rules)) {
-      const TableCell none("–");
-      finding.table.rows.push_back({rules, test.pair.worse + "–" + test.pair.better, test.measure,
-                                    test.testable ? TableCell(test.difference, 3) : none,
-                                    test.testable ? TableCell(test.p, 2) : none,
-                                    test.testable ? TableCell(test.corrected, 2) : none,
-                                    test.published < 0.0 ? none : TableCell(test.published, 6)});
-    }
+    for (const FlightTest& test : flightTests(data, rules))
+      finding.table.rows.push_back(rowOfTest(rules, test));
   return finding;
 }
 

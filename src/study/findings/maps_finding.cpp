@@ -19,6 +19,22 @@ ClassShares classSharesOf(const OccupancyGrid& map, const OccupancyThresholds& t
   return {share(Occupancy::FREE), share(Occupancy::UNKNOWN), share(Occupancy::OCCUPIED)};
 }
 
+namespace {
+
+std::vector<TableCell> rowOfMap(const StudyData& data, std::size_t i) {
+  const OccupancyGrid& map = *data.plan().map(i);
+  const ClassShares shares = classSharesOf(map, data.study().base.costmap.thresholds);
+  return {data.study().maps[i].name,
+          TableCell(map.geometry().width(), 6),
+          TableCell(map.geometry().height(), 6),
+          TableCell(map.geometry().resolution(), 3),
+          TableCell(100.0 * shares.free, 3),
+          TableCell(100.0 * shares.unknown, 3),
+          TableCell(100.0 * shares.occupied, 3)};
+}
+
+}  // namespace
+
 Finding mapsFinding(const StudyData& data) {
   Finding finding;
   finding.question = "What do the maps hold?";
@@ -28,15 +44,8 @@ Finding mapsFinding(const StudyData& data) {
       "a map that has such cells.",
       {"map", "columns", "rows", "cell [m]", "free [%]", "unknown [%]", "occupied [%]"},
       {}};
-  for (std::size_t i = 0; i < data.study().maps.size(); ++i) {
-    const OccupancyGrid& map = *data.plan().map(i);
-    const ClassShares shares = classSharesOf(map, data.study().base.costmap.thresholds);
-    finding.table.rows.push_back(
-        {data.study().maps[i].name, TableCell(map.geometry().width(), 6),
-         TableCell(map.geometry().height(), 6), TableCell(map.geometry().resolution(), 3),
-         TableCell(100.0 * shares.free, 3), TableCell(100.0 * shares.unknown, 3),
-         TableCell(100.0 * shares.occupied, 3)});
-  }
+  for (std::size_t i = 0; i < data.study().maps.size(); ++i)
+    finding.table.rows.push_back(rowOfMap(data, i));
   return finding;
 }
 

@@ -11,6 +11,11 @@ namespace grid_path_planner::study {
 namespace {
 
 constexpr double kBytesOfRectangle = 8.0;  // the published measure
+const std::string kFaster =
+    "Cutting the map and one plan on it take less than one search on its cells";
+const std::string kSlower =
+    "Cutting the map takes longer than the one search on cells that it saves, with a Dijkstra of "
+    "buckets where the published one took 7.7 s";
 
 // What one query on a new map takes in all, ms.
 double wholeProcess(const StudyRun& run) {
@@ -29,7 +34,7 @@ std::vector<double> ratiosAt(const StudyData& data, int kernel, std::size_t dijk
   return ratios;
 }
 
-std::pair<int, int> kernelsOf(const StudyData& data) {
+std::pair<int, int> smallestAndLargestKernel(const StudyData& data) {
   int least = data.sizes().front().kernel, most = least;
   for (const ProblemSize& size : data.sizes()) {
     least = std::min(least, size.kernel);
@@ -63,9 +68,8 @@ std::string bytesText(const StudyData& data) {
   return text;
 }
 
-}  // namespace
-
-Conclusion rectangleConclusion(const StudyData& data) {
+// Without its verdict.
+Conclusion untested() {
   Conclusion c;
   c.name = "C9";
   c.claim = "The rectangle map makes the whole process faster and smaller, the more the larger";
@@ -74,33 +78,38 @@ Conclusion rectangleConclusion(const StudyData& data) {
   c.reason =
       "The rectangle map needs one weight, which this study's maps do not have. It has a study of "
       "its own, doc/study_rectangles.md.";
-  const auto dijkstra = variantOf(data, "dijkstra"), rectangles = variantOf(data, "rectangle_map");
-  if (!dijkstra || !rectangles || data.sizes().empty()) return c;
-  const auto [fine, coarse] = kernelsOf(data);
-  const std::vector<double> ratios = ratiosAt(data, fine, *dijkstra, *rectangles);
-  const std::vector<double> smaller = ratiosAt(data, coarse, *dijkstra, *rectangles);
-  if (ratios.empty() || smaller.empty()) return c;
+  return c;
+}
+
+// By the ratios of the whole process at the smallest kernel.
+void judge(const std::vector<double>& ratios, Conclusion& c) {
   std::vector<double> logarithms;
   for (const double ratio : ratios) logarithms.push_back(std::log(ratio));
   const Interval ratio = meanRatio(ratios);
-  c.measure = "preparation and one plan, dijkstra / rectangle_map, kernel " + std::to_string(fine);
   c.interval = intervalText(ratio);
   c.p = pairedP(logarithms);
   c.needs_test = true;
   if (ratio.low > 1.0) c.verdict = Verdict::CONFIRMED;
   if (ratio.high < 1.0) c.verdict = Verdict::REFUTED;
-  c.reason =
-      std::string(
-          c.verdict == Verdict::CONFIRMED
-              ? "Cutting the map and one plan on it take less than one search on its cells"
-              : "Cutting the map takes longer than the one search on cells that it saves, with a "
-                "Dijkstra of buckets where the published one took 7.7 s") +
-      " (at kernel " + std::to_string(coarse) + " the ratio is " +
-      intervalText(meanRatio(smaller)) +
-      "); the table of preparation says from how many plans on cutting pays. Bytes, 8 a rectangle "
-      "as published "
-      "against a bit a cell: " +
-      bytesText(data) + ".";
+}
+
+}  // namespace
+
+Conclusion rectangleConclusion(const StudyData& data) {
+  Conclusion c = untested();
+  const auto dijkstra = variantOf(data, "dijkstra"), rectangles = variantOf(data, "rectangle_map");
+  if (!dijkstra || !rectangles || data.sizes().empty()) return c;
+  const auto [fine, coarse] = smallestAndLargestKernel(data);
+  const std::vector<double> ratios = ratiosAt(data, fine, *dijkstra, *rectangles);
+  const std::vector<double> smaller = ratiosAt(data, coarse, *dijkstra, *rectangles);
+  if (ratios.empty() || smaller.empty()) return c;
+  judge(ratios, c);
+  c.measure = "preparation and one plan, dijkstra / rectangle_map, kernel " + std::to_string(fine);
+  c.reason = (c.verdict == Verdict::CONFIRMED ? kFaster : kSlower) + " (at kernel " +
+             std::to_string(coarse) + " the ratio is " + intervalText(meanRatio(smaller)) +
+             "); the table of preparation says from how many plans on cutting pays. Bytes, 8 a "
+             "rectangle as published against a bit a cell: " +
+             bytesText(data) + ".";
   return c;
 }
 
