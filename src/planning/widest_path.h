@@ -1,6 +1,6 @@
 // The path between two cells whose narrowest place is widest: the one that the largest vehicle takes.
 //
-//   const auto widest = widestPath(costs, radius, start, goal, stop);
+//   const auto widest = widestPath(costs, options, kept, start, goal, stop);
 //   if (widest) use(widest->clearance, widest->narrowest);
 //
 // `clearance` is the largest radius, in metres, with which a path is found between cells where `radius`

@@ -56,8 +56,41 @@ CONTEXT = {
         extern ros::ServiceEvent<nav_msgs::GetPlan::Request, nav_msgs::GetPlan::Response> event;""",
     "prepared_planners.h": """extern planners::SearchOptions options; extern std::size_t bytes;
         extern std::size_t bytes_of_current; extern CostmapPair maps;""",
-    "planning_lane.h": """extern MapReceiver maps; extern std::size_t reader; extern FrameTransforms transforms;
+    "planning_lane.h": """#include "planning/map_store.h"
+        extern MapReceiver maps; extern std::shared_ptr<planning::MapStore> store; extern FrameTransforms transforms;
         extern PlanningRequest request; extern PathPlannerNodeOptions options; void use(const Plan&);""",
+    "avoidance/pilot.h": """extern PilotOptions options; extern VehiclePose pose; extern double time;
+        extern base::BodyVelocity velocity; extern Frame frame; struct AVehicle { void command(const base::BodyVelocity&); };
+        extern AVehicle vehicle;""",
+    "cloud_frames.h": """#include <sensor_msgs/PointCloud2.h>
+        extern CloudFrames frames; extern sensor_msgs::PointCloud2::ConstPtr cloud; extern FrameTransforms transforms;
+        extern ros::Time now;""",
+    "flight_job.h": "extern std::function<void(std::size_t)> progress;",
+    "flight_log.h": """extern std::string file; extern PilotOptions options; extern std::uint64_t limit;
+        extern std::vector<Eigen::Vector3d> waypoints; extern PilotInput input; extern PilotAnswer answer;""",
+    "moving_bodies.h": """#include "grid_path_planner/simulation/depth_camera.h"
+        #include "grid_path_planner/simulation/vehicle.h"
+        extern Vehicle vehicle; extern DepthCamera camera; extern Eigen::Isometry3d pose; extern int frame;
+        extern std::vector<float> points;""",
+    "open_space.h": """extern OpenSpace space; extern VoxelMemory memory; extern double d_safe; extern HeightBand band;
+        extern Eigen::Vector3d point;""",
+    "surroundings.h": """extern Surroundings surroundings; extern Frame frame; extern double now; extern PilotOptions options;
+        extern Eigen::Vector3d position;""",
+    "voxel_memory.h": """extern VoxelMemory memory; extern Eigen::Vector3d sensor_position, point; extern int slot;
+        extern std::int32_t milliseconds, before;""",
+    "braking.h": """extern Motion motion; extern Eigen::Vector3d velocity; extern double yaw_rate; extern PilotOptions options;
+        struct AVehicle { void command(const Eigen::Vector3d&, double); }; extern AVehicle vehicle;
+        extern const KeptRoom& room; extern std::vector<Eigen::Vector3f> moving;""",
+    "flights/flight.h": """#include "flights/flight_study.h"
+        extern const FlightStudy& study; extern std::size_t variant; extern int seed;""",
+    "sight_audit.h": """extern const simulation::World& world; extern simulation::DepthCameraOptions camera_options;
+        extern Eigen::Vector3d start, position; extern Eigen::Isometry3d map_from_optical; extern int entered;""",
+    "block_bound.h": "extern const CostGrid& map; extern Cell goal, cell;",
+    "planning/explanation.h": "void log(const std::string&); extern PathPlanner planner; extern PoseRequest request;",
+    "map_store.h": """#include "grid_path_planner/planning/path_planner.h"
+        extern PlannerOptions options; extern std::shared_ptr<const OccupancyGrid> map, next;
+        extern std::vector<CellRect> changed;""",
+    "widest_path.h": """extern const CostGrid& costs; extern costmap::CostmapOptions options; extern costmap::KeptDistances kept; extern Cell start, goal;""",
     "connections.h": "extern std::vector<CellRect> rectangles;",
     "conversions.h": "extern geometry_msgs::PoseStamped message; extern Path path;"
                      "extern ros::Publisher publisher;",
@@ -183,7 +216,7 @@ CONTEXT = {
     "radix_heap.h": "extern std::uint32_t f, node;",
     "diagonal_jump_bits.h": "extern const DiagonalJumpBits& bits; extern Cell cell;",
     "hashed_nodes.h": "extern int map_width; extern Cell cell;",
-    "pruning_estimate.h": "extern PruningEstimate estimate; extern const CostGrid& map;",
+    "pruning_estimate.h": "#include \"planners/tables/block_bound.h\"\nextern PruningEstimate estimate; extern const CostGrid& map;",
     "study_planners.h": "extern SearchOptions options;",
     "vehicle_publisher.h": "extern ros::NodeHandle nh; extern VehicleState truth, measured;"
                            "extern ros::Time stamp; extern VehicleFrameNames frames;",

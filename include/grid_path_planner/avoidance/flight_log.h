@@ -1,6 +1,6 @@
 // What a pilot was given and answered, in a file from which the flight is repeated to the bit.
 //
-//   FlightLog log(file, options);                  // writes; throws InputError
+//   FlightLog log(file, options, limit);           // writes; throws InputError
 //   log.route(waypoints);
 //   log.update(input, answer);
 //

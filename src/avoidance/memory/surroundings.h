@@ -1,7 +1,7 @@
 // Frames into what is remembered about the vehicle, and that into where it may be.
 //
 //   surroundings.see(frame, now, options);                    // every frame
-//   if (surroundings.refresh(position, options)) plan(surroundings.space());
+//   if (surroundings.refresh(position, options)) use(surroundings.space());
 #pragma once
 
 #include <Eigen/Core>

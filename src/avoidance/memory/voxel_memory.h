@@ -3,7 +3,7 @@
 //   memory.moveTo(sensor_position);
 //   memory.beginFrame(milliseconds);
 //   memory.hit(point);                       // every measured point; then
-//   memory.cross(voxel);                     // every voxel that a ray passed
+//   memory.cross(slot);                      // every voxel that a ray passed
 //   memory.forget(before);
 //
 // A voxel is unseen, free or occupied. Two points within 0.5 s make it occupied, one is noise. A hit beats

@@ -1,6 +1,6 @@
 // Whether a command leaves the vehicle time to stop in the open: the law that makes flying safe.
 //
-//   if (stopsInOpen(motion, command, room, options)) vehicle.command(command);
+//   if (stopsInOpen(motion, velocity, yaw_rate, room, moving, options)) vehicle.command(velocity, yaw_rate);
 //
 // The motion is computed that follows where the command holds for a frame and zero is commanded then: the
 // vehicle goes on for response_time with the velocity that it has, changes it towards the command for a

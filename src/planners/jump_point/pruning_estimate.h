@@ -3,7 +3,7 @@
 //
 //   estimate.sample(map, stop);
 //   if (estimate.jumpingPays()) use(map);
-//   if (estimate.octileSaysLittle(map.minWeight())) use(block_bound);
+//   if (estimate.octileSaysLittle(map.minWeight())) use(BlockBounds(8));
 //
 // Jumping: the share of the diagonal steps into sampled cells after which the default steps
 // (planners/core/natural_moves.h) are natural and no others. On the maps that were measured it is

@@ -3,7 +3,7 @@
 // cut no corners.
 //
 //   WeightedJumpSearch search;
-//   search.prepare(map);
+//   search.prepare(map, stop);
 //   SearchResult result = search.run(map, request, stop);
 //
 // Guaranteed: the cost is the least there is, whatever the weights.

@@ -16,8 +16,8 @@
 // be the least weight of the block's passable cells, S and D the lengths of a straight and of a
 // diagonal step. The values keep, for every block that is not blocked:
 //
-//   1. corners of one side differ by at most k S w, opposite corners by at most k D w;
-//   2. twice a corner is at most the sum of its two neighbours in the block, plus k D w.
+// 1. corners of one side differ by at most k S w, opposite corners by at most k D w;
+// 2. twice a corner is at most the sum of its two neighbours in the block, plus k D w.
 //
 // Let a be the least corner, d the opposite one, b between them. The gradient of the triangle a, b,
 // d is (b - a, d - b) / k. By 1 a straight step inside the triangle changes the bound by at most

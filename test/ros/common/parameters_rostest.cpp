@@ -80,7 +80,7 @@ TEST(Parameters, ValuesOutOfLimitsAreRefusedNeverClamped) {
   nh.setParam("heuristic", "crow");
   EXPECT_EQ(refusalOf(nh),
             "/out_of_limits/heuristic must be one of zero, manhattan, chebyshev, "
-            "octile, euclidean, landmark, exact, got 'crow'");
+            "octile, euclidean, blocks, landmark, exact, got 'crow'");
 }
 
 TEST(Parameters, UnknownNamesAreFound) {
