@@ -73,7 +73,9 @@ TEST(PruningEstimate, TellsPlateausAndSlopesFromNoise) {
 TEST(WeightedJumpPoint, AnswersNoiseByAStarAndPlateausByJumps) {
   std::mt19937 random(3);
   WeightedJumpPoint planner;
-  AStar a_star;
+  AStarOptions options;
+  options.heuristic = Heuristic::BLOCKS;
+  AStar a_star(options);
   const SearchRequest request{{3, 3}, {{90, 80}}, false};
   auto map = costsOf(noise(random, 100));
   planner.prepare(map, StopToken());
@@ -193,6 +195,7 @@ TEST(WeightedJumpPointLaw, CostsAreLeastWhicheverSearchAnswers) {
     WeightedJumpPoint planner;
     planner.prepare(map, StopToken());
     for (int edit = 0; edit < 3; ++edit) {
+      if (edit == 1) planner.finishBackgroundWork(StopToken());
       const SearchRequest across{{0, 0}, {{899, 499}}, false};
       if (map->passable({0, 0}) && map->passable({899, 499}))
         ++answers[planner.search(across, StopToken()).answered_by];

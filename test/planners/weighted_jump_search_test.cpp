@@ -25,7 +25,7 @@ namespace {
 
 WeightedJumpSearch prepared(const CostGrid& map) {
   WeightedJumpSearch search;
-  search.prepare(map);
+  search.prepare(map, StopToken());
   return search;
 }
 
@@ -79,6 +79,23 @@ TEST(WeightedJumpSearchLaw, FindsTheLeastCost) {
 }
 
 // Few values make many equal costs, which reach a cell from several sides.
+// The bound comes at the first expansion, in the midst of the search or never: cells that are open
+// then are ordered anew.
+TEST(WeightedJumpSearchLaw, FindsTheLeastCostWheneverTheBoundIsMade) {
+  std::mt19937 random(18);
+  for (int trial = 0; trial < 120; ++trial) {
+    const GridGeometry geometry(30 + int(random() % 90), 30 + int(random() % 60), 1.0);
+    const CostGrid map = trial % 2 == 0 ? test::randomPotential(random, geometry, {})
+                                        : test::randomCosts(random, geometry, {});
+    for (const std::size_t after : {1, 2, 10, 40}) {
+      WeightedJumpSearch search = prepared(map);
+      search.makeBoundAfter(after);
+      expectLeast(search, map, random, 8);
+      if (HasFatalFailure()) FAIL() << "trial " << trial << ", after " << after;
+    }
+  }
+}
+
 TEST(WeightedJumpSearchLaw, FindsTheLeastCostWhereManyTie) {
   std::mt19937 random(77);
   for (int trial = 0; trial < 400; ++trial) {

@@ -1,4 +1,4 @@
-#include "study/report/findings.h"
+#include "study/findings/findings.h"
 
 #include <gtest/gtest.h>
 

@@ -92,7 +92,8 @@ TEST_F(StudyFileTest, WhatIsNotThereIsAsThePlannersDefaultsSay) {
 }
 
 TEST_F(StudyFileTest, TheTwoThatComeWithThePackageAreRead) {
-  for (const char* file : {"config/study_thesis.yaml", "config/study_today.yaml"}) {
+  for (const char* file :
+       {"config/study_thesis.yaml", "config/study_today.yaml", "config/study_rectangles.yaml"}) {
     const StudyPlan plan(readStudyFile(file), readMap);
     EXPECT_GT(plan.units().size(), 0u) << file;
   }

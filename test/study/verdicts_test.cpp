@@ -1,4 +1,4 @@
-#include "study/report/verdicts.h"
+#include "study/findings/verdicts.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "grid_path_planner/grid/map_file.h"
 #include "small_study.h"
-#include "study/report/published_cases.h"
+#include "study/findings/published_cases.h"
 #include "study/study_plan.h"
 #include "support/ascii_map.h"
 #include "support/error_text.h"
@@ -164,6 +164,60 @@ TEST_F(VerdictsTest, ValuesDecideWhereBothWeightsSendPathsElsewhere) {
   EXPECT_EQ(verdict(7).verdict, Verdict::CANNOT_BE_TESTED) << "one of the two alone is not it";
 }
 
+TEST_F(VerdictsTest, RectanglesHaveAStudyOfTheirOwn) {
+  EXPECT_EQ(verdict(9).verdict, Verdict::CANNOT_BE_TESTED);
+  EXPECT_TRUE(contains(verdict(9).command, "config/study_rectangles.yaml"));
+}
+
+// The whole process is what counts: here a search on cells takes 8 or 12 ms, one on rectangles 1 ms, and
+// cutting them as long as a test says.
+class RectangleVerdictTest : public testing::Test {
+ protected:
+  Conclusion verdictWith(double preparation_ms) {
+    std::vector<StudyRun> runs;
+    for (const StudyUnit& unit : plan_.units())
+      for (std::size_t variant = 0; variant < 2; ++variant) {
+        StudyRun run = test::inventedRun(unit, variant);
+        run.times_ms = {variant == 1 ? 1.0 : unit.query % 2 == 0 ? 8.0 : 12.0};
+        run.preparation_ms = variant == 0 ? 0.0 : preparation_ms;
+        runs.push_back(run);
+      }
+    std::vector<Conclusion> all = conclusionsOf(StudyData(plan_, runs));
+    EXPECT_EQ(all.size(), 1u) << "C9 alone";
+    correctForAll(all);
+    return all.at(0);
+  }
+
+  const TemporaryFolder folder_;
+  const StudyPlan plan_ = [this] {
+    grid::writeMapServerFile(folder_.path("rooms.yaml"),
+                             test::AsciiMap({"...#....",  //
+                                             "...#....",  //
+                                             "........",  //
+                                             "...#...."})
+                                 .map);
+    return StudyPlan(readStudyFile(folder_.write("study.yaml", R"(
+maps: [rooms.yaml]
+planners: [dijkstra, rectangle_map]
+kernels: [1]
+weights: [[1, 1, 100]]
+queries: {random: {count: 6, seed: 1}}
+published: {source: a test, conclusions: true}
+)")),
+                     [](const std::string& file) { return grid::readMapFile(file); });
+  }();
+};
+
+TEST_F(RectangleVerdictTest, CountsTheCutAndOnePlan) {
+  EXPECT_EQ(verdictWith(50.0).verdict, Verdict::REFUTED);
+  EXPECT_EQ(verdictWith(5.0).verdict, Verdict::CONFIRMED);
+  EXPECT_EQ(verdictWith(9.0).verdict, Verdict::CANNOT_BE_TESTED) << "10 against 8 and 12";
+}
+
+TEST_F(RectangleVerdictTest, SaysTheBytesOfTheRectangles) {
+  EXPECT_TRUE(contains(verdictWith(50.0).reason, "rooms 24 of 4.")) << verdictWith(50.0).reason;
+}
+
 // Two tests at 0.04 each: together one of them is likely to be chance.
 TEST(Verdicts, ThatTheCorrectionDoesNotBearAreWithdrawn) {
   Conclusion tested;
@@ -199,6 +253,19 @@ TEST_F(VerdictsTest, PreparationIsComparedWithinOneProgram) {
   EXPECT_EQ(table.rows[1][9].text, "6") << "10 + 6 is less than 18, 10 + 5 is 15";
   EXPECT_EQ(table.rows[2][9].text, "the first") << "of the A*, though Dijkstra takes less";
   EXPECT_EQ(table.rows[1][6].number, 11.0) << "the first plan, preparation and all";
+}
+
+// Long repeats turned the mean: "euclidean takes less than manhattan from 2 queries on" stood above an
+// interval of medians by which manhattan plans faster.
+TEST_F(VerdictsTest, PreparationPaysOnlyWhereMeansAndIntervalAgree) {
+  change(1, [](StudyRun& run) {
+    run.preparation_ms = 8.0;
+    run.times_ms = {1.2 + 0.01 * static_cast<double>(run.query)};
+  });
+  change(2, [](StudyRun& run) { run.times_ms = {1.0, 1.0, 19.0}; });
+  const Table table = preparationFinding(StudyData(plan_, runs_)).table;
+  EXPECT_EQ(table.rows[2][9].text, "the first") << "7 ms on average, less than 8 + 1.2";
+  EXPECT_EQ(table.rows[1][9].text, "not certain") << "its mean is less, its medians are not";
 }
 
 TEST(PreparationLaw, IsTheFirstQueryOfACount) {

@@ -16,9 +16,10 @@
 namespace grid_path_planner::test {
 
 struct BoundedRun {
-  bool ended = false;      // by itself, with an answer or an InputError
-  std::string refusal;     // of the InputError; "" where there was an answer
-  double megabytes = 0.0;  // that its largest resident memory was above that before
+  bool ended = false;   // by itself, with an answer or an InputError
+  std::string refusal;  // of the InputError; "" where there was an answer
+  double megabytes =
+      0.0;  // that its largest resident memory was above that before; 0 with shadow memory
   double cpu_seconds = 0.0;
 };
 
@@ -35,7 +36,7 @@ inline double residentPeak() {
   return 0.0;
 }
 
-// Shadow memory needs all of the address space.
+// Of the sanitizers: it needs all of the address space, and is resident too.
 constexpr bool hasShadowMemory() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return true;
@@ -62,7 +63,7 @@ BoundedRun runBounded(const Action& action) {
     } catch (const base::InputError& error) {
       text = error.what();
     }
-    text = std::to_string(residentPeak() - before) + " " + text;
+    text = std::to_string(hasShadowMemory() ? 0.0 : residentPeak() - before) + " " + text;
     const ssize_t written = ::write(pipe_ends[1], text.data(), text.size());
     ::_exit(written == static_cast<ssize_t>(text.size()) ? 0 : 1);
   }

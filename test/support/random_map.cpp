@@ -126,6 +126,32 @@ CostGrid randomCosts(std::mt19937& random, const GridGeometry& geometry,
   return CostGrid(std::move(weights), std::move(classes), motion);
 }
 
+CostGrid randomPotential(std::mt19937& random, const GridGeometry& geometry,
+                         const MotionModel& motion) {
+  std::vector<CellRect> obstacles;
+  for (int i = between(random, 1, 8); i > 0; --i) {
+    const Cell low = randomCell(random, geometry);
+    obstacles.push_back({low.column, low.row, between(random, 1, 20), between(random, 1, 20)});
+  }
+  const double decay = between(random, 2, 30) / 100.0;
+  const int highest = between(random, 10, 200);
+  Grid<CostGrid::Weight> weights(geometry, 1);
+  for (std::uint32_t i = 0; i < weights.values().size(); ++i) {
+    const Cell cell = geometry.cell(CellIndex(i));
+    double nearest = 1e9;
+    for (const CellRect& rect : obstacles) {
+      const int column =
+          std::max({0, rect.column - cell.column, cell.column - (rect.column + rect.width - 1)});
+      const int row = std::max({0, rect.row - cell.row, cell.row - (rect.row + rect.height - 1)});
+      nearest = std::min(nearest, std::hypot(column, row));
+    }
+    weights[cell] = nearest == 0.0
+                        ? CostGrid::kBlocked
+                        : static_cast<CostGrid::Weight>(1.0 + highest * std::exp(-decay * nearest));
+  }
+  return CostGrid(std::move(weights), Grid<Occupancy>(geometry, Occupancy::FREE), motion);
+}
+
 CostGrid randomInflated(std::mt19937& random, const GridGeometry& geometry,
                         const MotionModel& motion) {
   const auto map = std::make_shared<OccupancyGrid>(geometry);

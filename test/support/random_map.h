@@ -25,6 +25,11 @@ costmap::CostGrid randomCosts(std::mt19937& random, const grid::GridGeometry& ge
 costmap::CostGrid randomInflated(std::mt19937& random, const grid::GridGeometry& geometry,
                                  const costmap::MotionModel& motion);
 
+// A gentle potential over the whole map: rectangular obstacles, and weights that fall slowly with the
+// distance to them, from up to 200.
+costmap::CostGrid randomPotential(std::mt19937& random, const grid::GridGeometry& geometry,
+                                  const costmap::MotionModel& motion);
+
 grid::Cell randomCell(std::mt19937& random, const grid::GridGeometry& geometry);
 
 // What may change at once: none to six rectangles of up to `largest_side` cells a side, anywhere in

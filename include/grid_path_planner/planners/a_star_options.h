@@ -10,7 +10,7 @@
 
 namespace grid_path_planner::planners {
 
-enum class Heuristic { ZERO, MANHATTAN, CHEBYSHEV, OCTILE, EUCLIDEAN, LANDMARK, EXACT };
+enum class Heuristic { ZERO, MANHATTAN, CHEBYSHEV, OCTILE, EUCLIDEAN, BLOCKS, LANDMARK, EXACT };
 const std::vector<std::pair<const char*, Heuristic>>& choicesOf(Heuristic);
 
 enum class TieBreak { NONE, LARGER_G, CROSS_PRODUCT };
@@ -30,8 +30,8 @@ void visitOptions(AStarOptions& o, Visitor&& visit) {
   visit("heuristic", o.heuristic,
         base::OptionInfo{
             "Lower bound of the cost to go that A* uses; manhattan is one only for "
-            "connectivity 4, octile and euclidean not for unit diagonals; landmark and exact "
-            "(small maps) use tables that are made in the background",
+            "connectivity 4, octile and euclidean not for unit diagonals; blocks knows what cells "
+            "cost; landmark and exact (small maps) use tables that are made in the background",
             ""});
   visit(
       "heuristic_scale", o.heuristic_scale,

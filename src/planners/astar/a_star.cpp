@@ -10,7 +10,7 @@ namespace grid_path_planner::planners {
 
 using base::Status, base::StopToken;
 using costmap::CostGrid;
-using grid::Cell, grid::CellRect, grid::GridGeometry;
+using grid::Cell, grid::CellIndex, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
@@ -63,7 +63,9 @@ AStar::AStar(const AStarOptions& options)
 std::size_t AStar::bytesFor(const GridGeometry& geometry) const {
   const std::size_t search =
       strictly_ordered_ ? BestFirstSearch::bytesFor(geometry) : BucketSearch::bytesFor(geometry);
-  return search + PrecomputedHeuristic::bytesFor(options_, geometry);
+  const bool blocks = options_.heuristic == Heuristic::BLOCKS;
+  return search + (blocks ? BlockBounds::bytesFor(geometry, kBlock) : 0) +
+         PrecomputedHeuristic::bytesFor(options_, geometry);
 }
 
 std::string AStar::lessMemoryAdvice() const {
@@ -80,6 +82,7 @@ void AStar::doPrepare(const StopToken& stop) {
     in_order_.prepare(map(), stop);
   else
     by_buckets_.prepare(map(), stop);
+  if (options_.heuristic == Heuristic::BLOCKS) blocks_.prepare(map(), stop);
   tables_.prepare(sharedMap());
 }
 
@@ -88,22 +91,62 @@ void AStar::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop
     in_order_.update(map(), changed, stop);
   else
     by_buckets_.update(map(), changed, stop);
+  if (options_.heuristic == Heuristic::BLOCKS) blocks_.update(map(), changed);
   tables_.update(previousMap(), sharedMap(), changed);
 }
 
 SearchResult AStar::doSearch(const SearchRequest& request, const StopToken& stop) {
+  const bool bounded = options_.heuristic == Heuristic::BLOCKS || tables_.ready();
   SearchResult result = strictly_ordered_ ? planInOrder(request, stop)
-                        : tables_.ready() ? planWithTables(request, stop)
+                        : blocksAlone()   ? planWithBlocks(request, stop)
+                        : bounded         ? planWithBound(request, stop)
                                           : planByBuckets(request, stop);
   result.statistics.search_bytes += tables_.work().bytes;
+  if (options_.heuristic == Heuristic::BLOCKS)
+    result.statistics.search_bytes += BlockBounds::bytesFor(map().geometry(), kBlock);
   return result;
 }
 
-SearchResult AStar::planWithTables(const SearchRequest& request, const StopToken& stop) {
+// Whether the bound of the blocks is the whole heuristic: there is no octile distance to enlarge.
+bool AStar::blocksAlone() const {
+  return options_.heuristic == Heuristic::BLOCKS && options_.epsilon == 1.0 &&
+         !heuristicScale(options_);
+}
+
+// What `search(boundIn)` gives, with the bounds to the goal from blocks or tables.
+template <class Search>
+SearchResult AStar::withBound(Cell goal, const StopToken& stop, const Search& search) {
+  const GridGeometry& geometry = map().geometry();
+  if (options_.heuristic != Heuristic::BLOCKS)
+    return tables_.withBound(geometry.index(goal).value(), search);
+  BlockBound& bound = blocks_.to(goal);
+  return search([&](const KeyScale& scale) {
+    return [&geometry, estimate = BlockEstimate(bound, scale, stop)](std::uint32_t index) {
+      return estimate(geometry.cell(CellIndex(index)));
+    };
+  });
+}
+
+SearchResult AStar::planWithBlocks(const SearchRequest& request, const StopToken& stop) {
   const Cell goal = request.goals.front();
   const std::uint32_t goal_index = map().geometry().index(goal).value();
   const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
-  return tables_.withBound(goal_index, [&](const auto& boundIn) {
+  BlockBound& bound = blocks_.to(goal);
+  if (auto result = unreachableBy(BlockEstimate(bound, kWideScale, stop)(request.start)))
+    return std::move(*result);
+  const auto estimateIn = [&](const KeyScale& scale) {
+    return [estimate = BlockEstimate(bound, scale, stop)](Cell cell, std::uint32_t) {
+      return estimate(cell);
+    };
+  };
+  return by_buckets_.run(map(), request.start, isGoal, estimateIn, request.record_expanded, stop);
+}
+
+SearchResult AStar::planWithBound(const SearchRequest& request, const StopToken& stop) {
+  const Cell goal = request.goals.front();
+  const std::uint32_t goal_index = map().geometry().index(goal).value();
+  const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
+  return withBound(goal, stop, [&](const auto& boundIn) {
     const std::uint32_t start_index = map().geometry().index(request.start).value();
     if (auto result = unreachableBy(boundIn(kWideScale)(start_index))) return std::move(*result);
     const auto estimateIn = [&](const KeyScale& scale) {
@@ -142,7 +185,7 @@ SearchResult AStar::planInOrder(const SearchRequest& request, const StopToken& s
   const TieBreak tie_break = options_.tie_break;
   const GridGeometry& geometry = map().geometry();
   const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
-  return tables_.withBound(goal_index, [&](const auto& boundIn) {
+  return withBound(goal, stop, [&](const auto& boundIn) {
     const auto bound = boundIn(kWideScale);
     if (auto result = unreachableBy(bound(geometry.index(request.start).value())))
       return std::move(*result);

@@ -16,6 +16,7 @@
 #include "grid_path_planner/planners/planner.h"
 #include "planners/astar/best_first_search.h"
 #include "planners/astar/bucket_search.h"
+#include "planners/tables/block_bound.h"
 #include "planners/tables/precomputed_heuristic.h"
 
 namespace grid_path_planner::planners {
@@ -38,13 +39,21 @@ class AStar : public Planner {
   void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
   SearchResult planByBuckets(const SearchRequest& request, const base::StopToken& stop);
-  SearchResult planWithTables(const SearchRequest& request, const base::StopToken& stop);
+  bool blocksAlone() const;
+  template <class Search>
+  SearchResult withBound(grid::Cell goal, const base::StopToken& stop, const Search& search);
+  SearchResult planWithBlocks(const SearchRequest& request, const base::StopToken& stop);
+  SearchResult planWithBound(const SearchRequest& request, const base::StopToken& stop);
   SearchResult planInOrder(const SearchRequest& request, const base::StopToken& stop);
 
   AStarOptions options_;
   bool strictly_ordered_;
   BucketSearch by_buckets_;  // one of the two is used
   BestFirstSearch in_order_;
+  // Of blocks that are smaller than those of jumps, since an expansion of A* gains more by a larger
+  // bound.
+  static constexpr int kBlock = 4;
+  BlockBounds blocks_{kBlock};  // where the options ask for them
   PrecomputedHeuristic tables_;
 };
 

@@ -25,7 +25,8 @@ Heuristic closedForm(Heuristic heuristic, const MotionModel& motion) {
 }  // namespace
 
 bool prepared(Heuristic heuristic) {
-  return heuristic == Heuristic::LANDMARK || heuristic == Heuristic::EXACT;
+  return heuristic == Heuristic::BLOCKS || heuristic == Heuristic::LANDMARK ||
+         heuristic == Heuristic::EXACT;
 }
 
 bool admissible(Heuristic heuristic, const MotionModel& motion) {
@@ -34,6 +35,7 @@ bool admissible(Heuristic heuristic, const MotionModel& motion) {
   switch (heuristic) {
     case Heuristic::ZERO:
     case Heuristic::CHEBYSHEV:
+    case Heuristic::BLOCKS:
     case Heuristic::LANDMARK:
     case Heuristic::EXACT:
       return true;
@@ -86,6 +88,7 @@ SearchKey Estimate::distance(std::uint64_t columns, std::uint64_t rows) const {
     case Heuristic::OCTILE:
       return octile(columns, rows);
     case Heuristic::EUCLIDEAN:
+    case Heuristic::BLOCKS:
     case Heuristic::LANDMARK:
     case Heuristic::EXACT:
       break;

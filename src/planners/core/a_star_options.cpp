@@ -10,8 +10,8 @@ const std::vector<std::pair<const char*, Heuristic>>& choicesOf(Heuristic) {
   static const std::vector<std::pair<const char*, Heuristic>> choices = {
       {"zero", Heuristic::ZERO},           {"manhattan", Heuristic::MANHATTAN},
       {"chebyshev", Heuristic::CHEBYSHEV}, {"octile", Heuristic::OCTILE},
-      {"euclidean", Heuristic::EUCLIDEAN}, {"landmark", Heuristic::LANDMARK},
-      {"exact", Heuristic::EXACT}};
+      {"euclidean", Heuristic::EUCLIDEAN}, {"blocks", Heuristic::BLOCKS},
+      {"landmark", Heuristic::LANDMARK},   {"exact", Heuristic::EXACT}};
   return choices;
 }
 

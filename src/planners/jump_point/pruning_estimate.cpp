@@ -26,7 +26,8 @@ PruningEstimate::Count PruningEstimate::countAt(const CostGrid& map, Cell cell) 
   Count count;
   const Window window = windowAt(map, cell);
   if (window[4] == CostGrid::kBlocked) return count;
-  if (allEqual(window)) return {4, 4};
+  count.inverse_weight = static_cast<std::uint16_t>(kInverse / window[4]);
+  if (allEqual(window)) return {4, 4, count.inverse_weight};
   const NaturalMoves natural = naturalMoves(window);
   for (unsigned step = 4; step < 8; ++step) {
     const Cell from{cell.column - kSteps[step].column, cell.row - kSteps[step].row};
@@ -45,7 +46,7 @@ void PruningEstimate::sample(const CostGrid& map, const StopToken& stop) {
   columns_ = (geometry.width() + stride_ - 1) / stride_;
   const int rows = (geometry.height() + stride_ - 1) / stride_;
   counts_.assign(std::size_t(columns_) * rows, Count());
-  steps_ = default_only_ = 0;
+  steps_ = default_only_ = inverse_weights_ = passable_ = 0;
   StopPoll poll(stop, 256);
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns_; ++column) {
@@ -62,13 +63,18 @@ void PruningEstimate::update(const CostGrid& map, const CellRect& changed) {
       replace(map, column, row);
 }
 
+void PruningEstimate::add(const Count& count, int times) {
+  steps_ += times * count.steps;
+  default_only_ += times * count.default_only;
+  inverse_weights_ += times * count.inverse_weight;
+  passable_ += count.inverse_weight != 0 ? times : 0;
+}
+
 void PruningEstimate::replace(const CostGrid& map, int column, int row) {
   Count& count = counts_[std::size_t(row) * columns_ + column];
-  steps_ -= count.steps;
-  default_only_ -= count.default_only;
+  add(count, -1);
   count = countAt(map, {column * stride_, row * stride_});
-  steps_ += count.steps;
-  default_only_ += count.default_only;
+  add(count, 1);
 }
 
 }  // namespace grid_path_planner::planners

@@ -64,6 +64,7 @@ class WeightedJumpMap {
   void makeReady(const costmap::CostGrid& map, const grid::CellRect& rect);
   // Makes all tiles ready. Throws Stopped; the tiles that are made stay.
   void makeAllReady(const costmap::CostGrid& map, const base::StopToken& stop);
+  std::size_t tilesReady() const { return tiles_ready_; }
   bool allReady() const { return tiles_ready_ == tile_ready_.size(); }
 
   // While one lives, at most `most` tiles are made, which each take tens of microseconds; then what

@@ -16,6 +16,18 @@ using grid::CellRect, grid::GridGeometry;
 
 namespace {
 
+// After how many expansions the bound of the blocks is made: it takes about as long as several
+// thousand of them.
+constexpr std::size_t kEarly = 64;
+constexpr std::size_t kLate = 65536;
+
+// Expansions of A* for which a search may make one more tile of the jumps.
+constexpr std::size_t kTilePrice = 65536;
+constexpr std::size_t kPlainTilePrice = 4096;
+// Tiles that may be made before: all of small maps, and of maps of one weight a part.
+constexpr std::size_t kSmallMap = 8;
+constexpr std::size_t kFirstPart = 32;
+
 bool jumpsSupport(const MotionModel& motion) {
   return motion == MotionModel();
 }
@@ -43,25 +55,33 @@ WeightedJumpPoint::WeightedJumpPoint(const AStarOptions& options)
 }
 
 // The given options, or the defaults with the best heuristic of the motion model.
-AStarOptions WeightedJumpPoint::optionsOfAStar(const MotionModel& motion) const {
+AStarOptions WeightedJumpPoint::optionsOfAStar(const CostGrid& map) const {
+  const MotionModel& motion = map.motion();
   AStarOptions options = options_;
   if (a_star_asked_for_) return options;
   if (motion.connectivity == Connectivity::FOUR)
     options.heuristic = Heuristic::MANHATTAN;
   else if (motion.diagonal_cost == DiagonalCost::UNIT)
     options.heuristic = Heuristic::CHEBYSHEV;
+  if (!map.uniform()) options.heuristic = Heuristic::BLOCKS;
   return options;
 }
 
 bool WeightedJumpPoint::optimalFor(const CostGrid& map) const {
-  return optimalWith(optionsOfAStar(map.motion()), map);
+  return optimalWith(optionsOfAStar(map), map);
 }
 
 // Both where A* answers searches until the jumps are prepared.
 std::size_t WeightedJumpPoint::bytesFor(const GridGeometry& geometry) const {
   if (jumps_ready_ && a_star_)
-    return WeightedJumpSearch::bytesFor(geometry) + AStar(options_).bytesFor(geometry);
-  return std::max(WeightedJumpSearch::bytesFor(geometry), AStar(options_).bytesFor(geometry));
+    return WeightedJumpSearch::bytesFor(geometry) + bytesOfAStar(geometry);
+  return std::max(WeightedJumpSearch::bytesFor(geometry), bytesOfAStar(geometry));
+}
+
+std::size_t WeightedJumpPoint::bytesOfAStar(const GridGeometry& geometry) const {
+  AStarOptions options = options_;
+  if (!a_star_asked_for_) options.heuristic = Heuristic::BLOCKS;
+  return AStar(options).bytesFor(geometry);
 }
 
 std::string WeightedJumpPoint::lessMemoryAdvice() const {
@@ -96,9 +116,10 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
     prepareAStar(stop);
     return;
   }
-  jumps_.prepare(map());
+  jumps_.prepare(map(), stop);
   jumps_ready_ = true;
-  too_many_tiles_ = 0;
+  tiles_left_ = firstTiles();
+  paid_ = 0;
 }
 
 void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
@@ -109,41 +130,60 @@ void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const Sto
   if (a_star_) a_star_->update(sharedMap(), changed, stop);
 }
 
+std::uint64_t WeightedJumpPoint::firstTiles() const {
+  constexpr std::size_t kTileCells = WeightedJumpMap::kTile * WeightedJumpMap::kTile;
+  const std::size_t tiles = map().geometry().size() / kTileCells;
+  if (map().uniform()) return std::max(kSmallMap, tiles / kFirstPart);
+  return tiles <= kSmallMap ? 2 * kSmallMap : 0;
+}
+
 void WeightedJumpPoint::prepareAStar(const StopToken& stop) {
-  auto a_star = std::make_unique<AStar>(optionsOfAStar(map().motion()));
+  auto a_star = std::make_unique<AStar>(optionsOfAStar(map()));
   a_star->prepare(sharedMap(), stop);
   a_star_ = std::move(a_star);
 }
 
 // That a search may make: all of them where memory for A* is not left.
 std::uint64_t WeightedJumpPoint::mostTiles() const {
-  constexpr std::uint64_t kFewest = 8;
   constexpr auto kAll = std::numeric_limits<std::uint64_t>::max();
   if (jumps_.finished()) return kAll;
   const GridGeometry& geometry = map().geometry();
-  const std::size_t both =
-      WeightedJumpSearch::bytesFor(geometry) + AStar(options_).bytesFor(geometry);
+  const std::size_t both = WeightedJumpSearch::bytesFor(geometry) + bytesOfAStar(geometry);
   if (both > memoryLimit()) return kAll;
   // Tiles far from each other touch so many new pages of memory that they cost more than A*.
   constexpr std::size_t kMostCells = std::size_t{1} << 26;
-  if (geometry.size() > kMostCells) return 0;
-  if (too_many_tiles_ >= 5) return kAll;
-  constexpr std::size_t kTileCells = WeightedJumpMap::kTile * WeightedJumpMap::kTile;
-  return std::max<std::uint64_t>(kFewest, geometry.size() / kTileCells / 32 << too_many_tiles_);
+  return geometry.size() > kMostCells ? 0 : tiles_left_;
+}
+
+// What A* expanded pays for tiles: of one weight they are made in the time of some thousand
+// expansions, of several in that of ten thousand, and little is lost if they are never used.
+void WeightedJumpPoint::payForTiles(std::size_t expanded) {
+  paid_ += expanded;
+  const std::size_t price = map().uniform() ? kPlainTilePrice : kTilePrice;
+  tiles_left_ += paid_ / price;
+  paid_ %= price;
 }
 
 SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const StopToken& stop) {
   if (jumps_ready_) {
+    const bool early = pruning_.octileSaysLittle(map().minWeight());
+    jumps_.makeBoundAfter(early ? kEarly : kLate);
+    const std::size_t ready = jumps_.tilesReady();
+    const std::uint64_t most = mostTiles();
+    const auto spend = [&] { tiles_left_ -= std::min(tiles_left_, jumps_.tilesReady() - ready); };
     try {
-      return jumps_.run(map(), request, stop, mostTiles());
+      SearchResult result = jumps_.run(map(), request, stop, most);
+      spend();
+      return result;
     } catch (const TooManyTiles&) {
-      ++too_many_tiles_;
-      if (!a_star_) prepareAStar(stop);
+      spend();
     } catch (const TooExpensive&) {
-      if (!a_star_) prepareAStar(stop);
     }
+    if (!a_star_) prepareAStar(stop);
   }
-  return a_star_->search(request, stop);
+  SearchResult result = a_star_->search(request, stop);
+  payForTiles(result.statistics.expanded);
+  return result;
 }
 
 }  // namespace grid_path_planner::planners

@@ -8,11 +8,19 @@
 // plateaus, many of the slopes around obstacles, few where every cell has another weight. Whether
 // jumping pays is estimated when a map is prepared and updated
 // (planners/jump_point/pruning_estimate.h). Where it does not, and for other motion models, A*
-// answers, with the heuristic that fits the motion model. The jumps are prepared by tiles, when a
-// search first comes to them or by finishBackgroundWork(); until then A* answers searches that come
-// to many new ones, at the same cost: the first to more than 1/32 of the map, the next to 1/16, and
-// so on; of maps above 2^26 cells to any. No map is refused: where a path costs more than the keys of the jumps hold, A* answers too. No option is ignored: with a search option
-// (heuristic, scale, epsilon, tie-break) that is not the default, A* answers with it.
+// answers, with the bound of the blocks where weights differ (planners/tables/block_bound.h), else with
+// the heuristic that fits the motion model. Jumps use that bound too: from their first expansions on
+// where the octile distance says little of costs, else in long searches only.
+//
+// The jumps are prepared by tiles, when a search first comes to them or by finishBackgroundWork().
+// Until then A* answers, at the same cost, searches that come to more new tiles than were paid for:
+// one for so many expansions of A* that making it adds some per cent to their time. So a first plan
+// waits for no preparation, and ten plans pay little for it. Small maps, and a part of maps of one
+// weight, are paid for; of maps above 2^26 cells nothing is.
+//
+// No map is refused: where a path costs more than the keys of the jumps hold, A* answers too. No
+// option is ignored: with a search option (heuristic, scale, epsilon, tie-break) that is not the
+// default, A* answers with it.
 #pragma once
 
 #include <memory>
@@ -45,15 +53,19 @@ class WeightedJumpPoint : public Planner {
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
   bool shouldJump() const;
+  std::size_t bytesOfAStar(const grid::GridGeometry& geometry) const;
+  std::uint64_t firstTiles() const;
   std::uint64_t mostTiles() const;
+  void payForTiles(std::size_t expanded);
   void prepareAStar(const base::StopToken& stop);
-  AStarOptions optionsOfAStar(const costmap::MotionModel& motion) const;
+  AStarOptions optionsOfAStar(const costmap::CostGrid& map) const;
 
   AStarOptions options_;
   bool a_star_asked_for_;
   PruningEstimate pruning_;
   bool jumps_ready_ = false;
-  int too_many_tiles_ = 0;  // how often a search came to too many since the map was prepared
+  std::uint64_t tiles_left_ = 0;  // that searches may make
+  std::size_t paid_ = 0;          // expansions of A* towards the next one
   WeightedJumpSearch jumps_;
   std::unique_ptr<AStar> a_star_;  // null until it is prepared
 };

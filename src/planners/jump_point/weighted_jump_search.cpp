@@ -22,6 +22,8 @@ constexpr std::uint32_t kExpansionsBetweenPolls = 64;
 // of its first cell before the jump is put into the open list. Low: many pushes; high: jumps where
 // the search would never come. From 8 to 100 hardly matters.
 constexpr std::uint64_t kDiagonalSlack = 16;
+// The same with the bound of the blocks, where cells weigh several times the least.
+constexpr std::uint64_t kDiagonalSlackWithBound = 48;
 
 // Buckets of about a quarter of the least cost of a step.
 constexpr unsigned kBucketsPerStep = 4;
@@ -32,7 +34,8 @@ Cell moved(Cell cell, unsigned step) {
 
 }  // namespace
 
-void WeightedJumpSearch::prepare(const CostGrid& map) {
+void WeightedJumpSearch::prepare(const CostGrid& map, const StopToken& stop) {
+  blocks_.prepare(map, stop);
   jumps_.reset(map);
   if (g_.size() == map.geometry().size()) return;
   g_ = ZeroedArray<StampedG>(map.geometry().size());
@@ -41,11 +44,13 @@ void WeightedJumpSearch::prepare(const CostGrid& map) {
 
 void WeightedJumpSearch::update(const CostGrid& map, const std::vector<CellRect>& changed,
                                 const StopToken& stop) {
+  blocks_.update(map, changed);
   jumps_.update(map, changed, stop);
 }
 
 void WeightedJumpSearch::release() {
   jumps_ = WeightedJumpMap();
+  blocks_.release();
   g_ = ZeroedArray<StampedG>();
 }
 
@@ -67,11 +72,13 @@ void WeightedJumpSearch::startQuery(const CostGrid& map, const SearchRequest& re
   straight_ = map.minWeight() * kStraight;
   saving_ = map.minWeight() * (2 * kStraight - kDiagonal);
   zero_g_ = stamp_.word() | kLargest;
-  bound_ = kLargest;
+  most_ = kLargest;
   goal_reached_ = too_expensive_ = false;
   counts_ = Statistics();
-  const Key bucket = straight_ / kBucketsPerStep;
-  open_.reset(estimate(request.start), 63U - unsigned(__builtin_clzll(bucket)));
+  bound_.reset();
+  slack_ = kDiagonalSlack * straight_;
+  bucket_shift_ = 63U - unsigned(__builtin_clzll(straight_ / kBucketsPerStep));
+  open_.reset(octile(request.start), bucket_shift_);
 }
 
 SearchResult WeightedJumpSearch::search(const SearchRequest& request, const StopToken& stop) {
@@ -79,16 +86,17 @@ SearchResult WeightedJumpSearch::search(const SearchRequest& request, const Stop
   StopPoll poll(stop, kExpansionsBetweenPolls);
   if (request.record_expanded) result.expanded.emplace_back(indexOf(request.start));
   expandStart(request.start);
-  while (!open_.empty() && open_.lowest() < bound_) {
+  while (!open_.empty() && open_.lowest() < most_) {
     const StopReason reason = poll.ask();
     if (reason != StopReason::NONE) return withStatus(Stopped(reason).status(), std::move(result));
     counts_.peak_open = std::max(counts_.peak_open, open_.size());
+    if (counts_.expanded >= bound_after_ && !bound_ && !makeBound(request, stop)) break;
     const std::uint32_t index = open_.pop();
     const WeightedJumpMap::Mark& mark = jumps_.mark(index);
     if (mark.reached == mark.expanded) continue;  // a duplicate
     const Cell cell = map_->geometry().cell(CellIndex(index));
     const Key g = gOf(index);
-    if (g + estimate(cell) >= bound_) continue;
+    if (goal_reached_ && g + estimate(cell) >= most_) continue;
     if (request.record_expanded) result.expanded.emplace_back(index);
     expand(index, cell, g);
   }
@@ -96,6 +104,21 @@ SearchResult WeightedJumpSearch::search(const SearchRequest& request, const Stop
   if (!goal_reached_) return withStatus(Status::UNREACHABLE, std::move(result));
   trace(request.start, result);
   return withStatus(Status::FOUND, std::move(result));
+}
+
+// The open cells are ordered anew. Returns false where the bound tells that no path leads to the
+// goal.
+bool WeightedJumpSearch::makeBound(const SearchRequest& request, const StopToken& stop) {
+  bound_.emplace(blocks_.to(goal_), kMediumScale, stop);
+  const Key first = (*bound_)(request.start);
+  if (first == kInfiniteKey) return false;
+  std::vector<std::uint32_t> cells;
+  while (!open_.empty()) cells.push_back(open_.pop());
+  open_.reset(first, bucket_shift_);
+  for (const std::uint32_t index : cells)
+    open_.push(gOf(index) + estimate(map_->geometry().cell(CellIndex(index))), index);
+  slack_ = kDiagonalSlackWithBound * straight_;
+  return true;
 }
 
 void WeightedJumpSearch::expandStart(Cell start) {
@@ -127,15 +150,17 @@ void WeightedJumpSearch::jumpBy(unsigned steps, std::uint32_t index, Cell cell, 
   if ((steps & 2U) != 0) jumpStraight<1>(cell, g);
   if ((steps & 4U) != 0) jumpStraight<2>(cell, g);
   if ((steps & 8U) != 0) jumpStraight<3>(cell, g);
-  if ((steps & 16U) != 0) jumpDiagonally<4>(index, cell, g);
-  if ((steps & 32U) != 0) jumpDiagonally<5>(index, cell, g);
-  if ((steps & 64U) != 0) jumpDiagonally<6>(index, cell, g);
-  if ((steps & 128U) != 0) jumpDiagonally<7>(index, cell, g);
+  if ((steps & 240U) == 0) return;
+  const Key limit = g + estimate(cell) + slack_;
+  if ((steps & 16U) != 0) jumpDiagonally<4>(index, cell, g, limit);
+  if ((steps & 32U) != 0) jumpDiagonally<5>(index, cell, g, limit);
+  if ((steps & 64U) != 0) jumpDiagonally<6>(index, cell, g, limit);
+  if ((steps & 128U) != 0) jumpDiagonally<7>(index, cell, g, limit);
 }
 
 // Whether a path of cost f or more is of no use.
-inline bool WeightedJumpSearch::beyondBound(Key f) {
-  if (f < bound_) return false;
+inline bool WeightedJumpSearch::beyondMost(Key f) {
+  if (f < most_) return false;
   too_expensive_ =
       true;  // read only if the goal was not reached: before, the bound is that of the keys
   return true;
@@ -147,21 +172,20 @@ void WeightedJumpSearch::jumpStraight(Cell cell, Key g) {
   const WeightedJumpMap::Jump jump = jumps_.straightJump<kStep>(cell, weights_);
   g += jump.weights * kStraight;
   const Key f = g + estimate(jump.to);
-  if (beyondBound(f)) return;
+  if (beyondMost(f)) return;
   const std::uint32_t index = indexOf(jump.to);
   if (relax(index, g)) reach(index, jumps_.steps(*map_, index), kStep, f);
 }
 
-// Open cells whose two straight jumps are dead ends get no g-value.
+// Up to the f-value `limit`. Open cells whose two straight jumps are dead ends get no g-value.
 template <unsigned kStep>
-void WeightedJumpSearch::jumpDiagonally(std::uint32_t index, Cell cell, Key g) {
+void WeightedJumpSearch::jumpDiagonally(std::uint32_t index, Cell cell, Key g, Key limit) {
   constexpr unsigned kStepBit = 1U << kStep;
   constexpr unsigned kRowStep = kStep == 4 || kStep == 7 ? 0 : 2;  // its straight parts
   constexpr unsigned kColumnStep = kStep == 4 || kStep == 5 ? 1 : 3;
   static_assert(kNaturalInTheOpen[kStep] == (kStepBit | 1U << kRowStep | 1U << kColumnStep));
   const std::uint32_t offset =
       static_cast<std::uint32_t>(kSteps[kStep].row) * width_ + std::uint32_t(kSteps[kStep].column);
-  const Key limit = g + estimate(cell) + kDiagonalSlack * straight_;
   Key weight = weights_[index];
   for (;;) {
     index += offset;
@@ -184,7 +208,7 @@ void WeightedJumpSearch::jumpDiagonally(std::uint32_t index, Cell cell, Key g) {
     const unsigned after = steps >> (8 * kStep) & 255U;
     if (after == 0 && index != goal_index_) return;
     const Key f = g + estimate(cell);
-    if (beyondBound(f) || !relax(index, g)) return;
+    if (beyondMost(f) || !relax(index, g)) return;
     WeightedJumpMap::Mark& mark = jumps_.mark(index);
     if ((mark.reached & kStepBit) != 0) return;
     const bool turns = (after & ~unsigned(kNaturalInTheOpen[kStep])) != 0;
@@ -216,7 +240,7 @@ inline bool WeightedJumpSearch::relax(std::uint32_t index, Key g) {
 void WeightedJumpSearch::reach(std::uint32_t index, NaturalMoves steps, unsigned step, Key f) {
   if (index == goal_index_) {
     goal_reached_ = true;
-    bound_ = f;
+    most_ = f;
   }
   WeightedJumpMap::Mark& mark = jumps_.mark(index);
   const bool in_open_list = mark.reached != mark.expanded;
@@ -228,14 +252,14 @@ void WeightedJumpSearch::reach(std::uint32_t index, NaturalMoves steps, unsigned
     mark.expanded = mark.reached;
     return;
   }
-  if (f >= bound_) return;
+  if (f >= most_) return;
   if (mark.expanded != 0) ++counts_.reopened;
   open_.push(f, index);
   ++counts_.generated;
 }
 
 // The octile distance at the least weight.
-inline WeightedJumpSearch::Key WeightedJumpSearch::estimate(Cell cell) const {
+inline WeightedJumpSearch::Key WeightedJumpSearch::octile(Cell cell) const {
   const auto columns = std::uint32_t(std::abs(cell.column - goal_.column));
   const auto rows = std::uint32_t(std::abs(cell.row - goal_.row));
   return (columns + rows) * straight_ - std::min(columns, rows) * saving_;

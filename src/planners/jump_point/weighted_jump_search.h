@@ -8,6 +8,10 @@
 //
 // Guaranteed: the cost is the least there is, whatever the weights.
 //
+// A search begins with the octile distance at the least weight. Once it has expanded so many cells
+// that another bound pays, it goes on with that of planners/tables/block_bound.h; cells that are
+// open are put back when their turn comes.
+//
 // Only natural steps outside dead branches are taken (planners/core/natural_moves.h,
 // planners/jump_point/weighted_jump_map.h). A straight jump pushes the cell where it ends. A
 // diagonal jump makes the straight jumps of its two straight parts at every cell where they are no
@@ -23,6 +27,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/zeroed_array.h"
@@ -31,16 +36,19 @@
 #include "planners/core/keys.h"
 #include "planners/core/stamped_array.h"
 #include "planners/jump_point/weighted_jump_map.h"
+#include "planners/tables/block_bound.h"
 
 namespace grid_path_planner::planners {
 
 class WeightedJumpSearch {
  public:
   static std::size_t bytesFor(const grid::GridGeometry& geometry) {
-    return WeightedJumpMap::bytesFor(geometry) + geometry.size() * sizeof(StampedG);
+    return WeightedJumpMap::bytesFor(geometry) + BlockBounds::bytesFor(geometry, kBlock) +
+           geometry.size() * sizeof(StampedG);
   }
 
-  void prepare(const costmap::CostGrid& map);
+  // Throws Stopped.
+  void prepare(const costmap::CostGrid& map, const base::StopToken& stop);
   // `changed`: the cells whose weights changed since. Throws Stopped.
   void update(const costmap::CostGrid& map, const std::vector<grid::CellRect>& changed,
               const base::StopToken& stop);
@@ -50,6 +58,9 @@ class WeightedJumpSearch {
     jumps_.makeAllReady(map, stop);
   }
   bool finished() const { return jumps_.allReady(); }
+  std::size_t tilesReady() const { return jumps_.tilesReady(); }
+  // After how many expansions of a query the bound of the blocks is made (tables/block_bound.h).
+  void makeBoundAfter(std::size_t expansions) { bound_after_ = expansions; }
   // Frees all memory; prepare() must be called before the next run().
   void release();
 
@@ -62,6 +73,7 @@ class WeightedJumpSearch {
                    std::uint64_t most_tiles = std::numeric_limits<std::uint64_t>::max());
 
  private:
+  static constexpr int kBlock = 8;
   using Key = SearchKey;
   static constexpr Key kStraight = kMediumScale.straight;
   static constexpr Key kDiagonal = kMediumScale.diagonal;
@@ -81,8 +93,8 @@ class WeightedJumpSearch {
   template <unsigned kStep>
   void jumpStraight(grid::Cell cell, Key g);
   template <unsigned kStep>
-  void jumpDiagonally(std::uint32_t index, grid::Cell cell, Key g);
-  bool beyondBound(Key f);
+  void jumpDiagonally(std::uint32_t index, grid::Cell cell, Key g, Key limit);
+  bool beyondMost(Key f);
   bool relax(std::uint32_t index, Key g);
   void reach(std::uint32_t index, NaturalMoves steps, unsigned step, Key f);
 
@@ -91,12 +103,16 @@ class WeightedJumpSearch {
   }
   Key gOf(std::uint32_t index) const { return kLargest - (g_[index] & kLargest); }
   bool hasG(std::uint32_t index) const { return stamp_.wrote(g_[index]); }
-  Key estimate(grid::Cell cell) const;
+  Key estimate(grid::Cell cell) const { return bound_ ? (*bound_)(cell) : octile(cell); }
+  Key octile(grid::Cell cell) const;
+  bool makeBound(const SearchRequest& request, const base::StopToken& stop);
   void trace(grid::Cell start, SearchResult& result) const;
   grid::Cell predecessorOf(grid::Cell cell, unsigned step) const;
   SearchResult withStatus(base::Status status, SearchResult result) const;
 
   WeightedJumpMap jumps_;
+  BlockBounds blocks_{kBlock};
+  std::size_t bound_after_ = 0;
   base::ZeroedArray<StampedG> g_;
   QueryStamp<StampedG, kKeyBits> stamp_;
   BucketQueue open_;
@@ -110,7 +126,10 @@ class WeightedJumpSearch {
   Key straight_ = 0;     // of the heuristic: a straight cell length at the least weight,
   Key saving_ = 0;       // and what a diagonal step saves against two of these
   StampedG zero_g_ = 0;  // g-value 0
-  Key bound_ = 0;  // paths that cost as much are of no use: the goal's g-value, once it has one
+  std::optional<BlockEstimate> bound_;  // once it is made
+  Key slack_ = 0;                       // of a diagonal jump
+  unsigned bucket_shift_ = 0;
+  Key most_ = 0;  // paths that cost as much are of no use: the goal's g-value, once it has one
   bool goal_reached_ = false;
   bool too_expensive_ =
       false;  // a path was left out, perhaps because the keys do not hold its cost

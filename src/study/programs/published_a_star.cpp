@@ -33,7 +33,8 @@ PublishedAStar::PublishedAStar(const char* name, const AStarOptions& options,
                                const Variation& variation)
     : Planner(traitsNamed(name)), options_(options), variation_(variation) {
   checkAStarOptions(options);
-  if (options.heuristic == Heuristic::LANDMARK || options.heuristic == Heuristic::EXACT)
+  if (options.heuristic == Heuristic::BLOCKS || options.heuristic == Heuristic::LANDMARK ||
+      options.heuristic == Heuristic::EXACT)
     throw InputError(std::string(name) + " knows no heuristic that is a table");
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "grid_path_planner/study/study_job.h"
-#include "study/report/findings.h"
+#include "study/findings/findings.h"
 #include "study/study_data.h"
 
 namespace grid_path_planner::study {

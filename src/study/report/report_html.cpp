@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "study/report/finding_text.h"
+#include "study/findings/finding_text.h"
 #include "study/report/markup.h"
 #include "study/report/report.h"
 #include "study/report/report_page.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "study/report/findings.h"
+#include "study/findings/findings.h"
 #include "study/study_data.h"
 
 namespace grid_path_planner::study {

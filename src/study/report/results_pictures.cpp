@@ -1,8 +1,8 @@
 #include <map>
 #include <sstream>
 
+#include "study/findings/published_cases.h"
 #include "study/report/markup.h"
-#include "study/report/published_cases.h"
 #include "study/report/report_pictures.h"
 #include "study/report/results_page.h"
 #include "study/report/svg_chart.h"

@@ -21,6 +21,7 @@
 #include "grid_path_planner/NavigatePathActionGoal.h"
 #include "grid_path_planner/PlanPathActionGoal.h"
 #include "ros/support/mapping_fixture.h"
+#include "ros/support/nodelet_command.h"
 #include "ros/support/planner_fixture.h"
 
 namespace grid_path_planner::nodes {
@@ -156,8 +157,7 @@ class Unload : public testing::Test {
     ros::param::set("/path_planner/timeout", 0);
     ros::param::set("/simulator/camera_width", 32);
     ros::param::set("/simulator/camera_height", 24);
-    manager_ = std::make_unique<Process>(
-        std::vector<std::string>{"rosrun", "nodelet", "nodelet", "manager", "__name:=manager"});
+    manager_ = std::make_unique<Process>(test::nodeletCommand({"manager", "__name:=manager"}));
   }
 
   static void load(const std::string& name) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/support/nodelet_command.h"
 #include "ros/support/still_fixture.h"
 #include "support/ascii_map.h"
 
@@ -161,7 +162,7 @@ TEST_F(NavigateStops, BeforeCellsThatAnUpdateOfTheMapOccupies) {
 
 TEST_F(NavigateStops, RunsAsANodeletAndStopsWhenItIsUnloaded) {
   StillWorld world(100.0);
-  Process manager({"rosrun", "nodelet", "nodelet", "manager", "__name:=manager"});
+  Process manager(test::nodeletCommand({"manager", "__name:=manager"}));
   ASSERT_TRUE(test::waitFor([] { return ros::service::exists("/manager/load_nodelet", false); }));
   Process loader({"rosrun", "nodelet", "nodelet", "load", "grid_path_planner/navigate_path",
                   "manager", "__name:=navigate_path", "_check_map:=false"});

@@ -6,6 +6,7 @@
 
 #include "ros/support/latest.h"
 #include "ros/support/navigate_fixture.h"
+#include "ros/support/nodelet_command.h"
 #include "ros/support/process.h"
 
 namespace grid_path_planner::nodes {
@@ -110,7 +111,7 @@ TEST_F(TeleopJoyTest, DrivesTheSimulatedVehicle) {
 }
 
 TEST_F(TeleopJoyTest, RunsAsANodelet) {
-  Process manager({"rosrun", "nodelet", "nodelet", "standalone", "grid_path_planner/teleop_joy"});
+  Process manager(test::nodeletCommand({"standalone", "grid_path_planner/teleop_joy"}));
   EXPECT_TRUE(driveAhead());
 }
 

@@ -14,6 +14,7 @@
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/support/latest.h"
+#include "ros/support/nodelet_command.h"
 #include "ros/support/process.h"
 #include "support/ascii_map.h"
 
@@ -197,8 +198,8 @@ TEST(Simulator, SimulatedTimeGoesOnHoweverSlowly) {
 TEST(Simulator, RunsAsANodelet) {
   ros::NodeHandle nh;
   Latest<Odometry> odom(nh, "odom");
-  Process manager({"rosrun", "nodelet", "nodelet", "standalone", "grid_path_planner/simulator",
-                   "_real_time_factor:=10"});
+  Process manager(
+      test::nodeletCommand({"standalone", "grid_path_planner/simulator", "_real_time_factor:=10"}));
   EXPECT_TRUE(odom.waitForMoreThan(0));
 }
 

@@ -1,6 +1,6 @@
-#include "study/report/verdicts.h"
+#include "study/findings/verdicts.h"
 
-#include "study/report/finding_text.h"
+#include "study/findings/finding_text.h"
 
 namespace grid_path_planner::study {
 namespace {

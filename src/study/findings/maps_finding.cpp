@@ -1,7 +1,7 @@
 #include <array>
 
-#include "study/report/finding_text.h"
-#include "study/report/findings.h"
+#include "study/findings/finding_text.h"
+#include "study/findings/findings.h"
 
 namespace grid_path_planner::study {
 

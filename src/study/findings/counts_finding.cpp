@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "study/report/finding_text.h"
-#include "study/report/findings.h"
-#include "study/report/published_cases.h"
+#include "study/findings/finding_text.h"
+#include "study/findings/findings.h"
+#include "study/findings/published_cases.h"
 
 namespace grid_path_planner::study {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/findings/finding_text.h"
+#include "study/findings/published_cases.h"
+#include "study/findings/verdicts.h"
 #include "study/programs/published_dijkstra.h"
-#include "study/report/finding_text.h"
-#include "study/report/published_cases.h"
-#include "study/report/verdicts.h"
 #include "study/study_planners.h"
 
 namespace grid_path_planner::study {
@@ -30,7 +30,7 @@ class Conclusions {
     if (!dijkstra_ || !a_star_ || cases_.empty()) return {};
     return {missesOfDijkstra(), timesOfBoth(),   optimumOfEuclidean(),
             cellsOfDijkstra(),  shortestCount(), largerKernels(),
-            values(),           memory(),        rectangles()};
+            values(),           memory()};
   }
 
  private:
@@ -199,18 +199,6 @@ class Conclusions {
   Conclusion values() const;
   // C8
   Conclusion memory() const;
-  // C9
-  Conclusion rectangles() const {
-    Conclusion c = named("C9", "The rectangle map makes the whole process faster and smaller", "");
-    c.command = "grid_path rectangles, see doc/rectangles.md";
-    c.reason =
-        "A study of maps with weights has no rectangle map, which needs one weight; "
-        "doc/rectangles.md "
-        "has those measurements. The published table itself has it slower at 64x64 cells, 0.213 s "
-        "against 0.184 s, so \"faster\" holds for large maps at most.";
-    return c;
-  }
-
   Conclusion named(const char* name, const char* claim, const std::string& table) const {
     Conclusion c;
     c.name = name;
@@ -370,7 +358,10 @@ Conclusion Conclusions::memory() const {
 }  // namespace
 
 std::vector<Conclusion> conclusionsOf(const StudyData& data) {
-  return Conclusions(data).all();
+  std::vector<Conclusion> conclusions = Conclusions(data).all();
+  const Conclusion rectangles = rectangleConclusion(data);
+  if (!conclusions.empty() || rectangles.p) conclusions.push_back(rectangles);
+  return conclusions;
 }
 
 }  // namespace grid_path_planner::study

@@ -1,10 +1,10 @@
-#include "study/report/findings.h"
+#include "study/findings/findings.h"
 
 #include <algorithm>
 #include <sstream>
 
-#include "study/report/finding_text.h"
-#include "study/report/verdicts.h"
+#include "study/findings/finding_text.h"
+#include "study/findings/verdicts.h"
 
 namespace grid_path_planner::study {
 

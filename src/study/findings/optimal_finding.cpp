@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "grid_path_planner/base/options.h"
-#include "study/report/finding_text.h"
-#include "study/report/findings.h"
+#include "study/findings/finding_text.h"
+#include "study/findings/findings.h"
 #include "study/study_planners.h"
 
 namespace grid_path_planner::study {

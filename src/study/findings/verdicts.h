@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "study/report/findings.h"
+#include "study/findings/findings.h"
 
 namespace grid_path_planner::study {
 
@@ -34,7 +34,11 @@ struct Conclusion {
 // Corrects the p-values and withdraws verdicts that they do not bear.
 void correctForAll(std::vector<Conclusion>& conclusions);
 
-// C1 to C9 of the original study. Each is CANNOT_BE_TESTED where the study lacks its planners.
+// C9, of the study of rectangle maps: CANNOT_BE_TESTED unless `dijkstra` and `rectangle_map` have runs.
+Conclusion rectangleConclusion(const StudyData& data);
+
+// C1 to C9 of the original study. Each is CANNOT_BE_TESTED where the study lacks its planners; C9 alone
+// in a study of rectangle maps without the original's programs.
 std::vector<Conclusion> conclusionsOf(const StudyData& data);
 
 // Those as a finding; no rows unless the study file asks for them.

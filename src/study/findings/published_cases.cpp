@@ -1,4 +1,4 @@
-#include "study/report/published_cases.h"
+#include "study/findings/published_cases.h"
 
 #include <algorithm>
 #include <numeric>

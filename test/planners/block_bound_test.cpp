@@ -1,0 +1,176 @@
+// The bound of the blocks, against Boost.Graph's least costs.
+#include "planners/tables/block_bound.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/cost_maps.h"
+#include "support/random_map.h"
+#include "support/reference_search.h"
+
+namespace grid_path_planner::planners {
+
+using base::StopToken;
+using costmap::Connectivity;
+using costmap::CostGrid;
+using costmap::DiagonalCost;
+using costmap::MotionModel;
+using costmap::stepAllowed;
+using grid::Cell;
+using grid::CellRect;
+using grid::Grid;
+using grid::GridGeometry;
+using test::cellsOf;
+using test::costMap;
+
+namespace {
+
+MotionModel motionInTurn(int trial) {
+  return {trial / 8 % 2 == 0 ? Connectivity::EIGHT : Connectivity::FOUR,
+          trial / 2 % 2 == 0 ? DiagonalCost::SQRT2 : DiagonalCost::UNIT, trial / 4 % 2 == 0};
+}
+
+CostGrid costsInTurn(int trial, std::mt19937& random) {
+  const GridGeometry geometry(1 + int(random() % 70), 1 + int(random() % 50), 1.0);
+  return trial % 3 == 0 ? test::randomPotential(random, geometry, motionInTurn(trial))
+                        : test::randomCosts(random, geometry, motionInTurn(trial));
+}
+
+SearchKey keyInScale(const costmap::ExactCost& cost, const KeyScale& scale) {
+  return SearchKey(cost.straight) * scale.straight + SearchKey(cost.diagonal) * scale.diagonal;
+}
+
+Cell openCellOf(std::mt19937& random, const CostGrid& map) {
+  Cell cell = test::randomCell(random, map.geometry());
+  for (int i = 0; i < 99 && !map.passable(cell); ++i)
+    cell = test::randomCell(random, map.geometry());
+  return cell;
+}
+
+// Never above the least cost, in any scale that holds it; infinite only where no path leads. No step
+// changes it by more than it costs, but for the rounding of keys.
+TEST(BlockBoundLaw, IsAConsistentLowerBoundInEveryMotionModel) {
+  std::mt19937 random(20261122);
+  for (int trial = 0; trial < 400; ++trial) {
+    const CostGrid map = costsInTurn(trial, random);
+    const Cell goal = openCellOf(random, map);
+    if (!map.passable(goal)) continue;
+    const auto least = test::referenceCosts(map, goal);
+    BlockBounds bounds(trial % 2 == 0 ? 4 : 8);
+    bounds.prepare(map, StopToken());
+    const StopToken never;
+    const BlockEstimate bound(bounds.to(goal), kWideScale, never);
+    EXPECT_EQ(bound(goal), 0U);
+    for (const Cell cell : cellsOf(map)) {
+      if (!map.passable(cell)) continue;
+      const auto& cost = least[map.geometry().index(cell).value()];
+      if (!cost) continue;
+      ASSERT_LE(bound(cell), keyInScale(*cost, kWideScale)) << "trial " << trial << ", " << cell;
+      for (int step = 0; step < 9; ++step) {
+        const Cell to{cell.column + step % 3 - 1, cell.row + step / 3 - 1};
+        if (to == cell || !map.passable(to) || !stepAllowed(map, cell, to)) continue;
+        const SearchKey length = to.column == cell.column || to.row == cell.row
+                                     ? kWideScale.straight
+                                     : diagonalKey(kWideScale, map.motion().diagonal_cost);
+        ASSERT_LE(bound(cell), bound(to) + length * std::max(map.weight(cell), map.weight(to)) + 1)
+            << "trial " << trial << ", " << cell << " to " << to;
+      }
+    }
+  }
+}
+
+// However far other questions made the search go, and with the bounds of other goals between.
+TEST(BlockBoundLaw, DependsOnTheMapAndTheGoalAlone) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 60; ++trial) {
+    const CostGrid map = costsInTurn(trial, random);
+    BlockBounds bounds(trial % 2 == 0 ? 4 : 8);
+    bounds.prepare(map, StopToken());
+    std::vector<Cell> goals;
+    for (int i = 0; i < 6; ++i) goals.push_back(openCellOf(random, map));
+    for (int i = 0; i < 200; ++i) {
+      const Cell goal = goals[random() % goals.size()], cell = openCellOf(random, map);
+      if (!map.passable(goal) || !map.passable(cell)) continue;
+      BlockBounds fresh(trial % 2 == 0 ? 4 : 8);
+      fresh.prepare(map, StopToken());
+      ASSERT_EQ(bounds.to(goal).at(cell, StopToken()), fresh.to(goal).at(cell, StopToken()));
+    }
+  }
+}
+
+TEST(BlockBoundLaw, AfterEditsIsThatOfAFreshMap) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 40; ++trial) {
+    auto map = std::make_shared<const CostGrid>(costsInTurn(trial, random));
+    BlockBounds edited(trial % 2 == 0 ? 4 : 8);
+    edited.prepare(*map, StopToken());
+    Grid<CostGrid::Weight> weights = map->weights();
+    for (int edit = 0; edit < 6; ++edit) {
+      const std::vector<CellRect> changed =
+          grid::disjointRects(test::randomRects(random, map->geometry(), 12));
+      std::vector<CellRect> inside;
+      for (const CellRect& rect : changed) {
+        inside.push_back(rect.intersection(map->geometry().rect()));
+        for (int row = inside.back().row; row < inside.back().row + inside.back().height; ++row)
+          for (int i = 0; i < inside.back().width; ++i)
+            weights[Cell{inside.back().column + i, row}] =
+                static_cast<CostGrid::Weight>(random() % 30);
+      }
+      map = test::costsOf(weights, map->motion(), map->revision() + 1);
+      edited.update(*map, inside);
+      BlockBounds fresh(trial % 2 == 0 ? 4 : 8);
+      fresh.prepare(*map, StopToken());
+      const Cell goal = openCellOf(random, *map);
+      if (!map->passable(goal)) continue;
+      for (const Cell cell : cellsOf(*map))
+        if (map->passable(cell)) {
+          ASSERT_EQ(edited.to(goal).at(cell, StopToken()), fresh.to(goal).at(cell, StopToken()));
+        }
+    }
+  }
+}
+
+// Between two walls every cell weighs 5 or more, and one far away weighs 1: the octile distance at
+// that weight is a fifth of the cost, the bound nearly all of it.
+TEST(BlockBound, KnowsWhatCellsCostWhereTheOctileDistanceDoesNot) {
+  Grid<CostGrid::Weight> weights(GridGeometry(200, 40, 1.0), 5);
+  for (int row = 0; row < 40; ++row)
+    for (int column = 0; column < 200; ++column)
+      weights[Cell{column, row}] = static_cast<CostGrid::Weight>(5 + std::abs(row - 20));
+  weights[Cell{199, 39}] = 1;
+  const CostGrid map = costMap(weights);
+  BlockBounds bounds(8);
+  bounds.prepare(map, StopToken());
+  const StopToken never;
+  const BlockEstimate bound(bounds.to({4, 20}), kWideScale, never);
+  const SearchKey cost = SearchKey{180} * 5 * kWideScale.straight;
+  EXPECT_GE(bound({184, 20}), cost - cost / 20);
+  EXPECT_LE(bound({184, 20}), cost);
+}
+
+TEST(BlockBound, IsInfiniteWhereBlockedBlocksPart) {
+  Grid<CostGrid::Weight> weights(GridGeometry(100, 30, 1.0), 3);
+  for (int row = 0; row < 30; ++row)
+    for (int column = 40; column < 60; ++column) weights[Cell{column, row}] = CostGrid::kBlocked;
+  const CostGrid map = costMap(weights);
+  BlockBounds bounds(8);
+  bounds.prepare(map, StopToken());
+  EXPECT_EQ(bounds.to({5, 5}).at({90, 5}, StopToken()), BlockBound::kInfinite);
+  EXPECT_NE(bounds.to({5, 5}).at({20, 5}, StopToken()), BlockBound::kInfinite);
+}
+
+// Weights whose costs reach the end of the values.
+TEST(BlockBound, StaysBelowCostsThatItsValuesDoNotHold) {
+  const CostGrid map = costMap(Grid<CostGrid::Weight>(GridGeometry(3000, 9, 1.0), 65535));
+  BlockBounds bounds(8);
+  bounds.prepare(map, StopToken());
+  const StopToken never;
+  const BlockEstimate bound(bounds.to({0, 4}), kWideScale, never);
+  const SearchKey cost = SearchKey{2999} * 65535 * kWideScale.straight;
+  EXPECT_LE(bound({2999, 4}), cost);
+  EXPECT_GE(bound({2999, 4}), cost / 16);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::planners
