@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMostClearance = 12.0;  // m
 constexpr double kHovers = 0.02;         // m/s
-constexpr int kFramesBetween = 5;        // of searches while there is no way
+constexpr int kFramesBetween = 5;        // of searches while there is no path
 
 Motion motionOf(const VehiclePose& pose, const BodyVelocity& v) {
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
@@ -177,7 +177,7 @@ void Pilot::Parts::fly() {
   findPath();
   if (recovers()) return;
   if (flown.empty())
-    return hover(PilotStatus::BLOCKED, "no way to " + placeText(target()) + " is free");
+    return hover(PilotStatus::BLOCKED, "no path to " + placeText(target()) + " is free");
   const Steering steering =
       options.rules == Rules::SAFE
           ? steerSafely(motion_, flown, surroundings.space(), surroundings.space().appeared(),
@@ -189,13 +189,13 @@ void Pilot::Parts::fly() {
   describe(steering);
 }
 
-// What cannot be seen from here is looked at from elsewhere; in vain, it closes ways.
+// What cannot be seen from here is looked at from elsewhere; in vain, it closes paths.
 void Pilot::Parts::lookAtUnseen(const Steering& steering) {
   const KeptRoom room(surroundings.space(), options.d_safe, motion_.position);
   if (!unseen.update(time_, motion_.position, steering, surroundings.space(), room, options.d_safe))
     return;
   if (unseen.looks())
-    flown.set(unseen.way(), std::nullopt);
+    flown.set(unseen.pathToVantage(), std::nullopt);
   else
     flown.clear();
 }
@@ -216,7 +216,7 @@ void Pilot::Parts::describe(const Steering& steering) {
   const Vector3d& at = *steering.closed;
   const double off = (at - motion_.position).norm();
   const bool seen = surroundings.space().seen(at);
-  sentence_ = (seen ? "something closes the way at " : "nothing seen free at ") + placeText(at) +
+  sentence_ = (seen ? "something closes the path at " : "nothing seen free at ") + placeText(at) +
               ", " + shortNumber(off) + " m off; " +
               (std::abs(v.yaw_rate) > 0.01 ? "turning" : "looking");
 }
@@ -245,13 +245,14 @@ bool Pilot::Parts::recovers() {
 }
 
 void Pilot::Parts::askForPlan() {
-  const Points way = map_plan ? map_plan(motion_.position, route.goal()) : Points();
-  recovery.planned(way.size() >= 2, time_);
+  const Points path = map_plan ? map_plan(motion_.position, route.goal()) : Points();
+  recovery.planned(path.size() >= 2, time_);
   unseen.forget();
   flown.clear();
-  if (way.size() >= 2) plan.setPath(way);
-  hover(PilotStatus::BLOCKED, way.size() >= 2 ? "follows a plan on the map"
-                                              : "the map has no way to " + placeText(route.goal()));
+  if (path.size() >= 2) plan.setPath(path);
+  hover(PilotStatus::BLOCKED, path.size() >= 2
+                                  ? "follows a plan on the map"
+                                  : "the map has no path to " + placeText(route.goal()));
 }
 
 }  // namespace grid_path_planner::avoidance

@@ -51,11 +51,11 @@ class Pilot::Parts {
   PilotStatus status_ = PilotStatus::IDLE;
   std::string sentence_ = "nothing was asked for yet";
   bool ended_ = false;     // the status stays until a new route
-  bool restarts_ = false;  // the next pose begins the way to a waypoint
+  bool restarts_ = false;  // the next pose begins the path to a waypoint
   bool kept_ = false;      // the path leads to the present target
   bool fresh_ = false;     // the newest update brought a frame
   bool new_path_ = false;
-  int frames_without_ = 0;  // since the last search that found no way
+  int frames_without_ = 0;  // since the last search that found no path
   double time_ = 0.0;
   bool has_time_ = false;
   Motion motion_;

@@ -119,7 +119,7 @@ TEST(DrawnWorlds, GoalInAWallIsTold) {
   });
 }
 
-// 20 mm, in the way, seen by a picture of full size.
+// 20 mm, in the path, seen by a picture of full size.
 TEST(DrawnWorlds, ThinPole) {
   std::vector<simulation::TriangleMesh> meshes = drawnMeshes({}, 1.0);
   meshes.push_back(simulation::cylinderMesh("pole", 0.01, kDrawnHeight)

@@ -29,7 +29,7 @@ std::vector<double> ratiosAt(const StudyData& data, int kernel, std::size_t dijk
   return ratios;
 }
 
-std::pair<int, int> kernelsOf(const StudyData& data) {
+std::pair<int, int> kernelRange(const StudyData& data) {
   int least = data.sizes().front().kernel, most = least;
   for (const ProblemSize& size : data.sizes()) {
     least = std::min(least, size.kernel);
@@ -76,7 +76,7 @@ Conclusion rectangleConclusion(const StudyData& data) {
       "its own, doc/study_rectangles.md.";
   const auto dijkstra = variantOf(data, "dijkstra"), rectangles = variantOf(data, "rectangle_map");
   if (!dijkstra || !rectangles || data.sizes().empty()) return c;
-  const auto [fine, coarse] = kernelsOf(data);
+  const auto [fine, coarse] = kernelRange(data);
   const std::vector<double> ratios = ratiosAt(data, fine, *dijkstra, *rectangles);
   const std::vector<double> smaller = ratiosAt(data, coarse, *dijkstra, *rectangles);
   if (ratios.empty() || smaller.empty()) return c;
