@@ -148,11 +148,12 @@ class Robot {
     std::vector<double> compare, costmap, planner, plan, all;
     for (int round = 0; round < arguments_.rounds; ++round) {
       for (const Cell cell : choose()) received_[cell] = received_[cell] == 100 ? 0 : 100;
+      const std::uint64_t before = builder_.downsampledChanges().newest();
       compare.push_back(milliseconds([this] { compareMaps(); }));
       costmap.push_back(milliseconds([this] { builder_.downsampled(StopToken()); }));
-      planner.push_back(milliseconds([this] {
-        planner_->update(builder_.downsampled(StopToken()), builder_.downsampledChange(),
-                         StopToken());
+      planner.push_back(milliseconds([this, before] {
+        planner_->update(builder_.downsampled(StopToken()),
+                         builder_.downsampledChanges().since(before).value().weights, StopToken());
       }));
       plan.push_back(milliseconds([this] { result_ = planner_->search(request_, StopToken()); }));
       all.push_back(compare.back() + costmap.back() + planner.back() + plan.back());

@@ -196,26 +196,45 @@ def maps_end(data):
     return path[path.count - 1] if path.count else None
 
 
-@case()
-def many_maps(node, generator, quick, result):
-    """`~make_plan` while whole maps come at 5 Hz. Each with 0.1 % of its cells changed."""
+def ask_while_maps_come(node, generator, quick, result, goal):
+    """Four clients, each with a connection of its own."""
     from threading import Thread
     ends = [node.world.cell(*end) for end in node.ends]
-    versions = [maps.scattered(node.world, 0.001, generator, ends) for _ in range(3)]
-    stop_at = time.monotonic() + (3.0 if quick else 10.0)
+    versions = [node.map_message(maps.scattered(node.world, 0.001, generator, ends)) for _ in range(3)]
+    stop_at = time.monotonic() + (3.0 if quick else 15.0)
 
-    def publish():
-        i = 0
+    def ask():
+        service = Service(node.service_name, node.GetPlan)
         while time.monotonic() < stop_at:
-            begin = node.publish_map(versions[i % 3])
-            i += 1
-            time.sleep(max(0.0, 0.2 - (time.monotonic() - begin)))
-    publisher = Thread(target=publish)
-    publisher.start()
+            request = node.request(node.ends[0], goal)
+            begin = time.monotonic()
+            service.call(request)
+            result.times.append(time.monotonic() - begin)
+            time.sleep(0.02)
+    clients = [Thread(target=ask) for _ in range(4)]
+    for client in clients:
+        client.start()
+    sent = 0
     while time.monotonic() < stop_at:
-        request = node.request(*node.ends)
-        begin = time.monotonic()
-        node.plan(request)
-        result.times.append(time.monotonic() - begin)
-        time.sleep(0.02)
-    publisher.join()
+        begin = node.send(versions[sent % 3])
+        sent += 1
+        time.sleep(max(0.0, 0.2 - (time.monotonic() - begin)))
+    for client in clients:
+        client.join()
+    result.remark = "%d maps sent" % sent
+
+
+@case()
+def many_maps(node, generator, quick, result):
+    """`~make_plan` of four clients while whole maps come at 5 Hz, across the map. Each map with 0.1 % of its cells changed."""
+    ask_while_maps_come(node, generator, quick, result, node.ends[1])
+
+
+@case()
+def many_maps_near(node, generator, quick, result):
+    """the same over 20 m. What a plan itself takes is little then."""
+    middle = [node.world.cell(*end)[0] for end in node.ends]
+    reach = min(middle[1] - middle[0], 283)  # of 0.05 m, in both directions
+    at = next(i for i in range(middle[0] + reach, middle[0], -1)
+              if not any(node.world.at(i + c, i + r) for c in range(-10, 11) for r in range(-10, 11)))
+    ask_while_maps_come(node, generator, quick, result, node.world.centre(at, at))

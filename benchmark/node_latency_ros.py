@@ -21,6 +21,10 @@ class Missed(Exception):
     """Nothing came in time, or something else than what must; the message says what."""
 
 
+class HungUp(Missed):
+    """The node ended."""
+
+
 class Core:
     """A roscore on a free port, for this process and those that it starts."""
 
@@ -91,9 +95,8 @@ class Service:
     def __init__(self, name, service_class):
         import rosgraph
         self.name = name
-        wait_until(lambda: self.uri() is not None, name)
-        host, port = self.uri()[len("rosrpc://"):].split(":")
-        self.socket = socket.create_connection((host, int(port)), DEADLINE)
+        self.socket = None
+        wait_until(self.connect, name)
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         fields = ("callerid=/node_latency", "service=" + name, "md5sum=" + service_class._md5sum,
                   "type=" + service_class._type, "persistent=1")
@@ -103,19 +106,25 @@ class Service:
         if b"error=" in answer:
             raise Missed("%s: %r" % (name, answer))
 
-    def uri(self):
+    def connect(self):
+        """Whether it is there. A node that died is still registered, until one of its name starts."""
         import rosgraph
         try:
-            return rosgraph.Master("/node_latency").lookupService(self.name)
-        except rosgraph.MasterError:
-            return None
+            host, port = rosgraph.Master("/node_latency").lookupService(self.name)[len("rosrpc://"):].split(":")
+            self.socket = socket.create_connection((host, int(port)), DEADLINE)
+        except (rosgraph.MasterError, ConnectionError):
+            return False
+        return True
 
     def receive(self, count):
         parts = []
         while count > 0:
-            part = self.socket.recv(min(count, 1 << 20))
+            try:
+                part = self.socket.recv(min(count, 1 << 20))
+            except ConnectionError:
+                part = b""
             if not part:
-                raise Missed(self.name + " hung up")
+                raise HungUp(self.name + " hung up")
             parts.append(part)
             count -= len(part)
         return b"".join(parts)

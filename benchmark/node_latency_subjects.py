@@ -120,7 +120,12 @@ class Node:
 
     def publish_map(self, world):
         """When it was begun to be sent."""
-        message = self.map_message(world)
+        return self.send(self.map_message(world))
+
+    def send(self, message):
+        """The same of a map's message, stamped now."""
+        import rospy
+        message.header.stamp = rospy.Time.now()
         begin = time.monotonic()
         self.maps.publish(message)
         return begin

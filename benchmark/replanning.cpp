@@ -216,7 +216,7 @@ class Run {
       Times times;
       times.update = timed([this] { takeEdit(); });
       times.plan = timed([this] { plan(); });
-      a_star_.update(builder_.downsampled(StopToken()), builder_.downsampledChange(), StopToken());
+      a_star_.update(builder_.downsampled(StopToken()), changed_, StopToken());
       SearchResult fresh;
       times.fresh = timed([&] { fresh = a_star_.search({vehicle_, {goal_}, false}, StopToken()); });
       if (fresh.status != result_.status || fresh.cost != result_.cost) {
@@ -248,9 +248,11 @@ class Run {
     maps_.advance({edit_.rect}, [this](OccupancyGrid& next) {
       edit_.appears ? fill(next, edit_.rect, 100) : copyCells(world_, edit_.rect, next);
     });
+    const std::uint64_t before = builder_.downsampledChanges().newest();
     builder_.updateMap(maps_.current(), {edit_.rect});
     const auto costs = builder_.downsampled(StopToken());
-    replanner_.update(costs, builder_.downsampledChange(), StopToken());
+    changed_ = builder_.downsampledChanges().since(before).value().weights;
+    replanner_.update(costs, changed_, StopToken());
   }
 
   void plan() {
@@ -266,6 +268,7 @@ class Run {
   Sensor sensor_;
   CostmapBuilder builder_;
   DoubleBuffered<OccupancyGrid> maps_;
+  std::vector<CellRect> changed_;  // of the costmap, by the last edit
   IncrementalAStar replanner_;
   AStar a_star_;
   Cell vehicle_;

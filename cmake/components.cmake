@@ -6,7 +6,7 @@
 #   avoidance   local_planner
 #   mapping     projected_map, grid_path project: needs OctoMap
 #   simulation  simulator: needs SDFormat, Assimp and Embree
-#   study       grid_path scenarios, grid_path study
+#   study       grid_path scenarios, grid_path study; with avoidance, mapping and simulation grid_path flights
 #
 # Sets GPP_WITH_<component>, GPP_FOLDERS (of src/, from the ground up), GPP_ROOMS (the libraries that
 # they make), GPP_NODES, GPP_CONFIGURATIONS, GPP_LAUNCH_FILES and what the components need of catkin.
@@ -76,6 +76,10 @@ if(GPP_WITH_simulation)
 endif()
 if(GPP_WITH_driving AND GPP_WITH_mapping AND GPP_WITH_simulation)
   list(APPEND GPP_LAUNCH_FILES demo)
+endif()
+if(GPP_WITH_avoidance AND GPP_WITH_mapping AND GPP_WITH_simulation AND GPP_WITH_study)
+  list(APPEND GPP_FOLDERS flights)
+  list(APPEND GPP_ROOMS flights)
 endif()
 if(GPP_WITH_driving OR GPP_WITH_mapping OR GPP_WITH_avoidance)
   list(APPEND GPP_CATKIN_COMPONENTS std_srvs)

@@ -35,7 +35,9 @@ class Pilot::Parts {
   bool paused = false;
 
  private:
+  void setTime(double time);
   bool cannotFly(const PilotInput& input);
+  bool hasFrame();
   void followRoute();
   void findPath();
   void fly();
@@ -44,7 +46,9 @@ class Pilot::Parts {
   void askForPlan();
   bool goalIsOccupied() const;
   void lookAtUnseen(const Steering& steering);
+  Steering steer() const;
   void describe(const Steering& steering);
+  std::string closedText(const Eigen::Vector3d& at) const;
   Eigen::Vector3d target() const;
   double targetRadius() const;
 

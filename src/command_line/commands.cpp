@@ -9,6 +9,9 @@ const std::vector<Command>& commands() {
       {"scenarios", "run MovingAI queries and check their costs", runScenarios},
       {"study", "compare planners, heuristics, kernels and weights, and report", runStudyCommand},
 #endif
+#ifdef GPP_WITH_FLIGHTS
+      {"flights", "fly the local planner through simulated worlds, and report", runFlights},
+#endif
       {"rectangles", "cut a map's free space into rectangles", runRectangles},
       {"convert", "read a map file and write it in another format", runConvert},
 #ifdef GPP_WITH_MAPPING

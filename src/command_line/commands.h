@@ -15,6 +15,7 @@ int runRectangles(int argc, char** argv);
 int runConvert(int argc, char** argv);
 int runProject(int argc, char** argv);
 int runStudyCommand(int argc, char** argv);
+int runFlights(int argc, char** argv);
 
 struct Command {
   const char* name;

@@ -14,7 +14,8 @@
 namespace grid_path_planner::costmap {
 
 using base::StopToken;
-using grid::Cell, grid::CellRect, grid::copyCells, grid::Grid, grid::GridGeometry, grid::Occupancy;
+using grid::addChange, grid::Cell, grid::CellRect, grid::copyCells, grid::Grid, grid::GridGeometry,
+    grid::Occupancy;
 
 namespace {
 
@@ -137,6 +138,11 @@ void CostGrid::ownDerived() {
 
 void copyCells(const CostGrid& from, const CostGrid::Change& change, CostGrid& to) {
   to.catchUp(from, change);
+}
+
+void addChange(const CostGrid::Change& later, CostGrid::Change& to) {
+  addChange(later.weights, to.weights);
+  addChange(later.classes, to.classes);
 }
 
 bool stepAllowed(const CostGrid& map, Cell from, Cell to) {

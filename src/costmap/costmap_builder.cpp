@@ -12,8 +12,9 @@
 namespace grid_path_planner::costmap {
 
 using base::StopPoll, base::StopToken;
-using grid::CellRect, grid::disjointRects, grid::Grid, grid::GridGeometry, grid::grownRects,
-    grid::Occupancy, grid::OccupancyGrid, grid::OccupancyThresholds, grid::prefetchRows;
+using grid::addChange, grid::CellRect, grid::disjointRects, grid::Grid, grid::GridGeometry,
+    grid::grownRects, grid::Occupancy, grid::OccupancyGrid, grid::OccupancyThresholds,
+    grid::prefetchRows;
 
 namespace {
 
@@ -148,12 +149,13 @@ CostmapBuilder::CostmapBuilder(const CostmapOptions& options, const KeptDistance
   checkCostmapOptions(options);
 }
 
-std::size_t CostmapBuilder::bytesFor(const GridGeometry& geometry, int kernel) {
-  const auto twice = [](const GridGeometry& of) {
+std::size_t CostmapBuilder::bytesFor(const GridGeometry& geometry, int kernel,
+                                     std::size_t buffers) {
+  const auto all = [buffers](const GridGeometry& of) {
     const std::size_t cell = sizeof(CostGrid::Weight) + sizeof(Occupancy);
-    return 2 * (of.size() * cell + BitMaps::bytesFor(of));
+    return buffers * (of.size() * cell + BitMaps::bytesFor(of));
   };
-  return twice(geometry) + (kernel > 1 ? twice(blockGeometry(geometry, kernel)) : 0);
+  return all(geometry) + (kernel > 1 ? all(blockGeometry(geometry, kernel)) : 0);
 }
 
 void CostmapBuilder::setMap(std::shared_ptr<const OccupancyGrid> map) {
@@ -200,11 +202,14 @@ void CostmapBuilder::build(const StopToken& stop) {
   inflations_->apply(classes, all, weights, stop);
   auto full = std::make_unique<CostGrid>(std::move(weights), std::move(classes), options_.motion);
   full->setKeptDistances(kept_);
-  full->setRevision(++revision_);
-  if (options_.kernel > 1) downsampled_.reset(buildDownsampled(*full, stop));
-  full_change_ = {all};
-  downsampled_change_ = {blocksOf(all, options_.kernel)};
-  full_.reset(std::move(full));
+  full->setRevision(full_.nextSeries());
+  if (options_.kernel > 1) {
+    auto blocks = buildDownsampled(*full, stop);
+    const std::uint64_t revision = blocks->revision();
+    downsampled_.reset(std::move(blocks), revision);
+  }
+  const std::uint64_t revision = full->revision();
+  full_.reset(std::move(full), revision);
   full_dirty_.clear();
 }
 
@@ -217,7 +222,7 @@ std::unique_ptr<CostGrid> CostmapBuilder::buildDownsampled(const CostGrid& full,
   auto blocks = std::make_unique<CostGrid>(std::move(weights), std::move(classes), options_.motion,
                                            options_.kernel, full.geometry());
   blocks->setKeptDistances(kept_);
-  blocks->setRevision(revision_);
+  blocks->setRevision(downsampled_.nextSeries());
   return blocks;
 }
 
@@ -227,10 +232,8 @@ void CostmapBuilder::updateFullResolution(const StopToken& stop) {
   const ClassChanges changes(*map_, options_.thresholds, full_dirty_, full_.current()->classes(),
                              stop);
   if (!changes.all.empty()) {
-    full_change_ = rewriteWeights(changes, stop);
-    ++revision_;
-    append(full_change_, downsampled_dirty_);
-    downsampled_dirty_ = disjointRects(downsampled_dirty_);
+    const std::vector<CellRect> changed = rewriteWeights(changes, stop);
+    if (options_.kernel > 1) addChange(changed, downsampled_dirty_);
   }
   full_dirty_.clear();
 }
@@ -242,12 +245,13 @@ std::vector<CellRect> CostmapBuilder::rewriteWeights(const ClassChanges& changes
   const Rewriting rewriting(changes, *inflations_, blocked, all);
   StopPoll poll(stop, 16);
   for (const CellRect& rect : rewriting.all) prefetchRows(full_.current()->weights(), rect);
-  full_.advance({rewriting.all, full_dirty_}, [&](CostGrid& next) {
+  const std::vector<CellRect> new_classes = disjointRects(changes.all);
+  full_.advance({rewriting.all, new_classes}, [&](CostGrid& next) {
     for (const CellRect& rect : rewriting.all) prefetchRows(next.weights(), rect);
     for (const CellRect& rect : rewriting.all)
       prefetchRows(next.classes(), grown(rect, inflations_->occupied.reach(), all));
     next.edit(*full_.current(), rewriting.all, [&](auto& weights, auto& classes) {
-      for (const CellRect& rect : full_dirty_)
+      for (const CellRect& rect : new_classes)
         classify(*map_, options_.thresholds, rect, classes, stop);
       for (const CellRect& rect : rewriting.recomputed) {
         poll();
@@ -261,7 +265,7 @@ std::vector<CellRect> CostmapBuilder::rewriteWeights(const ClassChanges& changes
       }
       for (const CellRect& filled : rewriting.few) inflations_->raiseEach(classes, filled, weights);
     });
-    next.setRevision(revision_ + 1);
+    next.setRevision(full_.revision() + 1);
   });
   return rewriting.all;
 }
@@ -270,15 +274,13 @@ void CostmapBuilder::updateDownsampled(const StopToken& stop) {
   std::vector<CellRect> blocks;
   for (const CellRect& rect : downsampled_dirty_) blocks.push_back(blocksOf(rect, options_.kernel));
   blocks = disjointRects(blocks);
-  if (options_.kernel > 1)
-    downsampled_.advance({blocks, blocks}, [&](CostGrid& next) {
-      next.edit(*downsampled_.current(), blocks, [&](auto& weights, auto& classes) {
-        for (const CellRect& rect : downsampled_dirty_)
-          applyKernel(*full_.current(), options_, rect, weights, classes, stop);
-      });
-      next.setRevision(revision_);
+  downsampled_.advance({blocks, blocks}, [&](CostGrid& next) {
+    next.edit(*downsampled_.current(), blocks, [&](auto& weights, auto& classes) {
+      for (const CellRect& rect : downsampled_dirty_)
+        applyKernel(*full_.current(), options_, rect, weights, classes, stop);
     });
-  downsampled_change_ = std::move(blocks);
+    next.setRevision(downsampled_.revision() + 1);
+  });
   downsampled_dirty_.clear();
 }
 

@@ -5,6 +5,8 @@
 
 namespace grid_path_planner::planning {
 
+using costmap::KeptDistances;
+
 std::string positionText(const Eigen::Vector2d& position) {
   std::ostringstream out;
   out << std::setprecision(6) << '(' << position.x() << ", " << position.y() << ')';
@@ -15,6 +17,14 @@ std::string metresText(double length) {
   std::ostringstream out;
   out << std::setprecision(4) << length << " m";
   return out.str();
+}
+
+std::string loweredNote(const KeptDistances& asked, const KeptDistances& kept) {
+  std::string note;
+  if (kept.unknown < asked.unknown) note += metresText(kept.unknown) + " from unknown cells";
+  if (kept.outside < asked.outside)
+    note += (note.empty() ? "" : " and ") + metresText(kept.outside) + " from the map's border";
+  return "it keeps only " + note + ", as near as its ends are";
 }
 
 }  // namespace grid_path_planner::planning

@@ -9,8 +9,8 @@
 namespace grid_path_planner::planning {
 
 using base::Status, base::StopPoll, base::StopToken;
-using costmap::CostGrid;
-using grid::Cell, grid::CellIndex, grid::GridGeometry;
+using costmap::CostChanges, costmap::CostGrid;
+using grid::Cell, grid::CellIndex, grid::CellRect, grid::GridGeometry;
 using planners::BucketSearch, planners::noEstimate, planners::memoryLimitOf, planners::PlannerMaker,
     planners::reachableFrom, planners::SearchOptions, planners::SearchResult;
 
@@ -48,6 +48,24 @@ void addSearch(Plan& plan, const Plan& other) {
   plan.expanded.insert(plan.expanded.end(), other.expanded.begin(), other.expanded.end());
 }
 
+// nullopt where that is not known.
+std::optional<std::vector<CellRect>> changesSince(const std::shared_ptr<const CostGrid>& map,
+                                                  const CostChanges& changes) {
+  auto change = map ? changes.since(map->revision()) : std::nullopt;
+  return change ? std::make_optional(std::move(change->weights)) : std::nullopt;
+}
+
+// Searches for questions that may come follow a change of up to this share of the map: more would
+// delay the answer to one that is asked.
+constexpr std::size_t kFollowedShare = 16;
+
+bool isSmall(const std::vector<CellRect>& change, const GridGeometry& geometry) {
+  std::size_t cells = 0;
+  for (const CellRect& rect : change)
+    cells += static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
+  return cells * kFollowedShare <= geometry.size();
+}
+
 }  // namespace
 
 MultiResolutionPlanner::MultiResolutionPlanner(std::string planner, const SearchOptions& options,
@@ -61,9 +79,14 @@ MultiResolutionPlanner::MultiResolutionPlanner(std::string planner, const Search
 void MultiResolutionPlanner::prepare(const CostmapPair& maps, const StopToken& stop) {
   if (full_resolution_ != maps.full_resolution) followFullResolution(maps, stop);
   if (downsampled_ == maps.downsampled) return;
-  downsampled_.reset();  // a stopped preparation begins anew
+  // A stopped preparation begins anew.
+  const std::shared_ptr<const CostGrid> before = std::exchange(downsampled_, nullptr);
+  const auto changed = changesSince(before, maps.downsampled_changes);
   planner_->limitMemory(memory_limit_);
-  planner_->update(maps.downsampled, maps.downsampled_change, stop);
+  if (changed)
+    planner_->update(maps.downsampled, *changed, stop);
+  else
+    planner_->prepare(maps.downsampled, stop);
   downsampled_ = maps.downsampled;
 }
 
@@ -80,8 +103,11 @@ std::size_t MultiResolutionPlanner::bytesFor(const GridGeometry& downsampled) co
 }
 
 bool MultiResolutionPlanner::canFollow(const CostmapPair& maps) const {
-  return downsampled_ && planner_->traits().repairs &&
-         downsampled_->revision() + 1 == maps.downsampled->revision();
+  if (!planner_->traits().repairs) return false;
+  const auto changed = changesSince(downsampled_, maps.downsampled_changes);
+  const auto changed_full = changesSince(full_resolution_, maps.full_resolution_changes);
+  return changed && changed_full && isSmall(*changed, maps.downsampled->geometry()) &&
+         isSmall(*changed_full, maps.full_resolution->geometry());
 }
 
 void MultiResolutionPlanner::follow(const CostmapPair& maps, const StopToken& stop) {
@@ -91,18 +117,17 @@ void MultiResolutionPlanner::follow(const CostmapPair& maps, const StopToken& st
 void MultiResolutionPlanner::followFullResolution(const CostmapPair& maps, const StopToken& stop) {
   const std::shared_ptr<const CostGrid> before =
       std::exchange(full_resolution_, maps.full_resolution);
-  const bool next = before && before->geometry() == full_resolution_->geometry() &&
-                    before->revision() + 1 == full_resolution_->revision();
-  const bool update_finer = next && finer_map_ == before && finer_planner_->traits().repairs;
-  const bool update_open_block = next && open_block_map_ == before;
+  const auto changed = changesSince(before, maps.full_resolution_changes);
+  const bool update_finer = changed && finer_map_ == before && finer_planner_->traits().repairs;
+  const bool update_open_block = changed && open_block_map_ == before;
   finer_map_.reset();
   open_block_map_.reset();
   if (update_finer) {
-    finer_planner_->update(full_resolution_, maps.full_resolution_change, stop);
+    finer_planner_->update(full_resolution_, *changed, stop);
     finer_map_ = full_resolution_;
   }
   if (update_open_block) {
-    open_block_search_->update(*full_resolution_, maps.full_resolution_change, stop);
+    open_block_search_->update(*full_resolution_, *changed, stop);
     open_block_map_ = full_resolution_;
   }
 }

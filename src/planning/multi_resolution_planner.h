@@ -22,13 +22,12 @@
 
 namespace grid_path_planner::planning {
 
-// The costmaps at full resolution and with the kernel, and the cells in which each differs from
-// that of the revision before.
+// The costmaps at full resolution and with the kernel, and what changed in each until then.
 struct CostmapPair {
   std::shared_ptr<const costmap::CostGrid> full_resolution;
   std::shared_ptr<const costmap::CostGrid> downsampled;
-  std::vector<grid::CellRect> full_resolution_change;
-  std::vector<grid::CellRect> downsampled_change;
+  costmap::CostChanges full_resolution_changes;
+  costmap::CostChanges downsampled_changes;
 };
 
 class MultiResolutionPlanner {
@@ -45,16 +44,16 @@ class MultiResolutionPlanner {
   // The same once prepare() was called for a costmap of this geometry.
   std::size_t bytesFor(const grid::GridGeometry& downsampled) const;
 
-  // Prepares the planner for the costmaps. Where they follow those of the last call by one
-  // revision, the planner is updated instead. Throws Stopped.
+  // Prepares the planner for the costmaps. Where it is known what changed since those of the last
+  // call, the planner is updated instead. Throws Stopped.
   void prepare(const CostmapPair& maps, const base::StopToken& stop);
 
   // Updates the planner to costmaps that no request needs yet, if prepare() was called and an
-  // update is cheap: so the planner misses no revision. Throws Stopped.
+  // update is cheap. Throws Stopped.
   void follow(const CostmapPair& maps, const base::StopToken& stop);
 
   bool isPreparedFor(const CostmapPair& maps) const { return downsampled_ == maps.downsampled; }
-  // Whether follow() to these costmaps costs no more than what changed.
+  // Whether follow() to these costmaps costs no more than what changed, and that is little.
   bool canFollow(const CostmapPair& maps) const;
 
   // Returns when the planner's background work is done. Throws Stopped.

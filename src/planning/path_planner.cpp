@@ -12,6 +12,7 @@
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/planners/planner_factory.h"
+#include "planning/map_store.h"
 #include "planning/message_text.h"
 #include "planning/multi_resolution_planner.h"
 #include "planning/path_ends.h"
@@ -22,13 +23,16 @@ namespace grid_path_planner::planning {
 using base::checkOptionLimits, base::choiceName, base::InputError, base::sameOptions,
     base::Statistics, base::Status, base::Stopped, base::StopSource, base::StopToken;
 using costmap::checkCostmapOptions, costmap::Connectivity, costmap::CostGrid,
-    costmap::CostmapBuilder, costmap::DiagonalCost, costmap::KeptDistances, costmap::MotionModel;
+    costmap::CostmapBuilder, costmap::DiagonalCost, costmap::keptDistances, costmap::KeptDistances,
+    costmap::MotionModel;
 using grid::CellRect, grid::checkOccupancyValues, grid::GridGeometry, grid::OccupancyGrid;
 using path::applyHeadings, path::applyZ, path::lengthOf, path::Path, path::Pose;
 using planners::checkSearchOptions, planners::memoryLimitOf, planners::PlannerMaker,
     planners::TooExpensive, planners::traitsOf;
 
 namespace {
+
+constexpr char kNoCells[] = "a map needs at least one cell, got 0x0";
 
 bool finite(const Pose& pose) {
   return pose.position.allFinite() && std::isfinite(pose.yaw);
@@ -95,21 +99,6 @@ std::string foundMessage(const Plan& plan, const PathEnd& start, const PathEnd& 
   return message;
 }
 
-// "it keeps only 0.2 m from unknown cells, as near as its ends are".
-std::string loweredNote(const KeptDistances& asked, const KeptDistances& kept) {
-  std::string note;
-  if (kept.unknown < asked.unknown) note += metresText(kept.unknown) + " from unknown cells";
-  if (kept.outside < asked.outside)
-    note += (note.empty() ? "" : " and ") + metresText(kept.outside) + " from the map's border";
-  return "it keeps only " + note + ", as near as its ends are";
-}
-
-CostmapPair costmapsOf(CostmapBuilder& costmap, const StopToken& stop) {
-  const auto downsampled = costmap.downsampled(stop);
-  return {costmap.fullResolution(stop), downsampled, costmap.fullResolutionChange(),
-          costmap.downsampledChange()};
-}
-
 std::string unreachableMessage(const PathEnd& start, const PathEnd& goal, double tolerance) {
   std::string message =
       "no path leads from " + positionText(start.position) + " to " + positionText(goal.position);
@@ -140,11 +129,12 @@ Plan completedPlan(Route route, const PathEnd& start, const PathEnd& goal,
 
 // A costmap that keeps less from unknown cells and from the border, and its search.
 struct PathPlanner::Lowered {
-  Lowered(const PlannerOptions& options, const KeptDistances& kept, PlannerMaker make_planner)
-      : costmap(options.costmap, kept),
+  Lowered(std::shared_ptr<SharedCostmap> costs, const PlannerOptions& options,
+          PlannerMaker make_planner)
+      : costmap(std::move(costs)),
         search(options.planner, options.search, std::move(make_planner)) {}
 
-  CostmapBuilder costmap;
+  std::shared_ptr<SharedCostmap> costmap;
   MultiResolutionPlanner search;
 };
 
@@ -154,47 +144,72 @@ void checkPlannerOptions(const PlannerOptions& options) {
 }
 
 PathPlanner::PathPlanner(const PlannerOptions& options, PlannerMaker make_planner)
-    : make_planner_(std::move(make_planner)) {
+    : make_planner_(std::move(make_planner)), shared_(false), store_(std::make_shared<MapStore>()) {
   setOptions(options);
 }
+
+PathPlanner::PathPlanner(std::shared_ptr<MapStore> store, const PlannerOptions& options,
+                         PlannerMaker make_planner)
+    : make_planner_(std::move(make_planner)), shared_(true), store_(std::move(store)) {
+  setOptions(options);
+}
+
 PathPlanner::~PathPlanner() = default;
 PathPlanner::PathPlanner(PathPlanner&&) noexcept = default;
 PathPlanner& PathPlanner::operator=(PathPlanner&&) noexcept = default;
 
 void PathPlanner::setOptions(const PlannerOptions& options) {
   checkOtherOptions(options);
-  const bool new_costmap = !costmap_ || !sameOptions(options.costmap, options_.costmap);
+  const bool new_costmap = !searches_ || !sameOptions(options.costmap, options_.costmap);
   const bool new_search = new_costmap || options.planner != options_.planner ||
                           !sameOptions(options.search, options_.search);
   if (new_search) {
     if (!searches_) searches_ = std::make_unique<PreparedPlanners>(make_planner_);
     searches_->use(options.planner, options.search);
-    if (new_costmap) searches_->giveUpOthers();
-    if (new_costmap) searches_->current() = {options.planner, options.search, make_planner_};
   }
   lowered_.reset();
-  if (new_costmap) {
-    costmap_ = std::make_unique<CostmapBuilder>(options.costmap);
-    if (map_) costmap_->setMap(map_);
-  }
   options_ = options;
+  if (new_costmap) useCostmap();
+}
+
+// The searches are of other costs.
+void PathPlanner::useCostmap() {
+  searches_->giveUpOthers();
+  searches_->current() = {options_.planner, options_.search, make_planner_};
+  lowered_.reset();
+  costmap_.reset();
+  if (series_) costmap_ = series_->costmap(options_.costmap, keptDistances(options_.costmap));
 }
 
 void PathPlanner::setMap(std::shared_ptr<const OccupancyGrid> map) {
-  if (map->geometry().size() == 0) throw InputError("a map needs at least one cell, got 0x0");
+  if (map->geometry().size() == 0) throw InputError(kNoCells);
   checkOccupancyValues(*map);
-  map_ = std::move(map);
-  costmap_->setMap(map_);
-  lowered_.reset();
+  store_->setMap(std::move(map), "map");
+  takeMap();
 }
 
 void PathPlanner::updateMap(std::shared_ptr<const OccupancyGrid> map,
                             const std::vector<CellRect>& changed) {
   if (!map_ || map->geometry() != map_->geometry()) return setMap(std::move(map));
   for (const CellRect& rect : changed) checkOccupancyValues(*map, rect);
-  map_ = std::move(map);
-  costmap_->updateMap(map_, changed);
-  if (lowered_) lowered_->costmap.updateMap(map_, changed);
+  store_->updateMap(std::move(map), changed);
+  takeMap();
+}
+
+void PathPlanner::takeMap(std::uint64_t at_least) {
+  at_least_ = at_least;
+  std::shared_ptr<MapSeries> series = store_->series();
+  if (!series) return;
+  if (series->geometry().size() == 0) throw InputError(kNoCells);
+  map_ = series->newest().map;
+  if (series == series_) return;
+  series_ = std::move(series);
+  useCostmap();
+}
+
+const std::string& PathPlanner::frameId() const {
+  static const std::string none;
+  return series_ ? series_->frameId() : none;
 }
 
 std::shared_ptr<const CostGrid> PathPlanner::fullResolutionCosts(const StopToken& stop) {
@@ -209,20 +224,32 @@ std::size_t PathPlanner::memoryLimit() const {
   return std::min(memory_limit_, memoryLimitOf(options_.search));
 }
 
-std::size_t PathPlanner::bytes() const {
-  if (!hasMap()) return 0;
-  const std::size_t costs = CostmapBuilder::bytesFor(map_->geometry(), options_.costmap.kernel);
-  return bytesBesideLowered() + (lowered_ ? costs + lowered_->search.bytes() : 0);
+// Where planners share the maps, one that plans seldom keeps old ones.
+std::size_t PathPlanner::buffers() const {
+  return shared_ ? 3 : 2;
 }
 
-std::size_t PathPlanner::bytesBesideLowered() const {
-  return 2 * map_->values().size() + search().bytes() + searches_->bytesOfOthers() +
-         CostmapBuilder::bytesFor(map_->geometry(), options_.costmap.kernel);
+std::size_t PathPlanner::bytesOfMaps() const {
+  return buffers() * map_->values().size();
+}
+
+std::size_t PathPlanner::bytesOfCosts() const {
+  return CostmapBuilder::bytesFor(map_->geometry(), options_.costmap.kernel, buffers());
+}
+
+std::size_t PathPlanner::bytes() const {
+  return hasMap() ? bytesOfMaps() + bytesOfCosts() + bytesOfSearches() : 0;
+}
+
+std::size_t PathPlanner::bytesOfSearches() const {
+  if (!hasMap()) return 0;
+  return search().bytes() + searches_->bytesOfOthers() +
+         (lowered_ ? bytesOfCosts() + lowered_->search.bytes() : 0);
 }
 
 std::size_t PathPlanner::memoryLeft(std::size_t taken) const {
   const GridGeometry& geometry = map_->geometry();
-  const std::size_t needed = taken + CostmapBuilder::bytesFor(geometry, options_.costmap.kernel);
+  const std::size_t needed = taken + bytesOfCosts();
   if (needed <= memoryLimit()) return memoryLimit() - needed;
   std::ostringstream text;
   text << "a map of " << geometry.width() << "x" << geometry.height() << " cells takes "
@@ -233,13 +260,15 @@ std::size_t PathPlanner::memoryLeft(std::size_t taken) const {
 
 CostmapPair PathPlanner::costmaps(const StopToken& stop) {
   assert(hasMap());
-  search().limitMemory(memoryLeft(2 * map_->values().size()));
-  return costmapsOf(*costmap_, stop);
+  search().limitMemory(memoryLeft(bytesOfMaps()));
+  SharedCostmap::Result newest = costmap_->newest(stop, at_least_);
+  map_ = std::move(newest.map);
+  downsampled_changes_ = newest.costs.downsampled_changes;
+  return std::move(newest.costs);
 }
 
 void PathPlanner::makeRoom(const CostmapPair& maps) {
-  searches_->keepWithin(memoryLeft(2 * map_->values().size()),
-                        search().bytesFor(maps.downsampled->geometry()));
+  searches_->keepWithin(memoryLeft(bytesOfMaps()), search().bytesFor(maps.downsampled->geometry()));
 }
 
 MultiResolutionPlanner& PathPlanner::search() const {
@@ -253,11 +282,19 @@ PathPlanner::Lowered* PathPlanner::loweredFor(const CostGrid& costs, const PoseR
                                                           request.goal.position.head<2>());
   if (kept == costs.keptDistances()) {
     lowered_.reset();
-  } else if (!lowered_ || lowered_->costmap.keptDistances() != kept) {
-    lowered_ = std::make_unique<Lowered>(options_, kept, make_planner_);
-    lowered_->costmap.setMap(map_);
+  } else if (!lowered_ || lowered_->costmap->keptDistances() != kept) {
+    lowered_ = std::make_unique<Lowered>(series_->costmap(options_.costmap, kept), options_,
+                                         make_planner_);
   }
   return lowered_.get();
+}
+
+CostmapPair PathPlanner::loweredCosts(Lowered& lowered, const StopToken& stop) {
+  lowered.search.limitMemory(
+      memoryLeft(bytesOfMaps() + bytesOfSearches() - lowered.search.bytes()));
+  SharedCostmap::Result newest = lowered.costmap->newest(stop);
+  map_ = std::move(newest.map);
+  return std::move(newest.costs);
 }
 
 CostmapPair PathPlanner::followedCostmaps(const StopToken& stop) {
@@ -291,10 +328,7 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     CostmapPair maps = asked_for;
     makeRoom(maps);
     Lowered* lowered = loweredFor(*maps.full_resolution, request);
-    if (lowered) {
-      lowered->search.limitMemory(memoryLeft(bytesBesideLowered()));
-      maps = costmapsOf(lowered->costmap, token);
-    }
+    if (lowered) maps = loweredCosts(*lowered, token);
     MultiResolutionPlanner& search = lowered ? lowered->search : this->search();
     search.prepare(maps, token);
     searches_->followOthers(asked_for, token);
@@ -302,7 +336,7 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     plan = planOn(*maps.full_resolution, search, request, token);
     if (lowered && plan.found())
       addNote(plan.message,
-              loweredNote(costmap_->keptDistances(), lowered->costmap.keptDistances()));
+              loweredNote(costmap_->keptDistances(), lowered->costmap->keptDistances()));
     plan.preparation_time_s = std::chrono::duration<double>(prepared - begin).count();
   } catch (const Stopped& stopped) {
     plan = failedPlan(stopped.status(), "");

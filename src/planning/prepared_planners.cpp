@@ -11,21 +11,6 @@ namespace grid_path_planner::planning {
 using base::sameOptions, base::StopToken;
 using planners::PlannerMaker, planners::SearchOptions;
 
-namespace {
-
-// Others follow a change of up to this share of the map: more would delay the answer to a question
-// that is asked for more than what is kept for one that may come.
-constexpr std::size_t kFollowedShare = 16;
-
-bool small(const std::vector<grid::CellRect>& change, const grid::GridGeometry& geometry) {
-  std::size_t cells = 0;
-  for (const grid::CellRect& rect : change)
-    cells += static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
-  return cells * kFollowedShare <= geometry.size();
-}
-
-}  // namespace
-
 PreparedPlanners::PreparedPlanners(PlannerMaker make_planner)
     : make_planner_(std::move(make_planner)) {}
 
@@ -41,10 +26,8 @@ void PreparedPlanners::use(const std::string& planner, const SearchOptions& opti
 }
 
 void PreparedPlanners::followOthers(const CostmapPair& maps, const StopToken& stop) {
-  const bool follow = small(maps.downsampled_change, maps.downsampled->geometry()) &&
-                      small(maps.full_resolution_change, maps.full_resolution->geometry());
   for (auto each = std::next(entries_.begin()); each != entries_.end();) {
-    const bool kept = each->search.isPreparedFor(maps) || (follow && each->search.canFollow(maps));
+    const bool kept = each->search.isPreparedFor(maps) || each->search.canFollow(maps);
     if (!kept) {
       each = entries_.erase(each);
       continue;

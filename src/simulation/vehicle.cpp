@@ -22,7 +22,7 @@ std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds * 1e9);
 }
 
-// `share` of the distance to the target, with a limit.
+// `share` of the difference to the target, with a limit.
 double towards(double value, double target, double share, double largest_change) {
   return value + std::clamp(share * (target - value), -largest_change, largest_change);
 }

@@ -87,6 +87,10 @@ void expectOnlyThereDiffer(const CostGrid& before, const CostGrid& after,
     }
 }
 
+std::vector<CellRect> changeSince(const Costs& before, const CostmapBuilder& builder) {
+  return builder.downsampledChanges().since(before->revision()).value().weights;
+}
+
 TEST(CostmapUpdates, AnEarlierGridDoesNotChange) {
   CostmapBuilder builder({});
   builder.setMap(shared({"...", "..."}));
@@ -195,7 +199,7 @@ TEST(CostmapUpdatesLaw, EqualsAFreshGridAfterEveryKindOfChange) {
         const Costs after = builder.downsampled(StopToken());
         expectSame(*after, *freshlyDownsampled(map, options));
         if (HasFatalFailure()) return;
-        expectOnlyThereDiffer(*before, *after, builder.downsampledChange());
+        expectOnlyThereDiffer(*before, *after, changeSince(before, builder));
       }
     }
   }
@@ -212,11 +216,12 @@ TEST(CostmapUpdates, EditsFarApartChangeTheirSurroundingsOnly) {
   map[Cell{0, 0}] = map[Cell{499, 399}] = map[Cell{250, 100}] = 100;
   builder.updateMap(std::make_shared<const OccupancyGrid>(map), {map.geometry().rect()});
   expectSame(*builder.downsampled(StopToken()), *freshlyDownsampled(map, options));
+  const Costs before = builder.downsampled(StopToken());
   for (const Cell each : {Cell{0, 0}, Cell{499, 399}}) map[each] = 0;
   builder.updateMap(std::make_shared<const OccupancyGrid>(map),
                     {{0, 0, 1, 1}, {499, 399, 1, 1}, {250, 100, 1, 1}});
   expectSame(*builder.downsampled(StopToken()), *freshlyDownsampled(map, options));
-  EXPECT_EQ(builder.downsampledChange(), (std::vector<CellRect>{{0, 0, 3, 3}, {497, 397, 3, 3}}));
+  EXPECT_EQ(changeSince(before, builder), (std::vector<CellRect>{{0, 0, 3, 3}, {497, 397, 3, 3}}));
 }
 
 // As a map that is published again differs: here and there, from a few cells to whole areas.
@@ -240,7 +245,7 @@ TEST(CostmapUpdatesLaw, EqualsAFreshGridAfterChangesAllOverTheMap) {
       builder.updateMap(std::make_shared<const OccupancyGrid>(map), {geometry.rect()});
       const Costs after = builder.downsampled(StopToken());
       expectSame(*after, *freshlyDownsampled(map, options));
-      expectOnlyThereDiffer(*before, *after, builder.downsampledChange());
+      expectOnlyThereDiffer(*before, *after, changeSince(before, builder));
       if (HasFatalFailure()) return;
     }
   }
@@ -253,10 +258,11 @@ TEST(CostmapUpdates, AChangeReachesNoFartherThanInflation) {
   CostmapBuilder builder(options);
   OccupancyGrid map(GridGeometry(20, 20, 1.0), -1);
   const auto changeAfter = [&](std::int8_t value) {
+    const Costs before = builder.downsampled(StopToken());
     map[Cell{10, 10}] = value;
     builder.updateMap(std::make_shared<const OccupancyGrid>(map), {map.geometry().rect()});
     builder.downsampled(StopToken());
-    return builder.downsampledChange();
+    return changeSince(before, builder);
   };
   builder.setMap(std::make_shared<const OccupancyGrid>(map));
   builder.downsampled(StopToken());
@@ -300,7 +306,7 @@ TEST(CostmapUpdatesLaw, EqualsAFreshGridAfterUpdatesAndEarlierGridsStay) {
       }
       if (after == before) continue;
       EXPECT_EQ(after->revision(), before->revision() + 1);
-      expectOnlyThereDiffer(*before, *after, builder.downsampledChange());
+      expectOnlyThereDiffer(*before, *after, changeSince(before, builder));
     }
   }
 }

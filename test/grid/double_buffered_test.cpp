@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <numeric>
+#include <random>
+#include <set>
 #include <thread>
 
 #include "grid_path_planner/grid/occupancy.h"
@@ -56,6 +58,85 @@ TEST(DoubleBuffered, TwoMapsTakeTurnsOnceNobodyHoldsThem) {
     write(maps, value);
     EXPECT_EQ(maps.current().get(), value % 2 == 1 ? first : second);
     EXPECT_EQ(sumOf(*maps.current()), 4 * value);
+  }
+}
+
+// One who plans seldom keeps an old map; what the others need to see must not cost a whole copy each.
+TEST(DoubleBuffered, AThirdMapTakesPartWhileAnOldOneIsHeld) {
+  Maps maps;
+  maps.reset(freeMap());
+  const auto held = maps.current();
+  std::set<const OccupancyGrid*> seen;
+  for (std::int8_t value = 10; value < 30; ++value) {
+    write(maps, value);
+    seen.insert(maps.current().get());
+    EXPECT_EQ(sumOf(*maps.current()), 4 * value);
+  }
+  EXPECT_EQ(sumOf(*held), 0);
+  EXPECT_EQ(seen.size(), 2u);
+  EXPECT_EQ(seen.count(held.get()), 0u);
+  EXPECT_EQ(maps.buffers(), 3u);
+}
+
+TEST(DoubleBuffered, TellsWhatChangedSinceARevision) {
+  Maps maps, other;
+  maps.reset(freeMap());
+  other.reset(freeMap());
+  const std::uint64_t first = maps.revision();
+  const auto put = [&maps](Cell cell) {
+    maps.advance({{cell.column, cell.row, 1, 1}}, [&](OccupancyGrid& next) { next[cell] = 100; });
+  };
+  put({1, 1});
+  const ChangeLog<> early = maps.changes();
+  put({7, 3});
+  using Rects = std::vector<CellRect>;
+  EXPECT_EQ(maps.changes().since(first), (Rects{{1, 1, 1, 1}, {7, 3, 1, 1}}));
+  EXPECT_EQ(maps.changes().since(first + 1), (Rects{{7, 3, 1, 1}}));
+  EXPECT_EQ(maps.changes().since(first + 2), Rects());
+  EXPECT_EQ(maps.changes().since(first + 3), std::nullopt) << "not yet";
+  EXPECT_EQ(maps.changes().since(other.revision()), std::nullopt) << "another series";
+  EXPECT_EQ(early.since(first), (Rects{{1, 1, 1, 1}})) << "a copy stays";
+  for (std::size_t i = 2; i < ChangeLog<>::kMost; ++i) put({0, 0});
+  EXPECT_TRUE(maps.changes().since(first));
+  put({0, 0});
+  EXPECT_EQ(maps.changes().since(first), std::nullopt) << "too long ago";
+  maps.reset(freeMap());
+  EXPECT_EQ(maps.changes().since(first + 5), std::nullopt) << "before a new series";
+}
+
+// Readers hold maps for as long as they like.
+TEST(DoubleBufferedLaw, EveryMapIsWhatWasWrittenWhoeverHoldsWhat) {
+  std::mt19937 random(18);
+  for (int trial = 0; trial < 100; ++trial) {
+    Maps maps;
+    OccupancyGrid expected = *freeMap();
+    maps.reset(freeMap());
+    struct Held {
+      std::shared_ptr<const OccupancyGrid> map;
+      OccupancyGrid copy;
+      std::uint64_t revision;
+    };
+    std::vector<Held> held;
+    for (int edit = 0; edit < 40; ++edit) {
+      if (random() % 2 == 0) held.push_back({maps.current(), expected, maps.revision()});
+      while (!held.empty() && random() % 3 == 0) held.erase(held.begin() + random() % held.size());
+      const CellRect rect{int(random() % 7), int(random() % 3), 2, 2};
+      const auto value = static_cast<std::int8_t>(random() % 100);
+      maps.advance({rect}, [&](OccupancyGrid& next) {
+        ASSERT_EQ(next, expected);
+        next[{rect.column, rect.row}] = next[{rect.column + 1, rect.row + 1}] = value;
+      });
+      expected[{rect.column, rect.row}] = expected[{rect.column + 1, rect.row + 1}] = value;
+      ASSERT_EQ(*maps.current(), expected);
+      for (const Held& each : held) {
+        ASSERT_EQ(*each.map, each.copy);
+        const auto changed = maps.changes().since(each.revision);
+        if (!changed) continue;
+        OccupancyGrid caught_up = each.copy;
+        copyCells(expected, *changed, caught_up);
+        ASSERT_EQ(caught_up, expected);
+      }
+    }
   }
 }
 

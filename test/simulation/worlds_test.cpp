@@ -216,7 +216,7 @@ TEST(RescueCourse, EveryPlaceOfTheTourIsClearByAMetre) {
                     << place.transpose();
 }
 
-// A vehicle that only flies straight touches something twice on its path out and home.
+// A vehicle that only flies straight touches something twice out and home.
 TEST(RescueCourse, TheFirstLegAndTheLastAreBlockedTwice) {
   const auto blocking = [](std::size_t leg) {
     std::set<std::string> names;
@@ -230,7 +230,7 @@ TEST(RescueCourse, TheFirstLegAndTheLastAreBlockedTwice) {
   EXPECT_GE(blocking(kTour.size() - 2), 2u);
 }
 
-// L*: what the reports of flights call the shortest path.
+// L*: what the reports of flights call the shortest tour.
 TEST(RescueCourse, TheShortestTourIsFrom108To116Metres) {
   const OccupancyGrid slice =
       test::occupiedAt(rescueCourse(), GridGeometry(640, 380, 0.1, {-4.0, -18.0, 0.0}), {1.5}, 0.6);

@@ -31,9 +31,21 @@ LENT = {
     "grid/float_decimal.h": {"ros_common"},
     "grid/map_differences.h": {"ros_common"},
     "grid/formats/rectangle_map_file.h": {"planners"},
+    "planning/map_store.h": {"ros_planning"},
     "planners/any_angle/theta_star.h": {"study"},  # the base of its published Theta*
     "planners/astar/bucket_search.h": {"planning"},
     "planners/rectangles/rectangle_route.h": {"command_line"},
+    "study/confidence.h": {"flights"},
+    "study/file/study_nodes.h": {"flights"},
+    "study/report/finding.h": {"flights"},
+    "study/report/markdown.h": {"flights"},
+    "study/report/markup.h": {"flights"},
+    "study/report/report_page.h": {"flights"},
+    "study/report/svg_chart.h": {"flights"},
+    "study/report/table.h": {"flights"},
+    "study/run_folder.h": {"flights"},
+    "study/study_yaml.h": {"flights"},
+    "study/task_loop.h": {"flights"},
     "simulation/read_world_main.h": {"read_world"},
 }
 ROS_HEADER = re.compile(

@@ -71,7 +71,7 @@ class CostGrid {
   // original map. That is the cell's centre but for the last column and row of a kernel.
   Eigen::Vector2d waypoint(grid::Cell cell) const;
 
-  // Higher in every map that replaces an earlier one.
+  // Higher in every map that replaces an earlier one; CostmapBuilder gives no two maps the same.
   std::uint64_t revision() const { return revision_; }
   void setRevision(std::uint64_t revision) { revision_ = revision; }
 
@@ -115,8 +115,12 @@ class CostGrid {
   std::shared_ptr<Derived> derived_;  // shared by copies of a map until one is edited
 };
 
-// For DoubleBuffered<CostGrid, CostGrid::Change>: catchUp().
+// For DoubleBuffered<CostGrid, CostGrid::Change>: catchUp(), and two changes as one.
 void copyCells(const CostGrid& from, const CostGrid::Change& change, CostGrid& to);
+void addChange(const CostGrid::Change& later, CostGrid::Change& to);
+
+// What changed from costmap to costmap.
+using CostChanges = grid::ChangeLog<CostGrid::Change>;
 
 // Whether one step leads from `from` to `to`: neighbours by the motion model, both passable, no
 // corner cut unless that is allowed.

@@ -8,7 +8,8 @@
 // are computed again, and those that inflation reaches from cells that became occupied or stopped
 // being occupied; nothing takes time in proportion to the map (but for what
 // grid/double_buffered.h says). A returned costmap does not change; a changed map gives a new one
-// with a higher revision. The caller's map is never changed.
+// with a higher revision, and what changed since an earlier one is told. The caller's map is never
+// changed.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +31,10 @@ class CostmapBuilder {
   explicit CostmapBuilder(const CostmapOptions& options);
   CostmapBuilder(const CostmapOptions& options, const KeptDistances& kept);
 
-  // Memory that the costmaps of a map of this geometry take, each of them twice (double_buffered.h).
-  static std::size_t bytesFor(const grid::GridGeometry& geometry, int kernel);
+  // Memory that the costmaps of a map of this geometry take, each of them so many times (twice as long
+  // as no reader keeps old ones, double_buffered.h).
+  static std::size_t bytesFor(const grid::GridGeometry& geometry, int kernel,
+                              std::size_t buffers = 2);
 
   void setMap(std::shared_ptr<const grid::OccupancyGrid> map);
   // `map` has the geometry of the current one and differs from it only inside `changed`.
@@ -44,10 +47,12 @@ class CostmapBuilder {
   std::shared_ptr<const CostGrid> fullResolution(const base::StopToken& stop);
   std::shared_ptr<const CostGrid> downsampled(const base::StopToken& stop);
 
-  // The cells in which each of the two differs from that of the revision before, disjoint: all cells
-  // after setMap().
-  const std::vector<grid::CellRect>& fullResolutionChange() const { return full_change_; }
-  const std::vector<grid::CellRect>& downsampledChange() const { return downsampled_change_; }
+  // What changed in each of the two from revision to revision: nothing is known of the time before
+  // setMap() and of other builders' costmaps.
+  const CostChanges& fullResolutionChanges() const { return full_.changes(); }
+  const CostChanges& downsampledChanges() const {
+    return (options_.kernel == 1 ? full_ : downsampled_).changes();
+  }
 
   const CostmapOptions& options() const { return options_; }
   const KeptDistances& keptDistances() const { return kept_; }
@@ -58,6 +63,7 @@ class CostmapBuilder {
   std::unique_ptr<CostGrid> buildDownsampled(const CostGrid& full,
                                              const base::StopToken& stop) const;
   void updateFullResolution(const base::StopToken& stop);
+  // The cells whose weights were written.
   std::vector<grid::CellRect> rewriteWeights(const ClassChanges& changes,
                                              const base::StopToken& stop);
   void updateDownsampled(const base::StopToken& stop);
@@ -65,14 +71,12 @@ class CostmapBuilder {
   CostmapOptions options_;
   KeptDistances kept_;
   std::shared_ptr<const grid::OccupancyGrid> map_;
-  std::shared_ptr<const Inflations> inflations_;   // for the resolution of map_
-  std::vector<grid::CellRect> full_dirty_;         // cells of map_ that changed since full_
-  std::vector<grid::CellRect> downsampled_dirty_;  // cells of full_ that did since downsampled_
-  std::vector<grid::CellRect> full_change_;
-  std::vector<grid::CellRect> downsampled_change_;
+  std::shared_ptr<const Inflations> inflations_;  // for the resolution of map_
+  std::vector<grid::CellRect> full_dirty_;        // cells of map_ that changed since full_
+  std::vector<grid::CellRect>
+      downsampled_dirty_;  // cells of full_ that did since downsampled_, if any
   grid::DoubleBuffered<CostGrid, CostGrid::Change> full_;
   grid::DoubleBuffered<CostGrid, CostGrid::Change> downsampled_;  // empty where the kernel is 1
-  std::uint64_t revision_ = 0;
 };
 
 }  // namespace grid_path_planner::costmap

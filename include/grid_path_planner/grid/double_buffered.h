@@ -9,16 +9,23 @@
 //   reader = maps.current();                              // the next one
 //
 // Two maps alternate: what the previous map missed is copied into it, and then it is written. Where a
-// reader still holds the previous map, the current one is copied instead. So a change costs time in
-// proportion to its rectangles as long as every reader drops its map before the
-// second change after it. Memory: two maps from the first change on.
+// reader still holds the previous map, a third one takes part, and where that is held too, the
+// current one is copied instead. So a change costs time in proportion to its rectangles as long as
+// no more than two readers keep maps of before. Memory: two maps from the first change on, and
+// another for each old one that is held.
+//
+// Every map of a series has a revision, which no map of another series has, and changes() tells what
+// changed since one of them: whoever misses some maps catches up with all at once.
 //
 // For one thread; the maps returned may be read, and released, in any.
 #pragma once
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
+#include <deque>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,16 +49,68 @@ void copyCells(const Grid<T>& from, const std::vector<CellRect>& rects, Grid<T>&
   for (const CellRect& rect : rects) copyCells(from, rect, to);
 }
 
+// Adds the cells of a later change to those of an earlier one.
+inline void addChange(const std::vector<CellRect>& later, std::vector<CellRect>& to) {
+  to.insert(to.end(), later.begin(), later.end());
+  to = disjointRects(to);
+}
+
+// The last changes of a series of maps. A copy stays as it is, and costs next to nothing.
+template <class Change = std::vector<CellRect>>
+class ChangeLog {
+ public:
+  static constexpr std::size_t kMost = 16;  // changes that are kept
+
+  // Begins with a map of this revision; each change makes the next one.
+  void restart(std::uint64_t revision) {
+    changes_.clear();
+    newest_ = revision;
+  }
+  void add(Change change) {
+    changes_.push_back(std::make_shared<const Change>(std::move(change)));
+    if (changes_.size() > kMost) changes_.pop_front();
+    ++newest_;
+  }
+
+  std::uint64_t newest() const { return newest_; }
+
+  // What changed since then, rectangles disjoint; nullopt where that is not known: too long ago, or
+  // another series.
+  std::optional<Change> since(std::uint64_t revision) const {
+    if (revision > newest_ || newest_ - revision > changes_.size()) return std::nullopt;
+    Change all;
+    for (auto each = changes_.end() - static_cast<std::ptrdiff_t>(newest_ - revision);
+         each != changes_.end(); ++each)
+      addChange(**each, all);
+    return all;
+  }
+
+ private:
+  std::deque<std::shared_ptr<const Change>> changes_;
+  std::uint64_t newest_ = 0;
+};
+
 template <class Map, class Change = std::vector<CellRect>>
 class DoubleBuffered {
  public:
   // Null before reset().
   std::shared_ptr<const Map> current() const { return current_.shown; }
+  // Of the current map; that of the next one is one higher.
+  std::uint64_t revision() const { return log_.newest(); }
+  const ChangeLog<Change>& changes() const { return log_; }
+  // How many maps are kept.
+  std::size_t buffers() const { return spares_.size() + (current_.map ? 1 : 0); }
 
-  // Starts a series; null: without a map.
-  void reset(std::unique_ptr<Map> first) {
+  // Starts a series; null: without a map. `revision`: of the map, taken from nextSeries().
+  void reset(std::unique_ptr<Map> first, std::uint64_t revision = nextSeries()) {
     current_ = first ? shownTo(std::move(first)) : Buffer();
-    spare_ = {};
+    spares_.clear();
+    log_.restart(revision);
+  }
+  // A revision above those of all series so far.
+  static std::uint64_t nextSeries() {
+    constexpr unsigned kBitsOfASeries = 40;
+    return ++seriesSoFar() << kBitsOfASeries;
   }
 
   // Makes the map that differs from the current one by `change`: write(next) gets a map that equals
@@ -59,11 +118,13 @@ class DoubleBuffered {
   // Precondition: reset() got a map, in which the change lies.
   template <class Write>
   void advance(const Change& change, Write&& write) {
+    const std::uint64_t before = revision();
     std::shared_ptr<Map> next = copyOfCurrent();
     write(*next);
-    spare_ = std::exchange(current_, shownTo(std::move(next)));
-    spare_.shown.reset();
-    missed_ = change;
+    log_.add(change);
+    if (spares_.size() == kMostSpares) spares_.erase(spares_.begin());
+    spares_.push_back({std::exchange(current_, shownTo(std::move(next))), before});
+    spares_.back().buffer.shown.reset();
   }
 
  private:
@@ -74,6 +135,17 @@ class DoubleBuffered {
     std::shared_ptr<std::atomic<bool>> is_read;
     std::shared_ptr<const Map> shown;
   };
+  // A map of before, without `shown`.
+  struct Spare {
+    Buffer buffer;
+    std::uint64_t revision;
+  };
+  static constexpr std::size_t kMostSpares = 2;
+
+  static std::atomic<std::uint64_t>& seriesSoFar() {
+    static std::atomic<std::uint64_t> number{0};
+    return number;
+  }
 
   static Buffer shownTo(std::shared_ptr<Map> map) {
     auto is_read = std::make_shared<std::atomic<bool>>(true);
@@ -84,17 +156,24 @@ class DoubleBuffered {
     return {std::move(map), std::move(is_read), std::move(shown)};
   }
 
+  // In the newest spare map that nobody reads, else in one of its own.
   std::shared_ptr<Map> copyOfCurrent() {
-    const Buffer spare = std::exchange(spare_, {});
-    if (!spare.map || spare.is_read->load(std::memory_order_acquire))
-      return std::make_shared<Map>(*current_.map);
-    copyCells(*current_.map, missed_, *spare.map);
-    return spare.map;
+    for (auto spare = spares_.end(); spare != spares_.begin();) {
+      --spare;
+      if (spare->buffer.is_read->load(std::memory_order_acquire)) continue;
+      const Spare taken = std::move(*spare);
+      spares_.erase(spare);
+      const std::optional<Change> missed = log_.since(taken.revision);
+      if (!missed) break;
+      copyCells(*current_.map, *missed, *taken.buffer.map);
+      return taken.buffer.map;
+    }
+    return std::make_shared<Map>(*current_.map);
   }
 
   Buffer current_;
-  Buffer spare_;   // the previous map, without `shown`
-  Change missed_;  // in which the two maps differ
+  std::vector<Spare> spares_;  // the oldest first
+  ChangeLog<Change> log_;
 };
 
 }  // namespace grid_path_planner::grid

@@ -95,8 +95,9 @@ class Planner {
   // search. Throws Stopped.
   void prepare(std::shared_ptr<const costmap::CostGrid> map, const base::StopToken& stop);
 
-  // `map` differs from the prepared one only inside `changed`, and its revision is the next one.
-  // With any other map this is prepare(); with the prepared map itself it does nothing.
+  // `map` differs from the prepared one only inside `changed`, and its revision is higher; maps
+  // between the two may have been left out. With a map of another geometry or motion model, or of no
+  // higher revision, this is prepare(); with the prepared map itself it does nothing.
   void update(std::shared_ptr<const costmap::CostGrid> map,
               const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
 

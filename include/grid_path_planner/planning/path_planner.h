@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
@@ -25,6 +26,7 @@
 
 #include "grid_path_planner/base/options.h"
 #include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/costmap/cost_grid.h"
 #include "grid_path_planner/costmap/costmap_options.h"
 #include "grid_path_planner/path/headings.h"
 #include "grid_path_planner/path/path.h"
@@ -32,14 +34,13 @@
 #include "grid_path_planner/planners/search_options.h"
 #include "grid_path_planner/planning/plan.h"
 
-namespace grid_path_planner::costmap {
-class CostmapBuilder;
-}  // namespace grid_path_planner::costmap
-
 namespace grid_path_planner::planning {
 
+class MapSeries;
+class MapStore;
 class MultiResolutionPlanner;
 class PreparedPlanners;
+class SharedCostmap;
 struct CostmapPair;
 struct PathEnd;
 struct Route;
@@ -108,6 +109,9 @@ class PathPlanner {
   // Throws InputError for options that cannot be used.
   explicit PathPlanner(const PlannerOptions& options = {},
                        planners::PlannerMaker make_planner = planners::makePlanner);
+  // Of a map that others plan on too, each in a thread of its own: they share its costmaps.
+  explicit PathPlanner(std::shared_ptr<MapStore> store, const PlannerOptions& options = {},
+                       planners::PlannerMaker make_planner = planners::makePlanner);
   ~PathPlanner();
   PathPlanner(PathPlanner&&) noexcept;
   PathPlanner& operator=(PathPlanner&&) noexcept;
@@ -122,14 +126,24 @@ class PathPlanner {
   // in proportion to `changed`, as does the update of the costmaps by the next call.
   void updateMap(std::shared_ptr<const grid::OccupancyGrid> map,
                  const std::vector<grid::CellRect>& changed);
+  // Takes the newest map that was set here or in the shared store; the calls that follow may take
+  // later ones of the same geometry and frame by themselves, and no others. `at_least`: an earlier map
+  // of that revision (MapStore) or a higher one will do where its costmaps are there. Throws
+  // InputError for a map without cells.
+  void takeMap(std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
   bool hasMap() const { return map_ != nullptr; }
+  // That of the last call.
   const std::shared_ptr<const grid::OccupancyGrid>& map() const { return map_; }
+  // As it was given with the map; empty before the first. Precondition: the map is of a shared store.
+  const std::string& frameId() const;
 
-  // What planning may take where that is less than options().search.memory_limit: the maps (two, as
-  // grid/double_buffered.h has them), the costmaps and the planner.
+  // What planning may take where that is less than options().search.memory_limit: the maps (as many
+  // as grid/double_buffered.h keeps), the costmaps and the planner.
   void limitMemory(std::size_t bytes) { memory_limit_ = bytes; }
   // What it takes for the present map; 0 without one.
   std::size_t bytes() const;
+  // The part of it that nobody shares.
+  std::size_t bytesOfSearches() const;
 
   // The costmaps that plan() works on, made if the map or the options changed. Throw Stopped, and
   // InputError where they would take more than the limit.
@@ -138,6 +152,8 @@ class PathPlanner {
       const base::StopToken& stop);  // kernel 1, inflated
   std::shared_ptr<const costmap::CostGrid> downsampledCosts(
       const base::StopToken& stop);  // options().costmap.kernel
+  // What changed in the downsampled costmap, up to the one that was made last.
+  const costmap::CostChanges& downsampledChanges() const { return downsampled_changes_; }
 
   // What plan() would do first: the costmaps, and what the planner cannot do without. Throws Stopped,
   // and InputError where the costmaps would take more than the limit. Precondition: hasMap().
@@ -152,8 +168,13 @@ class PathPlanner {
  private:
   struct Lowered;
 
+  // Takes the costmap of the series and the options; what was searched is of another one.
+  void useCostmap();
   std::size_t memoryLimit() const;
-  std::size_t bytesBesideLowered() const;
+  // Of the maps and costmaps.
+  std::size_t buffers() const;
+  std::size_t bytesOfMaps() const;
+  std::size_t bytesOfCosts() const;
   // Of costmaps and searches; throws InputError where `taken` leaves none for the costmaps.
   std::size_t memoryLeft(std::size_t taken) const;
   // The costmaps, brought up to date.
@@ -169,12 +190,18 @@ class PathPlanner {
   Route findRoute(MultiResolutionPlanner& search, const PathEnd& start, const PathEnd& goal,
                   bool record_expanded, const base::StopToken& stop) const;
   Lowered* loweredFor(const costmap::CostGrid& costs, const PoseRequest& request);
+  CostmapPair loweredCosts(Lowered& lowered, const base::StopToken& stop);
 
   planners::PlannerMaker make_planner_;
   std::size_t memory_limit_ = std::numeric_limits<std::size_t>::max();
   PlannerOptions options_;
+  bool shared_;  // whether others use the store
+  std::shared_ptr<MapStore> store_;
+  std::shared_ptr<MapSeries> series_;  // null before takeMap()
   std::shared_ptr<const grid::OccupancyGrid> map_;
-  std::unique_ptr<costmap::CostmapBuilder> costmap_;
+  std::shared_ptr<SharedCostmap> costmap_;  // of series_ and the options; null before takeMap()
+  std::uint64_t at_least_ = std::numeric_limits<std::uint64_t>::max();  // as takeMap() was told
+  costmap::CostChanges downsampled_changes_;
   std::unique_ptr<PreparedPlanners> searches_;  // of these costmaps
   std::unique_ptr<Lowered> lowered_;            // for the last request, if it needed one
 };

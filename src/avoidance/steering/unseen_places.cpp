@@ -60,32 +60,33 @@ bool UnseenPlaces::look(double time, const Vector3d& vehicle, const Steering& st
   return true;
 }
 
+// Looking at what is unseen, long enough to have seen it; then the time begins anew.
+bool UnseenPlaces::waitedInVain(double time, const Steering& steering) {
+  const bool waits = steering.unseen && steering.clear_path < kShortPath &&
+                     std::abs(steering.look_error) < kLooksAt;
+  if (!waits) waits_since_.reset();
+  if (waits && !waits_since_) waits_since_ = time;
+  if (!waits || time - *waits_since_ < kLooked) return false;
+  waits_since_ = time;
+  return true;
+}
+
 bool UnseenPlaces::update(double time, const Vector3d& vehicle, const Steering& steering,
                           const OpenSpace& space, const KeptRoom& room, double d_safe) {
   if (!closed_.empty() && time - closed_at_ > kGivenUp) forget();
   remember(vehicle);
   if (looks()) return look(time, vehicle, steering, space);
-  const bool waits = steering.unseen && steering.clear_path < kShortPath &&
-                     std::abs(steering.look_error) < kLooksAt;
-  if (!waits) {
-    waits_since_.reset();
-    return false;
-  }
-  if (!waits_since_) waits_since_ = time;
-  if (time - *waits_since_ < kLooked) return false;
-  waits_since_ = time;
+  if (!waitedInVain(time, steering)) return false;
   const Vector3d place = *steering.closed;
   if (!wasTried(place)) {
     add(place, tried_);
     path_ = pathToVantage(space, room, vehicle, place, d_safe, track_);
-    if (looks()) {
-      look_at_ = place;
-      began_ = time;
-      return true;
-    }
   }
-  add(place, closed_);
-  closed_at_ = time;
+  if (looks())
+    look_at_ = place;
+  else
+    add(place, closed_);
+  (looks() ? began_ : closed_at_) = time;
   return true;
 }
 

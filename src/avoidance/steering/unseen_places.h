@@ -23,13 +23,14 @@ class UnseenPlaces {
 
   // Where the vehicle flies to look, if it does, and at what.
   bool looks() const { return !path_.empty(); }
-  const std::vector<Eigen::Vector3d>& pathToVantage() const { return path_; }
+  const std::vector<Eigen::Vector3d>& path() const { return path_; }
   const std::optional<Eigen::Vector3d>& lookAt() const { return look_at_; }
   const std::vector<Eigen::Vector3d>& closed() const { return closed_; }
 
  private:
   bool look(double time, const Eigen::Vector3d& vehicle, const Steering& steering,
             const OpenSpace& space);
+  bool waitedInVain(double time, const Steering& steering);
   void remember(const Eigen::Vector3d& vehicle);
   bool wasTried(const Eigen::Vector3d& place) const;
 

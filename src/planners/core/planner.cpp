@@ -141,7 +141,7 @@ void Planner::update(std::shared_ptr<const CostGrid> map, const std::vector<Cell
                      const StopToken& stop) {
   if (prepared_ && map == map_) return;
   const bool follows = prepared_ && refusal_.empty() && map->geometry() == map_->geometry() &&
-                       map->motion() == map_->motion() && map->revision() == map_->revision() + 1;
+                       map->motion() == map_->motion() && map->revision() > map_->revision();
   if (!follows || !reasonAgainst(*map).empty()) return prepare(std::move(map), stop);
   map_before_ = std::exchange(map_, std::move(map));
   prepared_ = false;

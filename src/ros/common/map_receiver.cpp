@@ -17,7 +17,6 @@ using base::InputError;
 using grid::CellRect;
 using grid::checkOccupancyValues;
 using grid::differences;
-using grid::disjointRects;
 using grid::OccupancyGrid;
 
 namespace {
@@ -40,14 +39,6 @@ CellRect rectOf(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& u
 
 bool isHeartbeat(const map_msgs::OccupancyGridUpdate& update) {
   return update.width == 0 && update.height == 0 && update.data.empty();
-}
-
-// Of two changes one after the other; nullopt: all cells.
-std::optional<std::vector<CellRect>> joined(std::optional<std::vector<CellRect>> first,
-                                            const std::vector<CellRect>& next) {
-  if (!first) return std::nullopt;
-  first->insert(first->end(), next.begin(), next.end());
-  return disjointRects(*first);
 }
 
 // Copies the cells of `rects` and checks them.
@@ -84,7 +75,7 @@ void applyUpdate(const map_msgs::OccupancyGridUpdate& update, const CellRect& re
                 map.row(rect.row + row) + rect.column);
 }
 
-void MapReceiver::start(ros::NodeHandle nh, std::function<void()> on_change,
+void MapReceiver::start(ros::NodeHandle nh, OnChange on_change,
                         std::function<void()> on_heartbeat) {
   on_change_ = std::move(on_change);
   on_heartbeat_ = std::move(on_heartbeat);
@@ -105,11 +96,6 @@ std::string MapReceiver::topic() const {
 ReceivedMap MapReceiver::latest() const {
   std::lock_guard<std::mutex> lock(mutex_);
   return map_;
-}
-
-std::optional<MapChange> MapReceiver::take(std::size_t reader) {
-  std::lock_guard<std::mutex> lock(mutex_);
-  return std::exchange(untaken_.at(reader), std::nullopt);
 }
 
 std::string MapReceiver::refusal() const {
@@ -141,14 +127,15 @@ void MapReceiver::onMap(const MapEvent& event) {
   // A latched map of before, where a new one was asked for and follows.
   const bool older = isOlder(event);
   if (older && Clock::now() - asked_at_ < kAnswer) return;
+  MapChange change;
   try {
-    use(event);
+    change = use(event);
   } catch (const InputError& error) {
     refuse(map_subscriber_.getTopic(), error.what());
     return;
   }
   if (older) noteLoss("A map came that is older than its updates");
-  on_change_();
+  on_change_(change);
 }
 
 // Whether its publisher sent an update stamped later, unless ROS time jumped back.
@@ -159,13 +146,15 @@ bool MapReceiver::isOlder(const MapEvent& event) const {
          stamp < before.stamp && before.stamp <= ros::Time::now();
 }
 
-void MapReceiver::use(const MapEvent& event) {
+MapChange MapReceiver::use(const MapEvent& event) {
   const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
   const std::string frame_id = frameName(message.header.frame_id);
-  const auto changed = takeGrid(message, frame_id);
-  store({nullptr, frame_id, message.header.stamp, event.getPublisherName()}, changed);
+  auto changed = takeGrid(message, frame_id);
+  MapChange change = store({nullptr, frame_id, message.header.stamp, event.getPublisherName()},
+                           std::move(changed));
   std::lock_guard<std::mutex> lock(mutex_);
   lost_.clear();
+  return change;
 }
 
 std::optional<std::vector<CellRect>> MapReceiver::takeGrid(const nav_msgs::OccupancyGrid& message,
@@ -229,36 +218,33 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
                                       << before.stamp);
     return;
   }
+  MapChange change;
   try {
-    apply(message);
+    change = apply(message);
   } catch (const InputError& error) {
     refuse(updates_->topic(), error.what());
     return;
   }
-  on_change_();
+  on_change_(change);
 }
 
-void MapReceiver::apply(const map_msgs::OccupancyGridUpdate& message) {
+MapChange MapReceiver::apply(const map_msgs::OccupancyGridUpdate& message) {
   const ReceivedMap before = latest();
   const std::string frame_id = frameName(message.header.frame_id);
   if (!frame_id.empty() && frame_id != before.frame_id)
     throw InputError("an update in frame " + frame_id + " for a map in frame " + before.frame_id);
   const CellRect changed = checkedRect(*before.grid, message);
   grids_.advance({changed}, [&](OccupancyGrid& next) { applyUpdate(message, changed, next); });
-  store({nullptr, before.frame_id, message.header.stamp, before.publisher},
-        std::vector<CellRect>{changed});
+  return store({nullptr, before.frame_id, message.header.stamp, before.publisher},
+               std::vector<CellRect>{changed});
 }
 
-void MapReceiver::store(ReceivedMap map, const std::optional<std::vector<CellRect>>& changed) {
+MapChange MapReceiver::store(ReceivedMap map, std::optional<std::vector<CellRect>> changed) {
   map.grid = grids_.current();
   std::lock_guard<std::mutex> lock(mutex_);
   map_ = std::move(map);
   refusal_.clear();
-  for (std::optional<MapChange>& untaken : untaken_) {
-    std::optional<std::vector<CellRect>> since = changed;
-    if (untaken && since) since = joined(untaken->changed, *since);
-    untaken = MapChange{map_, std::move(since)};
-  }
+  return {map_, std::move(changed)};
 }
 
 void MapReceiver::refuse(const std::string& topic, const std::string& reason) {

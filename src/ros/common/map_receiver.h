@@ -47,7 +47,6 @@ struct ReceivedMap {
   std::string publisher;  // the node that sent it whole
 };
 
-// What changed since the last call of take().
 struct MapChange {
   ReceivedMap map;
   // The cells that may differ from those of the map before, disjoint; nullopt: all may.
@@ -71,22 +70,18 @@ void applyUpdate(const map_msgs::OccupancyGridUpdate& update, const grid::CellRe
 
 class MapReceiver {
  public:
-  // `readers`: how many threads take().
-  explicit MapReceiver(std::size_t readers = 1) : untaken_(readers) {}
+  using OnChange = std::function<void(const MapChange&)>;
 
   // Subscribes. `on_change` is called after every change, `on_heartbeat` after every heartbeat, in
   // the subscriber's thread.
   void start(
-      ros::NodeHandle nh, std::function<void()> on_change,
-      std::function<void()> on_heartbeat = [] {});
+      ros::NodeHandle nh, OnChange on_change, std::function<void()> on_heartbeat = [] {});
 
   // The resolved name of the topic of maps; empty before start().
   std::string topic() const;
 
   // The newest map; its grid is null before the first.
   ReceivedMap latest() const;
-  // The newest map if it changed since this reader's last call. A reader's number is for one caller.
-  std::optional<MapChange> take(std::size_t reader = 0);
   // The newest one; none before the first.
   std::optional<MapHeartbeat> heartbeat() const;
   // Why the last message was refused; empty after one that was accepted.
@@ -104,7 +99,7 @@ class MapReceiver {
 
   void onMap(const MapEvent& event);
   void onUpdate(const UpdateEvent& event);
-  void use(const MapEvent& event);
+  MapChange use(const MapEvent& event);
   // Makes the grid of `message` the present one. What changed; nullopt where it lies elsewhere.
   std::optional<std::vector<grid::CellRect>> takeGrid(const nav_msgs::OccupancyGrid& message,
                                                       const std::string& frame_id);
@@ -112,17 +107,17 @@ class MapReceiver {
   void noteLoss(const std::string& what);
   void subscribeToMaps();
   void askForAWholeMap();
-  void apply(const map_msgs::OccupancyGridUpdate& message);
+  MapChange apply(const map_msgs::OccupancyGridUpdate& message);
   // The map whose grid is the present one of grids_.
-  void store(ReceivedMap map, const std::optional<std::vector<grid::CellRect>>& changed);
+  MapChange store(ReceivedMap map, std::optional<std::vector<grid::CellRect>> changed);
   void refuse(const std::string& topic, const std::string& reason);
 
-  std::function<void()> on_change_, on_heartbeat_;
+  OnChange on_change_;
+  std::function<void()> on_heartbeat_;
   mutable std::mutex mutex_;
   std::string topic_;
   grid::DoubleBuffered<grid::OccupancyGrid> grids_;  // the subscribers'
   ReceivedMap map_;
-  std::vector<std::optional<MapChange>> untaken_;  // of each reader
   std::string refusal_;
   std::optional<MapHeartbeat> heartbeat_;
   std::string lost_;

@@ -20,7 +20,7 @@ constexpr double kPublisherPatience = 1.0;  // that the publisher is asked
 
 MapWatch::MapWatch(const ros::NodeHandle& nh, Listener listener) : listener_(std::move(listener)) {
   receiver_.start(
-      nh, [this] { onMap(); }, [this] { onHeartbeat(); });
+      nh, [this](const MapChange&) { onMap(); }, [this] { onHeartbeat(); });
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     life_.topic = receiver_.topic();

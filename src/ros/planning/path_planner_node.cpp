@@ -79,7 +79,7 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   diagnostics_ = std::make_unique<PlanDiagnostics>(nh, private_nh, *server_);
   reconfigurable_ = std::make_unique<Reconfigurable<PathPlannerConfig, PathPlannerNodeOptions>>(
       private_nh, options, [this](const PathPlannerNodeOptions& wanted) { onOptions(wanted); });
-  server_->maps().start(nh, [this] { onMapChange(); });
+  server_->startMaps(nh, [this] { onMapChange(); });
   goal_subscriber_ = nh.subscribe("goal", 1, &PathPlannerNode::onGoal, this);
   initial_pose_subscriber_ = nh.subscribe("initialpose", 1, &PathPlannerNode::onInitialPose, this);
   clock_timer_ = nh.createWallTimer(ros::WallDuration(0.05),
@@ -202,7 +202,8 @@ void PathPlannerNode::publishSearchedMap(const StopSource& stop) {
     const auto costs = lane.downsampledCosts(options, stop.token());
     if (!costs) return;
     waitForClock(stop.token());
-    planning_map_->publish(costs, lane.frame(options), options.full_map_period);
+    planning_map_->publish(*costs, lane.downsampledChanges(), lane.frame(options),
+                           options.full_map_period);
     publishRectangles(options, costs);
   } catch (const Stopped&) {
     // The node ends.

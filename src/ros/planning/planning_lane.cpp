@@ -7,6 +7,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "planning/map_store.h"
 #include "ros/common/clock.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/planning/plan_publisher.h"
@@ -25,6 +26,7 @@ using path::clearanceOf;
 using path::Pose;
 using planners::memoryLimitOf;
 using planning::failedPlan;
+using planning::MapStore;
 using planning::PathPlanner;
 using planning::Plan;
 using planning::PlannerOptions;
@@ -49,10 +51,10 @@ std::optional<double> oldestStart(const PathPlannerNodeOptions& options) {
 
 }  // namespace
 
-PlanningLane::PlanningLane(MapReceiver& maps, std::size_t reader, const FrameTransforms& transforms,
-                           const PlanningLane* other)
+PlanningLane::PlanningLane(const MapReceiver& maps, std::shared_ptr<MapStore> store,
+                           const FrameTransforms& transforms, const PlanningLane* other)
     : maps_(maps),
-      reader_(reader),
+      store_(std::move(store)),
       transforms_(transforms),
       other_(other),
       worker_([this](const std::string& error) {
@@ -68,12 +70,12 @@ std::shared_ptr<TaskQueue::Task> PlanningLane::post(TaskQueue::Work work, const 
 }
 
 void PlanningLane::prepare(const PathPlannerNodeOptions& options, const StopToken& stop) {
-  updateMap();
+  takeMap();
   setOptions(options.planner);
   if (!planner_->hasMap()) return;
   try {
     planner_->prepare(stop);
-    bytes_ = planner_->bytes();
+    bytes_ = planner_->bytesOfSearches();
   } catch (const InputError&) {
     // There is too little memory: whoever asks for a path is told.
   }
@@ -96,20 +98,22 @@ void PlanningLane::finishLater(const PathPlannerNodeOptions& options) {
 }
 
 Plan PlanningLane::plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                        const StopSource& stop, const PhaseListener& on_phase) {
-  Plan plan = tryToPlan(request, options, stop, on_phase);
+                        const StopSource& stop, const PhaseListener& on_phase,
+                        std::uint64_t at_least) {
+  Plan plan = tryToPlan(request, options, stop, on_phase, at_least);
   plan.path.frame_id = frame(options);
   if (!plan.found()) plan.path.poses.clear();
   return plan;
 }
 
 Plan PlanningLane::tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                             const StopSource& stop, const PhaseListener& on_phase) {
+                             const StopSource& stop, const PhaseListener& on_phase,
+                             std::uint64_t at_least) {
   try {
     checkText(request);
     waitForClock(stop.token());
     if (on_phase) on_phase("preparing");
-    updateMap();
+    takeMap(at_least);
     setOptions(optionsFor(request, options));
     if (!planner_->hasMap())
       return failedPlan(Status::NO_MAP, "no map has come on " + maps_.topic() + " yet");
@@ -117,7 +121,7 @@ Plan PlanningLane::tryToPlan(const PlanningRequest& request, const PathPlannerNo
     poses.record_expanded = options.record_search;
     if (on_phase) on_phase("searching");
     Plan plan = planner_->plan(poses, stop);
-    bytes_ = planner_->bytes();
+    bytes_ = planner_->bytesOfSearches();
     return plan;
   } catch (const InputError& error) {
     return failedPlan(Status::INVALID_REQUEST, error.what());
@@ -171,22 +175,10 @@ double PlanningLane::cellSize(const Plan& plan) const {
   return has_map ? planner_->map()->geometry().resolution() * plan.kernel : 1.0;
 }
 
-void PlanningLane::updateMap() {
-  if (!planner_) planner_ = std::make_unique<PathPlanner>();
-  const std::optional<MapChange> change = maps_.take(reader_);
-  if (!anew_ && !change) return;
-  const bool whole = std::exchange(anew_, true);  // until the map is taken
-  useMap(whole ? MapChange{maps_.latest(), std::nullopt} : *change);
-  anew_ = false;
-}
-
-void PlanningLane::useMap(const MapChange& change) {
-  if (!change.map.grid) return;
-  map_frame_id_ = change.map.frame_id;
-  if (!change.changed || !planner_->hasMap())
-    planner_->setMap(change.map.grid);
-  else if (!change.changed->empty())
-    planner_->updateMap(change.map.grid, *change.changed);
+void PlanningLane::takeMap(std::uint64_t at_least) {
+  if (!planner_) planner_ = std::make_unique<PathPlanner>(store_);
+  planner_->takeMap(at_least);
+  bytes_ = planner_->bytesOfSearches();
 }
 
 void PlanningLane::setOptions(const PlannerOptions& options) {
@@ -198,29 +190,29 @@ void PlanningLane::setOptions(const PlannerOptions& options) {
 // An exception may have left the costmaps or the planner half made. Nothing is made here: after a
 // std::bad_alloc there may be no memory for it yet.
 void PlanningLane::beginAnew() {
-  anew_ = true;
   planner_.reset();
   bytes_ = 0;
 }
 
 std::shared_ptr<const CostGrid> PlanningLane::downsampledCosts(
     const PathPlannerNodeOptions& options, const StopToken& stop) {
-  updateMap();
+  takeMap();
   setOptions(options.planner);
   auto costs = planner_->hasMap() ? planner_->downsampledCosts(stop) : nullptr;
-  bytes_ = planner_->bytes();
+  bytes_ = planner_->bytesOfSearches();
   return costs;
 }
 
 std::shared_ptr<const CostGrid> PlanningLane::fullResolutionCosts(
     const PathPlannerNodeOptions& options, const StopToken& stop) {
-  updateMap();
+  takeMap();
   setOptions(options.planner);
   return planner_->hasMap() ? planner_->fullResolutionCosts(stop) : nullptr;
 }
 
 std::string PlanningLane::frame(const PathPlannerNodeOptions& options) const {
-  return map_frame_id_.empty() ? frameName(options.map_frame) : map_frame_id_;
+  const std::string& of_map = planner_ ? planner_->frameId() : std::string();
+  return of_map.empty() ? frameName(options.map_frame) : of_map;
 }
 
 }  // namespace grid_path_planner::nodes

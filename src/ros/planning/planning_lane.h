@@ -1,17 +1,20 @@
-// Answers requests on the newest map in a thread of its own, with a planner and costmaps of its own.
+// Answers requests on the newest map in a thread of its own, with a planner of its own.
 //
-//   PlanningLane lane(maps, reader, transforms, nullptr);
+//   PlanningLane lane(maps, store, transforms, nullptr);
 //   lane.post([&](const StopSource& stop) { use(lane.plan(request, options, stop)); });
 //
 // path_planner has two: in one it follows the map and plans for the vehicle, in the other it answers
-// questions of services and actions, so that no question delays the vehicle. Whatever goes wrong
-// with a request is a status with a sentence, memory that is not there included: the lane then
+// questions of services and actions, so that no question delays the vehicle: both share the map and
+// its costmaps (planning/map_store.h), and neither waits for what the other plans. Whatever goes
+// wrong with a request is a status with a sentence, memory that is not there included: the lane then
 // begins anew with the newest map.
 #pragma once
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -29,10 +32,10 @@ class PlanningLane {
  public:
   using PhaseListener = std::function<void(const char* phase)>;
 
-  // `reader` is the lane's number among those of `maps`. Both outlive this, or its worker's stop().
-  // What `other` holds (null: none) is not there for this one: they share memory_limit.
-  PlanningLane(MapReceiver& maps, std::size_t reader, const FrameTransforms& transforms,
-               const PlanningLane* other);
+  // `store` gets what `maps` receives, which outlives this, or its worker's stop(). What `other`
+  // searches with (null: none) is not there for this one: they share memory_limit.
+  PlanningLane(const MapReceiver& maps, std::shared_ptr<planning::MapStore> store,
+               const FrameTransforms& transforms, const PlanningLane* other);
 
   // A task for the lane's thread, as TaskQueue::post(). It interrupts finishLater().
   std::shared_ptr<base::TaskQueue::Task> post(
@@ -48,46 +51,49 @@ class PlanningLane {
   // what is done when a task comes stays. Nothing for maps of more than kMostFinished cells.
   void finishLater(const PathPlannerNodeOptions& options);
 
+  // `at_least`: as PathPlanner::takeMap() has it.
   planning::Plan plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                      const base::StopSource& stop, const PhaseListener& on_phase = {});
+                      const base::StopSource& stop, const PhaseListener& on_phase = {},
+                      std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
   // Of a plan just made for this request; no stamp yet.
   PlanStatistics statistics(const planning::Plan& plan, const PlanningRequest& request,
                             const PathPlannerNodeOptions& options) const;
   // Of the map that this plan was searched on, in metres.
   double cellSize(const planning::Plan& plan) const;
 
+  // Takes the newest map, and lets go of one of another geometry or frame.
+  void takeMap(std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
+
   // The costmaps of the newest map; null before the first. Throw Stopped.
   std::shared_ptr<const costmap::CostGrid> downsampledCosts(const PathPlannerNodeOptions& options,
                                                             const base::StopToken& stop);
+  // What changed up to the one that downsampledCosts() gave last. Precondition: there is one.
+  const costmap::CostChanges& downsampledChanges() const { return planner_->downsampledChanges(); }
   std::shared_ptr<const costmap::CostGrid> fullResolutionCosts(
       const PathPlannerNodeOptions& options, const base::StopToken& stop);
 
-  // Of the newest map; map_frame where there is none or it names none.
+  // Of the map that was used last; map_frame where there is none or it names none.
   std::string frame(const PathPlannerNodeOptions& options) const;
 
  private:
   static constexpr std::size_t kMostFinished = std::size_t{1} << 22;
 
   planning::Plan tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                           const base::StopSource& stop, const PhaseListener& on_phase);
+                           const base::StopSource& stop, const PhaseListener& on_phase,
+                           std::uint64_t at_least);
   planning::PoseRequest posesOf(const PlanningRequest& request,
                                 const PathPlannerNodeOptions& options,
                                 const base::StopToken& stop) const;
-  void updateMap();
-  void useMap(const MapChange& change);
   void beginAnew();
   // Of the options, and the memory that the other lane leaves.
   void setOptions(const planning::PlannerOptions& options);
 
-  MapReceiver& maps_;
-  const std::size_t reader_;
+  const MapReceiver& maps_;
+  const std::shared_ptr<planning::MapStore> store_;
   const FrameTransforms& transforms_;
   const PlanningLane* const other_;
-  std::atomic<std::size_t> bytes_{0};  // that the planner holds
-  // The worker's, as are the next two; null before updateMap().
-  std::unique_ptr<planning::PathPlanner> planner_;
-  std::string map_frame_id_;
-  bool anew_ = false;  // the newest map is taken whole
+  std::atomic<std::size_t> bytes_{0};               // that the planner does not share
+  std::unique_ptr<planning::PathPlanner> planner_;  // the worker's; null before takeMap()
   std::mutex finishing_mutex_;
   std::shared_ptr<base::TaskQueue::Task> finishing_;  // posted by finishLater()
   base::TaskQueue worker_;

@@ -7,6 +7,7 @@
 #include "base/current_error.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/waypoint_file.h"
+#include "planning/map_store.h"
 #include "ros/common/file_kinds.h"
 
 namespace grid_path_planner::nodes {
@@ -20,6 +21,7 @@ using base::StopToken;
 using path::Path;
 using path::writeWaypointFile;
 using planning::failedPlan;
+using planning::MapStore;
 using planning::Plan;
 
 PlanningServer::PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions& options,
@@ -28,7 +30,8 @@ PlanningServer::PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions&
       on_time_jump_(std::move(on_time_jump)),
       settings_{options, 0},
       transforms_(nh),
-      publisher_(nh) {}
+      publisher_(nh),
+      store_(std::make_shared<MapStore>()) {}
 
 PlanningServer::Settings PlanningServer::settings() const {
   std::lock_guard<std::mutex> lock(mutex_);
@@ -43,6 +46,7 @@ void PlanningServer::setOptions(const PathPlannerNodeOptions& options) {
 std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& request, Publish publish) {
   auto ticket = std::make_shared<PlanTicket>();
   asked_ = true;
+  ticket->map_ = store_->revision();
   ticket->task_ = question_lane_.post([this, ticket, request, publish](const StopSource& stop) {
     answer(*ticket, request, publish, stop);
     question_lane_.finishLater(settings().options);
@@ -50,10 +54,26 @@ std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& request, 
   return ticket;
 }
 
+void PlanningServer::startMaps(ros::NodeHandle nh, std::function<void()> on_map) {
+  maps_.start(std::move(nh), [this, on_map = std::move(on_map)](const MapChange& change) {
+    storeMap(change);
+    on_map();
+  });
+}
+
+void PlanningServer::storeMap(const MapChange& change) {
+  const bool whole = std::exchange(store_is_behind_, true) || !change.changed;
+  if (whole)
+    store_->setMap(change.map.grid, change.map.frame_id);
+  else if (!change.changed->empty())
+    store_->updateMap(change.map.grid, *change.changed);
+  store_is_behind_ = false;
+}
+
 void PlanningServer::prepareForQuestions() {
-  if (!asked_.exchange(false)) return;
   question_lane_.post(
       [this](const StopSource& stop) {
+        if (!asked_.exchange(false)) return question_lane_.takeMap();
         const PathPlannerNodeOptions options = settings().options;
         try {
           question_lane_.prepare(options, stop.token());
@@ -70,8 +90,8 @@ void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, 
   PathPlannerNodeOptions options = recordingOptions(settings().options);
   if (publish == Publish::NO) options.record_search = false;
   checkClock();
-  Plan plan = question_lane_.plan(request, options, stop,
-                                  [&](const char* phase) { ticket.phase_ = phase; });
+  Plan plan = question_lane_.plan(
+      request, options, stop, [&](const char* phase) { ticket.phase_ = phase; }, ticket.map_);
   try {
     ticket.statistics_ = question_lane_.statistics(plan, request, options);
     ticket.plan_ = std::move(plan);

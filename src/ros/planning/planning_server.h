@@ -12,6 +12,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -49,6 +50,7 @@ class PlanTicket {
   std::atomic<const char*> phase_{"waiting"};
   planning::Plan plan_ = planning::failedPlan(base::Status::CANCELLED, "planning was cancelled");
   PlanStatistics statistics_ = statisticsMessage(plan_);
+  std::uint64_t map_ = 0;  // the revision of the newest when it was handed in
   std::shared_ptr<base::TaskQueue::Task> task_;
 };
 
@@ -75,6 +77,8 @@ class PlanningServer {
 
   std::shared_ptr<PlanTicket> ask(const PlanningRequest& request, Publish publish);
 
+  // Takes the maps that come and calls `on_map` after each, in the subscriber's thread.
+  void startMaps(ros::NodeHandle nh, std::function<void()> on_map);
   // A map has come: what questions on it would wait for is begun, before the first question and where
   // there was one since the last call.
   void prepareForQuestions();
@@ -91,7 +95,7 @@ class PlanningServer {
   std::optional<path::Path> lastPath() const;
 
   PlanningLane& vehicleLane() { return vehicle_lane_; }
-  MapReceiver& maps() { return maps_; }
+  const MapReceiver& maps() const { return maps_; }
   const NodeFiles& files() const { return files_; }
   PlanPublisher& publisher() { return publisher_; }
   // The options for a plan that is published: a search is recorded only where someone wants to see it.
@@ -108,6 +112,7 @@ class PlanningServer {
  private:
   void answer(PlanTicket& ticket, const PlanningRequest& request, Publish publish,
               const base::StopSource& stop);
+  void storeMap(const MapChange& change);
   void writeWaypoints(const path::Path& path);
 
   NodeFiles files_;
@@ -121,9 +126,11 @@ class PlanningServer {
 
   FrameTransforms transforms_;
   PlanPublisher publisher_;
-  MapReceiver maps_{2};
-  PlanningLane vehicle_lane_{maps_, 0, transforms_, nullptr};
-  PlanningLane question_lane_{maps_, 1, transforms_, &vehicle_lane_};
+  MapReceiver maps_;
+  const std::shared_ptr<planning::MapStore> store_;
+  bool store_is_behind_ = true;  // it lacks a change; the subscriber's thread's
+  PlanningLane vehicle_lane_{maps_, store_, transforms_, nullptr};
+  PlanningLane question_lane_{maps_, store_, transforms_, &vehicle_lane_};
 };
 
 }  // namespace grid_path_planner::nodes

@@ -5,8 +5,9 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <ros/node_handle.h>
 
+#include <cstdint>
 #include <functional>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,35 +21,38 @@ namespace grid_path_planner::nodes {
 nav_msgs::OccupancyGrid planningMapMessage(const costmap::CostGrid& costs,
                                            const std::string& frame_id, const ros::Time& stamp);
 
-// The part of it in `cells`, which lie in the map.
-map_msgs::OccupancyGridUpdate planningMapUpdate(const costmap::CostGrid& costs,
-                                                const grid::CellRect& cells,
-                                                const std::string& frame_id,
-                                                const ros::Time& stamp);
-
-// Rectangles that hold all cells in which two costmaps of the same geometry differ; changes that are
-// some rows apart have one each.
-std::vector<grid::CellRect> differingCells(const costmap::CostGrid& a, const costmap::CostGrid& b);
+// The parts of it in `cells`, which lie in the map, an update each.
+std::vector<map_msgs::OccupancyGridUpdate> planningMapUpdates(
+    const costmap::CostGrid& costs, const std::vector<grid::CellRect>& cells,
+    const std::string& frame_id, const ros::Time& stamp);
 
 class PlanningMapPublisher {
  public:
   // `on_subscriber` is called in the thread of `nh` for a new subscriber, who waits for publish().
   PlanningMapPublisher(ros::NodeHandle nh, std::function<void()> on_subscriber);
 
-  // What differs from the costmap of the last call, as the subscribers need it. From one thread.
-  void publish(const std::shared_ptr<const costmap::CostGrid>& costs, const std::string& frame_id,
-               double full_map_period);
+  // What differs from the costmap of the last call, as the subscribers need it. `changes`: up to
+  // `costs`. From one thread.
+  void publish(const costmap::CostGrid& costs, const costmap::CostChanges& changes,
+               const std::string& frame_id, double full_map_period);
   // Whether publish() has a whole map to send though nothing changed.
   bool wholeMapIsDue(double full_map_period) const { return topic_.wholeMapIsDue(full_map_period); }
 
  private:
-  bool wholeMapIsWanted(const costmap::CostGrid& costs, const std::string& frame_id,
-                        double full_map_period);
-  void sendChanges(const costmap::CostGrid& costs);
+  // Of the costmap that the subscribers have.
+  struct Published {
+    std::uint64_t revision;
+    costmap::CostGrid::Weight max_weight;  // by which the others are scaled
+    std::string frame_id;
+  };
+
+  // What changed since then; nullopt where a whole map must be sent.
+  std::optional<std::vector<grid::CellRect>> changed(const costmap::CostGrid& costs,
+                                                     const costmap::CostChanges& changes,
+                                                     const std::string& frame_id) const;
 
   MapTopic topic_;
-  std::shared_ptr<const costmap::CostGrid> published_;  // null: nothing that a subscriber has
-  std::string frame_id_;
+  std::optional<Published> published_;
 };
 
 }  // namespace grid_path_planner::nodes

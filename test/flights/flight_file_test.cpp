@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include "flights/flight_study.h"
+#include "flights/small_flights.h"
+#include "support/error_text.h"
+
+namespace grid_path_planner::flights {
+namespace {
+
+using avoidance::Rules;
+using test::contains, test::errorText, test::SmallFlights;
+
+TEST(FlightFile, TheStudyOfTheRescueCourseIsTheNineUnderBothRulesAndOurs) {
+  const FlightStudy study = readFlightFile("config/flights_rescue.yaml");
+  ASSERT_EQ(study.variants.size(), 19u);
+  EXPECT_EQ(study.variants.front().label(), "NHNM published");
+  EXPECT_EQ(study.variants.back().label(), "best safe");
+  EXPECT_EQ(study.variants[17].label(), "LHLM safe");
+  EXPECT_EQ(study.variants[17].pilot.look_ahead, 8.0);
+  EXPECT_EQ(study.variants[17].pilot.memory, 15.0);
+  EXPECT_FALSE(study.variants[17].pilot.recover);
+  for (const FlightVariant& variant : study.variants) EXPECT_EQ(variant.flights, 20);
+  EXPECT_EQ(study.published.size(), 9u);
+  EXPECT_EQ(study.published.at("LHLM").time_s, 75.3);
+  EXPECT_EQ(study.pairs.size(), 5u);
+  EXPECT_EQ(study.conclusions.size(), 5u);
+  EXPECT_EQ(study.route.size(), 5u);
+  EXPECT_NEAR(study.camera.horizontal_fov, 74.5 * M_PI / 180.0, 1e-4);
+}
+
+TEST(FlightFile, TheOtherStudiesAreReadAndNoReportedSeedIsOneOfTuning) {
+  const auto worldsOf = [](const std::string& file) { return readFlightFile(file).worlds; };
+  ASSERT_EQ(worldsOf("config/flights_tuning.yaml").size(), 20u);
+  EXPECT_EQ(worldsOf("config/flights_tuning.yaml").front().name, "course_100");
+  ASSERT_EQ(worldsOf("config/flights_courses.yaml").size(), 50u);
+  EXPECT_EQ(worldsOf("config/flights_courses.yaml").front().name, "course_200");
+  EXPECT_EQ(readFlightFile("config/flights_many.yaml").variants.front().flights, 300);
+}
+
+TEST(FlightFile, MistakesAreToldWithFileAndLine) {
+  const SmallFlights small;
+  const auto refusal = [&](const std::string& configurations, const std::string& more = "") {
+    const std::string file = small.write(configurations, more);
+    return errorText([&] { readFlightFile(file); });
+  };
+  const std::string good = "  - {name: a}\n";
+  EXPECT_EQ(refusal(good), "");
+  EXPECT_TRUE(contains(refusal("  - {name: a, pilot: {memmory: 3}}\n"),
+                       "study.yaml:12: the pilot has no option 'memmory'"));
+  EXPECT_TRUE(contains(refusal("  - {name: a, pilot: {d_safe: -3}}\n"), "d_safe"));
+  EXPECT_TRUE(contains(refusal(good + good), "configurations has 'a safe' twice"));
+  EXPECT_TRUE(contains(refusal(good, "command_rate: 0"), "command_rate is out of limits"));
+  EXPECT_TRUE(contains(refusal(good, "rules: [careful]"), "published, safe"));
+  EXPECT_TRUE(contains(refusal(good, "speed: 3"), "has no 'speed'"));
+  EXPECT_TRUE(contains(refusal(good,
+                               "bodies: [{name: b, shape: sphere, half_size: [0, 1, 1], track: "
+                               "[[0, 1, 1, 1]]}]"),
+                       "b: sizes of a moving body"));
+}
+
+}  // namespace
+}  // namespace grid_path_planner::flights
