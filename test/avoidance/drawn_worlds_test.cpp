@@ -1,5 +1,5 @@
 // Flights in worlds that are drawn: nothing is ever touched. Few seeds each; as many as GPP_FLIGHT_SEEDS says
-// where it is set (20 before a release, which take some ten minutes).
+// where it is set (20 before a release).
 #include <gtest/gtest.h>
 
 #include <algorithm>

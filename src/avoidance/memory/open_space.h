@@ -1,7 +1,7 @@
 // Where the vehicle may be: what of the memory is seen, and how far its points are.
 //
 //   space.refresh(memory, d_safe, band);             // after every change of the memory
-//   if (space.seen(point) && space.clear(point, d_safe)) ...
+//   if (space.seen(from) && space.clear(from, to, d_safe)) use(from);
 //
 // `seen` judges voxels: all whose centres lie within d_safe of the centre of the point's voxel were seen.
 // `clear` and `nearest` judge the remembered points themselves.

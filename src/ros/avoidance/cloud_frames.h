@@ -1,7 +1,7 @@
 // Clouds that wait for the pose of their sensor, as frames for the pilot.
 //
 //   frames.add(cloud);                        // in the callback
-//   while (auto frame = frames.next(...)) pilot.see(*frame);
+//   if (const auto frame = frames.next(transforms, map_frame, now)) use(*frame);
 //
 // Only the newest cloud waits: an older one tells nothing that it does not. One that waits in vain for
 // longer than the time limit is dropped, and problem() says why.
