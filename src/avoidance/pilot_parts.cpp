@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMostClearance = 12.0;  // m
 constexpr double kHovers = 0.02;         // m/s
-constexpr int kFramesBetween = 5;        // of searches while there is no way
+constexpr int kFramesBetween = 5;        // of searches while there is no path
 
 Motion motionOf(const VehiclePose& pose, const BodyVelocity& v) {
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
@@ -63,15 +63,19 @@ PilotAnswer Pilot::Parts::answer() const {
   return answer;
 }
 
-PilotAnswer Pilot::Parts::update(const PilotInput& input) {
-  new_path_ = false;
-  if (has_time_ && !(input.time >= time_)) {
+void Pilot::Parts::setTime(double time) {
+  if (has_time_ && !(time >= time_)) {
     surroundings.forget();
     end(PilotStatus::CANCELLED,
-        "time went back from " + shortNumber(time_) + " to " + shortNumber(input.time) + " s");
+        "time went back from " + shortNumber(time_) + " to " + shortNumber(time) + " s");
   }
-  time_ = input.time;
+  time_ = time;
   has_time_ = true;
+}
+
+PilotAnswer Pilot::Parts::update(const PilotInput& input) {
+  new_path_ = false;
+  setTime(input.time);
   if (input.frame != nullptr) surroundings.see(*input.frame, time_, options);
   if (cannotFly(input)) return answer();
   motion_ = motionOf(*input.pose, input.velocity);
@@ -93,19 +97,21 @@ bool Pilot::Parts::cannotFly(const PilotInput& input) {
     command_ = {};
     return !known;
   }
-  const std::optional<double>& seen = surroundings.frameTime();
-  const std::string why = surroundings.problem().empty() ? "" : " (" + surroundings.problem() + ")";
-  if (!known)
-    hover(PilotStatus::TRANSFORM_ERROR,
-          input.pose_problem.empty() ? "the vehicle's pose is not known" : input.pose_problem);
-  else if (!seen)
-    hover(PilotStatus::NO_CLOUD, "no cloud has come yet" + why);
-  else if (time_ - *seen > options.cloud_timeout)
-    hover(PilotStatus::NO_CLOUD,
-          "the newest cloud is " + shortNumber(time_ - *seen) + " s old" + why);
-  else
-    return false;
+  if (known) return !hasFrame();
+  hover(PilotStatus::TRANSFORM_ERROR,
+        input.pose_problem.empty() ? "the vehicle's pose is not known" : input.pose_problem);
   return true;
+}
+
+// One that is new enough; says otherwise why not, and stands.
+bool Pilot::Parts::hasFrame() {
+  const std::optional<double>& seen = surroundings.frameTime();
+  if (seen && time_ - *seen <= options.cloud_timeout) return true;
+  const std::string why = surroundings.problem().empty() ? "" : " (" + surroundings.problem() + ")";
+  hover(PilotStatus::NO_CLOUD,
+        seen ? "the newest cloud is " + shortNumber(time_ - *seen) + " s old" + why
+             : "no cloud has come yet" + why);
+  return false;
 }
 
 Vector3d Pilot::Parts::target() const {
@@ -177,25 +183,27 @@ void Pilot::Parts::fly() {
   findPath();
   if (recovers()) return;
   if (flown.empty())
-    return hover(PilotStatus::BLOCKED, "no way to " + placeText(target()) + " is free");
-  const Steering steering =
-      options.rules == Rules::SAFE
-          ? steerSafely(motion_, flown, surroundings.space(), surroundings.space().appeared(),
-                        options, unseen.lookAt())
-          : steerAtFullSpeed(motion_, flown, options);
+    return hover(PilotStatus::BLOCKED, "no path to " + placeText(target()) + " is free");
+  const Steering steering = steer();
   command_ = steering.velocity;
   clear_path_ = steering.clear_path;
   if (options.rules == Rules::SAFE) lookAtUnseen(steering);
   describe(steering);
 }
 
-// What cannot be seen from here is looked at from elsewhere; in vain, it closes ways.
+Steering Pilot::Parts::steer() const {
+  if (options.rules != Rules::SAFE) return steerAtFullSpeed(motion_, flown, options);
+  const OpenSpace& space = surroundings.space();
+  return steerSafely(motion_, flown, space, space.appeared(), options, unseen.lookAt());
+}
+
+// What cannot be seen from here is looked at from elsewhere; in vain, it closes paths.
 void Pilot::Parts::lookAtUnseen(const Steering& steering) {
   const KeptRoom room(surroundings.space(), options.d_safe, motion_.position);
   if (!unseen.update(time_, motion_.position, steering, surroundings.space(), room, options.d_safe))
     return;
   if (unseen.looks())
-    flown.set(unseen.way(), std::nullopt);
+    flown.set(unseen.path(), std::nullopt);
   else
     flown.clear();
 }
@@ -209,16 +217,14 @@ void Pilot::Parts::describe(const Steering& steering) {
                 shortNumber((target() - motion_.position).norm()) + " m off";
     return;
   }
-  if (!steering.closed) {
-    sentence_ = "waiting for room to brake";
-    return;
-  }
-  const Vector3d& at = *steering.closed;
-  const double off = (at - motion_.position).norm();
+  sentence_ = steering.closed ? closedText(*steering.closed) : "waiting for room to brake";
+}
+
+std::string Pilot::Parts::closedText(const Vector3d& at) const {
   const bool seen = surroundings.space().seen(at);
-  sentence_ = (seen ? "something closes the way at " : "nothing seen free at ") + placeText(at) +
-              ", " + shortNumber(off) + " m off; " +
-              (std::abs(v.yaw_rate) > 0.01 ? "turning" : "looking");
+  return (seen ? "something closes the path at " : "nothing seen free at ") + placeText(at) + ", " +
+         shortNumber((at - motion_.position).norm()) + " m off; " +
+         (std::abs(command_.yaw_rate) > 0.01 ? "turning" : "looking");
 }
 
 // Whether something else is done than to fly.
@@ -245,13 +251,14 @@ bool Pilot::Parts::recovers() {
 }
 
 void Pilot::Parts::askForPlan() {
-  const Points way = map_plan ? map_plan(motion_.position, route.goal()) : Points();
-  recovery.planned(way.size() >= 2, time_);
+  const Points path = map_plan ? map_plan(motion_.position, route.goal()) : Points();
+  recovery.planned(path.size() >= 2, time_);
   unseen.forget();
   flown.clear();
-  if (way.size() >= 2) plan.setPath(way);
-  hover(PilotStatus::BLOCKED, way.size() >= 2 ? "follows a plan on the map"
-                                              : "the map has no way to " + placeText(route.goal()));
+  if (path.size() >= 2) plan.setPath(path);
+  hover(PilotStatus::BLOCKED, path.size() >= 2
+                                  ? "follows a plan on the map"
+                                  : "the map has no path to " + placeText(route.goal()));
 }
 
 }  // namespace grid_path_planner::avoidance

@@ -35,7 +35,9 @@ class Pilot::Parts {
   bool paused = false;
 
  private:
+  void setTime(double time);
   bool cannotFly(const PilotInput& input);
+  bool hasFrame();
   void followRoute();
   void findPath();
   void fly();
@@ -44,18 +46,20 @@ class Pilot::Parts {
   void askForPlan();
   bool goalIsOccupied() const;
   void lookAtUnseen(const Steering& steering);
+  Steering steer() const;
   void describe(const Steering& steering);
+  std::string closedText(const Eigen::Vector3d& at) const;
   Eigen::Vector3d target() const;
   double targetRadius() const;
 
   PilotStatus status_ = PilotStatus::IDLE;
   std::string sentence_ = "nothing was asked for yet";
   bool ended_ = false;     // the status stays until a new route
-  bool restarts_ = false;  // the next pose begins the way to a waypoint
+  bool restarts_ = false;  // the next pose begins the path to a waypoint
   bool kept_ = false;      // the path leads to the present target
   bool fresh_ = false;     // the newest update brought a frame
   bool new_path_ = false;
-  int frames_without_ = 0;  // since the last search that found no way
+  int frames_without_ = 0;  // since the last search that found no path
   double time_ = 0.0;
   bool has_time_ = false;
   Motion motion_;

@@ -1,7 +1,7 @@
 // How long the vehicle has made no progress.
 //
 // It moves where it comes a metre away from where it was; it gains where it comes a metre nearer to its
-// goal than it ever was. A detour moves without gaining.
+// goal than it ever was. A path around something moves without gaining.
 #pragma once
 
 #include <Eigen/Core>

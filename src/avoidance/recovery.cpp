@@ -5,8 +5,8 @@
 namespace grid_path_planner::avoidance {
 namespace {
 
-constexpr double kExhausted = 2.0;  // s without any way
-constexpr double kDetour = 6.0;     // times progress_timeout without coming nearer
+constexpr double kExhausted = 2.0;      // s without any path
+constexpr double kLongestAround = 6.0;  // times progress_timeout without coming nearer
 
 }  // namespace
 
@@ -21,7 +21,7 @@ bool Recovery::noProgress(const State& state, const PilotOptions& options) const
   if (!options.recover) return watch_.sinceMoved(state.time) > options.stuck_timeout;
   const bool exhausted = exhausted_since_ && state.time - *exhausted_since_ > kExhausted;
   return exhausted || watch_.sinceMoved(state.time) > options.progress_timeout ||
-         watch_.sinceGained(state.time) > kDetour * options.progress_timeout;
+         watch_.sinceGained(state.time) > kLongestAround * options.progress_timeout;
 }
 
 RecoveryStep Recovery::look(const State& state) {

@@ -25,7 +25,7 @@ class Recovery {
     Eigen::Vector3d position;
     double yaw;
     Eigen::Vector3d goal;
-    bool exhausted;  // every way was looked at, and there is none
+    bool exhausted;  // every direction was looked at, and there is none
   };
   // PLAN once; the caller says by `planned` whether there is one.
   RecoveryStep update(const State& state, const PilotOptions& options);

@@ -137,7 +137,7 @@ TEST(Input, WrongIntrinsicsAreNotBelieved) {
   EXPECT_LT(result.metres, 2.0);  // the sky clears nothing without intrinsics
 }
 
-TEST(Input, FalsePointsDoNotBendTheWay) {
+TEST(Input, FalsePointsDoNotBendThePath) {
   FlightSetup setup = fieldSetup();
   setup.false_points = 20;
   const FlightResult result = fly(setup);

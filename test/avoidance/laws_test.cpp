@@ -198,8 +198,9 @@ TEST(Laws, EveryNodeOfTheTreeHasItsCost) {
       const auto degrees = [](double a, double b) {
         return std::abs(std::remainder(a - b, 360.0));
       };
-      const auto anglesTo = [](const Vector3d& way) -> Vector3d {
-        return Vector3d(std::atan2(way.y(), way.x()), std::asin(way.z() / way.norm()), 0.0) *
+      const auto anglesTo = [](const Vector3d& direction) -> Vector3d {
+        return Vector3d(std::atan2(direction.y(), direction.x()),
+                        std::asin(direction.z() / direction.norm()), 0.0) *
                180.0 / M_PI;
       };
       const auto cost = [&](const Vector3d& direction, const Vector3d& to_goal,

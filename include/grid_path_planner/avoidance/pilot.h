@@ -9,14 +9,14 @@
 //
 // The pilot remembers what it saw in a window of voxels that travels along, plans a path on that with
 // every frame, and flies along it. Under the rules `safe` it is guaranteed: the ball of radius d_safe
-// about every point of the path that is flown, and about every point of the way that braking takes, was
+// about every point of the path that is flown, and about every point of the path that braking takes, was
 // seen and holds no remembered point; what was never seen or too long ago is closed (exceptions:
 // start_clear about the start, and what is nearer than 2 m does not age; a vehicle that is nearer than
 // d_safe to a point already moves only away from it, slowly). The speed v obeys
 // v (frame_period + response_time) + v^2 / (2 max_acceleration) <= clear_path. Limits of speed and turn
 // are never exceeded; the velocity is zero in every status but FLYING and BLOCKED, where it may turn.
 // The same calls give the same answers, bit for bit; no clock is read. Not guaranteed: that nothing runs
-// into a vehicle; that a way is found where there is one.
+// into a vehicle; that a path is found where there is one.
 #pragma once
 
 #include <Eigen/Core>
@@ -71,7 +71,7 @@ struct PilotAnswer {
   bool new_path = false;      // path() is another than before
 };
 
-// A way from the vehicle to a goal on a map that someone else keeps; empty where there is none.
+// A path from the vehicle to a goal on a map that someone else keeps; empty where there is none.
 using MapPlan = std::function<std::vector<Eigen::Vector3d>(const Eigen::Vector3d& from,
                                                            const Eigen::Vector3d& goal)>;
 
@@ -124,7 +124,7 @@ class Pilot {
 
   // The path that is flown, from where the vehicle was when it was planned; empty where there is none.
   const std::vector<Eigen::Vector3d>& path() const;
-  // Of the present status: what is flown to, what closes the way, what was tried.
+  // Of the present status: what is flown to, what closes the path, what was tried.
   std::string explain() const;
   std::vector<RememberedPoint> rememberedPoints() const;
   HistogramView histogram() const;

@@ -14,7 +14,7 @@ enum class Rules { PUBLISHED, SAFE };
 const std::vector<std::pair<const char*, Rules>>& choicesOf(Rules);
 
 // direction: the best single direction (3DVFH+). tree: 3DVFH*. grid: A* over the remembered voxels, of
-// which those never seen may hold a way.
+// which those never seen may hold a path.
 enum class Search { DIRECTION, TREE, GRID };
 const std::vector<std::pair<const char*, Search>>& choicesOf(Search);
 
@@ -77,7 +77,7 @@ void visitSearchOptions(PilotOptions& o, Visitor&& visit) {
   visit(
       "search", o.search,
       base::OptionInfo{"direction: the best single direction; tree: the paper's; grid: A* over the "
-                       "remembered voxels, which finds ways out of traps",
+                       "remembered voxels, which finds paths out of traps",
                        ""});
   visit("look_ahead", o.look_ahead,
         base::OptionInfo{"How far from the vehicle nodes of the tree are expanded; farther: fewer "
@@ -116,9 +116,9 @@ void visitTreeOptions(PilotOptions& o, Visitor&& visit) {
         base::OptionInfo{"Most children of a node; more: wider, slower", "", 1, 64});
   visit("spacing", o.spacing,
         base::OptionInfo{"Least distance between the children of a node", "m", 0.0, 10.0});
-  visit(
-      "nodes", o.nodes,
-      base::OptionInfo{"Nodes expanded in one search; more: longer detours, slower", "", 1, 10000});
+  visit("nodes", o.nodes,
+        base::OptionInfo{"Nodes expanded in one search; more: longer paths around, slower", "", 1,
+                         10000});
   visit(
       "accumulate", o.accumulate,
       base::OptionInfo{"Whether a node's cost is the sum along its branch; false: counted from the "
@@ -130,12 +130,13 @@ void visitTreeOptions(PilotOptions& o, Visitor&& visit) {
                        "higher: fewer changes of mind",
                        "", 0.0, 1.0});
   visit("grid_nodes", o.grid_nodes,
-        base::OptionInfo{"Voxels expanded in one search of the grid; more: longer detours, slower",
-                         "", 100, 1000000});
+        base::OptionInfo{
+            "Voxels expanded in one search of the grid; more: longer paths around, slower", "", 100,
+            1000000});
   visit("unseen_cost", o.unseen_cost,
         base::OptionInfo{
             "Cost of a metre through voxels never seen, of which the grid's search hopes "
-            "that they are free; higher: rather known ways",
+            "that they are free; higher: rather through known space",
             "", 1.0, 100.0});
 }
 

@@ -16,12 +16,12 @@ constexpr double kPiece = 1.0;        // m of a segment that are looked at toget
 constexpr double kDiagonal = 0.3465;  // m, of a voxel
 constexpr int kAppearedFrames = 10;
 
-double squaredDistanceToSegment(const Vector3d& point, const Vector3d& from, const Vector3d& way,
-                                double squared_length) {
+double squaredDistanceToSegment(const Vector3d& point, const Vector3d& from,
+                                const Vector3d& segment, double squared_length) {
   const Vector3d off = point - from;
   if (squared_length < 1e-18) return off.squaredNorm();
-  const double share = std::clamp(off.dot(way) / squared_length, 0.0, 1.0);
-  return (off - share * way).squaredNorm();
+  const double share = std::clamp(off.dot(segment) / squared_length, 0.0, 1.0);
+  return (off - share * segment).squaredNorm();
 }
 
 // Rows outside the band count as seen.
@@ -97,26 +97,26 @@ double OpenSpace::nearest(const Vector3d& from, double reach) const {
 }
 
 bool OpenSpace::pieceClear(const Vector3d& from, const Vector3d& to, double radius) const {
-  const Vector3d way = to - from;
-  const int samples = 1 + static_cast<int>(way.norm() / kVoxel);
+  const Vector3d segment = to - from;
+  const int samples = 1 + static_cast<int>(segment.norm() / kVoxel);
   bool any = false;
   for (int i = 0; i <= samples && !any; ++i)
-    any = crowded_.get(slotOf(voxelAt(from + way * (static_cast<double>(i) / samples))));
+    any = crowded_.get(slotOf(voxelAt(from + segment * (static_cast<double>(i) / samples))));
   if (!any) return true;
-  const double squared_length = way.squaredNorm(), squared_radius = radius * radius;
+  const double squared_length = segment.squaredNorm(), squared_radius = radius * radius;
   bool clear = true;
   forPoints(from, to, radius, [&](const Vector3f& point) {
-    clear = clear && squaredDistanceToSegment(point.cast<double>(), from, way, squared_length) >=
-                         squared_radius;
+    clear = clear && squaredDistanceToSegment(point.cast<double>(), from, segment,
+                                              squared_length) >= squared_radius;
   });
   return clear;
 }
 
 bool OpenSpace::clear(const Vector3d& from, const Vector3d& to, double radius) const {
   const int pieces = std::max(1, static_cast<int>(std::ceil((to - from).norm() / kPiece)));
-  const Vector3d way = (to - from) / pieces;
+  const Vector3d segment = (to - from) / pieces;
   for (int i = 0; i < pieces; ++i)
-    if (!pieceClear(from + i * way, from + (i + 1) * way, radius)) return false;
+    if (!pieceClear(from + i * segment, from + (i + 1) * segment, radius)) return false;
   return true;
 }
 

@@ -14,18 +14,18 @@ namespace grid_path_planner::avoidance {
 template <class Action>
 void forVoxelsOfRay(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Action& action) {
   const Voxel first = voxelAt(from), last = voxelAt(to);
-  const Eigen::Vector3d way = to - from;
+  const Eigen::Vector3d ray = to - from;
   int index[3] = {first.x, first.y, first.z};
   int steps = std::abs(last.x - first.x) + std::abs(last.y - first.y) + std::abs(last.z - first.z);
   int step[3];
   double next[3], each[3];
   for (int axis = 0; axis < 3; ++axis) {
-    step[axis] = way[axis] > 0.0 ? 1 : -1;
+    step[axis] = ray[axis] > 0.0 ? 1 : -1;
     each[axis] =
-        way[axis] == 0.0 ? std::numeric_limits<double>::infinity() : kVoxel / std::abs(way[axis]);
+        ray[axis] == 0.0 ? std::numeric_limits<double>::infinity() : kVoxel / std::abs(ray[axis]);
     const double share = from[axis] / kVoxel - index[axis];
     next[axis] =
-        way[axis] == 0.0 ? each[axis] : each[axis] * (step[axis] > 0 ? 1.0 - share : share);
+        ray[axis] == 0.0 ? each[axis] : each[axis] * (step[axis] > 0 ? 1.0 - share : share);
   }
   for (; steps > 1; --steps) {
     action(slotOf(index[0], index[1], index[2]));

@@ -1,4 +1,4 @@
-// The free directions of a node, the cheapest first, each a step long and no two near to each other.
+// The free directions of a node, that of least cost first, each a step long and no two near to each other.
 #pragma once
 
 #include <Eigen/Core>

@@ -19,8 +19,8 @@ Directions::Directions(double width, bool elevation) {
     }
 }
 
-int Directions::binOf(const Eigen::Vector3d& way) const {
-  const Angles angles = anglesOf(way);
+int Directions::binOf(const Eigen::Vector3d& direction) const {
+  const Angles angles = anglesOf(direction);
   const int column = static_cast<int>(std::lround((angles.azimuth + 180.0) / width_)) % columns_;
   const int row = static_cast<int>(std::lround(angles.elevation / width_)) + rows_ / 2;
   return std::clamp(row, 0, rows_ - 1) * columns_ + column;

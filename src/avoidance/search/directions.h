@@ -16,9 +16,9 @@ struct Angles {
   double azimuth = 0.0, elevation = 0.0;
 };
 
-inline Angles anglesOf(const Eigen::Vector3d& way) {
-  return {std::atan2(way.y(), way.x()) / kDegree,
-          std::atan2(way.z(), way.head<2>().norm()) / kDegree};
+inline Angles anglesOf(const Eigen::Vector3d& direction) {
+  return {std::atan2(direction.y(), direction.x()) / kDegree,
+          std::atan2(direction.z(), direction.head<2>().norm()) / kDegree};
 }
 
 // Between two azimuths, at most 180 degrees.
@@ -37,7 +37,7 @@ class Directions {
   int size() const { return columns_ * rows_; }
   const Eigen::Vector3d& unit(int bin) const { return units_[bin]; }
   const Angles& angles(int bin) const { return angles_[bin]; }
-  int binOf(const Eigen::Vector3d& way) const;
+  int binOf(const Eigen::Vector3d& direction) const;
 
  private:
   double width_;

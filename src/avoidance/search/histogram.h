@@ -18,10 +18,10 @@ class Histogram {
             double reach) {
     distances_.assign(directions.size(), std::numeric_limits<float>::infinity());
     space.forPoints(origin, origin, reach, [&](const Eigen::Vector3f& point) {
-      const Eigen::Vector3d way = point.cast<double>() - origin;
-      const auto distance = static_cast<float>(way.norm());
+      const Eigen::Vector3d direction = point.cast<double>() - origin;
+      const auto distance = static_cast<float>(direction.norm());
       if (distance > reach) return;
-      float& nearest = distances_[directions.binOf(way)];
+      float& nearest = distances_[directions.binOf(direction)];
       nearest = distance < nearest ? distance : nearest;
     });
   }

@@ -6,7 +6,7 @@ namespace grid_path_planner::avoidance {
 
 using Eigen::Vector3d;
 
-int LookAheadTree::cheapestOpen() const {
+int LookAheadTree::leastCostOpen() const {
   int best = -1;
   for (int i = 0; i < static_cast<int>(nodes_.size()); ++i)
     if (!nodes_[i].closed && (best < 0 || nodes_[i].total < nodes_[best].total)) best = i;
@@ -38,7 +38,7 @@ std::vector<Vector3d> LookAheadTree::search(const OpenSpace& space, const PilotO
   int last = 0;
   bool reached = false;
   for (int count = 0; count < options.nodes; ++count) {
-    const int next = cheapestOpen();
+    const int next = leastCostOpen();
     if (next < 0) break;
     last = next;
     nodes_[next].closed = true;

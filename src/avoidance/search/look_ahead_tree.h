@@ -40,7 +40,7 @@ class LookAheadTree {
  private:
   void grow(int parent, const OpenSpace& space, const PilotOptions& options,
             const Eigen::Vector3d& goal, const std::vector<Eigen::Vector3d>& closed);
-  int cheapestOpen() const;
+  int leastCostOpen() const;
 
   Candidates candidates_;
   std::vector<TreeNode> nodes_;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPlanRoom = 0.05;   // m more than d_safe that plans keep
 constexpr double kSameHeight = 0.4;  // m between vehicle and goal
-constexpr double kLongWay = 1.3;     // times the straight distance
+constexpr double kLongPath = 1.3;    // times the straight distance
 constexpr double kLongMore = 2.0;    // m
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -47,7 +47,7 @@ VoxelQuery PathFinder::voxelQuery(const PathQuery& query) const {
   return voxels;
 }
 
-// At the goal's height first; through all heights where that is a long way round, or none.
+// At the goal's height first; through all heights where that is a long path, or none.
 VoxelPath PathFinder::gridPath(const OpenSpace& space, const PathQuery& query) {
   VoxelQuery voxels = voxelQuery(query);
   const double straight = (query.goal - query.start).norm();
@@ -57,7 +57,7 @@ VoxelPath PathFinder::gridPath(const OpenSpace& space, const PathQuery& query) {
   if (voxels.flat) {
     level = grid_.search(space, voxels);
     if (!options_.elevation) return level;
-    if (!level.points.empty() && level.cost <= kLongWay * straight + kLongMore) return level;
+    if (!level.points.empty() && level.cost <= kLongPath * straight + kLongMore) return level;
   }
   voxels.flat = false;
   VoxelPath any = grid_.search(space, voxels);
@@ -83,9 +83,9 @@ double PathFinder::treeCost(const Points& path, const Vector3d& goal) const {
   double cost = 0.0;
   Angles before = before_;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const Vector3d way = path[i + 1] - path[i];
-    const Angles angles = anglesOf(way);
-    cost += directionCost(options_, angles, anglesOf(goal - path[i]), before) * way.norm() /
+    const Vector3d edge = path[i + 1] - path[i];
+    const Angles angles = anglesOf(edge);
+    cost += directionCost(options_, angles, anglesOf(goal - path[i]), before) * edge.norm() /
             options_.step;
     before = angles;
   }

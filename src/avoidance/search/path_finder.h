@@ -26,7 +26,7 @@ class PathFinder {
   void setOptions(const PilotOptions& options);
 
   // The best path now, in `kept` the one that is flown (from the vehicle on, empty: none). Nothing where
-  // that is to be kept. Ways through places in `closed` are closed.
+  // that is to be kept. Paths through places in `closed` are closed.
   std::optional<std::vector<Eigen::Vector3d>> find(const OpenSpace& space, const PathQuery& query,
                                                    const std::vector<Eigen::Vector3d>& kept,
                                                    const std::vector<Eigen::Vector3d>& closed);

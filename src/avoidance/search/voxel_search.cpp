@@ -100,7 +100,7 @@ double VoxelSearch::weight(const Voxel& voxel) {
   return room == Room::NEAR ? kNearCost * unseen : unseen;
 }
 
-// The length of the shortest way over a grid of level diagonals, at an angle to it in height.
+// The length of the shortest path over a grid of level diagonals, at an angle to it in height.
 double VoxelSearch::heuristic(const Voxel& voxel) const {
   const double x = std::abs(voxel.x - goal_.x), y = std::abs(voxel.y - goal_.y);
   const double level = std::max(x, y) + (M_SQRT2 - 1.0) * std::min(x, y);
@@ -179,15 +179,15 @@ double VoxelSearch::costOfLine(const Vector3d& from, const Vector3d& to) {
   const bool escapes = start_room_ < query_->distance && (from - query_->start).norm() < kEscape;
   if (!space_->clear(from, to, escapes ? std::max(0.0, start_room_ - 0.05) : query_->distance))
     return kInfinite;
-  Vector3d way = to - from;
-  const int samples = 1 + static_cast<int>(way.norm() / kVoxel);
+  Vector3d line = to - from;
+  const int samples = 1 + static_cast<int>(line.norm() / kVoxel);
   double sum = 0.0;
   for (int i = 0; i < samples; ++i) {
-    const Voxel voxel = voxelAt(from + way * ((i + 0.5) / samples));
+    const Voxel voxel = voxelAt(from + line * ((i + 0.5) / samples));
     sum += space_->window().contains(voxel) ? weight(voxel) : kInfinite;
   }
-  way.z() *= kVertical;
-  return way.norm() * sum / samples;
+  line.z() *= kVertical;
+  return line.norm() * sum / samples;
 }
 
 void VoxelSearch::pullTaut(VoxelPath& path) {

@@ -1,6 +1,6 @@
-// A* over the voxels of an OpenSpace: the cheapest way that no remembered point closes.
+// A* over the voxels of an OpenSpace: the path of least cost that no remembered point closes.
 //
-// Voxels that were never seen may hold a way and cost more; so do voxels near points, and height. A goal
+// Voxels that were never seen may hold a path and cost more; so do voxels near points, and height. A goal
 // outside the window is searched for up to the window's side. Neighbours are the 26 voxels around, in a
 // flat search the 8 of the same height. The path is pulled taut where that costs no more.
 #pragma once

@@ -13,7 +13,7 @@ namespace {
 constexpr double kPassed = 0.25;    // m, within which a corner counts as passed
 constexpr double kBeside = 1.0;     // m, within which one beside the vehicle does
 constexpr double kClearStep = 0.1;  // m
-constexpr double kBeyond = 3.0;     // m of the way beyond the end
+constexpr double kBeyond = 3.0;     // m of the route beyond the end
 
 }  // namespace
 
@@ -35,15 +35,15 @@ void FlownPath::advance(const Vector3d& vehicle) {
 
 Vector3d FlownPath::ahead(double metres) const {
   for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
-    const Vector3d way = points_[i + 1] - points_[i];
-    const double length = way.norm();
-    if (metres <= length && length > 0.0) return points_[i] + way * (metres / length);
+    const Vector3d edge = points_[i + 1] - points_[i];
+    const double length = edge.norm();
+    if (metres <= length && length > 0.0) return points_[i] + edge * (metres / length);
     metres -= length;
   }
   if (!beyond_) return points_.back();
-  const Vector3d way = *beyond_ - points_.back();
-  const double length = std::max(1e-9, way.norm());
-  return points_.back() + way * (std::min({metres, kBeyond, length}) / length);
+  const Vector3d edge = *beyond_ - points_.back();
+  const double length = std::max(1e-9, edge.norm());
+  return points_.back() + edge * (std::min({metres, kBeyond, length}) / length);
 }
 
 FlownPath::Clear FlownPath::clear(const KeptRoom& room, double longest) const {

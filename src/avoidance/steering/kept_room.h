@@ -1,4 +1,4 @@
-// What the rules `safe` keep about every point of a way: d_safe from points, and all of it seen.
+// What the rules `safe` keep about every point of a path: d_safe from points, and all of it seen.
 //
 // A vehicle that is nearer to a point or to what it has not seen than d_safe (noise, drift, a body that
 // moved) may leave, but only so that this distance grows.

@@ -29,14 +29,14 @@ BodyVelocity inBody(const Vector3d& velocity, double yaw, double yaw_rate) {
 }
 
 // At most `speed`, and not above the limits of the vehicle.
-Vector3d velocityTowards(const Vector3d& way, double speed, const Motion& motion,
+Vector3d velocityTowards(const Vector3d& direction, double speed, const Motion& motion,
                          const PilotOptions& options) {
-  const double length = way.norm();
+  const double length = direction.norm();
   if (length < 1e-9) return Vector3d::Zero();
-  Vector3d velocity = way * (std::min(speed, options.max_speed) / length);
+  Vector3d velocity = direction * (std::min(speed, options.max_speed) / length);
   if (!options.elevation) velocity.z() = 0.0;
   if (!options.sway) {
-    const double off = angleDifference(motion.yaw, std::atan2(way.y(), way.x()));
+    const double off = angleDifference(motion.yaw, std::atan2(direction.y(), direction.x()));
     const double surge = std::abs(off) > kAhead ? 0.0 : velocity.head<2>().norm() * std::cos(off);
     velocity.head<2>() = surge * Eigen::Vector2d(std::cos(motion.yaw), std::sin(motion.yaw));
   }
@@ -45,8 +45,8 @@ Vector3d velocityTowards(const Vector3d& way, double speed, const Motion& motion
 }
 
 double yawTo(const Vector3d& point, const Motion& motion) {
-  const Vector3d way = point - motion.position;
-  return way.head<2>().norm() < 0.3 ? motion.yaw : std::atan2(way.y(), way.x());
+  const Vector3d direction = point - motion.position;
+  return direction.head<2>().norm() < 0.3 ? motion.yaw : std::atan2(direction.y(), direction.x());
 }
 
 // To where the path is not seen, but not far from where it leads next.
@@ -63,8 +63,8 @@ Vector3d openVelocity(const Motion& motion, const FlownPath& path, double speed,
   const double far = kSteerNear + kSteerTime * motion.velocity.norm();
   for (const double share : kShares)
     for (const double metres : {far, 0.5 * kSteerNear}) {
-      const Vector3d way = path.ahead(metres) - motion.position;
-      const Vector3d velocity = velocityTowards(way, share * speed, motion, options);
+      const Vector3d direction = path.ahead(metres) - motion.position;
+      const Vector3d velocity = velocityTowards(direction, share * speed, motion, options);
       if (stopsInOpen(motion, velocity, yaw_rate, room, moving, options)) return velocity;
     }
   return Vector3d::Zero();
@@ -111,9 +111,9 @@ Steering steerSafely(const Motion& motion, const FlownPath& path, const OpenSpac
 Steering steerAtFullSpeed(const Motion& motion, const FlownPath& path,
                           const PilotOptions& options) {
   Steering steering;
-  const Vector3d way = path.ahead(0.5 * options.step) - motion.position;
+  const Vector3d direction = path.ahead(0.5 * options.step) - motion.position;
   steering.look_error = angleDifference(motion.yaw, yawTo(path.ahead(kLookNear), motion));
-  const Vector3d velocity = velocityTowards(way, options.max_speed, motion, options);
+  const Vector3d velocity = velocityTowards(direction, options.max_speed, motion, options);
   steering.velocity = inBody(velocity, motion.yaw, turnRate(steering.look_error, options));
   return steering;
 }

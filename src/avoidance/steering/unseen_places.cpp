@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 constexpr double kLooksAt = 0.1;       // rad, of the direction to look in
 constexpr double kLooked = 0.6;        // s of looking in vain
-constexpr double kShortWay = 1.3;      // m of open path that the vehicle does not fly
+constexpr double kShortPath = 1.3;     // m of open path that the vehicle does not fly
 constexpr double kSamePlace = 0.4;     // m
 constexpr double kAtVantage = 0.15;    // m
 constexpr double kLongestLook = 10.0;  // s
@@ -29,7 +29,7 @@ void add(const Vector3d& place, std::vector<Vector3d>& places) {
 }  // namespace
 
 void UnseenPlaces::forget() {
-  way_.clear();
+  path_.clear();
   look_at_.reset();
   waits_since_.reset();
   tried_.clear();
@@ -50,13 +50,24 @@ bool UnseenPlaces::wasTried(const Vector3d& place) const {
 // Until the place is seen, or the vehicle has been there and looked, or cannot come there.
 bool UnseenPlaces::look(double time, const Vector3d& vehicle, const Steering& steering,
                         const OpenSpace& space) {
-  const bool there = (vehicle - way_.back()).norm() < kAtVantage || steering.clear_path < 0.05;
+  const bool there = (vehicle - path_.back()).norm() < kAtVantage || steering.clear_path < 0.05;
   if (!there || std::abs(steering.look_error) > kLooksAt) waits_since_ = time;
   const bool done = space.seen(*look_at_) || time - *waits_since_ > kLooked;
   if (!done && time - began_ < kLongestLook) return false;
-  way_.clear();
+  path_.clear();
   look_at_.reset();
   waits_since_.reset();
+  return true;
+}
+
+// Looking at what is unseen, long enough to have seen it; then the time begins anew.
+bool UnseenPlaces::waitedInVain(double time, const Steering& steering) {
+  const bool waits = steering.unseen && steering.clear_path < kShortPath &&
+                     std::abs(steering.look_error) < kLooksAt;
+  if (!waits) waits_since_.reset();
+  if (waits && !waits_since_) waits_since_ = time;
+  if (!waits || time - *waits_since_ < kLooked) return false;
+  waits_since_ = time;
   return true;
 }
 
@@ -65,27 +76,17 @@ bool UnseenPlaces::update(double time, const Vector3d& vehicle, const Steering& 
   if (!closed_.empty() && time - closed_at_ > kGivenUp) forget();
   remember(vehicle);
   if (looks()) return look(time, vehicle, steering, space);
-  const bool waits = steering.unseen && steering.clear_path < kShortWay &&
-                     std::abs(steering.look_error) < kLooksAt;
-  if (!waits) {
-    waits_since_.reset();
-    return false;
-  }
-  if (!waits_since_) waits_since_ = time;
-  if (time - *waits_since_ < kLooked) return false;
-  waits_since_ = time;
+  if (!waitedInVain(time, steering)) return false;
   const Vector3d place = *steering.closed;
   if (!wasTried(place)) {
     add(place, tried_);
-    way_ = wayToVantage(space, room, vehicle, place, d_safe, track_);
-    if (looks()) {
-      look_at_ = place;
-      began_ = time;
-      return true;
-    }
+    path_ = pathToVantage(space, room, vehicle, place, d_safe, track_);
   }
-  add(place, closed_);
-  closed_at_ = time;
+  if (looks())
+    look_at_ = place;
+  else
+    add(place, closed_);
+  (looks() ? began_ : closed_at_) = time;
   return true;
 }
 

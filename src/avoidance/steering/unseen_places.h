@@ -1,6 +1,6 @@
-// Places on the way that stay unseen although the vehicle stands and looks there.
+// Places on the path that stay unseen although the vehicle stands and looks there.
 //
-// Such a place is looked at from a vantage first; where that shows nothing more, it closes ways for a while.
+// Such a place is looked at from a vantage first; where that shows nothing more, it closes paths for a while.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,18 +22,19 @@ class UnseenPlaces {
               const OpenSpace& space, const KeptRoom& room, double d_safe);
 
   // Where the vehicle flies to look, if it does, and at what.
-  bool looks() const { return !way_.empty(); }
-  const std::vector<Eigen::Vector3d>& way() const { return way_; }
+  bool looks() const { return !path_.empty(); }
+  const std::vector<Eigen::Vector3d>& path() const { return path_; }
   const std::optional<Eigen::Vector3d>& lookAt() const { return look_at_; }
   const std::vector<Eigen::Vector3d>& closed() const { return closed_; }
 
  private:
   bool look(double time, const Eigen::Vector3d& vehicle, const Steering& steering,
             const OpenSpace& space);
+  bool waitedInVain(double time, const Steering& steering);
   void remember(const Eigen::Vector3d& vehicle);
   bool wasTried(const Eigen::Vector3d& place) const;
 
-  std::vector<Eigen::Vector3d> way_;  // to the vantage; empty: none
+  std::vector<Eigen::Vector3d> path_;  // to the vantage; empty: none
   std::optional<Eigen::Vector3d> look_at_;
   std::vector<Eigen::Vector3d> track_;   // where the vehicle was, the newest last
   std::vector<Eigen::Vector3d> tried_;   // looked at from a vantage

@@ -31,16 +31,16 @@ std::vector<Vector3d> unseenAbout(const OpenSpace& space, const Vector3d& place,
 int inView(const OpenSpace& space, const std::vector<Vector3d>& voxels, const Vector3d& from) {
   int count = 0;
   for (const Vector3d& voxel : voxels) {
-    const Vector3d way = voxel - from;
-    const double level = way.head<2>().norm();
-    if (way.norm() < kLeastRange || std::abs(way.z()) > kSlope * level) continue;
-    const Vector3d before = from + way * std::max(0.0, 1.0 - 0.3 / way.norm());
+    const Vector3d direction = voxel - from;
+    const double level = direction.head<2>().norm();
+    if (direction.norm() < kLeastRange || std::abs(direction.z()) > kSlope * level) continue;
+    const Vector3d before = from + direction * std::max(0.0, 1.0 - 0.3 / direction.norm());
     count += space.clear(from, before, kThin);
   }
   return count;
 }
 
-bool isOpenWay(const KeptRoom& room, const Vector3d& from, const Vector3d& to) {
+bool isOpenLine(const KeptRoom& room, const Vector3d& from, const Vector3d& to) {
   const int samples = 1 + static_cast<int>((to - from).norm() / 0.1);
   for (int i = 0; i <= samples; ++i)
     if (!room.open(from + (to - from) * (static_cast<double>(i) / samples))) return false;
@@ -52,13 +52,13 @@ std::optional<Vector3d> straightVantage(const OpenSpace& space, const KeptRoom& 
                                         const Vector3d& vehicle, const Vector3d& place,
                                         const std::vector<Vector3d>& unseen, int& most) {
   std::optional<Vector3d> best;
-  const Vector3d way = place - vehicle;
-  const double ahead = std::atan2(way.y(), way.x());
+  const Vector3d direction = place - vehicle;
+  const double ahead = std::atan2(direction.y(), direction.x());
   for (const double metres : {0.3, 0.6, 0.9, 1.2, 1.6, 2.0, 2.5})
     for (int turn = 0; turn < 12; ++turn) {
       const double angle = ahead + M_PI + (turn % 2 == 0 ? -1 : 1) * ((turn + 1) / 2) * kTurnStep;
       const Vector3d from = vehicle + metres * Vector3d(std::cos(angle), std::sin(angle), 0.0);
-      if (!isOpenWay(room, vehicle, from)) continue;
+      if (!isOpenLine(room, vehicle, from)) continue;
       const int seen = inView(space, unseen, from);
       if (seen <= most) continue;
       most = seen;
@@ -70,22 +70,22 @@ std::optional<Vector3d> straightVantage(const OpenSpace& space, const KeptRoom& 
 
 }  // namespace
 
-std::vector<Vector3d> wayToVantage(const OpenSpace& space, const KeptRoom& room,
-                                   const Vector3d& vehicle, const Vector3d& place, double d_safe,
-                                   const std::vector<Vector3d>& track) {
+std::vector<Vector3d> pathToVantage(const OpenSpace& space, const KeptRoom& room,
+                                    const Vector3d& vehicle, const Vector3d& place, double d_safe,
+                                    const std::vector<Vector3d>& track) {
   const std::vector<Vector3d> unseen = unseenAbout(space, place, d_safe);
   const int all = static_cast<int>(unseen.size());
   int most = inView(space, unseen, vehicle);
   const auto straight = straightVantage(space, room, vehicle, place, unseen, most);
-  std::vector<Vector3d> way = {vehicle}, best;
+  std::vector<Vector3d> path = {vehicle}, best;
   if (straight) best = {vehicle, *straight};
   for (std::size_t i = track.size(); i-- > 0 && most < all;) {
-    if (!isOpenWay(room, way.back(), track[i])) break;
-    way.push_back(track[i]);
+    if (!isOpenLine(room, path.back(), track[i])) break;
+    path.push_back(track[i]);
     const int seen = inView(space, unseen, track[i]);
     if (seen <= most) continue;
     most = seen;
-    best = way;
+    best = path;
   }
   return best;
 }

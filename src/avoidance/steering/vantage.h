@@ -12,11 +12,11 @@
 
 namespace grid_path_planner::avoidance {
 
-// The way there, which begins at the vehicle: straight, or back along `track`, where the vehicle was, the
+// The path there, which begins at the vehicle: straight, or back along `track`, where the vehicle was, the
 // newest last. Empty where no place shows more than here.
-std::vector<Eigen::Vector3d> wayToVantage(const OpenSpace& space, const KeptRoom& room,
-                                          const Eigen::Vector3d& vehicle,
-                                          const Eigen::Vector3d& place, double d_safe,
-                                          const std::vector<Eigen::Vector3d>& track);
+std::vector<Eigen::Vector3d> pathToVantage(const OpenSpace& space, const KeptRoom& room,
+                                           const Eigen::Vector3d& vehicle,
+                                           const Eigen::Vector3d& place, double d_safe,
+                                           const std::vector<Eigen::Vector3d>& track);
 
 }  // namespace grid_path_planner::avoidance

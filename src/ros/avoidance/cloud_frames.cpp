@@ -25,6 +25,16 @@ Eigen::Isometry3d poseOf(const geometry_msgs::Transform& transform) {
   return pose;
 }
 
+Frame frameOf(const sensor_msgs::PointCloud2& cloud, const Eigen::Isometry3d& map_from_sensor) {
+  Frame frame;
+  frame.time = cloud.header.stamp.toSec();
+  frame.map_from_sensor = map_from_sensor;
+  frame.points = allPoints(cloud);
+  frame.width = static_cast<int>(cloud.width);
+  frame.height = static_cast<int>(cloud.height);
+  return frame;
+}
+
 }  // namespace
 
 void CloudFrames::setCamera(const sensor_msgs::CameraInfo& camera) {
@@ -52,12 +62,7 @@ std::optional<Frame> CloudFrames::next(const FrameTransforms& transforms,
   try {
     const auto transform =
         transforms.transform(map_frame, cloud.header.frame_id, cloud.header.stamp);
-    Frame frame;
-    frame.time = cloud.header.stamp.toSec();
-    frame.map_from_sensor = poseOf(transform.transform);
-    frame.points = allPoints(cloud);
-    frame.width = static_cast<int>(cloud.width);
-    frame.height = static_cast<int>(cloud.height);
+    Frame frame = frameOf(cloud, poseOf(transform.transform));
     frame.pinhole = pinholeOf(cloud);
     waiting_.reset();
     problem_.clear();

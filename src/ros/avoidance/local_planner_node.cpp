@@ -52,6 +52,13 @@ std::vector<Eigen::Vector3d> positionsOf(const path::Path& path) {
   return points;
 }
 
+std::vector<Eigen::Vector3d> waypointsOf(const LocalPlannerOptions& options,
+                                         const NodeFiles& files) {
+  const auto read = [](const std::string& file) { return path::readWaypointFile(file); };
+  return positionsOf(
+      files.read("config_filename", options.config_filename, waypointFiles(), read).path);
+}
+
 }  // namespace
 
 LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
@@ -63,23 +70,13 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
       publisher_((commandsOf(nh_, options_), nh_)),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   refuseSimultaneousCommander(commandsOf(nh_, options_));
-  if (!options_.config_filename.empty())
-    fly(positionsOf(files
-                        .read("config_filename", options_.config_filename, waypointFiles(),
-                              [](const std::string& file) { return path::readWaypointFile(file); })
-                        .path),
-        false);
+  if (!options_.config_filename.empty()) fly(waypointsOf(options_, files), false);
   subscribe();
   offerServices(private_nh);
-  diagnostics_.setHardwareID("none");
-  diagnostics_.add("flight", this, &LocalPlannerNode::diagnose);
   reconfigurable_ = std::make_unique<Reconfigurable<LocalPlannerConfig, LocalPlannerOptions>>(
       private_nh, options_, [this](const LocalPlannerOptions& options) { use(options); });
   startTimer();
-  // force_update: the updater's own clock is ROS time, which may jump back.
-  diagnostics_timer_ =
-      nh_.createSteadyTimer(ros::WallDuration(kDiagnosed),
-                            [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
+  startDiagnostics();
 }
 
 LocalPlannerNode::~LocalPlannerNode() {
@@ -160,6 +157,15 @@ void LocalPlannerNode::startTimer() {
                                          [this](const ros::SteadyTimerEvent&) { control(); });
 }
 
+void LocalPlannerNode::startDiagnostics() {
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("flight", this, &LocalPlannerNode::diagnose);
+  // force_update: the updater's own clock is ROS time, which may jump back.
+  diagnostics_timer_ =
+      nh_.createSteadyTimer(ros::WallDuration(kDiagnosed),
+                            [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
+}
+
 void LocalPlannerNode::onGoal(const geometry_msgs::PoseStamped& goal) {
   nav_msgs::Path message;
   message.header = goal.header;
@@ -197,6 +203,14 @@ bool LocalPlannerNode::isHeld() const {
   return paused_ || stopped_ || ros::SteadyTime::now() < manual_until_;
 }
 
+// As measured; without odometry that commanded last.
+BodyVelocity LocalPlannerNode::velocityAt(const ros::Time& now) const {
+  if (!odometry_ || std::abs(secondsBetween(odometry_->header.stamp, now)) >= kOdometryAge)
+    return answer_.velocity;
+  const geometry_msgs::Twist& twist = odometry_->twist.twist;
+  return {twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z};
+}
+
 PilotInput LocalPlannerNode::input(const ros::Time& now) {
   PilotInput input;
   input.time = now.toSec();
@@ -208,11 +222,7 @@ PilotInput LocalPlannerNode::input(const ros::Time& now) {
   } catch (const TransformError& error) {
     input.pose_problem = error.what();
   }
-  input.velocity = answer_.velocity;
-  if (odometry_ && std::abs(secondsBetween(odometry_->header.stamp, now)) < kOdometryAge) {
-    const geometry_msgs::Twist& twist = odometry_->twist.twist;
-    input.velocity = {twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z};
-  }
+  input.velocity = velocityAt(now);
   frame_ = clouds_.next(transforms_, options_.map_frame, now);
   if (frame_) input.frame = &*frame_;
   return input;

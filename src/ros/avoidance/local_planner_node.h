@@ -75,10 +75,12 @@ class LocalPlannerNode {
   void offerServices(ros::NodeHandle& private_nh);
   void use(const LocalPlannerOptions& options);
   void startTimer();
+  void startDiagnostics();
   void onGoal(const geometry_msgs::PoseStamped& goal);
   void onPath(const nav_msgs::Path& path);
   void fly(std::vector<Eigen::Vector3d> points, bool along);
   void control();
+  base::BodyVelocity velocityAt(const ros::Time& now) const;
   avoidance::PilotInput input(const ros::Time& now);
   void publish(const avoidance::PilotAnswer& answer, const ros::Time& now);
   bool isHeld() const;
