@@ -228,24 +228,6 @@ CONTEXT = {
     "weighted_jump_map.h": "extern const CostGrid& map; extern Cell cell, goal; extern std::uint32_t index;"
                            "extern const CostGrid::Weight* weights; constexpr unsigned kEast = 0;",
     "weighted_jump_search.h": "extern const CostGrid& map; extern SearchRequest request;",
-    "memory/open_space.h": "extern OpenSpace space; extern VoxelMemory memory; extern double d_safe; extern HeightBand band;"
-                           "extern Eigen::Vector3d from, to;",
-    "memory/surroundings.h": "extern Surroundings surroundings; extern Frame frame; extern double now;"
-                             "extern PilotOptions options; extern Eigen::Vector3d position; void plan(const OpenSpace&);",
-    "memory/voxel_memory.h": "extern VoxelMemory memory; extern Eigen::Vector3d sensor_position, point;"
-                             "extern std::uint32_t milliseconds, before; extern Voxel voxel;",
-    "steering/braking.h": "extern Motion motion; extern base::BodyVelocity command; extern const KeptRoom& room;"
-                          "extern PilotOptions options; struct Commanded { void command(base::BodyVelocity); } vehicle;",
-    "cloud_frames.h": "extern CloudFrames frames; extern sensor_msgs::PointCloud2::ConstPtr cloud;"
-                      "extern FrameTransforms transforms; extern std::string map_frame; extern ros::Time now;",
-    "flight_log.h": "extern std::string file; extern PilotOptions options; extern std::vector<Eigen::Vector3d> waypoints;"
-                    "extern PilotInput input; extern PilotAnswer answer;",
-    "avoidance/pilot.h": "extern PilotOptions options; extern double time; extern VehiclePose pose; extern base::BodyVelocity velocity;"
-                         "extern Frame frame; struct Commanded { void command(base::BodyVelocity); } vehicle;",
-    "moving_bodies.h": """#include "grid_path_planner/simulation/depth_camera.h"
-        #include "grid_path_planner/simulation/vehicle.h"
-        extern Vehicle vehicle; extern DepthCamera camera; extern Eigen::Isometry3d pose;
-        extern std::uint64_t frame; extern std::vector<float> points;""",
     "flight_job.h": "void progress(std::size_t);",
     "block_bound.h": "extern const CostGrid& map; extern Cell goal, cell;",
     "world.h": """

@@ -15,9 +15,14 @@ TRANSFORM = (part("geometry_msgs/TransformStamped", "Header header\nstring child
 POINT_FIELD = part("sensor_msgs/PointField", "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\n"
                    "uint8 INT32=5\nuint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\n"
                    "string name\nuint32 offset\nuint8 datatype\nuint32 count\n")
+REGION = part("sensor_msgs/RegionOfInterest", "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\n"
+              "bool do_rectify\n")
 DEFINITIONS = {
     "map_msgs/OccupancyGridUpdate": "Header header\nint32 x\nint32 y\nuint32 width\nuint32 height\nint8[] data\n"
                                     + HEADER,
+    "sensor_msgs/CameraInfo": "Header header\nuint32 height\nuint32 width\nstring distortion_model\nfloat64[] D\n"
+                              "float64[9] K\nfloat64[9] R\nfloat64[12] P\nuint32 binning_x\nuint32 binning_y\n"
+                              "RegionOfInterest roi\n" + HEADER + REGION,
     "sensor_msgs/Joy": "Header header\nfloat32[] axes\nint32[] buttons\n" + HEADER,
     "sensor_msgs/PointCloud2": "Header header\nuint32 height\nuint32 width\nPointField[] fields\nbool is_bigendian\n"
                                "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"

@@ -125,6 +125,16 @@ class Restart(unittest.TestCase):
         self.assertEqual([], [twist for twist in self.node.heard("cmd_vel") if probes.moving(twist)])
         self.holds()
 
+    def test_local_planner_forgets_its_goal_and_stands(self):
+        self.start("local_planner")
+        self.holds()
+        self.kill()
+        self.comes_up()
+        self.node.forget("cmd_vel")
+        time.sleep(QUIET)
+        self.assertEqual([], [twist for twist in self.node.heard("cmd_vel") if probes.moving(twist)])
+        self.holds()
+
     def test_every_node_is_tested(self):
         tested = " ".join(name for name in dir(self) if name.startswith("test_"))
         self.assertEqual([], [name for name in NODES if name != "projected_map" and "test_" + name not in tested])
