@@ -55,9 +55,18 @@ std::optional<Pinhole> CloudFrames::pinholeOf(const sensor_msgs::PointCloud2& cl
   return Pinhole{k[0], k[4], k[2], k[5]};
 }
 
+// tf2 throws at the end of what ROS time can hold, and no transform would come before such a stamp.
+bool CloudFrames::isFromTheFuture(const ros::Time& now) {
+  const double ahead = secondsBetween(now, waiting_->header.stamp);
+  if (ahead <= kLongestWait) return false;
+  problem_ = "the newest cloud is stamped " + std::to_string(ahead) + " s ahead of ROS time";
+  waiting_.reset();
+  return true;
+}
+
 std::optional<Frame> CloudFrames::next(const FrameTransforms& transforms,
                                        const std::string& map_frame, const ros::Time& now) {
-  if (!waiting_) return std::nullopt;
+  if (!waiting_ || isFromTheFuture(now)) return std::nullopt;
   const sensor_msgs::PointCloud2& cloud = *waiting_;
   try {
     const auto transform =

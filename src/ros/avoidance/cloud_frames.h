@@ -31,6 +31,7 @@ class CloudFrames {
   const std::string& problem() const { return problem_; }
 
  private:
+  bool isFromTheFuture(const ros::Time& now);
   std::optional<avoidance::Pinhole> pinholeOf(const sensor_msgs::PointCloud2& cloud) const;
 
   sensor_msgs::PointCloud2::ConstPtr waiting_;

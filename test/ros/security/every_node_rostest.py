@@ -107,10 +107,17 @@ class EveryNode(unittest.TestCase):
         self.assertEqual([], self.all(comes_up), "start")
         self.goes_on_after("nothing", lambda message: ())
 
+    def publishes_all(self, node):
+        """Waits: what shows a map is published with the map, which may come after a question's answer."""
+        deadline = time.monotonic() + START_SECONDS * overbooked()
+        while not set(node.row.outputs) <= set(node.registered()[1]) and time.monotonic() < deadline:
+            time.sleep(0.1)
+
     def test_2_the_rows_say_what_the_nodes_do(self):
         for node in self.nodes:
             if node.kind == "nodelet":
                 continue  # its manager's registrations are those of whatever it has loaded
+            self.publishes_all(node)
             inputs, outputs, services = node.registered()
             actions = [action + "/" for action in node.row.actions]
             heard = {name: kind for name, kind in inputs.items() if not name.startswith(tuple(actions))}

@@ -85,6 +85,10 @@ RIGHT = {
     "nav_msgs/OccupancyGrid": grid, "map_msgs/OccupancyGridUpdate": update, "nav_msgs/Path": path,
     "geometry_msgs/PoseStamped": pose_stamped, "geometry_msgs/PoseWithCovarianceStamped": initial_pose,
     "sensor_msgs/Joy": joystick, "sensor_msgs/PointCloud2": cloud,
+    "sensor_msgs/CameraInfo": lambda node: of(
+        "sensor_msgs/CameraInfo", header=header(node), width=2, height=1, K=[1.0, 0.0, 1.0, 0.0, 1.0, 0.5, 0.0, 0.0, 1.0]),
+    "nav_msgs/Odometry": lambda node: of(
+        "nav_msgs/Odometry", header=header(node), child_frame_id="base_link", pose={"pose": pose(0.5, 0.5)}),
     "geometry_msgs/Twist": lambda _: of("geometry_msgs/Twist", linear={"x": 0.5}),
     "std_msgs/Bool": lambda _: of("std_msgs/Bool", data=False),
     "grid_path_planner/NavigatePathActionGoal": drive_goal, "grid_path_planner/PlanPathActionGoal": plan_goal,
