@@ -228,8 +228,6 @@ CONTEXT = {
     "weighted_jump_map.h": "extern const CostGrid& map; extern Cell cell, goal; extern std::uint32_t index;"
                            "extern const CostGrid::Weight* weights; constexpr unsigned kEast = 0;",
     "weighted_jump_search.h": "extern const CostGrid& map; extern SearchRequest request;",
-    "flight_job.h": "void progress(std::size_t);",
-    "block_bound.h": "extern const CostGrid& map; extern Cell goal, cell;",
     "world.h": """
         #include <iostream>
         extern Eigen::Vector3d position;""",

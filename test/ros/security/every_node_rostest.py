@@ -56,15 +56,21 @@ class EveryNode(unittest.TestCase):
         os.environ["GRID_PATH_PLANNER_LOAD_FOLDER"] = data
         os.environ["GRID_PATH_PLANNER_SAVE_FOLDER"] = os.path.join(folder.name, "saved")
         cls.clock = Clock(rospy.get_param("/use_sim_time", False))
-        cls.nodes = [RunningNode(name, row, kind, cls.clock, folder.name)
-                     for name, row in NODES.items() for kind in ("process", "nodelet")]
+        cls.nodes = []
+        cls.addClassCleanup(cls.end_nodes)
+        for name, row in NODES.items():
+            for kind in ("process", "nodelet"):
+                cls.nodes.append(RunningNode(name, row, kind, cls.clock, folder.name))
         cls.pool = concurrent.futures.ThreadPoolExecutor(len(cls.nodes))
         cls.longest = 0.0
 
     @classmethod
-    def tearDownClass(cls):
+    def end_nodes(cls):
         for node in cls.nodes:
             node.end(signal.SIGKILL)
+
+    @classmethod
+    def tearDownClass(cls):
         print("every_node: the longest answer took %.1f s" % cls.longest)
 
     def all(self, ask):
