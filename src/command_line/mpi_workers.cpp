@@ -14,11 +14,12 @@ using study::ProcessPool, study::TaskEnd;
 
 namespace {
 
-constexpr int kTask = 1;    // rank 0 -> other: a number, kNoMore to end
+constexpr int kTask = 1;    // rank 0 -> other: a number, or one of the two below
 constexpr int kDone = 2;    // other -> rank 0: what the work returned
 constexpr int kFailed = 3;  // other -> rank 0: why it failed
 constexpr int kAlive = 4;   // other -> rank 0: still at it
 constexpr std::uint64_t kNoMore = ~std::uint64_t{0};
+constexpr std::uint64_t kNoMoreRankLost = kNoMore - 1;
 constexpr int kPollMs = 5;
 constexpr std::chrono::seconds kAliveEvery{2};
 constexpr std::chrono::seconds kLostAfter{15};  // of silence
@@ -61,17 +62,18 @@ MpiSession::MpiSession() {
 }
 
 MpiSession::~MpiSession() {
-  MPI_Finalize();
+  if (finalize_) MPI_Finalize();
 }
 
-void serveTasks(ProcessPool& pool) {
+void serveTasks(MpiSession& session, ProcessPool& pool) {
   for (;;) {
     MPI_Status status;
     // Not MPI_Recv, which would keep a core busy.
     for (; !waiting(status); sleepShortly()) continue;
     std::uint64_t task = kNoMore;
     MPI_Recv(&task, 1, MPI_UINT64_T, 0, kTask, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    if (task == kNoMore) return;
+    if (task == kNoMoreRankLost) session.doNotFinalize();
+    if (task >= kNoMoreRankLost) return;
     pool.start(task);
     for (std::vector<TaskEnd> ends; ends.empty();) {
       ends = pool.wait(static_cast<int>(std::chrono::milliseconds(kAliveEvery).count()));
@@ -83,7 +85,7 @@ void serveTasks(ProcessPool& pool) {
   }
 }
 
-MpiWorkers::MpiWorkers(const MpiSession& session, ProcessPool& local) : local_(local) {
+MpiWorkers::MpiWorkers(MpiSession& session, ProcessPool& local) : session_(session), local_(local) {
   for (int rank = 1; rank < session.ranks(); ++rank) {
     Rank other;
     other.number = rank;
@@ -92,8 +94,12 @@ MpiWorkers::MpiWorkers(const MpiSession& session, ProcessPool& local) : local_(l
 }
 
 MpiWorkers::~MpiWorkers() {
+  const bool lost =
+      std::any_of(others_.begin(), others_.end(), [](const Rank& rank) { return rank.lost; });
+  const std::uint64_t end = lost ? kNoMoreRankLost : kNoMore;
   for (const Rank& rank : others_)
-    if (!rank.lost) MPI_Send(&kNoMore, 1, MPI_UINT64_T, rank.number, kTask, MPI_COMM_WORLD);
+    if (!rank.lost) MPI_Send(&end, 1, MPI_UINT64_T, rank.number, kTask, MPI_COMM_WORLD);
+  if (lost) session_.doNotFinalize();
 }
 
 std::size_t MpiWorkers::idle() const {

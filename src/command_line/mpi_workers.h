@@ -30,18 +30,22 @@ class MpiSession {
   int rank() const { return rank_; }
   int ranks() const { return ranks_; }
 
+  // Ends without MPI_Finalize, which may wait for ever for a rank that was lost.
+  void doNotFinalize() { finalize_ = false; }
+
  private:
   int rank_ = 0;
   int ranks_ = 1;
+  bool finalize_ = true;
 };
 
 // What ranks other than 0 do: tasks by `pool`, until rank 0 says that there are no more.
-void serveTasks(study::ProcessPool& pool);
+void serveTasks(MpiSession& session, study::ProcessPool& pool);
 
 // On rank 0.
 class MpiWorkers : public study::WorkerGroup {
  public:
-  MpiWorkers(const MpiSession& session, study::ProcessPool& local);
+  MpiWorkers(MpiSession& session, study::ProcessPool& local);
   ~MpiWorkers() override;  // tells the others to end
 
   std::size_t idle() const override;
@@ -62,6 +66,7 @@ class MpiWorkers : public study::WorkerGroup {
   bool receive(std::vector<study::TaskEnd>& ends);
   void dropLostRanks(std::vector<study::TaskEnd>& ends);
 
+  MpiSession& session_;
   study::ProcessPool& local_;
   std::vector<Rank> others_;
 };

@@ -58,9 +58,9 @@ int runStudyCommand(int argc, char** argv) {
   const StudyTarget target = targetFrom(values, "grid_path study " + file);
 #ifdef GPP_HAVE_MPI
   if (startedByMpi()) {
-    const MpiSession session;
+    MpiSession session;
     if (session.rank() > 0) {
-      serveTasks(pool);
+      serveTasks(session, pool);
       return 0;
     }
     MpiWorkers workers(session, pool);

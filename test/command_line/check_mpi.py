@@ -1,5 +1,7 @@
 """`grid_path study` under MPI: one rank and two find the same, and a rank that is killed is named.
 
+The study did not end then, once in five: rank 0 waited in MPI_Finalize for the rank that was lost.
+
     check_mpi.py GRID_PATH MPIRUN WORK_FOLDER
 """
 import csv
