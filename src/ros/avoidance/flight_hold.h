@@ -1,8 +1,9 @@
 // Why the vehicle stands although something is flown: stop, a joystick, ~pause, a clock or a master that
 // is gone.
 //
-//   hold.notice(now, flies);                       // every tick
-//   input.hold = hold.why(options.master_timeout);   // empty: it flies
+//   FlightHold hold;
+//   hold.notice(ros::Time::now(), true);                  // every tick
+//   const bool flies = hold.why(master_timeout).empty();
 //
 // A joystick that takes over pauses the flight: it goes on by resume(), as a drive of navigate_path does.
 #pragma once

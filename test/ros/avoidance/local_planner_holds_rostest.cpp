@@ -143,6 +143,7 @@ class HoldsTest : public testing::Test {
       return goals_.getNumSubscribers() > 0 && stops_.getNumSubscribers() > 0 &&
              manuals_.getNumSubscribers() > 0 && paths_.getNumSubscribers() > 0;
     }));
+    ASSERT_TRUE(says("IDLE")) << "it knows when it started";
   }
   void startAndFly() {
     ASSERT_NO_FATAL_FAILURE(start());
