@@ -75,7 +75,7 @@ class LocalPlannerTest : public testing::Test {
   }
 
   void sendGoal(double x) {
-    ASSERT_TRUE(truth_.waitForMoreThan(0));
+    ASSERT_TRUE(test::waitFor([&] { return truth_.count() > 0; }, kFlight));
     ASSERT_TRUE(statuses_.waitFor(0, [](const AvoidanceStatus&) { return true; }));
     ASSERT_TRUE(test::waitFor([&] { return goals_.getNumSubscribers() > 0; }));
     geometry_msgs::PoseStamped goal;
@@ -108,7 +108,7 @@ class LocalPlannerTest : public testing::Test {
 };
 
 TEST_F(LocalPlannerTest, FliesToAGoalInTheOpen) {
-  sendGoal(0.0);
+  ASSERT_NO_FATAL_FAILURE(sendGoal(0.0));
   EXPECT_TRUE(test::waitFor(
       [&] {
         const auto all = statuses_.all();
@@ -124,7 +124,7 @@ TEST_F(LocalPlannerTest, FliesToAGoalInTheOpen) {
 
 // Judged by the stamps of commands, which say when the node decided: true however busy the machine is.
 TEST_F(LocalPlannerTest, StandsHalfASecondAfterTheCameraIsCut) {
-  sendGoal(0.0);
+  ASSERT_NO_FATAL_FAILURE(sendGoal(0.0));
   ASSERT_TRUE(test::waitFor(
       [&] {
         const auto all = truth_.all();
