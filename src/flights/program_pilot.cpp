@@ -68,7 +68,7 @@ json updateOf(const PilotInput& input) {
 }
 
 PilotStatus pilotStatusFrom(const std::string& name) {
-  for (int i = 0; i <= static_cast<int>(PilotStatus::INVALID_REQUEST); ++i)
+  for (int i = 0; i <= static_cast<int>(PilotStatus::CANCELLED); ++i)
     if (toString(static_cast<PilotStatus>(i)) == name) return static_cast<PilotStatus>(i);
   throw InputError("no status is called '" + name + "'");
 }
