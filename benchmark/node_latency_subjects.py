@@ -4,7 +4,7 @@ import os
 import time
 
 import node_latency_maps as maps
-from node_latency_ros import (FRAME, Missed, Positions, Service, Topic, Usage, as_bytes, end, start, transforms_class,
+from node_latency_ros import (DEADLINE, FRAME, Missed, Positions, Service, Topic, Usage, as_bytes, end, start, transforms_class,
                               update_class, wait_until, whole_map_class)
 
 RADIUS, DECAY = 0.3, 3.0     # m, 1/m
@@ -154,7 +154,6 @@ class Node:
 
     def plan_when_there(self, accept=lambda path: True):
         """The first that there is and that is accepted, and when it came."""
-        from node_latency_ros import DEADLINE
         request = self.request(*self.ends)
         deadline = time.monotonic() + DEADLINE
         while time.monotonic() < deadline:
@@ -204,14 +203,14 @@ class PathPlanner(Node):
         """By a goal, which is then the active one."""
         seen = len(self.paths.received)
         begin = self.publish_map(self.world)
-        while True:  # a goal that comes before the map is answered on the tiny one
+        while time.monotonic() < begin + DEADLINE:  # a goal that comes before the map is answered on the tiny one
             self.goals.publish(self.pose(self.ends[1]))
             ended, data = self.paths.next(seen, "path")
             seen = len(self.paths.received)
             self.path = Positions(data)
             if self.path.count > 1:
-                break
-        on_time(ended - begin)
+                return on_time(ended - begin)
+        raise Missed("no path across the map")
 
     def path_around(self, cells, change):
         seen = len(self.paths.received)
