@@ -10,8 +10,6 @@ using grid::CellRect, grid::Grid, grid::Occupancy;
 
 namespace {
 
-constexpr std::size_t kTogether = 8;  // an Eight
-
 // No obstacle in the row: far enough even in the next row but one, and no overflow in the last.
 constexpr std::int16_t kBeyond = 16900;
 constexpr std::int16_t kFar = 32767;
@@ -19,6 +17,9 @@ constexpr std::int16_t kFar = 32767;
 constexpr int kLargestAcross = 2 * BoundedDistanceTransform::kLargestReach;  // half cells
 static_assert(kBeyond > (kLargestAcross + 1) * (kLargestAcross + 1));
 static_assert(kBeyond + (kLargestAcross - 1) * (kLargestAcross - 1) < kFar);
+
+// Between two looks at what is the largest distance: each takes as long as a line or two.
+constexpr int kLinesBetween = 4;
 
 std::size_t roundedUp(std::size_t number, std::size_t to) {
   return (number + to - 1) / to * to;
@@ -70,16 +71,17 @@ const std::int16_t* BoundedDistanceTransform::row(int row) {
   return least_.data();
 }
 
-// From the row upwards and downwards, until no line can give less.
+// From the row upwards and downwards, until no line can give less, which is asked now and then.
 BoundedDistanceTransform::Eights BoundedDistanceTransform::least(int row, std::size_t above,
                                                                  std::size_t first) const {
   Eights least;
   least.fill(Eight{} + kFar);
-  // Whether a line so far away can give less; then lowers by it.
-  const auto lowerBy = [&](const Line& line, const Eight& apart) {
-    Eight most = least[0];
-    for (const Eight& each : least) most = most > each ? most : each;
-    if (!any(most > apart)) return false;
+  int most = kFar, looked = 0;
+  // Returns false where a line so far away gives nothing less.
+  const auto lowerBy = [&](const Line& line, int rows) {
+    if (++looked % kLinesBetween == 0) most = largest(least);
+    const Eight& apart = apart_[static_cast<std::size_t>(rows)];
+    if (apart[0] >= most) return false;
     for (std::size_t i = 0; i < kEights; ++i) {
       const Eight here = from(line.distances + first + i * kTogether) + apart;
       least[i] = here < least[i] ? here : least[i];
@@ -88,11 +90,12 @@ BoundedDistanceTransform::Eights BoundedDistanceTransform::least(int row, std::s
   };
   for (std::size_t i = above; i < lines_.size(); ++i) {
     if (lines_[i].dominated_by_previous && i > above) continue;
-    if (!lowerBy(lines_[i], apart_[static_cast<std::size_t>(lines_[i].row - row)])) break;
+    if (!lowerBy(lines_[i], lines_[i].row - row)) break;
   }
+  most = largest(least);
   for (std::size_t i = above; i-- > 0;) {
     if (lines_[i].dominated_by_next && i + 1 < above) continue;
-    if (!lowerBy(lines_[i], apart_[static_cast<std::size_t>(row - lines_[i].row)])) break;
+    if (!lowerBy(lines_[i], row - lines_[i].row)) break;
   }
   return least;
 }

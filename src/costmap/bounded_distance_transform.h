@@ -14,6 +14,7 @@
 // fastest method measured up to kLargestReach: where obstacles are rare hardly a row is read.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -38,8 +39,9 @@ class BoundedDistanceTransform {
 
  private:
   using Distance = std::int16_t;
+  static constexpr std::size_t kTogether = 8;
   // Eight distances, processed by one SIMD instruction where the machine has such.
-  using Eight = Distance __attribute__((vector_size(16)));
+  using Eight = Distance __attribute__((vector_size(2 * kTogether)));
   // Of a cache line, for which one looks at lines together.
   static constexpr std::size_t kEights = 4;
   using Eights = std::array<Eight, kEights>;
@@ -53,6 +55,14 @@ class BoundedDistanceTransform {
     using Halves = std::int64_t __attribute__((vector_size(16)));
     const auto halves = reinterpret_cast<Halves>(signs);
     return (halves[0] | halves[1]) != 0;
+  }
+
+  static int largest(const Eights& eights) {
+    Eight most = eights[0];
+    for (const Eight& each : eights) most = most > each ? most : each;
+    int all = 0;
+    for (std::size_t i = 0; i < kTogether; ++i) all = std::max<int>(all, most[i]);
+    return all;
   }
 
   // The squared distance of two cells that are `cells` columns or rows apart.
