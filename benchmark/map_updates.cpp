@@ -11,10 +11,10 @@
 //   planner  Planner::update, its background work excluded
 //   plan     the search
 //
-// in CPU time of the thread, and before: the first of 100 plans on the new map with its preparation,
-// the others, and the same plans once all is prepared. Changes: nothing changed, one cell, one near a corner, two near opposite
+// in CPU time of the thread, of: nothing changed, one cell, one near a corner, two near opposite
 // corners, 16 and 256 anywhere, 0.1 % of all. The costs of the last path of each are compared with
-// those of a planner made anew.
+// those of a planner made anew. Before these: the first of 100 plans on the new map with its
+// preparation, the others, and the same plans once all is prepared.
 #include <time.h>
 
 #include <algorithm>

@@ -29,10 +29,10 @@ class Effort:
 CASES = []
 
 
-def case(needs_goals=False):
-    """`needs_goals`: only of nodes that answer goals and plan again by themselves."""
+def case(needs_goals=False, grows=False):
+    """`needs_goals`: only of nodes that answer goals and plan again by themselves. `grows`: the map changes its size."""
     def add(function):
-        function.title, function.needs_goals = function.__doc__.split(". ")[0], needs_goals
+        function.title, function.needs_goals, function.grows = function.__doc__.split(". ")[0], needs_goals, grows
         CASES.append(function)
         return function
     return add
@@ -53,7 +53,7 @@ def a_cell_of_the_path(node, generator, low=0.3, high=0.7):
     raise Missed("the path has no free cell between %.1f and %.1f of it" % (low, high))
 
 
-@case()
+@case(grows=True)
 def first_plan(node, generator, effort, result):
     """first plan on a new map. Four more on other maps of the same kind."""
     plain = node.world
@@ -137,7 +137,7 @@ def republished_scattered(node, generator, effort, result):
         publish_blocked(node, generator, 0.001, result)
 
 
-@case()
+@case(grows=True)
 def grown(node, generator, effort, result):
     """map that grows and shifts its origin. By eight cells on each of two sides."""
     for _ in effort.rounds(10):
