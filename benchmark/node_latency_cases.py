@@ -216,14 +216,19 @@ def ask_while_maps_come(node, generator, effort, result, goal):
     versions = [node.map_message(maps.scattered(node.world, 0.001, generator, ends)) for _ in range(3)]
     stop_at = time.monotonic() + (3.0 if effort.quick else 15.0)
 
+    missed = []
+
     def ask():
-        service = Service(node.service_name, node.GetPlan)
-        while time.monotonic() < stop_at:
-            request = node.request(node.ends[0], goal)
-            begin = time.monotonic()
-            service.call(request)
-            result.times.append(time.monotonic() - begin)
-            time.sleep(0.02)
+        try:
+            service = Service(node.service_name, node.GetPlan)
+            while time.monotonic() < stop_at:
+                request = node.request(node.ends[0], goal)
+                begin = time.monotonic()
+                service.call(request)
+                result.times.append(time.monotonic() - begin)
+                time.sleep(0.02)
+        except Missed as error:
+            missed.append(error)
     clients = [Thread(target=ask) for _ in range(4)]
     for client in clients:
         client.start()
@@ -234,6 +239,8 @@ def ask_while_maps_come(node, generator, effort, result, goal):
         time.sleep(max(0.0, 0.2 - (time.monotonic() - begin)))
     for client in clients:
         client.join()
+    if missed:
+        raise missed[0]
     result.remark = "%d maps sent" % sent
 
 
