@@ -1,4 +1,4 @@
-"""The cases of node_latency: each a small function (node, generator, quick, result) whose title is its docstring."""
+"""The cases of node_latency: each a small function (node, generator, effort, result) whose title is its docstring."""
 import time
 
 import node_latency_maps as maps
@@ -10,13 +10,29 @@ class Result:
         self.times, self.remark = [], ""
 
 
+class Effort:
+    """How much is measured for a row: few rounds where `quick`, at most `most_rounds` (0: no limit), and no new one after
+    `seconds`."""
+
+    def __init__(self, quick, most_rounds, seconds):
+        self.quick, self.most_rounds, self.seconds = quick, most_rounds, seconds
+
+    def rounds(self, full=20, quick=5):
+        count = quick if self.quick else full
+        begin = time.monotonic()
+        for i in range(min(count, self.most_rounds or count)):
+            if i > 0 and time.monotonic() - begin > self.seconds:
+                return
+            yield i
+
+
 CASES = []
 
 
-def case(needs_goals=False):
-    """`needs_goals`: only of nodes that answer goals and plan again by themselves."""
+def case(needs_goals=False, grows=False):
+    """`needs_goals`: only of nodes that answer goals and plan again by themselves. `grows`: the map changes its size."""
     def add(function):
-        function.title, function.needs_goals = function.__doc__.split(". ")[0], needs_goals
+        function.title, function.needs_goals, function.grows = function.__doc__.split(". ")[0], needs_goals, grows
         CASES.append(function)
         return function
     return add
@@ -37,26 +53,23 @@ def a_cell_of_the_path(node, generator, low=0.3, high=0.7):
     raise Missed("the path has no free cell between %.1f and %.1f of it" % (low, high))
 
 
-def rounds(quick, of=20):
-    return range(5 if quick else of)
-
-
-@case()
-def first_plan(node, generator, quick, result):
+@case(grows=True)
+def first_plan(node, generator, effort, result):
     """first plan on a new map. Four more on other maps of the same kind."""
-    for _ in range(1 if quick else 4):
-        ends = [node.world.cell(*end) for end in node.ends]
-        node.world = maps.scattered(node.world.grown(8), 0.002, generator, ends)
+    plain = node.world
+    for _ in effort.rounds(4, 1):
+        plain = plain.grown(8)
+        node.world = maps.scattered(plain, 0.0005, generator, [plain.cell(*end) for end in node.ends])
         node.first_plan(result.times.append)
 
 
 @case()
-def make_plan(node, generator, quick, result):
+def make_plan(node, generator, effort, result):
     """`~make_plan` on one connection. Of our node also what it takes above the engine's planning time."""
     places = [node.world.centre(column, row) for column, row in free_places(node, generator, 40)]
     first = len(node.statistics.received) if node.has_goals else 0
     found, goals = 0, []
-    for _ in range(40 if quick else 200):
+    for _ in effort.rounds(200, 40):
         start, goal = generator.sample(places, 2)
         goals.append(goal)
         request = node.request(start, goal)
@@ -85,17 +98,17 @@ def free_places(node, generator, count):
 
 
 @case()
-def one_cell(node, generator, quick, result):
+def one_cell(node, generator, effort, result):
     """one cell changed. It is on the path; until a path avoids it."""
-    for _ in rounds(quick):
+    for _ in effort.rounds():
         cell = a_cell_of_the_path(node, generator)
         result.times.append(node.path_around([cell], lambda: node.update([cell])))
 
 
 @case()
-def two_cells(node, generator, quick, result):
+def two_cells(node, generator, effort, result):
     """two cells at opposite corners. Both are on the path, an update each; until a path avoids both."""
-    for _ in rounds(quick):
+    for _ in effort.rounds():
         cells = [a_cell_of_the_path(node, generator, 0.05, 0.15), a_cell_of_the_path(node, generator, 0.85, 0.95)]
         result.times.append(node.path_around(cells, lambda: node.update(cells)))
 
@@ -109,25 +122,25 @@ def publish_blocked(node, generator, share, result):
 
 
 @case()
-def republished_one(node, generator, quick, result):
+def republished_one(node, generator, effort, result):
     """whole map again, one cell changed. What receiving and comparing a map takes is in it."""
-    for _ in rounds(quick):
+    for _ in effort.rounds():
         publish_blocked(node, generator, 0.0, result)
 
 
 @case()
-def republished_scattered(node, generator, quick, result):
+def republished_scattered(node, generator, effort, result):
     """whole map again, 0.1 % scattered changes. As SLAM and octomap_server publish."""
     before = node.world.copy()
-    for _ in rounds(quick):
+    for _ in effort.rounds():
         node.world = before.copy()
         publish_blocked(node, generator, 0.001, result)
 
 
-@case()
-def grown(node, generator, quick, result):
+@case(grows=True)
+def grown(node, generator, effort, result):
     """map that grows and shifts its origin. By eight cells on each of two sides."""
-    for _ in rounds(quick, 10):
+    for _ in effort.rounds(10):
         cell = a_cell_of_the_path(node, generator)
         node.world = node.world.grown(8)
         cell = (cell[0] + 8, cell[1] + 8)
@@ -136,12 +149,12 @@ def grown(node, generator, quick, result):
 
 
 @case(needs_goals=True)
-def options_changed(node, generator, quick, result):
+def options_changed(node, generator, effort, result):
     """options changed live, then `~make_plan`. `decay`, so that every weight changes."""
     from dynamic_reconfigure.msg import Config, DoubleParameter
     from dynamic_reconfigure.srv import Reconfigure
     reconfigure = Service(node.namespace + "/set_parameters", Reconfigure)
-    for i in rounds(quick):
+    for i in effort.rounds():
         config = Config(doubles=[DoubleParameter("decay", 3.0 + 0.1 * (i % 2))])
         request, plan = as_bytes(Reconfigure._request_class(config)), node.request(*node.ends)
         begin = time.monotonic()
@@ -153,13 +166,13 @@ def options_changed(node, generator, quick, result):
 
 
 @case(needs_goals=True)
-def another_planner(node, generator, quick, result):
+def another_planner(node, generator, effort, result):
     """`~make_plan` after another planner was asked. That was `a_star`, by `~compare_plans`."""
     from grid_path_planner.srv import ComparePlans
     compare = Service(node.namespace + "/compare_plans", ComparePlans)
     start, goal = node.pose(node.ends[0]), node.pose(node.ends[1])
     request = as_bytes(ComparePlans._request_class(start=start, goal=goal, planners=["a_star"], heuristics=[]))
-    for _ in rounds(quick):
+    for _ in effort.rounds():
         compare.call(request)
         plan = node.request(*node.ends)
         begin = time.monotonic()
@@ -168,11 +181,11 @@ def another_planner(node, generator, quick, result):
 
 
 @case(needs_goals=True)
-def many_goals(node, generator, quick, result):
+def many_goals(node, generator, effort, result):
     """goals at 100 Hz. Of those that are answered; a newer goal cancels the one before."""
     places = [node.world.centre(column, row) for column, row in free_places(node, generator, 60)]
     sent, first = {}, len(node.paths.received)
-    count = 100 if quick else 500
+    count = 100 if effort.quick else 500
     for i in range(count):
         begin = time.monotonic()
         place = places[i % len(places)]
@@ -196,21 +209,26 @@ def maps_end(data):
     return path[path.count - 1] if path.count else None
 
 
-def ask_while_maps_come(node, generator, quick, result, goal):
+def ask_while_maps_come(node, generator, effort, result, goal):
     """Four clients, each with a connection of its own."""
     from threading import Thread
     ends = [node.world.cell(*end) for end in node.ends]
     versions = [node.map_message(maps.scattered(node.world, 0.001, generator, ends)) for _ in range(3)]
-    stop_at = time.monotonic() + (3.0 if quick else 15.0)
+    stop_at = time.monotonic() + (3.0 if effort.quick else 15.0)
+
+    missed = []
 
     def ask():
-        service = Service(node.service_name, node.GetPlan)
-        while time.monotonic() < stop_at:
-            request = node.request(node.ends[0], goal)
-            begin = time.monotonic()
-            service.call(request)
-            result.times.append(time.monotonic() - begin)
-            time.sleep(0.02)
+        try:
+            service = Service(node.service_name, node.GetPlan)
+            while time.monotonic() < stop_at:
+                request = node.request(node.ends[0], goal)
+                begin = time.monotonic()
+                service.call(request)
+                result.times.append(time.monotonic() - begin)
+                time.sleep(0.02)
+        except Missed as error:
+            missed.append(error)
     clients = [Thread(target=ask) for _ in range(4)]
     for client in clients:
         client.start()
@@ -221,20 +239,22 @@ def ask_while_maps_come(node, generator, quick, result, goal):
         time.sleep(max(0.0, 0.2 - (time.monotonic() - begin)))
     for client in clients:
         client.join()
+    if missed:
+        raise missed[0]
     result.remark = "%d maps sent" % sent
 
 
 @case()
-def many_maps(node, generator, quick, result):
+def many_maps(node, generator, effort, result):
     """`~make_plan` of four clients while whole maps come at 5 Hz, across the map. Each map with 0.1 % of its cells changed."""
-    ask_while_maps_come(node, generator, quick, result, node.ends[1])
+    ask_while_maps_come(node, generator, effort, result, node.ends[1])
 
 
 @case()
-def many_maps_near(node, generator, quick, result):
+def many_maps_near(node, generator, effort, result):
     """the same over 20 m. What a plan itself takes is little then."""
     middle = [node.world.cell(*end)[0] for end in node.ends]
     reach = min(middle[1] - middle[0], 283)  # of 0.05 m, in both directions
     at = next(i for i in range(middle[0] + reach, middle[0], -1)
               if not any(node.world.at(i + c, i + r) for c in range(-10, 11) for r in range(-10, 11)))
-    ask_while_maps_come(node, generator, quick, result, node.world.centre(at, at))
+    ask_while_maps_come(node, generator, effort, result, node.world.centre(at, at))

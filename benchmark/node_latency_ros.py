@@ -101,7 +101,7 @@ class Service:
         fields = ("callerid=/node_latency", "service=" + name, "md5sum=" + service_class._md5sum,
                   "type=" + service_class._type, "persistent=1")
         header = b"".join(struct.pack("<I", len(field)) + field.encode() for field in fields)
-        self.socket.sendall(struct.pack("<I", len(header)) + header)
+        self.told(lambda: self.socket.sendall(struct.pack("<I", len(header)) + header))
         answer = self.receive(struct.unpack("<I", self.receive(4))[0])
         if b"error=" in answer:
             raise Missed("%s: %r" % (name, answer))
@@ -116,13 +116,19 @@ class Service:
             return False
         return True
 
+    def told(self, talk):
+        """What talk() returns; a node that ended or does not answer is an exception that says so."""
+        try:
+            return talk()
+        except ConnectionError as error:
+            raise HungUp(self.name + " hung up") from error
+        except socket.timeout as error:
+            raise Missed("no answer of %s within %.0f s" % (self.name, DEADLINE)) from error
+
     def receive(self, count):
         parts = []
         while count > 0:
-            try:
-                part = self.socket.recv(min(count, 1 << 20))
-            except ConnectionError:
-                part = b""
+            part = self.told(lambda: self.socket.recv(min(count, 1 << 20)))
             if not part:
                 raise HungUp(self.name + " hung up")
             parts.append(part)
@@ -131,7 +137,7 @@ class Service:
 
     def call(self, request):
         """The answer's bytes; b"" where the service refuses. `request`: as bytes."""
-        self.socket.sendall(struct.pack("<I", len(request)) + request)
+        self.told(lambda: self.socket.sendall(struct.pack("<I", len(request)) + request))
         ok = self.receive(1) == b"\x01"
         answer = self.receive(struct.unpack("<I", self.receive(4))[0])
         return answer if ok else b""

@@ -4,7 +4,7 @@ import os
 import time
 
 import node_latency_maps as maps
-from node_latency_ros import (FRAME, Missed, Positions, Service, Topic, Usage, as_bytes, end, start, transforms_class,
+from node_latency_ros import (DEADLINE, FRAME, Missed, Positions, Service, Topic, Usage, as_bytes, end, start, transforms_class,
                               update_class, wait_until, whole_map_class)
 
 RADIUS, DECAY = 0.3, 3.0     # m, 1/m
@@ -33,12 +33,13 @@ class Node:
 
     has_goals = False  # answers goals and blocked paths by itself, on `path`
 
-    def __init__(self, world, inflated, log_folder):
+    def __init__(self, world, inflated, log_folder, grows):
+        """`grows`: the case is about maps of another size than the first."""
         import rospy
         from geometry_msgs.msg import PoseStamped, TransformStamped
         from nav_msgs.srv import GetPlan
         self.PoseStamped, self.OccupancyGridUpdate, self.GetPlan = PoseStamped, update_class(), GetPlan
-        self.world, self.inflated, self.log_folder = world.copy(), inflated, log_folder
+        self.world, self.inflated, self.log_folder, self.grows = world.copy(), inflated, log_folder, grows
         self.Map, Transforms = whole_map_class(), transforms_class()
         self.maps = rospy.Publisher("projected_map", self.Map.__mro__[1], queue_size=None, latch=True, tcp_nodelay=True)
         self.updates = rospy.Publisher("projected_map_updates", self.OccupancyGridUpdate, queue_size=None, tcp_nodelay=True)
@@ -67,7 +68,7 @@ class Node:
         import rospy
         for name in self.parameters():
             rospy.set_param(name, self.parameters()[name])
-        self.publish_map(maps.Map("tiny", 40, bytearray(1600), self.world.origin))
+        self.publish_map(self.first_map())
         self.process = start(self.command(), os.path.join(self.log_folder, "node.log"))
         try:
             self.service = Service(self.service_name, self.GetPlan)
@@ -79,6 +80,9 @@ class Node:
             self.__exit__()
             raise
         return self
+
+    def first_map(self):
+        return maps.Map("tiny", 40, bytearray(1600), self.world.origin)
 
     def connect(self):
         """What a subject needs besides."""
@@ -154,7 +158,6 @@ class Node:
 
     def plan_when_there(self, accept=lambda path: True):
         """The first that there is and that is accepted, and when it came."""
-        from node_latency_ros import DEADLINE
         request = self.request(*self.ends)
         deadline = time.monotonic() + DEADLINE
         while time.monotonic() < deadline:
@@ -204,14 +207,14 @@ class PathPlanner(Node):
         """By a goal, which is then the active one."""
         seen = len(self.paths.received)
         begin = self.publish_map(self.world)
-        while True:  # a goal that comes before the map is answered on the tiny one
+        while time.monotonic() < begin + DEADLINE:  # a goal that comes before the map is answered on the tiny one
             self.goals.publish(self.pose(self.ends[1]))
             ended, data = self.paths.next(seen, "path")
             seen = len(self.paths.received)
             self.path = Positions(data)
             if self.path.count > 1:
-                break
-        on_time(ended - begin)
+                return on_time(ended - begin)
+        raise Missed("no path across the map")
 
     def path_around(self, cells, change):
         seen = len(self.paths.received)
@@ -268,6 +271,10 @@ class MoveBase(Node):
                 "inflation_layer": {"inflation_radius": 1.5 if self.inflated else 0.0, "cost_scaling_factor": DECAY}},
             "local_costmap": {"global_frame": FRAME, "robot_base_frame": "base_link", "rolling_window": True, "width": 2.0,
                               "height": 2.0, "resolution": 0.1, "plugins": [], "update_frequency": 1.0}}}
+
+    def first_map(self):
+        """The world itself where that can be: it ends now and then while its costmap is made larger."""
+        return super().first_map() if self.grows else self.world
 
     def command(self):
         return [executable("move_base", "move_base"), "__name:=move_base"]

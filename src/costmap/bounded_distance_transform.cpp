@@ -10,8 +10,6 @@ using grid::CellRect, grid::Grid, grid::Occupancy;
 
 namespace {
 
-constexpr std::size_t kTogether = 8;  // an Eight
-
 // No obstacle in the row: far enough even in the next row but one, and no overflow in the last.
 constexpr std::int16_t kBeyond = 16900;
 constexpr std::int16_t kFar = 32767;
@@ -19,6 +17,13 @@ constexpr std::int16_t kFar = 32767;
 constexpr int kLargestAcross = 2 * BoundedDistanceTransform::kLargestReach;  // half cells
 static_assert(kBeyond > (kLargestAcross + 1) * (kLargestAcross + 1));
 static_assert(kBeyond + (kLargestAcross - 1) * (kLargestAcross - 1) < kFar);
+
+// Between two looks at what is the largest distance: each takes as long as a line or two.
+constexpr int kLinesBetween = 4;
+
+std::size_t roundedUp(std::size_t number, std::size_t to) {
+  return (number + to - 1) / to * to;
+}
 
 // The index of the first source from cells[at] on; `count` where there is none.
 int sourceFrom(const Occupancy* cells, Occupancy source, int at, int count) {
@@ -38,7 +43,7 @@ BoundedDistanceTransform::BoundedDistanceTransform(const Grid<Occupancy>& classe
       window_(rect.grown(reach).intersection(sources)),
       reach_(reach),
       period_(std::max(1, std::min(2 * reach + 1, window_.height))),
-      stride_((static_cast<std::size_t>(rect.width) + kTogether - 1) / kTogether * kTogether),
+      stride_(roundedUp(static_cast<std::size_t>(rect.width), kEights * kTogether)),
       next_(window_.row),
       memory_(stride_ * static_cast<std::size_t>(period_)),
       least_(stride_) {
@@ -59,32 +64,38 @@ const std::int16_t* BoundedDistanceTransform::row(int row) {
   for (; next_ < end; ++next_) measure(next_);
   if (lines_.empty()) return nullptr;
   const auto above = std::lower_bound(lines_.begin(), lines_.end(), row, beforeRow);
-  for (std::size_t i = 0; i < stride_; i += kTogether) {
-    const Eight eight = least(row, static_cast<std::size_t>(above - lines_.begin()), i);
-    std::memcpy(least_.data() + i, &eight, sizeof eight);
+  for (std::size_t i = 0; i < stride_; i += kEights * kTogether) {
+    const Eights eights = least(row, static_cast<std::size_t>(above - lines_.begin()), i);
+    std::memcpy(least_.data() + i, &eights, sizeof eights);
   }
   return least_.data();
 }
 
-// From the row upwards and downwards, until no line can give less.
-BoundedDistanceTransform::Eight BoundedDistanceTransform::least(int row, std::size_t above,
-                                                                std::size_t first) const {
-  Eight least = Eight{} + kFar;
-  const auto lowerBy = [&](const Line& line, const Eight& apart) {
-    const Eight here = from(line.distances + first) + apart;
-    least = here < least ? here : least;
+// From the row upwards and downwards, until no line can give less, which is asked now and then.
+BoundedDistanceTransform::Eights BoundedDistanceTransform::least(int row, std::size_t above,
+                                                                 std::size_t first) const {
+  Eights least;
+  least.fill(Eight{} + kFar);
+  int most = kFar, looked = 0;
+  // Returns false where a line so far away gives nothing less.
+  const auto lowerBy = [&](const Line& line, int rows) {
+    if (++looked % kLinesBetween == 0) most = largest(least);
+    const Eight& apart = apart_[static_cast<std::size_t>(rows)];
+    if (apart[0] >= most) return false;
+    for (std::size_t i = 0; i < kEights; ++i) {
+      const Eight here = from(line.distances + first + i * kTogether) + apart;
+      least[i] = here < least[i] ? here : least[i];
+    }
+    return true;
   };
   for (std::size_t i = above; i < lines_.size(); ++i) {
     if (lines_[i].dominated_by_previous && i > above) continue;
-    const Eight& apart = apart_[static_cast<std::size_t>(lines_[i].row - row)];
-    if (!any(least > apart)) break;
-    lowerBy(lines_[i], apart);
+    if (!lowerBy(lines_[i], lines_[i].row - row)) break;
   }
+  most = largest(least);
   for (std::size_t i = above; i-- > 0;) {
     if (lines_[i].dominated_by_next && i + 1 < above) continue;
-    const Eight& apart = apart_[static_cast<std::size_t>(row - lines_[i].row)];
-    if (!any(least > apart)) break;
-    lowerBy(lines_[i], apart);
+    if (!lowerBy(lines_[i], row - lines_[i].row)) break;
   }
   return least;
 }

@@ -6,14 +6,16 @@
 //     if (const std::int16_t* distances = transform.row(row)) use(distances);
 //
 // Distances are in (half cells)^2, from a cell's centre to the nearest edge of a cell of
-// `sources` that is of the given class, exact below (2 reach + 1)^2 and any larger value beyond. Separable: along each row the
-// distance to the nearest occupied cell; then along the columns the least over the 2 reach + 1 rows
-// around, eight columns at once, from the nearest row outwards until no row can give less; rows
-// without an occupied cell are skipped. Values have sixteen bits, so that the rows around stay in
-// the cache. That is O(reach) for a cell and yet the fastest method measured up to kLargestReach:
-// where obstacles are rare hardly a row is read.
+// `sources` that is of the given class, exact below (2 reach + 1)^2 and any larger value beyond.
+// Separable: along each row the distance to the nearest occupied cell; then along the columns the
+// least over the 2 reach + 1 rows around, a cache line of columns at once, from the nearest row
+// outwards until no row can give less; rows without an occupied cell are skipped. Values have
+// sixteen bits, so that the rows around stay in the cache. That is O(reach) for a cell and yet the
+// fastest method measured up to kLargestReach: where obstacles are rare hardly a row is read.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -37,8 +39,12 @@ class BoundedDistanceTransform {
 
  private:
   using Distance = std::int16_t;
+  static constexpr std::size_t kTogether = 8;
   // Eight distances, processed by one SIMD instruction where the machine has such.
-  using Eight = Distance __attribute__((vector_size(16)));
+  using Eight = Distance __attribute__((vector_size(2 * kTogether)));
+  // Of a cache line, for which one looks at lines together.
+  static constexpr std::size_t kEights = 4;
+  using Eights = std::array<Eight, kEights>;
 
   static Eight from(const Distance* distances) {
     Eight eight;
@@ -51,6 +57,14 @@ class BoundedDistanceTransform {
     return (halves[0] | halves[1]) != 0;
   }
 
+  static int largest(const Eights& eights) {
+    Eight most = eights[0];
+    for (const Eight& each : eights) most = most > each ? most : each;
+    int all = 0;
+    for (std::size_t i = 0; i < kTogether; ++i) all = std::max<int>(all, most[i]);
+    return all;
+  }
+
   // The squared distance of two cells that are `cells` columns or rows apart.
   static constexpr int squared(int cells) {
     return cells == 0 ? 0 : (2 * cells - 1) * (2 * cells - 1);
@@ -61,9 +75,9 @@ class BoundedDistanceTransform {
   // Writes the distances along a row to the nearer one of the occupied cells `before` and `next`,
   // for the cells between them that lie in the rectangle. Columns count from the window's first.
   void fillBetween(int before, int next, Distance* line) const;
-  // The distances of `row` in the eight columns from `first` on. Lines from `above` on belong to
-  // `row` and the rows after it.
-  Eight least(int row, std::size_t above, std::size_t first) const;
+  // The distances of `row` in the columns from `first` on. Lines from `above` on belong to `row` and
+  // the rows after it.
+  Eights least(int row, std::size_t above, std::size_t first) const;
 
   const grid::Grid<grid::Occupancy>& classes_;
   grid::Occupancy source_;
@@ -71,7 +85,7 @@ class BoundedDistanceTransform {
   grid::CellRect window_;  // the part of the sources that is in reach of the rectangle
   int reach_;
   int period_;                     // lines in memory_
-  std::size_t stride_;             // length of a line, a multiple of eight
+  std::size_t stride_;             // length of a line, a multiple of Eights
   int next_;                       // the next row to be measured
   std::vector<Distance> rising_;   // squares by columns apart, kBeyond where out of reach
   std::vector<Distance> falling_;  // the same backwards

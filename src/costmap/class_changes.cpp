@@ -44,13 +44,13 @@ void add(CellRect& hull, Cell cell) {
 
 // The changes in one square.
 struct Square {
-  CellRect all, filled, opened, vacated;
+  CellRect all, filled, vacated, other;
 
   void addCell(Cell cell, Occupancy before, Occupancy now) {
     if (now == before) return;
     add(all, cell);
-    add(now == Occupancy::OCCUPIED ? filled : opened, cell);
-    if (before == Occupancy::OCCUPIED) add(vacated, cell);
+    const bool was_occupied = before == Occupancy::OCCUPIED;
+    add(now == Occupancy::OCCUPIED ? filled : was_occupied ? vacated : other, cell);
   }
 };
 
@@ -114,8 +114,8 @@ ClassChanges::ClassChanges(const OccupancyGrid& map, const OccupancyThresholds& 
       for (const Square& square : squares) {
         appendFilled(square.all, all);
         appendFilled(square.filled, filled);
-        appendFilled(square.opened, opened);
         appendFilled(square.vacated, vacated);
+        appendFilled(square.other, other);
       }
     }
   }

@@ -30,8 +30,8 @@ struct ClassChanges {
   // The smallest rectangles around the changed cells of each square: all of them, and those of a kind.
   std::vector<grid::CellRect> all;
   std::vector<grid::CellRect> filled;   // occupied now
-  std::vector<grid::CellRect> opened;   // not occupied now
-  std::vector<grid::CellRect> vacated;  // of `opened`: occupied before
+  std::vector<grid::CellRect> vacated;  // occupied before
+  std::vector<grid::CellRect> other;    // neither
 };
 
 // Fewer rectangles that hold the cells of `rects`, where that makes the sum of their cells less, with

@@ -1,5 +1,6 @@
 #include "grid_path_planner/costmap/costmap_builder.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <utility>
@@ -85,7 +86,7 @@ struct Rewriting {
             const CellRect& map) {
     const int reach = inflations.occupied.reach();
     const bool stamped = occupied_is_blocked && inflations.occupied.hasStamp();
-    recomputed = joinedRects(changes.opened, 0);
+    recomputed = joinedRects(changes.other, 0);
     for (const CellRect& rect : joinedRects(changes.vacated, reach))
       recomputed.push_back(grown(rect, reach, map));
     // Around unknown cells there is no weight but blocked, so all of it is computed again.
@@ -94,12 +95,20 @@ struct Rewriting {
         recomputed.push_back(grown(rect, inflations.unknown.reach(), map));
     if (recomputed.size() <= grid::kMostRects) recomputed = disjointRects(recomputed);
     for (const CellRect& rect : changes.filled)
-      (stamped && rect.width * rect.height <= kMostStamps ? few : raised).push_back(rect);
+      if (!isRecomputed(grown(rect, reach, map)))
+        (stamped && rect.width * rect.height <= kMostStamps ? few : raised).push_back(rect);
     raised = joinedRects(raised, reach);
     all = recomputed;
     for (const auto* filled : {&few, &raised})
       for (const CellRect& rect : *filled) all.push_back(grown(rect, reach, map));
     all = disjointRects(all);
+  }
+
+  // Whether one of the rectangles to be computed again, if these are few, holds it.
+  bool isRecomputed(const CellRect& rect) const {
+    return recomputed.size() <= grid::kMostRects &&
+           std::any_of(recomputed.begin(), recomputed.end(),
+                       [&](const CellRect& each) { return each.intersection(rect) == rect; });
   }
 
   // Cells that an inflation one by one takes less time for than one of all together.
