@@ -116,7 +116,8 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
     prepareAStar(stop);
     return;
   }
-  jumps_.prepare(map(), stop);
+  const bool small = pruning_.octileSaysNothing(map().minWeight());
+  jumps_.prepare(map(), stop, small ? WeightedJumpSearch::kSmallBlock : WeightedJumpSearch::kBlock);
   jumps_ready_ = true;
   tiles_left_ = firstTiles();
   paid_ = 0;
