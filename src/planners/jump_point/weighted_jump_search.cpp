@@ -44,8 +44,13 @@ void WeightedJumpSearch::prepare(const CostGrid& map, const StopToken& stop, int
 }
 
 void WeightedJumpSearch::update(const CostGrid& map, const std::vector<CellRect>& changed,
-                                const StopToken& stop) {
-  blocks_.update(map, changed);
+                                const StopToken& stop, int block) {
+  if (block == blocks_.side()) {
+    blocks_.update(map, changed);
+  } else {
+    blocks_.setSide(block);
+    blocks_.prepare(map, stop);
+  }
   jumps_.update(map, changed, stop);
 }
 

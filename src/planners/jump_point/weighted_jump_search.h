@@ -53,9 +53,10 @@ class WeightedJumpSearch {
 
   // `block`: the side of the bound's blocks in cells. Throws Stopped.
   void prepare(const costmap::CostGrid& map, const base::StopToken& stop, int block = kBlock);
-  // `changed`: the cells whose weights changed since. Throws Stopped.
+  // `changed`: the cells whose weights changed since. `block` may be another than before. Throws
+  // Stopped.
   void update(const costmap::CostGrid& map, const std::vector<grid::CellRect>& changed,
-              const base::StopToken& stop);
+              const base::StopToken& stop, int block = kBlock);
   // Makes all tiles ready, so that no run() makes one; those made stay where it is stopped. Throws
   // Stopped.
   void finish(const costmap::CostGrid& map, const base::StopToken& stop) {

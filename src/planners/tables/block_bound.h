@@ -161,6 +161,7 @@ class BlockBounds {
  public:
   // `side` of a block in cells: 4 or 8.
   explicit BlockBounds(int side) : weights_(side) {}
+  int side() const { return weights_.side(); }
   // The next prepare() makes blocks of this side.
   void setSide(int side);
 
