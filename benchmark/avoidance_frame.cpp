@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "../test/avoidance/simulated_flight.h"
+#include "avoidance/simulated_flight.h"
 
 namespace {
 

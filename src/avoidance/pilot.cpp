@@ -65,14 +65,6 @@ void Pilot::setMapPlan(MapPlan plan) {
   parts_->map_plan = std::move(plan);
 }
 
-void Pilot::pause() {
-  parts_->paused = true;
-}
-
-void Pilot::resume() {
-  parts_->paused = false;
-}
-
 void Pilot::cancel(const std::string& reason) {
   parts_->end(PilotStatus::CANCELLED, "cancelled: " + reason);
 }
@@ -86,7 +78,7 @@ PilotAnswer Pilot::update(const PilotInput& input) {
 }
 
 void Pilot::see(const Frame& frame) {
-  parts_->surroundings.see(frame, frame.time, parts_->options);
+  parts_->see(frame);
 }
 
 const Points& Pilot::path() const {

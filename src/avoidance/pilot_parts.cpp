@@ -13,16 +13,29 @@ using Eigen::Vector3d;
 
 namespace {
 
+constexpr double kFarthestPose = 1e6;    // m
+constexpr double kFastest = 1e3;         // m/s
 constexpr double kMostClearance = 12.0;  // m
 constexpr double kHovers = 0.02;         // m/s
 constexpr int kFramesBetween = 5;        // of searches while there is no path
 
 Motion motionOf(const VehiclePose& pose, const BodyVelocity& v) {
-  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
-  return {pose.position,
-          {c * v.surge - s * v.sway, s * v.surge + c * v.sway, v.heave},
-          pose.yaw,
-          v.yaw_rate};
+  return {pose.position, base::inMap(v, pose.yaw), pose.yaw, v.yaw_rate};
+}
+
+// Why the vehicle's state cannot be used; empty: it can.
+std::string stateProblem(const PilotInput& input) {
+  if (!input.pose)
+    return input.pose_problem.empty() ? "the vehicle's pose is not known" : input.pose_problem;
+  const VehiclePose& pose = *input.pose;
+  if (!pose.position.allFinite() || !std::isfinite(pose.yaw))
+    return "the vehicle's pose is not finite";
+  if (pose.position.cwiseAbs().maxCoeff() > kFarthestPose)
+    return "the vehicle's pose is beyond 1e6 m";
+  if (!input.velocity.isFinite()) return "the vehicle's velocity is not finite";
+  return base::inMap(input.velocity, 0.0).norm() > kFastest
+             ? "the vehicle's velocity is beyond 1000 m/s"
+             : "";
 }
 
 }  // namespace
@@ -39,6 +52,7 @@ void Pilot::Parts::start() {
 
 void Pilot::Parts::end(PilotStatus status, const std::string& sentence) {
   ended_ = true;
+  flown.clear();
   hover(status, sentence);
 }
 
@@ -47,6 +61,12 @@ void Pilot::Parts::hover(PilotStatus status, const std::string& sentence) {
   sentence_ = sentence;
   command_ = {};
   clear_path_ = 0.0;
+}
+
+// Stands for a reason that lies not in the path: that is no lack of progress.
+void Pilot::Parts::hold(PilotStatus status, const std::string& sentence) {
+  recovery.hold(elapsed_);
+  hover(status, sentence);
 }
 
 PilotAnswer Pilot::Parts::answer() const {
@@ -59,7 +79,7 @@ PilotAnswer Pilot::Parts::answer() const {
   const std::optional<double>& seen = surroundings.frameTime();
   answer.frame_age = seen ? time_ - *seen : std::numeric_limits<double>::infinity();
   answer.waypoint = route.empty() ? 0 : route.index();
-  answer.new_path = new_path_;
+  answer.new_path = flown.revision() != told_path_;
   return answer;
 }
 
@@ -69,37 +89,40 @@ void Pilot::Parts::setTime(double time) {
     end(PilotStatus::CANCELLED,
         "time went back from " + shortNumber(time_) + " to " + shortNumber(time) + " s");
   }
+  elapsed_ = has_time_ && time > time_ ? time - time_ : 0.0;
   time_ = time;
   has_time_ = true;
+  surroundings.noticeTime(time);
+}
+
+void Pilot::Parts::see(const Frame& frame) {
+  surroundings.see(frame, has_time_ ? time_ : frame.time, options);
 }
 
 PilotAnswer Pilot::Parts::update(const PilotInput& input) {
-  new_path_ = false;
   setTime(input.time);
-  if (input.frame != nullptr) surroundings.see(*input.frame, time_, options);
-  if (cannotFly(input)) return answer();
-  motion_ = motionOf(*input.pose, input.velocity);
-  fresh_ = surroundings.refresh(motion_.position, options);
-  if (ended_ || route.empty()) {
+  if (input.frame != nullptr) see(*input.frame);
+  if (!cannotFly(input)) {
+    motion_ = motionOf(*input.pose, input.velocity);
+    fresh_ = surroundings.refresh(motion_.position, options);
     command_ = {};
-    return answer();
+    if (!ended_ && !route.empty()) followRoute();
+    if (!ended_ && !route.empty()) fly(input);
   }
-  followRoute();
-  if (!ended_) fly();
-  return answer();
+  const PilotAnswer answered = answer();
+  told_path_ = flown.revision();
+  return answered;
 }
 
 // Says why, and stands.
 bool Pilot::Parts::cannotFly(const PilotInput& input) {
-  const bool known = input.pose && input.pose->position.allFinite() &&
-                     std::isfinite(input.pose->yaw) && input.velocity.isFinite();
+  const std::string problem = stateProblem(input);
   if (ended_ || route.empty()) {
     command_ = {};
-    return !known;
+    return !problem.empty();
   }
-  if (known) return !hasFrame();
-  hover(PilotStatus::TRANSFORM_ERROR,
-        input.pose_problem.empty() ? "the vehicle's pose is not known" : input.pose_problem);
+  if (problem.empty()) return !hasFrame();
+  hold(PilotStatus::TRANSFORM_ERROR, problem);
   return true;
 }
 
@@ -108,9 +131,9 @@ bool Pilot::Parts::hasFrame() {
   const std::optional<double>& seen = surroundings.frameTime();
   if (seen && time_ - *seen <= options.cloud_timeout) return true;
   const std::string why = surroundings.problem().empty() ? "" : " (" + surroundings.problem() + ")";
-  hover(PilotStatus::NO_CLOUD,
-        seen ? "the newest cloud is " + shortNumber(time_ - *seen) + " s old" + why
-             : "no cloud has come yet" + why);
+  hold(PilotStatus::NO_CLOUD,
+       seen ? "the newest cloud is " + shortNumber(time_ - *seen) + " s old" + why
+            : "no cloud has come yet" + why);
   return false;
 }
 
@@ -136,16 +159,16 @@ void Pilot::Parts::followRoute() {
   recovery.restart(time_, motion_.position, route.goal());
 }
 
-// No place within reach of the goal is free of remembered points.
+// No place within reach of the goal is free of remembered points, of its middle and some about it.
 bool Pilot::Parts::goalIsOccupied() const {
   const OpenSpace& space = surroundings.space();
   const Vector3d goal = target();
   if (!space.inside(goal)) return false;
-  const double radius = targetRadius() - 0.1;
-  for (double x = -radius; x <= radius; x += 0.5 * radius)
-    for (double y = -radius; y <= radius; y += 0.5 * radius)
-      for (double z = -radius; z <= radius; z += 0.5 * radius) {
-        const Vector3d off(x, y, options.elevation ? z : 0.0);
+  const double radius = std::max(0.0, targetRadius() - 0.1);
+  for (int x = -2; x <= 2; ++x)
+    for (int y = -2; y <= 2; ++y)
+      for (int z = -2; z <= 2; ++z) {
+        const Vector3d off = 0.5 * radius * Vector3d(x, y, options.elevation ? z : 0);
         if (off.norm() <= radius && space.nearest(goal + off, options.d_safe) >= options.d_safe)
           return false;
       }
@@ -163,7 +186,6 @@ void Pilot::Parts::findPath() {
       finder.find(surroundings.space(), query, kept_ ? flown.points() : Points(), unseen.closed());
   kept_ = true;
   if (!found) return;
-  new_path_ = true;
   frames_without_ = found->size() < 2 ? 1 : 0;
   if (found->size() < 2)
     flown.clear();
@@ -171,14 +193,15 @@ void Pilot::Parts::findPath() {
     flown.set(std::move(*found), plan.empty() ? route.after() : std::nullopt);
 }
 
-void Pilot::Parts::fly() {
+void Pilot::Parts::fly(const PilotInput& input) {
   flown.advance(motion_.position);
-  if (paused) return hover(PilotStatus::BLOCKED, "paused");
+  if (!input.hold.empty()) return hold(PilotStatus::BLOCKED, input.hold);
   if (options.rules == Rules::SAFE && goalIsOccupied()) {
     flown.clear();
-    return hover(PilotStatus::GOAL_OCCUPIED, "the goal " + placeText(target()) +
-                                                 " is nearer than " + shortNumber(options.d_safe) +
-                                                 " m to something that was seen");
+    unseen.forget();
+    return hold(PilotStatus::GOAL_OCCUPIED, "the goal " + placeText(target()) + " is nearer than " +
+                                                shortNumber(options.d_safe) +
+                                                " m to something that was seen");
   }
   findPath();
   if (recovers()) return;
@@ -237,7 +260,7 @@ bool Pilot::Parts::recovers() {
     case RecoveryStep::LOOK:
       hover(PilotStatus::BLOCKED,
             "no progress towards " + placeText(target()) + "; looking around");
-      command_.yaw_rate = options.max_yaw_rate;
+      command_.yaw_rate = brakes(motion_) ? 0.0 : options.max_yaw_rate;
       return true;
     case RecoveryStep::PLAN:
       askForPlan();

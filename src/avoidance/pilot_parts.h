@@ -19,6 +19,7 @@ class Pilot::Parts {
   explicit Parts(const PilotOptions& wanted) : options(wanted), finder(wanted) {}
 
   PilotAnswer update(const PilotInput& input);
+  void see(const Frame& frame);
   void start();
   void end(PilotStatus status, const std::string& sentence);
   PilotAnswer answer() const;
@@ -32,7 +33,6 @@ class Pilot::Parts {
   Recovery recovery;
   UnseenPlaces unseen;
   MapPlan map_plan;
-  bool paused = false;
 
  private:
   void setTime(double time);
@@ -40,8 +40,9 @@ class Pilot::Parts {
   bool hasFrame();
   void followRoute();
   void findPath();
-  void fly();
+  void fly(const PilotInput& input);
   void hover(PilotStatus status, const std::string& sentence);
+  void hold(PilotStatus status, const std::string& sentence);
   bool recovers();
   void askForPlan();
   bool goalIsOccupied() const;
@@ -54,13 +55,13 @@ class Pilot::Parts {
 
   PilotStatus status_ = PilotStatus::IDLE;
   std::string sentence_ = "nothing was asked for yet";
-  bool ended_ = false;     // the status stays until a new route
-  bool restarts_ = false;  // the next pose begins the path to a waypoint
-  bool kept_ = false;      // the path leads to the present target
-  bool fresh_ = false;     // the newest update brought a frame
-  bool new_path_ = false;
-  int frames_without_ = 0;  // since the last search that found no path
-  double time_ = 0.0;
+  bool ended_ = false;                 // the status stays until a new route
+  bool restarts_ = false;              // the next pose begins the path to a waypoint
+  bool kept_ = false;                  // the path leads to the present target
+  bool fresh_ = false;                 // the newest update brought a frame
+  int told_path_ = 0;                  // the revision of the path that was answered last
+  int frames_without_ = 0;             // since the last search that found no path
+  double time_ = 0.0, elapsed_ = 0.0;  // s; since the update before
   bool has_time_ = false;
   Motion motion_;
   base::BodyVelocity command_;

@@ -22,8 +22,6 @@ const char* toString(PilotStatus status) {
       return "GOAL_OCCUPIED";
     case PilotStatus::CANCELLED:
       return "CANCELLED";
-    case PilotStatus::INVALID_REQUEST:
-      return "INVALID_REQUEST";
   }
   return "?";
 }

@@ -30,6 +30,11 @@ class ProgressWatch {
   }
   // As if it had moved and gained just now.
   void excuse(double time) { moved_at_ = gained_at_ = time; }
+  // The last `seconds` do not count.
+  void hold(double seconds) {
+    moved_at_ += seconds;
+    gained_at_ += seconds;
+  }
   // Seconds.
   double sinceMoved(double time) const { return time - moved_at_; }
   double sinceGained(double time) const { return time - gained_at_; }

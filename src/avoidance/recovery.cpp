@@ -24,10 +24,12 @@ bool Recovery::noProgress(const State& state, const PilotOptions& options) const
          watch_.sinceGained(state.time) > kLongestAround * options.progress_timeout;
 }
 
-RecoveryStep Recovery::look(const State& state) {
-  turned_ += std::abs(std::remainder(state.yaw - *yaw_, 2.0 * M_PI));
+// Until it has turned once; one that does not turn has had twice the time for it.
+RecoveryStep Recovery::look(const State& state, const PilotOptions& options) {
+  turned_ += std::remainder(state.yaw - *yaw_, 2.0 * M_PI);
   yaw_ = state.yaw;
-  if (turned_ < 2.0 * M_PI) return step_;
+  const bool over = state.time - looks_since_ > 4.0 * M_PI / options.max_yaw_rate;
+  if (turned_ < 2.0 * M_PI && !over) return step_;
   watch_.excuse(state.time);
   exhausted_since_.reset();
   return step_ = RecoveryStep::FLY;
@@ -35,7 +37,7 @@ RecoveryStep Recovery::look(const State& state) {
 
 RecoveryStep Recovery::update(const State& state, const PilotOptions& options) {
   if (step_ == RecoveryStep::STUCK) return step_;
-  if (step_ == RecoveryStep::LOOK) return look(state);
+  if (step_ == RecoveryStep::LOOK) return look(state, options);
   if (watch_.update(state.time, state.position, state.goal)) looked_ = planned_ = false;
   if (!state.exhausted) exhausted_since_.reset();
   if (state.exhausted && !exhausted_since_) exhausted_since_ = state.time;
@@ -45,7 +47,14 @@ RecoveryStep Recovery::update(const State& state, const PilotOptions& options) {
   looked_ = true;
   turned_ = 0.0;
   yaw_ = state.yaw;
+  looks_since_ = state.time;
   return step_ = RecoveryStep::LOOK;
+}
+
+void Recovery::hold(double seconds) {
+  watch_.hold(seconds);
+  looks_since_ += seconds;
+  if (exhausted_since_) *exhausted_since_ += seconds;
 }
 
 void Recovery::planned(bool found, double time) {

@@ -30,6 +30,8 @@ class Recovery {
   // PLAN once; the caller says by `planned` whether there is one.
   RecoveryStep update(const State& state, const PilotOptions& options);
   void planned(bool found, double time);
+  // The last `seconds` were none in which progress could be made.
+  void hold(double seconds);
 
   // m, from the goal, in this flight to it.
   double nearest() const { return watch_.nearest(); }
@@ -38,12 +40,13 @@ class Recovery {
 
  private:
   bool noProgress(const State& state, const PilotOptions& options) const;
-  RecoveryStep look(const State& state);
+  RecoveryStep look(const State& state, const PilotOptions& options);
 
   ProgressWatch watch_;
   RecoveryStep step_ = RecoveryStep::FLY;
   bool looked_ = false, planned_ = false;
-  double turned_ = 0.0;  // rad
+  double turned_ = 0.0;       // rad, anticlockwise
+  double looks_since_ = 0.0;  // s
   std::optional<double> yaw_;
   std::optional<double> exhausted_since_;
 };

@@ -15,7 +15,6 @@ class Route {
   void setWaypoints(const std::vector<Eigen::Vector3d>& waypoints);
   void setPath(const std::vector<Eigen::Vector3d>& path);
   bool empty() const { return points_.empty(); }
-  bool isPath() const { return is_path_; }
 
   // Passes what is reached from here.
   void advance(const Eigen::Vector3d& vehicle, const PilotOptions& options);

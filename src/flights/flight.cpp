@@ -79,8 +79,7 @@ int stepsOf(double period, double step, const char* what) {
 
 bool gaveUp(PilotStatus status) {
   return status == PilotStatus::STUCK || status == PilotStatus::GOAL_OCCUPIED ||
-         status == PilotStatus::CANCELLED || status == PilotStatus::INVALID_REQUEST ||
-         status == PilotStatus::TRANSFORM_ERROR;
+         status == PilotStatus::CANCELLED || status == PilotStatus::TRANSFORM_ERROR;
 }
 
 class Flight {

@@ -115,7 +115,7 @@ class FlightReader {
       study_.fence_low = fence[0];
       study_.fence_high = fence[1];
     }
-    study_.time_limit = number(root, "time_limit", 1.0, 36000.0, study_.time_limit);
+    study_.time_limit = number(root, "time_limit", 1.0, 3600.0, study_.time_limit);
   }
 
   static std::string stemOf(const std::string& file) {

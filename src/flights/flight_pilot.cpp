@@ -33,7 +33,9 @@ class OwnPilot : public FlightPilot {
   PilotAnswer update(const PilotInput& input) override {
     if (input.frame != nullptr && pilot_.options().recover) map_.see(*input.frame);
     const PilotAnswer answer = pilot_.update(input);
-    if (log_) log_->update(input, answer);
+    if (!log_) return answer;
+    log_->update(input, answer);
+    if (!log_->problem().empty()) throw base::InputError(log_->problem());
     return answer;
   }
 

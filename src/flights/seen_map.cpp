@@ -16,9 +16,10 @@ using planning::PathPlanner, planning::Plan, planning::PlannerOptions;
 namespace {
 
 constexpr double kKeepEvery = 0.45;  // s
-constexpr int kStride = 4;           // pixels
-constexpr double kHalfBand = 0.3;    // m above and below the vehicle's middle
-constexpr int kUnknownWeight = 3;    // of a cell length through what was not seen
+constexpr std::size_t kMostWaiting = 100;
+constexpr int kStride = 4;         // pixels
+constexpr double kHalfBand = 0.3;  // m above and below the vehicle's middle
+constexpr int kUnknownWeight = 3;  // of a cell length through what was not seen
 
 OctreeOptions octreeOptions(const PilotOptions& pilot) {
   OctreeOptions options;
@@ -59,6 +60,12 @@ void SeenMap::see(const Frame& frame) {
   if (frame.time - kept_at_ < kKeepEvery) return;
   kept_at_ = frame.time;
   waiting_.push_back(scanOf(frame));
+  if (waiting_.size() >= kMostWaiting) insertWaiting();
+}
+
+void SeenMap::insertWaiting() {
+  for (const Scan& scan : waiting_) map_.insert(scan);
+  waiting_.clear();
 }
 
 Scan SeenMap::scanOf(const Frame& frame) const {
@@ -81,8 +88,7 @@ Scan SeenMap::scanOf(const Frame& frame) const {
 }
 
 std::vector<Vector3d> SeenMap::plan(const Vector3d& from, const Vector3d& goal) {
-  for (const Scan& scan : waiting_) map_.insert(scan);
-  waiting_.clear();
+  insertWaiting();
   ProjectionOptions band;
   band.min_z = from.z() - kHalfBand;
   band.max_z = from.z() + kHalfBand;

@@ -1,7 +1,8 @@
 // The map that a vehicle makes of what it sees, to plan on when its local planner makes no progress: an
 // octree, projected at the vehicle's height, and the planner of planning/ on that.
 //
-// Frames are kept, thinned out, and become a map when a plan is asked for: most flights ask for none.
+// Frames are kept, thinned out, and become a map when a plan is asked for or a hundred are there: most
+// flights ask for none.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,6 +25,7 @@ class SeenMap {
   std::vector<Eigen::Vector3d> plan(const Eigen::Vector3d& from, const Eigen::Vector3d& goal);
 
  private:
+  void insertWaiting();
   mapping::Scan scanOf(const avoidance::Frame& frame) const;
 
   avoidance::PilotOptions options_;

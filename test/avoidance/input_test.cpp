@@ -100,7 +100,14 @@ TEST(Input, APoseThatIsNotKnownStopsAtOnce) {
   expectStands(pilot.update(input), PilotStatus::TRANSFORM_ERROR, "no frame odom");
   input.pose = VehiclePose{{std::nan(""), 0.0, 0.0}, 0.0};
   input.pose_problem.clear();
-  expectStands(pilot.update(input), PilotStatus::TRANSFORM_ERROR, "not known");
+  expectStands(pilot.update(input), PilotStatus::TRANSFORM_ERROR, "pose is not finite");
+  input.pose = VehiclePose{{1e12, 0.0, 0.0}, 0.0};
+  expectStands(pilot.update(input), PilotStatus::TRANSFORM_ERROR, "beyond 1e6 m");
+  input.pose = VehiclePose{{0.0, 0.0, 1.5}, 0.0};
+  input.velocity.surge = std::nan("");
+  expectStands(pilot.update(input), PilotStatus::TRANSFORM_ERROR, "velocity is not finite");
+  input.velocity.surge = 1e300;
+  expectStands(pilot.update(input), PilotStatus::TRANSFORM_ERROR, "1000 m/s");
 }
 
 // In flight the clouds cease: zero within half a second.

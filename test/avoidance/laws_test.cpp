@@ -71,7 +71,30 @@ TEST(Laws, EverySpeedCanBeBrakedOnTheOpenPath) {
       };
       const FlightResult result = fly(setup);
       EXPECT_EQ(result.contacts, 0) << "seed " << seed << " " << result.touched;
+      EXPECT_GT(result.metres, 5.0) << "it flew";
     }
+}
+
+// The path that was told is the one that is flown: from elsewhere, since the vehicle moved, but to the same
+// end, and none where none is flown.
+TEST(Laws, EveryChangeOfThePathIsTold) {
+  for (const Case& one : kCases) {
+    FlightSetup setup = groveSetup(2, one.search, one.memory);
+    std::vector<Vector3d> told;
+    int changes = 0;
+    setup.each = [&](const PilotInput&, const PilotAnswer& answer, const auto&,
+                     const Pilot& pilot) {
+      if (answer.new_path) told = pilot.path();
+      changes += answer.new_path;
+      ASSERT_EQ(told.empty(), pilot.path().empty()) << answer.sentence;
+      if (!told.empty()) {
+        EXPECT_EQ(told.back(), pilot.path().back()) << answer.sentence;
+      }
+      EXPECT_TRUE(answer.status != PilotStatus::ARRIVED || told.empty());
+    };
+    fly(setup);
+    EXPECT_GT(changes, 3);
+  }
 }
 
 // The truth: the vehicle's ball lies in what rays of its own frames passed, or about the start. A grid
@@ -137,7 +160,7 @@ TEST(Laws, NothingIsEnteredThatRaysHaveNotPassed) {
         EXPECT_TRUE(space.seen(truth.position + side))
             << "seed " << seed << " at " << (truth.position + side).transpose();
     };
-    fly(setup);
+    EXPECT_GT(fly(setup).metres, 5.0) << "it flew";
   }
 }
 
@@ -146,6 +169,7 @@ TEST(Laws, TheSameSeedFliesTheSameBits) {
     FlightSetup setup = groveSetup(3, one.search, one.memory);
     setup.seconds = 10.0;
     const FlightResult first = fly(setup), second = fly(setup);
+    EXPECT_GT(first.metres, 5.0) << "it flew";
     ASSERT_EQ(first.track.size(), second.track.size());
     for (std::size_t i = 0; i < first.track.size(); ++i)
       ASSERT_EQ(std::memcmp(first.track[i].data(), second.track[i].data(), 3 * sizeof(double)), 0);

@@ -36,6 +36,8 @@ struct FlightSetup {
   double focal_error = 1.0;  // of the intrinsics
   int false_points = 0;      // in each frame
   MapPlan map_plan = {};
+  // Called before each update: what the pilot is told instead.
+  std::function<void(PilotInput&)> alter = {};
   // Called after each update, with the truth.
   std::function<void(const PilotInput&, const PilotAnswer&, const simulation::VehicleState&,
                      const Pilot&)>
@@ -141,6 +143,7 @@ class SimulatedFlight {
     input.pose = VehiclePose{measured.position, measured.yaw};
     input.velocity = measured.velocity;
     if (with_frame) input.frame = &see(measured);
+    if (setup_.alter) setup_.alter(input);
     const double before = clock_ != nullptr ? clock_() : 0.0;
     const PilotAnswer answer = pilot_.update(input);
     if (clock_ != nullptr && with_frame) milliseconds_.push_back(clock_() - before);

@@ -65,6 +65,7 @@ CONTEXT = {
     "cloud_frames.h": """#include <sensor_msgs/PointCloud2.h>
         extern CloudFrames frames; extern sensor_msgs::PointCloud2::ConstPtr cloud; extern FrameTransforms transforms;
         extern ros::Time now;""",
+    "flight_hold.h": "extern double master_timeout;",
     "flight_job.h": "extern std::function<void(std::size_t)> progress;",
     "flight_log.h": """extern std::string file; extern PilotOptions options; extern std::uint64_t limit;
         extern std::vector<Eigen::Vector3d> waypoints; extern PilotInput input; extern PilotAnswer answer;""",

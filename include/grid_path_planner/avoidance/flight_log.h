@@ -6,7 +6,7 @@
 //
 //   const ReplayResult result = replayFlight(file);   // reads, flies again and compares
 //
-// A file is the line "grid_path_planner flight 1", the options as YAML up to a line "...", then records:
+// A file is the line "grid_path_planner flight 2", the options as YAML up to a line "...", then records:
 // a letter, a length of 8 bytes and that many bytes, all numbers little-endian. A record that is cut off
 // at the end of a file (a node that was killed) ends it. Guaranteed: the pilot that repeats a log gives
 // the same answers, bit for bit, on the same build.
@@ -32,18 +32,19 @@ class FlightLog {
   void route(const std::vector<Eigen::Vector3d>& waypoints);
   void path(const std::vector<Eigen::Vector3d>& path);
   void mapPlan(const std::vector<Eigen::Vector3d>& plan);  // what the callback answered
-  void pause();
-  void resume();
   void cancel(const std::string& reason);
   void forget();
   void see(const Frame& frame);
   void update(const PilotInput& input, const PilotAnswer& answer);
 
   bool full() const { return full_; }
+  // Why nothing more is written although it is not full, as on a full disk; empty: all was written.
+  const std::string& problem() const { return problem_; }
 
  private:
   void write(char kind, const std::vector<char>& bytes);
 
+  std::string name_, problem_;
   std::ofstream out_;
   std::uint64_t left_;
   bool full_ = false;
@@ -56,7 +57,7 @@ struct ReplayResult {
 };
 
 // Flies a log again; `each`, if any, gets every input and its new answer. Throws InputError naming the
-// file for one that is no log or damaged.
+// file for one that is no log, damaged, or no regular file.
 ReplayResult replayFlight(
     const std::string& file,
     const std::function<void(const PilotInput&, const PilotAnswer&)>& each = {});

@@ -8,6 +8,9 @@
 
 namespace grid_path_planner::avoidance {
 
+// A larger frame is refused: the vehicle waits for its next command meanwhile.
+constexpr std::size_t kMostPixels = std::size_t{1} << 22;
+
 // The point x, y, z is seen at column cx + fx x / z, row cy + fy y / z, in pixels.
 struct Pinhole {
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;

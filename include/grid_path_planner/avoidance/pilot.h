@@ -42,7 +42,6 @@ enum class PilotStatus {
   TRANSFORM_ERROR,
   GOAL_OCCUPIED,
   CANCELLED,
-  INVALID_REQUEST,
 };
 // The enumerator's own name.
 const char* toString(PilotStatus status);
@@ -58,6 +57,7 @@ struct PilotInput {
   base::BodyVelocity velocity = {};  // as measured
   const Frame* frame = nullptr;      // the newest, if it is new
   std::string pose_problem = {};     // why there is no pose, in a sentence
+  std::string hold = {};             // why it is to stand now, in a sentence; empty: it flies
 };
 
 struct PilotAnswer {
@@ -110,9 +110,6 @@ class Pilot {
   void setPath(const std::vector<Eigen::Vector3d>& path);
   // Asked once it makes no progress and `recover` is set; none: that step is left out.
   void setMapPlan(MapPlan plan);
-  // Stands until `resume`; the status is BLOCKED and says so.
-  void pause();
-  void resume();
   // `reason` goes into the sentence.
   void cancel(const std::string& reason);
   // All that was seen; the next pose is a new start.

@@ -31,7 +31,7 @@ struct PilotOptions {
   double heuristic_weight = 30.0;  // 1/m
   double bin = 6.0;                // degrees
   double step = 1.0;               // m, alpha
-  int children = 8;                // m
+  int children = 8;                // of a node
   double spacing = 0.5;            // m, xi
   int nodes = 60;                  // eta
   bool accumulate = true;
@@ -90,7 +90,7 @@ void visitSearchOptions(PilotOptions& o, Visitor&& visit) {
         base::OptionInfo{
             "Distance kept from every point; the vehicle's radius and a margin for drift "
             "and gusts",
-            "m", 0.05, 10.0});
+            "m", 0.05, 5.0});
   visit("goal_weight", o.goal_weight,
         base::OptionInfo{"Cost of a direction that differs from the goal's", "", 0.0, 1e6});
   visit("smooth_weight", o.smooth_weight,
@@ -113,12 +113,12 @@ void visitTreeOptions(PilotOptions& o, Visitor&& visit) {
             .under("The tree and the grid"));
   visit("step", o.step, base::OptionInfo{"Length of the tree's edges", "m", 0.2, 5.0});
   visit("children", o.children,
-        base::OptionInfo{"Most children of a node; more: wider, slower", "", 1, 64});
+        base::OptionInfo{"Most children of a node; more: wider, slower", "", 1, 32});
   visit("spacing", o.spacing,
         base::OptionInfo{"Least distance between the children of a node", "m", 0.0, 10.0});
   visit("nodes", o.nodes,
         base::OptionInfo{"Nodes expanded in one search; more: longer paths around, slower", "", 1,
-                         10000});
+                         1000});
   visit(
       "accumulate", o.accumulate,
       base::OptionInfo{"Whether a node's cost is the sum along its branch; false: counted from the "
@@ -132,7 +132,7 @@ void visitTreeOptions(PilotOptions& o, Visitor&& visit) {
   visit("grid_nodes", o.grid_nodes,
         base::OptionInfo{
             "Voxels expanded in one search of the grid; more: longer paths around, slower", "", 100,
-            1000000});
+            200000});
   visit("unseen_cost", o.unseen_cost,
         base::OptionInfo{
             "Cost of a metre through voxels never seen, of which the grid's search hopes "

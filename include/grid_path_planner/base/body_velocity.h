@@ -1,6 +1,7 @@
 // A velocity in the vehicle's own frame, commanded or driven.
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 
 namespace grid_path_planner::base {
@@ -18,5 +19,20 @@ struct BodyVelocity {
            std::isfinite(yaw_rate);
   }
 };
+
+// The vector turned anticlockwise about z.
+inline Eigen::Vector3d turned(const Eigen::Vector3d& v, double yaw) {
+  const double c = std::cos(yaw), s = std::sin(yaw);
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y(), v.z()};
+}
+
+// The velocity of a vehicle with this heading, in the frame of the heading, and back.
+inline Eigen::Vector3d inMap(const BodyVelocity& v, double yaw) {
+  return turned({v.surge, v.sway, v.heave}, yaw);
+}
+inline BodyVelocity inBody(const Eigen::Vector3d& velocity, double yaw, double yaw_rate) {
+  const Eigen::Vector3d v = turned(velocity, -yaw);
+  return {v.x(), v.y(), v.z(), yaw_rate};
+}
 
 }  // namespace grid_path_planner::base

@@ -1,14 +1,18 @@
 #include "grid_path_planner/avoidance/flight_log.h"
 
+#include <cerrno>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <sstream>
-#include <type_traits>
 #include <utility>
 
 #include "avoidance/log/log_bytes.h"
 #include "avoidance/memory/open_space.h"
 #include "grid_path_planner/base/decimal_text.h"
+#include "grid_path_planner/base/files.h"
+#include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/base/read_limits.h"
 
 namespace grid_path_planner::avoidance {
 
@@ -17,47 +21,28 @@ using base::OptionInfo;
 
 namespace {
 
-constexpr const char* kFirstLine = "grid_path_planner flight 1";
-constexpr std::uint64_t kLargestRecord = std::uint64_t{1} << 30;  // bytes
-
-// The options one a line, "name: value", numbers so that they read back as the same.
-std::string optionLines(PilotOptions options) {
-  std::string lines;
-  visitOptions(options, [&](const char* name, auto& value, const OptionInfo&) {
-    using Value = std::decay_t<decltype(value)>;
-    lines += std::string(name) + ": ";
-    if constexpr (std::is_same_v<Value, bool>)
-      lines += value ? "true" : "false";
-    else if constexpr (std::is_enum_v<Value>)
-      lines += base::choiceName(value);
-    else
-      lines += base::decimalText(static_cast<double>(value));
-    lines += "\n";
-  });
-  return lines;
-}
+constexpr const char* kFirstLine = "grid_path_planner flight 2";
+constexpr const char* kOptionsEnd = "\n...\n";
+constexpr std::size_t kLongestOptions = 1 << 16;                  // bytes
+constexpr std::uint64_t kLargestRecord = std::uint64_t{1} << 28;  // bytes
 
 PilotOptions optionsOf(const std::map<std::string, std::string>& lines) {
   PilotOptions options;
-  visitOptions(options, [&](const char* name, auto& value, const OptionInfo&) {
-    using Value = std::decay_t<decltype(value)>;
+  visitOptions(options, [&](const char* name, auto& value, const OptionInfo& info) {
     const auto line = lines.find(name);
     if (line == lines.end()) throw InputError(std::string("the option ") + name + " is missing");
-    if constexpr (std::is_same_v<Value, bool>)
-      value = line->second == "true";
-    else if constexpr (std::is_enum_v<Value>)
-      value = base::choiceFromName<Value>(name, line->second);
-    else
-      value = static_cast<Value>(std::stod(line->second));
+    base::parseOption(name, line->second, info, value);
   });
   checkPilotOptions(options);
   return options;
 }
 
-PilotOptions readOptions(std::istream& in) {
+// Of lines "name: value".
+PilotOptions optionsIn(const std::string& text) {
+  std::istringstream in(text);
   std::string line;
   std::map<std::string, std::string> lines;
-  while (std::getline(in, line) && line != "...") {
+  while (std::getline(in, line)) {
     const std::size_t colon = line.find(": ");
     if (colon == std::string::npos) throw InputError("an option's line has no colon: " + line);
     lines[line.substr(0, colon)] = line.substr(colon + 2);
@@ -70,25 +55,54 @@ struct Record {
   std::vector<char> bytes;
 };
 
-// None at the end, and where the last one is cut off.
-std::optional<Record> readRecord(std::istream& in) {
-  Record record;
-  std::uint64_t size = 0;
-  if (!in.get(record.kind) || !in.read(reinterpret_cast<char*>(&size), sizeof(size)))
-    return std::nullopt;
-  if (size > kLargestRecord) throw InputError("a record of " + std::to_string(size) + " bytes");
-  record.bytes.resize(size);
-  if (!in.read(record.bytes.data(), static_cast<std::streamsize>(size))) return std::nullopt;
-  return record;
-}
+// The parts of a file, which takes no more memory than the file has bytes, whatever it claims.
+class LogFile {
+ public:
+  explicit LogFile(const std::string& name) : name_(name), file_(name) {}
+
+  // The text between the first line and "...".
+  std::string options() {
+    const std::string text = file_.read(0, kLongestOptions);
+    const std::string first = std::string(kFirstLine) + "\n";
+    if (text.compare(0, first.size(), first) != 0)
+      throw InputError(std::string("is no flight log: its first line must be '") + kFirstLine +
+                       "'");
+    const std::size_t end = text.find(kOptionsEnd);
+    if (end == std::string::npos) throw InputError("the options do not end");
+    at_ = end + std::strlen(kOptionsEnd);
+    return text.substr(first.size(), end + 1 - first.size());
+  }
+
+  // None at the end, and where the last one is cut off.
+  std::optional<Record> next() {
+    const std::string head = file_.read(at_, 1 + sizeof(std::uint64_t));
+    if (head.size() < 1 + sizeof(std::uint64_t)) return std::nullopt;
+    std::uint64_t size = 0;
+    std::memcpy(&size, head.data() + 1, sizeof(size));
+    if (size > kLargestRecord) throw InputError("a record of " + std::to_string(size) + " bytes");
+    at_ += head.size();
+    if (at_ > file_.size() || size > file_.size() - at_) return std::nullopt;
+    limits_.check(name_, 3 * size);  // its bytes twice, and its frame
+    const std::string bytes = file_.read(at_, size);
+    if (bytes.size() < size) return std::nullopt;
+    at_ += size;
+    return Record{head[0], {bytes.begin(), bytes.end()}};
+  }
+
+ private:
+  const std::string name_;
+  const base::RegularFile file_;
+  const base::ReadLimits limits_;
+  std::size_t at_ = 0;
+};
 
 // The pilot of a log, and its answers compared.
 class Replay {
  public:
   using Each = std::function<void(const PilotInput&, const PilotAnswer&)>;
 
-  Replay(std::istream& in, const PilotOptions& options, Each each)
-      : in_(in), pilot_(options), each_(std::move(each)) {
+  Replay(LogFile& file, Each each)
+      : file_(file), pilot_(optionsIn(file.options())), each_(std::move(each)) {
     pilot_.setMapPlan([this](const Eigen::Vector3d&, const Eigen::Vector3d&) {
       return std::exchange(plan_, Points());
     });
@@ -96,7 +110,7 @@ class Replay {
 
   // A plan on the map is written before the answer that it led to.
   ReplayResult run() {
-    while (const std::optional<Record> record = readRecord(in_)) use(*record);
+    while (const std::optional<Record> record = file_.next()) use(*record);
     return result_;
   }
 
@@ -113,8 +127,6 @@ class Replay {
       case 'm':
         plan_ = reader.points();
         return;
-      case 'h':
-        return reader.number<std::uint8_t>() != 0 ? pilot_.pause() : pilot_.resume();
       case 'c':
         return pilot_.cancel(reader.text());
       case 'f':
@@ -126,11 +138,6 @@ class Replay {
       default:
         throw InputError(std::string("a record of the unknown kind '") + record.kind + "'");
     }
-  }
-
-  static PilotOptions optionsIn(const std::string& text) {
-    std::istringstream in(text);
-    return readOptions(in);
   }
 
   void update(LogReader& reader) {
@@ -148,7 +155,7 @@ class Replay {
                                  toString(answer.status) + ": " + answer.sentence;
   }
 
-  std::istream& in_;
+  LogFile& file_;
   Pilot pilot_;
   Each each_;
   Points plan_;
@@ -158,24 +165,27 @@ class Replay {
 }  // namespace
 
 FlightLog::FlightLog(const std::string& file, const PilotOptions& options, std::uint64_t limit)
-    : out_(file, std::ios::binary), left_(limit) {
-  out_ << kFirstLine << "\n" << optionLines(options) << "...\n";
+    : name_(file), out_(file, std::ios::binary), left_(limit) {
+  out_ << kFirstLine << "\n" << base::optionText(options) << "...\n";
   if (!out_.flush()) throw InputError(file, "cannot be written");
 }
 
+// At once: what a node wrote that is killed is there.
 void FlightLog::write(char kind, const std::vector<char>& bytes) {
   const std::uint64_t size = bytes.size();
-  full_ = full_ || size + 9 > left_;
-  if (full_) return;
+  full_ = full_ || size > kLargestRecord || size + 9 > left_;
+  if (full_ || !problem_.empty()) return;
+  const base::HoldFileSizeSignal hold;
   left_ -= size + 9;
   out_.put(kind);
   out_.write(reinterpret_cast<const char*>(&size), sizeof(size));
   out_.write(bytes.data(), static_cast<std::streamsize>(size));
+  if (!out_.flush()) problem_ = name_ + ": cannot be written: " + std::strerror(errno);
 }
 
 void FlightLog::options(const PilotOptions& options) {
   LogWriter writer;
-  writer.text(optionLines(options));
+  writer.text(base::optionText(options));
   write('o', writer.bytes());
 }
 
@@ -195,14 +205,6 @@ void FlightLog::mapPlan(const Points& plan) {
   LogWriter writer;
   writer.points(plan);
   write('m', writer.bytes());
-}
-
-void FlightLog::pause() {
-  write('h', {1});
-}
-
-void FlightLog::resume() {
-  write('h', {0});
 }
 
 void FlightLog::cancel(const std::string& reason) {
@@ -230,14 +232,9 @@ void FlightLog::update(const PilotInput& input, const PilotAnswer& answer) {
 
 ReplayResult replayFlight(const std::string& file,
                           const std::function<void(const PilotInput&, const PilotAnswer&)>& each) {
-  std::ifstream in(file, std::ios::binary);
-  std::string line;
-  if (!std::getline(in, line) || line != kFirstLine)
-    throw InputError(file,
-                     std::string("is no flight log: its first line must be '") + kFirstLine + "'");
+  LogFile log(file);
   try {
-    const PilotOptions options = readOptions(in);
-    return Replay(in, options, each).run();
+    return Replay(log, each).run();
   } catch (const std::exception& error) {
     throw InputError(file, error.what());
   }

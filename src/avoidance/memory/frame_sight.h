@@ -14,7 +14,7 @@
 
 namespace grid_path_planner::avoidance {
 
-// Heights that do not count as obstacles: m, map frame.
+// Heights between which points count: m, map frame.
 struct HeightBand {
   double low, high;
 };

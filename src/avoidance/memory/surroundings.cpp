@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kSkirts = 2.0;       // m about the vehicle, in which nothing ages
 constexpr double kFuture = 0.5;       // s, of stamps
+constexpr double kOldest = 10.0;      // s, of frames; the longest cloud_timeout
 constexpr double kFarthest = 1e6;     // m
 constexpr double kLongestTime = 2e6;  // s, that milliseconds can count
 
@@ -28,13 +29,16 @@ std::string Surroundings::refusal(const Frame& frame, double now) const {
   if (frame.width < 0 || frame.height < 0 || frame.points.size() != 3 * frame.pixels())
     return "the cloud has " + std::to_string(frame.points.size() / 3) + " points instead of " +
            std::to_string(frame.width) + " x " + std::to_string(frame.height);
+  if (frame.pixels() > kMostPixels)
+    return "the cloud has " + std::to_string(frame.pixels()) + " pixels, more than " +
+           std::to_string(kMostPixels);
   if (!isUsable(frame.map_from_sensor)) return "the pose of the cloud is not finite";
   if (frame.time > now + kFuture)
     return "the cloud is stamped " + shortNumber(frame.time - now) + " s in the future";
+  if (frame.time < now - kOldest) return "the cloud is " + shortNumber(now - frame.time) + " s old";
   if (frame_time_ && frame.time < *frame_time_)
     return "the cloud is " + shortNumber(*frame_time_ - frame.time) +
            " s older than the one before";
-  if (origin_ && frame.time - *origin_ > kLongestTime) return "the flight has lasted too long";
   return "";
 }
 
@@ -42,20 +46,24 @@ std::int32_t Surroundings::milliseconds(double time) const {
   return static_cast<std::int32_t>(std::llround((time - *origin_) * 1e3));
 }
 
-// A cloud without points that no rays of a picture stand for is a sensor that is lost.
+// A cloud without points that no rays of a picture stand for is a sensor that is lost. One that is stamped
+// ahead is taken as of now, so that it ages.
 void Surroundings::see(const Frame& frame, double now, const PilotOptions& options) {
   problem_ = refusal(frame, now);
   if (!problem_.empty()) return;
-  if (!origin_) origin_ = frame.time;
-  memory_.moveTo(frame.map_from_sensor.translation());
-  memory_.beginFrame(milliseconds(frame.time));
-  sight_.see(frame, options, bandAbout(band_middle_, options), memory_);
+  const double time = std::min(frame.time, now);
+  if (origin_ && time - *origin_ > kLongestTime) forget();
+  if (!origin_) origin_ = time;
+  const Eigen::Vector3d sensor = frame.map_from_sensor.translation();
+  memory_.moveTo(sensor);
+  memory_.beginFrame(milliseconds(time));
+  sight_.see(frame, options, bandAbout(band_middle_.value_or(sensor.z()), options), memory_);
   new_ = true;
   const bool sees_nothing = frame.organised() && options.no_return_clears > 0.0;
   if (sight_.measuredPoints() == 0 && !sees_nothing)
     problem_ = "the cloud holds no point";
   else
-    frame_time_ = frame.time;
+    frame_time_ = time;
   if (sight_.pinholeDisagrees())
     problem_ = "camera_info does not agree with the cloud, so only measured rays tell what is free";
 }
@@ -89,7 +97,12 @@ void Surroundings::forget() {
   memory_.clear();
   origin_.reset();
   frame_time_.reset();
+  band_middle_.reset();
   new_ = started_ = false;
+}
+
+void Surroundings::noticeTime(double now) {
+  if (origin_ && std::max(*origin_, frame_time_.value_or(*origin_)) > now) forget();
 }
 
 }  // namespace grid_path_planner::avoidance

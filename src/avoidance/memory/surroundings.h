@@ -27,10 +27,11 @@ class Surroundings {
   // The vehicle is here: what is too old is forgotten. Whether anything came since the last call.
   bool refresh(const Eigen::Vector3d& position, const PilotOptions& options);
   void forget();
+  // What was seen is forgotten where it was stamped later than now, before the time was known.
+  void noticeTime(double now);
 
   const OpenSpace& space() const { return space_; }
-  const VoxelMemory& memory() const { return memory_; }
-  // Of the newest frame that could be used; none: there was none.
+  // Of the newest frame that could be used, at most the time at which it came; none: there was none.
   const std::optional<double>& frameTime() const { return frame_time_; }
   // What was wrong with the newest frame; empty: nothing.
   const std::string& problem() const { return problem_; }
@@ -45,7 +46,7 @@ class Surroundings {
   OpenSpace space_;
   std::optional<double> origin_;  // s, of the first frame
   std::optional<double> frame_time_;
-  double band_middle_ = 0.0;  // m, height of the vehicle
+  std::optional<double> band_middle_;  // m, height of the vehicle
   bool new_ = false;
   bool started_ = false;  // start_clear is done
   std::string problem_;

@@ -128,13 +128,15 @@ void VoxelMemory::forBall(const Eigen::Vector3d& centre, double radius,
                           const Action& action) const {
   const Voxel low = voxelAt(centre - Eigen::Vector3d::Constant(radius));
   const Voxel high = voxelAt(centre + Eigen::Vector3d::Constant(radius));
-  for (int z = low.z; z <= high.z; ++z)
-    for (int y = low.y; y <= high.y; ++y)
-      for (int x = low.x; x <= high.x; ++x) {
-        const Voxel voxel{x, y, z};
-        if (window_.contains(voxel) && (centreOf(voxel) - centre).squaredNorm() <= radius * radius)
-          action(slotOf(voxel));
-      }
+  const Voxel& middle = window_.centre;
+  const int z_end = std::min(high.z, middle.z + kReachZ);
+  const int y_end = std::min(high.y, middle.y + kReach);
+  const int x_end = std::min(high.x, middle.x + kReach);
+  for (int z = std::max(low.z, middle.z - kReachZ); z <= z_end; ++z)
+    for (int y = std::max(low.y, middle.y - kReach); y <= y_end; ++y)
+      for (int x = std::max(low.x, middle.x - kReach); x <= x_end; ++x)
+        if ((centreOf({x, y, z}) - centre).squaredNorm() <= radius * radius)
+          action(slotOf(x, y, z));
 }
 
 void VoxelMemory::clearBall(const Eigen::Vector3d& centre, double radius) {

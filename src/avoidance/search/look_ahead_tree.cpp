@@ -6,11 +6,16 @@ namespace grid_path_planner::avoidance {
 
 using Eigen::Vector3d;
 
-int LookAheadTree::leastCostOpen() const {
-  int best = -1;
-  for (int i = 0; i < static_cast<int>(nodes_.size()); ++i)
-    if (!nodes_[i].closed && (best < 0 || nodes_[i].total < nodes_[best].total)) best = i;
+int LookAheadTree::takeLeastCost() {
+  if (open_.empty()) return -1;
+  const int best = open_.top().second;
+  open_.pop();
   return best;
+}
+
+void LookAheadTree::add(const TreeNode& node) {
+  open_.emplace(node.total, static_cast<int>(nodes_.size()));
+  nodes_.push_back(node);
 }
 
 void LookAheadTree::grow(int parent, const OpenSpace& space, const PilotOptions& options,
@@ -25,7 +30,7 @@ void LookAheadTree::grow(int parent, const OpenSpace& space, const PilotOptions&
                                            : directionCost(options, anglesOf(candidate.end - root),
                                                            root_goal, before);
     const double total = cost + options.heuristic_weight * (candidate.end - goal).norm();
-    nodes_.push_back({candidate.end, parent, candidate.angles, cost, total, false});
+    add({candidate.end, parent, candidate.angles, cost, total});
   }
 }
 
@@ -34,14 +39,14 @@ std::vector<Vector3d> LookAheadTree::search(const OpenSpace& space, const PilotO
                                             const Angles& before,
                                             const std::vector<Vector3d>& closed) {
   nodes_.clear();
-  nodes_.push_back({start, -1, before, 0.0, 0.0, false});
+  open_ = {};
+  add({start, -1, before, 0.0, 0.0});
   int last = 0;
   bool reached = false;
   for (int count = 0; count < options.nodes; ++count) {
-    const int next = leastCostOpen();
+    const int next = takeLeastCost();
     if (next < 0) break;
     last = next;
-    nodes_[next].closed = true;
     reached = (nodes_[next].position - goal).norm() <= options.step;
     if (reached || (nodes_[next].position - start).norm() > options.look_ahead) break;
     grow(next, space, options, goal, closed);

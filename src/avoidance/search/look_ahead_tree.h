@@ -8,6 +8,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <queue>
+#include <utility>
 #include <vector>
 
 #include "avoidance/search/candidates.h"
@@ -20,7 +23,6 @@ struct TreeNode {
   Angles angles;  // of the step that led here; of the root: chosen before
   double cost;    // C
   double total;   // F
-  bool closed;
 };
 
 class LookAheadTree {
@@ -40,10 +42,14 @@ class LookAheadTree {
  private:
   void grow(int parent, const OpenSpace& space, const PilotOptions& options,
             const Eigen::Vector3d& goal, const std::vector<Eigen::Vector3d>& closed);
-  int leastCostOpen() const;
+  void add(const TreeNode& node);
+  // The node with the least F that was not taken before, of equal ones the first; -1: none is left.
+  int takeLeastCost();
 
   Candidates candidates_;
   std::vector<TreeNode> nodes_;
+  using Open = std::pair<double, int>;  // F, index
+  std::priority_queue<Open, std::vector<Open>, std::greater<Open>> open_;
 };
 
 }  // namespace grid_path_planner::avoidance

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid_path_planner/base/body_velocity.h"
+
 namespace grid_path_planner::avoidance {
 namespace {
 
+using base::turned;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
@@ -13,11 +16,6 @@ constexpr double kTick = 0.05;      // s
 constexpr double kBodySpeed = 1.0;  // m/s, of things that move
 constexpr double kStands = 0.1;     // m/s
 constexpr double kLongest = 30.0;   // s
-
-Vector3d turned(const Vector3d& v, double yaw) {
-  const double c = std::cos(yaw), s = std::sin(yaw);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y(), v.z()};
-}
 
 Vector3d changed(Vector3d velocity, const Vector3d& target, double most) {
   for (int axis = 0; axis < 3; ++axis)
@@ -39,7 +37,7 @@ bool stopsInOpen(const Motion& motion, const Vector3d& command, double yaw_rate,
                  const KeptRoom& room, const std::vector<Vector3f>& moving,
                  const PilotOptions& options) {
   const double change_from = options.response_time;
-  const double change_to = change_from + options.frame_period;
+  const double change_to = change_from + std::max(kTick, options.frame_period);
   const double brake_from = change_to + options.response_time;
   const double most = options.max_acceleration * kTick;
   const Vector3d target = turned(command, -motion.yaw);

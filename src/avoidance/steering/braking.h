@@ -2,11 +2,12 @@
 //
 //   if (stopsInOpen(motion, velocity, yaw_rate, room, moving, options)) vehicle.command(velocity, yaw_rate);
 //
-// The motion is computed that follows where the command holds for a frame and zero is commanded then: the
-// vehicle goes on for response_time with the velocity that it has, changes it towards the command for a
-// frame, goes on for response_time, and brakes, each axis of the body with max_acceleration. Its velocity
-// turns with its body until it brakes. Every point of
-// that must be open. Things that move are kept as far away as they come meanwhile, while the vehicle moves.
+// The motion is computed that follows where the command holds for frame_period (at least a tick of the
+// computation, 0.05 s) and zero is commanded then: the vehicle goes on for response_time with the velocity
+// that it has, changes it towards the command for frame_period, keeps it for response_time, and brakes. Each
+// axis of the body changes by max_acceleration. Its velocity turns with its body until it brakes, by the
+// measured yaw rate first, then by the commanded one. Every point of that must be open. Things that move are
+// kept as far away as they come meanwhile at 1 m/s, while the vehicle moves.
 #pragma once
 
 #include <Eigen/Core>

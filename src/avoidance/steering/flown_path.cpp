@@ -20,6 +20,12 @@ constexpr double kBeyond = 3.0;     // m of the route beyond the end
 void FlownPath::set(std::vector<Vector3d> points, std::optional<Vector3d> beyond) {
   points_ = std::move(points);
   beyond_ = std::move(beyond);
+  ++revision_;
+}
+
+void FlownPath::clear() {
+  if (!points_.empty()) ++revision_;
+  points_.clear();
 }
 
 void FlownPath::advance(const Vector3d& vehicle) {
@@ -53,17 +59,10 @@ FlownPath::Clear FlownPath::clear(const KeptRoom& room, double longest) const {
   if (beyond_) length += std::min(kBeyond, (*beyond_ - points_.back()).norm());
   const double end = std::min(length, longest);
   const int samples = std::max(1, static_cast<int>(std::ceil(end / kClearStep)));
-  Clear clear;
-  for (int i = 0; i <= samples; ++i) {
-    const double metres = end * i / samples;
-    const Vector3d point = ahead(metres);
-    if (!room.open(point)) {
-      clear.closed = point;
-      return clear;
-    }
-    clear.metres = metres;
-  }
-  return clear;
+  const auto metres_at = [&](int i) { return end * i / samples; };
+  const auto closed = firstClosed(room, samples, [&](int i) { return ahead(metres_at(i)); });
+  if (!closed) return {end, std::nullopt};
+  return {*closed > 0 ? metres_at(*closed - 1) : 0.0, ahead(metres_at(*closed))};
 }
 
 }  // namespace grid_path_planner::avoidance

@@ -13,14 +13,16 @@ class FlownPath {
  public:
   // From the vehicle on; `beyond` is where the flight goes on after the path's end.
   void set(std::vector<Eigen::Vector3d> points, std::optional<Eigen::Vector3d> beyond);
-  void clear() { points_.clear(); }
+  void clear();
   bool empty() const { return points_.size() < 2; }
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
+  // Another number after every set() and clear() that changed it.
+  int revision() const { return revision_; }
 
   // The vehicle is here: what lies behind it is dropped, and the path begins at it.
   void advance(const Eigen::Vector3d& vehicle);
 
-  // The point `metres` ahead, and whether the path is that long.
+  // The point `metres` ahead on the path and on what lies beyond; the end where it is shorter.
   Eigen::Vector3d ahead(double metres) const;
 
   struct Clear {
@@ -33,6 +35,7 @@ class FlownPath {
  private:
   std::vector<Eigen::Vector3d> points_;
   std::optional<Eigen::Vector3d> beyond_;
+  int revision_ = 0;
 };
 
 }  // namespace grid_path_planner::avoidance

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <optional>
 
 #include "avoidance/memory/open_space.h"
 
@@ -50,5 +51,13 @@ class KeptRoom {
   bool start_seen_;
   double unseen_;
 };
+
+// The first of point_at(0) .. point_at(samples) that is not open, by its number; none: all are.
+template <class PointAt>
+std::optional<int> firstClosed(const KeptRoom& room, int samples, const PointAt& point_at) {
+  for (int i = 0; i <= samples; ++i)
+    if (!room.open(point_at(i))) return i;
+  return std::nullopt;
+}
 
 }  // namespace grid_path_planner::avoidance

@@ -6,7 +6,7 @@
 namespace grid_path_planner::avoidance {
 namespace {
 
-using base::BodyVelocity;
+using base::inBody;
 using Eigen::Vector3d;
 
 constexpr double kShares[] = {1.0, 0.85, 0.7, 0.55, 0.4, 0.25, 0.12};
@@ -17,16 +17,9 @@ constexpr double kLookNear = 1.5, kLookFar = 5.0;  // m ahead on the path
 constexpr double kLookAside = 30.0 * M_PI / 180.0;
 // m before what was not seen, from where the camera sees all of the ball about the path
 constexpr double kViewRoom = 1.1;
-constexpr double kBrakesStraight = 0.3;  // m/s
-constexpr double kTurnGain = 2.0;        // 1/s
+constexpr double kTurnGain = 2.0;  // 1/s
 constexpr double kAhead =
     25.0 * M_PI / 180.0;  // of the path within which a vehicle without sway drives
-
-BodyVelocity inBody(const Vector3d& velocity, double yaw, double yaw_rate) {
-  const double c = std::cos(yaw), s = std::sin(yaw);
-  return {c * velocity.x() + s * velocity.y(), -s * velocity.x() + c * velocity.y(), velocity.z(),
-          yaw_rate};
-}
 
 // At most `speed`, and not above the limits of the vehicle.
 Vector3d velocityTowards(const Vector3d& direction, double speed, const Motion& motion,
@@ -102,8 +95,7 @@ Steering steerSafely(const Motion& motion, const FlownPath& path, const OpenSpac
     velocity = openVelocity(motion, path, speed, yaw_rate, room, moving, options);
     steering.held = velocity.norm() < 0.01;
   }
-  // Its velocity would turn with its body.
-  if (velocity.norm() < 0.01 && motion.velocity.norm() > kBrakesStraight) yaw_rate = 0.0;
+  if (velocity.norm() < 0.01 && brakes(motion)) yaw_rate = 0.0;
   steering.velocity = inBody(velocity, motion.yaw, yaw_rate);
   return steering;
 }

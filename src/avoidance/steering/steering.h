@@ -27,6 +27,11 @@ Steering steerSafely(const Motion& motion, const FlownPath& path, const OpenSpac
 // Full speed along the path, whatever is seen.
 Steering steerAtFullSpeed(const Motion& motion, const FlownPath& path, const PilotOptions& options);
 
+// Whether a vehicle that is to stand must not turn yet: its velocity would turn with its body.
+inline bool brakes(const Motion& motion) {
+  return motion.velocity.norm() > 0.3;
+}
+
 // Rad/s that turn by `error`.
 double turnRate(double error, const PilotOptions& options);
 double angleDifference(double from, double to);

@@ -42,9 +42,9 @@ int inView(const OpenSpace& space, const std::vector<Vector3d>& voxels, const Ve
 
 bool isOpenLine(const KeptRoom& room, const Vector3d& from, const Vector3d& to) {
   const int samples = 1 + static_cast<int>((to - from).norm() / 0.1);
-  for (int i = 0; i <= samples; ++i)
-    if (!room.open(from + (to - from) * (static_cast<double>(i) / samples))) return false;
-  return true;
+  return !firstClosed(room, samples, [&](int i) -> Vector3d {
+    return from + (to - from) * (static_cast<double>(i) / samples);
+  });
 }
 
 // The best place that is reached straight.

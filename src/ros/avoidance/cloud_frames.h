@@ -20,7 +20,7 @@ namespace grid_path_planner::nodes {
 
 class CloudFrames {
  public:
-  void add(const sensor_msgs::PointCloud2::ConstPtr& cloud) { waiting_ = cloud; }
+  void add(const sensor_msgs::PointCloud2::ConstPtr& cloud);
   void setCamera(const sensor_msgs::CameraInfo& camera);
   void clear();
 
@@ -31,10 +31,11 @@ class CloudFrames {
   const std::string& problem() const { return problem_; }
 
  private:
-  bool isFromTheFuture(const ros::Time& now);
+  bool isOfAnotherTime(const ros::Time& now);
   std::optional<avoidance::Pinhole> pinholeOf(const sensor_msgs::PointCloud2& cloud) const;
 
   sensor_msgs::PointCloud2::ConstPtr waiting_;
+  bool waits_for_tf_ = false;  // which was asked in vain
   std::optional<sensor_msgs::CameraInfo> camera_;
   std::string problem_;
 };

@@ -74,8 +74,9 @@ void FlightPublisher::command(const base::BodyVelocity& velocity, double yaw,
   stamped.header.frame_id = map_frame;
   stamped.header.stamp = stamp;
   stamped.twist = twist;
-  stamped.twist.linear.x = std::cos(yaw) * velocity.surge - std::sin(yaw) * velocity.sway;
-  stamped.twist.linear.y = std::sin(yaw) * velocity.surge + std::cos(yaw) * velocity.sway;
+  const Eigen::Vector3d in_map = base::inMap(velocity, yaw);
+  stamped.twist.linear.x = in_map.x();
+  stamped.twist.linear.y = in_map.y();
   setpoint_.publish(stamped);
 }
 

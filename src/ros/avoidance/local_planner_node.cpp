@@ -7,6 +7,7 @@
 
 #include "grid_path_planner/LocalPlannerConfig.h"
 #include "grid_path_planner/path/waypoint_file.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/master/system_state.h"
@@ -24,15 +25,21 @@ using diagnostic_msgs::DiagnosticStatus;
 namespace {
 
 constexpr std::size_t kMostClouds = 64 << 20;  // bytes that wait
-constexpr double kManualTime = 2.5;            // s, wall time, that a joystick's word holds
 constexpr double kOdometryAge = 0.5;           // s
 constexpr double kDiagnosed = 1.0;             // s, wall time
+
+// "/map" is "map".
+void nameFrames(LocalPlannerOptions& options) {
+  options.map_frame = frameName(options.map_frame);
+  options.base_frame = frameName(options.base_frame);
+}
 
 LocalPlannerOptions loadLocalPlannerOptions(const ros::NodeHandle& private_nh,
                                             const NodeFiles& files) {
   LocalPlannerOptions options;
   loadParameters(private_nh, options);
   options.config_filename = files.named("config_filename", options.config_filename);
+  nameFrames(options);
   checkLocalPlannerOptions(options);
   warnUnknownParameters(private_nh, optionNames<LocalPlannerOptions>());
   return options;
@@ -44,6 +51,15 @@ Commands commandsOf(const ros::NodeHandle& nh, const LocalPlannerOptions& option
   commands.manual_control = nh.resolveName("manual_control");
   refuseOtherCommander(commands);
   return commands;
+}
+
+// Where the vehicle is now that was there so long ago.
+avoidance::VehiclePose carriedOn(const FrameTransforms::RecentPose& recent,
+                                 const BodyVelocity& velocity) {
+  const double age = std::max(0.0, recent.age);
+  const double turn = age * velocity.yaw_rate;
+  return {recent.pose.position + age * base::inMap(velocity, recent.pose.yaw + 0.5 * turn),
+          recent.pose.yaw + turn};
 }
 
 std::vector<Eigen::Vector3d> positionsOf(const path::Path& path) {
@@ -108,39 +124,36 @@ void LocalPlannerNode::subscribe() {
       subscribeChecked<nav_msgs::Path>(nh_, "path", 1,
                                        [this](const nav_msgs::Path& path) { onPath(path); }),
       subscribeChecked<std_msgs::Bool>(
-          nh_, "stop", 1, [this](const std_msgs::Bool& stop) { stopped_ = stop.data; }),
-      subscribeChecked<std_msgs::Bool>(nh_, "manual_control", 1, [this](const std_msgs::Bool& is) {
-        manual_until_ = ros::SteadyTime::now() + ros::WallDuration(is.data ? kManualTime : 0.0);
-      })};
+          nh_, "stop", 1, [this](const std_msgs::Bool& stop) { hold_.stop(stop.data); }),
+      subscribeChecked<std_msgs::Bool>(
+          nh_, "manual_control", 1, [this](const std_msgs::Bool& is) { hold_.manual(is.data); })};
 }
 
 void LocalPlannerNode::offerServices(ros::NodeHandle& private_nh) {
   using Request = std_srvs::Trigger::Request;
   using Response = std_srvs::Trigger::Response;
-  const auto offer = [&](const char* name, std::function<std::string()> act) {
-    services_.push_back(private_nh.advertiseService<Request, Response>(
-        name, [this, act](Request&, Response& response) {
-          response.message = act();
-          response.success = flies_ || !response.message.empty();
+  using Answer = FlightHold::Answer;
+  const auto offer = [&](const char* name, std::function<Answer()> act) {
+    services_.push_back(
+        private_nh.advertiseService<Request, Response>(name, [act](Request&, Response& response) {
+          const Answer answer = act();
+          response.success = answer.done;
+          response.message = answer.message;
           return true;
         }));
   };
-  offer("pause", [this] {
-    paused_ = true;
-    return std::string("paused until ~resume");
-  });
-  offer("resume", [this] {
-    paused_ = false;
-    return std::string("resumed");
-  });
+  offer("pause", [this] { return hold_.pause(flies_); });
+  offer("resume", [this] { return hold_.resume(flies_); });
   offer("cancel", [this] {
-    if (flies_) pilot_.cancel("asked for by ~cancel");
-    return std::string(flies_ ? "cancelled" : "nothing was flown");
+    if (!flies_) return Answer{false, "nothing to cancel: nothing is flown"};
+    pilot_.cancel("asked for by ~cancel");
+    return Answer{true, "cancelled"};
   });
-  offer("explain", [this] { return pilot_.explain(); });
+  offer("explain", [this] { return Answer{true, pilot_.explain()}; });
 }
 
-void LocalPlannerNode::use(const LocalPlannerOptions& options) {
+void LocalPlannerNode::use(LocalPlannerOptions options) {
+  nameFrames(options);
   checkLocalPlannerOptions(options);
   if (options.config_filename != options_.config_filename ||
       options.share_cmd_vel != options_.share_cmd_vel || options.map_frame != options_.map_frame)
@@ -166,13 +179,38 @@ void LocalPlannerNode::startDiagnostics() {
                             [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
 }
 
+// The first time, and time that jumped back: only then is it known what is from before.
+bool LocalPlannerNode::noticeTime() {
+  if (!clock_.hasTime()) return false;
+  const ros::Time now = ros::Time::now();
+  const auto back = clock_.jumpedBack(now);
+  if (started_.isZero() || back) started_ = now;
+  if (!back) return true;
+  ROS_WARN_STREAM("ROS time went back by "
+                  << *back << " s: the flight is cancelled, and what was seen is forgotten");
+  transforms_.clear();
+  clouds_.clear();
+  odometry_.reset();
+  tick(now);  // a goal that comes now is of this time
+  return true;
+}
+
+// A publisher that latches sends what it published before this node was started, or restarted.
+bool LocalPlannerNode::isFromBefore(const char* what, const ros::Time& stamp) {
+  if (noticeTime() && stamp >= started_) return false;
+  ROS_WARN_STREAM(what << " stamped " << stamp << " is not flown: local_planner started at "
+                       << started_);
+  return true;
+}
+
 void LocalPlannerNode::onGoal(const geometry_msgs::PoseStamped& goal) {
+  if (!goal.header.stamp.isZero() && isFromBefore("A goal", goal.header.stamp)) return;
   nav_msgs::Path message;
   message.header = goal.header;
   message.poses = {goal};
   try {
     const auto path = transforms_.pathIn(message, options_.base_frame);
-    fly(transforms_.pointsIn(options_.map_frame, goal.header.frame_id, positionsOf(path)), false);
+    fly(transforms_.pointsIn(options_.map_frame, path.frame_id, positionsOf(path)), false);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
   }
@@ -183,9 +221,10 @@ void LocalPlannerNode::onPath(const nav_msgs::Path& message) {
     if (flies_) pilot_.cancel("the path is empty: none was found");
     return;
   }
+  if (isFromBefore("A path", message.header.stamp)) return;
   try {
     const auto path = transforms_.pathIn(message, options_.base_frame);
-    fly(transforms_.pointsIn(options_.map_frame, message.header.frame_id, positionsOf(path)), true);
+    fly(transforms_.pointsIn(options_.map_frame, path.frame_id, positionsOf(path)), true);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
   }
@@ -199,10 +238,6 @@ void LocalPlannerNode::fly(std::vector<Eigen::Vector3d> points, bool along) {
   flies_ = true;
 }
 
-bool LocalPlannerNode::isHeld() const {
-  return paused_ || stopped_ || ros::SteadyTime::now() < manual_until_;
-}
-
 // As measured; without odometry that commanded last.
 BodyVelocity LocalPlannerNode::velocityAt(const ros::Time& now) const {
   if (!odometry_ || std::abs(secondsBetween(odometry_->header.stamp, now)) >= kOdometryAge)
@@ -214,33 +249,28 @@ BodyVelocity LocalPlannerNode::velocityAt(const ros::Time& now) const {
 PilotInput LocalPlannerNode::input(const ros::Time& now) {
   PilotInput input;
   input.time = now.toSec();
+  input.velocity = velocityAt(now);
   try {
-    const path::Pose pose =
+    const auto recent =
         transforms_.recentPoseOf(options_.base_frame, options_.map_frame, now, options_.tf_timeout);
-    input.pose = avoidance::VehiclePose{pose.position, pose.yaw};
-    yaw_ = pose.yaw;
+    input.pose = carriedOn(recent, input.velocity);
+    yaw_ = input.pose->yaw;
   } catch (const TransformError& error) {
     input.pose_problem = error.what();
   }
-  input.velocity = velocityAt(now);
+  input.hold = hold_.why(options_.master_timeout);
   frame_ = clouds_.next(transforms_, options_.map_frame, now);
   if (frame_) input.frame = &*frame_;
   return input;
 }
 
 void LocalPlannerNode::control() {
-  if (!clock_.hasTime()) return;
-  const ros::Time now = ros::Time::now();
-  if (const auto back = clock_.jumpedBack(now)) {
-    ROS_WARN_STREAM("ROS time went back by "
-                    << *back << " s: the flight is cancelled, and what was seen is forgotten");
-    clouds_.clear();
-    odometry_.reset();
-  }
-  if (isHeld())
-    pilot_.pause();
-  else
-    pilot_.resume();
+  if (noticeTime()) tick(ros::Time::now());
+}
+
+void LocalPlannerNode::tick(const ros::Time& now) {
+  if (hold_.notice(now, flies_))
+    ROS_WARN("The joystick commands: the flight is paused until ~resume");
   answer_ = pilot_.update(input(now));
   publish(answer_, now);
 }
@@ -249,9 +279,8 @@ void LocalPlannerNode::publish(const PilotAnswer& answer, const ros::Time& now) 
   publisher_.status(answer, options_.map_frame, now);
   if (answer.new_path) publisher_.path(pilot_, options_.map_frame, now);
   if (frame_) publisher_.surroundings(pilot_, options_.map_frame, yaw_, options_.base_frame, now);
-  const bool joystick = ros::SteadyTime::now() < manual_until_ && !stopped_;
-  if ((flies_ || stopped_) && !joystick)
-    publisher_.command(stopped_ ? BodyVelocity{} : answer.velocity, yaw_, options_.map_frame, now);
+  if (hold_.stopped() || (flies_ && !hold_.isManual()))
+    publisher_.command(answer.velocity, yaw_, options_.map_frame, now);
   const bool ended = answer.status == PilotStatus::ARRIVED || answer.status == PilotStatus::STUCK ||
                      answer.status == PilotStatus::CANCELLED;
   if (flies_ && ended) {

@@ -7,7 +7,7 @@
 //               goal            geometry_msgs/PoseStamped
 //               path            nav_msgs/Path; flown along. An empty one stops the vehicle
 //               stop            std_msgs/Bool; zeros while it is true
-//               manual_control  std_msgs/Bool; a joystick commands: the flight is paused
+//               manual_control  std_msgs/Bool; a joystick commands: the flight is paused until ~resume
 //               tf              the poses of the vehicle and of the clouds' sensor
 //   publishes   cmd_vel            geometry_msgs/Twist in base_frame
 //               setpoint_velocity  geometry_msgs/TwistStamped in map_frame
@@ -18,10 +18,12 @@
 //               /diagnostics
 //   services    ~pause, ~resume, ~cancel, ~explain   std_srvs/Trigger
 //
-// Guaranteed: without a route nothing is published on cmd_vel, so that others may command the vehicle; a
-// zero at its end, and on every orderly shutdown. A cloud or a pose that is older than cloud_timeout or
-// tf_timeout stops the vehicle. A goal or path that cannot be flown is refused with an error, and the
-// present flight goes on. ROS time that goes back cancels the flight and forgets what was seen. The node
+// Guaranteed: without a route nothing is published on cmd_vel but zeros while `stop` is true, so that others
+// may command the vehicle; a zero at its end, and on every orderly shutdown. A cloud or a pose that is older than cloud_timeout or
+// tf_timeout stops the vehicle, and so do ROS time that stands still for 0.5 s and a master that is silent
+// for master_timeout. While a joystick commands nothing is published. A goal or path that cannot be flown
+// is refused with an error, one from before the node's start with a warning, and the present flight goes
+// on; goals without a stamp are new. ROS time that goes back cancels the flight and forgets what was seen. The node
 // does not start where another publishes cmd_vel (but a joystick, and with ~share_cmd_vel). Not
 // guaranteed: a zero after SIGKILL: the vehicle itself must stop when commands cease.
 #pragma once
@@ -43,6 +45,7 @@
 
 #include "grid_path_planner/avoidance/pilot.h"
 #include "ros/avoidance/cloud_frames.h"
+#include "ros/avoidance/flight_hold.h"
 #include "ros/avoidance/flight_publisher.h"
 #include "ros/avoidance/local_planner_options.h"
 #include "ros/common/clock.h"
@@ -73,17 +76,19 @@ class LocalPlannerNode {
  private:
   void subscribe();
   void offerServices(ros::NodeHandle& private_nh);
-  void use(const LocalPlannerOptions& options);
+  void use(LocalPlannerOptions options);
   void startTimer();
   void startDiagnostics();
   void onGoal(const geometry_msgs::PoseStamped& goal);
   void onPath(const nav_msgs::Path& path);
+  bool noticeTime();
+  bool isFromBefore(const char* what, const ros::Time& stamp);
   void fly(std::vector<Eigen::Vector3d> points, bool along);
   void control();
+  void tick(const ros::Time& now);
   base::BodyVelocity velocityAt(const ros::Time& now) const;
   avoidance::PilotInput input(const ros::Time& now);
   void publish(const avoidance::PilotAnswer& answer, const ros::Time& now);
-  bool isHeld() const;
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle nh_;
@@ -96,11 +101,10 @@ class LocalPlannerNode {
   std::optional<avoidance::Frame> frame_;
   FlightPublisher publisher_;
   std::optional<nav_msgs::Odometry> odometry_;
-  ros::SteadyTime manual_until_;
+  FlightHold hold_;
+  ros::Time started_;  // when there was ROS time first, or after it jumped back
   double yaw_ = 0.0;
-  bool flies_ = false;    // there is a route, and cmd_vel is published
-  bool stopped_ = false;  // by the topic
-  bool paused_ = false;   // by the service
+  bool flies_ = false;  // there is a route, and cmd_vel is published
 
   std::vector<ros::Subscriber> subscribers_;
   std::unique_ptr<BoundedSubscription<sensor_msgs::PointCloud2>> cloud_subscription_;

@@ -12,8 +12,9 @@ struct LocalPlannerOptions {
   avoidance::PilotOptions pilot;
   std::string map_frame = "map";
   std::string base_frame = "base_link";
-  double tf_timeout = 0.3;     // s
-  double control_rate = 20.0;  // Hz, wall time
+  double tf_timeout = 0.3;       // s
+  double control_rate = 20.0;    // Hz, wall time
+  double master_timeout = 30.0;  // s, wall time
   bool share_cmd_vel = false;
 };
 
@@ -31,12 +32,19 @@ void visitOptions(LocalPlannerOptions& o, Visitor&& visit) {
   visit("base_frame", o.base_frame,
         base::OptionInfo{"Frame of the vehicle, whose pose tf gives and in which it is commanded",
                          ""});
-  visit("tf_timeout", o.tf_timeout,
-        base::OptionInfo{"The vehicle stops while its newest pose is older", "s", 0.01, 3600.0});
+  visit(
+      "tf_timeout", o.tf_timeout,
+      base::OptionInfo{"The vehicle stops while its newest pose is older; a younger one is carried "
+                       "on by the velocity",
+                       "s", 0.01, 1.0});
   visit("control_rate", o.control_rate,
-        base::OptionInfo{"How often the velocity is computed, by the wall clock; PX4 wants more "
-                         "than 2",
+        base::OptionInfo{"How often the velocity is computed, by the wall clock; at least once in "
+                         "frame_period; PX4 wants more than 2",
                          "Hz", 2.0, 1000.0});
+  visit("master_timeout", o.master_timeout,
+        base::OptionInfo{"The vehicle stands when the ROS master has not answered for so long, by "
+                         "the wall clock; 0: it flies on",
+                         "s", 0.0, 86400.0});
   visit("share_cmd_vel", o.share_cmd_vel,
         base::OptionInfo{"Whether the node starts where another publishes cmd_vel too; true only "
                          "where the two never drive at once",

@@ -89,7 +89,7 @@ Pose FrameTransforms::poseOf(const std::string& vehicle, const std::string& fram
   LongWait wait;
   while (max_age) {
     try {
-      return recentPoseOf(source, frame, ros::Time::now(), *max_age);
+      return recentPoseOf(source, frame, ros::Time::now(), *max_age).pose;
     } catch (const TransformError& error) {
       if (std::chrono::steady_clock::now() >= end) throw;
       wait.tell(error.what());
@@ -130,8 +130,10 @@ geometry_msgs::TransformStamped FrameTransforms::transform(const std::string& ta
   }
 }
 
-Pose FrameTransforms::recentPoseOf(const std::string& vehicle, const std::string& frame,
-                                   const ros::Time& now, double max_age) const {
+FrameTransforms::RecentPose FrameTransforms::recentPoseOf(const std::string& vehicle,
+                                                          const std::string& frame,
+                                                          const ros::Time& now,
+                                                          double max_age) const {
   const std::string pose = "the pose of " + vehicle + " in " + frame;
   geometry_msgs::TransformStamped found;
   try {
@@ -139,10 +141,10 @@ Pose FrameTransforms::recentPoseOf(const std::string& vehicle, const std::string
   } catch (const TransformError& error) {
     throw TransformError(pose + " is not known: " + error.what());
   }
+  if (found.header.stamp.isZero()) return {poseOfTransform(found.transform), 0.0};
   const double age = secondsBetween(found.header.stamp, now);
-  if (!found.header.stamp.isZero() && std::abs(age) > max_age)  // 0: all of it is static
-    throw TransformError(pose + " is " + std::to_string(age) + " s old");
-  return poseOfTransform(found.transform);
+  if (std::abs(age) > max_age) throw TransformError(pose + " is " + std::to_string(age) + " s old");
+  return {poseOfTransform(found.transform), age};
 }
 
 void FrameTransforms::checkKnown(const std::string& frame, const std::string& vehicle) const {

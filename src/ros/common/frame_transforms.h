@@ -50,9 +50,13 @@ class FrameTransforms {
   geometry_msgs::TransformStamped transform(const std::string& target, const std::string& source,
                                             const ros::Time& stamp = ros::Time(0)) const;
 
+  struct RecentPose {
+    path::Pose pose;
+    double age;  // s; negative: stamped ahead; 0 where all of it is static
+  };
   // The latest pose of `vehicle` in `frame`, if it is within `max_age` seconds of `now`. Throws
   // TransformError for an older one, or none.
-  path::Pose recentPoseOf(const std::string& vehicle, const std::string& frame,
+  RecentPose recentPoseOf(const std::string& vehicle, const std::string& frame,
                           const ros::Time& now, double max_age) const;
 
   // The path in the frame of its header; poses that name another frame are transformed. Throws

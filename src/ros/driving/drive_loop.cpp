@@ -217,8 +217,9 @@ std::string DriveLoop::whyHeld() const {
 
 void DriveLoop::findVehicle(const ros::Time& now, FollowInput& input) const {
   try {
-    input.pose = transforms_.recentPoseOf(options_.base_frame, follower_.path().frame_id, now,
-                                          options_.tf_timeout);
+    const auto recent = transforms_.recentPoseOf(options_.base_frame, follower_.path().frame_id,
+                                                 now, options_.tf_timeout);
+    input.pose = recent.pose;
   } catch (const TransformError& error) {
     input.pose_problem = error.what();
   }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -61,12 +62,20 @@ class LocalPlannerTest : public testing::Test {
 
   void relay(const PointCloud2::ConstPtr& cloud) {
     if (cut_) return;
-    last_cloud_ = std::max(last_cloud_, cloud->header.stamp);
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      last_cloud_ = std::max(last_cloud_, cloud->header.stamp);
+    }
     clouds_.publish(cloud);
   }
 
+  ros::Time lastCloud() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return last_cloud_;
+  }
+
   void sendGoal(double x) {
-    ASSERT_TRUE(truth_.waitForMoreThan(0));
+    ASSERT_TRUE(test::waitFor([&] { return truth_.count() > 0; }, kFlight));
     ASSERT_TRUE(statuses_.waitFor(0, [](const AvoidanceStatus&) { return true; }));
     ASSERT_TRUE(test::waitFor([&] { return goals_.getNumSubscribers() > 0; }));
     geometry_msgs::PoseStamped goal;
@@ -92,13 +101,14 @@ class LocalPlannerTest : public testing::Test {
   ros::Publisher goals_ = nh_.advertise<geometry_msgs::PoseStamped>("goal", 1, true);
   ros::Publisher clouds_ = nh_.advertise<PointCloud2>("points", 10);
   std::atomic<bool> cut_{false};
-  ros::Time last_cloud_;
+  std::mutex mutex_;
+  ros::Time last_cloud_;  // under the mutex
   ros::Subscriber relay_ = nh_.subscribe("depth_camera/points", 10, &LocalPlannerTest::relay, this);
   std::unique_ptr<Process> simulator_, pilot_;
 };
 
 TEST_F(LocalPlannerTest, FliesToAGoalInTheOpen) {
-  sendGoal(0.0);
+  ASSERT_NO_FATAL_FAILURE(sendGoal(0.0));
   EXPECT_TRUE(test::waitFor(
       [&] {
         const auto all = statuses_.all();
@@ -114,7 +124,7 @@ TEST_F(LocalPlannerTest, FliesToAGoalInTheOpen) {
 
 // Judged by the stamps of commands, which say when the node decided: true however busy the machine is.
 TEST_F(LocalPlannerTest, StandsHalfASecondAfterTheCameraIsCut) {
-  sendGoal(0.0);
+  ASSERT_NO_FATAL_FAILURE(sendGoal(0.0));
   ASSERT_TRUE(test::waitFor(
       [&] {
         const auto all = truth_.all();
@@ -128,7 +138,7 @@ TEST_F(LocalPlannerTest, StandsHalfASecondAfterTheCameraIsCut) {
   })) << said();
   const std::size_t seen = commands_.count();
   ASSERT_TRUE(commands_.waitForMoreThan(seen + 5)) << "it goes on commanding zeros";
-  const ros::Time limit = last_cloud_ + ros::Duration(0.5);
+  const ros::Time limit = lastCloud() + ros::Duration(0.5);
   const std::vector<TwistStamped> all = commands_.all();
   EXPECT_TRUE(std::any_of(all.begin(), all.end(), moves)) << "it flew";
   for (const TwistStamped& command : all)

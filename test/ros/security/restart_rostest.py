@@ -125,14 +125,17 @@ class Restart(unittest.TestCase):
         self.assertEqual([], [twist for twist in self.node.heard("cmd_vel") if probes.moving(twist)])
         self.holds()
 
-    def test_local_planner_forgets_its_goal_and_stands(self):
+    def test_local_planner_forgets_its_goal_and_flies_nothing_from_before(self):
         self.start("local_planner")
         self.holds()
+        self.node.send("path", probes.path(self.node))  # latched
+        self.until(lambda: self.node.heard("cmd_vel"))
         self.kill()
         self.comes_up()
         self.node.forget("cmd_vel")
         time.sleep(QUIET)
-        self.assertEqual([], [twist for twist in self.node.heard("cmd_vel") if probes.moving(twist)])
+        self.assertEqual([], self.node.heard("cmd_vel"), "without a route nobody commands")
+        self.assertEqual("IDLE", self.node.heard("avoidance_status")[-1].status)
         self.holds()
 
     def test_every_node_is_tested(self):
