@@ -9,11 +9,15 @@
 //                          costmap: as navfn sees the cost map, 50 + 0.8 x (0 to 252)
 //     --write-costs FILE   the same map as costmap_2d has it (0 to 252, 254 blocked), an 8-bit PGM
 //     --lazily yes         nothing is waited for before the first query
+//     --rounds N           the planners take turns N times in this process, all queries at a time
+//     --fresh N            with --rounds: every N queries a planner is made anew, whose preparation
+//                          counts; nothing is waited for
 //     --list all           prints the planners, the heuristics and the default planner instead
 //
 // What a planner makes in the background is waited for. Prints "map", "planner" and, a line each,
 // "query INDEX NANOSECONDS STATUS COST EXPANDED": CPU time of search() alone. NAME may be repeated by commas;
-// the planners take turns, all queries at a time.
+// the planners take turns, all queries at a time. With --rounds a planner's lines are "round ROUND NANOSECONDS" of
+// all queries, and a query's time is the least of its rounds.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -21,6 +25,7 @@
 #include <ctime>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <random>
@@ -205,6 +210,75 @@ void run(const Arguments& arguments, const std::string& subject,
             << lines.str();
 }
 
+// A planner that takes turns with others.
+struct Turn {
+  std::string subject;
+  std::unique_ptr<Planner> planner;
+  double prepare_ms = 0, finished_ms = 0;
+  std::vector<long long> rounds;
+  std::vector<long long> least;  // of each query
+  std::vector<SearchResult> results;
+};
+
+// Makes the planner anew. Returns the CPU time of its preparation.
+long long makeAnew(Turn& turn, const std::shared_ptr<const CostGrid>& map, bool wait) {
+  turn.planner = plannerOf(turn.subject);
+  const auto begin = Clock::now();
+  const long long before = threadNanoseconds();
+  turn.planner->prepare(map, StopToken());
+  const long long taken = threadNanoseconds() - before;
+  turn.prepare_ms = millisecondsSince(begin);
+  if (wait) turn.planner->finishBackgroundWork(StopToken());
+  turn.finished_ms = millisecondsSince(begin);
+  return taken;
+}
+
+void ask(Turn& turn, std::size_t i, const ScenarioQuery& query, long long prepared) {
+  const long long before = threadNanoseconds();
+  SearchResult result = turn.planner->search({query.start, {query.goal}, false}, StopToken());
+  const long long taken = threadNanoseconds() - before + prepared;
+  turn.rounds.back() += taken;
+  turn.least[i] = std::min(turn.least[i], taken);
+  turn.results[i] = std::move(result);
+}
+
+void print(const Turn& turn) {
+  std::cout << "planner " << turn.subject << " prepare_ms " << turn.prepare_ms << " finished_ms "
+            << turn.finished_ms << '\n';
+  for (std::size_t i = 0; i < turn.rounds.size(); ++i)
+    std::cout << "round " << i << ' ' << turn.rounds[i] << '\n';
+  for (std::size_t i = 0; i < turn.least.size(); ++i)
+    std::cout << "query " << i << ' ' << turn.least[i] << ' ' << toString(turn.results[i].status)
+              << ' ' << turn.results[i].costValue() << ' ' << turn.results[i].statistics.expanded
+              << '\n';
+}
+
+void runInTurns(const Arguments& arguments, const std::vector<std::string>& subjects,
+                const std::shared_ptr<const CostGrid>& map,
+                const std::vector<ScenarioQuery>& queries) {
+  const auto rounds = static_cast<std::size_t>(arguments.number("--rounds"));
+  const auto fresh = static_cast<std::size_t>(arguments.number("--fresh"));
+  std::vector<Turn> turns(subjects.size());
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    turns[i].subject = subjects[i];
+    turns[i].least.assign(queries.size(), std::numeric_limits<long long>::max());
+    turns[i].results.resize(queries.size());
+    makeAnew(turns[i], map, fresh == 0);
+  }
+  for (std::size_t round = 0; round < rounds; ++round) {
+    for (std::size_t k = 0; k < turns.size(); ++k) {
+      Turn& turn = turns[(k + round) % turns.size()];
+      turn.rounds.push_back(0);
+      for (std::size_t i = 0; i < queries.size(); ++i) {
+        const bool anew = fresh > 0 && i % fresh == 0;
+        ask(turn, i, queries[i], anew ? makeAnew(turn, map, false) : 0);
+      }
+    }
+  }
+  std::cout.precision(17);
+  for (const Turn& turn : turns) print(turn);
+}
+
 int list() {
   std::cout << "planners";
   for (const std::string& name : plannerNames()) std::cout << ' ' << name;
@@ -224,9 +298,13 @@ int runAll(const Arguments& arguments) {
       spreadOver(readScenarioFile(arguments.text("--scen")),
                  static_cast<std::size_t>(arguments.number("--limit")));
   std::cout << "map cells " << map->geometry().size() << " min weight " << map->minWeight() << '\n';
-  std::istringstream subjects(arguments.text("--planner"));
-  for (std::string subject; std::getline(subjects, subject, ',');)
-    run(arguments, subject, map, queries);
+  std::istringstream names(arguments.text("--planner"));
+  std::vector<std::string> subjects;
+  for (std::string subject; std::getline(names, subject, ',');) subjects.push_back(subject);
+  if (arguments.number("--rounds") > 0)
+    runInTurns(arguments, subjects, map, queries);
+  else
+    for (const std::string& subject : subjects) run(arguments, subject, map, queries);
   return 0;
 }
 

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
+#include "grid_path_planner/costmap/line_of_sight.h"
 #include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
@@ -78,6 +80,34 @@ TEST(BlockBoundLaw, IsAConsistentLowerBoundInEveryMotionModel) {
       }
     }
   }
+}
+
+// A segment is at least cos 22.5 degrees as long as the steps between its ends, so that many times
+// the bound holds for segments at any angle.
+TEST(BlockBoundLaw, HoldsForSegmentsButForTheirShorterLength) {
+  std::mt19937 random(8);
+  int legal = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const GridGeometry geometry(1 + int(random() % 70), 1 + int(random() % 50), 1.0);
+    const CostGrid map = trial % 2 == 0 ? test::randomPotential(random, geometry, MotionModel())
+                                        : test::randomCosts(random, geometry, MotionModel());
+    const Cell goal = openCellOf(random, map);
+    if (!map.passable(goal)) continue;
+    BlockBounds bounds(trial % 4 < 2 ? 4 : 8);
+    bounds.prepare(map, StopToken());
+    const StopToken never;
+    const BlockEstimate bound(bounds.to(goal), kLabelScale, never);
+    const auto to = costmap::SegmentPoint::centreOf(goal);
+    for (const Cell cell : cellsOf(map)) {
+      const auto from = costmap::SegmentPoint::centreOf(cell);
+      if (!map.passable(cell) || !costmap::lineOfSight(map, from, to)) continue;
+      ++legal;
+      const double least = std::cos(M_PI / 8) * double(bound(cell)) / double(kLabelScale.straight);
+      ASSERT_LE(least, costmap::lineCost(map, from, to) + 1e-9)
+          << "trial " << trial << ", " << cell;
+    }
+  }
+  EXPECT_GT(legal, 2000);
 }
 
 // However far other questions made the search go, and with the bounds of other goals between.

@@ -19,7 +19,7 @@ PLANNER_FLOORS = {
     "jump_point": {"core", "tables", "astar"},
     "replanning": {"core", "tables", "astar"},
     "rectangles": {"core"},
-    "any_angle": {"core", "rectangles"},
+    "any_angle": {"core", "rectangles", "tables"},
 }
 # Private headers that rooms above include too, though no other package should.
 LENT = {

@@ -17,6 +17,8 @@ namespace {
 
 // An expansion may try eight segments across the map.
 constexpr std::uint32_t kExpansionsBetweenPolls = 32;
+// cos 22.5 degrees, rounded down: how much shorter a segment may be than steps.
+constexpr double kShorter = 0.92387953;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 PlannerTraits thetaStarTraits(const char* name) {
@@ -34,18 +36,21 @@ PlannerTraits LazyThetaStar::declaredTraits() {
 }
 
 std::size_t ThetaStar::bytesFor(const GridGeometry& geometry) const {
-  return geometry.size() * (sizeof(Node) + sizeof(std::uint8_t)) + BitMaps::bytesFor(geometry);
+  return geometry.size() * (sizeof(Node) + sizeof(std::uint8_t)) + BitMaps::bytesFor(geometry) +
+         BlockBounds::bytesFor(geometry, kBlock);
 }
 
 void ThetaStar::doPrepare(const StopToken& stop) {
   masks_.build(map(), stop);
   nodes_ = ZeroedArray<Node>(map().geometry().size());
   stamp_.restart();
+  blocks_.prepare(map(), stop);
   doUpdate({}, stop);
 }
 
 void ThetaStar::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
   for (const CellRect& rect : changed) masks_.update(map(), rect, stop);
+  blocks_.update(map(), changed);
   bits_ = map().uniform() ? &map().bitMaps(stop) : nullptr;
   const GridGeometry& original = map().original();
   centred_ = {original.width() / map().kernel(), original.height() / map().kernel()};
@@ -80,18 +85,31 @@ double ThetaStar::stepCost(Cell from, Cell to) const {
   return length * (std::max(map().weight(from), map().weight(to)) * map().kernel());
 }
 
-void ThetaStar::startQuery(std::uint32_t start) {
+double ThetaStar::toGoal(Cell cell) const {
+  const double straight = costBound(cell, goal_);
+  if (!bound_ || !centred(cell)) return straight;
+  const SearchKey bound = (*bound_)(cell);
+  if (bound == kInfiniteKey) return kInfinity;
+  return std::max(straight, double(bound) * key_cost_);
+}
+
+void ThetaStar::startQuery(const SearchRequest& request, const StopToken& stop) {
+  goal_ = request.goals.front();
+  const std::uint32_t start = map().geometry().index(request.start).value();
+  bound_.reset();
+  if (!oneWeight() && centred(goal_)) bound_.emplace(blocks_.to(goal_), kLabelScale, stop);
+  key_cost_ = kShorter * map().kernel() / double(kLabelScale.straight);
   stamp_.next([this] { nodes_.clear(); });
   open_.clear();
   nodes_[start] = Node{0.0, start, stamp_.word()};
-  open_.push({costBound(cell(start), goal_), 0.0, start});
+  open_.push({toGoal(request.start), 0.0, start});
 }
 
 void ThetaStar::relax(std::uint32_t index, Cell at, std::uint32_t parent, double g,
                       std::uint16_t state, Statistics& counts) {
   if (generated(index) && nodes_[index].g <= g) return;
   nodes_[index] = Node{g, parent, static_cast<std::uint16_t>(stamp_.word() | state)};
-  open_.push({g + costBound(at, goal_), g, index});
+  open_.push({g + toGoal(at), g, index});
   ++counts.generated;
 }
 
@@ -124,16 +142,15 @@ bool ThetaStar::checkParent(std::uint32_t index, Statistics& counts) {
   node.g = best.g;
   node.parent = best.parent;
   if (best.g <= assumed * (1.0 + kRounding)) return true;
-  open_.push({best.g + costBound(at, goal_), best.g, index});
+  open_.push({best.g + toGoal(at), best.g, index});
   ++counts.generated;
   return false;
 }
 
 SearchResult ThetaStar::doSearch(const SearchRequest& request, const StopToken& stop) {
   const GridGeometry& geometry = map().geometry();
-  goal_ = request.goals.front();
-  const std::uint32_t goal = geometry.index(goal_).value();
-  startQuery(geometry.index(request.start).value());
+  const std::uint32_t goal = geometry.index(request.goals.front()).value();
+  startQuery(request, stop);
   SearchResult result;
   Statistics& counts = result.statistics;
   counts.generated = 1;

@@ -8,6 +8,10 @@
 // goes back into the open list. The turning points are the centres of cells, or of the part of a
 // cell that lies on the original map.
 //
+// Where weights differ, both are guided by the bound of the blocks (planners/tables/block_bound.h). It
+// holds for steps; a segment may be shorter than the steps between its ends, but not by more than
+// cos 22.5 degrees, and so many times the bound holds for it.
+//
 // Guaranteed: every segment is legal, the cost is the sum of the segments' (costmap/line_of_sight.h).
 // Not guaranteed: that it is the least an any-angle path can cost, or even as low as that of a grid
 // path, though on maps of one weight it mostly lies within a few thousandths of the least.
@@ -23,6 +27,7 @@
 #include "planners/core/binary_heap.h"
 #include "planners/core/stamped_array.h"
 #include "planners/core/steps.h"
+#include "planners/tables/block_bound.h"
 
 namespace grid_path_planner::planners {
 
@@ -71,6 +76,8 @@ class ThetaStar : public Planner {
 
   // A lower bound of the cost of the straight segment between the centres of two cells.
   double costBound(grid::Cell from, grid::Cell to) const;
+  // A lower bound of the cost to the goal, of all paths at any angle.
+  double toGoal(grid::Cell cell) const;
   // The cost of that segment, none where it is not legal or costs more than `limit`.
   std::optional<double> segmentCost(grid::Cell from, grid::Cell to, double limit) const;
   double stepCost(grid::Cell from, grid::Cell to) const;
@@ -82,6 +89,8 @@ class ThetaStar : public Planner {
   static constexpr double kRounding = 1e-12;
 
  private:
+  static constexpr int kBlock = 8;
+
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
@@ -103,7 +112,7 @@ class ThetaStar : public Planner {
     std::uint32_t parent;
   };
 
-  void startQuery(std::uint32_t start);
+  void startQuery(const SearchRequest& request, const base::StopToken& stop);
   Arrival bestStep(std::uint32_t index, grid::Cell at) const;
   bool checkParent(std::uint32_t index, base::Statistics& counts);
   SearchResult withStatus(base::Status status, SearchResult result) const;
@@ -118,6 +127,9 @@ class ThetaStar : public Planner {
   StepMasks masks_;
   base::ZeroedArray<Node> nodes_;
   BinaryHeap<Entry, Worse> open_;
+  BlockBounds blocks_{kBlock};              // where weights differ
+  std::optional<BlockEstimate> bound_;      // of the current query, in kLabelScale
+  double key_cost_ = 0;                     // of a key of the bound
   QueryStamp<std::uint16_t, 2, 14> stamp_;  // above kClosed and kUnchecked
   grid::Cell goal_;
   grid::Cell centred_;                      // see centred()

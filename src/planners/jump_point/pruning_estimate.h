@@ -34,6 +34,10 @@ class PruningEstimate {
   bool octileSaysLittle(costmap::CostGrid::Weight least) const {
     return 2 * static_cast<std::int64_t>(least) * inverse_weights_ < kInverse * passable_;
   }
+  // The same with a fourth: there smaller blocks pay, which bound more and take longer.
+  bool octileSaysNothing(costmap::CostGrid::Weight least) const {
+    return 4 * static_cast<std::int64_t>(least) * inverse_weights_ < kInverse * passable_;
+  }
 
  private:
   struct Count {

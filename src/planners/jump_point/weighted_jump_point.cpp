@@ -107,6 +107,11 @@ bool WeightedJumpPoint::shouldJump() const {
   return !a_star_asked_for_ && jumpsSupport(map().motion()) && pruning_.jumpingPays();
 }
 
+int WeightedJumpPoint::blockOfBound() const {
+  const bool small = pruning_.octileSaysNothing(map().minWeight());
+  return small ? WeightedJumpSearch::kSmallBlock : WeightedJumpSearch::kBlock;
+}
+
 void WeightedJumpPoint::doPrepare(const StopToken& stop) {
   a_star_.reset();
   jumps_ready_ = false;
@@ -116,7 +121,7 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
     prepareAStar(stop);
     return;
   }
-  jumps_.prepare(map(), stop);
+  jumps_.prepare(map(), stop, blockOfBound());
   jumps_ready_ = true;
   tiles_left_ = firstTiles();
   paid_ = 0;
@@ -126,7 +131,7 @@ void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const Sto
   if (jumpsSupport(map().motion()))
     for (const CellRect& rect : changed) pruning_.update(map(), rect);
   if (shouldJump() != jumps_ready_) return doPrepare(stop);
-  if (jumps_ready_) jumps_.update(map(), changed, stop);
+  if (jumps_ready_) jumps_.update(map(), changed, stop, blockOfBound());
   if (a_star_) a_star_->update(sharedMap(), changed, stop);
 }
 

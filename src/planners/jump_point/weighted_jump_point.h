@@ -53,6 +53,7 @@ class WeightedJumpPoint : public Planner {
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
   bool shouldJump() const;
+  int blockOfBound() const;
   std::size_t bytesOfAStar(const grid::GridGeometry& geometry) const;
   std::uint64_t firstTiles() const;
   std::uint64_t mostTiles() const;

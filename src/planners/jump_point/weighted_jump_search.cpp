@@ -34,7 +34,8 @@ Cell moved(Cell cell, unsigned step) {
 
 }  // namespace
 
-void WeightedJumpSearch::prepare(const CostGrid& map, const StopToken& stop) {
+void WeightedJumpSearch::prepare(const CostGrid& map, const StopToken& stop, int block) {
+  blocks_.setSide(block);
   blocks_.prepare(map, stop);
   jumps_.reset(map);
   if (g_.size() == map.geometry().size()) return;
@@ -43,8 +44,13 @@ void WeightedJumpSearch::prepare(const CostGrid& map, const StopToken& stop) {
 }
 
 void WeightedJumpSearch::update(const CostGrid& map, const std::vector<CellRect>& changed,
-                                const StopToken& stop) {
-  blocks_.update(map, changed);
+                                const StopToken& stop, int block) {
+  if (block == blocks_.side()) {
+    blocks_.update(map, changed);
+  } else {
+    blocks_.setSide(block);
+    blocks_.prepare(map, stop);
+  }
   jumps_.update(map, changed, stop);
 }
 
@@ -171,10 +177,12 @@ void WeightedJumpSearch::jumpStraight(Cell cell, Key g) {
   if (jumps_.deadEnd<kStep>(*map_, cell)) return;
   const WeightedJumpMap::Jump jump = jumps_.straightJump<kStep>(cell, weights_);
   g += jump.weights * kStraight;
+  const std::uint32_t index = indexOf(jump.to);
+  if (beyondMost(g) || hasLessThan(index, g)) return;
   const Key f = g + estimate(jump.to);
   if (beyondMost(f)) return;
-  const std::uint32_t index = indexOf(jump.to);
-  if (relax(index, g)) reach(index, jumps_.steps(*map_, index), kStep, f);
+  relax(index, g);
+  reach(index, jumps_.steps(*map_, index), kStep, f);
 }
 
 // Up to the f-value `limit`. Open cells whose two straight jumps are dead ends get no g-value.
@@ -207,8 +215,10 @@ void WeightedJumpSearch::jumpDiagonally(std::uint32_t index, Cell cell, Key g, K
     const NaturalMoves steps = jumps_.steps(*map_, index);
     const unsigned after = steps >> (8 * kStep) & 255U;
     if (after == 0 && index != goal_index_) return;
+    if (beyondMost(g) || hasLessThan(index, g)) return;
     const Key f = g + estimate(cell);
-    if (beyondMost(f) || !relax(index, g)) return;
+    if (beyondMost(f)) return;
+    relax(index, g);
     WeightedJumpMap::Mark& mark = jumps_.mark(index);
     if ((mark.reached & kStepBit) != 0) return;
     const bool turns = (after & ~unsigned(kNaturalInTheOpen[kStep])) != 0;
@@ -222,17 +232,14 @@ void WeightedJumpSearch::jumpDiagonally(std::uint32_t index, Cell cell, Key g, K
   }
 }
 
-// Lowers the cell's g-value to g, and then forgets the steps that reached it before. Returns false
-// where the cell has a lower one.
-inline bool WeightedJumpSearch::relax(std::uint32_t index, Key g) {
+// Lowers the cell's g-value to g, and then forgets the steps that reached it before. Precondition:
+// the cell has no lower one.
+inline void WeightedJumpSearch::relax(std::uint32_t index, Key g) {
   const StampedG stamped = zero_g_ - g;
-  if (stamped < g_[index]) return false;
-  if (stamped > g_[index]) {
-    g_[index] = stamped;
-    WeightedJumpMap::Mark& mark = jumps_.mark(index);
-    mark.reached = mark.expanded = 0;
-  }
-  return true;
+  if (stamped == g_[index]) return;
+  g_[index] = stamped;
+  WeightedJumpMap::Mark& mark = jumps_.mark(index);
+  mark.reached = mark.expanded = 0;
 }
 
 // A jump by `step` ended at the cell, whose g-value is up to date. Pushes the cell if a step of

@@ -42,16 +42,21 @@ namespace grid_path_planner::planners {
 
 class WeightedJumpSearch {
  public:
+  // Sides of the bound's blocks.
+  static constexpr int kSmallBlock = 4;
+  static constexpr int kBlock = 8;
+
   static std::size_t bytesFor(const grid::GridGeometry& geometry) {
-    return WeightedJumpMap::bytesFor(geometry) + BlockBounds::bytesFor(geometry, kBlock) +
+    return WeightedJumpMap::bytesFor(geometry) + BlockBounds::bytesFor(geometry, kSmallBlock) +
            geometry.size() * sizeof(StampedG);
   }
 
-  // Throws Stopped.
-  void prepare(const costmap::CostGrid& map, const base::StopToken& stop);
-  // `changed`: the cells whose weights changed since. Throws Stopped.
+  // `block`: the side of the bound's blocks in cells. Throws Stopped.
+  void prepare(const costmap::CostGrid& map, const base::StopToken& stop, int block = kBlock);
+  // `changed`: the cells whose weights changed since. `block` may be another than before. Throws
+  // Stopped.
   void update(const costmap::CostGrid& map, const std::vector<grid::CellRect>& changed,
-              const base::StopToken& stop);
+              const base::StopToken& stop, int block = kBlock);
   // Makes all tiles ready, so that no run() makes one; those made stay where it is stopped. Throws
   // Stopped.
   void finish(const costmap::CostGrid& map, const base::StopToken& stop) {
@@ -73,7 +78,6 @@ class WeightedJumpSearch {
                    std::uint64_t most_tiles = std::numeric_limits<std::uint64_t>::max());
 
  private:
-  static constexpr int kBlock = 8;
   using Key = SearchKey;
   static constexpr Key kStraight = kMediumScale.straight;
   static constexpr Key kDiagonal = kMediumScale.diagonal;
@@ -95,13 +99,14 @@ class WeightedJumpSearch {
   template <unsigned kStep>
   void jumpDiagonally(std::uint32_t index, grid::Cell cell, Key g, Key limit);
   bool beyondMost(Key f);
-  bool relax(std::uint32_t index, Key g);
+  void relax(std::uint32_t index, Key g);
   void reach(std::uint32_t index, NaturalMoves steps, unsigned step, Key f);
 
   std::uint32_t indexOf(grid::Cell cell) const {
     return std::uint32_t(cell.row) * width_ + std::uint32_t(cell.column);
   }
   Key gOf(std::uint32_t index) const { return kLargest - (g_[index] & kLargest); }
+  bool hasLessThan(std::uint32_t index, Key g) const { return zero_g_ - g < g_[index]; }
   bool hasG(std::uint32_t index) const { return stamp_.wrote(g_[index]); }
   Key estimate(grid::Cell cell) const { return bound_ ? (*bound_)(cell) : octile(cell); }
   Key octile(grid::Cell cell) const;
@@ -111,7 +116,7 @@ class WeightedJumpSearch {
   SearchResult withStatus(base::Status status, SearchResult result) const;
 
   WeightedJumpMap jumps_;
-  BlockBounds blocks_{kBlock};
+  BlockBounds blocks_{kSmallBlock};
   std::size_t bound_after_ = 0;
   base::ZeroedArray<StampedG> g_;
   QueryStamp<StampedG, kKeyBits> stamp_;

@@ -184,9 +184,13 @@ void BlockBounds::update(const CostGrid& map, const std::vector<CellRect>& chang
   if (any) bounds_.clear();
 }
 
-void BlockBounds::release() {
+void BlockBounds::setSide(int side) {
   bounds_.clear();
-  weights_ = BlockWeights(weights_.side());
+  weights_ = BlockWeights(side);
+}
+
+void BlockBounds::release() {
+  setSide(weights_.side());
 }
 
 BlockBound& BlockBounds::to(Cell goal) {

@@ -108,9 +108,8 @@ class BlockBound {
     const Value* corner = &values_[node];
     const std::uint32_t stride = weights_.stride();
     Value a = corner[0], b = corner[1], c = corner[stride], d = corner[stride + 1];
-    if (__builtin_expect(a >= settled_below_ || b >= settled_below_ || c >= settled_below_ ||
-                             d >= settled_below_,
-                         0)) {
+    const Value ab = a > b ? a : b, cd = c > d ? c : d;
+    if (__builtin_expect((ab > cd ? ab : cd) >= settled_below_, 0)) {
       if (!settle(node, stop)) return kInfinite;
       a = corner[0], b = corner[1], c = corner[stride], d = corner[stride + 1];
     }
@@ -162,6 +161,9 @@ class BlockBounds {
  public:
   // `side` of a block in cells: 4 or 8.
   explicit BlockBounds(int side) : weights_(side) {}
+  int side() const { return weights_.side(); }
+  // The next prepare() makes blocks of this side.
+  void setSide(int side);
 
   // With all bounds.
   static std::size_t bytesFor(const grid::GridGeometry& geometry, int side);
