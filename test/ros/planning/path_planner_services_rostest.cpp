@@ -112,7 +112,7 @@ TEST_F(ServicesTest, SaveWaypointsWritesTheLastPathOrSaysWhyNot) {
   ASSERT_TRUE(saved.success) << saved.message;
   const Path path = readWaypointFile(file).path;
   EXPECT_EQ(path.frame_id, "map");
-  EXPECT_EQ(path.poses.size(), 4u) << "the corners";
+  EXPECT_EQ(path.poses.size(), 3u) << "the corners";
   EXPECT_NEAR(path.poses.back().yaw, 1.0, 1e-9);
 
   const auto refused = save(file + "/below/a/file.yaml");
