@@ -147,6 +147,7 @@ Plan PlanningLane::tryToPlan(const PlanningRequest& request, const PathPlannerNo
 Explanation PlanningLane::explain(const PlanningRequest& request, Status status,
                                   const PathPlannerNodeOptions& options, const StopSource& stop,
                                   std::chrono::duration<double> limit) {
+  if (status != Status::UNREACHABLE && status != Status::GOAL_OCCUPIED) return {};
   try {
     takeMap();
     setOptions(optionsFor(request, options));
