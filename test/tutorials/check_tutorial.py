@@ -4,8 +4,8 @@
 
 In an indented block a line that begins with `$ ` is typed, with the lines after it up to `END` where it ends with
 <<'END'; what follows are lines that it prints, in this order and with others between, `…` standing for any text.
-Commands run in an empty folder, with a ROS master of their own. One that ends with ` &` goes on until the page ends; a
-page may show more lines of it later, in a block without commands.
+Commands run in an empty folder, with a ROS master of their own. One that ends with ` &` goes on until the page ends; its
+nodes print in any order, and a page may show more lines of it later, in a block without commands.
 """
 import os
 import re
@@ -43,15 +43,15 @@ def steps_of(block):
     return steps
 
 
-def missing_line(expected, output):
-    """The first expected line that is not printed after those before it; None: all are."""
+def missing_line(expected, output, in_order):
+    """The first expected line that is not printed, or not after those before it; None: all are."""
     at = 0
     for line in expected:
         pattern = ".*".join(re.escape(part) for part in line.strip().split("…"))
         found = re.compile(pattern).search(output, at)
         if not found:
             return line
-        at = found.end()
+        at = found.end() if in_order else 0
     return None
 
 
@@ -64,7 +64,8 @@ class Session:
             self.port = probe.getsockname()[1]
         self.folder = folder
         self.environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % self.port, PWD=folder,
-                                ROS_HOSTNAME="localhost", ROS_HOME=os.path.join(folder, ".ros"))
+                                ROS_HOSTNAME="localhost", ROS_HOME=os.path.join(folder, ".ros"),
+                                ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
         self.environment.pop("ROS_IP", None)
         self.background = None
         self.log = os.path.join(folder, ".background")
@@ -79,7 +80,7 @@ class Session:
         while True:
             with open(self.log, encoding="utf-8", errors="replace") as file:
                 output = file.read()
-            missing = missing_line(expected, output)
+            missing = missing_line(expected, output, in_order=False)
             if missing is None or time.monotonic() > end or self.background.poll() is not None:
                 return missing, output
             time.sleep(0.2)
@@ -87,7 +88,7 @@ class Session:
     def run(self, command, expected):
         answer = subprocess.run(["bash", "-c", command], cwd=self.folder, env=self.environment, timeout=SECONDS,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
-        missing = missing_line(expected, answer.stdout)
+        missing = missing_line(expected, answer.stdout, in_order=True)
         if missing is None and answer.returncode not in (0, 1):
             missing = "exit code %d" % answer.returncode
         return missing, answer.stdout
