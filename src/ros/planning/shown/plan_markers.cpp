@@ -106,10 +106,11 @@ Marker failureMarker(const ShownPlan& shown) {
   Marker marker = nothing(shown, "failure", kFailure);
   const geometry_msgs::PoseStamped& goal = shown.statistics.goal;
   if (shown.plan.found() || goal.header.frame_id.empty()) return marker;
-  show(marker, Marker::TEXT_VIEW_FACING, 0.0, 0.0, kTextSize);
+  const double size = std::max(kTextSize, 6.0 * shown.cell_size);
+  show(marker, Marker::TEXT_VIEW_FACING, 0.0, 0.0, size);
   marker.header.frame_id = goal.header.frame_id;
   marker.pose.position = goal.pose.position;
-  marker.pose.position.z += kTextSize;
+  marker.pose.position.z += size;
   marker.text = shown.statistics.status + ": " + shown.statistics.message;
   return marker;
 }
