@@ -194,7 +194,8 @@ class PathPlanner(Node):
 
     def parameters(self):
         return {"/path_planner/radius": RADIUS if self.inflated else 0.0,
-                "/path_planner/decay": DECAY if self.inflated else 0.0, "/path_planner/timeout": 60.0}
+                "/path_planner/decay": DECAY if self.inflated else 0.0, "/path_planner/timeout": 60.0,
+                "/path_planner/smooth": False}
 
     def command(self):
         return [executable("grid_path_planner", "path_planner"), "__name:=path_planner"]

@@ -41,8 +41,9 @@ int planOnFile(const std::string& map_file, const std::string& waypoint_file) {
 
   std::cout << "The path is " << plan.length_m << " m long; its clearance is "
             << clearanceOf(plan.path, *map, options.costmap.thresholds) << " m.\n";
-  grid_path_planner::path::writeWaypointFile(waypoint_file, plan.path);
-  std::cout << "Its " << plan.path.poses.size() << " waypoints are in " << waypoint_file << ".\n";
+  grid_path_planner::path::writeWaypointFile(waypoint_file, plan.waypoints);
+  std::cout << "Its " << plan.waypoints.poses.size() << " waypoints are in " << waypoint_file
+            << ".\n";
   return 0;
 }
 

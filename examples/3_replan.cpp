@@ -35,6 +35,7 @@ bool show(const char* title, const OccupancyGrid& map, const Plan& plan) {
 int main() {
   PlannerOptions options;
   options.planner = "incremental_a_star";
+  options.smooth = false;  // all cells are printed
   PathPlanner planner(options);
 
   const auto map = std::make_shared<const OccupancyGrid>(examples::mapOf(

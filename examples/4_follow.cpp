@@ -20,6 +20,7 @@ using grid_path_planner::following::PathFollower;
 using grid_path_planner::grid::OccupancyGrid;
 using grid_path_planner::path::Pose;
 using grid_path_planner::planning::PathPlanner;
+using grid_path_planner::planning::PlannerOptions;
 
 namespace {
 
@@ -38,7 +39,9 @@ Pose moved(Pose pose, const BodyVelocity& velocity, double seconds) {
 int main() {
   const auto map = std::make_shared<const OccupancyGrid>(
       examples::mapOf({"..........", "....#.....", "....#.....", "....#....."}));
-  PathPlanner planner;
+  PlannerOptions planning;
+  planning.smooth = false;  // all cells are printed
+  PathPlanner planner(planning);
   planner.setMap(map);
   Pose vehicle = {{0.5, 0.5, -1.0}, 0.0};
   const auto plan = planner.plan({vehicle, {{9.5, 0.5, -2.0}, M_PI / 2}});

@@ -67,6 +67,7 @@ int main() {
       examples::mapOf({"..............", "....##........", ".....#..####..", ".....#..#.....",
                        ".....????.....", ".....????....."}));
   PlannerOptions options;
+  options.smooth = false;  // the searches themselves are compared
   for (const char* name : {"breadth_first", "a_star"}) {
     options.planner = name;
     PathPlanner planner(options, makeAny);

@@ -202,8 +202,8 @@ void warnAboutUnusedOption(const std::string& option, const std::string& with) {
   std::cerr << "warning: --" << flagOf(option) << " changes nothing with " << with << '\n';
 }
 
-void warnAboutUnusedOptions(const PlannerOptions& options) {
-  for (const UnusedOption& unused : unusedOptions(options))
+void warnAboutUnusedOptions(const PlannerOptions& options, const PlannerOptions& defaults) {
+  for (const UnusedOption& unused : unusedOptions(options, defaults))
     warnAboutUnusedOption(unused.name, unused.with);
 }
 

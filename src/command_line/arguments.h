@@ -51,6 +51,7 @@ planning::PlannerOptions plannerOptionsFrom(const boost::program_options::variab
 // Prints on the standard error that `option` has no effect with `with`.
 void warnAboutUnusedOption(const std::string& option, const std::string& with);
 // Prints this for every option that has no effect with the others.
-void warnAboutUnusedOptions(const planning::PlannerOptions& options);
+void warnAboutUnusedOptions(const planning::PlannerOptions& options,
+                            const planning::PlannerOptions& defaults = {});
 
 }  // namespace grid_path_planner::command_line

@@ -18,12 +18,13 @@
 namespace grid_path_planner::command_line {
 
 using base::InputError, base::Status, base::StopToken;
+using costmap::CostGrid;
 using grid::Cell, grid::GridGeometry, grid::MapFileOptions, grid::OccupancyGrid,
     grid::OccupancyThresholds;
 using nodes::readAnyMapFile;
 using path::clearanceOf, path::measuresText, path::Pose, path::turningOf, path::writePicture,
     path::writeWaypointFile;
-using planners::traitsOf;
+using planners::makePlanner, planners::traitsOf;
 using planning::explainFailure, planning::Explanation, planning::PathPlanner, planning::Plan,
     planning::PlannerOptions, planning::PoseRequest;
 
@@ -112,10 +113,11 @@ std::vector<Cell> cellsOf(const Plan& report, const GridGeometry& geometry) {
   return cells;
 }
 
-// Where the planner guarantees the least cost by default, but not with these options.
-void warnIfNotOptimal(const PlannerOptions& options) {
-  if (options.costmap.kernel != 1 || options.smooth) return;
-  if (!traitsOf(options.planner).optimal) return;
+// Where the planner guarantees the least cost by default, but not with these options. What a path is
+// smoothed from is meant.
+void warnIfNotOptimal(const PlannerOptions& options, const CostGrid& costs) {
+  if (options.costmap.kernel != 1 || !traitsOf(options.planner).optimal) return;
+  if (makePlanner(options.planner, options.search)->optimalFor(costs)) return;
   std::cerr << "warning: the path may not be optimal: with this heuristic, heuristic_scale or "
                "epsilon "
             << options.planner << " does not promise it\n";
@@ -167,7 +169,7 @@ void writeFiles(const po::variables_map& values, const OccupancyGrid& map,
     writePicture(values["image"].as<std::string>(), map, thresholds,
                  {report.path, cellsOf(report, map.geometry()), {}, {}});
   if (values.count("waypoints") != 0 && report.status == Status::FOUND)
-    writeWaypointFile(values["waypoints"].as<std::string>(), report.path);
+    writeWaypointFile(values["waypoints"].as<std::string>(), report.waypoints);
 }
 
 // Where the planner let another one answer.
@@ -219,7 +221,8 @@ int runPlan(int argc, char** argv) {
   planner.setMap(map);
   const double preparation_ms = preparationMs(planner);
   Plan report = planner.plan(request);
-  if (report.status == Status::FOUND && !report.optimal) warnIfNotOptimal(options);
+  if (report.status == Status::FOUND && !report.optimal)
+    warnIfNotOptimal(options, *planner.fullResolutionCosts(StopToken()));
   writeFiles(values, *map, options.costmap.thresholds, report);
   Measures measures = {clearanceOf(report.path, *map, options.costmap.thresholds),
                        turningOf(report.path), std::nullopt};

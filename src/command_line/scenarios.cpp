@@ -68,10 +68,12 @@ struct Totals {
   }
 };
 
-// Benchmark maps end where the queries' world ends: nothing is kept from their border.
+// Benchmark maps end where the queries' world ends: nothing is kept from their border. The costs of
+// their files are those of paths over the grid.
 PlannerOptions defaultOptions() {
   PlannerOptions options;
   options.costmap.outside = Outside::FREE;
+  options.smooth = false;
   return options;
 }
 
@@ -112,8 +114,9 @@ bool fileOptimaHold(const CostmapOptions& costmap) {
 // Queries are from cell to cell: options of poses and of the time around the search have no effect.
 void warnAboutOptionsOfPoses(const PlannerOptions& options) {
   for (const std::string& name : changedOptions(options))
-    for (const char* unused : {"tolerance", "start_escape_radius", "retry_finer", "timeout",
-                               "heading", "path_z", "fixed_z"})
+    for (const char* unused :
+         {"tolerance", "start_escape_radius", "retry_finer", "timeout", "heading", "path_z",
+          "fixed_z", "waypoint_tolerance", "waypoint_spacing"})
       if (name == unused) warnAboutUnusedOption(name, "scenarios");
 }
 
@@ -293,13 +296,14 @@ PlannerTraits judgedTraits(const PreparedPlanner& prepared, const PlannerOptions
 }
 
 void printResults(const po::variables_map& values, const std::string& map_file,
-                  const std::string& planner, const PreparedPlanner& prepared,
+                  const PlannerOptions& options, const PreparedPlanner& prepared,
                   const Reference& reference, const Results& results) {
   std::printf(
-      "map=%s planner=%s preparation_ms=%.3f reference=%s unsolvable=%zu "
+      "map=%s planner=%s smooth=%s preparation_ms=%.3f reference=%s unsolvable=%zu "
       "cost_over_reference=%.6f\n",
-      map_file.c_str(), planner.c_str(), prepared.preparation_ms, reference.name().c_str(),
-      results.totals.unsolvable, results.totals.costOverReference());
+      map_file.c_str(), options.planner.c_str(), options.smooth ? "true" : "false",
+      prepared.preparation_ms, reference.name().c_str(), results.totals.unsolvable,
+      results.totals.costOverReference());
   const BackgroundWork work = prepared.planner->backgroundWork();
   if (work.bytes > 0)
     std::printf("background_ms=%.3f background_bytes=%zu\n", work.time_s * 1e3, work.bytes);
@@ -321,7 +325,7 @@ int runScenarios(int argc, char** argv) {
     return 0;
   const std::string file = values["scen"].as<std::string>();
   const PlannerOptions options = plannerOptionsFrom(values, defaultOptions());
-  warnAboutUnusedOptions(options);
+  warnAboutUnusedOptions(options, defaultOptions());
   warnAboutOptionsOfPoses(options);
   const std::vector<ScenarioQuery> all = readScenarioFile(file);
   const std::vector<ScenarioQuery> queries = spreadOver(all, limitOf(values));
@@ -333,7 +337,7 @@ int runScenarios(int argc, char** argv) {
                             judgedTraits(prepared, options));
   const Results results = runQueries(queries, file, prepared, options.smooth, reference);
   if (values.count("csv") != 0) writeFileAtomically(values["csv"].as<std::string>(), results.csv);
-  printResults(values, map_file, options.planner, prepared, reference, results);
+  printResults(values, map_file, options, prepared, reference, results);
   return results.totals.wrong > 0 && guarantees(prepared) ? 1 : 0;
 }
 

@@ -7,6 +7,12 @@ namespace grid_path_planner::planning {
 
 using costmap::KeptDistances;
 
+namespace {
+
+constexpr double kRoundingOfLengths = 1e-6;  // m
+
+}  // namespace
+
 std::string positionText(const Eigen::Vector2d& position) {
   std::ostringstream out;
   out << std::setprecision(6) << '(' << position.x() << ", " << position.y() << ')';
@@ -17,6 +23,18 @@ std::string metresText(double length) {
   std::ostringstream out;
   out << std::setprecision(4) << length << " m";
   return out.str();
+}
+
+std::string unreachableText(const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                            double tolerance) {
+  std::string text = "no path leads from " + positionText(start) + " to " + positionText(goal);
+  if (tolerance > 0.0) text += " or within " + metresText(tolerance) + " of it";
+  return text;
+}
+
+std::string unknownNote(const path::ClassLengths& lengths) {
+  if (lengths.unknown_m <= kRoundingOfLengths) return "";
+  return metresText(lengths.unknown_m) + " of it through unknown cells";
 }
 
 std::string loweredNote(const KeptDistances& asked, const KeptDistances& kept) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "grid_path_planner/costmap/motion_model.h"
+#include "grid_path_planner/path/metrics.h"
 
 namespace grid_path_planner::planning {
 
@@ -13,6 +14,13 @@ std::string positionText(const Eigen::Vector2d& position);
 
 // "12.34 m", four digits.
 std::string metresText(double length);
+
+// "no path leads from (1.5, 2) to (3, 4) or within 0.5 m of it".
+std::string unreachableText(const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                            double tolerance);
+
+// "3.2 m of it through unknown cells"; "" where there are none.
+std::string unknownNote(const path::ClassLengths& lengths);
 
 // "it keeps only 0.2 m from unknown cells, as near as its ends are".
 std::string loweredNote(const costmap::KeptDistances& asked, const costmap::KeptDistances& kept);

@@ -17,16 +17,18 @@
 #include "planning/multi_resolution_planner.h"
 #include "planning/path_ends.h"
 #include "planning/prepared_planners.h"
+#include "planning/waypoints.h"
 
 namespace grid_path_planner::planning {
 
-using base::checkOptionLimits, base::choiceName, base::InputError, base::sameOptions,
-    base::Statistics, base::Status, base::Stopped, base::StopSource, base::StopToken;
+using base::checkOptionLimits, base::InputError, base::sameOptions, base::Statistics, base::Status,
+    base::Stopped, base::StopSource, base::StopToken;
 using costmap::checkCostmapOptions, costmap::Connectivity, costmap::CostGrid,
     costmap::CostmapBuilder, costmap::DiagonalCost, costmap::keptDistances, costmap::KeptDistances,
     costmap::MotionModel;
 using grid::CellRect, grid::checkOccupancyValues, grid::GridGeometry, grid::OccupancyGrid;
-using path::applyHeadings, path::applyZ, path::lengthOf, path::Path, path::Pose;
+using path::applyHeadings, path::applyZ, path::lengthOf, path::lengthsByClass, path::Path,
+    path::Pose;
 using planners::checkSearchOptions, planners::memoryLimitOf, planners::PlannerMaker,
     planners::TooExpensive, planners::traitsOf;
 
@@ -44,7 +46,7 @@ bool samePose(const Pose& a, const Pose& b) {
 }
 
 void addNote(std::string& message, const std::string& note) {
-  if (!note.empty()) message += "; " + note;
+  if (!note.empty()) message += (message.empty() ? "" : "; ") + note;
 }
 
 std::string number(double value) {
@@ -62,12 +64,13 @@ void checkOtherOptions(const PlannerOptions& options) {
   checkOptionLimits(options);
   checkCostmapOptions(options.costmap);
   checkSearchOptions(options.search);
+}
+
+// Whether lines of any angle have costs that compare with those of steps.
+bool smooths(const PlannerOptions& options) {
   const MotionModel& motion = options.costmap.motion;
-  if (options.smooth &&
-      (motion.connectivity != Connectivity::EIGHT || motion.diagonal_cost != DiagonalCost::SQRT2))
-    throw InputError("smooth needs connectivity 8 and diagonal_cost sqrt2, got connectivity " +
-                     std::string(choiceName(motion.connectivity)) + " and diagonal_cost " +
-                     choiceName(motion.diagonal_cost));
+  return options.smooth && motion.connectivity == Connectivity::EIGHT &&
+         motion.diagonal_cost == DiagonalCost::SQRT2;
 }
 
 Path pathOf(const Route& route, const PathEnd& start, const PathEnd& goal,
@@ -99,19 +102,12 @@ std::string foundMessage(const Plan& plan, const PathEnd& start, const PathEnd& 
   return message;
 }
 
-std::string unreachableMessage(const PathEnd& start, const PathEnd& goal, double tolerance) {
-  std::string message =
-      "no path leads from " + positionText(start.position) + " to " + positionText(goal.position);
-  if (tolerance > 0.0) message += " or within " + metresText(tolerance) + " of it";
-  return message;
-}
-
 Plan completedPlan(Route route, const PathEnd& start, const PathEnd& goal,
-                   const PoseRequest& request, const PlannerOptions& options,
-                   const CostGrid& costs) {
+                   const PoseRequest& request, const PlannerOptions& options, const CostGrid& costs,
+                   const OccupancyGrid& map) {
   Plan plan = std::move(route.plan);
   if (plan.status == Status::UNREACHABLE)
-    plan.message = unreachableMessage(start, goal, options.tolerance);
+    plan.message = unreachableText(start.position, goal.position, options.tolerance);
   if (!plan.found()) {
     plan.cost = {};
     plan.segment_cost = 0.0;
@@ -121,6 +117,8 @@ Plan completedPlan(Route route, const PathEnd& start, const PathEnd& goal,
   plan.cells -= route.legs.size() - 1;
   plan.path = pathOf(route, start, goal, request, options, costs);
   plan.length_m = lengthOf(plan.path);
+  plan.waypoints = waypointsOf(plan.path, options, costs);
+  addNote(plan.message, unknownNote(lengthsByClass(plan.path, map, options.costmap.thresholds)));
   plan.message = foundMessage(plan, start, goal);
   return plan;
 }
@@ -348,7 +346,7 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
   if (plan.status == Status::TIMEOUT)
     plan.message = "planning reached its time limit of " + number(options_.timeout) + " s";
   if (plan.status == Status::CANCELLED) plan.message = "planning was cancelled";
-  plan.path.frame_id = "map";
+  plan.path.frame_id = plan.waypoints.frame_id = "map";
   return plan;
 }
 
@@ -382,14 +380,14 @@ Plan PathPlanner::planOn(const CostGrid& costs, MultiResolutionPlanner& search,
       searchAgain();
     }
   }
-  return completedPlan(std::move(route), *start, *goal, request, options_, costs);
+  return completedPlan(std::move(route), *start, *goal, request, options_, costs, *map_);
 }
 
 Route PathPlanner::findRoute(MultiResolutionPlanner& search, const PathEnd& start,
                              const PathEnd& goal, bool record_expanded,
                              const StopToken& stop) const {
   Route route = search.find(start.cell, goal.cell, options_.retry_finer, record_expanded, stop);
-  if (options_.smooth && route.plan.found()) smoothRoute(route, stop);
+  if (smooths(options_) && route.plan.found()) smoothRoute(route, stop);
   return route;
 }
 

@@ -8,7 +8,7 @@
 namespace grid_path_planner::planning {
 
 using base::differingOptions, base::OptionInfo, base::valueText;
-using costmap::Connectivity;
+using costmap::Connectivity, costmap::DiagonalCost;
 using path::PathZ;
 using planners::Heuristic, planners::optionsUsedBy, planners::SearchOptions, planners::traitsOf;
 
@@ -51,6 +51,9 @@ constexpr Rule kRules[] = {
     {"cut_corners", "connectivity", noDiagonals},
     {"retry_finer", "kernel", noKernel},
     {"smooth", "planner", shortestAlready},
+    {"smooth", "connectivity", noDiagonals},
+    {"smooth", "diagonal_cost",
+     [](const PlannerOptions& o) { return o.costmap.motion.diagonal_cost == DiagonalCost::UNIT; }},
     {"fixed_z", "path_z", [](const PlannerOptions& o) { return o.path_z != PathZ::FIXED; }},
 };
 
@@ -92,9 +95,10 @@ std::vector<std::string> changedOptions(const PlannerOptions& options) {
   return differingOptions(PlannerOptions(), options);
 }
 
-std::vector<UnusedOption> unusedOptions(const PlannerOptions& options) {
+std::vector<UnusedOption> unusedOptions(const PlannerOptions& options,
+                                        const PlannerOptions& defaults) {
   std::vector<UnusedOption> unused;
-  for (const std::string& name : changedOptions(options)) {
+  for (const std::string& name : differingOptions(defaults, options)) {
     const std::string with = unusedBecauseOf(name, options);
     if (!with.empty()) unused.push_back({name, with + " " + valueOf(with, options)});
   }

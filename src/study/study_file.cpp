@@ -51,6 +51,7 @@ class StudyReader {
  public:
   explicit StudyReader(const std::string& file) : file_(file), nodes_(file) {
     study_.base.costmap.outside = costmap::Outside::FREE;  // comparisons use all of their maps
+    study_.base.smooth = false;                            // they are of the searches' own paths
   }
 
   Study read() {

@@ -102,6 +102,7 @@ TEST(PathEnds, NoMoreIsKeptFromUnknownCellsThanAnEndHas) {
 TEST(PathEnds, WhatOneRequestKeepsIsNotKeptForTheNext) {
   PlannerOptions options = withRadius(1.5);
   options.costmap.outside = Outside::OCCUPIED;
+  options.smooth = false;
   PathPlanner planner(options);
   const std::vector<std::string> open(7, ".......");
   auto map = std::make_shared<OccupancyGrid>(test::AsciiMap(open).map);

@@ -45,6 +45,12 @@ Plan planOn(const AsciiMap& picture, const PlannerOptions& options = {}) {
                      poseAt(geometry.centre(picture.goal)), options);
 }
 
+PlannerOptions overTheGrid() {
+  PlannerOptions options;
+  options.smooth = false;
+  return options;
+}
+
 bool says(const Plan& report, const std::string& words) {
   return report.message.find(words) != std::string::npos;
 }
@@ -52,7 +58,8 @@ bool says(const Plan& report, const std::string& words) {
 TEST(PathPlanner, GoesAroundAnObstacle) {
   const Plan report = planOn(AsciiMap({"S#.",  //
                                        ".#.",  //
-                                       "..G"}));
+                                       "..G"}),
+                             overTheGrid());
   EXPECT_EQ(report.status, Status::FOUND) << report.message;
   EXPECT_EQ(report.cost, (ExactCost{4, 0})) << report.message;
   EXPECT_EQ(report.cells, 5U);
@@ -116,8 +123,8 @@ TEST(PathPlanner, StartAtTheGoalIsAPath) {
 
 // navigation#207, navigation2 PR#6270: the last pose is not the goal, or is there twice.
 TEST(PathPlanner, EndsAreThePosesAskedFor) {
-  const Plan report =
-      planBetween(AsciiMap({"....."}).map, poseAt({0.9, 0.1}, 3.0), poseAt({4.2, 0.7}, 5.0, 2.0));
+  const Plan report = planBetween(AsciiMap({"....."}).map, poseAt({0.9, 0.1}, 3.0),
+                                  poseAt({4.2, 0.7}, 5.0, 2.0), overTheGrid());
   ASSERT_EQ(report.path.poses.size(), 5U);
   EXPECT_EQ(report.path.poses.front().position, Eigen::Vector3d(0.9, 0.1, 3.0));
   EXPECT_EQ(report.path.poses.back().position, Eigen::Vector3d(4.2, 0.7, 5.0));
@@ -141,7 +148,7 @@ TEST(PathPlanner, CentreOfTheFirstCellStaysOnlyWhereItIsNeeded) {
                                          "#..",  //
                                          "..."})
                                    .map;
-  const Plan turned = planBetween(corner, poseAt({0.1, 0.95}), poseAt({1.5, 2.5}));
+  const Plan turned = planBetween(corner, poseAt({0.1, 0.95}), poseAt({1.5, 2.5}), overTheGrid());
   ASSERT_EQ(turned.status, Status::FOUND);
   EXPECT_EQ(turned.path.poses[1].position.head<2>(), Eigen::Vector2d(1.5, 0.5));
 }
@@ -298,7 +305,7 @@ TEST(PathPlanner, NeverCrossesUnknownWhereItMayNot) {
 TEST(PathPlanner, OfTwoRoutesTheCheaper) {
   const AsciiMap picture({"S????G",  //
                           "......"});
-  EXPECT_EQ(planOn(picture).cost, (ExactCost{3, 2}));
+  EXPECT_EQ(planOn(picture, overTheGrid()).cost, (ExactCost{3, 2}));
 }
 
 // navigation#922, #26: paths brush obstacles.
@@ -307,7 +314,7 @@ TEST(PathPlanner, KeepsToTheMiddleOfACorridor) {
   lines.front() = lines.back() = std::string(40, '#');
   lines[5].front() = 'S';
   lines[5].back() = 'G';
-  PlannerOptions options;
+  PlannerOptions options = overTheGrid();
   options.costmap.decay = 0.3;
   const AsciiMap picture(lines);
   const Plan report = planBetween(picture.map, poseAt({0.5, 2.5}), poseAt({39.5, 8.5}), options);

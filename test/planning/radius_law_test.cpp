@@ -72,6 +72,8 @@ PlannerOptions randomRadiusOptions(std::mt19937& random) {
   if (!traits.weights || random() % 3 == 0) options.costmap.unknown_weight = 1;
   options.smooth = random() % 2 == 0;
   options.search.rectangle_funnel = random() % 2 == 0;
+  options.waypoint_tolerance = random() % 2 == 0 ? 0.0 : 0.01 * (random() % 30);
+  options.waypoint_spacing = random() % 3 == 0 ? 0.05 * (1 + random() % 10) : 0.0;
   return options;
 }
 
@@ -156,9 +158,47 @@ void expectNotBlocked(const Plan& plan, const CostGrid& costs, std::mt19937& ran
       << "blocked at segment " << i << " of " << path.poses.size();
 }
 
+double distanceTo(const Points& line, const Eigen::Vector2d& point) {
+  double least = (line.front() - point).norm();
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Eigen::Vector2d along = line[i] - line[i - 1];
+    const double squared = along.squaredNorm();
+    const double share =
+        squared > 0.0 ? std::clamp(along.dot(point - line[i - 1]) / squared, 0.0, 1.0) : 0.0;
+    least = std::min(least, (line[i - 1] + share * along - point).norm());
+  }
+  return least;
+}
+
+// How far a line has left a start is measured on its first straight stretch.
+Points withoutStraightOnes(const Points& line) {
+  Points corners = {line.front()};
+  for (std::size_t i = 1; i + 1 < line.size(); ++i)
+    if (distanceTo({corners.back(), line[i + 1]}, line[i]) > 1e-7) corners.push_back(line[i]);
+  if (line.size() > 1) corners.push_back(line.back());
+  return corners;
+}
+
+// What a file holds keeps the same distances, is as near to the path as it is told to be, and has
+// poses as near to one another.
+void expectWaypoints(const Plan& plan, const OccupancyGrid& map, const PlannerOptions& options) {
+  const Points path = pointsOf(plan.path), waypoints = pointsOf(plan.waypoints);
+  expectAllKept(withoutStraightOnes(waypoints), map, options.costmap);
+  EXPECT_EQ(waypoints.front(), path.front());
+  EXPECT_EQ(waypoints.back(), path.back());
+  for (const Eigen::Vector2d& point : path)
+    EXPECT_LE(distanceTo(waypoints, point), options.waypoint_tolerance + 1e-6);
+  for (std::size_t i = 1; i < waypoints.size() && options.waypoint_spacing > 0.0; ++i)
+    EXPECT_LE((waypoints[i] - waypoints[i - 1]).norm(), options.waypoint_spacing * (1.0 + 1e-6));
+  if (options.waypoint_spacing == 0.0) {
+    EXPECT_LE(waypoints.size(), path.size());
+  }
+}
+
 TEST(RadiusLaw, NoPointOfAPathIsNearerThanItMay) {
   std::mt19937 random(13);
   int found = 0;
+  std::size_t left_out = 0;
   for (int trial = 0; trial < 1500; ++trial) {
     const OccupancyGrid map = randomRadiusMap(random, 48);
     const PlannerOptions options = randomRadiusOptions(random);
@@ -172,6 +212,9 @@ TEST(RadiusLaw, NoPointOfAPathIsNearerThanItMay) {
       if (plan.status != Status::FOUND) continue;
       ++found;
       expectAllKept(pointsOf(plan.path), map, options.costmap);
+      expectWaypoints(plan, map, options);
+      left_out += std::max(plan.path.poses.size(), plan.waypoints.poses.size()) -
+                  plan.waypoints.poses.size();
       const Points start = {request.start.position.head<2>()};
       EXPECT_EQ(plan.message.find("nearer than the radius") != std::string::npos,
                 nearest(start, map, kOccupied, options.costmap.radius) <
@@ -181,6 +224,7 @@ TEST(RadiusLaw, NoPointOfAPathIsNearerThanItMay) {
     }
   }
   EXPECT_GT(found, 1000);
+  EXPECT_GT(left_out, 1000U) << "of the paths' poses";
 }
 
 }  // namespace

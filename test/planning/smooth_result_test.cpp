@@ -14,11 +14,11 @@
 
 namespace grid_path_planner::planning {
 
-using base::InputError;
 using base::Status;
 using base::StopToken;
 using costmap::Connectivity;
 using costmap::CostGrid;
+using costmap::DiagonalCost;
 using costmap::ExactCost;
 using costmap::lineCost;
 using costmap::lineOfSight;
@@ -125,10 +125,9 @@ PoseRequest across() {
   return request;
 }
 
-TEST(SmoothOption, StraightensThePathAndRefusesWhatItContradicts) {
+TEST(SmoothOption, StraightensThePathWhereLinesCompareWithSteps) {
   OccupancyGrid map(GridGeometry(20, 10, 1.0), 0);
   PlannerOptions options;
-  options.smooth = true;
   PathPlanner planner(options);
   planner.setMap(std::make_shared<const OccupancyGrid>(map));
   const Plan report = planner.plan(across());
@@ -137,7 +136,12 @@ TEST(SmoothOption, StraightensThePathAndRefusesWhatItContradicts) {
   EXPECT_NEAR(report.length_m, std::hypot(18, 8), 1e-9);
   EXPECT_NEAR(report.costValue(), std::hypot(18, 8), 1e-9);
   options.costmap.motion.connectivity = Connectivity::FOUR;
-  EXPECT_THROW(planner.setOptions(options), InputError);
+  planner.setOptions(options);
+  EXPECT_NEAR(planner.plan(across()).length_m, 18.0 + 8.0, 1e-9);
+  options.costmap.motion = {};
+  options.costmap.motion.diagonal_cost = DiagonalCost::UNIT;
+  planner.setOptions(options);
+  EXPECT_NEAR(planner.plan(across()).costValue(), 18.0, 1e-9);
 }
 
 TEST(SmoothOption, LeavesThePromiseOfPathsThatAreTautAlready) {
@@ -145,7 +149,6 @@ TEST(SmoothOption, LeavesThePromiseOfPathsThatAreTautAlready) {
   map[{9, 4}] = 100;
   PlannerOptions options;
   options.planner = "polyanya";
-  options.smooth = true;
   PathPlanner planner(options);
   planner.setMap(std::make_shared<const OccupancyGrid>(map));
   EXPECT_TRUE(planner.plan(across()).optimal);

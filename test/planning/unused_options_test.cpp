@@ -50,6 +50,13 @@ TEST(UnusedOptions, DefaultsAreNeverUnused) {
     EXPECT_EQ(unusedWith({{"planner", planner}}), Lines()) << planner;
 }
 
+// A program whose own default differs warned its users of an option that they had not touched.
+TEST(UnusedOptions, OptionsAtTheDefaultsThatAreGivenAreNeverUnused) {
+  const PlannerOptions options = optionsWith({{"planner", "anya"}, {"smooth", "false"}});
+  EXPECT_EQ(unusedOptions(options, options), std::vector<UnusedOption>());
+  EXPECT_EQ(unusedOptions(options).size(), 1U);
+}
+
 TEST(UnusedOptions, WhatThePlannerDoesNotLookAt) {
   EXPECT_EQ(unusedWith({{"planner", "jump_point"}, {"heuristic", "zero"}, {"landmarks", "4"}}),
             (Lines{"heuristic: planner jump_point", "landmarks: planner jump_point"}));
@@ -86,12 +93,16 @@ TEST(UnusedOptions, WhatTheCostmapLeavesWithoutEffect) {
 
 TEST(UnusedOptions, WhatThePathLeavesWithoutEffect) {
   for (const char* planner : {"anya", "polyanya"})
-    EXPECT_EQ(unusedWith({{"planner", planner}, {"smooth", "true"}}),
+    EXPECT_EQ(unusedWith({{"planner", planner}, {"smooth", "false"}}),
               (Lines{std::string("smooth: planner ") + planner}));
   for (const char* planner : {"lazy_theta_star", "rectangle_map", "a_star"})
-    EXPECT_EQ(unusedWith({{"planner", planner}, {"smooth", "true"}}), Lines()) << planner;
-  EXPECT_EQ(unusedWith({{"planner", "anya"}, {"smooth", "true"}, {"kernel", "2"}}), Lines())
+    EXPECT_EQ(unusedWith({{"planner", planner}, {"smooth", "false"}}), Lines()) << planner;
+  EXPECT_EQ(unusedWith({{"planner", "anya"}, {"smooth", "false"}, {"kernel", "2"}}), Lines())
       << "the legs out of blocked blocks are paths over the grid";
+  EXPECT_EQ(unusedWith({{"smooth", "false"}, {"connectivity", "4"}}),
+            (Lines{"smooth: connectivity 4"}));
+  EXPECT_EQ(unusedWith({{"smooth", "false"}, {"diagonal_cost", "unit"}}),
+            (Lines{"smooth: diagonal_cost unit"}));
   EXPECT_EQ(unusedWith({{"fixed_z", "2"}}), (Lines{"fixed_z: path_z interpolate"}));
   EXPECT_EQ(unusedWith({{"fixed_z", "2"}, {"path_z", "fixed"}}), Lines());
 }
@@ -120,7 +131,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kValues = {
     {"diagonal_cost", {"unit"}},
     {"cut_corners", {"true"}},
     {"retry_finer", {"false"}},
-    {"smooth", {"true"}},
+    {"smooth", {"false"}},
     {"path_z", {"start", "fixed"}},
     {"fixed_z", {"1.5"}},
 };

@@ -80,6 +80,7 @@ Plan route(const OccupancyGrid& map, const Vector3d& from, const Vector3d& to, d
   options.costmap.kernel = kernel;
   options.retry_finer = false;
   options.timeout = 0.0;
+  options.smooth = false;  // the laws are of paths over the grid
   PathPlanner planner(options);
   planner.setMap(std::make_shared<const OccupancyGrid>(map));
   PoseRequest request;

@@ -32,6 +32,7 @@ LENT = {
     "grid/float_decimal.h": {"ros_common"},
     "grid/map_differences.h": {"ros_common"},
     "grid/formats/rectangle_map_file.h": {"planners"},
+    "path/pose_spacing.h": {"planning", "ros_planning"},
     "planning/map_store.h": {"ros_planning"},
     "planners/any_angle/theta_star.h": {"study"},  # the base of its published Theta*
     "planners/astar/bucket_search.h": {"planning"},

@@ -9,7 +9,7 @@ import yaml
 from common import ROOT, files, finish, read
 
 PACKAGE = "grid_path_planner"
-ARGUMENTS = {"map_file.launch": ["map:=maps/dexrov_site.yaml"]}
+ARGUMENTS = {"map_file.launch": ["map:=maps/dexrov_site.yaml"], "map_demo.launch": ["map:=maps/dexrov_site.yaml"]}
 
 
 def known_parameters(node):

@@ -224,6 +224,7 @@ CONTEXT = {
     "tiled_open_list.h": "extern GridGeometry geometry; extern SearchKey first, width, below;"
                        "extern DStarKeys keys; extern TiledOpenList::Index index;",
     "waypoint_file.h": "extern Path path;",
+    "pose_spacing.h": "extern Path path;",
     "cost_changes.h": "extern const CostGrid &before, &after; extern CellRect changed;",
     "weight_counts.h": "extern Grid<WeightCounts::Weight> weights, next_weights; extern CellRect changed;",
     "weighted_jump_map.h": "extern const CostGrid& map; extern Cell cell, goal; extern std::uint32_t index;"

@@ -52,11 +52,13 @@ struct PlannerOptions {
   double tolerance = 0.0;            // m
   double start_escape_radius = 0.0;  // m
   bool retry_finer = true;
-  bool smooth = false;
+  bool smooth = true;
   double timeout = 5.0;  // s; 0: none
   path::HeadingMode heading = path::HeadingMode::FORWARD;
   path::PathZ path_z = path::PathZ::INTERPOLATE;
-  double fixed_z = 0.0;  // m
+  double fixed_z = 0.0;             // m
+  double waypoint_tolerance = 0.0;  // m
+  double waypoint_spacing = 0.0;    // m; 0: as few as the tolerance allows
 };
 
 template <class Visitor>
@@ -81,20 +83,30 @@ void visitOptions(PlannerOptions& o, Visitor&& visit) {
             "Whether the search is repeated at kernel 1 where the kernel closes every path; "
             "false: UNREACHABLE",
             ""});
-  visit(
-      "smooth", o.smooth,
-      base::OptionInfo{"Whether a path over the grid is straightened where that is legal and costs "
-                       "nothing; needs "
-                       "connectivity 8 and diagonal_cost sqrt2",
-                       ""});
+  visit("smooth", o.smooth,
+        base::OptionInfo{
+            "Whether a path over the grid is straightened where that is legal and costs "
+            "nothing; false: it follows the grid's eight directions; without effect with "
+            "connectivity 4 and diagonal_cost unit",
+            ""});
   visit("timeout", o.timeout, base::OptionInfo{"Limit of one planning; 0: none", "s", 0, 86400});
   visit("heading", o.heading, base::OptionInfo{"Where the vehicle looks along the path", ""});
   visit("path_z", o.path_z, base::OptionInfo{"Where the z of the path comes from", ""});
   visit("fixed_z", o.fixed_z, base::OptionInfo{"z of the path with path_z fixed", "m", -1e6, 1e6});
+  visit("waypoint_tolerance", o.waypoint_tolerance,
+        base::OptionInfo{"How far the line through a waypoint file's poses may be from the path, "
+                         "where the file has fewer poses for it and the line keeps radius; 0: it "
+                         "has every corner",
+                         "m", 0, 100});
+  visit("waypoint_spacing", o.waypoint_spacing,
+        base::OptionInfo{
+            "Distance between a waypoint file's poses at most, in equal parts between corners; 0: "
+            "no poses between corners",
+            "m", 0, 10000});
 }
 
 // Throws InputError naming the option for a value outside its limits, for an unknown planner and for
-// combinations that contradict each other: smooth with connectivity 4 or unit diagonals.
+// combinations that contradict each other.
 void checkPlannerOptions(const PlannerOptions& options);
 
 // Both in the map's frame.

@@ -19,7 +19,8 @@ struct Plan {
   std::string message;      // one sentence that holds the values
   std::string answered_by;  // the planner that searched the longest part, where it lets another one
                             // answer the name of that; empty where none searched
-  path::Path path;          // empty unless FOUND
+  path::Path path;          // its corners; empty unless FOUND
+  path::Path waypoints;     // the same for a file: see waypoint_tolerance, waypoint_spacing
   costmap::ExactCost cost;  // between the end cells, as in SearchResult
   double segment_cost = 0.0;
   double costValue() const { return cost.toDouble() + segment_cost; }

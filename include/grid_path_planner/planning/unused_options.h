@@ -24,9 +24,10 @@ struct UnusedOption {
   }
 };
 
-// The options that differ from their defaults and have no effect, in order of declaration.
+// The options that differ from `defaults` and have no effect, in order of declaration.
 // Precondition: checkPlannerOptions() accepts the options.
-std::vector<UnusedOption> unusedOptions(const PlannerOptions& options);
+std::vector<UnusedOption> unusedOptions(const PlannerOptions& options,
+                                        const PlannerOptions& defaults = {});
 
 // The names of all options that differ from their defaults, in order of declaration.
 std::vector<std::string> changedOptions(const PlannerOptions& options);

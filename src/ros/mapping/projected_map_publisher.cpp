@@ -2,11 +2,13 @@
 
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
+#include <ros/console.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/mapping/floor_warning.h"
 
 namespace grid_path_planner::nodes {
 
@@ -42,9 +44,19 @@ void ProjectedMapPublisher::send(MapModel& map, const ros::Time& stamp) {
   if (wholeMapIsWanted(change, map.options())) {
     topic_.send(occupancyToMessage(grid, frame_id, stamp));
     sent_ = true;
+    warnOfFloor(grid, map.options());
   } else if (!change.cells.empty()) {
     topic_.send(updateOf(grid, change.cells, frame_id, stamp));
   }
+}
+
+void ProjectedMapPublisher::warnOfFloor(const OccupancyGrid& grid,
+                                        const ProjectedMapOptions& options) {
+  if (warned_of_floor_ || !showsTheFloor(grid, options)) return;
+  warned_of_floor_ = true;
+  ROS_WARN(
+      "More than half of what was seen is occupied: is the floor mapped as an obstacle? Set "
+      "projection_min_z above it, or filter_ground, or projection_reference seabed");
 }
 
 void ProjectedMapPublisher::countCloud(const ros::Time& stamp, const ros::Time& now) {

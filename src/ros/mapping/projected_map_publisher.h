@@ -46,8 +46,11 @@ class ProjectedMapPublisher {
   bool wholeMapIsWanted(const mapping::ProjectionChange& change,
                         const mapping::ProjectedMapOptions& options);
   void send(mapping::MapModel& map, const ros::Time& stamp);
+  // Once.
+  void warnOfFloor(const grid::OccupancyGrid& grid, const mapping::ProjectedMapOptions& options);
 
-  bool sent_ = false;                 // a whole map
+  bool sent_ = false;  // a whole map
+  bool warned_of_floor_ = false;
   ros::Time newest_cloud_;            // in the tree
   ros::Time newest_published_cloud_;  // in the map as it was published last
   MapTopic topic_;

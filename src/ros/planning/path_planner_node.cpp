@@ -180,7 +180,7 @@ void PathPlannerNode::planForGoal(const StopSource& stop) {
   if (stop.cancelled() || keepsOldPath(*goal, plan, settings, stop)) return;
   const bool as_before = goal->answered && !plan.found() && plan.status == goal->status;
   active_goal_.commit(goal->id, plan, settings.revision, [&] {
-    if (!as_before) server_->publisher().publishPath(plan);
+    if (!as_before) server_->publisher().publishPath(lane.posesAlong(plan, settings.options));
     server_->publish(lane, plan, statistics, as_before);
     if (!as_before) server_->explainLater(goal->request, plan);
   });

@@ -21,6 +21,7 @@ struct PathPlannerNodeOptions {
   GoalZ goal_z_from = GoalZ::MESSAGE;
   double replan_period = 0.0;      // s, ROS time; 0: never
   double replan_hysteresis = 0.1;  // of the new path's cost
+  double pose_spacing = -1.0;      // m; -1: a cell of the map
   std::string waypoints_file;      // "": none
   bool record_search = true;
   double full_map_period = 10.0;  // s, steady clock
@@ -57,6 +58,13 @@ void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
                        "while that is passable, to "
                        "replace it; 0.1: the old one costs more than 1.1 times as much",
                        "", 0, 1000});
+  visit(
+      "pose_spacing", o.pose_spacing,
+      base::OptionInfo{
+          "Distance between poses of published and answered paths at most, in equal parts between "
+          "corners, for followers that go from pose to pose; -1: one cell of the map; 0: corners "
+          "only",
+          "m", -1, 10000});
   visit("waypoints_file", o.waypoints_file,
         base::OptionInfo{
             "Waypoint file that every found plan is written to, below the folder to save in; "

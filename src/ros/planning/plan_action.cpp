@@ -23,6 +23,7 @@ namespace grid_path_planner::nodes {
 
 using base::currentErrorText;
 using base::Status;
+using path::Path;
 using planning::failedPlan;
 using planning::Plan;
 
@@ -52,7 +53,7 @@ void PlanAction::answer(const PlanPathGoal& goal) {
   request.planner = goal.planner;
   const auto ticket = server_.ask(request, PlanningServer::Publish::YES);
   if (answeredUncancelled(*ticket)) {
-    finish(ticket->plan(), ticket->statistics());
+    finish(ticket->plan(), ticket->poses(), ticket->statistics());
     return;
   }
   Plan cancelled = failedPlan(Status::CANCELLED, "planning was cancelled");
@@ -61,7 +62,7 @@ void PlanAction::answer(const PlanPathGoal& goal) {
   const PlanningRequest asked = printable(request);
   statistics.goal = asked.goal;
   statistics.planner = asked.planner;
-  finish(cancelled, statistics);
+  finish(cancelled, cancelled.path, statistics);
 }
 
 // Gives feedback ten times a second until the answer is there or the goal is cancelled.
@@ -82,12 +83,12 @@ bool PlanAction::answeredUncancelled(PlanTicket& ticket) {
   return true;
 }
 
-void PlanAction::finish(const Plan& plan, const PlanStatistics& statistics) {
+void PlanAction::finish(const Plan& plan, const Path& poses, const PlanStatistics& statistics) {
   PlanPathResult result;
   const ros::Time now = ros::Time::now();
   result.status = std::string(toString(plan.status));
   result.message = plan.message;
-  result.path = pathToMessage(plan.path, now);
+  result.path = pathToMessage(poses, now);
   result.statistics = statistics;
   result.statistics.header.stamp = now;
   if (plan.found())

@@ -120,7 +120,7 @@ bool PlanServices::makePlan(MakePlan& call) {
   if (request.tolerance != 0.0F) plan_request.tolerance = request.tolerance;
   const auto ticket = server_.ask(plan_request, PlanningServer::Publish::YES);
   waitForAnswer(*ticket, caller);
-  call.getResponse().plan = pathToMessage(ticket->plan().path, ros::Time::now());
+  call.getResponse().plan = pathToMessage(ticket->poses(), ros::Time::now());
   return true;
 }
 
@@ -144,7 +144,7 @@ void PlanServices::compare(const std::vector<PlanningRequest>& requests,
     if (caller.gone()) return;
     const auto ticket = server_.ask(request, PlanningServer::Publish::NO);
     waitForAnswer(*ticket, caller);
-    add(ticket->statistics(), ticket->plan().path, response);
+    add(ticket->statistics(), ticket->poses(), response);
   }
 }
 
@@ -160,7 +160,6 @@ bool PlanServices::explainPlan(Why& call) {
   response = explanationMessage(ticket->explanation());
   response.status = toString(ticket->plan().status);
   response.message = ticket->plan().message;
-  if (!ticket->explanation().text.empty()) response.message += "; " + ticket->explanation().text;
   return true;
 }
 
@@ -168,16 +167,17 @@ bool PlanServices::saveWaypoints(SaveWaypoints::Request& request,
                                  SaveWaypoints::Response& response) {
   const std::string file =
       request.filename.empty() ? server_.settings().options.waypoints_file : request.filename;
-  const std::optional<Path> path = server_.lastPath();
+  const std::optional<Path> waypoints = server_.lastWaypoints();
   if (file.empty()) {
     response.message = "no filename was given and ~waypoints_file is empty";
-  } else if (!path) {
+  } else if (!waypoints) {
     response.message = "no path has been found yet";
   } else {
     try {
-      writeWaypointFile(server_.files().toWrite("waypoints_file", file, waypointFiles()), *path);
+      writeWaypointFile(server_.files().toWrite("waypoints_file", file, waypointFiles()),
+                        *waypoints);
       response.success = true;
-      response.message = std::to_string(path->poses.size()) + " waypoints in " + file;
+      response.message = std::to_string(waypoints->poses.size()) + " waypoints in " + file;
     } catch (const InputError& error) {
       response.message = error.what();
     }

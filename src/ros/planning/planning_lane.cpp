@@ -8,6 +8,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "path/pose_spacing.h"
 #include "planning/map_store.h"
 #include "ros/common/clock.h"
 #include "ros/common/guarded_queue.h"
@@ -24,7 +25,9 @@ using base::StopToken;
 using base::TaskQueue;
 using costmap::CostGrid;
 using path::clearanceOf;
+using path::Path;
 using path::Pose;
+using path::spacedPoses;
 using planners::memoryLimitOf;
 using planning::explainFailure;
 using planning::Explanation;
@@ -37,7 +40,6 @@ using planning::PoseRequest;
 
 namespace {
 
-constexpr std::chrono::seconds kExplains(1);
 constexpr char kFinishingSlot[] = "finishing";
 
 Pose named(const char* which, const std::function<Pose()>& pose) {
@@ -105,7 +107,7 @@ Plan PlanningLane::plan(const PlanningRequest& request, const PathPlannerNodeOpt
                         const StopSource& stop, const PhaseListener& on_phase,
                         std::uint64_t at_least) {
   Plan plan = tryToPlan(request, options, stop, on_phase, at_least);
-  plan.path.frame_id = frame(options);
+  plan.path.frame_id = plan.waypoints.frame_id = frame(options);
   if (!plan.found()) plan.path.poses.clear();
   return plan;
 }
@@ -143,12 +145,14 @@ Plan PlanningLane::tryToPlan(const PlanningRequest& request, const PathPlannerNo
 }
 
 Explanation PlanningLane::explain(const PlanningRequest& request, Status status,
-                                  const PathPlannerNodeOptions& options, const StopSource& stop) {
+                                  const PathPlannerNodeOptions& options, const StopSource& stop,
+                                  std::chrono::duration<double> limit) {
+  if (status != Status::UNREACHABLE && status != Status::GOAL_OCCUPIED) return {};
   try {
     takeMap();
     setOptions(optionsFor(request, options));
     const PoseRequest poses = posesOf(request, options, stop.token());
-    return explainFailure(*planner_, poses, status, stop.token(kExplains));
+    return explainFailure(*planner_, poses, status, stop.token(limit));
   } catch (const InputError&) {
   } catch (const TransformError&) {
   } catch (const Stopped&) {
@@ -188,6 +192,13 @@ PlanStatistics PlanningLane::statistics(const Plan& plan, const PlanningRequest&
     message.clearance_m =
         clearanceOf(plan.path, *planner_->map(), options.planner.costmap.thresholds);
   return message;
+}
+
+Path PlanningLane::posesAlong(const Plan& plan, const PathPlannerNodeOptions& options) const {
+  const bool by_cells = options.pose_spacing < 0.0 && plan.found();
+  return spacedPoses(plan.path,
+                     by_cells ? planner_->map()->geometry().resolution() : options.pose_spacing,
+                     options.planner.heading);
 }
 
 double PlanningLane::cellSize(const Plan& plan) const {

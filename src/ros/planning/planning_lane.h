@@ -11,6 +11,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -56,14 +57,16 @@ class PlanningLane {
   planning::Plan plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
                       const base::StopSource& stop, const PhaseListener& on_phase = {},
                       std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
-  // Why a request was answered with `status`, as far as there is more to say within a second;
-  // nothing where it cannot be said.
+  // Why a request was answered with `status`, as far as there is more to say within `limit`; nothing
+  // where it cannot be said.
   planning::Explanation explain(const PlanningRequest& request, base::Status status,
-                                const PathPlannerNodeOptions& options,
-                                const base::StopSource& stop);
+                                const PathPlannerNodeOptions& options, const base::StopSource& stop,
+                                std::chrono::duration<double> limit);
   // Of a plan just made for this request; no stamp yet.
   PlanStatistics statistics(const planning::Plan& plan, const PlanningRequest& request,
                             const PathPlannerNodeOptions& options) const;
+  // The path of a plan just made, with poses as pose_spacing asks for them.
+  path::Path posesAlong(const planning::Plan& plan, const PathPlannerNodeOptions& options) const;
   // Of the map that this plan was searched on, in metres.
   double cellSize(const planning::Plan& plan) const;
 

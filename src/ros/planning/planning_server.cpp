@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <chrono>
 #include <utility>
 
 #include "base/current_error.h"
@@ -25,6 +26,13 @@ using path::writeWaypointFile;
 using planning::failedPlan;
 using planning::MapStore;
 using planning::Plan;
+
+namespace {
+
+// How long an explanation may take where it was asked for, and where an answer waits for it.
+constexpr std::chrono::milliseconds kExplains(1000), kExplainsAtOnce(300);
+
+}  // namespace
 
 PlanningServer::PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions& options,
                                const NodeFiles& files, std::function<void()> on_time_jump)
@@ -53,10 +61,7 @@ std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& request, 
   ticket->map_ = store_->revision();
   ticket->task_ =
       question_lane_.post([this, ticket, request, publish, explain](const StopSource& stop) {
-        answer(*ticket, request, publish, stop);
-        if (explain == Explain::YES)
-          ticket->explanation_ =
-              question_lane_.explain(request, ticket->plan_.status, settings().options, stop);
+        answer(*ticket, request, publish, explain, stop);
         question_lane_.finishLater(settings().options);
       });
   return ticket;
@@ -94,14 +99,20 @@ void PlanningServer::prepareForQuestions() {
 }
 
 void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, Publish publish,
-                            const StopSource& stop) {
+                            Explain explain, const StopSource& stop) {
   PathPlannerNodeOptions options = recordingOptions(settings().options);
   if (publish == Publish::NO) options.record_search = false;
   checkClock();
   Plan plan = question_lane_.plan(
       request, options, stop, [&](const char* phase) { ticket.phase_ = phase; }, ticket.map_);
+  if (publish == Publish::YES || explain == Explain::YES) {
+    ticket.explanation_ = question_lane_.explain(
+        request, plan.status, options, stop, explain == Explain::YES ? kExplains : kExplainsAtOnce);
+    if (!ticket.explanation_.text.empty()) plan.message += "; " + ticket.explanation_.text;
+  }
   try {
     ticket.statistics_ = question_lane_.statistics(plan, request, options);
+    ticket.poses_ = question_lane_.posesAlong(plan, options);
     ticket.plan_ = std::move(plan);
     if (publish == Publish::YES && !stop.cancelled())
       this->publish(question_lane_, ticket.plan_, ticket.statistics_);
@@ -128,7 +139,7 @@ void PlanningServer::explainLater(const PlanningRequest& request, const Plan& pl
 void PlanningServer::explain(const PlanningRequest& request, const Plan& plan, unsigned number,
                              const StopSource& stop) {
   const planning::Explanation explanation =
-      question_lane_.explain(request, plan.status, settings().options, stop);
+      question_lane_.explain(request, plan.status, settings().options, stop, kExplains);
   const std::lock_guard<std::mutex> shown(explanation_mutex_);
   if (number != explanation_number_) return;  // of a plan that another one has followed
   if (explanation.text.empty() || stop.cancelled()) return explanations_.clear();
@@ -173,18 +184,21 @@ void PlanningServer::publish(const PlanningLane& lane, const Plan& plan,
                               << measuresText(statistics.clearance_m, statistics.turning_rad));
   else if (!as_before)
     ROS_WARN_STREAM(toString(plan.status) << ": " << plan.message);
-  publisher_.publishSearch(plan, statistics, lane.cellSize(plan));
-  if (plan.found()) writeWaypoints(plan.path);
+  const PathPlannerNodeOptions options = settings().options;
+  const bool placed = vehicle(lane.frame(options), options).has_value();
+  publisher_.publishSearch({plan, statistics, lane.cellSize(plan),
+                            placed ? options.planner.costmap.radius : 0.0, options.base_frame});
+  if (plan.found()) writeWaypoints(plan.waypoints);
   std::lock_guard<std::mutex> lock(mutex_);
   outcome_ = Outcome{plan.status, plan.message};
-  if (plan.found()) last_path_ = plan.path;
+  if (plan.found()) last_waypoints_ = plan.waypoints;
 }
 
-void PlanningServer::writeWaypoints(const Path& path) {
+void PlanningServer::writeWaypoints(const Path& waypoints) {
   const std::string file = settings().options.waypoints_file;
   if (file.empty()) return;
   try {
-    writeWaypointFile(files_.toWrite("waypoints_file", file, waypointFiles()), path);
+    writeWaypointFile(files_.toWrite("waypoints_file", file, waypointFiles()), waypoints);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The waypoints were not saved: " << error.what());
   }
@@ -195,9 +209,9 @@ std::optional<PlanningServer::Outcome> PlanningServer::lastOutcome() const {
   return outcome_;
 }
 
-std::optional<Path> PlanningServer::lastPath() const {
+std::optional<Path> PlanningServer::lastWaypoints() const {
   std::lock_guard<std::mutex> lock(mutex_);
-  return last_path_;
+  return last_waypoints_;
 }
 
 }  // namespace grid_path_planner::nodes

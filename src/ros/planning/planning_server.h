@@ -8,7 +8,7 @@
 //   use(ticket->plan());
 //
 // Whatever goes wrong with a request is a status with a sentence. Publish::YES publishes statistics
-// and markers, writes ~waypoints_file and stores the plan for lastOutcome() and lastPath().
+// and markers, writes ~waypoints_file and stores the plan for lastOutcome() and lastWaypoints().
 #pragma once
 
 #include <atomic>
@@ -39,9 +39,11 @@ class PlanTicket {
   void wait() const { task_->wait(); }
   // Whether the answer is there before `limit` passed (steady clock).
   bool waitFor(std::chrono::duration<double> limit) const { return task_->waitFor(limit); }
-  // Precondition of both: the wait is over. The path's frame is that of the map; the statistics
+  // Precondition of these: the wait is over. The path's frame is that of the map; the statistics
   // have no stamp. CANCELLED where the server ended before.
   const planning::Plan& plan() const { return plan_; }
+  // Its path, with poses as pose_spacing asks for them.
+  const path::Path& poses() const { return poses_; }
   const PlanStatistics& statistics() const { return statistics_; }
   // Why there is no path, where that was asked for.
   const planning::Explanation& explanation() const { return explanation_; }
@@ -52,6 +54,7 @@ class PlanTicket {
   friend class PlanningServer;
   std::atomic<const char*> phase_{"waiting"};
   planning::Plan plan_ = planning::failedPlan(base::Status::CANCELLED, "planning was cancelled");
+  path::Path poses_;
   PlanStatistics statistics_ = statisticsMessage(plan_);
   std::uint64_t map_ = 0;  // the revision of the newest when it was handed in
   planning::Explanation explanation_;
@@ -100,9 +103,9 @@ class PlanningServer {
   // a node may call it as often as it likes.
   void checkClock();
 
-  // Of the plan that was published last, and the last found path among those published.
+  // Of the plan that was published last, and what a file holds of the last found path among those.
   std::optional<Outcome> lastOutcome() const;
-  std::optional<path::Path> lastPath() const;
+  std::optional<path::Path> lastWaypoints() const;
 
   PlanningLane& vehicleLane() { return vehicle_lane_; }
   const MapReceiver& maps() const { return maps_; }
@@ -120,12 +123,12 @@ class PlanningServer {
                                          const PathPlannerNodeOptions& options) const;
 
  private:
-  void answer(PlanTicket& ticket, const PlanningRequest& request, Publish publish,
+  void answer(PlanTicket& ticket, const PlanningRequest& request, Publish publish, Explain explain,
               const base::StopSource& stop);
   void storeMap(const MapChange& change);
   void explain(const PlanningRequest& request, const planning::Plan& plan, unsigned number,
                const base::StopSource& stop);
-  void writeWaypoints(const path::Path& path);
+  void writeWaypoints(const path::Path& waypoints);
 
   NodeFiles files_;
   std::function<void()> on_time_jump_;
@@ -133,7 +136,7 @@ class PlanningServer {
   mutable std::mutex mutex_;
   Settings settings_;
   std::optional<Outcome> outcome_;
-  std::optional<path::Path> last_path_;
+  std::optional<path::Path> last_waypoints_;
   std::atomic<bool> asked_{true};  // since the last prepareForQuestions()
 
   FrameTransforms transforms_;

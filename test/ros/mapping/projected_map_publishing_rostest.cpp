@@ -50,6 +50,32 @@ class Publishing : public test::MappingTest {
       "_projection_bounds/max_y:=5"};
 };
 
+// With clouds of a depth camera and no parameter all of the room was an obstacle, and so every goal
+// occupied: an hour was lost on radii.
+TEST_F(Publishing, WarnsWhereTheFloorIsAnObstacle) {
+  test::CloudPoints floor;
+  for (int x = 0; x < 60; ++x)
+    for (int y = -30; y < 30; ++y) floor.emplace_back(0.5F + 0.1F * x, 0.1F * y, -1.0F);
+  const std::string warning = "is the floor mapped as an obstacle?";
+  for (const bool band : {true, false}) {
+    startMapping(band ? std::vector<std::string>{"_projection_min_z:=-0.5"}
+                      : std::vector<std::string>{});
+    const Maps maps(nh_, "projected_map");
+    ASSERT_TRUE(maps.waitForMoreThan(0));
+    publish(floor);
+    ASSERT_TRUE(insertsAll(1));
+    ASSERT_TRUE(maps.waitFor(0, [](const nav_msgs::OccupancyGrid& map) {
+      return std::count(map.data.begin(), map.data.end(), -1) + 400 <
+             static_cast<std::ptrdiff_t>(map.data.size());
+    }));
+    if (band) {
+      EXPECT_EQ(node_->output().find(warning), std::string::npos);
+    } else {
+      EXPECT_TRUE(node_->says(warning));
+    }
+  }
+}
+
 // octomap_mapping#75, PR#53: publishing took longer and longer.
 TEST_F(Publishing, OM75AChangeSendsItsRectangleOnly) {
   std::vector<std::string> arguments = bounds_;

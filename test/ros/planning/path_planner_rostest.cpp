@@ -288,16 +288,42 @@ TEST_F(PathPlannerTest, MarkersShowExpandedCellsAndWaypoints) {
   makePlan(poseAt(0.5, 0.5), poseAt(5.5, 2.5));
   const auto shown = markers.waitForMoreThan(0);
   ASSERT_TRUE(shown);
-  ASSERT_EQ(shown->markers.size(), 2u);
+  ASSERT_EQ(shown->markers.size(), 6u);
   EXPECT_EQ(shown->markers[0].ns, "expanded");
   EXPECT_EQ(shown->markers[0].points.size(), answer_.expanded);
   EXPECT_EQ(shown->markers[0].header.frame_id, "map");
   EXPECT_EQ(shown->markers[1].ns, "waypoints");
-  EXPECT_EQ(shown->markers[1].points.size(), path_.poses.size());
+  EXPECT_EQ(shown->markers[1].points.size(), 3u) << "the corners";
+  EXPECT_EQ(shown->markers[2].ns, "start");
+  EXPECT_EQ(shown->markers[2].pose.position.x, 0.5);
+  EXPECT_EQ(shown->markers[3].ns, "goal");
+  EXPECT_EQ(shown->markers[3].pose.position.x, 5.5);
+  for (const std::size_t hidden : {4, 5})
+    EXPECT_EQ(shown->markers[hidden].action, visualization_msgs::Marker::DELETE) << hidden;
   makePlan(poseAt(0.5, 0.5), poseAt(2.5, 1.5));
-  ASSERT_TRUE(markers.waitFor(1, [](const visualization_msgs::MarkerArray& array) {
+  const auto failed = markers.waitFor(1, [](const visualization_msgs::MarkerArray& array) {
     return array.markers[1].action == visualization_msgs::Marker::DELETE;
-  })) << "waypoints of the plan before";
+  });
+  ASSERT_TRUE(failed) << "waypoints of the plan before";
+  EXPECT_EQ(failed->markers[3].action, visualization_msgs::Marker::DELETE);
+  EXPECT_EQ(failed->markers[5].text.find("GOAL_OCCUPIED: "), 0u) << failed->markers[5].text;
+  EXPECT_EQ(failed->markers[5].pose.position.x, 2.5) << "at the goal";
+}
+
+// Whether the vehicle fits could be seen nowhere.
+TEST_F(PathPlannerTest, ADiscOfTheRadiusMovesWithTheVehicle) {
+  startPlanner({"_radius:=0.4"});
+  publishMap({"...", "...", "..."});
+  placeVehicleAndWait(1.5, 1.5);
+  test::Latest<visualization_msgs::MarkerArray> markers(nh_, "search_markers");
+  ASSERT_TRUE(test::waitFor([&] { return markers.connected(); }));
+  sendGoal(poseAt(2.5, 2.5));
+  const auto shown = markers.waitForMoreThan(0);
+  ASSERT_TRUE(shown && shown->markers.size() == 6u);
+  EXPECT_EQ(shown->markers[4].ns, "vehicle");
+  EXPECT_EQ(shown->markers[4].header.frame_id, "base_link");
+  EXPECT_NEAR(shown->markers[4].scale.x, 0.8, 1e-6);
+  EXPECT_TRUE(shown->markers[4].frame_locked);
 }
 
 // A search that nobody watches is not recorded; who comes later sees where it led.
@@ -310,7 +336,7 @@ TEST_F(PathPlannerTest, MarkersForALaterSubscriberShowTheNewestPath) {
   const auto shown = markers.waitForMoreThan(0);
   ASSERT_TRUE(shown);
   EXPECT_EQ(shown->markers[0].action, visualization_msgs::Marker::DELETE);
-  EXPECT_EQ(shown->markers[1].points.size(), path_.poses.size());
+  EXPECT_EQ(shown->markers[1].points.size(), 3u) << "the corners";
 }
 
 TEST_F(PathPlannerTest, EveryFoundPlanIsWrittenToTheWaypointsFile) {
@@ -323,8 +349,8 @@ TEST_F(PathPlannerTest, EveryFoundPlanIsWrittenToTheWaypointsFile) {
   ASSERT_EQ(answer_.status, "FOUND");
   ASSERT_TRUE(test::waitFor([&] {
     const Path written = readWaypointFile(file).path;
-    return written.poses.size() == path_.poses.size() && written.poses.back().position.x() == 5.5;
-  }));
+    return written.poses.size() == 3 && written.poses.back().position.x() == 5.5;
+  })) << "the corners";
   ::unlink(file.c_str());
 }
 

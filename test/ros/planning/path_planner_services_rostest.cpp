@@ -5,7 +5,9 @@
 #include <dynamic_reconfigure/config_tools.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 
 #include "grid_path_planner/ComparePlans.h"
@@ -110,7 +112,7 @@ TEST_F(ServicesTest, SaveWaypointsWritesTheLastPathOrSaysWhyNot) {
   ASSERT_TRUE(saved.success) << saved.message;
   const Path path = readWaypointFile(file).path;
   EXPECT_EQ(path.frame_id, "map");
-  ASSERT_EQ(path.poses.size(), path_.poses.size());
+  EXPECT_EQ(path.poses.size(), 3u) << "the corners";
   EXPECT_NEAR(path.poses.back().yaw, 1.0, 1e-9);
 
   const auto refused = save(file + "/below/a/file.yaml");
@@ -149,7 +151,7 @@ TEST_F(ServicesTest, AContradictionIsRevertedAndAGoodChangeIsInForce) {
 
 // smooth was ignored with polyanya without a word.
 TEST_F(ServicesTest, OptionsThatChangeNothingAreWarnedOf) {
-  startPlanner({"_planner:=polyanya", "_smooth:=true"});
+  startPlanner({"_planner:=polyanya", "_smooth:=false"});
   EXPECT_TRUE(planner_->says("smooth changes nothing with planner polyanya"));
   dynamic_reconfigure::Config wanted;
   ConfigTools::appendParameter(wanted, "inflation_weight", 30);
@@ -270,7 +272,32 @@ TEST_F(ActionTest, TheTimeLimitEndsTheSearch) {
   EXPECT_EQ(client_.getResult()->status, "TIMEOUT");
 }
 
-// Neither the answer of a service nor the vehicle's path waits for the explanation.
+double largestStep(const nav_msgs::Path& path) {
+  double largest = 0.0;
+  for (std::size_t i = 1; i < path.poses.size(); ++i) {
+    const auto &to = path.poses[i].pose.position, &from = path.poses[i - 1].pose.position;
+    largest = std::max(largest, std::hypot(to.x - from.x, to.y - from.y));
+  }
+  return largest;
+}
+
+// A follower that goes from pose to pose cut across the room between the corners.
+TEST_F(ServicesTest, PosesStandAsFarApartAsPoseSpacingSays) {
+  for (const auto& [spacing, most] : std::vector<std::pair<std::string, double>>{
+           {"-1", 1.0}, {"0.25", 0.25}, {"3", 3.0}, {"0", 5.0}}) {
+    startPlanner({"_pose_spacing:=" + spacing});
+    publishMap(kRoom);
+    placeVehicleAndWait(0.5, 0.5);
+    sendGoal(poseAt(5.5, 2.5, 1.0));
+    EXPECT_LE(largestStep(path_), most + 1e-9) << spacing;
+    EXPECT_GT(largestStep(path_), 0.6 * most) << spacing;
+    const nav_msgs::Path published = path_;
+    makePlan(poseAt(0.5, 0.5), poseAt(5.5, 2.5, 1.0));
+    EXPECT_EQ(path_.poses.size(), published.poses.size()) << spacing;
+  }
+}
+
+// The answer of a service has the explanation; the vehicle's path does not wait for it.
 TEST_F(ServicesTest, AFailureIsExplained) {
   startPlanner({"_radius:=2"});
   test::Latest<visualization_msgs::MarkerArray> markers(nh_, "explanation_markers");
@@ -290,6 +317,8 @@ TEST_F(ServicesTest, AFailureIsExplained) {
   EXPECT_NEAR(call.response.gap.x, 4.5, 1e-9);
   EXPECT_EQ(call.response.largest_radius_m, 1.5);
   EXPECT_NE(call.response.message.find("1.5 m would pass"), std::string::npos);
+  makePlan(poseAt(1.5, 3.5), poseAt(7.5, 3.5));
+  EXPECT_NE(answer_.message.find("1.5 m would pass"), std::string::npos) << answer_.message;
   placeVehicle(1.5, 3.5);
   sendGoal(poseAt(7.5, 3.5));
   EXPECT_EQ(answer_.status, "UNREACHABLE");
