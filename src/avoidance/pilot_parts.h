@@ -37,13 +37,14 @@ class Pilot::Parts {
  private:
   void setTime(double time);
   bool cannotFly(const PilotInput& input);
-  bool hasFrame();
+  bool hasFrame(const std::string& cloud_problem);
   void followRoute();
   void findPath();
   void fly();
   void hover(PilotStatus status, const std::string& sentence);
   bool recovers();
   void askForPlan();
+  void noteNarrow();
   bool goalIsOccupied() const;
   void lookAtUnseen(const Steering& steering);
   Steering steer() const;
@@ -54,6 +55,8 @@ class Pilot::Parts {
 
   PilotStatus status_ = PilotStatus::IDLE;
   std::string sentence_ = "nothing was asked for yet";
+  RecoveryStep step_ = RecoveryStep::FLY;
+  std::string narrow_;     // of the newest look around, "; the passage at ... is 1.1 m wide"
   bool ended_ = false;     // the status stays until a new route
   bool restarts_ = false;  // the next pose begins the path to a waypoint
   bool kept_ = false;      // the path leads to the present target

@@ -15,6 +15,7 @@
 namespace grid_path_planner::avoidance {
 
 enum class RecoveryStep { FLY, LOOK, PLAN, STUCK };
+enum class MapAnswer { PATH, NO_PATH, NO_MAP };
 
 class Recovery {
  public:
@@ -27,13 +28,13 @@ class Recovery {
     Eigen::Vector3d goal;
     bool exhausted;  // every direction was looked at, and there is none
   };
-  // PLAN once; the caller says by `planned` whether there is one.
+  // PLAN until the caller says by `planned` what came of it.
   RecoveryStep update(const State& state, const PilotOptions& options);
-  void planned(bool found, double time);
+  void planned(MapAnswer answer, double time);
 
   // m, from the goal, in this flight to it.
   double nearest() const { return watch_.nearest(); }
-  // "looked around, planned on the map"; "nothing" before.
+  // "looked around, planned on the map"; "nothing" before. Without a map it says so.
   std::string tried() const;
 
  private:
@@ -42,7 +43,7 @@ class Recovery {
 
   ProgressWatch watch_;
   RecoveryStep step_ = RecoveryStep::FLY;
-  bool looked_ = false, planned_ = false;
+  bool looked_ = false, planned_ = false, has_map_ = true;
   double turned_ = 0.0;  // rad
   std::optional<double> yaw_;
   std::optional<double> exhausted_since_;

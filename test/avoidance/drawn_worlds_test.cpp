@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "avoidance/drawn_world.h"
@@ -87,7 +89,13 @@ TEST(DrawnWorlds, CorridorOfThreeBallsIsPassed) {
 TEST(DrawnWorlds, CorridorThatIsTooNarrowIsNotEntered) {
   FlightSetup setup = setupIn(corridor(1.1), {0.0, 0.0, 1.5}, {16.0, 0.0, 1.5});
   setup.seconds = 25.0;
-  flySeeds(setup, [](const FlightResult& result) {
+  const std::regex width("the passage at \\([^)]*\\) is (1\\.[01]\\d?|1) m wide, 1\\.3 m are needed");
+  bool told = false;
+  setup.each = [&](const PilotInput&, const PilotAnswer& answer, const auto&, const Pilot&) {
+    told = told || std::regex_search(answer.sentence, width);
+  };
+  flySeeds(setup, [&](const FlightResult& result) {
+    EXPECT_TRUE(std::exchange(told, false)) << "its width is named";
     EXPECT_NE(result.status, PilotStatus::ARRIVED);
     for (const Vector3d& place : result.track) EXPECT_LT(place.x(), 4.2);
   });

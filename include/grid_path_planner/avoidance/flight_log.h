@@ -6,7 +6,7 @@
 //
 //   const ReplayResult result = replayFlight(file);   // reads, flies again and compares
 //
-// A file is the line "grid_path_planner flight 1", the options as YAML up to a line "...", then records:
+// A file is the line "grid_path_planner flight 2", the options as YAML up to a line "...", then records:
 // a letter, a length of 8 bytes and that many bytes, all numbers little-endian. A record that is cut off
 // at the end of a file (a node that was killed) ends it. Guaranteed: the pilot that repeats a log gives
 // the same answers, bit for bit, on the same build.
@@ -14,19 +14,20 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "grid_path_planner/avoidance/pilot.h"
+#include "grid_path_planner/base/files.h"
 
 namespace grid_path_planner::avoidance {
 
 class FlightLog {
  public:
-  // Throws InputError where `file` cannot be written. After `limit` bytes nothing more is written.
-  FlightLog(const std::string& file, const PilotOptions& options, std::uint64_t limit);
+  // Throws InputError where `file` cannot be written. After `limit` bytes, or where the disk is full,
+  // nothing more is written.
+  FlightLog(const base::OutputFile& file, const PilotOptions& options, std::uint64_t limit);
 
   void options(const PilotOptions& options);
   void route(const std::vector<Eigen::Vector3d>& waypoints);
@@ -39,14 +40,16 @@ class FlightLog {
   void see(const Frame& frame);
   void update(const PilotInput& input, const PilotAnswer& answer);
 
-  bool full() const { return full_; }
+  bool full() const { return !problem_.empty(); }
+  // Why nothing more is written; empty: it still is.
+  const std::string& problem() const { return problem_; }
 
  private:
   void write(char kind, const std::vector<char>& bytes);
 
-  std::ofstream out_;
+  base::StreamedFile out_;
   std::uint64_t left_;
-  bool full_ = false;
+  std::string problem_;
 };
 
 struct ReplayResult {

@@ -1,5 +1,9 @@
 #include "grid_path_planner/avoidance/flight_log.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -17,8 +21,10 @@ using base::OptionInfo;
 
 namespace {
 
-constexpr const char* kFirstLine = "grid_path_planner flight 1";
+constexpr const char* kFirstLine = "grid_path_planner flight 2";
 constexpr std::uint64_t kLargestRecord = std::uint64_t{1} << 30;  // bytes
+constexpr std::size_t kRecordHead = 9;                            // bytes: its kind and its size
+constexpr std::size_t kReadPiece = 1 << 20;                       // bytes that are taken at once
 
 // The options one a line, "name: value", numbers so that they read back as the same.
 std::string optionLines(PilotOptions options) {
@@ -37,6 +43,14 @@ std::string optionLines(PilotOptions options) {
   return lines;
 }
 
+// One that an int holds too; the options' own limits are narrower.
+double numberOf(const char* name, const std::string& text) {
+  const double number = std::stod(text);
+  if (!(std::abs(number) < 2e9))
+    throw InputError(std::string("the option ") + name + " is " + text);
+  return number;
+}
+
 PilotOptions optionsOf(const std::map<std::string, std::string>& lines) {
   PilotOptions options;
   visitOptions(options, [&](const char* name, auto& value, const OptionInfo&) {
@@ -48,7 +62,7 @@ PilotOptions optionsOf(const std::map<std::string, std::string>& lines) {
     else if constexpr (std::is_enum_v<Value>)
       value = base::choiceFromName<Value>(name, line->second);
     else
-      value = static_cast<Value>(std::stod(line->second));
+      value = static_cast<Value>(numberOf(name, line->second));
   });
   checkPilotOptions(options);
   return options;
@@ -77,8 +91,13 @@ std::optional<Record> readRecord(std::istream& in) {
   if (!in.get(record.kind) || !in.read(reinterpret_cast<char*>(&size), sizeof(size)))
     return std::nullopt;
   if (size > kLargestRecord) throw InputError("a record of " + std::to_string(size) + " bytes");
-  record.bytes.resize(size);
-  if (!in.read(record.bytes.data(), static_cast<std::streamsize>(size))) return std::nullopt;
+  // Piece by piece: a damaged size takes no more memory than the file is long.
+  while (record.bytes.size() < size) {
+    const std::size_t begin = record.bytes.size();
+    const std::size_t piece = std::min<std::uint64_t>(kReadPiece, size - begin);
+    record.bytes.resize(begin + piece);
+    if (!in.read(&record.bytes[begin], static_cast<std::streamsize>(piece))) return std::nullopt;
+  }
   return record;
 }
 
@@ -90,7 +109,7 @@ class Replay {
   Replay(std::istream& in, const PilotOptions& options, Each each)
       : in_(in), pilot_(options), each_(std::move(each)) {
     pilot_.setMapPlan([this](const Eigen::Vector3d&, const Eigen::Vector3d&) {
-      return std::exchange(plan_, Points());
+      return std::exchange(plan_, std::nullopt);
     });
   }
 
@@ -151,26 +170,31 @@ class Replay {
   std::istream& in_;
   Pilot pilot_;
   Each each_;
-  Points plan_;
+  std::optional<Points> plan_;
   ReplayResult result_;
 };
 
 }  // namespace
 
-FlightLog::FlightLog(const std::string& file, const PilotOptions& options, std::uint64_t limit)
-    : out_(file, std::ios::binary), left_(limit) {
-  out_ << kFirstLine << "\n" << optionLines(options) << "...\n";
-  if (!out_.flush()) throw InputError(file, "cannot be written");
+FlightLog::FlightLog(const base::OutputFile& file, const PilotOptions& options, std::uint64_t limit)
+    : out_(file), left_(limit) {
+  const std::string head = std::string(kFirstLine) + "\n" + optionLines(options) + "...\n";
+  const std::string problem = out_.write(head.data(), head.size());
+  if (!problem.empty()) throw InputError(file.name(), "cannot be written: " + problem);
 }
 
 void FlightLog::write(char kind, const std::vector<char>& bytes) {
   const std::uint64_t size = bytes.size();
-  full_ = full_ || size + 9 > left_;
-  if (full_) return;
-  left_ -= size + 9;
-  out_.put(kind);
-  out_.write(reinterpret_cast<const char*>(&size), sizeof(size));
-  out_.write(bytes.data(), static_cast<std::streamsize>(size));
+  if (full()) return;
+  if (size + kRecordHead > left_) {
+    problem_ = "its limit is reached";
+    return;
+  }
+  left_ -= size + kRecordHead;
+  char head[kRecordHead] = {kind};
+  std::memcpy(head + 1, &size, sizeof(size));
+  problem_ = out_.write(head, sizeof(head));
+  if (!full()) problem_ = out_.write(bytes.data(), bytes.size());
 }
 
 void FlightLog::options(const PilotOptions& options) {

@@ -48,6 +48,7 @@ void LogWriter::input(const PilotInput& input) {
   number(pose.yaw);
   velocity(input.velocity);
   text(input.pose_problem);
+  text(input.cloud_problem);
   number<std::uint8_t>(input.frame != nullptr);
   if (input.frame != nullptr) frame(*input.frame);
 }
@@ -121,6 +122,7 @@ PilotInput LogReader::input(Frame& frame_of_input) {
   if (has_pose) input.pose = VehiclePose{position.front(), yaw};
   input.velocity = velocity();
   input.pose_problem = text();
+  input.cloud_problem = text();
   if (number<std::uint8_t>() == 0) return input;
   frame_of_input = frame();
   input.frame = &frame_of_input;

@@ -15,6 +15,7 @@ using Eigen::Vector3f;
 constexpr double kHalfDiagonal = 0.5 * kVoxel * 1.7320508075688772;
 constexpr double kBesideCentre = 0.06;     // m from a voxel's centre
 constexpr double kPinholeTolerance = 1.5;  // pixels
+constexpr double kLargestPinhole = 1e6;    // pixels
 constexpr double kPixelsOfVoxel = 3.0;
 constexpr float kAgrees = 0.3F;  // m
 constexpr int kPinholeSamples = 200;
@@ -80,7 +81,9 @@ void FrameSight::see(const Frame& frame, const PilotOptions& options, const Heig
 // Of some points all over the picture, nine in ten must be seen where they are.
 bool FrameSight::pinholeFits(const Frame& frame) const {
   const Pinhole& p = *frame.pinhole;
-  if (!(p.fx > 0.0 && p.fy > 0.0 && std::isfinite(p.fx + p.fy + p.cx + p.cy))) return false;
+  if (!(p.fx > 0.0 && p.fy > 0.0)) return false;
+  for (const double pixels : {p.fx, p.fy, p.cx, p.cy})
+    if (!(std::abs(pixels) < kLargestPinhole)) return false;
   const std::size_t step = std::max<std::size_t>(1, frame.pixels() / kPinholeSamples);
   int points = 0, fitting = 0;
   for (std::size_t pixel = 0; pixel < frame.pixels(); pixel += step) {

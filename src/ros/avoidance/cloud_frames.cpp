@@ -1,6 +1,7 @@
 #include "ros/avoidance/cloud_frames.h"
 
-#include <cmath>
+#include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
@@ -35,55 +36,107 @@ Frame frameOf(const sensor_msgs::PointCloud2& cloud, const Eigen::Isometry3d& ma
   return frame;
 }
 
-}  // namespace
-
-void CloudFrames::setCamera(const sensor_msgs::CameraInfo& camera) {
-  camera_ = camera;
-}
-
-void CloudFrames::clear() {
-  waiting_.reset();
-  problem_.clear();
-}
-
 // Of the same frame and size; anything else is of another camera.
-std::optional<Pinhole> CloudFrames::pinholeOf(const sensor_msgs::PointCloud2& cloud) const {
-  if (!camera_ || camera_->header.frame_id != cloud.header.frame_id ||
-      camera_->width != cloud.width || camera_->height != cloud.height)
+std::optional<Pinhole> pinholeOf(const std::optional<sensor_msgs::CameraInfo>& camera,
+                                 const sensor_msgs::PointCloud2& cloud) {
+  if (!camera || camera->header.frame_id != cloud.header.frame_id || camera->width != cloud.width ||
+      camera->height != cloud.height)
     return std::nullopt;
-  const auto& k = camera_->K;
+  const auto& k = camera->K;
   return Pinhole{k[0], k[4], k[2], k[5]};
 }
 
+std::string inBrackets(const std::string& text) {
+  return text.empty() ? "" : " (" + text + ")";
+}
+
+}  // namespace
+
+CloudFrames::CloudFrames(const std::vector<std::string>& topics) {
+  for (const std::string& topic : topics) sensors_.push_back({topic});
+}
+
+void CloudFrames::setCamera(std::size_t topic, const sensor_msgs::CameraInfo& camera) {
+  sensors_[topic].camera = camera;
+}
+
+void CloudFrames::clear() {
+  for (Sensor& sensor : sensors_) {
+    sensor.waiting.reset();
+    sensor.newest.reset();
+    sensor.problem.clear();
+  }
+}
+
 // tf2 throws at the end of what ROS time can hold, and no transform would come before such a stamp.
-bool CloudFrames::isFromTheFuture(const ros::Time& now) {
-  const double ahead = secondsBetween(now, waiting_->header.stamp);
-  if (ahead <= kLongestWait) return false;
-  problem_ = "the newest cloud is stamped " + std::to_string(ahead) + " s ahead of ROS time";
-  waiting_.reset();
+bool CloudFrames::isUseless(Sensor& sensor, const ros::Time& now) {
+  if (!sensor.waiting) return true;
+  const double ahead = secondsBetween(now, sensor.waiting->header.stamp);
+  if (ahead > kLongestWait)
+    sensor.problem =
+        "the newest cloud is stamped " + std::to_string(ahead) + " s ahead of ROS time";
+  else if (sensor.waiting->width == 0 || sensor.waiting->height == 0)
+    sensor.problem = "the newest cloud holds no point";
+  else
+    return false;
+  sensor.waiting.reset();
   return true;
 }
 
-std::optional<Frame> CloudFrames::next(const FrameTransforms& transforms,
+std::optional<Frame> CloudFrames::next(Sensor& sensor, const FrameTransforms& transforms,
                                        const std::string& map_frame, const ros::Time& now) {
-  if (!waiting_ || isFromTheFuture(now)) return std::nullopt;
-  const sensor_msgs::PointCloud2& cloud = *waiting_;
+  if (isUseless(sensor, now)) return std::nullopt;
+  const sensor_msgs::PointCloud2& cloud = *sensor.waiting;
   try {
     const auto transform =
         transforms.transform(map_frame, cloud.header.frame_id, cloud.header.stamp);
     Frame frame = frameOf(cloud, poseOf(transform.transform));
-    frame.pinhole = pinholeOf(cloud);
-    waiting_.reset();
-    problem_.clear();
+    frame.pinhole = pinholeOf(sensor.camera, cloud);
+    sensor.newest = cloud.header.stamp;
+    sensor.waiting.reset();
+    sensor.problem.clear();
     return frame;
   } catch (const TransformError& error) {
-    problem_ = error.what();
-    if (secondsBetween(cloud.header.stamp, now) > kLongestWait) waiting_.reset();
+    sensor.problem = error.what();
+    if (secondsBetween(cloud.header.stamp, now) > kLongestWait) sensor.waiting.reset();
   } catch (const base::InputError& error) {
-    problem_ = error.what();
-    waiting_.reset();
+    sensor.problem = error.what();
+    sensor.waiting.reset();
   }
   return std::nullopt;
+}
+
+std::vector<Frame> CloudFrames::take(const FrameTransforms& transforms,
+                                     const std::string& map_frame, const ros::Time& now) {
+  std::vector<Frame> frames;
+  for (Sensor& sensor : sensors_)
+    if (auto frame = next(sensor, transforms, map_frame, now)) frames.push_back(std::move(*frame));
+  std::stable_sort(frames.begin(), frames.end(),
+                   [](const Frame& a, const Frame& b) { return a.time < b.time; });
+  return frames;
+}
+
+std::string CloudFrames::silence(const ros::Time& now, double timeout) const {
+  for (const Sensor& sensor : sensors_) {
+    if (!sensor.newest)
+      return "no cloud that can be used has come yet on " + sensor.topic +
+             inBrackets(sensor.problem);
+    const double age = secondsBetween(*sensor.newest, now);
+    if (age <= timeout) continue;
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%.2f", age);
+    return "the newest cloud of " + sensor.topic + " is " + seconds + " s old" +
+           inBrackets(sensor.problem);
+  }
+  return "";
+}
+
+std::string CloudFrames::problems() const {
+  std::string all;
+  for (const Sensor& sensor : sensors_)
+    if (!sensor.problem.empty())
+      all += (all.empty() ? "" : "; ") + sensor.topic + ": " + sensor.problem;
+  return all;
 }
 
 }  // namespace grid_path_planner::nodes
