@@ -39,6 +39,11 @@ bool isAlone(const Frame& frame, std::size_t pixel) {
   return true;
 }
 
+// Of a coordinate above -1.5; std::lround is a call and took a sixteenth of a frame's time.
+int nearestPixel(double coordinate) {
+  return static_cast<int>(coordinate + 1.5) - 1;
+}
+
 // A plane through the origin of the sensor, by its normal inwards.
 using Planes = std::array<Vector3d, 4>;
 
@@ -176,7 +181,7 @@ void FrameSight::crossPicture(const Frame& frame, const PilotOptions& options,
 
 bool FrameSight::rayPasses(const Frame& frame, double column, double row,
                            const Vector3d& centre) const {
-  const int c = static_cast<int>(std::lround(column)), r = static_cast<int>(std::lround(row));
+  const int c = nearestPixel(column), r = nearestPixel(row);
   if (c < 0 || c >= frame.width || r < 0 || r >= frame.height) return false;
   const std::size_t pixel = static_cast<std::size_t>(r) * frame.width + c;
   if (centre.z() + kHalfDiagonal < depths_[pixel]) return true;
@@ -192,7 +197,7 @@ bool FrameSight::anyRayPasses(const Frame& frame, const Vector3d& centre) const 
   const double row = p.cy + p.fy * centre.y() * inverse;
   if (rayPasses(frame, column, row, centre)) return true;
   const double aside = kBesideCentre * p.fx * inverse;
-  const int c = static_cast<int>(std::lround(column)), r = static_cast<int>(std::lround(row));
+  const int c = nearestPixel(column), r = nearestPixel(row);
   const bool outside = c < 0 || c >= frame.width || r < 0 || r >= frame.height;
   if (outside || aside < 1.0 || depths_[static_cast<std::size_t>(r) * frame.width + c] != 0.0f)
     return false;

@@ -1,7 +1,7 @@
 // The action `navigate_path` of local_planner: its goals are flown instead of what the topics say.
 //
-//   FlightAction action(nh, files, {fly, cancel, path_in_map});
-//   action.report(answer, position, yaw);     // with every answer of the pilot
+//   FlightAction action(nh, files, {fly, cancel, read});
+//   action.report(answer, pose);     // with every answer of the pilot
 //
 // A path is flown along as that of the topic; the waypoints of a file are flown to one after the other. A
 // new goal replaces the one before. Files are read in a thread of their own.
