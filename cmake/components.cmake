@@ -28,9 +28,9 @@ set(ros_rooms ros_common ros_planning)
 set(GPP_NODES path_planner map_publisher)
 set(GPP_CONFIGURATIONS PathPlanner MapPublisher)
 set(GPP_CATKIN_EXPORTS actionlib actionlib_msgs dynamic_reconfigure geometry_msgs message_runtime nav_msgs
-  nodelet roscpp std_msgs tf2_ros visualization_msgs)
+  nodelet roscpp sensor_msgs std_msgs tf2_ros visualization_msgs)
 set(GPP_CATKIN_COMPONENTS actionlib actionlib_msgs diagnostic_msgs diagnostic_updater dynamic_reconfigure
-  geometry_msgs map_msgs message_generation nav_msgs nodelet pluginlib rosbag roscpp std_msgs tf2 tf2_geometry_msgs
+  geometry_msgs map_msgs message_generation nav_msgs nodelet pluginlib rosbag roscpp sensor_msgs std_msgs tf2 tf2_geometry_msgs
   tf2_msgs tf2_ros visualization_msgs)
 set(GPP_EXPORTED_LIBRARIES EIGEN3)
 set(GPP_LAUNCH_FILES map_file planner rviz)
@@ -93,10 +93,6 @@ endif()
 if(GPP_WITH_driving OR GPP_WITH_mapping OR GPP_WITH_avoidance)
   list(APPEND GPP_CATKIN_COMPONENTS std_srvs)
   list(APPEND GPP_CATKIN_EXPORTS std_srvs)
-endif()
-if(GPP_WITH_driving OR GPP_WITH_mapping OR GPP_WITH_simulation OR GPP_WITH_avoidance)
-  list(APPEND GPP_CATKIN_COMPONENTS sensor_msgs)
-  list(APPEND GPP_CATKIN_EXPORTS sensor_msgs)
 endif()
 list(APPEND GPP_FOLDERS ros nodes command_line)
 list(APPEND GPP_ROOMS ${ros_rooms})

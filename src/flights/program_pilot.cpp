@@ -1,17 +1,6 @@
 #include "flights/program_pilot.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <nlohmann/json.hpp>
-
-extern char** environ;
 
 namespace grid_path_planner::flights {
 
@@ -22,8 +11,9 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kLongestAnswerMs = 60000;         // a program that hangs ends its flight
-constexpr std::size_t kLongestLine = 1u << 20;  // bytes
+ProgramProcess::Deadline oneMinute() {  // a program that hangs ends its flight
+  return std::chrono::steady_clock::now() + std::chrono::minutes(1);
+}
 
 json placeJson(const Eigen::Vector3d& place) {
   return {place.x(), place.y(), place.z()};
@@ -77,14 +67,6 @@ json updateOf(const PilotInput& input) {
   return update;
 }
 
-void makePipes(const std::string& name, int* down, int* up) {
-  if (::pipe2(down, O_CLOEXEC) != 0) throw InputError(name, "no pipe can be made");
-  if (::pipe2(up, O_CLOEXEC) == 0) return;
-  ::close(down[0]);
-  ::close(down[1]);
-  throw InputError(name, "no pipe can be made");
-}
-
 PilotStatus pilotStatusFrom(const std::string& name) {
   for (int i = 0; i <= static_cast<int>(PilotStatus::INVALID_REQUEST); ++i)
     if (toString(static_cast<PilotStatus>(i)) == name) return static_cast<PilotStatus>(i);
@@ -107,78 +89,18 @@ PilotAnswer answerFrom(const std::string& line) {
 
 ProgramPilot::ProgramPilot(const FlightStudy& study, const FlightVariant& variant,
                            const simulation::CameraIntrinsics& camera)
-    : name_(variant.program.front()) {
-  ::signal(SIGPIPE, SIG_IGN);  // write() reports a lost program
-  start(variant.program);
+    : name_(variant.program.front()), process_(variant.program) {
   const std::string hello = helloOf(study, variant.pilot, camera).dump() + '\n';
-  send(hello.data(), hello.size());
-}
-
-ProgramPilot::~ProgramPilot() {
-  ::close(to_);
-  ::close(from_);
-  ::kill(process_, SIGKILL);
-  ::waitpid(process_, nullptr, 0);
-}
-
-void ProgramPilot::start(const std::vector<std::string>& program) {
-  int down[2], up[2];
-  makePipes(name_, down, up);
-  std::vector<char*> arguments;
-  for (const std::string& word : program) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_adddup2(&actions, down[0], STDIN_FILENO);
-  ::posix_spawn_file_actions_adddup2(&actions, up[1], STDOUT_FILENO);
-  const int error =
-      ::posix_spawnp(&process_, arguments[0], &actions, nullptr, arguments.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  ::close(down[0]);
-  ::close(up[1]);
-  to_ = down[1];
-  from_ = up[0];
-  if (error == 0) return;
-  ::close(to_);
-  ::close(from_);
-  throw InputError(name_, std::string("cannot be started: ") + std::strerror(error));
-}
-
-void ProgramPilot::send(const void* data, std::size_t size) {
-  const auto* next = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t written = ::write(to_, next, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) throw InputError(name_, "has ended");
-    next += written;
-    size -= static_cast<std::size_t>(written);
-  }
-}
-
-std::string ProgramPilot::receiveLine() {
-  std::size_t end;
-  while ((end = received_.find('\n')) == std::string::npos) {
-    pollfd polled = {from_, POLLIN, 0};
-    const int ready = ::poll(&polled, 1, kLongestAnswerMs);
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready == 0) throw InputError(name_, "has not answered for a minute");
-    char buffer[4096];
-    const ssize_t got = ::read(from_, buffer, sizeof buffer);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) throw InputError(name_, "has ended");
-    received_.append(buffer, static_cast<std::size_t>(got));
-    if (received_.size() > kLongestLine) throw InputError(name_, "answers without end");
-  }
-  const std::string line = received_.substr(0, end);
-  received_.erase(0, end + 1);
-  return line;
+  process_.send(hello.data(), hello.size(), oneMinute());
 }
 
 PilotAnswer ProgramPilot::update(const PilotInput& input) {
   const std::string update = updateOf(input).dump() + '\n';
-  send(update.data(), update.size());
-  if (input.frame != nullptr) send(input.frame->points.data(), 4 * input.frame->points.size());
-  const std::string line = receiveLine();
+  const ProgramProcess::Deadline deadline = oneMinute();
+  process_.send(update.data(), update.size(), deadline);
+  if (input.frame != nullptr)
+    process_.send(input.frame->points.data(), 4 * input.frame->points.size(), deadline);
+  const std::string line = process_.receiveLine(deadline);
   try {
     return answerFrom(line);
   } catch (const std::exception& error) {

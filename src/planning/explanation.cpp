@@ -16,9 +16,9 @@
 
 namespace grid_path_planner::planning {
 
-using base::Status, base::StopToken;
+using base::Status, base::StopPoll, base::StopToken;
 using costmap::CostGrid, costmap::CostmapBuilder, costmap::CostmapOptions, costmap::KeptDistances;
-using grid::Cell, grid::GridGeometry, grid::Occupancy;
+using grid::Cell, grid::CellRect, grid::GridGeometry, grid::Occupancy;
 using planners::reachableFrom;
 
 namespace {
@@ -37,7 +37,8 @@ double roundedDown(double radius) {
 // Across the gap at a cell: from its centre straight to the nearest obstacle, and back to the one opposite.
 class Across {
  public:
-  Across(const CostGrid& costs, const CostmapOptions& options) : costs_(costs), options_(options) {}
+  Across(const CostGrid& costs, const CostmapOptions& options, const StopToken& stop)
+      : costs_(costs), options_(options), stop_(stop) {}
 
   Gap at(Cell cell, double largest_radius) const {
     const GridGeometry& geometry = costs_.geometry();
@@ -63,12 +64,16 @@ class Across {
   // there is none. In cells.
   Eigen::Vector2d nearestEdge(Cell cell) const {
     const Eigen::Vector2d middle(cell.column + 0.5, cell.row + 0.5);
-    const int reach =
-        static_cast<int>(std::ceil(options_.radius / costs_.geometry().resolution())) + 1;
+    const CellRect map = costs_.geometry().rect().grown(1);
+    const double reach = std::ceil(options_.radius / costs_.geometry().resolution()) + 1.0;
+    const int cells = static_cast<int>(std::min<double>(reach, std::max(map.width, map.height)));
+    const CellRect around = CellRect{cell.column, cell.row, 1, 1}.grown(cells).intersection(map);
     Eigen::Vector2d nearest = middle;
     double least = kEverywhere;
-    for (int row = cell.row - reach; row <= cell.row + reach; ++row)
-      for (int column = cell.column - reach; column <= cell.column + reach; ++column) {
+    StopPoll poll(stop_);
+    for (int row = around.row; row < around.row + around.height; ++row)
+      for (int column = around.column; column < around.column + around.width; ++column) {
+        poll();
         if (!closed({column, row})) continue;
         const Eigen::Vector2d low(column, row);
         const Eigen::Vector2d point = middle.cwiseMax(low).cwiseMin(low + Eigen::Vector2d::Ones());
@@ -94,6 +99,7 @@ class Across {
 
   const CostGrid& costs_;
   const CostmapOptions& options_;
+  const StopToken& stop_;
 };
 
 // The parts of one explanation.
@@ -120,7 +126,7 @@ class Explainer {
       if (costmap.kernel > 1)
         explanation.text = "the kernel closes every path: kernel 1 or retry_finer finds a path";
     } else {
-      const Gap gap = Across(costs_, costmap).at(widest->narrowest, widest->clearance);
+      const Gap gap = Across(costs_, costmap, stop_).at(widest->narrowest, widest->clearance);
       explanation.gap = gap;
       explanation.text = "the gap at " + positionText(gap.position) + " is " +
                          metresText(gap.width) + " wide; radius " + metresText(costmap.radius) +

@@ -52,13 +52,42 @@ SharedCostmap::SharedCostmap(std::shared_ptr<const MapSeries> series, const Cost
                              const KeptDistances& kept)
     : series_(std::move(series)), options_(options), kept_(kept), builder_(options, kept) {}
 
+// To make the costmaps, which one thread does at a time.
+class SharedCostmap::Turn {
+ public:
+  // Waits until no other thread makes them, or one has made them since `revision`. A condition, as the
+  // thread sanitizer does not know the waiting of a timed mutex.
+  Turn(SharedCostmap& costmap, std::uint64_t revision, const StopToken& stop) : costmap_(costmap) {
+    std::unique_lock<std::mutex> lock(costmap_.mutex_);
+    while (costmap_.making_ && !costmap_.madeSince(revision)) {
+      costmap_.ended_.wait_for(lock, std::chrono::milliseconds(5));
+      const StopReason reason = stop.reason();
+      if (costmap_.making_ && reason != StopReason::NONE) throw Stopped(reason);
+    }
+    made_ = costmap_.madeSince(revision);
+    if (!made_) costmap_.making_ = true;
+  }
+  ~Turn() {
+    if (made_) return;
+    const std::lock_guard<std::mutex> lock(costmap_.mutex_);
+    costmap_.making_ = false;
+    costmap_.ended_.notify_all();
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+  // By another thread: nothing is left to make.
+  const std::optional<Result>& made() const { return made_; }
+
+ private:
+  SharedCostmap& costmap_;
+  std::optional<Result> made_;
+};
+
 SharedCostmap::Result SharedCostmap::newest(const StopToken& stop, std::uint64_t at_least) {
   const std::uint64_t wanted = std::min(at_least, series_->newest().changes.newest());
-  if (auto made = madeSince(wanted)) return *std::move(made);
-  std::unique_lock<std::timed_mutex> lock(making_, std::defer_lock);
-  while (!lock.try_lock_for(std::chrono::milliseconds(5)))
-    if (const StopReason reason = stop.reason(); reason != StopReason::NONE) throw Stopped(reason);
-  if (auto made = madeSince(wanted)) return *std::move(made);  // by who had the lock
+  const Turn turn(*this, wanted, stop);
+  if (turn.made()) return *turn.made();
   try {
     return make(stop);
   } catch (const Stopped&) {
@@ -69,8 +98,8 @@ SharedCostmap::Result SharedCostmap::newest(const StopToken& stop, std::uint64_t
   }
 }
 
+// Precondition: mutex_ is held.
 std::optional<SharedCostmap::Result> SharedCostmap::madeSince(std::uint64_t revision) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
   return made_ && made_revision_ >= revision ? made_ : std::nullopt;
 }
 

@@ -13,6 +13,7 @@
 // made hold nobody up.
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -77,6 +78,7 @@ class SharedCostmap {
                 std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
 
  private:
+  class Turn;
   std::optional<Result> madeSince(std::uint64_t revision) const;
   void takeMap();
   Result make(const base::StopToken& stop);
@@ -84,11 +86,13 @@ class SharedCostmap {
   const std::shared_ptr<const MapSeries> series_;
   const costmap::CostmapOptions options_;
   const costmap::KeptDistances kept_;
-  std::timed_mutex making_;  // of what follows
+  // Of the thread whose turn it is to make:
   costmap::CostmapBuilder builder_;
   std::shared_ptr<const grid::OccupancyGrid> map_;  // the builder's
   std::optional<std::uint64_t> revision_;           // of map_; none: the builder begins anew
   mutable std::mutex mutex_;  // of what follows, held for no longer than it takes to read and write
+  std::condition_variable ended_;  // a turn has
+  bool making_ = false;
   std::optional<Result> made_;
   std::uint64_t made_revision_ = 0;  // of its map
 };

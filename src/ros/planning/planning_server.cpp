@@ -113,19 +113,24 @@ void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, 
 }
 
 void PlanningServer::explainLater(const PlanningRequest& request, const Plan& plan) {
+  std::unique_lock<std::mutex> lock(explanation_mutex_);
+  const unsigned number = ++explanation_number_;
   if (plan.found()) return explanations_.clear();
+  lock.unlock();
   question_lane_.post(
-      [this, request, plan](const StopSource& stop) {
-        explain(request, plan, stop);
+      [this, request, plan, number](const StopSource& stop) {
+        explain(request, plan, number, stop);
         question_lane_.finishLater(settings().options);
       },
       "explanation");
 }
 
-void PlanningServer::explain(const PlanningRequest& request, const Plan& plan,
+void PlanningServer::explain(const PlanningRequest& request, const Plan& plan, unsigned number,
                              const StopSource& stop) {
   const planning::Explanation explanation =
       question_lane_.explain(request, plan.status, settings().options, stop);
+  const std::lock_guard<std::mutex> shown(explanation_mutex_);
+  if (number != explanation_number_) return;  // of a plan that another one has followed
   if (explanation.text.empty() || stop.cancelled()) return explanations_.clear();
   const std::string message = plan.message + "; " + explanation.text;
   ROS_WARN_STREAM("Why: " << message);

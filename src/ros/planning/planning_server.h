@@ -123,7 +123,7 @@ class PlanningServer {
   void answer(PlanTicket& ticket, const PlanningRequest& request, Publish publish,
               const base::StopSource& stop);
   void storeMap(const MapChange& change);
-  void explain(const PlanningRequest& request, const planning::Plan& plan,
+  void explain(const PlanningRequest& request, const planning::Plan& plan, unsigned number,
                const base::StopSource& stop);
   void writeWaypoints(const path::Path& path);
 
@@ -138,6 +138,8 @@ class PlanningServer {
 
   FrameTransforms transforms_;
   PlanPublisher publisher_;
+  std::mutex explanation_mutex_;  // of the two below
+  unsigned explanation_number_ = 0;
   ExplanationPublisher explanations_;
   MapReceiver maps_;
   const std::shared_ptr<planning::MapStore> store_;

@@ -70,16 +70,20 @@ SimulatorNode::SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
       contact_publisher_(nh_) {
   odometry_.reset(vehicle_->state());
   if (options_.publish_clock) clock_publisher_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  if (!options_.world.empty()) loadWorld();
+  updateCamera(options_);
+  startTimer();
+  listen(private_nh);
+}
+
+// Last: what comes, comes in another thread while the constructor of a nodelet runs.
+void SimulatorNode::listen(ros::NodeHandle& private_nh) {
   if (options_.world.empty())
     map_subscriber_ = subscribeChecked<nav_msgs::OccupancyGrid>(
         nh_, "projected_map", 1, [this](const nav_msgs::OccupancyGrid& map) { onMap(map); });
-  else
-    loadWorld();
-  updateCamera(options_);
   command_subscriber_ = nh_.subscribe("cmd_vel", 10, &SimulatorNode::onCommand, this);
   reconfigurable_ = std::make_unique<Reconfigurable<SimulatorConfig, SimulatorOptions>>(
       private_nh, options_, [this](const SimulatorOptions& options) { use(options); });
-  startTimer();
 }
 
 SimulatorNode::~SimulatorNode() {

@@ -61,6 +61,7 @@ class SimulatorNode {
 
  private:
   void loadWorld();
+  void listen(ros::NodeHandle& private_nh);
   void use(const SimulatorOptions& options);
   void updateCamera(const SimulatorOptions& options);
   void resetVehicle(const SimulatorOptions& options);

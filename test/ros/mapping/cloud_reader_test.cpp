@@ -99,6 +99,14 @@ TEST(CloudReader, RowsWithoutPointsTakeNoTime) {
   for (int i = 0; i < 1000; ++i) EXPECT_TRUE(finitePoints(cloud).empty());
 }
 
+// 64 MB of other bytes, in points of one byte each, took 1.5 GB before the cloud was refused.
+TEST(CloudReader, RoomIsTakenForPointsThatAreThere) {
+  PointCloud2 cloud = oddCloud(3);
+  cloud.data.resize(1 << 20);
+  EXPECT_EQ(finitePoints(cloud).capacity(), 3u);
+  EXPECT_EQ(allPoints(cloud).capacity(), 9u);
+}
+
 TEST(CloudReader, WhatCannotBeReadIsRefusedWithASentence) {
   PointCloud2 cloud = oddCloud(2);
   cloud.is_bigendian = true;

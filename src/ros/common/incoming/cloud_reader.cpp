@@ -73,39 +73,54 @@ void checkLayout(const PointCloud2& cloud) {
                      " bytes, got " + std::to_string(cloud.data.size()));
 }
 
-template <class Action>
-void forPoints(const PointCloud2& cloud, const Action& action) {
-  checkLayout(cloud);
-  const Coordinate x = coordinateOf(cloud, "x");
-  const Coordinate y = coordinateOf(cloud, "y");
-  const Coordinate z = coordinateOf(cloud, "z");
-  const std::size_t rows = cloud.width == 0 ? 0 : cloud.height;  // no bytes stand for empty ones
-  for (std::size_t row = 0; row < rows; ++row) {
-    const std::uint8_t* point = cloud.data.data() + row * cloud.row_step;
-    for (std::size_t column = 0; column < cloud.width; ++column, point += cloud.point_step)
-      action(Eigen::Vector3d(x.read(point), y.read(point), z.read(point)));
+// Where the coordinates of a cloud's points are. Throws InputError where they are not.
+class PointReader {
+ public:
+  explicit PointReader(const PointCloud2& cloud)
+      : cloud_(cloud),
+        x_(coordinateOf(cloud, "x")),
+        y_(coordinateOf(cloud, "y")),
+        z_(coordinateOf(cloud, "z")) {
+    checkLayout(cloud);
   }
-}
 
-std::size_t mostPoints(const PointCloud2& cloud) {
-  return cloud.point_step == 0 ? 0 : cloud.data.size() / cloud.point_step;
-}
+  std::size_t size() const { return rows() * cloud_.width; }
+
+  template <class Action>
+  void forEach(const Action& action) const {
+    for (std::size_t row = 0; row < rows(); ++row) {
+      const std::uint8_t* point = cloud_.data.data() + row * cloud_.row_step;
+      for (std::size_t column = 0; column < cloud_.width; ++column, point += cloud_.point_step)
+        action(Eigen::Vector3d(x_.read(point), y_.read(point), z_.read(point)));
+    }
+  }
+
+ private:
+  std::size_t rows() const {
+    return cloud_.width == 0 ? 0 : cloud_.height;
+  }  // no bytes stand for empty ones
+
+  const PointCloud2& cloud_;
+  Coordinate x_, y_, z_;
+};
 
 }  // namespace
 
 std::vector<Eigen::Vector3d> finitePoints(const PointCloud2& cloud) {
+  const PointReader reader(cloud);
   std::vector<Eigen::Vector3d> points;
-  points.reserve(mostPoints(cloud));
-  forPoints(cloud, [&](const Eigen::Vector3d& point) {
+  points.reserve(reader.size());
+  reader.forEach([&](const Eigen::Vector3d& point) {
     if (point.allFinite()) points.push_back(point);
   });
   return points;
 }
 
 std::vector<float> allPoints(const PointCloud2& cloud) {
+  const PointReader reader(cloud);
   std::vector<float> points;
-  points.reserve(3 * mostPoints(cloud));
-  forPoints(cloud, [&](const Eigen::Vector3d& point) {
+  points.reserve(3 * reader.size());
+  reader.forEach([&](const Eigen::Vector3d& point) {
     for (int axis = 0; axis < 3; ++axis) points.push_back(static_cast<float>(point[axis]));
   });
   return points;
