@@ -64,7 +64,7 @@ std::unique_ptr<Pilot> pilotThatSaw(Frame frame, Search search, const Vector3d& 
   PilotOptions options;
   options.search = search;
   options.elevation = search == Search::GRID;
-  options.start_clear = 1.5;
+  options.smooth_weight = 0.7;  // equal weights cost the same in all directions between two
   auto pilot = std::make_unique<Pilot>(options);
   pilot->setRoute({goal});
   for (int i = 0; i < 3; ++i) {

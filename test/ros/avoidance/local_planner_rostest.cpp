@@ -177,6 +177,7 @@ TEST_F(LocalPlannerTest, FliesAGoalOfTheActionAndKeepsALog) {
 TEST_F(LocalPlannerTest, RefusesAGoalOfTheActionThatGivesNothing) {
   Latest<NavigatePathActionResult> results(nh_, "navigate_path/result");
   ros::Publisher goals = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1, true);
+  ASSERT_TRUE(test::waitFor([&] { return results.connected(); }, kFlight));
   NavigatePathActionGoal goal;
   goal.goal_id.id = "nothing";
   goals.publish(goal);
