@@ -266,9 +266,10 @@ bool Pilot::Parts::recovers() {
 void Pilot::Parts::noteNarrow() {
   const auto place =
       finder.tooNarrow(surroundings.space(), {motion_.position, target(), targetRadius()});
-  narrow_ = place ? "; the passage at " + placeText(place->at) + " is " + shortNumber(place->width) +
-                        " m wide, " + shortNumber(finder.neededWidth()) + " m are needed"
-                  : "";
+  narrow_ = place
+                ? "; the passage at " + placeText(place->at) + " is " + shortNumber(place->width) +
+                      " m wide, " + shortNumber(finder.neededWidth()) + " m are needed"
+                : "";
 }
 
 void Pilot::Parts::askForPlan() {
