@@ -35,6 +35,9 @@ const std::vector<std::pair<const char*, Search>>& choicesOf(Search) {
 void checkPilotOptions(const PilotOptions& options) {
   checkOptionLimits(options);
   checkOrder("z_min", options.z_min, "z_max", options.z_max);
+  if (options.widening > options.d_safe)
+    throw InputError("widening must be at most d_safe, got " + decimalText(options.widening) +
+                     " m and " + decimalText(options.d_safe) + " m");
   checkOrder("range_min", options.range_min, "range_max", options.range_max);
 }
 

@@ -19,6 +19,11 @@ constexpr double kMostClearance = 12.0;  // m
 constexpr double kHovers = 0.02;         // m/s
 constexpr int kFramesBetween = 5;        // of searches while there is no path
 
+bool isPlace(const Vector3d& position) {
+  constexpr double kFarthestPlace = 1e7;  // m; voxels are counted by integers
+  return position.allFinite() && position.cwiseAbs().maxCoeff() < kFarthestPlace;
+}
+
 Motion motionOf(const VehiclePose& pose, const BodyVelocity& v) {
   return {pose.position, base::inMap(v, pose.yaw), pose.yaw, v.yaw_rate};
 }
@@ -121,14 +126,18 @@ bool Pilot::Parts::cannotFly(const PilotInput& input) {
     command_ = {};
     return !problem.empty();
   }
-  if (problem.empty()) return !hasFrame();
+  if (problem.empty()) return !hasFrame(input.cloud_problem);
   hold(PilotStatus::TRANSFORM_ERROR, problem);
   return true;
 }
 
 // One that is new enough; says otherwise why not, and stands.
-bool Pilot::Parts::hasFrame() {
+bool Pilot::Parts::hasFrame(const std::string& cloud_problem) {
   const std::optional<double>& seen = surroundings.frameTime();
+  if (!cloud_problem.empty()) {
+    hover(PilotStatus::NO_CLOUD, cloud_problem);
+    return false;
+  }
   if (seen && time_ - *seen <= options.cloud_timeout) return true;
   const std::string why = surroundings.problem().empty() ? "" : " (" + surroundings.problem() + ")";
   hold(PilotStatus::NO_CLOUD,
@@ -253,13 +262,16 @@ std::string Pilot::Parts::closedText(const Vector3d& at) const {
 // Whether something else is done than to fly.
 bool Pilot::Parts::recovers() {
   const bool exhausted = flown.empty() && finder.exhausted();
-  switch (
-      recovery.update({time_, motion_.position, motion_.yaw, route.goal(), exhausted}, options)) {
+  const RecoveryStep step =
+      recovery.update({time_, motion_.position, motion_.yaw, route.goal(), exhausted}, options);
+  if (step != step_ && (step == RecoveryStep::LOOK || step == RecoveryStep::STUCK)) noteNarrow();
+  step_ = step;
+  switch (step) {
     case RecoveryStep::FLY:
       return false;
     case RecoveryStep::LOOK:
       hover(PilotStatus::BLOCKED,
-            "no progress towards " + placeText(target()) + "; looking around");
+            "no progress towards " + placeText(target()) + narrow_ + "; looking around");
       command_.yaw_rate = brakes(motion_) ? 0.0 : options.max_yaw_rate;
       return true;
     case RecoveryStep::PLAN:
@@ -269,19 +281,36 @@ bool Pilot::Parts::recovers() {
       break;
   }
   end(PilotStatus::STUCK, "came as near as " + shortNumber(recovery.nearest()) + " m to " +
-                              placeText(route.goal()) + "; tried: " + recovery.tried());
+                              placeText(route.goal()) + narrow_ + "; tried: " + recovery.tried());
   return true;
 }
 
+// What is too narrow between here and the goal, for the sentences.
+void Pilot::Parts::noteNarrow() {
+  const auto place =
+      finder.tooNarrow(surroundings.space(), {motion_.position, target(), targetRadius()});
+  narrow_ = place
+                ? "; the passage at " + placeText(place->at) + " is " + shortNumber(place->width) +
+                      " m wide, " + shortNumber(finder.neededWidth()) + " m are needed"
+                : "";
+}
+
 void Pilot::Parts::askForPlan() {
-  const Points path = map_plan ? map_plan(motion_.position, route.goal()) : Points();
-  recovery.planned(path.size() >= 2, time_);
+  if (!map_plan) {
+    recovery.planned(MapAnswer::NO_MAP, time_);
+    return hover(PilotStatus::BLOCKED, "there is no map to plan on");
+  }
+  const std::optional<Points> path = map_plan(motion_.position, route.goal());
+  if (!path)
+    return hover(PilotStatus::BLOCKED, "a path to " + placeText(route.goal()) +
+                                           " is planned on the map of what was seen");
+  const bool found = path->size() >= 2;
+  recovery.planned(found ? MapAnswer::PATH : MapAnswer::NO_PATH, time_);
   unseen.forget();
   flown.clear();
-  if (path.size() >= 2) plan.setPath(path);
-  hover(PilotStatus::BLOCKED, path.size() >= 2
-                                  ? "follows a plan on the map"
-                                  : "the map has no path to " + placeText(route.goal()));
+  if (found) plan.setPath(*path);
+  hover(PilotStatus::BLOCKED,
+        found ? "follows a plan on the map" : "the map has no path to " + placeText(route.goal()));
 }
 
 }  // namespace grid_path_planner::avoidance

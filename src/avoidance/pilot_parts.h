@@ -37,7 +37,7 @@ class Pilot::Parts {
  private:
   void setTime(double time);
   bool cannotFly(const PilotInput& input);
-  bool hasFrame();
+  bool hasFrame(const std::string& cloud_problem);
   void followRoute();
   void findPath();
   void fly(const PilotInput& input);
@@ -45,6 +45,7 @@ class Pilot::Parts {
   void hold(PilotStatus status, const std::string& sentence);
   bool recovers();
   void askForPlan();
+  void noteNarrow();
   bool goalIsOccupied() const;
   void lookAtUnseen(const Steering& steering);
   Steering steer() const;
@@ -55,12 +56,14 @@ class Pilot::Parts {
 
   PilotStatus status_ = PilotStatus::IDLE;
   std::string sentence_ = "nothing was asked for yet";
-  bool ended_ = false;                 // the status stays until a new route
-  bool restarts_ = false;              // the next pose begins the path to a waypoint
-  bool kept_ = false;                  // the path leads to the present target
-  bool fresh_ = false;                 // the newest update brought a frame
-  int told_path_ = 0;                  // the revision of the path that was answered last
-  int frames_without_ = 0;             // since the last search that found no path
+  RecoveryStep step_ = RecoveryStep::FLY;
+  std::string narrow_;      // of the newest look around, "; the passage at ... is 1.1 m wide"
+  bool ended_ = false;      // the status stays until a new route
+  bool restarts_ = false;   // the next pose begins the path to a waypoint
+  bool kept_ = false;       // the path leads to the present target
+  bool fresh_ = false;      // the newest update brought a frame
+  int told_path_ = 0;       // the revision of the path that was answered last
+  int frames_without_ = 0;  // since the last search that found no path
   double time_ = 0.0, elapsed_ = 0.0;  // s; since the update before
   bool has_time_ = false;
   Motion motion_;

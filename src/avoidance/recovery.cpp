@@ -57,15 +57,17 @@ void Recovery::hold(double seconds) {
   if (exhausted_since_) *exhausted_since_ += seconds;
 }
 
-void Recovery::planned(bool found, double time) {
+void Recovery::planned(MapAnswer answer, double time) {
   planned_ = true;
-  if (!found) step_ = RecoveryStep::STUCK;
+  has_map_ = answer != MapAnswer::NO_MAP;
+  if (answer != MapAnswer::PATH) step_ = RecoveryStep::STUCK;
   watch_.excuse(time);
   exhausted_since_.reset();
 }
 
 std::string Recovery::tried() const {
-  if (planned_) return "looked around, planned on the map";
+  if (planned_)
+    return has_map_ ? "looked around, planned on the map" : "looked around; has no map to plan on";
   return looked_ ? "looked around" : "nothing";
 }
 

@@ -15,6 +15,7 @@
 namespace grid_path_planner::avoidance {
 
 enum class RecoveryStep { FLY, LOOK, PLAN, STUCK };
+enum class MapAnswer { PATH, NO_PATH, NO_MAP };
 
 class Recovery {
  public:
@@ -27,15 +28,15 @@ class Recovery {
     Eigen::Vector3d goal;
     bool exhausted;  // every direction was looked at, and there is none
   };
-  // PLAN once; the caller says by `planned` whether there is one.
+  // PLAN until the caller says by `planned` what came of it.
   RecoveryStep update(const State& state, const PilotOptions& options);
-  void planned(bool found, double time);
+  void planned(MapAnswer answer, double time);
   // The last `seconds` were none in which progress could be made.
   void hold(double seconds);
 
   // m, from the goal, in this flight to it.
   double nearest() const { return watch_.nearest(); }
-  // "looked around, planned on the map"; "nothing" before.
+  // "looked around, planned on the map"; "nothing" before. Without a map it says so.
   std::string tried() const;
 
  private:
@@ -44,7 +45,7 @@ class Recovery {
 
   ProgressWatch watch_;
   RecoveryStep step_ = RecoveryStep::FLY;
-  bool looked_ = false, planned_ = false;
+  bool looked_ = false, planned_ = false, has_map_ = true;
   double turned_ = 0.0;       // rad, anticlockwise
   double looks_since_ = 0.0;  // s
   std::optional<double> yaw_;

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "flights/program_pilot.h"
-#include "flights/seen_map.h"
 #include "grid_path_planner/avoidance/flight_log.h"
+#include "seen_map/seen_map.h"
 
 namespace grid_path_planner::flights {
 
@@ -24,9 +24,9 @@ class OwnPilot : public FlightPilot {
     if (log_) log_->route(study.route);
     if (!variant.pilot.recover) return;
     pilot_.setMapPlan([this](const Vector3d& from, const Vector3d& goal) {
-      const std::vector<Vector3d> plan = map_.plan(from, goal);
+      std::vector<Vector3d> plan = map_.plan(from, goal);
       if (log_) log_->mapPlan(plan);
-      return plan;
+      return std::optional(std::move(plan));
     });
   }
 
@@ -43,7 +43,7 @@ class OwnPilot : public FlightPilot {
 
  private:
   Pilot pilot_;
-  SeenMap map_;
+  seen_map::SeenMap map_;
   std::optional<FlightLog> log_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/option_text.h"
+#include "sources_hash.h"
 
 namespace grid_path_planner::flights {
 
@@ -49,6 +50,7 @@ FlightUnit FlightPlan::unitOf(const std::string& name) const {
 std::uint64_t FlightPlan::fingerprint() const {
   std::ostringstream text;
   text.precision(17);
+  text << kSourcesHash << '\n';
   for (const FlightVariant& variant : study_.variants) describeVariant(variant, text);
   for (const auto& body : study_.bodies) describeBody(body, text);
   text << optionText(study_.vehicle) << optionText(study_.camera) << optionText(study_.odometry)

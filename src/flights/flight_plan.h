@@ -28,7 +28,7 @@ class FlightPlan {
   // none.
   FlightUnit unitOf(const std::string& name) const;
 
-  // A hash of the study: options, worlds, seeds.
+  // A hash of the study (options, worlds, seeds) and of the sources that fly it.
   std::uint64_t fingerprint() const;
 
  private:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -114,6 +115,23 @@ TEST(DrawnWorlds, ClosedRoomIsToldWithinAMinute) {
   flySeeds(setup, [](const FlightResult& result) {
     EXPECT_EQ(result.status, PilotStatus::STUCK);
     EXPECT_NE(result.sentence.find("looked around"), std::string::npos);
+  });
+}
+
+// The only door is a metre wide.
+TEST(DrawnWorlds, ADoorThatIsTooNarrowIsToldWithItsWidth) {
+  const std::vector<std::string> picture = {"########",  //
+                                            "#......#",  //
+                                            "#.......",  //
+                                            "#......#",  //
+                                            "########"};
+  FlightSetup setup =
+      setupIn(worldOf(drawnMeshes(picture, 1.0)), {3.0, -2.5, 1.5}, {20.0, -2.5, 1.5});
+  setup.seconds = 90.0;
+  const std::regex width("the passage at \\([^)]*\\) is (0.9|1.0|1.1) m wide, 1.3 m are needed");
+  flySeeds(setup, [&](const FlightResult& result) {
+    EXPECT_EQ(result.status, PilotStatus::STUCK);
+    EXPECT_TRUE(std::regex_search(result.sentence, width));
   });
 }
 

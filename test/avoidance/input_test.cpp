@@ -78,7 +78,7 @@ TEST(Input, FramesThatLieAreRefused) {
   expectStands(pilot.update(inputAt(1.1, &frame)), PilotStatus::NO_CLOUD, "instead of 9 x 6");
   frame.width = 8;
   frame.map_from_sensor.translation().x() = std::nan("");
-  expectStands(pilot.update(inputAt(1.2, &frame)), PilotStatus::NO_CLOUD, "not finite");
+  expectStands(pilot.update(inputAt(1.2, &frame)), PilotStatus::NO_CLOUD, "no pose");
 }
 
 TEST(Input, InfinitiesAndHugeNumbersAreNoPoints) {

@@ -49,6 +49,7 @@ LENT = {
     "study/study_yaml.h": {"flights"},
     "study/task_loop.h": {"flights"},
     "planning/explanation.h": {"command_line", "ros_planning"},
+    "seen_map/seen_map.h": {"flights", "ros_avoidance"},
     "simulation/read_world_main.h": {"read_world"},
 }
 ROS_HEADER = re.compile(

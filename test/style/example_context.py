@@ -63,8 +63,17 @@ CONTEXT = {
         extern base::BodyVelocity velocity; extern Frame frame; struct AVehicle { void command(const base::BodyVelocity&); };
         extern AVehicle vehicle;""",
     "cloud_frames.h": """#include <sensor_msgs/PointCloud2.h>
-        extern CloudFrames frames; extern sensor_msgs::PointCloud2::ConstPtr cloud; extern FrameTransforms transforms;
-        extern ros::Time now;""",
+        extern sensor_msgs::PointCloud2::ConstPtr cloud; extern FrameTransforms transforms; extern ros::Time now;
+        using avoidance::Frame; void use(const Frame&); void stand();""",
+    "flight_action.h": """extern ros::NodeHandle nh; extern NodeFiles files; extern avoidance::PilotAnswer answer;
+        extern avoidance::VehiclePose pose; path::Path fly(const path::Path&, bool); void cancel(const std::string&);
+        path::Path read(const nav_msgs::Path&);""",
+    "logged_pilot.h": """#include <ros/console.h>
+        using avoidance::PilotAnswer, avoidance::PilotInput;
+        extern avoidance::PilotOptions options; extern PilotInput input; extern base::OutputFile file;""",
+    "map_planner.h": """#include "grid_path_planner/avoidance/pilot.h"
+        extern avoidance::Frame frame; extern avoidance::PilotOptions options; extern avoidance::Pilot pilot;""",
+    "seen_map.h": """extern SeenMap map; extern avoidance::Frame frame; extern Eigen::Vector3d position, goal;""",
     "flight_hold.h": "extern double master_timeout;",
     "flight_job.h": "extern std::function<void(std::size_t)> progress;",
     "flight_log.h": """extern std::string file; extern PilotOptions options; extern std::uint64_t limit;

@@ -14,19 +14,20 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "grid_path_planner/avoidance/pilot.h"
+#include "grid_path_planner/base/files.h"
 
 namespace grid_path_planner::avoidance {
 
 class FlightLog {
  public:
-  // Throws InputError where `file` cannot be written. After `limit` bytes nothing more is written.
-  FlightLog(const std::string& file, const PilotOptions& options, std::uint64_t limit);
+  // Throws InputError where `file` cannot be written. After `limit` bytes, or where the disk is full,
+  // nothing more is written.
+  FlightLog(const base::OutputFile& file, const PilotOptions& options, std::uint64_t limit);
 
   void options(const PilotOptions& options);
   void route(const std::vector<Eigen::Vector3d>& waypoints);
@@ -37,17 +38,16 @@ class FlightLog {
   void see(const Frame& frame);
   void update(const PilotInput& input, const PilotAnswer& answer);
 
-  bool full() const { return full_; }
-  // Why nothing more is written although it is not full, as on a full disk; empty: all was written.
+  bool full() const { return !problem_.empty(); }
+  // Why nothing more is written; empty: it still is.
   const std::string& problem() const { return problem_; }
 
  private:
   void write(char kind, const std::vector<char>& bytes);
 
-  std::string name_, problem_;
-  std::ofstream out_;
+  base::StreamedFile out_;
   std::uint64_t left_;
-  bool full_ = false;
+  std::string problem_;
 };
 
 struct ReplayResult {

@@ -58,6 +58,8 @@ struct PilotInput {
   const Frame* frame = nullptr;      // the newest, if it is new
   std::string pose_problem = {};     // why there is no pose, in a sentence
   std::string hold = {};             // why it is to stand now, in a sentence; empty: it flies
+  std::string cloud_problem =
+      {};  // why it must not fly on what it saw, in a sentence; empty: it may
 };
 
 struct PilotAnswer {
@@ -71,9 +73,10 @@ struct PilotAnswer {
   bool new_path = false;      // path() is another than before
 };
 
-// A path from the vehicle to a goal on a map that someone else keeps; empty where there is none.
-using MapPlan = std::function<std::vector<Eigen::Vector3d>(const Eigen::Vector3d& from,
-                                                           const Eigen::Vector3d& goal)>;
+// A path from the vehicle to a goal on a map that someone else keeps; empty where there is none, none while
+// it is not known yet: it is asked again with the next update, for the same.
+using MapPlan = std::function<std::optional<std::vector<Eigen::Vector3d>>(
+    const Eigen::Vector3d& from, const Eigen::Vector3d& goal)>;
 
 // A remembered point, and when it was last seen.
 struct RememberedPoint {
@@ -108,7 +111,7 @@ class Pilot {
   // The same along a path from outside: its points are passed, not arrived at, and left out where they
   // are occupied.
   void setPath(const std::vector<Eigen::Vector3d>& path);
-  // Asked once it makes no progress and `recover` is set; none: that step is left out.
+  // Asked once it makes no progress and `recover` is set; none: there is no map.
   void setMapPlan(MapPlan plan);
   // `reason` goes into the sentence.
   void cancel(const std::string& reason);
@@ -116,7 +119,8 @@ class Pilot {
   void forget();
 
   PilotAnswer update(const PilotInput& input);
-  // One more frame, of another sensor, to be seen before the next update.
+  // One more frame, of another sensor, to be seen before the next update; it may be older than the newest,
+  // by at most cloud_timeout.
   void see(const Frame& frame);
 
   // The path that is flown, from where the vehicle was when it was planned; empty where there is none.

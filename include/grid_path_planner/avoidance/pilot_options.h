@@ -33,6 +33,7 @@ struct PilotOptions {
   double step = 1.0;               // m, alpha
   int children = 8;                // of a node
   double spacing = 0.5;            // m, xi
+  double widening = 0.0;           // m
   int nodes = 60;                  // eta
   bool accumulate = true;
   double hysteresis = 0.1;
@@ -116,6 +117,11 @@ void visitTreeOptions(PilotOptions& o, Visitor&& visit) {
         base::OptionInfo{"Most children of a node; more: wider, slower", "", 1, 32});
   visit("spacing", o.spacing,
         base::OptionInfo{"Least distance between the children of a node", "m", 0.0, 10.0});
+  visit("widening", o.widening,
+        base::OptionInfo{
+            "Under the rules published: points this near beside a direction close it, as "
+            "3DVFH+ widens them; at most d_safe; 0: only those in its own bin",
+            "m", 0.0, 10.0});
   visit("nodes", o.nodes,
         base::OptionInfo{"Nodes expanded in one search; more: longer paths around, slower", "", 1,
                          1000});

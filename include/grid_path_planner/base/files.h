@@ -75,6 +75,7 @@ class OutputFile {
 
  private:
   friend class AtomicWriting;
+  friend class StreamedFile;
   std::string name_;
   std::shared_ptr<const int> folder_;  // null: by name
   std::string leaf_;
@@ -86,6 +87,23 @@ class OutputFile {
 // and nothing is left beside it. Several threads or processes may write the same file: one of them
 // wins.
 void writeFileAtomically(const OutputFile& file, const std::string& content);
+
+// A file that is written piece by piece, so that what a process wrote is there when it is killed: a log.
+class StreamedFile {
+ public:
+  // An old file is emptied. Throws InputError naming the file where it is no regular one or cannot be
+  // written.
+  explicit StreamedFile(const OutputFile& file);
+  ~StreamedFile();
+  StreamedFile(const StreamedFile&) = delete;
+  StreamedFile& operator=(const StreamedFile&) = delete;
+
+  // Why they could not all be written (a full disk); empty: they were.
+  std::string write(const char* bytes, std::size_t count);
+
+ private:
+  int descriptor_;
+};
 
 // Writes `part` under a name that is made of `file`'s and of the content of `part`, then `file` with
 // the text that `text_naming` makes of that name: name-0123456789abcdef.EXTENSION. Whoever reads a

@@ -1,6 +1,6 @@
 #include "grid_path_planner/avoidance/flight_log.h"
 
-#include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -25,6 +25,7 @@ constexpr const char* kFirstLine = "grid_path_planner flight 2";
 constexpr const char* kOptionsEnd = "\n...\n";
 constexpr std::size_t kLongestOptions = 1 << 16;                  // bytes
 constexpr std::uint64_t kLargestRecord = std::uint64_t{1} << 28;  // bytes
+constexpr std::size_t kRecordHead = 9;                            // bytes: its kind and its size
 
 PilotOptions optionsOf(const std::map<std::string, std::string>& lines) {
   PilotOptions options;
@@ -104,7 +105,7 @@ class Replay {
   Replay(LogFile& file, Each each)
       : file_(file), pilot_(optionsIn(file.options())), each_(std::move(each)) {
     pilot_.setMapPlan([this](const Eigen::Vector3d&, const Eigen::Vector3d&) {
-      return std::exchange(plan_, Points());
+      return std::exchange(plan_, std::nullopt);
     });
   }
 
@@ -158,29 +159,32 @@ class Replay {
   LogFile& file_;
   Pilot pilot_;
   Each each_;
-  Points plan_;
+  std::optional<Points> plan_;
   ReplayResult result_;
 };
 
 }  // namespace
 
-FlightLog::FlightLog(const std::string& file, const PilotOptions& options, std::uint64_t limit)
-    : name_(file), out_(file, std::ios::binary), left_(limit) {
-  out_ << kFirstLine << "\n" << base::optionText(options) << "...\n";
-  if (!out_.flush()) throw InputError(file, "cannot be written");
+FlightLog::FlightLog(const base::OutputFile& file, const PilotOptions& options, std::uint64_t limit)
+    : out_(file), left_(limit) {
+  const std::string head = std::string(kFirstLine) + "\n" + base::optionText(options) + "...\n";
+  const std::string problem = out_.write(head.data(), head.size());
+  if (!problem.empty()) throw InputError(file.name(), "cannot be written: " + problem);
 }
 
 // At once: what a node wrote that is killed is there.
 void FlightLog::write(char kind, const std::vector<char>& bytes) {
   const std::uint64_t size = bytes.size();
-  full_ = full_ || size > kLargestRecord || size + 9 > left_;
-  if (full_ || !problem_.empty()) return;
-  const base::HoldFileSizeSignal hold;
-  left_ -= size + 9;
-  out_.put(kind);
-  out_.write(reinterpret_cast<const char*>(&size), sizeof(size));
-  out_.write(bytes.data(), static_cast<std::streamsize>(size));
-  if (!out_.flush()) problem_ = name_ + ": cannot be written: " + std::strerror(errno);
+  if (full()) return;
+  if (size > kLargestRecord || size + kRecordHead > left_) {
+    problem_ = "its limit is reached";
+    return;
+  }
+  left_ -= size + kRecordHead;
+  char head[kRecordHead] = {kind};
+  std::memcpy(head + 1, &size, sizeof(size));
+  problem_ = out_.write(head, sizeof(head));
+  if (!full()) problem_ = out_.write(bytes.data(), bytes.size());
 }
 
 void FlightLog::options(const PilotOptions& options) {

@@ -49,6 +49,7 @@ void LogWriter::input(const PilotInput& input) {
   velocity(input.velocity);
   text(input.pose_problem);
   text(input.hold);
+  text(input.cloud_problem);
   number<std::uint8_t>(input.frame != nullptr);
   if (input.frame != nullptr) frame(*input.frame);
 }
@@ -123,6 +124,7 @@ PilotInput LogReader::input(Frame& frame_of_input) {
   input.velocity = velocity();
   input.pose_problem = text();
   input.hold = text();
+  input.cloud_problem = text();
   if (number<std::uint8_t>() == 0) return input;
   frame_of_input = frame();
   input.frame = &frame_of_input;

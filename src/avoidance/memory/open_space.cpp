@@ -88,10 +88,12 @@ void OpenSpace::collectPoints(const VoxelMemory& memory, const HeightBand& band)
   cell_begins_[kCells] = static_cast<int>(found_.size());
 }
 
-double OpenSpace::nearest(const Vector3d& from, double reach) const {
+double OpenSpace::nearest(const Vector3d& from, double reach, double enough) const {
   double least = reach * reach;
+  const double squared_enough = enough > 0.0 ? enough * enough : 0.0;
   forPoints(from, from, reach, [&](const Vector3f& point) {
     least = std::min(least, (point.cast<double>() - from).squaredNorm());
+    return least >= squared_enough;
   });
   return std::sqrt(least);
 }

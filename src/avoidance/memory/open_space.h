@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <type_traits>
 #include <vector>
 
 #include "avoidance/memory/frame_sight.h"
@@ -34,8 +35,9 @@ class OpenSpace {
   // Whether a point may be nearer than d_safe + kRoom somewhere in the voxel.
   bool crowded(int slot) const { return crowded_.get(slot); }
 
-  // To the nearest remembered point; `reach` where none is nearer.
-  double nearest(const Eigen::Vector3d& from, double reach) const;
+  // To the nearest remembered point; `reach` where none is nearer. Where one is nearer than `enough`, to
+  // any such point.
+  double nearest(const Eigen::Vector3d& from, double reach, double enough = 0.0) const;
   // Whether no remembered point is nearer to the segment than `radius` <= d_safe + kRoom.
   bool clear(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) const;
   bool clear(const Eigen::Vector3d& point, double radius) const {
@@ -44,7 +46,8 @@ class OpenSpace {
   // To the centre of the nearest voxel that was not seen; `reach` where none is nearer.
   double nearestUnseen(const Eigen::Vector3d& from, double reach) const;
 
-  // Calls action(point) for all points within `radius` of `from`, and for some beyond.
+  // Calls action(point) for all points within `radius` of `from`, and for some beyond. One that returns
+  // bool ends it by false, after the points of a cell.
   template <class Action>
   void forPoints(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
                  const Action& action) const;
@@ -87,7 +90,13 @@ void OpenSpace::forPoints(const Eigen::Vector3d& from, const Eigen::Vector3d& to
     for (int y = begin(low.y); y <= high.y; y += kStep)
       for (int x = begin(low.x); x <= high.x; x += kStep) {
         const int cell = cellOf(x, y, z);
-        for (int i = cell_begins_[cell]; i < cell_begins_[cell + 1]; ++i) action(points_[i]);
+        bool go_on = true;
+        for (int i = cell_begins_[cell]; i < cell_begins_[cell + 1]; ++i)
+          if constexpr (std::is_same_v<decltype(action(points_[i])), bool>)
+            go_on = action(points_[i]);
+          else
+            action(points_[i]);
+        if (!go_on) return;
       }
 }
 

@@ -12,6 +12,7 @@ constexpr double kSkirts = 2.0;       // m about the vehicle, in which nothing a
 constexpr double kFuture = 0.5;       // s, of stamps
 constexpr double kOldest = 10.0;      // s, of frames; the longest cloud_timeout
 constexpr double kFarthest = 1e6;     // m
+constexpr double kSkew = 1e-3;        // of a rotation's axes
 constexpr double kLongestTime = 2e6;  // s, that milliseconds can count
 
 HeightBand bandAbout(double height, const PilotOptions& options) {
@@ -19,12 +20,15 @@ HeightBand bandAbout(double height, const PilotOptions& options) {
 }
 
 bool isUsable(const Eigen::Isometry3d& pose) {
-  return pose.matrix().allFinite() && pose.translation().cwiseAbs().maxCoeff() < kFarthest;
+  const Eigen::Matrix3d turned = pose.linear() * pose.linear().transpose();
+  return pose.matrix().allFinite() && pose.translation().cwiseAbs().maxCoeff() < kFarthest &&
+         (turned - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kSkew;
 }
 
 }  // namespace
 
-std::string Surroundings::refusal(const Frame& frame, double now) const {
+std::string Surroundings::refusal(const Frame& frame, double now,
+                                  const PilotOptions& options) const {
   if (!std::isfinite(frame.time)) return "the cloud's stamp is not a number";
   if (frame.width < 0 || frame.height < 0 || frame.points.size() != 3 * frame.pixels())
     return "the cloud has " + std::to_string(frame.points.size() / 3) + " points instead of " +
@@ -36,7 +40,7 @@ std::string Surroundings::refusal(const Frame& frame, double now) const {
   if (frame.time > now + kFuture)
     return "the cloud is stamped " + shortNumber(frame.time - now) + " s in the future";
   if (frame.time < now - kOldest) return "the cloud is " + shortNumber(now - frame.time) + " s old";
-  if (frame_time_ && frame.time < *frame_time_)
+  if (frame_time_ && frame.time < *frame_time_ - options.cloud_timeout)
     return "the cloud is " + shortNumber(*frame_time_ - frame.time) +
            " s older than the one before";
   return "";
@@ -49,7 +53,7 @@ std::int32_t Surroundings::milliseconds(double time) const {
 // A cloud without points that no rays of a picture stand for is a sensor that is lost. One that is stamped
 // ahead is taken as of now, so that it ages.
 void Surroundings::see(const Frame& frame, double now, const PilotOptions& options) {
-  problem_ = refusal(frame, now);
+  problem_ = refusal(frame, now, options);
   if (!problem_.empty()) return;
   const double time = std::min(frame.time, now);
   if (origin_ && time - *origin_ > kLongestTime) forget();
@@ -63,7 +67,7 @@ void Surroundings::see(const Frame& frame, double now, const PilotOptions& optio
   if (sight_.measuredPoints() == 0 && !sees_nothing)
     problem_ = "the cloud holds no point";
   else
-    frame_time_ = time;
+    frame_time_ = std::max(time, frame_time_.value_or(time));
   if (sight_.pinholeDisagrees())
     problem_ = "camera_info does not agree with the cloud, so only measured rays tell what is free";
 }

@@ -38,7 +38,7 @@ class Surroundings {
   std::vector<RememberedPoint> points() const;
 
  private:
-  std::string refusal(const Frame& frame, double now) const;
+  std::string refusal(const Frame& frame, double now, const PilotOptions& options) const;
   std::int32_t milliseconds(double time) const;
 
   VoxelMemory memory_;

@@ -38,12 +38,15 @@ class Candidates {
  private:
   bool isFree(const OpenSpace& space, const PilotOptions& options, const Eigen::Vector3d& from,
               int bin, const std::vector<Eigen::Vector3d>& closed) const;
+  void collectBeside(const OpenSpace& space, const PilotOptions& options,
+                     const Eigen::Vector3d& from);
   bool isApart(const Eigen::Vector3d& end, double spacing) const;
 
   Directions directions_;
   Histogram histogram_;
   std::vector<std::pair<double, int>> order_;  // cost, bin; a heap
   std::vector<Candidate> found_;
+  std::vector<Eigen::Vector3d> beside_;  // from the node, the points that `widening` is about
 };
 
 }  // namespace grid_path_planner::avoidance

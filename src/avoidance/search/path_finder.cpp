@@ -33,12 +33,12 @@ void PathFinder::setOptions(const PilotOptions& options) {
   if (other_bins) tree_ = LookAheadTree(options);
 }
 
-VoxelQuery PathFinder::voxelQuery(const PathQuery& query) const {
+VoxelQuery PathFinder::voxelQuery(const PathQuery& query, double distance) const {
   VoxelQuery voxels;
   voxels.start = query.start;
   voxels.goal = query.goal;
   voxels.goal_radius = std::max(0.1, query.goal_radius - 0.2);
-  voxels.distance = options_.d_safe + kPlanRoom;
+  voxels.distance = distance;
   voxels.z_min = options_.z_min;
   voxels.z_max = options_.z_max;
   voxels.unseen_cost = options_.unseen_cost;
@@ -47,9 +47,10 @@ VoxelQuery PathFinder::voxelQuery(const PathQuery& query) const {
   return voxels;
 }
 
-// At the goal's height first; through all heights where that is a long path, or none.
-VoxelPath PathFinder::gridPath(const OpenSpace& space, const PathQuery& query) {
-  VoxelQuery voxels = voxelQuery(query);
+// At the goal's height first; through all heights where that is a long path, or none; where those are too
+// many to look at, at the vehicle's height.
+VoxelPath PathFinder::gridPath(const OpenSpace& space, const PathQuery& query, double distance) {
+  VoxelQuery voxels = voxelQuery(query, distance);
   const double straight = (query.goal - query.start).norm();
   VoxelPath level;
   voxels.flat = !options_.elevation || std::abs(query.goal.z() - query.start.z()) <= kSameHeight;
@@ -59,8 +60,16 @@ VoxelPath PathFinder::gridPath(const OpenSpace& space, const PathQuery& query) {
     if (!options_.elevation) return level;
     if (!level.points.empty() && level.cost <= kLongPath * straight + kLongMore) return level;
   }
+  const bool was_flat = voxels.flat;
   voxels.flat = false;
+  if (!level.points.empty()) voxels.most_cost = level.cost;
   VoxelPath any = grid_.search(space, voxels);
+  if (any.points.empty() && !any.exhausted && !was_flat) {
+    voxels.flat = true;
+    voxels.goal.z() = query.start.z();
+    any = grid_.search(space, voxels);
+    any.exhausted = false;
+  }
   const bool level_wins = !level.points.empty() && (any.points.empty() || level.cost <= any.cost);
   if (!level_wins) return any;
   return level;
@@ -103,7 +112,7 @@ bool PathFinder::isFree(const OpenSpace& space, const Points& path) const {
 }
 
 double PathFinder::gridCost(const OpenSpace& space, const Points& path, const PathQuery& query) {
-  const VoxelQuery voxels = voxelQuery(query);
+  const VoxelQuery voxels = voxelQuery(query, options_.d_safe + kPlanRoom);
   double cost = 0.0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i)
     cost += grid_.lineCost(space, path[i], path[i + 1], voxels);
@@ -117,6 +126,21 @@ bool PathFinder::leadsOn(const Points& kept, const Points& path, const PathQuery
          lengthOf(kept) >= 0.5 * lengthOf(path);
 }
 
+double PathFinder::neededWidth() const {
+  return 2.0 * (options_.d_safe + kPlanRoom);
+}
+
+std::optional<NarrowPlace> PathFinder::tooNarrow(const OpenSpace& space, const PathQuery& query) {
+  constexpr double kSteps = 6.0;
+  const double kept = options_.d_safe + kPlanRoom;
+  closed_.clear();
+  for (double share = kSteps - 1.0; share >= 1.0; share -= 1.0) {
+    const VoxelPath path = gridPath(space, query, kept * share / kSteps);
+    if (!path.points.empty()) return narrowestPlace(space, path.points, kept);
+  }
+  return std::nullopt;
+}
+
 std::optional<Points> PathFinder::find(const OpenSpace& space, const PathQuery& query,
                                        const Points& kept, const Points& closed) {
   closed_ = closed;
@@ -124,7 +148,7 @@ std::optional<Points> PathFinder::find(const OpenSpace& space, const PathQuery& 
   Points path;
   double cost = kInfinity, kept_cost = kInfinity;
   if (options_.search == Search::GRID) {
-    VoxelPath found = gridPath(space, query);
+    VoxelPath found = gridPath(space, query, options_.d_safe + kPlanRoom);
     exhausted_ = found.points.empty() && found.exhausted;
     path = std::move(found.points);
     if (keep && !path.empty()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "avoidance/search/look_ahead_tree.h"
+#include "avoidance/search/narrow_place.h"
 #include "avoidance/search/voxel_search.h"
 #include "grid_path_planner/avoidance/pilot_options.h"
 
@@ -30,6 +31,11 @@ class PathFinder {
   std::optional<std::vector<Eigen::Vector3d>> find(const OpenSpace& space, const PathQuery& query,
                                                    const std::vector<Eigen::Vector3d>& kept,
                                                    const std::vector<Eigen::Vector3d>& closed);
+  // Where a path that would keep less than d_safe is too narrow; none: there is no such path, or no such
+  // place. Takes up to six searches.
+  std::optional<NarrowPlace> tooNarrow(const OpenSpace& space, const PathQuery& query);
+  // The width that a place needs, m.
+  double neededWidth() const;
   // Whether the last path found was none although everything that can be reached was looked at.
   bool exhausted() const { return exhausted_; }
 
@@ -37,8 +43,8 @@ class PathFinder {
 
  private:
   std::vector<Eigen::Vector3d> treePath(const OpenSpace& space, const PathQuery& query);
-  VoxelPath gridPath(const OpenSpace& space, const PathQuery& query);
-  VoxelQuery voxelQuery(const PathQuery& query) const;
+  VoxelPath gridPath(const OpenSpace& space, const PathQuery& query, double distance);
+  VoxelQuery voxelQuery(const PathQuery& query, double distance) const;
   double treeCost(const std::vector<Eigen::Vector3d>& path, const Eigen::Vector3d& goal) const;
   bool leadsOn(const std::vector<Eigen::Vector3d>& kept, const std::vector<Eigen::Vector3d>& path,
                const PathQuery& query) const;

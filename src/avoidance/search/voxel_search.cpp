@@ -71,11 +71,11 @@ VoxelSearch::Room VoxelSearch::judge(const Vector3d& centre, int slot) const {
   for (const Vector3d& closed : *query_->closed)
     if ((centre - closed).squaredNorm() < kClosedPlace * kClosedPlace) return Room::CLOSED;
   if (!space_->crowded(slot)) return Room::FREE;
-  const double room = space_->nearest(centre, query_->distance + kNearRoom);
   const double away = (centre - query_->start).norm();
   const bool escapes = start_room_ < query_->distance && away < kEscape;
   const double asked =
       escapes ? std::min(query_->distance, start_room_ + 0.2 * away - 0.05) : query_->distance;
+  const double room = space_->nearest(centre, query_->distance + kNearRoom, asked);
   if (room < asked) return Room::CLOSED;
   return room < query_->distance + kNearRoom ? Room::NEAR : Room::FREE;
 }
@@ -125,14 +125,19 @@ void VoxelSearch::expand(const Voxel& voxel) {
   for (int i = 0; i < count; ++i) {
     const Step& step = steps()[i];
     const Voxel next{voxel.x + step.x, voxel.y + step.y, voxel.z + step.z};
+    const int slot = slotOf(next);
+    Node& node = nodeAt(slot);
+    // Nothing weighs less than 1, and most of what is around was reached cheaper: asked before the points are.
+    if (node.done || g + step.length >= node.g) continue;
     const double weighted = weight(next);
     if (weighted == kInfinite) continue;
-    Node& node = nodeAt(slotOf(next));
     const auto reached = static_cast<float>(g + step.length * weighted);
-    if (node.done || reached >= node.g) continue;
+    if (reached >= node.g) continue;
+    const auto total = static_cast<float>(reached + heuristic(next));
+    if (total >= query_->most_cost) continue;
     node.g = reached;
     node.from = static_cast<std::uint8_t>(i);
-    open_.push_back({static_cast<float>(reached + heuristic(next)), slotOf(next)});
+    open_.push_back({total, slot});
     std::push_heap(open_.begin(), open_.end(), std::greater<Entry>());
   }
 }

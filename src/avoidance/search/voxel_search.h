@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct VoxelQuery {
   bool flat = false;  // at the goal's height
   double unseen_cost = 1.0;
   int most_nodes = 0;
+  double most_cost =
+      std::numeric_limits<double>::infinity();  // m, weighted; costlier paths are not found
   // Places that are closed, 0.5 m about each.
   const std::vector<Eigen::Vector3d>* closed = nullptr;
 };

@@ -1,6 +1,7 @@
 #include "ros/avoidance/cloud_frames.h"
 
-#include <cmath>
+#include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
@@ -43,64 +44,119 @@ Frame frameOf(const sensor_msgs::PointCloud2& cloud, const Eigen::Isometry3d& ma
   return frame;
 }
 
-}  // namespace
-
-void CloudFrames::add(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
-  waiting_ = cloud;
-  waits_for_tf_ = false;
-}
-
-void CloudFrames::setCamera(const sensor_msgs::CameraInfo& camera) {
-  camera_ = camera;
-}
-
-void CloudFrames::clear() {
-  waiting_.reset();
-  problem_.clear();
-}
-
 // Of the same frame and size; anything else is of another camera.
-std::optional<Pinhole> CloudFrames::pinholeOf(const sensor_msgs::PointCloud2& cloud) const {
-  if (!camera_ || frameName(camera_->header.frame_id) != frameName(cloud.header.frame_id) ||
-      camera_->width != cloud.width || camera_->height != cloud.height)
+std::optional<Pinhole> pinholeOf(const std::optional<sensor_msgs::CameraInfo>& camera,
+                                 const sensor_msgs::PointCloud2& cloud) {
+  if (!camera || frameName(camera->header.frame_id) != frameName(cloud.header.frame_id) ||
+      camera->width != cloud.width || camera->height != cloud.height)
     return std::nullopt;
-  const auto& k = camera_->K;
+  const auto& k = camera->K;
   return Pinhole{k[0], k[4], k[2], k[5]};
 }
 
-// tf2 throws at the end of what ROS time can hold, and no transform would come before such a stamp; it
-// takes a stamp of 0 for the latest.
-bool CloudFrames::isOfAnotherTime(const ros::Time& now) {
-  const double ahead = secondsBetween(now, waiting_->header.stamp);
-  if (std::abs(ahead) <= kLongestWait) return false;
-  if (!waits_for_tf_)
-    problem_ = "the newest cloud is stamped " + std::to_string(std::abs(ahead)) + " s " +
-               (ahead > 0.0 ? "ahead of" : "before") + " ROS time";
-  waiting_.reset();
-  return true;
+std::string inBrackets(const std::string& text) {
+  return text.empty() ? "" : " (" + text + ")";
 }
 
-std::optional<Frame> CloudFrames::next(const FrameTransforms& transforms,
+}  // namespace
+
+CloudFrames::CloudFrames(const std::vector<std::string>& topics) {
+  for (const std::string& topic : topics) sensors_.push_back({topic});
+}
+
+void CloudFrames::add(std::size_t topic, const sensor_msgs::PointCloud2::ConstPtr& cloud) {
+  Sensor& sensor = sensors_[topic];
+  if (!sensor.waiting) sensor.waiting = std::exchange(sensor.next, nullptr);
+  (sensor.waiting ? sensor.next : sensor.waiting) = cloud;
+}
+
+void CloudFrames::setCamera(std::size_t topic, const sensor_msgs::CameraInfo& camera) {
+  sensors_[topic].camera = camera;
+}
+
+void CloudFrames::clear() {
+  for (Sensor& sensor : sensors_) {
+    sensor.waiting.reset();
+    sensor.next.reset();
+    sensor.newest.reset();
+    sensor.problem.clear();
+  }
+}
+
+// Throws InputError for clouds that can never be used, TransformError where tf does not know their sensor
+// (yet). tf2 throws at the end of what ROS time can hold, and no transform would come before such a stamp; it
+// takes a stamp of 0 for the latest.
+Frame CloudFrames::read(const Sensor& sensor, const sensor_msgs::PointCloud2& cloud,
+                        const FrameTransforms& transforms, const std::string& map_frame,
+                        const ros::Time& now) {
+  const double ahead = secondsBetween(now, cloud.header.stamp);
+  if (std::abs(ahead) > kLongestWait)
+    throw base::InputError("the newest cloud is stamped " + std::to_string(std::abs(ahead)) +
+                           " s " + (ahead > 0.0 ? "ahead of" : "before") + " ROS time");
+  if (cloud.width == 0 || cloud.height == 0)
+    throw base::InputError("the newest cloud holds no point");
+  checkSize(cloud);
+  const auto transform =
+      transforms.transform(map_frame, frameName(cloud.header.frame_id), cloud.header.stamp);
+  Frame frame = frameOf(cloud, poseOf(transform.transform));
+  frame.pinhole = pinholeOf(sensor.camera, cloud);
+  return frame;
+}
+
+// One that waits too long keeps the sentence of what it waited for.
+std::optional<Frame> CloudFrames::next(Sensor& sensor, const FrameTransforms& transforms,
                                        const std::string& map_frame, const ros::Time& now) {
-  if (!waiting_ || isOfAnotherTime(now)) return std::nullopt;
-  const sensor_msgs::PointCloud2& cloud = *waiting_;
-  try {
-    checkSize(cloud);
-    const auto transform =
-        transforms.transform(map_frame, frameName(cloud.header.frame_id), cloud.header.stamp);
-    Frame frame = frameOf(cloud, poseOf(transform.transform));
-    frame.pinhole = pinholeOf(cloud);
-    waiting_.reset();
-    problem_.clear();
-    return frame;
-  } catch (const TransformError& error) {
-    problem_ = error.what();
-    waits_for_tf_ = true;
-  } catch (const base::InputError& error) {
-    problem_ = error.what();
-    waiting_.reset();
+  for (auto* cloud : {&sensor.waiting, &sensor.next}) {
+    if (!*cloud) continue;
+    try {
+      Frame frame = read(sensor, **cloud, transforms, map_frame, now);
+      sensor.newest = (*cloud)->header.stamp;
+      sensor.problem.clear();
+      cloud->reset();
+      if (cloud == &sensor.next) sensor.waiting.reset();
+      return frame;
+    } catch (const TransformError& error) {
+      sensor.problem = error.what();
+    } catch (const base::InputError& error) {
+      const bool is_old = secondsBetween((*cloud)->header.stamp, now) > kLongestWait;
+      if (!is_old || sensor.problem.empty()) sensor.problem = error.what();
+      cloud->reset();
+    }
   }
   return std::nullopt;
+}
+
+std::vector<Frame> CloudFrames::take(const FrameTransforms& transforms,
+                                     const std::string& map_frame, const ros::Time& now) {
+  std::vector<Frame> frames;
+  for (Sensor& sensor : sensors_)
+    if (auto frame = next(sensor, transforms, map_frame, now)) frames.push_back(std::move(*frame));
+  std::stable_sort(frames.begin(), frames.end(),
+                   [](const Frame& a, const Frame& b) { return a.time < b.time; });
+  return frames;
+}
+
+std::string CloudFrames::silence(const ros::Time& now, double timeout) const {
+  for (const Sensor& sensor : sensors_) {
+    if (!sensor.newest)
+      return "no cloud that can be used has come yet on " + sensor.topic +
+             inBrackets(sensor.problem);
+    const double age = secondsBetween(*sensor.newest, now);
+    if (age <= timeout) continue;
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%.2f", age);
+    return "the newest cloud of " + sensor.topic + " is " + seconds + " s old" +
+           inBrackets(sensor.problem);
+  }
+  return "";
+}
+
+std::string CloudFrames::problems() const {
+  std::string all;
+  for (const Sensor& sensor : sensors_)
+    if (!sensor.problem.empty())
+      all += (all.empty() ? "" : "; ") + sensor.topic + ": " + sensor.problem;
+  return all;
 }
 
 }  // namespace grid_path_planner::nodes

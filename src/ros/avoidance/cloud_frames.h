@@ -1,17 +1,21 @@
-// Clouds that wait for the pose of their sensor, as frames for the pilot.
+// Clouds that wait for the pose of their sensor, as frames for the pilot. Several sensors may send them.
 //
-//   frames.add(cloud);                        // in the callback
-//   while (auto frame = frames.next(transforms, "map", now)) use(*frame);
+//   CloudFrames frames({"front/points", "rear/points"});
+//   frames.add(0, cloud);                                    // in the callback
+//   for (const Frame& frame : frames.take(transforms, "map", now)) use(frame);
+//   if (!frames.silence(now, 0.4).empty()) stand();
 //
-// Only the newest cloud waits: an older one tells nothing that it does not. One that waits in vain for
-// longer than the time limit is dropped, and problem() says why.
+// Of each topic only the newest cloud waits, and while tf lags behind it the newest after that. One that
+// waits in vain for longer than a second is dropped. problems() says why clouds could not be used.
 #pragma once
 
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "grid_path_planner/avoidance/frame.h"
 #include "ros/common/frame_transforms.h"
@@ -20,24 +24,38 @@ namespace grid_path_planner::nodes {
 
 class CloudFrames {
  public:
-  void add(const sensor_msgs::PointCloud2::ConstPtr& cloud);
-  void setCamera(const sensor_msgs::CameraInfo& camera);
+  // The names are for sentences only.
+  explicit CloudFrames(const std::vector<std::string>& topics);
+
+  void add(std::size_t topic, const sensor_msgs::PointCloud2::ConstPtr& cloud);
+  void setCamera(std::size_t topic, const sensor_msgs::CameraInfo& camera);
   void clear();
 
-  // The cloud that waits, once tf knows where its sensor was.
-  std::optional<avoidance::Frame> next(const FrameTransforms& transforms,
-                                       const std::string& map_frame, const ros::Time& now);
-  // Why the newest cloud could not be used; empty: it could.
-  const std::string& problem() const { return problem_; }
+  // The clouds that waited and of which tf knows where their sensor was, the oldest first.
+  std::vector<avoidance::Frame> take(const FrameTransforms& transforms,
+                                     const std::string& map_frame, const ros::Time& now);
 
- private:
-  bool isOfAnotherTime(const ros::Time& now);
-  std::optional<avoidance::Pinhole> pinholeOf(const sensor_msgs::PointCloud2& cloud) const;
+  // Of a topic of which no cloud could be used for longer than `timeout` (s), in a sentence; empty: none.
+  std::string silence(const ros::Time& now, double timeout) const;
+  // Why the newest clouds could not be used; empty: they could.
+  std::string problems() const;
 
-  sensor_msgs::PointCloud2::ConstPtr waiting_;
-  bool waits_for_tf_ = false;  // which was asked in vain
-  std::optional<sensor_msgs::CameraInfo> camera_;
-  std::string problem_;
+  struct Sensor {
+    std::string topic;
+    sensor_msgs::PointCloud2::ConstPtr waiting = {};
+    sensor_msgs::PointCloud2::ConstPtr next = {};  // the newest that came meanwhile
+    std::optional<sensor_msgs::CameraInfo> camera = {};
+    std::optional<ros::Time> newest = {};  // stamp of the newest that was used
+    std::string problem = {};
+  };
+
+  static std::optional<avoidance::Frame> next(Sensor& sensor, const FrameTransforms& transforms,
+                                              const std::string& map_frame, const ros::Time& now);
+  static avoidance::Frame read(const Sensor& sensor, const sensor_msgs::PointCloud2& cloud,
+                               const FrameTransforms& transforms, const std::string& map_frame,
+                               const ros::Time& now);
+
+  std::vector<Sensor> sensors_;
 };
 
 }  // namespace grid_path_planner::nodes

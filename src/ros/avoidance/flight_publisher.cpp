@@ -3,53 +3,60 @@
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <nav_msgs/Path.h>
-#include <sensor_msgs/LaserScan.h>
-#include <sensor_msgs/PointCloud2.h>
-#include <sensor_msgs/point_cloud2_iterator.h>
+#include <trajectory_msgs/MultiDOFJointTrajectory.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <string>
+#include <vector>
 
 #include "grid_path_planner/AvoidanceStatus.h"
 
 namespace grid_path_planner::nodes {
 
-using avoidance::HistogramView;
 using avoidance::Pilot;
 using avoidance::PilotAnswer;
-using avoidance::RememberedPoint;
+using avoidance::VehiclePose;
 
 namespace {
 
-sensor_msgs::PointCloud2 cloudOf(const std::vector<RememberedPoint>& remembered) {
-  sensor_msgs::PointCloud2 cloud;
-  sensor_msgs::PointCloud2Modifier modifier(cloud);
-  modifier.setPointCloud2FieldsByString(1, "xyz");
-  modifier.resize(remembered.size());
-  sensor_msgs::PointCloud2Iterator<float> value(cloud, "x");
-  for (const RememberedPoint& point : remembered) {
-    for (int axis = 0; axis < 3; ++axis) value[axis] = static_cast<float>(point.position[axis]);
-    ++value;
-  }
-  return cloud;
+constexpr double kStands = 0.02;  // m/s
+
+using Trajectory = trajectory_msgs::MultiDOFJointTrajectory;
+
+void addPoint(const Eigen::Vector3d& position, double yaw, const Eigen::Vector3d& velocity,
+              double seconds, Trajectory& trajectory) {
+  trajectory_msgs::MultiDOFJointTrajectoryPoint point;
+  point.transforms.resize(1);
+  point.transforms[0].translation.x = position.x();
+  point.transforms[0].translation.y = position.y();
+  point.transforms[0].translation.z = position.z();
+  point.transforms[0].rotation.z = std::sin(0.5 * yaw);
+  point.transforms[0].rotation.w = std::cos(0.5 * yaw);
+  point.velocities.resize(1);
+  point.velocities[0].linear.x = velocity.x();
+  point.velocities[0].linear.y = velocity.y();
+  point.velocities[0].linear.z = velocity.z();
+  point.accelerations.resize(1);
+  point.time_from_start = ros::Duration(seconds);
+  trajectory.points.push_back(point);
 }
 
-// The nearest of each column's rows within 30 degrees of level, from behind on anticlockwise.
-sensor_msgs::LaserScan scanOf(const HistogramView& view, double yaw) {
-  sensor_msgs::LaserScan scan;
-  const double width = 2.0 * M_PI / view.columns;
-  scan.angle_min = static_cast<float>(-M_PI - yaw);
-  scan.angle_increment = static_cast<float>(width);
-  scan.angle_max = static_cast<float>(scan.angle_min + width * (view.columns - 1));
-  scan.range_max = 12.0F;
-  const int middle = view.rows / 2, reach = view.rows / 6;
-  for (int column = 0; column < view.columns; ++column) {
-    float nearest = std::numeric_limits<float>::infinity();
-    for (int row = middle - reach; row <= middle + reach; ++row)
-      nearest = std::min(nearest, view.distances[row * view.columns + column]);
-    scan.ranges.push_back(nearest);
+// Along the open part of the path at a speed, and a stand at its end.
+void addPath(const std::vector<Eigen::Vector3d>& path, double open, double yaw, double speed,
+             Trajectory& trajectory) {
+  double gone = 0.0;
+  for (std::size_t i = 0; i + 1 < path.size() && gone < open; ++i) {
+    const Eigen::Vector3d edge = path[i + 1] - path[i];
+    const double length = edge.norm(), part = std::min(length, open - gone);
+    if (length < 1e-6) continue;
+    const Eigen::Vector3d along = edge / length;
+    const double heading = edge.head<2>().norm() > 0.1 ? std::atan2(edge.y(), edge.x()) : yaw;
+    gone += part;
+    const bool last = gone >= open || i + 2 == path.size();
+    addPoint(path[i] + along * part, heading, last ? Eigen::Vector3d(0, 0, 0) : speed * along,
+             gone / speed, trajectory);
   }
-  return scan;
 }
 
 }  // namespace
@@ -57,10 +64,9 @@ sensor_msgs::LaserScan scanOf(const HistogramView& view, double yaw) {
 FlightPublisher::FlightPublisher(ros::NodeHandle& nh)
     : velocity_(nh.advertise<geometry_msgs::Twist>("cmd_vel", 10)),
       setpoint_(nh.advertise<geometry_msgs::TwistStamped>("setpoint_velocity", 10)),
+      trajectory_(nh.advertise<Trajectory>("setpoint_trajectory", 10)),
       path_(nh.advertise<nav_msgs::Path>("local_path", 1, true)),
-      status_(nh.advertise<AvoidanceStatus>("avoidance_status", 1, true)),
-      distances_(nh.advertise<sensor_msgs::LaserScan>("obstacle_distance", 1)),
-      points_(nh.advertise<sensor_msgs::PointCloud2>("remembered_points", 1)) {}
+      status_(nh.advertise<AvoidanceStatus>("avoidance_status", 1, true)) {}
 
 void FlightPublisher::command(const base::BodyVelocity& velocity, double yaw,
                               const std::string& map_frame, const ros::Time& stamp) {
@@ -114,20 +120,21 @@ void FlightPublisher::status(const PilotAnswer& answer, const std::string& map_f
   status_.publish(message);
 }
 
-void FlightPublisher::surroundings(const Pilot& pilot, const std::string& map_frame, double yaw,
-                                   const std::string& base_frame, const ros::Time& stamp) {
-  if (distances_.getNumSubscribers() > 0) {
-    sensor_msgs::LaserScan scan = scanOf(pilot.histogram(), yaw);
-    scan.header.frame_id = base_frame;
-    scan.header.stamp = stamp;
-    distances_.publish(scan);
-  }
-  if (points_.getNumSubscribers() > 0) {
-    sensor_msgs::PointCloud2 cloud = cloudOf(pilot.rememberedPoints());
-    cloud.header.frame_id = map_frame;
-    cloud.header.stamp = stamp;
-    points_.publish(cloud);
-  }
+void FlightPublisher::trajectory(const Pilot& pilot, const PilotAnswer& answer,
+                                 const VehiclePose& at, const std::string& map_frame,
+                                 const std::string& base_frame, const ros::Time& stamp) {
+  if (trajectory_.getNumSubscribers() == 0) return;
+  const base::BodyVelocity& v = answer.velocity;
+  const Eigen::Vector3d velocity = base::inMap(v, at.yaw);
+  Trajectory message;
+  message.header.frame_id = map_frame;
+  message.header.stamp = stamp;
+  message.joint_names = {base_frame};
+  const double speed = velocity.norm();
+  addPoint(at.position, at.yaw, velocity, 0.0, message);
+  if (speed > kStands) addPath(pilot.path(), answer.clear_path, at.yaw, speed, message);
+  message.points.front().velocities[0].angular.z = v.yaw_rate;
+  trajectory_.publish(message);
 }
 
 }  // namespace grid_path_planner::nodes

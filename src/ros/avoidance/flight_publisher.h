@@ -1,4 +1,4 @@
-// What local_planner publishes: commands, the path, what is near, and what it does.
+// What local_planner commands, and what it says of it; what it sees: flight_views.h.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -19,15 +19,19 @@ class FlightPublisher {
                const ros::Time& stamp);
   void path(const avoidance::Pilot& pilot, const std::string& map_frame, const ros::Time& stamp);
   // Where it differs from the last one.
+  // The status of a new flight is told, though it be that of the one before.
+  void beginFlight() { told_.clear(); }
   void status(const avoidance::PilotAnswer& answer, const std::string& map_frame,
               const ros::Time& stamp);
-  // obstacle_distance and remembered_points, where someone listens.
-  void surroundings(const avoidance::Pilot& pilot, const std::string& map_frame, double yaw,
-                    const std::string& base_frame, const ros::Time& stamp);
+  // setpoint_trajectory, where someone listens: from where the vehicle is along the open part of the path,
+  // with a stand at its end.
+  void trajectory(const avoidance::Pilot& pilot, const avoidance::PilotAnswer& answer,
+                  const avoidance::VehiclePose& at, const std::string& map_frame,
+                  const std::string& base_frame, const ros::Time& stamp);
   bool anyListener() const { return velocity_.getNumSubscribers() > 0; }
 
  private:
-  ros::Publisher velocity_, setpoint_, path_, status_, distances_, points_;
+  ros::Publisher velocity_, setpoint_, trajectory_, path_, status_;
   std::string told_;
 };
 

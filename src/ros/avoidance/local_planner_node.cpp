@@ -40,6 +40,7 @@ LocalPlannerOptions loadLocalPlannerOptions(const ros::NodeHandle& private_nh,
   loadParameters(private_nh, options);
   options.config_filename = files.named("config_filename", options.config_filename);
   nameFrames(options);
+  options.log = files.named("log", options.log);
   checkLocalPlannerOptions(options);
   warnUnknownParameters(private_nh, optionNames<LocalPlannerOptions>());
   return options;
@@ -48,6 +49,7 @@ LocalPlannerOptions loadLocalPlannerOptions(const ros::NodeHandle& private_nh,
 Commands commandsOf(const ros::NodeHandle& nh, const LocalPlannerOptions& options) {
   Commands commands;
   if (!options.share_cmd_vel) commands.topics = {nh.resolveName("cmd_vel")};
+  commands.actions = {nh.resolveName("navigate_path")};
   commands.manual_control = nh.resolveName("manual_control");
   refuseOtherCommander(commands);
   return commands;
@@ -68,11 +70,16 @@ std::vector<Eigen::Vector3d> positionsOf(const path::Path& path) {
   return points;
 }
 
-std::vector<Eigen::Vector3d> waypointsOf(const LocalPlannerOptions& options,
-                                         const NodeFiles& files) {
+path::Path waypointsOf(const LocalPlannerOptions& options, const NodeFiles& files) {
   const auto read = [](const std::string& file) { return path::readWaypointFile(file); };
-  return positionsOf(
-      files.read("config_filename", options.config_filename, waypointFiles(), read).path);
+  return files.read("config_filename", options.config_filename, waypointFiles(), read).path;
+}
+
+std::vector<std::string> resolvedTopics(const ros::NodeHandle& nh,
+                                        const LocalPlannerOptions& options) {
+  std::vector<std::string> topics;
+  for (const std::string& topic : cloudTopics(options)) topics.push_back(nh.resolveName(topic));
+  return topics;
 }
 
 }  // namespace
@@ -83,11 +90,20 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
       options_(loadLocalPlannerOptions(private_nh, files)),
       transforms_(nh),
       pilot_(options_.pilot),
+      clouds_(resolvedTopics(nh_, options_)),
       publisher_((commandsOf(nh_, options_), nh_)),
+      views_(nh_),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
+  action_ = std::make_unique<FlightAction>(nh_, files, hands());
   refuseSimultaneousCommander(commandsOf(nh_, options_));
+  startLog(files);
+  if (MapPlanner::isBuilt())
+    pilot_.setMapPlan([this](const auto& from, const auto& goal) { return map_.plan(from, goal); });
+  else
+    ROS_INFO("Built without the component mapping: there is no map to plan on without progress");
   if (!options_.config_filename.empty()) fly(waypointsOf(options_, files), false);
   subscribe();
+  subscribeClouds();
   offerServices(private_nh);
   reconfigurable_ = std::make_unique<Reconfigurable<LocalPlannerConfig, LocalPlannerOptions>>(
       private_nh, options_, [this](const LocalPlannerOptions& options) { use(options); });
@@ -98,25 +114,51 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
 LocalPlannerNode::~LocalPlannerNode() {
   control_timer_.stop();
   diagnostics_timer_.stop();
-  cloud_subscription_->shutdown();
+  for (const auto& clouds : cloud_subscriptions_) clouds->shutdown();
   for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
   reconfigurable_.reset();
+  action_.reset();
   if (!flies_) return;
-  publisher_.command({}, yaw_, options_.map_frame, ros::Time::now());
+  publisher_.command({}, at_.yaw, options_.map_frame, ros::Time::now());
   if (publisher_.anyListener())
     ros::WallDuration(0.1).sleep();  // roscpp sends in a thread of its own and says not when it has
 }
 
-void LocalPlannerNode::subscribe() {
+void LocalPlannerNode::startLog(const NodeFiles& files) {
+  if (options_.log.empty()) return;
+  pilot_.logTo(files.toWrite("log", options_.log, flightLogs()), options_.log_limit);
+  ROS_INFO_STREAM("What the pilot is given and answers is written to " << options_.log);
+}
+
+FlightAction::Hands LocalPlannerNode::hands() {
+  return {
+      [this](const path::Path& path, bool along) {
+        const path::Path flown = inMap(path);
+        fly(flown, along);
+        return flown;
+      },
+      [this](const std::string& reason) {
+        if (flies_) pilot_.cancel(reason);
+      },
+      [this](const nav_msgs::Path& path) { return transforms_.pathIn(path, options_.base_frame); }};
+}
+
+void LocalPlannerNode::subscribeClouds() {
   using CloudEvent = ros::MessageEvent<const sensor_msgs::PointCloud2>;
-  cloud_subscription_ = std::make_unique<BoundedSubscription<sensor_msgs::PointCloud2>>(
-      nh_, "points", kMostClouds,
-      [this](const CloudEvent& event) { clouds_.add(event.getMessage()); });
+  const std::vector<std::string> topics = cloudTopics(options_);
+  for (std::size_t i = 0; i < topics.size(); ++i) {
+    cloud_subscriptions_.push_back(std::make_unique<BoundedSubscription<sensor_msgs::PointCloud2>>(
+        nh_, topics[i], kMostClouds / topics.size(),
+        [this, i](const CloudEvent& event) { clouds_.add(i, event.getMessage()); }));
+    subscribers_.push_back(subscribeChecked<sensor_msgs::CameraInfo>(
+        nh_, cameraTopic(topics[i]), 1,
+        [this, i](const sensor_msgs::CameraInfo& camera) { clouds_.setCamera(i, camera); }));
+  }
+}
+
+void LocalPlannerNode::subscribe() {
   subscribers_ = {
-      subscribeChecked<sensor_msgs::CameraInfo>(
-          nh_, "camera_info", 1,
-          [this](const sensor_msgs::CameraInfo& camera) { clouds_.setCamera(camera); }),
       subscribeChecked<nav_msgs::Odometry>(
           nh_, "odom", 1, [this](const nav_msgs::Odometry& odometry) { odometry_ = odometry; }),
       subscribeChecked<geometry_msgs::PoseStamped>(
@@ -149,16 +191,19 @@ void LocalPlannerNode::offerServices(ros::NodeHandle& private_nh) {
     pilot_.cancel("asked for by ~cancel");
     return Answer{true, "cancelled"};
   });
-  offer("explain", [this] { return Answer{true, pilot_.explain()}; });
+  offer("explain", [this] { return Answer{true, pilot_.pilot().explain()}; });
 }
 
 void LocalPlannerNode::use(LocalPlannerOptions options) {
   nameFrames(options);
   checkLocalPlannerOptions(options);
   if (options.config_filename != options_.config_filename ||
-      options.share_cmd_vel != options_.share_cmd_vel || options.map_frame != options_.map_frame)
+      options.share_cmd_vel != options_.share_cmd_vel || options.map_frame != options_.map_frame ||
+      options.log != options_.log || options.log_limit != options_.log_limit ||
+      options.cloud_topics != options_.cloud_topics)
     throw InputError(
-        "config_filename, share_cmd_vel and map_frame cannot be changed while the node runs");
+        "config_filename, share_cmd_vel, map_frame, log, log_limit and cloud_topics cannot be "
+        "changed while the node runs");
   pilot_.setOptions(options.pilot);
   const bool other_rate = options.control_rate != options_.control_rate;
   options_ = options;
@@ -190,6 +235,7 @@ bool LocalPlannerNode::noticeTime() {
                   << *back << " s: the flight is cancelled, and what was seen is forgotten");
   transforms_.clear();
   clouds_.clear();
+  map_.forget();
   odometry_.reset();
   tick(now);  // a goal that comes now is of this time
   return true;
@@ -204,37 +250,52 @@ bool LocalPlannerNode::isFromBefore(const char* what, const ros::Time& stamp) {
 }
 
 void LocalPlannerNode::onGoal(const geometry_msgs::PoseStamped& goal) {
+  if (action_->isActive()) {
+    ROS_WARN("A goal is not flown to: a goal of the action navigate_path is");
+    return;
+  }
   if (!goal.header.stamp.isZero() && isFromBefore("A goal", goal.header.stamp)) return;
   nav_msgs::Path message;
   message.header = goal.header;
   message.poses = {goal};
   try {
-    const auto path = transforms_.pathIn(message, options_.base_frame);
-    fly(transforms_.pointsIn(options_.map_frame, path.frame_id, positionsOf(path)), false);
+    fly(inMap(transforms_.pathIn(message, options_.base_frame)), false);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
   }
 }
 
 void LocalPlannerNode::onPath(const nav_msgs::Path& message) {
+  if (action_->isActive()) {
+    ROS_WARN("A path is not flown: a goal of the action navigate_path is");
+    return;
+  }
   if (message.poses.empty()) {
     if (flies_) pilot_.cancel("the path is empty: none was found");
     return;
   }
   if (isFromBefore("A path", message.header.stamp)) return;
   try {
-    const auto path = transforms_.pathIn(message, options_.base_frame);
-    fly(transforms_.pointsIn(options_.map_frame, path.frame_id, positionsOf(path)), true);
+    fly(inMap(transforms_.pathIn(message, options_.base_frame)), true);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
   }
 }
 
-void LocalPlannerNode::fly(std::vector<Eigen::Vector3d> points, bool along) {
+path::Path LocalPlannerNode::inMap(path::Path path) const {
+  if (path.frame_id == options_.map_frame) return path;
+  const auto points = transforms_.pointsIn(options_.map_frame, path.frame_id, positionsOf(path));
+  for (std::size_t i = 0; i < points.size(); ++i) path.poses[i].position = points[i];
+  path.frame_id = options_.map_frame;
+  return path;
+}
+
+void LocalPlannerNode::fly(const path::Path& path, bool along) {
   if (along)
-    pilot_.setPath(points);
+    pilot_.setPath(positionsOf(path));
   else
-    pilot_.setRoute(points);
+    pilot_.setRoute(positionsOf(path));
+  publisher_.beginFlight();
   flies_ = true;
 }
 
@@ -253,15 +314,24 @@ PilotInput LocalPlannerNode::input(const ros::Time& now) {
   try {
     const auto recent =
         transforms_.recentPoseOf(options_.base_frame, options_.map_frame, now, options_.tf_timeout);
-    input.pose = carriedOn(recent, input.velocity);
-    yaw_ = input.pose->yaw;
+    at_ = carriedOn(recent, input.velocity);
+    input.pose = at_;
   } catch (const TransformError& error) {
     input.pose_problem = error.what();
   }
   input.hold = hold_.why(options_.master_timeout);
-  frame_ = clouds_.next(transforms_, options_.map_frame, now);
-  if (frame_) input.frame = &*frame_;
+  takeFrames(input, now);
   return input;
+}
+
+// All but the newest are seen first.
+void LocalPlannerNode::takeFrames(PilotInput& input, const ros::Time& now) {
+  frames_ = clouds_.take(transforms_, options_.map_frame, now);
+  for (std::size_t i = 0; i + 1 < frames_.size(); ++i) pilot_.see(frames_[i]);
+  if (!frames_.empty()) input.frame = &frames_.back();
+  if (options_.pilot.recover)
+    for (const avoidance::Frame& frame : frames_) map_.see(frame, options_.pilot);
+  input.cloud_problem = clouds_.silence(now, options_.pilot.cloud_timeout);
 }
 
 void LocalPlannerNode::control() {
@@ -272,19 +342,25 @@ void LocalPlannerNode::tick(const ros::Time& now) {
   if (hold_.notice(now, flies_))
     ROS_WARN("The joystick commands: the flight is paused until ~resume");
   answer_ = pilot_.update(input(now));
-  publish(answer_, now);
+  if (const auto problem = pilot_.takeLogProblem()) ROS_WARN_STREAM(*problem);
+  publish(now);
+  action_->report(answer_, at_);
 }
 
-void LocalPlannerNode::publish(const PilotAnswer& answer, const ros::Time& now) {
-  publisher_.status(answer, options_.map_frame, now);
-  if (answer.new_path) publisher_.path(pilot_, options_.map_frame, now);
-  if (frame_) publisher_.surroundings(pilot_, options_.map_frame, yaw_, options_.base_frame, now);
-  if (hold_.stopped() || (flies_ && !hold_.isManual()))
-    publisher_.command(answer.velocity, yaw_, options_.map_frame, now);
-  const bool ended = answer.status == PilotStatus::ARRIVED || answer.status == PilotStatus::STUCK ||
-                     answer.status == PilotStatus::CANCELLED;
+void LocalPlannerNode::publish(const ros::Time& now) {
+  const std::string &map = options_.map_frame, &base = options_.base_frame;
+  publisher_.status(answer_, map, now);
+  if (answer_.new_path) publisher_.path(pilot_.pilot(), map, now);
+  if (!frames_.empty()) views_.show({pilot_.pilot(), answer_, at_, map, base, now});
+  if (hold_.stopped() || (flies_ && !hold_.isManual())) {
+    publisher_.command(answer_.velocity, at_.yaw, map, now);
+    publisher_.trajectory(pilot_.pilot(), answer_, at_, map, base, now);
+  }
+  const bool ended = answer_.status == PilotStatus::ARRIVED ||
+                     answer_.status == PilotStatus::STUCK ||
+                     answer_.status == PilotStatus::CANCELLED;
   if (flies_ && ended) {
-    ROS_INFO_STREAM(toString(answer.status) << ": " << answer.sentence);
+    ROS_INFO_STREAM(toString(answer_.status) << ": " << answer_.sentence);
     flies_ = false;
   }
 }
@@ -298,7 +374,7 @@ void LocalPlannerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("newest cloud (s old)", answer_.frame_age);
   status.add("nearest point (m)", answer_.clearance);
   status.add("open path (m)", answer_.clear_path);
-  status.add("problem of the newest cloud", clouds_.problem());
+  status.add("problems of the newest clouds", clouds_.problems());
 }
 
 }  // namespace grid_path_planner::nodes

@@ -2,7 +2,8 @@
 //
 //   subscribes  points          sensor_msgs/PointCloud2
 //               camera_info     sensor_msgs/CameraInfo of the same frame and size; without it only
-//                               measured rays tell what is free
+//                               measured rays tell what is free. With ~cloud_topics other clouds
+//                               instead, each with the camera_info beside it
 //               odom            nav_msgs/Odometry; the velocity. Without it that commanded last counts
 //               goal            geometry_msgs/PoseStamped
 //               path            nav_msgs/Path; flown along. An empty one stops the vehicle
@@ -11,20 +12,26 @@
 //               tf              the poses of the vehicle and of the clouds' sensor
 //   publishes   cmd_vel            geometry_msgs/Twist in base_frame
 //               setpoint_velocity  geometry_msgs/TwistStamped in map_frame
+//               setpoint_trajectory  trajectory_msgs/MultiDOFJointTrajectory in map_frame
 //               local_path         nav_msgs/Path, latched
 //               avoidance_status   grid_path_planner/AvoidanceStatus, latched
 //               obstacle_distance  sensor_msgs/LaserScan
 //               remembered_points  sensor_msgs/PointCloud2
+//               histogram_image    sensor_msgs/Image
+//               avoidance_markers  visualization_msgs/MarkerArray
 //               /diagnostics
 //   services    ~pause, ~resume, ~cancel, ~explain   std_srvs/Trigger
+//   action      navigate_path   grid_path_planner/NavigatePathAction, instead of the node of that name
 //
 // Guaranteed: without a route nothing is published on cmd_vel but zeros while `stop` is true, so that others
-// may command the vehicle; a zero at its end, and on every orderly shutdown. A cloud or a pose that is older than cloud_timeout or
-// tf_timeout stops the vehicle, and so do ROS time that stands still for 0.5 s and a master that is silent
-// for master_timeout. While a joystick commands nothing is published. A goal or path that cannot be flown
-// is refused with an error, one from before the node's start with a warning, and the present flight goes
-// on; goals without a stamp are new. ROS time that goes back cancels the flight and forgets what was seen. The node
-// does not start where another publishes cmd_vel (but a joystick, and with ~share_cmd_vel). Not
+// may command the vehicle; a zero at its end, and on every orderly shutdown. A cloud or a pose that is older
+// than cloud_timeout or tf_timeout stops the vehicle, and so do ROS time that stands still for 0.5 s and a
+// master that is silent for master_timeout. While a joystick commands nothing is published. A goal or path
+// that cannot be flown is refused with an error, one from before the node's start with a warning, and the
+// present flight goes on; goals without a stamp are new. ROS time that goes back cancels the flight and
+// forgets what was seen. The node does not start where another publishes cmd_vel (but a joystick, and with
+// ~share_cmd_vel) or offers the action. Files, maps and plans on maps are made in other threads; the log is
+// written in this one. Not
 // guaranteed: a zero after SIGKILL: the vehicle itself must stop when commands cease.
 #pragma once
 
@@ -45,9 +52,13 @@
 
 #include "grid_path_planner/avoidance/pilot.h"
 #include "ros/avoidance/cloud_frames.h"
+#include "ros/avoidance/flight_action.h"
 #include "ros/avoidance/flight_hold.h"
 #include "ros/avoidance/flight_publisher.h"
+#include "ros/avoidance/flight_views.h"
 #include "ros/avoidance/local_planner_options.h"
+#include "ros/avoidance/logged_pilot.h"
+#include "ros/avoidance/map_planner.h"
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
 #include "ros/common/incoming/bounded_subscription.h"
@@ -75,6 +86,9 @@ class LocalPlannerNode {
 
  private:
   void subscribe();
+  void subscribeClouds();
+  void startLog(const NodeFiles& files);
+  FlightAction::Hands hands();
   void offerServices(ros::NodeHandle& private_nh);
   void use(LocalPlannerOptions options);
   void startTimer();
@@ -83,32 +97,37 @@ class LocalPlannerNode {
   void onPath(const nav_msgs::Path& path);
   bool noticeTime();
   bool isFromBefore(const char* what, const ros::Time& stamp);
-  void fly(std::vector<Eigen::Vector3d> points, bool along);
+  path::Path inMap(path::Path path) const;
+  void fly(const path::Path& path, bool along);
   void control();
   void tick(const ros::Time& now);
   base::BodyVelocity velocityAt(const ros::Time& now) const;
   avoidance::PilotInput input(const ros::Time& now);
-  void publish(const avoidance::PilotAnswer& answer, const ros::Time& now);
+  void takeFrames(avoidance::PilotInput& input, const ros::Time& now);
+  void publish(const ros::Time& now);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle nh_;
   LocalPlannerOptions options_;
   FrameTransforms transforms_;
   ClockWatch clock_;
-  avoidance::Pilot pilot_;
+  MapPlanner map_;
+  LoggedPilot pilot_;
   avoidance::PilotAnswer answer_;
   CloudFrames clouds_;
-  std::optional<avoidance::Frame> frame_;
+  std::vector<avoidance::Frame> frames_;  // of this update
   FlightPublisher publisher_;
+  FlightViews views_;
   std::optional<nav_msgs::Odometry> odometry_;
   FlightHold hold_;
   ros::Time started_;  // when there was ROS time first, or after it jumped back
-  double yaw_ = 0.0;
+  avoidance::VehiclePose at_;
   bool flies_ = false;  // there is a route, and cmd_vel is published
 
   std::vector<ros::Subscriber> subscribers_;
-  std::unique_ptr<BoundedSubscription<sensor_msgs::PointCloud2>> cloud_subscription_;
+  std::vector<std::unique_ptr<BoundedSubscription<sensor_msgs::PointCloud2>>> cloud_subscriptions_;
   std::vector<ros::ServiceServer> services_;
+  std::unique_ptr<FlightAction> action_;
   diagnostic_updater::Updater diagnostics_;
   ros::SteadyTimer control_timer_, diagnostics_timer_;
   std::unique_ptr<Reconfigurable<LocalPlannerConfig, LocalPlannerOptions>> reconfigurable_;

@@ -1,9 +1,18 @@
 #include "ros/avoidance/local_planner_options.h"
 
+#include <ros/names.h>
+
+#include <sstream>
+
 #include "grid_path_planner/base/decimal_text.h"
 #include "ros/common/network_text.h"
 
 namespace grid_path_planner::nodes {
+namespace {
+
+constexpr std::size_t kMostTopics = 16;
+
+}  // namespace
 
 void checkLocalPlannerOptions(const LocalPlannerOptions& options) {
   base::checkOptionLimits(options);
@@ -18,6 +27,26 @@ void checkLocalPlannerOptions(const LocalPlannerOptions& options) {
   checkNetworkText("base_frame", options.base_frame);
   if (options.map_frame.empty() || options.base_frame.empty())
     throw base::InputError("map_frame and base_frame must not be empty");
+  checkNetworkText("cloud_topics", options.cloud_topics);
+  const std::vector<std::string> topics = cloudTopics(options);
+  if (topics.size() > kMostTopics)
+    throw base::InputError("cloud_topics may name at most 16, got " +
+                           std::to_string(topics.size()));
+  std::string error;
+  for (const std::string& topic : topics)
+    if (!ros::names::validate(topic, error)) throw base::InputError("cloud_topics: " + error);
+}
+
+std::vector<std::string> cloudTopics(const LocalPlannerOptions& options) {
+  std::istringstream in(options.cloud_topics);
+  std::vector<std::string> topics;
+  for (std::string topic; in >> topic;) topics.push_back(topic);
+  if (topics.empty()) topics = {"points"};
+  return topics;
+}
+
+std::string cameraTopic(const std::string& cloud_topic) {
+  return cloud_topic.substr(0, cloud_topic.rfind('/') + 1) + "camera_info";
 }
 
 }  // namespace grid_path_planner::nodes

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "grid_path_planner/avoidance/pilot_options.h"
 
@@ -9,6 +10,9 @@ namespace grid_path_planner::nodes {
 
 struct LocalPlannerOptions {
   std::string config_filename;
+  std::string log;
+  int log_limit = 4000;  // MB
+  std::string cloud_topics;
   avoidance::PilotOptions pilot;
   std::string map_frame = "map";
   std::string base_frame = "base_link";
@@ -25,6 +29,20 @@ void visitOptions(LocalPlannerOptions& o, Visitor&& visit) {
                          "it waits for a goal or a path",
                          ""}
             .under("What is flown"));
+  visit("log", o.log,
+        base::OptionInfo{
+            "File, name.flight below the folder to save in, for all that the pilot is given "
+            "and answers, some 9 MB/s at 320x240; an old one is emptied; empty: none. "
+            "grid_path flights --log repeats it",
+            ""});
+  visit("log_limit", o.log_limit,
+        base::OptionInfo{"Beyond it the log ends; the flight goes on", "MB", 1, 1000000});
+  visit("cloud_topics", o.cloud_topics,
+        base::OptionInfo{
+            "Topics of several sensors, separated by spaces, such as front/points rear/points, "
+            "each with a camera_info beside it; the vehicle stops where one of them is "
+            "silent. Empty: points and camera_info",
+            ""});
   visitOptions(o.pilot, visit);
   visit("map_frame", o.map_frame,
         base::OptionInfo{"Frame in which is remembered and planned; its z points up", ""}.under(
@@ -52,7 +70,12 @@ void visitOptions(LocalPlannerOptions& o, Visitor&& visit) {
 }
 
 // Throws InputError naming the option for a value outside its limits, options that
-// checkPilotOptions refuses, and frames that are empty.
+// checkPilotOptions refuses, frames that are empty, and topics that are no names.
 void checkLocalPlannerOptions(const LocalPlannerOptions& options);
+
+// Those of cloud_topics, or `points`.
+std::vector<std::string> cloudTopics(const LocalPlannerOptions& options);
+// camera_info beside a topic of clouds.
+std::string cameraTopic(const std::string& cloud_topic);
 
 }  // namespace grid_path_planner::nodes

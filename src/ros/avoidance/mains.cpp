@@ -7,7 +7,7 @@ namespace grid_path_planner::nodes {
 
 int localPlannerMain(int argc, char** argv) {
   return runNode<LocalPlannerNode>(argc, argv, "local_planner",
-                                   {{"config_filename", "WAYPOINTS.yaml"}});
+                                   {{"config_filename", "WAYPOINTS.yaml"}, {"log", "LOG.flight"}});
 }
 
 }  // namespace grid_path_planner::nodes

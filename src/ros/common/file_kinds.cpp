@@ -30,6 +30,10 @@ bool beginsAsOctree(const std::string& beginning) {
   return startsWith(beginning, "# Octomap OcTree ");
 }
 
+bool beginsAsFlight(const std::string& beginning) {
+  return startsWith(beginning, "grid_path_planner flight ");
+}
+
 }  // namespace
 
 const FileKind& waypointFiles() {
@@ -44,6 +48,11 @@ const FileKind& mapServerFiles() {
 
 const FileKind& octreeFiles() {
   static const FileKind kind{"octree file", {"bt", "ot"}, beginsAsOctree};
+  return kind;
+}
+
+const FileKind& flightLogs() {
+  static const FileKind kind{"flight log", {"flight"}, beginsAsFlight};
   return kind;
 }
 

@@ -15,6 +15,9 @@ const FileKind& mapServerFiles();
 // mapping/octree_map.h, .bt or .ot.
 const FileKind& octreeFiles();
 
+// avoidance/flight_log.h.
+const FileKind& flightLogs();
+
 // Only to be read: whatever grid/map_file.h and ros/bag.h read, and simulated worlds.
 const FileKind& mapFiles();
 const FileKind& worldFiles();

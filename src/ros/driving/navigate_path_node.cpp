@@ -10,24 +10,11 @@
 #include "grid_path_planner/NavigatePathConfig.h"
 #include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/path/waypoint_file.h"
-#include "ros/common/action/action_topics.h"
 #include "ros/common/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
-
-namespace actionlib {
-
-template <>
-void ActionServer<grid_path_planner::NavigatePathAction>::initialize() {
-  grid_path_planner::nodes::openActionTopics(*this, node_,
-                                             {goal_sub_, cancel_sub_, result_pub_, feedback_pub_,
-                                              status_pub_, status_timer_, status_list_timeout_},
-                                             [this](const ros::TimerEvent&) { publishStatus(); });
-}
-
-}  // namespace actionlib
 
 namespace grid_path_planner::nodes {
 

@@ -26,7 +26,6 @@
 // when the manager is killed or shut down: the vehicle itself must stop when commands cease.
 #pragma once
 
-#include <actionlib/server/simple_action_server.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
@@ -40,8 +39,8 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/base/task_queue.h"
+#include "ros/common/action/navigate_path_action.h"
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
 #include "ros/common/master/system_state.h"
@@ -53,14 +52,6 @@
 namespace grid_path_planner {
 class NavigatePathConfig;
 }  // namespace grid_path_planner
-
-namespace actionlib {
-
-// With the stamps of action_topics.h.
-template <>
-void ActionServer<grid_path_planner::NavigatePathAction>::initialize();
-
-}  // namespace actionlib
 
 namespace grid_path_planner::None {}  // namespace grid_path_planner::None
 
@@ -124,7 +115,7 @@ class NavigatePathNode {
   ros::Publisher waypoint_publisher_;
   ros::Subscriber path_subscriber_;
   std::vector<ros::ServiceServer> services_;
-  actionlib::SimpleActionServer<NavigatePathAction> action_;
+  NavigatePathServer action_;
   diagnostic_updater::Updater diagnostics_;
   ros::SteadyTimer clock_timer_;
   ros::SteadyTimer feedback_timer_;

@@ -5,20 +5,25 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/UInt32.h>
+#include <trajectory_msgs/MultiDOFJointTrajectory.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #include "grid_path_planner/AvoidanceStatus.h"
+#include "grid_path_planner/NavigatePathAction.h"
+#include "grid_path_planner/avoidance/flight_log.h"
 #include "ros/support/latest.h"
 #include "ros/support/process.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -57,20 +62,20 @@ class LocalPlannerTest : public testing::Test {
     pilot_ = std::make_unique<Process>(
         "local_planner",
         std::vector<std::string>{"camera_info:=depth_camera/camera_info", "_no_return_clears:=10",
-                                 "_z_min:=-1.4", "_z_max:=2"});
+                                 "_z_min:=-1.4", "_z_max:=2", "--log", log_});
   }
 
   void relay(const PointCloud2::ConstPtr& cloud) {
+    const std::lock_guard<std::mutex> lock(mutex_);
     if (cut_) return;
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      last_cloud_ = std::max(last_cloud_, cloud->header.stamp);
-    }
+    last_cloud_ = std::max(last_cloud_, cloud->header.stamp);
     clouds_.publish(cloud);
   }
 
-  ros::Time lastCloud() {
+  // Nothing is passed on after this. Returns the stamp of the newest cloud that was.
+  ros::Time cutCamera() {
     const std::lock_guard<std::mutex> lock(mutex_);
+    cut_ = true;
     return last_cloud_;
   }
 
@@ -93,6 +98,8 @@ class LocalPlannerTest : public testing::Test {
     return text;
   }
 
+  const test::TemporaryFolder folder_;
+  const std::string log_ = folder_.path("log.flight");
   ros::NodeHandle nh_;
   Latest<AvoidanceStatus> statuses_{nh_, "avoidance_status"};
   Latest<TwistStamped> commands_{nh_, "setpoint_velocity"};
@@ -100,9 +107,9 @@ class LocalPlannerTest : public testing::Test {
   Latest<std_msgs::UInt32> contacts_{nh_, "contacts"};
   ros::Publisher goals_ = nh_.advertise<geometry_msgs::PoseStamped>("goal", 1, true);
   ros::Publisher clouds_ = nh_.advertise<PointCloud2>("points", 10);
-  std::atomic<bool> cut_{false};
-  std::mutex mutex_;
-  ros::Time last_cloud_;  // under the mutex
+  std::mutex mutex_;  // the clouds come in another thread
+  bool cut_ = false;
+  ros::Time last_cloud_;
   ros::Subscriber relay_ = nh_.subscribe("depth_camera/points", 10, &LocalPlannerTest::relay, this);
   std::unique_ptr<Process> simulator_, pilot_;
 };
@@ -122,6 +129,62 @@ TEST_F(LocalPlannerTest, FliesToAGoalInTheOpen) {
   EXPECT_EQ(contacts_.waitForMoreThan(0)->data, 0u);
 }
 
+// A goal of the action, with all that is published meanwhile; afterwards the log repeats the flight.
+TEST_F(LocalPlannerTest, FliesAGoalOfTheActionAndKeepsALog) {
+  Latest<NavigatePathActionResult> results(nh_, "navigate_path/result");
+  Latest<NavigatePathActionFeedback> feedback(nh_, "navigate_path/feedback");
+  Latest<trajectory_msgs::MultiDOFJointTrajectory> trajectories(nh_, "setpoint_trajectory");
+  Latest<sensor_msgs::Image> pictures(nh_, "histogram_image");
+  Latest<visualization_msgs::MarkerArray> markers(nh_, "avoidance_markers");
+  ros::Publisher goals = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1, true);
+  ASSERT_TRUE(truth_.waitForMoreThan(0));
+  ASSERT_TRUE(statuses_.waitFor(0, [](const AvoidanceStatus&) { return true; }));
+  NavigatePathActionGoal goal;
+  goal.goal_id.id = "there";
+  goal.goal.path.header.frame_id = "map";
+  goal.goal.path.poses.resize(1);
+  goal.goal.path.poses[0].pose.position.x = -3.0;
+  goal.goal.path.poses[0].pose.orientation.w = 1.0;
+  goals.publish(goal);
+  ASSERT_TRUE(test::waitFor([&] { return results.count() > 0; }, kFlight)) << said();
+  EXPECT_EQ(results.all().back().result.status, "ARRIVED") << said();
+  EXPECT_LE(results.all().back().result.position_error_m, 0.6);
+  EXPECT_GT(feedback.count(), 0u);
+  ASSERT_GT(pictures.count(), 0u);
+  EXPECT_EQ(pictures.all().back().data.size(),
+            pictures.all().back().step * pictures.all().back().height);
+  ASSERT_GT(markers.count(), 0u);
+  EXPECT_EQ(markers.all().back().markers.size(), 4u);
+  const auto all = trajectories.all();
+  ASSERT_FALSE(all.empty());
+  bool leads = false;
+  for (const auto& trajectory : all) {
+    EXPECT_EQ(trajectory.header.frame_id, "map");
+    ASSERT_FALSE(trajectory.points.empty());
+    if (trajectory.points.size() < 2) continue;
+    leads = true;
+    const auto& end = trajectory.points.back().velocities[0].linear;
+    EXPECT_EQ(Eigen::Vector3d(end.x, end.y, end.z).norm(), 0.0) << "it stands at the end";
+    EXPECT_LT(trajectory.points[0].time_from_start, trajectory.points[1].time_from_start);
+  }
+  EXPECT_TRUE(leads);
+  pilot_.reset();
+  const avoidance::ReplayResult again = avoidance::replayFlight(log_);
+  EXPECT_GT(again.updates, 20u);
+  EXPECT_EQ(again.differing, 0u) << again.first_difference;
+}
+
+TEST_F(LocalPlannerTest, RefusesAGoalOfTheActionThatGivesNothing) {
+  Latest<NavigatePathActionResult> results(nh_, "navigate_path/result");
+  ros::Publisher goals = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1, true);
+  ASSERT_TRUE(test::waitFor([&] { return results.connected(); }, kFlight));
+  NavigatePathActionGoal goal;
+  goal.goal_id.id = "nothing";
+  goals.publish(goal);
+  ASSERT_TRUE(test::waitFor([&] { return results.count() > 0; }, kFlight));
+  EXPECT_EQ(results.all().back().result.status, "INVALID_REQUEST");
+}
+
 // Judged by the stamps of commands, which say when the node decided: true however busy the machine is.
 TEST_F(LocalPlannerTest, StandsHalfASecondAfterTheCameraIsCut) {
   ASSERT_NO_FATAL_FAILURE(sendGoal(0.0));
@@ -132,13 +195,12 @@ TEST_F(LocalPlannerTest, StandsHalfASecondAfterTheCameraIsCut) {
       },
       kFlight))
       << said();
-  cut_ = true;
+  const ros::Time limit = cutCamera() + ros::Duration(0.5);
   ASSERT_TRUE(statuses_.waitFor(0, [](const AvoidanceStatus& status) {
     return status.status == "NO_CLOUD";
   })) << said();
   const std::size_t seen = commands_.count();
   ASSERT_TRUE(commands_.waitForMoreThan(seen + 5)) << "it goes on commanding zeros";
-  const ros::Time limit = lastCloud() + ros::Duration(0.5);
   const std::vector<TwistStamped> all = commands_.all();
   EXPECT_TRUE(std::any_of(all.begin(), all.end(), moves)) << "it flew";
   for (const TwistStamped& command : all)

@@ -47,9 +47,11 @@ NODES = {
                 "manual_control": "std_msgs/Bool"},
         outputs={"cmd_vel": "geometry_msgs/Twist", "setpoint_velocity": "geometry_msgs/TwistStamped",
                  "local_path": "nav_msgs/Path", "avoidance_status": "grid_path_planner/AvoidanceStatus",
-                 "obstacle_distance": "sensor_msgs/LaserScan", "remembered_points": "sensor_msgs/PointCloud2"},
+                 "setpoint_trajectory": "trajectory_msgs/MultiDOFJointTrajectory",
+                 "obstacle_distance": "sensor_msgs/LaserScan", "remembered_points": "sensor_msgs/PointCloud2",
+                 "histogram_image": "sensor_msgs/Image", "avoidance_markers": "visualization_msgs/MarkerArray"},
         services={"~pause": TRIGGER, "~resume": TRIGGER, "~cancel": TRIGGER, "~explain": TRIGGER},
-        actions={}, arguments=["_cloud_timeout:=10"], tf="listens", probe=probes.says_what_it_flies_to),
+        actions={"navigate_path": "grid_path_planner/NavigatePath"}, arguments=["_cloud_timeout:=10"], tf="listens", probe=probes.says_what_it_flies_to),
     "projected_map": Row(
         inputs={"cloud_in": "sensor_msgs/PointCloud2"},
         outputs=dict(MAPS, occupied_cells_vis_array="visualization_msgs/MarkerArray",

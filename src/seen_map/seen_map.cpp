@@ -1,11 +1,11 @@
-#include "flights/seen_map.h"
+#include "seen_map/seen_map.h"
 
 #include <cmath>
 
 #include "grid_path_planner/mapping/projection.h"
 #include "grid_path_planner/planning/path_planner.h"
 
-namespace grid_path_planner::flights {
+namespace grid_path_planner::seen_map {
 
 using avoidance::Frame, avoidance::PilotOptions;
 using Eigen::Vector3d, Eigen::Vector3f;
@@ -17,9 +17,10 @@ namespace {
 
 constexpr double kKeepEvery = 0.45;  // s
 constexpr std::size_t kMostWaiting = 100;
-constexpr int kStride = 4;         // pixels
-constexpr double kHalfBand = 0.3;  // m above and below the vehicle's middle
-constexpr int kUnknownWeight = 3;  // of a cell length through what was not seen
+constexpr int kStride = 4;               // pixels
+constexpr double kFarthestPlan = 300.0;  // m, to goals that are planned to
+constexpr double kHalfBand = 0.3;        // m above and below the vehicle's middle
+constexpr int kUnknownWeight = 3;        // of a cell length through what was not seen
 
 OctreeOptions octreeOptions(const PilotOptions& pilot) {
   OctreeOptions options;
@@ -87,8 +88,10 @@ Scan SeenMap::scanOf(const Frame& frame) const {
   return scan;
 }
 
-std::vector<Vector3d> SeenMap::plan(const Vector3d& from, const Vector3d& goal) {
+std::vector<Vector3d> SeenMap::plan(const Vector3d& from, const Vector3d& goal,
+                                    const base::StopSource& stop) {
   insertWaiting();
+  if ((goal - from).norm() > kFarthestPlan) return {};
   ProjectionOptions band;
   band.min_z = from.z() - kHalfBand;
   band.max_z = from.z() + kHalfBand;
@@ -102,10 +105,10 @@ std::vector<Vector3d> SeenMap::plan(const Vector3d& from, const Vector3d& goal) 
   planning::PoseRequest request;
   request.start.position = from;
   request.goal.position = goal;
-  const Plan found = planner.plan(request);
+  const Plan found = planner.plan(request, stop);
   std::vector<Vector3d> path;
   for (const auto& pose : found.path.poses) path.push_back(pose.position);
   return path;
 }
 
-}  // namespace grid_path_planner::flights
+}  // namespace grid_path_planner::seen_map

@@ -1,0 +1,153 @@
+#include "ros/avoidance/flight_action.h"
+
+#include <ros/callback_queue_interface.h>
+#include <ros/console.h>
+
+#include <cmath>
+#include <utility>
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/path/waypoint_file.h"
+#include "ros/common/end_of_node.h"
+#include "ros/common/file_kinds.h"
+#include "ros/common/guarded_queue.h"
+
+namespace grid_path_planner::nodes {
+
+using avoidance::PilotAnswer;
+using avoidance::PilotStatus;
+using avoidance::VehiclePose;
+using base::StopSource;
+using path::Path;
+
+namespace {
+
+constexpr double kFeedbackEvery = 0.2;  // s, wall time
+
+bool hasEnded(PilotStatus status) {
+  return status == PilotStatus::ARRIVED || status == PilotStatus::STUCK ||
+         status == PilotStatus::CANCELLED;
+}
+
+}  // namespace
+
+FlightAction::FlightAction(const ros::NodeHandle& nh, const NodeFiles& files, Hands hands)
+    : nh_(nh),
+      files_(files),
+      hands_(std::move(hands)),
+      server_(nh_, "navigate_path", false),
+      reader_([](const std::string& error) { tellGivenUp("A waypoint file", error); }) {
+  server_.registerGoalCallback([this] { onGoal(); });
+  server_.registerPreemptCallback([this] { onPreempt(); });
+  server_.start();
+}
+
+FlightAction::~FlightAction() {
+  reader_.stop();
+  nh_.getCallbackQueue()->removeByID(reinterpret_cast<std::uint64_t>(this));
+  if (active_) finish("CANCELLED", "local_planner ends");
+}
+
+void FlightAction::onGoal() {
+  if (active_) finish("CANCELLED", "replaced by another goal");
+  const auto goal = server_.acceptNewGoal();
+  active_ = true;
+  is_read_ = false;
+  ++goals_;
+  const bool has_path = !goal->path.poses.empty(), has_file = !goal->filename.empty();
+  if (has_file && !has_path) return readFile(goal->filename);
+  start(
+      [&] {
+        if (has_file || !has_path)
+          throw base::InputError("a goal must give a path of at least one waypoint or a filename");
+        return hands_.read(goal->path);
+      },
+      true);
+}
+
+void FlightAction::onPreempt() {
+  if (server_.isNewGoalAvailable() || !active_) return;
+  const bool was_read = std::exchange(is_read_, false);
+  hands_.cancel("the goal of the action was cancelled");
+  if (was_read) finish("CANCELLED", "cancelled while its file was read");
+}
+
+// In the reader's thread, and back.
+void FlightAction::readFile(const std::string& filename) {
+  is_read_ = true;
+  reader_.post([this, filename, number = goals_](const StopSource& stop) {
+    const EndOfNode end(stop);
+    std::function<Path()> result;
+    try {
+      const auto read = [&end](const std::string& file) {
+        return path::readWaypointFile(file, {{}, end.token()}).path;
+      };
+      result = [found = files_.read("config_filename", filename, waypointFiles(), read)] {
+        return found;
+      };
+    } catch (const std::exception& error) {
+      result = [what = std::string(error.what())]() -> Path { throw base::InputError(what); };
+    }
+    const auto use = [this, result, number] {
+      if (active_ && number == goals_ && std::exchange(is_read_, false)) start(result, false);
+    };
+    nh_.getCallbackQueue()->addCallback(callbackOf(use), reinterpret_cast<std::uint64_t>(this));
+  });
+}
+
+void FlightAction::start(const std::function<Path()>& read, bool along) {
+  try {
+    flown_ = hands_.fly(read(), along);
+  } catch (const std::runtime_error& error) {
+    ROS_ERROR_STREAM("The goal of the action is refused: " << error.what());
+    finish("INVALID_REQUEST", error.what());
+  }
+}
+
+void FlightAction::report(const PilotAnswer& answer, const VehiclePose& at) {
+  at_ = at;
+  if (!active_ || is_read_) return;
+  if (hasEnded(answer.status)) return finish(toString(answer.status), answer.sentence);
+  const auto now = ros::SteadyTime::now();
+  if ((now - told_).toSec() < kFeedbackEvery) return;
+  told_ = now;
+  giveFeedback(answer);
+}
+
+void FlightAction::giveFeedback(const PilotAnswer& answer) {
+  NavigatePathFeedback feedback;
+  feedback.current_waypoint = static_cast<std::uint32_t>(answer.waypoint);
+  feedback.distance_remaining_m = remaining(static_cast<std::size_t>(answer.waypoint));
+  feedback.state = toString(answer.status);
+  server_.publishFeedback(feedback);
+}
+
+// In straight lines through the waypoints that are left.
+double FlightAction::remaining(std::size_t waypoint) const {
+  double length = 0.0;
+  Eigen::Vector3d from = at_.position;
+  for (std::size_t i = waypoint; i < flown_.poses.size(); ++i) {
+    length += (flown_.poses[i].position - from).norm();
+    from = flown_.poses[i].position;
+  }
+  return length;
+}
+
+void FlightAction::finish(const std::string& status, const std::string& message) {
+  active_ = false;
+  NavigatePathResult result;
+  result.status = status;
+  result.message = message;
+  if (!flown_.poses.empty()) {
+    result.position_error_m = (flown_.poses.back().position - at_.position).norm();
+    result.yaw_error_rad = std::abs(std::remainder(flown_.poses.back().yaw - at_.yaw, 2.0 * M_PI));
+  }
+  if (status == "ARRIVED")
+    server_.setSucceeded(result, message);
+  else if (status == "CANCELLED" && server_.isPreemptRequested())
+    server_.setPreempted(result, message);
+  else
+    server_.setAborted(result, message);
+}
+
+}  // namespace grid_path_planner::nodes

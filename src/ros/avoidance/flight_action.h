@@ -1,0 +1,64 @@
+// The action `navigate_path` of local_planner: its goals are flown instead of what the topics say.
+//
+//   FlightAction action(nh, files, {fly, cancel, read});
+//   action.report(answer, pose);     // with every answer of the pilot
+//
+// A path is flown along as that of the topic; the waypoints of a file are flown to one after the other. A
+// new goal replaces the one before. Files are read in a thread of their own.
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/avoidance/pilot.h"
+#include "grid_path_planner/base/task_queue.h"
+#include "grid_path_planner/path/path.h"
+#include "ros/common/action/navigate_path_action.h"
+#include "ros/common/node_files.h"
+
+namespace grid_path_planner::nodes {
+
+class FlightAction {
+ public:
+  // What the node does for it.
+  struct Hands {
+    // Returns it in the map's frame. Throws InputError, TransformError.
+    std::function<path::Path(const path::Path&, bool along)> fly;
+    std::function<void(const std::string& reason)> cancel;
+    std::function<path::Path(const nav_msgs::Path&)> read;  // throws InputError
+  };
+
+  FlightAction(const ros::NodeHandle& nh, const NodeFiles& files, Hands hands);
+  ~FlightAction();
+
+  bool isActive() const { return active_; }
+  // Feedback, and the result once the flight has ended.
+  void report(const avoidance::PilotAnswer& answer, const avoidance::VehiclePose& at);
+
+ private:
+  void onGoal();
+  void onPreempt();
+  void readFile(const std::string& filename);
+  void start(const std::function<path::Path()>& read, bool along);
+  void finish(const std::string& status, const std::string& message);
+  void giveFeedback(const avoidance::PilotAnswer& answer);
+  double remaining(std::size_t waypoint) const;
+
+  ros::NodeHandle nh_;
+  NodeFiles files_;
+  Hands hands_;
+  bool active_ = false;
+  bool is_read_ = false;  // its file, still
+  unsigned goals_ = 0;    // accepted so far
+  path::Path flown_;
+  avoidance::VehiclePose at_;
+  ros::SteadyTime told_;
+  NavigatePathServer server_;
+  base::TaskQueue reader_;
+};
+
+}  // namespace grid_path_planner::nodes
