@@ -175,20 +175,29 @@ def drives(node, deadline):
 
 
 def says_what_it_flies_to(node, deadline):
-    """A goal of the topic; whatever the clouds were, its status follows, and ~cancel ends it."""
+    """A goal of the topic; whatever the clouds were, its status follows, and ~cancel ends it. A status is told when it
+    changes: one that a stranger's goal brought about, and that stays with the next goal, is not told again."""
     def offer():
         node.send("manual_control", of("std_msgs/Bool", data=False))
         node.send("stop", of("std_msgs/Bool", data=False))
         node.send("goal", pose_stamped(node))
 
+    def cancel():
+        node.call("~cancel", get_service_class("std_srvs/Trigger")._request_class())
+
     def told(*statuses):
         return any(message.status in statuses for message in node.heard("avoidance_status"))
+
+    def offer_and_cancel():
+        offer()
+        cancel()
+    cancel()
     node.forget("avoidance_status")
     if not until(node, lambda: told("NO_CLOUD", "TRANSFORM_ERROR", "FLYING", "BLOCKED", "ARRIVED", "GOAL_OCCUPIED"),
                  deadline, offer, every=0.5):
         return False
-    return until(node, lambda: told("CANCELLED", "ARRIVED"), deadline,
-                 lambda: node.call("~cancel", get_service_class("std_srvs/Trigger")._request_class()), every=0.5)
+    node.forget("avoidance_status")
+    return until(node, lambda: told("CANCELLED", "ARRIVED"), deadline, offer_and_cancel, every=0.5)
 
 
 def maps(node, deadline):
