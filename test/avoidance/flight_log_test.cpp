@@ -92,7 +92,7 @@ TEST_F(FlightLogFile, AFullLogIsRepeated) {
   log.forget();
   log.cancel("asked for by the test, at some length");
   EXPECT_TRUE(log.full());
-  EXPECT_EQ(log.problem(), "");
+  EXPECT_EQ(log.problem(), "its limit is reached");
   EXPECT_EQ(replayFlight(file_).updates, 0u);
 }
 

@@ -15,7 +15,7 @@ import xml.etree.ElementTree
 
 from common import ROOT, files, finish, read
 
-README_LINES = 156
+README_LINES = 165
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE_BLOCK = re.compile(r"^(?: {4,}[^\n]*\n|```.*?^```\n)", re.M | re.S)
 

@@ -36,7 +36,7 @@ std::string Surroundings::refusal(const Frame& frame, double now,
   if (frame.pixels() > kMostPixels)
     return "the cloud has " + std::to_string(frame.pixels()) + " pixels, more than " +
            std::to_string(kMostPixels);
-  if (!isUsable(frame.map_from_sensor)) return "the pose of the cloud is not finite";
+  if (!isUsable(frame.map_from_sensor)) return "the pose of the cloud is no pose";
   if (frame.time > now + kFuture)
     return "the cloud is stamped " + shortNumber(frame.time - now) + " s in the future";
   if (frame.time < now - kOldest) return "the cloud is " + shortNumber(now - frame.time) + " s old";
