@@ -136,7 +136,7 @@ class Docs(unittest.TestCase):
     def test_tables_and_length(self):
         self.assertEqual(self.planted("launch/planner.launch", "<launch><arg name='goal'/></launch>"),
                          ["README.md: the table of launch files is out of date: test/style/check_docs.py --write"])
-        self.assertEqual(self.planted("README.md", "<README>" + "\n" * 150), ["README.md: 159 lines are more than 156"])
+        self.assertEqual(self.planted("README.md", "<README>" + "\n" * 165), ["README.md: 174 lines are more than 165"])
 
     def test_names(self):
         for name, text in (("src/nodes/simulator.cpp", ""), ("msg/Goal.msg", ""), ("scripts/walk", ""),
