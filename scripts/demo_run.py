@@ -13,13 +13,12 @@ import argparse
 import json
 import math
 import os
-import signal
 import subprocess
 import sys
 import time
 
-from ros_session import (START_SECONDS, Mapping, Nodes, SessionFailed, Vehicle, executable, set_simulator,
-                         share_file)
+from ros_session import (START_SECONDS, Mapping, Nodes, SessionFailed, Vehicle, executable, run_session,
+                         set_simulator, share_file)
 
 # x, y, z in m, yaw in rad, as the original study has them; the survey ends at the start.
 START = (10.6115, -12.4845, 2.947, 2.464)
@@ -191,16 +190,7 @@ def main():
     parser.add_argument("--speed", type=float, default=8.0, metavar="FACTOR",
                         help="simulated seconds in a second of the wall clock, if the machine allows (default: 8)")
     parser.add_argument("--out", default="out", metavar="FOLDER", help="for the results (default: out)")
-    arguments = parser.parse_args()
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    try:
-        run(arguments)
-    except SessionFailed as reason:
-        print("demo: failed: %s" % reason, file=sys.stderr)
-        sys.exit(1)
-    except KeyboardInterrupt:
-        print("demo: stopped", file=sys.stderr)
-        sys.exit(130)
+    run_session("demo", run, parser.parse_args())
 
 
 if __name__ == "__main__":

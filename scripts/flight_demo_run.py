@@ -10,11 +10,10 @@ nothing was touched and every goal was reached.
 """
 import argparse
 import os
-import signal
 import sys
 import time
 
-from ros_session import START_SECONDS, Nodes, SessionFailed, Vehicle
+from ros_session import START_SECONDS, Nodes, SessionFailed, Vehicle, run_session
 
 # x, y in m; the tour ends where it began.
 TOUR = ((30.0, 10.0), (40.0, 7.0), (47.0, 4.5), (38.7, -7.5), (0.0, 0.0))
@@ -95,16 +94,7 @@ def main():
     parser.add_argument("--log", action="store_true", help="keep what the pilot was given: some 9 MB a second")
     parser.add_argument("--goals", type=int, default=len(TOUR), choices=range(1, len(TOUR) + 1), metavar="N",
                         help="fly to the first N goals only (default: %d)" % len(TOUR))
-    arguments = parser.parse_args()
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    try:
-        run(arguments)
-    except SessionFailed as reason:
-        print("flight: failed: %s" % reason, file=sys.stderr)
-        sys.exit(1)
-    except KeyboardInterrupt:
-        print("flight: stopped", file=sys.stderr)
-        sys.exit(130)
+    run_session("flight", run, parser.parse_args())
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ import os
 import signal
 import socket
 import subprocess
+import sys
 import time
 
 PACKAGE = "grid_path_planner"
@@ -19,6 +20,19 @@ START_SECONDS = 60.0  # of the wall clock, for all nodes to be there
 
 class SessionFailed(Exception):
     """The message says why."""
+
+
+def run_session(name, run, arguments):
+    """A program: run(arguments), with one line for what went wrong and an exit code that says so."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    try:
+        run(arguments)
+    except SessionFailed as reason:
+        print("%s: failed: %s" % (name, reason), file=sys.stderr)
+        sys.exit(1)
+    except KeyboardInterrupt:
+        print("%s: stopped" % name, file=sys.stderr)
+        sys.exit(130)
 
 
 def free_port():

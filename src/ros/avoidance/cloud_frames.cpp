@@ -110,7 +110,7 @@ std::optional<Frame> CloudFrames::next(Sensor& sensor, const FrameTransforms& tr
     if (!*cloud) continue;
     try {
       Frame frame = read(sensor, **cloud, transforms, map_frame, now);
-      sensor.newest = (*cloud)->header.stamp;
+      sensor.newest = std::min((*cloud)->header.stamp, now);  // stamps ahead prolong nothing
       sensor.problem.clear();
       cloud->reset();
       if (cloud == &sensor.next) sensor.waiting.reset();

@@ -40,12 +40,13 @@ class CloudFrames {
   // Why the newest clouds could not be used; empty: they could.
   std::string problems() const;
 
+ private:
   struct Sensor {
     std::string topic;
     sensor_msgs::PointCloud2::ConstPtr waiting = {};
     sensor_msgs::PointCloud2::ConstPtr next = {};  // the newest that came meanwhile
     std::optional<sensor_msgs::CameraInfo> camera = {};
-    std::optional<ros::Time> newest = {};  // stamp of the newest that was used
+    std::optional<ros::Time> newest = {};  // stamp of the newest that was used, at most now
     std::string problem = {};
   };
 

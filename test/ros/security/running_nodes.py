@@ -107,7 +107,8 @@ class RunningNode:
             self.run([executable(self.name)] + remaps)
             return
         nodelet = roslib.packages.find_node("nodelet", "nodelet")[0]
-        self.run([nodelet, "manager", "__ns:=" + self.space, "__name:=manager"])
+        prefix = os.environ.get("GPP_NODELET_PREFIX", "").split()  # the sanitizer's library, in its runs
+        self.run(prefix + [nodelet, "manager", "__ns:=" + self.space, "__name:=manager"])
         self.run([nodelet, "load", "%s/%s" % (PACKAGE, self.name), "manager"] + remaps)
 
     def run(self, command):
