@@ -45,29 +45,29 @@ struct Picture {
   PoseRequest request;
 };
 
-Plan planOn(const Picture& picture, const CostPlannerOptions& options = {}) {
+Plan planOnPicture(const Picture& picture, const CostPlannerOptions& options = {}) {
   CostPlanner planner(options);
   planner.setCosts(picture.costs.geometry(), picture.costs.values().data(), 0.5);
   return planner.plan(picture.request, options.default_tolerance);
 }
 
-CostPlannerOptions overTheGrid() {
+CostPlannerOptions unsmoothed() {
   CostPlannerOptions options;
   options.smooth = false;
   return options;
 }
 
 TEST(CostPlanner, TakesTheCheaperOfTwoWays) {
-  const Plan plan = planOn(Picture({".....",  //
-                                    "S999G",  //
-                                    "....."}),
-                           overTheGrid());
+  const Plan plan = planOnPicture(Picture({".....",  //
+                                           "S999G",  //
+                                           "....."}),
+                                  unsmoothed());
   ASSERT_TRUE(plan.found()) << plan.message;
   EXPECT_DOUBLE_EQ(plan.costValue(), 2.0 + 2.0 * std::sqrt(2.0));
-  EXPECT_EQ(planOn(Picture({"#####",  //
-                            "S999G",  //
-                            "#####"}),
-                   overTheGrid())
+  EXPECT_EQ(planOnPicture(Picture({"#####",  //
+                                   "S999G",  //
+                                   "#####"}),
+                          unsmoothed())
                 .costValue(),
             4 * 40.0);
 }
@@ -76,42 +76,42 @@ TEST(CostPlanner, EntersNothingInCollisionAndUnknownByWish) {
   const Picture closed({"S.i.G",  //
                         "..i..",  //
                         "..#.."});
-  EXPECT_EQ(planOn(closed).status, Status::UNREACHABLE);
+  EXPECT_EQ(planOnPicture(closed).status, Status::UNREACHABLE);
   const Picture unknown({"S.?.G",  //
                          "..?.."});
   CostPlannerOptions options;
-  const Plan through = planOn(unknown, options);
+  const Plan through = planOnPicture(unknown, options);
   ASSERT_TRUE(through.found());
   EXPECT_TRUE(test::contains(through.message, "1 m of it through unknown cells"))
       << through.message;
   options.weights.allow_unknown = false;
-  EXPECT_EQ(planOn(unknown, options).status, Status::UNREACHABLE);
+  EXPECT_EQ(planOnPicture(unknown, options).status, Status::UNREACHABLE);
 }
 
 TEST(CostPlanner, NamesTheEndThatIsWrong) {
   Picture picture({"S.i",  //
                    "..#"});
   picture.request.goal.position.head<2>() << 2.5, 0.5;
-  Plan plan = planOn(picture);
+  Plan plan = planOnPicture(picture);
   EXPECT_EQ(plan.status, Status::GOAL_OCCUPIED);
   EXPECT_EQ(plan.message, "goal (2.5, 0.5) is nearer than the radius of 0.5 m to an occupied cell");
   CostPlannerOptions tolerant;
   tolerant.default_tolerance = 1.0;
-  plan = planOn(picture, tolerant);
+  plan = planOnPicture(picture, tolerant);
   ASSERT_TRUE(plan.found());
   EXPECT_EQ(plan.path.poses.back().position.x(), 1.5);
 
   std::swap(picture.request.start, picture.request.goal);
-  plan = planOn(picture);
+  plan = planOnPicture(picture);
   EXPECT_EQ(plan.status, Status::START_OCCUPIED) << "no passable centre is within 0.1 m";
   CostPlannerOptions escaping;
   escaping.start_escape_radius = 1.0;
-  EXPECT_TRUE(planOn(picture, escaping).found());
+  EXPECT_TRUE(planOnPicture(picture, escaping).found());
 
   picture.request.goal.position.x() = 7.0;
-  EXPECT_EQ(planOn(picture, escaping).status, Status::GOAL_OUTSIDE_MAP);
+  EXPECT_EQ(planOnPicture(picture, escaping).status, Status::GOAL_OUTSIDE_MAP);
   picture.request.goal.position.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(planOn(picture, escaping).status, Status::INVALID_REQUEST);
+  EXPECT_EQ(planOnPicture(picture, escaping).status, Status::INVALID_REQUEST);
   EXPECT_EQ(CostPlanner().plan({}, 0.0).status, Status::NO_MAP);
 }
 
