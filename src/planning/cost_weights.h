@@ -10,7 +10,7 @@
 //        information
 //
 // costmap_2d's inflation layer makes 252 e^(-cost_scaling_factor (d - inscribed_radius)) of a distance d
-// to an obstacle, and CostmapOptions makes inflation_weight of it in the same way: so a costmap_2d
+// to an obstacle, and CostmapOptions makes inflation_weight of it likewise: so a costmap_2d
 // costs what a map costs with radius inscribed_radius and decay cost_scaling_factor, up to its
 // inflation_radius.
 //

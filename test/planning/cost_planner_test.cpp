@@ -57,7 +57,7 @@ CostPlannerOptions unsmoothed() {
   return options;
 }
 
-TEST(CostPlanner, TakesTheCheaperOfTwoWays) {
+TEST(CostPlanner, TakesTheCheaperOfTwoPaths) {
   const Plan plan = planOnPicture(Picture({".....",  //
                                            "S999G",  //
                                            "....."}),

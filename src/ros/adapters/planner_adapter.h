@@ -53,7 +53,7 @@ class PlannerAdapter {
   Answer makePlan(const geometry_msgs::PoseStamped& start, const geometry_msgs::PoseStamped& goal,
                   std::optional<double> tolerance, const GiveCosts& give_costs);
 
-  // Ends the calls of makePlan() that are under way or wait, with CANCELLED.
+  // Ends the calls of makePlan() that plan or wait, with CANCELLED.
   void cancel();
 
  private:

@@ -131,7 +131,7 @@ TEST(PlannerAdapter, AParameterThatCannotBeUsedIsNamed) {
             "/refused/inflation_weight must be an integer, got the string many");
 }
 
-TEST(PlannerAdapter, CancelEndsWhatIsUnderWayAndNothingLater) {
+TEST(PlannerAdapter, CancelEndsWhatPlansAndNothingLater) {
   PlannerAdapter adapter(ros::NodeHandle("/plain"), "map");
   const Grid<Cost> large(GridGeometry(1500, 1500, 0.1), 9);
   const auto give = [&](CostPlanner& planner) {

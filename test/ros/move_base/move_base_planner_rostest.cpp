@@ -81,7 +81,7 @@ TEST_F(MoveBasePlanner, CostsNoMoreThanPlansOfGlobalPlannerAndNavfn) {
     if (!found) continue;
     EXPECT_EQ(plan.front().pose.position.x, start.pose.position.x);
     EXPECT_EQ(plan.back().pose.position.y, goal.pose.position.y);
-    EXPECT_LE(cost / 0.05, told * 1.001 + 1.0) << "what is told counts the dearest cell touched";
+    EXPECT_LE(cost / 0.05, told * 1.001 + 1.0) << "what is told counts the largest weight touched";
   }
   EXPECT_GT(compared, 60);
   EXPECT_LT(sum, sum_of_theirs);
