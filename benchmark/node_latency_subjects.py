@@ -1,4 +1,4 @@
-"""What node_latency measures: path_planner as a node and as a nodelet, and move_base with two of its planners."""
+"""What node_latency measures: path_planner as a node and as a nodelet, and move_base with two planners and with ours."""
 import math
 import os
 import time
@@ -254,6 +254,7 @@ class PathPlannerNodelet(PathPlanner):
 
 class MoveBase(Node):
     namespace, service_name = "/move_base", "/move_base/make_plan"
+    update_frequency = 100.0
 
     @classmethod
     def version(cls):
@@ -263,11 +264,11 @@ class MoveBase(Node):
         radius = RADIUS if self.inflated else 0.01
         layers = [{"name": "static_layer", "type": "costmap_2d::StaticLayer"},
                   {"name": "inflation_layer", "type": "costmap_2d::InflationLayer"}]
-        return {"/move_base": {
+        return {self.namespace: {
             "base_global_planner": self.planner, "recovery_behavior_enabled": False, "recovery_behaviors": [],
             "global_costmap": {
                 "global_frame": FRAME, "robot_base_frame": "base_link", "robot_radius": radius, "plugins": layers,
-                "update_frequency": 100.0, "publish_frequency": 0.0,
+                "update_frequency": self.update_frequency, "publish_frequency": 0.0,
                 "static_layer": {"map_topic": "projected_map", "subscribe_to_updates": True},
                 "inflation_layer": {"inflation_radius": 1.5 if self.inflated else 0.0, "cost_scaling_factor": DECAY}},
             "local_costmap": {"global_frame": FRAME, "robot_base_frame": "base_link", "rolling_window": True, "width": 2.0,
@@ -278,7 +279,7 @@ class MoveBase(Node):
         return super().first_map() if self.grows else self.world
 
     def command(self):
-        return [executable("move_base", "move_base"), "__name:=move_base"]
+        return [executable("move_base", "move_base"), "__name:=" + self.namespace[1:]]
 
 
 class MoveBaseGlobalPlanner(MoveBase):
@@ -289,8 +290,19 @@ class MoveBaseNavfn(MoveBase):
     title, planner = "move_base, navfn", "navfn/NavfnROS"
 
 
+class MoveBaseGridPathPlanner(MoveBase):
+    title, planner = "move_base, grid_path_planner", "grid_path_planner/GridPathPlanner"
+
+
+def move_bases_in_environment():
+    found = [MoveBaseGlobalPlanner, MoveBaseNavfn] if executable("move_base", "move_base") else []
+    if found and executable("", "libgrid_path_planner_ros_move_base.so"):
+        found.append(MoveBaseGridPathPlanner)
+    return found
+
+
 def subjects_in_environment():
     found = [PathPlanner] if executable("grid_path_planner", "path_planner") else []
     if found and executable("nodelet", "nodelet"):
         found.append(PathPlannerNodelet)
-    return found + ([MoveBaseGlobalPlanner, MoveBaseNavfn] if executable("move_base", "move_base") else [])
+    return found + move_bases_in_environment()

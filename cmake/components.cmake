@@ -24,9 +24,9 @@ set(GPP_WITH_planning TRUE)
 
 set(GPP_FOLDERS base grid costmap path planners planning)
 set(GPP_ROOMS ${GPP_FOLDERS})
-set(ros_rooms ros_common ros_planning)
+set(ros_rooms ros_common ros_planning ros_adapters)
 set(GPP_NODES path_planner map_publisher)
-set(GPP_CONFIGURATIONS PathPlanner MapPublisher)
+set(GPP_CONFIGURATIONS PathPlanner MapPublisher MoveBasePlugin)
 set(GPP_CATKIN_EXPORTS actionlib actionlib_msgs dynamic_reconfigure geometry_msgs message_runtime nav_msgs
   nodelet roscpp sensor_msgs std_msgs tf2_ros visualization_msgs)
 set(GPP_CATKIN_COMPONENTS actionlib actionlib_msgs diagnostic_msgs diagnostic_updater dynamic_reconfigure

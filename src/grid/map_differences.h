@@ -16,5 +16,7 @@ namespace grid_path_planner::grid {
 // one in `after`. Precondition: `after` has a value for each cell, row by row.
 std::vector<CellRect> differences(const OccupancyGrid& before,
                                   const std::vector<std::int8_t>& after);
+// The same for costs of a byte, as costmap_2d has them.
+std::vector<CellRect> differences(const Grid<std::uint8_t>& before, const std::uint8_t* after);
 
 }  // namespace grid_path_planner::grid

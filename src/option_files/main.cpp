@@ -12,6 +12,7 @@
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
 #include "option_files/option_files.h"
+#include "ros/adapters/adapter_options.h"
 #include "ros/avoidance/local_planner_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
@@ -26,6 +27,7 @@ using base::InputError;
 using base::readWholeFile;
 using base::writeFileAtomically;
 using mapping::ProjectedMapOptions;
+using nodes::AdapterOptions;
 using nodes::LocalPlannerOptions;
 using nodes::MapPublisherOptions;
 using nodes::NavigatePathOptions;
@@ -44,6 +46,7 @@ constexpr std::size_t kLargestFile = 1 << 24;  // bytes
 std::vector<NodeOptions> allNodes() {
   return {{"local_planner", "LocalPlanner", describeOptions(LocalPlannerOptions())},
           {"map_publisher", "MapPublisher", describeOptions(MapPublisherOptions())},
+          {"move_base_plugin", "MoveBasePlugin", describeOptions(AdapterOptions())},
           {"navigate_path", "NavigatePath", describeOptions(NavigatePathOptions())},
           {"path_planner", "PathPlanner", describeOptions(PathPlannerNodeOptions())},
           {"projected_map", "ProjectedMap", describeOptions(ProjectedMapOptions())},

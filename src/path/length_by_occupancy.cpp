@@ -7,7 +7,7 @@
 
 namespace grid_path_planner::path {
 
-using grid::Cell, grid::GridGeometry, grid::Occupancy, grid::OccupancyGrid,
+using grid::Cell, grid::Grid, grid::GridGeometry, grid::Occupancy, grid::OccupancyGrid,
     grid::OccupancyThresholds;
 
 namespace {
@@ -43,11 +43,9 @@ double* lengthFor(ClassLengths& lengths, Occupancy occupancy) {
   return &lengths.occupied_m;
 }
 
-}  // namespace
-
-ClassLengths lengthsByClass(const Path& path, const OccupancyGrid& map,
-                            const OccupancyThresholds& thresholds) {
-  const GridGeometry& geometry = map.geometry();
+// class_of(cell): the class of a cell of the map.
+template <class ClassOf>
+ClassLengths lengthsIn(const GridGeometry& geometry, const Path& path, ClassOf&& class_of) {
   ClassLengths lengths;
   for (std::size_t i = 1; i < path.poses.size(); ++i) {
     const Eigen::Vector2d from = geometry.gridFromWorld(path.poses[i - 1].position.head<2>());
@@ -60,10 +58,21 @@ ClassLengths lengthsByClass(const Path& path, const OccupancyGrid& map,
       const Cell cell{static_cast<int>(std::floor(middle.x())),
                       static_cast<int>(std::floor(middle.y()))};
       if (share > 0.0 && geometry.contains(cell))
-        *lengthFor(lengths, thresholds.classify(map[cell])) += share * metres;
+        *lengthFor(lengths, class_of(cell)) += share * metres;
     }
   }
   return lengths;
+}
+
+}  // namespace
+
+ClassLengths lengthsByClass(const Path& path, const OccupancyGrid& map,
+                            const OccupancyThresholds& thresholds) {
+  return lengthsIn(map.geometry(), path, [&](Cell cell) { return thresholds.classify(map[cell]); });
+}
+
+ClassLengths lengthsByClass(const Path& path, const Grid<Occupancy>& classes) {
+  return lengthsIn(classes.geometry(), path, [&](Cell cell) { return classes[cell]; });
 }
 
 }  // namespace grid_path_planner::path

@@ -45,4 +45,8 @@ std::string loweredNote(const KeptDistances& asked, const KeptDistances& kept) {
   return "it keeps only " + note + ", as near as its ends are";
 }
 
+void addNote(std::string& message, const std::string& note) {
+  if (!note.empty()) message += (message.empty() ? "" : "; ") + note;
+}
+
 }  // namespace grid_path_planner::planning

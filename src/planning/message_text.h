@@ -25,4 +25,7 @@ std::string unknownNote(const path::ClassLengths& lengths);
 // "it keeps only 0.2 m from unknown cells, as near as its ends are".
 std::string loweredNote(const costmap::KeptDistances& asked, const costmap::KeptDistances& kept);
 
+// Adds a note to a message, after "; ". An empty one adds nothing.
+void addNote(std::string& message, const std::string& note);
+
 }  // namespace grid_path_planner::planning

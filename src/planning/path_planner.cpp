@@ -3,124 +3,37 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <cmath>
-#include <iomanip>
 #include <sstream>
 #include <utility>
 
 #include "grid_path_planner/base/options.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
-#include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "planning/map_store.h"
 #include "planning/message_text.h"
 #include "planning/multi_resolution_planner.h"
-#include "planning/path_ends.h"
+#include "planning/plan_on_costs.h"
 #include "planning/prepared_planners.h"
-#include "planning/waypoints.h"
 
 namespace grid_path_planner::planning {
 
-using base::checkOptionLimits, base::InputError, base::sameOptions, base::Statistics, base::Status,
-    base::Stopped, base::StopSource, base::StopToken;
-using costmap::checkCostmapOptions, costmap::Connectivity, costmap::CostGrid,
-    costmap::CostmapBuilder, costmap::DiagonalCost, costmap::keptDistances, costmap::KeptDistances,
-    costmap::MotionModel;
+using base::checkOptionLimits, base::InputError, base::sameOptions, base::Status, base::StopSource,
+    base::StopToken;
+using costmap::checkCostmapOptions, costmap::CostGrid, costmap::CostmapBuilder,
+    costmap::keptDistances, costmap::KeptDistances;
 using grid::CellRect, grid::checkOccupancyValues, grid::GridGeometry, grid::OccupancyGrid;
-using path::applyHeadings, path::applyZ, path::lengthOf, path::lengthsByClass, path::Path,
-    path::Pose;
 using planners::checkSearchOptions, planners::memoryLimitOf, planners::PlannerMaker,
-    planners::TooExpensive, planners::traitsOf;
+    planners::traitsOf;
 
 namespace {
 
 constexpr char kNoCells[] = "a map needs at least one cell, got 0x0";
-
-bool finite(const Pose& pose) {
-  return pose.position.allFinite() && std::isfinite(pose.yaw);
-}
-
-bool samePose(const Pose& a, const Pose& b) {
-  const double turn = std::remainder(a.yaw - b.yaw, 2.0 * M_PI);
-  return (a.position - b.position).norm() < 1e-9 && std::abs(turn) < 1e-9;
-}
-
-void addNote(std::string& message, const std::string& note) {
-  if (!note.empty()) message += (message.empty() ? "" : "; ") + note;
-}
-
-std::string number(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
-StopToken limited(const StopSource& stop, double timeout) {
-  return timeout > 0.0 ? stop.token(std::chrono::duration<double>(timeout)) : stop.token();
-}
 
 // All but the planner's name, whose check is left to what makes the planner.
 void checkOtherOptions(const PlannerOptions& options) {
   checkOptionLimits(options);
   checkCostmapOptions(options.costmap);
   checkSearchOptions(options.search);
-}
-
-// Whether lines of any angle have costs that compare with those of steps.
-bool smooths(const PlannerOptions& options) {
-  const MotionModel& motion = options.costmap.motion;
-  return options.smooth && motion.connectivity == Connectivity::EIGHT &&
-         motion.diagonal_cost == DiagonalCost::SQRT2;
-}
-
-Path pathOf(const Route& route, const PathEnd& start, const PathEnd& goal,
-            const PoseRequest& request, const PlannerOptions& options, const CostGrid& costs) {
-  Path path;
-  if (!goal.moved && !start.moved && samePose(request.start, request.goal)) {
-    path.poses.push_back(request.goal);
-    return path;
-  }
-  const auto end = [&costs](const PathEnd& of) {
-    return RouteEnd{of.position, costs.geometry().centre(of.cell)};
-  };
-  path = pathOfRoute(route, end(start), end(goal), start.moved, EndSegments(costs));
-  applyZ(path, request.start.position.z(), request.goal.position.z(), options.fixed_z,
-         options.path_z);
-  applyHeadings(path, request.start.yaw, request.goal.yaw, options.heading);
-  return path;
-}
-
-// "a path of 12.3 m, cost 45.6" and the notes.
-std::string foundMessage(const Plan& plan, const PathEnd& start, const PathEnd& goal) {
-  std::ostringstream text;
-  text << "a path of " << metresText(plan.length_m) << ", cost " << std::setprecision(10)
-       << plan.costValue();
-  std::string message = text.str();
-  addNote(message, plan.message);
-  addNote(message, start.note);
-  addNote(message, goal.note);
-  return message;
-}
-
-Plan completedPlan(Route route, const PathEnd& start, const PathEnd& goal,
-                   const PoseRequest& request, const PlannerOptions& options, const CostGrid& costs,
-                   const OccupancyGrid& map) {
-  Plan plan = std::move(route.plan);
-  if (plan.status == Status::UNREACHABLE)
-    plan.message = unreachableText(start.position, goal.position, options.tolerance);
-  if (!plan.found()) {
-    plan.cost = {};
-    plan.segment_cost = 0.0;
-    return plan;
-  }
-  for (const Leg& leg : route.legs) plan.cells += leg.result.cells.size();
-  plan.cells -= route.legs.size() - 1;
-  plan.path = pathOf(route, start, goal, request, options, costs);
-  plan.length_m = lengthOf(plan.path);
-  plan.waypoints = waypointsOf(plan.path, options, costs);
-  addNote(plan.message, unknownNote(lengthsByClass(plan.path, map, options.costmap.thresholds)));
-  plan.message = foundMessage(plan, start, goal);
-  return plan;
 }
 
 }  // namespace
@@ -316,11 +229,7 @@ void PathPlanner::finishPreparation(const StopToken& stop) {
 
 Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
   if (!hasMap()) return failedPlan(Status::NO_MAP, "no map has arrived yet");
-  if (!finite(request.start) || !finite(request.goal))
-    return failedPlan(Status::INVALID_REQUEST, "start and goal must be finite numbers");
-  Plan plan;
-  try {
-    const StopToken token = limited(stop, options_.timeout);
+  return planWithin(options_.timeout, request, stop, [&](const StopToken& token) {
     const auto begin = StopToken::Clock::now();
     const CostmapPair asked_for = costmaps(token);
     CostmapPair maps = asked_for;
@@ -331,64 +240,13 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     search.prepare(maps, token);
     searches_->followOthers(asked_for, token);
     const auto prepared = StopToken::Clock::now();
-    plan = planOn(*maps.full_resolution, search, request, token);
+    Plan plan = planOnCosts(*maps.full_resolution, search, request, options_, token);
     if (lowered && plan.found())
       addNote(plan.message,
               loweredNote(costmap_->keptDistances(), lowered->costmap->keptDistances()));
     plan.preparation_time_s = std::chrono::duration<double>(prepared - begin).count();
-  } catch (const Stopped& stopped) {
-    plan = failedPlan(stopped.status(), "");
-  } catch (const TooExpensive&) {
-    plan = failedPlan(Status::INVALID_REQUEST, TooExpensive::kMessage);
-  } catch (const InputError& error) {
-    plan = failedPlan(Status::INVALID_REQUEST, error.what());
-  }
-  if (plan.status == Status::TIMEOUT)
-    plan.message = "planning reached its time limit of " + number(options_.timeout) + " s";
-  if (plan.status == Status::CANCELLED) plan.message = "planning was cancelled";
-  plan.path.frame_id = plan.waypoints.frame_id = "map";
-  return plan;
-}
-
-Plan PathPlanner::planOn(const CostGrid& costs, MultiResolutionPlanner& search,
-                         const PoseRequest& request, const StopToken& stop) {
-  const PathEnds ends(request, options_, costs, search, stop);
-  Plan failure;
-  std::optional<PathEnd> start = ends.start(failure);
-  if (!start) return failure;
-  std::optional<PathEnd> goal = ends.goal(*start, failure);
-  if (!goal) return failure;
-
-  const auto routeBetween = [&](const PathEnd& from, const PathEnd& to) {
-    return findRoute(search, from, to, request.record_expanded, stop);
-  };
-  Route route = routeBetween(*start, *goal);
-  const auto searchAgain = [&] {
-    const Statistics before = route.plan.statistics;
-    route = routeBetween(*start, *goal);
-    route.plan.statistics += before;
-  };
-  if (route.plan.status == Status::UNREACHABLE && start->moved && !goal->moved) {
-    if (const std::optional<PathEnd> other = ends.escapeTowards(*goal)) {
-      start = other;
-      searchAgain();
-    }
-  }
-  if (route.plan.status == Status::UNREACHABLE && !goal->moved && options_.tolerance > 0.0) {
-    if (const std::optional<PathEnd> other = ends.substituteGoal(*start, "is unreachable")) {
-      goal = other;
-      searchAgain();
-    }
-  }
-  return completedPlan(std::move(route), *start, *goal, request, options_, costs, *map_);
-}
-
-Route PathPlanner::findRoute(MultiResolutionPlanner& search, const PathEnd& start,
-                             const PathEnd& goal, bool record_expanded,
-                             const StopToken& stop) const {
-  Route route = search.find(start.cell, goal.cell, options_.retry_finer, record_expanded, stop);
-  if (smooths(options_) && route.plan.found()) smoothRoute(route, stop);
-  return route;
+    return plan;
+  });
 }
 
 }  // namespace grid_path_planner::planning

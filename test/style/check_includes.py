@@ -30,9 +30,11 @@ LENT = {
     "base/zeroed_array.h": {"planners"},
     "costmap/inflation.h": {"planning"},  # the distances that it keeps
     "grid/float_decimal.h": {"ros_common"},
-    "grid/map_differences.h": {"ros_common"},
+    "grid/map_differences.h": {"planning", "ros_common"},
     "grid/formats/rectangle_map_file.h": {"planners"},
-    "path/pose_spacing.h": {"planning", "ros_planning"},
+    "path/pose_spacing.h": {"planning", "ros_adapters", "ros_planning"},
+    "planning/cost_planner.h": {"ros_adapters"},
+    "planning/cost_planner_options.h": {"ros_adapters"},
     "planning/map_store.h": {"ros_planning"},
     "planners/any_angle/theta_star.h": {"study"},  # the base of its published Theta*
     "planners/astar/bucket_search.h": {"planning"},

@@ -44,5 +44,7 @@ struct ClassLengths {
 // Precondition: the positions are finite.
 ClassLengths lengthsByClass(const Path& path, const grid::OccupancyGrid& map,
                             const grid::OccupancyThresholds& thresholds);
+// The same where the cells' classes are known.
+ClassLengths lengthsByClass(const Path& path, const grid::Grid<grid::Occupancy>& classes);
 
 }  // namespace grid_path_planner::path

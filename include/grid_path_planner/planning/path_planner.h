@@ -42,8 +42,6 @@ class MultiResolutionPlanner;
 class PreparedPlanners;
 class SharedCostmap;
 struct CostmapPair;
-struct PathEnd;
-struct Route;
 
 struct PlannerOptions {
   costmap::CostmapOptions costmap;
@@ -196,11 +194,6 @@ class PathPlanner {
   // Gives up searches that were asked for long ago, where the one to be prepared needs their memory.
   void makeRoom(const CostmapPair& maps);
   MultiResolutionPlanner& search() const;
-  // Precondition: the search is prepared, and `costs` is the costmap at full resolution.
-  Plan planOn(const costmap::CostGrid& costs, MultiResolutionPlanner& search,
-              const PoseRequest& request, const base::StopToken& stop);
-  Route findRoute(MultiResolutionPlanner& search, const PathEnd& start, const PathEnd& goal,
-                  bool record_expanded, const base::StopToken& stop) const;
   Lowered* loweredFor(const costmap::CostGrid& costs, const PoseRequest& request);
   CostmapPair loweredCosts(Lowered& lowered, const base::StopToken& stop);
 

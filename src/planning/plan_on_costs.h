@@ -1,0 +1,33 @@
+// Plans between two poses on a costmap that is there: ends, search, smoothing, poses, message.
+//
+//   return planWithin(timeout, request, stop, [&](const StopToken& token) {
+//     search.prepare(costmaps, token);
+//     return planOnCosts(costs, search, request, options, token);
+//   });
+//
+// What PathPlanner, which makes costmaps of occupancy maps, and CostPlanner, to whom costs are given,
+// have in common.
+#pragma once
+
+#include <functional>
+
+#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/costmap/cost_grid.h"
+#include "grid_path_planner/planning/path_planner.h"
+#include "grid_path_planner/planning/plan.h"
+#include "planning/multi_resolution_planner.h"
+
+namespace grid_path_planner::planning {
+
+// `costs` is the costmap at full resolution, for which `search` is prepared. Throws Stopped, and what
+// searches throw. Precondition: the poses are finite.
+Plan planOnCosts(const costmap::CostGrid& costs, MultiResolutionPlanner& search,
+                 const PoseRequest& request, const PlannerOptions& options,
+                 const base::StopToken& stop);
+
+// What `work` gives, or the status and the sentence of Stopped, TooExpensive or InputError that it
+// throws; INVALID_REQUEST without it for poses that are not finite. `timeout`: seconds, 0: none.
+Plan planWithin(double timeout, const PoseRequest& request, const base::StopSource& stop,
+                const std::function<Plan(const base::StopToken&)>& work);
+
+}  // namespace grid_path_planner::planning

@@ -1,0 +1,26 @@
+// Options of the planner inside move_base and Move Base Flex.
+#pragma once
+
+#include "grid_path_planner/base/options.h"
+#include "planning/cost_planner_options.h"
+
+namespace grid_path_planner::nodes {
+
+struct AdapterOptions {
+  planning::CostPlannerOptions planner;
+  double pose_spacing = -1.0;  // m; -1: a cell of the costmap
+};
+
+template <class Visitor>
+void visitOptions(AdapterOptions& o, Visitor&& visit) {
+  visitOptions(o.planner, visit);
+  visit("pose_spacing", o.pose_spacing,
+        base::OptionInfo{
+            "Distance between poses of a plan at most, in equal parts between corners, for "
+            "local planners that go from pose to pose; -1: one cell of the costmap; 0: "
+            "corners only",
+            "m", -1, 10000}
+            .under("The plan"));
+}
+
+}  // namespace grid_path_planner::nodes

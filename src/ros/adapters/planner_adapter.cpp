@@ -1,0 +1,178 @@
+#include "ros/adapters/planner_adapter.h"
+
+#include <nav_msgs/Path.h>
+#include <ros/console.h>
+
+#include <cmath>
+#include <utility>
+
+#include "grid_path_planner/MoveBasePluginConfig.h"
+#include "grid_path_planner/ros/conversions.h"
+#include "path/pose_spacing.h"
+#include "ros/common/parameters.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError, base::Status, base::StopSource;
+using path::Path, path::Pose, path::spacedPoses;
+using planning::checkCostPlannerOptions, planning::failedPlan, planning::Plan,
+    planning::PoseRequest;
+
+namespace {
+
+std::string withoutSlash(const std::string& frame) {
+  return frame.empty() || frame[0] != '/' ? frame : frame.substr(1);
+}
+
+AdapterOptions loadedOptions(const ros::NodeHandle& private_nh) {
+  AdapterOptions options;
+  loadParameters(private_nh, options);
+  checkCostPlannerOptions(options.planner);
+  warnUnknownParameters(private_nh, optionNames<AdapterOptions>());
+  return options;
+}
+
+// Of a vehicle, which tilts. Throws InputError where it is no pose.
+Pose startPose(const geometry_msgs::Pose& message) {
+  geometry_msgs::Pose level = message;
+  const geometry_msgs::Quaternion& q = message.orientation;
+  const double length = std::hypot(std::hypot(q.x, q.y), std::hypot(q.z, q.w));
+  if (std::abs(length - 1.0) < 0.01) {
+    const double yaw = yawOf(q);
+    level.orientation.x = level.orientation.y = 0.0;
+    level.orientation.z = std::sin(yaw / 2.0);
+    level.orientation.w = std::cos(yaw / 2.0);
+  }
+  return poseFromMessage(level);
+}
+
+template <class Work>
+auto named(const char* which, Work&& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(std::string(which) + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+// A call of makePlan() that cancel() ends.
+class PlannerAdapter::Active {
+ public:
+  explicit Active(PlannerAdapter& adapter) : adapter_(adapter) {
+    const std::lock_guard<std::mutex> lock(adapter_.mutex_);
+    stop_ = adapter_.active_.emplace(adapter_.active_.end());
+  }
+  ~Active() {
+    const std::lock_guard<std::mutex> lock(adapter_.mutex_);
+    adapter_.active_.erase(stop_);
+  }
+  Active(const Active&) = delete;
+  Active& operator=(const Active&) = delete;
+
+  const StopSource& stop() const { return *stop_; }
+
+ private:
+  PlannerAdapter& adapter_;
+  std::list<StopSource>::iterator stop_;
+};
+
+class PlannerAdapter::Reconfiguration {
+ public:
+  Reconfiguration(const ros::NodeHandle& private_nh, const AdapterOptions& options,
+                  PlannerAdapter& adapter)
+      : server_(private_nh, options, [&adapter](const AdapterOptions& wanted) {
+          checkCostPlannerOptions(wanted.planner);
+          const std::lock_guard<std::mutex> lock(adapter.mutex_);
+          adapter.wanted_ = wanted;
+        }) {}
+
+ private:
+  Reconfigurable<MoveBasePluginConfig, AdapterOptions> server_;
+};
+
+PlannerAdapter::PlannerAdapter(const ros::NodeHandle& private_nh, const std::string& frame_id)
+    : frame_id_(withoutSlash(frame_id)),
+      options_(loadedOptions(private_nh)),
+      planner_(options_.planner) {
+  plan_ = ros::NodeHandle(private_nh).advertise<nav_msgs::Path>("plan", 1);
+  reconfiguration_ = std::make_unique<Reconfiguration>(private_nh, options_, *this);
+}
+
+PlannerAdapter::~PlannerAdapter() {
+  cancel();
+}
+
+void PlannerAdapter::cancel() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (StopSource& each : active_) each.cancel();
+}
+
+void PlannerAdapter::takeOptions() {
+  std::optional<AdapterOptions> wanted;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    wanted.swap(wanted_);
+  }
+  if (!wanted) return;
+  planner_.setOptions(wanted->planner);
+  options_ = std::move(*wanted);
+}
+
+PlannerAdapter::Answer PlannerAdapter::makePlan(const geometry_msgs::PoseStamped& start,
+                                                const geometry_msgs::PoseStamped& goal,
+                                                std::optional<double> tolerance,
+                                                const GiveCosts& give_costs) {
+  const Active active(*this);
+  const std::lock_guard<std::mutex> one_at_a_time(planning_);
+  Plan found;
+  try {
+    takeOptions();
+    found = plan(start, goal, tolerance, give_costs, active.stop());
+  } catch (const std::exception& error) {
+    found = failedPlan(Status::INVALID_REQUEST, error.what());
+  }
+  Answer answer = answerOf(std::move(found));
+  log(answer);
+  return answer;
+}
+
+Plan PlannerAdapter::plan(const geometry_msgs::PoseStamped& start,
+                          const geometry_msgs::PoseStamped& goal, std::optional<double> tolerance,
+                          const GiveCosts& give_costs, const StopSource& stop) {
+  for (const geometry_msgs::PoseStamped* each : {&start, &goal})
+    if (withoutSlash(each->header.frame_id) != frame_id_)
+      return failedPlan(Status::TRANSFORM_ERROR,
+                        std::string(each == &start ? "the start" : "the goal") + " is in frame '" +
+                            each->header.frame_id + "', the costmap in '" + frame_id_ + "'");
+  const PoseRequest request{named("start", [&] { return startPose(start.pose); }),
+                            named("goal", [&] { return poseFromMessage(goal.pose); })};
+  const double within = tolerance.value_or(options_.planner.default_tolerance);
+  if (!(within >= 0.0))
+    throw InputError("the tolerance must be at least 0 m, got " + std::to_string(within));
+  give_costs(planner_);
+  return planner_.plan(request, within, stop);
+}
+
+PlannerAdapter::Answer PlannerAdapter::answerOf(Plan plan) {
+  Answer answer{plan.status, std::move(plan.message), plan.costValue(), {}};
+  if (!plan.found()) return answer;
+  plan.path.frame_id = frame_id_;
+  const double cell = planner_.searched()->geometry().resolution();
+  const double spacing = options_.pose_spacing < 0.0 ? cell : options_.pose_spacing;
+  nav_msgs::Path message =
+      pathToMessage(spacedPoses(plan.path, spacing, options_.planner.heading), ros::Time::now());
+  plan_.publish(message);
+  answer.poses = std::move(message.poses);
+  return answer;
+}
+
+void PlannerAdapter::log(const Answer& answer) {
+  const std::string text = std::string(toString(answer.status)) + ": " + answer.message;
+  ROS_DEBUG_STREAM_NAMED("grid_path_planner", text);
+  if (!answer.found() && text != last_failure_) ROS_WARN_STREAM("grid_path_planner: " << text);
+  last_failure_ = answer.found() ? "" : text;
+}
+
+}  // namespace grid_path_planner::nodes
