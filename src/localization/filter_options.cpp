@@ -11,8 +11,4 @@ const std::vector<std::pair<const char*, Gate>>& choicesOf(Gate) {
   return kChoices;
 }
 
-void checkFilterOptions(const FilterOptions& options) {
-  base::checkOptionLimits(options);
-}
-
 }  // namespace grid_path_planner::localization

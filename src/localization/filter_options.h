@@ -45,7 +45,7 @@ struct FilterOptions {
 };
 
 template <class Visitor>
-void visitOptions(FilterOptions& o, Visitor&& visit) {
+void visitMotionOptions(FilterOptions& o, Visitor& visit) {
   using base::OptionInfo;
   visit("gyro_noise", o.gyro_noise,
         OptionInfo{"Noise density of the gyro, from its data sheet; larger: fixes turn the pose "
@@ -85,6 +85,11 @@ void visitOptions(FilterOptions& o, Visitor&& visit) {
         OptionInfo{"Standard deviation of the yaw that the IMU gives at the start; larger for a "
                    "compass beside motors",
                    "rad", 0.001, 3.2});
+}
+
+template <class Visitor>
+void visitMeasurementOptions(FilterOptions& o, Visitor& visit) {
+  using base::OptionInfo;
   visit("dvl_timeout", o.dvl_timeout,
         OptionInfo{"The DVL is lost when none of its velocities was used for so long; then cmd_vel "
                    "is",
@@ -117,7 +122,10 @@ void visitOptions(FilterOptions& o, Visitor&& visit) {
                    "s", 0.1, 60.0});
 }
 
-// Throws InputError naming the option for a value outside its limits.
-void checkFilterOptions(const FilterOptions& options);
+template <class Visitor>
+void visitOptions(FilterOptions& o, Visitor&& visit) {
+  visitMotionOptions(o, visit);
+  visitMeasurementOptions(o, visit);
+}
 
 }  // namespace grid_path_planner::localization

@@ -1,6 +1,7 @@
 #include "localization/filter_start.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace grid_path_planner::localization {
 
@@ -35,9 +36,11 @@ MountedPose poseAtOrigin(const ImuMeasurement& imu, const FilterOptions& options
   if (imu.attitude) {
     pose.attitude = *imu.attitude;
   } else {
-    pose.attitude.setFromTwoVectors(imu.inertial.acceleration, Eigen::Vector3d::UnitZ());
-    pose.attitude =
-        Eigen::AngleAxisd(-yawOf(pose.attitude), Eigen::Vector3d::UnitZ()) * pose.attitude;
+    const Eigen::Vector3d& up = imu.inertial.acceleration;
+    const double pitch = std::atan2(-up.x(), std::hypot(up.y(), up.z()));
+    const double roll = std::atan2(up.y(), up.z());
+    pose.attitude = Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+                    Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
     tilt = std::max(tilt, options.accelerometer_bias / options.gravity);
   }
   pose.covariance.bottomRightCorner<3, 3>() = attitudeCovariance(pose.attitude, square(tilt), 0.0);

@@ -2,7 +2,7 @@
 //
 //   LaggedFilter filter(options, Start::AT_FIX);
 //   filter.add(measurement);                                   // late ones too
-//   if (filter.started()) publish(filter.estimateAt(now));
+//   if (filter.started()) use(filter.snapshotAt(now).estimate);
 //
 // It keeps the measurements of the last `history` seconds with the snapshot after each. One that comes
 // late is put in its place, and all after it are applied again.

@@ -28,7 +28,4 @@ void visitOptions(LocalizerOptions& o, Visitor&& visit) {
                    "s", 0.1, 3600.0});
 }
 
-// Throws InputError naming the option for a value outside its limits.
-void checkLocalizerOptions(const LocalizerOptions& options);
-
 }  // namespace grid_path_planner::localization

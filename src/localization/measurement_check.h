@@ -1,7 +1,7 @@
 // Measurements that cannot be used are refused with a sentence, before they reach a filter.
 //
 //   checkMeasurement(measurement);          // throws base::InputError
-//   checkStamp(measurement.stamp, now, options.history);
+//   checkStamp(measurement.stamp, now, history);
 #pragma once
 
 #include "localization/measurement.h"

@@ -1,7 +1,7 @@
 // A pose with its covariance, carried from one place of the vehicle to another.
 //
 //   const MountedPose base = carried(poseOf(estimate), base_in_body);
-//   message.pose.covariance = ...worldCovariance(base)...;     // about the world's axes, as in ROS
+//   const PoseCovariance as_in_ros = worldCovariance(base);      // about the world's axes
 #pragma once
 
 #include "localization/measurement.h"

@@ -1,6 +1,6 @@
 // Measurements of a source that were rejected one after another: do they agree with each other?
 //
-//   if (rejections.add(stamp, deviation, reach) >= 5) reset();
+//   if (rejections.add(stamp, deviation, drift, limit) >= 5) reset();
 //
 // What is compared is by how far each was off its prediction: a filter that went astray and sound fixes
 // give nearly the same deviation again and again, outliers give another one each time.

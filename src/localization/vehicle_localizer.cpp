@@ -62,7 +62,7 @@ VehicleLocalizer::VehicleLocalizer(const LocalizerOptions& options)
     : options_(options),
       map_(options.filter, Start::AT_FIX),
       odometry_(options.filter, Start::AT_ORIGIN) {
-  checkLocalizerOptions(options);
+  base::checkOptionLimits(options);
 }
 
 Verdict VehicleLocalizer::add(const Measurement& measurement) {
@@ -80,7 +80,7 @@ Verdict VehicleLocalizer::add(const Measurement& measurement) {
 }
 
 void VehicleLocalizer::use(const LocalizerOptions& options) {
-  checkLocalizerOptions(options);
+  base::checkOptionLimits(options);
   options_ = options;
   map_.use(options.filter);
   odometry_.use(options.filter);

@@ -32,7 +32,7 @@ struct LocalizationReport {
 
 class VehicleLocalizer {
  public:
-  // Throws InputError for options that checkLocalizerOptions refuses.
+  // Throws InputError for an option outside its limits.
   explicit VehicleLocalizer(const LocalizerOptions& options);
 
   // Throws InputError for what checkMeasurement refuses, and for stamps that are DUPLICATE or TOO_OLD.
