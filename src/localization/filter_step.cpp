@@ -148,8 +148,19 @@ Outcome FilterStep::fuseVelocity(Context& context, const DvlVelocity& dvl) const
   return fuse<3>(context, deviation, update, &FilterStep::forgetVelocity);
 }
 
+// How the velocity in the world hangs on the attitude is known at the right velocity only: about 0 it
+// would not, and the filter would believe its attitude too much.
+void FilterStep::adoptVelocity(Context& context, const DvlVelocity& dvl) const {
+  State& state = context.snapshot.estimate.state;
+  const Eigen::Vector3d turning = context.rate.rate - state.gyro_bias;
+  state.velocity =
+      state.attitude * (dvl.sensor.rotation * dvl.velocity - turning.cross(dvl.sensor.position));
+  forgetVelocity(context.snapshot.estimate);
+}
+
 Outcome FilterStep::take(Context& context, const DvlVelocity& dvl) const {
   if (!context.snapshot.started) return {};
+  if (!context.snapshot.dvl_used) adoptVelocity(context, dvl);
   const Outcome outcome = fuseVelocity(context, dvl);
   if (outcome.verdict != Verdict::GATED) context.snapshot.dvl_used = context.snapshot.stamp;
   return outcome;
@@ -176,6 +187,8 @@ Outcome FilterStep::take(Context& context, const DepthFix& depth) const {
   if (start_ == Start::AT_ORIGIN && !snapshot.depth_offset) {
     snapshot.depth_offset =
         predictedPosition<double>(snapshot.estimate.state, depth.sensor).z() - depth.z;
+    // The frame's z is that of the first depth: the vehicle is known in it as well as that was measured.
+    snapshot.estimate.covariance(kPosition + 2, kPosition + 2) += depth.variance;
     return {Verdict::TAKEN, 0, 0.0};
   }
   const double z = depth.z + snapshot.depth_offset.value_or(0.0);

@@ -87,6 +87,7 @@ class FilterStep {
   Outcome fuseVelocity(Context& context, const DvlVelocity& dvl) const;
   Outcome fixed(Context& context, const Outcome& outcome) const;
   Outcome begin(FilterSnapshot& snapshot, const MountedPose& pose) const;
+  void adoptVelocity(Context& context, const DvlVelocity& dvl) const;
   Outcome setPose(FilterSnapshot& snapshot, const PoseFix& fix) const;
   template <int N>
   bool passes(const Innovation<N>& innovation, const Eigen::Matrix<double, N, 1>& residual) const;

@@ -63,6 +63,15 @@ TEST(Consistency, ErrorsAreAsLargeAsTheCovarianceSays) {
   RecordProperty("metres", std::to_string(mean.metres));
 }
 
+// The first velocity of the DVL came to a filter that assumed none: about that, an error of the heading
+// does not turn the velocity, and the filter believed the heading by far too much for a minute.
+TEST(Consistency, AlsoRightAfterTheStart) {
+  const unsigned runs = 24;
+  const Errors mean = meanErrors(runs, 5.0, [](SimulatedSensors&) {});
+  EXPECT_LT(mean.nees, meanBounds(15, runs, 0.999).high);
+  EXPECT_LT(mean.pose_nees, meanBounds(6, runs, 0.999).high);
+}
+
 TEST(Consistency, AlsoWithPosesAndAfterAGapOfTheImu) {
   const unsigned runs = 12;
   const Errors mean = meanErrors(runs, 30.0, [](SimulatedSensors& sensors) {

@@ -1,1 +1,0 @@
-#include "localization/localizer_options.h"
