@@ -85,7 +85,7 @@ VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle&
       status_publisher_(nh_.advertise<std_msgs::String>("localization_status", 1, true)),
       heard_since_(ros::SteadyTime::now()),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
-  announce(report_);
+  announce(localizer_.report({}));
   subscribe();
   subscribeSensors();
   offerServices(private_nh);
