@@ -4,13 +4,14 @@
 #   planning    path_planner, map_publisher, grid_path (plan, convert, rectangles): always built
 #   driving     navigate_path, teleop_joy
 #   avoidance   local_planner
+#   localization  vehicle_localizer
 #   mapping     projected_map, grid_path project: needs OctoMap
 #   simulation  simulator: needs SDFormat, Assimp and Embree
 #   study       grid_path scenarios, grid_path study; with avoidance, mapping and simulation grid_path flights
 #
 # Sets GPP_WITH_<component>, GPP_FOLDERS (of src/, from the ground up), GPP_ROOMS (the libraries that
 # they make), GPP_NODES, GPP_CONFIGURATIONS, GPP_LAUNCH_FILES and what the components need of catkin.
-set(GPP_ALL_COMPONENTS planning driving avoidance mapping simulation study)
+set(GPP_ALL_COMPONENTS planning driving avoidance localization mapping simulation study)
 set(GRID_PATH_PLANNER_COMPONENTS "${GPP_ALL_COMPONENTS}" CACHE STRING
   "Components to build beside planning, of: ${GPP_ALL_COMPONENTS}")
 string(REPLACE "," ";" components "${GRID_PATH_PLANNER_COMPONENTS}")
@@ -57,6 +58,14 @@ if(GPP_WITH_avoidance)
   list(APPEND GPP_CATKIN_COMPONENTS trajectory_msgs)
   list(APPEND GPP_CATKIN_EXPORTS trajectory_msgs)
 endif()
+if(GPP_WITH_localization)
+  list(APPEND GPP_FOLDERS localization)
+  list(APPEND GPP_ROOMS localization)
+  list(APPEND ros_rooms ros_localization)
+  list(APPEND GPP_NODES vehicle_localizer)
+  list(APPEND GPP_CONFIGURATIONS VehicleLocalizer)
+  list(APPEND GPP_LAUNCH_FILES localization)
+endif()
 if(GPP_WITH_mapping)
   find_package(octomap REQUIRED)
   list(APPEND GPP_FOLDERS mapping)
@@ -93,7 +102,7 @@ if(GPP_WITH_avoidance AND GPP_WITH_mapping AND GPP_WITH_simulation AND GPP_WITH_
   list(APPEND GPP_FOLDERS flights)
   list(APPEND GPP_ROOMS flights)
 endif()
-if(GPP_WITH_driving OR GPP_WITH_mapping OR GPP_WITH_avoidance)
+if(GPP_WITH_driving OR GPP_WITH_mapping OR GPP_WITH_avoidance OR GPP_WITH_localization)
   list(APPEND GPP_CATKIN_COMPONENTS std_srvs)
   list(APPEND GPP_CATKIN_EXPORTS std_srvs)
 endif()

@@ -16,6 +16,7 @@
 #include "ros/avoidance/local_planner_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
+#include "ros/localization/vehicle_localizer_options.h"
 #include "ros/planning/map_publisher_options.h"
 #include "ros/planning/path_planner_options.h"
 #include "ros/simulation/simulator_options.h"
@@ -34,6 +35,7 @@ using nodes::NavigatePathOptions;
 using nodes::PathPlannerNodeOptions;
 using nodes::SimulatorOptions;
 using nodes::TeleopJoyOptions;
+using nodes::VehicleLocalizerOptions;
 
 namespace {
 
@@ -51,7 +53,8 @@ std::vector<NodeOptions> allNodes() {
           {"path_planner", "PathPlanner", describeOptions(PathPlannerNodeOptions())},
           {"projected_map", "ProjectedMap", describeOptions(ProjectedMapOptions())},
           {"simulator", "Simulator", describeOptions(SimulatorOptions())},
-          {"teleop_joy", "TeleopJoy", describeOptions(TeleopJoyOptions())}};
+          {"teleop_joy", "TeleopJoy", describeOptions(TeleopJoyOptions())},
+          {"vehicle_localizer", "VehicleLocalizer", describeOptions(VehicleLocalizerOptions())}};
 }
 
 Files cfgFiles(const fs::path& folder) {

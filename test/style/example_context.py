@@ -73,6 +73,29 @@ CONTEXT = {
         extern avoidance::PilotOptions options; extern PilotInput input; extern base::OutputFile file;""",
     "map_planner.h": """#include "grid_path_planner/avoidance/pilot.h"
         extern avoidance::Frame frame; extern avoidance::PilotOptions options; extern avoidance::Pilot pilot;""",
+    "localization/so3.h": "extern Eigen::Quaterniond attitude; extern Eigen::Vector3d rotation_vector;",
+    "localization/state.h": "extern Estimate estimate; extern ErrorVector error; extern State truth;",
+    "imu_propagation.h": """extern Estimate estimate; extern Eigen::Vector3d rate, acceleration; extern double seconds;
+        extern ImuNoise noise;""",
+    "coasting.h": "extern Estimate estimate; extern double seconds; extern CoastingNoise noise;",
+    "localization/measurement.h": """#include "localization/lagged_filter.h"
+        extern LaggedFilter filter; extern Stamp stamp; extern Eigen::Vector3d velocity; extern Eigen::Matrix3d covariance;
+        extern Mounting dvl_in_body;""",
+    "mounted_pose.h": "extern Estimate estimate; extern Mounting base_in_body;",
+    "rejections.h": "extern Rejections rejections; extern Stamp stamp; extern Deviation deviation; extern double drift, limit; void reset();",
+    "kalman_update.h": """extern Estimate estimate; extern Eigen::Vector3d residual; extern Jacobian<3> jacobian;
+        extern Eigen::Matrix3d noise; extern double gate;""",
+    "filter_step.h": "extern FilterOptions options; extern FilterSnapshot snapshot; extern Measurement measurement; extern TimedImu* next_imu;",
+    "lagged_filter.h": "extern FilterOptions options; extern Measurement measurement; extern Stamp now;",
+    "measurement_check.h": "extern Measurement measurement; extern Stamp now; extern double history;",
+    "input_statistics.h": "extern LaggedFilter filter; extern Stamp now; void warn(const char*);",
+    "vehicle_localizer.h": """extern LocalizerOptions options; extern Measurement measurement; extern Stamp now;
+        void drive(const Estimate&);""",
+    "sensor_messages.h": """#include "localization/vehicle_localizer.h"
+        extern FrameTransforms transforms; extern VehicleLocalizerOptions options; extern sensor_msgs::Imu message;
+        extern localization::VehicleLocalizer localizer;""",
+    "transform_rivals.h": "extern ros::NodeHandle nh; extern ros::Time stamp; void beSilent(const std::string&);",
+    "input_log.h": "extern std::exception error; using localization::Source;",
     "seen_map.h": """extern SeenMap map; extern avoidance::Frame frame; extern Eigen::Vector3d position, goal;""",
     "flight_hold.h": "extern double master_timeout;",
     "flight_job.h": "extern std::function<void(std::size_t)> progress;",

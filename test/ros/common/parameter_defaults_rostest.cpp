@@ -6,9 +6,11 @@
 #include "grid_path_planner/ProjectedMapConfig.h"
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/TeleopJoyConfig.h"
+#include "grid_path_planner/VehicleLocalizerConfig.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
+#include "ros/localization/vehicle_localizer_options.h"
 #include "ros/planning/map_publisher_options.h"
 #include "ros/planning/path_planner_options.h"
 #include "ros/simulation/simulator_options.h"
@@ -33,6 +35,10 @@ TEST(ParameterDefaults, Simulator) {
 
 TEST(ParameterDefaults, TeleopJoy) {
   test::expectSameDefaults<TeleopJoyConfig, TeleopJoyOptions>("teleop_joy");
+}
+
+TEST(ParameterDefaults, VehicleLocalizer) {
+  test::expectSameDefaults<VehicleLocalizerConfig, VehicleLocalizerOptions>("vehicle_localizer");
 }
 
 TEST(ParameterDefaults, MapPublisher) {

@@ -26,6 +26,16 @@ def header(node, frame="map"):
     return {"frame_id": frame, "stamp": {"secs": now.secs, "nsecs": now.nsecs}}
 
 
+def imu(node):
+    return of("sensor_msgs/Imu", header=header(node, "base_link"), orientation={"w": 1.0}, linear_acceleration={"z": 9.8})
+
+
+def dvl(node):
+    message = of("geometry_msgs/TwistWithCovarianceStamped", header=header(node, "base_link"))
+    message.twist.covariance = [0.01 if i % 7 == 0 else 0.0 for i in range(36)]
+    return message
+
+
 def grid(node):
     """8 m by 8 m and free."""
     return of("nav_msgs/OccupancyGrid", header=header(node), data=[0] * 64, info={
@@ -84,6 +94,7 @@ def plan_goal(node):
 RIGHT = {
     "nav_msgs/OccupancyGrid": grid, "map_msgs/OccupancyGridUpdate": update, "nav_msgs/Path": path,
     "geometry_msgs/PoseStamped": pose_stamped, "geometry_msgs/PoseWithCovarianceStamped": initial_pose,
+    "sensor_msgs/Imu": imu, "geometry_msgs/TwistWithCovarianceStamped": dvl,
     "sensor_msgs/Joy": joystick, "sensor_msgs/PointCloud2": cloud,
     "sensor_msgs/CameraInfo": lambda node: of(
         "sensor_msgs/CameraInfo", header=header(node), width=2, height=1, K=[1.0, 0.0, 1.0, 0.0, 1.0, 0.5, 0.0, 0.0, 1.0]),
@@ -238,3 +249,15 @@ def takes_over(node, deadline):
     node.forget("cmd_vel")
     return until(node, lambda: any(moving(twist) for twist in node.heard("cmd_vel")), deadline,
                  lambda: node.send("joy", joystick(node)), every=0.1)
+
+
+def estimates(node, deadline):
+    """An IMU and a pose that is set give a pose in the map."""
+    request = get_service_class("grid_path_planner/SetPose")._request_class()
+    node.forget("odometry/filtered")
+
+    def feed():
+        node.send("imu/data", imu(node))
+        request.pose = initial_pose(node)
+        node.call("~set_pose", request)
+    return until(node, lambda: node.heard("odometry/filtered"), deadline, feed, every=0.05)

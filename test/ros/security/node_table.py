@@ -8,7 +8,7 @@ rows with nodelet_plugins.xml and the package's programs. Whoever adds a node ad
     services    private ones begin with ~
     actions     name: type without its ending
     arguments   of the program, so that it starts with nothing but a master; parameters go to the nodelet too
-    tf          whether it listens to tf, or publishes it
+    tf          whether it listens to tf, publishes it, or both
     probe       of node_probes.py: gives right data and says whether the right answer came
 """
 import collections
@@ -19,6 +19,7 @@ Row = collections.namedtuple("Row", "inputs outputs services actions arguments t
 
 MAPS = {"projected_map": "nav_msgs/OccupancyGrid", "projected_map_updates": "map_msgs/OccupancyGridUpdate"}
 TRIGGER = "std_srvs/Trigger"
+FIX = "geometry_msgs/PoseWithCovarianceStamped"
 
 NODES = {
     "path_planner": Row(
@@ -52,6 +53,16 @@ NODES = {
                  "histogram_image": "sensor_msgs/Image", "avoidance_markers": "visualization_msgs/MarkerArray"},
         services={"~pause": TRIGGER, "~resume": TRIGGER, "~cancel": TRIGGER, "~explain": TRIGGER},
         actions={"navigate_path": "grid_path_planner/NavigatePath"}, arguments=["_cloud_timeout:=10"], tf="listens", probe=probes.says_what_it_flies_to),
+    "vehicle_localizer": Row(
+        inputs={"imu/data": "sensor_msgs/Imu", "dvl/twist": "geometry_msgs/TwistWithCovarianceStamped",
+                "depth": FIX, "usbl/pose": FIX, "marker_pose": FIX, "initialpose": FIX, "cmd_vel": "geometry_msgs/Twist"},
+        outputs={"odometry/filtered": "nav_msgs/Odometry", "odometry/local": "nav_msgs/Odometry",
+                 "localization_status": "std_msgs/String"},
+        services={"~set_pose": "grid_path_planner/SetPose", "~reset": TRIGGER}, actions={},
+        # Others publish these transforms in the test.
+        arguments=["_publish_map_to_odom:=false", "_publish_odom_to_base:=false", "_usbl_frame:=base_link",
+                   "_depth_frame:=base_link"],
+        tf="listens, publishes", probe=probes.estimates),
     "projected_map": Row(
         inputs={"cloud_in": "sensor_msgs/PointCloud2"},
         outputs=dict(MAPS, occupied_cells_vis_array="visualization_msgs/MarkerArray",

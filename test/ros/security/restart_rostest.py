@@ -125,6 +125,17 @@ class Restart(unittest.TestCase):
         self.assertEqual([], [twist for twist in self.node.heard("cmd_vel") if probes.moving(twist)])
         self.holds()
 
+    def test_vehicle_localizer_knows_no_pose_until_it_is_set_again(self):
+        self.start("vehicle_localizer")
+        self.holds()
+        self.kill()
+        self.comes_up()
+        self.node.forget("odometry/filtered")
+        self.node.send("imu/data", probes.imu(self.node))
+        time.sleep(QUIET)
+        self.assertEqual([], self.node.heard("odometry/filtered"))
+        self.holds()
+
     def test_local_planner_forgets_its_goal_and_flies_nothing_from_before(self):
         self.start("local_planner")
         self.holds()

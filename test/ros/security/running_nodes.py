@@ -72,7 +72,7 @@ class RunningNode:
         for topic, message_type in self.fed():
             self.publishers[topic] = rospy.Publisher(self.resolved(topic), message_class(message_type),
                                                      queue_size=1000, latch=topic in LATCHED)
-        if row.tf == "listens":
+        if "listens" in row.tf:
             threading.Thread(target=self.feed_transforms, daemon=True).start()
 
     def __str__(self):
@@ -90,7 +90,7 @@ class RunningNode:
         for action, kind in self.row.actions.items():
             topics[action + "/goal"] = kind + "ActionGoal"
             topics[action + "/cancel"] = "actionlib_msgs/GoalID"
-        if self.row.tf == "listens":
+        if "listens" in self.row.tf:
             topics["tf"] = topics["tf_static"] = "tf2_msgs/TFMessage"
         return topics.items()
 

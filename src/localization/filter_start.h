@@ -1,0 +1,37 @@
+// The first estimate, and what of an estimate is forgotten when it begins anew.
+#pragma once
+
+#include <optional>
+
+#include "localization/filter_options.h"
+#include "localization/measurement.h"
+#include "localization/mounted_pose.h"
+#include "localization/state.h"
+
+namespace grid_path_planner::localization {
+
+// At rest with this pose.
+Estimate estimateAt(const MountedPose& pose, const FilterOptions& options);
+
+// At the origin with the attitude of the IMU: its own, else level by its accelerometer with yaw 0.
+// Position and yaw are exact: they define the frame.
+MountedPose poseAtOrigin(const ImuMeasurement& imu, const FilterOptions& options);
+
+// The pose of the body by a fix of a position and the attitude of the IMU.
+MountedPose poseAtFix(const PositionFix& fix, const Eigen::Quaterniond& attitude,
+                      const FilterOptions& options);
+
+// The pose of the body by a fix of something mounted on it.
+MountedPose poseAtFix(const PoseFix& fix);
+
+// Whether two fixes can be of one vehicle, so many seconds apart.
+bool agree(const MountedPose& first, const MountedPose& second, double seconds,
+           const FilterOptions& options, double limit);
+
+// Gives `count` errors from `first` on this variance, and no correlation with the others.
+void forget(Covariance& covariance, int first, int count, double variance);
+
+// Gives the attitude these variances, rad^2, and no correlation.
+void forgetAttitude(Estimate& estimate, double tilt, double yaw);
+
+}  // namespace grid_path_planner::localization

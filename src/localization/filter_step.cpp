@@ -1,0 +1,325 @@
+#include "localization/filter_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "localization/chi_squared.h"
+#include "localization/coasting.h"
+#include "localization/filter_start.h"
+#include "localization/imu_propagation.h"
+
+namespace grid_path_planner::localization {
+
+namespace {
+
+// Variances of what is forgotten: so large that a measurement alone determines it.
+constexpr double kAnyPosition = 1e6;  // m^2
+constexpr double kAnyVelocity = 1e2;  // m^2/s^2
+constexpr double kAnyAngle = 10.0;    // rad^2
+
+Inertial between(const TimedImu& from, const TimedImu& to, double stamp) {
+  const double share =
+      (stamp - static_cast<double>(from.stamp)) / static_cast<double>(to.stamp - from.stamp);
+  const Inertial &a = from.measurement.inertial, &b = to.measurement.inertial;
+  return {a.rate + share * (b.rate - a.rate),
+          a.acceleration + share * (b.acceleration - a.acceleration)};
+}
+
+double middle(Stamp from, Stamp to) {
+  return static_cast<double>(from) + 0.5 * static_cast<double>(to - from);
+}
+
+}  // namespace
+
+FilterStep::FilterStep(const FilterOptions& options, Start start)
+    : options_(options), start_(start) {
+  for (const int dimension : {1, 3, 6})
+    gates_[static_cast<std::size_t>(dimension)] =
+        chiSquaredQuantile(dimension, options.gate_probability);
+}
+
+bool FilterStep::isBridged(const TimedImu& from, const TimedImu* next_imu) const {
+  return next_imu && next_imu->stamp > from.stamp &&
+         secondsBetween(from.stamp, next_imu->stamp) <= options_.imu_timeout;
+}
+
+void FilterStep::advance(FilterSnapshot& snapshot, Stamp stamp, const TimedImu* next_imu) const {
+  const Stamp from = snapshot.stamp;
+  snapshot.stamp = stamp;
+  if (!snapshot.started || stamp == from) return;
+  Stamp coasts_from = from;
+  if (snapshot.imu) {
+    const TimedImu& imu = *snapshot.imu;
+    const bool bridged = isBridged(imu, next_imu);
+    const Stamp timeout = static_cast<Stamp>(1e9 * options_.imu_timeout);
+    coasts_from = bridged ? stamp : std::clamp(imu.stamp + timeout, from, stamp);
+    const ImuNoise noise{options_.gyro_noise, options_.gyro_walk, options_.accelerometer_noise,
+                         options_.accelerometer_walk, options_.gravity};
+    if (coasts_from > from)
+      propagate(snapshot.estimate,
+                bridged ? between(imu, *next_imu, middle(from, stamp)) : imu.measurement.inertial,
+                secondsBetween(from, coasts_from), noise);
+  }
+  if (stamp > coasts_from)
+    coast(snapshot.estimate, secondsBetween(coasts_from, stamp),
+          {options_.coast_acceleration, options_.coast_turn, options_.gyro_walk,
+           options_.accelerometer_walk});
+}
+
+BodyRate FilterStep::rateAt(const FilterSnapshot& snapshot, const TimedImu* next_imu) const {
+  // Without an IMU the vehicle is assumed not to turn, but for the bias, which is taken off again.
+  const BodyRate unknown{snapshot.estimate.state.gyro_bias, square(options_.coast_turn)};
+  if (!snapshot.imu) return unknown;
+  const TimedImu& imu = *snapshot.imu;
+  const double age = secondsBetween(imu.stamp, snapshot.stamp);
+  const bool bridged = isBridged(imu, next_imu);
+  if (!bridged && age > options_.imu_timeout) return unknown;
+  const double period = bridged ? secondsBetween(imu.stamp, next_imu->stamp) : 0.01;
+  const double variance = square(options_.gyro_noise) / std::max(period, 1e-4);
+  if (!bridged) return {imu.measurement.inertial.rate, variance};
+  return {between(imu, *next_imu, static_cast<double>(snapshot.stamp)).rate, variance};
+}
+
+Outcome FilterStep::apply(FilterSnapshot& snapshot, const Measurement& measurement,
+                          const TimedImu* next_imu) const {
+  advance(snapshot, measurement.stamp, next_imu);
+  Context context{snapshot, measurement.source, rateAt(snapshot, next_imu)};
+  return std::visit([&](const auto& data) { return take(context, data); }, measurement.data);
+}
+
+template <int N>
+bool FilterStep::passes(const Innovation<N>& innovation,
+                        const Eigen::Matrix<double, N, 1>& residual) const {
+  if (options_.gate == Gate::CHI_SQUARED) return innovation.nis() <= gates_[N];
+  if (options_.gate == Gate::NONE || N != 6) return true;
+  const bool near = residual.template head<3>().norm() <= options_.gate_distance;
+  const bool turned = residual.template tail<3>().norm() <= options_.gate_angle * M_PI / 180.0;
+  return options_.gate == Gate::EITHER ? near && turned : near || turned;
+}
+
+// `update`: makes the innovation of an estimate.
+template <int N, class Update>
+Outcome FilterStep::fuse(Context& context, const Deviation& deviation, const Update& update,
+                         void (FilterStep::*forget)(Estimate&) const) const {
+  FilterSnapshot& snapshot = context.snapshot;
+  const auto [residual, innovation] = update(snapshot.estimate);
+  Outcome outcome{Verdict::TAKEN, N, innovation.nis()};
+  Rejections& rejections = snapshot.rejections[static_cast<std::size_t>(context.source)];
+  if (passes<N>(innovation, residual)) {
+    innovation.apply(snapshot.estimate);
+  } else {
+    const double drift = square(options_.start_velocity);
+    if (rejections.add(snapshot.stamp, deviation, drift, gates_[6]) < options_.reset_after)
+      return outcome.verdict = Verdict::GATED, outcome;
+    (this->*forget)(snapshot.estimate);
+    update(snapshot.estimate).second.apply(snapshot.estimate);
+    outcome.verdict = Verdict::RESET;
+  }
+  rejections.clear();
+  return outcome;
+}
+
+Outcome FilterStep::take(Context& context, const ImuMeasurement& imu) const {
+  FilterSnapshot& snapshot = context.snapshot;
+  snapshot.imu = TimedImu{snapshot.stamp, imu};
+  if (!snapshot.started && start_ == Start::AT_ORIGIN) {
+    snapshot.estimate = estimateAt(poseAtOrigin(imu, options_), options_);
+    snapshot.started = true;
+  }
+  return {Verdict::TAKEN, 0, 0.0};
+}
+
+Outcome FilterStep::fuseVelocity(Context& context, const DvlVelocity& dvl) const {
+  const Eigen::Matrix3d lever =
+      dvl.sensor.rotation.toRotationMatrix().transpose() * cross(dvl.sensor.position);
+  const Eigen::Matrix3d noise = dvl.covariance + context.rate.variance * lever * lever.transpose();
+  const auto update = [&](const Estimate& estimate) {
+    const Eigen::Vector3d residual =
+        dvl.velocity - predictedVelocity<double>(estimate.state, context.rate.rate, dvl.sensor);
+    return std::make_pair(
+        residual,
+        Innovation<3>(estimate, residual, velocityJacobian(estimate.state, dvl.sensor), noise));
+  };
+  const State& state = context.snapshot.estimate.state;
+  Deviation deviation;
+  deviation.offset.head<3>() =
+      state.attitude * dvl.sensor.rotation * update(context.snapshot.estimate).first;
+  deviation.variance.head<3>().setConstant(noise.diagonal().maxCoeff());
+  return fuse<3>(context, deviation, update, &FilterStep::forgetVelocity);
+}
+
+// How the velocity in the world hangs on the attitude is known at the right velocity only: about 0 it
+// would not, and the filter would believe its attitude too much.
+void FilterStep::adoptVelocity(Context& context, const DvlVelocity& dvl) const {
+  State& state = context.snapshot.estimate.state;
+  const Eigen::Vector3d turning = context.rate.rate - state.gyro_bias;
+  state.velocity =
+      state.attitude * (dvl.sensor.rotation * dvl.velocity - turning.cross(dvl.sensor.position));
+  forgetVelocity(context.snapshot.estimate);
+}
+
+Outcome FilterStep::take(Context& context, const DvlVelocity& dvl) const {
+  if (!context.snapshot.started) return {};
+  if (!context.snapshot.dvl_used) adoptVelocity(context, dvl);
+  const Outcome outcome = fuseVelocity(context, dvl);
+  if (outcome.verdict != Verdict::GATED) context.snapshot.dvl_used = context.snapshot.stamp;
+  return outcome;
+}
+
+Outcome FilterStep::take(Context& context, const CommandedVelocity& command) const {
+  FilterSnapshot& snapshot = context.snapshot;
+  const auto recent = [&](const std::optional<Stamp>& used, double period) {
+    return used && secondsBetween(*used, snapshot.stamp) < period;
+  };
+  if (!snapshot.started || recent(snapshot.dvl_used, options_.dvl_timeout) ||
+      recent(snapshot.command_used, options_.command_period))
+    return {};
+  const Eigen::Matrix3d covariance =
+      square(options_.command_deviation) * Eigen::Matrix3d::Identity();
+  const Outcome outcome = fuseVelocity(context, {command.velocity, covariance, command.base});
+  if (outcome.verdict != Verdict::GATED) snapshot.command_used = snapshot.stamp;
+  return outcome;
+}
+
+Outcome FilterStep::take(Context& context, const DepthFix& depth) const {
+  FilterSnapshot& snapshot = context.snapshot;
+  if (!snapshot.started) return {};
+  if (start_ == Start::AT_ORIGIN && !snapshot.depth_offset) {
+    snapshot.depth_offset =
+        predictedPosition<double>(snapshot.estimate.state, depth.sensor).z() - depth.z;
+    // The frame's z is that of the first depth: the vehicle is known in it as well as that was measured.
+    snapshot.estimate.covariance(kPosition + 2, kPosition + 2) += depth.variance;
+    return {Verdict::TAKEN, 0, 0.0};
+  }
+  const double z = depth.z + snapshot.depth_offset.value_or(0.0);
+  using Scalar = Eigen::Matrix<double, 1, 1>;
+  const auto update = [&](const Estimate& estimate) {
+    const Scalar residual(z - predictedPosition<double>(estimate.state, depth.sensor).z());
+    const Jacobian<1> jacobian = positionJacobian(estimate.state, depth.sensor).row(2);
+    return std::make_pair(residual,
+                          Innovation<1>(estimate, residual, jacobian, Scalar(depth.variance)));
+  };
+  Deviation deviation;
+  deviation.offset.z() = update(snapshot.estimate).first.value();
+  deviation.variance.z() = depth.variance;
+  return fuse<1>(context, deviation, update, &FilterStep::forgetDepth);
+}
+
+Outcome FilterStep::take(Context& context, const HeadingFix& heading) const {
+  FilterSnapshot& snapshot = context.snapshot;
+  if (!snapshot.started) return {};
+  using Scalar = Eigen::Matrix<double, 1, 1>;
+  const auto update = [&](const Estimate& estimate) {
+    const Scalar residual(
+        std::remainder(heading.yaw - predictedYaw<double>(estimate.state), 2.0 * M_PI));
+    return std::make_pair(residual, Innovation<1>(estimate, residual, yawJacobian(estimate.state),
+                                                  Scalar(heading.variance)));
+  };
+  Deviation deviation;
+  deviation.offset[5] = update(snapshot.estimate).first.value();
+  deviation.variance[5] = heading.variance;
+  return fuse<1>(context, deviation, update, &FilterStep::forgetHeading);
+}
+
+Outcome FilterStep::take(Context& context, const PositionFix& fix) const {
+  FilterSnapshot& snapshot = context.snapshot;
+  if (!snapshot.started) {
+    if (snapshot.imu && snapshot.imu->measurement.attitude)
+      return begin(snapshot, poseAtFix(fix, *snapshot.imu->measurement.attitude, options_));
+    return {};
+  }
+  const auto update = [&](const Estimate& estimate) {
+    const Eigen::Vector3d residual =
+        fix.position - predictedPosition<double>(estimate.state, fix.sensor);
+    return std::make_pair(
+        residual, Innovation<3>(estimate, residual, positionJacobian(estimate.state, fix.sensor),
+                                fix.covariance));
+  };
+  Deviation deviation;
+  deviation.offset.head<3>() = update(snapshot.estimate).first;
+  deviation.variance.head<3>() = fix.covariance.diagonal();
+  return fixed(context, fuse<3>(context, deviation, update, &FilterStep::forgetPosition));
+}
+
+Outcome FilterStep::take(Context& context, const PoseFix& fix) const {
+  FilterSnapshot& snapshot = context.snapshot;
+  if (context.source == Source::SET_POSE) return setPose(snapshot, fix);
+  if (!snapshot.started) return begin(snapshot, poseAtFix(fix));
+  const auto update = [&](const Estimate& estimate) {
+    const Eigen::Matrix<double, 6, 1> residual = poseResidual<double>(estimate.state, fix);
+    return std::make_pair(
+        residual,
+        Innovation<6>(estimate, residual, poseJacobian(estimate.state, fix), fix.covariance));
+  };
+  const Eigen::Quaterniond expected = snapshot.estimate.state.attitude * fix.mounting.rotation;
+  Deviation deviation;
+  deviation.offset = update(snapshot.estimate).first;
+  deviation.offset.tail<3>() = (expected * Eigen::Vector3d(deviation.offset.tail<3>())).eval();
+  deviation.variance.head<3>() = fix.covariance.diagonal().head<3>();
+  deviation.variance.tail<3>().setConstant(fix.covariance.diagonal().tail<3>().maxCoeff());
+  return fixed(context, fuse<6>(context, deviation, update, &FilterStep::forgetPose));
+}
+
+// A fix that was used shows that the filter is not astray, whatever others say.
+Outcome FilterStep::fixed(Context& context, const Outcome& outcome) const {
+  if (outcome.verdict != Verdict::GATED)
+    for (const Source source : {Source::USBL, Source::MARKER})
+      context.snapshot.rejections[static_cast<std::size_t>(source)].clear();
+  return outcome;
+}
+
+Outcome FilterStep::begin(FilterSnapshot& snapshot, const MountedPose& pose) const {
+  const bool agrees =
+      snapshot.first_fix &&
+      agree(*snapshot.first_fix, pose, secondsBetween(*snapshot.first_fix_stamp, snapshot.stamp),
+            options_, gates_[6]);
+  snapshot.first_fix = pose;
+  snapshot.first_fix_stamp = snapshot.stamp;
+  if (!agrees) return {};
+  snapshot.estimate = estimateAt(pose, options_);
+  snapshot.started = true;
+  snapshot.first_fix.reset();
+  return {Verdict::TAKEN, 0, 0.0};
+}
+
+Outcome FilterStep::setPose(FilterSnapshot& snapshot, const PoseFix& fix) const {
+  Estimate next = estimateAt(poseAtFix(fix), options_);
+  if (snapshot.started) {
+    const State& old = snapshot.estimate.state;
+    next.state.velocity = next.state.attitude * (old.attitude.conjugate() * old.velocity);
+    next.state.gyro_bias = old.gyro_bias;
+    next.state.accelerometer_bias = old.accelerometer_bias;
+    next.covariance.bottomRightCorner<6, 6>() =
+        snapshot.estimate.covariance.bottomRightCorner<6, 6>();
+  }
+  snapshot.estimate = next;
+  snapshot.started = true;
+  snapshot.rejections = {};
+  return {Verdict::TAKEN, 0, 0.0};
+}
+
+void FilterStep::forgetPosition(Estimate& estimate) const {
+  forget(estimate.covariance, kPosition, 3, kAnyPosition);
+}
+
+void FilterStep::forgetDepth(Estimate& estimate) const {
+  forget(estimate.covariance, kPosition + 2, 1, kAnyPosition);
+}
+
+void FilterStep::forgetVelocity(Estimate& estimate) const {
+  forget(estimate.covariance, kVelocity, 3, kAnyVelocity);
+}
+
+// The velocity was one with respect to the attitude.
+void FilterStep::forgetHeading(Estimate& estimate) const {
+  forgetAttitude(estimate, square(options_.start_tilt), kAnyAngle);
+  forgetVelocity(estimate);
+}
+
+void FilterStep::forgetPose(Estimate& estimate) const {
+  forgetAttitude(estimate, kAnyAngle, kAnyAngle);
+  forgetVelocity(estimate);
+  forgetPosition(estimate);
+}
+
+}  // namespace grid_path_planner::localization

@@ -1,0 +1,108 @@
+// One step of the filter: from a snapshot, over the time to a measurement, with that measurement.
+//
+//   FilterStep step(options, Start::AT_FIX);
+//   const Outcome outcome = step.apply(snapshot, measurement, next_imu);
+//
+// The result depends on the arguments alone, so that a snapshot can be taken up again when an earlier
+// measurement comes late.
+//
+// A filter that starts AT_FIX begins where a set pose says, or where two fixes in a row agree; the
+// attitude is that of the fix, or of the IMU. One that starts AT_ORIGIN begins with the first
+// measurement of the IMU, at position 0, and takes no fix but depth, relative to the first.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "localization/filter_options.h"
+#include "localization/kalman_update.h"
+#include "localization/measurement.h"
+#include "localization/mounted_pose.h"
+#include "localization/rejections.h"
+#include "localization/state.h"
+
+namespace grid_path_planner::localization {
+
+enum class Start { AT_FIX, AT_ORIGIN };
+
+struct TimedImu {
+  Stamp stamp = 0;
+  ImuMeasurement measurement;
+};
+
+struct Outcome {
+  Verdict verdict = Verdict::UNUSED;
+  int degrees_of_freedom = 0;
+  double nis = 0.0;  // normalised innovation squared
+};
+
+struct FilterSnapshot {
+  Stamp stamp = 0;
+  bool started = false;
+  Estimate estimate;
+  std::optional<TimedImu> imu;
+  // That the next fix is compared with while the filter has not started.
+  std::optional<MountedPose> first_fix;
+  std::optional<Stamp> first_fix_stamp;
+  std::optional<double> depth_offset;  // m, of a filter that starts at the origin
+  std::optional<Stamp> dvl_used, command_used;
+  std::array<Rejections, kSources> rejections;
+};
+
+// Of the body, with its variance by the noise of the gyro.
+struct BodyRate {
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();  // rad/s, as the gyro measures it
+  double variance = 0.0;                           // rad^2/s^2
+};
+
+class FilterStep {
+ public:
+  FilterStep(const FilterOptions& options, Start start);
+
+  // `next_imu`: the first measurement of the IMU at or after this measurement, null where there is none.
+  Outcome apply(FilterSnapshot& snapshot, const Measurement& measurement,
+                const TimedImu* next_imu) const;
+
+  // Moves the estimate on to `stamp`, which is not before the snapshot's.
+  void advance(FilterSnapshot& snapshot, Stamp stamp, const TimedImu* next_imu) const;
+
+  // At the stamp of the snapshot.
+  BodyRate rateAt(const FilterSnapshot& snapshot, const TimedImu* next_imu) const;
+
+ private:
+  struct Context {
+    FilterSnapshot& snapshot;
+    Source source;
+    BodyRate rate;
+  };
+
+  bool isBridged(const TimedImu& from, const TimedImu* next_imu) const;
+  Outcome take(Context& context, const ImuMeasurement& imu) const;
+  Outcome take(Context& context, const DvlVelocity& dvl) const;
+  Outcome take(Context& context, const CommandedVelocity& command) const;
+  Outcome take(Context& context, const DepthFix& depth) const;
+  Outcome take(Context& context, const HeadingFix& heading) const;
+  Outcome take(Context& context, const PositionFix& fix) const;
+  Outcome take(Context& context, const PoseFix& fix) const;
+  Outcome fuseVelocity(Context& context, const DvlVelocity& dvl) const;
+  Outcome fixed(Context& context, const Outcome& outcome) const;
+  Outcome begin(FilterSnapshot& snapshot, const MountedPose& pose) const;
+  void adoptVelocity(Context& context, const DvlVelocity& dvl) const;
+  Outcome setPose(FilterSnapshot& snapshot, const PoseFix& fix) const;
+  template <int N>
+  bool passes(const Innovation<N>& innovation, const Eigen::Matrix<double, N, 1>& residual) const;
+  template <int N, class Update>
+  Outcome fuse(Context& context, const Deviation& deviation, const Update& update,
+               void (FilterStep::*forget)(Estimate&) const) const;
+  void forgetPosition(Estimate& estimate) const;
+  void forgetDepth(Estimate& estimate) const;
+  void forgetVelocity(Estimate& estimate) const;
+  void forgetHeading(Estimate& estimate) const;
+  void forgetPose(Estimate& estimate) const;
+
+  FilterOptions options_;
+  Start start_;
+  std::array<double, 7> gates_{};  // by dimension
+};
+
+}  // namespace grid_path_planner::localization

@@ -1,0 +1,107 @@
+#include "localization/measurement_check.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <string>
+
+#include "grid_path_planner/base/decimal_text.h"
+#include "grid_path_planner/base/errors.h"
+
+namespace grid_path_planner::localization {
+
+namespace {
+
+using base::decimalText;
+using base::InputError;
+
+constexpr double kFarthest = 1e6;       // m
+constexpr double kFastest = 100.0;      // m/s
+constexpr double kFastestTurn = 100.0;  // rad/s
+constexpr double kStrongest = 1000.0;   // m/s^2
+constexpr double kLeastVariance = 1e-12, kLargestVariance = 1e12;
+
+void checkVector(const char* what, const Eigen::Vector3d& vector, double limit) {
+  for (const double value : {vector.x(), vector.y(), vector.z()})
+    if (!(std::abs(value) <= limit))
+      throw InputError(std::string(what) + " must be within " + decimalText(limit) + ", got " +
+                       decimalText(value));
+}
+
+void checkAttitude(const Eigen::Quaterniond& attitude) {
+  const double norm = attitude.norm();
+  if (!(std::abs(norm - 1.0) <= 0.01))
+    throw InputError("the length of the orientation must be 1, got " + decimalText(norm));
+}
+
+void checkVariance(double variance) {
+  if (!std::isfinite(variance))
+    throw InputError("a variance is not finite: " + decimalText(variance));
+  if (variance < 0.0)
+    throw InputError("a variance is " + decimalText(variance) + ": negative means no measurement");
+  if (variance == 0.0) throw InputError("a variance is 0: no sensor is exact");
+  if (variance < kLeastVariance || variance > kLargestVariance)
+    throw InputError("a variance must be within 1e-12..1e12, got " + decimalText(variance));
+}
+
+void checkData(const ImuMeasurement& imu) {
+  checkVector("the angular velocity (rad/s)", imu.inertial.rate, kFastestTurn);
+  checkVector("the acceleration (m/s^2)", imu.inertial.acceleration, kStrongest);
+  if (imu.attitude) checkAttitude(*imu.attitude);
+}
+
+void checkData(const DvlVelocity& dvl) {
+  checkVector("the velocity (m/s)", dvl.velocity, kFastest);
+  checkCovariance(dvl.covariance);
+}
+
+void checkData(const CommandedVelocity& command) {
+  checkVector("the velocity (m/s)", command.velocity, kFastest);
+}
+
+void checkData(const DepthFix& depth) {
+  checkVector("z (m)", {0.0, 0.0, depth.z}, kFarthest);
+  checkVariance(depth.variance);
+}
+
+void checkData(const HeadingFix& heading) {
+  checkVector("the yaw (rad)", {0.0, 0.0, heading.yaw}, 7.0);
+  checkVariance(heading.variance);
+}
+
+void checkData(const PositionFix& fix) {
+  checkVector("the position (m)", fix.position, kFarthest);
+  checkCovariance(fix.covariance);
+}
+
+void checkData(const PoseFix& fix) {
+  checkVector("the position (m)", fix.position, kFarthest);
+  checkAttitude(fix.attitude);
+  checkCovariance(fix.covariance);
+}
+
+}  // namespace
+
+void checkCovariance(const Eigen::MatrixXd& covariance) {
+  for (Eigen::Index i = 0; i < covariance.rows(); ++i) checkVariance(covariance(i, i));
+  if (!covariance.allFinite()) throw InputError("the covariance holds numbers that are not finite");
+  const double largest = covariance.diagonal().maxCoeff();
+  if ((covariance - covariance.transpose()).cwiseAbs().maxCoeff() > 1e-6 * largest)
+    throw InputError("the covariance is not symmetric");
+  if (Eigen::LLT<Eigen::MatrixXd>(covariance).info() != Eigen::Success)
+    throw InputError("the covariance is not positive definite");
+}
+
+void checkMeasurement(const Measurement& measurement) {
+  std::visit([](const auto& data) { checkData(data); }, measurement.data);
+}
+
+void checkStamp(Stamp stamp, Stamp now, double history) {
+  const double ahead = secondsBetween(now, stamp);
+  if (ahead > kMostAhead)
+    throw InputError("its stamp is " + decimalText(ahead) + " s in the future");
+  if (-ahead > history)
+    throw InputError("it is " + decimalText(-ahead) + " s old, more than the history of " +
+                     decimalText(history) + " s");
+}
+
+}  // namespace grid_path_planner::localization

@@ -1,0 +1,143 @@
+#include "localization/vehicle_localizer.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "grid_path_planner/base/decimal_text.h"
+#include "grid_path_planner/base/errors.h"
+#include "localization/measurement_check.h"
+
+namespace grid_path_planner::localization {
+
+namespace {
+
+using base::decimalText;
+using base::InputError;
+
+constexpr double kSeldom = 5.0;  // times input_timeout: USBL
+
+bool isFix(Source source) {
+  return source == Source::SET_POSE || source == Source::HEADING || source == Source::USBL ||
+         source == Source::MARKER;
+}
+
+// Along the worst axis.
+double deviationOf(const Covariance& covariance, int first) {
+  const Eigen::Matrix3d block = covariance.block<3, 3>(first, first);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(block, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+}
+
+std::string rounded(double value) {
+  return decimalText(std::round(100.0 * value) / 100.0);
+}
+
+std::string whatIsMissing(const LaggedFilter& map) {
+  if (map.empty() || map.counts(Source::IMU).taken == 0)
+    return "no IMU has been heard, and no pose was set";
+  return "no two fixes agree yet: a pose set, marker poses, or USBL with the orientation of the "
+         "IMU";
+}
+
+// Two fixes in a row that were rejected and agree with each other.
+bool isContradicted(const FilterSnapshot& snapshot) {
+  return std::any_of(snapshot.rejections.begin(), snapshot.rejections.end(),
+                     [](const Rejections& rejections) { return rejections.count() >= 2; });
+}
+
+std::optional<FilterSnapshot> startedAt(const LaggedFilter& filter, Stamp stamp) {
+  if (!filter.started()) return {};
+  return filter.snapshotAt(stamp);
+}
+
+}  // namespace
+
+const char* nameOf(LocalizationStatus status) {
+  static constexpr std::array<const char*, 4> kNames = {"INITIALIZING", "OK", "DEGRADED", "LOST"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+VehicleLocalizer::VehicleLocalizer(const LocalizerOptions& options)
+    : options_(options),
+      map_(options.filter, Start::AT_FIX),
+      odometry_(options.filter, Start::AT_ORIGIN) {
+  base::checkOptionLimits(options);
+}
+
+Verdict VehicleLocalizer::add(const Measurement& measurement) {
+  checkMeasurement(measurement);
+  const Verdict verdict = map_.add(measurement);
+  if (verdict == Verdict::DUPLICATE) throw InputError("one of the same stamp was used already");
+  if (verdict == Verdict::TOO_OLD)
+    throw InputError("it is " + rounded(secondsBetween(measurement.stamp, map_.newest())) +
+                     " s older than the newest input, more than the history");
+  if (!isFix(measurement.source)) odometry_.add(measurement);
+  std::optional<Stamp>& used = used_[static_cast<std::size_t>(measurement.source)];
+  if (verdict == Verdict::TAKEN || verdict == Verdict::RESET)
+    used = std::max(used.value_or(measurement.stamp), measurement.stamp);
+  return verdict;
+}
+
+void VehicleLocalizer::use(const LocalizerOptions& options) {
+  base::checkOptionLimits(options);
+  options_ = options;
+  map_.use(options.filter);
+  odometry_.use(options.filter);
+}
+
+void VehicleLocalizer::reset() {
+  map_.reset();
+  odometry_.reset();
+  used_ = {};
+}
+
+std::optional<FilterSnapshot> VehicleLocalizer::mapAt(Stamp stamp) const {
+  return startedAt(map_, stamp);
+}
+
+std::optional<FilterSnapshot> VehicleLocalizer::odometryAt(Stamp stamp) const {
+  return startedAt(odometry_, stamp);
+}
+
+// Of the first input that is missed; empty: of none.
+std::string VehicleLocalizer::silence(Stamp now) const {
+  const std::array<std::pair<Source, double>, 4> limits = {
+      {{Source::IMU, std::max(0.5, 2.0 * options_.filter.imu_timeout)},
+       {Source::DVL, options_.input_timeout},
+       {Source::DEPTH, options_.input_timeout},
+       {Source::USBL, kSeldom * options_.input_timeout}}};
+  for (const auto& [source, limit] : limits) {
+    const auto used = used_[static_cast<std::size_t>(source)];
+    if (!used) continue;
+    const double age = secondsBetween(*used, now);
+    if (age > limit) return std::string(nameOf(source)) + " lost " + rounded(age) + " s ago";
+  }
+  return {};
+}
+
+LocalizationReport VehicleLocalizer::report(Stamp now) const {
+  const auto snapshot = mapAt(now);
+  if (!snapshot) return {LocalizationStatus::INITIALIZING, whatIsMissing(map_)};
+  LocalizationReport report;
+  const Covariance& covariance = snapshot->estimate.covariance;
+  report.deviation = deviationOf(covariance, kPosition);
+  report.angle_deviation = deviationOf(covariance, kAttitude) * 180.0 / M_PI;
+  report.sentence = "the pose is known to " + rounded(report.deviation) + " m, " +
+                    rounded(report.angle_deviation) + " deg (standard deviations)";
+  std::string problem = silence(now);
+  if (problem.empty() && isContradicted(*snapshot))
+    problem = "fixes that agree contradict the pose";
+  if (!problem.empty()) report.sentence = problem + "; " + report.sentence;
+  const double worst = std::max(report.deviation / options_.max_deviation,
+                                report.angle_deviation / options_.max_angle);
+  if (!(worst <= 1.0))  // nor is one that is no number
+    report.status = LocalizationStatus::LOST;
+  else if (worst > 1.0 / 3.0 || !problem.empty())
+    report.status = LocalizationStatus::DEGRADED;
+  else
+    report.status = LocalizationStatus::OK;
+  return report;
+}
+
+}  // namespace grid_path_planner::localization

@@ -1,0 +1,65 @@
+// Where a vehicle is, by two filters over the same sensors.
+//
+//   VehicleLocalizer localizer(options);
+//   localizer.add(measurement);                              // throws base::InputError
+//   if (const auto pose = localizer.mapAt(now)) drive(pose->estimate);
+//
+// The filter of the map takes everything. That of the odometry takes no fix but depth, so that its
+// pose never jumps (REP 105); it starts at the origin of a frame of its own.
+//
+// Guaranteed: what LaggedFilter guarantees, for both. A measurement that is refused changes neither.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "localization/lagged_filter.h"
+#include "localization/localizer_options.h"
+
+namespace grid_path_planner::localization {
+
+enum class LocalizationStatus { INITIALIZING, OK, DEGRADED, LOST };
+
+const char* nameOf(LocalizationStatus status);
+
+struct LocalizationReport {
+  LocalizationStatus status = LocalizationStatus::INITIALIZING;
+  std::string sentence = {};
+  double deviation = 0.0;        // m, standard deviation of the position along its worst axis
+  double angle_deviation = 0.0;  // deg, of the attitude
+};
+
+class VehicleLocalizer {
+ public:
+  // Throws InputError for an option outside its limits.
+  explicit VehicleLocalizer(const LocalizerOptions& options);
+
+  // Throws InputError for what checkMeasurement refuses, and for stamps that are DUPLICATE or TOO_OLD.
+  Verdict add(const Measurement& measurement);
+
+  // Other options, from the next measurement on. Throws InputError as the constructor does.
+  void use(const LocalizerOptions& options);
+
+  // Forgets everything.
+  void reset();
+
+  // None before the filter has started.
+  std::optional<FilterSnapshot> mapAt(Stamp stamp) const;
+  std::optional<FilterSnapshot> odometryAt(Stamp stamp) const;
+  Eigen::Vector3d rateOf(const FilterSnapshot& snapshot) const { return map_.rateOf(snapshot); }
+
+  LocalizationReport report(Stamp now) const;
+
+  const LaggedFilter& map() const { return map_; }
+  const LaggedFilter& odometry() const { return odometry_; }
+
+ private:
+  std::string silence(Stamp now) const;
+
+  LocalizerOptions options_;
+  LaggedFilter map_, odometry_;
+  std::array<std::optional<Stamp>, kSources> used_{};  // the newest that was taken
+};
+
+}  // namespace grid_path_planner::localization

@@ -1,0 +1,12 @@
+#include "ros/localization/mains.h"
+
+#include "ros/common/run_node.h"
+#include "ros/localization/vehicle_localizer_node.h"
+
+namespace grid_path_planner::nodes {
+
+int vehicleLocalizerMain(int argc, char** argv) {
+  return runNode<VehicleLocalizerNode>(argc, argv, "vehicle_localizer");
+}
+
+}  // namespace grid_path_planner::nodes

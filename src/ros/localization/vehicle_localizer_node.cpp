@@ -1,0 +1,323 @@
+#include "ros/localization/vehicle_localizer_node.h"
+
+#include <ros/console.h>
+#include <std_msgs/String.h>
+#include <std_srvs/Trigger.h>
+
+#include <utility>
+
+#include "grid_path_planner/VehicleLocalizerConfig.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "localization/input_statistics.h"
+#include "localization/measurement_check.h"
+#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/incoming/claimed_requests.h"
+#include "ros/common/parameters.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using diagnostic_msgs::DiagnosticStatus;
+using geometry_msgs::PoseWithCovarianceStamped;
+using localization::LocalizationReport;
+using localization::LocalizationStatus;
+using localization::Source;
+using localization::Verdict;
+
+namespace {
+
+constexpr double kListens = 0.5;          // s of the wall clock, before the first transform
+constexpr double kDiagnosisPeriod = 1.0;  // s, wall time
+constexpr std::uint32_t kWaiting = 200;   // messages of the IMU; 2 s
+
+void nameFrames(VehicleLocalizerOptions& options) {
+  for (std::string* frame : {&options.map_frame, &options.odom_frame, &options.base_frame,
+                             &options.usbl_frame, &options.depth_frame})
+    *frame = frameName(*frame);
+}
+
+VehicleLocalizerOptions loadVehicleLocalizerOptions(const ros::NodeHandle& private_nh) {
+  VehicleLocalizerOptions options;
+  loadParameters(private_nh, options);
+  nameFrames(options);
+  checkVehicleLocalizerOptions(options);
+  warnUnknownParameters(private_nh, optionNames<VehicleLocalizerOptions>());
+  return options;
+}
+
+// The frames whose transform to their parent is this node's.
+std::vector<std::string> childrenOf(const VehicleLocalizerOptions& options) {
+  std::vector<std::string> children;
+  if (options.publish_map_to_odom) children.push_back(options.odom_frame);
+  if (options.publish_odom_to_base) children.push_back(options.base_frame);
+  return children;
+}
+
+// A function of SensorMessages, and the message that it takes.
+template <class M>
+struct Conversion {
+  using Message = M;
+  localization::Measurement (SensorMessages::*function)(const M&) const;
+};
+
+template <class M>
+Conversion<M> conversion(localization::Measurement (SensorMessages::*function)(const M&) const) {
+  return {function};
+}
+
+template <class Snapshot>
+std::optional<PublishedEstimate> published(const localization::VehicleLocalizer& localizer,
+                                           const Snapshot& snapshot) {
+  if (!snapshot) return {};
+  return PublishedEstimate{snapshot->estimate, localizer.rateOf(*snapshot)};
+}
+
+}  // namespace
+
+VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
+    : nh_(nh),
+      options_(loadVehicleLocalizerOptions(private_nh)),
+      transforms_(nh),
+      localizer_(options_.localizer),
+      messages_(transforms_, options_),
+      rivals_(nh, childrenOf(options_)),
+      publisher_(nh_, options_),
+      status_publisher_(nh_.advertise<std_msgs::String>("localization_status", 1, true)),
+      heard_since_(ros::SteadyTime::now()),
+      diagnostics_(nh, private_nh, private_nh.getNamespace()) {
+  announce(localizer_.report({}));
+  subscribe();
+  subscribeSensors();
+  offerServices(private_nh);
+  reconfigurable_ =
+      std::make_unique<Reconfigurable<VehicleLocalizerConfig, VehicleLocalizerOptions>>(
+          private_nh, options_, [this](const VehicleLocalizerOptions& options) { use(options); });
+  publish_timer_ = nh_.createSteadyTimer(ros::WallDuration(1.0 / options_.publish_rate),
+                                         [this](const ros::SteadyTimerEvent&) { onTimer(); });
+  startDiagnostics();
+}
+
+VehicleLocalizerNode::~VehicleLocalizerNode() {
+  publish_timer_.stop();
+  diagnostics_timer_.stop();
+  for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
+  for (ros::ServiceServer& service : services_) service.shutdown();
+}
+
+void VehicleLocalizerNode::subscribe() {
+  subscribers_.push_back(subscribeChecked<sensor_msgs::Imu>(
+      nh_, "imu/data", kWaiting, [this](const sensor_msgs::Imu& message) { onImu(message); }));
+  subscribers_.push_back(subscribeChecked<geometry_msgs::Twist>(
+      nh_, "cmd_vel", 10, [this](const geometry_msgs::Twist& message) { onCommand(message); }));
+  subscribers_.push_back(subscribeChecked<PoseWithCovarianceStamped>(
+      nh_, "initialpose", 1, [this](const PoseWithCovarianceStamped& m) { setPose(m); }));
+}
+
+void VehicleLocalizerNode::subscribeSensors() {
+  const auto listen = [this](const char* topic, Source source, auto convert) {
+    using Message = typename decltype(convert)::Message;
+    subscribers_.push_back(
+        subscribeChecked<Message>(nh_, topic, 20, [this, source, convert](const Message& message) {
+          take(source, [&] { return (messages_.*convert.function)(message); });
+        }));
+  };
+  listen("dvl/twist", Source::DVL, conversion(&SensorMessages::dvl));
+  listen("usbl/pose", Source::USBL, conversion(&SensorMessages::usbl));
+  listen("marker_pose", Source::MARKER, conversion(&SensorMessages::marker));
+  if (options_.use_pressure)
+    listen("pressure", Source::DEPTH, conversion(&SensorMessages::pressure));
+  else
+    listen("depth", Source::DEPTH, conversion(&SensorMessages::depth));
+}
+
+void VehicleLocalizerNode::offerServices(ros::NodeHandle& private_nh) {
+  services_.push_back(advertiseChecked<ros::ServiceSpec<SetPose::Request, SetPose::Response>>(
+      private_nh, "set_pose", [this](SetPose::Request& request, SetPose::Response& response) {
+        response.message = setPose(request.pose);
+        response.success = response.message.empty();
+        if (response.success) response.message = "set";
+        return true;
+      }));
+  using Request = std_srvs::Trigger::Request;
+  using Response = std_srvs::Trigger::Response;
+  services_.push_back(
+      private_nh.advertiseService<Request, Response>("reset", [this](Request&, Response& response) {
+        ROS_INFO("Asked by ~reset: everything begins anew");
+        beginAnew();
+        response.success = true;
+        response.message = "everything begins anew";
+        return true;
+      }));
+}
+
+void VehicleLocalizerNode::startDiagnostics() {
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("localization", this, &VehicleLocalizerNode::diagnose);
+  for (const Source source : {Source::IMU, Source::DVL, Source::DEPTH, Source::USBL, Source::MARKER,
+                              Source::COMMAND, Source::SET_POSE})
+    diagnostics_.add(nameOf(source),
+                     [this, source](diagnostic_updater::DiagnosticStatusWrapper& status) {
+                       diagnoseInput(source, status);
+                     });
+  diagnostics_timer_ = nh_.createSteadyTimer(ros::WallDuration(kDiagnosisPeriod),
+                                             [this](const ros::SteadyTimerEvent&) {
+                                               if (ros::Time::isValid())
+                                                 diagnostics_.force_update();
+                                             });
+}
+
+void VehicleLocalizerNode::use(VehicleLocalizerOptions options) {
+  nameFrames(options);
+  checkVehicleLocalizerOptions(options);
+  if (options.map_frame != options_.map_frame || options.odom_frame != options_.odom_frame ||
+      options.base_frame != options_.base_frame || options.use_pressure != options_.use_pressure ||
+      options.publish_map_to_odom != options_.publish_map_to_odom ||
+      options.publish_odom_to_base != options_.publish_odom_to_base ||
+      options.publish_rate != options_.publish_rate)
+    throw InputError(
+        "map_frame, odom_frame, base_frame, use_pressure, publish_map_to_odom, "
+        "publish_odom_to_base and publish_rate cannot be changed while the node runs");
+  localizer_.use(options.localizer);
+  messages_.use(options);
+  publisher_.use(options);
+  options_ = options;
+}
+
+// False while there is no ROS time.
+bool VehicleLocalizerNode::noticeTime() {
+  if (!clock_.hasTime()) return false;
+  if (const auto back = clock_.jumpedBack()) {
+    ROS_WARN_STREAM("ROS time went back by " << *back << " s: everything begins anew");
+    beginAnew();
+  }
+  return true;
+}
+
+void VehicleLocalizerNode::beginAnew() {
+  localizer_.reset();
+  messages_.reset();
+  transforms_.clear();
+  rivals_.reset();
+  publisher_.reset();
+  report_ = {};
+  last_command_ = {};
+}
+
+// Why it was not used; empty: it was.
+template <class Convert>
+std::string VehicleLocalizerNode::take(Source source, const Convert& convert) {
+  if (!noticeTime()) return "there is no ROS time yet";
+  inputs_.receive(source);
+  try {
+    const localization::Measurement measurement = convert();
+    localization::checkStamp(measurement.stamp, stampOf(ros::Time::now()),
+                             options_.localizer.filter.history);
+    if (localizer_.add(measurement) == Verdict::RESET)
+      ROS_WARN_STREAM(options_.localizer.filter.reset_after
+                      << " measurements in a row of " << nameOf(source)
+                      << " agree with each other and not with the pose: what they measure begins "
+                         "anew");
+    return {};
+  } catch (const std::runtime_error& error) {
+    inputs_.refuse(source, error.what());
+    return error.what();
+  }
+}
+
+void VehicleLocalizerNode::onImu(const sensor_msgs::Imu& message) {
+  if (!take(Source::IMU, [&] { return messages_.imu(message); }).empty()) return;
+  if (options_.use_heading && messages_.heading(message))
+    take(Source::HEADING, [&] { return *messages_.heading(message); });
+  if (publisher_.isDue(message.header.stamp)) publish(message.header.stamp);
+}
+
+// Several within one step of simulated time are one command.
+void VehicleLocalizerNode::onCommand(const geometry_msgs::Twist& message) {
+  if (!noticeTime()) return;
+  const ros::Time now = ros::Time::now();
+  if (now == std::exchange(last_command_, now)) return;
+  take(Source::COMMAND, [&] { return messages_.command(message, now); });
+}
+
+std::string VehicleLocalizerNode::setPose(const PoseWithCovarianceStamped& message) {
+  return take(Source::SET_POSE, [&] { return messages_.setPose(message, ros::Time::now()); });
+}
+
+// While no IMU does.
+void VehicleLocalizerNode::onTimer() {
+  if (!noticeTime()) return;
+  const ros::Time now = ros::Time::now();
+  const double late = 3.0 / options_.publish_rate;
+  if (publisher_.isDue(now - ros::Duration(std::min(late, now.toSec())))) publish(now);
+}
+
+void VehicleLocalizerNode::publish(const ros::Time& stamp) {
+  const auto time = stampOf(stamp);
+  report_ = localizer_.report(time);
+  announce(report_);
+  PublishedPoses poses{
+      published(localizer_, localizer_.mapAt(time)),
+      published(localizer_, localizer_.odometryAt(time)),
+      report_.status == LocalizationStatus::OK || report_.status == LocalizationStatus::DEGRADED};
+  if (!poses.odometry && !poses.map) return;
+  if ((ros::SteadyTime::now() - heard_since_).toSec() < kListens) return;
+  try {
+    publisher_.publish(poses, messages_.base(), stamp, rivals_);
+  } catch (const TransformError& error) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "No pose is published: " << error.what());
+  }
+}
+
+// In the log when the status changes, or another node publishes what is ours.
+void VehicleLocalizerNode::announce(const LocalizationReport& report) {
+  const std::string told = nameOf(report.status) + rivals_.rival();
+  if (told == std::exchange(told_, told)) return;
+  std_msgs::String message;
+  message.data = std::string(nameOf(report.status)) + ": " + report.sentence;
+  status_publisher_.publish(message);
+  ROS_INFO_STREAM(message.data);
+  if (!rivals_.rival().empty())
+    ROS_ERROR_STREAM("No transform is published until ~reset: " << rivals_.rival());
+}
+
+void VehicleLocalizerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const bool well = report_.status == LocalizationStatus::OK && rivals_.rival().empty();
+  const bool lost = report_.status == LocalizationStatus::LOST || !rivals_.rival().empty();
+  status.summary(well   ? DiagnosticStatus::OK
+                 : lost ? DiagnosticStatus::ERROR
+                        : DiagnosticStatus::WARN,
+                 std::string(nameOf(report_.status)) + ": " + report_.sentence);
+  if (!rivals_.rival().empty()) status.mergeSummary(DiagnosticStatus::ERROR, rivals_.rival());
+  status.add("deviation (m)", report_.deviation);
+  status.add("deviation of the attitude (deg)", report_.angle_deviation);
+}
+
+void VehicleLocalizerNode::diagnoseInput(Source source,
+                                         diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const auto statistics =
+      localization::inputStatistics(localizer_.map(), source, stampOf(ros::Time::now()));
+  const InputLog::Input& input = inputs_[source];
+  const bool overconfident =
+      statistics.nis_count > 0 && statistics.nis_mean > statistics.nis_bounds.high;
+  if (input.received == 0)
+    status.summary(DiagnosticStatus::OK, "not heard");
+  else if (!statistics.age)
+    status.summary(DiagnosticStatus::WARN, "silent, or refused: " + input.reason);
+  else if (overconfident)
+    status.summary(DiagnosticStatus::WARN, "its errors are larger than its covariance says");
+  else
+    status.summary(DiagnosticStatus::OK, "used");
+  status.add("received", input.received);
+  status.add("rate (Hz)", statistics.rate);
+  status.add("age (s)", statistics.age ? std::to_string(*statistics.age) : "none lately");
+  status.add("taken", statistics.counts.taken);
+  status.add("gated", statistics.counts.gated);
+  status.add("resets", statistics.counts.resets);
+  status.add("refused", input.refused);
+  status.add("refused last because", input.reason);
+  status.add("NIS, mean", statistics.nis_mean);
+  status.add("NIS, 95 % low", statistics.nis_bounds.low);
+  status.add("NIS, 95 % high", statistics.nis_bounds.high);
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,103 @@
+// The node `vehicle_localizer`: where the vehicle is, by its navigation sensors.
+//
+//   subscribes  imu/data     sensor_msgs/Imu; its frame is that of the filter
+//               dvl/twist    geometry_msgs/TwistWithCovarianceStamped in the frame of the DVL
+//               depth        geometry_msgs/PoseWithCovarianceStamped in map_frame, of which z counts
+//               pressure     sensor_msgs/FluidPressure, instead of depth with ~use_pressure
+//               usbl/pose    geometry_msgs/PoseWithCovarianceStamped in map_frame: a position
+//               marker_pose  geometry_msgs/PoseWithCovarianceStamped of base_frame in map_frame
+//               cmd_vel      geometry_msgs/Twist in base_frame; used while the DVL is lost
+//               initialpose  geometry_msgs/PoseWithCovarianceStamped of base_frame in map_frame
+//               tf           where the sensors are on the vehicle
+//   publishes   odometry/filtered, odometry/local, tf      pose_publisher.h
+//               localization_status   std_msgs/String, latched: "OK: the pose is known to ..."
+//               /diagnostics
+//   services    ~set_pose    grid_path_planner/SetPose
+//               ~reset       std_srvs/Trigger: everything begins anew
+//
+// Guaranteed: map -> odom is published while the status is OK or DEGRADED only. A message that cannot be
+// used changes nothing; its reason is in the log and in the diagnostics. ROS time that goes back begins
+// everything anew. From the first transform map -> odom or odom -> base_link of another node on, none
+// is published, until ~reset. Poses are stamped as the measurements of the IMU, or as now while it is
+// silent.
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <ros/steady_timer.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/SetPose.h"
+#include "localization/vehicle_localizer.h"
+#include "ros/common/clock.h"
+#include "ros/common/frame_transforms.h"
+#include "ros/localization/input_log.h"
+#include "ros/localization/pose_publisher.h"
+#include "ros/localization/sensor_messages.h"
+#include "ros/localization/transform_rivals.h"
+#include "ros/localization/vehicle_localizer_options.h"
+
+namespace grid_path_planner {
+class VehicleLocalizerConfig;
+}  // namespace grid_path_planner
+
+namespace grid_path_planner::None {}  // namespace grid_path_planner::None
+
+namespace grid_path_planner::nodes {
+
+template <class Config, class Options>
+class Reconfigurable;
+
+class VehicleLocalizerNode {
+ public:
+  // Throws InputError for parameters that cannot be used. All callbacks are served by the queue of
+  // `nh`, which must be one thread's.
+  VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
+  ~VehicleLocalizerNode();
+
+ private:
+  void subscribe();
+  void subscribeSensors();
+  void offerServices(ros::NodeHandle& private_nh);
+  void startDiagnostics();
+  void use(VehicleLocalizerOptions options);
+  bool noticeTime();
+  void beginAnew();
+  template <class Convert>
+  std::string take(localization::Source source, const Convert& convert);
+  void onImu(const sensor_msgs::Imu& message);
+  void onCommand(const geometry_msgs::Twist& message);
+  std::string setPose(const geometry_msgs::PoseWithCovarianceStamped& message);
+  void onTimer();
+  void publish(const ros::Time& stamp);
+  void announce(const localization::LocalizationReport& report);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void diagnoseInput(localization::Source source,
+                     diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  ros::NodeHandle nh_;
+  VehicleLocalizerOptions options_;
+  FrameTransforms transforms_;
+  ClockWatch clock_;
+  localization::VehicleLocalizer localizer_;
+  SensorMessages messages_;
+  InputLog inputs_;
+  TransformRivals rivals_;
+  PosePublisher publisher_;
+  ros::Publisher status_publisher_;
+  localization::LocalizationReport report_;
+  std::string told_;             // of status and rival
+  ros::SteadyTime heard_since_;  // when tf was first listened to
+  ros::Time last_command_;
+
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::SteadyTimer publish_timer_, diagnostics_timer_;
+  std::unique_ptr<Reconfigurable<VehicleLocalizerConfig, VehicleLocalizerOptions>> reconfigurable_;
+};
+
+}  // namespace grid_path_planner::nodes

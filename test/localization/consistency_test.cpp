@@ -1,0 +1,148 @@
+// Whether the errors of the filter are as large as it says, over seeded runs.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "localization/chi_squared.h"
+#include "localization/input_statistics.h"
+#include "localization/lagged_filter.h"
+#include "localization/support/simulated_sensors.h"
+
+namespace grid_path_planner::localization {
+namespace {
+
+struct Errors {
+  double nees = 0.0, pose_nees = 0.0;  // normalised estimation error squared
+  double metres = 0.0, radians = 0.0;
+};
+
+Errors errorsOf(const Estimate& estimate, const State& truth) {
+  const ErrorVector error = errorBetween<double>(estimate.state, truth);
+  const MountedPose pose = poseOf(estimate);
+  Eigen::Matrix<double, 6, 1> pose_error;
+  pose_error << error.segment<3>(kPosition), error.segment<3>(kAttitude);
+  return {error.dot(estimate.covariance.ldlt().solve(error)),
+          pose_error.dot(pose.covariance.ldlt().solve(pose_error)),
+          error.segment<3>(kPosition).norm(), error.segment<3>(kAttitude).norm()};
+}
+
+// A run, and the errors at its end.
+Errors errorsAfter(SimulatedSensors& sensors, double seconds) {
+  LaggedFilter filter(sensors.options, Start::AT_FIX);
+  for (const Measurement& measurement : sensors.run(seconds)) filter.add(measurement);
+  EXPECT_TRUE(filter.started());
+  return errorsOf(filter.snapshotAt(0).estimate, sensors.truthAt(seconds));
+}
+
+using Setup = std::function<void(SimulatedSensors&)>;
+
+Errors meanErrors(unsigned runs, double seconds, const Setup& setup) {
+  Errors mean;
+  for (unsigned seed = 1; seed <= runs; ++seed) {
+    SimulatedSensors sensors(seed);
+    setup(sensors);
+    const Errors errors = errorsAfter(sensors, seconds);
+    mean.nees += errors.nees / runs;
+    mean.pose_nees += errors.pose_nees / runs;
+    mean.metres += errors.metres / runs;
+    mean.radians += errors.radians / runs;
+  }
+  return mean;
+}
+
+TEST(Consistency, ErrorsAreAsLargeAsTheCovarianceSays) {
+  const unsigned runs = 16;
+  const Errors mean = meanErrors(runs, 40.0, [](SimulatedSensors&) {});
+  const Interval all = meanBounds(15, runs, 0.999), pose = meanBounds(6, runs, 0.999);
+  EXPECT_GT(mean.nees, all.low);
+  EXPECT_LT(mean.nees, all.high);
+  EXPECT_GT(mean.pose_nees, pose.low);
+  EXPECT_LT(mean.pose_nees, pose.high);
+  RecordProperty("anees", std::to_string(mean.nees));
+  RecordProperty("pose_anees", std::to_string(mean.pose_nees));
+  RecordProperty("metres", std::to_string(mean.metres));
+}
+
+// The first velocity of the DVL came to a filter that assumed none: about that, an error of the heading
+// does not turn the velocity, and the filter believed the heading by far too much for a minute.
+TEST(Consistency, AlsoRightAfterTheStart) {
+  const unsigned runs = 24;
+  const Errors mean = meanErrors(runs, 5.0, [](SimulatedSensors&) {});
+  EXPECT_LT(mean.nees, meanBounds(15, runs, 0.999).high);
+  EXPECT_LT(mean.pose_nees, meanBounds(6, runs, 0.999).high);
+}
+
+TEST(Consistency, AlsoWithPosesAndAfterAGapOfTheImu) {
+  const unsigned runs = 12;
+  const Errors mean = meanErrors(runs, 30.0, [](SimulatedSensors& sensors) {
+    sensors.rates.marker = 5.0;
+    sensors.rates.usbl = 0.0;
+  });
+  EXPECT_LT(mean.nees, meanBounds(15, runs, 0.999).high);
+  EXPECT_GT(mean.nees, meanBounds(15, runs, 0.999).low);
+  EXPECT_LT(mean.metres, 0.03);
+  const Errors gap = meanErrors(runs, 30.0, [](SimulatedSensors& sensors) {
+    sensors.rates.marker = 5.0;
+    sensors.cut = [](Source source, double t) {
+      return source == Source::IMU && t > 20.0 && t < 25.0;
+    };
+  });
+  EXPECT_LT(gap.nees, meanBounds(15, runs, 0.999).high);
+  EXPECT_LT(gap.metres, 0.04);
+}
+
+TEST(Consistency, OutliersAreGatedAndCostLittle) {
+  const Errors clean = meanErrors(10, 40.0, [](SimulatedSensors&) {});
+  const Errors outliers =
+      meanErrors(10, 40.0, [](SimulatedSensors& sensors) { sensors.usbl_outliers = 0.3; });
+  EXPECT_LT(outliers.metres, 1.5 * clean.metres);
+  const Errors flipped = meanErrors(8, 30.0, [](SimulatedSensors& sensors) {
+    sensors.rates.marker = 5.0;
+    sensors.marker_flips = 0.1;
+  });
+  EXPECT_LT(flipped.metres, 0.03);
+  EXPECT_LT(flipped.radians, 0.02);
+}
+
+TEST(Consistency, WithoutDvlCommandsBoundTheDrift) {
+  const auto cut = [](Source source, double t) {
+    return t > 20.0 && (source == Source::DVL || source == Source::USBL);
+  };
+  const Errors blind = meanErrors(6, 50.0, [&](SimulatedSensors& s) { s.cut = cut; });
+  const Errors commanded = meanErrors(6, 50.0, [&](SimulatedSensors& sensors) {
+    sensors.cut = cut;
+    sensors.rates.command = 10.0;
+  });
+  EXPECT_LT(commanded.metres, 2.5);
+  EXPECT_LT(commanded.metres, blind.metres);
+  EXPECT_LT(commanded.nees, meanBounds(15, 6, 0.999).high);
+  EXPECT_LT(blind.nees, meanBounds(15, 6, 0.999).high);
+  const Errors fixes = meanErrors(6, 50.0, [](SimulatedSensors& sensors) {
+    sensors.cut = [](Source source, double t) { return t > 20.0 && source == Source::DVL; };
+  });
+  EXPECT_LT(fixes.metres, 0.6);
+}
+
+TEST(Consistency, TheGateRejectsOneInAThousandGoodMeasurements) {
+  std::uint64_t taken = 0, gated = 0;
+  double nis = 0.0, count = 0.0;
+  for (unsigned seed = 100; seed < 110; ++seed) {
+    SimulatedSensors sensors(seed);
+    sensors.rates.depth = 100.0;
+    LaggedFilter filter(sensors.options, Start::AT_FIX);
+    for (const Measurement& measurement : sensors.run(20.0)) filter.add(measurement);
+    taken += filter.counts(Source::DEPTH).taken;
+    gated += filter.counts(Source::DEPTH).gated;
+    const InputStatistics dvl = inputStatistics(filter, Source::DVL, filter.newest());
+    EXPECT_NEAR(dvl.rate, 7.0, 0.01);
+    nis += dvl.nis_mean * dvl.nis_count;
+    count += dvl.nis_count;
+  }
+  EXPECT_NEAR(nis / count, 3.0, 0.5);
+  const double share = static_cast<double>(gated) / static_cast<double>(gated + taken);
+  EXPECT_GT(share, 0.0003);
+  EXPECT_LT(share, 0.002);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::localization
