@@ -100,6 +100,12 @@ void refuseEndlessText(const std::string& text, const std::string& file) {
   throw InputError(file, static_cast<int>(line), "is not YAML: ']' right behind ':'");
 }
 
+std::string listOfNames(const std::set<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 }  // namespace
 
 YAML::Node loadYamlFile(const std::string& file, ReadLimits limits) {
@@ -166,6 +172,21 @@ YAML::Node yamlNode(const YAML::Node& parent, const std::string& key, const std:
   if (!yamlHas(parent, key, file))
     throw yamlError(parent, file, "has no '" + key + "' (" + expected + ")");
   return parent[key];
+}
+
+void checkKeys(const YAML::Node& node, const std::string& what, const std::string& file,
+               const std::set<std::string>& known) {
+  if (!node.IsMap())
+    throw yamlError(node, file, what + " must be a mapping, got " + describeYaml(node));
+  std::set<std::string> seen;
+  for (const auto& entry : node) {
+    const auto key = yamlAs<std::string>(entry.first, "a key", file, "a name");
+    if (known.count(key) == 0)
+      throw yamlError(entry.first, file,
+                      what + " has no '" + key + "'; it has " + listOfNames(known));
+    if (!seen.insert(key).second)
+      throw yamlError(entry.first, file, what + " has '" + key + "' twice");
+  }
 }
 
 }  // namespace grid_path_planner::base

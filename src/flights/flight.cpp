@@ -32,11 +32,6 @@ double cpuMs() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-Isometry3d poseOf(const Vector3d& position, double yaw) {
-  Isometry3d pose(Eigen::Translation3d{position});
-  return pose.rotate(Eigen::AngleAxisd(yaw, Vector3d::UnitZ()));
-}
-
 VehicleState startOf(const FlightStudy& study, int seed) {
   std::mt19937 random(static_cast<unsigned>(seed));
   const auto even = [&random] { return static_cast<double>(random()) / 4294967296.0; };
@@ -130,9 +125,9 @@ class Flight {
   const Frame& takeFrame(long step, const VehicleState& measured) {
     const Isometry3d base_from_optical = setup_.camera().baseFromOptical();
     const VehicleState& truth = vehicle_.state();
-    const Isometry3d seen_from = poseOf(truth.position, truth.yaw) * base_from_optical;
+    const Isometry3d seen_from = mapFromBase(truth) * base_from_optical;
     frame_.time = vehicle_.time();
-    frame_.map_from_sensor = poseOf(measured.position, measured.yaw) * base_from_optical;
+    frame_.map_from_sensor = mapFromBase(measured) * base_from_optical;
     frame_.width = study_.camera.width;
     frame_.height = study_.camera.height;
     const simulation::CameraIntrinsics pinhole = setup_.camera().intrinsics();

@@ -1,6 +1,7 @@
 // The simulated vehicle as a process of its own.
 //
-//   simulator [--world FILE]      FILE: the world that is seen and touched
+//   simulator [--world FILE]           FILE: the world that is seen and touched
+//             [--sensor-faults FILE]   FILE: what is cut and spoiled of navigation sensors, and when
 #include "ros/simulation/mains.h"
 
 int main(int argc, char** argv) {

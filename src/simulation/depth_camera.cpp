@@ -1,41 +1,15 @@
 #include "grid_path_planner/simulation/depth_camera.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
 
 #include "simulation/range_noise.h"
+#include "simulation/ray_scene.h"
 
 namespace grid_path_planner::simulation {
 namespace {
 
-constexpr std::size_t kPacket = 8;
-
-template <class Handle, void (*release)(Handle)>
-struct Release {
-  void operator()(Handle handle) const { release(handle); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, Release<RTCDevice, rtcReleaseDevice>>;
-using SceneHandle = std::unique_ptr<RTCSceneTy, Release<RTCScene, rtcReleaseScene>>;
-using Geometry = std::unique_ptr<RTCGeometryTy, Release<RTCGeometry, rtcReleaseGeometry>>;
-
-void throwOnError(RTCDevice device) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error != RTC_ERROR_NONE)
-    throw std::runtime_error("Embree failed with error " + std::to_string(error));
-}
-
-// `buffer` of a geometry, filled with a copy of `items`.
-template <class Item>
-void copyTo(RTCGeometry geometry, RTCBufferType buffer, RTCFormat format,
-            const std::vector<Item>& items) {
-  void* memory = rtcSetNewGeometryBuffer(geometry, buffer, 0, format, sizeof(Item), items.size());
-  if (memory != nullptr) std::copy(items.begin(), items.end(), static_cast<Item*>(memory));
-}
+constexpr std::size_t kPacket = RayScene::kPacket;
 
 CameraIntrinsics intrinsicsOf(const DepthCameraOptions& options) {
   const double focal = 0.5 * options.width / std::tan(0.5 * options.horizontal_fov);
@@ -57,67 +31,11 @@ std::vector<Eigen::Vector3f> raysOf(const DepthCameraOptions& options) {
 
 }  // namespace
 
-// Embree's view of the visible surfaces.
-class DepthCamera::Scene {
- public:
-  explicit Scene(const std::vector<TriangleMesh>& meshes)
-      : device_(rtcNewDevice("threads=1,set_affinity=0")) {
-    if (!device_) throwOnError(nullptr);
-    scene_.reset(rtcNewScene(device_.get()));
-    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);  // no ray slips between two triangles
-    for (const TriangleMesh& mesh : meshes) attach(mesh);
-    rtcCommitScene(scene_.get());
-    throwOnError(device_.get());
-  }
-
-  // Ranges of `count` <= kPacket rays of length 1 from `origin`; infinite where they meet nothing
-  // within `farthest`.
-  void ranges(const Eigen::Vector3f& origin, const Eigen::Matrix3f& turn,
-              const Eigen::Vector3f* rays, std::size_t count, float farthest, float* out) const {
-    RTCRayHit8 packet = {};
-    alignas(32) int valid[kPacket] = {};
-    for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Vector3f direction = turn * rays[i];
-      valid[i] = -1;
-      packet.ray.org_x[i] = origin.x();
-      packet.ray.org_y[i] = origin.y();
-      packet.ray.org_z[i] = origin.z();
-      packet.ray.dir_x[i] = direction.x();
-      packet.ray.dir_y[i] = direction.y();
-      packet.ray.dir_z[i] = direction.z();
-      packet.ray.tfar[i] = farthest;
-      packet.ray.mask[i] = ~0u;
-      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect8(valid, scene_.get(), &context, &packet);
-    for (std::size_t i = 0; i < count; ++i)
-      out[i] = packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
-                   ? std::numeric_limits<float>::infinity()
-                   : packet.ray.tfar[i];
-  }
-
- private:
-  void attach(const TriangleMesh& mesh) {
-    const Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    copyTo(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices);
-    copyTo(geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
-    throwOnError(device_.get());
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometry(scene_.get(), geometry.get());
-  }
-
-  Device device_;
-  SceneHandle scene_;
-};
-
 DepthCamera::DepthCamera(const World& world, const DepthCameraOptions& options)
     : options_(options) {
   checkDepthCameraOptions(options);
   rays_ = raysOf(options);
-  scene_ = std::make_unique<Scene>(world.visible());
+  scene_ = std::make_unique<const RayScene>(world.visible());
 }
 
 DepthCamera::~DepthCamera() = default;

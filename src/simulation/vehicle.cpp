@@ -34,6 +34,29 @@ double normalized(double angle) {
 
 }  // namespace
 
+Eigen::Isometry3d mapFromBase(const VehicleState& state) {
+  Eigen::Isometry3d pose =
+      Eigen::Translation3d(state.position) * Eigen::AngleAxisd(state.yaw, Eigen::Vector3d::UnitZ());
+  if (state.level()) return pose;  // to the bit what a vehicle without roll and pitch has
+  pose.rotate(Eigen::AngleAxisd(state.pitch, Eigen::Vector3d::UnitY()));
+  return pose.rotate(Eigen::AngleAxisd(state.roll, Eigen::Vector3d::UnitX()));
+}
+
+BodyTwist bodyTwist(const VehicleState& state) {
+  const BodyVelocity& v = state.velocity;
+  BodyTwist twist{{v.surge, v.sway, v.heave}, {state.roll_rate, state.pitch_rate, v.yaw_rate}};
+  if (state.level()) return twist;
+  const Eigen::Matrix3d from_pitched =
+      Eigen::AngleAxisd(-state.roll, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const Eigen::Matrix3d from_level =
+      from_pitched * Eigen::AngleAxisd(-state.pitch, Eigen::Vector3d::UnitY());
+  twist.linear = from_level * twist.linear;
+  twist.angular = from_level * Eigen::Vector3d(0.0, 0.0, v.yaw_rate) +
+                  from_pitched * Eigen::Vector3d(0.0, state.pitch_rate, 0.0) +
+                  Eigen::Vector3d(state.roll_rate, 0.0, 0.0);
+  return twist;
+}
+
 Vehicle::Vehicle(const VehicleOptions& options, const VehicleState& initial) {
   setOptions(options);
   reset(initial);
@@ -82,6 +105,7 @@ void Vehicle::reset(const VehicleState& state) {
                      std::to_string(state.position.z()) + " and yaw " + std::to_string(state.yaw));
   state_ = state;
   state_.yaw = normalized(state.yaw);
+  rock();
   commanded_ = {};
   contacts_ = 0;
   in_contact_ = false;
@@ -93,7 +117,20 @@ void Vehicle::step() {
   changeVelocity(options_.time_step);
   move(options_.time_step, before);
   time_ns_ += nanoseconds(options_.time_step);
+  rock();
   touchBodies();
+}
+
+void Vehicle::rock() {
+  const auto swing = [this](double amplitude, double period, double& angle, double& rate) {
+    angle = rate = 0.0;
+    if (amplitude == 0.0) return;  // no zeros with a sign
+    const double frequency = 2.0 * M_PI / period;
+    angle = amplitude * std::sin(frequency * time());
+    rate = amplitude * frequency * std::cos(frequency * time());
+  };
+  swing(options_.roll_amplitude, options_.roll_period, state_.roll, state_.roll_rate);
+  swing(options_.pitch_amplitude, options_.pitch_period, state_.pitch, state_.pitch_rate);
 }
 
 BodyVelocity Vehicle::setPoint() const {

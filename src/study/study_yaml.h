@@ -2,17 +2,13 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <string>
 
 #include "grid_path_planner/base/yaml_file.h"
 
 namespace grid_path_planner::study {
 
-// Throws InputError with file and line where `node`, which errors call `what`, is no mapping, or has a
-// key that is not known, or one twice.
-void checkKeys(const YAML::Node& node, const std::string& what, const std::string& file,
-               const std::set<std::string>& known);
+using base::checkKeys;
 
 // Throws InputError with file and line where `node`, called `name`, is no mapping of a Key to a Value.
 template <class Key, class Value>

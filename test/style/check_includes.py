@@ -61,6 +61,8 @@ LENT = {
     "planning/explanation.h": {"command_line", "ros_planning"},
     "seen_map/seen_map.h": {"flights", "ros_avoidance"},
     "simulation/read_world_main.h": {"read_world"},
+    "simulation/sensors/navigation_sensor_options.h": {"ros_simulation"},
+    "simulation/sensors/navigation_sensors.h": {"ros_simulation"},
 }
 ROS_HEADER = re.compile(
     r"(ros|tf2\w*|nodelet|pluginlib|rosbag|actionlib|dynamic_reconfigure|diagnostic_updater|topic_tools"

@@ -235,6 +235,21 @@ CONTEXT = {
         extern const OccupancyGrid& map; extern CellRect changed;""",
     "triangle_mesh.h": "extern Eigen::Isometry3d pose;",
     "unused_options.h": "extern PlannerOptions options; void warn(const std::string&);",
+    "ray_scene.h": """#include "grid_path_planner/simulation/world.h"
+        extern const World world; extern Eigen::Vector3f origin, rays[]; extern Eigen::Matrix3f map_from_sensor;
+        extern float ranges[];""",
+    "noise_stream.h": "#include \"simulation/sensors/pressure_options.h\"\n"
+                      "extern PressureOptions options; extern double truth;",
+    "drifting_triad.h": "extern int seed; extern TriadErrors errors;",
+    "sensors/imu.h": "extern ImuOptions options; extern Vehicle vehicle;",
+    "sensors/dvl.h": "extern const World world; extern DvlOptions options; extern Vehicle vehicle;",
+    "pressure_sensor.h": "extern PressureOptions options; extern Vehicle vehicle;",
+    "usbl.h": "extern UsblOptions options; extern Vehicle vehicle;",
+    "navigation_sensors.h": "extern NavigationSensorOptions options; extern std::shared_ptr<const World> world;"
+                            "extern Vehicle vehicle;",
+    "sensor_publisher.h": """extern ros::NodeHandle nh; extern simulation::NavigationSensorOptions sensor_options;
+        extern simulation::SensorReadings readings; extern SensorFrameNames frames;
+        extern std::function<ros::Time(std::int64_t)> stamp_of;""",
     "vehicle.h": "extern VehicleOptions options; extern std::shared_ptr<const World> world;",
     "path_hash.h": "extern Planner& planner; extern SearchRequest request;",
     "rectangle_map_file.h": "extern GridGeometry geometry;",

@@ -16,6 +16,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
+#include <set>
 #include <string>
 #include <type_traits>
 
@@ -49,6 +50,11 @@ YAML::Node yamlNode(const YAML::Node& parent, const std::string& key, const std:
 
 // Whether the mapping `parent` has `key`. Throws InputError where `parent` is no mapping.
 bool yamlHas(const YAML::Node& parent, const std::string& key, const std::string& file);
+
+// Throws InputError with file and line where `node`, which errors call `what`, is no mapping, or has a
+// key that is not known, or one twice.
+void checkKeys(const YAML::Node& node, const std::string& what, const std::string& file,
+               const std::set<std::string>& known);
 
 // The scalar `node` itself as a T; `name` is what the message calls it. Numbers must be finite.
 template <class T>

@@ -29,6 +29,8 @@
 
 namespace grid_path_planner::simulation {
 
+class RayScene;
+
 // Of a pinhole: the point x, y, z is seen at column cx + fx x / z, row cy + fy y / z; pixel (0, 0)
 // has its centre at column 0, row 0, as in sensor_msgs/CameraInfo.
 struct CameraIntrinsics {
@@ -54,11 +56,9 @@ class DepthCamera {
               std::vector<float>& points, const BodiesAt& bodies = {}) const;
 
  private:
-  class Scene;
-
   DepthCameraOptions options_;
   std::vector<Eigen::Vector3f> rays_;  // of length 1, optical frame, row by row
-  std::unique_ptr<const Scene> scene_;
+  std::unique_ptr<const RayScene> scene_;
 };
 
 }  // namespace grid_path_planner::simulation

@@ -12,11 +12,14 @@
 // of the steps. The vehicle stops by itself cmd_vel_timeout after the last command. Its disc does
 // not enter an occupied cell: the motion in the plane ends at the first contact. Its sphere does not
 // enter a surface of the world: all motion but the turn ends at the first contact. A vehicle that
-// was put into an obstacle may leave it. Not modelled: water, currents, roll and pitch; the
-// map is flat, so its obstacles stand at every depth. Outside map and world there are no obstacles.
+// was put into an obstacle may leave it. Not modelled: water,
+// currents; the map is flat, so its obstacles stand at every depth. Outside map and world there are no
+// obstacles. Roll and pitch are those of a vehicle that rocks: sines of the time alone, which turn what
+// its sensors see and change nothing of where it goes.
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -32,8 +35,24 @@ namespace grid_path_planner::simulation {
 struct VehicleState {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // m, map frame
   double yaw = 0.0;                                    // rad, in (-pi, pi]
-  base::BodyVelocity velocity = {};
+  base::BodyVelocity velocity = {};                    // of the heading's frame, which is level
+  double roll = 0.0;                                   // rad, about the vehicle's own x axis
+  double pitch = 0.0;                                  // rad, before the roll; positive: bow down
+  double roll_rate = 0.0;                              // rad/s, derivatives of the two angles
+  double pitch_rate = 0.0;
+
+  bool level() const { return roll == 0.0 && pitch == 0.0; }
 };
+
+// base_link in the map: turned by yaw, then pitch, then roll (REP 103).
+Eigen::Isometry3d mapFromBase(const VehicleState& state);
+
+// How base_link moves, along and about its own axes, which the vehicle's tilt turns.
+struct BodyTwist {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   // m/s
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  // rad/s
+};
+BodyTwist bodyTwist(const VehicleState& state);
 
 class Vehicle {
  public:
@@ -60,8 +79,8 @@ class Vehicle {
   // Whether a command other than to stop holds, and no more after the next step.
   bool commandRunsOut() const;
 
-  // Puts the vehicle somewhere: no command, contacts 0; time goes on. Throws InputError for a state
-  // that is not finite.
+  // Puts the vehicle somewhere: no command, contacts 0; time goes on, and so do roll and pitch, which
+  // are not taken from `state`. Throws InputError for a state that is not finite.
   void reset(const VehicleState& state);
 
   // One time_step.
@@ -87,6 +106,7 @@ class Vehicle {
   bool moveInPlane(const Eigen::Vector2d& motion);
   bool moveInWorld(const Eigen::Vector3d& from);
   void touchBodies();
+  void rock();
   void startContact(const std::string& name);
   bool isClear() const;
   double clearance(const Eigen::Vector2d& position) const;

@@ -17,6 +17,10 @@ struct VehicleOptions {
   double vehicle_radius = 0.3;        // m
   int occupied_min = 65;              // %
   double time_step = 0.01;            // s
+  double roll_amplitude = 0.0;        // rad
+  double roll_period = 5.0;           // s
+  double pitch_amplitude = 0.0;       // rad
+  double pitch_period = 7.0;          // s
 };
 
 template <class Visitor>
@@ -62,6 +66,19 @@ void visitOptions(VehicleOptions& o, Visitor&& visit) {
   visit(
       "time_step", o.time_step,
       base::OptionInfo{"One step of the integration; shorter: finer and slower", "s", 0.0001, 0.1});
+  visit(
+      "roll_amplitude", o.roll_amplitude,
+      base::OptionInfo{"How far the vehicle rolls to either side, as a sine of the time; its path "
+                       "stays the same; 0: it does not roll",
+                       "rad", 0.0, 0.5});
+  visit("roll_period", o.roll_period,
+        base::OptionInfo{"Time from one roll to the same side to the next", "s", 0.5, 1000.0});
+  visit("pitch_amplitude", o.pitch_amplitude,
+        base::OptionInfo{"How far the vehicle pitches up and down, as a sine of the time; its path "
+                         "stays the same; 0: it does not pitch",
+                         "rad", 0.0, 0.5});
+  visit("pitch_period", o.pitch_period,
+        base::OptionInfo{"Time from one pitch up to the next", "s", 0.5, 1000.0});
 }
 
 // Throws InputError naming the option for a value outside its limits and for a time_step longer

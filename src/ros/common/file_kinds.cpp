@@ -69,4 +69,9 @@ const FileKind& worldFiles() {
   return kind;
 }
 
+const FileKind& sensorFaultFiles() {
+  static const FileKind kind{"file of faults", {"yaml", "yml"}, nullptr};
+  return kind;
+}
+
 }  // namespace grid_path_planner::nodes

@@ -18,8 +18,10 @@ const FileKind& octreeFiles();
 // avoidance/flight_log.h.
 const FileKind& flightLogs();
 
-// Only to be read: whatever grid/map_file.h and ros/bag.h read, and simulated worlds.
+// Only to be read: whatever grid/map_file.h and ros/bag.h read, simulated worlds, and
+// simulation/sensors/sensor_faults.h.
 const FileKind& mapFiles();
 const FileKind& worldFiles();
+const FileKind& sensorFaultFiles();
 
 }  // namespace grid_path_planner::nodes

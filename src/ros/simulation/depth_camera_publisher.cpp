@@ -6,6 +6,7 @@
 #include "base/current_error.h"
 #include "grid_path_planner/base/options.h"
 #include "ros/common/guarded_queue.h"
+#include "ros/simulation/transform_message.h"
 
 namespace grid_path_planner::nodes {
 
@@ -19,31 +20,10 @@ using simulation::World;
 
 namespace {
 
-Eigen::Isometry3d mapFromBase(const VehicleState& state) {
-  return Eigen::Translation3d(state.position) *
-         Eigen::AngleAxisd(state.yaw, Eigen::Vector3d::UnitZ());
-}
-
 Eigen::Isometry3d baseFromCamera(const DepthCameraOptions& o) {
   return Eigen::Translation3d(o.x, o.y, o.z) * Eigen::AngleAxisd(o.yaw, Eigen::Vector3d::UnitZ()) *
          Eigen::AngleAxisd(o.pitch, Eigen::Vector3d::UnitY()) *
          Eigen::AngleAxisd(o.roll, Eigen::Vector3d::UnitX());
-}
-
-geometry_msgs::TransformStamped transformOf(const std::string& frame, const std::string& child,
-                                            const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond q(pose.rotation());
-  geometry_msgs::TransformStamped transform;
-  transform.header.frame_id = frame;
-  transform.child_frame_id = child;
-  transform.transform.translation.x = pose.translation().x();
-  transform.transform.translation.y = pose.translation().y();
-  transform.transform.translation.z = pose.translation().z();
-  transform.transform.rotation.x = q.x();
-  transform.transform.rotation.y = q.y();
-  transform.transform.rotation.z = q.z();
-  transform.transform.rotation.w = q.w();
-  return transform;
 }
 
 sensor_msgs::PointCloud2 emptyCloud(const DepthCameraOptions& options) {

@@ -7,7 +7,8 @@ namespace grid_path_planner::nodes {
 
 int simulatorMain(int argc, char** argv) {
   return runNode<SimulatorNode>(argc, argv, "simulator",
-                                {{"world", "WORLD.sdf", false, checkCanBeOpened}});
+                                {{"world", "WORLD.sdf", false, checkCanBeOpened},
+                                 {"sensor_faults", "FAULTS.yaml", false, checkCanBeOpened}});
 }
 
 }  // namespace grid_path_planner::nodes

@@ -4,6 +4,7 @@
 #include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
@@ -16,8 +17,13 @@
 namespace grid_path_planner::nodes {
 
 using base::InputError;
+using base::sameOptions;
 using grid::OccupancyGrid;
+using simulation::NavigationSensors;
+using simulation::readSensorFaults;
 using simulation::readWorld;
+using simulation::SensorFault;
+using simulation::SensorReadings;
 using simulation::Vehicle;
 using simulation::VehicleState;
 using simulation::World;
@@ -32,26 +38,29 @@ constexpr double kLongestDelay = 0.05;  // s
 constexpr double kLongestWait = 0.2;  // s
 
 VehicleState initialState(const SimulatorOptions& o) {
-  return {Eigen::Vector3d(o.initial_x, o.initial_y, o.initial_z), o.initial_yaw, {}};
-}
-
-bool sameStart(const SimulatorOptions& a, const SimulatorOptions& b) {
-  return a.initial_x == b.initial_x && a.initial_y == b.initial_y && a.initial_z == b.initial_z &&
-         a.initial_yaw == b.initial_yaw;
+  return {Eigen::Vector3d(o.initial.x, o.initial.y, o.initial.z), o.initial.yaw, {}};
 }
 
 VehicleFrameNames frameNames(const SimulatorOptions& o) {
-  return {o.map_frame, o.odom_frame, o.base_frame, o.publish_map_to_odom};
+  return {o.map_frame, o.odom_frame, o.base_frame, o.publish_map_to_odom, o.publish_odom_to_base};
 }
 
 CameraFrameNames cameraFrameNames(const SimulatorOptions& o) {
   return {o.base_frame, o.camera_frame, o.camera_optical_frame};
 }
 
+std::vector<geometry_msgs::TransformStamped> fixedTransforms(const SimulatorOptions& o) {
+  auto transforms = cameraTransforms(o.camera, cameraFrameNames(o));
+  const auto sensors = sensorTransforms(o.sensors, o.base_frame, o.sensor_frames);
+  transforms.insert(transforms.end(), sensors.begin(), sensors.end());
+  return transforms;
+}
+
 SimulatorOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles& files) {
   SimulatorOptions options;
   loadParameters(private_nh, options);
   options.world = files.named("world", options.world);
+  options.sensor_faults = files.named("sensor_faults", options.sensor_faults);
   checkSimulatorOptions(options);
   warnUnknownParameters(private_nh, optionNames<SimulatorOptions>());
   return options;
@@ -67,10 +76,12 @@ SimulatorNode::SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
       vehicle_(std::make_unique<Vehicle>(options_.vehicle, initialState(options_))),
       odometry_(options_.odometry),
       vehicle_publisher_(nh_),
-      contact_publisher_(nh_) {
+      contact_publisher_(nh_),
+      sensor_publisher_(nh_) {
   odometry_.reset(vehicle_->state());
   if (options_.publish_clock) clock_publisher_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
   if (!options_.world.empty()) loadWorld();
+  startSensors();
   updateCamera(options_);
   startTimer();
   listen(private_nh);
@@ -100,6 +111,17 @@ void SimulatorNode::loadWorld() {
   contact_publisher_.start(*vehicle_);
 }
 
+void SimulatorNode::startSensors() {
+  std::vector<SensorFault> faults;
+  const auto read = [&](const std::string& file) {
+    return readSensorFaults(file, options_.reading);
+  };
+  if (!options_.sensor_faults.empty())
+    faults = files_.read("sensor_faults", options_.sensor_faults, sensorFaultFiles(), read);
+  sensors_ = std::make_unique<NavigationSensors>(options_.sensors, world_, faults);
+  sensor_publisher_.setOptions(options_.sensors);
+}
+
 void SimulatorNode::use(const SimulatorOptions& options) {
   checkSimulatorOptions(options);
   if (options.publish_clock != options_.publish_clock || options.start_time != options_.start_time)
@@ -107,10 +129,15 @@ void SimulatorNode::use(const SimulatorOptions& options) {
   if (options.world != options_.world)
     throw InputError("world cannot be changed while the simulator runs, it is '" + options_.world +
                      "'");
+  if (options.sensor_faults != options_.sensor_faults)
+    throw InputError("sensor_faults cannot be changed while the simulator runs, it is '" +
+                     options_.sensor_faults + "'");
+  sensors_->setOptions(options.sensors);
+  sensor_publisher_.setOptions(options.sensors);
   updateCamera(options);
   vehicle_->setOptions(options.vehicle);
   odometry_.setOptions(options.odometry);
-  if (!sameStart(options, options_)) resetVehicle(options);
+  if (!sameOptions(options.initial, options_.initial)) resetVehicle(options);
   const bool other_rate = options.update_rate != options_.update_rate;
   options_ = options;
   if (other_rate) startTimer();
@@ -118,7 +145,7 @@ void SimulatorNode::use(const SimulatorOptions& options) {
 
 void SimulatorNode::updateCamera(const SimulatorOptions& options) {
   const CameraFrameNames frames = cameraFrameNames(options);
-  vehicle_publisher_.setFixed(cameraTransforms(options.camera, frames));
+  vehicle_publisher_.setFixed(fixedTransforms(options));
   if (world_ && !(camera_ && camera_->same(options.camera, frames)))
     camera_ = std::make_unique<DepthCameraPublisher>(nh_, *world_, options.camera, frames);
 }
@@ -126,10 +153,12 @@ void SimulatorNode::updateCamera(const SimulatorOptions& options) {
 void SimulatorNode::resetVehicle(const SimulatorOptions& options) {
   vehicle_->reset(initialState(options));
   odometry_.reset(vehicle_->state());
+  sensors_->jump();
 }
 
 void SimulatorNode::startTimer() {
   last_tick_ = ros::SteadyTime::now();
+  last_tick_stamp_ = ros::Time::now();
   timer_ = nh_.createSteadyTimer(ros::WallDuration(1.0 / options_.update_rate),
                                  &SimulatorNode::onTimer, this);
 }
@@ -178,6 +207,7 @@ void SimulatorNode::addElapsedTime() {
   pending_time_ =
       std::min(pending_time_, most + options_.vehicle.time_step);  // at slow factors a step is more
   last_tick_ = tick;
+  last_tick_stamp_ = ros::Time::now();
 }
 
 // An image is due, and the one before is not finished.
@@ -196,6 +226,8 @@ void SimulatorNode::step() {
   if (camera_ && camera_->due(vehicle_->timeNs())) captureImage();
   vehicle_->step();
   odometry_.advance(vehicle_->state());
+  SensorReadings readings = sensors_->advance(vehicle_->state(), vehicle_->timeNs());
+  if (!readings.empty()) readings_.push_back(std::move(readings));
 }
 
 // With tf of exactly its stamp, sent before it.
@@ -205,16 +237,36 @@ void SimulatorNode::captureImage() {
 }
 
 ros::Time SimulatorNode::now() const {
-  if (!options_.publish_clock) return ros::Time::now();
-  ros::Time start(options_.start_time);
+  return options_.publish_clock ? stampOf(vehicle_->timeNs()) : ros::Time::now();
+}
+
+// The ROS time of a simulated time that has passed. Without a clock of its own a step belongs to the
+// time that it was due at, and not to that of the tick that has run several steps; 0 before ROS time
+// has begun.
+ros::Time SimulatorNode::stampOf(std::int64_t time_ns) const {
   ros::Duration passed;
-  passed.fromNSec(vehicle_->timeNs());
-  return start + passed;
+  passed.fromNSec(time_ns);
+  if (options_.publish_clock) return ros::Time(options_.start_time) + passed;
+  ros::Duration ago;
+  ago.fromNSec(vehicle_->timeNs() - time_ns);
+  ago += ros::Duration(pending_time_);
+  return last_tick_stamp_.toSec() > ago.toSec() ? last_tick_stamp_ - ago : ros::Time();
+}
+
+// After /clock has reached them: nothing measured is stamped ahead of time.
+void SimulatorNode::publishReadings() {
+  for (const SensorReadings& readings : readings_)
+    sensor_publisher_.publish(readings, options_.sensor_frames, options_.map_frame,
+                              [this](std::int64_t time_ns) { return stampOf(time_ns); });
+  readings_.clear();
 }
 
 void SimulatorNode::publishState() {
   const ros::Time stamp = now();
-  if (stamp == last_stamp_) return;  // tf warns about repeated stamps
+  if (stamp == last_stamp_) {  // tf warns about repeated stamps
+    readings_.clear();
+    return;
+  }
   last_stamp_ = stamp;
   if (options_.publish_clock) {
     rosgraph_msgs::Clock clock;
@@ -222,6 +274,7 @@ void SimulatorNode::publishState() {
     clock_publisher_.publish(clock);
   }
   vehicle_publisher_.publish(vehicle_->state(), odometry_.measured(), stamp, frameNames(options_));
+  publishReadings();
 }
 
 }  // namespace grid_path_planner::nodes

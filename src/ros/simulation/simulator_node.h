@@ -8,11 +8,13 @@
 //   publishes   ground_truth   nav_msgs/Odometry in map: the true pose
 //               odom           nav_msgs/Odometry: the pose by dead reckoning
 //               tf             map -> odom (the identity) -> base_link -> camera_link
-//                              -> camera_optical_frame
+//                              -> camera_optical_frame, and base_link -> the sensors' frames
 //               /clock         at real_time_factor; only with publish_clock
 //               contacts, contact     collisions of the vehicle (contact_publisher.h)
 //               depth_camera/points, depth_camera/camera_info     with ~world
 //                              (depth_camera_publisher.h)
+//               imu/data, dvl/..., pressure, depth, usbl/pose     with navigation sensors
+//                              (sensor_publisher.h)
 //
 // With a real_time_factor above 1, simulated time waits up to 0.2 s of the wall clock for the next
 // command where the last one would end: the vehicle does not drive on, nor stop, because it runs
@@ -31,14 +33,17 @@
 #include <ros/subscriber.h>
 
 #include <memory>
+#include <vector>
 
 #include "grid_path_planner/simulation/dead_reckoning.h"
 #include "grid_path_planner/simulation/vehicle.h"
 #include "ros/common/node_files.h"
 #include "ros/simulation/contact_publisher.h"
 #include "ros/simulation/depth_camera_publisher.h"
+#include "ros/simulation/sensor_publisher.h"
 #include "ros/simulation/simulator_options.h"
 #include "ros/simulation/vehicle_publisher.h"
+#include "simulation/sensors/navigation_sensors.h"
 
 namespace grid_path_planner {
 class SimulatorConfig;
@@ -63,6 +68,7 @@ class SimulatorNode {
   void loadWorld();
   void listen(ros::NodeHandle& private_nh);
   void use(const SimulatorOptions& options);
+  void startSensors();
   void updateCamera(const SimulatorOptions& options);
   void resetVehicle(const SimulatorOptions& options);
   void startTimer();
@@ -76,7 +82,9 @@ class SimulatorNode {
   bool mustWaitForCommand() const;
   void captureImage();
   void publishState();
+  void publishReadings();
   ros::Time now() const;
+  ros::Time stampOf(std::int64_t time_ns) const;
 
   ros::NodeHandle nh_;
   NodeFiles files_;
@@ -86,12 +94,16 @@ class SimulatorNode {
   std::shared_ptr<const simulation::World> world_;  // none: only the map's obstacles
   double pending_time_ = 0.0;                       // s of simulated time that are due
   ros::SteadyTime last_tick_;
+  ros::Time last_tick_stamp_;  // ROS time then
   ros::SteadyTime commanded_at_;
   ros::Time last_stamp_;
 
   VehiclePublisher vehicle_publisher_;
   ContactPublisher contact_publisher_;
   std::unique_ptr<DepthCameraPublisher> camera_;  // with a world
+  SensorPublisher sensor_publisher_;
+  std::unique_ptr<simulation::NavigationSensors> sensors_;
+  std::vector<simulation::SensorReadings> readings_;  // not yet published
   ros::Publisher clock_publisher_;
   ros::Subscriber command_subscriber_;
   ros::Subscriber map_subscriber_;

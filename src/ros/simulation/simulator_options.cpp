@@ -21,7 +21,9 @@ namespace {
 void checkFrames(const SimulatorOptions& o) {
   std::set<std::string> names;
   for (const std::string& name :
-       {o.map_frame, o.odom_frame, o.base_frame, o.camera_frame, o.camera_optical_frame}) {
+       {o.map_frame, o.odom_frame, o.base_frame, o.camera_frame, o.camera_optical_frame,
+        o.sensor_frames.imu, o.sensor_frames.dvl, o.sensor_frames.dvl_altitude,
+        o.sensor_frames.pressure, o.sensor_frames.usbl}) {
     checkNetworkText("the name of a frame", name);
     if (name.empty()) throw InputError("the name of a frame must not be empty");
     if (!names.insert(name).second)
@@ -35,6 +37,7 @@ void checkSimulatorOptions(const SimulatorOptions& o) {
   checkOptionLimits(o);
   checkVehicleOptions(o.vehicle);
   checkDepthCameraOptions(o.camera);
+  checkNavigationSensorOptions(o.sensors, o.vehicle.time_step);
   if (!o.publish_clock && o.real_time_factor != 1.0)
     throw InputError("real_time_factor other than 1 needs publish_clock, got " +
                      decimalText(o.real_time_factor));

@@ -7,6 +7,8 @@
 #include "grid_path_planner/simulation/dead_reckoning.h"
 #include "grid_path_planner/simulation/depth_camera_options.h"
 #include "grid_path_planner/simulation/vehicle_options.h"
+#include "ros/simulation/sensor_frames.h"
+#include "simulation/sensors/navigation_sensor_options.h"
 
 namespace grid_path_planner::nodes {
 
@@ -19,16 +21,33 @@ inline simulation::DepthCameraOptions vehicleCamera() {
   return camera;
 }
 
+struct InitialPose {
+  double x = 0.0;    // m, map frame
+  double y = 0.0;    // m
+  double z = 0.0;    // m
+  double yaw = 0.0;  // rad
+};
+
+template <class Visitor>
+void visitOptions(InitialPose& o, Visitor&& visit) {
+  visit("initial_x", o.x,
+        base::OptionInfo{"Where the vehicle starts, in map_frame", "m", -1e6, 1e6}.under(
+            "Where it starts; a change puts it there, with contacts at 0"));
+  visit("initial_y", o.y,
+        base::OptionInfo{"Where the vehicle starts, in map_frame", "m", -1e6, 1e6});
+  visit("initial_z", o.z, base::OptionInfo{"Where the vehicle starts, upwards", "m", -1e6, 1e6});
+  visit("initial_yaw", o.yaw,
+        base::OptionInfo{"Where the vehicle looks at the start, anticlockwise from x", "rad", -7.0,
+                         7.0});
+}
+
 struct SimulatorOptions {
   std::string world;  // SDF file
   simulation::VehicleOptions vehicle;
   simulation::DeadReckoningOptions odometry;
   simulation::DepthCameraOptions camera = vehicleCamera();
 
-  double initial_x = 0.0;    // m, map frame
-  double initial_y = 0.0;    // m
-  double initial_z = 0.0;    // m
-  double initial_yaw = 0.0;  // rad
+  InitialPose initial;
 
   double real_time_factor = 1.0;
   double update_rate = 100.0;  // Hz, wall time
@@ -39,8 +58,13 @@ struct SimulatorOptions {
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
   bool publish_map_to_odom = true;
+  bool publish_odom_to_base = true;
   std::string camera_frame = "camera_link";
   std::string camera_optical_frame = "camera_optical_frame";
+  SensorFrameNames sensor_frames;
+
+  simulation::NavigationSensorOptions sensors;
+  std::string sensor_faults;  // YAML file
 
   base::ReadOptions reading;
 };
@@ -54,16 +78,7 @@ void visitOptions(SimulatorOptions& o, Visitor&& visit) {
           "obstacles; read at the start",
           ""});
   visitOptions(o.vehicle, visit);
-  visit("initial_x", o.initial_x,
-        base::OptionInfo{"Where the vehicle starts, in map_frame", "m", -1e6, 1e6}.under(
-            "Where it starts; a change puts it there, with contacts at 0"));
-  visit("initial_y", o.initial_y,
-        base::OptionInfo{"Where the vehicle starts, in map_frame", "m", -1e6, 1e6});
-  visit("initial_z", o.initial_z,
-        base::OptionInfo{"Where the vehicle starts, upwards", "m", -1e6, 1e6});
-  visit("initial_yaw", o.initial_yaw,
-        base::OptionInfo{"Where the vehicle looks at the start, anticlockwise from x", "rad", -7.0,
-                         7.0});
+  visitOptions(o.initial, visit);
   visit("real_time_factor", o.real_time_factor,
         base::OptionInfo{
             "Simulated seconds in a second of the wall clock; above 1: time-lapse; other "
@@ -89,18 +104,30 @@ void visitOptions(SimulatorOptions& o, Visitor&& visit) {
       "publish_map_to_odom", o.publish_map_to_odom,
       base::OptionInfo{
           "Whether tf map to odom (the identity) is published; false: a localisation does it", ""});
+  visit("publish_odom_to_base", o.publish_odom_to_base,
+        base::OptionInfo{"Whether tf odom to base_link is published; false: a localisation does it",
+                         ""});
   visit("camera_frame", o.camera_frame, base::OptionInfo{"Frame of the camera: x ahead, z up", ""});
   visit("camera_optical_frame", o.camera_optical_frame,
         base::OptionInfo{"Frame of the camera's points: z ahead, y down", ""});
+  visitOptions(o.sensor_frames, visit);
   visitOptions(o.odometry, visit);
   visitOptions(o.camera, [&](const char* name, auto& value, const base::OptionInfo& info) {
     visit((std::string("camera_") + name).c_str(), value, info);
   });
+  visitOptions(o.sensors, visit);
+  visit(
+      "sensor_faults", o.sensor_faults,
+      base::OptionInfo{"YAML file below the folder to load from of what is cut and spoiled of the "
+                       "sensors' measurements, and when; empty: nothing; read at the start",
+                       ""}
+          .under("Faults of the navigation sensors"));
   visitOptions(o.reading, visit);
 }
 
 // Throws InputError naming the option for a value outside its limits, a range of the camera that
-// holds nothing, a factor other than 1 without a clock, and frames that are empty or the same.
+// holds nothing, a factor other than 1 without a clock, navigation sensors that cannot be, and frames
+// that are empty or the same.
 void checkSimulatorOptions(const SimulatorOptions& options);
 
 }  // namespace grid_path_planner::nodes

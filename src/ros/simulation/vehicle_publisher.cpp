@@ -7,9 +7,23 @@
 
 namespace grid_path_planner::nodes {
 
+using simulation::BodyTwist;
 using simulation::VehicleState;
 
 namespace {
+
+// Turned by yaw, then pitch, then roll; of a level vehicle x and y are 0, without rounding.
+geometry_msgs::Quaternion orientationOf(const VehicleState& state) {
+  const double sy = std::sin(0.5 * state.yaw), cy = std::cos(0.5 * state.yaw);
+  const double sp = std::sin(0.5 * state.pitch), cp = std::cos(0.5 * state.pitch);
+  const double sr = std::sin(0.5 * state.roll), cr = std::cos(0.5 * state.roll);
+  geometry_msgs::Quaternion q;
+  q.x = cy * cp * sr - sy * sp * cr;
+  q.y = cy * sp * cr + sy * cp * sr;
+  q.z = sy * cp * cr - cy * sp * sr;
+  q.w = cy * cp * cr + sy * sp * sr;
+  return q;
+}
 
 nav_msgs::Odometry odometryOf(const VehicleState& state, const std::string& frame,
                               const std::string& base, const ros::Time& stamp) {
@@ -20,12 +34,14 @@ nav_msgs::Odometry odometryOf(const VehicleState& state, const std::string& fram
   message.pose.pose.position.x = state.position.x();
   message.pose.pose.position.y = state.position.y();
   message.pose.pose.position.z = state.position.z();
-  message.pose.pose.orientation.z = std::sin(0.5 * state.yaw);
-  message.pose.pose.orientation.w = std::cos(0.5 * state.yaw);
-  message.twist.twist.linear.x = state.velocity.surge;
-  message.twist.twist.linear.y = state.velocity.sway;
-  message.twist.twist.linear.z = state.velocity.heave;
-  message.twist.twist.angular.z = state.velocity.yaw_rate;
+  message.pose.pose.orientation = orientationOf(state);
+  const BodyTwist twist = bodyTwist(state);
+  message.twist.twist.linear.x = twist.linear.x();
+  message.twist.twist.linear.y = twist.linear.y();
+  message.twist.twist.linear.z = twist.linear.z();
+  message.twist.twist.angular.x = twist.angular.x();
+  message.twist.twist.angular.y = twist.angular.y();
+  message.twist.twist.angular.z = twist.angular.z();
   return message;
 }
 
@@ -65,7 +81,7 @@ void VehiclePublisher::publish(const VehicleState& truth, const VehicleState& me
   odometry_publisher_.publish(odometry);
   std::vector<geometry_msgs::TransformStamped> transforms = fixed_;
   if (frames.map_to_odometry) transforms.push_back(identity(frames.map, frames.odometry));
-  transforms.push_back(transformOf(odometry));
+  if (frames.odometry_to_base) transforms.push_back(transformOf(odometry));
   for (auto& transform : transforms) transform.header.stamp = stamp;
   broadcaster_.sendTransform(transforms);
 }

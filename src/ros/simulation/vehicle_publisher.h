@@ -5,7 +5,7 @@
 //
 //   ground_truth  nav_msgs/Odometry in the frame of the map
 //   odom          nav_msgs/Odometry in the frame of the odometry
-//   tf            odometry -> vehicle as measured; map -> odometry (the identity) where asked for
+//   tf            odometry -> vehicle as measured, and map -> odometry (the identity), where asked for
 //
 // Errors of the odometry are errors of tf from map to vehicle, as on a vehicle without a
 // localisation. No transform is static: a listener that clears its buffer as time jumps back would
@@ -29,6 +29,7 @@ struct VehicleFrameNames {
   std::string odometry = "odom";
   std::string base = "base_link";
   bool map_to_odometry = true;
+  bool odometry_to_base = true;
 };
 
 class VehiclePublisher {

@@ -178,7 +178,8 @@ TEST_F(NamedFiles, WhatIsReadAtTheStartLiesBelowTheFolderToo) {
       {"navigate_path", "_config_filename"},
       {"projected_map", "_filename"},
       {"map_publisher", "_filename"},
-      {"simulator", "_world"}};
+      {"simulator", "_world"},
+      {"simulator", "_sensor_faults"}};
   for (const auto& [node, option] : options)
     for (const std::string& name : {start_up_, other_, std::string("../home/notes.yaml")}) {
       EXPECT_EQ(exitCodeOf(node, {option + ":=" + name, "--load-folder", files()}), 1) << node;
