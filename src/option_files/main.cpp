@@ -13,6 +13,7 @@
 #include "grid_path_planner/mapping/projected_map_options.h"
 #include "option_files/option_files.h"
 #include "ros/avoidance/local_planner_options.h"
+#include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
 #include "ros/planning/map_publisher_options.h"
@@ -26,6 +27,7 @@ using base::InputError;
 using base::readWholeFile;
 using base::writeFileAtomically;
 using mapping::ProjectedMapOptions;
+using nodes::GoToPoseOptions;
 using nodes::LocalPlannerOptions;
 using nodes::MapPublisherOptions;
 using nodes::NavigatePathOptions;
@@ -42,7 +44,8 @@ using Files = std::map<std::string, std::string>;  // their content by name
 constexpr std::size_t kLargestFile = 1 << 24;  // bytes
 
 std::vector<NodeOptions> allNodes() {
-  return {{"local_planner", "LocalPlanner", describeOptions(LocalPlannerOptions())},
+  return {{"go_to_pose", "GoToPose", describeOptions(GoToPoseOptions())},
+          {"local_planner", "LocalPlanner", describeOptions(LocalPlannerOptions())},
           {"map_publisher", "MapPublisher", describeOptions(MapPublisherOptions())},
           {"navigate_path", "NavigatePath", describeOptions(NavigatePathOptions())},
           {"path_planner", "PathPlanner", describeOptions(PathPlannerNodeOptions())},

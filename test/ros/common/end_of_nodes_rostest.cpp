@@ -22,11 +22,14 @@ struct Node {
 };
 
 std::vector<Node> everyNode() {
-  return {
-      {"path_planner", {}},  {"map_publisher", {"--filename", GPP_TEST_DATA "/projected_map.bag"}},
-      {"navigate_path", {}}, {"local_planner", {}},
-      {"teleop_joy", {}},    {"projected_map", {"_autosave_period:=0"}},
-      {"simulator", {}}};
+  return {{"path_planner", {}},
+          {"map_publisher", {"--filename", GPP_TEST_DATA "/projected_map.bag"}},
+          {"navigate_path", {}},
+          {"local_planner", {}},
+          {"go_to_pose", {}},
+          {"teleop_joy", {}},
+          {"projected_map", {"_autosave_period:=0"}},
+          {"simulator", {}}};
 }
 
 // Those that the package has, by nodelet_plugins.xml.
