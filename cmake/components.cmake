@@ -2,7 +2,7 @@
 # others need.
 #
 #   planning    path_planner, map_publisher, grid_path (plan, convert, rectangles): always built
-#   driving     navigate_path, teleop_joy
+#   driving     navigate_path, go_to_pose, teleop_joy
 #   avoidance   local_planner
 #   localization  vehicle_localizer
 #   mapping     projected_map, grid_path project: needs OctoMap
@@ -44,9 +44,10 @@ if(GPP_WITH_driving)
   list(APPEND GPP_FOLDERS following)
   list(APPEND GPP_ROOMS following)
   list(APPEND ros_rooms ros_driving)
-  list(APPEND GPP_NODES navigate_path teleop_joy)
-  list(APPEND GPP_CONFIGURATIONS NavigatePath TeleopJoy)
-  list(APPEND GPP_LAUNCH_FILES navigate_path teleop_joy)
+  list(APPEND GPP_NODES navigate_path go_to_pose teleop_joy)
+  list(APPEND GPP_CONFIGURATIONS NavigatePath GoToPose TeleopJoy)
+  list(APPEND GPP_LAUNCH_FILES navigate_path go_to_pose go_to teleop_joy)
+  list(APPEND GPP_CATKIN_COMPONENTS move_base_msgs)
 endif()
 if(GPP_WITH_avoidance)
   list(APPEND GPP_FOLDERS avoidance)

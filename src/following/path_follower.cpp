@@ -156,6 +156,7 @@ BodyVelocity PathFollower::velocityFor(const FollowInput& input) {
 bool PathFollower::isBlocked(const FollowInput& input) {
   const std::string why = whyNot(input);
   if (!why.empty()) {
+    obstructed_ = input.hold.empty() && input.pose;
     const bool lost = input.hold.empty() && !input.pose;
     block(input.time, lost ? DriveStatus::TF_STALE : DriveStatus::BLOCKED, why);
     return true;
@@ -232,6 +233,11 @@ int PathFollower::currentWaypoint() const {
 double PathFollower::distanceRemaining() const {
   if (!progress_->joined() || !pose_) return std::numeric_limits<double>::infinity();
   return progress_->distanceRemaining(pose_->position);
+}
+
+double PathFollower::timeRemaining() const {
+  if (!progress_->joined() || !pose_) return std::numeric_limits<double>::infinity();
+  return progress_->timeRemaining(pose_->position);
 }
 
 const std::vector<int>& PathFollower::missedWaypoints() const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "following/driving_time.h"
 #include "grid_path_planner/base/decimal_text.h"
 
 namespace grid_path_planner::following {
@@ -226,13 +227,25 @@ std::vector<Vector3d> RouteProgress::ahead(const Vector3d& vehicle, double dista
   return points;
 }
 
-double RouteProgress::distanceRemaining(const Vector3d& vehicle) const {
-  if (segment_ >= route_->segments()) return 0.0;
+// The knot of the last waypoint, of this lap in a loop.
+std::size_t RouteProgress::endOfLap() const {
   const auto& knots = route_->knots();
   std::size_t end = segment_ + 1;
   while (end + 1 < knots.size() && knots[end].waypoint + 1 != static_cast<int>(path_.poses.size()))
     ++end;
-  return knots[end].s - knots[segment_].s - position(vehicle).share * route_->length(segment_);
+  return end;
+}
+
+double RouteProgress::distanceRemaining(const Vector3d& vehicle) const {
+  if (segment_ >= route_->segments()) return 0.0;
+  const auto& knots = route_->knots();
+  return knots[endOfLap()].s - knots[segment_].s -
+         position(vehicle).share * route_->length(segment_);
+}
+
+double RouteProgress::timeRemaining(const Vector3d& vehicle) const {
+  if (segment_ >= route_->segments()) return 0.0;
+  return drivingTime(*route_, segment_, position(vehicle).share, endOfLap(), options_);
 }
 
 }  // namespace grid_path_planner::following

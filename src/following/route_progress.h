@@ -60,9 +60,12 @@ class RouteProgress {
   std::vector<Eigen::Vector3d> ahead(const Eigen::Vector3d& vehicle, double distance) const;
   // Metres along the path to its end, of this lap in a loop.
   double distanceRemaining(const Eigen::Vector3d& vehicle) const;
+  // Seconds until then, by the limits of speed (driving_time.h).
+  double timeRemaining(const Eigen::Vector3d& vehicle) const;
 
  private:
   std::optional<DriveEnd> passWaypoints(const path::Pose& vehicle, double time);
+  std::size_t endOfLap() const;
   bool isSettled(const path::Pose& vehicle, double time);
   bool isPassed(const Eigen::Vector3d& position) const;
   bool retry(const path::Pose& vehicle, int waypoint);

@@ -14,6 +14,7 @@
 #include "option_files/option_files.h"
 #include "ros/adapters/adapter_options.h"
 #include "ros/avoidance/local_planner_options.h"
+#include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
 #include "ros/localization/vehicle_localizer_options.h"
@@ -29,6 +30,7 @@ using base::readWholeFile;
 using base::writeFileAtomically;
 using mapping::ProjectedMapOptions;
 using nodes::AdapterOptions;
+using nodes::GoToPoseOptions;
 using nodes::LocalPlannerOptions;
 using nodes::MapPublisherOptions;
 using nodes::NavigatePathOptions;
@@ -46,7 +48,8 @@ using Files = std::map<std::string, std::string>;  // their content by name
 constexpr std::size_t kLargestFile = 1 << 24;  // bytes
 
 std::vector<NodeOptions> allNodes() {
-  return {{"local_planner", "LocalPlanner", describeOptions(LocalPlannerOptions())},
+  return {{"go_to_pose", "GoToPose", describeOptions(GoToPoseOptions())},
+          {"local_planner", "LocalPlanner", describeOptions(LocalPlannerOptions())},
           {"map_publisher", "MapPublisher", describeOptions(MapPublisherOptions())},
           {"move_base_plugin", "MoveBasePlugin", describeOptions(AdapterOptions())},
           {"navigate_path", "NavigatePath", describeOptions(NavigatePathOptions())},

@@ -29,6 +29,8 @@ LENT = {
     "base/deflate.h": {"grid", "planners"},
     "base/zeroed_array.h": {"planners"},
     "costmap/inflation.h": {"planning"},  # the distances that it keeps
+    "following/go_to/navigator.h": {"ros_driving"},
+    "following/go_to/navigator_options.h": {"ros_driving"},
     "grid/float_decimal.h": {"ros_common"},
     "grid/map_differences.h": {"planning", "ros_common"},
     "grid/formats/rectangle_map_file.h": {"planners"},

@@ -13,6 +13,13 @@ CONTEXT = {
                          "extern map_msgs::OccupancyGridUpdate message; void askForAWholeMap();",
     "drive_loop.h": "extern ros::NodeHandle nh; extern NavigatePathOptions options; extern FrameTransforms transforms;"
                     "extern Path path; void queue(std::function<void()>); void takeReports();",
+    "navigator.h": "extern NavigatorOptions options; extern double now; extern path::Path path;"
+                   "void carryOut(const NavigatorOrder&);",
+    "driven_track.h": "extern path::Pose pose;",
+    "action_caller.h": """#include "grid_path_planner/PlanPathAction.h"
+        extern ros::NodeHandle nh; extern const PlanPathGoal goal; extern double timeout;
+        void on_result(const PlanPathResult&); void on_feedback(const PlanPathFeedback&);
+        void on_lost(const std::string&);""",
     "map_watch.h": "extern ros::NodeHandle nh;",
     "map_autosave.h": "extern std::string folder; extern ros::NodeHandle private_nh; extern ProjectedMapOptions options;"
                       "extern ros::Time newest_cloud;",

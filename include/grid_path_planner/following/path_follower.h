@@ -125,6 +125,8 @@ class PathFollower {
   FollowState state() const { return state_; }
   // DRIVING, PAUSED or BLOCKED.
   bool active() const;
+  // Whether it is BLOCKED by what the check says of the path ahead, and by nothing else.
+  bool obstructed() const { return state_ == FollowState::BLOCKED && obstructed_; }
   // Of the drive that ended last; NONE while one goes on.
   DriveStatus status() const { return status_; }
   // One sentence about how that was, or why the vehicle is blocked.
@@ -135,6 +137,8 @@ class PathFollower {
   int currentWaypoint() const;
   // Metres along the path to its end, of this lap in a loop; infinity before the first update.
   double distanceRemaining() const;
+  // Seconds to there, by the limits of speed of the options; what obstacles add is not in it.
+  double timeRemaining() const;
   const std::vector<int>& missedWaypoints() const;
   // From the last pose to the current waypoint's; NaN before there is one.
   double positionError() const;
@@ -164,6 +168,7 @@ class PathFollower {
   std::optional<double> time_;
   std::optional<path::Pose> pose_;
   std::optional<double> blocked_since_;
+  bool obstructed_ = false;       // when it was blocked last: by the path ahead
   std::optional<double> length_;  // m that were left when driving began; 0 once half are driven
 };
 

@@ -4,6 +4,7 @@
 #include <ros/console.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
@@ -118,6 +119,7 @@ void FlightAction::giveFeedback(const PilotAnswer& answer) {
   NavigatePathFeedback feedback;
   feedback.current_waypoint = static_cast<std::uint32_t>(answer.waypoint);
   feedback.distance_remaining_m = remaining(static_cast<std::size_t>(answer.waypoint));
+  feedback.time_remaining_s = std::numeric_limits<double>::infinity();
   feedback.state = toString(answer.status);
   server_.publishFeedback(feedback);
 }

@@ -321,6 +321,8 @@ DriveStanding DriveLoop::standingNow() const {
           follower_.currentWaypoint(),
           follower_.path().poses.size(),
           follower_.distanceRemaining(),
+          follower_.timeRemaining(),
+          follower_.obstructed(),
           follower_.missedWaypoints(),
           follower_.positionError(),
           follower_.yawError()};

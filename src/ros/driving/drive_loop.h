@@ -50,6 +50,8 @@ struct DriveStanding {
   int waypoint = 0;
   std::size_t waypoints = 0;
   double distance_remaining = 0.0;  // m
+  double time_remaining = 0.0;      // s
+  bool obstructed = false;          // blocked by the path ahead
   std::vector<int> missed;
   double position_error = 0.0;  // m
   double yaw_error = 0.0;       // rad

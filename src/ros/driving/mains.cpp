@@ -3,6 +3,7 @@
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/common/end_of_node.h"
 #include "ros/common/run_node.h"
+#include "ros/driving/go_to_pose_node.h"
 #include "ros/driving/navigate_path_node.h"
 #include "ros/driving/teleop_joy_node.h"
 
@@ -23,6 +24,10 @@ int navigatePathMain(int argc, char** argv) {
   return runNode<NavigatePathNode>(
       argc, argv, "navigate_path",
       {{"config_filename", "WAYPOINTS.yaml", false, checkWaypointFile}});
+}
+
+int goToPoseMain(int argc, char** argv) {
+  return runNode<GoToPoseNode>(argc, argv, "go_to_pose");
 }
 
 int teleopJoyMain(int argc, char** argv) {

@@ -325,7 +325,10 @@ void NavigatePathNode::publishFeedback() {
   NavigatePathFeedback feedback;
   feedback.current_waypoint = static_cast<std::uint32_t>(standing.waypoint);
   feedback.distance_remaining_m = standing.distance_remaining;
+  feedback.time_remaining_s = standing.time_remaining;
   feedback.state = toString(standing.state);
+  feedback.obstructed = standing.obstructed;
+  if (standing.state == FollowState::BLOCKED) feedback.message = standing.message;
   action_.publishFeedback(feedback);
 }
 
@@ -337,6 +340,7 @@ void NavigatePathNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("waypoint", standing.waypoint + 1);
   status.add("waypoints", standing.waypoints);
   status.add("distance remaining (m)", standing.distance_remaining);
+  status.add("time remaining (s)", standing.time_remaining);
   status.add("missed waypoints", standing.missed.size());
 }
 

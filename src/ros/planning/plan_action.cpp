@@ -51,6 +51,7 @@ void PlanAction::answer(const PlanPathGoal& goal) {
   if (!goal.start.header.frame_id.empty()) request.start = goal.start;
   request.goal = goal.goal;
   request.planner = goal.planner;
+  if (goal.tolerance_m != 0.0) request.tolerance = goal.tolerance_m;
   const auto ticket = server_.ask(request, PlanningServer::Publish::YES);
   if (answeredUncancelled(*ticket)) {
     finish(ticket->plan(), ticket->poses(), ticket->statistics());

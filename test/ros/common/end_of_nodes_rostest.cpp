@@ -27,6 +27,7 @@ std::vector<Node> everyNode() {
           {"navigate_path", {}},
           {"local_planner", {}},
           {"vehicle_localizer", {}},
+          {"go_to_pose", {}},
           {"teleop_joy", {}},
           {"projected_map", {"_autosave_period:=0"}},
           {"simulator", {}}};

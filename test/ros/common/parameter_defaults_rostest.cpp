@@ -1,5 +1,6 @@
 #include "ros/support/parameter_defaults.h"
 
+#include "grid_path_planner/GoToPoseConfig.h"
 #include "grid_path_planner/MapPublisherConfig.h"
 #include "grid_path_planner/NavigatePathConfig.h"
 #include "grid_path_planner/PathPlannerConfig.h"
@@ -8,6 +9,7 @@
 #include "grid_path_planner/TeleopJoyConfig.h"
 #include "grid_path_planner/VehicleLocalizerConfig.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
+#include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
 #include "ros/localization/vehicle_localizer_options.h"
@@ -27,6 +29,10 @@ TEST(ParameterDefaults, PathPlanner) {
 
 TEST(ParameterDefaults, NavigatePath) {
   test::expectSameDefaults<NavigatePathConfig, NavigatePathOptions>("navigate_path");
+}
+
+TEST(ParameterDefaults, GoToPose) {
+  test::expectSameDefaults<GoToPoseConfig, GoToPoseOptions>("go_to_pose");
 }
 
 TEST(ParameterDefaults, Simulator) {

@@ -3,6 +3,7 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/Twist.h>
 #include <map_msgs/OccupancyGridUpdate.h>
+#include <move_base_msgs/MoveBaseActionGoal.h>
 #include <nav_msgs/GetMap.h>
 #include <nav_msgs/GetPlan.h>
 #include <nodelet/NodeletList.h>
@@ -37,7 +38,8 @@ constexpr int kCells = 500;  // a side of the map, of 0.1 m
 const std::map<std::string, std::string> kNodelets = {
     {"map_publisher", "map_publisher"}, {"path_planner", "path_planner"},
     {"mapping", "projected_map"},       {"simulator", "simulator"},
-    {"navigate_path", "navigate_path"}, {"teleop_joy", "teleop_joy"}};
+    {"navigate_path", "navigate_path"}, {"teleop_joy", "teleop_joy"},
+    {"go_to_pose", "go_to_pose"}};
 
 std::vector<std::string> names() {
   std::vector<std::string> all;
@@ -65,6 +67,11 @@ class Messages {
       NavigatePathActionGoal goal;
       goal.goal.path.header.frame_id = "map";
       goal.goal.path.poses = {poseAt(1.0, 1.0), poseAt(3.0, 1.0)};
+      return goal;
+    });
+    say<move_base_msgs::MoveBaseActionGoal>("move_base/goal", 20, [] {
+      move_base_msgs::MoveBaseActionGoal goal;
+      goal.goal.target_pose = poseAt(45.0, 40.0);
       return goal;
     });
     say<sensor_msgs::Joy>("joy", 50, [] {

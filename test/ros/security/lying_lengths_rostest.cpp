@@ -1,5 +1,6 @@
 // Messages, requests of services and goals of actions of 200 bytes that claim to hold gigabytes: three
 // messages took 4.17 GB of two nodes, a request 1.9 GB.
+#include <actionlib_msgs/GoalStatusArray.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <map_msgs/OccupancyGridUpdate.h>
@@ -140,6 +141,15 @@ TEST(LyingLengths, TakeNoMemoryOfPathPlanner) {
   tellLies<nav_msgs::OccupancyGrid>(node, "/projected_map", 4000000000U);
   tellLies<map_msgs::OccupancyGridUpdate>(node, "/projected_map_updates", 4000000000U);
   tellLies<tf2_msgs::TFMessage>(node, "/tf", 20000000U);
+  EXPECT_TRUE(node.running());
+  EXPECT_LT(node.peakMemory(), kMostMemory);
+}
+
+// A status has no fixed size, so its elements are stepped over one by one.
+TEST(LyingLengths, TakeNoMemoryOfGoToPose) {
+  test::Process node("go_to_pose", {});
+  tellLies<actionlib_msgs::GoalStatusArray>(node, "/plan_path/status", 20000000U);
+  tellLies<actionlib_msgs::GoalStatusArray>(node, "/navigate_path/status", 20000000U);
   EXPECT_TRUE(node.running());
   EXPECT_LT(node.peakMemory(), kMostMemory);
 }

@@ -91,6 +91,36 @@ def plan_goal(node):
     return goal
 
 
+def go_to_goal(node):
+    goal = of("move_base_msgs/MoveBaseActionGoal", header=header(node), goal_id=goal_id(node))
+    goal.goal.target_pose = pose_stamped(node)
+    return goal
+
+
+def result_of(kind, status):
+    """Of an action that go_to_pose calls."""
+    def right_result(node, identity=None):
+        message = of(kind, header=header(node), status={"goal_id": identity or goal_id(node), "status": SUCCEEDED},
+                     result={"status": status})
+        if hasattr(message.result, "path"):
+            message.result.path = path(node)
+        return message
+    return right_result
+
+
+def feedback_of(kind):
+    return lambda node: of(kind, header=header(node), status={"goal_id": goal_id(node), "status": 1})
+
+
+def status_array(node):
+    return of("actionlib_msgs/GoalStatusArray", header=header(node), status_list=[
+        {"status": 1, "text": "a goal of somebody else's"}])
+
+
+SUCCEEDED = 3
+FOUND = result_of("grid_path_planner/PlanPathActionResult", "FOUND")
+ARRIVED = result_of("grid_path_planner/NavigatePathActionResult", "ARRIVED")
+
 RIGHT = {
     "nav_msgs/OccupancyGrid": grid, "map_msgs/OccupancyGridUpdate": update, "nav_msgs/Path": path,
     "geometry_msgs/PoseStamped": pose_stamped, "geometry_msgs/PoseWithCovarianceStamped": initial_pose,
@@ -103,6 +133,11 @@ RIGHT = {
     "geometry_msgs/Twist": lambda _: of("geometry_msgs/Twist", linear={"x": 0.5}),
     "std_msgs/Bool": lambda _: of("std_msgs/Bool", data=False),
     "grid_path_planner/NavigatePathActionGoal": drive_goal, "grid_path_planner/PlanPathActionGoal": plan_goal,
+    "move_base_msgs/MoveBaseActionGoal": go_to_goal,
+    "grid_path_planner/PlanPathActionResult": FOUND, "grid_path_planner/NavigatePathActionResult": ARRIVED,
+    "grid_path_planner/PlanPathActionFeedback": feedback_of("grid_path_planner/PlanPathActionFeedback"),
+    "grid_path_planner/NavigatePathActionFeedback": feedback_of("grid_path_planner/NavigatePathActionFeedback"),
+    "actionlib_msgs/GoalStatusArray": status_array,
     "actionlib_msgs/GoalID": lambda node: of("actionlib_msgs/GoalID", **goal_id(node)),
     "tf2_msgs/TFMessage": lambda node: node.transforms(node.clock.now()),
 }
@@ -140,9 +175,6 @@ def status_of(node, action, identity):
         if result.status.goal_id.id == identity:
             return result.status.status
     return None
-
-
-SUCCEEDED = 3
 
 
 def plans(node, deadline):
@@ -183,6 +215,19 @@ def drives(node, deadline):
         for feedback in node.heard("navigate_path/feedback")))
     node.send("navigate_path/cancel", of("actionlib_msgs/GoalID", id=goal.goal_id.id))
     return fed and until(node, lambda: status_of(node, "navigate_path", goal.goal_id.id) is not None, deadline)
+
+
+def goes_to_a_pose(node, deadline):
+    """Its planner and its driver are these lines."""
+    def answer():
+        for topic, result in (("plan_path", FOUND), ("navigate_path", ARRIVED)):
+            for asked in node.heard(topic + "/goal")[-1:]:
+                stamp = asked.goal_id.stamp
+                node.send(topic + "/result", result(node, {
+                    "id": asked.goal_id.id, "stamp": {"secs": stamp.secs, "nsecs": stamp.nsecs}}))
+    goal = go_to_goal(node)
+    node.send("move_base/goal", goal)
+    return until(node, lambda: status_of(node, "move_base", goal.goal_id.id) == SUCCEEDED, deadline, answer, every=0.1)
 
 
 def says_what_it_flies_to(node, deadline):

@@ -21,6 +21,17 @@ MAPS = {"projected_map": "nav_msgs/OccupancyGrid", "projected_map_updates": "map
 TRIGGER = "std_srvs/Trigger"
 FIX = "geometry_msgs/PoseWithCovarianceStamped"
 
+
+def called(action, kind):
+    """What a client of an action hears, and what it says."""
+    return ({action + "/result": kind + "ActionResult", action + "/feedback": kind + "ActionFeedback",
+             action + "/status": "actionlib_msgs/GoalStatusArray"},
+            {action + "/goal": kind + "ActionGoal", action + "/cancel": "actionlib_msgs/GoalID"})
+
+
+PLANNER, DRIVER = (called("plan_path", "grid_path_planner/PlanPath"),
+                   called("navigate_path", "grid_path_planner/NavigatePath"))
+
 NODES = {
     "path_planner": Row(
         inputs=dict(MAPS, goal="geometry_msgs/PoseStamped", initialpose="geometry_msgs/PoseWithCovarianceStamped"),
@@ -42,6 +53,11 @@ NODES = {
         services={"~pause": TRIGGER, "~resume": TRIGGER, "~cancel": TRIGGER},
         actions={"navigate_path": "grid_path_planner/NavigatePath"},
         arguments=["_no_progress_timeout:=0"], tf="listens", probe=probes.drives),
+    "go_to_pose": Row(
+        inputs=dict(PLANNER[0], **DRIVER[0], **{"move_base_simple/goal": "geometry_msgs/PoseStamped"}),
+        outputs=dict(PLANNER[1], **DRIVER[1], go_to_status="grid_path_planner/GoToStatus", go_to_path="nav_msgs/Path"),
+        services={}, actions={"move_base": "move_base_msgs/MoveBase"}, arguments=[], tf="listens",
+        probe=probes.goes_to_a_pose),
     "local_planner": Row(
         inputs={"points": "sensor_msgs/PointCloud2", "camera_info": "sensor_msgs/CameraInfo", "odom": "nav_msgs/Odometry",
                 "goal": "geometry_msgs/PoseStamped", "path": "nav_msgs/Path", "stop": "std_msgs/Bool",

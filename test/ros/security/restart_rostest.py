@@ -92,6 +92,18 @@ class Restart(unittest.TestCase):
         self.assertEqual([], self.node.heard("navigate_path/feedback"), "the goal from before")
         self.holds()
 
+    def test_go_to_pose_forgets_its_goal(self):
+        self.start("go_to_pose")
+        self.holds()
+        self.node.forget("plan_path/goal")
+        self.node.send("move_base/goal", probes.go_to_goal(self.node))
+        self.until(lambda: self.node.heard("plan_path/goal"))
+        self.kill()
+        self.comes_up()
+        time.sleep(QUIET)
+        self.assertEqual([], self.node.heard("plan_path/goal"), "the goal from before")
+        self.holds()
+
     def test_map_publisher_has_its_file(self):
         self.start("map_publisher")
         request = get_service_class("nav_msgs/GetMap")._request_class()

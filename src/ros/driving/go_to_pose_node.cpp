@@ -1,0 +1,393 @@
+#include "ros/driving/go_to_pose_node.h"
+
+#include <ros/console.h>
+
+#include <cmath>
+#include <utility>
+
+#include "grid_path_planner/GoToPoseConfig.h"
+#include "grid_path_planner/ros/conversions.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/master/system_state.h"
+#include "ros/common/network_text.h"
+#include "ros/common/parameters.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using base::StopSource;
+using following::Navigator;
+using following::NavigatorDrive;
+using following::NavigatorPlan;
+using following::NavigatorState;
+using path::Path;
+
+namespace {
+
+// Wall time
+constexpr double kTickPeriod = 0.05;  // s
+constexpr std::chrono::milliseconds kTellPeriod(200);
+constexpr double kDiagnosticsEvery = 1.0;  // s
+constexpr double kSendingTime = 0.1;       // s, in which roscpp sends what was published last
+
+GoToPoseOptions loadGoToPoseOptions(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh) {
+  GoToPoseOptions options;
+  loadParameters(private_nh, options);
+  checkGoToPoseOptions(options);
+  warnUnknownParameters(private_nh, optionNames<GoToPoseOptions>());
+  refuseOtherCommander({{}, {nh.resolveName(options.action_name)}, "", false});
+  return options;
+}
+
+NavigatorDrive::State stateOf(const NavigatePathFeedback& feedback) {
+  if (feedback.state == "paused") return NavigatorDrive::State::PAUSED;
+  if (feedback.state != "blocked") return NavigatorDrive::State::DRIVING;
+  return feedback.obstructed ? NavigatorDrive::State::OBSTRUCTED : NavigatorDrive::State::HELD;
+}
+
+}  // namespace
+
+GoToPoseNode::GoToPoseNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
+    : nh_(nh),
+      options_(loadGoToPoseOptions(nh, private_nh)),
+      transforms_(nh),
+      navigator_(options_.navigator),
+      planner_(
+          nh, private_nh.getNamespace(), "plan_path",
+          {[this](const PlanPathResult& result) { onPlan(result); }, [](const PlanPathFeedback&) {},
+           [this](const std::string& sentence) {
+             navigator_.planned({Navigator::kNoAnswer, sentence}, seconds());
+             carryOutOrders();
+           }}),
+      driver_(nh, private_nh.getNamespace(), "navigate_path",
+              {[this](const NavigatePathResult& result) { onDriveEnd(result); },
+               [this](const NavigatePathFeedback& feedback) { onDriveFeedback(feedback); },
+               [this](const std::string& sentence) {
+                 navigator_.driveEnded(Navigator::kNoAnswer, sentence, seconds());
+                 carryOutOrders();
+               }}),
+      diagnostics_(nh, private_nh, private_nh.getNamespace()) {
+  path_publisher_ = nh_.advertise<nav_msgs::Path>("go_to_path", 1, true);
+  status_publisher_ = nh_.advertise<GoToStatus>("go_to_status", 1, true);
+  current_goal_publisher_ =
+      nh_.advertise<geometry_msgs::PoseStamped>(options_.action_name + "/current_goal", 1, true);
+  startServer();
+  reconfigurable_ = std::make_unique<Reconfigurable<GoToPoseConfig, GoToPoseOptions>>(
+      private_nh, options_, [this](const GoToPoseOptions& options) { use(options); });
+  startTimers();
+}
+
+GoToPoseNode::~GoToPoseNode() {
+  timer_.stop();
+  diagnostics_timer_.stop();
+  simple_goal_subscriber_.shutdown();
+  reconfigurable_.reset();
+  if (driver_.active()) driver_.cancel();
+  if (goal_) end(Order::Kind::ABORT, "go_to_pose ends");
+  ros::WallDuration(kSendingTime).sleep();  // roscpp sends in a thread of its own
+}
+
+void GoToPoseNode::startServer() {
+  server_ = std::make_unique<MoveBaseServer>(
+      nh_, options_.action_name, [this](const MoveBaseGoal& handle) { onGoal(handle); },
+      [this](const MoveBaseGoal& handle) { onCancel(handle); }, false);
+  server_->start();
+  refuseSimultaneousCommander({{}, {nh_.resolveName(options_.action_name)}, "", false});
+  goal_publisher_ =
+      nh_.advertise<move_base_msgs::MoveBaseActionGoal>(options_.action_name + "/goal", 1);
+  simple_goal_subscriber_ =
+      nh_.subscribe("move_base_simple/goal", 1, &GoToPoseNode::onSimpleGoal, this);
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("go to pose", this, &GoToPoseNode::diagnose);
+}
+
+void GoToPoseNode::startTimers() {
+  timer_ = nh_.createSteadyTimer(ros::WallDuration(kTickPeriod),
+                                 [this](const ros::SteadyTimerEvent&) { tick(); });
+  // force_update: the updater's own clock is ROS time, which may jump back.
+  diagnostics_timer_ =
+      nh_.createSteadyTimer(ros::WallDuration(kDiagnosticsEvery),
+                            [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
+}
+
+void GoToPoseNode::use(const GoToPoseOptions& options) {
+  checkGoToPoseOptions(options);
+  if (options.action_name != options_.action_name)
+    throw InputError("action_name cannot be changed while the node runs");
+  navigator_.setOptions(options.navigator);
+  options_ = options;
+}
+
+// Goals
+
+// As move_base does it: others see the goal, its status and its result.
+void GoToPoseNode::onSimpleGoal(const geometry_msgs::PoseStamped& message) {
+  if (!message.header.stamp.isZero() && message.header.stamp < started_) {
+    ROS_WARN_STREAM("A goal stamped " << message.header.stamp
+                                      << " is not driven to: go_to_pose started at " << started_);
+    return;
+  }
+  move_base_msgs::MoveBaseActionGoal goal;
+  goal.header.stamp = ros::Time::now();
+  goal.goal.target_pose = message;
+  goal_publisher_.publish(goal);
+}
+
+void GoToPoseNode::checkGoal(const geometry_msgs::PoseStamped& pose) {
+  checkNetworkText("the frame of the goal", pose.header.frame_id);
+  if (frameName(pose.header.frame_id).empty()) throw InputError("a goal must name its frame");
+  poseFromMessage(pose.pose);
+}
+
+void GoToPoseNode::onGoal(MoveBaseGoal handle) {
+  const auto wanted = handle.getGoal();
+  try {
+    checkGoal(wanted->target_pose);
+  } catch (const InputError& error) {
+    ROS_ERROR_STREAM("A goal is refused: " << error.what());
+    handle.setRejected({}, std::string("INVALID_REQUEST: ") + error.what());
+    return;
+  }
+  navigator_.drop();
+  carryOutOrders();
+  if (goal_) end(Order::Kind::PREEMPT, "replaced by another goal");
+  handle.setAccepted();
+  goal_ = Goal{handle, wanted->target_pose, {}, {}};
+  current_goal_publisher_.publish(goal_->asked);
+  locate();
+}
+
+void GoToPoseNode::onCancel(const MoveBaseGoal& handle) {
+  if (!goal_ || goal_->handle != handle) return;
+  if (!goal_->pose) {
+    end(Order::Kind::PREEMPT, "the goal was cancelled");
+    return;
+  }
+  navigator_.cancel("the goal was cancelled", seconds());
+  carryOutOrders();
+}
+
+// Tried at every tick until tf knows it.
+void GoToPoseNode::locate() {
+  if (!goal_ || goal_->pose || !clock_.hasTime()) return;
+  if (!goal_->waits_since) goal_->waits_since = std::chrono::steady_clock::now();
+  const StopSource stop;
+  try {
+    geometry_msgs::PoseStamped pose;
+    pose.pose = poseToMessage(
+        transforms_.poseIn(frameName(options_.map_frame), goal_->asked, 0.0, stop.token()));
+    pose.header.frame_id = frameName(options_.map_frame);
+    goal_->pose = last_pose_ = pose;
+    navigator_.start(seconds());
+    carryOutOrders();
+  } catch (const InputError& error) {
+    end(Order::Kind::ABORT, std::string("INVALID_REQUEST: ") + error.what());
+  } catch (const TransformError& error) {
+    const std::chrono::duration<double> waited =
+        std::chrono::steady_clock::now() - *goal_->waits_since;
+    if (waited.count() >= options_.tf_timeout)
+      end(Order::Kind::ABORT, std::string("TRANSFORM_ERROR: ") + error.what());
+  }
+}
+
+// Time
+
+void GoToPoseNode::tick() {
+  if (!clock_.hasTime()) return;
+  const ros::Time now = ros::Time::now();
+  if (started_.isZero()) started_ = now;
+  if (const std::optional<double> back = clock_.jumpedBack(now)) {
+    ROS_WARN_STREAM("ROS time went back by " << *back << " s: tf is cleared, the goal aborted");
+    transforms_.clear();
+    started_ = now;
+    abortAll("ROS time went back");
+  }
+  locate();
+  noteVehicle(now);
+  planner_.watch(options_.server_timeout);
+  driver_.watch(options_.server_timeout);
+  navigator_.tick(now.toSec());
+  carryOutOrders();
+  if (!goal_ || std::chrono::steady_clock::now() - told_ < kTellPeriod) return;
+  told_ = std::chrono::steady_clock::now();
+  publishFeedback(now);
+  publishStatus();
+}
+
+void GoToPoseNode::abortAll(const std::string& reason) {
+  if (goal_ && !goal_->pose) end(Order::Kind::ABORT, reason);
+  navigator_.abort(reason, seconds());
+  carryOutOrders();
+}
+
+void GoToPoseNode::noteVehicle(const ros::Time& now) {
+  try {
+    vehicle_ = transforms_
+                   .recentPoseOf(frameName(options_.base_frame), frameName(options_.map_frame), now,
+                                 options_.tf_timeout)
+                   .pose;
+    navigator_.moved(*vehicle_);
+  } catch (const TransformError&) {
+    vehicle_.reset();  // the planner and the driver say why, where they need it
+  }
+}
+
+// What the planner and the driver answer
+
+void GoToPoseNode::onPlan(const PlanPathResult& result) {
+  NavigatorPlan plan{result.status, result.message};
+  try {
+    if (result.status == "FOUND") {
+      plan.path = pathFromMessage(result.path);
+      if (plan.path.frame_id != frameName(options_.map_frame))
+        throw InputError("it is in the frame '" + plan.path.frame_id + "', map_frame is '" +
+                         options_.map_frame + "'");
+    }
+  } catch (const InputError& error) {
+    plan = {Navigator::kNoAnswer, std::string("the planner's path is refused: ") + error.what()};
+  }
+  navigator_.planned(plan, seconds());
+  carryOutOrders();
+}
+
+void GoToPoseNode::onDriveFeedback(const NavigatePathFeedback& feedback) {
+  distance_remaining_ = feedback.distance_remaining_m;
+  time_remaining_ = feedback.time_remaining_s;
+  navigator_.drove({stateOf(feedback), feedback.distance_remaining_m, feedback.message}, seconds());
+  carryOutOrders();
+}
+
+void GoToPoseNode::onDriveEnd(const NavigatePathResult& result) {
+  navigator_.driveEnded(result.status, result.message, seconds());
+  carryOutOrders();
+}
+
+// Orders
+
+// An order may bring about others: a goal of the driver that was not sent yet ends at once.
+void GoToPoseNode::carryOutOrders() {
+  if (std::exchange(carrying_out_, true)) return;
+  bool any = false;
+  for (auto orders = navigator_.takeOrders(); !orders.empty(); orders = navigator_.takeOrders()) {
+    for (const Order& order : orders) carryOut(order);
+    any = true;
+  }
+  carrying_out_ = false;
+  if (any) publishStatus();
+}
+
+void GoToPoseNode::carryOut(const Order& order) {
+  switch (order.kind) {
+    case Order::Kind::PLAN:
+      return askForPlan(order.tolerance);
+    case Order::Kind::FORGET_PLAN:
+      planner_.cancel();
+      return planner_.forget();
+    case Order::Kind::DRIVE:
+      return drive(order.path);
+    case Order::Kind::STOP:
+      return driver_.cancel();
+    case Order::Kind::TELL:
+      ROS_INFO_STREAM(order.sentence);
+      return;
+    case Order::Kind::WARN:
+      ROS_WARN_STREAM(order.sentence);
+      return;
+    case Order::Kind::SUCCEED:
+    case Order::Kind::ABORT:
+    case Order::Kind::PREEMPT:
+      return end(order.kind, order.sentence);
+  }
+}
+
+void GoToPoseNode::askForPlan(double tolerance) {
+  PlanPathGoal goal;
+  goal.goal = *goal_->pose;
+  goal.tolerance_m = tolerance;
+  planner_.send(goal);
+}
+
+void GoToPoseNode::drive(Path path) {
+  path.frame_id = frameName(options_.map_frame);
+  distance_remaining_ = time_remaining_ = std::numeric_limits<double>::infinity();
+  NavigatePathGoal goal;
+  goal.path = pathToMessage(path, ros::Time::now());
+  driver_.send(goal);
+  path_publisher_.publish(goal.path);
+}
+
+void GoToPoseNode::showNoPath() {
+  nav_msgs::Path path;
+  path.header.stamp = ros::Time::now();
+  path.header.frame_id = frameName(options_.map_frame);
+  path_publisher_.publish(path);
+}
+
+void GoToPoseNode::end(Order::Kind kind, const std::string& sentence) {
+  last_sentence_ = sentence;
+  distance_remaining_ = time_remaining_ = std::numeric_limits<double>::infinity();
+  if (!goal_) return;
+  MoveBaseGoal handle = goal_->handle;
+  goal_.reset();
+  showNoPath();
+  if (kind == Order::Kind::SUCCEED) {
+    ROS_INFO_STREAM("The goal is reached: " << sentence);
+    handle.setSucceeded({}, sentence);
+  } else if (kind == Order::Kind::PREEMPT) {
+    ROS_INFO_STREAM("The goal is given up: " << sentence);
+    handle.setCanceled({}, sentence);
+  } else {
+    ROS_ERROR_STREAM("The goal is aborted: " << sentence);
+    handle.setAborted({}, sentence);
+  }
+  publishStatus();
+}
+
+// What is told
+
+void GoToPoseNode::publishFeedback(const ros::Time& now) {
+  if (!vehicle_) return;
+  move_base_msgs::MoveBaseFeedback feedback;
+  feedback.base_position.header.stamp = now;
+  feedback.base_position.header.frame_id = frameName(options_.map_frame);
+  feedback.base_position.pose = poseToMessage(*vehicle_);
+  goal_->handle.publishFeedback(feedback);
+}
+
+void GoToPoseNode::publishStatus() {
+  if (ros::Time::isValid()) status_publisher_.publish(status());
+}
+
+std::string GoToPoseNode::stateName() const {
+  return goal_ && !goal_->pose ? "LOCATING" : toString(navigator_.state());
+}
+
+GoToStatus GoToPoseNode::status() const {
+  GoToStatus status;
+  status.header.stamp = ros::Time::now();
+  status.header.frame_id = frameName(options_.map_frame);
+  status.state = stateName();
+  status.step = navigator_.step();
+  status.sentence = goal_ ? navigator_.sentence() : last_sentence_;
+  status.goal = last_pose_;
+  status.distance_remaining_m = distance_remaining_;
+  status.time_remaining_s = time_remaining_;
+  if (std::isfinite(time_remaining_) && time_remaining_ >= 0.0 && time_remaining_ < 1e6)
+    status.arrival = status.header.stamp + ros::Duration(time_remaining_);
+  return status;
+}
+
+void GoToPoseNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const bool recovers = navigator_.state() == NavigatorState::RECOVERING;
+  const bool alone = goal_ && (!planner_.isThere() || !driver_.isThere());
+  status.summary(recovers || alone ? diagnostic_msgs::DiagnosticStatus::WARN
+                                   : diagnostic_msgs::DiagnosticStatus::OK,
+                 stateName() + ": " + (goal_ ? navigator_.sentence() : last_sentence_));
+  status.add("recovery step", navigator_.step());
+  status.add("distance remaining (m)", distance_remaining_);
+  status.add("time remaining (s)", time_remaining_);
+  status.add("planner " + planner_.name(), planner_.isThere() ? "there" : "not there");
+  status.add("driver " + driver_.name(), driver_.isThere() ? "there" : "not there");
+}
+
+}  // namespace grid_path_planner::nodes

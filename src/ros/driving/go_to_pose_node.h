@@ -1,0 +1,130 @@
+// The node `go_to_pose`: goals of move_base's clients, planned by path_planner and driven by navigate_path.
+//
+//   action      move_base              move_base_msgs/MoveBaseAction, under the name ~action_name
+//   subscribes  move_base_simple/goal  geometry_msgs/PoseStamped; becomes a goal of the action
+//               tf                     the vehicle's pose
+//   publishes   go_to_status           grid_path_planner/GoToStatus, latched
+//               go_to_path             nav_msgs/Path, latched; the one that is driven, empty without one
+//               move_base/current_goal geometry_msgs/PoseStamped, latched
+//               /diagnostics
+//   calls       plan_path, navigate_path   actions of the planner and the driver
+//
+// What to do next is decided by following::Navigator; this class carries it out.
+//
+// Guaranteed: a goal ends after the driver has said that it stopped, or is gone. A goal that cannot be used is rejected and
+// the one before goes on; one that can replaces it, and the vehicle stops until there is a path to it. A goal in another
+// frame is transformed once, when it comes. ROS time that goes back, and the end of the node, stop the vehicle. The node does not
+// start where another offers the action. Not guaranteed: a stop after SIGKILL: the driver drives the path that it has to its
+// end, unless the node is started again, which cancels it.
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/steady_timer.h>
+#include <ros/subscriber.h>
+
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "following/go_to/navigator.h"
+#include "grid_path_planner/GoToStatus.h"
+#include "grid_path_planner/NavigatePathAction.h"
+#include "grid_path_planner/PlanPathAction.h"
+#include "ros/common/action/action_caller.h"
+#include "ros/common/clock.h"
+#include "ros/common/frame_transforms.h"
+#include "ros/driving/go_to_pose_options.h"
+#include "ros/driving/move_base_action.h"
+
+namespace grid_path_planner {
+class GoToPoseConfig;
+}  // namespace grid_path_planner
+
+namespace grid_path_planner::None {}  // namespace grid_path_planner::None
+
+namespace grid_path_planner::nodes {
+
+template <class Config, class Options>
+class Reconfigurable;
+
+class GoToPoseNode {
+ public:
+  // Throws InputError for parameters that cannot be used, and another node that offers the action. All callbacks are
+  // served by the queue of `nh`, which must be one thread's.
+  GoToPoseNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
+  // Stops the vehicle.
+  ~GoToPoseNode();
+
+ private:
+  using Order = following::NavigatorOrder;
+
+  struct Goal {
+    MoveBaseGoal handle;
+    geometry_msgs::PoseStamped asked;
+    std::optional<std::chrono::steady_clock::time_point> waits_since;  // for its transform
+    std::optional<geometry_msgs::PoseStamped> pose;  // in the map's frame; none until tf knows it
+  };
+
+  void startServer();
+  void startTimers();
+  void use(const GoToPoseOptions& options);
+
+  void onSimpleGoal(const geometry_msgs::PoseStamped& message);
+  void onGoal(MoveBaseGoal handle);
+  void onCancel(const MoveBaseGoal& handle);
+  void checkGoal(const geometry_msgs::PoseStamped& pose);
+  void locate();
+
+  void tick();
+  void noteVehicle(const ros::Time& now);
+  void onPlan(const PlanPathResult& result);
+  void onDriveFeedback(const NavigatePathFeedback& feedback);
+  void onDriveEnd(const NavigatePathResult& result);
+
+  void carryOutOrders();
+  void carryOut(const Order& order);
+  void askForPlan(double tolerance);
+  void drive(path::Path path);
+  void showNoPath();
+  void end(Order::Kind kind, const std::string& sentence);
+  void abortAll(const std::string& reason);
+
+  void publishFeedback(const ros::Time& now);
+  void publishStatus();
+  GoToStatus status() const;
+  std::string stateName() const;
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  static double seconds() { return ros::Time::now().toSec(); }
+
+  ros::NodeHandle nh_;
+  GoToPoseOptions options_;
+  FrameTransforms transforms_;
+  ClockWatch clock_;
+  ros::Time started_;
+  following::Navigator navigator_;
+  std::optional<Goal> goal_;
+  std::string last_sentence_ = "no goal has come yet";
+  geometry_msgs::PoseStamped last_pose_;  // of the present goal or the last
+  std::optional<path::Pose> vehicle_;
+  double distance_remaining_ = std::numeric_limits<double>::infinity();  // m
+  double time_remaining_ = std::numeric_limits<double>::infinity();      // s
+  bool carrying_out_ = false;
+  std::chrono::steady_clock::time_point told_;
+
+  ros::Publisher status_publisher_, path_publisher_, current_goal_publisher_, goal_publisher_;
+  ros::Subscriber simple_goal_subscriber_;
+  ActionCaller<PlanPathAction> planner_;
+  ActionCaller<NavigatePathAction> driver_;
+  std::unique_ptr<MoveBaseServer> server_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::SteadyTimer timer_;
+  ros::SteadyTimer diagnostics_timer_;
+  std::unique_ptr<Reconfigurable<GoToPoseConfig, GoToPoseOptions>> reconfigurable_;
+};
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,10 @@
+#include "ros/common/nodelet_shell.h"
+#include "ros/driving/go_to_pose_node.h"
+
+namespace grid_path_planner::nodes {
+
+class GoToPoseNodelet : public NodeletShell<GoToPoseNode> {};
+
+}  // namespace grid_path_planner::nodes
+
+PLUGINLIB_EXPORT_CLASS(grid_path_planner::nodes::GoToPoseNodelet, nodelet::Nodelet)
