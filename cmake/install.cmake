@@ -34,5 +34,8 @@ foreach(line IN LISTS lines)
 endforeach()
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/nodelet_plugins.xml "${nodelet_plugins}")
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+if(GPP_WITH_rviz)
+  install(FILES rviz_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+endif()
 catkin_install_python(PROGRAMS scripts/demo_run.py scripts/flight_demo_run.py scripts/ros_session.py scripts/rviz_on_map
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
