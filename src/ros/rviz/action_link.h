@@ -35,8 +35,7 @@ class ActionLink {
   ActionLink(ros::NodeHandle nh, const std::string& name)
       : goals_(nh.advertise<ActionGoal>(name + "/goal", 10)),
         cancels_(nh.advertise<actionlib_msgs::GoalID>(name + "/cancel", 10)),
-        states_(nh.subscribe<actionlib_msgs::GoalStatusArray>(
-            name + "/status", 1, [](const actionlib_msgs::GoalStatusArray::ConstPtr&) {})),
+        states_(nh.subscribe(name + "/status", 1, &ActionLink::passOver)),
         feedback_(nh.subscribe<ActionFeedback>(
             name + "/feedback", 10,
             [this](const typename ActionFeedback::ConstPtr& message) {
@@ -76,6 +75,9 @@ class ActionLink {
   std::function<void(const std::string& id, const Result&)> onResult;
 
  private:
+  // Who publishes the status is all that is asked.
+  static void passOver(const actionlib_msgs::GoalStatusArray::ConstPtr&) {}
+
   ros::Publisher goals_, cancels_;
   ros::Subscriber states_, feedback_, results_;
 };

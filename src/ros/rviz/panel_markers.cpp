@@ -6,6 +6,7 @@
 #include "grid_path_planner/ros/conversions.h"
 #include "panel/planner_colours.h"
 #include "panel/shown_text.h"
+#include "ros/common/outgoing/wrapped_text.h"
 
 namespace grid_path_planner::nodes {
 
@@ -122,7 +123,7 @@ MarkerArray explanationMarkers(const ExplainPlan::Response& explanation, const s
   text.pose.position = array.markers.front().pose.position;
   text.pose.position.z += 0.5;
   text.scale.z = 0.3;
-  text.text = shownText(explanation.message, kLongestText);
+  text.text = wrappedText(shownText(explanation.message, kLongestText));
   array.markers.push_back(text);
   return array;
 }

@@ -92,7 +92,8 @@ void PlanPanel::subscribePoint(const std::string& topic, const Point& point) {
 void PlanPanel::connectNodes() {
   const std::string name = widgets_.name_space->text().trimmed().toStdString();
   std::string complaint;
-  if (!ros::names::validate(name, complaint)) {
+  if (name.find('~') != std::string::npos) complaint = "A namespace has no ~";
+  if (!complaint.empty() || !ros::names::validate(name, complaint)) {
     model_.say(Tone::BAD, complaint);
     return;
   }

@@ -41,12 +41,19 @@ Marker part(int type, const Colour& colour, double x, double y, double z) {
   return marker;
 }
 
-// A disc with an arrow where the vehicle looks, dragged in the plane and turned about z.
-InteractiveMarkerControl controlOf(const Colour& colour) {
+// Its x axis is upright: the normal of the plane, the axis to turn about.
+InteractiveMarkerControl uprightControl(const char* name, unsigned char mode) {
   InteractiveMarkerControl control;
+  control.name = name;
   control.orientation.w = std::sqrt(0.5);
-  control.orientation.y = std::sqrt(0.5);  // the plane's normal is its x axis
-  control.interaction_mode = InteractiveMarkerControl::MOVE_ROTATE;
+  control.orientation.y = -std::sqrt(0.5);
+  control.interaction_mode = mode;
+  return control;
+}
+
+// A disc with an arrow where the vehicle looks.
+InteractiveMarkerControl discOf(const Colour& colour) {
+  InteractiveMarkerControl control = uprightControl("move", InteractiveMarkerControl::MOVE_PLANE);
   control.always_visible = 1;
   control.markers.push_back(part(Marker::CYLINDER, colour, 0.6 * kSize, 0.6 * kSize, 0.06));
   control.markers.push_back(part(Marker::ARROW, colour, kSize, 0.25 * kSize, 0.06));
@@ -94,7 +101,9 @@ void PointHandles::insert(const std::string& name, const Handle& handle) {
   marker.name = name;
   marker.description = name;
   marker.scale = static_cast<float>(kSize);
-  marker.controls.push_back(controlOf(colourOfKind(handle.id.kind)));
+  marker.controls.push_back(discOf(colourOfKind(handle.id.kind)));
+  // rviz draws a ring about it.
+  marker.controls.push_back(uprightControl("turn", InteractiveMarkerControl::ROTATE_AXIS));
   server_.insert(marker, [this](const InteractiveMarkerFeedback::ConstPtr& feedback) {
     onFeedback(*feedback);
   });

@@ -1,4 +1,4 @@
-// Start, via-points and goal as handles in the view, which are dragged (and turned with Ctrl).
+// Start, via-points and goal as handles in the view, which are dragged, and turned by their rings.
 //
 //   PointHandles handles(nh, [](RoutePoints::Id id, const std::string& frame, const Pose& pose) {...});
 //   handles.show(points);
