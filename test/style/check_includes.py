@@ -25,13 +25,18 @@ PLANNER_FLOORS = {
 LENT = {
     "base/available_memory.h": {"planners"},
     "base/child_process.h": {"simulation"},
-    "base/current_error.h": {"ros_common", "ros_driving", "ros_planning", "ros_simulation"},
+    "base/current_error.h": {"ros_common", "ros_driving", "ros_planning", "ros_rviz", "ros_simulation"},
     "base/deflate.h": {"grid", "planners"},
     "base/zeroed_array.h": {"planners"},
     "costmap/inflation.h": {"planning"},  # the distances that it keeps
     "grid/float_decimal.h": {"ros_common"},
     "grid/map_differences.h": {"ros_common"},
     "grid/formats/rectangle_map_file.h": {"planners"},
+    "panel/panel_model.h": {"ros_rviz"},
+    "panel/path_corners.h": {"ros_rviz"},
+    "panel/planner_colours.h": {"ros_rviz"},
+    "panel/route_points.h": {"ros_rviz"},
+    "panel/shown_text.h": {"ros_rviz"},
     "path/pose_spacing.h": {"planning", "ros_planning"},
     "planning/map_store.h": {"ros_planning"},
     "planners/any_angle/theta_star.h": {"study"},  # the base of its published Theta*

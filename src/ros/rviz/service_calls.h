@@ -44,7 +44,9 @@ class ServiceCalls {
     auto service = std::make_shared<Service>(question);
     begin(
         nh.resolveName(name), seconds,
-        [nh, name]() mutable { return nh.serviceClient<Service>(name, true); },
+        [own = ros::NodeHandle(nh), name]() mutable {
+          return own.serviceClient<Service>(name, true);
+        },
         [service](ros::ServiceClient& client) { return client.call(*service); },
         [service, answered = std::move(answered)] { answered(*service); }, std::move(failed));
   }

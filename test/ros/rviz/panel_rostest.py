@@ -122,16 +122,25 @@ class PanelTest(unittest.TestCase):
         wait_for(lambda: self.statistics.all[-1].goal.pose.position.y > before.y + 0.5, "a plan to the new place")
         self.assertEqual(answer.status, "FOUND")
 
-    def test_3_rviz_goes_on_while_the_planner_is_stopped(self):
+    def click_compare(self):
+        """Which stands right of Plan."""
+        plan = self.button()
+        self.screen.click((plan.right + 30, plan.middle()[1]))
+
+    def test_3_planners_are_compared(self):
+        self.click_compare()
+        wait_for(lambda: [m.ns for m in self.drawn.all[-1].markers].count("compared") >= 3, "paths in several colours")
+
+    def test_4_rviz_goes_on_while_the_planner_is_stopped(self):
         self.planner.send_signal(signal.SIGSTOP)
-        self.screen.click(self.button().middle())
+        self.click_compare()
         seen = len(self.dragged.all)
         self.screen.drag(self.view.at(0.7, 0.5), self.view.at(0.75, 0.6))
         wait_for(lambda: len(self.dragged.all) > seen, "handles that move")
         answer = self.answer_to(lambda: self.planner.send_signal(signal.SIGCONT), "the plan afterwards")
         self.assertEqual(answer.status, "FOUND")
 
-    def test_4_a_planner_that_is_killed_comes_back(self):
+    def test_5_a_planner_that_is_killed_comes_back(self):
         self.planner.kill()
         self.planner.wait()
         wait_for(lambda: not self.button(), "a button Plan that may not be pressed")
@@ -141,7 +150,7 @@ class PanelTest(unittest.TestCase):
         self.assertIn(answer.status, ("FOUND", "NO_MAP"))  # the map may come after the question
         self.assertIsNone(self.rviz.poll(), "rviz runs")
 
-    def test_5_the_view_is_not_blank(self):
+    def test_6_the_view_is_not_blank(self):
         self.assertGreater(self.screen.look().colours(self.view), 20)
 
 
