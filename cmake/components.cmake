@@ -7,12 +7,19 @@
 #   localization  vehicle_localizer
 #   mapping     projected_map, grid_path project: needs OctoMap
 #   simulation  simulator: needs SDFormat, Assimp and Embree
+#   rviz        panel and tools of rviz: needs rviz and Qt
 #   study       grid_path scenarios, grid_path study; with avoidance, mapping and simulation grid_path flights
 #
 # Sets GPP_WITH_<component>, GPP_FOLDERS (of src/, from the ground up), GPP_ROOMS (the libraries that
 # they make), GPP_NODES, GPP_CONFIGURATIONS, GPP_LAUNCH_FILES and what the components need of catkin.
-set(GPP_ALL_COMPONENTS planning driving avoidance localization mapping simulation study)
-set(GRID_PATH_PLANNER_COMPONENTS "${GPP_ALL_COMPONENTS}" CACHE STRING
+set(GPP_ALL_COMPONENTS planning driving avoidance localization mapping simulation rviz study)
+set(default_components ${GPP_ALL_COMPONENTS})
+find_path(GPP_RVIZ_PANEL rviz/panel.h HINTS /opt/ros/noetic/include)
+if(NOT GPP_RVIZ_PANEL)  # who does not name the components gets what this machine has the library for
+  list(REMOVE_ITEM default_components rviz)
+  message(STATUS "No librviz: the panel of rviz is not built")
+endif()
+set(GRID_PATH_PLANNER_COMPONENTS "${default_components}" CACHE STRING
   "Components to build beside planning, of: ${GPP_ALL_COMPONENTS}")
 string(REPLACE "," ";" components "${GRID_PATH_PLANNER_COMPONENTS}")
 foreach(component ${components})
@@ -86,6 +93,14 @@ if(GPP_WITH_simulation)
   list(APPEND GPP_LAUNCH_FILES startup_simulation startup_vehicle_sim startup_vessel_sim)
   list(APPEND GPP_CATKIN_COMPONENTS rosgraph_msgs)
 endif()
+if(GPP_WITH_driving AND GPP_WITH_simulation)
+  list(APPEND GPP_LAUNCH_FILES map_demo two_vehicles vehicle)
+endif()
+if(GPP_WITH_rviz)
+  list(APPEND GPP_FOLDERS panel)
+  list(APPEND GPP_ROOMS panel)
+  list(APPEND ros_rooms ros_rviz)
+endif()
 if(GPP_WITH_driving AND GPP_WITH_mapping AND GPP_WITH_simulation)
   list(APPEND GPP_LAUNCH_FILES demo)
 endif()
@@ -100,7 +115,7 @@ if(GPP_WITH_avoidance AND GPP_WITH_mapping AND GPP_WITH_simulation AND GPP_WITH_
   list(APPEND GPP_FOLDERS flights)
   list(APPEND GPP_ROOMS flights)
 endif()
-if(GPP_WITH_driving OR GPP_WITH_mapping OR GPP_WITH_avoidance OR GPP_WITH_localization)
+if(GPP_WITH_driving OR GPP_WITH_mapping OR GPP_WITH_avoidance OR GPP_WITH_localization OR GPP_WITH_rviz)
   list(APPEND GPP_CATKIN_COMPONENTS std_srvs)
   list(APPEND GPP_CATKIN_EXPORTS std_srvs)
 endif()

@@ -37,5 +37,8 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/nodelet_plugins.xml DESTINATION ${CATK
 if(GPP_ADAPTERS)
   install(FILES planner_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 endif()
+if(GPP_WITH_rviz)
+  install(FILES rviz_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+endif()
 catkin_install_python(PROGRAMS scripts/demo_run.py scripts/flight_demo_run.py scripts/ros_session.py scripts/rviz_on_map
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

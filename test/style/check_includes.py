@@ -25,7 +25,7 @@ PLANNER_FLOORS = {
 LENT = {
     "base/available_memory.h": {"planners"},
     "base/child_process.h": {"simulation"},
-    "base/current_error.h": {"ros_common", "ros_driving", "ros_planning", "ros_simulation"},
+    "base/current_error.h": {"ros_common", "ros_driving", "ros_planning", "ros_rviz", "ros_simulation"},
     "base/deflate.h": {"grid", "planners"},
     "base/zeroed_array.h": {"planners"},
     "costmap/inflation.h": {"planning"},  # the distances that it keeps
@@ -42,6 +42,11 @@ LENT = {
     "localization/measurement_models.h": {"ros_localization"},
     "localization/mounted_pose.h": {"ros_localization"},
     "localization/vehicle_localizer.h": {"ros_localization"},
+    "panel/panel_model.h": {"ros_rviz"},
+    "panel/path_corners.h": {"ros_rviz"},
+    "panel/planner_colours.h": {"ros_rviz"},
+    "panel/route_points.h": {"ros_rviz"},
+    "panel/shown_text.h": {"ros_rviz"},
     "path/pose_spacing.h": {"planning", "ros_adapters", "ros_planning"},
     "planning/cost_planner.h": {"ros_adapters"},
     "planning/cost_planner_options.h": {"ros_adapters"},

@@ -12,6 +12,9 @@ from common import ROOT, finish
 TOOLS = {
     "MPI": ("mpirun", "mpicxx"),
     "Chromium": ("chromium", "chromium-browser", "google-chrome"),
+    "Xvfb": ("Xvfb",),
+    "xdotool": ("xdotool",),
+    "rviz": ("rviz",),
     "clang-format": ("clang-format", "clang-format-14"),
     "shellcheck": ("shellcheck",),
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "ros/common/outgoing/wrapped_text.h"
+
 namespace grid_path_planner::nodes {
 
 using planning::Explanation;
@@ -49,7 +51,7 @@ MarkerArray markersOf(const Explanation& explanation) {
   text.type = Marker::TEXT_VIEW_FACING;
   text.scale.z = 0.25;
   text.pose.position.z = 0.5;
-  text.text = explanation.text;
+  text.text = wrappedText(explanation.text);
   array.markers.push_back(text);
   return array;
 }

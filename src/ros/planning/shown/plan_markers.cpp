@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "grid_path_planner/ros/conversions.h"
+#include "ros/common/outgoing/wrapped_text.h"
 
 namespace grid_path_planner::nodes {
 
@@ -111,7 +112,7 @@ Marker failureMarker(const ShownPlan& shown) {
   marker.header.frame_id = goal.header.frame_id;
   marker.pose.position = goal.pose.position;
   marker.pose.position.z += size;
-  marker.text = shown.statistics.status + ": " + shown.statistics.message;
+  marker.text = wrappedText(shown.statistics.status + ": " + shown.statistics.message);
   return marker;
 }
 

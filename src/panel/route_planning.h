@@ -1,0 +1,81 @@
+// A plan through via-points: leg after leg is asked for, and the answers are joined.
+//
+//   planning.ask(points);
+//   if (const auto request = planning.next(now)) send(*request);   // at every tick
+//   if (planning.take(id, answer, now)) show(planning.outcome());
+//
+// Guaranteed: one request is under way at a time, answers to others are passed over, and one that
+// shows no sign of life for kPatience seconds is given up. What is asked for meanwhile (a point is
+// dragged) is asked when the present leg is answered; what came in between is left out.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "panel/route_points.h"
+
+namespace grid_path_planner::panel {
+
+struct PlanRequest {
+  unsigned id = 0;  // from 1
+  std::string frame;
+  Leg leg;
+};
+
+// Those of PlanStatistics that are shown.
+struct PlanFigures {
+  std::string planner;
+  double cost = 0.0;
+  double length = 0.0;     // m
+  double turning = 0.0;    // rad
+  double clearance = 0.0;  // m
+  double expanded = 0.0;   // cells
+  double time = 0.0;       // ms, of the searches
+};
+
+// Of a leg, or of all of them.
+struct PlanAnswer {
+  std::string status, message;  // FOUND, ... and a sentence
+  path::Path path;              // empty unless FOUND
+  PlanFigures figures;
+
+  bool found() const { return status == "FOUND"; }
+};
+
+class RoutePlanning {
+ public:
+  static constexpr double kPatience = 10.0;  // s
+
+  // Precondition: there is a goal.
+  void ask(const RoutePoints& points);
+  // What is to be sent to the planner now, once. `now` in seconds of a clock that does not go back.
+  std::optional<PlanRequest> next(double now);
+  // The planner works on it.
+  void heard(unsigned id, double now);
+  // Whether that was the last answer: outcome() is new.
+  bool take(unsigned id, const PlanAnswer& answer, double now);
+  // Ends what runs and what waits, with this outcome.
+  void giveUp(const std::string& status, const std::string& message);
+  bool overdue(double now) const;
+
+  bool busy() const { return wanted_ || !legs_.empty(); }
+  // Of the request that is under way; 0: none.
+  unsigned underWay() const { return sent_ ? id_ : 0; }
+  const PlanAnswer& outcome() const { return outcome_; }
+
+ private:
+  void begin();
+  void join(const PlanAnswer& answer);
+
+  std::optional<RoutePoints> wanted_;
+  std::string frame_;
+  std::vector<Leg> legs_;  // of the plan that runs
+  std::size_t leg_ = 0;
+  bool sent_ = false;
+  unsigned id_ = 0;
+  double last_sign_ = 0.0;
+  PlanAnswer joined_, outcome_;
+};
+
+}  // namespace grid_path_planner::panel

@@ -1,0 +1,34 @@
+// The panel's widgets and where they are; what they do is given by PlanPanel.
+#pragma once
+
+#include <QLabel>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "panel/panel_model.h"
+#include "ros/rviz/comparison_table.h"
+#include "ros/rviz/parameter_controls.h"
+
+namespace grid_path_planner::nodes {
+
+struct PanelWidgets {
+  // All belong to `parent`.
+  PanelWidgets(QWidget* parent, ParameterControls* parameters);
+
+  // What the model says, and which buttons may be pressed.
+  void show(const panel::PanelModel& model);
+
+  QLineEdit* name_space;
+  QLabel* nodes;
+  QPushButton *start_at_vehicle, *remove_via, *clear;
+  QPushButton *plan, *compare, *explain;
+  QPushButton *drive, *pause, *resume, *cancel;
+  QPushButton *save, *load;
+  QLabel *sentence, *figures, *driving;
+  QProgressBar* progress;
+  ComparisonTable* comparison;
+};
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""A real rviz on a screen without a monitor is used as people use it: points are set with the tools, Plan is clicked,
+the goal is dragged; the planner is stopped and killed meanwhile. What came of it is asked of ROS, and the view is not
+blank. The last picture is build/panel_rostest.png."""
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import rospy
+import rostest
+from nav_msgs.msg import OccupancyGrid
+from visualization_msgs.msg import InteractiveMarkerFeedback, MarkerArray
+
+from grid_path_planner.msg import PlanStatistics
+from screen import Screen
+
+PACKAGE = "grid_path_planner"
+SECONDS = 30.0
+BACKGROUND = 90, 96, 104      # of the view, in rviz/planning.rviz
+FIRST_BUTTON = 11, 95, 165    # Plan, where it may be pressed: src/ros/rviz/panel_widgets.cpp
+SIDE = 200                    # cells of 0.05 m
+
+
+def wait_for(condition, what):
+    end = time.monotonic() + SECONDS
+    while time.monotonic() < end:
+        found = condition()
+        if found:
+            return found
+        time.sleep(0.05)
+    raise AssertionError("waited %g s in vain for %s" % (SECONDS, what))
+
+
+def wall_between_free_halves():
+    """The wall leaves a way round its upper end."""
+    grid = OccupancyGrid()
+    grid.header.frame_id = "map"
+    grid.info.resolution = 0.05
+    grid.info.width = grid.info.height = SIDE
+    grid.info.origin.orientation.w = 1.0
+    grid.data = [100 if abs(x - SIDE // 2) < 4 and y < SIDE * 3 // 4 else 0 for y in range(SIDE) for x in range(SIDE)]
+    return grid
+
+
+class Heard:
+    """The messages of a topic so far."""
+
+    def __init__(self, topic, kind):
+        self.all = []
+        rospy.Subscriber(topic, kind, self.all.append)
+
+
+class PanelTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.statistics = Heard("plan_statistics", PlanStatistics)
+        cls.drawn = Heard("plan_panel/markers", MarkerArray)
+        cls.dragged = Heard("plan_panel/points/feedback", InteractiveMarkerFeedback)
+        cls.map = rospy.Publisher("projected_map", OccupancyGrid, queue_size=1, latch=True)
+        cls.map.publish(wall_between_free_halves())
+        cls.processes = []
+        cls.screen = Screen(1440, 960)
+        cls.addClassCleanup(cls.end)
+        cls.start_planner()
+        cls.rviz = subprocess.Popen(["rosrun", PACKAGE, "rviz_on_map", "--wait", "20"], env=cls.screen.environment)
+        cls.processes.append(cls.rviz)
+        cls.view = wait_for(cls.find_view, "the view")
+
+    @classmethod
+    def end(cls):
+        folder = os.path.dirname(os.environ.get("ROS_HOME", "/tmp/x"))
+        cls.screen.look().write_png(os.path.join(folder, "panel_rostest.png"))
+        for process in cls.processes:
+            process.send_signal(signal.SIGCONT)
+            process.terminate()
+            process.wait()
+        cls.screen.close()
+
+    @classmethod
+    def start_planner(cls):
+        program = os.path.join(os.environ["CMAKE_PREFIX_PATH"].split(":")[0], "lib", PACKAGE, "path_planner")
+        cls.planner = subprocess.Popen([program, "__name:=path_planner"])
+        cls.processes.append(cls.planner)
+
+    @classmethod
+    def find_view(cls):
+        box = cls.screen.look().box_of(BACKGROUND, least_width=8)
+        return box if box and box.right - box.left > 300 else None
+
+    def button(self):
+        return self.screen.look().box_of(FIRST_BUTTON, least_width=20)
+
+    def answer_to(self, act, what):
+        """What path_planner says after this."""
+        seen = len(self.statistics.all)
+        act()
+        wait_for(lambda: len(self.statistics.all) > seen, what)
+        return self.statistics.all[-1]
+
+    def set_point(self, shortcut, pixel):
+        self.screen.do("mousemove", *self.view.middle(), "sleep", 0.1, "key", shortcut, "sleep", 0.2)
+        self.screen.drag(pixel, (pixel[0] + 40, pixel[1]))
+
+    def test_1_points_are_set_and_plan_is_clicked(self):
+        self.set_point("b", self.view.at(0.3, 0.7))
+        self.set_point("a", self.view.at(0.7, 0.7))
+        button = wait_for(self.button, "a button Plan that may be pressed")
+        self.assertEqual(self.statistics.all, [], "nothing is planned unasked")
+        answer = self.answer_to(lambda: self.screen.click(button.middle()), "a plan")
+        self.assertEqual((answer.status, answer.goal.header.frame_id), ("FOUND", "map"))
+        self.assertGreater(answer.length_m, 1.2 * 0.4 * SIDE * 0.05, "the way round the wall")
+        wait_for(lambda: any(marker.ns == "path" for marker in self.drawn.all[-1].markers), "the path in the view")
+
+    def test_2_the_plan_follows_a_goal_that_is_dragged(self):
+        before = self.statistics.all[-1].goal.pose.position
+        self.screen.do("mousemove", *self.view.middle(), "sleep", 0.1, "key", "i", "sleep", 0.2)
+        answer = self.answer_to(lambda: self.screen.drag(self.view.at(0.7, 0.7), self.view.at(0.7, 0.5)), "a plan")
+        wait_for(lambda: self.statistics.all[-1].goal.pose.position.y > before.y + 0.5, "a plan to the new place")
+        self.assertEqual(answer.status, "FOUND")
+
+    def click_compare(self):
+        """Which stands right of Plan."""
+        plan = self.button()
+        self.screen.click((plan.right + 30, plan.middle()[1]))
+
+    def test_3_planners_are_compared(self):
+        self.click_compare()
+        wait_for(lambda: [m.ns for m in self.drawn.all[-1].markers].count("compared") >= 3, "paths in several colours")
+
+    def test_4_rviz_goes_on_while_the_planner_is_stopped(self):
+        self.planner.send_signal(signal.SIGSTOP)
+        self.click_compare()
+        seen = len(self.dragged.all)
+        self.screen.drag(self.view.at(0.7, 0.5), self.view.at(0.75, 0.6))
+        wait_for(lambda: len(self.dragged.all) > seen, "handles that move")
+        answer = self.answer_to(lambda: self.planner.send_signal(signal.SIGCONT), "the plan afterwards")
+        self.assertEqual(answer.status, "FOUND")
+
+    def test_5_a_planner_that_is_killed_comes_back(self):
+        self.planner.kill()
+        self.planner.wait()
+        wait_for(lambda: not self.button(), "a button Plan that may not be pressed")
+        self.start_planner()
+        button = wait_for(self.button, "a button Plan that may be pressed again")
+        answer = self.answer_to(lambda: self.screen.click(button.middle()), "a plan of the new one")
+        self.assertIn(answer.status, ("FOUND", "NO_MAP"))  # the map may come after the question
+        self.assertIsNone(self.rviz.poll(), "rviz runs")
+
+    def test_6_the_view_is_not_blank(self):
+        self.assertGreater(self.screen.look().colours(self.view), 20)
+
+
+if __name__ == "__main__":
+    rospy.init_node("panel_rostest")
+    rostest.rosrun(PACKAGE, "panel_rostest", PanelTest)
