@@ -18,11 +18,7 @@ constexpr double kFastest = 1e3;         // m/s
 constexpr double kMostClearance = 12.0;  // m
 constexpr double kHovers = 0.02;         // m/s
 constexpr int kFramesBetween = 5;        // of searches while there is no path
-
-bool isPlace(const Vector3d& position) {
-  constexpr double kFarthestPlace = 1e7;  // m; voxels are counted by integers
-  return position.allFinite() && position.cwiseAbs().maxCoeff() < kFarthestPlace;
-}
+constexpr double kStraightOn = 4.0;      // m
 
 Motion motionOf(const VehiclePose& pose, const BodyVelocity& v) {
   return {pose.position, base::inMap(v, pose.yaw), pose.yaw, v.yaw_rate};
@@ -196,10 +192,18 @@ void Pilot::Parts::findPath() {
   kept_ = true;
   if (!found) return;
   frames_without_ = found->size() < 2 ? 1 : 0;
-  if (found->size() < 2)
-    flown.clear();
-  else
-    flown.set(std::move(*found), plan.empty() ? route.after() : std::nullopt);
+  if (found->size() < 2) return flown.clear();
+  const std::optional<Vector3d> onwards = beyond(*found);
+  flown.set(std::move(*found), onwards);
+}
+
+// Where the flight goes on from the end of a path: past the goal to the next waypoint; a single direction
+// straight on.
+std::optional<Vector3d> Pilot::Parts::beyond(const Points& path) const {
+  if (!plan.empty()) return std::nullopt;
+  if ((path.back() - target()).norm() <= targetRadius()) return route.after();
+  if (options.search != Search::DIRECTION) return std::nullopt;
+  return path.back() + kStraightOn * (path.back() - path.front()).normalized();
 }
 
 void Pilot::Parts::fly(const PilotInput& input) {

@@ -40,6 +40,7 @@ class Pilot::Parts {
   bool hasFrame(const std::string& cloud_problem);
   void followRoute();
   void findPath();
+  std::optional<Eigen::Vector3d> beyond(const std::vector<Eigen::Vector3d>& path) const;
   void fly(const PilotInput& input);
   void hover(PilotStatus status, const std::string& sentence);
   void hold(PilotStatus status, const std::string& sentence);

@@ -6,11 +6,17 @@ namespace grid_path_planner::avoidance {
 
 using Eigen::Vector3d;
 
-int LookAheadTree::takeLeastCost() {
-  if (open_.empty()) return -1;
-  const int best = open_.top().second;
-  open_.pop();
-  return best;
+int LookAheadTree::takeLeastCost(double spacing) {
+  while (!open_.empty()) {
+    const int best = open_.top().second;
+    open_.pop();
+    const Vector3d& position = nodes_[best].position;
+    const auto same = [&](const Vector3d& other) { return (other - position).norm() < spacing; };
+    if (std::any_of(expanded_.begin(), expanded_.end(), same)) continue;
+    expanded_.push_back(position);
+    return best;
+  }
+  return -1;
 }
 
 void LookAheadTree::add(const TreeNode& node) {
@@ -23,8 +29,8 @@ void LookAheadTree::grow(int parent, const OpenSpace& space, const PilotOptions&
   const TreeNode at = nodes_[parent];
   const Vector3d root = nodes_.front().position;
   const Angles root_goal = anglesOf(goal - root), before = nodes_.front().angles;
-  const auto& found = candidates_.find(space, options, at.position, anglesOf(goal - at.position),
-                                       at.angles, closed);
+  const auto& found = candidates_.find(
+      space, options, {at.position, anglesOf(goal - at.position), at.angles, closed, expanded_});
   for (const Candidate& candidate : found) {
     const double cost = options.accumulate ? at.cost + candidate.cost
                                            : directionCost(options, anglesOf(candidate.end - root),
@@ -39,12 +45,13 @@ std::vector<Vector3d> LookAheadTree::search(const OpenSpace& space, const PilotO
                                             const Angles& before,
                                             const std::vector<Vector3d>& closed) {
   nodes_.clear();
+  expanded_.clear();
   open_ = {};
   add({start, -1, before, 0.0, 0.0});
   int last = 0;
   bool reached = false;
   for (int count = 0; count < options.nodes; ++count) {
-    const int next = takeLeastCost();
+    const int next = takeLeastCost(sameNode(options));
     if (next < 0) break;
     last = next;
     reached = (nodes_[next].position - goal).norm() <= options.step;

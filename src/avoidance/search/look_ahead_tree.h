@@ -2,7 +2,8 @@
 //
 // Of the node at hand at most `children` free directions, one step away and mutually at least `spacing`
 // apart, enter the open list; the next node is the one with the least F = C + H, H the weighted distance to
-// the goal. C is the sum of the costs of the directions along the branch, or (accumulate: false) the cost
+// the goal. Nodes nearer than `spacing` to one that was at hand before count as that one, as in A* a state is
+// closed once: else the same place is expanded over and over, and the nodes are used up in a dead end. C is the sum of the costs of the directions along the branch, or (accumulate: false) the cost
 // of the node's direction as it is seen from the root. The search ends at the goal, at a node beyond the
 // look-ahead, which is not expanded, or after `nodes` nodes; the path leads to the last node at hand.
 #pragma once
@@ -37,18 +38,22 @@ class LookAheadTree {
 
   // Of the last search, the root first.
   const std::vector<TreeNode>& nodes() const { return nodes_; }
+  // The places that were at hand, in their order.
+  const std::vector<Eigen::Vector3d>& expanded() const { return expanded_; }
   Candidates& candidates() { return candidates_; }
 
  private:
   void grow(int parent, const OpenSpace& space, const PilotOptions& options,
             const Eigen::Vector3d& goal, const std::vector<Eigen::Vector3d>& closed);
   void add(const TreeNode& node);
-  // The node with the least F that was not taken before, of equal ones the first; -1: none is left.
-  int takeLeastCost();
+  // Closes the open node with the least F, of equal ones the first, that is at least `spacing` from every
+  // closed one; -1: none is left.
+  int takeLeastCost(double spacing);
 
   Candidates candidates_;
   std::vector<TreeNode> nodes_;
-  using Open = std::pair<double, int>;  // F, index
+  std::vector<Eigen::Vector3d> expanded_;  // where the closed nodes are
+  using Open = std::pair<double, int>;     // F, index
   std::priority_queue<Open, std::vector<Open>, std::greater<Open>> open_;
 };
 

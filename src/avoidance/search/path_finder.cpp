@@ -11,7 +11,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kPlanRoom = 0.05;   // m more than d_safe that plans keep
 constexpr double kSameHeight = 0.4;  // m between vehicle and goal
 constexpr double kLongPath = 1.3;    // times the straight distance
 constexpr double kLongMore = 2.0;    // m
