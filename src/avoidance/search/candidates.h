@@ -1,6 +1,4 @@
 // The free directions of a node, that of least cost first, each a step long and no two near to each other.
-//
-//   for (const Candidate& next : candidates.find(space, options, {from, to_goal, before, closed, expanded})) add(next);
 #pragma once
 
 #include <Eigen/Core>

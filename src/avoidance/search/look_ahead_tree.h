@@ -2,10 +2,11 @@
 //
 // Of the node at hand at most `children` free directions, one step away and mutually at least `spacing`
 // apart, enter the open list; the next node is the one with the least F = C + H, H the weighted distance to
-// the goal. Nodes nearer than `spacing` to one that was at hand before count as that one, as in A* a state is
-// closed once: else the same place is expanded over and over, and the nodes are used up in a dead end. C is the sum of the costs of the directions along the branch, or (accumulate: false) the cost
-// of the node's direction as it is seen from the root. The search ends at the goal, at a node beyond the
-// look-ahead, which is not expanded, or after `nodes` nodes; the path leads to the last node at hand.
+// the goal. A node nearer than `spacing` to one that was at hand before counts as that one, as A* closes a
+// state once: else the same places are expanded over and over, and a dead end uses up all nodes. C is the sum
+// of the costs of the directions along the branch, or (accumulate: false) the cost of the node's direction as it
+// is seen from the root. The search ends at the goal, at a node beyond the look-ahead, which is not expanded, or
+// after `nodes` nodes; the path leads to the last node at hand.
 #pragma once
 
 #include <Eigen/Core>
