@@ -3,7 +3,7 @@
 //
 //   CostPlanner planner(options);
 //   planner.setCosts(geometry, costmap.getCharMap(), inscribed_radius);  // under the costmap's mutex
-//   Plan plan = planner.plan({start, goal}, stop);                       // without it
+//   Plan plan = planner.plan({start, goal}, tolerance, source);          // without it
 //
 // setCosts() compares the costs with those before and copies what differs. plan() makes weights of
 // that only (cost_weights.h), and updates what the planner prepared; other sides, another resolution or

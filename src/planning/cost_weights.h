@@ -1,13 +1,13 @@
 // How costs of a byte a cell, as costmap_2d makes them, become weights and classes.
 //
-//   cost             weight                                                            class
-//   0                free_weight                                                       free
-//   1 … 252          free_weight + (inflation_weight - free_weight) cost / 252,        free
-//                    rounded
-//   253  inscribed   blocked                                                           free
-//   254  lethal      blocked                                                           occupied
-//   255  no          unknown_weight, blocked without allow_unknown                     unknown
-//        information
+//  cost             weight                                                            class
+//  0                free_weight                                                       free
+//  1 … 252          free_weight + (inflation_weight - free_weight) cost / 252,        free
+//                   rounded
+//  253  inscribed   blocked                                                           free
+//  254  lethal      blocked                                                           occupied
+//  255  no          unknown_weight, blocked without allow_unknown                     unknown
+//       information
 //
 // costmap_2d's inflation layer makes 252 e^(-cost_scaling_factor (d - inscribed_radius)) of a distance d
 // to an obstacle, and CostmapOptions makes inflation_weight of it likewise: so a costmap_2d

@@ -1,6 +1,6 @@
 // Plans between two poses on a costmap that is there: ends, search, smoothing, poses, message.
 //
-//   return planWithin(timeout, request, stop, [&](const StopToken& token) {
+//   Plan plan = planWithin(timeout, request, source, [&](const StopToken& token) {
 //     search.prepare(costmaps, token);
 //     return planOnCosts(costs, search, request, options, token);
 //   });

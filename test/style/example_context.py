@@ -61,6 +61,13 @@ CONTEXT = {
         #include <nav_msgs/GetPlan.h>
         extern ros::ServiceServer service; bool answered(); void waitAWhile();
         extern ros::ServiceEvent<nav_msgs::GetPlan::Request, nav_msgs::GetPlan::Response> event;""",
+    "cost_planner.h": """struct ACostmap { const Cost* getCharMap() const; };
+        extern CostPlannerOptions options; extern GridGeometry geometry; extern ACostmap costmap;
+        extern double inscribed_radius, tolerance; extern Pose start, goal; extern StopSource source;""",
+    "plan_on_costs.h": """extern double timeout; extern PoseRequest request; extern StopSource source; extern CostmapPair costmaps;
+        extern MultiResolutionPlanner search; extern CostGrid costs; extern PlannerOptions options;""",
+    "planner_adapter.h": """extern geometry_msgs::PoseStamped start, goal; extern GridGeometry geometry;
+        extern const planning::Cost* cells; extern double inscribed_radius;""",
     "prepared_planners.h": """extern planners::SearchOptions options; extern std::size_t bytes;
         extern std::size_t bytes_of_current; extern CostmapPair maps;""",
     "planning_lane.h": """#include "planning/map_store.h"
