@@ -45,7 +45,7 @@ ComparisonTable::ComparisonTable(QWidget* parent)
   verticalHeader()->hide();
   verticalHeader()->setDefaultSectionSize(20);
   horizontalHeader()->setSectionResizeMode(PLANNER, QHeaderView::Stretch);
-  for (const int column : {COST, LENGTH, TIME}) setColumnWidth(column, 58);
+  for (const int column : {COST, LENGTH, TIME}) setColumnWidth(column, 48);
   setEditTriggers(QAbstractItemView::NoEditTriggers);
   for (int row = 0; row < rowCount(); ++row) {
     const std::string& name = plannerNames()[static_cast<std::size_t>(row)];

@@ -59,8 +59,10 @@ void setStyle(QWidget* widget, const QString& style) {
   if (widget->styleSheet() != style) widget->setStyleSheet(style);
 }
 
-// In a colour that nothing else in rviz has: who tests the panel finds it on the screen.
-constexpr char kFirstButton[] = "QPushButton:enabled { background: #0b5fa5; color: white; }";
+// Flat, in a colour that nothing else in rviz has: who tests the panel finds it on the screen.
+constexpr char kFirstButton[] =
+    "QPushButton:enabled { background: #0b5fa5; color: white; border: 1px solid #0b5fa5; "
+    "border-radius: 3px; padding: 3px; }";
 
 }  // namespace
 

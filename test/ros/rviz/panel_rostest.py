@@ -128,8 +128,11 @@ class PanelTest(unittest.TestCase):
         self.screen.click((plan.right + 30, plan.middle()[1]))
 
     def test_3_planners_are_compared(self):
-        self.click_compare()
-        wait_for(lambda: [m.ns for m in self.drawn.all[-1].markers].count("compared") >= 3, "paths in several colours")
+        def compared():
+            self.click_compare()  # again, where the plan for the dragged goal was still being made
+            time.sleep(1.0)
+            return [marker.ns for marker in self.drawn.all[-1].markers].count("compared") >= 3
+        wait_for(compared, "paths in several colours")
 
     def test_4_rviz_goes_on_while_the_planner_is_stopped(self):
         self.planner.send_signal(signal.SIGSTOP)
