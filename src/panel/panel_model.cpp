@@ -101,7 +101,7 @@ std::optional<PlanRequest> PanelModel::tick(double now) {
 
 void PanelModel::planHeard(unsigned id, const std::string& phase, double now) {
   planning_.heard(id, now);
-  if (id == planning_.underWay()) say(Tone::BUSY, "Planning: " + phase + " ...");
+  if (id == planning_.pending()) say(Tone::BUSY, "Planning: " + phase + " ...");
 }
 
 void PanelModel::planAnswered(unsigned id, const PlanAnswer& answer, double now) {
@@ -117,11 +117,11 @@ void PanelModel::otherPlan(const PlanAnswer& answer, double now) {
 
 unsigned PanelModel::cancelPlan() {
   if (!planning_.busy()) return 0;
-  const unsigned under_way = planning_.underWay();
+  const unsigned pending = planning_.pending();
   follows_ = false;
   planning_.giveUp("CANCELLED", "planning was cancelled");
   showOutcome();
-  return under_way;
+  return pending;
 }
 
 void PanelModel::showOutcome() {

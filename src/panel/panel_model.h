@@ -60,7 +60,7 @@ class PanelModel {
   // A parameter of the planner is another one.
   void planAgain();
 
-  // ---- Services, of which one may be under way.
+  // ---- Services, of which one may be pending.
   void callBegan(Call call);
   void callEnded(Tone tone, const std::string& sentence);
 

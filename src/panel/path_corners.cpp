@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStraight = 1e-6;  // m
 
-// Whether `middle` lies on the way from `from` to `to`, not before or beyond them.
+// Whether `middle` lies on the line from `from` to `to`, not before or beyond them.
 bool between(const Pose& from, const Pose& middle, const Pose& to) {
   const Eigen::Vector3d line = to.position - from.position, part = middle.position - from.position;
   const double length = line.norm(), along = length > 0.0 ? part.dot(line) / length : 0.0;

@@ -4,7 +4,7 @@
 //   if (const auto request = planning.next(now)) send(*request);   // at every tick
 //   if (planning.take(id, answer, now)) show(planning.outcome());
 //
-// Guaranteed: one request is under way at a time, answers to others are passed over, and one that
+// Guaranteed: one request is pending at a time, answers to others are passed over, and one that
 // shows no sign of life for kPatience seconds is given up. What is asked for meanwhile (a point is
 // dragged) is asked when the present leg is answered; what came in between is left out.
 #pragma once
@@ -60,8 +60,8 @@ class RoutePlanning {
   bool overdue(double now) const;
 
   bool busy() const { return wanted_ || !legs_.empty(); }
-  // Of the request that is under way; 0: none.
-  unsigned underWay() const { return sent_ ? id_ : 0; }
+  // Of the request that is pending; 0: none.
+  unsigned pending() const { return sent_ ? id_ : 0; }
   const PlanAnswer& outcome() const { return outcome_; }
 
  private:

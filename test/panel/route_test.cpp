@@ -93,9 +93,9 @@ TEST(RoutePlanning, AFailedLegNamesItselfAndEndsThePlan) {
   const auto second = planning.next(0.0);
   PlanAnswer failure;
   failure.status = "UNREACHABLE";
-  failure.message = "no way";
+  failure.message = "no path";
   EXPECT_TRUE(planning.take(second->id, failure, 0.0));
-  EXPECT_EQ(planning.outcome().message, "from the last via-point to the goal: no way");
+  EXPECT_EQ(planning.outcome().message, "from the last via-point to the goal: no path");
   EXPECT_TRUE(planning.outcome().path.empty());
 }
 
