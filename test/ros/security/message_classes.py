@@ -8,16 +8,20 @@ def part(kind, fields):
 
 
 HEADER = part("std_msgs/Header", "uint32 seq\ntime stamp\nstring frame_id\n")
+VECTOR3 = part("geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n")
+QUATERNION = part("geometry_msgs/Quaternion", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n")
 TRANSFORM = (part("geometry_msgs/TransformStamped", "Header header\nstring child_frame_id\nTransform transform\n") + HEADER
-             + part("geometry_msgs/Transform", "Vector3 translation\nQuaternion rotation\n")
-             + part("geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n")
-             + part("geometry_msgs/Quaternion", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"))
+             + part("geometry_msgs/Transform", "Vector3 translation\nQuaternion rotation\n") + VECTOR3 + QUATERNION)
 POINT_FIELD = part("sensor_msgs/PointField", "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\n"
                    "uint8 INT32=5\nuint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\n"
                    "string name\nuint32 offset\nuint8 datatype\nuint32 count\n")
 REGION = part("sensor_msgs/RegionOfInterest", "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\n"
               "bool do_rectify\n")
 DEFINITIONS = {
+    "sensor_msgs/Imu": "Header header\ngeometry_msgs/Quaternion orientation\nfloat64[9] orientation_covariance\n"
+                       "geometry_msgs/Vector3 angular_velocity\nfloat64[9] angular_velocity_covariance\n"
+                       "geometry_msgs/Vector3 linear_acceleration\nfloat64[9] linear_acceleration_covariance\n"
+                       + HEADER + VECTOR3 + QUATERNION,
     "map_msgs/OccupancyGridUpdate": "Header header\nint32 x\nint32 y\nuint32 width\nuint32 height\nint8[] data\n"
                                     + HEADER,
     "sensor_msgs/CameraInfo": "Header header\nuint32 height\nuint32 width\nstring distortion_model\nfloat64[] D\n"
