@@ -2,11 +2,11 @@
 //
 //   PanelModel model;
 //   model.setPlanners(1);                                   // nodes that offer plan_path
-//   model.place({RoutePoints::Kind::GOAL}, "map", goal, now);
-//   model.plan(now);
-//   if (const auto request = model.tick(now)) send(*request);   // ten times a second
-//   model.planAnswered(request->id, answer, now);
-//   show(model.sentence(), model.buttons());
+//   model.place({RoutePoints::Kind::GOAL}, "map", goal);
+//   model.plan();
+//   if (const auto request = model.tick(now)) use(*request);   // sent; ten times a second
+//   model.planAnswered(id, answer, now);
+//   use(model.sentence(), model.buttons());
 //
 // Guaranteed: no state is for ever. A planner that is gone, is restarted or falls silent ends what
 // was asked of it with a sentence; calls of services end with callEnded(), which the caller gives at

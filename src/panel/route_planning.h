@@ -1,8 +1,8 @@
 // A plan through via-points: leg after leg is asked for, and the answers are joined.
 //
 //   planning.ask(points);
-//   if (const auto request = planning.next(now)) send(*request);   // at every tick
-//   if (planning.take(id, answer, now)) show(planning.outcome());
+//   if (const auto request = planning.next(now)) use(*request);   // sent; at every tick
+//   if (planning.take(id, answer, now)) use(planning.outcome());
 //
 // Guaranteed: one request is pending at a time, answers to others are passed over, and one that
 // shows no sign of life for kPatience seconds is given up. What is asked for meanwhile (a point is

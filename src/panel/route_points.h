@@ -2,7 +2,7 @@
 //
 //   RoutePoints points;
 //   points.set({RoutePoints::Kind::GOAL}, "map", goal);   // "": taken; else why not
-//   for (const Leg& leg : points.legs()) ask(leg);
+//   for (const Leg& leg : points.legs()) use(leg);
 //
 // All points are in one frame: one that comes in another frame replaces all of them.
 #pragma once

@@ -1,7 +1,7 @@
 // Texts and numbers that come from other nodes, as the panel shows them.
 //
-//   label = shownText(statistics.message, 300);   // one line without control characters
-//   label = shownNumber(statistics.cost);         // "12.35", "1.2e+300", "-"
+//   use(shownText(message, 300));   // one line without control characters
+//   use(shownNumber(12.346));       // "12.35", "1.2e+300", "-"
 #pragma once
 
 #include <cstddef>

@@ -6,6 +6,14 @@ COMMON = "extern const StopToken stop; template <class... T> void use(const T&..
 
 CONTEXT = {
     "background.h": "struct Table { Table(int, const StopToken&); }; extern std::shared_ptr<int> map;",
+    "action_link.h": "#include \"grid_path_planner/PlanPathAction.h\"\nextern ros::NodeHandle nh; extern const PlanPathGoal goal;",
+    "service_calls.h": "#include \"grid_path_planner/ComparePlans.h\"\nextern ros::NodeHandle nh; extern ComparePlans question;"
+                       "void show(const ComparePlans::Response&); void complain(const std::string&);",
+    "panel_model.h": "extern path::Pose goal; extern double now; extern unsigned id; extern PlanAnswer answer;",
+    "route_planning.h": "extern RoutePlanning planning; extern RoutePoints points; extern double now; extern unsigned id;"
+                        "extern PlanAnswer answer;",
+    "route_points.h": "extern path::Pose goal;",
+    "shown_text.h": "extern std::string message;",
     "guarded_queue.h": "extern ros::NodeHandle nh;",
     "master_watch.h": "void halt();",
     "update_sequence.h": "#include <map_msgs/OccupancyGridUpdate.h>\n#include <ros/message_event.h>\nextern UpdateSequence sequence;"

@@ -1,8 +1,8 @@
 // Goals of an action by its topics, without waiting: what an action client is made of.
 //
 //   ActionLink<PlanPathAction> link(nh, "plan_path");
-//   link.onFeedback = [](const std::string& id, const PlanPathFeedback& feedback) { ... };
-//   link.onResult = [](const std::string& id, const PlanPathResult& result) { ... };
+//   link.onFeedback = [](const std::string&, const PlanPathFeedback& feedback) { use(feedback); };
+//   link.onResult = [](const std::string&, const PlanPathResult& result) { use(result); };
 //   const std::string id = link.send(goal);
 //   link.cancel(id);
 //

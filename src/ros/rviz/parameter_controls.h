@@ -1,8 +1,6 @@
 // Parameters of path_planner as controls, made of the options' own descriptions.
-//
-//   ParameterControls controls([](const dynamic_reconfigure::Config& change) { send(change); });
-//   layout->addWidget(&controls);
-//   controls.show(config);     // what the node has: not sent back
+// The function that is given gets what the user changed; show() takes what the node has, which is not sent
+// back.
 #pragma once
 
 #include <dynamic_reconfigure/Config.h>

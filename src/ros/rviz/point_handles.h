@@ -1,7 +1,5 @@
 // Start, via-points and goal as handles in the view, which are dragged, and turned by their rings.
-//
-//   PointHandles handles(nh, [](RoutePoints::Id id, const std::string& frame, const Pose& pose) {...});
-//   handles.show(points);
+// The function that is given gets every point that is dragged or turned.
 #pragma once
 
 #include <interactive_markers/interactive_marker_server.h>
