@@ -194,7 +194,8 @@ def plans(node, deadline):
 
 
 def drives(node, deadline):
-    """A path of the topic, then a goal of the action, which is cancelled at last."""
+    """A path of the topic, then a goal of the action, which is cancelled at last. A path has time to be driven, on a
+    machine that is busy too, before what it is offered with cancels it."""
     def offer():
         node.send("manual_control", of("std_msgs/Bool", data=False))
         node.send("stop", of("std_msgs/Bool", data=False))
@@ -207,7 +208,7 @@ def drives(node, deadline):
     def is_driven():
         return any(moving(twist) for twist in node.heard("cmd_vel"))
     node.forget("cmd_vel")
-    if not until(node, is_driven, deadline, offer, every=0.5):
+    if not until(node, is_driven, deadline, offer, every=2.0):
         return False
     goal = drive_goal(node)
     fed = succeeds(node, "navigate_path", goal, deadline, lambda identity: any(

@@ -180,9 +180,14 @@ class RunningNode:
         return probes.right(message_type, self)
 
     def restart(self):
-        """As after kill -9; what it said before is forgotten."""
+        """As after kill -9; what it said before is forgotten, and so are the connections to what was killed, which
+        rospy would count until it next sends: a goal that is sent once would go to one of them."""
         self.end(signal.SIGKILL)
         self.processes = []
+        for publisher in self.publishers.values():
+            for connection in list(publisher.impl.connections):
+                publisher.impl.remove_connection(connection)
+                connection.close()
         with self.lock:
             self.messages.clear()
         self.start()
