@@ -4,14 +4,18 @@
 
 namespace grid_path_planner::nodes {
 
+namespace {
+const ros::WallDuration kLogPeriod(5.0);
+}
+
 void InputLog::refuse(localization::Source source, const std::string& reason) {
   Input& input = of(source);
-  ++input.refused;
-  if (input.refused == 1)
-    ROS_WARN_STREAM(nameOf(source) << " refused: " << reason);
-  else
-    ROS_WARN_STREAM_THROTTLE(5.0, nameOf(source) << " refused: " << reason);
   input.reason = reason;
+  ros::SteadyTime& logged = logged_[static_cast<std::size_t>(source)];
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (++input.refused > 1 && now - logged < kLogPeriod) return;
+  logged = now;
+  ROS_WARN_STREAM(nameOf(source) << " refused: " << reason);
 }
 
 }  // namespace grid_path_planner::nodes

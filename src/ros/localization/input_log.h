@@ -4,6 +4,8 @@
 //   log.refuse(Source::DVL, error.what());
 #pragma once
 
+#include <ros/time.h>
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -20,7 +22,7 @@ class InputLog {
   };
 
   void receive(localization::Source source) { ++of(source).received; }
-  // Into the log too: the first of a source at once, then at most one line in 5 s.
+  // Into the log too: the first of a source at once, then at most one line of each source in 5 s.
   void refuse(localization::Source source, const std::string& reason);
 
   const Input& operator[](localization::Source source) const {
@@ -31,6 +33,7 @@ class InputLog {
   Input& of(localization::Source source) { return inputs_[static_cast<std::size_t>(source)]; }
 
   std::array<Input, localization::kSources> inputs_;
+  std::array<ros::SteadyTime, localization::kSources> logged_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kWidth = 0.08, kLowest = 0.04, kStep = 0.01;  // m
 constexpr double kBetweenHeads = 2.0, kHead = 0.3;             // m
-constexpr std::size_t kMostHeads = 200, kLongestText = 200;
+constexpr std::size_t kMostHeads = 200, kLongestLabel = 200;
 constexpr Colour kPath{0, 114, 178}, kGap{213, 94, 0}, kNearest{0, 114, 178};
 
 Marker markerOf(const std::string& frame, const std::string& name, int id, int type,
@@ -123,7 +123,7 @@ MarkerArray explanationMarkers(const ExplainPlan::Response& explanation, const s
   text.pose.position = array.markers.front().pose.position;
   text.pose.position.z += 0.5;
   text.scale.z = 0.3;
-  text.text = wrappedText(shownText(explanation.message, kLongestText));
+  text.text = wrappedText(shownText(explanation.message, kLongestLabel));
   array.markers.push_back(text);
   return array;
 }

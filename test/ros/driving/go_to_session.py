@@ -1,5 +1,6 @@
 """The nodes that go_to.launch starts, with a simulated vehicle in a room with a door, for tests that send goals as users of
 move_base do."""
+import contextlib
 import math
 import os
 import signal
@@ -98,6 +99,16 @@ class GoToTest(unittest.TestCase):
     def kill(cls, name):
         cls.processes[name].kill()
         cls.processes[name].wait()
+
+    @classmethod
+    @contextlib.contextmanager
+    def time_standing_still(cls):
+        """The simulator is ROS's clock."""
+        cls.processes["simulator"].send_signal(signal.SIGSTOP)
+        try:
+            yield
+        finally:
+            cls.processes["simulator"].send_signal(signal.SIGCONT)
 
     @classmethod
     def end_all(cls):

@@ -139,7 +139,7 @@ TEST_F(VehicleLocalizerTest, AnotherPublisherOfItsTransformIsRefusedByName) {
   ASSERT_TRUE(waitFor([&] {
     rival.header.stamp = ros::Time::now();
     broadcaster.sendTransform(rival);
-    return node_->says("No transform is published until ~reset");
+    return node_->hasSaid("No transform is published until ~reset");
   }));
   EXPECT_TRUE(node_->says(ros::this_node::getName() + " publishes tf rival -> base_link"));
   const std::size_t before = transformsTo("base_link"), poses = filtered_.count();
@@ -160,7 +160,7 @@ TEST_F(VehicleLocalizerTest, WhatIsRefusedIsNamedInLogAndDiagnostics) {
   ASSERT_TRUE(waitFor([&] {
     bad.header.stamp = ros::Time::now();
     dvl.publish(bad);
-    return node_->says("DVL refused: a variance is 0");
+    return node_->hasSaid("DVL refused: a variance is 0");
   }));
   EXPECT_TRUE(diagnostics.waitFor(0, [](const diagnostic_msgs::DiagnosticArray& array) {
     for (const auto& status : array.status)

@@ -89,8 +89,10 @@ class Process {
   }
   // Whether it prints `text`, before the deadline.
   bool says(const std::string& text) {
-    return waitFor([&] { return output().find(text) != std::string::npos; });
+    return waitFor([&] { return hasSaid(text); });
   }
+  // By now: for a condition that itself is waited for.
+  bool hasSaid(const std::string& text) const { return output().find(text) != std::string::npos; }
   // Sends the signal and waits for the end: a law of every test is that nodes end in time.
   void end(int number) {
     if (!running()) return;
