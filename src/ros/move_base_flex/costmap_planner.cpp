@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "ros/adapters/outcome.h"
 #include "ros/adapters/plugin_adapter.h"
+#include "ros/move_base_flex/outcome.h"
 
 namespace grid_path_planner::nodes {
 

@@ -1,33 +1,34 @@
-#include "ros/adapters/outcome.h"
+#include "ros/move_base_flex/outcome.h"
 
 namespace grid_path_planner::nodes {
 
 using base::Status;
+using mbf_msgs::GetPathResult;
 
 std::uint32_t outcomeOf(Status status) {
   switch (status) {
     case Status::FOUND:
-      return 0;
+      return GetPathResult::SUCCESS;
     case Status::CANCELLED:
-      return 51;
+      return GetPathResult::CANCELED;
     case Status::START_OUTSIDE_MAP:
     case Status::START_OCCUPIED:
-      return 52;
+      return GetPathResult::INVALID_START;
     case Status::GOAL_OUTSIDE_MAP:
     case Status::GOAL_OCCUPIED:
-      return 53;
+      return GetPathResult::INVALID_GOAL;
     case Status::UNREACHABLE:
-      return 54;
+      return GetPathResult::NO_PATH_FOUND;
     case Status::TIMEOUT:
-      return 55;
+      return GetPathResult::PAT_EXCEEDED;
     case Status::TRANSFORM_ERROR:
-      return 57;
+      return GetPathResult::TF_ERROR;
     case Status::NO_MAP:
-      return 58;
+      return GetPathResult::NOT_INITIALIZED;
     case Status::INVALID_REQUEST:
       break;
   }
-  return 50;
+  return GetPathResult::FAILURE;
 }
 
 }  // namespace grid_path_planner::nodes

@@ -1,5 +1,10 @@
 // The outcome codes of mbf_msgs/GetPath by status.
+//
+// By name: their numbers differ between versions of mbf_msgs (NO_PATH_FOUND is 54 in 0.3, 56 since
+// BLOCKED_START and BLOCKED_GOAL came before it).
 #pragma once
+
+#include <mbf_msgs/GetPathResult.h>
 
 #include <cstdint>
 
@@ -7,8 +12,6 @@
 
 namespace grid_path_planner::nodes {
 
-// Of those that all versions of mbf_msgs have: SUCCESS 0, FAILURE 50, CANCELED 51, INVALID_START 52,
-// INVALID_GOAL 53, NO_PATH_FOUND 54, PAT_EXCEEDED 55, TF_ERROR 57, NOT_INITIALIZED 58.
 std::uint32_t outcomeOf(base::Status status);
 
 }  // namespace grid_path_planner::nodes
