@@ -27,6 +27,7 @@ class Effort:
 
 
 CASES = []
+PLANNERS = ("weighted_jump_point", "a_star", "dijkstra", "incremental_a_star", "lazy_theta_star", "theta_star")
 
 
 def case(needs_goals=False, grows=False):
@@ -178,6 +179,43 @@ def another_planner(node, generator, effort, result):
         begin = time.monotonic()
         node.plan(plan)
         result.times.append(time.monotonic() - begin)
+
+
+@case(needs_goals=True)
+def cancelled(node, generator, effort, result):
+    """a goal of `plan_path` cancelled. By planners in turn, at any time within what each takes; from the cancel to the
+    result."""
+    import rospy
+    from actionlib_msgs.msg import GoalID, GoalStatus
+    from grid_path_planner.msg import PlanPathActionGoal, PlanPathActionResult
+    goals = rospy.Publisher("plan_path/goal", PlanPathActionGoal, queue_size=None, tcp_nodelay=True)
+    cancels = rospy.Publisher("plan_path/cancel", GoalID, queue_size=None, tcp_nodelay=True)
+    results = node.topic("plan_path/result")
+    wait_until(lambda: goals.get_num_connections() > 0 and cancels.get_num_connections() > 0, "plan_path")
+
+    def ask(planner, cancel_after):
+        """The status, and when it came after the goal or its cancel."""
+        seen, message = len(results.received), PlanPathActionGoal()
+        message.header.stamp = message.goal_id.stamp = rospy.Time.now()
+        message.goal_id.id = "%s %d" % (planner, seen)
+        message.goal.start, message.goal.goal = node.pose(node.ends[0]), node.pose(node.ends[1])
+        message.goal.planner = planner
+        begin = time.monotonic()
+        goals.publish(message)
+        if cancel_after is not None:
+            time.sleep(cancel_after)
+            begin = time.monotonic()
+            cancels.publish(GoalID(id=message.goal_id.id))
+        ended, data = results.next(seen, "result of plan_path")
+        return PlanPathActionResult().deserialize(data).status.status, ended - begin
+    whole = {planner: ask(planner, None)[1] for planner in PLANNERS}
+    found_first = 0
+    for i in effort.rounds(10 * len(PLANNERS), len(PLANNERS)):
+        planner = PLANNERS[i % len(PLANNERS)]
+        status, seconds = ask(planner, generator.uniform(0.0, whole[planner]))
+        result.times.append(max(0.0, seconds))
+        found_first += status != GoalStatus.PREEMPTED
+    result.remark = "%d were found first" % found_first
 
 
 @case(needs_goals=True)
