@@ -3,13 +3,16 @@
 //   grid_path_planner_engine_cost_to_go [--goal X,Y] [--threads N] [--side CELLS] [--weights KIND]
 //                                       [--write-costs FILE]
 //
-//     --weights KIND       noise (default): 50 + 0.8 c with c random from 0 to 252, as navfn weighs
-//                          a costmap_2d's cells; one: all weigh 1. Every twentieth cell is blocked
+//     --weights KIND       what c is, of which a cell weighs 50 + 0.8 c, as navfn weighs a costmap_2d's
+//                          cells. noise (default): random from 0 to 252; smooth: waves of 400 cells;
+//                          uniform: 0; with every twentieth cell blocked. open: 0, none blocked.
+//                          one: as uniform, but all weigh 1
 //     --write-costs FILE   writes c, or 254 where blocked, as an 8-bit PGM, and computes nothing
 //
 // Prints "nanoseconds N labelled L reachable R bytes B", R counted by a search that knows no costs.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -52,25 +55,35 @@ Cell cellFrom(const std::string& text) {
           static_cast<int>(numberFromText("--goal", text.substr(comma + 1)))};
 }
 
+int costAt(const std::string& kind, Cell cell, unsigned random) {
+  if (kind == "noise") return static_cast<int>(random % (kMost + 1));
+  if (kind != "smooth") return 0;
+  constexpr double kPerCell = 2.0 * M_PI / 400.0;
+  return static_cast<int>(0.25 * kMost *
+                          (2.0 + std::sin(kPerCell * cell.column) + std::sin(kPerCell * cell.row)));
+}
+
 // The goal's neighbourhood is free.
-Grid<std::uint8_t> noisyCosts(int side, Cell goal) {
+Grid<std::uint8_t> costsOf(const std::string& kind, int side, Cell goal) {
   Grid<std::uint8_t> costs(GridGeometry(side, side, 1.0));
   std::mt19937 random(1);
-  for (auto& cost : costs.values()) {
-    const bool blocked = random() % 20 == 0;
-    cost = static_cast<std::uint8_t>(blocked ? kLethal : random() % (kMost + 1));
-  }
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column) {
+      const bool blocked = kind != "open" && random() % 20 == 0;
+      const int cost = blocked ? kLethal : costAt(kind, {column, row}, random());
+      costs[Cell{column, row}] = static_cast<std::uint8_t>(cost);
+    }
   for (int row = goal.row - 2; row <= goal.row + 2; ++row)
     for (int column = goal.column - 2; column <= goal.column + 2; ++column)
       if (costs.contains({column, row})) costs[Cell{column, row}] = 0;
   return costs;
 }
 
-std::shared_ptr<const CostGrid> mapOf(const Grid<std::uint8_t>& costs, bool noise) {
+std::shared_ptr<const CostGrid> mapOf(const Grid<std::uint8_t>& costs, bool one) {
   Grid<CostGrid::Weight> weights(costs.geometry());
   std::transform(costs.values().begin(), costs.values().end(), weights.values().begin(),
-                 [noise](std::uint8_t cost) {
-                   const int weight = cost == kLethal ? 0 : noise ? 50 + cost * 4 / 5 : 1;
+                 [one](std::uint8_t cost) {
+                   const int weight = cost == kLethal ? 0 : one ? 1 : 50 + cost * 4 / 5;
                    return static_cast<CostGrid::Weight>(weight);
                  });
   Grid<Occupancy> classes(costs.geometry(), Occupancy::FREE);
@@ -86,7 +99,7 @@ void writeCosts(const Grid<std::uint8_t>& costs, const std::string& file) {
 }
 
 void compute(const Arguments& arguments, const Grid<std::uint8_t>& costs, Cell goal) {
-  const auto map = mapOf(costs, arguments.at("--weights") == "noise");
+  const auto map = mapOf(costs, arguments.at("--weights") == "one");
   const auto threads = static_cast<int>(numberFromText("--threads", arguments.at("--threads")));
   const Clock::time_point begin = Clock::now();
   const CostToGo field(map, {goal}, threads, StopToken());
@@ -106,8 +119,8 @@ void compute(const Arguments& arguments, const Grid<std::uint8_t>& costs, Cell g
 int main(int argc, char** argv) try {
   const Arguments arguments = argumentsFrom(argc, argv);
   const Cell goal = cellFrom(arguments.at("--goal"));
-  const auto costs =
-      noisyCosts(static_cast<int>(numberFromText("--side", arguments.at("--side"))), goal);
+  const auto side = static_cast<int>(numberFromText("--side", arguments.at("--side")));
+  const auto costs = costsOf(arguments.at("--weights"), side, goal);
   if (!arguments.at("--write-costs").empty())
     writeCosts(costs, arguments.at("--write-costs"));
   else
