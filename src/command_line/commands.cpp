@@ -14,6 +14,7 @@ const std::vector<Command>& commands() {
 #endif
       {"rectangles", "cut a map's free space into rectangles", runRectangles},
       {"convert", "read a map file and write it in another format", runConvert},
+      {"waypoints", "read a waypoint file and write it in another format", runWaypoints},
 #ifdef GPP_WITH_MAPPING
       {"project", "project an octree file to a map file", runProject},
 #endif

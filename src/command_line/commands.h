@@ -13,6 +13,7 @@ int runPlan(int argc, char** argv);
 int runScenarios(int argc, char** argv);
 int runRectangles(int argc, char** argv);
 int runConvert(int argc, char** argv);
+int runWaypoints(int argc, char** argv);
 int runProject(int argc, char** argv);
 int runStudyCommand(int argc, char** argv);
 int runFlights(int argc, char** argv);

@@ -1,4 +1,5 @@
 // grid_path plan: one path on one map file.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -14,10 +15,11 @@
 #include "grid_path_planner/planning/path_planner.h"
 #include "grid_path_planner/ros/bag.h"
 #include "planning/explanation.h"
+#include "planning/via/via_plan.h"
 
 namespace grid_path_planner::command_line {
 
-using base::InputError, base::Status, base::StopToken;
+using base::choiceFromName, base::InputError, base::Status, base::StopToken;
 using costmap::CostGrid;
 using grid::Cell, grid::GridGeometry, grid::MapFileOptions, grid::OccupancyGrid,
     grid::OccupancyThresholds;
@@ -26,7 +28,8 @@ using path::clearanceOf, path::measuresText, path::Pose, path::turningOf, path::
     path::writeWaypointFile;
 using planners::makePlanner, planners::traitsOf;
 using planning::explainFailure, planning::Explanation, planning::PathPlanner, planning::Plan,
-    planning::PlannerOptions, planning::PoseRequest;
+    planning::PlannerOptions, planning::planThrough, planning::PoseRequest, planning::ViaOrder,
+    planning::ViaPlan, planning::ViaRequest;
 
 namespace {
 
@@ -35,12 +38,20 @@ namespace po = boost::program_options;
 constexpr int kFound = 0;
 constexpr int kNoPath = 1;
 
-po::options_description planOptions() {
+po::options_description planOptions(bool round_trip) {
   po::options_description known("Options");
+  auto* goal = po::value<std::string>();
+  if (!round_trip) goal->required();
   known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
       "start", po::value<std::string>()->required(), "X,Y[,Z[,YAW]] in metres, YAW in radians")(
-      "goal", po::value<std::string>()->required(), "the same")(
-      "cells", "start and goal are COLUMN,ROW of cells")(
+      "goal", goal, "the same")("via",
+                                po::value<std::vector<std::string>>()->multitoken()->composing(),
+                                "places to pass in between, X,Y[,Z] each: --via 1,2 3,4")(
+      "order", po::value<std::string>(),
+      "given: the via-points one after the other; best: as costs least, of up to 12 for certain, "
+      "of "
+      "more by a heuristic; default given")("closed", "a round trip: the goal is the start")(
+      "cells", "start, goal and via-points are COLUMN,ROW of cells")(
       "resolution", po::value<std::string>(),
       "side of the map's cells instead of its own: the map grows or shrinks by it [m]")(
       "image", po::value<std::string>(),
@@ -57,7 +68,7 @@ po::options_description planOptions() {
 
 Pose poseOf(const std::string& name, const std::string& text, bool cells,
             const GridGeometry& geometry) {
-  const std::vector<double> numbers = numbersOf(name, text, 2, cells ? 2 : 4);
+  const std::vector<double> numbers = numbersOf(name, text, 2, cells ? 2 : name == "via" ? 3 : 4);
   Pose pose;
   if (cells) {
     if (numbers[0] != std::floor(numbers[0]) || numbers[1] != std::floor(numbers[1]))
@@ -130,6 +141,12 @@ Explanation explain(PathPlanner& planner, const PoseRequest& request, Plan& repo
   return explanation;
 }
 
+nlohmann::json jsonOf(const ViaPlan& answer) {
+  return {{"via_order", answer.order},
+          {"via_order_exact", answer.order_exact},
+          {"via_unreachable", answer.unreachable}};
+}
+
 nlohmann::json jsonOf(const Explanation& explanation) {
   nlohmann::json object = {{"only_unknown", explanation.only_unknown}};
   if (explanation.gap)
@@ -146,13 +163,36 @@ int exitCodeOf(Status status) {
   return status == Status::FOUND ? kFound : kNoPath;
 }
 
-PoseRequest requestFrom(const po::variables_map& values, const GridGeometry& geometry) {
+ViaRequest requestFrom(const po::variables_map& values, const GridGeometry& geometry) {
   const bool cells = values.count("cells") != 0;
-  PoseRequest request;
+  ViaRequest request;
   request.start = poseOf("start", values["start"].as<std::string>(), cells, geometry);
-  request.goal = poseOf("goal", values["goal"].as<std::string>(), cells, geometry);
+  request.goal = values.count("closed") != 0
+                     ? request.start
+                     : poseOf("goal", values["goal"].as<std::string>(), cells, geometry);
+  if (values.count("via") != 0)
+    for (const std::string& text : values["via"].as<std::vector<std::string>>())
+      request.via.push_back(poseOf("via", text, cells, geometry).position);
+  if (values.count("order") != 0)
+    request.order = choiceFromName<ViaOrder>("--order", values["order"].as<std::string>());
   request.record_expanded = values.count("image") != 0;
   return request;
+}
+
+// Which changes what is required.
+bool isRoundTrip(int argc, char** argv) {
+  return std::any_of(argv + 1, argv + argc,
+                     [](const char* argument) { return std::string(argument) == "--closed"; });
+}
+
+// What contradicts itself, and what changes nothing.
+void checkViaOptions(const po::variables_map& values) {
+  if (values.count("closed") != 0 && values.count("goal") != 0)
+    throw InputError("--goal and --closed contradict each other: a round trip ends at its start");
+  if (values.count("via") == 0 && values.count("closed") != 0)
+    throw InputError("--closed needs --via: without a place in between the trip is none");
+  if (values.count("via") == 0 && values.count("order") != 0)
+    warnAboutUnusedOption("order", "no --via");
 }
 
 double preparationMs(PathPlanner& planner) {
@@ -183,6 +223,7 @@ struct Measures {
   double clearance_m;
   double turning_rad;
   std::optional<Explanation> explanation;
+  std::optional<nlohmann::json> via;  // where there are via-points
 };
 
 void print(const Plan& report, const Measures& measures, const std::string& planner,
@@ -197,6 +238,7 @@ void print(const Plan& report, const Measures& measures, const std::string& plan
   nlohmann::json object = jsonOf(report, preparation_ms);
   if (found && std::isfinite(measures.clearance_m)) object["clearance_m"] = measures.clearance_m;
   if (found) object["turning_rad"] = measures.turning_rad;
+  if (measures.via) object.update(*measures.via);
   if (measures.explanation) object["explanation"] = jsonOf(*measures.explanation);
   std::cout << object.dump() << '\n';
 }
@@ -205,9 +247,10 @@ void print(const Plan& report, const Measures& measures, const std::string& plan
 
 int runPlan(int argc, char** argv) {
   po::variables_map values;
-  if (!parseArguments(argc, argv, planOptions(),
+  if (!parseArguments(argc, argv, planOptions(isRoundTrip(argc, argv)),
                       "grid_path plan --map FILE --start X,Y --goal X,Y [options]", values))
     return kFound;
+  checkViaOptions(values);
   const PlannerOptions options = plannerOptionsFrom(values);
   warnAboutUnusedOptions(options);
 
@@ -216,18 +259,20 @@ int runPlan(int argc, char** argv) {
   const auto map = std::make_shared<const OccupancyGrid>(
       readAnyMapFile(values["map"].as<std::string>(), reading));
 
-  const PoseRequest request = requestFrom(values, map->geometry());
+  const ViaRequest request = requestFrom(values, map->geometry());
   PathPlanner planner(options);
   planner.setMap(map);
   const double preparation_ms = preparationMs(planner);
-  Plan report = planner.plan(request);
+  ViaPlan answer = planThrough(planner, request);
+  Plan& report = answer.plan;
   if (report.status == Status::FOUND && !report.optimal)
     warnIfNotOptimal(options, *planner.fullResolutionCosts(StopToken()));
   writeFiles(values, *map, options.costmap.thresholds, report);
   Measures measures = {clearanceOf(report.path, *map, options.costmap.thresholds),
-                       turningOf(report.path), std::nullopt};
+                       turningOf(report.path), std::nullopt, std::nullopt};
+  if (!request.via.empty()) measures.via = jsonOf(answer);
   if (values.count("explain") != 0 && report.status != Status::FOUND)
-    measures.explanation = explain(planner, request, report);
+    measures.explanation = explain(planner, answer.last_leg, report);
   print(report, measures, options.planner, preparation_ms, values.count("json") != 0);
   return exitCodeOf(report.status);
 }

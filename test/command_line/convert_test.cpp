@@ -3,7 +3,9 @@
 #include <exception>
 
 #include "command_line/commands.h"
+#include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/ros/bag.h"
+#include "run_command.h"
 #include "support/ascii_map.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
@@ -114,6 +116,71 @@ TEST_F(Convert, BadInputIsNamedAndNothingIsWritten) {
   EXPECT_TRUE(contains(errorWith({"--output", path("in.map/out.yaml")}), "Not a directory"));
   EXPECT_TRUE(contains(convert({"--map", path("none"), "--output", out}), "No such file"));
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"in.map"}));
+}
+
+class Waypoints : public testing::Test {
+ protected:
+  Outcome waypoints(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "waypoints");
+    return runCommand(runWaypoints, arguments);
+  }
+
+  const test::TemporaryFolder folder_;
+  const std::string csv_ = folder_.write("a.csv", "1,2\n3,4,5\n");
+};
+
+TEST_F(Waypoints, GoFromFormatToFormat) {
+  const std::string csv = folder_.write("a.csv", "x,y,z,yaw\n1,2,3,0.5\n4,5,6,1.5\n");
+  const std::string datum = "53.5,8.1,0.3,3";
+  std::string from = csv;
+  for (const char* to : {"b.geojson", "c.yaml", "d.csv"}) {
+    const Outcome outcome =
+        waypoints({"--input", from, "--output", folder_.path(to), "--datum", datum});
+    ASSERT_EQ(outcome.code, 0) << to << ": " << outcome.error;
+    from = folder_.path(to);
+  }
+  ASSERT_EQ(waypoints({"--input", from, "--to", "uuv", "--output", folder_.path("e.yaml")}).code,
+            0);
+  const Outcome last = waypoints(
+      {"--input", folder_.path("e.yaml"), "--output", folder_.path("f.yaml"), "--frame", "map"});
+  ASSERT_EQ(last.code, 0) << last.error;
+  EXPECT_EQ(last.printed, "2 waypoints, uuv to planner\n");
+  const path::Path path = path::readWaypointFile(folder_.path("f.yaml")).path;
+  ASSERT_EQ(path.poses.size(), 2u);
+  EXPECT_EQ(path.frame_id, "map");
+  EXPECT_LT((path.poses[1].position - Eigen::Vector3d(4, 5, 6)).norm(), 1e-5);
+  EXPECT_NEAR(path.poses[1].yaw, 1.5, 1e-6);
+}
+
+TEST_F(Waypoints, ARoundTripIsRepeatedWithoutAStopAtItsStart) {
+  const std::string round = folder_.write("r.csv", "0,0\n5,0\n5,5\n0,0\n");
+  const std::string line = folder_.write("l.csv", "0,0\n5,0\n");
+  EXPECT_EQ(waypoints({"--input", round, "--output", folder_.path("s.csv"), "--laps", "3"}).printed,
+            "10 waypoints, csv to csv\n");
+  EXPECT_EQ(waypoints({"--input", line, "--output", folder_.path("m.csv"), "--laps", "3"}).printed,
+            "6 waypoints, csv to csv\n");
+  for (const char* laps : {"0", "-1", "1.5", "1000000"})
+    EXPECT_TRUE(contains(
+        waypoints({"--input", line, "--output", folder_.path("n.csv"), "--laps", laps}).error,
+        "--laps"));
+}
+
+TEST_F(Waypoints, RefusalsSayWhatIsWrong) {
+  const std::string good = folder_.write("b.csv", "1,2\n");
+  const auto error = [&](const std::vector<std::string>& arguments) {
+    const Outcome outcome = waypoints(arguments);
+    EXPECT_EQ(outcome.code, kBadInput);
+    return outcome.error;
+  };
+  EXPECT_TRUE(contains(error({"--input", csv_, "--output", folder_.path("c.yaml")}), "a.csv:2: "));
+  EXPECT_TRUE(contains(error({"--input", good, "--output", folder_.path("c.geojson")}), "datum"));
+  EXPECT_TRUE(contains(error({"--input", good, "--output", folder_.path("c.doc")}), "must end in"));
+  EXPECT_TRUE(
+      contains(error({"--input", good, "--output", folder_.path("c.json"), "--datum", "100,0"}),
+               "latitude"));
+  EXPECT_TRUE(contains(
+      error({"--input", good, "--output", folder_.path("c.yaml"), "--from", "kml"}), "--from"));
+  EXPECT_EQ(folder_.endings(), (std::vector<std::string>{".csv", ".csv"})) << "nothing is written";
 }
 
 }  // namespace

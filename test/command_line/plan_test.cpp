@@ -54,6 +54,39 @@ TEST_F(Plan, NoPathIsExitCodeOneAndHasItsReason) {
   EXPECT_TRUE(object["cost"].is_null());
 }
 
+TEST_F(Plan, PassesViaPointsInTheBestOrder) {
+  const std::vector<std::string> trip = {"--cells", "--start", "0,0",   "--closed", "--via",
+                                         "3,2",     "3,0",     "--via", "0,2",      "--json"};
+  const auto given = nlohmann::json::parse(plan(trip).printed);
+  EXPECT_EQ(given["via_order"], (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(given["via_order_exact"], false);
+  std::vector<std::string> ordered = trip;
+  ordered.insert(ordered.end(), {"--order", "best"});
+  const Outcome outcome = plan(ordered);
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  const auto best = nlohmann::json::parse(outcome.printed);
+  EXPECT_EQ(best["via_order_exact"], true);
+  EXPECT_EQ(best["cost"], 10.0);
+  EXPECT_GT(given["cost"], 10.0);
+}
+
+TEST_F(Plan, ViaPointsAreRefusedWithAReason) {
+  const auto errorWith = [&](const std::vector<std::string>& arguments) {
+    return plan(arguments).error;
+  };
+  EXPECT_TRUE(contains(errorWith({"--start", "0,0", "--goal", "1,1", "--via", "1"}),
+                       "--via needs 2 to 3 numbers"));
+  EXPECT_TRUE(contains(errorWith({"--start", "0,0", "--goal", "1,1", "--via", "1,1", "--closed"}),
+                       "contradict"));
+  EXPECT_TRUE(contains(errorWith({"--start", "0,0", "--closed"}), "--closed needs --via"));
+  EXPECT_TRUE(contains(
+      errorWith({"--start", "0,0", "--goal", "1,1", "--via", "1,1", "--order", "x"}), "--order"));
+  const Outcome blocked =
+      plan({"--cells", "--start", "0,0", "--goal", "3,0", "--via", "3,2", "1,1"});
+  EXPECT_EQ(blocked.code, 1);
+  EXPECT_TRUE(contains(blocked.printed, "GOAL_OCCUPIED: to via-point 2: ")) << blocked.printed;
+}
+
 TEST_F(Plan, SaysWhyThereIsNoPathWhereAsked) {
   const std::string map = folder_.write("door.map",
                                         "type octile\nheight 7\nwidth 9\nmap\n"

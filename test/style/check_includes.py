@@ -47,10 +47,12 @@ LENT = {
     "panel/planner_colours.h": {"ros_rviz"},
     "panel/route_points.h": {"ros_rviz"},
     "panel/shown_text.h": {"ros_rviz"},
+    "path/waypoint_formats/waypoint_formats.h": {"command_line"},
     "path/pose_spacing.h": {"planning", "ros_adapters", "ros_planning"},
     "planning/cost_planner.h": {"ros_adapters"},
     "planning/cost_planner_options.h": {"ros_adapters"},
     "planning/map_store.h": {"ros_planning"},
+    "planning/via/via_plan.h": {"command_line", "ros_planning"},
     "planners/any_angle/theta_star.h": {"study"},  # the base of its published Theta*
     "planners/astar/bucket_search.h": {"planning"},
     "planners/rectangles/rectangle_route.h": {"command_line"},

@@ -142,6 +142,9 @@ CONTEXT = {
         extern Eigen::Vector3d start, position; extern Eigen::Isometry3d map_from_optical; extern int entered;""",
     "block_bound.h": "extern const CostGrid& map; extern Cell goal, cell;",
     "planning/explanation.h": "void log(const std::string&); extern PathPlanner planner; extern PoseRequest request;",
+    "via_plan.h": "extern PathPlanner planner; extern path::Pose start, goal;",
+    "visiting_order.h": "constexpr std::size_t via_points = 5; extern std::size_t from, to; double costBetween(std::size_t, std::size_t);",
+    "waypoint_formats.h": "extern Datum datum;",
     "map_store.h": """#include "grid_path_planner/planning/path_planner.h"
         extern PlannerOptions options; extern std::shared_ptr<const OccupancyGrid> map, next;
         extern std::vector<CellRect> changed;""",

@@ -175,7 +175,8 @@ void PathPlannerNode::planForGoal(const StopSource& stop) {
   const PlanningServer::Settings settings = server_->settings();
   server_->checkClock();
   PlanningLane& lane = server_->vehicleLane();
-  const Plan plan = lane.plan(goal->request, server_->recordingOptions(settings.options), stop);
+  const Plan plan =
+      lane.plan(goal->request, server_->recordingOptions(settings.options), stop).plan;
   const PlanStatistics statistics = lane.statistics(plan, goal->request, settings.options);
   if (stop.cancelled() || keepsOldPath(*goal, plan, settings, stop)) return;
   const bool as_before = goal->answered && !plan.found() && plan.status == goal->status;

@@ -26,6 +26,7 @@ using base::Status;
 using path::Path;
 using planning::failedPlan;
 using planning::Plan;
+using planning::ViaPlan;
 
 PlanAction::PlanAction(const ros::NodeHandle& nh, PlanningServer& server)
     : server_(server),
@@ -50,11 +51,14 @@ void PlanAction::answer(const PlanPathGoal& goal) {
   PlanningRequest request;
   if (!goal.start.header.frame_id.empty()) request.start = goal.start;
   request.goal = goal.goal;
+  request.via_points = goal.via_points;
+  request.order = goal.order;
+  request.closed = goal.closed;
   request.planner = goal.planner;
   if (goal.tolerance_m != 0.0) request.tolerance = goal.tolerance_m;
   const auto ticket = server_.ask(request, PlanningServer::Publish::YES);
   if (answeredUncancelled(*ticket)) {
-    finish(ticket->plan(), ticket->poses(), ticket->statistics());
+    finish(ticket->plan(), ticket->poses(), ticket->statistics(), ticket->via());
     return;
   }
   Plan cancelled = failedPlan(Status::CANCELLED, "planning was cancelled");
@@ -63,7 +67,7 @@ void PlanAction::answer(const PlanPathGoal& goal) {
   const PlanningRequest asked = printable(request);
   statistics.goal = asked.goal;
   statistics.planner = asked.planner;
-  finish(cancelled, cancelled.path, statistics);
+  finish(cancelled, cancelled.path, statistics, {});
 }
 
 // Gives feedback ten times a second until the answer is there or the goal is cancelled.
@@ -84,7 +88,8 @@ bool PlanAction::answeredUncancelled(PlanTicket& ticket) {
   return true;
 }
 
-void PlanAction::finish(const Plan& plan, const Path& poses, const PlanStatistics& statistics) {
+void PlanAction::finish(const Plan& plan, const Path& poses, const PlanStatistics& statistics,
+                        const ViaPlan& via) {
   PlanPathResult result;
   const ros::Time now = ros::Time::now();
   result.status = std::string(toString(plan.status));
@@ -92,6 +97,9 @@ void PlanAction::finish(const Plan& plan, const Path& poses, const PlanStatistic
   result.path = pathToMessage(poses, now);
   result.statistics = statistics;
   result.statistics.header.stamp = now;
+  result.order.assign(via.order.begin(), via.order.end());
+  result.order_exact = via.order_exact;
+  result.unreachable.assign(via.unreachable.begin(), via.unreachable.end());
   if (plan.found())
     action_.setSucceeded(result, result.message);
   else if (plan.status == Status::CANCELLED)

@@ -31,8 +31,8 @@ class PlanAction {
   void execute(const PlanPathGoalConstPtr& goal);
   void answer(const PlanPathGoal& goal);
   bool answeredUncancelled(PlanTicket& ticket);
-  void finish(const planning::Plan& plan, const path::Path& poses,
-              const PlanStatistics& statistics);
+  void finish(const planning::Plan& plan, const path::Path& poses, const PlanStatistics& statistics,
+              const planning::ViaPlan& via);
 
   PlanningServer& server_;
   actionlib::SimpleActionServer<PlanPathAction> action_;

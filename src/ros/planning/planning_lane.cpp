@@ -16,6 +16,7 @@
 
 namespace grid_path_planner::nodes {
 
+using base::choiceFromName;
 using base::currentErrorText;
 using base::InputError;
 using base::Status;
@@ -32,11 +33,15 @@ using planners::memoryLimitOf;
 using planning::explainFailure;
 using planning::Explanation;
 using planning::failedPlan;
+using planning::kMostVia;
 using planning::MapStore;
 using planning::PathPlanner;
 using planning::Plan;
 using planning::PlannerOptions;
-using planning::PoseRequest;
+using planning::planThrough;
+using planning::ViaOrder;
+using planning::ViaPlan;
+using planning::ViaRequest;
 
 namespace {
 
@@ -48,6 +53,12 @@ Pose named(const char* which, const std::function<Pose()>& pose) {
   } catch (const InputError& error) {
     throw InputError(std::string("the ") + which + ": " + error.what());
   }
+}
+
+geometry_msgs::Quaternion levelOrientation() {
+  geometry_msgs::Quaternion orientation;
+  orientation.w = 1.0;
+  return orientation;
 }
 
 // Of the vehicle's pose, in seconds.
@@ -103,18 +114,24 @@ void PlanningLane::finishLater(const PathPlannerNodeOptions& options) {
       kFinishingSlot);
 }
 
-Plan PlanningLane::plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                        const StopSource& stop, const PhaseListener& on_phase,
-                        std::uint64_t at_least) {
-  Plan plan = tryToPlan(request, options, stop, on_phase, at_least);
+ViaPlan PlanningLane::plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
+                           const StopSource& stop, const PhaseListener& on_phase,
+                           std::uint64_t at_least) {
+  ViaPlan answer = tryToPlan(request, options, stop, on_phase, at_least);
+  Plan& plan = answer.plan;
   plan.path.frame_id = plan.waypoints.frame_id = frame(options);
   if (!plan.found()) plan.path.poses.clear();
-  return plan;
+  return answer;
 }
 
-Plan PlanningLane::tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                             const StopSource& stop, const PhaseListener& on_phase,
-                             std::uint64_t at_least) {
+ViaPlan PlanningLane::tryToPlan(const PlanningRequest& request,
+                                const PathPlannerNodeOptions& options, const StopSource& stop,
+                                const PhaseListener& on_phase, std::uint64_t at_least) {
+  const auto failed = [](Status status, const std::string& message) {
+    ViaPlan answer;
+    answer.plan = failedPlan(status, message);
+    return answer;
+  };
   try {
     checkText(request);
     waitForClock(stop.token());
@@ -122,25 +139,25 @@ Plan PlanningLane::tryToPlan(const PlanningRequest& request, const PathPlannerNo
     takeMap(at_least);
     setOptions(optionsFor(request, options));
     if (!planner_->hasMap())
-      return failedPlan(Status::NO_MAP, "no map has come on " + maps_.topic() + " yet");
-    PoseRequest poses = posesOf(request, options, stop.token());
+      return failed(Status::NO_MAP, "no map has come on " + maps_.topic() + " yet");
+    ViaRequest poses = posesOf(request, options, stop.token());
     poses.record_expanded = options.record_search;
     if (on_phase) on_phase("searching");
-    Plan plan = planner_->plan(poses, stop);
+    ViaPlan answer = planThrough(*planner_, poses, stop);
     bytes_ = planner_->bytesOfSearches();
-    return plan;
+    return answer;
   } catch (const InputError& error) {
-    return failedPlan(Status::INVALID_REQUEST, error.what());
+    return failed(Status::INVALID_REQUEST, error.what());
   } catch (const TransformError& error) {
-    return failedPlan(Status::TRANSFORM_ERROR, error.what());
+    return failed(Status::TRANSFORM_ERROR, error.what());
   } catch (const Stopped& stopped) {
-    return failedPlan(stopped.status(), stopped.status() == Status::TIMEOUT
-                                            ? "planning reached its time limit"
-                                            : "planning was cancelled");
+    return failed(stopped.status(), stopped.status() == Status::TIMEOUT
+                                        ? "planning reached its time limit"
+                                        : "planning was cancelled");
   } catch (...) {
     const std::string error = currentErrorText();
     beginAnew();
-    return failedPlan(Status::INVALID_REQUEST, "the request was given up: " + error);
+    return failed(Status::INVALID_REQUEST, "the request was given up: " + error);
   }
 }
 
@@ -148,11 +165,12 @@ Explanation PlanningLane::explain(const PlanningRequest& request, Status status,
                                   const PathPlannerNodeOptions& options, const StopSource& stop,
                                   std::chrono::duration<double> limit) {
   if (status != Status::UNREACHABLE && status != Status::GOAL_OCCUPIED) return {};
+  if (!request.via_points.empty()) return {};
   try {
     takeMap();
     setOptions(optionsFor(request, options));
-    const PoseRequest poses = posesOf(request, options, stop.token());
-    return explainFailure(*planner_, poses, status, stop.token(limit));
+    const ViaRequest poses = posesOf(request, options, stop.token());
+    return explainFailure(*planner_, {poses.start, poses.goal, false}, status, stop.token(limit));
   } catch (const InputError&) {
   } catch (const TransformError&) {
   } catch (const Stopped&) {
@@ -162,21 +180,34 @@ Explanation PlanningLane::explain(const PlanningRequest& request, Status status,
   return {};
 }
 
-PoseRequest PlanningLane::posesOf(const PlanningRequest& request,
-                                  const PathPlannerNodeOptions& options,
-                                  const StopToken& stop) const {
+ViaRequest PlanningLane::posesOf(const PlanningRequest& request,
+                                 const PathPlannerNodeOptions& options,
+                                 const StopToken& stop) const {
   const std::string map_frame = frame(options);
-  PoseRequest poses;
-  poses.goal = named("goal", [&] {
-    return transforms_.poseIn(map_frame, request.goal, options.tf_timeout, stop);
-  });
+  const auto inMap = [&](const geometry_msgs::PoseStamped& pose) {
+    return transforms_.poseIn(map_frame, pose, options.tf_timeout, stop);
+  };
+  ViaRequest poses;
+  if (!request.order.empty()) poses.order = choiceFromName<ViaOrder>("order", request.order);
+  if (!request.closed) poses.goal = named("goal", [&] { return inMap(request.goal); });
   poses.start = named("start", [&] {
-    if (request.start)
-      return transforms_.poseIn(map_frame, *request.start, options.tf_timeout, stop);
+    if (request.start) return inMap(*request.start);
     return transforms_.poseOf(options.base_frame, map_frame, options.tf_timeout, stop,
                               oldestStart(options));
   });
-  if (options.goal_z_from == GoalZ::VEHICLE) poses.goal.position.z() = poses.start.position.z();
+  if (request.closed) poses.goal = poses.start;
+  if (request.via_points.size() > kMostVia)
+    throw InputError("there are " + std::to_string(request.via_points.size()) +
+                     " via-points, and at most " + std::to_string(kMostVia) + " can be visited");
+  for (geometry_msgs::PoseStamped via : request.via_points) {
+    via.pose.orientation = levelOrientation();
+    const std::string name = "via-point " + std::to_string(poses.via.size() + 1);
+    poses.via.push_back(named(name.c_str(), [&] { return inMap(via); }).position);
+  }
+  if (options.goal_z_from == GoalZ::VEHICLE) {
+    poses.goal.position.z() = poses.start.position.z();
+    for (Eigen::Vector3d& via : poses.via) via.z() = poses.start.position.z();
+  }
   return poses;
 }
 

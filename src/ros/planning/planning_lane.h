@@ -24,6 +24,7 @@
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/planning/path_planner.h"
 #include "planning/explanation.h"
+#include "planning/via/via_plan.h"
 #include "ros/common/frame_transforms.h"
 #include "ros/common/map_receiver.h"
 #include "ros/planning/planning_request.h"
@@ -54,11 +55,11 @@ class PlanningLane {
   void finishLater(const PathPlannerNodeOptions& options);
 
   // `at_least`: as PathPlanner::takeMap() has it.
-  planning::Plan plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                      const base::StopSource& stop, const PhaseListener& on_phase = {},
-                      std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
+  planning::ViaPlan plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
+                         const base::StopSource& stop, const PhaseListener& on_phase = {},
+                         std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
   // Why a request was answered with `status`, as far as there is more to say within `limit`; nothing
-  // where it cannot be said.
+  // where it cannot be said, and of via-points.
   planning::Explanation explain(const PlanningRequest& request, base::Status status,
                                 const PathPlannerNodeOptions& options, const base::StopSource& stop,
                                 std::chrono::duration<double> limit);
@@ -87,12 +88,12 @@ class PlanningLane {
  private:
   static constexpr std::size_t kMostFinished = std::size_t{1} << 22;
 
-  planning::Plan tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
-                           const base::StopSource& stop, const PhaseListener& on_phase,
-                           std::uint64_t at_least);
-  planning::PoseRequest posesOf(const PlanningRequest& request,
-                                const PathPlannerNodeOptions& options,
-                                const base::StopToken& stop) const;
+  planning::ViaPlan tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
+                              const base::StopSource& stop, const PhaseListener& on_phase,
+                              std::uint64_t at_least);
+  planning::ViaRequest posesOf(const PlanningRequest& request,
+                               const PathPlannerNodeOptions& options,
+                               const base::StopToken& stop) const;
   void beginAnew();
   // Of the options, and the memory that the other lane leaves.
   void setOptions(const planning::PlannerOptions& options);

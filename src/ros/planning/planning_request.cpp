@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/network_text.h"
@@ -11,6 +12,7 @@ namespace grid_path_planner::nodes {
 
 using base::choiceFromName;
 using base::choiceName;
+using base::InputError;
 using planners::Heuristic;
 using planners::plannerNames;
 using planners::traitsOf;
@@ -19,8 +21,12 @@ using planning::PlannerOptions;
 void checkText(const PlanningRequest& request) {
   checkNetworkText("the planner", request.planner);
   checkNetworkText("the heuristic", request.heuristic);
+  checkNetworkText("the order", request.order);
   if (request.start) frameName(request.start->header.frame_id);
-  frameName(request.goal.header.frame_id);
+  for (const geometry_msgs::PoseStamped& via : request.via_points) frameName(via.header.frame_id);
+  if (!request.closed) return void(frameName(request.goal.header.frame_id));
+  if (request.goal != geometry_msgs::PoseStamped())
+    throw InputError("a closed trip ends at its start: its goal must be left empty");
 }
 
 PlanningRequest printable(PlanningRequest request) {

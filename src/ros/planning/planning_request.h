@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ros/planning/path_planner_options.h"
 
@@ -13,6 +14,9 @@ namespace grid_path_planner::nodes {
 struct PlanningRequest {
   std::optional<geometry_msgs::PoseStamped> start;  // none: the vehicle's pose from tf
   geometry_msgs::PoseStamped goal;
+  std::vector<geometry_msgs::PoseStamped> via_points;
+  std::string order;                // "given", "best"; empty: given
+  bool closed = false;              // the goal is the start
   std::string planner;              // empty: the node's
   std::string heuristic;            // empty: the node's
   std::optional<double> tolerance;  // m; none: the node's

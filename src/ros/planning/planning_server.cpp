@@ -103,8 +103,9 @@ void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, 
   PathPlannerNodeOptions options = recordingOptions(settings().options);
   if (publish == Publish::NO) options.record_search = false;
   checkClock();
-  Plan plan = question_lane_.plan(
+  ticket.via_ = question_lane_.plan(
       request, options, stop, [&](const char* phase) { ticket.phase_ = phase; }, ticket.map_);
+  Plan plan = std::move(ticket.via_.plan);
   if (publish == Publish::YES || explain == Explain::YES) {
     ticket.explanation_ = question_lane_.explain(
         request, plan.status, options, stop, explain == Explain::YES ? kExplains : kExplainsAtOnce);

@@ -42,6 +42,8 @@ class PlanTicket {
   // Precondition of these: the wait is over. The path's frame is that of the map; the statistics
   // have no stamp. CANCELLED where the server ended before.
   const planning::Plan& plan() const { return plan_; }
+  // What is told of its via-points; its `plan` is above.
+  const planning::ViaPlan& via() const { return via_; }
   // Its path, with poses as pose_spacing asks for them.
   const path::Path& poses() const { return poses_; }
   const PlanStatistics& statistics() const { return statistics_; }
@@ -54,6 +56,7 @@ class PlanTicket {
   friend class PlanningServer;
   std::atomic<const char*> phase_{"waiting"};
   planning::Plan plan_ = planning::failedPlan(base::Status::CANCELLED, "planning was cancelled");
+  planning::ViaPlan via_;
   path::Path poses_;
   PlanStatistics statistics_ = statisticsMessage(plan_);
   std::uint64_t map_ = 0;  // the revision of the newest when it was handed in

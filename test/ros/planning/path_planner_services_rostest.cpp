@@ -222,6 +222,53 @@ TEST_F(ActionTest, SucceedsWithThePath) {
   EXPECT_TRUE(endsAt(result->path.poses.back(), 5.5, 2.5));
 }
 
+TEST_F(ActionTest, PassesViaPointsInTheBestOrderAndComesBack) {
+  startPlanner();
+  publishMap(kRoom);
+  connect();
+  PlanPathGoal trip = goal(poseAt(0.5, 0.5), geometry_msgs::PoseStamped());
+  trip.via_points = {poseAt(5.5, 2.5), poseAt(0.5, 2.5), poseAt(5.5, 0.5)};
+  trip.via_points[0].pose.orientation.w = 0.0;  // which is not asked for
+  trip.order = "best";
+  trip.closed = true;
+  client_.sendGoal(trip);
+  ASSERT_TRUE(ended());
+  const auto result = client_.getResult();
+  ASSERT_EQ(result->status, "FOUND") << result->message;
+  EXPECT_TRUE(result->order_exact);
+  ASSERT_EQ(result->order.size(), 3u);
+  EXPECT_EQ(result->order[1], 0u) << "the far corner is in the middle";
+  EXPECT_TRUE(endsAt(result->path.poses.back(), 0.5, 0.5));
+}
+
+TEST_F(ActionTest, NamesTheViaPointsThatAreOccupied) {
+  startPlanner();
+  publishMap(kRoom);
+  connect();
+  PlanPathGoal trip = goal(poseAt(0.5, 0.5), poseAt(5.5, 2.5));
+  trip.via_points = {poseAt(5.5, 0.5), poseAt(2.5, 1.5)};
+  for (const char* order : {"", "best"}) {
+    trip.order = order;
+    client_.sendGoal(trip);
+    ASSERT_TRUE(ended());
+    EXPECT_EQ(client_.getResult()->status, "GOAL_OCCUPIED");
+    EXPECT_EQ(client_.getResult()->unreachable, std::vector<std::uint32_t>{1});
+    EXPECT_NE(client_.getResult()->message.find("via-point 2"), std::string::npos);
+    expectStampedAndEmpty(client_.getResult()->path);
+  }
+  for (const char* order : {"fastest", "\x1b[2J"}) {
+    trip.order = order;
+    client_.sendGoal(trip);
+    ASSERT_TRUE(ended());
+    EXPECT_EQ(client_.getResult()->status, "INVALID_REQUEST");
+  }
+  trip.order = "";
+  trip.closed = true;
+  client_.sendGoal(trip);
+  ASSERT_TRUE(ended());
+  EXPECT_NE(client_.getResult()->message.find("must be left empty"), std::string::npos);
+}
+
 TEST_F(ActionTest, AbortsWithTheStatusAndAnEmptyStampedPath) {
   startPlanner();
   publishMap(kRoom);
