@@ -73,7 +73,8 @@ TEST(ImageCameraOptions, AllHoldToTheLaws) {
 
 TEST(ImageCamera, ASurfaceHasItsColour) {
   EXPECT_TRUE(isNear(Image(colouredWallAt(2.0), withoutWater()).at(0, 0), {204.0f, 102.0f, 51.0f}));
-  EXPECT_TRUE(isNear(Image(World({}), withoutWater()).at(0, 0), Array3f::Zero())) << "nothing is black";
+  EXPECT_TRUE(isNear(Image(World({}), withoutWater()).at(0, 0), Array3f::Zero()))
+      << "nothing is black";
 }
 
 // E^0 at no distance, the water's own colour at infinity, and the published mixture between.
