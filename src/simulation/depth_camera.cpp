@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/camera/pinhole.h"
 #include "simulation/range_noise.h"
 #include "simulation/ray_scene.h"
 
@@ -11,30 +12,12 @@ namespace {
 
 constexpr std::size_t kPacket = RayScene::kPacket;
 
-CameraIntrinsics intrinsicsOf(const DepthCameraOptions& options) {
-  const double focal = 0.5 * options.width / std::tan(0.5 * options.horizontal_fov);
-  return {focal, focal, 0.5 * (options.width - 1), 0.5 * (options.height - 1)};
-}
-
-std::vector<Eigen::Vector3f> raysOf(const DepthCameraOptions& options) {
-  const CameraIntrinsics pinhole = intrinsicsOf(options);
-  std::vector<Eigen::Vector3f> rays;
-  rays.reserve(static_cast<std::size_t>(options.width) * options.height);
-  for (int row = 0; row < options.height; ++row)
-    for (int column = 0; column < options.width; ++column)
-      rays.push_back(
-          Eigen::Vector3d((column - pinhole.cx) / pinhole.fx, (row - pinhole.cy) / pinhole.fy, 1.0)
-              .normalized()
-              .cast<float>());
-  return rays;
-}
-
 }  // namespace
 
 DepthCamera::DepthCamera(const World& world, const DepthCameraOptions& options)
     : options_(options) {
   checkDepthCameraOptions(options);
-  rays_ = raysOf(options);
+  rays_ = raysOf(intrinsics(), options.width, options.height);
   scene_ = std::make_unique<const RayScene>(world.visible());
 }
 
@@ -43,21 +26,16 @@ DepthCamera::DepthCamera(DepthCamera&&) noexcept = default;
 DepthCamera& DepthCamera::operator=(DepthCamera&&) noexcept = default;
 
 CameraIntrinsics DepthCamera::intrinsics() const {
-  return intrinsicsOf(options_);
+  return intrinsicsOf(options_.width, options_.height, options_.horizontal_fov);
 }
 
 Eigen::Isometry3d DepthCamera::baseFromOptical() const {
-  Eigen::Matrix3d ahead_is_z;   // columns: the optical axes in the frame that looks along x
-  ahead_is_z << 0.0, 0.0, 1.0,  //
-      -1.0, 0.0, 0.0,           //
-      0.0, -1.0, 0.0;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translate(Eigen::Vector3d(options_.x, options_.y, options_.z));
   pose.rotate(Eigen::AngleAxisd(options_.yaw, Eigen::Vector3d::UnitZ()));
   pose.rotate(Eigen::AngleAxisd(options_.pitch, Eigen::Vector3d::UnitY()));
   pose.rotate(Eigen::AngleAxisd(options_.roll, Eigen::Vector3d::UnitX()));
-  pose.rotate(ahead_is_z);
-  return pose;
+  return pose * opticalFrame();
 }
 
 void DepthCamera::render(const Eigen::Isometry3d& map_from_optical, std::uint64_t frame,

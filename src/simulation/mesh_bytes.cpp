@@ -32,6 +32,7 @@ void putMeshes(std::string& bytes, const std::vector<TriangleMesh>& meshes) {
                  mesh.vertices.size() * sizeof(Vertex));
     bytes.append(reinterpret_cast<const char*>(mesh.triangles.data()),
                  mesh.triangles.size() * sizeof(Triangle));
+    bytes.append(reinterpret_cast<const char*>(mesh.colour.data()), sizeof(Vertex));
   }
 }
 
@@ -63,6 +64,7 @@ class MeshReader {
     const char* corners = take(triangles, sizeof(Triangle));
     mesh.triangles.resize(triangles);
     if (triangles > 0) std::memcpy(mesh.triangles.data(), corners, triangles * sizeof(Triangle));
+    std::memcpy(mesh.colour.data(), take(1, sizeof(Vertex)), sizeof(Vertex));
     return mesh;
   }
   std::uint64_t number() {

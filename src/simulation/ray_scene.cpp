@@ -54,6 +54,30 @@ struct RayScene::Embree {
     throwOnError(device.get());
   }
 
+  RTCRayHit8 cast(const Eigen::Vector3f& origin, const Eigen::Matrix3f& turn,
+                  const Eigen::Vector3f* rays, std::size_t count, float farthest) const {
+    RTCRayHit8 packet = {};
+    alignas(32) int valid[kPacket] = {};
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3f direction = turn * rays[i];
+      valid[i] = -1;
+      packet.ray.org_x[i] = origin.x();
+      packet.ray.org_y[i] = origin.y();
+      packet.ray.org_z[i] = origin.z();
+      packet.ray.dir_x[i] = direction.x();
+      packet.ray.dir_y[i] = direction.y();
+      packet.ray.dir_z[i] = direction.z();
+      packet.ray.tfar[i] = farthest;
+      packet.ray.mask[i] = ~0u;
+      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect8(valid, scene.get(), &context, &packet);
+    return packet;
+  }
+
   Device device;
   SceneHandle scene;
 };
@@ -66,29 +90,24 @@ RayScene::~RayScene() = default;
 void RayScene::ranges(const Eigen::Vector3f& origin, const Eigen::Matrix3f& turn,
                       const Eigen::Vector3f* rays, std::size_t count, float farthest,
                       float* out) const {
-  RTCRayHit8 packet = {};
-  alignas(32) int valid[kPacket] = {};
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3f direction = turn * rays[i];
-    valid[i] = -1;
-    packet.ray.org_x[i] = origin.x();
-    packet.ray.org_y[i] = origin.y();
-    packet.ray.org_z[i] = origin.z();
-    packet.ray.dir_x[i] = direction.x();
-    packet.ray.dir_y[i] = direction.y();
-    packet.ray.dir_z[i] = direction.z();
-    packet.ray.tfar[i] = farthest;
-    packet.ray.mask[i] = ~0u;
-    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-  }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect8(valid, embree_->scene.get(), &context, &packet);
+  const RTCRayHit8 packet = embree_->cast(origin, turn, rays, count, farthest);
   for (std::size_t i = 0; i < count; ++i)
     out[i] = packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
                  ? std::numeric_limits<float>::infinity()
                  : packet.ray.tfar[i];
+}
+
+void RayScene::hits(const Eigen::Vector3f& origin, const Eigen::Matrix3f& turn,
+                    const Eigen::Vector3f* rays, std::size_t count, float farthest,
+                    RayHit* out) const {
+  static_assert(kNothing == RTC_INVALID_GEOMETRY_ID);
+  const RTCRayHit8 packet = embree_->cast(origin, turn, rays, count, farthest);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3f normal(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
+    const bool met = packet.hit.geomID[i] != kNothing;
+    out[i] = {met ? packet.ray.tfar[i] : std::numeric_limits<float>::infinity(),
+              packet.hit.geomID[i], met ? normal.normalized() : normal};
+  }
 }
 
 }  // namespace grid_path_planner::simulation

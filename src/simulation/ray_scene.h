@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -16,8 +17,16 @@
 
 namespace grid_path_planner::simulation {
 
+// What a ray meets first.
+struct RayHit {
+  float range;             // m; infinite where it meets nothing
+  std::uint32_t surface;   // the number of the mesh, or kNothing
+  Eigen::Vector3f normal;  // of length 1, on either side of the surface
+};
+
 class RayScene {
  public:
+  static constexpr std::uint32_t kNothing = ~0u;
   static constexpr std::size_t kPacket = 8;  // rays that are cast together
 
   // Some 0.1 s for 100,000 triangles. Throws std::runtime_error where Embree fails, as without
@@ -29,6 +38,10 @@ class RayScene {
   // where a ray meets nothing within `farthest`.
   void ranges(const Eigen::Vector3f& origin, const Eigen::Matrix3f& turn,
               const Eigen::Vector3f* rays, std::size_t count, float farthest, float* out) const;
+
+  // The same with what they meet.
+  void hits(const Eigen::Vector3f& origin, const Eigen::Matrix3f& turn, const Eigen::Vector3f* rays,
+            std::size_t count, float farthest, RayHit* out) const;
 
  private:
   struct Embree;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -92,6 +93,17 @@ class WorldReader {
     const std::string kind = kindOf(geometry);
     if (kind == "empty") return;
     meshes.push_back(meshOf(name, kind, *geometry).moved(poseOf(shape, parent, name)));
+    if constexpr (std::is_same_v<Shape, sdf::Visual>) paint(shape, meshes.back());
+  }
+
+  // With the <diffuse> of the visual's <material>, if it has one that is a colour.
+  static void paint(const sdf::Visual& visual, TriangleMesh& mesh) {
+    const sdf::Material* material = visual.Material();
+    if (material == nullptr || !material->Element() || !material->Element()->HasElement("diffuse"))
+      return;
+    const ignition::math::Color& diffuse = material->Diffuse();
+    const Eigen::Vector3f colour(diffuse.R(), diffuse.G(), diffuse.B());
+    if (colour.allFinite()) mesh.colour = colour.cwiseMax(0.0f).cwiseMin(1.0f);
   }
 
   // The name of the element inside <geometry>; libsdformat's own list of kinds depends on its age.

@@ -2,7 +2,7 @@
 //
 //   const TriangleMesh post = cylinderMesh("post", 0.1, 2.0).moved(pose);
 //
-// Guaranteed: every triangle's corners are in range; moving keeps names and triangles. Curved
+// Guaranteed: every triangle's corners are in range; moving keeps names, triangles and colours. Curved
 // shapes are inscribed polyhedra whose facets stay within 2 mm of the shape up to a radius of 4 m,
 // within 1/2000 of the radius beyond. Not guaranteed: closed surfaces or an order of corners;
 // a surface has no inside.
@@ -21,6 +21,7 @@ struct TriangleMesh {
   std::string name;
   std::vector<Eigen::Vector3f> vertices;                // m
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices of vertices
+  Eigen::Vector3f colour = {0.7f, 0.7f, 0.7f};          // diffuse red, green, blue, 0 to 1
 
   // The mesh transformed by `pose`.
   TriangleMesh moved(const Eigen::Isometry3d& pose) const;

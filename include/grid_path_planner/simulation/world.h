@@ -57,8 +57,8 @@ class World {
 // models, nested and included ones too, with their links, collisions and visuals: <box>, <cylinder>, <sphere>, <plane> (as large as its <size>) and
 // <mesh> (whatever Assimp reads, with <scale>). A link's collisions are what can be touched, its
 // visuals what is seen; where it has only one kind, that is both. A mesh is called
-// model::link::collision, as in Gazebo. Everything stands still, <static> or not. Lights, sensors,
-// joints, plugins, materials and physics are passed over.
+// model::link::collision, as in Gazebo. Everything stands still, <static> or not. Of a visual's material the
+// <diffuse> colour is read; lights, sensors, joints, plugins and physics are passed over.
 //
 // Meshes and included models are found by file:// or plain names relative to the file that names
 // them, and by model:// next to the world file and in the folders of GAZEBO_MODEL_PATH and

@@ -1,0 +1,116 @@
+// The markers of worlds/panel_site.sdf as the simulated camera sees them: world, camera, layout and detection
+// are four hands, and this is where they must agree.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "grid_path_planner/simulation/world.h"
+#include "simulation/camera/image_camera.h"
+#include "vision/marker_pose.h"
+#include "vision/panel_views.h"
+
+namespace grid_path_planner::vision {
+namespace {
+
+using Eigen::Isometry3d, Eigen::Vector3d, Eigen::Vector2d;
+using simulation::ImageCamera, simulation::ImageCameraOptions;
+
+const simulation::World& site() {
+  static const simulation::World world = simulation::readWorld("worlds/panel_site.sdf");
+  return world;
+}
+
+Isometry3d mapFromPanel() {
+  Isometry3d pose(Eigen::Translation3d(4.05, -0.55, 2.9));
+  return pose.rotate(Eigen::AngleAxisd(0.42, Vector3d::UnitZ()));
+}
+
+ImageCameraOptions clear() {
+  ImageCameraOptions o;
+  o.attenuation_red = o.attenuation_green = o.attenuation_blue = 0.0;
+  o.noise = o.surface_noise = 0.0;
+  return o;
+}
+
+CameraCalibration calibrationOf(const ImageCamera& camera) {
+  const simulation::CameraIntrinsics k = camera.intrinsics();
+  return {camera.options().width, camera.options().height, k.fx, k.fy, k.cx, k.cy, {}};
+}
+
+// What the camera sees from a pose in the panel's frame, in grey.
+std::vector<std::uint8_t> greyFrom(const ImageCamera& camera, const Isometry3d& panel_from_camera) {
+  std::vector<std::uint8_t> rgb, grey;
+  camera.render(mapFromPanel() * panel_from_camera, 1, rgb);
+  for (std::size_t i = 0; i < rgb.size(); i += 3)
+    grey.push_back(static_cast<std::uint8_t>((rgb[i] + 2 * rgb[i + 1] + rgb[i + 2] + 2) / 4));
+  return grey;
+}
+
+GreyImage imageOf(const std::vector<std::uint8_t>& grey) {
+  return {grey.data(), 640, 480, 640};
+}
+
+const std::vector<Isometry3d>& views() {
+  static const std::vector<Isometry3d> poses = {
+      lookingAt({0.0, -2.0, 0.0}, {0.0, 0.0, 0.0}), lookingAt({0.9, -2.2, 0.3}, {0.2, 0.0, 0.1}),
+      lookingAt({-1.2, -2.4, -0.2}, {-0.3, 0.0, 0.0}, 0.1),
+      lookingAt({0.1, -1.5, 0.2}, {0.1, 0.0, 0.1}, -0.05),
+      lookingAt({0.2, 2.6, 0.2}, {0.0, 0.0, 0.0})};
+  return poses;
+}
+
+// The half-pixel trap: corners that are all off by the same are a camera that is off.
+TEST(RenderedMarkers, CornersAreWhereTheGeometryHasThem) {
+  const ImageCamera camera(site(), clear());
+  const CameraCalibration calibration = calibrationOf(camera);
+  const MarkerLayout layout = shippedLayout();
+  Vector2d sum = Vector2d::Zero();
+  double largest = 0.0, corners = 0.0;
+  for (const Isometry3d& pose : views()) {
+    const auto grey = greyFrom(camera, pose);
+    const auto markers = detectMarkers(imageOf(grey), {});
+    EXPECT_GE(markers.size(), 3u);
+    for (const DetectedMarker& marker : markers)
+      for (int i = 0; i < 4; ++i) {
+        const Vector2d off = marker.corners[i] -
+                             calibration.projected(pose.inverse() * layout.cornersOf(marker.id)[i]);
+        sum += off;
+        largest = std::max(largest, off.cwiseAbs().maxCoeff());
+        corners += 1.0;
+        EXPECT_LT(off.cwiseAbs().maxCoeff(), 0.1) << "marker " << marker.id << " corner " << i;
+      }
+  }
+  std::cout << corners << " corners, largest error " << largest << " px, mean " << sum.x() / corners
+            << " " << sum.y() / corners << " px\n";
+  EXPECT_LT((sum / corners).cwiseAbs().maxCoeff(), 0.02);
+}
+
+TEST(RenderedMarkers, TurbidWaterAndNoiseLeaveThePoseWithinItsCovariance) {
+  const ImageCamera camera(site(), ImageCameraOptions());
+  const MarkerLayout layout = shippedLayout();
+  for (const Isometry3d& pose : views()) {
+    const auto grey = greyFrom(camera, pose);
+    const MarkerFix fix = markerFix(imageOf(grey), layout, calibrationOf(camera), {});
+    ASSERT_TRUE(fix.pose) << fix.reason;
+    const Vector6 error = differenceOf(fix.pose->panel_from_camera, pose);
+    std::cout << fix.views.size() << " markers: " << error.head<3>().norm() << " m, "
+              << error.tail<3>().norm() * 180.0 / M_PI << " deg\n";
+    EXPECT_LT(error.dot(fix.pose->covariance.ldlt().solve(error)), kPoseGate);
+    EXPECT_LT(error.head<3>().norm(), 0.03);
+    EXPECT_LT(error.tail<3>().norm() * 180.0 / M_PI, 0.6);
+  }
+}
+
+TEST(RenderedMarkers, TheBackAndTheFrontAreToldApart) {
+  const ImageCamera camera(site(), clear());
+  for (const auto& [side, first] : {std::pair(-2.8, 0), std::pair(2.8, 8)}) {
+    const auto grey = greyFrom(camera, lookingAt({0.1, side, 0.1}, {0.0, 0.0, 0.0}));
+    const auto markers = detectMarkers(imageOf(grey), {});
+    EXPECT_GE(markers.size(), 4u);
+    for (const DetectedMarker& marker : markers) EXPECT_EQ(marker.id >= 8, first == 8) << marker.id;
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner::vision
