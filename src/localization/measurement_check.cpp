@@ -14,10 +14,11 @@ namespace {
 using base::decimalText;
 using base::InputError;
 
-constexpr double kFarthest = 1e6;       // m
-constexpr double kFastest = 100.0;      // m/s
-constexpr double kFastestTurn = 100.0;  // rad/s
-constexpr double kStrongest = 1000.0;   // m/s^2
+constexpr double kFarthest = 1e6;            // m
+constexpr double kFastest = 100.0;           // m/s
+constexpr double kFastestTurn = 100.0;       // rad/s
+constexpr double kStrongest = 1000.0;        // m/s^2
+constexpr double kFarthestMounted = 1000.0;  // m
 constexpr double kLeastVariance = 1e-12, kLargestVariance = 1e12;
 
 void checkVector(const char* what, const Eigen::Vector3d& vector, double limit) {
@@ -31,6 +32,10 @@ void checkAttitude(const Eigen::Quaterniond& attitude) {
   const double norm = attitude.norm();
   if (!(std::abs(norm - 1.0) <= 0.01))
     throw InputError("the length of the orientation must be 1, got " + decimalText(norm));
+}
+
+void checkPlace(const Eigen::Vector3d& in_body) {
+  checkVector("the sensor's place on the vehicle (m)", in_body, kFarthestMounted);
 }
 
 void checkVariance(double variance) {
@@ -52,15 +57,18 @@ void checkData(const ImuMeasurement& imu) {
 void checkData(const DvlVelocity& dvl) {
   checkVector("the velocity (m/s)", dvl.velocity, kFastest);
   checkCovariance(dvl.covariance);
+  checkMounting(dvl.sensor);
 }
 
 void checkData(const CommandedVelocity& command) {
   checkVector("the velocity (m/s)", command.velocity, kFastest);
+  checkMounting(command.base);
 }
 
 void checkData(const DepthFix& depth) {
   checkVector("z (m)", {0.0, 0.0, depth.z}, kFarthest);
   checkVariance(depth.variance);
+  checkPlace(depth.sensor);
 }
 
 void checkData(const HeadingFix& heading) {
@@ -71,15 +79,22 @@ void checkData(const HeadingFix& heading) {
 void checkData(const PositionFix& fix) {
   checkVector("the position (m)", fix.position, kFarthest);
   checkCovariance(fix.covariance);
+  checkPlace(fix.sensor);
 }
 
 void checkData(const PoseFix& fix) {
   checkVector("the position (m)", fix.position, kFarthest);
   checkAttitude(fix.attitude);
   checkCovariance(fix.covariance);
+  checkMounting(fix.mounting);
 }
 
 }  // namespace
+
+void checkMounting(const Mounting& in_body) {
+  checkPlace(in_body.position);
+  checkAttitude(in_body.rotation);
+}
 
 void checkCovariance(const Eigen::MatrixXd& covariance) {
   for (Eigen::Index i = 0; i < covariance.rows(); ++i) checkVariance(covariance(i, i));

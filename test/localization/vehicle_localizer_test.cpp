@@ -198,6 +198,10 @@ const BadInput kBadInputs[] = {
      Source::DVL, "positive definite"},
     {"Quaternion", [](Measurement& m) { poseOf(m).attitude.coeffs() *= 2.0; }, Source::MARKER,
      "length of the orientation"},
+    {"SensorFarAway", [](Measurement& m) { dvlOf(m).sensor.position.x() = 1e200; }, Source::DVL,
+     "place on the vehicle"},
+    {"PoseOfSomethingFarAway", [](Measurement& m) { poseOf(m).mounting.position.y() = kNan; },
+     Source::MARKER, "place on the vehicle"},
     {"Twice", [](Measurement& m) { m.stamp -= 1; }, Source::DVL, "same stamp"},
     {"TooOld", [](Measurement& m) { m.stamp = stampAt(1.0) + 1; }, Source::DVL, "history"}};
 

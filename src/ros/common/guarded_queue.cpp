@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <utility>
 
@@ -46,7 +47,38 @@ class Work : public ros::CallbackInterface {
 }  // namespace
 
 void GuardedQueue::addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) {
-  queue_.addCallback(boost::make_shared<GuardedCallback>(callback), owner);
+  const auto guarded = boost::make_shared<GuardedCallback>(callback);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (holds_) {
+      held_.emplace_back(guarded, owner);
+      return;
+    }
+  }
+  queue_.addCallback(guarded, owner);
+}
+
+// The queue behind waits for a callback that runs, which may add another: not under the lock.
+void GuardedQueue::removeByID(std::uint64_t owner) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    held_.erase(std::remove_if(held_.begin(), held_.end(),
+                               [&](const auto& held) { return held.second == owner; }),
+                held_.end());
+  }
+  queue_.removeByID(owner);
+}
+
+void GuardedQueue::hold() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  holds_ = true;
+}
+
+void GuardedQueue::release() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  holds_ = false;
+  for (const auto& [callback, owner] : held_) queue_.addCallback(callback, owner);
+  held_.clear();
 }
 
 void tellGivenUp(const std::string& what, const std::string& error) {

@@ -5,15 +5,19 @@
 //
 // Guaranteed: an exception ends its callback, never the thread that serves the queue; the log says
 // which, at most once a second. roscpp by itself lets it end the process, a nodelet manager with all
-// that it holds. The queue behind it does the work and outlives this; callbacks that wait in it may
-// outlive this too.
+// that it holds. Between hold() and release() nothing is called: a node's constructor is not met by its
+// own callbacks in another thread. The queue behind it does the work and outlives this; callbacks that
+// wait in it may outlive this too. Thread-safe.
 #pragma once
 
 #include <ros/callback_queue_interface.h>
 
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace grid_path_planner::nodes {
 
@@ -22,10 +26,17 @@ class GuardedQueue : public ros::CallbackQueueInterface {
   explicit GuardedQueue(ros::CallbackQueueInterface& queue) : queue_(queue) {}
 
   void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner = 0) override;
-  void removeByID(std::uint64_t owner) override { queue_.removeByID(owner); }
+  void removeByID(std::uint64_t owner) override;
+
+  void hold();
+  // What came since hold() is called, in its order.
+  void release();
 
  private:
   ros::CallbackQueueInterface& queue_;
+  std::mutex mutex_;
+  bool holds_ = false;
+  std::vector<std::pair<ros::CallbackInterfacePtr, std::uint64_t>> held_;  // with their owners
 };
 
 // Into the log, at most once a second: an exception ended `what`, and nothing else.

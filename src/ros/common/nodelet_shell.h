@@ -4,7 +4,8 @@
 // PLUGINLIB_EXPORT_CLASS.
 //
 // `Node` is constructed from a node handle and a private one, whose callbacks may throw
-// (guarded_queue.h).
+// (guarded_queue.h). As in a process of its own, none is called before the constructor has returned:
+// the manager would call them in another thread.
 #pragma once
 
 #include <nodelet/nodelet.h>
@@ -27,7 +28,9 @@ class NodeletShell : public nodelet::Nodelet {
     queue_ = std::make_unique<GuardedQueue>(*nh_.getCallbackQueue());
     nh_.setCallbackQueue(queue_.get());
     private_nh_.setCallbackQueue(queue_.get());
+    queue_->hold();
     node_ = std::make_unique<Node>(nh_, private_nh_);
+    queue_->release();
     registered_ = MasterWatch::shared();
   }
 

@@ -5,6 +5,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "localization/measurement_check.h"
 #include "ros/common/network_text.h"
 
 namespace grid_path_planner::nodes {
@@ -90,7 +91,9 @@ Mounting SensorMessages::mountingOf(const std::string& frame) const {
   if (body_frame_.empty()) throw InputError("no IMU has said where it is yet");
   if (frame == body_frame_) return {};
   const geometry_msgs::Transform in_body = transforms_.transform(body_frame_, frame).transform;
-  return {vectorOf(in_body.translation), rotationOf(in_body.rotation)};
+  const Mounting mounting{vectorOf(in_body.translation), rotationOf(in_body.rotation)};
+  localization::checkMounting(mounting);
+  return mounting;
 }
 
 void SensorMessages::checkMapFrame(const std_msgs::Header& header) const {

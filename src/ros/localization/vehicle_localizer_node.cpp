@@ -263,7 +263,7 @@ void VehicleLocalizerNode::publish(const ros::Time& stamp) {
   if ((ros::SteadyTime::now() - heard_since_).toSec() < kListens) return;
   try {
     publisher_.publish(poses, messages_.base(), stamp, rivals_);
-  } catch (const TransformError& error) {
+  } catch (const std::runtime_error& error) {
     ROS_WARN_STREAM_THROTTLE(5.0, "No pose is published: " << error.what());
   }
 }

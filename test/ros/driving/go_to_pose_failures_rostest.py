@@ -11,6 +11,10 @@ from go_to_session import PACKAGE, GoToTest, pose, room
 
 
 class GoToPoseFailures(GoToTest):
+    def start_planner(self):
+        self.start("path_planner")
+        self.wait_for(lambda: self.serves("path_planner", "plan_path"))
+
     def test_a_door_that_closes_stops_it_and_one_that_opens_lets_it_go_on(self):
         self.drive_to(2, 1.5)
         self.send(pose(8, 1.5))
@@ -39,8 +43,7 @@ class GoToPoseFailures(GoToTest):
         self.send(pose(2, 1.5))
         text = self.ends("ABORTED")
         self.assertIn("plan_path", text)
-        self.start("path_planner")
-        self.wait_for(lambda: self.is_registered("path_planner"))
+        self.start_planner()
         self.drive_to(2, 1.5)
 
     def test_a_planner_that_dies_during_a_drive_is_not_missed(self):
@@ -49,7 +52,7 @@ class GoToPoseFailures(GoToTest):
         self.wait_for(self.moves)
         self.kill("path_planner")
         self.ends("SUCCEEDED")
-        self.start("path_planner")
+        self.start_planner()
 
     def test_started_again_it_stops_what_was_driven_for_it(self):
         self.drive_to(2, 1.5)

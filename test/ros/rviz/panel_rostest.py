@@ -54,6 +54,11 @@ class Heard:
         rospy.Subscriber(topic, kind, self.all.append)
 
 
+def program(name):
+    """Of the build that is tested: rosrun asks which, where there is one with a sanitizer too."""
+    return os.path.join(os.environ["CMAKE_PREFIX_PATH"].split(":")[0], "lib", PACKAGE, name)
+
+
 class PanelTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -66,7 +71,7 @@ class PanelTest(unittest.TestCase):
         cls.screen = Screen(1440, 960)
         cls.addClassCleanup(cls.end)
         cls.start_planner()
-        cls.rviz = subprocess.Popen(["rosrun", PACKAGE, "rviz_on_map", "--wait", "20"], env=cls.screen.environment)
+        cls.rviz = subprocess.Popen([program("rviz_on_map"), "--wait", "20"], env=cls.screen.environment)
         cls.processes.append(cls.rviz)
         cls.view = wait_for(cls.find_view, "the view")
 
@@ -82,8 +87,7 @@ class PanelTest(unittest.TestCase):
 
     @classmethod
     def start_planner(cls):
-        program = os.path.join(os.environ["CMAKE_PREFIX_PATH"].split(":")[0], "lib", PACKAGE, "path_planner")
-        cls.planner = subprocess.Popen([program, "__name:=path_planner"])
+        cls.planner = subprocess.Popen([program("path_planner"), "__name:=path_planner"])
         cls.processes.append(cls.planner)
 
     @classmethod
