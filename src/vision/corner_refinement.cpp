@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace grid_path_planner::vision {
@@ -20,6 +21,9 @@ constexpr double kFirst =
 constexpr double kLeastContrast = 5.0;  // of 255
 constexpr double kFarthestMove = 3.0;   // pixels, of a corner by the refinement
 constexpr int kRounds = 4;
+constexpr int kTrims = 5;
+constexpr double kNear = 0.1;         // pixels from a line: never too far
+constexpr double kFarFromMost = 4.0;  // times the median distance: too far
 
 struct Line {
   Vector2d point;
@@ -70,12 +74,40 @@ Line lineThrough(const std::vector<Vector2d>& points) {
   return {mean, {std::cos(angle), std::sin(angle)}};
 }
 
-// The side from `a` to `b`, whose outside is to the left of it in an image.
-std::optional<Line> sideBetween(const GreyImage& image, const Vector2d& a, const Vector2d& b) {
+double distance(const Vector2d& point, const Line& line) {
+  const Vector2d d = point - line.point;
+  return std::abs(d.x() * line.direction.y() - d.y() * line.direction.x());
+}
+
+// Without the points that lie farther from it than most: where something hides a part of the side.
+std::optional<Line> lineThroughMost(std::vector<Vector2d> points, std::size_t fewest) {
+  for (int round = 0; round < kTrims && points.size() >= fewest; ++round) {
+    const Line line = lineThrough(points);
+    std::vector<double> distances;
+    for (const Vector2d& point : points) distances.push_back(distance(point, line));
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    const double limit = std::max(kNear, kFarFromMost * *middle);
+    const auto last = std::remove_if(points.begin(), points.end(), [&](const Vector2d& point) {
+      return distance(point, line) > limit;
+    });
+    if (last == points.end()) return line;
+    points.erase(last, points.end());
+  }
+  if (points.size() < fewest) return std::nullopt;
+  return lineThrough(points);
+}
+
+// The side from corner i to the next one, whose outside is to the left of it in an image.
+std::optional<Line> sideOf(const GreyImage& image, const PixelCorners& corners, int i) {
+  const Vector2d &a = corners[i], &b = corners[(i + 1) % 4];
   const double length = (b - a).norm();
   if (!(length > kCellsAcross)) return std::nullopt;
   const Vector2d along = (b - a) / length, outwards(along.y(), -along.x());
-  const double reach = std::clamp(length / kCellsAcross - kBlur, kShortestReach, kLongestReach);
+  // Seen from aside, cells are narrower across the side than along it.
+  const double depth = std::min(std::abs(outwards.dot(corners[(i + 3) % 4] - a)),
+                                std::abs(outwards.dot(corners[(i + 2) % 4] - b)));
+  const double reach = std::clamp(depth / kCellsAcross - kBlur, kShortestReach, kLongestReach);
   const int profiles = std::max(8, static_cast<int>(length));
   std::vector<Vector2d> points;
   for (int i = 0; i < profiles; ++i) {
@@ -84,8 +116,7 @@ std::optional<Line> sideBetween(const GreyImage& image, const Vector2d& a, const
     if (const auto edge = edgeAlong(image, centre, outwards, reach))
       points.push_back(centre + *edge * outwards);
   }
-  if (2 * static_cast<int>(points.size()) < profiles) return std::nullopt;
-  return lineThrough(points);
+  return lineThroughMost(std::move(points), static_cast<std::size_t>(profiles / 2));
 }
 
 std::optional<Vector2d> intersection(const Line& a, const Line& b) {
@@ -99,7 +130,7 @@ std::optional<Vector2d> intersection(const Line& a, const Line& b) {
 
 std::optional<PixelCorners> onceRefined(const GreyImage& image, const PixelCorners& corners) {
   std::array<std::optional<Line>, 4> sides;
-  for (int i = 0; i < 4; ++i) sides[i] = sideBetween(image, corners[i], corners[(i + 1) % 4]);
+  for (int i = 0; i < 4; ++i) sides[i] = sideOf(image, corners, i);
   PixelCorners result;
   for (int i = 0; i < 4; ++i) {
     const auto &before = sides[(i + 3) % 4], &after = sides[i];
@@ -112,13 +143,13 @@ std::optional<PixelCorners> onceRefined(const GreyImage& image, const PixelCorne
 
 }  // namespace
 
-PixelCorners refinedCorners(const GreyImage& image, const PixelCorners& corners) {
+std::optional<PixelCorners> refinedCorners(const GreyImage& image, const PixelCorners& corners) {
   PixelCorners result = corners;
   for (int round = 0; round < kRounds; ++round) {
     const auto next = onceRefined(image, result);
-    if (!next) return corners;
+    if (!next) return std::nullopt;
     for (int i = 0; i < 4; ++i)
-      if ((corners[i] - (*next)[i]).norm() > kFarthestMove) return corners;
+      if ((corners[i] - (*next)[i]).norm() > kFarthestMove) return std::nullopt;
     result = *next;
   }
   return result;

@@ -51,7 +51,8 @@ std::vector<DetectedMarker> detectMarkers(const GreyImage& image,
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (times[ids[i]] > 1) continue;
     const DetectedMarker marker = markerOf(ids[i], quads[i]);
-    markers.push_back({marker.id, refinedCorners(image, marker.corners)});
+    if (const auto corners = refinedCorners(image, marker.corners))
+      markers.push_back({marker.id, *corners});
   }
   std::sort(markers.begin(), markers.end(),
             [](const DetectedMarker& a, const DetectedMarker& b) { return a.id < b.id; });

@@ -70,7 +70,7 @@ TEST(RenderedMarkers, CornersAreWhereTheGeometryHasThem) {
   for (const Isometry3d& pose : views()) {
     const auto grey = greyFrom(camera, pose);
     const auto markers = detectMarkers(imageOf(grey), {});
-    EXPECT_GE(markers.size(), 3u);
+    EXPECT_GE(markers.size(), 2u);  // from 1.5 m away two are wholly in the image
     for (const DetectedMarker& marker : markers)
       for (int i = 0; i < 4; ++i) {
         const Vector2d off = marker.corners[i] -
