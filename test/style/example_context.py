@@ -95,6 +95,12 @@ CONTEXT = {
         extern avoidance::PilotOptions options; extern PilotInput input; extern base::OutputFile file;""",
     "map_planner.h": """#include "grid_path_planner/avoidance/pilot.h"
         extern avoidance::Frame frame; extern avoidance::PilotOptions options; extern avoidance::Pilot pilot;""",
+    "image_camera.h": """extern const World world; extern ImageCameraOptions options; extern Eigen::Isometry3d map_from_base;
+        extern std::uint64_t frame_number; extern int row, column;""",
+    "camera_calibration.h": "extern CameraCalibration calibration; extern Eigen::Vector2d corner;",
+    "marker_pose.h": """extern GreyImage image; extern CameraCalibration calibration; extern MarkerPoseOptions options;
+        extern std::optional<PoseEstimate> prediction; void tell(const std::string&);""",
+    "pose_refinement.h": "extern MarkerViews views; extern CameraCalibration calibration; extern Eigen::Isometry3d start;",
     "localization/so3.h": "extern Eigen::Quaterniond attitude; extern Eigen::Vector3d rotation_vector;",
     "localization/state.h": "extern Estimate estimate; extern ErrorVector error; extern State truth;",
     "imu_propagation.h": """extern Estimate estimate; extern Eigen::Vector3d rate, acceleration; extern double seconds;

@@ -4,7 +4,6 @@
 #include <ros/this_node.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/incoming/claimed_lengths.h"
@@ -19,22 +18,11 @@ constexpr std::size_t kRemembered = 500;
 }  // namespace
 
 TransformRivals::TransformRivals(ros::NodeHandle nh, const std::vector<std::string>& children)
-    : nh_(std::move(nh)),
-      children_(children),
-      subscriber_(listen("/tf")),
-      static_subscriber_(listen("/tf_static")) {}
-
-ros::Subscriber TransformRivals::listen(const char* topic) {
+    : children_(children) {
   using Event = ros::MessageEvent<const tf2_msgs::TFMessage>;
-  return subscribeChecked<tf2_msgs::TFMessage, const Event&>(
-      nh_, topic, 200,
+  subscriber_ = subscribeChecked<tf2_msgs::TFMessage, const Event&>(
+      nh, "/tf", 200,
       [this](const Event& event) { hear(*event.getConstMessage(), event.getPublisherName()); });
-}
-
-// Those who publish static transforms send them again to whoever subscribes.
-void TransformRivals::reset() {
-  rival_.clear();
-  static_subscriber_ = listen("/tf_static");
 }
 
 void TransformRivals::sent(const ros::Time& stamp) {

@@ -5,8 +5,7 @@
 //   if (!rivals.rival().empty()) beSilent(rivals.rival());
 //
 // tf has one parent for each frame: two that publish it make the vehicle jump to and fro. A node of the
-// same process, which has our name, is known by stamps that are not ours. A static transform is a rival
-// too, whoever sent it: ours are none.
+// same process, which has our name, is known by stamps that are not ours.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -27,19 +26,16 @@ class TransformRivals {
   void sent(const ros::Time& stamp);
   // A sentence that names the first that was heard since reset(); empty: none.
   const std::string& rival() const { return rival_; }
-  // A static one is heard again, as long as its publisher lives.
-  void reset();
+  void reset() { rival_.clear(); }
 
  private:
-  ros::Subscriber listen(const char* topic);
   void hear(const tf2_msgs::TFMessage& message, const std::string& node);
   bool isOurs(const ros::Time& stamp, const std::string& node) const;
 
-  ros::NodeHandle nh_;
   std::vector<std::string> children_;
   std::deque<ros::Time> sent_;  // the newest last
   std::string rival_;
-  ros::Subscriber subscriber_, static_subscriber_;
+  ros::Subscriber subscriber_;
 };
 
 }  // namespace grid_path_planner::nodes
