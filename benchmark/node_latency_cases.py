@@ -48,8 +48,8 @@ def a_cell_of_the_path(node, generator, low=0.3, high=0.7):
     """A free cell that the path crosses, far from its ends."""
     for _ in range(100):
         at = int(node.path.count * generator.uniform(low, high))
-        cell = node.world.cell(*node.path[at])
-        if node.world.at(*cell) == maps.FREE:
+        cell = node.world.cell_entered(*node.path[at])
+        if cell and node.world.at(*cell) == maps.FREE:
             return cell
     raise Missed("the path has no free cell between %.1f and %.1f of it" % (low, high))
 

@@ -31,6 +31,11 @@ class Map:
     def cell(self, x, y):
         return int((x - self.origin[0]) / RESOLUTION), int((y - self.origin[1]) / RESOLUTION)
 
+    def cell_entered(self, x, y):
+        """The cell that a path enters there; None near its border, since a path may touch the corner of a blocked cell."""
+        along, up = (x - self.origin[0]) / RESOLUTION, (y - self.origin[1]) / RESOLUTION
+        return (int(along), int(up)) if max(abs(along % 1.0 - 0.5), abs(up % 1.0 - 0.5)) < 0.3 else None
+
     def grown(self, by):
         """With so many free columns and rows more before the first."""
         side = self.width + by

@@ -174,7 +174,7 @@ class Node:
         on_time(ended - begin)
 
     def cells_of(self, path):
-        return {self.world.cell(*path[i]) for i in range(path.count)}
+        return {self.world.cell_entered(*path[i]) for i in range(path.count)}
 
     def path_around(self, cells, change):
         """Calls change(), which blocks these cells and returns when it began. How long until a path avoids them."""

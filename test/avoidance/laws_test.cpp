@@ -56,7 +56,7 @@ double speedOf(const base::BodyVelocity& v) {
 
 TEST(Laws, EverySpeedCanBeBrakedOnTheOpenPath) {
   for (const Case& one : kCases)
-    for (int seed = 1; seed <= 2; ++seed) {
+    for (int seed = 1; seed <= 4; ++seed) {
       FlightSetup setup = groveSetup(seed, one.search, one.memory);
       const PilotOptions& o = setup.options;
       setup.each = [o](const PilotInput&, const PilotAnswer& answer, const auto&, const Pilot&) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/conversions.h"
@@ -64,7 +65,8 @@ class LongWait {
 
 }  // namespace
 
-FrameTransforms::FrameTransforms(const ros::NodeHandle& nh) : receiver_(nh, buffer_) {}
+FrameTransforms::FrameTransforms(const ros::NodeHandle& nh, TransformReceiver::Hearer hearer)
+    : receiver_(nh, buffer_, std::move(hearer)) {}
 
 Pose FrameTransforms::poseIn(const std::string& frame, const geometry_msgs::PoseStamped& pose,
                              double limit, const StopToken& stop) const {

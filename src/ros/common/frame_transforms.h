@@ -34,7 +34,9 @@ class TransformError : public std::runtime_error {
 
 class FrameTransforms {
  public:
-  explicit FrameTransforms(const ros::NodeHandle& nh);
+  // `hearer`: see TransformReceiver. Whoever wants to hear tf does so by this, not by a second
+  // subscription.
+  explicit FrameTransforms(const ros::NodeHandle& nh, TransformReceiver::Hearer hearer = {});
 
   // `pose` in `frame`, at the pose's stamp (0: the latest). Throws InputError for a pose without a
   // frame and for what poseFromMessage refuses, TransformError, Stopped. `limit` in seconds.

@@ -24,8 +24,8 @@ double mostAhead() {
 
 }  // namespace
 
-TransformReceiver::TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer)
-    : buffer_(buffer) {
+TransformReceiver::TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer, Hearer hearer)
+    : buffer_(buffer), hearer_(std::move(hearer)) {
   nh.setCallbackQueue(&guarded_);
   const auto subscribe = [&](const char* topic, bool is_static) {
     return subscribeChecked<tf2_msgs::TFMessage, const Event&>(
@@ -46,6 +46,7 @@ TransformReceiver::~TransformReceiver() {
 
 void TransformReceiver::receive(const tf2_msgs::TFMessage& message, const std::string& node,
                                 bool is_static) {
+  if (hearer_) hearer_(message, node, is_static);
   const ros::Time now = ros::Time::now();
   if (now < std::exchange(latest_, now)) buffer_.clear();
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {

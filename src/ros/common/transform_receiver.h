@@ -18,6 +18,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/buffer.h>
 
+#include <functional>
 #include <string>
 
 #include "ros/common/guarded_queue.h"
@@ -31,13 +32,18 @@ std::string insertTransform(tf2::BufferCore& buffer, geometry_msgs::TransformSta
 
 class TransformReceiver {
  public:
-  TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer);
+  // Told each message before it is put into the buffer, in the receiver's thread.
+  using Hearer =
+      std::function<void(const tf2_msgs::TFMessage&, const std::string& node, bool is_static)>;
+
+  TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer, Hearer hearer = {});
   ~TransformReceiver();
 
  private:
   void receive(const tf2_msgs::TFMessage& message, const std::string& node, bool is_static);
 
   tf2_ros::Buffer& buffer_;
+  const Hearer hearer_;
   ros::Time latest_;
   ros::CallbackQueue queue_;
   GuardedQueue guarded_{queue_};

@@ -1,18 +1,20 @@
 // Whether another node publishes a transform that this node is to publish.
 //
-//   TransformRivals rivals(nh, {"odom", "base_link"});
-//   rivals.sent(stamp);                                   // of each transform of our own
+//   TransformRivals rivals({"odom", "base_link"});
+//   rivals.hear(message, node, is_static);                // all that comes on tf
+//   rivals.sent(stamp);                                   // before each transform of our own
 //   if (!rivals.rival().empty()) beSilent(rivals.rival());
 //
 // tf has one parent for each frame: two that publish it make the vehicle jump to and fro. A node of the
-// same process, which has our name, is known by stamps that are not ours.
+// same process, which has our name, is known by stamps that are not ours. A static transform is a rival
+// whoever sent it, and stays one: tf keeps it when its publisher is gone. Thread-safe.
 #pragma once
 
-#include <ros/node_handle.h>
-#include <ros/subscriber.h>
+#include <ros/time.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <deque>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -21,21 +23,22 @@ namespace grid_path_planner::nodes {
 class TransformRivals {
  public:
   // `children`: the frames whose transform to their parent is ours.
-  TransformRivals(ros::NodeHandle nh, const std::vector<std::string>& children);
+  explicit TransformRivals(std::vector<std::string> children);
 
+  // `node`: who published the message.
+  void hear(const tf2_msgs::TFMessage& message, const std::string& node, bool is_static);
   void sent(const ros::Time& stamp);
-  // A sentence that names the first that was heard since reset(); empty: none.
-  const std::string& rival() const { return rival_; }
-  void reset() { rival_.clear(); }
+  // A sentence that names the first that was heard since reset(), or a static one; empty: none.
+  std::string rival() const;
+  void reset();
 
  private:
-  void hear(const tf2_msgs::TFMessage& message, const std::string& node);
   bool isOurs(const ros::Time& stamp, const std::string& node) const;
 
-  std::vector<std::string> children_;
+  const std::vector<std::string> children_;
+  mutable std::mutex mutex_;
   std::deque<ros::Time> sent_;  // the newest last
-  std::string rival_;
-  ros::Subscriber subscriber_;
+  std::string rival_, static_rival_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -77,10 +77,11 @@ std::optional<PublishedEstimate> published(const localization::VehicleLocalizer&
 VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
     : nh_(nh),
       options_(loadVehicleLocalizerOptions(private_nh)),
-      transforms_(nh),
+      rivals_(childrenOf(options_)),
+      transforms_(nh, [this](const tf2_msgs::TFMessage& message, const std::string& node,
+                             bool is_static) { rivals_.hear(message, node, is_static); }),
       localizer_(options_.localizer),
       messages_(transforms_, options_),
-      rivals_(nh, childrenOf(options_)),
       publisher_(nh_, options_),
       status_publisher_(nh_.advertise<std_msgs::String>("localization_status", 1, true)),
       heard_since_(ros::SteadyTime::now()),
@@ -270,24 +271,25 @@ void VehicleLocalizerNode::publish(const ros::Time& stamp) {
 
 // In the log when the status changes, or another node publishes what is ours.
 void VehicleLocalizerNode::announce(const LocalizationReport& report) {
-  const std::string told = nameOf(report.status) + rivals_.rival();
+  const std::string rival = rivals_.rival();
+  const std::string told = nameOf(report.status) + rival;
   if (told == std::exchange(told_, told)) return;
   std_msgs::String message;
   message.data = std::string(nameOf(report.status)) + ": " + report.sentence;
   status_publisher_.publish(message);
   ROS_INFO_STREAM(message.data);
-  if (!rivals_.rival().empty())
-    ROS_ERROR_STREAM("No transform is published until ~reset: " << rivals_.rival());
+  if (!rival.empty()) ROS_ERROR_STREAM("No transform is published: " << rival);
 }
 
 void VehicleLocalizerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const bool well = report_.status == LocalizationStatus::OK && rivals_.rival().empty();
-  const bool lost = report_.status == LocalizationStatus::LOST || !rivals_.rival().empty();
+  const std::string rival = rivals_.rival();
+  const bool well = report_.status == LocalizationStatus::OK && rival.empty();
+  const bool lost = report_.status == LocalizationStatus::LOST || !rival.empty();
   status.summary(well   ? DiagnosticStatus::OK
                  : lost ? DiagnosticStatus::ERROR
                         : DiagnosticStatus::WARN,
                  std::string(nameOf(report_.status)) + ": " + report_.sentence);
-  if (!rivals_.rival().empty()) status.mergeSummary(DiagnosticStatus::ERROR, rivals_.rival());
+  if (!rival.empty()) status.mergeSummary(DiagnosticStatus::ERROR, rival);
   status.add("deviation (m)", report_.deviation);
   status.add("deviation of the attitude (deg)", report_.angle_deviation);
 }

@@ -80,12 +80,12 @@ class VehicleLocalizerNode {
 
   ros::NodeHandle nh_;
   VehicleLocalizerOptions options_;
-  FrameTransforms transforms_;
+  TransformRivals rivals_;
+  FrameTransforms transforms_;  // tells the rivals
   ClockWatch clock_;
   localization::VehicleLocalizer localizer_;
   SensorMessages messages_;
   InputLog inputs_;
-  TransformRivals rivals_;
   PosePublisher publisher_;
   ros::Publisher status_publisher_;
   localization::LocalizationReport report_;

@@ -92,6 +92,21 @@ TEST(ClaimedLengths, OfEveryMessageThatNodesTakeAreTrueOrRefused) {
   expectTruthAndNoLies(nav_msgs::Odometry(), 2);  // with arrays of a fixed length
 }
 
+// Every second nodelet of a manager listens to /tf as the first does: an empty message from a stranger
+// was read from freed memory by the second. Here that memory would be an empty list of transforms.
+TEST(ClaimedLengths, OfABufferThatRoscppHasFreedNothingIsRead) {
+  using Helper = CheckedMessages<const tf2_msgs::TFMessage&>;
+  Helper helper([](const tf2_msgs::TFMessage&) {});
+  Bytes freed(64, 0);
+  ros::SubscriptionCallbackHelperDeserializeParams given;
+  given.buffer = freed.data();
+  given.length = 4;
+  given.connection_header = boost::make_shared<ros::M_string>();
+  EXPECT_TRUE(helper.deserialize(given));
+  given.length = static_cast<std::uint32_t>(0 - reinterpret_cast<std::uintptr_t>(freed.data()));
+  EXPECT_THROW(helper.deserialize(given), base::InputError);
+}
+
 SerializedArrival arrivalOf(std::size_t bytes, std::uint8_t mark) {
   return {Bytes(bytes, mark), nullptr, {}};
 }

@@ -71,6 +71,14 @@ void checkClaimedLengths(std::uint8_t* bytes, std::uint32_t count) {
   lengths.next(message);
 }
 
+// The subscriptions of a process to one topic share a message, and roscpp asks for it again after one
+// of no bytes was refused; it has freed the buffer by then, and the length has wrapped around from 0
+// minus the buffer's address (MessageDeserializer::deserialize). Nothing may be read.
+inline bool isFreed(const ros::SubscriptionCallbackHelperDeserializeParams& given) {
+  return given.buffer && given.length == static_cast<std::uint32_t>(
+                                             0 - reinterpret_cast<std::uintptr_t>(given.buffer));
+}
+
 // `Parameter` is that of the callback, as in ros::SubscriptionCallbackHelperT.
 template <class Parameter>
 class CheckedMessages : public ros::SubscriptionCallbackHelperT<Parameter> {
@@ -80,6 +88,7 @@ class CheckedMessages : public ros::SubscriptionCallbackHelperT<Parameter> {
 
   ros::VoidConstPtr deserialize(
       const ros::SubscriptionCallbackHelperDeserializeParams& given) override {
+    if (isFreed(given)) throw base::InputError("a message of no bytes, which was refused before");
     checkClaimedLengths<typename Base::NonConstType>(given.buffer, given.length);
     return Base::deserialize(given);
   }
