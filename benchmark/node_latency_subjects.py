@@ -252,6 +252,14 @@ class PathPlannerNodelet(PathPlanner):
                 "__name:=path_planner"]
 
 
+class PathPlannerAStar(PathPlanner):
+    """The same with the planner that prepares nothing."""
+    title = "path_planner, a_star"
+
+    def parameters(self):
+        return dict(super().parameters(), **{"/path_planner/planner": "a_star"})
+
+
 class MoveBase(Node):
     namespace, service_name = "/move_base", "/move_base/make_plan"
     update_frequency = 100.0
@@ -302,7 +310,7 @@ def move_bases_in_environment():
 
 
 def subjects_in_environment():
-    found = [PathPlanner] if executable("grid_path_planner", "path_planner") else []
+    found = [PathPlanner, PathPlannerAStar] if executable("grid_path_planner", "path_planner") else []
     if found and executable("nodelet", "nodelet"):
         found.append(PathPlannerNodelet)
     return found + move_bases_in_environment()

@@ -19,7 +19,7 @@ PLANNER_FLOORS = {
     "jump_point": {"core", "tables", "astar"},
     "replanning": {"core", "tables", "astar"},
     "rectangles": {"core"},
-    "any_angle": {"core", "rectangles", "tables"},
+    "any_angle": {"core", "rectangles", "tables", "astar"},
 }
 # Private headers that rooms above include too, though no other package should.
 LENT = {

@@ -53,8 +53,9 @@ GreyImage imageOf(const std::vector<std::uint8_t>& grey) {
 
 struct View {
   Isometry3d pose;
-  std::size_t visible;         // markers that are wholly in the image
-  std::size_t found_in_clear;  // of these; in one image without noise OpenCV's decoder passes over marker 1
+  std::size_t visible;  // markers that are wholly in the image
+  std::size_t
+      found_in_clear;  // of these; in one image without noise OpenCV's decoder passes over marker 1
 };
 
 const std::vector<View>& views() {

@@ -8,13 +8,14 @@
 // goes back into the open list. The turning points are the centres of cells, or of the part of a
 // cell that lies on the original map.
 //
-// Where weights differ, both are guided by the bound of the blocks (planners/tables/block_bound.h). It
-// holds for steps; a segment may be shorter than the steps between its ends, but not by more than
-// cos 22.5 degrees, and so many times the bound holds for it.
+// Where weights differ the straight distance to the goal says little, and Lazy Theta* searches the steps
+// backwards first (backward_guide.h). What remains by steps, times a little less than 1, is its estimate,
+// and less and less as long as the search stays short; the turning points are then moved to where the path costs less (turning_points.h).
 //
-// Guaranteed: every segment is legal, the cost is the sum of the segments' (costmap/line_of_sight.h).
-// Not guaranteed: that it is the least an any-angle path can cost, or even as low as that of a grid
-// path, though on maps of one weight it mostly lies within a few thousandths of the least.
+// Guaranteed: every segment is legal, the cost is the sum of the segments' (costmap/line_of_sight.h); where
+// weights differ Lazy Theta*'s is no more than that of a least-cost path of steps, smoothed.
+// Not guaranteed: that it is the least an any-angle path can cost; Theta*'s may be more than that of a grid
+// path, though on maps of one weight both mostly lie within a few thousandths of the least.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +25,10 @@
 #include "base/zeroed_array.h"
 #include "grid_path_planner/costmap/line_of_sight.h"
 #include "grid_path_planner/planners/planner.h"
+#include "planners/any_angle/backward_guide.h"
 #include "planners/core/binary_heap.h"
 #include "planners/core/stamped_array.h"
 #include "planners/core/steps.h"
-#include "planners/tables/block_bound.h"
 
 namespace grid_path_planner::planners {
 
@@ -47,7 +48,8 @@ class ThetaStar : public Planner {
   static constexpr std::uint16_t kClosed = 1;
   static constexpr std::uint16_t kUnchecked = 2;  // the line of sight to the parent is assumed
 
-  explicit ThetaStar(const char* name);
+  // `guided`: as Lazy Theta* is where weights differ.
+  ThetaStar(const char* name, bool guided);
 
   // Relaxes the neighbours of a cell whose line of sight to its parent was checked.
   virtual void expand(std::uint32_t from, base::Statistics& counts) = 0;
@@ -74,9 +76,9 @@ class ThetaStar : public Planner {
     return generated(index) && (nodes_[index].state & kClosed) != 0;
   }
 
-  // A lower bound of the cost of the straight segment between the centres of two cells.
+  // A lower bound of the cost of the straight segment between the waypoints of two cells.
   double costBound(grid::Cell from, grid::Cell to) const;
-  // A lower bound of the cost to the goal, of all paths at any angle.
+  // What remains to the goal: where it is guided an estimate, infinite off the guide; else a lower bound.
   double toGoal(grid::Cell cell) const;
   // The cost of that segment, none where it is not legal or costs more than `limit`.
   std::optional<double> segmentCost(grid::Cell from, grid::Cell to, double limit) const;
@@ -84,13 +86,12 @@ class ThetaStar : public Planner {
 
   // Whether the map has one weight, so that a segment's cost is its length.
   bool oneWeight() const { return bits_ != nullptr; }
+  bool guided() const { return may_be_guided_ && !oneWeight(); }
 
   // Sums of the same lengths in another order differ by less, relatively.
   static constexpr double kRounding = 1e-12;
 
  private:
-  static constexpr int kBlock = 8;
-
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
@@ -107,16 +108,23 @@ class ThetaStar : public Planner {
     }
   };
 
+  static std::size_t ownBytes(const grid::GridGeometry& geometry);  // without the guide's
+
   struct Arrival {
     double g;
     std::uint32_t parent;
   };
 
-  void startQuery(const SearchRequest& request, const base::StopToken& stop);
+  void followMap(const base::StopToken& stop);
+  void startQuery(const SearchRequest& request);
+  base::Status searchForward(const SearchRequest& request, SearchResult& result,
+                             const base::StopToken& stop);
   Arrival bestStep(std::uint32_t index, grid::Cell at) const;
   bool checkParent(std::uint32_t index, base::Statistics& counts);
   SearchResult withStatus(base::Status status, SearchResult result) const;
-  SearchResult found(SearchResult result) const;
+  std::vector<grid::Cell> cellsFound() const;
+  void improve(SearchResult& result, const std::vector<grid::Cell>& steps,
+               const base::StopToken& stop) const;
 
   costmap::SegmentPoint point(grid::Cell cell) const;
   // Whether the waypoint of the cell is its centre.
@@ -127,9 +135,9 @@ class ThetaStar : public Planner {
   StepMasks masks_;
   base::ZeroedArray<Node> nodes_;
   BinaryHeap<Entry, Worse> open_;
-  BlockBounds blocks_{kBlock};              // where weights differ
-  std::optional<BlockEstimate> bound_;      // of the current query, in kLabelScale
-  double key_cost_ = 0;                     // of a key of the bound
+  const bool may_be_guided_;
+  double share_ = 0.0;                      // of what the guide says; 0: it is not asked
+  BackwardGuide guide_;                     // prepared where it is guided
   QueryStamp<std::uint16_t, 2, 14> stamp_;  // above kClosed and kUnchecked
   grid::Cell goal_;
   grid::Cell centred_;                      // see centred()
@@ -140,7 +148,7 @@ class LazyThetaStar : public ThetaStar {
  public:
   static PlannerTraits declaredTraits();
 
-  LazyThetaStar() : ThetaStar(kName) {}
+  LazyThetaStar() : ThetaStar(kName, true) {}
 
  private:
   void expand(std::uint32_t from, base::Statistics& counts) override;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "grid_path_planner/planners/planner.h"
@@ -40,6 +41,12 @@ class BucketSearch {
   void update(const costmap::CostGrid& map, const std::vector<grid::CellRect>& changed,
               const base::StopToken& stop);
 
+  // Of the last query, in cell lengths x weight: what the search knows of the cost from its start to a
+  // cell, exactly where the cell was closed; infinite where the cell was not generated.
+  double costFromStart(std::uint32_t index) const {
+    return packed_.size() > 0 ? costIn(packed_, index) : costIn(wide_, index);
+  }
+
   // The moves of the prepared map.
   const MovePruning& moves() const { return moves_; }
 
@@ -66,6 +73,11 @@ class BucketSearch {
                          const IsGoal& isGoal, const EstimateIn& estimateIn, bool record_expanded,
                          base::StopPoll& poll, SearchResult& result);
 
+  template <class Nodes>
+  static double costIn(const Nodes& nodes, std::uint32_t index) {
+    if (!nodes.generated(index)) return std::numeric_limits<double>::infinity();
+    return double(nodes.cost(index)) / double(Nodes::kScale.straight);
+  }
   static bool packedMaySuffice(const costmap::CostGrid& map);
   static unsigned bucketShift(const costmap::CostGrid& map, const KeyScale& scale);
   template <class Nodes>

@@ -31,6 +31,8 @@ class PackedNodes {
 
   void beginQuery();
 
+  bool generated(std::uint32_t index) const { return stamp_.wrote(nodes_[index]); }
+
   // Precondition of the following: the cell was generated in this query.
   SearchKey cost(std::uint32_t index) const {
     return kScale.largest - (nodes_[index] >> kKeyShift & kScale.largest);
@@ -85,6 +87,7 @@ class WideNodes {
 
   void beginQuery();
 
+  bool generated(std::uint32_t index) const { return stamp_.wrote(words_[index]); }
   SearchKey cost(std::uint32_t index) const { return costs_[index]; }
   std::uint32_t steps(std::uint32_t index) const { return words_[index] >> kStepShift & 0xFFU; }
   bool closed(std::uint32_t index) const { return (words_[index] & 1) != 0; }

@@ -11,7 +11,7 @@ class EagerThetaStar : public planners::ThetaStar {
  public:
   static constexpr const char* kName = "theta_star";
 
-  EagerThetaStar() : planners::ThetaStar(kName) {}
+  EagerThetaStar() : planners::ThetaStar(kName, false) {}
 
  private:
   void expand(std::uint32_t from, base::Statistics& counts) override;
