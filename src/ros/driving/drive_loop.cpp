@@ -10,6 +10,7 @@
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/common/guarded_queue.h"
+#include "ros/common/incoming/claimed_lengths.h"
 
 namespace grid_path_planner::nodes {
 
@@ -59,8 +60,10 @@ DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& optio
   ros::NodeHandle own(nh);
   own.setCallbackQueue(&guarded_);
   velocity_publisher_ = own.advertise<geometry_msgs::Twist>("cmd_vel", 10);
-  manual_subscriber_ = own.subscribe("manual_control", 1, &DriveLoop::onManual, this);
-  stop_subscriber_ = own.subscribe("stop", 1, &DriveLoop::onStop, this);
+  manual_subscriber_ = subscribeChecked<std_msgs::Bool>(
+      own, "manual_control", 1, [this](const std_msgs::Bool& message) { onManual(message); });
+  stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
+      own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
   thread_ = std::thread([this] {
     ::prctl(PR_SET_NAME, "control");  // for top, debuggers and navigate_path_locks_rostest.cpp
     run();

@@ -8,6 +8,7 @@
 #include "grid_path_planner/GoToPoseConfig.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/master/system_state.h"
 #include "ros/common/network_text.h"
 #include "ros/common/parameters.h"
@@ -95,8 +96,9 @@ void GoToPoseNode::startServer() {
   refuseSimultaneousCommander({{}, {nh_.resolveName(options_.action_name)}, "", false});
   goal_publisher_ =
       nh_.advertise<move_base_msgs::MoveBaseActionGoal>(options_.action_name + "/goal", 1);
-  simple_goal_subscriber_ =
-      nh_.subscribe("move_base_simple/goal", 1, &GoToPoseNode::onSimpleGoal, this);
+  simple_goal_subscriber_ = subscribeChecked<geometry_msgs::PoseStamped>(
+      nh_, "move_base_simple/goal", 1,
+      [this](const geometry_msgs::PoseStamped& message) { onSimpleGoal(message); });
   diagnostics_.setHardwareID("none");
   diagnostics_.add("go to pose", this, &GoToPoseNode::diagnose);
 }

@@ -52,7 +52,8 @@ TeleopJoyNode::TeleopJoyNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
   manual_publisher_ = nh_.advertise<std_msgs::Bool>("manual_control", 1, true);
   publisher_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10);
   refuseSimultaneousCommander(commands);
-  stop_subscriber_ = nh_.subscribe("stop", 1, &TeleopJoyNode::onStop, this);
+  stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
+      nh_, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
   subscriber_ = subscribeChecked<sensor_msgs::Joy>(
       nh_, "joy", 10, [this](const sensor_msgs::Joy& message) { onJoy(message); });
   reconfigurable_ = std::make_unique<Reconfigurable<TeleopJoyConfig, TeleopJoyOptions>>(

@@ -10,6 +10,7 @@
 #include "grid_path_planner/planning/unused_options.h"
 #include "ros/common/clock.h"
 #include "ros/common/file_kinds.h"
+#include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/master/system_state.h"
 #include "ros/common/network_text.h"
 #include "ros/common/parameters.h"
@@ -88,8 +89,11 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   reconfigurable_ = std::make_unique<Reconfigurable<PathPlannerConfig, PathPlannerNodeOptions>>(
       private_nh, options, [this](const PathPlannerNodeOptions& wanted) { onOptions(wanted); });
   server_->startMaps(nh, [this] { onMapChange(); });
-  goal_subscriber_ = nh.subscribe("goal", 1, &PathPlannerNode::onGoal, this);
-  initial_pose_subscriber_ = nh.subscribe("initialpose", 1, &PathPlannerNode::onInitialPose, this);
+  goal_subscriber_ = subscribeChecked<geometry_msgs::PoseStamped>(
+      nh, "goal", 1, [this](const geometry_msgs::PoseStamped& message) { onGoal(message); });
+  initial_pose_subscriber_ = subscribeChecked<geometry_msgs::PoseWithCovarianceStamped>(
+      nh, "initialpose", 1,
+      [this](const geometry_msgs::PoseWithCovarianceStamped& message) { onInitialPose(message); });
   clock_timer_ = nh.createWallTimer(ros::WallDuration(0.05),
                                     [this](const ros::WallTimerEvent&) { checkTime(); });
   full_map_timer_ = nh.createWallTimer(ros::WallDuration(0.1), [this](const ros::WallTimerEvent&) {

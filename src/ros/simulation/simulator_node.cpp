@@ -92,7 +92,8 @@ void SimulatorNode::listen(ros::NodeHandle& private_nh) {
   if (options_.world.empty())
     map_subscriber_ = subscribeChecked<nav_msgs::OccupancyGrid>(
         nh_, "projected_map", 1, [this](const nav_msgs::OccupancyGrid& map) { onMap(map); });
-  command_subscriber_ = nh_.subscribe("cmd_vel", 10, &SimulatorNode::onCommand, this);
+  command_subscriber_ = subscribeChecked<geometry_msgs::Twist>(
+      nh_, "cmd_vel", 10, [this](const geometry_msgs::Twist& message) { onCommand(message); });
   reconfigurable_ = std::make_unique<Reconfigurable<SimulatorConfig, SimulatorOptions>>(
       private_nh, options_, [this](const SimulatorOptions& options) { use(options); });
 }

@@ -16,7 +16,7 @@ template <class Message>
 class Latest {
  public:
   Latest(ros::NodeHandle nh, const std::string& topic)
-      : subscriber_(nh.subscribe(topic, 100, &Latest::onMessage, this)) {}
+      : subscriber_(nh.subscribe(topic, kQueue, &Latest::onMessage, this)) {}
 
   std::size_t count() const {
     std::lock_guard<std::mutex> lock(mutex_);
@@ -46,6 +46,8 @@ class Latest {
   }
 
  private:
+  static constexpr int kQueue = 10000;  // none is lost where the test waits for the processor
+
   void onMessage(const typename Message::ConstPtr& message) {
     std::lock_guard<std::mutex> lock(mutex_);
     messages_.push_back(*message);

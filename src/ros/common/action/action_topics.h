@@ -59,7 +59,8 @@ void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHand
         server.cancelCallback(cancel);
       };
   topics.goals = subscribeChecked<Goal, const GoalPtr&>(node, "goal", kActionQueueSize, on_goal);
-  topics.cancels = node.subscribe<Cancel>("cancel", kActionQueueSize, on_cancel);
+  topics.cancels = subscribeChecked<Cancel, const boost::shared_ptr<const Cancel>&>(
+      node, "cancel", kActionQueueSize, on_cancel);
   topics.status_timeout = ros::Duration(kActionStatusTimeout);
   topics.status_timer = node.createTimer(ros::Duration(kActionStatusPeriod), publish_status);
 }
