@@ -70,6 +70,9 @@ LENT = {
     "planning/explanation.h": {"command_line", "ros_planning"},
     "seen_map/seen_map.h": {"flights", "ros_avoidance"},
     "simulation/read_world_main.h": {"read_world"},
+    "simulation/camera/image_camera.h": {"ros_simulation"},
+    "simulation/camera/image_camera_options.h": {"ros_simulation"},
+    "simulation/camera/pinhole.h": {"ros_simulation"},
     "simulation/sensors/navigation_sensor_options.h": {"ros_simulation"},
     "simulation/sensors/navigation_sensors.h": {"ros_simulation"},
 }

@@ -123,6 +123,9 @@ CONTEXT = {
         extern FrameTransforms transforms; extern VehicleLocalizerOptions options; extern sensor_msgs::Imu message;
         extern localization::VehicleLocalizer localizer;""",
     "transform_rivals.h": "extern ros::NodeHandle nh; extern ros::Time stamp; void beSilent(const std::string&);",
+    "image_camera_publisher.h": """extern ros::NodeHandle nh; extern simulation::World world;
+        extern simulation::ImageCameraOptions options; extern simulation::Vehicle vehicle; extern std::int64_t time_ns;
+        extern std::string frame; extern ros::Time stamp;""",
     "input_log.h": "extern std::exception error; using localization::Source;",
     "seen_map.h": """extern SeenMap map; extern avoidance::Frame frame; extern Eigen::Vector3d position, goal;""",
     "flight_hold.h": "extern double master_timeout;",
