@@ -4,7 +4,7 @@
 #   planning    path_planner, map_publisher, grid_path (plan, convert, rectangles): always built
 #   driving     navigate_path, go_to_pose, teleop_joy
 #   avoidance   local_planner
-#   localization  vehicle_localizer: needs OpenCV's aruco
+#   localization  marker_localizer, vehicle_localizer: needs OpenCV's aruco
 #   mapping     projected_map, grid_path project: needs OctoMap
 #   simulation  simulator: needs SDFormat, Assimp and Embree
 #   rviz        panel and tools of rviz: needs rviz and Qt
@@ -70,8 +70,8 @@ if(GPP_WITH_localization)
   list(APPEND GPP_FOLDERS localization vision)
   list(APPEND GPP_ROOMS localization vision)
   list(APPEND ros_rooms ros_localization)
-  list(APPEND GPP_NODES vehicle_localizer)
-  list(APPEND GPP_CONFIGURATIONS VehicleLocalizer)
+  list(APPEND GPP_NODES marker_localizer vehicle_localizer)
+  list(APPEND GPP_CONFIGURATIONS MarkerLocalizer VehicleLocalizer)
   list(APPEND GPP_LAUNCH_FILES localization)
 endif()
 if(GPP_WITH_mapping)

@@ -17,6 +17,7 @@
 #include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
+#include "ros/localization/marker_localizer_options.h"
 #include "ros/localization/vehicle_localizer_options.h"
 #include "ros/planning/map_publisher_options.h"
 #include "ros/planning/path_planner_options.h"
@@ -33,6 +34,7 @@ using nodes::AdapterOptions;
 using nodes::GoToPoseOptions;
 using nodes::LocalPlannerOptions;
 using nodes::MapPublisherOptions;
+using nodes::MarkerLocalizerOptions;
 using nodes::NavigatePathOptions;
 using nodes::PathPlannerNodeOptions;
 using nodes::SimulatorOptions;
@@ -51,6 +53,7 @@ std::vector<NodeOptions> allNodes() {
   return {{"go_to_pose", "GoToPose", describeOptions(GoToPoseOptions())},
           {"local_planner", "LocalPlanner", describeOptions(LocalPlannerOptions())},
           {"map_publisher", "MapPublisher", describeOptions(MapPublisherOptions())},
+          {"marker_localizer", "MarkerLocalizer", describeOptions(MarkerLocalizerOptions())},
           {"move_base_plugin", "MoveBasePlugin", describeOptions(AdapterOptions())},
           {"navigate_path", "NavigatePath", describeOptions(NavigatePathOptions())},
           {"path_planner", "PathPlanner", describeOptions(PathPlannerNodeOptions())},

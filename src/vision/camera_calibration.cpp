@@ -34,4 +34,11 @@ void checkCalibration(const CameraCalibration& c) {
       throw InputError("a coefficient of distortion is not a finite number");
 }
 
+void checkSameSize(int width, int height, const CameraCalibration& c) {
+  if (width != c.width || height != c.height)
+    throw InputError("the image has " + std::to_string(width) + " x " + std::to_string(height) +
+                     " pixels, the calibration " + std::to_string(c.width) + " x " +
+                     std::to_string(c.height));
+}
+
 }  // namespace grid_path_planner::vision

@@ -31,4 +31,7 @@ struct CameraCalibration {
 // without pixels, or with another number of coefficients.
 void checkCalibration(const CameraCalibration& calibration);
 
+// Throws InputError where an image of so many pixels is not the calibration's.
+void checkSameSize(int width, int height, const CameraCalibration& calibration);
+
 }  // namespace grid_path_planner::vision

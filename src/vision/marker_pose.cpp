@@ -4,14 +4,11 @@
 #include <cmath>
 
 #include "grid_path_planner/base/decimal_text.h"
-#include "grid_path_planner/base/errors.h"
 #include "vision/mean_pose.h"
 #include "vision/pose_candidates.h"
 #include "vision/pose_refinement.h"
 
 namespace grid_path_planner::vision {
-
-using base::InputError;
 
 namespace {
 
@@ -129,11 +126,7 @@ MarkerFix markerFix(const GreyImage& image, const MarkerLayout& layout,
                     const CameraCalibration& calibration, const MarkerPoseOptions& options,
                     const std::optional<PoseEstimate>& prediction) {
   checkCalibration(calibration);
-  if (image.width != calibration.width || image.height != calibration.height)
-    throw InputError("the image has " + std::to_string(image.width) + " x " +
-                     std::to_string(image.height) + " pixels, the calibration " +
-                     std::to_string(calibration.width) + " x " +
-                     std::to_string(calibration.height));
+  checkSameSize(image.width, image.height, calibration);
   return fixOf(detectMarkers(image, options), layout, calibration, options, prediction);
 }
 
@@ -151,7 +144,9 @@ MarkerFix fixOf(const std::vector<DetectedMarker>& markers, const MarkerLayout& 
                        : meanPose(fix.views, layout, calibration, options);
   if (fix.candidates.empty())
     fix.reason = "the markers' corners are those of no squares";
-  else if (fix.reason = misfit(fix, layout, calibration, options); fix.reason.empty())
+  else if (fix.reason = misfit(fix, layout, calibration, options); !fix.reason.empty())
+    fix.fits = false;
+  else
     decide(layout, calibration, options, prediction, fix);
   return fix;
 }

@@ -32,6 +32,7 @@ struct MarkerFix {
   std::vector<PoseEstimate> candidates;  // that the corners admit, the best fit first
   MarkerViews views;                     // the layout's markers that were seen
   int unknown = 0;                       // markers that the layout does not have
+  bool fits = true;  // false: calibration or layout is off, three markers or more show it
 };
 
 // `prediction` is where the camera is expected, with its covariance; its squared error is not used. Throws

@@ -33,6 +33,13 @@ struct PoseEstimate {
   double squared_error = 0.0;  // pixels^2, the sum over all corners
 };
 
+// Of the product v x ...
+inline Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d cross;
+  cross << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return cross;
+}
+
 // What `other` is off from `pose`, in the coordinates of PoseEstimate::covariance.
 inline Vector6 differenceOf(const Eigen::Isometry3d& other, const Eigen::Isometry3d& pose) {
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(pose.linear().transpose() * other.linear()));

@@ -6,7 +6,7 @@
 namespace grid_path_planner::vision {
 namespace {
 
-using Eigen::Isometry3d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
+using Eigen::Isometry3d, Eigen::Vector2d, Eigen::Vector3d;
 
 constexpr int kIterations = 60;
 constexpr double kNearest = 1e-6;        // m ahead of the camera
@@ -16,12 +16,6 @@ struct NormalEquations {
   Matrix6 hessian = Matrix6::Zero();  // J^T J
   Vector6 gradient = Vector6::Zero();
 };
-
-Matrix3d crossMatrix(const Vector3d& v) {
-  Matrix3d cross;
-  cross << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return cross;
-}
 
 Isometry3d moved(const Isometry3d& pose, const Vector6& step) {
   Isometry3d result = pose;

@@ -70,8 +70,18 @@ LENT = {
     "planning/explanation.h": {"command_line", "ros_planning"},
     "seen_map/seen_map.h": {"flights", "ros_avoidance"},
     "simulation/read_world_main.h": {"read_world"},
+    "simulation/camera/image_camera.h": {"ros_simulation"},
+    "simulation/camera/image_camera_options.h": {"ros_simulation"},
+    "simulation/camera/pinhole.h": {"ros_simulation"},
     "simulation/sensors/navigation_sensor_options.h": {"ros_simulation"},
     "simulation/sensors/navigation_sensors.h": {"ros_simulation"},
+    "vision/camera_calibration.h": {"ros_localization"},
+    "vision/grey_conversion.h": {"ros_localization"},
+    "vision/marker_picture.h": {"ros_localization"},
+    "vision/marker_pose.h": {"ros_localization"},
+    "vision/marker_pose_options.h": {"ros_localization"},
+    "vision/panel_learning.h": {"ros_localization"},
+    "vision/panel_learning_options.h": {"ros_localization"},
 }
 ROS_HEADER = re.compile(
     r"(ros|tf2\w*|nodelet|pluginlib|rosbag|actionlib|dynamic_reconfigure|diagnostic_updater|topic_tools"

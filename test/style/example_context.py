@@ -124,6 +124,17 @@ CONTEXT = {
         extern localization::VehicleLocalizer localizer;""",
     "transform_rivals.h": "extern ros::NodeHandle nh; extern ros::Time stamp; void beSilent(const std::string&);",
     "input_log.h": "extern std::exception error; using localization::Source;",
+    "input_record.h": "extern std::exception error;",
+    "camera_messages.h": "extern sensor_msgs::CameraInfo camera_info; extern sensor_msgs::Image image;",
+    "marker_poses.h": """extern MarkerImage image; extern vision::MarkerLayout layout; extern FrameTransforms transforms;
+        void publish(const localization::MountedPose&); void tell(const std::string&);""",
+    "image_camera_publisher.h": """extern ros::NodeHandle nh; extern simulation::World world;
+        extern simulation::ImageCameraOptions options; extern simulation::Vehicle vehicle; extern std::int64_t time_ns;
+        extern std::string frame; extern ros::Time stamp;""",
+    "grey_conversion.h": """#include "vision/grey_image.h"
+        extern EncodedImage image;""",
+    "panel_learning.h": """extern PanelLearningOptions options; extern double seconds; extern Eigen::Isometry3d map_from_base;
+        extern Eigen::Isometry3d base_from_camera; extern PoseEstimate pose;""",
     "seen_map.h": """extern SeenMap map; extern avoidance::Frame frame; extern Eigen::Vector3d position, goal;""",
     "flight_hold.h": "extern double master_timeout;",
     "flight_job.h": "extern std::function<void(std::size_t)> progress;",

@@ -74,4 +74,9 @@ const FileKind& sensorFaultFiles() {
   return kind;
 }
 
+const FileKind& markerLayoutFiles() {
+  static const FileKind kind{"layout of markers", {"yaml", "yml"}, nullptr};
+  return kind;
+}
+
 }  // namespace grid_path_planner::nodes

@@ -18,10 +18,11 @@ const FileKind& octreeFiles();
 // avoidance/flight_log.h.
 const FileKind& flightLogs();
 
-// Only to be read: whatever grid/map_file.h and ros/bag.h read, simulated worlds, and
-// simulation/sensors/sensor_faults.h.
+// Only to be read: whatever grid/map_file.h and ros/bag.h read, simulated worlds,
+// simulation/sensors/sensor_faults.h, and vision/marker_layout.h.
 const FileKind& mapFiles();
 const FileKind& worldFiles();
 const FileKind& sensorFaultFiles();
+const FileKind& markerLayoutFiles();
 
 }  // namespace grid_path_planner::nodes

@@ -4,7 +4,7 @@
 //   FrameTransforms transforms(nh);
 //   const Pose vehicle = transforms.poseOf("base_link", "map", limit, stop);
 //
-// poseIn() and poseOf() wait for a transform: on the steady clock, so that a ROS clock that stands
+// poseIn(), poseOf() and waitFor() wait for a transform: on the steady clock, so that a ROS clock that stands
 // still does not delay them, and they ask the stop token while they wait. The other functions
 // answer from what tf knows at once.
 #pragma once
@@ -52,6 +52,11 @@ class FrameTransforms {
   geometry_msgs::TransformStamped transform(const std::string& target, const std::string& source,
                                             const ros::Time& stamp = ros::Time(0)) const;
 
+  // The same, waited for up to `limit` seconds. Throws Stopped too.
+  geometry_msgs::TransformStamped waitFor(const std::string& target, const std::string& source,
+                                          const ros::Time& stamp, double limit,
+                                          const base::StopToken& stop) const;
+
   struct RecentPose {
     path::Pose pose;
     double age;  // s; negative: stamped ahead; 0 where all of it is static
@@ -74,9 +79,6 @@ class FrameTransforms {
   void clear() { buffer_.clear(); }
 
  private:
-  geometry_msgs::TransformStamped waitFor(const std::string& target, const std::string& source,
-                                          const ros::Time& stamp, double limit,
-                                          const base::StopToken& stop) const;
   void checkKnown(const std::string& frame, const std::string& vehicle) const;
 
   tf2_ros::Buffer buffer_;

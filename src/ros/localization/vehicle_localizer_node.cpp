@@ -13,6 +13,7 @@
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/incoming/claimed_requests.h"
 #include "ros/common/parameters.h"
+#include "ros/localization/diagnostics_timer.h"
 
 namespace grid_path_planner::nodes {
 
@@ -26,9 +27,8 @@ using localization::Verdict;
 
 namespace {
 
-constexpr double kListens = 0.5;          // s of the wall clock, before the first transform
-constexpr double kDiagnosisPeriod = 1.0;  // s, wall time
-constexpr std::uint32_t kWaiting = 200;   // messages of the IMU; 2 s
+constexpr double kListens = 0.5;         // s of the wall clock, before the first transform
+constexpr std::uint32_t kWaiting = 200;  // messages of the IMU; 2 s
 
 void nameFrames(VehicleLocalizerOptions& options) {
   for (std::string* frame : {&options.map_frame, &options.odom_frame, &options.base_frame,
@@ -152,7 +152,6 @@ void VehicleLocalizerNode::offerServices(ros::NodeHandle& private_nh) {
 }
 
 void VehicleLocalizerNode::startDiagnostics() {
-  diagnostics_.setHardwareID("none");
   diagnostics_.add("localization", this, &VehicleLocalizerNode::diagnose);
   for (const Source source : {Source::IMU, Source::DVL, Source::DEPTH, Source::USBL, Source::MARKER,
                               Source::COMMAND, Source::SET_POSE})
@@ -160,11 +159,7 @@ void VehicleLocalizerNode::startDiagnostics() {
                      [this, source](diagnostic_updater::DiagnosticStatusWrapper& status) {
                        diagnoseInput(source, status);
                      });
-  diagnostics_timer_ = nh_.createSteadyTimer(ros::WallDuration(kDiagnosisPeriod),
-                                             [this](const ros::SteadyTimerEvent&) {
-                                               if (ros::Time::isValid())
-                                                 diagnostics_.force_update();
-                                             });
+  diagnostics_timer_ = diagnosticsTimer(nh_, diagnostics_);
 }
 
 void VehicleLocalizerNode::use(VehicleLocalizerOptions options) {
@@ -208,7 +203,7 @@ void VehicleLocalizerNode::beginAnew() {
 template <class Convert>
 std::string VehicleLocalizerNode::take(Source source, const Convert& convert) {
   if (!noticeTime()) return "there is no ROS time yet";
-  inputs_.receive(source);
+  inputs_[source].receive();
   try {
     const localization::Measurement measurement = convert();
     localization::checkStamp(measurement.stamp, stampOf(ros::Time::now()),
@@ -220,7 +215,7 @@ std::string VehicleLocalizerNode::take(Source source, const Convert& convert) {
                          "anew");
     return {};
   } catch (const std::runtime_error& error) {
-    inputs_.refuse(source, error.what());
+    inputs_[source].refuse(error.what());
     return error.what();
   }
 }
@@ -298,25 +293,25 @@ void VehicleLocalizerNode::diagnoseInput(Source source,
                                          diagnostic_updater::DiagnosticStatusWrapper& status) {
   const auto statistics =
       localization::inputStatistics(localizer_.map(), source, stampOf(ros::Time::now()));
-  const InputLog::Input& input = inputs_[source];
+  const InputRecord& input = inputs_[source];
   const bool overconfident =
       statistics.nis_count > 0 && statistics.nis_mean > statistics.nis_bounds.high;
-  if (input.received == 0)
+  if (input.received() == 0)
     status.summary(DiagnosticStatus::OK, "not heard");
   else if (!statistics.age)
-    status.summary(DiagnosticStatus::WARN, "silent, or refused: " + input.reason);
+    status.summary(DiagnosticStatus::WARN, "silent, or refused: " + input.reason());
   else if (overconfident)
     status.summary(DiagnosticStatus::WARN, "its errors are larger than its covariance says");
   else
     status.summary(DiagnosticStatus::OK, "used");
-  status.add("received", input.received);
+  status.add("received", input.received());
   status.add("rate (Hz)", statistics.rate);
   status.add("age (s)", statistics.age ? std::to_string(*statistics.age) : "none lately");
   status.add("taken", statistics.counts.taken);
   status.add("gated", statistics.counts.gated);
   status.add("resets", statistics.counts.resets);
-  status.add("refused", input.refused);
-  status.add("refused last because", input.reason);
+  status.add("refused", input.refused());
+  status.add("refused last because", input.reason());
   status.add("NIS, mean", statistics.nis_mean);
   status.add("NIS, 95 % low", statistics.nis_bounds.low);
   status.add("NIS, 95 % high", statistics.nis_bounds.high);

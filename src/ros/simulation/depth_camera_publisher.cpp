@@ -6,14 +6,15 @@
 #include "base/current_error.h"
 #include "grid_path_planner/base/options.h"
 #include "ros/common/guarded_queue.h"
+#include "ros/simulation/camera_info.h"
 #include "ros/simulation/transform_message.h"
+#include "simulation/camera/pinhole.h"
 
 namespace grid_path_planner::nodes {
 
 using base::currentErrorText;
 
 using base::sameOptions;
-using simulation::CameraIntrinsics;
 using simulation::DepthCameraOptions;
 using simulation::VehicleState;
 using simulation::World;
@@ -48,10 +49,8 @@ sensor_msgs::PointCloud2 emptyCloud(const DepthCameraOptions& options) {
 
 std::vector<geometry_msgs::TransformStamped> cameraTransforms(const DepthCameraOptions& options,
                                                               const CameraFrameNames& frames) {
-  Eigen::Isometry3d camera_from_optical = Eigen::Isometry3d::Identity();
-  camera_from_optical.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // columns: right, down, ahead
   return {transformOf(frames.base, frames.camera, baseFromCamera(options)),
-          transformOf(frames.camera, frames.optical, camera_from_optical)};
+          transformOf(frames.camera, frames.optical, simulation::opticalFrame())};
 }
 
 DepthCameraPublisher::DepthCameraPublisher(ros::NodeHandle& nh, const World& world,
@@ -115,31 +114,19 @@ void DepthCameraPublisher::renderLoop() {
 }
 
 void DepthCameraPublisher::render(const Shot& shot) {
-  sensor_msgs::CameraInfo info = cameraInfo();
+  const DepthCameraOptions& o = camera_.options();
+  sensor_msgs::CameraInfo info = cameraInfoOf(camera_.intrinsics(), o.width, o.height);
+  info.header.frame_id = frames_.optical;
   info.header.stamp = shot.stamp;
   info_publisher_.publish(info);
   if (points_publisher_.getNumSubscribers() == 0) return;
   std::vector<float> points;
   camera_.render(shot.map_from_optical, shot.frame, points);
-  const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(emptyCloud(camera_.options()));
+  const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(emptyCloud(o));
   cloud->header = info.header;
   cloud->data.resize(points.size() * sizeof(float));
   std::memcpy(cloud->data.data(), points.data(), cloud->data.size());
   points_publisher_.publish(cloud);
-}
-
-sensor_msgs::CameraInfo DepthCameraPublisher::cameraInfo() const {
-  const CameraIntrinsics k = camera_.intrinsics();
-  sensor_msgs::CameraInfo info;
-  info.header.frame_id = frames_.optical;
-  info.width = static_cast<std::uint32_t>(camera_.options().width);
-  info.height = static_cast<std::uint32_t>(camera_.options().height);
-  info.distortion_model = "plumb_bob";
-  info.D.assign(5, 0.0);
-  info.K = {k.fx, 0.0, k.cx, 0.0, k.fy, k.cy, 0.0, 0.0, 1.0};
-  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  info.P = {k.fx, 0.0, k.cx, 0.0, 0.0, k.fy, k.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return info;
 }
 
 }  // namespace grid_path_planner::nodes

@@ -19,7 +19,6 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include <condition_variable>
@@ -74,7 +73,6 @@ class DepthCameraPublisher {
 
   void renderLoop();
   void render(const Shot& shot);
-  sensor_msgs::CameraInfo cameraInfo() const;
 
   simulation::DepthCamera camera_;
   CameraFrameNames frames_;

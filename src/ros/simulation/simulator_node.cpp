@@ -13,6 +13,8 @@
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
+#include "ros/simulation/transform_message.h"
+#include "simulation/camera/pinhole.h"
 
 namespace grid_path_planner::nodes {
 
@@ -53,6 +55,9 @@ std::vector<geometry_msgs::TransformStamped> fixedTransforms(const SimulatorOpti
   auto transforms = cameraTransforms(o.camera, cameraFrameNames(o));
   const auto sensors = sensorTransforms(o.sensors, o.base_frame, o.sensor_frames);
   transforms.insert(transforms.end(), sensors.begin(), sensors.end());
+  if (o.image_camera.enabled)
+    transforms.push_back(transformOf(o.base_frame, o.sensor_frames.image_camera,
+                                     o.image_camera.mounting.pose() * simulation::opticalFrame()));
   return transforms;
 }
 
@@ -149,6 +154,14 @@ void SimulatorNode::updateCamera(const SimulatorOptions& options) {
   vehicle_publisher_.setFixed(fixedTransforms(options));
   if (world_ && !(camera_ && camera_->same(options.camera, frames)))
     camera_ = std::make_unique<DepthCameraPublisher>(nh_, *world_, options.camera, frames);
+  updateImageCamera(options.image_camera);
+}
+
+void SimulatorNode::updateImageCamera(const simulation::ImageCameraOptions& options) {
+  if (image_camera_ && sameOptions(options, image_camera_->options())) return;
+  image_camera_.reset();
+  if (options.enabled)
+    image_camera_ = std::make_unique<ImageCameraPublisher>(nh_, *world_, options);
 }
 
 void SimulatorNode::resetVehicle(const SimulatorOptions& options) {
@@ -224,7 +237,8 @@ bool SimulatorNode::mustWaitForCommand() const {
 }
 
 void SimulatorNode::step() {
-  if (camera_ && camera_->due(vehicle_->timeNs())) captureImage();
+  if (camera_ && camera_->due(vehicle_->timeNs())) captureDepthImage();
+  if (image_camera_ && image_camera_->wants(vehicle_->timeNs())) captureImage();
   vehicle_->step();
   odometry_.advance(vehicle_->state());
   SensorReadings readings = sensors_->advance(vehicle_->state(), vehicle_->timeNs());
@@ -232,9 +246,15 @@ void SimulatorNode::step() {
 }
 
 // With tf of exactly its stamp, sent before it.
-void SimulatorNode::captureImage() {
+void SimulatorNode::captureDepthImage() {
   publishState();
   camera_->capture(vehicle_->state(), vehicle_->timeNs(), now());
+}
+
+void SimulatorNode::captureImage() {
+  publishState();
+  image_camera_->capture(vehicle_->state(), vehicle_->timeNs(),
+                         {options_.sensor_frames.image_camera, now()});
 }
 
 ros::Time SimulatorNode::now() const {

@@ -15,14 +15,15 @@
 //                              (depth_camera_publisher.h)
 //               imu/data, dvl/..., pressure, depth, usbl/pose     with navigation sensors
 //                              (sensor_publisher.h)
+//               camera/image_raw, camera/camera_info     with an image camera (image_camera_publisher.h)
 //
 // With a real_time_factor above 1, simulated time waits up to 0.2 s of the wall clock for the next
 // command where the last one would end: the vehicle does not drive on, nor stop, because it runs
 // faster than its commands come.
 //
 // Guaranteed: the steps follow the wall clock, never /clock. Where the machine is too slow for the
-// steps or for the images, simulated time goes slower; no step is left out, and no image that has a
-// subscriber.
+// steps or for the depth images, simulated time goes slower; no step is left out, and no depth image
+// that has a subscriber. Nothing waits for the image camera.
 #pragma once
 
 #include <geometry_msgs/Twist.h>
@@ -40,6 +41,7 @@
 #include "ros/common/node_files.h"
 #include "ros/simulation/contact_publisher.h"
 #include "ros/simulation/depth_camera_publisher.h"
+#include "ros/simulation/image_camera_publisher.h"
 #include "ros/simulation/sensor_publisher.h"
 #include "ros/simulation/simulator_options.h"
 #include "ros/simulation/vehicle_publisher.h"
@@ -70,6 +72,7 @@ class SimulatorNode {
   void use(const SimulatorOptions& options);
   void startSensors();
   void updateCamera(const SimulatorOptions& options);
+  void updateImageCamera(const simulation::ImageCameraOptions& options);
   void resetVehicle(const SimulatorOptions& options);
   void startTimer();
 
@@ -80,6 +83,7 @@ class SimulatorNode {
   void step();
   bool mustWaitForCamera() const;
   bool mustWaitForCommand() const;
+  void captureDepthImage();
   void captureImage();
   void publishState();
   void publishReadings();
@@ -100,7 +104,8 @@ class SimulatorNode {
 
   VehiclePublisher vehicle_publisher_;
   ContactPublisher contact_publisher_;
-  std::unique_ptr<DepthCameraPublisher> camera_;  // with a world
+  std::unique_ptr<DepthCameraPublisher> camera_;        // with a world
+  std::unique_ptr<ImageCameraPublisher> image_camera_;  // where enabled
   SensorPublisher sensor_publisher_;
   std::unique_ptr<simulation::NavigationSensors> sensors_;
   std::vector<simulation::SensorReadings> readings_;  // not yet published

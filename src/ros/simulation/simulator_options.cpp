@@ -23,7 +23,7 @@ void checkFrames(const SimulatorOptions& o) {
   for (const std::string& name :
        {o.map_frame, o.odom_frame, o.base_frame, o.camera_frame, o.camera_optical_frame,
         o.sensor_frames.imu, o.sensor_frames.dvl, o.sensor_frames.dvl_altitude,
-        o.sensor_frames.pressure, o.sensor_frames.usbl}) {
+        o.sensor_frames.pressure, o.sensor_frames.usbl, o.sensor_frames.image_camera}) {
     checkNetworkText("the name of a frame", name);
     if (name.empty()) throw InputError("the name of a frame must not be empty");
     if (!names.insert(name).second)
@@ -41,6 +41,8 @@ void checkSimulatorOptions(const SimulatorOptions& o) {
   if (!o.publish_clock && o.real_time_factor != 1.0)
     throw InputError("real_time_factor other than 1 needs publish_clock, got " +
                      decimalText(o.real_time_factor));
+  if (o.image_camera.enabled && o.world.empty())
+    throw InputError("image_camera_enabled needs a world: without one there is nothing to see");
   checkFrames(o);
 }
 

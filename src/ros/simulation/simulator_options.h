@@ -8,6 +8,7 @@
 #include "grid_path_planner/simulation/depth_camera_options.h"
 #include "grid_path_planner/simulation/vehicle_options.h"
 #include "ros/simulation/sensor_frames.h"
+#include "simulation/camera/image_camera_options.h"
 #include "simulation/sensors/navigation_sensor_options.h"
 
 namespace grid_path_planner::nodes {
@@ -18,6 +19,13 @@ inline simulation::DepthCameraOptions vehicleCamera() {
   camera.x = 0.35;
   camera.z = -0.1;
   camera.pitch = 0.6;
+  return camera;
+}
+
+// At the bow, looking ahead.
+inline simulation::ImageCameraOptions vehicleImageCamera() {
+  simulation::ImageCameraOptions camera;
+  camera.mounting.x = 0.35;
   return camera;
 }
 
@@ -65,6 +73,7 @@ struct SimulatorOptions {
 
   simulation::NavigationSensorOptions sensors;
   std::string sensor_faults;  // YAML file
+  simulation::ImageCameraOptions image_camera = vehicleImageCamera();
 
   base::ReadOptions reading;
 };
@@ -122,12 +131,15 @@ void visitOptions(SimulatorOptions& o, Visitor&& visit) {
                        "sensors' measurements, and when; empty: nothing; read at the start",
                        ""}
           .under("Faults of the navigation sensors"));
+  visitOptions(o.image_camera, [&](const char* name, auto& value, const base::OptionInfo& info) {
+    visit((std::string("image_camera_") + name).c_str(), value, info);
+  });
   visitOptions(o.reading, visit);
 }
 
 // Throws InputError naming the option for a value outside its limits, a range of the camera that
-// holds nothing, a factor other than 1 without a clock, navigation sensors that cannot be, and frames
-// that are empty or the same.
+// holds nothing, a factor other than 1 without a clock, navigation sensors that cannot be, an image
+// camera without a world, and frames that are empty or the same.
 void checkSimulatorOptions(const SimulatorOptions& options);
 
 }  // namespace grid_path_planner::nodes

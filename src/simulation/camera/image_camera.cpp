@@ -85,12 +85,15 @@ Eigen::Array3f ImageCamera::colourOf(const View& view, const RayHit& hit,
   return water_.seenThrough(light * diffuse_[hit.surface], hit.range);
 }
 
-void ImageCamera::castOncePerPixel(const View& view, std::vector<Eigen::Array3f>& colours,
+void ImageCamera::castOncePerPixel(const View& view, const base::StopToken& stop,
+                                   std::vector<Eigen::Array3f>& colours,
                                    std::vector<std::uint32_t>& surfaces) const {
+  base::StopPoll poll(stop);
   colours.resize(rays_.size());
   surfaces.resize(rays_.size());
   RayHit hits[RayScene::kPacket];
   for (std::size_t first = 0; first < rays_.size(); first += RayScene::kPacket) {
+    poll();
     const std::size_t count = std::min(RayScene::kPacket, rays_.size() - first);
     scene_->hits(view.origin, view.turn, &rays_[first], count, kEndOfRays, hits);
     for (std::size_t i = 0; i < count; ++i) {
@@ -125,16 +128,19 @@ Eigen::Array3f ImageCamera::meanOverPixel(const View& view, int column, int row)
 }
 
 void ImageCamera::render(const Eigen::Isometry3d& map_from_optical, std::uint64_t frame,
-                         std::vector<std::uint8_t>& rgb) const {
+                         std::vector<std::uint8_t>& rgb, const base::StopToken& stop) const {
   const View view = {map_from_optical.translation().cast<float>(),
                      map_from_optical.linear().cast<float>()};
   std::vector<Eigen::Array3f> colours;
   std::vector<std::uint32_t> surfaces;
-  castOncePerPixel(view, colours, surfaces);
-  for (int row = 0; row < options_.height; ++row)
+  castOncePerPixel(view, stop, colours, surfaces);
+  base::StopPoll poll(stop, 1);
+  for (int row = 0; row < options_.height; ++row) {
+    poll();
     for (int column = 0; column < options_.width; ++column)
       if (isEdge(surfaces, column, row))
         colours[row * options_.width + column] = meanOverPixel(view, column, row);
+  }
   putPixels(colours, options_, frame, rgb);
 }
 

@@ -20,6 +20,7 @@
 #include <memory>
 #include <vector>
 
+#include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/simulation/depth_camera.h"
 #include "grid_path_planner/simulation/world.h"
 #include "simulation/camera/image_camera_options.h"
@@ -44,15 +45,16 @@ class ImageCamera {
   // The optical frame in base_link.
   Eigen::Isometry3d baseFromOptical() const;
 
-  // Fills `rgb` with red, green, blue of width x height pixels, row by row from the top left.
+  // Fills `rgb` with red, green, blue of width x height pixels, row by row from the top left. Throws Stopped.
   void render(const Eigen::Isometry3d& map_from_optical, std::uint64_t frame,
-              std::vector<std::uint8_t>& rgb) const;
+              std::vector<std::uint8_t>& rgb, const base::StopToken& stop = {}) const;
 
  private:
   struct View;
 
   Eigen::Array3f colourOf(const View& view, const RayHit& hit, const Eigen::Vector3f& ray) const;
-  void castOncePerPixel(const View& view, std::vector<Eigen::Array3f>& colours,
+  void castOncePerPixel(const View& view, const base::StopToken& stop,
+                        std::vector<Eigen::Array3f>& colours,
                         std::vector<std::uint32_t>& surfaces) const;
   bool isEdge(const std::vector<std::uint32_t>& surfaces, int column, int row) const;
   Eigen::Array3f meanOverPixel(const View& view, int column, int row) const;

@@ -32,9 +32,11 @@ void visitOptions(ImageCameraOptions& o, Visitor&& visit) {
       "enabled", o.enabled,
       OptionInfo{"Whether there is a camera; it needs a world, and works only for subscribers", ""}
           .under("The image camera"));
-  visit("rate", o.rate,
-        OptionInfo{"Images in a simulated second, which takes longer where images take too long",
-                   "Hz", 0.01, 1000.0});
+  visit(
+      "rate", o.rate,
+      OptionInfo{"Images in a simulated second; one that is due while another is rendered is left "
+                 "out",
+                 "Hz", 0.01, 1000.0});
   visit("width", o.width, OptionInfo{"Width of the image", "pixels", 1, 8192});
   visit("height", o.height, OptionInfo{"Height of the image", "pixels", 1, 8192});
   visit("horizontal_fov", o.horizontal_fov,

@@ -26,6 +26,7 @@ std::vector<Node> everyNode() {
           {"map_publisher", {"--filename", GPP_TEST_DATA "/projected_map.bag"}},
           {"navigate_path", {}},
           {"local_planner", {}},
+          {"marker_localizer", {"--layout", GPP_TEST_DATA "/two_markers.yaml"}},
           {"vehicle_localizer", {}},
           {"go_to_pose", {}},
           {"teleop_joy", {}},

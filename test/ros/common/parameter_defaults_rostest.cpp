@@ -2,6 +2,7 @@
 
 #include "grid_path_planner/GoToPoseConfig.h"
 #include "grid_path_planner/MapPublisherConfig.h"
+#include "grid_path_planner/MarkerLocalizerConfig.h"
 #include "grid_path_planner/NavigatePathConfig.h"
 #include "grid_path_planner/PathPlannerConfig.h"
 #include "grid_path_planner/ProjectedMapConfig.h"
@@ -12,6 +13,7 @@
 #include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
+#include "ros/localization/marker_localizer_options.h"
 #include "ros/localization/vehicle_localizer_options.h"
 #include "ros/planning/map_publisher_options.h"
 #include "ros/planning/path_planner_options.h"
@@ -41,6 +43,10 @@ TEST(ParameterDefaults, Simulator) {
 
 TEST(ParameterDefaults, TeleopJoy) {
   test::expectSameDefaults<TeleopJoyConfig, TeleopJoyOptions>("teleop_joy");
+}
+
+TEST(ParameterDefaults, MarkerLocalizer) {
+  test::expectSameDefaults<MarkerLocalizerConfig, MarkerLocalizerOptions>("marker_localizer");
 }
 
 TEST(ParameterDefaults, VehicleLocalizer) {

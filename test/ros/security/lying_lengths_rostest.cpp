@@ -7,6 +7,7 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -165,6 +166,13 @@ TEST(LyingLengths, TakeNoMemoryOfNavigatePath) {
 TEST(LyingLengths, TakeNoMemoryOfProjectedMap) {
   test::Process node("projected_map", {"_autosave_period:=0"});
   tellLies<sensor_msgs::PointCloud2>(node, "/cloud_in", 4000000000U);
+  EXPECT_TRUE(node.running());
+  EXPECT_LT(node.peakMemory(), kMostMemory);
+}
+
+TEST(LyingLengths, TakeNoMemoryOfMarkerLocalizer) {
+  test::Process node("marker_localizer", {"--layout=" GPP_TEST_DATA "/two_markers.yaml"});
+  tellLies<sensor_msgs::Image>(node, "/camera/image_raw", 4000000000U);
   EXPECT_TRUE(node.running());
   EXPECT_LT(node.peakMemory(), kMostMemory);
 }

@@ -27,6 +27,8 @@ DEFINITIONS = {
     "sensor_msgs/CameraInfo": "Header header\nuint32 height\nuint32 width\nstring distortion_model\nfloat64[] D\n"
                               "float64[9] K\nfloat64[9] R\nfloat64[12] P\nuint32 binning_x\nuint32 binning_y\n"
                               "RegionOfInterest roi\n" + HEADER + REGION,
+    "sensor_msgs/Image": "Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\n"
+                         "uint32 step\nuint8[] data\n" + HEADER,
     "sensor_msgs/Joy": "Header header\nfloat32[] axes\nint32[] buttons\n" + HEADER,
     "sensor_msgs/PointCloud2": "Header header\nuint32 height\nuint32 width\nPointField[] fields\nbool is_bigendian\n"
                                "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"

@@ -178,6 +178,7 @@ TEST_F(NamedFiles, WhatIsReadAtTheStartLiesBelowTheFolderToo) {
       {"navigate_path", "_config_filename"},
       {"projected_map", "_filename"},
       {"map_publisher", "_filename"},
+      {"marker_localizer", "_layout"},
       {"simulator", "_world"},
       {"simulator", "_sensor_faults"}};
   for (const auto& [node, option] : options)

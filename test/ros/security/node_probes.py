@@ -73,6 +73,34 @@ def cloud(node):
     return message
 
 
+# The first two tags of the family 36h11, row by row from the upper left, 1 is white.
+TAG_BITS = (0x21a146bab, 0x92d18fe9b)
+WIDTH, HEIGHT, CELL = 240, 120, 8  # pixels
+
+
+def brightness(column, row):
+    """Of two_markers.yaml, seen from its front so that a cell is 8 pixels wide."""
+    for bits, left in zip(TAG_BITS, (24, 152)):
+        x, y = (column - left) // CELL, (row - 28) // CELL
+        if 0 <= x < 8 and 0 <= y < 8:
+            inside = 0 < x < 7 and 0 < y < 7
+            return 255 if inside and bits >> (35 - 6 * (y - 1) - (x - 1)) & 1 else 0
+    return 255
+
+
+PICTURE = bytes(brightness(column, row) for row in range(HEIGHT) for column in range(WIDTH))
+
+
+def picture(node):
+    return of("sensor_msgs/Image", header=header(node, "base_link"), width=WIDTH, height=HEIGHT, encoding="mono8",
+              step=WIDTH, data=PICTURE)
+
+
+def camera_info(node):
+    return of("sensor_msgs/CameraInfo", header=header(node, "base_link"), width=WIDTH, height=HEIGHT,
+              K=[120.0, 0.0, 119.5, 0.0, 120.0, 59.5, 0.0, 0.0, 1.0])
+
+
 def goal_id(node):
     now = node.clock.now()
     return {"id": uuid.uuid4().hex, "stamp": {"secs": now.secs, "nsecs": now.nsecs}}
@@ -126,8 +154,7 @@ RIGHT = {
     "geometry_msgs/PoseStamped": pose_stamped, "geometry_msgs/PoseWithCovarianceStamped": initial_pose,
     "sensor_msgs/Imu": imu, "geometry_msgs/TwistWithCovarianceStamped": dvl,
     "sensor_msgs/Joy": joystick, "sensor_msgs/PointCloud2": cloud,
-    "sensor_msgs/CameraInfo": lambda node: of(
-        "sensor_msgs/CameraInfo", header=header(node), width=2, height=1, K=[1.0, 0.0, 1.0, 0.0, 1.0, 0.5, 0.0, 0.0, 1.0]),
+    "sensor_msgs/CameraInfo": camera_info, "sensor_msgs/Image": picture,
     "nav_msgs/Odometry": lambda node: of(
         "nav_msgs/Odometry", header=header(node), child_frame_id="base_link", pose={"pose": pose(0.5, 0.5)}),
     "geometry_msgs/Twist": lambda _: of("geometry_msgs/Twist", linear={"x": 0.5}),
@@ -307,3 +334,14 @@ def estimates(node, deadline):
         request.pose = initial_pose(node)
         node.call("~set_pose", request)
     return until(node, lambda: node.heard("odometry/filtered"), deadline, feed, every=0.05)
+
+
+def sees_markers(node, deadline):
+    """An image of the panel gives the pose of the vehicle before it."""
+    node.forget("marker_pose")
+
+    def feed():
+        node.send("camera/camera_info", camera_info(node))
+        node.send("camera/image_raw", picture(node))
+    return until(node, lambda: any(abs(fix.pose.pose.position.z - 0.375) < 0.01 for fix in node.heard("marker_pose")),
+                 deadline, feed, every=0.1)

@@ -69,6 +69,12 @@ NODES = {
                  "histogram_image": "sensor_msgs/Image", "avoidance_markers": "visualization_msgs/MarkerArray"},
         services={"~pause": TRIGGER, "~resume": TRIGGER, "~cancel": TRIGGER, "~explain": TRIGGER},
         actions={"navigate_path": "grid_path_planner/NavigatePath"}, arguments=["_cloud_timeout:=10"], tf="listens", probe=probes.says_what_it_flies_to),
+    "marker_localizer": Row(
+        inputs={"camera/image_raw": "sensor_msgs/Image", "camera/camera_info": "sensor_msgs/CameraInfo"},
+        outputs={"marker_pose": FIX, "panel_pose": FIX, "panel_markers": "visualization_msgs/MarkerArray",
+                 "marker_image": "sensor_msgs/Image"},
+        services={"~learn_panel": TRIGGER}, actions={},
+        arguments=["_layout:=two_markers.yaml", "_panel_known:=true"], tf="listens", probe=probes.sees_markers),
     "vehicle_localizer": Row(
         inputs={"imu/data": "sensor_msgs/Imu", "dvl/twist": "geometry_msgs/TwistWithCovarianceStamped",
                 "depth": FIX, "usbl/pose": FIX, "marker_pose": FIX, "initialpose": FIX, "cmd_vel": "geometry_msgs/Twist"},

@@ -148,6 +148,13 @@ class Restart(unittest.TestCase):
         self.assertEqual([], self.node.heard("odometry/filtered"))
         self.holds()
 
+    def test_marker_localizer_has_its_layout_and_its_panel_again(self):
+        self.start("marker_localizer")
+        self.holds()
+        self.kill()
+        self.comes_up()
+        self.holds()
+
     def test_local_planner_forgets_its_goal_and_flies_nothing_from_before(self):
         self.start("local_planner")
         self.holds()

@@ -145,6 +145,15 @@ TEST(ImageCamera, TheSameSeedGivesTheSameBits) {
   EXPECT_NE(first.bytes(), Image(world, options, 7).bytes());
 }
 
+TEST(ImageCamera, AnImageThatIsNoLongerWantedIsGivenUp) {
+  const World world = colouredWallAt(2.0);
+  const ImageCamera camera(world, withoutWater());
+  base::StopSource stop;
+  stop.cancel();
+  std::vector<std::uint8_t> rgb;
+  EXPECT_THROW(camera.render(camera.baseFromOptical(), 0, rgb, stop.token()), base::Stopped);
+}
+
 TEST(ImageCamera, TheNoiseHasItsStandardDeviation) {
   ImageCameraOptions options = withoutWater();
   options.noise = 2.0;

@@ -1,0 +1,262 @@
+#include "ros/localization/marker_localizer_node.h"
+
+#include <ros/console.h>
+
+#include <cmath>
+#include <utility>
+
+#include "grid_path_planner/MarkerLocalizerConfig.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "localization/measurement_check.h"
+#include "ros/common/end_of_node.h"
+#include "ros/common/file_kinds.h"
+#include "ros/common/guarded_queue.h"
+#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/parameters.h"
+#include "ros/localization/camera_messages.h"
+#include "ros/localization/diagnostics_timer.h"
+#include "ros/localization/sensor_messages.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using base::StopSource;
+using base::StopToken;
+using diagnostic_msgs::DiagnosticStatus;
+using vision::PanelPose;
+
+namespace {
+
+constexpr double kSilent = 2.0;  // s without an image
+
+void nameFrames(MarkerLocalizerOptions& options) {
+  options.map_frame = frameName(options.map_frame);
+  options.base_frame = frameName(options.base_frame);
+}
+
+MarkerLocalizerOptions loadMarkerLocalizerOptions(const ros::NodeHandle& private_nh,
+                                                  const NodeFiles& files) {
+  MarkerLocalizerOptions options;
+  loadParameters(private_nh, options);
+  options.layout = files.named("layout", options.layout);
+  nameFrames(options);
+  checkMarkerLocalizerOptions(options);
+  warnUnknownParameters(private_nh, optionNames<MarkerLocalizerOptions>());
+  return options;
+}
+
+vision::MarkerLayout loadLayout(const MarkerLocalizerOptions& options, const NodeFiles& files) {
+  return files.read("layout", options.layout, markerLayoutFiles(), [&](const std::string& file) {
+    return vision::readMarkerLayout(file, {options.reading, EndOfNode().token()});
+  });
+}
+
+// As the parameters have it: it is known exactly.
+std::optional<PanelPose> givenPanel(const MarkerLocalizerOptions& o) {
+  if (!o.panel_known) return {};
+  PanelPose panel;
+  panel.map_from_panel = Eigen::Translation3d(o.panel_x, o.panel_y, o.panel_z) *
+                         Eigen::AngleAxisd(o.panel_yaw, Eigen::Vector3d::UnitZ()) *
+                         Eigen::AngleAxisd(o.panel_pitch, Eigen::Vector3d::UnitY()) *
+                         Eigen::AngleAxisd(o.panel_roll, Eigen::Vector3d::UnitX());
+  return panel;
+}
+
+void checkStamp(const ros::Time& stamp, const ros::Time& last, double max_age) {
+  if (stamp.isZero()) throw InputError("it has no stamp");
+  localization::checkStamp(stampOf(stamp), stampOf(ros::Time::now()), max_age);
+  if (stamp == last) throw InputError("its stamp came before");
+  if (stamp < last) throw InputError("it is older than the one before");
+}
+
+void addTo(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
+           const InputRecord& input) {
+  status.add(name, input.received());
+  status.add(name + " refused", input.refused());
+  status.add(name + " refused last because", input.reason());
+}
+
+// Root mean square, pixels.
+double residualOf(const vision::MarkerFix& fix) {
+  if (fix.candidates.empty()) return 0.0;
+  return std::sqrt(fix.candidates.front().squared_error /
+                   (4.0 * static_cast<double>(fix.views.size())));
+}
+
+}  // namespace
+
+MarkerLocalizerNode::MarkerLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                                         const NodeFiles& files)
+    : nh_(nh),
+      options_(loadMarkerLocalizerOptions(private_nh, files)),
+      layout_(loadLayout(options_, files)),
+      transforms_(nh),
+      publisher_(nh_),
+      sightings_(options_.learning),
+      diagnostics_(nh, private_nh, private_nh.getNamespace()),
+      looker_([](const std::string& error) { tellGivenUp("An image", error); }) {
+  usePanel(givenPanel(options_));
+  reconfigurable_ = std::make_unique<Reconfigurable<MarkerLocalizerConfig, MarkerLocalizerOptions>>(
+      private_nh, options_, [this](const MarkerLocalizerOptions& options) { use(options); });
+  diagnostics_.add("markers", this, &MarkerLocalizerNode::diagnose);
+  diagnostics_timer_ = diagnosticsTimer(nh_, diagnostics_);
+  listen(private_nh);
+}
+
+MarkerLocalizerNode::~MarkerLocalizerNode() {
+  diagnostics_timer_.stop();
+  for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
+  learn_panel_.shutdown();
+}
+
+void MarkerLocalizerNode::listen(ros::NodeHandle& private_nh) {
+  subscribers_.push_back(subscribeChecked<sensor_msgs::CameraInfo>(
+      nh_, "camera/camera_info", 1, [this](const sensor_msgs::CameraInfo& info) { onInfo(info); }));
+  subscribers_.push_back(subscribeChecked<sensor_msgs::Image, const sensor_msgs::ImageConstPtr&>(
+      nh_, "camera/image_raw", 1,
+      [this](const sensor_msgs::ImageConstPtr& image) { onImage(image); }));
+  using std_srvs::Trigger;
+  learn_panel_ = private_nh.advertiseService<Trigger::Request, Trigger::Response>(
+      "learn_panel", [this](Trigger::Request&, Trigger::Response& response) {
+        learnPanel(response);
+        return true;
+      });
+}
+
+void MarkerLocalizerNode::use(MarkerLocalizerOptions options) {
+  nameFrames(options);
+  checkMarkerLocalizerOptions(options);
+  if (options.layout != options_.layout || options.map_frame != options_.map_frame ||
+      options.base_frame != options_.base_frame)
+    throw InputError("layout, map_frame and base_frame cannot be changed while the node runs");
+  const bool forgets = options_.panel_known && !options.panel_known;
+  options_ = options;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    sightings_.use(options.learning);
+  }
+  if (options.panel_known || forgets) usePanel(givenPanel(options));
+}
+
+void MarkerLocalizerNode::usePanel(const std::optional<PanelPose>& panel) {
+  panel_ = panel;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sightings_.clear();
+  if (panel_) publisher_.publishPanel(*panel_, options_.map_frame, ros::Time::now());
+}
+
+// False while there is no ROS time.
+bool MarkerLocalizerNode::noticeTime() {
+  if (!clock_.hasTime()) return false;
+  if (const auto back = clock_.jumpedBack()) {
+    ROS_WARN_STREAM("ROS time went back by " << *back << " s: images and tf are forgotten");
+    transforms_.clear();
+    last_stamp_ = {};
+    const std::lock_guard<std::mutex> lock(mutex_);
+    sightings_.clear();
+    tally_.newest.reset();
+  }
+  return true;
+}
+
+void MarkerLocalizerNode::onInfo(const sensor_msgs::CameraInfo& message) {
+  infos_.receive();
+  try {
+    calibration_ = calibrationOf(message);
+  } catch (const InputError& error) {
+    infos_.refuse(error.what());
+  }
+}
+
+void MarkerLocalizerNode::onImage(const sensor_msgs::ImageConstPtr& message) {
+  if (!noticeTime()) return;
+  const ros::Time stamp = message->header.stamp;
+  try {
+    checkStamp(stamp, last_stamp_, options_.max_age);
+    if (!calibration_) throw InputError("no camera_info that can be used has come yet");
+  } catch (const InputError& error) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    tally_.images.receive();
+    tally_.images.refuse(error.what());
+    return;
+  }
+  last_stamp_ = stamp;
+  looker_.post([this, image = MarkerImage{message, *calibration_, options_, panel_}](
+                   const StopSource& stop) { lookAt(image, stop.token()); },
+               "image");
+}
+
+// In the thread of the images.
+void MarkerLocalizerNode::lookAt(const MarkerImage& image, const StopToken& stop) {
+  try {
+    MarkerAnswer answer = answerOf(image, layout_, transforms_, stop);
+    publisher_.publish(image, answer, layout_);
+    answer.grey = {};
+    const std::lock_guard<std::mutex> lock(mutex_);
+    tally_.images.receive();
+    if (answer.sighting) sightings_.add(*answer.sighting);
+    if (answer.base) ++tally_.poses;
+    tally_.newest = std::move(answer);
+    tally_.newest_stamp = image.message->header.stamp;
+  } catch (const base::Stopped&) {  // the node ends
+  } catch (const std::runtime_error& error) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    tally_.images.receive();
+    tally_.images.refuse(error.what());
+  }
+}
+
+void MarkerLocalizerNode::learnPanel(std_srvs::Trigger::Response& response) {
+  try {
+    if (panel_) throw InputError("the panel's pose is known already");
+    PanelPose learnt;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      learnt = sightings_.learnt();
+    }
+    usePanel(learnt);
+    response.success = true;
+    const Eigen::Vector3d position = learnt.map_from_panel.translation();
+    response.message = "the panel is at " + std::to_string(position.x()) + ", " +
+                       std::to_string(position.y()) + ", " + std::to_string(position.z());
+  } catch (const InputError& error) {
+    response.message = error.what();
+  }
+  ROS_INFO_STREAM("~learn_panel: " << response.message);
+}
+
+void MarkerLocalizerNode::summarize(diagnostic_updater::DiagnosticStatusWrapper& status,
+                                    double age) const {
+  const InputRecord& images = tally_.images;
+  if (images.received() == 0) return status.summary(DiagnosticStatus::OK, "not heard");
+  if (!tally_.newest || age > kSilent)
+    return status.summary(DiagnosticStatus::WARN, "silent, or refused: " + images.reason());
+  const MarkerAnswer& newest = *tally_.newest;
+  if (!newest.fix.fits)
+    status.summary(DiagnosticStatus::ERROR, newest.reason);
+  else if (!newest.base)
+    status.summary(DiagnosticStatus::WARN, "no pose: " + newest.reason);
+  else
+    status.summary(DiagnosticStatus::OK,
+                   "a pose by " + std::to_string(newest.fix.views.size()) + " markers");
+}
+
+void MarkerLocalizerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const vision::MarkerFix fix = tally_.newest ? tally_.newest->fix : vision::MarkerFix();
+  const double age = secondsBetween(tally_.newest_stamp, ros::Time::now());
+  const std::uint64_t taken = tally_.images.received() - tally_.images.refused();
+  const auto before = std::exchange(diagnosed_images_, taken);
+  summarize(status, age);
+  status.add("rate (Hz)", static_cast<double>(taken - before) / kDiagnosisPeriod);
+  status.add("age (s)", tally_.newest ? std::to_string(age) : "none");
+  status.add("poses", tally_.poses);
+  status.add("markers seen", fix.views.size());
+  status.add("markers that the layout does not have", fix.unknown);
+  status.add("residual (pixels)", residualOf(fix));
+  status.add("panel", panel_ ? "known" : "not known");
+  addTo(status, "images", tally_.images);
+  addTo(status, "camera_info", infos_);
+}
+
+}  // namespace grid_path_planner::nodes
