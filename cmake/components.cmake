@@ -1,7 +1,7 @@
 # What is built. -DGRID_PATH_PLANNER_COMPONENTS="planning;driving" (or "planning,driving") leaves out what the
 # others need.
 #
-#   planning    path_planner, map_publisher, grid_path (plan, convert, rectangles): always built
+#   planning    path_planner, map_publisher, grid_path (plan, replay, convert, rectangles): always built
 #   driving     navigate_path, go_to_pose, teleop_joy
 #   avoidance   local_planner
 #   localization  vehicle_localizer: needs OpenCV's aruco
