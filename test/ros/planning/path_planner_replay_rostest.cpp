@@ -68,7 +68,7 @@ class ReplayTest : public test::PlannerTest {
     ComparePlans call;
     call.request.start = start;
     call.request.goal = goal;
-    call.request.planners = {"weighted_jump_point", "lazy_theta_star", "anya"};
+    call.request.planners = {"weighted_jump_point", "lazy_theta_star", "dijkstra"};
     ASSERT_TRUE(ros::service::call("/path_planner/compare_plans", call));
   }
 
@@ -107,7 +107,7 @@ TEST_F(ReplayTest, EveryRecordedPlanIsIdentical) {
   Process replay("grid_path", {"replay", file_});
   ASSERT_TRUE(replay.waitForExit());
   EXPECT_EQ(replay.exitCode(), 0) << replay.output();
-  for (const char* planner : {"weighted_jump_point", "lazy_theta_star", "anya"})
+  for (const char* planner : {"weighted_jump_point", "lazy_theta_star", "dijkstra"})
     EXPECT_TRUE(replay.hasSaid(std::string("poses, by ") + planner)) << replay.output();
 }
 
