@@ -11,6 +11,7 @@ constexpr int kBadInput = 2;
 
 int runPlan(int argc, char** argv);
 int runScenarios(int argc, char** argv);
+int runReplay(int argc, char** argv);
 int runRectangles(int argc, char** argv);
 int runConvert(int argc, char** argv);
 int runWaypoints(int argc, char** argv);

@@ -32,7 +32,7 @@ LENT = {
     "following/go_to/navigator.h": {"ros_driving"},
     "following/go_to/navigator_options.h": {"ros_driving"},
     "grid/float_decimal.h": {"ros_common"},
-    "grid/map_differences.h": {"planning", "ros_common"},
+    "grid/map_differences.h": {"planning", "ros_common", "ros_planning"},
     "grid/formats/rectangle_map_file.h": {"planners"},
     "localization/input_statistics.h": {"ros_localization"},
     "localization/lagged_filter.h": {"ros_localization"},

@@ -1,5 +1,6 @@
-"""Every launch file can be loaded, its nodes exist, and it sets no parameter that its node lacks."""
+"""Every launch file can be loaded and is installed, its nodes exist, and it sets no parameter that its node lacks."""
 import os
+import re
 import subprocess
 
 import roslaunch.config
@@ -9,7 +10,8 @@ import yaml
 from common import ROOT, files, finish, read
 
 PACKAGE = "grid_path_planner"
-ARGUMENTS = {"map_file.launch": ["map:=maps/dexrov_site.yaml"], "map_demo.launch": ["map:=maps/dexrov_site.yaml"]}
+MAP = "map:=maps/dexrov_site.yaml"
+ARGUMENTS = {"map_file.launch": [MAP], "map_demo.launch": [MAP], "two_vehicles.launch": [MAP], "vehicle.launch": ["name:=a"]}
 
 
 def known_parameters(node):
@@ -29,7 +31,7 @@ def complaints_of(name):
             continue
         if not roslib.packages.find_node(PACKAGE, node.type):
             complaints.append("%s: there is no executable %s" % (name, node.type))
-        prefix = "/%s/" % node.name
+        prefix = "%s%s/" % (node.namespace, node.name)
         for parameter in config.params:
             if parameter.startswith(prefix) and "/" not in parameter[len(prefix):]:
                 if parameter[len(prefix):] not in known_parameters(node.type):
@@ -45,9 +47,17 @@ def undocumented(name):
     return ["%s: %s" % (name, line.strip()) for line in text.splitlines() if "undocumented" in line]
 
 
+def not_installed(names):
+    """cmake/components.cmake lists them by component."""
+    lists = re.findall(r"GPP_LAUNCH_FILES ([^)]*)\)", read("cmake/components.cmake"))
+    listed = {name for words in lists for name in words.split()}
+    return ["%s: cmake/components.cmake does not install it" % name for name in names
+            if os.path.basename(name)[:-len(".launch")] not in listed]
+
+
 def main():
     names = files(("launch",), (".launch",))
-    finish([complaint for name in names for complaint in complaints_of(name) + undocumented(name)],
+    finish(not_installed(names) + [complaint for name in names for complaint in complaints_of(name) + undocumented(name)],
            "%d launch files" % len(names))
 
 

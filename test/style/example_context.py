@@ -238,6 +238,18 @@ CONTEXT = {
                        "extern bool (*renew)(HeapOnTopQueue::Entry&);",
     "path_image.h": "extern OccupancyGrid map; extern OccupancyThresholds thresholds; extern Path path;"
                  "extern std::vector<Cell> expanded;",
+    "plan_record.h": """#include <ros/publisher.h>
+        extern ros::Publisher publisher; extern PlanQuestion question; extern grid::OccupancyGrid map;
+        extern planning::Plan plan; extern path::Path poses; extern PlanRecord record;""",
+    "plan_recorder.h": "extern ros::NodeHandle nh; extern PlanRecord record;",
+    "plan_replay.h": """#include <iostream>
+        extern std::vector<PlanRecord> records; extern MapsByChecksum maps;""",
+    "map_checksum.h": """#include "grid_path_planner/PlanRecord.h"
+        #include "ros/common/map_receiver.h"
+        extern grid::OccupancyGrid map; extern grid::CellRect rect; extern map_msgs::OccupancyGridUpdate update;
+        extern PlanRecord record;""",
+    "recorded_maps.h": """using grid::OccupancyGrid; extern nav_msgs::OccupancyGrid message;
+        void keep(std::uint64_t, const OccupancyGrid&);""",
     "planning_server.h": "extern ros::NodeHandle nh; extern PathPlannerNodeOptions options;"
                    "extern NodeFiles files;"
                    "extern PlanningRequest request;",

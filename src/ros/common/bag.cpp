@@ -1,7 +1,6 @@
 #include "grid_path_planner/ros/bag.h"
 
 #include <nav_msgs/OccupancyGrid.h>
-#include <ros/serialization.h>
 
 #include <set>
 
@@ -9,6 +8,7 @@
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/bag_reader.h"
+#include "ros/common/incoming/claimed_lengths.h"
 
 namespace grid_path_planner::nodes {
 
@@ -62,36 +62,6 @@ std::set<std::uint32_t> mapConnections(const BagReader& bag, const std::string& 
                        (maps.empty() ? " nor on any other topic" : ", but on " + listOf(maps)));
 }
 
-void skipBlock(ros::serialization::IStream& stream) {
-  std::uint32_t size = 0;
-  stream.next(size);
-  stream.advance(size);
-}
-
-// Throws a StreamOverrunException where the message's own lengths go beyond its end; deserialize
-// would first take the memory that they ask for.
-void checkLengths(ros::serialization::IStream stream) {
-  constexpr std::uint32_t kSequenceAndStamp = 4 + 8;
-  constexpr std::uint32_t kInfo = 8 + 4 + 4 + 4 + 7 * 8;  // load time, resolution, sides, origin
-  stream.advance(kSequenceAndStamp);
-  skipBlock(stream);  // frame_id
-  stream.advance(kInfo);
-  skipBlock(stream);  // data
-}
-
-OccupancyGrid mapFromBytes(std::string bytes) {
-  nav_msgs::OccupancyGrid message;
-  try {
-    ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()),
-                                       static_cast<std::uint32_t>(bytes.size()));
-    checkLengths(stream);
-    ros::serialization::deserialize(stream, message);
-  } catch (const std::exception& error) {
-    throw InputError(std::string("damaged: ") + error.what());
-  }
-  return occupancyFromMessage(message);
-}
-
 }  // namespace
 
 OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic,
@@ -102,7 +72,7 @@ OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic,
     if (!bytes) throw InputError(file, "has no message on '" + topic + "'");
     within.take(file, kCopiesOfMap * bytes->size());
     try {
-      return mapFromBytes(*std::move(bytes));
+      return occupancyFromMessage(messageFromBytes<nav_msgs::OccupancyGrid>(*bytes));
     } catch (const InputError& error) {
       throw InputError(file, "the first map on '" + topic + "': " + error.what());
     }

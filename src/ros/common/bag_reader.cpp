@@ -217,24 +217,39 @@ void BagReader::walk() {
 }
 
 std::optional<std::string> BagReader::firstMessage(const std::set<std::uint32_t>& wanted) const {
-  return inFile(file_, [&]() -> std::optional<std::string> {
-    const auto isWanted = [&wanted](std::uint32_t id) { return wanted.count(id) != 0; };
-    for (const Chunk& chunk : chunks_) {
-      if (std::none_of(chunk.connections.begin(), chunk.connections.end(), isWanted)) continue;
-      limits_.goOn(file_);
-      const std::string content = unpack(chunk);
-      base::ReadPoll poll(limits_, file_);
-      for (Cursor cursor(content); !cursor.atEnd();) {
-        poll();
-        const Fields header(cursor.takeBlock());
-        const std::string_view data = cursor.takeBlock();
-        if (header.operation() != MESSAGE || !isWanted(header.id())) continue;
-        limits_.check(file_, content.size() + data.size());
-        return std::string(data);
-      }
-    }
-    return std::nullopt;
+  std::optional<std::string> first;
+  visit(wanted, [&first](std::uint32_t, std::string_view bytes) {
+    first = std::string(bytes);
+    return false;
   });
+  return first;
+}
+
+void BagReader::visit(const std::set<std::uint32_t>& wanted, const Visit& visit) const {
+  inFile(file_, [&] {
+    for (const Chunk& chunk : chunks_) {
+      const bool has_any = std::any_of(chunk.connections.begin(), chunk.connections.end(),
+                                       [&](std::uint32_t id) { return wanted.count(id) != 0; });
+      if (has_any && !visitChunk(chunk, wanted, visit)) return;
+    }
+  });
+}
+
+// Whether `visit` wants more.
+bool BagReader::visitChunk(const Chunk& chunk, const std::set<std::uint32_t>& wanted,
+                           const Visit& visit) const {
+  limits_.goOn(file_);
+  const std::string content = unpack(chunk);
+  base::ReadPoll poll(limits_, file_);
+  for (Cursor cursor(content); !cursor.atEnd();) {
+    poll();
+    const Fields header(cursor.takeBlock());
+    const std::string_view data = cursor.takeBlock();
+    if (header.operation() != MESSAGE || wanted.count(header.id()) == 0) continue;
+    limits_.check(file_, content.size() + data.size());
+    if (!visit(header.id(), data)) return false;
+  }
+  return true;
 }
 
 std::string BagReader::unpack(const Chunk& chunk) const {

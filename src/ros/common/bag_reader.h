@@ -1,21 +1,24 @@
-// Reads the first message of a topic in a bag (format 2.0); a damaged bag is refused.
+// Reads the messages of topics in a bag (format 2.0); a damaged bag is refused.
 //
 //   const BagReader bag("run.bag");
 //   for (const BagConnection& connection : bag.connections())
 //     std::optional<std::string> bytes = bag.firstMessage({connection.id});
+//   bag.visit({1, 2}, [](std::uint32_t, std::string_view bytes) { return bytes.size() > 9; });
 //
 // rosbag_storage trusts the lengths in a file: one wrong byte of a bag's header makes it read beyond
 // its buffer and can end the process. Here every length is checked against the bytes that are left.
 // Only the decompression of chunks uses rosbag_storage.
 //
-// The first message is the first in the file, not by time; rosbag record writes them as they arrive.
+// The order is that in the file, not by time; rosbag record writes messages as they arrive.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grid_path_planner/base/files.h"
@@ -53,8 +56,15 @@ class BagReader {
   // InputError where the chunk that should hold it is damaged.
   std::optional<std::string> firstMessage(const std::set<std::uint32_t>& connections) const;
 
+  // Calls `visit` with the bytes of each message of the `connections`, until it returns false. Throws
+  // InputError where a chunk that should hold one is damaged.
+  using Visit = std::function<bool(std::uint32_t connection, std::string_view bytes)>;
+  void visit(const std::set<std::uint32_t>& connections, const Visit& visit) const;
+
  private:
   void walk();
+  bool visitChunk(const Chunk& chunk, const std::set<std::uint32_t>& wanted,
+                  const Visit& visit) const;
   std::string unpack(const Chunk& chunk) const;
   void take(std::size_t bytes) { limits_.take(file_, bytes); }
 

@@ -181,6 +181,7 @@ void PathPlannerNode::planForGoal(const StopSource& stop) {
   PlanningLane& lane = server_->vehicleLane();
   const Plan plan =
       lane.plan(goal->request, server_->recordingOptions(settings.options), stop).plan;
+  server_->record(lane, plan, settings.options);
   const PlanStatistics statistics = lane.statistics(plan, goal->request, settings.options);
   if (stop.cancelled() || keepsOldPath(*goal, plan, settings, stop)) return;
   const bool as_before = goal->answered && !plan.found() && plan.status == goal->status;

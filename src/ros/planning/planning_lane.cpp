@@ -8,7 +8,6 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "path/pose_spacing.h"
 #include "planning/map_store.h"
 #include "ros/common/clock.h"
 #include "ros/common/guarded_queue.h"
@@ -28,7 +27,6 @@ using costmap::CostGrid;
 using path::clearanceOf;
 using path::Path;
 using path::Pose;
-using path::spacedPoses;
 using planners::memoryLimitOf;
 using planning::explainFailure;
 using planning::Explanation;
@@ -132,6 +130,7 @@ ViaPlan PlanningLane::tryToPlan(const PlanningRequest& request,
     answer.plan = failedPlan(status, message);
     return answer;
   };
+  question_.reset();
   try {
     checkText(request);
     waitForClock(stop.token());
@@ -142,6 +141,7 @@ ViaPlan PlanningLane::tryToPlan(const PlanningRequest& request,
       return failed(Status::NO_MAP, "no map has come on " + maps_.topic() + " yet");
     ViaRequest poses = posesOf(request, options, stop.token());
     poses.record_expanded = options.record_search;
+    question_ = PlanQuestion{poses, planner_->options(), options.pose_spacing};
     if (on_phase) on_phase("searching");
     ViaPlan answer = planThrough(*planner_, poses, stop);
     bytes_ = planner_->bytesOfSearches();
@@ -226,10 +226,15 @@ PlanStatistics PlanningLane::statistics(const Plan& plan, const PlanningRequest&
 }
 
 Path PlanningLane::posesAlong(const Plan& plan, const PathPlannerNodeOptions& options) const {
-  const bool by_cells = options.pose_spacing < 0.0 && plan.found();
-  return spacedPoses(plan.path,
-                     by_cells ? planner_->map()->geometry().resolution() : options.pose_spacing,
-                     options.planner.heading);
+  if (!plan.found()) return plan.path;
+  return nodes::posesAlong(plan, *planner_->map(), options.pose_spacing, options.planner.heading);
+}
+
+std::optional<PlanRecord> PlanningLane::record(const Plan& plan,
+                                               const PathPlannerNodeOptions& options) const {
+  const bool searched = question_ && planner_ && planner_->hasMap();
+  if (!searched || plan.status == Status::CANCELLED) return std::nullopt;
+  return recordOf(*question_, *planner_->map(), plan, posesAlong(plan, options));
 }
 
 double PlanningLane::cellSize(const Plan& plan) const {

@@ -18,6 +18,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "grid_path_planner/PlanStatistics.h"
@@ -28,6 +29,7 @@
 #include "ros/common/frame_transforms.h"
 #include "ros/common/map_receiver.h"
 #include "ros/planning/planning_request.h"
+#include "ros/planning/record/plan_record.h"
 
 namespace grid_path_planner::nodes {
 
@@ -68,6 +70,9 @@ class PlanningLane {
                             const PathPlannerNodeOptions& options) const;
   // The path of a plan just made, with poses as pose_spacing asks for them.
   path::Path posesAlong(const planning::Plan& plan, const PathPlannerNodeOptions& options) const;
+  // All that repeats a plan just made; none where nothing was searched for it, or it was cancelled.
+  std::optional<PlanRecord> record(const planning::Plan& plan,
+                                   const PathPlannerNodeOptions& options) const;
   // Of the map that this plan was searched on, in metres.
   double cellSize(const planning::Plan& plan) const;
 
@@ -104,6 +109,7 @@ class PlanningLane {
   const PlanningLane* const other_;
   std::atomic<std::size_t> bytes_{0};               // that the planner does not share
   std::unique_ptr<planning::PathPlanner> planner_;  // the worker's; null before takeMap()
+  std::optional<PlanQuestion> question_;            // of the plan just made
   std::mutex finishing_mutex_;
   std::shared_ptr<base::TaskQueue::Task> finishing_;  // posted by finishLater()
   base::TaskQueue worker_;

@@ -41,6 +41,7 @@ PlanningServer::PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions&
       settings_{options, 0},
       transforms_(nh),
       publisher_(nh),
+      recorder_(nh),
       explanations_(nh),
       store_(std::make_shared<MapStore>()) {}
 
@@ -106,6 +107,7 @@ void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, 
   ticket.via_ = question_lane_.plan(
       request, options, stop, [&](const char* phase) { ticket.phase_ = phase; }, ticket.map_);
   Plan plan = std::move(ticket.via_.plan);
+  record(question_lane_, plan, options);
   if (publish == Publish::YES || explain == Explain::YES) {
     ticket.explanation_ = question_lane_.explain(
         request, plan.status, options, stop, explain == Explain::YES ? kExplains : kExplainsAtOnce);
@@ -176,6 +178,15 @@ void PlanningServer::stop() {
   maps_.shutdown();
   vehicle_lane_.worker().stop();
   question_lane_.worker().stop();
+}
+
+void PlanningServer::record(const PlanningLane& lane, const Plan& plan,
+                            const PathPlannerNodeOptions& options) const {
+  if (!recorder_.wanted()) return;
+  const bool question = &lane == &question_lane_;
+  if (auto message = lane.record(plan, options))
+    recorder_.publish(*std::move(message),
+                      question ? PlanRecorder::Asked::BY_QUESTION : PlanRecorder::Asked::BY_GOAL);
 }
 
 void PlanningServer::publish(const PlanningLane& lane, const Plan& plan,

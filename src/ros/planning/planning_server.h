@@ -28,6 +28,7 @@
 #include "ros/planning/plan_publisher.h"
 #include "ros/planning/planning_lane.h"
 #include "ros/planning/planning_request.h"
+#include "ros/planning/record/plan_recorder.h"
 #include "ros/planning/shown/explanation_publisher.h"
 
 namespace grid_path_planner::nodes {
@@ -117,6 +118,10 @@ class PlanningServer {
   // The options for a plan that is published: a search is recorded only where someone wants to see it.
   PathPlannerNodeOptions recordingOptions(PathPlannerNodeOptions options) const;
 
+  // For whoever records: a plan just made in `lane`, whose thread calls.
+  void record(const PlanningLane& lane, const planning::Plan& plan,
+              const PathPlannerNodeOptions& options) const;
+
   // Publishes a plan just made in `lane`, whose thread calls. A failure `as_before` is not logged.
   void publish(const PlanningLane& lane, const planning::Plan& plan,
                const PlanStatistics& statistics, bool as_before = false);
@@ -144,6 +149,7 @@ class PlanningServer {
 
   FrameTransforms transforms_;
   PlanPublisher publisher_;
+  PlanRecorder recorder_;
   std::mutex explanation_mutex_;  // of the two below
   unsigned explanation_number_ = 0;
   ExplanationPublisher explanations_;

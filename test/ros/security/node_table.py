@@ -38,6 +38,7 @@ NODES = {
         outputs={"path": "nav_msgs/Path", "planning_map": "nav_msgs/OccupancyGrid",
                  "planning_map_updates": "map_msgs/OccupancyGridUpdate",
                  "plan_statistics": "grid_path_planner/PlanStatistics",
+                 "plan_record": "grid_path_planner/PlanRecord",
                  "search_markers": "visualization_msgs/MarkerArray",
                  "explanation_markers": "visualization_msgs/MarkerArray",
                  "rectangle_map": "grid_path_planner/RectangleMap",

@@ -15,7 +15,9 @@
 
 #include <boost/make_shared.hpp>
 #include <cstdint>
+#include <exception>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grid_path_planner/base/errors.h"
@@ -70,6 +72,23 @@ void checkClaimedLengths(std::uint8_t* bytes, std::uint32_t count) {
   ClaimedLengths lengths(bytes, count);
   Message message;
   lengths.next(message);
+}
+
+// The message that was serialized to these bytes. Throws base::InputError where they are another one's,
+// or fewer than it claims.
+template <class Message>
+Message messageFromBytes(std::string_view bytes) {
+  auto* const data = reinterpret_cast<std::uint8_t*>(const_cast<char*>(bytes.data()));
+  const auto count = static_cast<std::uint32_t>(bytes.size());
+  Message message;
+  try {
+    checkClaimedLengths<Message>(data, count);
+    ros::serialization::IStream stream(data, count);
+    ros::serialization::deserialize(stream, message);
+  } catch (const std::exception& error) {
+    throw base::InputError(std::string("damaged: ") + error.what());
+  }
+  return message;
 }
 
 // Stands for a message that came without a byte: no callback gets it.
