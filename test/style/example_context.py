@@ -16,6 +16,7 @@ CONTEXT = {
     "shown_text.h": "extern std::string message;",
     "guarded_queue.h": "extern ros::NodeHandle nh;",
     "master_watch.h": "void halt();",
+    "turning_points.h": "extern std::vector<Cell> cells; extern const CostGrid& map;",
     "update_sequence.h": "#include <map_msgs/OccupancyGridUpdate.h>\n#include <ros/message_event.h>\nextern UpdateSequence sequence;"
                          "extern ros::MessageEvent<map_msgs::OccupancyGridUpdate const> event;"
                          "extern map_msgs::OccupancyGridUpdate message; void askForAWholeMap();",
@@ -122,7 +123,8 @@ CONTEXT = {
     "sensor_messages.h": """#include "localization/vehicle_localizer.h"
         extern FrameTransforms transforms; extern VehicleLocalizerOptions options; extern sensor_msgs::Imu message;
         extern localization::VehicleLocalizer localizer;""",
-    "transform_rivals.h": "extern ros::NodeHandle nh; extern ros::Time stamp; void beSilent(const std::string&);",
+    "transform_rivals.h": "extern ros::Time stamp; void beSilent(const std::string&);"
+                          "extern const tf2_msgs::TFMessage& message; extern std::string node; extern bool is_static;",
     "input_log.h": "extern std::exception error; using localization::Source;",
     "input_record.h": "extern std::exception error;",
     "camera_messages.h": "extern sensor_msgs::CameraInfo camera_info; extern sensor_msgs::Image image;",
@@ -157,6 +159,8 @@ CONTEXT = {
         extern const FlightStudy& study; extern std::size_t variant; extern int seed;""",
     "sight_audit.h": """extern const simulation::World& world; extern simulation::DepthCameraOptions camera_options;
         extern Eigen::Vector3d start, position; extern Eigen::Isometry3d map_from_optical; extern int entered;""",
+    "backward_guide.h": "extern BackwardGuide guide; extern const CostGrid& map; extern const SearchRequest& request;"
+                        " extern double f, g, share; extern std::uint32_t index;",
     "block_bound.h": "extern const CostGrid& map; extern Cell goal, cell;",
     "planning/explanation.h": "void log(const std::string&); extern PathPlanner planner; extern PoseRequest request;",
     "via_plan.h": "extern PathPlanner planner; extern path::Pose start, goal;",
