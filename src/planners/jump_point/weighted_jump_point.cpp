@@ -1,6 +1,7 @@
 #include "planners/jump_point/weighted_jump_point.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -12,7 +13,7 @@ namespace grid_path_planner::planners {
 
 using base::StopToken;
 using costmap::Connectivity, costmap::CostGrid, costmap::DiagonalCost, costmap::MotionModel;
-using grid::CellRect, grid::GridGeometry;
+using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
@@ -27,6 +28,16 @@ constexpr std::size_t kPlainTilePrice = 4096;
 // Tiles that may be made before: all of small maps, and of maps of one weight a part.
 constexpr std::size_t kSmallMap = 8;
 constexpr std::size_t kFirstPart = 32;
+// A search comes to more tiles than lie on the straight line to its goal, seldom to fewer than this
+// many times as many.
+constexpr int kTilesBesideLine = 2;
+
+std::uint64_t tilesExpected(const SearchRequest& request) {
+  const Cell goal = request.goals.front();
+  const int straight = std::max(std::abs(goal.column - request.start.column),
+                                std::abs(goal.row - request.start.row));
+  return std::uint64_t(straight / WeightedJumpMap::kTile) * kTilesBesideLine;
+}
 
 bool jumpsSupport(const MotionModel& motion) {
   return motion == MotionModel();
@@ -169,21 +180,30 @@ void WeightedJumpPoint::payForTiles(std::size_t expanded) {
   paid_ %= price;
 }
 
+// Nothing where it would have to make more tiles than it may, or its keys do not hold the cost.
+std::optional<SearchResult> WeightedJumpPoint::searchWithJumps(const SearchRequest& request,
+                                                               const StopToken& stop) {
+  const std::uint64_t most = mostTiles();
+  const std::size_t ready = jumps_.tilesReady();
+  if (most < tilesExpected(request) && ready < tilesExpected(request)) return std::nullopt;
+  const bool early = pruning_.octileSaysLittle(map().minWeight());
+  jumps_.makeBoundAfter(early ? kEarly : kLate);
+  const auto spend = [&] { tiles_left_ -= std::min(tiles_left_, jumps_.tilesReady() - ready); };
+  try {
+    SearchResult result = jumps_.run(map(), request, stop, most);
+    spend();
+    return result;
+  } catch (const TooManyTiles&) {
+    spend();
+  } catch (const TooExpensive&) {
+  }
+  return std::nullopt;
+}
+
 SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const StopToken& stop) {
   if (jumps_ready_) {
-    const bool early = pruning_.octileSaysLittle(map().minWeight());
-    jumps_.makeBoundAfter(early ? kEarly : kLate);
-    const std::size_t ready = jumps_.tilesReady();
-    const std::uint64_t most = mostTiles();
-    const auto spend = [&] { tiles_left_ -= std::min(tiles_left_, jumps_.tilesReady() - ready); };
-    try {
-      SearchResult result = jumps_.run(map(), request, stop, most);
-      spend();
-      return result;
-    } catch (const TooManyTiles&) {
-      spend();
-    } catch (const TooExpensive&) {
-    }
+    if (std::optional<SearchResult> result = searchWithJumps(request, stop))
+      return *std::move(result);
     if (!a_star_) prepareAStar(stop);
   }
   SearchResult result = a_star_->search(request, stop);

@@ -24,6 +24,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "grid_path_planner/planners/a_star_options.h"
@@ -51,6 +52,9 @@ class WeightedJumpPoint : public Planner {
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
+
+  std::optional<SearchResult> searchWithJumps(const SearchRequest& request,
+                                              const base::StopToken& stop);
 
   bool shouldJump() const;
   int blockOfBound() const;
