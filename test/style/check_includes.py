@@ -51,6 +51,7 @@ LENT = {
     "path/pose_spacing.h": {"planning", "ros_adapters", "ros_planning"},
     "planning/cost_planner.h": {"ros_adapters"},
     "planning/cost_planner_options.h": {"ros_adapters"},
+    "planners/tables/cost_to_go.h": {"ros_planning"},
     "planning/map_store.h": {"ros_planning"},
     "planning/via/via_plan.h": {"command_line", "ros_planning"},
     "planners/any_angle/theta_star.h": {"study"},  # the base of its published Theta*

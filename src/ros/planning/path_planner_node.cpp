@@ -17,6 +17,7 @@
 
 namespace grid_path_planner::nodes {
 
+using base::InputError;
 using base::sameOptions;
 using base::Stopped;
 using base::StopSource;
@@ -35,6 +36,7 @@ namespace {
 constexpr char kGoalSlot[] = "goal";
 constexpr char kMapSlot[] = "map";
 constexpr char kSearchedMapSlot[] = "searched map";
+constexpr char kCostToGoSlot[] = "cost to go";
 
 // Nothing is planned for a file or a frame that will be refused.
 void checkNames(const PathPlannerNodeOptions& options, const NodeFiles& files) {
@@ -83,6 +85,7 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   server_ =
       std::make_unique<PlanningServer>(nh, options, files, [this] { active_goal_.forgetStart(); });
   planning_map_ = std::make_unique<PlanningMapPublisher>(nh, [this] { postSearchedMap(); });
+  cost_to_go_ = std::make_unique<CostToGoPublisher>(private_nh, [this] { postCostToGo(); });
   services_ = std::make_unique<PlanServices>(private_nh, *server_);
   action_ = std::make_unique<PlanAction>(nh, *server_);
   diagnostics_ = std::make_unique<PlanDiagnostics>(nh, private_nh, *server_);
@@ -164,6 +167,7 @@ void PathPlannerNode::postPlanForGoal() {
   server_->vehicleLane().post(
       [this](const StopSource& stop) {
         planForGoal(stop);
+        postCostToGo();
         server_->vehicleLane().finishLater(server_->settings().options);
       },
       kGoalSlot, TaskQueue::Turn::NEXT);
@@ -172,6 +176,12 @@ void PathPlannerNode::postPlanForGoal() {
 void PathPlannerNode::postSearchedMap() {
   server_->vehicleLane().post([this](const StopSource& stop) { publishSearchedMap(stop); },
                               kSearchedMapSlot);
+}
+
+void PathPlannerNode::postCostToGo() {
+  if (!cost_to_go_->wanted()) return;
+  server_->vehicleLane().post([this](const StopSource& stop) { publishCostToGo(stop); },
+                              kCostToGoSlot);
 }
 
 void PathPlannerNode::planForGoal(const StopSource& stop) {
@@ -212,6 +222,7 @@ void PathPlannerNode::processMap(const StopSource& stop) {
     server_->vehicleLane().downsampledCosts(options, stop.token());
     if (goalPathBlocked(options, stop)) postPlanForGoal();
     postSearchedMap();
+    postCostToGo();
     server_->vehicleLane().prepare(options, stop.token());
     server_->vehicleLane().finishLater(options);
   } catch (const Stopped&) {
@@ -247,6 +258,25 @@ void PathPlannerNode::publishRectangles(const PathPlannerNodeOptions& options,
     rectangles_->publish(costs, server_->vehicleLane().frame(options),
                          memoryLimitOf(options.planner.search));
   cut_costs_ = costs;
+}
+
+void PathPlannerNode::publishCostToGo(const StopSource& stop) {
+  const std::optional<GoalState> goal = active_goal_.goal();
+  if (!goal) return;
+  const PathPlannerNodeOptions options = server_->settings().options;
+  PlanningLane& lane = server_->vehicleLane();
+  try {
+    const auto costs = lane.downsampledCosts(options, stop.token());
+    if (!costs) return;
+    cost_to_go_->publish(costs, lane.goalOf(goal->request, options, stop.token()),
+                         lane.frame(options), memoryLimitOf(options.planner.search));
+  } catch (const Stopped&) {
+    // The node ends.
+  } catch (const InputError&) {
+    // The answer to the goal says why.
+  } catch (const TransformError&) {
+    // The same.
+  }
 }
 
 bool PathPlannerNode::goalPathBlocked(const PathPlannerNodeOptions& options,

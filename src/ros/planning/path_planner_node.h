@@ -21,6 +21,7 @@
 #include "ros/planning/plan_services.h"
 #include "ros/planning/planning_server.h"
 #include "ros/planning/rectangle_publisher.h"
+#include "ros/planning/shown/cost_to_go_publisher.h"
 #include "ros/planning/shown/planning_map_publisher.h"
 
 namespace grid_path_planner {
@@ -60,10 +61,12 @@ class PathPlannerNode {
   void publishSearchedMap(const base::StopSource& stop);
   void publishRectangles(const PathPlannerNodeOptions& options,
                          const std::shared_ptr<const costmap::CostGrid>& costs);
+  void publishCostToGo(const base::StopSource& stop);
   bool goalPathBlocked(const PathPlannerNodeOptions& options, const base::StopSource& stop);
 
   void postPlanForGoal();
   void postSearchedMap();
+  void postCostToGo();
 
   ros::NodeHandle nh_;
   ActiveGoal active_goal_;
@@ -71,6 +74,7 @@ class PathPlannerNode {
   std::unique_ptr<RectanglePublisher> rectangles_;      // the worker's; null until wanted
   std::unique_ptr<PlanningServer> server_;
   std::unique_ptr<PlanningMapPublisher> planning_map_;  // the worker's, once there is a map
+  std::unique_ptr<CostToGoPublisher> cost_to_go_;
   std::unique_ptr<PlanServices> services_;
   std::unique_ptr<PlanAction> action_;
   std::unique_ptr<PlanDiagnostics> diagnostics_;

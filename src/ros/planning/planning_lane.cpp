@@ -277,6 +277,13 @@ std::shared_ptr<const CostGrid> PlanningLane::fullResolutionCosts(
   return planner_->hasMap() ? planner_->fullResolutionCosts(stop) : nullptr;
 }
 
+Eigen::Vector2d PlanningLane::goalOf(const PlanningRequest& request,
+                                     const PathPlannerNodeOptions& options,
+                                     const StopToken& stop) const {
+  return transforms_.poseIn(frame(options), request.goal, options.tf_timeout, stop)
+      .position.head<2>();
+}
+
 std::string PlanningLane::frame(const PathPlannerNodeOptions& options) const {
   const std::string& of_map = planner_ ? planner_->frameId() : std::string();
   return of_map.empty() ? frameName(options.map_frame) : of_map;

@@ -87,6 +87,11 @@ class PlanningLane {
   std::shared_ptr<const costmap::CostGrid> fullResolutionCosts(
       const PathPlannerNodeOptions& options, const base::StopToken& stop);
 
+  // Where the request wants to go, in the map's frame, metres. Throws InputError, TransformError and
+  // Stopped.
+  Eigen::Vector2d goalOf(const PlanningRequest& request, const PathPlannerNodeOptions& options,
+                         const base::StopToken& stop) const;
+
   // Of the map that was used last; map_frame where there is none or it names none.
   std::string frame(const PathPlannerNodeOptions& options) const;
 

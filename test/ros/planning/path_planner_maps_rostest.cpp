@@ -1,4 +1,7 @@
-// planning_map and planning_map_updates: who gets what of a map that changes.
+// planning_map and planning_map_updates: who gets what of a map that changes. ~cost_to_go follows
+// goal and map.
+#include <sensor_msgs/Image.h>
+
 #include <algorithm>
 #include <random>
 
@@ -98,6 +101,57 @@ TEST_F(PlanningMaps, ANewSubscriberHasTheMapAsItIsAfterUpdates) {
   test::WholeMapListener late("/planning_map");
   ASSERT_TRUE(late.hasMap());
   EXPECT_TRUE(test::waitFor([&] { return late.grid().values() == map_.values(); }));
+}
+
+class CostsToGo : public test::PlannerTest {
+ protected:
+  using Map = nav_msgs::OccupancyGrid;
+  using Values = std::vector<std::int8_t>;
+
+  static constexpr char kTopic[] = "/path_planner/cost_to_go";
+
+  static bool isOf(const Map& message, const Values& values) { return message.data == values; }
+};
+
+TEST_F(CostsToGo, AreOfTheGoalTheMapAndWhoeverComesLate) {
+  startPlanner({"_decay:=0"});
+  test::Latest<Map> first(nh_, kTopic);
+  ASSERT_TRUE(test::waitFor([&] { return first.connected(); }));
+  placeVehicle(0.5, 0.5);
+  publishMap({"....."});
+  sendGoal(test::poseAt(4.5, 0.5));
+  const Values to_the_right = {100, 75, 50, 25, 0}, beyond_a_wall = {-1, -1, 100, 50, 0};
+  ASSERT_TRUE(first.waitFor(0, [&](const Map& message) { return isOf(message, to_the_right); }));
+
+  publishMap({".#..."});
+  const auto told =
+      first.waitFor(0, [&](const Map& message) { return isOf(message, beyond_a_wall); });
+  ASSERT_TRUE(told) << "the vehicle has no path, others may have one";
+  EXPECT_EQ(told->header.frame_id, "map");
+
+  test::WholeMapListener late(kTopic);
+  ASSERT_TRUE(late.hasMap());
+  EXPECT_EQ(late.grid().values(), beyond_a_wall);
+}
+
+// A goal far outside the map, or in a frame that nobody knows, has no costs; the next one has.
+TEST_F(CostsToGo, AGoalThatIsNowhereHasNone) {
+  startPlanner({"_decay:=0", "_tf_timeout:=0.1"});
+  test::Latest<Map> costs(nh_, kTopic);
+  test::Latest<sensor_msgs::Image> images(nh_, "/path_planner/cost_to_go_image");
+  ASSERT_TRUE(test::waitFor([&] { return costs.connected() && images.connected(); }));
+  placeVehicle(0.5, 0.5);
+  publishMap({"..."});
+  sendGoal(test::poseAt(1e6, 0.5));
+  sendGoal(test::poseAt(0.5, 0.5, 0.0, "nowhere"));
+  sendGoal(test::poseAt(2.5, 0.5));
+  const auto told = costs.waitForMoreThan(0);
+  const auto image = images.waitForMoreThan(0);
+  ASSERT_TRUE(told && image);
+  EXPECT_TRUE(isOf(*told, {100, 50, 0}));
+  EXPECT_EQ(costs.all().front().data, told->data) << "nothing was told before";
+  EXPECT_EQ(image->encoding, "32FC1");
+  EXPECT_EQ(image->width, 3u);
 }
 
 // What was latched when the last subscriber left is not the newest map that a later one gets first.

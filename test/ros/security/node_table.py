@@ -39,6 +39,7 @@ NODES = {
                  "planning_map_updates": "map_msgs/OccupancyGridUpdate",
                  "plan_statistics": "grid_path_planner/PlanStatistics",
                  "plan_record": "grid_path_planner/PlanRecord",
+                 "~cost_to_go": "nav_msgs/OccupancyGrid", "~cost_to_go_image": "sensor_msgs/Image",
                  "search_markers": "visualization_msgs/MarkerArray",
                  "explanation_markers": "visualization_msgs/MarkerArray",
                  "rectangle_map": "grid_path_planner/RectangleMap",
