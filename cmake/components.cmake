@@ -1,7 +1,7 @@
 # What is built. -DGRID_PATH_PLANNER_COMPONENTS="planning;driving" (or "planning,driving") leaves out what the
 # others need.
 #
-#   planning    path_planner, map_publisher, grid_path (plan, replay, convert, rectangles): always built
+#   planning    path_planner, map_publisher, map_layers, grid_path (plan, replay, convert, rectangles): always built
 #   driving     navigate_path, go_to_pose, teleop_joy
 #   avoidance   local_planner
 #   localization  marker_localizer, vehicle_localizer: needs OpenCV's aruco
@@ -42,18 +42,18 @@ endmacro()
 # What is installed and names no component.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME planning)
 
-set(GPP_FOLDERS base grid costmap path planners planning)
+set(GPP_FOLDERS base grid costmap path planners planning layers)
 set(GPP_ROOMS ${GPP_FOLDERS})
-set(ros_rooms ros_common ros_planning ros_adapters)
-set(GPP_NODES path_planner map_publisher)
-set(GPP_CONFIGURATIONS PathPlanner MapPublisher MoveBasePlugin)
+set(ros_rooms ros_common ros_planning ros_adapters ros_layers)
+set(GPP_NODES path_planner map_publisher map_layers)
+set(GPP_CONFIGURATIONS PathPlanner MapPublisher MapLayers MoveBasePlugin)
 set(GPP_CATKIN_EXPORTS actionlib actionlib_msgs dynamic_reconfigure geometry_msgs message_runtime nav_msgs
   nodelet roscpp sensor_msgs std_msgs tf2_ros visualization_msgs)
 set(GPP_CATKIN_COMPONENTS actionlib actionlib_msgs diagnostic_msgs diagnostic_updater dynamic_reconfigure
   geometry_msgs map_msgs message_generation nav_msgs nodelet pluginlib rosbag roscpp sensor_msgs std_msgs tf2 tf2_geometry_msgs
   tf2_msgs tf2_ros visualization_msgs)
 set(GPP_EXPORTED_LIBRARIES EIGEN3)
-set(GPP_LAUNCH_FILES map_file planner rviz)
+set(GPP_LAUNCH_FILES map_file map_layers planner rviz)
 
 if(GPP_WITH_study)
   list(APPEND GPP_FOLDERS study)

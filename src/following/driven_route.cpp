@@ -13,10 +13,6 @@ using Eigen::Vector3d;
 constexpr double kBraking = 0.8;  // share of the acceleration that is planned with
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double braking(const FollowerOptions& options) {
-  return kBraking * options.max_acceleration;
-}
-
 // How far before a corner its rounding begins, in metres.
 double cornerLead(const FollowerOptions& options) {
   return 0.5 * options.pursuit_distance;
@@ -26,6 +22,10 @@ double cornerLead(const FollowerOptions& options) {
 
 double angleBetween(double from, double to) {
   return std::remainder(to - from, 2.0 * M_PI);
+}
+
+double brakingDeceleration(const FollowerOptions& options) {
+  return kBraking * options.max_acceleration;
 }
 
 DrivenRoute::DrivenRoute(std::vector<Knot> knots, const FollowerOptions& options)
@@ -51,7 +51,7 @@ double DrivenRoute::speedBefore(std::size_t knot, double distance,
                                 const FollowerOptions& options) const {
   const Knot& next = knots_[knot];
   const auto braked = [&](double speed, double metres) {
-    return std::sqrt(speed * speed + 2.0 * braking(options) * std::max(0.0, metres));
+    return std::sqrt(speed * speed + 2.0 * brakingDeceleration(options) * std::max(0.0, metres));
   };
   const double lead = next.stop ? 0.0 : cornerLead(options);
   return std::min(braked(next.corner_speed, distance - lead), braked(next.speed_beyond, distance));

@@ -12,6 +12,9 @@ namespace grid_path_planner::following {
 // The difference of two angles, in [-pi, pi].
 double angleBetween(double from, double to);
 
+// m/s^2 that is planned with: a share of max_acceleration.
+double brakingDeceleration(const FollowerOptions& options);
+
 struct Knot {
   path::Pose pose;
   int waypoint = -1;  // index in the path; -1: a point that is no waypoint

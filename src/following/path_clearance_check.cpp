@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "following/polyline_cells.h"
+
 namespace grid_path_planner::following {
 
 using grid::Cell;
@@ -14,28 +16,6 @@ using grid::OccupancyThresholds;
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kLongestPiece = 10.0;  // cells: keeps the boxes of slanting pieces small
-constexpr double kGraze = 1e-9;         // cells
-
-// Whether the segment meets the interior of the cell.
-bool meets(const Vector2d& a, const Vector2d& b, Cell cell) {
-  const Vector2d low(cell.column + kGraze, cell.row + kGraze);
-  const Vector2d high(cell.column + 1 - kGraze, cell.row + 1 - kGraze);
-  const Vector2d segment = b - a;
-  double enter = 0.0, leave = 1.0;
-  for (int axis = 0; axis < 2; ++axis) {
-    if (segment[axis] == 0.0) {
-      if (a[axis] <= low[axis] || a[axis] >= high[axis]) return false;
-      continue;
-    }
-    const double first = (low[axis] - a[axis]) / segment[axis];
-    const double second = (high[axis] - a[axis]) / segment[axis];
-    enter = std::max(enter, std::min(first, second));
-    leave = std::min(leave, std::max(first, second));
-  }
-  return enter <= leave;
-}
 
 double distanceToCell(const Vector2d& point, Cell cell) {
   const double dx = std::max({cell.column - point.x(), point.x() - (cell.column + 1), 0.0});
@@ -51,7 +31,7 @@ double distanceToSegment(const Vector2d& point, const Vector2d& a, const Vector2
 }
 
 bool tooNear(const Vector2d& a, const Vector2d& b, Cell cell, double radius) {
-  if (meets(a, b, cell)) return true;
+  if (entryInto(a, b, cell)) return true;
   if (radius <= 0.0) return false;
   double distance = std::min(distanceToCell(a, cell), distanceToCell(b, cell));
   for (const int right : {0, 1})
@@ -59,18 +39,6 @@ bool tooNear(const Vector2d& a, const Vector2d& b, Cell cell, double radius) {
       distance =
           std::min(distance, distanceToSegment(Vector2d(cell.column + right, cell.row + up), a, b));
   return distance < radius - kGraze;
-}
-
-// The cells of the map whose column and row lie between those of `low` and `high`.
-CellRect cellsBetween(const OccupancyGrid& map, const Vector2d& low, const Vector2d& high) {
-  const auto index = [](double x, int size) {
-    return static_cast<int>(std::clamp(std::floor(x), -1.0, static_cast<double>(size)));
-  };
-  const int left = std::max(0, index(low.x(), map.width()));
-  const int bottom = std::max(0, index(low.y(), map.height()));
-  const int right = std::min(map.width() - 1, index(high.x(), map.width()));
-  const int top = std::min(map.height() - 1, index(high.y(), map.height()));
-  return {left, bottom, std::max(0, right - left + 1), std::max(0, top - bottom + 1)};
 }
 
 // Of those of these cells that `counts` takes the one nearest to `a`.
@@ -91,37 +59,20 @@ std::optional<Cell> firstOnPiece(const OccupancyGrid& map, int occupied_min, con
                                  const Vector2d& b, double radius) {
   const Vector2d low = a.cwiseMin(b).array() - radius;
   const Vector2d high = a.cwiseMax(b).array() + radius;
-  return nearestCell(cellsBetween(map, low, high), a, [&](Cell cell) {
+  return nearestCell(cellsBetween(map.geometry(), low, high), a, [&](Cell cell) {
     return map[cell] >= occupied_min && tooNear(a, b, cell, radius);
   });
 }
 
 std::optional<Cell> unknownOnPiece(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
                                    const Vector2d& a, const Vector2d& b) {
-  return nearestCell(cellsBetween(map, a.cwiseMin(b), a.cwiseMax(b)), a, [&](Cell cell) {
-    return thresholds.classify(map[cell]) == Occupancy::UNKNOWN && meets(a, b, cell);
+  return nearestCell(cellsBetween(map.geometry(), a.cwiseMin(b), a.cwiseMax(b)), a, [&](Cell cell) {
+    return thresholds.classify(map[cell]) == Occupancy::UNKNOWN && entryInto(a, b, cell);
   });
 }
 
 bool isOutside(const OccupancyGrid& map, const Vector2d& point) {
   return point.x() < 0.0 || point.y() < 0.0 || point.x() > map.width() || point.y() > map.height();
-}
-
-// Calls `visit(from, to)` (in cells) with pieces of the polyline of at most ten cells, in order,
-// until it returns true.
-template <class Visit>
-void visitPieces(const OccupancyGrid& map, const std::vector<Eigen::Vector3d>& ahead, Visit visit) {
-  for (std::size_t i = 0; i < ahead.size(); ++i) {
-    const Vector2d a = map.geometry().gridFromWorld(ahead[i].head<2>());
-    const Vector2d b =
-        map.geometry().gridFromWorld(ahead[std::min(i + 1, ahead.size() - 1)].head<2>());
-    const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kLongestPiece)));
-    for (int piece = 0; piece < pieces; ++piece) {
-      const Vector2d from = a + (b - a) * (static_cast<double>(piece) / pieces);
-      const Vector2d to = a + (b - a) * (static_cast<double>(piece + 1) / pieces);
-      if (visit(from, to)) return;
-    }
-  }
 }
 
 // Metres from `point` to the nearest occupied cell, at most `radius`.
@@ -131,7 +82,7 @@ double clearanceAt(const OccupancyGrid& map, int occupied_min, const Eigen::Vect
   const Vector2d at = map.geometry().gridFromWorld(point.head<2>());
   const Vector2d low = at.array() - radius / resolution;
   const Vector2d high = at.array() + radius / resolution;
-  const auto nearest = nearestCell(cellsBetween(map, low, high), at,
+  const auto nearest = nearestCell(cellsBetween(map.geometry(), low, high), at,
                                    [&](Cell cell) { return map[cell] >= occupied_min; });
   return nearest ? std::min(radius, resolution * distanceToCell(at, *nearest)) : radius;
 }
@@ -140,7 +91,7 @@ std::optional<Obstruction> firstUnknown(const OccupancyGrid& map,
                                         const OccupancyThresholds& thresholds,
                                         const std::vector<Eigen::Vector3d>& ahead) {
   std::optional<Obstruction> found;
-  visitPieces(map, ahead, [&](const Vector2d& from, const Vector2d& to) {
+  visitPieces(map.geometry(), ahead, [&](const Vector2d& from, const Vector2d& to) {
     if (const auto cell = unknownOnPiece(map, thresholds, from, to))
       found = {Obstruction::Kind::UNKNOWN, map.geometry().centre(*cell)};
     else if (isOutside(map, from) || isOutside(map, to))
@@ -157,7 +108,7 @@ std::optional<Cell> firstOccupied(const OccupancyGrid& map, int occupied_min,
                                   const std::vector<Eigen::Vector3d>& ahead, double radius) {
   const double radius_cells = radius / map.geometry().resolution();
   std::optional<Cell> found;
-  visitPieces(map, ahead, [&](const Vector2d& from, const Vector2d& to) {
+  visitPieces(map.geometry(), ahead, [&](const Vector2d& from, const Vector2d& to) {
     found = firstOnPiece(map, occupied_min, from, to, radius_cells);
     return found.has_value();
   });

@@ -8,6 +8,7 @@
 #include "following/check_waypoints.h"
 #include "following/follow_events.h"
 #include "following/route_progress.h"
+#include "following/speed_limit.h"
 #include "following/velocity_controller.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/metrics.h"
@@ -139,8 +140,10 @@ BodyVelocity PathFollower::velocityFor(const FollowInput& input) {
     return {};
   }
   if (input.pose) pose_ = input.pose;
-  if (state_ == FollowState::ARRIVED && input.pose && input.hold.empty())
+  if (state_ == FollowState::ARRIVED && input.pose && input.hold.empty()) {
+    limitSpeed(input, {input.pose->position, path().poses.back().position});
     return controller_->holdPose(path().poses.back(), *input.pose, seconds);
+  }
   if (state_ != FollowState::DRIVING && state_ != FollowState::BLOCKED) {
     standStill();
     return {};
@@ -150,7 +153,13 @@ BodyVelocity PathFollower::velocityFor(const FollowInput& input) {
     standStill();
     return {};
   }
+  limitSpeed(input, progress_->ahead(input.pose->position, speedLimitLookahead(options_)));
   return drive(*input.pose, input.time, seconds);
+}
+
+void PathFollower::limitSpeed(const FollowInput& input, const std::vector<Eigen::Vector3d>& ahead) {
+  controller_->limitSpeed(input.speed ? input.speed(ahead)
+                                      : std::numeric_limits<double>::infinity());
 }
 
 bool PathFollower::isBlocked(const FollowInput& input) {

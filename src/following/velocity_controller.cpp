@@ -28,12 +28,13 @@ Vector3d pursuitChord(const RoutePosition& position, const FollowerOptions& opti
          position.point();
 }
 
-// The share of `velocity` that is inside the limits in the plane and upwards.
-double speedScale(const Vector3d& velocity, const FollowerOptions& options) {
+// The share of `velocity` that is inside the limits in the plane, `most` among them, and upwards.
+double speedScale(const Vector3d& velocity, double most, const FollowerOptions& options) {
   const double plane = velocity.head<2>().norm();
   const double vertical = std::abs(velocity.z());
+  const double fastest = std::min(most, options.max_speed);
   double scale = 1.0;
-  if (plane > options.max_speed) scale = options.max_speed / plane;
+  if (plane > fastest) scale = fastest / plane;
   if (vertical * scale > options.max_vertical_speed) scale = options.max_vertical_speed / vertical;
   return scale;
 }
@@ -101,7 +102,7 @@ void VelocityController::stop() {
 // In the body frame, inside the limits of speed and of its change since the last call.
 BodyVelocity VelocityController::limited(const Pose& vehicle, const Vector3d& velocity,
                                          double yaw_error, double seconds) {
-  velocity_ = towards(velocity_, velocity * speedScale(velocity, options_),
+  velocity_ = towards(velocity_, velocity * speedScale(velocity, speed_limit_, options_),
                       options_.max_acceleration * seconds);
 
   const double braking = std::sqrt(2.0 * 0.8 * options_.max_yaw_acceleration * std::abs(yaw_error));

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
 
 #include "following/driven_route.h"
 #include "grid_path_planner/base/body_velocity.h"
@@ -42,6 +43,8 @@ class VelocityController {
   // Brings a vehicle that left the tolerances of `target` back to it; otherwise, and without
   // hold_pose, stops.
   base::BodyVelocity holdPose(const path::Pose& target, const path::Pose& vehicle, double seconds);
+  // In the plane, m/s, beside the options; from the next call on.
+  void limitSpeed(double most) { speed_limit_ = most; }
   void stop();
   // A new drive: nothing is held any longer.
   void release() { returning_ = false; }
@@ -55,6 +58,7 @@ class VelocityController {
   const FollowerOptions& options_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // commanded last, path frame
   double yaw_rate_ = 0.0;
+  double speed_limit_ = std::numeric_limits<double>::infinity();
   bool returning_ = false;  // to the pose that is held
 };
 

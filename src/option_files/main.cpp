@@ -11,6 +11,7 @@
 
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
+#include "layers/map_layers_options.h"
 #include "option_files/option_files.h"
 #include "ros/adapters/adapter_options.h"
 #include "ros/avoidance/local_planner_options.h"
@@ -29,6 +30,7 @@ using base::describeOptions;
 using base::InputError;
 using base::readWholeFile;
 using base::writeFileAtomically;
+using layers::MapLayersOptions;
 using mapping::ProjectedMapOptions;
 using nodes::AdapterOptions;
 using nodes::GoToPoseOptions;
@@ -52,6 +54,7 @@ constexpr std::size_t kLargestFile = 1 << 24;  // bytes
 std::vector<NodeOptions> allNodes() {
   return {{"go_to_pose", "GoToPose", describeOptions(GoToPoseOptions())},
           {"local_planner", "LocalPlanner", describeOptions(LocalPlannerOptions())},
+          {"map_layers", "MapLayers", describeOptions(MapLayersOptions())},
           {"map_publisher", "MapPublisher", describeOptions(MapPublisherOptions())},
           {"marker_localizer", "MarkerLocalizer", describeOptions(MarkerLocalizerOptions())},
           {"move_base_plugin", "MoveBasePlugin", describeOptions(AdapterOptions())},

@@ -49,7 +49,7 @@ struct ClosedLoop {
 
   // One control step of 0.05 s.
   void step() {
-    following::FollowInput input{vehicle.time(), pose(), check};
+    following::FollowInput input{vehicle.time(), pose(), check, speed_limit};
     if (!pose_known) input.pose.reset();
     command = follower.update(input);
     vehicle.command(command);
@@ -84,6 +84,7 @@ struct ClosedLoop {
   simulation::Vehicle vehicle;
   Eigen::Vector3d pushed = Eigen::Vector3d::Zero();
   following::PathClearanceCheck check;
+  following::SpeedLimitCheck speed_limit;
   bool pose_known = true;
   std::function<void()> each_step;
   base::BodyVelocity command;

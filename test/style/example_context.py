@@ -127,6 +127,33 @@ CONTEXT = {
                           "extern const tf2_msgs::TFMessage& message; extern std::string node; extern bool is_static;",
     "input_log.h": "extern std::exception error; using localization::Source;",
     "input_record.h": "extern std::exception error;",
+    "speed_limit_receiver.h": """struct Loop { void setSpeedLimits(const SpeedLimits&); };
+        extern ros::NodeHandle nh; extern Loop loop;""",
+    "scan_messages.h": """#include "ros/common/frame_transforms.h"
+        extern sensor_msgs::LaserScan::ConstPtr message; extern FrameTransforms transforms; extern std::string frame;
+        extern ros::Time stamp; extern bool inf_clears;""",
+    "scan_queue.h": """extern ScanQueue queue; extern sensor_msgs::LaserScan::ConstPtr message; extern double timeout;
+        void use(const ScanQueue::Ready&);""",
+    "speed_limit.h": """extern grid::OccupancyGrid limits; extern FollowerOptions options;
+        extern std::vector<Eigen::Vector3d> ahead;""",
+    "grid_alignment.h": """#include "grid_path_planner/grid/occupancy.h"
+        extern OccupancyGrid source, target; extern CellRect changed; void use(Cell, const CellRect&);
+        void visitCells(const CellRect&, const std::function<void(Cell)>&);""",
+    "polygon_cover.h": """#include "grid_path_planner/grid/occupancy.h"
+        extern std::vector<Eigen::Vector2d> corners; extern OccupancyGrid map;""",
+    "changed_cells.h": "extern ChangedCells changed; using grid::CellRect;",
+    "layer_stack.h": """extern std::shared_ptr<const grid::OccupancyGrid> static_map; extern grid::Cell cell; using grid::CellRect;
+        void publish(const grid::OccupancyGrid&, const CellRect&);""",
+    "layered_map.h": """extern MapLayersOptions options; extern std::string file; extern LayeredMap::Map static_map, projected_map;
+        extern LayeredMap::Changed changed; extern ScanInMap scan; using grid::CellRect;
+        void publish(const grid::OccupancyGrid&, const CellRect&);""",
+    "ray_cells.h": """#include "grid_path_planner/grid/occupancy.h"
+        extern Eigen::Vector2d from, to; extern grid::OccupancyGrid map; using grid::Cell;""",
+    "scan_layer.h": """#include "layers/layer_stack.h"
+        extern LayerStack stack; extern ScanInMap scan; extern ScanLayerOptions options; extern ChangedCells changed;
+        extern double now;""",
+    "speed_limits.h": """using grid::GridAlignment; using grid::OccupancyGrid; extern grid::GridGeometry geometry;
+        extern Zones zones; extern OccupancyGrid mask;""",
     "camera_messages.h": "extern sensor_msgs::CameraInfo camera_info; extern sensor_msgs::Image image;",
     "marker_poses.h": """extern MarkerImage image; extern vision::MarkerLayout layout; extern FrameTransforms transforms;
         void publish(const localization::MountedPose&); void tell(const std::string&);""",

@@ -85,10 +85,14 @@ struct FollowEvent {
 // path from there on) cannot be driven, in a sentence; empty where it can.
 using PathClearanceCheck = std::function<std::string(const std::vector<Eigen::Vector3d>& ahead)>;
 
+// The largest speed (m/s) in the plane that the path ahead allows where the vehicle is now; the polyline is as above.
+using SpeedLimitCheck = std::function<double(const std::vector<Eigen::Vector3d>& ahead)>;
+
 struct FollowInput {
   double time = 0.0;               // s
   std::optional<path::Pose> pose;  // in the path's frame; none where it is not known now
   PathClearanceCheck check = {};   // none: every path is free
+  SpeedLimitCheck speed = {};      // none: only the options limit it
   std::string pose_problem =
       {};                 // why there is no pose, in a sentence; empty: nothing more is known
   std::string hold = {};  // why the vehicle must not move now, in a sentence; empty: it may
@@ -149,6 +153,7 @@ class PathFollower {
 
  private:
   base::BodyVelocity velocityFor(const FollowInput& input);
+  void limitSpeed(const FollowInput& input, const std::vector<Eigen::Vector3d>& ahead);
   bool isBlocked(const FollowInput& input);
   std::string whyNot(const FollowInput& input) const;
   void block(double time, DriveStatus cause, const std::string& why);

@@ -74,6 +74,11 @@ const FileKind& sensorFaultFiles() {
   return kind;
 }
 
+const FileKind& zoneFiles() {
+  static const FileKind kind{"file of zones", {"yaml", "yml"}, nullptr};
+  return kind;
+}
+
 const FileKind& markerLayoutFiles() {
   static const FileKind kind{"layout of markers", {"yaml", "yml"}, nullptr};
   return kind;

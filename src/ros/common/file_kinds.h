@@ -19,10 +19,11 @@ const FileKind& octreeFiles();
 const FileKind& flightLogs();
 
 // Only to be read: whatever grid/map_file.h and ros/bag.h read, simulated worlds,
-// simulation/sensors/sensor_faults.h, and vision/marker_layout.h.
+// simulation/sensors/sensor_faults.h, layers/zones.h, and vision/marker_layout.h.
 const FileKind& mapFiles();
 const FileKind& worldFiles();
 const FileKind& sensorFaultFiles();
+const FileKind& zoneFiles();
 const FileKind& markerLayoutFiles();
 
 }  // namespace grid_path_planner::nodes

@@ -75,15 +75,15 @@ void applyUpdate(const map_msgs::OccupancyGridUpdate& update, const CellRect& re
                 map.row(rect.row + row) + rect.column);
 }
 
-void MapReceiver::start(ros::NodeHandle nh, OnChange on_change,
-                        std::function<void()> on_heartbeat) {
+void MapReceiver::start(ros::NodeHandle nh, OnChange on_change, std::function<void()> on_heartbeat,
+                        const std::string& topic) {
+  name_ = topic;
   on_change_ = std::move(on_change);
   on_heartbeat_ = std::move(on_heartbeat);
   nh_ = nh;
   subscribeToMaps();
   updates_ = std::make_unique<BoundedSubscription<map_msgs::OccupancyGridUpdate>>(
-      nh, "projected_map_updates", kMostWaiting,
-      [this](const UpdateEvent& event) { onUpdate(event); });
+      nh, name_ + "_updates", kMostWaiting, [this](const UpdateEvent& event) { onUpdate(event); });
   std::lock_guard<std::mutex> lock(mutex_);
   topic_ = map_subscriber_.getTopic();
 }
@@ -120,7 +120,7 @@ std::string MapReceiver::lost() const {
 
 void MapReceiver::subscribeToMaps() {
   map_subscriber_ = subscribeChecked<nav_msgs::OccupancyGrid, const MapEvent&>(
-      nh_, "projected_map", 1, [this](const MapEvent& event) { onMap(event); });
+      nh_, name_, 1, [this](const MapEvent& event) { onMap(event); });
 }
 
 void MapReceiver::onMap(const MapEvent& event) {

@@ -1,4 +1,5 @@
-// Receives the map: whole on `projected_map`, in pieces on `projected_map_updates`.
+// Receives the map: whole on `projected_map`, in pieces on `projected_map_updates`, or on another topic and its
+// updates.
 //
 // A whole map that lies where the one before did costs one comparison with it, and what differs is
 // taken as a piece is.
@@ -75,7 +76,8 @@ class MapReceiver {
   // Subscribes. `on_change` is called after every change, `on_heartbeat` after every heartbeat, in
   // the subscriber's thread.
   void start(
-      ros::NodeHandle nh, OnChange on_change, std::function<void()> on_heartbeat = [] {});
+      ros::NodeHandle nh, OnChange on_change, std::function<void()> on_heartbeat = [] {},
+      const std::string& topic = "projected_map");
 
   // The resolved name of the topic of maps; empty before start().
   std::string topic() const;
@@ -115,7 +117,8 @@ class MapReceiver {
   OnChange on_change_;
   std::function<void()> on_heartbeat_;
   mutable std::mutex mutex_;
-  std::string topic_;
+  std::string name_;                                 // of the topic, relative
+  std::string topic_;                                // resolved
   grid::DoubleBuffered<grid::OccupancyGrid> grids_;  // the subscribers'
   ReceivedMap map_;
   std::string refusal_;

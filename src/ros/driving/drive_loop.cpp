@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/current_error.h"
+#include "following/speed_limit.h"
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/common/guarded_queue.h"
@@ -138,6 +139,10 @@ void DriveLoop::setMap(const MapLife& life) {
   post([this, life] { map_ = life; });
 }
 
+void DriveLoop::setSpeedLimits(const SpeedLimits& limits) {
+  post([this, limits] { limits_ = limits; });
+}
+
 std::vector<DriveReport> DriveLoop::takeReports() {
   const std::lock_guard<std::mutex> lock(reports_mutex_);
   return std::exchange(reports_, {});
@@ -201,8 +206,10 @@ void DriveLoop::follow(const ros::Time& now) {
   input.time = now.toSec();
   input.hold = whyHeld();
   if (!follower_.path().empty() && input.hold.empty()) findVehicle(now, input);
-  if (options_.check_map)
+  if (options_.check_map || limits_.grid)
     input.check = [this](const std::vector<Eigen::Vector3d>& ahead) { return whyNotFree(ahead); };
+  if (limits_.grid)
+    input.speed = [this](const std::vector<Eigen::Vector3d>& ahead) { return allowedSpeed(ahead); };
   publish(follower_.update(input));
 }
 
@@ -213,6 +220,9 @@ std::string DriveLoop::whyHeld() const {
     const std::string why = whyNoMap(map_, options_.map_timeout);
     if (!why.empty()) return why;
   }
+  if (options_.use_speed_limit && !limits_.grid)
+    return "no map of speed limits has come on speed_limit yet (use_speed_limit:=false drives "
+           "without one)";
   if (options_.master_timeout > 0.0 && master_->silence() > options_.master_timeout)
     return "the ROS master has not answered for longer than master_timeout";
   return "";
@@ -228,16 +238,31 @@ void DriveLoop::findVehicle(const ros::Time& now, FollowInput& input) const {
   }
 }
 
+std::vector<Eigen::Vector3d> DriveLoop::inFrame(const std::string& frame,
+                                                const std::vector<Eigen::Vector3d>& points) const {
+  const std::string& path_frame = follower_.path().frame_id;
+  return transforms_.pointsIn(frame.empty() ? path_frame : frame, path_frame, points);
+}
+
 std::string DriveLoop::whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const {
   try {
-    const std::string& path_frame = follower_.path().frame_id;
-    const std::string& map_frame = map_.map.frame_id;
-    const auto points =
-        transforms_.pointsIn(map_frame.empty() ? path_frame : map_frame, path_frame, ahead);
-    const auto found = firstObstruction(*map_.map.grid, options_.limits, points);
+    if (limits_.grid) inFrame(limits_.frame_id, ahead);
+    if (!options_.check_map) return "";
+    const auto found =
+        firstObstruction(*map_.map.grid, options_.limits, inFrame(map_.map.frame_id, ahead));
     return found ? sentenceOf(*found) : "";
   } catch (const TransformError& error) {
-    return std::string("projected_map cannot be compared with the path: ") + error.what();
+    return std::string("projected_map or speed_limit cannot be compared with the path: ") +
+           error.what();
+  }
+}
+
+double DriveLoop::allowedSpeed(const std::vector<Eigen::Vector3d>& ahead) const {
+  try {
+    return following::allowedSpeed(*limits_.grid, options_.follower,
+                                   inFrame(limits_.frame_id, ahead));
+  } catch (const TransformError&) {
+    return 0.0;
   }
 }
 

@@ -39,6 +39,7 @@
 #include "ros/common/master/master_watch.h"
 #include "ros/driving/map_life.h"
 #include "ros/driving/navigate_path_options.h"
+#include "ros/driving/speed_limit_receiver.h"
 
 namespace grid_path_planner::nodes {
 
@@ -84,6 +85,7 @@ class DriveLoop {
 
   // Handed over, not waited for.
   void setMap(const MapLife& life);
+  void setSpeedLimits(const SpeedLimits& limits);
 
   std::vector<DriveReport> takeReports();
 
@@ -108,6 +110,9 @@ class DriveLoop {
   std::string whyHeld() const;
   void findVehicle(const ros::Time& now, following::FollowInput& input) const;
   std::string whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const;
+  std::vector<Eigen::Vector3d> inFrame(const std::string& frame,
+                                       const std::vector<Eigen::Vector3d>& points) const;
+  double allowedSpeed(const std::vector<Eigen::Vector3d>& ahead) const;
   void onManual(const std_msgs::Bool& message);
   void onStop(const std_msgs::Bool& message);
   bool isManual() const;
@@ -123,6 +128,7 @@ class DriveLoop {
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   following::PathFollower follower_;
   MapLife map_;
+  SpeedLimits limits_;
   ros::Time now_;
   Clock::time_point moved_;                  // when ROS time did last
   std::optional<Clock::time_point> manual_;  // when the joystick last said that it commands

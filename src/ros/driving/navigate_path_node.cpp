@@ -93,6 +93,8 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
   loop_ = std::make_unique<DriveLoop>(nh_, options_, transforms_,
                                       [this] { callLater([this] { takeReports(); }); });
   map_ = std::make_unique<MapWatch>(nh_, [this](const MapLife& life) { loop_->setMap(life); });
+  limits_ = std::make_unique<SpeedLimitReceiver>(
+      nh_, [this](const SpeedLimits& limits) { loop_->setSpeedLimits(limits); });
   reader_ = std::make_unique<TaskQueue>(
       [](const std::string& error) { tellGivenUp("A file or question", error); });
   offerServices(private_nh);
@@ -112,6 +114,7 @@ NavigatePathNode::~NavigatePathNode() {
   reconfigurable_.reset();
   reader_.reset();
   map_.reset();
+  limits_.reset();
   loop_->cancel("navigate_path ends");
   takeReports();
   loop_.reset();
@@ -353,6 +356,7 @@ void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& 
     status.summary(DiagnosticStatus::WARN, why);
   else
     status.summary(DiagnosticStatus::OK, "the map on " + life.topic + " is kept up");
+  status.add("speed limits", limits_->state());
   status.add("topic", life.topic);
   if (!life.map.grid) return;
   status.add("publisher", life.map.publisher);

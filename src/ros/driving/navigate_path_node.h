@@ -4,6 +4,7 @@
 //                                vehicle
 //               projected_map    nav_msgs/OccupancyGrid, with its updates and their heartbeat; the
 //                                vehicle stops before occupied cells, and stands without a map
+//               speed_limit      nav_msgs/OccupancyGrid; percent of max_speed that cells allow
 //               tf               the vehicle's pose; the vehicle stops while the pose is not known
 //               stop             std_msgs/Bool; zeros while it is true
 //               manual_control   std_msgs/Bool; a joystick commands: the drive is paused
@@ -111,6 +112,7 @@ class NavigatePathNode {
   bool goal_is_read_ = false;  // its file, still
   std::unique_ptr<DriveLoop> loop_;
   std::unique_ptr<MapWatch> map_;
+  std::unique_ptr<SpeedLimitReceiver> limits_;
 
   ros::Publisher waypoint_publisher_;
   ros::Subscriber path_subscriber_;

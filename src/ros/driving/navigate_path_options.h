@@ -16,6 +16,7 @@ struct NavigatePathOptions {
   bool check_map = true;
   following::ClearanceLimits limits;
   double map_timeout = 3.0;  // s, wall time
+  bool use_speed_limit = false;
   std::string base_frame = "base_link";
   double tf_timeout = 0.5;       // s
   double control_rate = 50.0;    // Hz, wall time
@@ -23,21 +24,9 @@ struct NavigatePathOptions {
   bool share_cmd_vel = false;
 };
 
+// A group of the options, in the order of visitOptions.
 template <class Visitor>
-void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
-  visit("config_filename", o.config_filename,
-        base::OptionInfo{
-            "Waypoint file to drive, below the folder to load from; then the topic path is "
-            "ignored; read at the start",
-            ""}
-            .under("What is driven"));
-  visit("join_nearest", o.join_nearest,
-        base::OptionInfo{
-            "Whether a file is joined at its nearest point instead of its first waypoint", ""});
-  visit("follow_latched", o.follow_latched,
-        base::OptionInfo{
-            "Whether a path stamped before the node started is driven too, however old it is", ""});
-  visitOptions(o.follower, visit);
+void visitMapOptions(NavigatePathOptions& o, Visitor&& visit) {
   visit("check_map", o.check_map,
         base::OptionInfo{"Whether the vehicle stops before occupied cells of projected_map, and "
                          "stands while there is no map; false: obstacles are ignored",
@@ -61,6 +50,28 @@ void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
             "The vehicle stands while a map that has had a heartbeat has been without one for so "
             "long, by the wall clock; above the heartbeat_period of projected_map",
             "s", 0.1, 3600.0});
+  visit("use_speed_limit", o.use_speed_limit,
+        base::OptionInfo{"Whether the vehicle stands until a map of speed limits has come on "
+                         "speed_limit; one that comes is heeded in any case",
+                         ""});
+}
+
+template <class Visitor>
+void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
+  visit("config_filename", o.config_filename,
+        base::OptionInfo{
+            "Waypoint file to drive, below the folder to load from; then the topic path is "
+            "ignored; read at the start",
+            ""}
+            .under("What is driven"));
+  visit("join_nearest", o.join_nearest,
+        base::OptionInfo{
+            "Whether a file is joined at its nearest point instead of its first waypoint", ""});
+  visit("follow_latched", o.follow_latched,
+        base::OptionInfo{
+            "Whether a path stamped before the node started is driven too, however old it is", ""});
+  visitOptions(o.follower, visit);
+  visitMapOptions(o, visit);
   visit(
       "base_frame", o.base_frame,
       base::OptionInfo{"Frame of the vehicle, whose pose tf gives and in which it is commanded", ""}

@@ -12,9 +12,9 @@
 #include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
 #include "ros/localization/camera_messages.h"
-#include "ros/localization/diagnostics_timer.h"
 #include "ros/localization/sensor_messages.h"
 
 namespace grid_path_planner::nodes {

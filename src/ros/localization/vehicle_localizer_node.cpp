@@ -12,8 +12,8 @@
 #include "localization/measurement_check.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/incoming/claimed_requests.h"
+#include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
-#include "ros/localization/diagnostics_timer.h"
 
 namespace grid_path_planner::nodes {
 

@@ -2,6 +2,7 @@
 #include "fuzz/fuzz_target.h"
 #include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
+#include "layers/map_layers_options.h"
 #include "ros/common/parameters.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
@@ -18,7 +19,8 @@ std::vector<std::string> seedsOfConfigs() {
           bytesOf(nodes::configMessage(mapping::ProjectedMapOptions())),
           bytesOf(nodes::configMessage(nodes::SimulatorOptions())),
           bytesOf(nodes::configMessage(nodes::TeleopJoyOptions())),
-          bytesOf(nodes::configMessage(nodes::MapPublisherOptions()))};
+          bytesOf(nodes::configMessage(nodes::MapPublisherOptions())),
+          bytesOf(nodes::configMessage(layers::MapLayersOptions()))};
 }
 
 // Options that are taken are inside their limits, and as text they are the same again.
@@ -41,6 +43,8 @@ FUZZ_TARGET(config_message, seedsOfConfigs) {
   reconfigure<nodes::SimulatorOptions>(*message, nodes::checkSimulatorOptions);
   reconfigure<nodes::TeleopJoyOptions>(*message, nodes::checkTeleopJoyOptions);
   reconfigure<nodes::MapPublisherOptions>(*message, nodes::checkMapPublisherOptions);
+  reconfigure<layers::MapLayersOptions>(*message,
+                                        base::checkOptionLimits<layers::MapLayersOptions>);
 }
 
 }  // namespace

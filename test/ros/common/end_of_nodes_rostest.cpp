@@ -24,6 +24,7 @@ struct Node {
 std::vector<Node> everyNode() {
   return {{"path_planner", {}},
           {"map_publisher", {"--filename", GPP_TEST_DATA "/projected_map.bag"}},
+          {"map_layers", {"--zones-file", GPP_TEST_DATA "/zones.yaml"}},
           {"navigate_path", {}},
           {"local_planner", {}},
           {"marker_localizer", {"--layout", GPP_TEST_DATA "/two_markers.yaml"}},

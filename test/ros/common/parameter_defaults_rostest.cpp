@@ -1,6 +1,7 @@
 #include "ros/support/parameter_defaults.h"
 
 #include "grid_path_planner/GoToPoseConfig.h"
+#include "grid_path_planner/MapLayersConfig.h"
 #include "grid_path_planner/MapPublisherConfig.h"
 #include "grid_path_planner/MarkerLocalizerConfig.h"
 #include "grid_path_planner/NavigatePathConfig.h"
@@ -10,6 +11,7 @@
 #include "grid_path_planner/TeleopJoyConfig.h"
 #include "grid_path_planner/VehicleLocalizerConfig.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
+#include "layers/map_layers_options.h"
 #include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
@@ -51,6 +53,10 @@ TEST(ParameterDefaults, MarkerLocalizer) {
 
 TEST(ParameterDefaults, VehicleLocalizer) {
   test::expectSameDefaults<VehicleLocalizerConfig, VehicleLocalizerOptions>("vehicle_localizer");
+}
+
+TEST(ParameterDefaults, MapLayers) {
+  test::expectSameDefaults<MapLayersConfig, layers::MapLayersOptions>("map_layers");
 }
 
 TEST(ParameterDefaults, MapPublisher) {

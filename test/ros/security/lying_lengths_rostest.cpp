@@ -8,6 +8,7 @@
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -166,6 +167,15 @@ TEST(LyingLengths, TakeNoMemoryOfNavigatePath) {
 TEST(LyingLengths, TakeNoMemoryOfProjectedMap) {
   test::Process node("projected_map", {"_autosave_period:=0"});
   tellLies<sensor_msgs::PointCloud2>(node, "/cloud_in", 4000000000U);
+  EXPECT_TRUE(node.running());
+  EXPECT_LT(node.peakMemory(), kMostMemory);
+}
+
+TEST(LyingLengths, TakeNoMemoryOfMapLayers) {
+  test::Process node("map_layers", {"_use_scan:=true", "_use_keep_out_mask:=true"});
+  tellLies<nav_msgs::OccupancyGrid>(node, "/static_map", 4000000000U);
+  tellLies<nav_msgs::OccupancyGrid>(node, "/keep_out_mask", 4000000000U);
+  tellLies<sensor_msgs::LaserScan>(node, "/scan", 1000000000U);
   EXPECT_TRUE(node.running());
   EXPECT_LT(node.peakMemory(), kMostMemory);
 }

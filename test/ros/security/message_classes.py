@@ -30,6 +30,9 @@ DEFINITIONS = {
     "sensor_msgs/Image": "Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\n"
                          "uint32 step\nuint8[] data\n" + HEADER,
     "sensor_msgs/Joy": "Header header\nfloat32[] axes\nint32[] buttons\n" + HEADER,
+    "sensor_msgs/LaserScan": "Header header\nfloat32 angle_min\nfloat32 angle_max\nfloat32 angle_increment\n"
+                             "float32 time_increment\nfloat32 scan_time\nfloat32 range_min\nfloat32 range_max\n"
+                             "float32[] ranges\nfloat32[] intensities\n" + HEADER,
     "sensor_msgs/PointCloud2": "Header header\nuint32 height\nuint32 width\nPointField[] fields\nbool is_bigendian\n"
                                "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"
                                + HEADER + POINT_FIELD,

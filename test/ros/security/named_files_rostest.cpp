@@ -175,11 +175,9 @@ TEST_F(NamedFiles, WaypointsOfAGoalAreReadBelowTheFolderOnlyAndNotQuoted) {
 
 TEST_F(NamedFiles, WhatIsReadAtTheStartLiesBelowTheFolderToo) {
   const std::vector<std::pair<std::string, std::string>> options = {
-      {"navigate_path", "_config_filename"},
-      {"projected_map", "_filename"},
-      {"map_publisher", "_filename"},
-      {"marker_localizer", "_layout"},
-      {"simulator", "_world"},
+      {"navigate_path", "_config_filename"}, {"projected_map", "_filename"},
+      {"map_publisher", "_filename"},        {"marker_localizer", "_layout"},
+      {"map_layers", "_zones_file"},         {"simulator", "_world"},
       {"simulator", "_sensor_faults"}};
   for (const auto& [node, option] : options)
     for (const std::string& name : {start_up_, other_, std::string("../home/notes.yaml")}) {

@@ -73,6 +73,11 @@ def cloud(node):
     return message
 
 
+def scan(node, distance=2.0):
+    return of("sensor_msgs/LaserScan", header=header(node, "base_link"), angle_increment=0.1, range_max=30.0,
+              ranges=[distance] * 10)
+
+
 # The first two tags of the family 36h11, row by row from the upper left, 1 is white.
 TAG_BITS = (0x21a146bab, 0x92d18fe9b)
 WIDTH, HEIGHT, CELL = 240, 120, 8  # pixels
@@ -153,7 +158,7 @@ RIGHT = {
     "nav_msgs/OccupancyGrid": grid, "map_msgs/OccupancyGridUpdate": update, "nav_msgs/Path": path,
     "geometry_msgs/PoseStamped": pose_stamped, "geometry_msgs/PoseWithCovarianceStamped": initial_pose,
     "sensor_msgs/Imu": imu, "geometry_msgs/TwistWithCovarianceStamped": dvl,
-    "sensor_msgs/Joy": joystick, "sensor_msgs/PointCloud2": cloud,
+    "sensor_msgs/Joy": joystick, "sensor_msgs/PointCloud2": cloud, "sensor_msgs/LaserScan": scan,
     "sensor_msgs/CameraInfo": camera_info, "sensor_msgs/Image": picture,
     "nav_msgs/Odometry": lambda node: of(
         "nav_msgs/Odometry", header=header(node), child_frame_id="base_link", pose={"pose": pose(0.5, 0.5)}),
@@ -226,7 +231,8 @@ def drives(node, deadline):
     def offer():
         node.send("manual_control", of("std_msgs/Bool", data=False))
         node.send("stop", of("std_msgs/Bool", data=False))
-        node.send("projected_map", grid(node))
+        for topic in ("projected_map", "speed_limit"):
+            node.send(topic, grid(node))
         node.send("navigate_path/cancel", of("actionlib_msgs/GoalID"))
         node.call("~cancel", get_service_class("std_srvs/Trigger")._request_class())
         node.forget("cmd_vel")
@@ -294,6 +300,24 @@ def maps(node, deadline):
     def mapped():
         return any(max(message.data, default=0) == 100 for topic in topics for message in node.heard(topic))
     return until(node, mapped, deadline, lambda: node.send("cloud_in", cloud(node)))
+
+
+def merges_maps(node, deadline):
+    """What the laser sees is in the map. It sees farther each time, so that there is something to publish."""
+    topics = ("projected_map", "projected_map_updates")
+    for topic in topics:
+        node.forget(topic)
+    steps = iter(range(10**9))
+
+    def feed():
+        for topic in ("static_map", "live_map", "keep_out_mask", "speed_mask"):
+            node.send(topic, grid(node))
+        node.send("tf", node.transforms(node.clock.now()))  # who feeds it ends with a node that is killed
+        node.send("scan", scan(node, 2.0 + next(steps) % 4))
+
+    def merged():
+        return any(max(message.data, default=0) == 100 for topic in topics for message in node.heard(topic))
+    return until(node, merged, deadline, feed)
 
 
 def serves_a_map(node, deadline):

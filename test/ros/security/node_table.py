@@ -50,7 +50,8 @@ NODES = {
         actions={"plan_path": "grid_path_planner/PlanPath"},
         arguments=["_publish_rectangles:=true"], tf="listens", probe=probes.plans),
     "navigate_path": Row(
-        inputs=dict(MAPS, path="nav_msgs/Path", stop="std_msgs/Bool", manual_control="std_msgs/Bool"),
+        inputs=dict(MAPS, path="nav_msgs/Path", stop="std_msgs/Bool", manual_control="std_msgs/Bool",
+                    speed_limit="nav_msgs/OccupancyGrid"),
         outputs={"cmd_vel": "geometry_msgs/Twist", "current_waypoint": "geometry_msgs/PoseStamped"},
         services={"~pause": TRIGGER, "~resume": TRIGGER, "~cancel": TRIGGER},
         actions={"navigate_path": "grid_path_planner/NavigatePath"},
@@ -99,6 +100,15 @@ NODES = {
         inputs={}, outputs={"projected_map": "nav_msgs/OccupancyGrid", "map_metadata": "nav_msgs/MapMetaData"},
         services={"static_map": "nav_msgs/GetMap"}, actions={},
         arguments=["_filename:=projected_map.bag"], tf="", probe=probes.serves_a_map),
+    "map_layers": Row(
+        inputs={"static_map": "nav_msgs/OccupancyGrid", "static_map_updates": "map_msgs/OccupancyGridUpdate",
+                "live_map": "nav_msgs/OccupancyGrid", "live_map_updates": "map_msgs/OccupancyGridUpdate",
+                "scan": "sensor_msgs/LaserScan", "keep_out_mask": "nav_msgs/OccupancyGrid",
+                "speed_mask": "nav_msgs/OccupancyGrid"},
+        outputs=dict(MAPS, speed_limit="nav_msgs/OccupancyGrid"), services={}, actions={},
+        arguments=["_zones_file:=zones.yaml", "_use_live_map:=true", "_use_scan:=true", "_use_keep_out_mask:=true",
+                   "_use_speed_mask:=true", "_source_timeout:=10"],
+        tf="listens", probe=probes.merges_maps),
     "simulator": Row(
         inputs={"cmd_vel": "geometry_msgs/Twist", "projected_map": "nav_msgs/OccupancyGrid"},
         outputs={"ground_truth": "nav_msgs/Odometry", "odom": "nav_msgs/Odometry", "contacts": "std_msgs/UInt32",

@@ -114,6 +114,13 @@ class Restart(unittest.TestCase):
         after = self.node.call("static_map", request).map
         self.assertEqual((before.info.width, before.data), (after.info.width, after.data))
 
+    def test_map_layers_merges_what_its_sources_say_again(self):
+        self.start("map_layers")
+        self.holds()
+        self.kill()
+        self.comes_up()
+        self.holds()
+
     def test_simulator_is_where_it_began(self):
         self.start("simulator")
         self.holds()

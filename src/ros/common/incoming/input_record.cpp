@@ -1,4 +1,4 @@
-#include "ros/localization/input_record.h"
+#include "ros/common/incoming/input_record.h"
 
 #include <ros/console.h>
 

@@ -1,0 +1,129 @@
+#include "layers/layered_map.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "layers/resampling.h"
+
+namespace grid_path_planner::layers {
+
+using grid::CellRect;
+using grid::checkUnrotated;
+using grid::GridAlignment;
+using grid::OccupancyGrid;
+
+void LayeredMap::configure(const MapLayersOptions& options, const Zones& zones) {
+  checkSlowZones(zones, options.max_speed);
+  auto mask_limits = mask_limits_;
+  if (speed_mask_) mask_limits = limitsOfMask(*speed_mask_, options.speed_mask);
+  options_ = options;
+  zones_ = zones;
+  mask_limits_ = std::move(mask_limits);
+  if (!hasBase()) return;
+  if (live_) layLive({live_->geometry().rect()});
+  layKeepOut();
+  layLimits();
+}
+
+void LayeredMap::setBase(Map base, const Changed& changed) {
+  checkUnrotated(base->geometry());
+  if (hasBase() && changed && base->geometry() == merged().geometry()) {
+    stack_.setBase(std::move(base), *changed);
+    return;
+  }
+  stack_.setBase(std::move(base));
+  new_geometry_ = true;
+  scans_.reset(stack_.grid(Layer::SCAN));
+  scan_changes_.clear();
+  live_alignment_.reset();
+  if (live_) layLive({live_->geometry().rect()});
+  layKeepOut();
+  layLimits();
+}
+
+void LayeredMap::setLive(Map live, const Changed& changed) {
+  checkUnrotated(live->geometry());
+  const bool elsewhere = !live_ || !changed || live_->geometry() != live->geometry();
+  live_ = std::move(live);
+  if (!hasBase()) return;
+  if (elsewhere) {
+    OccupancyGrid& layer = stack_.grid(Layer::LIVE);
+    std::fill(layer.values().begin(), layer.values().end(), std::int8_t{-1});
+    live_alignment_.reset();
+    layLive({live_->geometry().rect()});
+    stack_.merge({layer.geometry().rect()});
+    return;
+  }
+  layLive(*changed);
+}
+
+void LayeredMap::layLive(const std::vector<CellRect>& changed) {
+  if (!live_alignment_) live_alignment_.emplace(live_->geometry(), merged().geometry());
+  std::vector<CellRect> touched;
+  for (const CellRect& rect : changed) {
+    touched.push_back(live_alignment_->touched(rect));
+    resampleOccupancy(*live_, *live_alignment_, touched.back(), options_.occupied_min,
+                      stack_.grid(Layer::LIVE));
+  }
+  stack_.merge(touched);
+}
+
+bool LayeredMap::liveIsCut() const {
+  if (!live_ || !hasBase()) return false;
+  const GridAlignment back(merged().geometry(), live_->geometry());
+  const CellRect cells = live_->geometry().rect();
+  return !back.covers({0, 0}) || !back.covers({cells.width - 1, cells.height - 1});
+}
+
+void LayeredMap::setKeepOutMask(Map mask) {
+  checkUnrotated(mask->geometry());
+  keep_out_mask_ = std::move(mask);
+  if (hasBase()) layKeepOut();
+}
+
+void LayeredMap::setSpeedMask(Map mask) {
+  checkUnrotated(mask->geometry());
+  mask_limits_ = limitsOfMask(*mask, options_.speed_mask);
+  speed_mask_ = std::move(mask);
+  if (hasBase()) layLimits();
+}
+
+void LayeredMap::layKeepOut() {
+  OccupancyGrid& layer = stack_.grid(Layer::KEEP_OUT);
+  std::fill(layer.values().begin(), layer.values().end(), std::int8_t{-1});
+  zones_outside_ = drawKeepOutZones(zones_, layer);
+  if (keep_out_mask_)
+    addMask(*keep_out_mask_, GridAlignment(keep_out_mask_->geometry(), layer.geometry()),
+            options_.occupied_min, layer);
+  stack_.merge({layer.geometry().rect()});
+}
+
+void LayeredMap::layLimits() {
+  OccupancyGrid limits(merged().geometry(), 0);
+  addSlowZones(zones_, options_.max_speed, limits);
+  if (mask_limits_)
+    addLimits(*mask_limits_, GridAlignment(mask_limits_->geometry(), limits.geometry()), limits);
+  if (limits_ == limits) return;
+  limits_ = std::move(limits);
+  new_limits_ = true;
+}
+
+void LayeredMap::insert(const ScanInMap& scan) {
+  if (!hasBase()) return;
+  scans_.insert(scan, options_.scan, stack_.grid(Layer::SCAN), scan_changes_);
+  stack_.merge(scan_changes_.take());
+}
+
+void LayeredMap::expireScans(double now) {
+  if (!hasBase()) return;
+  scans_.expire(now, options_.scan.decay_time, stack_.grid(Layer::SCAN), scan_changes_);
+  stack_.merge(scan_changes_.take());
+}
+
+void LayeredMap::forgetScans() {
+  if (!hasBase()) return;
+  scans_.reset(stack_.grid(Layer::SCAN));
+  stack_.merge({merged().geometry().rect()});
+}
+
+}  // namespace grid_path_planner::layers

@@ -1,0 +1,66 @@
+// A source of map_layers: whether it is there, and how old what it said is.
+#pragma once
+
+#include <ros/time.h>
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "grid_path_planner/base/decimal_text.h"
+
+namespace grid_path_planner::nodes {
+
+class LayerSource {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  // `topic`: resolved. `expires`: whether it must go on saying something.
+  LayerSource(std::string topic, bool used, bool expires)
+      : topic_(std::move(topic)), used_(used), expires_(expires) {}
+
+  // It said something that could be used, stamped so (0: of no time).
+  void accept(const ros::Time& stamp) {
+    there_ = true;
+    problem_.clear();
+    beat(stamp);
+  }
+  // What it said before still holds, and is of this time.
+  void beat(const ros::Time& stamp) {
+    stamp_ = stamp;
+    heard_ = Clock::now();
+  }
+  // It said something that cannot be used: it counts as not there until it says something else.
+  void refuse(std::string problem) { problem_ = std::move(problem); }
+
+  // Why the map cannot be made with it now, in a sentence; empty where it can, or it is not used.
+  std::string whyNot(double timeout) const {
+    if (!used_) return "";
+    if (!problem_.empty()) return topic_ + " cannot be used: " + problem_;
+    if (!there_) return "nothing has come on " + topic_ + " yet";
+    if (!expires_ || silence() <= timeout) return "";
+    return topic_ + " has been silent for longer than source_timeout, " +
+           base::decimalText(timeout) + " s";
+  }
+  // s of the wall clock; 0 before the first.
+  double silence() const {
+    return there_ ? std::chrono::duration<double>(Clock::now() - heard_).count() : 0.0;
+  }
+
+  const std::string& topic() const { return topic_; }
+  bool used() const { return used_; }
+  bool expires() const { return expires_; }
+  bool there() const { return there_; }
+  const ros::Time& stamp() const { return stamp_; }
+
+ private:
+  const std::string topic_;
+  const bool used_;
+  const bool expires_;
+  bool there_ = false;
+  std::string problem_;
+  ros::Time stamp_;
+  Clock::time_point heard_;
+};
+
+}  // namespace grid_path_planner::nodes

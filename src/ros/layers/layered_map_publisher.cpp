@@ -1,0 +1,48 @@
+#include "ros/layers/layered_map_publisher.h"
+
+#include "grid_path_planner/ros/occupancy_conversion.h"
+
+namespace grid_path_planner::nodes {
+
+using grid::CellRect;
+using layers::LayeredMap;
+
+LayeredMapPublisher::LayeredMapPublisher(ros::NodeHandle nh)
+    : topic_(nh, "projected_map", true, [] {}),  // who is new waits for the next publish()
+      speed_limits_(nh.advertise<nav_msgs::OccupancyGrid>("speed_limit", 1, true)) {}
+
+void LayeredMapPublisher::publish(LayeredMap& map, const std::string& frame_id,
+                                  double full_map_period) {
+  if (map.takeNewSpeedLimits())
+    speed_limits_.publish(occupancyToMessage(map.speedLimits(), frame_id, ros::Time::now()));
+  if (topic_.hasSubscribers())
+    publishMap(map, frame_id, full_map_period);
+  else
+    withdraw();
+}
+
+void LayeredMapPublisher::publishMap(LayeredMap& map, const std::string& frame_id,
+                                     double full_map_period) {
+  const bool new_geometry = map.takeNewGeometry();
+  const std::vector<CellRect> changed = map.takeChanged();
+  const bool whole = topic_.takeNewSubscriber() || new_geometry || !sent_ ||
+                     topic_.wholeMapIsDue(full_map_period) ||
+                     (!changed.empty() && topic_.needsWholeMaps());
+  const ros::Time now = ros::Time::now();
+  if (whole)
+    topic_.send(occupancyToMessage(map.merged(), frame_id, now));
+  else
+    for (const CellRect& rect : changed) topic_.send(updateOf(map.merged(), rect, frame_id, now));
+  sent_ = true;
+}
+
+void LayeredMapPublisher::publishHeartbeat(const std::string& frame_id, const ros::Time& newest) {
+  if (sent_) topic_.sendHeartbeat(updateOf({}, frame_id, newest));
+}
+
+void LayeredMapPublisher::withdraw() {
+  sent_ = false;
+  topic_.forget();
+}
+
+}  // namespace grid_path_planner::nodes

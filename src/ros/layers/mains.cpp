@@ -1,0 +1,12 @@
+#include "ros/layers/mains.h"
+
+#include "ros/common/run_node.h"
+#include "ros/layers/map_layers_node.h"
+
+namespace grid_path_planner::nodes {
+
+int mapLayersMain(int argc, char** argv) {
+  return runNode<MapLayersNode>(argc, argv, "map_layers", {{"zones_file", "ZONES.yaml"}});
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,320 @@
+#include "ros/layers/map_layers_node.h"
+
+#include <ros/console.h>
+
+#include <utility>
+
+#include "grid_path_planner/MapLayersConfig.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/end_of_node.h"
+#include "ros/common/file_kinds.h"
+#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/outgoing/diagnostics_timer.h"
+#include "ros/common/parameters.h"
+#include "ros/layers/scan_messages.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using diagnostic_msgs::DiagnosticStatus;
+using grid::OccupancyGrid;
+using layers::Layer;
+using layers::LayeredMap;
+using layers::MapLayersOptions;
+using layers::StaleSource;
+using layers::Zones;
+
+namespace {
+
+constexpr double kHeartbeatPeriod = 1.0;  // s, wall time
+constexpr double kExpiryPeriod = 0.5;     // s of ROS time
+
+void checkMapLayersOptions(MapLayersOptions& options) {
+  base::checkOptionLimits(options);
+  options.map_frame = frameName(options.map_frame);
+  if (options.map_frame.empty()) throw InputError("map_frame must name a frame, got ''");
+}
+
+MapLayersOptions loadMapLayersOptions(const ros::NodeHandle& private_nh, const NodeFiles& files) {
+  MapLayersOptions options;
+  loadParameters(private_nh, options);
+  options.zones_file = files.named("zones_file", options.zones_file);
+  checkMapLayersOptions(options);
+  warnUnknownParameters(private_nh, optionNames<MapLayersOptions>());
+  return options;
+}
+
+void checkFrame(const std::string& frame_id, const MapLayersOptions& options) {
+  if (frame_id != options.map_frame)
+    throw InputError("it is in frame '" + frame_id + "', map_frame is '" + options.map_frame + "'");
+}
+
+void checkUnchanged(const MapLayersOptions& a, const MapLayersOptions& b) {
+  if (a.map_frame != b.map_frame || a.use_live_map != b.use_live_map || a.use_scan != b.use_scan ||
+      a.use_keep_out_mask != b.use_keep_out_mask || a.use_speed_mask != b.use_speed_mask)
+    throw InputError(
+        "map_frame and the sources that are used cannot be changed while the node runs");
+}
+
+void addTo(diagnostic_updater::DiagnosticStatusWrapper& status, const LayerSource& source,
+           double timeout) {
+  if (!source.used()) return;
+  const std::string why = source.whyNot(timeout);
+  status.add(source.topic(), why.empty() ? "taken" : why);
+  if (!source.there()) return;
+  status.add(source.topic() + " age (s)", secondsBetween(source.stamp(), ros::Time::now()));
+  status.add(source.topic() + " silent (s)", source.silence());
+}
+
+}  // namespace
+
+MapLayersNode::MapLayersNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                             const NodeFiles& files)
+    : nh_(nh),
+      files_(files),
+      options_(loadMapLayersOptions(private_nh, files)),
+      zones_(loadZones(options_)),
+      transforms_(nh),
+      static_source_(nh.resolveName("static_map"), true, false),
+      live_source_(nh.resolveName("live_map"), options_.use_live_map, true),
+      scan_source_(nh.resolveName("scan"), options_.use_scan, true),
+      keep_out_source_(nh.resolveName("keep_out_mask"), options_.use_keep_out_mask, false),
+      speed_source_(nh.resolveName("speed_mask"), options_.use_speed_mask, false),
+      scans_(transforms_),
+      publisher_(nh),
+      diagnostics_(nh, private_nh, private_nh.getNamespace()) {
+  map_.configure(options_, zones_);
+  reconfigurable_ = std::make_unique<Reconfigurable<MapLayersConfig, MapLayersOptions>>(
+      private_nh, options_, [this](const MapLayersOptions& options) { use(options); });
+  diagnostics_.add("layers", this, &MapLayersNode::diagnose);
+  diagnostics_timer_ = diagnosticsTimer(nh_, diagnostics_);
+  listen();
+  startPublishing();
+}
+
+MapLayersNode::~MapLayersNode() {
+  publish_timer_.stop();
+  heartbeat_timer_.stop();
+  diagnostics_timer_.stop();
+  static_maps_.shutdown();
+  live_maps_.shutdown();
+  for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
+}
+
+Zones MapLayersNode::loadZones(const MapLayersOptions& options) const {
+  if (options.zones_file.empty()) return {};
+  const EndOfNode end;
+  Zones zones =
+      files_.read("zones_file", options.zones_file, zoneFiles(), [&](const std::string& file) {
+        return layers::readZones(file, {options.reading, end.token()});
+      });
+  if (frameName(zones.frame_id) != options.map_frame)
+    throw InputError("the zones are in frame '" + zones.frame_id + "', map_frame is '" +
+                     options.map_frame + "'");
+  return zones;
+}
+
+void MapLayersNode::listen() {
+  static_maps_.start(
+      nh_, [this](const MapChange& change) { onStaticMap(change); }, [] {}, "static_map");
+  if (options_.use_live_map)
+    live_maps_.start(
+        nh_, [this](const MapChange& change) { onLiveMap(change); }, [this] { onLiveHeartbeat(); },
+        "live_map");
+  if (options_.use_scan)
+    subscribers_.push_back(
+        subscribeChecked<sensor_msgs::LaserScan, const sensor_msgs::LaserScan::ConstPtr&>(
+            nh_, "scan", 5,
+            [this](const sensor_msgs::LaserScan::ConstPtr& scan) { onScan(scan); }));
+  if (options_.use_keep_out_mask)
+    listenToMask(keep_out_source_, "keep_out_mask",
+                 [this](LayeredMap::Map mask) { map_.setKeepOutMask(std::move(mask)); });
+  if (options_.use_speed_mask)
+    listenToMask(speed_source_, "speed_mask",
+                 [this](LayeredMap::Map mask) { map_.setSpeedMask(std::move(mask)); });
+}
+
+void MapLayersNode::listenToMask(LayerSource& source, const std::string& topic,
+                                 std::function<void(LayeredMap::Map)> use) {
+  subscribers_.push_back(subscribeChecked<nav_msgs::OccupancyGrid>(
+      nh_, topic, 1, [this, &source, use](const nav_msgs::OccupancyGrid& message) {
+        take(source, message.header.stamp, [&] {
+          checkFrame(frameName(message.header.frame_id), options_);
+          use(std::make_shared<OccupancyGrid>(occupancyFromMessage(message)));
+        });
+      }));
+}
+
+void MapLayersNode::startPublishing() {
+  publish_timer_ = nh_.createSteadyTimer(ros::WallDuration(1.0 / options_.publish_rate),
+                                         [this](const ros::SteadyTimerEvent&) { publish(); });
+  heartbeat_timer_ =
+      nh_.createSteadyTimer(ros::WallDuration(kHeartbeatPeriod),
+                            [this](const ros::SteadyTimerEvent&) { publishHeartbeat(); });
+}
+
+void MapLayersNode::use(MapLayersOptions options) {
+  checkMapLayersOptions(options);
+  checkUnchanged(options, options_);
+  const Zones zones = options.zones_file == options_.zones_file ? zones_ : loadZones(options);
+  map_.configure(options, zones);
+  zones_ = zones;
+  options_ = options;
+  warnOfZonesOutside();
+  startPublishing();
+}
+
+void MapLayersNode::take(LayerSource& source, const ros::Time& stamp,
+                         const std::function<void()>& work) {
+  try {
+    work();
+    source.accept(stamp);
+  } catch (const InputError& error) {
+    source.refuse(error.what());
+  }
+}
+
+void MapLayersNode::onStaticMap(const MapChange& change) {
+  take(static_source_, change.map.stamp, [&] {
+    checkFrame(change.map.frame_id, options_);
+    map_.setBase(change.map.grid, change.changed);
+  });
+  if (!change.changed) warnOfZonesOutside();
+}
+
+void MapLayersNode::onLiveMap(const MapChange& change) {
+  take(live_source_, liveStamp(), [&] {
+    checkFrame(change.map.frame_id, options_);
+    map_.setLive(change.map.grid, change.changed);
+  });
+  if (!change.changed && map_.liveIsCut())
+    ROS_WARN_STREAM_THROTTLE(60.0, live_source_.topic()
+                                       << " reaches beyond " << static_source_.topic()
+                                       << ": that part is left out");
+}
+
+// Another node's heartbeat says nothing about the map.
+void MapLayersNode::onLiveHeartbeat() {
+  const auto heartbeat = live_maps_.heartbeat();
+  if (live_source_.there() && heartbeat->publisher == live_maps_.latest().publisher)
+    live_source_.beat(heartbeat->stamp);
+}
+
+// projected_map stamps its maps with the time of sending, and its heartbeat with the newest cloud in them.
+ros::Time MapLayersNode::liveStamp() const {
+  const ReceivedMap map = live_maps_.latest();
+  const auto heartbeat = live_maps_.heartbeat();
+  return heartbeat && heartbeat->publisher == map.publisher ? heartbeat->stamp : map.stamp;
+}
+
+void MapLayersNode::onScan(const sensor_msgs::LaserScan::ConstPtr& scan) {
+  if (!noticeTime()) return;
+  scans_.add(scan);
+  takeScans();
+}
+
+// False while there is no ROS time.
+bool MapLayersNode::noticeTime() {
+  if (!clock_.hasTime()) return false;
+  if (const auto back = clock_.jumpedBack()) {
+    ROS_WARN_STREAM("ROS time went back by " << *back << " s: scans and tf are forgotten");
+    transforms_.clear();
+    scans_.clear();
+    map_.forgetScans();
+    expired_ = {};
+  }
+  return true;
+}
+
+void MapLayersNode::takeScans() {
+  while (const auto ready = scans_.take(options_.map_frame, options_.tf_timeout)) {
+    map_.insert(scanInMap(*ready->scan, ready->map_from_scan, options_.scan.inf_clears));
+    scan_source_.accept(ready->scan->header.stamp);
+  }
+  const ros::Time now = ros::Time::now();
+  if (secondsBetween(expired_, now) < kExpiryPeriod) return;
+  map_.expireScans(now.toSec());
+  expired_ = now;
+}
+
+std::string MapLayersNode::whyStale(const LayerSource& source, Layer layer, bool& dropped) {
+  const std::string why = source.whyNot(options_.source_timeout);
+  const bool drops = !why.empty() && options_.stale_source == StaleSource::DROP;
+  if (std::exchange(dropped, drops) != drops) {
+    if (drops)
+      ROS_WARN_STREAM("The map goes on without what is not there: " << why);
+    else
+      ROS_INFO_STREAM(source.topic() << " counts again");
+    if (drops && layer == Layer::SCAN) map_.forgetScans();
+    map_.use(layer, !drops);
+  }
+  return drops ? "" : why;
+}
+
+std::string MapLayersNode::whyHeld() {
+  for (const LayerSource* source : {&static_source_, &keep_out_source_, &speed_source_})
+    if (const std::string why = source->whyNot(options_.source_timeout); !why.empty()) return why;
+  const std::string of_live = whyStale(live_source_, Layer::LIVE, live_dropped_);
+  const std::string of_scan = whyStale(scan_source_, Layer::SCAN, scan_dropped_);
+  return of_live.empty() ? of_scan : of_live;
+}
+
+void MapLayersNode::publish() {
+  if (!noticeTime()) return;
+  takeScans();
+  const std::string why = whyHeld();
+  const std::string before = std::exchange(held_, why);
+  if (!why.empty()) {
+    if (why != before) ROS_WARN_STREAM("There is no map, vehicles stand: " << why);
+    publisher_.withdraw();
+    return;
+  }
+  if (!before.empty()) ROS_INFO("All sources are there: the map is published");
+  publisher_.publish(map_, options_.map_frame, options_.full_map_period);
+  if (!before.empty()) publishHeartbeat();
+}
+
+void MapLayersNode::publishHeartbeat() {
+  if (held_.empty()) publisher_.publishHeartbeat(options_.map_frame, newestOfAll());
+}
+
+ros::Time MapLayersNode::newestOfAll() const {
+  ros::Time newest = static_source_.stamp();
+  bool first = true;
+  for (const LayerSource* source : {&live_source_, &scan_source_}) {
+    const bool dropped = source == &live_source_ ? live_dropped_ : scan_dropped_;
+    if (!source->used() || dropped || source->stamp().isZero()) continue;
+    newest = first ? source->stamp() : std::min(newest, source->stamp());
+    first = false;
+  }
+  return newest;
+}
+
+void MapLayersNode::warnOfZonesOutside() const {
+  for (const std::string& name : map_.zonesOutside())
+    ROS_WARN_STREAM("Zone '" << name << "' lies outside of the map");
+}
+
+void MapLayersNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (!held_.empty())
+    status.summary(DiagnosticStatus::ERROR, "there is no map: " + held_);
+  else if (live_dropped_ || scan_dropped_)
+    status.summary(
+        DiagnosticStatus::WARN,
+        "the map goes on without " + (live_dropped_ ? live_source_ : scan_source_).topic());
+  else
+    status.summary(DiagnosticStatus::OK, "a map of all sources");
+  for (const LayerSource* source :
+       {&static_source_, &live_source_, &scan_source_, &keep_out_source_, &speed_source_})
+    addTo(status, *source, options_.source_timeout);
+  status.add("zones", zones_.zones.size());
+  status.add("zones outside of the map", map_.zonesOutside().size());
+  status.add("scans", scans_.record().received());
+  status.add("scans refused", scans_.record().refused());
+  status.add("scans refused last because", scans_.record().reason());
+  for (const MapReceiver* maps : {&static_maps_, &live_maps_})
+    if (const std::string refusal = maps->refusal(); !refusal.empty())
+      status.add("refused on " + maps->topic(), refusal);
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,101 @@
+// The node `map_layers`: several maps, zones and a laser's obstacles as one map, as planner and driver take it.
+//
+//   subscribes  static_map, static_map_updates   gives the grid
+//               live_map, live_map_updates       with use_live_map: that of projected_map, with its heartbeat
+//               scan                             sensor_msgs/LaserScan, with use_scan
+//               keep_out_mask, speed_mask        nav_msgs/OccupancyGrid, with use_keep_out_mask, use_speed_mask
+//               tf                               where the laser is in map_frame
+//   publishes   projected_map, projected_map_updates, speed_limit      layered_map_publisher.h
+//               /diagnostics
+//
+// Guaranteed: while a source that is used has not come, cannot be used, or (with stale_source hold) is silent, there is
+// no map and no heartbeat, so that vehicles stand; log and diagnostics say which. What cannot be used changes nothing.
+// The heartbeat is stamped with what the map holds of all sources: the oldest of their newest data. ROS time that goes
+// back forgets scans and tf, not the maps.
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <ros/steady_timer.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "layers/layered_map.h"
+#include "ros/common/clock.h"
+#include "ros/common/frame_transforms.h"
+#include "ros/common/map_receiver.h"
+#include "ros/common/node_files.h"
+#include "ros/layers/layer_source.h"
+#include "ros/layers/layered_map_publisher.h"
+#include "ros/layers/scan_queue.h"
+
+namespace grid_path_planner {
+class MapLayersConfig;
+}  // namespace grid_path_planner
+
+namespace grid_path_planner::None {}  // namespace grid_path_planner::None
+
+namespace grid_path_planner::nodes {
+
+template <class Config, class Options>
+class Reconfigurable;
+
+class MapLayersNode {
+ public:
+  // A file of zones that no argument names lies below the folder to load from. Throws InputError for parameters and
+  // a file that cannot be used. All callbacks are served by the queue of `nh`, which must be one thread's.
+  MapLayersNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const NodeFiles& files = {});
+  ~MapLayersNode();
+
+ private:
+  layers::Zones loadZones(const layers::MapLayersOptions& options) const;
+  void listen();
+  void listenToMask(LayerSource& source, const std::string& topic,
+                    std::function<void(layers::LayeredMap::Map)> use);
+  void startPublishing();
+  void use(layers::MapLayersOptions options);
+  // Carries out what may refuse a message of `source`.
+  void take(LayerSource& source, const ros::Time& stamp, const std::function<void()>& work);
+  void onStaticMap(const MapChange& change);
+  void onLiveMap(const MapChange& change);
+  void onLiveHeartbeat();
+  // Up to when the live map holds what was seen.
+  ros::Time liveStamp() const;
+  void onScan(const sensor_msgs::LaserScan::ConstPtr& scan);
+  bool noticeTime();
+  void takeScans();
+  void publish();
+  void publishHeartbeat();
+  // Why there is no map now, in a sentence; empty where there is.
+  std::string whyHeld();
+  // The same for a source that expires; where that is so and stale sources are dropped, it is.
+  std::string whyStale(const LayerSource& source, layers::Layer layer, bool& dropped);
+  ros::Time newestOfAll() const;
+  void warnOfZonesOutside() const;
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  ros::NodeHandle nh_;
+  NodeFiles files_;
+  layers::MapLayersOptions options_;
+  layers::Zones zones_;
+  FrameTransforms transforms_;
+  ClockWatch clock_;
+  layers::LayeredMap map_;
+  LayerSource static_source_, live_source_, scan_source_, keep_out_source_, speed_source_;
+  bool live_dropped_ = false, scan_dropped_ = false;
+  std::string held_ = "the node has just started";  // why there is no map
+  ScanQueue scans_;
+  ros::Time expired_;  // when scans were last looked through
+  LayeredMapPublisher publisher_;
+
+  MapReceiver static_maps_, live_maps_;
+  std::vector<ros::Subscriber> subscribers_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::SteadyTimer publish_timer_, heartbeat_timer_, diagnostics_timer_;
+  std::unique_ptr<Reconfigurable<MapLayersConfig, layers::MapLayersOptions>> reconfigurable_;
+};
+
+}  // namespace grid_path_planner::nodes

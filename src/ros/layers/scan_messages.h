@@ -1,0 +1,27 @@
+// A laser's scan as rays in the map.
+//
+//   const layers::ScanInMap scan = scanInMap(*message, transforms.transform("map", frame, stamp), inf_clears);
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+#include <sensor_msgs/LaserScan.h>
+
+#include "layers/scan_layer.h"
+
+namespace grid_path_planner::nodes {
+
+// Throws InputError for a scan that cannot be meant: numbers that are not finite, ranges that do not lie between 0 and
+// range_max, a ray for each of more than 20,000 angles, or none.
+void checkScan(const sensor_msgs::LaserScan& scan);
+
+// Throws InputError for a transform that is not finite or leads farther than 1e6 m.
+void checkScanPose(const geometry_msgs::TransformStamped& map_from_scan);
+
+// The rays of those that measured: a hit for a range from range_min to range_max, a free ray for +inf where
+// `inf_clears`. The others (NaN, -inf, other numbers; sensor_msgs and REP 117) say nothing. Each is put down into
+// the map's plane. Preconditions: checkScan() and checkScanPose() take them; `map_from_scan` is of its
+// stamp.
+layers::ScanInMap scanInMap(const sensor_msgs::LaserScan& scan,
+                            const geometry_msgs::TransformStamped& map_from_scan, bool inf_clears);
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,73 @@
+#include "ros/layers/scan_queue.h"
+
+#include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/clock.h"
+#include "ros/layers/scan_messages.h"
+
+namespace grid_path_planner::nodes {
+
+using base::InputError;
+using sensor_msgs::LaserScan;
+
+namespace {
+constexpr std::size_t kMostWaiting = 20;
+constexpr double kOldest = 10.0;  // s: as long as tf is kept
+}  // namespace
+
+void ScanQueue::check(const LaserScan& scan) const {
+  checkScan(scan);
+  if (frameName(scan.header.frame_id).empty()) throw InputError("it names no frame");
+  if (scan.header.stamp.isZero()) throw InputError("it has no stamp");
+  if (scan.header.stamp <= newest_) throw InputError("it is not newer than the one before");
+  const double age = secondsBetween(scan.header.stamp, ros::Time::now());
+  if (age > kOldest) throw InputError("it is " + std::to_string(age) + " s old");
+  if (age < -kOldest) throw InputError("it is stamped " + std::to_string(-age) + " s ahead");
+}
+
+void ScanQueue::add(const LaserScan::ConstPtr& scan) {
+  record_.receive();
+  try {
+    check(*scan);
+  } catch (const InputError& error) {
+    record_.refuse(error.what());
+    return;
+  }
+  newest_ = scan->header.stamp;
+  if (waiting_.size() >= kMostWaiting) {
+    record_.refuse("more than 20 wait for their transforms");
+    waiting_.pop_front();
+  }
+  waiting_.push_back({scan, Clock::now()});
+}
+
+bool ScanQueue::isOver(const Waiting& waiting, double timeout) const {
+  return std::chrono::duration<double>(Clock::now() - waiting.since).count() > timeout;
+}
+
+std::optional<ScanQueue::Ready> ScanQueue::take(const std::string& frame, double timeout) {
+  while (!waiting_.empty()) {
+    const Waiting first = waiting_.front();
+    try {
+      const auto transform = transforms_.transform(frame, frameName(first.scan->header.frame_id),
+                                                   first.scan->header.stamp);
+      waiting_.pop_front();
+      checkScanPose(transform);
+      return Ready{first.scan, transform};
+    } catch (const InputError& error) {
+      record_.refuse(error.what());
+    } catch (const TransformError& error) {
+      if (!isOver(first, timeout)) return std::nullopt;
+      waiting_.pop_front();
+      record_.refuse(error.what());
+    }
+  }
+  return std::nullopt;
+}
+
+void ScanQueue::clear() {
+  waiting_.clear();
+  newest_ = {};
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,80 @@
+// navigate_path drives no faster than the map of speed limits allows, and by use_speed_limit not without one.
+#include <nav_msgs/OccupancyGrid.h>
+
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/support/navigate_fixture.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+using test::pathOf;
+using test::waitFor;
+
+// It waits for commands, so that the drive does not depend on how busy the machine is.
+const std::vector<std::string> kObedient = {"_cmd_vel_timeout:=0.1"};
+
+class SpeedLimitedDrive : public test::NavigateTest {
+ protected:
+  // Percent in the metres from x = 3 to 6.
+  void publishLimit(std::int8_t percent) {
+    OccupancyGrid limits(GridGeometry(12, 4, 1.0, {0.0, -2.0, 0.0}), 0);
+    for (int row = 0; row < 4; ++row)
+      for (int column = 3; column < 6; ++column) limits.row(row)[column] = percent;
+    limits_.publish(occupancyToMessage(limits, "map", ros::Time::now()));
+  }
+  double fastestBetween(double from, double to) const {
+    double fastest = 0.0;
+    for (const nav_msgs::Odometry& odometry : odom_.all()) {
+      const double x = odometry.pose.pose.position.x;
+      const geometry_msgs::Vector3& v = odometry.twist.twist.linear;
+      if (x >= from && x <= to) fastest = std::max(fastest, std::hypot(v.x, v.y));
+    }
+    return fastest;
+  }
+
+  ros::Publisher limits_ = nh_.advertise<nav_msgs::OccupancyGrid>("speed_limit", 1, true);
+};
+
+TEST_F(SpeedLimitedDrive, IsSlowInTheZoneAndFastBeforeAndBehindIt) {
+  startSimulator(kObedient);
+  startNavigate();
+  ASSERT_TRUE(waitFor([&] { return limits_.getNumSubscribers() > 0; }));
+  publishLimit(25);
+  publishPath(pathOf({{0, 0}, {9, 0}}));
+  ASSERT_TRUE(arrivesAt(9, 0));
+  EXPECT_GT(fastestBetween(0.0, 2.0), 0.6);
+  EXPECT_LT(fastestBetween(3.2, 6.0), 0.2 * 1.1) << "25 % of 0.8 m/s, and what the vehicle lags";
+  EXPECT_GT(fastestBetween(3.2, 6.0), 0.15);
+  EXPECT_GT(fastestBetween(6.5, 8.5), 0.5);
+}
+
+TEST_F(SpeedLimitedDrive, WaitsForTheMapWhereItIsAskedTo) {
+  startSimulator(kObedient);
+  startNavigate({"_use_speed_limit:=true", "_no_progress_timeout:=0"});
+  publishPath(pathOf({{0, 0}, {9, 0}}));
+  EXPECT_TRUE(navigate_->says("no map of speed limits has come on speed_limit yet"));
+  EXPECT_TRUE(staysStill(2.0));
+  publishLimit(0);
+  EXPECT_TRUE(moves());
+}
+
+// What cannot be read as limits leaves those before in force.
+TEST_F(SpeedLimitedDrive, KeepsTheMapBeforeOneThatIsRefused) {
+  startSimulator(kObedient);
+  startNavigate();
+  ASSERT_TRUE(waitFor([&] { return limits_.getNumSubscribers() > 0; }));
+  publishLimit(25);
+  publishPath(pathOf({{0, 0}, {9, 0}}));
+  ASSERT_TRUE(waitFor([&] { return pose().position.x() > 3.2; }));
+  publishLimit(125);
+  EXPECT_TRUE(navigate_->says("/speed_limit is refused"));
+  const double refused_at = pose().position.x();
+  EXPECT_LT(refused_at, 4.5);
+  ASSERT_TRUE(waitFor([&] { return pose().position.x() > 5.5; }));
+  EXPECT_LT(fastestBetween(3.2, 5.5), 0.2 * 1.1);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes

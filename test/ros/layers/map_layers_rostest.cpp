@@ -1,0 +1,183 @@
+// map_layers through a real roscore: what it hears as one map, and when there is none.
+#include <sensor_msgs/LaserScan.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <fstream>
+
+#include "ros/support/map_listeners.h"
+#include "support/ascii_map.h"
+#include "support/temporary_folder.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using grid::Cell;
+using grid::OccupancyGrid;
+using test::Process;
+using test::waitFor;
+
+const std::vector<std::string> kRoom(12, "............");
+
+class MapLayers : public testing::Test {
+ protected:
+  MapLayers() { ros::param::del("/map_layers"); }
+
+  void start(const std::vector<std::string>& arguments) {
+    node_ = std::make_unique<Process>("map_layers", arguments);
+    ASSERT_TRUE(waitFor([&] { return copy_.connected() && beats_.connected(); }));
+  }
+  void publishStatic(const std::vector<std::string>& lines, const grid::Origin& origin = {},
+                     const std::string& frame = "map") {
+    static_.publish(
+        occupancyToMessage(test::AsciiMap(lines, 1.0, origin).map, frame, ros::Time::now()));
+  }
+  void placeLaser() {
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp = ros::Time::now();
+    transform.header.frame_id = "map";
+    transform.child_frame_id = "laser";
+    transform.transform.translation.x = 0.5;
+    transform.transform.translation.y = 0.5;
+    transform.transform.rotation.w = 1.0;
+    broadcaster_.sendTransform(transform);
+  }
+  // A ray along the x axis.
+  void see(float range) {
+    sensor_msgs::LaserScan scan;
+    scan.header.frame_id = "laser";
+    scan.header.stamp = ros::Time::now();
+    scan.range_max = 30.0F;
+    scan.ranges = {range};
+    scans_.publish(scan);
+  }
+  int at(int column, int row) const {
+    return copy_.maps() == 0 ? -2 : copy_.grid()[Cell{column, row}];
+  }
+  bool becomes(int column, int row, int value) const {
+    return waitFor([&] { return at(column, row) == value; });
+  }
+  // While scans of that range come.
+  bool becomesBySeeing(float range, int column, int row, int value) {
+    return waitFor([&] {
+      see(range);
+      return at(column, row) == value;
+    });
+  }
+  std::size_t beats() const {
+    std::size_t count = 0;
+    for (const auto& update : beats_.all()) count += update.width == 0 ? 1 : 0;
+    return count;
+  }
+
+  ros::NodeHandle nh_;
+  tf2_ros::StaticTransformBroadcaster broadcaster_;
+  ros::Publisher static_ = nh_.advertise<nav_msgs::OccupancyGrid>("static_map", 1, true);
+  ros::Publisher live_ = nh_.advertise<nav_msgs::OccupancyGrid>("live_map", 1, true);
+  ros::Publisher live_updates_ =
+      nh_.advertise<map_msgs::OccupancyGridUpdate>("live_map_updates", 10);
+  ros::Publisher mask_ = nh_.advertise<nav_msgs::OccupancyGrid>("keep_out_mask", 1, true);
+  ros::Publisher scans_ = nh_.advertise<sensor_msgs::LaserScan>("scan", 10);
+  test::MapCopy copy_{nh_, "projected_map"};
+  test::Latest<map_msgs::OccupancyGridUpdate> beats_{nh_, "projected_map_updates"};
+  test::Latest<nav_msgs::OccupancyGrid> limits_{nh_, "speed_limit"};
+  std::unique_ptr<Process> node_;
+};
+
+TEST_F(MapLayers, ALasersObstacleAppearsAndIsClearedAndOnlyWhatChangedIsSent) {
+  placeLaser();
+  publishStatic(kRoom);
+  start({"_use_scan:=true", "_source_timeout:=5", "_full_map_period:=3600"});
+  EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
+  const std::size_t maps = copy_.maps();
+  EXPECT_TRUE(becomesBySeeing(7.0F, 5, 0, 0)) << "the ray goes through";
+  EXPECT_EQ(at(7, 0), 100);
+  EXPECT_EQ(copy_.maps(), maps) << "as updates";
+  for (const auto& update : beats_.all()) EXPECT_LE(update.width * update.height, 12U);
+}
+
+TEST_F(MapLayers, ALiveMapWithUpdatesIsLaidOverAndItsHeartbeatGoesOn) {
+  publishStatic(kRoom);
+  start({"_use_live_map:=true", "_source_timeout:=5"});
+  EXPECT_TRUE(node_->says("There is no map")) << "it has not come yet";
+  EXPECT_EQ(copy_.maps(), 0U);
+  const ros::Time seen = ros::Time::now() - ros::Duration(3.0);
+  live_.publish(
+      occupancyToMessage(test::AsciiMap({"##", "##"}, 0.5, {4.25, 4.0, 0.0}).map, "map", seen));
+  EXPECT_TRUE(becomes(4, 4, 100));
+  EXPECT_EQ(at(5, 4), 100) << "a quarter of it";
+  EXPECT_EQ(at(6, 4), 0);
+  map_msgs::OccupancyGridUpdate update;
+  update.header.frame_id = "map";
+  update.header.stamp = seen + ros::Duration(1.0);
+  update.width = update.height = 2;
+  update.data.assign(4, 0);
+  ASSERT_TRUE(waitFor([&] { return live_updates_.getNumSubscribers() > 0; }));
+  live_updates_.publish(update);
+  EXPECT_TRUE(becomes(4, 4, 0));
+  const auto beat = beats_.waitFor(beats_.count(), [](const auto& u) { return u.width == 0; });
+  ASSERT_TRUE(beat);
+  EXPECT_EQ(beat->header.stamp, update.header.stamp) << "up to when the map holds what was seen";
+}
+
+TEST_F(MapLayers, WhileTheLaserIsSilentThereIsNoMapAndNoHeartbeat) {
+  placeLaser();
+  publishStatic(kRoom);
+  start({"_use_scan:=true", "_source_timeout:=0.5"});
+  EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
+  EXPECT_TRUE(waitFor([&] { return node_->hasSaid("/scan has been silent for longer than"); }));
+  const std::size_t before = beats();
+  const test::MapCopy late(nh_, "projected_map");
+  ros::WallDuration(1.5).sleep();  // in which a heartbeat would come, and a latched map
+  EXPECT_EQ(beats(), before);
+  EXPECT_TRUE(waitFor([&] {
+    see(5.0F);
+    return beats() > before;
+  }));
+}
+
+TEST_F(MapLayers, ALaserThatIsSilentCanBeDropped) {
+  placeLaser();
+  publishStatic(kRoom);
+  start({"_use_scan:=true", "_source_timeout:=0.5", "_stale_source:=drop"});
+  EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
+  EXPECT_TRUE(becomes(5, 0, 0)) << "without what it said";
+  EXPECT_TRUE(node_->hasSaid("The map goes on without what is not there: /scan"));
+  EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
+}
+
+TEST_F(MapLayers, ZonesAndMasksOfOtherResolutionsAreKeptOutOf) {
+  const test::TemporaryFolder folder;
+  const std::string zones =
+      folder.write("zones.yaml",
+                   "zones:\n"
+                   "  - {kind: keep_out, polygon: [[2.5, 2.5], [4.5, 2.5], [4.5, 3.5]]}\n"
+                   "  - {kind: slow, max_speed: 0.2, polygon: [[6, 6], [8, 6], [8, 7], [6, 7]]}\n");
+  publishStatic(kRoom);
+  start({"--zones-file", zones, "_use_keep_out_mask:=true"});
+  EXPECT_TRUE(node_->says("nothing has come on /keep_out_mask yet"));
+  mask_.publish(occupancyToMessage(test::AsciiMap({"#"}, 0.5, {9.25, 9.25, 0.0}).map, "map",
+                                   ros::Time::now()));
+  EXPECT_TRUE(becomes(4, 3, 100));
+  EXPECT_EQ(at(2, 2), 100);
+  EXPECT_EQ(at(2, 3), 0);
+  EXPECT_EQ(at(9, 9), 100);
+  const auto limits = limits_.waitForMoreThan(0);
+  ASSERT_TRUE(limits);
+  const OccupancyGrid grid = occupancyFromMessage(*limits);
+  EXPECT_EQ((grid[Cell{7, 6}]), 25);
+  EXPECT_EQ((grid[Cell{5, 6}]), 0);
+}
+
+TEST_F(MapLayers, WhatCannotBeMergedIsToldAndHoldsTheMap) {
+  start({"_use_scan:=false"});
+  publishStatic(kRoom, {0.0, 0.0, 0.3});
+  EXPECT_TRUE(node_->says("turned by 0.3"));
+  publishStatic(kRoom, {}, "odom");
+  EXPECT_TRUE(node_->says("it is in frame 'odom', map_frame is 'map'"));
+  EXPECT_EQ(copy_.maps(), 0U);
+  publishStatic(kRoom);
+  EXPECT_TRUE(becomes(3, 3, 0));
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes

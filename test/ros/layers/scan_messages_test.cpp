@@ -1,0 +1,95 @@
+#include "ros/layers/scan_messages.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/error_text.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using layers::ScanInMap;
+using test::contains, test::errorText;
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+// Rays at 0, 90, 180 degrees and so on.
+sensor_msgs::LaserScan scanOf(std::vector<float> ranges) {
+  sensor_msgs::LaserScan scan;
+  scan.angle_increment = static_cast<float>(M_PI / 2.0);
+  scan.range_min = 0.5F;
+  scan.range_max = 10.0F;
+  scan.ranges = std::move(ranges);
+  return scan;
+}
+
+// At x 2, y 3, looking along y.
+geometry_msgs::TransformStamped poseOfLaser() {
+  geometry_msgs::TransformStamped pose;
+  pose.transform.translation.x = 2.0;
+  pose.transform.translation.y = 3.0;
+  pose.transform.rotation.z = pose.transform.rotation.w = std::sqrt(0.5);
+  return pose;
+}
+
+TEST(ScanInMap, HasARayForEachThatMeasured) {
+  const ScanInMap scan = scanInMap(scanOf({4.0F, 1.0F}), poseOfLaser(), false);
+  EXPECT_EQ(scan.origin, Eigen::Vector2d(2.0, 3.0));
+  ASSERT_EQ(scan.beams.size(), 2U);
+  EXPECT_LT((scan.beams[0].end - Eigen::Vector2d(2.0, 7.0)).norm(), 1e-6);
+  EXPECT_LT((scan.beams[1].end - Eigen::Vector2d(1.0, 3.0)).norm(), 1e-6);
+  EXPECT_EQ(scan.beams[0].range, 4.0);
+  EXPECT_TRUE(scan.beams[0].hit);
+}
+
+TEST(ScanInMap, WhatMeasuredNothingSaysNothing) {
+  const auto silent = scanOf({std::nanf(""), -kInf, 0.4F, 10.1F, -3.0F});
+  EXPECT_TRUE(scanInMap(silent, poseOfLaser(), true).beams.empty());
+}
+
+TEST(ScanInMap, InfinityIsFreeWhereItIsAskedFor) {
+  EXPECT_TRUE(scanInMap(scanOf({kInf}), poseOfLaser(), false).beams.empty());
+  const ScanInMap scan = scanInMap(scanOf({kInf}), poseOfLaser(), true);
+  ASSERT_EQ(scan.beams.size(), 1U);
+  EXPECT_FALSE(scan.beams[0].hit);
+  EXPECT_EQ(scan.beams[0].range, 10.0);
+}
+
+TEST(ScanInMap, ATiltedLaserIsLaidDownOnTheMap) {
+  geometry_msgs::TransformStamped pose;
+  pose.transform.rotation.y = std::sin(M_PI / 6.0);
+  pose.transform.rotation.w = std::cos(M_PI / 6.0);
+  const ScanInMap scan = scanInMap(scanOf({4.0F}), pose, false);
+  EXPECT_LT((scan.beams.at(0).end - Eigen::Vector2d(2.0, 0.0)).norm(), 1e-6);
+  EXPECT_EQ(scan.beams[0].range, 4.0) << "as it was measured";
+}
+
+TEST(Scans, ThatCannotBeMeantAreRefused) {
+  const auto refusal = [](void (*spoil)(sensor_msgs::LaserScan&)) {
+    sensor_msgs::LaserScan scan = scanOf({1.0F});
+    spoil(scan);
+    return errorText([&] { checkScan(scan); });
+  };
+  EXPECT_EQ(refusal([](auto&) {}), "");
+  EXPECT_TRUE(contains(refusal([](auto& s) { s.angle_min = kInf; }), "angles"));
+  EXPECT_TRUE(contains(refusal([](auto& s) { s.angle_increment = std::nanf(""); }), "angles"));
+  EXPECT_TRUE(contains(refusal([](auto& s) { s.range_max = kInf; }), "range_max"));
+  EXPECT_TRUE(contains(refusal([](auto& s) { s.range_min = 20.0F; }), "range_max"));
+  EXPECT_TRUE(contains(refusal([](auto& s) { s.ranges.clear(); }), "no ranges"));
+  EXPECT_TRUE(contains(refusal([](auto& s) { s.ranges.resize(20001); }), "20001 ranges"));
+}
+
+// tf2 takes what is finite, whatever its size.
+TEST(Scans, OfALaserOutOfThisWorldAreRefused) {
+  auto pose = poseOfLaser();
+  EXPECT_EQ(errorText([&] { checkScanPose(pose); }), "");
+  pose.transform.translation.x = 1e200;
+  EXPECT_TRUE(contains(errorText([&] { checkScanPose(pose); }), "out of this world"));
+  pose.transform.translation.x = std::nan("");
+  EXPECT_TRUE(contains(errorText([&] { checkScanPose(pose); }), "out of this world"));
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
