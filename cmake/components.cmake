@@ -8,7 +8,8 @@
 #   mapping     projected_map, grid_path project: needs OctoMap
 #   simulation  simulator: needs SDFormat, Assimp and Embree
 #   rviz        panel and tools of rviz: needs rviz and Qt
-#   study       grid_path scenarios, grid_path study; with avoidance, mapping and simulation grid_path flights
+#   study       grid_path scenarios, grid_path study; with avoidance, mapping and simulation grid_path flights;
+#               with localization and simulation grid_path localization
 #
 # Sets GPP_WITH_<component>, GPP_FOLDERS (of src/, from the ground up), GPP_ROOMS (the libraries that
 # they make), GPP_NODES, GPP_CONFIGURATIONS, GPP_LAUNCH_FILES and what the components need of catkin;
@@ -126,6 +127,10 @@ endif()
 if(GPP_WITH_avoidance AND GPP_WITH_mapping AND GPP_WITH_simulation AND GPP_WITH_study)
   list(APPEND GPP_FOLDERS flights)
   gpp_append(study GPP_ROOMS flights)
+endif()
+if(GPP_WITH_localization AND GPP_WITH_simulation AND GPP_WITH_study)
+  list(APPEND GPP_FOLDERS trials)
+  gpp_append(study GPP_ROOMS trials)
 endif()
 if(GPP_WITH_driving OR GPP_WITH_mapping OR GPP_WITH_avoidance OR GPP_WITH_localization OR GPP_WITH_rviz)
   list(APPEND GPP_CATKIN_COMPONENTS std_srvs)

@@ -72,6 +72,25 @@ function(gpp_add_room room)
   set_property(GLOBAL APPEND PROPERTY GPP_ROOM_TARGETS ${target})
 endfunction()
 
+# gpp_add_sources_hash(<room> <rooms>...): gives the room's library sources_hash.h, a hash of the sources of those rooms,
+# which decide how a run of its studies goes: one that was begun by other sources is not gone on with.
+function(gpp_add_sources_hash room)
+  set(globs)
+  foreach(each ${ARGN})
+    list(APPEND globs ${PROJECT_SOURCE_DIR}/src/${each}/*.cpp ${PROJECT_SOURCE_DIR}/src/${each}/*.h
+      ${PROJECT_SOURCE_DIR}/include/${PROJECT_NAME}/${each}/*.h)
+  endforeach()
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${globs})
+  string(REPLACE ";" "," rooms "${ARGN}")
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/generated)
+  add_custom_command(OUTPUT ${folder}/sources_hash.h
+    COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DROOMS=${rooms} -DOUTPUT=${folder}/sources_hash.h
+      -P ${PROJECT_SOURCE_DIR}/cmake/hash_sources.cmake
+    DEPENDS ${sources} ${PROJECT_SOURCE_DIR}/cmake/hash_sources.cmake)
+  target_sources(${PROJECT_NAME}_${room} PRIVATE ${folder}/sources_hash.h)
+  target_include_directories(${PROJECT_NAME}_${room} PRIVATE ${folder})
+endfunction()
+
 # gpp_add_executable(<name> <source> <library...>): target with the package's prefix, file with the short name.
 function(gpp_add_executable name source)
   set(target ${PROJECT_NAME}_${name})

@@ -12,6 +12,10 @@ const std::vector<Command>& commands() {
 #ifdef GPP_WITH_FLIGHTS
       {"flights", "fly the local planner through simulated worlds, and report", runFlights},
 #endif
+#ifdef GPP_WITH_TRIALS
+      {"localization", "run a trial of the localization in simulation, and report",
+       runLocalization},
+#endif
       {"replay", "plan again what was recorded, and compare the paths", runReplay},
       {"rectangles", "cut a map's free space into rectangles", runRectangles},
       {"convert", "read a map file and write it in another format", runConvert},

@@ -18,6 +18,7 @@ int runWaypoints(int argc, char** argv);
 int runProject(int argc, char** argv);
 int runStudyCommand(int argc, char** argv);
 int runFlights(int argc, char** argv);
+int runLocalization(int argc, char** argv);
 
 struct Command {
   const char* name;

@@ -182,6 +182,17 @@ CONTEXT = {
     "braking.h": """extern Motion motion; extern Eigen::Vector3d velocity; extern double yaw_rate; extern PilotOptions options;
         struct AVehicle { void command(const Eigen::Vector3d&, double); }; extern AVehicle vehicle;
         extern const KeptRoom& room; extern std::vector<Eigen::Vector3f> moving;""",
+    "marker_errors.h": "extern const TrialStudy study; extern std::vector<SeenFrame> frames; extern std::size_t set; extern int frame;"
+                       "extern Noise noise;",
+    "marker_views.h": "extern const TrialStudy study; extern const simulation::World& world;",
+    "trials/noise.h": "extern int seed;",
+    "panel_drive.h": """#include "simulation/sensors/imu.h"
+        extern const TrialStudy study; extern simulation::Imu imu; extern std::int64_t time_ns;""",
+    "pose_errors.h": "extern std::vector<Eigen::Vector3d> positions; extern PoseTrack estimate, truth;",
+    "sensor_tape.h": """#include "localization/lagged_filter.h"
+        extern const TrialStudy study; extern const simulation::World& world; extern std::size_t set; extern int seed;
+        extern const MarkerErrors& errors; bool wants(const TapeEntry&); extern localization::LaggedFilter filter;""",
+    "trial_job.h": "void progress(std::size_t);",
     "flights/flight.h": """#include "flights/flight_study.h"
         extern const FlightStudy& study; extern std::size_t variant; extern int seed;""",
     "sight_audit.h": """extern const simulation::World& world; extern simulation::DepthCameraOptions camera_options;

@@ -25,6 +25,8 @@ class DriftingTriad {
   // The error of the mean over the next `seconds`.
   Eigen::Vector3d next(double seconds, NoiseStream& noise);
 
+  // What all three are off by now, without white noise.
+  Eigen::Vector3d bias() const { return turn_on_ + bias_; }
   // Of the white noise of one axis in a mean over `seconds`.
   double variance(double seconds) const { return errors_.noise * errors_.noise / seconds; }
   // Of the integral of one axis' whole error over the first `seconds`.

@@ -48,6 +48,10 @@ class Imu {
   // there is nothing to take a mean of.
   std::optional<ImuReading> measure(const VehicleState& state, std::int64_t time_ns);
 
+  // The truth, in the unit's own axes: rad/s, m/s^2.
+  Eigen::Vector3d gyroscopeBias() const { return gyroscope_.bias(); }
+  Eigen::Vector3d accelerometerBias() const { return accelerometer_.bias(); }
+
   // The vehicle was put elsewhere, which is no motion. Biases and the error of the heading stay.
   void jump() { before_.reset(); }
 

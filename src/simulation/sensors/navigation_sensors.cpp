@@ -11,7 +11,7 @@ using base::InputError, base::sameOptions;
 namespace {
 
 void append(std::vector<double*>& numbers, Eigen::Vector3d& vector) {
-  for (double& number : vector) numbers.push_back(&number);
+  for (int i = 0; i < 3; ++i) numbers.push_back(&vector[i]);  // Eigen 3.3 has no begin()
 }
 
 // What has changed, made anew.

@@ -1,0 +1,43 @@
+// What a study of localization shows: figures beside the published ones, consistency, goals, predictions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/report/finding.h"
+#include "trials/report/trial_data.h"
+
+namespace grid_path_planner::trials {
+
+study::Finding figuresFinding(const TrialData& data);      // L1 to L5 beside the published ones
+study::Finding panelFinding(const TrialData& data);        // T_P by image
+study::Finding consistencyFinding(const TrialData& data);  // NEES, NIS
+study::Finding tracksFinding(const TrialData& data);       // ATE, RPE
+study::Finding goalsFinding(const TrialData& data);
+study::Finding predictionsFinding(const TrialData& data);
+std::vector<study::Finding> trialFindings(const TrialData& data);
+
+// How far panels seen in one water are off by one method, over all images with such a pose.
+enum class PanelMethod { MEAN, SEQUENTIAL, JOINT };
+ErrorSpread panelError(const TrialData& data, std::size_t set, Water water, PanelMethod method);
+
+struct Goal {
+  std::string name;
+  std::string wanted;
+  std::string unit;
+  double found = 0.0;
+  bool met = false;
+};
+std::vector<Goal> goalsOf(const TrialData& data);
+
+enum class PredictionVerdict { CONFIRMED, REFUTED, UNDECIDED };
+const char* textOf(PredictionVerdict verdict);
+struct Prediction {
+  std::string claim;
+  PredictionVerdict verdict = PredictionVerdict::UNDECIDED;
+  std::string figures;
+};
+std::vector<Prediction> predictionsOf(const TrialData& data);
+
+}  // namespace grid_path_planner::trials

@@ -1,0 +1,12 @@
+// The report of a study of localization: report.html, tables as CSV, summary.yaml.
+#pragma once
+
+#include "grid_path_planner/study/study_job.h"
+#include "trials/report/trial_data.h"
+
+namespace grid_path_planner::trials {
+
+// Throws InputError where a file cannot be written.
+void writeTrialReport(const TrialData& data, const study::StudyTarget& target);
+
+}  // namespace grid_path_planner::trials
