@@ -319,6 +319,8 @@ CONTEXT = {
                             "extern RectangleMap message; extern ros::Publisher publisher;",
     "rectangle_publisher.h": "extern ros::NodeHandle nh; extern std::shared_ptr<const CostGrid> costs;"
                              "extern std::size_t memory_limit;",
+    "cost_to_go_publisher.h": "extern ros::NodeHandle private_nh; extern std::shared_ptr<const CostGrid> costs;"
+                              "extern Eigen::Vector2d goal; extern std::size_t memory_limit; void postCostToGo();",
     "d_star_keys.h": "extern const BackwardNodes& nodes; extern const CostGrid& map;"
                      "extern Cell start, next_start; extern SearchKey cost; extern DStarKeys::Index index;",
     "run_node.h": '#include "ros/simulation/simulator_node.h"',

@@ -140,7 +140,8 @@ Path csvPath(const WaypointText& text) {
 std::string csvText(const Path& path) {
   std::string text = kFrameComment + " " + path.frame_id + "\nx,y,z,yaw\n";
   for (const Pose& pose : path.poses) {
-    for (int i = 0; i < 3; ++i) text += decimalText(pose.position[i]) + ",";  // Eigen 3.3: no begin()
+    for (int i = 0; i < 3; ++i)
+      text += decimalText(pose.position[i]) + ",";  // Eigen 3.3: no begin()
     text += decimalText(pose.yaw) + "\n";
   }
   return text;
