@@ -1,8 +1,8 @@
 """Every launch file can be loaded and is installed, its nodes exist, and it sets no parameter that its node lacks."""
 import os
 import re
-import subprocess
 
+import roslaunch.arg_dump
 import roslaunch.config
 import roslib.packages
 import yaml
@@ -41,10 +41,9 @@ def complaints_of(name):
 
 
 def undocumented(name):
-    """roslaunch --ros-args prints the arguments with their doc attributes."""
-    text = subprocess.run(["roslaunch", "--ros-args", os.path.join(ROOT, name)], check=True,
-                          capture_output=True, text=True).stdout
-    return ["%s: %s" % (name, line.strip()) for line in text.splitlines() if "undocumented" in line]
+    """The arguments without a doc attribute, as `roslaunch --ros-args` finds them."""
+    arguments = roslaunch.arg_dump.get_args([os.path.join(ROOT, name)])
+    return ["%s: argument %s is undocumented" % (name, argument) for argument, (doc, _) in arguments.items() if not doc]
 
 
 def not_installed(names):
