@@ -103,6 +103,20 @@ function(gpp_add_executable name source)
   set_property(GLOBAL APPEND PROPERTY GPP_EXECUTABLES ${target})
 endfunction()
 
+# gpp_set_computing(<test>...): these compute all the time, while those with a roscore mostly wait. They begin
+# first, and no more of them run at a time than half as many as there are cores, so that others keep their deadlines.
+function(gpp_set_computing)
+  cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+  math(EXPR half "(${cores} + 1) / 2")
+  foreach(test ${ARGN})
+    set_property(GLOBAL APPEND PROPERTY GPP_COMPUTING_TESTS ${test})
+    get_property(tests GLOBAL PROPERTY GPP_COMPUTING_TESTS)
+    list(LENGTH tests number)
+    math(EXPR turn "${number} % ${half}")
+    set_tests_properties(${test} PROPERTIES COST 1000 RESOURCE_LOCK computing_${turn})
+  endforeach()
+endfunction()
+
 # gpp_add_room_test(<room> [<libraries>] [PRECOMPILED owner]): all *_test.cpp below test/<room> as one gtest program,
 # eight of them compiled as one. Its precompiled headers are those of test_support, or the owner's.
 function(gpp_add_room_test room)
@@ -120,5 +134,6 @@ function(gpp_add_room_test room)
     target_link_libraries(${target} ${PROJECT_NAME}_test_support gtest gtest_main)
     gpp_precompile_headers(${target} ${ARG_PRECOMPILED})
     gpp_unite_sources(${target} 16)
+    gpp_set_computing(_ctest_${PROJECT_NAME}_gtest_${target})
   endif()
 endfunction()

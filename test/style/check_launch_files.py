@@ -1,4 +1,5 @@
 """Every launch file can be loaded and is installed, its nodes exist, and it sets no parameter that its node lacks."""
+import functools
 import os
 import re
 
@@ -14,6 +15,7 @@ MAP = "map:=maps/dexrov_site.yaml"
 ARGUMENTS = {"map_file.launch": [MAP], "map_demo.launch": [MAP], "two_vehicles.launch": [MAP], "vehicle.launch": ["name:=a"]}
 
 
+@functools.lru_cache(maxsize=None)
 def known_parameters(node):
     return set(yaml.safe_load(read("config/%s.yaml" % node)) or {})
 
