@@ -120,6 +120,38 @@ void assignParameter(const std::string& name, XmlRpcValue value, std::string& ta
     refuse(name, "a string", value);
 }
 
+XmlRpcValue parameterTree(const ros::NodeHandle& private_nh) {
+  XmlRpcValue tree;
+  if (!ros::param::get(private_nh.getNamespace(), tree) ||
+      tree.getType() != XmlRpcValue::TypeStruct)
+    return {};
+  return tree;
+}
+
+const XmlRpcValue* findParameter(const XmlRpcValue& tree, const std::string& name) {
+  const XmlRpcValue* value = &tree;
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find('/', begin), name.size());
+    const std::string part = name.substr(begin, end - begin);
+    if (value->getType() != XmlRpcValue::TypeStruct || !value->hasMember(part)) return nullptr;
+    value = &(*value)[part];
+    begin = end + 1;
+  }
+  return value;
+}
+
+bool putParameter(XmlRpcValue& tree, const std::string& name, const XmlRpcValue& value) {
+  const XmlRpcValue* present = findParameter(tree, name);
+  if (present && *present == value) return false;
+  if (tree.valid() && tree.getType() != XmlRpcValue::TypeStruct) tree = XmlRpcValue();
+  const std::size_t slash = name.find('/');
+  if (slash == std::string::npos)
+    tree[name] = value;
+  else
+    putParameter(tree[name.substr(0, slash)], name.substr(slash + 1), value);
+  return true;
+}
+
 std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
                                            const std::vector<std::string>& known) {
   std::vector<std::string> set_names;

@@ -22,6 +22,7 @@
 #include <dynamic_reconfigure/server.h>
 #include <ros/console.h>
 #include <ros/node_handle.h>
+#include <ros/param.h>
 
 #include <boost/thread/recursive_mutex.hpp>
 #include <functional>
@@ -55,6 +56,17 @@ void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, int& ta
 void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, double& target);
 void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, std::string& target);
 
+// All parameters below the namespace of `private_nh` as one dictionary, by one question to the master: each takes it a
+// millisecond, and a node has up to 170 parameters. Invalid where there are none.
+XmlRpc::XmlRpcValue parameterTree(const ros::NodeHandle& private_nh);
+
+// The value of `name`, group/name in the dictionary of the group; nullptr where it is not set.
+const XmlRpc::XmlRpcValue* findParameter(const XmlRpc::XmlRpcValue& tree, const std::string& name);
+
+// Sets `name`. Whether that is a change.
+bool putParameter(XmlRpc::XmlRpcValue& tree, const std::string& name,
+                  const XmlRpc::XmlRpcValue& value);
+
 // Names under the namespace of `private_nh` that are not in `known`; of a nested name the first
 // part, unless a known name begins with it. The name that dynamic_reconfigure uses for a known name
 // is known.
@@ -80,17 +92,18 @@ std::vector<std::string> optionNames() {
 template <class Options>
 void loadParameters(const ros::NodeHandle& private_nh, Options& options) {
   Options loaded = options;
+  const XmlRpc::XmlRpcValue tree = parameterTree(private_nh);
   visitOptions(loaded, [&](const char* name, auto& value, const base::OptionInfo& info) {
     using Value = std::decay_t<decltype(value)>;
-    XmlRpc::XmlRpcValue parameter;
-    if (!private_nh.getParam(name, parameter)) return;
+    const XmlRpc::XmlRpcValue* parameter = findParameter(tree, name);
+    if (!parameter) return;
     const std::string full_name = private_nh.resolveName(name);
     if constexpr (std::is_enum_v<Value>) {
       std::string text;
-      assignParameter(full_name, parameter, text);
+      assignParameter(full_name, *parameter, text);
       value = base::choiceFromName<Value>(full_name, text);
     } else {
-      assignParameter(full_name, parameter, value);
+      assignParameter(full_name, *parameter, value);
       if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>)
         base::checkLimits(full_name, static_cast<double>(value), info);
     }
@@ -98,19 +111,24 @@ void loadParameters(const ros::NodeHandle& private_nh, Options& options) {
   options = std::move(loaded);
 }
 
-enum class Stored { ALL, NESTED };
+// What the parameter of an option holds: an enum by its name.
+template <class Value>
+XmlRpc::XmlRpcValue parameterValue(const Value& value) {
+  if constexpr (std::is_enum_v<Value>)
+    return XmlRpc::XmlRpcValue(std::string(base::choiceName(value)));
+  else
+    return XmlRpc::XmlRpcValue(value);
+}
 
-// Sets every parameter, or every one with a nested name, to what `options` holds, enums by name.
+// Sets every parameter to what `options` holds, by one request. Others stay.
 template <class Options>
-void storeParameters(const ros::NodeHandle& private_nh, Options options,
-                     Stored stored = Stored::ALL) {
+void storeParameters(const ros::NodeHandle& private_nh, Options options) {
+  XmlRpc::XmlRpcValue tree = parameterTree(private_nh);
+  bool changed = false;
   visitOptions(options, [&](const char* name, auto& value, const base::OptionInfo&) {
-    if (stored == Stored::NESTED && base::configName(name) == name) return;
-    if constexpr (std::is_enum_v<std::decay_t<decltype(value)>>)
-      private_nh.setParam(name, std::string(base::choiceName(value)));
-    else
-      private_nh.setParam(name, value);
+    changed = putParameter(tree, name, parameterValue(value)) || changed;
   });
+  if (changed) ros::param::set(private_nh.getNamespace(), tree);
 }
 
 // Every option by name in the message that dynamic_reconfigure sends, enums as strings.
@@ -163,6 +181,20 @@ Config configFromOptions(const Options& options) {
   return config;
 }
 
+// What dynamic_reconfigure's server keeps: it would ask for and set every parameter one by one, twice as a node
+// starts and again with every request; Reconfigurable stores them.
+template <class Config, class Options>
+struct ReconfiguredConfig : Config {
+  ReconfiguredConfig() = default;
+  ReconfiguredConfig(const Config& config) : Config(config) {}
+  void __fromServer__(const ros::NodeHandle& private_nh) {
+    Options options;
+    loadParameters(private_nh, options);
+    static_cast<Config&>(*this) = configFromOptions<Config>(options);
+  }
+  void __toServer__(const ros::NodeHandle&) const {}
+};
+
 // Keeps `Options` open to dynamic_reconfigure. `apply` gets every accepted request once, in the
 // thread of the requests, and throws InputError to refuse one: then the old options stay in force,
 // the reason is logged and published (refused_parameter.h), and the answer to the request holds the
@@ -180,10 +212,12 @@ class Reconfigurable {
         options_(initial),
         apply_(std::move(apply)),
         server_(mutex_, agreeing(private_nh, initial)) {
-    server_.setCallback([this](Config& config, uint32_t) { onRequest(config); });
+    server_.setCallback([this](Served& config, uint32_t) { onRequest(config); });
   }
 
  private:
+  using Served = ReconfiguredConfig<Config, Options>;
+
   static const ros::NodeHandle& agreeing(const ros::NodeHandle& private_nh,
                                          const Options& initial) {
     storeParameters(private_nh, initial);
@@ -200,7 +234,7 @@ class Reconfigurable {
       const Options wanted = optionsFromConfig(options_, config);
       apply_(wanted);
       options_ = wanted;
-      storeParameters(private_nh_, options_, Stored::NESTED);  // the server stores the others
+      storeParameters(private_nh_, options_);
       refused_.accept();
     } catch (const std::exception& error) {
       ROS_ERROR_STREAM("Reconfiguration of " << private_nh_.getNamespace()
@@ -216,7 +250,7 @@ class Reconfigurable {
   Apply apply_;
   bool started_ = false;
   boost::recursive_mutex mutex_;
-  dynamic_reconfigure::Server<Config> server_;
+  dynamic_reconfigure::Server<Served> server_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -113,9 +113,34 @@ TEST(Parameters, NestedNamesAreNamesWithAnUnderscoreForDynamicReconfigure) {
                                                              "sensor_model_hit", hit));
   EXPECT_EQ(hit, 0.8);
   options.octree.miss = 0.2;
-  storeParameters(nh, options, Stored::NESTED);
+  storeParameters(nh, options);
   EXPECT_EQ(nh.param("sensor_model/miss", 0.0), 0.2);
-  EXPECT_FALSE(nh.hasParam("resolution")) << "not nested";
+}
+
+// All are set by one request, which would replace what it does not name.
+TEST(Parameters, StoringKeepsWhatOthersHaveSet) {
+  ros::NodeHandle nh("/stored");
+  nh.setParam("plugin/rate", 5);
+  nh.setParam("sensor_model/theirs", std::string("kept"));
+  nh.setParam("resolution", 1);  // a number that is none to dynamic_reconfigure
+  storeParameters(nh, ProjectedMapOptions());
+  EXPECT_EQ(nh.param("plugin/rate", 0), 5);
+  EXPECT_EQ(nh.param("sensor_model/theirs", std::string()), "kept");
+  XmlRpc::XmlRpcValue resolution;
+  ASSERT_TRUE(nh.getParam("resolution", resolution));
+  EXPECT_EQ(resolution.getType(), XmlRpc::XmlRpcValue::TypeDouble);
+  for (const std::string& name : optionNames<ProjectedMapOptions>())
+    EXPECT_TRUE(nh.hasParam(name)) << name;
+}
+
+TEST(Parameters, AValueInThePlaceOfAGroupIsNoGroup) {
+  ros::NodeHandle nh("/flat");
+  nh.setParam("sensor_model", 3);
+  ProjectedMapOptions options;
+  loadParameters(nh, options);
+  EXPECT_EQ(options.octree.hit, ProjectedMapOptions().octree.hit);
+  storeParameters(nh, options);
+  EXPECT_EQ(nh.param("sensor_model/hit", 0.0), options.octree.hit);
 }
 
 class Reconfiguration : public testing::Test {
