@@ -17,7 +17,7 @@ import subprocess
 import sys
 import time
 
-from ros_session import (START_SECONDS, Mapping, Nodes, SessionFailed, Vehicle, executable, run_session,
+from ros_session import (Mapping, Nodes, Planner, SessionFailed, Vehicle, executable, plan_rows, run_session,
                          set_simulator, share_file)
 
 # x, y, z in m, yaw in rad, as the original study has them; the survey ends at the start.
@@ -28,57 +28,6 @@ LARGEST_ARRIVAL_ERROR = 0.1   # m
 SURVEY_SECONDS = 1500.0       # of the wall clock, if nothing else ends it
 DRIVE_SECONDS = 600.0
 HELD_RATE = 0.01              # Hz: no picture for 100 simulated seconds
-
-
-class Planner:
-    """Asks path_planner for the path, and keeps what it answers."""
-
-    def __init__(self, nodes, vehicle):
-        import rospy
-        from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
-        from nav_msgs.msg import Path
-        from grid_path_planner.msg import PlanStatistics
-        self.nodes, self.vehicle = nodes, vehicle
-        self.PoseStamped, self.PoseWithCovarianceStamped = PoseStamped, PoseWithCovarianceStamped
-        self.statistics = self.path = None
-        self.start = rospy.Publisher("/initialpose", PoseWithCovarianceStamped, queue_size=1)
-        self.goal = rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=1)
-        rospy.Subscriber("plan_statistics", PlanStatistics, lambda m: setattr(self, "statistics", m))
-        rospy.Subscriber("path", Path, lambda m: setattr(self, "path", m))
-
-    def ask(self):
-        start, goal = self.PoseWithCovarianceStamped(), self.PoseStamped()
-        for message in (start, goal):
-            message.header.frame_id = "map"
-            message.header.stamp = self.vehicle.clock.clock
-        fill(start.pose.pose, START)
-        fill(goal.pose, GOAL)
-        self.start.publish(start)
-        time.sleep(0.5)  # two topics: nothing else makes them arrive in this order
-        self.goal.publish(goal)
-
-    def plan(self):
-        """Asks until there is an answer that is not for want of the map or a transform: the nodes of a launch
-        file start in no order."""
-        deadline = time.monotonic() + START_SECONDS
-        while True:
-            self.nodes.wait_until(
-                lambda: self.start.get_num_connections() > 0 and self.goal.get_num_connections() > 0,
-                START_SECONDS, "path_planner")
-            self.statistics = None
-            self.ask()
-            self.nodes.wait_until(lambda: self.statistics, START_SECONDS, "plan_statistics")
-            if self.statistics.status == "FOUND":
-                self.nodes.wait_until(lambda: self.path and self.path.poses, 10.0, "path")
-                return self.statistics, self.path
-            if self.statistics.status not in ("NO_MAP", "TRANSFORM_ERROR") or time.monotonic() > deadline:
-                raise SessionFailed("%s: %s" % (self.statistics.status, self.statistics.message))
-            time.sleep(0.5)
-
-
-def fill(pose, values):
-    pose.position.x, pose.position.y, pose.position.z = values[:3]
-    pose.orientation.z, pose.orientation.w = math.sin(values[3] / 2), math.cos(values[3] / 2)
 
 
 def flags(yaml_name):
@@ -119,17 +68,6 @@ def survey(nodes, vehicle, mapping, map_file):
             ("octree", "%d nodes, %.0f MB" % (mapping.count("nodes"), mapping.count("bytes") / 1e6))]
 
 
-def plan_rows(s, path):
-    return [("status", s.status),
-            ("planner", ", ".join(filter(None, (s.planner, s.heuristic, "kernel %d" % s.kernel)))),
-            ("path", "%.2f m, %d waypoints" % (s.length_m, len(path.poses))),
-            ("cost", "%.3f" % s.cost),
-            ("clearance", "%.2f m" % s.clearance_m),
-            ("expanded", "%d cells" % s.expanded),
-            ("search memory", "%.2f MB" % (s.search_bytes / 1e6)),
-            ("planning time", "%.2f ms, map preparation %.1f ms" % (s.planning_time_ms, s.preparation_time_ms))]
-
-
 def drive(vehicle, waypoints):
     driven = vehicle.driven_m
     seconds = vehicle.drive_file("", waypoints, DRIVE_SECONDS)
@@ -166,7 +104,7 @@ def run(arguments):
         nodes.wait_for_service("/projected_map/save_map")
         print("demo: the vehicle surveys the site", flush=True)
         rows = survey(nodes, vehicle, mapping, map_file)
-        statistics, path = Planner(nodes, vehicle).plan()
+        statistics, path = Planner(nodes, vehicle).plan(GOAL, START)
         rows += plan_rows(statistics, path)
         nodes.wait_until(lambda: os.path.exists(waypoints), 10.0, "waypoint file")
         print("demo: a path is found, the vehicle drives", flush=True)

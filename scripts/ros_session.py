@@ -198,6 +198,56 @@ class Vehicle:
         return self.now() - begin
 
 
+class Planner:
+    """Asks path_planner for the path, and keeps what it answers."""
+
+    def __init__(self, nodes, vehicle):
+        import rospy
+        from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
+        from nav_msgs.msg import Path
+        from grid_path_planner.msg import PlanStatistics
+        self.nodes, self.vehicle = nodes, vehicle
+        self.PoseStamped, self.PoseWithCovarianceStamped = PoseStamped, PoseWithCovarianceStamped
+        self.statistics = self.path = None
+        self.start = rospy.Publisher("/initialpose", PoseWithCovarianceStamped, queue_size=1)
+        self.goal = rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=1)
+        rospy.Subscriber("plan_statistics", PlanStatistics, lambda m: setattr(self, "statistics", m))
+        rospy.Subscriber("path", Path, lambda m: setattr(self, "path", m))
+
+    def fill(self, message, pose, values):
+        message.header.frame_id = "map"
+        message.header.stamp = self.vehicle.clock.clock
+        pose.position.x, pose.position.y, pose.position.z = values[:3]
+        pose.orientation.z, pose.orientation.w = math.sin(values[3] / 2), math.cos(values[3] / 2)
+        return message
+
+    def ask(self, goal, start):
+        if start:
+            message = self.PoseWithCovarianceStamped()
+            self.start.publish(self.fill(message, message.pose.pose, start))
+            time.sleep(0.5)  # two topics: nothing else makes them arrive in this order
+        message = self.PoseStamped()
+        self.goal.publish(self.fill(message, message.pose, goal))
+
+    def plan(self, goal, start=None):
+        """From where the vehicle is, unless a start is given: x, y, z in m and yaw in rad. Asks until there is an
+        answer that is not for want of the map or a transform: the nodes of a launch file start in no order."""
+        deadline = time.monotonic() + START_SECONDS
+        while True:
+            self.nodes.wait_until(
+                lambda: self.start.get_num_connections() > 0 and self.goal.get_num_connections() > 0,
+                START_SECONDS, "path_planner")
+            self.statistics = None
+            self.ask(goal, start)
+            self.nodes.wait_until(lambda: self.statistics, START_SECONDS, "plan_statistics")
+            if self.statistics.status == "FOUND":
+                self.nodes.wait_until(lambda: self.path and self.path.poses, 10.0, "path")
+                return self.statistics, self.path
+            if self.statistics.status not in ("NO_MAP", "TRANSFORM_ERROR") or time.monotonic() > deadline:
+                raise SessionFailed("%s: %s" % (self.statistics.status, self.statistics.message))
+            time.sleep(0.5)
+
+
 class Mapping:
     """Hears how far projected_map is with the clouds that came, and has it save the map."""
 
@@ -241,3 +291,14 @@ def set_simulator(parameter, value):
     from dynamic_reconfigure.msg import Config, DoubleParameter
     from dynamic_reconfigure.srv import Reconfigure
     rospy.ServiceProxy("/simulator/set_parameters", Reconfigure)(Config(doubles=[DoubleParameter(parameter, value)]))
+
+
+def plan_rows(s, path):
+    return [("status", s.status),
+            ("planner", ", ".join(filter(None, (s.planner, s.heuristic, "kernel %d" % s.kernel)))),
+            ("path", "%.2f m, %d waypoints" % (s.length_m, len(path.poses))),
+            ("cost", "%.3f" % s.cost),
+            ("clearance", "%.2f m" % s.clearance_m),
+            ("expanded", "%d cells" % s.expanded),
+            ("search memory", "%.2f MB" % (s.search_bytes / 1e6)),
+            ("planning time", "%.2f ms, map preparation %.1f ms" % (s.planning_time_ms, s.preparation_time_ms))]

@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""A drive on an estimated pose, on a roscore of its own: planned on the shipped map, to a pose before the testing panel.
+
+    rosrun grid_path_planner localization_demo_run.py [--rviz] [--seed N] [--out FOLDER]
+
+Nobody tells the vehicle where it is: vehicle_localizer estimates it by IMU, DVL, pressure and acoustic fixes, and by the
+panel's markers once the camera sees them. Into FOLDER (default: out) go waypoints.yaml and the nodes' output,
+localization_demo.log. The table says how far the estimate was from the truth, and whether the ellipse that the
+estimate gives itself, 95 % of a plane, holds the truth at the end. Exit code 0 only if nothing was touched and the
+vehicle is, in truth, where it was sent.
+"""
+import argparse
+import math
+import os
+import sys
+
+from ros_session import START_SECONDS, Nodes, Planner, SessionFailed, Vehicle, plan_rows, run_session
+
+GOAL = (4.66, -1.92, 2.9, 1.99)  # x, y, z in m, yaw in rad: 1.5 m before the panel, looking at it
+LARGEST_ARRIVAL_ERROR = 0.25     # m, of the true pose
+DRIVE_SECONDS = 600.0            # of the wall clock
+ELLIPSE_95 = 5.991               # chi squared of two coordinates
+KEPT_SECONDS = 5.0               # of truth, for estimates that come late
+
+
+class Localization:
+    """Hears what the localizer says of itself, and compares its estimates with the truth of the same stamps."""
+
+    def __init__(self, nodes, vehicle):
+        import rospy
+        from geometry_msgs.msg import PoseWithCovarianceStamped
+        from nav_msgs.msg import Odometry
+        from std_msgs.msg import String
+        self.nodes, self.vehicle = nodes, vehicle
+        self.status, self.estimate = "nothing", None
+        self.truths, self.errors, self.marker_fixes = {}, [], 0
+        rospy.Subscriber("localization_status", String, lambda m: setattr(self, "status", m.data))
+        rospy.Subscriber("ground_truth", Odometry, self.on_truth)
+        rospy.Subscriber("odometry/filtered", Odometry, self.on_estimate)
+        rospy.Subscriber("marker_pose", PoseWithCovarianceStamped, self.on_marker_fix)
+
+    def on_truth(self, message):
+        now = message.header.stamp.to_sec()
+        self.truths[message.header.stamp.to_nsec()] = message
+        for stamp in [stamp for stamp in list(self.truths) if stamp * 1e-9 < now - KEPT_SECONDS]:
+            self.truths.pop(stamp, None)
+
+    def on_marker_fix(self, _):
+        self.marker_fixes += 1
+
+    def on_estimate(self, message):
+        self.estimate = message
+        truth = self.truths.get(message.header.stamp.to_nsec())
+        if truth is not None:
+            self.errors.append((distance(message, truth), ellipse(message, truth)))
+
+    def wait_until_known(self):
+        self.nodes.wait_until(lambda: self.status.startswith("OK") and self.errors, START_SECONDS,
+                              "pose that localization_status calls OK")
+
+    def rows(self):
+        metres = [error[0] for error in self.errors]
+        return [("estimate", "%.3f m off on average, %.3f at most, of %d" % (
+                    sum(metres) / len(metres), max(metres), len(metres))),
+                ("marker fixes", "%d" % self.marker_fixes),
+                ("says", self.status)]
+
+
+def distance(estimate, truth):
+    a, b = estimate.pose.pose.position, truth.pose.pose.position
+    return math.dist((a.x, a.y, a.z), (b.x, b.y, b.z))
+
+
+def ellipse(estimate, truth):
+    """The squared distance in the plane, in variances of the estimate."""
+    p, q, c = estimate.pose.pose.position, truth.pose.pose.position, estimate.pose.covariance
+    x, y = p.x - q.x, p.y - q.y
+    xx, xy, yy = c[0], c[1], c[7]
+    return (yy * x * x - 2.0 * xy * x * y + xx * y * y) / (xx * yy - xy * xy)
+
+
+def arrival_rows(vehicle, localization):
+    position = localization.estimate.pose.pose.position
+    by_estimate = math.dist((position.x, position.y, position.z), GOAL[:3])
+    yaw = vehicle.pose()[3]
+    squared = localization.errors[-1][1]
+    return [("arrived", "%.3f m from the goal by the estimate, %.3f m and %.3f rad by the truth" % (
+                by_estimate, vehicle.distance(GOAL), abs(math.remainder(yaw - GOAL[3], 2 * math.pi)))),
+            ("95 % ellipse", "%s the truth: %.2f of %.2f" % (
+                "holds" if squared <= ELLIPSE_95 else "does not hold", squared, ELLIPSE_95)),
+            ("touched", vehicle.contact.data if vehicle.contact else "nothing (%d contacts)" % vehicle.contacts.data)]
+
+
+def drive(vehicle, localization, waypoints):
+    driven = vehicle.driven_m
+    seconds = vehicle.drive_file("", waypoints, DRIVE_SECONDS)
+    return [("driven", "%.2f m in %.1f s" % (vehicle.driven_m - driven, seconds))] + localization.rows()
+
+
+def run(arguments):
+    os.makedirs(arguments.out, exist_ok=True)
+    waypoints = os.path.abspath(os.path.join(arguments.out, "waypoints.yaml"))
+    if os.path.exists(waypoints):
+        os.remove(waypoints)
+    launch_arguments = ["rviz:=" + str(arguments.rviz).lower(), "seed:=%d" % arguments.seed,
+                        "waypoints_file:=" + waypoints, "save_folder:=" + os.path.abspath(arguments.out),
+                        "load_folder:=" + os.path.abspath(arguments.out)]
+    log = os.path.join(arguments.out, "localization_demo.log")
+    with Nodes("localization_demo.launch", launch_arguments, log) as nodes:
+        print("localization: nodes start on %s" % os.environ["ROS_MASTER_URI"], flush=True)
+        vehicle = Vehicle(nodes)
+        localization = Localization(nodes, vehicle)
+        vehicle.wait_until_ready()
+        localization.wait_until_known()
+        print("localization: the vehicle knows where it is after %.1f s" % vehicle.now(), flush=True)
+        statistics, path = Planner(nodes, vehicle).plan(GOAL)
+        rows = plan_rows(statistics, path)
+        nodes.wait_until(lambda: os.path.exists(waypoints), 10.0, "waypoint file")
+        print("localization: a path is found, the vehicle drives", flush=True)
+        rows += drive(vehicle, localization, waypoints) + arrival_rows(vehicle, localization)
+        for row in rows:
+            print("  %-14s %s" % row)
+        if arguments.rviz and sys.stdin.isatty():
+            input("localization: press Enter to close rviz ")
+        error = vehicle.distance(GOAL)
+        print("localization: seed=%d length_m=%.3f arrival_error_m=%.3f ellipse=%s contacts=%d waypoints=%s" % (
+            arguments.seed, statistics.length_m, error,
+            "held" if localization.errors[-1][1] <= ELLIPSE_95 else "missed", vehicle.contacts.data, waypoints))
+        vehicle.check_untouched()
+        if error > LARGEST_ARRIVAL_ERROR:
+            raise SessionFailed("the vehicle arrived %.3f m from the goal" % error)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--rviz", action="store_true", help="show it in rviz")
+    parser.add_argument("--seed", type=int, default=1, metavar="N", help="other errors of all sensors (default: 1)")
+    parser.add_argument("--out", default="out", metavar="FOLDER", help="for the results (default: out)")
+    run_session("localization", run, parser.parse_args())
+
+
+if __name__ == "__main__":
+    main()
