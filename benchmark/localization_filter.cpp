@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "base/cholesky.h"
 #include "localization/lagged_filter.h"
 #include "localization/support/simulated_sensors.h"
 
@@ -48,7 +49,7 @@ void measureSteps() {
                     sensors.base};
   const double update = microsecondsOf(100000, [&](int) {
     const Eigen::Matrix<double, 6, 1> residual = poseResidual<double>(estimate.state, fix);
-    Innovation<6>(estimate, residual, poseJacobian(estimate.state, fix), fix.covariance)
+    Innovation(estimate, residual, poseJacobian(estimate.state, fix), fix.covariance)
         .apply(estimate);
   });
   std::printf("prediction %.2f us, 6-D update %.2f us\n", predict, update);
@@ -78,8 +79,12 @@ void measureErrors(double seconds, unsigned runs) {
     const ErrorVector error = errorBetween<double>(estimate.state, sensors.truthAt(seconds));
     Eigen::Matrix<double, 6, 1> pose;
     pose << error.segment<3>(kPosition), error.segment<3>(kAttitude);
-    all += error.dot(estimate.covariance.ldlt().solve(error)) / runs;
-    of_pose += pose.dot(poseOf(estimate).covariance.ldlt().solve(pose)) / runs;
+    all +=
+        grid_path_planner::base::Cholesky<kErrors>(estimate.covariance).squaredMahalanobis(error) /
+        runs;
+    of_pose +=
+        grid_path_planner::base::Cholesky<6>(poseOf(estimate).covariance).squaredMahalanobis(pose) /
+        runs;
     metres += pose.head<3>().norm() / runs;
     degrees += pose.tail<3>().norm() * 180.0 / M_PI / runs;
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cholesky.h"
+
 namespace grid_path_planner::localization {
 
 namespace {
@@ -68,7 +70,7 @@ bool agree(const MountedPose& first, const MountedPose& second, double seconds,
   PoseCovariance covariance = first.covariance + second.covariance;
   covariance.topLeftCorner<3, 3>().diagonal().array() += square(options.start_velocity * seconds);
   covariance.bottomRightCorner<3, 3>().diagonal().array() += square(options.coast_turn) * seconds;
-  return difference.dot(covariance.ldlt().solve(difference)) <= limit;
+  return base::Cholesky<6>(covariance).squaredMahalanobis(difference) <= limit;
 }
 
 void forget(Covariance& covariance, int first, int count, double variance) {

@@ -17,6 +17,8 @@ constexpr double kAnyPosition = 1e6;  // m^2
 constexpr double kAnyVelocity = 1e2;  // m^2/s^2
 constexpr double kAnyAngle = 10.0;    // rad^2
 
+using Scalar = Eigen::Matrix<double, 1, 1>;
+
 Inertial between(const TimedImu& from, const TimedImu& to, double stamp) {
   const double share =
       (stamp - static_cast<double>(from.stamp)) / static_cast<double>(to.stamp - from.stamp);
@@ -87,34 +89,29 @@ Outcome FilterStep::apply(FilterSnapshot& snapshot, const Measurement& measureme
   return std::visit([&](const auto& data) { return take(context, data); }, measurement.data);
 }
 
-template <int N>
-bool FilterStep::passes(const Innovation<N>& innovation,
-                        const Eigen::Matrix<double, N, 1>& residual) const {
-  if (options_.gate == Gate::CHI_SQUARED) return innovation.nis() <= gates_[N];
-  if (options_.gate == Gate::NONE || N != 6) return true;
-  const bool near = residual.template head<3>().norm() <= options_.gate_distance;
-  const bool turned = residual.template tail<3>().norm() <= options_.gate_angle * M_PI / 180.0;
+bool FilterStep::passes(const Innovation& innovation) const {
+  if (options_.gate == Gate::CHI_SQUARED)
+    return innovation.nis() <= gates_[static_cast<std::size_t>(innovation.size())];
+  if (options_.gate == Gate::NONE || innovation.size() != 6) return true;
+  const bool near = innovation.residual().head<3>().norm() <= options_.gate_distance;
+  const bool turned = innovation.residual().tail<3>().norm() <= options_.gate_angle * M_PI / 180.0;
   return options_.gate == Gate::EITHER ? near && turned : near || turned;
 }
 
-// `update`: makes the innovation of an estimate.
-template <int N, class Update>
-Outcome FilterStep::fuse(Context& context, const Deviation& deviation, const Update& update,
+Outcome FilterStep::fuse(Context& context, Innovation innovation, const Deviation& deviation,
                          void (FilterStep::*forget)(Estimate&) const) const {
   FilterSnapshot& snapshot = context.snapshot;
-  const auto [residual, innovation] = update(snapshot.estimate);
-  Outcome outcome{Verdict::TAKEN, N, innovation.nis()};
+  Outcome outcome{Verdict::TAKEN, innovation.size(), innovation.nis()};
   Rejections& rejections = snapshot.rejections[static_cast<std::size_t>(context.source)];
-  if (passes<N>(innovation, residual)) {
-    innovation.apply(snapshot.estimate);
-  } else {
+  if (!passes(innovation)) {
     const double drift = square(options_.start_velocity);
     if (rejections.add(snapshot.stamp, deviation, drift, gates_[6]) < options_.reset_after)
       return outcome.verdict = Verdict::GATED, outcome;
     (this->*forget)(snapshot.estimate);
-    update(snapshot.estimate).second.apply(snapshot.estimate);
+    innovation.project(snapshot.estimate.covariance);
     outcome.verdict = Verdict::RESET;
   }
+  innovation.apply(snapshot.estimate);
   rejections.clear();
   return outcome;
 }
@@ -133,19 +130,15 @@ Outcome FilterStep::fuseVelocity(Context& context, const DvlVelocity& dvl) const
   const Eigen::Matrix3d lever =
       dvl.sensor.rotation.toRotationMatrix().transpose() * cross(dvl.sensor.position);
   const Eigen::Matrix3d noise = dvl.covariance + context.rate.variance * lever * lever.transpose();
-  const auto update = [&](const Estimate& estimate) {
-    const Eigen::Vector3d residual =
-        dvl.velocity - predictedVelocity<double>(estimate.state, context.rate.rate, dvl.sensor);
-    return std::make_pair(
-        residual,
-        Innovation<3>(estimate, residual, velocityJacobian(estimate.state, dvl.sensor), noise));
-  };
-  const State& state = context.snapshot.estimate.state;
+  const Estimate& estimate = context.snapshot.estimate;
+  const State& state = estimate.state;
+  const Eigen::Vector3d residual =
+      dvl.velocity - predictedVelocity<double>(state, context.rate.rate, dvl.sensor);
   Deviation deviation;
-  deviation.offset.head<3>() =
-      state.attitude * dvl.sensor.rotation * update(context.snapshot.estimate).first;
+  deviation.offset.head<3>() = state.attitude * (dvl.sensor.rotation * residual);
   deviation.variance.head<3>().setConstant(noise.diagonal().maxCoeff());
-  return fuse<3>(context, deviation, update, &FilterStep::forgetVelocity);
+  return fuse(context, {estimate, residual, velocityJacobian(state, dvl.sensor), noise}, deviation,
+              &FilterStep::forgetVelocity);
 }
 
 // How the velocity in the world hangs on the attitude is known at the right velocity only: about 0 it
@@ -192,33 +185,27 @@ Outcome FilterStep::take(Context& context, const DepthFix& depth) const {
     return {Verdict::TAKEN, 0, 0.0};
   }
   const double z = depth.z + snapshot.depth_offset.value_or(0.0);
-  using Scalar = Eigen::Matrix<double, 1, 1>;
-  const auto update = [&](const Estimate& estimate) {
-    const Scalar residual(z - predictedPosition<double>(estimate.state, depth.sensor).z());
-    const Jacobian<1> jacobian = positionJacobian(estimate.state, depth.sensor).row(2);
-    return std::make_pair(residual,
-                          Innovation<1>(estimate, residual, jacobian, Scalar(depth.variance)));
-  };
+  const Estimate& estimate = snapshot.estimate;
+  const Scalar residual(z - predictedPosition<double>(estimate.state, depth.sensor).z());
+  const Jacobian<1> jacobian = positionJacobian(estimate.state, depth.sensor).row(2);
   Deviation deviation;
-  deviation.offset.z() = update(snapshot.estimate).first.value();
+  deviation.offset.z() = residual.value();
   deviation.variance.z() = depth.variance;
-  return fuse<1>(context, deviation, update, &FilterStep::forgetDepth);
+  return fuse(context, {estimate, residual, jacobian, Scalar(depth.variance)}, deviation,
+              &FilterStep::forgetDepth);
 }
 
 Outcome FilterStep::take(Context& context, const HeadingFix& heading) const {
   FilterSnapshot& snapshot = context.snapshot;
   if (!snapshot.started) return {};
-  using Scalar = Eigen::Matrix<double, 1, 1>;
-  const auto update = [&](const Estimate& estimate) {
-    const Scalar residual(
-        std::remainder(heading.yaw - predictedYaw<double>(estimate.state), 2.0 * M_PI));
-    return std::make_pair(residual, Innovation<1>(estimate, residual, yawJacobian(estimate.state),
-                                                  Scalar(heading.variance)));
-  };
+  const Estimate& estimate = snapshot.estimate;
+  const Scalar residual(
+      std::remainder(heading.yaw - predictedYaw<double>(estimate.state), 2.0 * M_PI));
   Deviation deviation;
-  deviation.offset[5] = update(snapshot.estimate).first.value();
+  deviation.offset[5] = residual.value();
   deviation.variance[5] = heading.variance;
-  return fuse<1>(context, deviation, update, &FilterStep::forgetHeading);
+  return fuse(context, {estimate, residual, yawJacobian(estimate.state), Scalar(heading.variance)},
+              deviation, &FilterStep::forgetHeading);
 }
 
 Outcome FilterStep::take(Context& context, const PositionFix& fix) const {
@@ -228,36 +215,33 @@ Outcome FilterStep::take(Context& context, const PositionFix& fix) const {
       return begin(snapshot, poseAtFix(fix, *snapshot.imu->measurement.attitude, options_));
     return {};
   }
-  const auto update = [&](const Estimate& estimate) {
-    const Eigen::Vector3d residual =
-        fix.position - predictedPosition<double>(estimate.state, fix.sensor);
-    return std::make_pair(
-        residual, Innovation<3>(estimate, residual, positionJacobian(estimate.state, fix.sensor),
-                                fix.covariance));
-  };
+  const Estimate& estimate = snapshot.estimate;
+  const Eigen::Vector3d residual =
+      fix.position - predictedPosition<double>(estimate.state, fix.sensor);
   Deviation deviation;
-  deviation.offset.head<3>() = update(snapshot.estimate).first;
+  deviation.offset.head<3>() = residual;
   deviation.variance.head<3>() = fix.covariance.diagonal();
-  return fixed(context, fuse<3>(context, deviation, update, &FilterStep::forgetPosition));
+  return fixed(context, fuse(context,
+                             {estimate, residual, positionJacobian(estimate.state, fix.sensor),
+                              fix.covariance},
+                             deviation, &FilterStep::forgetPosition));
 }
 
 Outcome FilterStep::take(Context& context, const PoseFix& fix) const {
   FilterSnapshot& snapshot = context.snapshot;
   if (context.source == Source::SET_POSE) return setPose(snapshot, fix);
   if (!snapshot.started) return begin(snapshot, poseAtFix(fix));
-  const auto update = [&](const Estimate& estimate) {
-    const Eigen::Matrix<double, 6, 1> residual = poseResidual<double>(estimate.state, fix);
-    return std::make_pair(
-        residual,
-        Innovation<6>(estimate, residual, poseJacobian(estimate.state, fix), fix.covariance));
-  };
-  const Eigen::Quaterniond expected = snapshot.estimate.state.attitude * fix.mounting.rotation;
+  const Estimate& estimate = snapshot.estimate;
+  const Eigen::Matrix<double, 6, 1> residual = poseResidual<double>(estimate.state, fix);
+  const Eigen::Quaterniond expected = estimate.state.attitude * fix.mounting.rotation;
   Deviation deviation;
-  deviation.offset = update(snapshot.estimate).first;
-  deviation.offset.tail<3>() = (expected * Eigen::Vector3d(deviation.offset.tail<3>())).eval();
+  deviation.offset << residual.head<3>(), expected * Eigen::Vector3d(residual.tail<3>());
   deviation.variance.head<3>() = fix.covariance.diagonal().head<3>();
   deviation.variance.tail<3>().setConstant(fix.covariance.diagonal().tail<3>().maxCoeff());
-  return fixed(context, fuse<6>(context, deviation, update, &FilterStep::forgetPose));
+  return fixed(
+      context,
+      fuse(context, {estimate, residual, poseJacobian(estimate.state, fix), fix.covariance},
+           deviation, &FilterStep::forgetPose));
 }
 
 // A fix that was used shows that the filter is not astray, whatever others say.

@@ -89,10 +89,8 @@ class FilterStep {
   Outcome begin(FilterSnapshot& snapshot, const MountedPose& pose) const;
   void adoptVelocity(Context& context, const DvlVelocity& dvl) const;
   Outcome setPose(FilterSnapshot& snapshot, const PoseFix& fix) const;
-  template <int N>
-  bool passes(const Innovation<N>& innovation, const Eigen::Matrix<double, N, 1>& residual) const;
-  template <int N, class Update>
-  Outcome fuse(Context& context, const Deviation& deviation, const Update& update,
+  bool passes(const Innovation& innovation) const;
+  Outcome fuse(Context& context, Innovation innovation, const Deviation& deviation,
                void (FilterStep::*forget)(Estimate&) const) const;
   void forgetPosition(Estimate& estimate) const;
   void forgetDepth(Estimate& estimate) const;

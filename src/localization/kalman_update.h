@@ -1,13 +1,13 @@
 // One update of the extended Kalman filter, in Joseph's form.
 //
-//   const Innovation<3> innovation(estimate, residual, jacobian, noise);
+//   const Innovation innovation(estimate, residual, jacobian, noise);
 //   if (innovation.nis() < gate) innovation.apply(estimate);
 //
 // Guaranteed: the covariance stays symmetric. The error of the attitude is carried over to the
 // corrected attitude (reset Jacobian).
 #pragma once
 
-#include <Eigen/Cholesky>
+#include <array>
 
 #include "localization/measurement_models.h"
 #include "localization/state.h"
@@ -17,39 +17,44 @@ namespace grid_path_planner::localization {
 // Moves the estimate by `error`; the covariance of the attitude's error is turned with it.
 void correct(Estimate& estimate, const ErrorVector& error);
 
-template <int N>
+// Of a measurement of one to six numbers. Whatever their number, the same code: sums of columns of 15.
 class Innovation {
  public:
-  using Vector = Eigen::Matrix<double, N, 1>;
-  using Matrix = Eigen::Matrix<double, N, N>;
-
   // `residual`: measured minus predicted. `noise`: positive definite.
-  Innovation(const Estimate& estimate, const Vector& residual, const Jacobian<N>& jacobian,
-             const Matrix& noise)
-      : residual_(residual),
-        jacobian_(jacobian),
-        noise_(noise),
-        projected_(jacobian * estimate.covariance),
-        solver_(Matrix(projected_ * jacobian.transpose() + noise)) {}
-
-  // Normalised innovation squared: chi-squared with N degrees of freedom where the model holds.
-  double nis() const { return residual_.dot(solver_.solve(residual_)); }
-
-  void apply(Estimate& estimate) const {
-    const Eigen::Matrix<double, kErrors, N> gain = solver_.solve(projected_).transpose();
-    const Covariance left = estimate.covariance - gain * projected_;
-    const Eigen::Matrix<double, kErrors, N> rest = gain * noise_ - left * jacobian_.transpose();
-    const Covariance product = left + rest * gain.transpose();
-    estimate.covariance = 0.5 * (product + product.transpose());
-    correct(estimate, gain * residual_);
+  template <int N>
+  Innovation(const Estimate& estimate, const Eigen::Matrix<double, N, 1>& residual,
+             const Jacobian<N>& jacobian, const Eigen::Matrix<double, N, N>& noise)
+      : size_(N) {
+    static_assert(N <= kMost);
+    residual_.head<N>() = residual;
+    noise_.topLeftCorner<N, N>() = noise;
+    for (int row = 0; row < N; ++row) jacobian_[row] = jacobian.row(row).transpose();
+    project(estimate.covariance);
   }
 
+  int size() const { return size_; }
+  // Those behind the first size() are 0.
+  const Eigen::Matrix<double, 6, 1>& residual() const { return residual_; }
+
+  // Normalised innovation squared: chi-squared with size() degrees of freedom where the model holds.
+  double nis() const { return residual_.dot(weighted_); }
+
+  void apply(Estimate& estimate) const;
+
+  // For another covariance of the same state.
+  void project(const Covariance& covariance);
+
  private:
-  Vector residual_;
-  Jacobian<N> jacobian_;
-  Matrix noise_;
-  Jacobian<N> projected_;  // jacobian * covariance
-  Eigen::LLT<Matrix> solver_;
+  static constexpr int kMost = 6;
+  using Columns = std::array<ErrorVector, kMost>;
+
+  int size_;
+  Eigen::Matrix<double, kMost, 1> residual_ = Eigen::Matrix<double, kMost, 1>::Zero();
+  Eigen::Matrix<double, kMost, kMost> noise_ = Eigen::Matrix<double, kMost, kMost>::Identity();
+  Columns jacobian_;                                 // its rows
+  Columns projected_;                                // covariance * jacobian^T
+  Eigen::Matrix<double, kMost, kMost> information_;  // of the innovation: its covariance's inverse
+  Eigen::Matrix<double, kMost, 1> weighted_;         // information * residual
 };
 
 }  // namespace grid_path_planner::localization

@@ -10,6 +10,7 @@ struct LocalizerOptions {
   double max_deviation = 1.0;  // m
   double max_angle = 12.0;     // deg
   double input_timeout = 3.0;  // s
+  double fix_timeout = 60.0;   // s; 0: never
 };
 
 template <class Visitor>
@@ -26,6 +27,12 @@ void visitOptions(LocalizerOptions& o, Visitor&& visit) {
         OptionInfo{"DEGRADED while DVL or depth have been silent or rejected for so long, once "
                    "they were used, or USBL for five times as long",
                    "s", 0.1, 3600.0});
+  visit(
+      "fix_timeout", o.fix_timeout,
+      OptionInfo{"LOST when no fix (USBL, marker pose, heading, a pose that was set) has been used "
+                 "for so long, whatever the standard deviations say, and DEGRADED after a third of "
+                 "it: without fixes they become too small; 0: never",
+                 "s", 0.0, 86400.0});
 }
 
 }  // namespace grid_path_planner::localization

@@ -1,9 +1,9 @@
 #include "localization/measurement_check.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <string>
 
+#include "base/cholesky.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 
@@ -102,7 +102,7 @@ void checkCovariance(const Eigen::MatrixXd& covariance) {
   const double largest = covariance.diagonal().maxCoeff();
   if ((covariance - covariance.transpose()).cwiseAbs().maxCoeff() > 1e-6 * largest)
     throw InputError("the covariance is not symmetric");
-  if (Eigen::LLT<Eigen::MatrixXd>(covariance).info() != Eigen::Success)
+  if (!base::Cholesky<Eigen::Dynamic>(covariance).isPositiveDefinite())
     throw InputError("the covariance is not positive definite");
 }
 

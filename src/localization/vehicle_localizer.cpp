@@ -17,9 +17,11 @@ using base::InputError;
 
 constexpr double kSeldom = 5.0;  // times input_timeout: USBL
 
+constexpr std::array<Source, 4> kFixes = {Source::SET_POSE, Source::HEADING, Source::USBL,
+                                          Source::MARKER};
+
 bool isFix(Source source) {
-  return source == Source::SET_POSE || source == Source::HEADING || source == Source::USBL ||
-         source == Source::MARKER;
+  return std::find(kFixes.begin(), kFixes.end(), source) != kFixes.end();
 }
 
 // Along the worst axis.
@@ -116,6 +118,15 @@ std::string VehicleLocalizer::silence(Stamp now) const {
   return {};
 }
 
+// Seconds since a fix was used; 0 where none was.
+double VehicleLocalizer::sinceFix(Stamp now) const {
+  std::optional<Stamp> newest;
+  for (const Source source : kFixes)
+    if (const auto used = used_[static_cast<std::size_t>(source)])
+      newest = std::max(newest.value_or(*used), *used);
+  return newest ? std::max(0.0, secondsBetween(*newest, now)) : 0.0;
+}
+
 LocalizationReport VehicleLocalizer::report(Stamp now) const {
   const auto snapshot = mapAt(now);
   if (!snapshot) return {LocalizationStatus::INITIALIZING, whatIsMissing(map_)};
@@ -128,9 +139,13 @@ LocalizationReport VehicleLocalizer::report(Stamp now) const {
   std::string problem = silence(now);
   if (problem.empty() && isContradicted(*snapshot))
     problem = "fixes that agree contradict the pose";
+  const double without_fix =
+      options_.fix_timeout > 0.0 ? sinceFix(now) / options_.fix_timeout : 0.0;
+  if (problem.empty() && without_fix > 1.0 / 3.0)
+    problem = "no fix has been used for " + rounded(sinceFix(now)) + " s";
   if (!problem.empty()) report.sentence = problem + "; " + report.sentence;
-  const double worst = std::max(report.deviation / options_.max_deviation,
-                                report.angle_deviation / options_.max_angle);
+  const double worst = std::max({report.deviation / options_.max_deviation,
+                                 report.angle_deviation / options_.max_angle, without_fix});
   if (!(worst <= 1.0))  // nor is one that is no number
     report.status = LocalizationStatus::LOST;
   else if (worst > 1.0 / 3.0 || !problem.empty())

@@ -56,6 +56,7 @@ class VehicleLocalizer {
 
  private:
   std::string silence(Stamp now) const;
+  double sinceFix(Stamp now) const;
 
   LocalizerOptions options_;
   LaggedFilter map_, odometry_;

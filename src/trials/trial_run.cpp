@@ -1,8 +1,8 @@
 #include "trials/trial_run.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
+#include "base/cholesky.h"
 #include "localization/input_statistics.h"
 #include "localization/mounted_pose.h"
 
@@ -190,8 +190,8 @@ Nees neesOf(const localization::Estimate& estimate, const State& truth) {
   const localization::ErrorVector error = localization::errorBetween<double>(estimate.state, truth);
   Eigen::Matrix<double, 6, 1> pose;
   pose << error.segment<3>(localization::kPosition), error.segment<3>(localization::kAttitude);
-  return {error.dot(estimate.covariance.ldlt().solve(error)),
-          pose.dot(poseOf(estimate).covariance.ldlt().solve(pose))};
+  return {base::Cholesky<localization::kErrors>(estimate.covariance).squaredMahalanobis(error),
+          base::Cholesky<6>(poseOf(estimate).covariance).squaredMahalanobis(pose)};
 }
 
 RowResult played(const TrialStudy& study, const TrialRow& row, const SensorTape& tape,

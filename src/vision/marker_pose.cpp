@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cholesky.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "vision/mean_pose.h"
 #include "vision/pose_candidates.h"
@@ -70,7 +71,7 @@ std::string misfit(const MarkerFix& fix, const MarkerLayout& layout,
 double distance(const PoseEstimate& pose, const PoseEstimate& prediction) {
   const Vector6 difference = differenceOf(pose.panel_from_camera, prediction.panel_from_camera);
   const Matrix6 covariance = pose.covariance + prediction.covariance;
-  return difference.dot(covariance.ldlt().solve(difference));
+  return base::Cholesky<6>(covariance).squaredMahalanobis(difference);
 }
 
 // The one candidate that is left, with what the prediction says. Deviations are in variances: of the corners from

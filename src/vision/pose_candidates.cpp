@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "base/cholesky.h"
 #include "vision/pose_refinement.h"
 
 namespace grid_path_planner::vision {
@@ -54,7 +55,8 @@ Isometry3d poseBetween(const Isometry3d& a, const Isometry3d& b, const MarkerVie
 // that it may be: where the error grows less than a quarter as fast, the minimum is no well but a valley.
 bool explains(const PoseEstimate& minimum, const Isometry3d& pose, double more) {
   const Vector6 difference = differenceOf(pose, minimum.panel_from_camera);
-  return difference.dot(minimum.covariance.ldlt().solve(difference)) < kPoseGate + 4.0 * more;
+  return base::Cholesky<6>(minimum.covariance).squaredMahalanobis(difference) <
+         kPoseGate + 4.0 * more;
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cholesky.h"
+
 namespace grid_path_planner::vision {
 namespace {
 
@@ -48,7 +50,7 @@ NormalEquations equationsAt(const MarkerViews& views, const CameraCalibration& c
 Vector6 dampedStep(const NormalEquations& equations, double damping) {
   Matrix6 damped = equations.hessian;
   damped.diagonal() *= 1.0 + damping;
-  return damped.ldlt().solve(equations.gradient);
+  return base::Cholesky<6>(damped).solved(equations.gradient);
 }
 
 // Steps downhill until none is left that is worth it.
@@ -87,8 +89,7 @@ PoseEstimate refined(const MarkerViews& views, const CameraCalibration& calibrat
   minimise(views, calibration, pose);
   const Matrix6 hessian = equationsAt(views, calibration, pose.panel_from_camera).hessian;
   pose.covariance =
-      varianceOf(pose, views.size(), pixel_noise) * hessian.ldlt().solve(Matrix6::Identity());
-  pose.covariance = 0.5 * (pose.covariance + pose.covariance.transpose()).eval();
+      varianceOf(pose, views.size(), pixel_noise) * base::Cholesky<6>(hessian).inverse();
   if (!pose.covariance.allFinite()) pose.squared_error = INFINITY;
   return pose;
 }

@@ -1,8 +1,7 @@
 // Whether the errors of the filter are as large as it says, over seeded runs.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-
+#include "base/cholesky.h"
 #include "localization/chi_squared.h"
 #include "localization/input_statistics.h"
 #include "localization/lagged_filter.h"
@@ -21,8 +20,8 @@ Errors errorsOf(const Estimate& estimate, const State& truth) {
   const MountedPose pose = poseOf(estimate);
   Eigen::Matrix<double, 6, 1> pose_error;
   pose_error << error.segment<3>(kPosition), error.segment<3>(kAttitude);
-  return {error.dot(estimate.covariance.ldlt().solve(error)),
-          pose_error.dot(pose.covariance.ldlt().solve(pose_error)),
+  return {base::Cholesky<kErrors>(estimate.covariance).squaredMahalanobis(error),
+          base::Cholesky<6>(pose.covariance).squaredMahalanobis(pose_error),
           error.segment<3>(kPosition).norm(), error.segment<3>(kAttitude).norm()};
 }
 

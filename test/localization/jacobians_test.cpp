@@ -2,17 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <random>
-#include <unsupported/Eigen/AutoDiff>
+#include <type_traits>
 
 #include "localization/imu_propagation.h"
 #include "localization/kalman_update.h"
 #include "localization/measurement_models.h"
+#include "localization/support/dual.h"
 
 namespace grid_path_planner::localization {
 namespace {
-
-using Dual = Eigen::AutoDiffScalar<ErrorVector>;
-using DualError = Eigen::Matrix<Dual, kErrors, 1>;
 
 struct RandomCase {
   State state;
@@ -35,24 +33,24 @@ RandomCase randomCase(std::mt19937_64& random) {
   return c;
 }
 
-BasicState<Dual> withErrors(const State& state) {
-  BasicState<Dual> cast{state.position.cast<Dual>(), state.velocity.cast<Dual>(),
-                        state.attitude.cast<Dual>(), state.gyro_bias.cast<Dual>(),
-                        state.accelerometer_bias.cast<Dual>()};
-  DualError error;
-  for (int i = 0; i < kErrors; ++i) error[i] = Dual(0.0, kErrors, i);
-  return retract<Dual>(cast, error);
-}
-
-template <int N>
-Jacobian<N> derivativesOf(const Eigen::Matrix<Dual, N, 1>& value) {
-  Jacobian<N> jacobian = Jacobian<N>::Zero();
-  for (int i = 0; i < N; ++i)
-    if (value[i].derivatives().size() == kErrors) jacobian.row(i) = value[i].derivatives();
-  return jacobian;
+BasicState<Dual> dual(const State& state) {
+  return {state.position.cast<Dual>(), state.velocity.cast<Dual>(), state.attitude.cast<Dual>(),
+          state.gyro_bias.cast<Dual>(), state.accelerometer_bias.cast<Dual>()};
 }
 
 // d f(retract(state, e)) / d e
+template <int N, class Function>
+Jacobian<N> automatic(const State& state, const Function& f) {
+  Jacobian<N> jacobian;
+  for (int i = 0; i < kErrors; ++i) {
+    Eigen::Matrix<Dual, kErrors, 1> error = ErrorVector::Zero().cast<Dual>();
+    error[i].derivative = 1.0;
+    const Eigen::Matrix<Dual, N, 1> value = f(retract<Dual>(dual(state), error));
+    for (int row = 0; row < N; ++row) jacobian(row, i) = value[row].derivative;
+  }
+  return jacobian;
+}
+
 template <int N, class Function>
 Jacobian<N> centralDifferences(const State& state, const Function& f) {
   Jacobian<N> jacobian;
@@ -64,12 +62,23 @@ Jacobian<N> centralDifferences(const State& state, const Function& f) {
   return jacobian;
 }
 
-template <int N>
-void expectSame(const Jacobian<N>& closed, const Jacobian<N>& automatic,
-                const Jacobian<N>& differences) {
-  EXPECT_LT((closed - automatic).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT((closed - differences).cwiseAbs().maxCoeff(), 1e-7);
+// `f`: of a state of any number.
+template <int N, class Function>
+void expectDerivativeOf(const Jacobian<N>& closed, const State& state, const Function& f) {
+  EXPECT_LT((closed - automatic<N>(state, f)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((closed - centralDifferences<N>(state, f)).cwiseAbs().maxCoeff(), 1e-7);
 }
+
+template <class T>
+BasicState<T> as(const State& state) {
+  if constexpr (std::is_same_v<T, Dual>)
+    return dual(state);
+  else
+    return state;
+}
+
+template <class State>
+using NumberOf = typename decltype(State::position)::Scalar;
 
 class Jacobians : public testing::TestWithParam<unsigned> {
  protected:
@@ -80,53 +89,46 @@ class Jacobians : public testing::TestWithParam<unsigned> {
 TEST_P(Jacobians, OfThePropagation) {
   const double seconds = 0.05;
   const State after = propagated<double>(c.state, c.imu, seconds, 9.8);
-  const BasicState<Dual> moved = propagated<Dual>(withErrors(c.state), c.imu, seconds, 9.8);
-  const BasicState<Dual> reference{after.position.cast<Dual>(), after.velocity.cast<Dual>(),
-                                   after.attitude.cast<Dual>(), after.gyro_bias.cast<Dual>(),
-                                   after.accelerometer_bias.cast<Dual>()};
-  const DualError error = errorBetween<Dual>(reference, moved);
-  const auto f = [&](const State& state) {
-    return errorBetween<double>(after, propagated<double>(state, c.imu, seconds, 9.8));
+  const auto f = [&](const auto& state) {
+    using T = NumberOf<std::decay_t<decltype(state)>>;
+    return errorBetween<T>(as<T>(after), propagated<T>(state, c.imu, seconds, 9.8));
   };
-  expectSame<kErrors>(dense(propagationJacobian(c.state, c.imu, seconds)),
-                      derivativesOf<kErrors>(error), centralDifferences<kErrors>(c.state, f));
+  expectDerivativeOf<kErrors>(dense(propagationJacobian(c.state, c.imu, seconds)), c.state, f);
 }
 
 TEST_P(Jacobians, OfTheVelocityOfASensor) {
-  const auto f = [&](const State& state) {
-    return predictedVelocity<double>(state, c.imu.rate, c.mounting);
+  const auto f = [&](const auto& state) {
+    return predictedVelocity<NumberOf<std::decay_t<decltype(state)>>>(state, c.imu.rate,
+                                                                      c.mounting);
   };
-  const Vector3<Dual> dual = predictedVelocity<Dual>(withErrors(c.state), c.imu.rate, c.mounting);
-  expectSame<3>(velocityJacobian(c.state, c.mounting), derivativesOf<3>(dual),
-                centralDifferences<3>(c.state, f));
+  expectDerivativeOf<3>(velocityJacobian(c.state, c.mounting), c.state, f);
 }
 
 TEST_P(Jacobians, OfThePositionOfASensor) {
-  const auto f = [&](const State& state) {
-    return predictedPosition<double>(state, c.mounting.position);
+  const auto f = [&](const auto& state) {
+    return predictedPosition<NumberOf<std::decay_t<decltype(state)>>>(state, c.mounting.position);
   };
-  const Vector3<Dual> dual = predictedPosition<Dual>(withErrors(c.state), c.mounting.position);
-  expectSame<3>(positionJacobian(c.state, c.mounting.position), derivativesOf<3>(dual),
-                centralDifferences<3>(c.state, f));
+  expectDerivativeOf<3>(positionJacobian(c.state, c.mounting.position), c.state, f);
 }
 
 TEST_P(Jacobians, OfTheYaw) {
   c.state.attitude =
       expSO3<double>(Eigen::Vector3d(0.0, 0.0, 2.0)) * expSO3<double>(vectorOf(random, 0.3));
-  using Scalar = Eigen::Matrix<double, 1, 1>;
-  const auto f = [&](const State& state) { return Scalar(predictedYaw<double>(state)); };
-  const Eigen::Matrix<Dual, 1, 1> dual(predictedYaw<Dual>(withErrors(c.state)));
-  expectSame<1>(yawJacobian(c.state), derivativesOf<1>(dual), centralDifferences<1>(c.state, f));
+  const auto f = [&](const auto& state) {
+    using T = NumberOf<std::decay_t<decltype(state)>>;
+    return Eigen::Matrix<T, 1, 1>(predictedYaw<T>(state));
+  };
+  expectDerivativeOf<1>(yawJacobian(c.state), c.state, f);
 }
 
 TEST_P(Jacobians, OfAPoseHoweverFarOff) {
   const PoseFix fix{vectorOf(random, 10.0),
                     c.state.attitude * c.mounting.rotation * expSO3<double>(vectorOf(random, 0.8)),
                     Eigen::Matrix<double, 6, 6>::Identity(), c.mounting};
-  const auto f = [&](const State& state) { return poseResidual<double>(state, fix); };
-  const Eigen::Matrix<Dual, 6, 1> dual = poseResidual<Dual>(withErrors(c.state), fix);
-  expectSame<6>(poseJacobian(c.state, fix), -derivativesOf<6>(dual),
-                -centralDifferences<6>(c.state, f));
+  const auto f = [&](const auto& state) {
+    return poseResidual<NumberOf<std::decay_t<decltype(state)>>>(state, fix);
+  };
+  expectDerivativeOf<6>(-poseJacobian(c.state, fix), c.state, f);
 }
 
 TEST_P(Jacobians, RetractionAndErrorUndoEachOther) {
@@ -162,7 +164,7 @@ TEST_P(Jacobians, TheUpdateIsThatOfTheTextbook) {
   Estimate expected{c.state, rest * p * rest.transpose() + gain * noise * gain.transpose()};
   expected.state = estimate.state;
   correct(expected, gain * residual);
-  const Innovation<3> innovation(estimate, residual, h, noise);
+  const Innovation innovation(estimate, residual, h, noise);
   EXPECT_NEAR(innovation.nis(), residual.dot(s.inverse() * residual), 1e-12);
   innovation.apply(estimate);
   EXPECT_LT((estimate.covariance - expected.covariance).norm(), 1e-12);

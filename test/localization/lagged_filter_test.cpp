@@ -7,6 +7,7 @@
 #include <cstring>
 #include <random>
 
+#include "base/cholesky.h"
 #include "localization/support/simulated_sensors.h"
 
 namespace grid_path_planner::localization {
@@ -155,10 +156,10 @@ TEST(LinearCase, TheFilterIsTheBatchLeastSquares) {
   rows(0, 0) = 1.0;
   rows(1, 1) = 1.0 / options.start_velocity;
   const double q = options.coast_acceleration * options.coast_acceleration;
-  Eigen::Matrix2d process;
-  process << q * std::pow(period, 3) / 3.0, q * period * period / 2.0, q * period * period / 2.0,
-      q * period;
-  const Eigen::Matrix2d whiten = process.inverse().llt().matrixU();
+  // whiten^T whiten is the inverse of the process noise, q (T^3 / 3, T^2 / 2; T^2 / 2, T).
+  Eigen::Matrix2d whiten;
+  whiten << std::sqrt(12.0 / (q * std::pow(period, 3))), -std::sqrt(3.0 / (q * period)), 0.0,
+      std::sqrt(1.0 / (q * period));
   Eigen::Matrix2d motion;
   motion << 1.0, period, 0.0, 1.0;
   for (int i = 1; i <= fixes; ++i) {
@@ -171,8 +172,10 @@ TEST(LinearCase, TheFilterIsTheBatchLeastSquares) {
     rows(row + 2, 2 * i) = 1.0 / std::sqrt(variance);
     values(row + 2) = x / std::sqrt(variance);
   }
-  const Eigen::VectorXd solution = rows.householderQr().solve(values);
-  const Eigen::MatrixXd covariance = (rows.transpose() * rows).inverse();
+  const Eigen::MatrixXd information = rows.transpose().lazyProduct(rows);
+  const base::Cholesky<Eigen::Dynamic> factor(information);
+  const Eigen::VectorXd solution = factor.solved(rows.transpose().lazyProduct(values));
+  const Eigen::MatrixXd covariance = factor.inverse();
   const Estimate estimate = filter.snapshotAt(0).estimate;
   EXPECT_NEAR(estimate.state.position.x(), solution[2 * fixes], 1e-9);
   EXPECT_NEAR(estimate.state.velocity.x(), solution[2 * fixes + 1], 1e-9);

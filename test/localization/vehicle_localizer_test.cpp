@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "grid_path_planner/base/errors.h"
 #include "localization/measurement_check.h"
@@ -34,6 +35,15 @@ Told toldOf(SimulatedSensors& sensors, double seconds) {
   return told;
 }
 
+// By somebody who knows it.
+Measurement poseSetAt(double t, const SimulatedSensors& sensors) {
+  const State truth = sensors.truthAt(t);
+  const MountedPose base =
+      carried({truth.position, truth.attitude, PoseCovariance::Identity()}, sensors.base);
+  return {stampAt(t), Source::SET_POSE,
+          PoseFix{base.position, base.attitude, 0.01 * PoseCovariance::Identity(), sensors.base}};
+}
+
 TEST(Localizer, BeginsSaysOkAndIsWhereTheVehicleIs) {
   SimulatedSensors sensors(1);
   VehicleLocalizer localizer{LocalizerOptions{}};
@@ -57,6 +67,52 @@ TEST(Localizer, IsDegradedWithoutDvlAndLostWithoutAnything) {
   const Told lost = toldOf(all, 60.0);
   EXPECT_EQ(lost.last.status, LocalizationStatus::LOST);
   EXPECT_TRUE(lost.ever[static_cast<int>(LocalizationStatus::OK)]);
+}
+
+// On IMU, DVL and depth alone the filter becomes sure of a heading that nothing has told it: its deviations say OK
+// for minutes. A pose that is set makes it well again.
+TEST(Localizer, IsDegradedAndThenLostWithoutFixes) {
+  SimulatedSensors sensors(7);
+  sensors.cut = [](Source source, double t) {
+    return (source == Source::USBL || source == Source::MARKER) && t > 10.0;
+  };
+  VehicleLocalizer localizer{LocalizerOptions{}};
+  LocalizerOptions trusting;
+  trusting.fix_timeout = 0.0;
+  VehicleLocalizer unbounded(trusting);
+  for (const Measurement& measurement : sensors.run(80.0)) {
+    localizer.add(measurement);
+    unbounded.add(measurement);
+  }
+  const LocalizationReport lost = localizer.report(stampAt(80.0));
+  EXPECT_EQ(lost.status, LocalizationStatus::LOST);
+  EXPECT_TRUE(contains(lost.sentence, "lost 7")) << lost.sentence;  // USBL, once it was used
+  EXPECT_NE(unbounded.report(stampAt(80.0)).status, LocalizationStatus::LOST)
+      << "the deviations alone do not say so";
+}
+
+// A marker was all that told the pose: no other sentence tells that it is gone.
+TEST(Localizer, MarkersThatAreGoneAreMissed) {
+  SimulatedSensors sensors(8);
+  sensors.rates.marker = 1.0;
+  sensors.cut = [](Source source, double t) {
+    return source == Source::USBL || (source == Source::MARKER && t > 10.0);
+  };
+  VehicleLocalizer localizer{LocalizerOptions{}};
+  std::map<LocalizationStatus, double> first;  // s
+  for (const Measurement& measurement : sensors.run(80.0)) {
+    localizer.add(measurement);
+    if (measurement.stamp > stampAt(10.0))
+      first.emplace(localizer.report(measurement.stamp).status,
+                    secondsBetween(stampAt(0.0), measurement.stamp));
+  }
+  ASSERT_EQ(first.count(LocalizationStatus::DEGRADED), 1u);
+  ASSERT_EQ(first.count(LocalizationStatus::LOST), 1u);
+  EXPECT_NEAR(first[LocalizationStatus::DEGRADED], 30.0, 1.5);
+  EXPECT_NEAR(first[LocalizationStatus::LOST], 70.0, 1.5);
+  EXPECT_TRUE(contains(localizer.report(stampAt(80.0)).sentence, "no fix has been used for"));
+  localizer.add(poseSetAt(80.0, sensors));
+  EXPECT_NE(localizer.report(stampAt(80.0)).status, LocalizationStatus::LOST);
 }
 
 // Whatever fixes say, outliers too: the odometry is to the bit what it is without them. A DVL corrects it by
@@ -125,12 +181,8 @@ TEST(Localizer, APoseThatIsSetIsTaken) {
   for (const Measurement& measurement : sensors.run(1.0))
     if (measurement.source != Source::USBL) localizer.add(measurement);
   EXPECT_FALSE(localizer.mapAt(stampAt(1.0)));
+  localizer.add(poseSetAt(1.0, sensors));
   const State truth = sensors.truthAt(1.0);
-  const MountedPose base =
-      carried({truth.position, truth.attitude, PoseCovariance::Identity()}, sensors.base);
-  localizer.add(
-      {stampAt(1.0), Source::SET_POSE,
-       PoseFix{base.position, base.attitude, 0.01 * PoseCovariance::Identity(), sensors.base}});
   ASSERT_TRUE(localizer.mapAt(stampAt(1.0)));
   EXPECT_LT((localizer.mapAt(stampAt(1.0))->estimate.state.position - truth.position).norm(), 0.1);
 }

@@ -25,6 +25,7 @@ PLANNER_FLOORS = {
 LENT = {
     "base/available_memory.h": {"planners"},
     "base/child_process.h": {"simulation"},
+    "base/cholesky.h": {"localization", "trials", "vision"},
     "base/current_error.h": {"ros_common", "ros_driving", "ros_planning", "ros_rviz", "ros_simulation"},
     "base/deflate.h": {"grid", "planners"},
     "base/zeroed_array.h": {"planners"},

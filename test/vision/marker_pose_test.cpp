@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/cholesky.h"
 #include "support/error_text.h"
 #include "support/option_laws.h"
 #include "vision/mean_pose.h"
@@ -30,7 +31,7 @@ double degreesOff(const PoseEstimate& pose, const Isometry3d& truth) {
 
 double nees(const PoseEstimate& pose, const Isometry3d& truth) {
   const Vector6 error = differenceOf(truth, pose.panel_from_camera);
-  return error.dot(pose.covariance.ldlt().solve(error));
+  return base::Cholesky<6>(pose.covariance).squaredMahalanobis(error);
 }
 
 PoseEstimate predictionAt(const Isometry3d& pose, double metres, double degrees) {
