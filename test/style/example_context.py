@@ -13,6 +13,7 @@ CONTEXT = {
     "route_planning.h": "extern RoutePlanning planning; extern RoutePoints points; extern double now; extern unsigned id;"
                         "extern PlanAnswer answer;",
     "route_points.h": "extern path::Pose goal;",
+    "cholesky.h": "extern const Eigen::Matrix<double, 6, 6> covariance; extern const Eigen::Matrix<double, 6, 1> error, right;",
     "shown_text.h": "extern std::string message;",
     "guarded_queue.h": "extern ros::NodeHandle nh;",
     "master_watch.h": "void halt();",
