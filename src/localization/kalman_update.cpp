@@ -12,11 +12,9 @@ void correct(Estimate& estimate, const ErrorVector& error) {
   const Eigen::Matrix3d to_world = before.attitude.toRotationMatrix();
   const Eigen::Matrix3d attitude = after.attitude.toRotationMatrix().transpose() * to_world;
   const Eigen::Vector3d velocity = Eigen::Vector3d::UnitZ().cross(after.velocity - before.velocity);
-  const Eigen::Vector3d position = Eigen::Vector3d::UnitZ().cross(after.position - before.position);
   for (int side = 0; side < 2; ++side) {  // from the left, and, transposed, from the right
     const Eigen::Matrix<double, 3, kErrors> turn = estimate.covariance.middleRows<3>(kAttitude);
     const Eigen::Matrix<double, 1, kErrors> heading = to_world.row(2) * turn;
-    estimate.covariance.middleRows<3>(kPosition) += position * heading;
     estimate.covariance.middleRows<3>(kVelocity) += velocity * heading;
     estimate.covariance.middleRows<3>(kAttitude) = attitude * turn;
     estimate.covariance.transposeInPlace();

@@ -3,8 +3,7 @@
 //   const Innovation innovation(estimate, residual, jacobian, noise);
 //   if (innovation.nis() < gate) innovation.apply(estimate);
 //
-// Guaranteed: the covariance stays symmetric. What no measurement tells stays unknown: a turn of everything
-// about the vertical, and a shift.
+// Guaranteed: the covariance stays symmetric. A heading that no measurement tells stays unknown.
 #pragma once
 
 #include <array>
@@ -15,8 +14,7 @@
 namespace grid_path_planner::localization {
 
 // Moves the estimate by `error`. The covariance is carried over to the corrected state with the turn in the
-// world kept: an unknown heading is one turn of attitude, velocity and position together, by their values
-// of then and of now. As if it were a turn of the values before, a DVL would seem to measure the heading by
+// world kept: an unknown heading is one turn of attitude and velocity together, by the velocity of now. As if it were a turn of the values before, a DVL would seem to measure the heading by
 // each correction of the velocity.
 void correct(Estimate& estimate, const ErrorVector& error);
 

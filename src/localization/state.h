@@ -9,10 +9,10 @@
 // in their order: position (m, world), velocity (m/s, world), attitude (rad, body: the true attitude
 // is attitude * exp(error)), gyro bias (rad/s, body), accelerometer bias (m/s^2, body).
 //
-// Small errors are differences. Over a large error of the heading, those of position and velocity run
-// along the arc that it turns them on (exponential of SE_2(3), for turns about the vertical), so that of a
-// vehicle whose heading is off by any angle the velocity in its own frame is as well known as it was
-// measured. Not so over errors of the tilt, which gravity tells: a depth would depend on them.
+// Small errors are differences. Over a large error of the heading, that of the velocity runs along the arc
+// that it turns it on (exponential of SE_2(3), for turns about the vertical), so that of a vehicle whose
+// heading is off by any angle the velocity in its own frame is as well known as it was measured. Not so
+// the position, which fixes measure in the world, nor over errors of the tilt, which gravity tells.
 // Source: A. Barrau, S. Bonnabel, The invariant extended Kalman filter as a stable observer, 2017.
 #pragma once
 
@@ -70,7 +70,7 @@ BasicState<T> retract(const BasicState<T>& state, const Eigen::Matrix<T, kErrors
   const Vector3<T> turn = error.template segment<3>(kAttitude);
   const Eigen::Matrix<T, 3, 3> arc = leftJacobian<T>(vertical(state.attitude, turn));
   BasicState<T> result = state;
-  result.position += arc * error.template segment<3>(kPosition);
+  result.position += error.template segment<3>(kPosition);
   result.velocity += arc * error.template segment<3>(kVelocity);
   result.attitude = state.attitude * expSO3<T>(turn);
   result.gyro_bias += error.template segment<3>(kGyroBias);
@@ -85,7 +85,7 @@ Eigen::Matrix<T, kErrors, 1> errorBetween(const BasicState<T>& from, const Basic
   const Vector3<T> angle = logSO3<T>(turn);
   const Eigen::Matrix<T, 3, 3> chord = leftJacobianInverse<T>(vertical(from.attitude, angle));
   Eigen::Matrix<T, kErrors, 1> error;
-  error.template segment<3>(kPosition) = chord * (to.position - from.position);
+  error.template segment<3>(kPosition) = to.position - from.position;
   error.template segment<3>(kVelocity) = chord * (to.velocity - from.velocity);
   error.template segment<3>(kAttitude) = angle;
   error.template segment<3>(kGyroBias) = to.gyro_bias - from.gyro_bias;

@@ -78,11 +78,11 @@ TEST(Consistency, AlsoRightAfterTheStart) {
 }
 
 // Nothing tells the heading, and the velocity in the world turns with it. Each correction of the velocity
-// passed for a measurement of the heading: after five minutes the filter was sure of one that was 20 degrees
-// off, at a NEES of 200, and in a trial of 1000.
+// passed for a measurement of the heading: after two minutes NEES was 61, after five 310, with a heading that was
+// 19 degrees off and said to be known to 3.
 TEST(Consistency, WhatNothingTellsStaysUnknown) {
-  const unsigned runs = 8;
-  const double seconds = 300.0;
+  const unsigned runs = 16;
+  const double seconds = 120.0;
   double mean = 0.0, radians = 0.0, said = 0.0;
   for (unsigned seed = 1; seed <= runs; ++seed) {
     SimulatedSensors sensors(seed);
