@@ -5,13 +5,20 @@
 namespace grid_path_planner::localization {
 
 void correct(Estimate& estimate, const ErrorVector& error) {
-  const Eigen::Matrix3d reset = rightJacobian(error.segment<3>(kAttitude));
-  Covariance& covariance = estimate.covariance;
-  covariance.middleRows<3>(kAttitude) = (reset * covariance.middleRows<3>(kAttitude)).eval();
-  covariance.middleCols<3>(kAttitude) =
-      (covariance.middleCols<3>(kAttitude) * reset.transpose()).eval();
-  estimate.state = retract<double>(estimate.state, error);
-  estimate.state.attitude.normalize();
+  const State before = estimate.state;
+  State& after = estimate.state;
+  after = retract<double>(before, error);
+  after.attitude.normalize();
+  const Eigen::Matrix3d to_world = before.attitude.toRotationMatrix();
+  const Eigen::Matrix3d attitude = after.attitude.toRotationMatrix().transpose() * to_world;
+  const Eigen::Vector3d velocity = Eigen::Vector3d::UnitZ().cross(after.velocity - before.velocity);
+  for (int side = 0; side < 2; ++side) {  // from the left, and, transposed, from the right
+    const Eigen::Matrix<double, 3, kErrors> turn = estimate.covariance.middleRows<3>(kAttitude);
+    const Eigen::Matrix<double, 1, kErrors> heading = to_world.row(2) * turn;
+    estimate.covariance.middleRows<3>(kVelocity) += velocity * heading;
+    estimate.covariance.middleRows<3>(kAttitude) = attitude * turn;
+    estimate.covariance.transposeInPlace();
+  }
 }
 
 namespace {

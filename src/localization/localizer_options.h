@@ -31,7 +31,7 @@ void visitOptions(LocalizerOptions& o, Visitor&& visit) {
       "fix_timeout", o.fix_timeout,
       OptionInfo{"LOST when no fix (USBL, marker pose, heading, a pose that was set) has been used "
                  "for so long, whatever the standard deviations say, and DEGRADED after a third of "
-                 "it: without fixes they become too small; 0: never",
+                 "it: without fixes nothing shows what they leave out; 0: never",
                  "s", 0.0, 86400.0});
 }
 

@@ -21,10 +21,15 @@ using Vector3 = Eigen::Matrix<T, 3, 1>;
 constexpr double kSmallAngleSquared = 1e-6;  // rad^2; below it series to the fourth power
 
 // cross(v) * w is v x w.
-inline Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+template <class T>
+Eigen::Matrix<T, 3, 3> cross(const Vector3<T>& v) {
+  Eigen::Matrix<T, 3, 3> matrix;
+  matrix << T(0.0), -v.z(), v.y(), v.z(), T(0.0), -v.x(), -v.y(), v.x(), T(0.0);
   return matrix;
+}
+
+inline Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
+  return cross<double>(v);
 }
 
 template <class T>
@@ -63,35 +68,48 @@ Vector3<T> logSO3(const Eigen::Quaternion<T>& q) {
   return imaginary * factor;
 }
 
+// exp(v + d) = exp(leftJacobian(v) d) exp(v) to first order in d; exp(v) w = w + leftJacobian(v) (v x w).
+template <class T>
+Eigen::Matrix<T, 3, 3> leftJacobian(const Vector3<T>& v) {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  const T squared = v.squaredNorm();
+  T first = 0.5 - squared / 24.0;
+  T second = 1.0 / 6.0 - squared / 120.0;
+  if (!(squared < kSmallAngleSquared)) {
+    const T angle = sqrt(squared);
+    first = (1.0 - cos(angle)) / squared;
+    second = (angle - sin(angle)) / (squared * angle);
+  }
+  const Eigen::Matrix<T, 3, 3> hat = cross(v);
+  return Eigen::Matrix<T, 3, 3>::Identity() + first * hat + second * hat * hat;
+}
+
+// Of the left Jacobian; exists for norms of v below 2 pi.
+template <class T>
+Eigen::Matrix<T, 3, 3> leftJacobianInverse(const Vector3<T>& v) {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  const T squared = v.squaredNorm();
+  T second = 1.0 / 12.0 + squared / 720.0;
+  if (!(squared < kSmallAngleSquared)) {
+    const T angle = sqrt(squared);
+    const T half = 0.5 * angle;
+    second = 1.0 / squared - cos(half) / (2.0 * angle * sin(half));
+  }
+  const Eigen::Matrix<T, 3, 3> hat = cross(v);
+  return Eigen::Matrix<T, 3, 3>::Identity() - T(0.5) * hat + second * hat * hat;
+}
+
 // exp(v + d) = exp(v) exp(rightJacobian(v) d) to first order in d.
 inline Eigen::Matrix3d rightJacobian(const Eigen::Vector3d& v) {
-  const double squared = v.squaredNorm();
-  double first = 0.5 - squared / 24.0;
-  double second = 1.0 / 6.0 - squared / 120.0;
-  if (squared >= kSmallAngleSquared) {
-    const double angle = std::sqrt(squared);
-    first = (1.0 - std::cos(angle)) / squared;
-    second = (angle - std::sin(angle)) / (squared * angle);
-  }
-  const Eigen::Matrix3d hat = cross(v);
-  return Eigen::Matrix3d::Identity() - first * hat + second * hat * hat;
+  return leftJacobian<double>(-v);
 }
 
-// Of the right Jacobian; exists for norms of v below 2 pi.
 inline Eigen::Matrix3d rightJacobianInverse(const Eigen::Vector3d& v) {
-  const double squared = v.squaredNorm();
-  double second = 1.0 / 12.0 + squared / 720.0;
-  if (squared >= kSmallAngleSquared) {
-    const double angle = std::sqrt(squared);
-    second = 1.0 / squared - 1.0 / (2.0 * angle * std::tan(0.5 * angle));
-  }
-  const Eigen::Matrix3d hat = cross(v);
-  return Eigen::Matrix3d::Identity() + 0.5 * hat + second * hat * hat;
-}
-
-// The left Jacobian of v is the right one of -v.
-inline Eigen::Matrix3d leftJacobianInverse(const Eigen::Vector3d& v) {
-  return rightJacobianInverse(-v);
+  return leftJacobianInverse<double>(-v);
 }
 
 }  // namespace grid_path_planner::localization

@@ -8,6 +8,12 @@
 // frame* is level, z up. The attitude turns vectors of the body frame into the world frame. Errors,
 // in their order: position (m, world), velocity (m/s, world), attitude (rad, body: the true attitude
 // is attitude * exp(error)), gyro bias (rad/s, body), accelerometer bias (m/s^2, body).
+//
+// Small errors are differences. Over a large error of the heading, that of the velocity runs along the arc
+// that it turns it on (exponential of SE_2(3), for turns about the vertical), so that of a vehicle whose
+// heading is off by any angle the velocity in its own frame is as well known as it was measured. Not so
+// the position, which fixes measure in the world, nor over errors of the tilt, which gravity tells.
+// Source: A. Barrau, S. Bonnabel, The invariant extended Kalman filter as a stable observer, 2017.
 #pragma once
 
 #include <Eigen/Core>
@@ -53,12 +59,19 @@ Mounting inverse(const Mounting& mounting);
 // What is mounted so on something that is itself mounted.
 Mounting operator*(const Mounting& outer, const Mounting& inner);
 
+// The part about the world's z axis of a turn of the body.
+template <class T>
+Vector3<T> vertical(const Eigen::Quaternion<T>& attitude, const Vector3<T>& turn) {
+  return {T(0.0), T(0.0), (attitude * turn).z()};
+}
+
 template <class T>
 BasicState<T> retract(const BasicState<T>& state, const Eigen::Matrix<T, kErrors, 1>& error) {
+  const Vector3<T> turn = error.template segment<3>(kAttitude);
+  const Eigen::Matrix<T, 3, 3> arc = leftJacobian<T>(vertical(state.attitude, turn));
   BasicState<T> result = state;
   result.position += error.template segment<3>(kPosition);
-  result.velocity += error.template segment<3>(kVelocity);
-  const Vector3<T> turn = error.template segment<3>(kAttitude);
+  result.velocity += arc * error.template segment<3>(kVelocity);
   result.attitude = state.attitude * expSO3<T>(turn);
   result.gyro_bias += error.template segment<3>(kGyroBias);
   result.accelerometer_bias += error.template segment<3>(kAccelerometerBias);
@@ -68,11 +81,13 @@ BasicState<T> retract(const BasicState<T>& state, const Eigen::Matrix<T, kErrors
 // retract(from, errorBetween(from, to)) is `to`.
 template <class T>
 Eigen::Matrix<T, kErrors, 1> errorBetween(const BasicState<T>& from, const BasicState<T>& to) {
+  const Eigen::Quaternion<T> turn = from.attitude.conjugate() * to.attitude;
+  const Vector3<T> angle = logSO3<T>(turn);
+  const Eigen::Matrix<T, 3, 3> chord = leftJacobianInverse<T>(vertical(from.attitude, angle));
   Eigen::Matrix<T, kErrors, 1> error;
   error.template segment<3>(kPosition) = to.position - from.position;
-  error.template segment<3>(kVelocity) = to.velocity - from.velocity;
-  const Eigen::Quaternion<T> turn = from.attitude.conjugate() * to.attitude;
-  error.template segment<3>(kAttitude) = logSO3<T>(turn);
+  error.template segment<3>(kVelocity) = chord * (to.velocity - from.velocity);
+  error.template segment<3>(kAttitude) = angle;
   error.template segment<3>(kGyroBias) = to.gyro_bias - from.gyro_bias;
   error.template segment<3>(kAccelerometerBias) = to.accelerometer_bias - from.accelerometer_bias;
   return error;

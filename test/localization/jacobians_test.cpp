@@ -161,8 +161,7 @@ TEST_P(Jacobians, TheUpdateIsThatOfTheTextbook) {
   const Eigen::Matrix3d s = h * p * h.transpose() + noise;
   const Eigen::Matrix<double, kErrors, 3> gain = p * h.transpose() * s.inverse();
   const Covariance rest = Covariance::Identity() - gain * h;
-  Estimate expected{c.state, rest * p * rest.transpose() + gain * noise * gain.transpose()};
-  expected.state = estimate.state;
+  Estimate expected{estimate.state, rest * p * rest.transpose() + gain * noise * gain.transpose()};
   correct(expected, gain * residual);
   const Innovation innovation(estimate, residual, h, noise);
   EXPECT_NEAR(innovation.nis(), residual.dot(s.inverse() * residual), 1e-12);

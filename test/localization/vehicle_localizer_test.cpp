@@ -69,8 +69,8 @@ TEST(Localizer, IsDegradedWithoutDvlAndLostWithoutAnything) {
   EXPECT_TRUE(lost.ever[static_cast<int>(LocalizationStatus::OK)]);
 }
 
-// On IMU, DVL and depth alone the filter becomes sure of a heading that nothing has told it: its deviations say OK
-// for minutes. A pose that is set makes it well again.
+// On IMU, DVL and depth alone nothing shows whether the sensors are as good as their covariances say, and the
+// deviations stay small for minutes.
 TEST(Localizer, IsDegradedAndThenLostWithoutFixes) {
   SimulatedSensors sensors(7);
   sensors.cut = [](Source source, double t) {
