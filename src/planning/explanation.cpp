@@ -192,7 +192,7 @@ Explanation explainFailure(PathPlanner& planner, const PoseRequest& request, Sta
   const auto start = costs->geometry().cellAt(placeOf(request.start));
   const auto goal = costs->geometry().cellAt(placeOf(request.goal));
   if (!start || !goal || !costs->passable(*start)) return {};
-  // What stands in a footprint's way, not in that of its inscribed radius, the plan's message says.
+  // What hinders a footprint, and no disc of its inscribed radius, the plan's message says.
   if (!planner.options().footprint.empty() &&
       reachableFrom(*costs, *start, stop)[costs->geometry().index(*goal).value()] != 0)
     return {};

@@ -16,21 +16,31 @@
 #include "planning/multi_resolution_planner.h"
 #include "planning/plan_on_costs.h"
 #include "planning/prepared_planners.h"
+#include "planning/turning/curves.h"
 
 namespace grid_path_planner::planning {
 
-using base::checkOptionLimits, base::InputError, base::sameOptions, base::Status, base::StopSource,
-    base::StopToken;
+using base::checkOptionLimits, base::choiceName, base::InputError, base::sameOptions, base::Status,
+    base::StopSource, base::StopToken;
 using costmap::checkCostmapOptions, costmap::CostGrid, costmap::CostmapBuilder,
     costmap::keptDistances, costmap::KeptDistances;
 using grid::CellRect, grid::checkOccupancyValues, grid::GridGeometry, grid::OccupancyGrid;
-using path::Footprint;
+using path::Footprint, path::HeadingMode;
 using planners::checkSearchOptions, planners::memoryLimitOf, planners::PlannerMaker,
     planners::traitsOf;
 
 namespace {
 
 constexpr char kNoCells[] = "a map needs at least one cell, got 0x0";
+
+void checkTurning(const PlannerOptions& options) {
+  const bool along = options.heading == HeadingMode::FORWARD ||
+                     options.heading == HeadingMode::BACKWARD ||
+                     options.heading == HeadingMode::NONE;
+  if (options.min_turning_radius > 0.0 && !along)
+    throw InputError("min_turning_radius needs heading forward, backward or none, got heading " +
+                     std::string(choiceName(options.heading)));
+}
 
 // All but the planner's name, whose check is left to what makes the planner.
 Footprint checkOtherOptions(const PlannerOptions& options) {
@@ -41,6 +51,7 @@ Footprint checkOtherOptions(const PlannerOptions& options) {
   if (options.costmap.occupied_is_passable && !footprint.empty())
     throw InputError("occupied_is_passable needs an empty footprint, got footprint " +
                      options.footprint);
+  checkTurning(options);
   return footprint;
 }
 
@@ -252,7 +263,11 @@ std::string PathPlanner::footprintContact(const path::Path& path, std::optional<
 // On `costs`, which `search` is prepared for.
 Plan PathPlanner::planFor(const PoseRequest& request, const CostGrid& costs,
                           MultiResolutionPlanner& search, const StopToken& stop) {
-  if (!footprint_) return planOnCosts(costs, search, request, searched_, stop);
+  if (!footprint_) {
+    VehicleTerms terms;
+    terms.shape = curvesFor(request, searched_, costs, {}, stop);
+    return planOnCosts(costs, search, request, searched_, stop, terms);
+  }
   const std::size_t memory = memoryLimit() - std::min(memoryLimit(), bytes());
   return FittedPlanner(*footprint_, costs, map_, searched_, memory).plan(search, request, stop);
 }
@@ -271,6 +286,15 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     searches_->followOthers(asked_for, token);
     const auto prepared = StopToken::Clock::now();
     Plan plan = planFor(request, *maps.full_resolution, search, token);
+    if (plan.found() && plan.sharp_corners > 0 && !options_.keep_sharp_corners) {
+      const Plan sharp = std::move(plan);
+      plan = failedPlan(Status::UNREACHABLE,
+                        "no path that the vehicle can follow was found; that which "
+                        "turns on the spot: " +
+                            sharp.message);
+      plan.answered_by = sharp.answered_by;
+      plan.statistics = sharp.statistics;
+    }
     if (lowered && plan.found())
       addNote(plan.message,
               loweredNote(costmap_->keptDistances(), lowered->costmap->keptDistances()));

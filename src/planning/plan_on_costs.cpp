@@ -52,7 +52,7 @@ bool smooths(const PlannerOptions& options) {
          motion.diagonal_cost == DiagonalCost::SQRT2;
 }
 
-void addLeads(Path& path, const FootprintTerms& terms) {
+void addLeads(Path& path, const VehicleTerms& terms) {
   std::vector<Pose>& poses = path.poses;
   const auto apart = [](const Pose& a, const Pose& b) {
     return (a.position - b.position).head<2>().norm() > 1e-9;
@@ -63,7 +63,7 @@ void addLeads(Path& path, const FootprintTerms& terms) {
 
 Path pathOf(const Route& route, const PathEnd& start, const PathEnd& goal,
             const PoseRequest& request, const PlannerOptions& options, const CostGrid& costs,
-            const FootprintTerms& terms) {
+            const VehicleTerms& terms) {
   Path path;
   const bool leads = terms.from || terms.to;
   if (!leads && !goal.moved && !start.moved && samePose(request.start, request.goal)) {
@@ -96,7 +96,7 @@ std::string foundMessage(const Plan& plan, const PathEnd& start, const PathEnd& 
 
 Plan completedPlan(Route route, const PathEnd& start, const PathEnd& goal,
                    const PoseRequest& request, const PlannerOptions& options, const CostGrid& costs,
-                   const FootprintTerms& terms) {
+                   const VehicleTerms& terms) {
   Plan plan = std::move(route.plan);
   if (plan.status == Status::UNREACHABLE)
     plan.message = unreachableText(start.position, goal.position, options.tolerance);
@@ -108,6 +108,7 @@ Plan completedPlan(Route route, const PathEnd& start, const PathEnd& goal,
   for (const Leg& leg : route.legs) plan.cells += leg.result.cells.size();
   plan.cells -= route.legs.size() - 1;
   plan.path = pathOf(route, start, goal, request, options, costs, terms);
+  if (terms.shape) terms.shape(plan);
   plan.length_m = lengthOf(plan.path);
   plan.waypoints = waypointsOf(plan.path, options, costs);
   addNote(plan.message, unknownNote(lengthsByClass(plan.path, costs.classes())));
@@ -130,15 +131,14 @@ void addLine(Route& route, const CostGrid& costs, const Pose& from, const Pose& 
   route.plan.segment_cost += lineCost(costs, point(from), point(to));
 }
 
-std::string startComplaint(const PoseRequest& request, const FootprintTerms& terms) {
+std::string startComplaint(const PoseRequest& request, const VehicleTerms& terms) {
   return terms.complaint ? terms.complaint(request.start) : "";
 }
 
 }  // namespace
 
 Plan planOnCosts(const CostGrid& costs, MultiResolutionPlanner& search, const PoseRequest& request,
-                 const PlannerOptions& options, const StopToken& stop,
-                 const FootprintTerms& terms) {
+                 const PlannerOptions& options, const StopToken& stop, const VehicleTerms& terms) {
   const PathEnds ends(request, options, costs, search, stop, terms.complaint);
   Plan failure;
   std::optional<PathEnd> start = ends.start(failure);

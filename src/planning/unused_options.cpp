@@ -60,6 +60,10 @@ constexpr Rule kRules[] = {
     {"smooth", "connectivity", noDiagonals},
     {"smooth", "diagonal_cost",
      [](const PlannerOptions& o) { return o.costmap.motion.diagonal_cost == DiagonalCost::UNIT; }},
+    {"keep_sharp_corners", "min_turning_radius",
+     [](const PlannerOptions& o) { return o.min_turning_radius == 0.0; }},
+    {"waypoint_tolerance", "min_turning_radius",
+     [](const PlannerOptions& o) { return o.min_turning_radius > 0.0; }},
     {"fixed_z", "path_z", [](const PlannerOptions& o) { return o.path_z != PathZ::FIXED; }},
 };
 

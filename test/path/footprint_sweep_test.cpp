@@ -48,7 +48,7 @@ Motion turnAt(double x, double y, double from, double turn) {
   return {{x, y}, {x, y}, from, turn, 0};
 }
 
-// Along the corridor it fits to the millimetre; across it does not, and turning it meets the walls on the way.
+// Along the corridor it fits to the millimetre; across it does not, and turning it meets the walls.
 TEST(FootprintSweep, aLongVehicleInACorridor) {
   const AsciiMap picture({"#######",  //
                           ".......",  //

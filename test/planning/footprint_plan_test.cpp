@@ -197,7 +197,7 @@ TEST(FootprintPlan, aStartThatMeetsAnObstacleIsOccupied) {
       << plan.message;
 }
 
-// It stands free, and would swing its rear into the pillar either way.
+// It stands free, and would swing its rear into a pillar to either side.
 TEST(FootprintPlan, theFirstTurnIsSwept) {
   FootprintQuestion question(AsciiMap({".........",  //
                                        "..#......",  //
@@ -285,7 +285,7 @@ TEST(FootprintPlan, whatOnlyTheFootprintHindersIsNotExplainedOtherwise) {
   EXPECT_EQ("", explainFailure(planner, question.request, plan.status, StopToken()).text);
 }
 
-TEST(FootprintPlan, viaPointsArePassedWithTheHeadingOfTheWay) {
+TEST(FootprintPlan, viaPointsArePassedWithTheHeadingOfThePath) {
   const FootprintQuestion question(doorOfHalfAMetre(), rectangularVehicle(1.0, 0.4));
   PathPlanner planner(question.options);
   planner.setMap(std::make_shared<const OccupancyGrid>(question.map));

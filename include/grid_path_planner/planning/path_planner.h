@@ -57,6 +57,8 @@ struct PlannerOptions {
   double tolerance = 0.0;            // m
   double start_escape_radius = 0.0;  // m
   std::string footprint;             // "[[x, y], ...]", m; "": round, of costmap.radius
+  double min_turning_radius = 0.0;   // m; 0: turns on the spot
+  bool keep_sharp_corners = false;
   bool retry_finer = true;
   bool smooth = true;
   double timeout = 5.0;  // s; 0: none
@@ -67,14 +69,9 @@ struct PlannerOptions {
   double waypoint_spacing = 0.0;    // m; 0: as few as the tolerance allows
 };
 
+// A group of the options, in the order of visitOptions.
 template <class Visitor>
-void visitOptions(PlannerOptions& o, Visitor&& visit) {
-  visit("planner", o.planner,
-        base::OptionInfo{"Name of the algorithm", ""}
-            .under("The search")
-            .oneOf(planners::plannerNames));
-  visitOptions(o.search, visit);
-  visitOptions(o.costmap, visit);
+void visitShapeOptions(PlannerOptions& o, Visitor&& visit) {
   visit("footprint", o.footprint,
         base::OptionInfo{
             "Corners of a vehicle that is not round, [[x, y], [x, y], [x, y], ...] in base_link "
@@ -83,6 +80,30 @@ void visitOptions(PlannerOptions& o, Visitor&& visit) {
             "counts where it is above the inscribed one; empty: round, of radius",
             "m"}
             .under("The vehicle's shape"));
+  visit(
+      "min_turning_radius", o.min_turning_radius,
+      base::OptionInfo{
+          "Smallest radius that the vehicle can turn with while it drives: corners become curves "
+          "of at "
+          "least that, from the start's heading to the goal's; needs heading forward, backward or "
+          "none; 0: it turns on the spot",
+          "m", 0, 1000});
+  visit("keep_sharp_corners", o.keep_sharp_corners,
+        base::OptionInfo{
+            "Whether a path is given though at some corners no such curve fits, which the message "
+            "counts; false: UNREACHABLE",
+            ""});
+}
+
+template <class Visitor>
+void visitOptions(PlannerOptions& o, Visitor&& visit) {
+  visit("planner", o.planner,
+        base::OptionInfo{"Name of the algorithm", ""}
+            .under("The search")
+            .oneOf(planners::plannerNames));
+  visitOptions(o.search, visit);
+  visitOptions(o.costmap, visit);
+  visitShapeOptions(o, visit);
   visit("tolerance", o.tolerance,
         base::OptionInfo{
             "How far from an occupied or unreachable goal a path may end; 0: no path then", "m", 0,

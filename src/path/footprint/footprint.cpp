@@ -17,29 +17,29 @@ namespace {
 
 constexpr std::size_t kShownText = 80;
 
-double cross(const Vector2d& a, const Vector2d& b) {
+double crossProduct(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
 // Of the point from the edge.
-double distanceTo(const Vector2d& from, const Vector2d& to, const Vector2d& point) {
+double distanceToEdge(const Vector2d& from, const Vector2d& to, const Vector2d& point) {
   const Vector2d along = to - from;
   const double share = std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
   return (point - from - share * along).norm();
 }
 
-bool between(const Vector2d& a, const Vector2d& b, const Vector2d& point) {
+bool liesBetween(const Vector2d& a, const Vector2d& b, const Vector2d& point) {
   return (point - a).dot(point - b) <= 0.0;
 }
 
 // Touching is meeting.
 bool edgesMeet(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
   const auto side = [](double area) { return area > 0.0 ? 1 : area < 0.0 ? -1 : 0; };
-  const int at_c = side(cross(b - a, c - a)), at_d = side(cross(b - a, d - a));
-  const int at_a = side(cross(d - c, a - c)), at_b = side(cross(d - c, b - c));
+  const int at_c = side(crossProduct(b - a, c - a)), at_d = side(crossProduct(b - a, d - a));
+  const int at_a = side(crossProduct(d - c, a - c)), at_b = side(crossProduct(d - c, b - c));
   if (at_c * at_d < 0 && at_a * at_b < 0) return true;
-  return (at_c == 0 && between(a, b, c)) || (at_d == 0 && between(a, b, d)) ||
-         (at_a == 0 && between(c, d, a)) || (at_b == 0 && between(c, d, b));
+  return (at_c == 0 && liesBetween(a, b, c)) || (at_d == 0 && liesBetween(a, b, d)) ||
+         (at_a == 0 && liesBetween(c, d, a)) || (at_b == 0 && liesBetween(c, d, b));
 }
 
 std::string cornerText(std::size_t i, const Vector2d& corner) {
@@ -61,7 +61,7 @@ void checkNumbers(const std::string& name, const Corners& corners) {
 
 // Whether two edges that follow one another fold back.
 bool foldsBack(const Vector2d& before, const Vector2d& corner, const Vector2d& after) {
-  return cross(corner - before, after - corner) == 0.0 &&
+  return crossProduct(corner - before, after - corner) == 0.0 &&
          (corner - before).dot(after - corner) < 0.0;
 }
 
@@ -166,7 +166,8 @@ Footprint::Footprint(const std::string& name, std::vector<Vector2d> corners)
   checkNumbers(name, corners_);
   checkSimple(name, corners_);
   for (std::size_t i = 0, before = corners_.size() - 1; i < corners_.size(); before = i++) {
-    inscribed_ = std::min(inscribed_, distanceTo(corners_[before], corners_[i], Vector2d::Zero()));
+    inscribed_ =
+        std::min(inscribed_, distanceToEdge(corners_[before], corners_[i], Vector2d::Zero()));
     circumscribed_ = std::max(circumscribed_, corners_[i].norm());
   }
   if (!originInside(corners_) || inscribed_ <= 0.0)

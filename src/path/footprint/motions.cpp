@@ -1,13 +1,14 @@
 #include "path/footprint/motions.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace grid_path_planner::path {
 
 namespace {
 
-// So near to half a circle either way round is the shorter one for a vehicle whose heading is measured.
-constexpr double kEitherWay = 0.1;
+// So near to half a circle a vehicle whose heading is measured may turn to either side.
+constexpr double kEitherSide = 0.1;
 // Directions that differ by less are one straight line, as for HeadingMode::FORWARD_THEN_INTERPOLATE.
 constexpr double kOneDirection = 1e-6;
 
@@ -70,7 +71,7 @@ class Motions {
     const double before = yaw_.value_or(yaw);
     const double turn = shorterTurn(before, yaw);
     if (turn == 0.0) return;
-    if (std::abs(turn) > M_PI - kEitherWay)
+    if (std::abs(turn) > M_PI - kEitherSide)
       add(pose, pose, before, turn - std::copysign(2.0 * M_PI, turn));
     add(pose, pose, before, turn);
     yaw_ = yaw;
@@ -91,6 +92,16 @@ class Motions {
 };
 
 }  // namespace
+
+std::vector<Eigen::Vector2d> outlineAt(const Footprint& footprint, const Motion& motion,
+                                       double share) {
+  const double yaw = motion.yaw + share * motion.turn;
+  const Eigen::Vector2d at = motion.from + share * (motion.to - motion.from);
+  std::vector<Eigen::Vector2d> outline;
+  for (const Eigen::Vector2d& corner : footprint.corners())
+    outline.push_back(at + Eigen::Rotation2Dd(yaw) * corner);
+  return outline;
+}
 
 std::optional<double> drivingDirection(double yaw, HeadingMode mode) {
   switch (mode) {

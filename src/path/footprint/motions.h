@@ -3,7 +3,7 @@
 //
 //   for (const Motion& motion : motionsAlong(path, start.yaw, goal.yaw, HeadingMode::FORWARD)) check(motion);
 //
-// Turns on the spot go the shorter way round. A vehicle that has to turn by about half a circle may go either way: then both
+// Turns on the spot are the smaller ones. A vehicle that has to turn by about half a circle may turn to either side: then both
 // motions are there.
 #pragma once
 
@@ -14,6 +14,7 @@
 
 #include "grid_path_planner/path/headings.h"
 #include "grid_path_planner/path/path.h"
+#include "path/footprint/footprint.h"
 
 namespace grid_path_planner::path {
 
@@ -27,6 +28,10 @@ struct Motion {
 
   bool onTheSpot() const { return from == to; }
 };
+
+// The footprint's corners at a share of the motion, 0 to 1.
+std::vector<Eigen::Vector2d> outlineAt(const Footprint& footprint, const Motion& motion,
+                                       double share);
 
 // The direction in which a vehicle of this heading drives; none where the heading says nothing of it (INTERPOLATE).
 std::optional<double> drivingDirection(double yaw, HeadingMode mode);

@@ -1,4 +1,4 @@
-// Whether a vehicle's footprint meets obstacles of a map on its way, between poses too.
+// Whether a vehicle's footprint meets obstacles of a map while it moves, between poses too.
 //
 //   const FootprintSweep sweep(footprint, geometry, obstacles);
 //   if (const auto contact = sweep.first(motion, stop)) report(contact->cell, contact->position, contact->yaw);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "planning/end_segments.h"
 #include "planning/message_text.h"
+#include "planning/turning/curves.h"
 #include "planning/waypoints.h"
 
 namespace grid_path_planner::planning {
@@ -18,6 +20,9 @@ using path::Footprint, path::FootprintContact, path::Path, path::Pose;
 
 namespace {
 
+// By which weights are raised where there is no room to turn, at the first tries.
+constexpr int kFactors[] = {2, 10};
+constexpr int kRaised = std::size(kFactors);
 constexpr char kTryPlanner[] = "a_star";  // which takes any weights and prepares nothing
 
 // Where a goal may be passed with any heading none counts.
@@ -51,10 +56,17 @@ Plan FittedPlanner::plan(MultiResolutionPlanner& search, const PoseRequest& requ
   std::vector<Pose> ends = {request.start};
   if (!request.any_goal_heading) ends.push_back(request.goal);
   check_.allowFor(ends);
-  FootprintTerms first_terms = terms_;
+  terms_.shape = curvesFor(
+      request, options_, costs_,
+      [this, &stop](const Path& path) {
+        return !check_.first(path, std::nullopt, std::nullopt, stop);
+      },
+      stop);
+  VehicleTerms first_terms = terms_;
   first_terms.priced = nullptr;
   Plan plan = planOnCosts(costs_, search, request, options_, stop, first_terms);
   if (!plan.found()) return plan;
+  first_planner_ = plan.answered_by;
   if (contactsOf(plan, request, stop).empty())
     return completed(std::move(plan), request, "the footprint fits", stop);
   return planWithRoom(std::move(plan), request, stop);
@@ -66,7 +78,7 @@ FittedPlanner::Contacts FittedPlanner::contactsOf(const Plan& plan, const PoseRe
 }
 
 Plan FittedPlanner::planAnew(std::shared_ptr<const CostGrid> costs, const PoseRequest& request,
-                             const FootprintTerms& terms, const PlannerOptions& options,
+                             const VehicleTerms& terms, const PlannerOptions& options,
                              const StopToken& stop) {
   const PlannerOptions of_try = ofTries(options);
   MultiResolutionPlanner search(of_try.planner, of_try.search, planners::makePlanner);
@@ -74,6 +86,7 @@ Plan FittedPlanner::planAnew(std::shared_ptr<const CostGrid> costs, const PoseRe
   search.prepare({costs, costs, {}, {}}, stop);
   Plan plan = planOnCosts(*costs, search, request, of_try, stop, terms);
   plan.optimal = false;
+  plan.answered_by = first_planner_;
   spent_ += plan.statistics;
   plan.statistics = spent_;
   return plan;
@@ -135,11 +148,11 @@ FittedPlanner::Question FittedPlanner::ledQuestion(const PoseRequest& request,
 
 // Whether one was found, smoothed as asked for or, since only that is straight in doors, over the grid. `contacts` are those of
 // the first path.
-bool FittedPlanner::tryDetour(const DetourCosts& detour, const std::vector<Question>& questions,
-                              Plan& plan, Contacts& contacts, const StopToken& stop) {
+bool FittedPlanner::tryOn(const TryCosts& raised, const std::vector<Question>& questions,
+                          Plan& plan, Contacts& contacts, const StopToken& stop) {
   ++tries_;
   contacts.clear();
-  const std::shared_ptr<const CostGrid> costs = detour.costs();
+  const std::shared_ptr<const CostGrid> costs = raised.costs();
   PlannerOptions options = options_;
   Plan first;
   do {
@@ -158,20 +171,22 @@ bool FittedPlanner::tryDetour(const DetourCosts& detour, const std::vector<Quest
   return false;
 }
 
-bool FittedPlanner::tryDetours(Plan& plan, const PoseRequest& request, const CostGrid& turning,
-                               const StopToken& stop) {
+bool FittedPlanner::tryAgain(Plan& plan, const PoseRequest& request, const CostGrid& turning,
+                             const StopToken& stop) {
   const Eigen::Vector2d goal = request.goal.position.head<2>();
-  DetourCosts detour(costs_, request.start.position.head<2>(), &goal);
-  detour.raise(turning);
+  TryCosts raised(costs_, request.start.position.head<2>(), &goal);
   const double cell = costs_.geometry().resolution();
   const double widest = footprint_.circumscribedRadius() - footprint_.inscribedRadius();
   const std::vector<Question> questions = {{request, terms_}, ledQuestion(request, turning)};
   Contacts contacts;
-  for (int i = 1; i <= kTries; ++i) {
-    if (tryDetour(detour, questions, plan, contacts, stop)) return true;
-    if (contacts.empty()) return false;
-    if (!detour.close(plan.path, contacts, std::max(0.75 * cell, widest * i / kTries)))
-      return false;
+  for (const int factor : kFactors) {
+    raised.raise(turning, factor);
+    if (tryOn(raised, questions, plan, contacts, stop)) return true;
+  }
+  while (!contacts.empty() && tries_ < kTries) {
+    const double share = static_cast<double>(tries_ + 1 - kRaised) / (kTries - kRaised);
+    if (!raised.close(plan.path, contacts, std::max(0.75 * cell, share * widest))) return false;
+    if (tryOn(raised, questions, plan, contacts, stop)) return true;
   }
   return false;
 }
@@ -183,10 +198,11 @@ Plan FittedPlanner::planWithRoom(Plan first, const PoseRequest& request, const S
     return failed(first, request, contact, "memory_limit leaves no room to look for another path");
   const std::shared_ptr<const CostGrid> turning = turningCosts(request, stop);
   Plan plan;
-  if (tryDetours(plan, request, *turning, stop))
-    return completed(
-        std::move(plan), request,
-        "the footprint fits, at try " + std::to_string(tries_ + 1) + ", past narrow places", stop);
+  if (tryAgain(plan, request, *turning, stop))
+    return completed(std::move(plan), request,
+                     "the footprint fits, at try " + std::to_string(tries_ + 1) + ", by " +
+                         kTryPlanner + " past narrow places",
+                     stop);
   PlannerOptions wide = options_;
   wide.costmap.radius = std::max(wide.costmap.radius, footprint_.circumscribedRadius());
   const std::string of_radius = "the circumscribed radius of " + metresText(wide.costmap.radius);

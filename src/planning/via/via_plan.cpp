@@ -76,6 +76,7 @@ void addNumbers(Plan& sum, const Plan& leg) {
   sum.segment_cost += leg.segment_cost;
   sum.optimal = sum.optimal && leg.optimal;
   sum.length_m += leg.length_m;
+  sum.sharp_corners += leg.sharp_corners;
   sum.cells += leg.cells - 1;  // its first is the last of the leg before
   sum.statistics += leg.statistics;
   sum.preparation_time_s += leg.preparation_time_s;
@@ -273,11 +274,11 @@ class ViaPlanning {
   }
 
   // Within the tolerance it may be beside the point. The z is the point's, whatever path_z makes of it.
-  // A footprint goes on with the heading that it came with.
+  // A vehicle that cannot turn freely goes on with the heading that it came with.
   Pose endOf(const Plan& plan, const LegEnd& to, double start_yaw) const {
     Pose end = plan.path.poses.back();
     end.position.z() = to.pose.position.z();
-    if (options_.footprint.empty()) return end;
+    if (options_.footprint.empty() && options_.min_turning_radius <= 0.0) return end;
     const path::Motion last =
         path::motionsAlong(plan.path, start_yaw, std::nullopt, options_.heading).back();
     end.yaw = last.yaw + last.turn;

@@ -1,4 +1,4 @@
-#include "planning/footprint/detour_costs.h"
+#include "planning/footprint/try_costs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,26 +42,26 @@ class Lengths {
 
 }  // namespace
 
-DetourCosts::DetourCosts(const CostGrid& costs, const Vector2d& start, const Vector2d* goal)
+TryCosts::TryCosts(const CostGrid& costs, const Vector2d& start, const Vector2d* goal)
     : original_(costs), weights_(costs.weights()) {
   if (const auto cell = costs.geometry().cellAt(start)) ends_.push_back(*cell);
   if (!goal) return;
   if (const auto cell = costs.geometry().cellAt(*goal)) ends_.push_back(*cell);
 }
 
-void DetourCosts::raise(const CostGrid& turning) {
+void TryCosts::raise(const CostGrid& turning, int factor) {
   constexpr int kMost = std::numeric_limits<CostGrid::Weight>::max();
   for (int row = 0; row < weights_.height(); ++row) {
     CostGrid::Weight* weights = weights_.row(row);
     const CostGrid::Weight* free = turning.weights().row(row);
     for (int column = 0; column < weights_.width(); ++column)
       if (free[column] == CostGrid::kBlocked)
-        weights[column] = static_cast<CostGrid::Weight>(std::min(kMost, kNarrow * weights[column]));
+        weights[column] = static_cast<CostGrid::Weight>(std::min(kMost, factor * weights[column]));
   }
 }
 
-bool DetourCosts::close(const Path& path, const std::vector<FootprintContact>& contacts,
-                        double radius) {
+bool TryCosts::close(const Path& path, const std::vector<FootprintContact>& contacts,
+                     double radius) {
   const Lengths lengths(path);
   const double aside =
       std::min(radius + 2.0 * original_.geometry().resolution(), 0.5 * lengths.total());
@@ -73,7 +73,7 @@ bool DetourCosts::close(const Path& path, const std::vector<FootprintContact>& c
   return closed;
 }
 
-bool DetourCosts::closeAround(const Vector2d& centre, double radius) {
+bool TryCosts::closeAround(const Vector2d& centre, double radius) {
   const GridGeometry& geometry = original_.geometry();
   const Vector2d middle = geometry.gridFromWorld(centre);
   const double reach = radius / geometry.resolution();
@@ -94,7 +94,7 @@ bool DetourCosts::closeAround(const Vector2d& centre, double radius) {
   return closed;
 }
 
-std::shared_ptr<const CostGrid> DetourCosts::costs() const {
+std::shared_ptr<const CostGrid> TryCosts::costs() const {
   auto costs = std::make_shared<CostGrid>(weights_, original_.classes(), original_.motion());
   costs->setKeptDistances(original_.keptDistances());
   return costs;

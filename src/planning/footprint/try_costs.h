@@ -1,9 +1,9 @@
 // Costs for another try at a path on which a footprint fits: places where it did not fit are closed, and where a vehicle cannot
 // turn freely cells cost more, so that paths lead through the middle of narrow places, straight, and turn elsewhere.
 //
-//   DetourCosts detour(costs, start, goal);
-//   detour.raise(*inflated_by_the_circumscribed_radius);
-//   while (fails && detour.close(path, contacts, radius)) plan on detour.costs();
+//   TryCosts raised(costs, start, goal);
+//   raised.raise(*inflated_by_the_circumscribed_radius, 32);
+//   while (fails && raised.close(path, contacts, radius)) plan on raised.costs();
 #pragma once
 
 #include <memory>
@@ -15,17 +15,14 @@
 
 namespace grid_path_planner::planning {
 
-class DetourCosts {
+class TryCosts {
  public:
-  // Weights of narrow places are multiplied by it.
-  static constexpr int kNarrow = 20;
-
   // Of a copy of the costmap, which outlives this. The cells of the two ends stay open; a null one is none.
-  DetourCosts(const costmap::CostGrid& costs, const Eigen::Vector2d& start,
-              const Eigen::Vector2d* goal);
+  TryCosts(const costmap::CostGrid& costs, const Eigen::Vector2d& start,
+           const Eigen::Vector2d* goal);
 
-  // Raises the weights of cells that are blocked in `turning`, of the same geometry.
-  void raise(const costmap::CostGrid& turning);
+  // Multiplies the weights of cells that are blocked in `turning`, of the same geometry.
+  void raise(const costmap::CostGrid& turning, int factor);
   // Closes the cells within `radius` metres of the places of the path where the contacts are; of those near an end
   // within that and two cells more of the path, since the end itself stays. False where all were closed before.
   bool close(const path::Path& path, const std::vector<path::FootprintContact>& contacts,
