@@ -19,6 +19,13 @@ using planning::PlannerOptions;
 
 namespace {
 
+// A list on one line, "[[0.5, 0.3], [0.5, -0.3]]", as a footprint is written on the command line.
+std::string flowText(const YAML::Node& list) {
+  YAML::Emitter out;
+  out << YAML::Flow << list;
+  return out.c_str();
+}
+
 // Sets one option from its node in the file.
 struct FromYaml {
   const YAML::Node& root;
@@ -31,7 +38,9 @@ struct FromYaml {
     if constexpr (std::is_same_v<Value, bool>) {
       value = yamlAs<bool>(node, name, file, "true or false");
     } else {
-      const auto text = yamlAs<std::string>(node, name, file, "a single value");
+      const std::string text = node.IsSequence() && std::is_same_v<Value, std::string>
+                                   ? flowText(node)
+                                   : yamlAs<std::string>(node, name, file, "a single value");
       try {
         parseOption(name, text, info, value);
       } catch (const InputError& error) {

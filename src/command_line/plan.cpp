@@ -14,6 +14,7 @@
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/planning/path_planner.h"
 #include "grid_path_planner/ros/bag.h"
+#include "path/footprint/motions.h"
 #include "planning/explanation.h"
 #include "planning/via/via_plan.h"
 
@@ -21,11 +22,11 @@ namespace grid_path_planner::command_line {
 
 using base::choiceFromName, base::InputError, base::Status, base::StopToken;
 using costmap::CostGrid;
-using grid::Cell, grid::GridGeometry, grid::MapFileOptions, grid::OccupancyGrid,
-    grid::OccupancyThresholds;
+using grid::Cell, grid::GridGeometry, grid::MapFileOptions, grid::OccupancyGrid;
 using nodes::readAnyMapFile;
 using path::clearanceOf, path::measuresText, path::Pose, path::turningOf, path::writePicture,
     path::writeWaypointFile;
+using path::Footprint, path::Motion, path::motionsAlong, path::outlineAt;
 using planners::makePlanner, planners::traitsOf;
 using planning::explainFailure, planning::Explanation, planning::PathPlanner, planning::Plan,
     planning::PlannerOptions, planning::planThrough, planning::PoseRequest, planning::ViaOrder,
@@ -203,11 +204,32 @@ double preparationMs(PathPlanner& planner) {
   return prepared.count();
 }
 
+// Of a vehicle that is not round, along the path: a length apart, and in its turns.
+std::vector<std::vector<Eigen::Vector2d>> outlinesOf(const Plan& report, double start_yaw,
+                                                     const PlannerOptions& options) {
+  constexpr double kTurn = 0.5;  // rad
+  const Footprint footprint = Footprint::fromText("footprint", options.footprint);
+  if (footprint.empty() || report.path.empty()) return {};
+  std::vector<std::vector<Eigen::Vector2d>> outlines;
+  for (const Motion& motion :
+       motionsAlong(report.path, start_yaw, report.path.poses.back().yaw, options.heading)) {
+    const double apart = (motion.to - motion.from).norm() / footprint.circumscribedRadius();
+    const int parts = 1 + static_cast<int>(std::max(apart, std::abs(motion.turn) / kTurn));
+    for (int part = 0; part <= parts; ++part)
+      outlines.push_back(outlineAt(footprint, motion, static_cast<double>(part) / parts));
+  }
+  return outlines;
+}
+
 void writeFiles(const po::variables_map& values, const OccupancyGrid& map,
-                const OccupancyThresholds& thresholds, const Plan& report) {
+                const PlannerOptions& options, double start_yaw, const Plan& report) {
   if (values.count("image") != 0)
-    writePicture(values["image"].as<std::string>(), map, thresholds,
-                 {report.path, cellsOf(report, map.geometry()), {}, {}});
+    writePicture(values["image"].as<std::string>(), map, options.costmap.thresholds,
+                 {report.path,
+                  cellsOf(report, map.geometry()),
+                  {},
+                  {},
+                  outlinesOf(report, start_yaw, options)});
   if (values.count("waypoints") != 0 && report.status == Status::FOUND)
     writeWaypointFile(values["waypoints"].as<std::string>(), report.waypoints);
 }
@@ -267,7 +289,7 @@ int runPlan(int argc, char** argv) {
   Plan& report = answer.plan;
   if (report.status == Status::FOUND && !report.optimal)
     warnIfNotOptimal(options, *planner.fullResolutionCosts(StopToken()));
-  writeFiles(values, *map, options.costmap.thresholds, report);
+  writeFiles(values, *map, options, request.start.yaw, report);
   Measures measures = {clearanceOf(report.path, *map, options.costmap.thresholds),
                        turningOf(report.path), std::nullopt, std::nullopt};
   if (!request.via.empty()) measures.via = jsonOf(answer);

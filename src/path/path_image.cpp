@@ -29,6 +29,7 @@ const Colour kEarly = colourOf(255, 243, 190);
 const Colour kLate = colourOf(240, 178, 72);
 // Of the palette of Okabe and Ito, 2008.
 const Colour kPath = colourOf(0, 114, 178);
+const Colour kVehicleOutline = colourOf(86, 180, 233);
 const Colour kStart = colourOf(0, 158, 115);
 const Colour kGoal = colourOf(213, 94, 0);
 
@@ -164,6 +165,17 @@ void drawPath(Canvas& canvas, const PictureLayout& layout, const Path& path, dou
     drawGoal(canvas, corners.back(), path.poses.back().yaw - map_yaw, 2.0 * stroke);
 }
 
+void drawOutlines(Canvas& canvas, const PictureLayout& layout,
+                  const std::vector<std::vector<Eigen::Vector2d>>& outlines) {
+  const double thickness = std::max(1.0, 0.25 * strokeOf(layout));
+  for (const std::vector<Eigen::Vector2d>& outline : outlines) {
+    std::vector<Eigen::Vector2d> corners;
+    for (std::size_t i = 0; i <= outline.size(); ++i)
+      corners.push_back(layout.pixelAt(outline[i % outline.size()]));
+    drawPolyline(canvas, corners, kVehicleOutline, thickness);
+  }
+}
+
 // ---- The margin
 
 double textScale(const PictureLayout& layout) {
@@ -211,6 +223,9 @@ void drawLegend(Canvas& canvas, const PictureLayout& layout, Eigen::Vector2d at,
        [&](const auto& middle) { drawGoal(canvas, middle, M_PI / 4, 0.55 * size); });
   item(with_path, "path",
        [&](const auto& middle) { canvas.line(middle - half, middle + half, kPath, 0.6 * size); });
+  item(!content.outlines.empty(), "vehicle", [&](const auto& middle) {
+    canvas.line(middle - half, middle + half, kVehicleOutline, 0.3 * size);
+  });
   item(!content.expanded.empty(), "expanded, first to last", [&](const auto& middle) {
     const Eigen::Vector2d aside(0.8 * size, 0.0);
     canvas.swatch(middle - aside, size, kEarly, kInk);
@@ -246,6 +261,7 @@ Canvas drawn(const OccupancyGrid& map, const OccupancyThresholds& thresholds,
   drawRectangles(canvas, layout, map.geometry(), content.rectangles);
   drawLinks(canvas, layout, content.links);
   drawNumbers(canvas, layout, map.geometry(), content.rectangles);
+  drawOutlines(canvas, layout, content.outlines);
   drawPath(canvas, layout, path, map.geometry().origin().yaw);
   drawMargin(canvas, layout, map.geometry().resolution(), content);
   return canvas;

@@ -177,7 +177,7 @@ std::shared_ptr<const CostGrid> searchedCosts(PathPlanner& planner, const PoseRe
   const KeptDistances kept =
       EndSegments(*costs).loweredTo(placeOf(request.start), placeOf(request.goal));
   if (kept == costs->keptDistances()) return costs;
-  CostmapBuilder lowered(planner.options().costmap, kept);
+  CostmapBuilder lowered(planner.searchedOptions().costmap, kept);
   lowered.setMap(planner.map());
   return lowered.fullResolution(stop);
 }
@@ -192,7 +192,11 @@ Explanation explainFailure(PathPlanner& planner, const PoseRequest& request, Sta
   const auto start = costs->geometry().cellAt(placeOf(request.start));
   const auto goal = costs->geometry().cellAt(placeOf(request.goal));
   if (!start || !goal || !costs->passable(*start)) return {};
-  return Explainer(*costs, planner.options(), request, stop).explain(*start, *goal, status);
+  // What hinders a footprint, and no disc of its inscribed radius, the plan's message says.
+  if (!planner.options().footprint.empty() &&
+      reachableFrom(*costs, *start, stop)[costs->geometry().index(*goal).value()] != 0)
+    return {};
+  return Explainer(*costs, planner.searchedOptions(), request, stop).explain(*start, *goal, status);
 }
 
 }  // namespace grid_path_planner::planning

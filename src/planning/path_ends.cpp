@@ -126,10 +126,8 @@ std::optional<PathEnd> PathEnds::goal(const PathEnd& start, Plan& failure) const
     failure.message = "goal " + positionText(position) + outsideMap();
     return std::nullopt;
   }
-  std::string why;
-  if (!costs_.passable(*cell)) {
-    why = whyBlocked(*cell);
-  } else {
+  std::string why = costs_.passable(*cell) ? complaintAt(position) : whyBlocked(*cell);
+  if (why.empty()) {
     if (!segments_.measured()) return PathEnd{*cell, position, "", false};
     if (const auto measured = measuredGoal(position, why)) return measured;
   }
@@ -152,12 +150,21 @@ std::optional<PathEnd> PathEnds::substituteGoal(const PathEnd& start,
       search_.reachable(start.cell, options_.retry_finer, stop_);
   const GridGeometry& geometry = costs_.geometry();
   const auto nearest =
-      nearestCell(geometry, planar(request_.goal), options_.tolerance,
-                  [&](Cell cell) { return reached[geometry.index(cell).value()] != 0; });
+      nearestCell(geometry, planar(request_.goal), options_.tolerance, [&](Cell cell) {
+        return reached[geometry.index(cell).value()] != 0 &&
+               complaintAt(geometry.centre(cell)).empty();
+      });
   if (!nearest) return std::nullopt;
   return PathEnd{nearest->cell, geometry.centre(nearest->cell),
                  "goal " + why + ": the path ends " + metresText(nearest->distance) + " from it",
                  true};
+}
+
+std::string PathEnds::complaintAt(const Eigen::Vector2d& position) const {
+  if (!complaint_ || request_.any_goal_heading) return "";
+  Pose pose = request_.goal;
+  pose.position.head<2>() = position;
+  return complaint_(pose);
 }
 
 std::string PathEnds::whyBlocked(Cell cell) const {

@@ -2,6 +2,7 @@
 // there is none.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,16 +23,21 @@ struct PathEnd {
 
 class PathEnds {
  public:
-  // `costs` is the costmap at full resolution, for which `search` is prepared. All outlive this.
+  // What is wrong with a pose; "" where nothing is.
+  using Complaint = std::function<std::string(const path::Pose&)>;
+
+  // `costs` is the costmap at full resolution, for which `search` is prepared. The path ends at no pose that
+  // `complaint` has words for, unless it is null. All outlive this.
   PathEnds(const PoseRequest& request, const PlannerOptions& options,
            const costmap::CostGrid& costs, MultiResolutionPlanner& search,
-           const base::StopToken& stop)
+           const base::StopToken& stop, const Complaint& complaint = {})
       : request_(request),
         options_(options),
         costs_(costs),
         segments_(costs),
         search_(search),
-        stop_(stop) {}
+        stop_(stop),
+        complaint_(complaint) {}
 
   // None where `failure` says why. A blocked start is replaced by the nearest passable cell within
   // start_escape_radius, a blocked goal by substituteGoal(). Where distances are kept, the cell is
@@ -54,6 +60,8 @@ class PathEnds {
   std::optional<PathEnd> measuredStart(const Eigen::Vector2d& position) const;
   std::optional<PathEnd> measuredGoal(const Eigen::Vector2d& position, std::string& why) const;
   std::string whyBlocked(grid::Cell cell) const;
+  // Of the goal at this position.
+  std::string complaintAt(const Eigen::Vector2d& position) const;
   std::string outsideMap() const;
 
   const PoseRequest& request_;
@@ -62,6 +70,7 @@ class PathEnds {
   EndSegments segments_;
   MultiResolutionPlanner& search_;
   const base::StopToken& stop_;
+  const Complaint complaint_;
 };
 
 }  // namespace grid_path_planner::planning

@@ -9,19 +9,23 @@
 #include "grid_path_planner/base/options.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/planners/planner_factory.h"
+#include "path/footprint/footprint.h"
+#include "planning/footprint/fitted_plan.h"
 #include "planning/map_store.h"
 #include "planning/message_text.h"
 #include "planning/multi_resolution_planner.h"
 #include "planning/plan_on_costs.h"
 #include "planning/prepared_planners.h"
+#include "planning/turning/curves.h"
 
 namespace grid_path_planner::planning {
 
-using base::checkOptionLimits, base::InputError, base::sameOptions, base::Status, base::StopSource,
-    base::StopToken;
+using base::checkOptionLimits, base::choiceName, base::InputError, base::sameOptions, base::Status,
+    base::StopSource, base::StopToken;
 using costmap::checkCostmapOptions, costmap::CostGrid, costmap::CostmapBuilder,
     costmap::keptDistances, costmap::KeptDistances;
 using grid::CellRect, grid::checkOccupancyValues, grid::GridGeometry, grid::OccupancyGrid;
+using path::Footprint, path::HeadingMode;
 using planners::checkSearchOptions, planners::memoryLimitOf, planners::PlannerMaker,
     planners::traitsOf;
 
@@ -29,11 +33,26 @@ namespace {
 
 constexpr char kNoCells[] = "a map needs at least one cell, got 0x0";
 
+void checkTurning(const PlannerOptions& options) {
+  const bool along = options.heading == HeadingMode::FORWARD ||
+                     options.heading == HeadingMode::BACKWARD ||
+                     options.heading == HeadingMode::NONE;
+  if (options.min_turning_radius > 0.0 && !along)
+    throw InputError("min_turning_radius needs heading forward, backward or none, got heading " +
+                     std::string(choiceName(options.heading)));
+}
+
 // All but the planner's name, whose check is left to what makes the planner.
-void checkOtherOptions(const PlannerOptions& options) {
+Footprint checkOtherOptions(const PlannerOptions& options) {
   checkOptionLimits(options);
   checkCostmapOptions(options.costmap);
   checkSearchOptions(options.search);
+  Footprint footprint = Footprint::fromText("footprint", options.footprint);
+  if (options.costmap.occupied_is_passable && !footprint.empty())
+    throw InputError("occupied_is_passable needs an empty footprint, got footprint " +
+                     options.footprint);
+  checkTurning(options);
+  return footprint;
 }
 
 }  // namespace
@@ -70,8 +89,10 @@ PathPlanner::PathPlanner(PathPlanner&&) noexcept = default;
 PathPlanner& PathPlanner::operator=(PathPlanner&&) noexcept = default;
 
 void PathPlanner::setOptions(const PlannerOptions& options) {
-  checkOtherOptions(options);
-  const bool new_costmap = !searches_ || !sameOptions(options.costmap, options_.costmap);
+  Footprint footprint = checkOtherOptions(options);
+  PlannerOptions searched = options;
+  searched.costmap.radius = std::max(options.costmap.radius, footprint.inscribedRadius());
+  const bool new_costmap = !searches_ || !sameOptions(searched.costmap, searched_.costmap);
   const bool new_search = new_costmap || options.planner != options_.planner ||
                           !sameOptions(options.search, options_.search);
   if (new_search) {
@@ -80,6 +101,8 @@ void PathPlanner::setOptions(const PlannerOptions& options) {
   }
   lowered_.reset();
   options_ = options;
+  searched_ = std::move(searched);
+  footprint_.reset(footprint.empty() ? nullptr : new Footprint(std::move(footprint)));
   if (new_costmap) useCostmap();
 }
 
@@ -89,7 +112,7 @@ void PathPlanner::useCostmap() {
   searches_->current() = {options_.planner, options_.search, make_planner_};
   lowered_.reset();
   costmap_.reset();
-  if (series_) costmap_ = series_->costmap(options_.costmap, keptDistances(options_.costmap));
+  if (series_) costmap_ = series_->costmap(searched_.costmap, keptDistances(searched_.costmap));
 }
 
 void PathPlanner::setMap(std::shared_ptr<const OccupancyGrid> map) {
@@ -194,7 +217,7 @@ PathPlanner::Lowered* PathPlanner::loweredFor(const CostGrid& costs, const PoseR
   if (kept == costs.keptDistances()) {
     lowered_.reset();
   } else if (!lowered_ || lowered_->costmap->keptDistances() != kept) {
-    lowered_ = std::make_unique<Lowered>(series_->costmap(options_.costmap, kept), options_,
+    lowered_ = std::make_unique<Lowered>(series_->costmap(searched_.costmap, kept), options_,
                                          make_planner_);
   }
   return lowered_.get();
@@ -227,6 +250,28 @@ void PathPlanner::finishPreparation(const StopToken& stop) {
   search().finishBackgroundWork(stop);
 }
 
+std::string PathPlanner::footprintContact(const path::Path& path, std::optional<double> start_yaw,
+                                          const StopToken& stop) {
+  if (!footprint_ || path.empty()) return "";
+  const CostmapPair maps = followedCostmaps(stop);
+  FootprintCheck check(*footprint_, *maps.full_resolution, searched_);
+  check.allowFor({path.poses.back()});
+  const auto contact = check.first(path, start_yaw, path.poses.back().yaw, stop);
+  return contact ? check.text(*contact) : "";
+}
+
+// On `costs`, which `search` is prepared for.
+Plan PathPlanner::planFor(const PoseRequest& request, const CostGrid& costs,
+                          MultiResolutionPlanner& search, const StopToken& stop) {
+  if (!footprint_) {
+    VehicleTerms terms;
+    terms.shape = curvesFor(request, searched_, costs, {}, stop);
+    return planOnCosts(costs, search, request, searched_, stop, terms);
+  }
+  const std::size_t memory = memoryLimit() - std::min(memoryLimit(), bytes());
+  return FittedPlanner(*footprint_, costs, map_, searched_, memory).plan(search, request, stop);
+}
+
 Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
   if (!hasMap()) return failedPlan(Status::NO_MAP, "no map has arrived yet");
   return planWithin(options_.timeout, request, stop, [&](const StopToken& token) {
@@ -240,7 +285,16 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     search.prepare(maps, token);
     searches_->followOthers(asked_for, token);
     const auto prepared = StopToken::Clock::now();
-    Plan plan = planOnCosts(*maps.full_resolution, search, request, options_, token);
+    Plan plan = planFor(request, *maps.full_resolution, search, token);
+    if (plan.found() && plan.sharp_corners > 0 && !options_.keep_sharp_corners) {
+      const Plan sharp = std::move(plan);
+      plan = failedPlan(Status::UNREACHABLE,
+                        "no path that the vehicle can follow was found; that which "
+                        "turns on the spot: " +
+                            sharp.message);
+      plan.answered_by = sharp.answered_by;
+      plan.statistics = sharp.statistics;
+    }
     if (lowered && plan.found())
       addNote(plan.message,
               loweredNote(costmap_->keptDistances(), lowered->costmap->keptDistances()));

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "grid_path_planner/costmap/line_of_sight.h"
 #include "grid_path_planner/path/headings.h"
 #include "grid_path_planner/path/metrics.h"
 #include "planning/message_text.h"
@@ -17,7 +18,8 @@ namespace grid_path_planner::planning {
 
 using base::InputError, base::Statistics, base::Status, base::Stopped, base::StopSource,
     base::StopToken;
-using costmap::Connectivity, costmap::CostGrid, costmap::DiagonalCost, costmap::MotionModel;
+using costmap::Connectivity, costmap::CostGrid, costmap::DiagonalCost, costmap::lineCost,
+    costmap::MotionModel, costmap::SegmentPoint;
 using path::applyHeadings, path::applyZ, path::lengthOf, path::lengthsByClass, path::Path,
     path::Pose;
 using planners::TooExpensive;
@@ -50,10 +52,21 @@ bool smooths(const PlannerOptions& options) {
          motion.diagonal_cost == DiagonalCost::SQRT2;
 }
 
+void addLeads(Path& path, const VehicleTerms& terms) {
+  std::vector<Pose>& poses = path.poses;
+  const auto apart = [](const Pose& a, const Pose& b) {
+    return (a.position - b.position).head<2>().norm() > 1e-9;
+  };
+  if (terms.from && apart(*terms.from, poses.front())) poses.insert(poses.begin(), *terms.from);
+  if (terms.to && apart(*terms.to, poses.back())) poses.push_back(*terms.to);
+}
+
 Path pathOf(const Route& route, const PathEnd& start, const PathEnd& goal,
-            const PoseRequest& request, const PlannerOptions& options, const CostGrid& costs) {
+            const PoseRequest& request, const PlannerOptions& options, const CostGrid& costs,
+            const VehicleTerms& terms) {
   Path path;
-  if (!goal.moved && !start.moved && samePose(request.start, request.goal)) {
+  const bool leads = terms.from || terms.to;
+  if (!leads && !goal.moved && !start.moved && samePose(request.start, request.goal)) {
     path.poses.push_back(request.goal);
     return path;
   }
@@ -61,9 +74,11 @@ Path pathOf(const Route& route, const PathEnd& start, const PathEnd& goal,
     return RouteEnd{of.position, costs.geometry().centre(of.cell)};
   };
   path = pathOfRoute(route, end(start), end(goal), start.moved, EndSegments(costs));
-  applyZ(path, request.start.position.z(), request.goal.position.z(), options.fixed_z,
-         options.path_z);
-  applyHeadings(path, request.start.yaw, request.goal.yaw, options.heading);
+  addLeads(path, terms);
+  const Pose &first = terms.from ? *terms.from : request.start,
+             &last = terms.to ? *terms.to : request.goal;
+  applyZ(path, first.position.z(), last.position.z(), options.fixed_z, options.path_z);
+  applyHeadings(path, first.yaw, last.yaw, options.heading);
   return path;
 }
 
@@ -80,8 +95,8 @@ std::string foundMessage(const Plan& plan, const PathEnd& start, const PathEnd& 
 }
 
 Plan completedPlan(Route route, const PathEnd& start, const PathEnd& goal,
-                   const PoseRequest& request, const PlannerOptions& options,
-                   const CostGrid& costs) {
+                   const PoseRequest& request, const PlannerOptions& options, const CostGrid& costs,
+                   const VehicleTerms& terms) {
   Plan plan = std::move(route.plan);
   if (plan.status == Status::UNREACHABLE)
     plan.message = unreachableText(start.position, goal.position, options.tolerance);
@@ -92,7 +107,8 @@ Plan completedPlan(Route route, const PathEnd& start, const PathEnd& goal,
   }
   for (const Leg& leg : route.legs) plan.cells += leg.result.cells.size();
   plan.cells -= route.legs.size() - 1;
-  plan.path = pathOf(route, start, goal, request, options, costs);
+  plan.path = pathOf(route, start, goal, request, options, costs, terms);
+  if (terms.shape) terms.shape(plan);
   plan.length_m = lengthOf(plan.path);
   plan.waypoints = waypointsOf(plan.path, options, costs);
   addNote(plan.message, unknownNote(lengthsByClass(plan.path, costs.classes())));
@@ -107,14 +123,30 @@ Route findRoute(MultiResolutionPlanner& search, const PathEnd& start, const Path
   return route;
 }
 
+// Adds the cost of a straight line.
+void addLine(Route& route, const CostGrid& costs, const Pose& from, const Pose& to) {
+  const auto point = [&costs](const Pose& pose) {
+    return SegmentPoint::nearest(costs.geometry().gridFromWorld(pose.position.head<2>()));
+  };
+  route.plan.segment_cost += lineCost(costs, point(from), point(to));
+}
+
+std::string startComplaint(const PoseRequest& request, const VehicleTerms& terms) {
+  return terms.complaint ? terms.complaint(request.start) : "";
+}
+
 }  // namespace
 
 Plan planOnCosts(const CostGrid& costs, MultiResolutionPlanner& search, const PoseRequest& request,
-                 const PlannerOptions& options, const StopToken& stop) {
-  const PathEnds ends(request, options, costs, search, stop);
+                 const PlannerOptions& options, const StopToken& stop, const VehicleTerms& terms) {
+  const PathEnds ends(request, options, costs, search, stop, terms.complaint);
   Plan failure;
   std::optional<PathEnd> start = ends.start(failure);
   if (!start) return failure;
+  const std::string complaint = startComplaint(request, terms);
+  if (!complaint.empty())
+    return failedPlan(Status::START_OCCUPIED,
+                      "start " + positionText(start->position) + " " + complaint);
   std::optional<PathEnd> goal = ends.goal(*start, failure);
   if (!goal) return failure;
 
@@ -139,7 +171,12 @@ Plan planOnCosts(const CostGrid& costs, MultiResolutionPlanner& search, const Po
       searchAgain();
     }
   }
-  return completedPlan(std::move(route), *start, *goal, request, options, costs);
+  if (terms.priced && route.plan.found()) {
+    priceRoute(route, *terms.priced);
+    if (terms.from) addLine(route, *terms.priced, *terms.from, request.start);
+    if (terms.to) addLine(route, *terms.priced, request.goal, *terms.to);
+  }
+  return completedPlan(std::move(route), *start, *goal, request, options, costs, terms);
 }
 
 Plan planWithin(double timeout, const PoseRequest& request, const StopSource& stop,

@@ -10,7 +10,8 @@
 namespace grid_path_planner::planning {
 
 using base::StopToken;
-using costmap::CostGrid, costmap::lineOfSight, costmap::SegmentPoint, costmap::worldOf;
+using costmap::CostGrid, costmap::costOfSteps, costmap::lineCost, costmap::lineOfSight,
+    costmap::SegmentPoint, costmap::worldOf;
 using grid::Cell;
 using path::Path, path::Pose;
 
@@ -121,6 +122,17 @@ void smoothRoute(Route& route, const StopToken& stop) {
   route.plan.optimal = false;
   route.plan.cost = {};
   route.plan.segment_cost = cost;
+}
+
+void priceRoute(Route& route, const CostGrid& costs) {
+  route.plan.cost = {};
+  route.plan.segment_cost = 0.0;
+  for (const Leg& leg : route.legs) {
+    const std::vector<SegmentPoint>& points = leg.result.points;
+    if (!anyAngle(leg)) route.plan.cost += costOfSteps(costs, leg.result.cells);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      route.plan.segment_cost += lineCost(costs, points[i], points[i + 1]);
+  }
 }
 
 Path pathOfRoute(const Route& route, const RouteEnd& start, const RouteEnd& goal, bool keep_first,

@@ -27,6 +27,9 @@ struct Route {
 // Smooths every leg by itself. Preconditions as for smoothResult().
 void smoothRoute(Route& route, const base::StopToken& stop);
 
+// Gives the route the cost that it has on another costmap of the same geometry. Precondition: FOUND, with kernel 1.
+void priceRoute(Route& route, const costmap::CostGrid& costs);
+
 // An end of the path, in metres: the pose's position, and the centre of the cell that was searched
 // from, which a straight line joins to it.
 struct RouteEnd {

@@ -4,12 +4,13 @@
 
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/planners/planner_factory.h"
+#include "path/footprint/footprint.h"
 
 namespace grid_path_planner::planning {
 
 using base::differingOptions, base::OptionInfo, base::valueText;
 using costmap::Connectivity, costmap::DiagonalCost;
-using path::PathZ;
+using path::Footprint, path::PathZ;
 using planners::Heuristic, planners::optionsUsedBy, planners::SearchOptions, planners::traitsOf;
 
 namespace {
@@ -45,6 +46,11 @@ constexpr Rule kRules[] = {
      [](const PlannerOptions& o) { return !o.costmap.unknown_is_passable; }},
     {"occupied_weight", "occupied_is_passable",
      [](const PlannerOptions& o) { return !o.costmap.occupied_is_passable; }},
+    {"radius", "footprint",
+     [](const PlannerOptions& o) {
+       const Footprint footprint = Footprint::fromText("footprint", o.footprint);
+       return !footprint.empty() && footprint.inscribedRadius() >= o.costmap.radius;
+     }},
     {"inflation_weight", "decay", [](const PlannerOptions& o) { return o.costmap.decay == 0.0; }},
     {"kernel_rule", "kernel", noKernel},
     {"diagonal_cost", "connectivity", noDiagonals},
@@ -54,6 +60,10 @@ constexpr Rule kRules[] = {
     {"smooth", "connectivity", noDiagonals},
     {"smooth", "diagonal_cost",
      [](const PlannerOptions& o) { return o.costmap.motion.diagonal_cost == DiagonalCost::UNIT; }},
+    {"keep_sharp_corners", "min_turning_radius",
+     [](const PlannerOptions& o) { return o.min_turning_radius == 0.0; }},
+    {"waypoint_tolerance", "min_turning_radius",
+     [](const PlannerOptions& o) { return o.min_turning_radius > 0.0; }},
     {"fixed_z", "path_z", [](const PlannerOptions& o) { return o.path_z != PathZ::FIXED; }},
 };
 

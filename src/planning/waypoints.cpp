@@ -82,7 +82,8 @@ class Thinning {
 Path waypointsOf(const Path& path, const PlannerOptions& options, const CostGrid& costs) {
   if (path.poses.size() < 3 && options.waypoint_spacing <= 0.0) return path;
   Path waypoints = path;
-  waypoints.poses = Thinning(path, options.waypoint_tolerance, costs).kept();
+  const double tolerance = options.min_turning_radius > 0.0 ? 0.0 : options.waypoint_tolerance;
+  waypoints.poses = Thinning(path, tolerance, costs).kept();
   applyHeadings(waypoints, path.poses.front().yaw, path.poses.back().yaw, options.heading);
   return spacedPoses(waypoints, options.waypoint_spacing, options.heading);
 }

@@ -53,7 +53,7 @@ bool passes(const Plan& plan, const Pose& pose) {
   });
 }
 
-bool says(const Plan& plan, const std::string& words) {
+bool viaSays(const Plan& plan, const std::string& words) {
   return plan.message.find(words) != std::string::npos;
 }
 
@@ -72,7 +72,7 @@ TEST(ViaPlan, PassesThePointsAsTheyAreGiven) {
   for (const Pose& pose : via) EXPECT_TRUE(passes(found.plan, pose));
   EXPECT_EQ(found.order, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_FALSE(found.order_exact);
-  EXPECT_TRUE(says(found.plan, "through 3 via-points")) << found.plan.message;
+  EXPECT_TRUE(viaSays(found.plan, "through 3 via-points")) << found.plan.message;
   EXPECT_EQ(found.plan.path.poses.back().yaw, 1.0);
   // It looks along the next leg at a via-point, which is there once.
   const auto at_first = std::find_if(
@@ -113,7 +113,7 @@ TEST(ViaPlan, NamesTheFirstPointThatNoPathLeadsTo) {
   const ViaPlan found = planThrough(
       planner, through(poseAt(0.5, 0.5), {poseAt(2.5, 0.5), poseAt(4.5, 1.5)}, poseAt(2.5, 2.5)));
   EXPECT_EQ(found.plan.status, Status::UNREACHABLE);
-  EXPECT_TRUE(says(found.plan, "to via-point 2: no path")) << found.plan.message;
+  EXPECT_TRUE(viaSays(found.plan, "to via-point 2: no path")) << found.plan.message;
   EXPECT_EQ(found.unreachable, std::vector<std::size_t>{1});
   EXPECT_TRUE(found.plan.path.empty());
   EXPECT_TRUE(found.order.empty());
@@ -127,7 +127,7 @@ TEST(ViaPlan, NamesAllPointsThatNoPathLeadsToWhereItOrdersThem) {
                        poseAt(2.5, 2.5), ViaOrder::BEST));
   EXPECT_EQ(found.plan.status, Status::UNREACHABLE);
   EXPECT_EQ(found.unreachable, (std::vector<std::size_t>{0, 2}));
-  EXPECT_TRUE(says(found.plan, "to via-points 1 and 3: ")) << found.plan.message;
+  EXPECT_TRUE(viaSays(found.plan, "to via-points 1 and 3: ")) << found.plan.message;
   EXPECT_EQ(found.last_leg.goal.position.x(), 4.5);
 }
 
@@ -151,7 +151,7 @@ TEST(ViaPlan, GoesOnFromWhereATolerantLegEnds) {
         planner, through(poseAt(0.5, 0.5), {poseAt(4.5, 0.5)}, poseAt(0.5, 2.5), order));
     ASSERT_TRUE(found.plan.found()) << found.plan.message;
     EXPECT_TRUE(passes(found.plan, poseAt(3.5, 0.5)) || passes(found.plan, poseAt(4.5, 1.5)));
-    EXPECT_TRUE(says(found.plan, "to via-point 1: ")) << found.plan.message;
+    EXPECT_TRUE(viaSays(found.plan, "to via-point 1: ")) << found.plan.message;
   }
 }
 
@@ -207,7 +207,7 @@ TEST(ViaPlan, ManyPointsAreOrderedByAHeuristicThatSaysSo) {
   ASSERT_TRUE(found.plan.found()) << found.plan.message;
   EXPECT_FALSE(found.order_exact);
   EXPECT_FALSE(found.plan.optimal);
-  EXPECT_TRUE(says(found.plan, "found by a heuristic")) << found.plan.message;
+  EXPECT_TRUE(viaSays(found.plan, "found by a heuristic")) << found.plan.message;
   const ViaPlan given = planThrough(planner, through(poseAt(0.5, 0.5), via, poseAt(0.5, 5.5)));
   EXPECT_LT(found.plan.costValue(), given.plan.costValue() / 2);
 }
@@ -218,7 +218,7 @@ TEST(ViaPlan, TooManyPointsAreRefusedWithTheirNumber) {
   const ViaPlan found =
       planThrough(planner, through(poseAt(0.5, 0.5), via, poseAt(2.5, 0.5), ViaOrder::BEST));
   EXPECT_EQ(found.plan.status, Status::INVALID_REQUEST);
-  EXPECT_TRUE(says(found.plan, "51 via-points, and at most 50")) << found.plan.message;
+  EXPECT_TRUE(viaSays(found.plan, "51 via-points, and at most 50")) << found.plan.message;
 }
 
 TEST(ViaPlan, PointsThatAreNoNumbersAreNamed) {
@@ -227,7 +227,7 @@ TEST(ViaPlan, PointsThatAreNoNumbersAreNamed) {
   const ViaPlan found =
       planThrough(planner, through(poseAt(0.5, 0.5), {poseAt(1.5, 1.5), nan}, poseAt(2.5, 0.5)));
   EXPECT_EQ(found.plan.status, Status::INVALID_REQUEST);
-  EXPECT_TRUE(says(found.plan, "via-point 2 must be finite")) << found.plan.message;
+  EXPECT_TRUE(viaSays(found.plan, "via-point 2 must be finite")) << found.plan.message;
 }
 
 TEST(ViaPlan, StopsWhenItIsCancelledOrItsTimeIsOver) {
@@ -239,7 +239,7 @@ TEST(ViaPlan, StopsWhenItIsCancelledOrItsTimeIsOver) {
   StopSource stop;
   const ViaPlan late = planThrough(planner, request, stop);
   EXPECT_EQ(late.plan.status, Status::TIMEOUT);
-  EXPECT_TRUE(says(late.plan, "time limit")) << late.plan.message;
+  EXPECT_TRUE(viaSays(late.plan, "time limit")) << late.plan.message;
   EXPECT_TRUE(late.unreachable.empty());
   EXPECT_EQ(planner.options().timeout, 1e-7) << "the options are as before";
   stop.cancel();

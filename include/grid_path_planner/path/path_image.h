@@ -5,7 +5,8 @@
 // Free cells are light, unknown ones grey, occupied ones dark; expanded cells are tinted, from pale
 // (early) to strong (late); the path is a blue line, its start a green disc and its goal an orange
 // arrowhead in the goal's heading. Rectangles are tinted in turning colours, outlined
-// and numbered from 1 where they are large enough for that; links are lines between dots. A margin
+// and numbered from 1 where they are large enough for that; links are lines between dots, outlines
+// thin lines below the path. A margin
 // holds a scale bar in metres and a legend of what is drawn. The colours differ in lightness and
 // are chosen to be told apart by colour-blind eyes. +x is to the right and +y up, in the map's own
 // axes: the picture of a turned map is not turned. The same input gives the same file, byte for
@@ -72,6 +73,7 @@ struct PictureContent {
   std::vector<grid::Cell> expanded;
   std::vector<grid::CellRect> rectangles;
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> links;  // metres
+  std::vector<std::vector<Eigen::Vector2d>> outlines = {};  // of the vehicle: corners, metres
 };
 
 // Throws InputError for a path with a position that is not finite. The part of a path that lies

@@ -12,6 +12,8 @@
 // map's border than radius_to_unknown and outside ask, for every planner, kernel and smoothing;
 // except on the first segment of a start that is itself nearer, with cut_corners, and with the rule
 // filter2d. Where an end is nearer to unknown cells or to the border, the path keeps what it has.
+// With a footprint (a vehicle that is not round) radius is at least its inscribed radius, and the footprint
+// meets no obstacle anywhere on the path: planning/footprint/fitted_plan.h says what is tried, and what is not.
 // What a planner prepared of the map is kept for each planner and options that were asked for, as
 // far as the memory limit goes, so that a question to another one in between costs nothing later.
 // Not thread-safe: one call at a time.
@@ -21,6 +23,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +36,10 @@
 #include "grid_path_planner/planners/planner_factory.h"
 #include "grid_path_planner/planners/search_options.h"
 #include "grid_path_planner/planning/plan.h"
+
+namespace grid_path_planner::path {
+class Footprint;
+}
 
 namespace grid_path_planner::planning {
 
@@ -49,6 +56,9 @@ struct PlannerOptions {
   planners::SearchOptions search;
   double tolerance = 0.0;            // m
   double start_escape_radius = 0.0;  // m
+  std::string footprint;             // "[[x, y], ...]", m; "": round, of costmap.radius
+  double min_turning_radius = 0.0;   // m; 0: turns on the spot
+  bool keep_sharp_corners = false;
   bool retry_finer = true;
   bool smooth = true;
   double timeout = 5.0;  // s; 0: none
@@ -59,6 +69,32 @@ struct PlannerOptions {
   double waypoint_spacing = 0.0;    // m; 0: as few as the tolerance allows
 };
 
+// A group of the options, in the order of visitOptions.
+template <class Visitor>
+void visitShapeOptions(PlannerOptions& o, Visitor&& visit) {
+  visit("footprint", o.footprint,
+        base::OptionInfo{
+            "Corners of a vehicle that is not round, [[x, y], [x, y], [x, y], ...] in base_link "
+            "about "
+            "the origin: no path on which it meets an obstacle, turns on the spot included; radius "
+            "counts where it is above the inscribed one; empty: round, of radius",
+            "m"}
+            .under("The vehicle's shape"));
+  visit(
+      "min_turning_radius", o.min_turning_radius,
+      base::OptionInfo{
+          "Smallest radius that the vehicle can turn with while it drives: corners become curves "
+          "of at "
+          "least that, from the start's heading to the goal's; needs heading forward, backward or "
+          "none; 0: it turns on the spot",
+          "m", 0, 1000});
+  visit("keep_sharp_corners", o.keep_sharp_corners,
+        base::OptionInfo{
+            "Whether a path is given though at some corners no such curve fits, which the message "
+            "counts; false: UNREACHABLE",
+            ""});
+}
+
 template <class Visitor>
 void visitOptions(PlannerOptions& o, Visitor&& visit) {
   visit("planner", o.planner,
@@ -67,6 +103,7 @@ void visitOptions(PlannerOptions& o, Visitor&& visit) {
             .oneOf(planners::plannerNames));
   visitOptions(o.search, visit);
   visitOptions(o.costmap, visit);
+  visitShapeOptions(o, visit);
   visit("tolerance", o.tolerance,
         base::OptionInfo{
             "How far from an occupied or unreachable goal a path may end; 0: no path then", "m", 0,
@@ -112,6 +149,7 @@ struct PoseRequest {
   path::Pose start;
   path::Pose goal;
   bool record_expanded = false;
+  bool any_goal_heading = false;  // the goal is passed: a footprint is not turned to its yaw there
 };
 
 class PathPlanner {
@@ -172,6 +210,14 @@ class PathPlanner {
   // waits for the planner's background work. Throws Stopped too; what is done stays.
   void finishPreparation(const base::StopToken& stop);
 
+  // Where the footprint of the options meets an obstacle on a path with headings as they say, in words: "the
+  // footprint meets the occupied cell at ..."; "" where nowhere, and for a round vehicle. The vehicle first turns
+  // from `start_yaw`, where it is given. Throws as fullResolutionCosts() does. Precondition: hasMap().
+  std::string footprintContact(const path::Path& path, std::optional<double> start_yaw,
+                               const base::StopToken& stop);
+  // options(), with the radius that is searched for: no less than the footprint's inscribed one.
+  const PlannerOptions& searchedOptions() const { return searched_; }
+
   // Every failure but a bug is a status; options().timeout runs beside the token's own limit.
   Plan plan(const PoseRequest& request, const base::StopSource& stop = {});
 
@@ -196,11 +242,15 @@ class PathPlanner {
   MultiResolutionPlanner& search() const;
   Lowered* loweredFor(const costmap::CostGrid& costs, const PoseRequest& request);
   CostmapPair loweredCosts(Lowered& lowered, const base::StopToken& stop);
+  Plan planFor(const PoseRequest& request, const costmap::CostGrid& costs,
+               MultiResolutionPlanner& search, const base::StopToken& stop);
 
   planners::PlannerMaker make_planner_;
   std::size_t memory_limit_ = std::numeric_limits<std::size_t>::max();
   PlannerOptions options_;
-  bool shared_;  // whether others use the store
+  PlannerOptions searched_;
+  std::unique_ptr<const path::Footprint> footprint_;  // null: round
+  bool shared_;                                       // whether others use the store
   std::shared_ptr<MapStore> store_;
   std::shared_ptr<MapSeries> series_;  // null before takeMap()
   std::shared_ptr<const grid::OccupancyGrid> map_;

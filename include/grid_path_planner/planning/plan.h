@@ -30,6 +30,7 @@ struct Plan {
   std::size_t cells = 0;  // of the path on the map that was searched
   int kernel = 1;         // of the map that the longest part was searched on
   base::Statistics statistics;
+  std::size_t sharp_corners = 0;    // with min_turning_radius: those at which no curve fits
   double preparation_time_s = 0.0;  // costmaps and the planner's preparation; 0 if nothing changed
   std::vector<Eigen::Vector2d> expanded;  // centres of the expanded cells, metres
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "grid_path_planner/path/headings.h"
+#include "path/footprint/motions.h"
 #include "planning/message_text.h"
 #include "planning/via/visiting_order.h"
 
@@ -75,6 +76,7 @@ void addNumbers(Plan& sum, const Plan& leg) {
   sum.segment_cost += leg.segment_cost;
   sum.optimal = sum.optimal && leg.optimal;
   sum.length_m += leg.length_m;
+  sum.sharp_corners += leg.sharp_corners;
   sum.cells += leg.cells - 1;  // its first is the last of the leg before
   sum.statistics += leg.statistics;
   sum.preparation_time_s += leg.preparation_time_s;
@@ -85,6 +87,7 @@ void addNumbers(Plan& sum, const Plan& leg) {
 struct LegEnd {
   Pose pose;
   std::string name;
+  bool passed = false;  // with any heading
 };
 
 class ViaPlanning {
@@ -127,7 +130,7 @@ class ViaPlanning {
         if (leg < order.size() && isOfGoal(plan.status)) answer_.unreachable = {order[leg]};
         return fail(std::move(plan), to.name);
       }
-      from = endOf(plan, to);
+      from = endOf(plan, to, from.yaw);
       if (plan.cells >= longest) {
         longest = plan.cells;
         joined.answered_by = plan.answered_by;
@@ -166,8 +169,16 @@ class ViaPlanning {
     if (request_.order == ViaOrder::BEST) joined.optimal = joined.optimal && answer_.order_exact;
     for (Path* path : {&joined.path, &joined.waypoints})
       applyHeadings(*path, request_.start.yaw, request_.goal.yaw, options_.heading);
+    const std::string contact = contactOn(joined.path);
+    if (!contact.empty()) return fail(failedPlan(Status::UNREACHABLE, contact), "the goal");
+    if (!contactOn(joined.waypoints).empty()) joined.waypoints = joined.path;
     answer_.plan = std::move(joined);
     answer_.order = order;
+  }
+
+  // The headings of the joined path need not be those of its legs.
+  std::string contactOn(const Path& path) {
+    return planner_.footprintContact(path, request_.start.yaw, stop_.token());
   }
 
   std::string orderNote(const std::vector<std::size_t>& order) const {
@@ -208,7 +219,7 @@ class ViaPlanning {
       const LegEnd to = viaPoint(i);
       Plan plan = planLeg(request_.start, to, false);
       if (plan.found()) {
-        reached_.push_back(endOf(plan, to));
+        reached_.push_back(endOf(plan, to, request_.start.yaw));
         from_start_.push_back(plan.costValue());
         continue;
       }
@@ -240,7 +251,7 @@ class ViaPlanning {
 
   Plan planLeg(const Pose& from, const LegEnd& to, bool record_expanded) {
     if (stop_.cancelled()) return failedPlan(Status::CANCELLED, "planning was cancelled");
-    answer_.last_leg = {from, to.pose, record_expanded};
+    answer_.last_leg = {from, to.pose, record_expanded, to.passed};
     if (limited_) {
       PlannerOptions options = options_;
       options.timeout = std::min(options.timeout, secondsLeft());
@@ -263,16 +274,21 @@ class ViaPlanning {
   }
 
   // Within the tolerance it may be beside the point. The z is the point's, whatever path_z makes of it.
-  static Pose endOf(const Plan& plan, const LegEnd& to) {
+  // A vehicle that cannot turn freely goes on with the heading that it came with.
+  Pose endOf(const Plan& plan, const LegEnd& to, double start_yaw) const {
     Pose end = plan.path.poses.back();
     end.position.z() = to.pose.position.z();
+    if (options_.footprint.empty() && options_.min_turning_radius <= 0.0) return end;
+    const path::Motion last =
+        path::motionsAlong(plan.path, start_yaw, std::nullopt, options_.heading).back();
+    end.yaw = last.yaw + last.turn;
     return end;
   }
 
   LegEnd viaPoint(std::size_t index) const {
     Pose pose;
     pose.position = request_.via[index];
-    return {pose, viaName(index)};
+    return {pose, viaName(index), true};
   }
   LegEnd goal() const { return {request_.goal, "the goal"}; }
 

@@ -72,6 +72,28 @@ std::string shortest(double number) {
   return text;
 }
 
+// "[[x, y], [x, y]]" of a list of lists of numbers; "" of any other value.
+std::string listText(XmlRpcValue& value) {
+  if (value.getType() != XmlRpcValue::TypeArray) return "";
+  std::string text;
+  for (int i = 0; i < value.size(); ++i) {
+    if (value[i].getType() != XmlRpcValue::TypeArray) return "";
+    std::string inner;
+    for (int j = 0; j < value[i].size(); ++j) {
+      double number = 0.0;
+      if (value[i][j].getType() == XmlRpcValue::TypeInt)
+        number = static_cast<int>(value[i][j]);
+      else if (value[i][j].getType() == XmlRpcValue::TypeDouble)
+        number = static_cast<double>(value[i][j]);
+      else
+        return "";
+      inner += (j == 0 ? "" : ", ") + shortest(number);
+    }
+    text += (i == 0 ? "[" : ", [") + inner + "]";
+  }
+  return "[" + text + "]";
+}
+
 bool isKnown(const std::string& name, const std::vector<std::string>& known) {
   return std::any_of(known.begin(), known.end(), [&](const std::string& other) {
     return name == other || name == configName(other);
@@ -116,6 +138,8 @@ void assignParameter(const std::string& name, XmlRpcValue value, std::string& ta
     target = std::to_string(static_cast<int>(value));
   else if (value.getType() == XmlRpcValue::TypeDouble)
     target = shortest(static_cast<double>(value));
+  else if (const std::string text = listText(value); !text.empty())
+    target = text;
   else
     refuse(name, "a string", value);
 }

@@ -50,7 +50,8 @@ bool ServiceCallbackHelperT<
 namespace grid_path_planner::nodes {
 
 // `name` in every message is the parameter's full name. An int is taken for a double, a number for
-// a string (YAML reads an unquoted 8 as a number); anything else of another type throws InputError.
+// a string (YAML reads an unquoted 8 as a number), and so is a list of lists of numbers, as a footprint's
+// corners are written; anything else of another type throws InputError.
 void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, bool& target);
 void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, int& target);
 void assignParameter(const std::string& name, XmlRpc::XmlRpcValue value, double& target);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/current_error.h"
+#include "following/footprint_clearance.h"
 #include "following/speed_limit.h"
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "grid_path_planner/ros/conversions.h"
@@ -18,6 +19,7 @@ namespace grid_path_planner::nodes {
 using base::currentErrorText;
 
 using base::BodyVelocity;
+using following::firstFootprintContact;
 using following::firstObstruction;
 using following::FollowEvent;
 using following::FollowInput;
@@ -25,6 +27,7 @@ using following::FollowState;
 using following::Join;
 using following::Obstruction;
 using following::PathFollower;
+using path::Footprint;
 using path::Path;
 
 namespace {
@@ -55,6 +58,7 @@ std::string sentenceOf(const Obstruction& obstruction) {
 DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& options,
                      FrameTransforms& transforms, std::function<void()> on_report)
     : options_(options),
+      footprint_(Footprint::fromText("check_footprint", options.check_footprint)),
       transforms_(transforms),
       on_report_(std::move(on_report)),
       follower_(options.follower) {
@@ -128,6 +132,7 @@ void DriveLoop::setOptions(const NavigatePathOptions& options) {
   ask([this, &options] {
     follower_.setOptions(options.follower);
     options_ = options;
+    footprint_ = Footprint::fromText("check_footprint", options.check_footprint);
   });
 }
 
@@ -248,8 +253,10 @@ std::string DriveLoop::whyNotFree(const std::vector<Eigen::Vector3d>& ahead) con
   try {
     if (limits_.grid) inFrame(limits_.frame_id, ahead);
     if (!options_.check_map) return "";
-    const auto found =
-        firstObstruction(*map_.map.grid, options_.limits, inFrame(map_.map.frame_id, ahead));
+    const std::vector<Eigen::Vector3d> in_map = inFrame(map_.map.frame_id, ahead);
+    auto found = firstObstruction(*map_.map.grid, options_.limits, in_map);
+    if (!found && !footprint_.empty())
+      found = firstFootprintContact(*map_.map.grid, options_.limits, footprint_, in_map);
     return found ? sentenceOf(*found) : "";
   } catch (const TransformError& error) {
     return std::string("projected_map or speed_limit cannot be compared with the path: ") +

@@ -34,6 +34,7 @@
 #include <vector>
 
 #include "grid_path_planner/following/path_follower.h"
+#include "path/footprint/footprint.h"
 #include "ros/common/frame_transforms.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/master/master_watch.h"
@@ -123,6 +124,7 @@ class DriveLoop {
   DriveStanding standingNow() const;
 
   NavigatePathOptions options_;
+  path::Footprint footprint_;  // of the options
   FrameTransforms& transforms_;
   const std::function<void()> on_report_;
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();

@@ -1,6 +1,7 @@
 #include "ros/driving/navigate_path_options.h"
 
 #include "grid_path_planner/base/options.h"
+#include "path/footprint/footprint.h"
 #include "ros/common/network_text.h"
 
 namespace grid_path_planner::nodes {
@@ -13,6 +14,7 @@ void checkNavigatePathOptions(const NavigatePathOptions& options) {
   checkOptionLimits(options);
   checkFollowerOptions(options.follower);
   checkNetworkText("base_frame", options.base_frame);
+  path::Footprint::fromText("check_footprint", options.check_footprint);
   if (options.limits.thresholds.free_max >= options.limits.thresholds.occupied_min)
     throw InputError("free_max must be below occupied_min, got " +
                      std::to_string(options.limits.thresholds.free_max) + " and " +

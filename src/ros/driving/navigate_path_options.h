@@ -15,7 +15,8 @@ struct NavigatePathOptions {
   following::FollowerOptions follower;
   bool check_map = true;
   following::ClearanceLimits limits;
-  double map_timeout = 3.0;  // s, wall time
+  std::string check_footprint;  // "[[x, y], ...]", m; "": check_radius alone
+  double map_timeout = 3.0;     // s, wall time
   bool use_speed_limit = false;
   std::string base_frame = "base_link";
   double tf_timeout = 0.5;       // s
@@ -35,6 +36,12 @@ void visitMapOptions(NavigatePathOptions& o, Visitor&& visit) {
   visit("check_radius", o.limits.radius,
         base::OptionInfo{"How far from the path cells count too; not above the planner's radius",
                          "m", 0.0, 100.0});
+  visit(
+      "check_footprint", o.check_footprint,
+      base::OptionInfo{
+          "Corners of a vehicle that is not round, as path_planner's footprint: it stops before it "
+          "would meet occupied cells, looking along the path; empty: check_radius alone",
+          "m"});
   visit("occupied_min", o.limits.thresholds.occupied_min,
         base::OptionInfo{"Cells with at least this occupancy are occupied; lower: more obstacles",
                          "%", 1, 100});

@@ -207,8 +207,12 @@ bool PathPlannerNode::keepsOldPath(const GoalState& goal, const Plan& plan,
                                    const StopSource& stop) {
   if (goal.path.empty() || !plan.found() || goal.path_settings != settings.revision) return false;
   try {
-    const auto costs = server_->vehicleLane().fullResolutionCosts(settings.options, stop.token());
-    return keepsPath(goal.path, plan.path, *costs, settings.options.replan_hysteresis);
+    PlanningLane& lane = server_->vehicleLane();
+    const auto costs = lane.fullResolutionCosts(settings.options, stop.token());
+    return keepsPath(goal.path, plan.path, *costs, settings.options.replan_hysteresis) &&
+           lane.footprintContact(goal.path, plan.path.poses.front().position.head<2>(),
+                                 settings.options, stop.token())
+               .empty();
   } catch (const Stopped&) {
     return true;  // a new goal has come
   }
@@ -285,9 +289,13 @@ bool PathPlannerNode::goalPathBlocked(const PathPlannerNodeOptions& options,
   if (!goal || goal->path.empty()) return false;
   PlanningLane& lane = server_->vehicleLane();
   const auto costs = lane.fullResolutionCosts(options, stop.token());
-  if (!pathBlocked(goal->path, server_->vehicle(lane.frame(options), options), *costs))
-    return false;
-  ROS_INFO("What remains of the path is blocked: planning again");
+  const std::optional<Eigen::Vector2d> vehicle = server_->vehicle(lane.frame(options), options);
+  const bool blocked = pathBlocked(goal->path, vehicle, *costs);
+  const std::string contact =
+      blocked ? "" : lane.footprintContact(goal->path, vehicle, options, stop.token());
+  if (!blocked && contact.empty()) return false;
+  ROS_INFO_STREAM("What remains of the path is blocked: planning again"
+                  << (contact.empty() ? "" : "; " + contact));
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include "base/current_error.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/metrics.h"
+#include "grid_path_planner/planning/replan_policy.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "planning/map_store.h"
 #include "ros/common/clock.h"
@@ -37,6 +38,7 @@ using planning::PathPlanner;
 using planning::Plan;
 using planning::PlannerOptions;
 using planning::planThrough;
+using planning::remainingPath;
 using planning::ViaOrder;
 using planning::ViaPlan;
 using planning::ViaRequest;
@@ -275,6 +277,23 @@ std::shared_ptr<const CostGrid> PlanningLane::fullResolutionCosts(
   takeMap();
   setOptions(options.planner);
   return planner_->hasMap() ? planner_->fullResolutionCosts(stop) : nullptr;
+}
+
+// The segment that the vehicle is on counts from where it begins, with the heading there.
+std::string PlanningLane::footprintContact(const Path& path,
+                                           const std::optional<Eigen::Vector2d>& position,
+                                           const PathPlannerNodeOptions& options,
+                                           const StopToken& stop) {
+  takeMap();
+  setOptions(options.planner);
+  if (!planner_->hasMap() || path.empty()) return "";
+  Path ahead = path;
+  if (position) {
+    const std::size_t corners = remainingPath(path, *position).size() - 2;
+    ahead.poses.assign(path.poses.end() - static_cast<std::ptrdiff_t>(corners) - 1,
+                       path.poses.end());
+  }
+  return planner_->footprintContact(ahead, std::nullopt, stop);
 }
 
 Eigen::Vector2d PlanningLane::goalOf(const PlanningRequest& request,

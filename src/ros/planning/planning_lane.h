@@ -87,6 +87,12 @@ class PlanningLane {
   std::shared_ptr<const costmap::CostGrid> fullResolutionCosts(
       const PathPlannerNodeOptions& options, const base::StopToken& stop);
 
+  // Where the footprint meets an obstacle on what remains of a path for a vehicle at `position`, as
+  // PathPlanner::footprintContact() says it. Throws Stopped.
+  std::string footprintContact(const path::Path& path,
+                               const std::optional<Eigen::Vector2d>& position,
+                               const PathPlannerNodeOptions& options, const base::StopToken& stop);
+
   // Where the request wants to go, in the map's frame, metres. Throws InputError, TransformError and
   // Stopped.
   Eigen::Vector2d goalOf(const PlanningRequest& request, const PathPlannerNodeOptions& options,

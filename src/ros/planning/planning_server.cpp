@@ -9,6 +9,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/path/waypoint_file.h"
+#include "path/footprint/footprint.h"
 #include "planning/map_store.h"
 #include "ros/common/file_kinds.h"
 
@@ -20,6 +21,7 @@ using base::Status;
 using base::Stopped;
 using base::StopSource;
 using base::StopToken;
+using path::Footprint;
 using path::measuresText;
 using path::Path;
 using path::writeWaypointFile;
@@ -198,8 +200,12 @@ void PlanningServer::publish(const PlanningLane& lane, const Plan& plan,
     ROS_WARN_STREAM(toString(plan.status) << ": " << plan.message);
   const PathPlannerNodeOptions options = settings().options;
   const bool placed = vehicle(lane.frame(options), options).has_value();
-  publisher_.publishSearch({plan, statistics, lane.cellSize(plan),
-                            placed ? options.planner.costmap.radius : 0.0, options.base_frame});
+  ShownPlan shown{plan, statistics, lane.cellSize(plan), 0.0, options.base_frame};
+  if (placed) {
+    shown.radius = options.planner.costmap.radius;
+    shown.footprint = Footprint::fromText("footprint", options.planner.footprint).corners();
+  }
+  publisher_.publishSearch(shown);
   if (plan.found()) writeWaypoints(plan.waypoints);
   std::lock_guard<std::mutex> lock(mutex_);
   outcome_ = Outcome{plan.status, plan.message};

@@ -14,7 +14,7 @@ using visualization_msgs::MarkerArray;
 namespace {
 
 constexpr std::size_t kMostMarkers = 50000;
-constexpr double kDiscHeight = 0.02;                                  // m
+constexpr double kDiscHeight = 0.02, kOutline = 0.03;                 // m
 constexpr double kSmallestEnd = 0.25, kArrow = 0.8, kTextSize = 0.4;  // m
 
 struct Colour {
@@ -53,6 +53,14 @@ void show(Marker& marker, int type, double x, double y, double z) {
   marker.scale.x = x;
   marker.scale.y = y;
   marker.scale.z = z;
+}
+
+void showOutline(Marker& marker, const std::vector<Eigen::Vector2d>& corners) {
+  show(marker, Marker::LINE_STRIP, kOutline, 0.0, 0.0);
+  for (std::size_t i = 0; i <= corners.size(); ++i) {
+    const Eigen::Vector2d& corner = corners[i % corners.size()];
+    marker.points.push_back(pointOf(corner.x(), corner.y(), kDiscHeight));
+  }
 }
 
 Marker expandedMarker(const ShownPlan& shown) {
@@ -95,8 +103,11 @@ Marker goalMarker(const ShownPlan& shown) {
 // Without a stamp: rviz moves it with the newest transform.
 Marker vehicleMarker(const ShownPlan& shown) {
   Marker marker = nothing(shown, "vehicle", kVehicle);
-  if (shown.radius <= 0.0) return marker;
-  show(marker, Marker::CYLINDER, 2.0 * shown.radius, 2.0 * shown.radius, kDiscHeight);
+  if (shown.radius <= 0.0 && shown.footprint.empty()) return marker;
+  if (shown.footprint.empty())
+    show(marker, Marker::CYLINDER, 2.0 * shown.radius, 2.0 * shown.radius, kDiscHeight);
+  else
+    showOutline(marker, shown.footprint);
   marker.header.frame_id = shown.base_frame;
   marker.header.stamp = ros::Time();
   marker.frame_locked = true;

@@ -1,0 +1,59 @@
+#include "following/footprint_clearance.h"
+
+#include "path/footprint/sweep.h"
+
+namespace grid_path_planner::following {
+
+using base::StopToken;
+using grid::Occupancy;
+using grid::OccupancyGrid;
+using path::Footprint;
+using path::FootprintObstacles;
+using path::FootprintSweep;
+using path::HeadingMode;
+using path::Motion;
+using path::motionsAlong;
+using path::Path;
+
+namespace {
+
+FootprintObstacles obstaclesOf(const OccupancyGrid& map, const ClearanceLimits& limits) {
+  FootprintObstacles obstacles;
+  obstacles.outside = limits.stop_at_unknown;
+  obstacles.first = [&map, limits](const grid::RowSpan& span) {
+    const auto* row = map.row(span.row);
+    int column = span.first;
+    while (
+        column < span.end && row[column] < limits.thresholds.occupied_min &&
+        !(limits.stop_at_unknown && limits.thresholds.classify(row[column]) == Occupancy::UNKNOWN))
+      ++column;
+    return column;
+  };
+  return obstacles;
+}
+
+Obstruction obstructionAt(const OccupancyGrid& map, const ClearanceLimits& limits,
+                          grid::Cell cell) {
+  const Eigen::Vector2d at = map.geometry().centre(cell);
+  if (!map.contains(cell)) return {Obstruction::Kind::OUTSIDE, at};
+  const bool occupied = map[cell] >= limits.thresholds.occupied_min;
+  return {occupied ? Obstruction::Kind::OCCUPIED : Obstruction::Kind::UNKNOWN, at};
+}
+
+}  // namespace
+
+std::optional<Obstruction> firstFootprintContact(const OccupancyGrid& map,
+                                                 const ClearanceLimits& limits,
+                                                 const Footprint& footprint,
+                                                 const std::vector<Eigen::Vector3d>& ahead) {
+  if (ahead.size() < 3) return std::nullopt;
+  Path path;
+  for (std::size_t i = 1; i < ahead.size(); ++i) path.poses.push_back({ahead[i], 0.0});
+  const FootprintSweep sweep(footprint, map.geometry(), obstaclesOf(map, limits));
+  for (const Motion& motion : motionsAlong(path, std::nullopt, std::nullopt, HeadingMode::NONE))
+    if (const auto contact = sweep.first(motion, StopToken()))
+      return obstructionAt(map, limits, contact->cell);
+  return std::nullopt;
+}
+
+}  // namespace grid_path_planner::following

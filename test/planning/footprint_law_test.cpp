@@ -1,0 +1,133 @@
+// The promise of `footprint`: on no path that is found does it meet an occupied cell, whatever the planner, the kernel, the
+// smoothing, the heading and the shape; nor on the line through its waypoints.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "grid_path_planner/planners/planner_factory.h"
+#include "grid_path_planner/planning/path_planner.h"
+#include "support/error_text.h"
+#include "support/footprint_reference.h"
+
+namespace grid_path_planner::planning {
+
+using base::Status;
+using grid::Cell;
+using grid::GridGeometry;
+using grid::OccupancyGrid;
+using path::HeadingMode;
+using path::Path;
+using path::Pose;
+using planners::plannerNames;
+using planners::traitsOf;
+using test::largestOverlap;
+
+namespace {
+
+using Corners = std::vector<Eigen::Vector2d>;
+
+// Rooms of 2 m with doors of 0.4 to 0.9 m, and some clutter.
+OccupancyGrid randomRooms(std::mt19937& random) {
+  constexpr int kSide = 60, kRoom = 20;
+  OccupancyGrid map(GridGeometry(kSide, kSide, 0.1, {-1.3, 0.7, random() % 2 == 0 ? 0.0 : 0.6}));
+  for (int wall = kRoom; wall < kSide; wall += kRoom) {
+    for (int i = 0; i < kSide; ++i) map[Cell{wall, i}] = map[Cell{i, wall}] = 100;
+    for (int room = 0; room < kSide; room += kRoom) {
+      const int width = 4 + random() % 6;
+      const int first = room + 2 + random() % (kRoom - width - 3);
+      for (int i = first; i < first + width; ++i) {
+        map[Cell{wall, i}] = 0;
+        if (random() % 5 != 0) map[Cell{i, wall}] = 0;
+      }
+    }
+  }
+  for (unsigned clutter = random() % 30; clutter > 0; --clutter)
+    map[Cell{static_cast<int>(random() % kSide), static_cast<int>(random() % kSide)}] = 100;
+  return map;
+}
+
+// About the origin, which need not be the middle; half of them rectangles.
+Corners randomVehicle(std::mt19937& random) {
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  const double front = 0.1 + 0.5 * part(random), rear = 0.1 + 0.3 * part(random);
+  const double left = 0.1 + 0.1 * part(random), right = 0.1 + 0.1 * part(random);
+  Corners corners = {{front, left}, {-rear, left}, {-rear, -right}, {front, -right}};
+  if (random() % 2 == 0) corners.insert(corners.begin() + 1, {0.02, left * 0.6});  // a notch
+  return corners;
+}
+
+std::string textOfCorners(const Corners& corners) {
+  std::ostringstream text;
+  text.precision(17);
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    text << (i == 0 ? "[[" : ", [") << corners[i].x() << ", " << corners[i].y() << "]";
+  return text.str() + "]";
+}
+
+PlannerOptions randomFootprintOptions(std::mt19937& random) {
+  constexpr HeadingMode kModes[] = {HeadingMode::FORWARD,  HeadingMode::FORWARD,
+                                    HeadingMode::BACKWARD, HeadingMode::INTERPOLATE,
+                                    HeadingMode::LEFTWARD, HeadingMode::FORWARD_THEN_INTERPOLATE};
+  PlannerOptions options;
+  options.planner = plannerNames()[random() % plannerNames().size()];
+  options.costmap.kernel = random() % 3 == 0 ? 1 + random() % 4 : 1;
+  options.costmap.decay = traitsOf(options.planner).weights && random() % 2 == 0 ? 5.0 : 0.0;
+  options.smooth = random() % 3 != 0;
+  options.heading = kModes[random() % 6];
+  options.tolerance = random() % 3 == 0 ? 0.5 : 0.0;
+  options.waypoint_tolerance = random() % 2 == 0 ? 0.1 : 0.0;
+  return options;
+}
+
+Pose randomFootprintPose(std::mt19937& random, const OccupancyGrid& map) {
+  std::uniform_real_distribution<double> place(3.0, map.width() - 3.0), yaw(-M_PI, M_PI);
+  Pose pose;
+  const double column = place(random);
+  pose.position << map.geometry().worldFromGrid({column, place(random)}), 0.0;
+  pose.yaw = yaw(random);
+  return pose;
+}
+
+TEST(FootprintLaw, noPathMeetsAnObstacle) {
+  constexpr double kTouch = 1e-5;  // cells
+  const unsigned seed = 1713;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  int found = 0, at_first = 0, none = 0;
+  for (int i = 0; i < 120; ++i) {
+    const auto map = std::make_shared<const OccupancyGrid>(randomRooms(random));
+    const Corners vehicle = randomVehicle(random);
+    PlannerOptions options = randomFootprintOptions(random);
+    options.footprint = textOfCorners(vehicle);
+    PathPlanner planner(options);
+    planner.setMap(map);
+    for (int question = 0; question < 3; ++question) {
+      const PoseRequest request{randomFootprintPose(random, *map),
+                                randomFootprintPose(random, *map)};
+      const Plan plan = planner.plan(request);
+      ASSERT_NE(Status::INVALID_REQUEST, plan.status) << plan.message;
+      none += plan.status == Status::UNREACHABLE && test::contains(plan.message, "footprint");
+      if (!plan.found()) continue;
+      ++found;
+      at_first += test::contains(plan.message, "the footprint fits;") ||
+                  plan.message.substr(plan.message.size() - 4) == "fits";
+      for (const Path* path : {&plan.path, &plan.waypoints})
+        ASSERT_LT(largestOverlap(vehicle, *path, request.start.yaw, options.heading, 0.04, *map),
+                  kTouch)
+            << "case " << i << " " << options.planner << " " << options.footprint << " "
+            << base::choiceName(options.heading) << (path == &plan.path ? "" : " waypoints") << ": "
+            << plan.message;
+    }
+  }
+  EXPECT_GT(found, 60);
+  EXPECT_GT(at_first, 20);
+  EXPECT_GT(found - at_first, 10) << "found by later tries";
+  EXPECT_GT(none, 10);
+  RecordProperty("found", found);
+  std::printf("found %d, at the first try %d, none that fits %d\n", found, at_first, none);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::planning
