@@ -2,7 +2,7 @@
 // (L. E. Dubins, "On curves of minimal length with a constraint on average curvature", 1957; the formulas as in A. M. Shkel
 // and V. Lumelsky, "Classification of the Dubins set", 2001).
 //
-//   const DubinsCurve curve = dubinsCurve({x, y, direction}, {x, y, direction}, radius);
+//   const DubinsCurve curve = dubinsCurve({from, direction}, {to, direction}, radius);
 //   for (const Eigen::Vector2d& point : curve.points(0.05)) add(point);
 #pragma once
 

@@ -1,7 +1,7 @@
 // Whether a vehicle's footprint keeps off obstacles along a path, at its ends and between (path/footprint/sweep.h).
 //
 //   FootprintCheck check(footprint, costs, options);
-//   check.allowFor(start, goal);
+//   check.allowFor({start, goal});
 //   const auto contacts = check.contacts(path, start.yaw, goal.yaw, stop);  // none: it fits
 //
 // Obstacles are occupied cells; unknown ones where a round vehicle would keep its radius from them by itself

@@ -3,7 +3,7 @@
 //
 //   TryCosts raised(costs, start, goal);
 //   raised.raise(*inflated_by_the_circumscribed_radius, 32);
-//   while (fails && raised.close(path, contacts, radius)) plan on raised.costs();
+//   while (fails && raised.close(path, contacts, radius)) plan(*raised.costs());
 #pragma once
 
 #include <memory>

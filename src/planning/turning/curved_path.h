@@ -1,6 +1,6 @@
 // A path for a vehicle that cannot turn on the spot: its corners become curves of a least radius.
 //
-//   const CurvedPath curved = curvedPath(path, start_yaw, options, legal, stop);
+//   const CurvedPath curved = curvedPath(path, start_yaw, goal_yaw, {radius}, legal, stop);
 //   if (curved.sharp == 0) drive(curved.path);
 //
 // Directed points are chosen on the path, half a radius apart, and joined by Dubins' curves (path/dubins.h) over up to
