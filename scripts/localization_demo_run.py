@@ -63,12 +63,18 @@ class Localization:
         return [("estimate", "%.3f m off on average, %.3f at most, of %d" % (
                     sum(metres) / len(metres), max(metres), len(metres))),
                 ("marker fixes", "%d" % self.marker_fixes),
-                ("says", self.status)]
+                ("says", "%.3f m" % standard_deviation(self.estimate))]
 
 
 def distance(estimate, truth):
     a, b = estimate.pose.pose.position, truth.pose.pose.position
     return math.dist((a.x, a.y, a.z), (b.x, b.y, b.z))
+
+
+def standard_deviation(estimate):
+    """Of the position, along x, y and z together."""
+    c = estimate.pose.covariance
+    return math.sqrt(c[0] + c[7] + c[14])
 
 
 def ellipse(estimate, truth):
