@@ -3,7 +3,7 @@
 //   const Innovation innovation(estimate, residual, jacobian, noise);
 //   if (innovation.nis() < gate) innovation.apply(estimate);
 //
-// Guaranteed: the covariance stays symmetric. A heading that no measurement tells stays unknown.
+// Guaranteed: the covariance stays symmetric.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 namespace grid_path_planner::localization {
 
 // Moves the estimate by `error`. The covariance is carried over to the corrected state with the turn in the
-// world kept: an unknown heading is one turn of attitude and velocity together, by the velocity of now. As if it were a turn of the values before, a DVL would seem to measure the heading by
-// each correction of the velocity.
+// world kept: an unknown heading is one turn of attitude and velocity together, by the velocity of now. As if it
+// were a turn of the values before, a DVL would seem to measure the heading by each correction of the velocity.
 void correct(Estimate& estimate, const ErrorVector& error);
 
 // Of a measurement of one to six numbers. Whatever their number, the same code: sums of columns of 15.

@@ -164,18 +164,6 @@ const XmlRpcValue* findParameter(const XmlRpcValue& tree, const std::string& nam
   return value;
 }
 
-bool putParameter(XmlRpcValue& tree, const std::string& name, const XmlRpcValue& value) {
-  const XmlRpcValue* present = findParameter(tree, name);
-  if (present && *present == value) return false;
-  if (tree.valid() && tree.getType() != XmlRpcValue::TypeStruct) tree = XmlRpcValue();
-  const std::size_t slash = name.find('/');
-  if (slash == std::string::npos)
-    tree[name] = value;
-  else
-    putParameter(tree[name.substr(0, slash)], name.substr(slash + 1), value);
-  return true;
-}
-
 std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
                                            const std::vector<std::string>& known) {
   std::vector<std::string> set_names;

@@ -64,10 +64,6 @@ XmlRpc::XmlRpcValue parameterTree(const ros::NodeHandle& private_nh);
 // The value of `name`, group/name in the dictionary of the group; nullptr where it is not set.
 const XmlRpc::XmlRpcValue* findParameter(const XmlRpc::XmlRpcValue& tree, const std::string& name);
 
-// Sets `name`. Whether that is a change.
-bool putParameter(XmlRpc::XmlRpcValue& tree, const std::string& name,
-                  const XmlRpc::XmlRpcValue& value);
-
 // Names under the namespace of `private_nh` that are not in `known`; of a nested name the first
 // part, unless a known name begins with it. The name that dynamic_reconfigure uses for a known name
 // is known.
@@ -121,15 +117,15 @@ XmlRpc::XmlRpcValue parameterValue(const Value& value) {
     return XmlRpc::XmlRpcValue(value);
 }
 
-// Sets every parameter to what `options` holds, by one request. Others stay.
+// Sets every parameter that is not what `options` holds, and no other.
 template <class Options>
 void storeParameters(const ros::NodeHandle& private_nh, Options options) {
-  XmlRpc::XmlRpcValue tree = parameterTree(private_nh);
-  bool changed = false;
+  const XmlRpc::XmlRpcValue tree = parameterTree(private_nh);
   visitOptions(options, [&](const char* name, auto& value, const base::OptionInfo&) {
-    changed = putParameter(tree, name, parameterValue(value)) || changed;
+    const XmlRpc::XmlRpcValue wanted = parameterValue(value);
+    const XmlRpc::XmlRpcValue* present = findParameter(tree, name);
+    if (!present || *present != wanted) private_nh.setParam(name, wanted);
   });
-  if (changed) ros::param::set(private_nh.getNamespace(), tree);
 }
 
 // Every option by name in the message that dynamic_reconfigure sends, enums as strings.

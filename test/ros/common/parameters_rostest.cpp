@@ -117,7 +117,7 @@ TEST(Parameters, NestedNamesAreNamesWithAnUnderscoreForDynamicReconfigure) {
   EXPECT_EQ(nh.param("sensor_model/miss", 0.0), 0.2);
 }
 
-// All are set by one request, which would replace what it does not name.
+// A request for the whole dictionary would replace what it does not name.
 TEST(Parameters, StoringKeepsWhatOthersHaveSet) {
   ros::NodeHandle nh("/stored");
   nh.setParam("plugin/rate", 5);
