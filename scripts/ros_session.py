@@ -36,9 +36,15 @@ def run_session(name, run, arguments):
 
 
 def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    """Below those that the system gives to sockets that name none: one of them could be somebody's a moment later."""
+    for port in range(20000 + os.getpid() % 10000, 32768):
+        with socket.socket() as probe:
+            try:
+                probe.bind(("127.0.0.1", port))
+            except OSError:
+                continue
+            return port
+    raise SessionFailed("no port from 20000 to 32767 is free for a ROS master")
 
 
 def own_master_arguments():

@@ -10,11 +10,13 @@ nodes print in any order, and a page may show more lines of it later, in a block
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
 import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, os.pardir, "scripts"))
+from ros_session import free_port  # noqa: E402
 
 SECONDS = 150.0  # for a command, or for a line of one that goes on
 
@@ -59,9 +61,7 @@ class Session:
     """The folder, the master and what goes on in the background."""
 
     def __init__(self, folder):
-        with socket.socket() as probe:
-            probe.bind(("127.0.0.1", 0))
-            self.port = probe.getsockname()[1]
+        self.port = free_port()
         self.folder = folder
         self.environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % self.port, PWD=folder,
                                 ROS_HOSTNAME="localhost", ROS_HOME=os.path.join(folder, ".ros"),

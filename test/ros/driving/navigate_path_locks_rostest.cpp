@@ -39,7 +39,7 @@ class ControlThread : public test::StillTest {
   // What the slow side of the node is there for, all of it.
   void keepBusy(const std::string& waypoints) {
     actionlib::SimpleActionClient<NavigatePathAction> client("navigate_path", true);
-    ASSERT_TRUE(client.waitForServer(ros::Duration(60.0)));
+    ASSERT_TRUE(test::waitFor([&] { return client.isServerConnected(); }));
     for (int round = 0; round < 5; ++round) {
       publishMap();
       NavigatePathGoal goal;

@@ -127,6 +127,7 @@ TEST_F(Publishing, EveryNewSubscriberGetsAFreshWholeMap) {
   const Maps maps(nh_, "projected_map");
   const Updates updates(nh_, "projected_map_updates");
   ASSERT_TRUE(maps.waitForMoreThan(0));
+  ASSERT_TRUE(test::waitFor([&] { return updates.connected(); }));
   publish(wallAt(2.0F));
   ASSERT_TRUE(updates.waitForMoreThan(0));
   const std::size_t before = maps.count();

@@ -64,6 +64,7 @@ class RunningNode:
         self.name, self.row, self.kind, self.clock = name, row, kind, clock
         self.space = "/%s_as_%s" % (name, kind)
         self.messages, self.publishers, self.processes = {}, {}, []
+        self.ended = False
         self.log = open(os.path.join(log_folder, self.space[1:] + ".log"), "w")
         self.lock = threading.Lock()
         self.start()
@@ -154,7 +155,7 @@ class RunningNode:
         return message
 
     def feed_transforms(self):
-        while not rospy.is_shutdown() and self.lives():
+        while not rospy.is_shutdown() and not self.ended:  # nor while it is restarted
             try:
                 self.send("tf", self.transforms(self.clock.now()))
             except rospy.ROSException:
@@ -182,7 +183,7 @@ class RunningNode:
     def restart(self):
         """As after kill -9; what it said before is forgotten, and so are the connections to what was killed, which
         rospy would count until it next sends: a goal that is sent once would go to one of them."""
-        self.end(signal.SIGKILL)
+        self.end_processes(signal.SIGKILL)
         self.processes = []
         for publisher in self.publishers.values():
             for connection in list(publisher.impl.connections):
@@ -193,6 +194,11 @@ class RunningNode:
         self.start()
 
     def end(self, number):
+        """Ends it for good. As end_processes()."""
+        self.ended = True
+        return self.end_processes(number)
+
+    def end_processes(self, number):
         """Sends the signal and returns the seconds until all of its processes had ended, None if they did not."""
         begin = time.monotonic()
         for process in reversed(self.processes):

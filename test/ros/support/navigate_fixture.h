@@ -85,6 +85,8 @@ class StillWorld {
 
 class NavigateTest : public testing::Test {
  protected:
+  static constexpr int kControlRate = 200;  // Hz
+
   NavigateTest() {
     ros::param::del("/simulator");  // what the test before has set
     ros::param::del("/navigate_path");
@@ -98,8 +100,8 @@ class NavigateTest : public testing::Test {
 
   // Without a map, where the arguments do not say otherwise.
   static std::vector<std::string> fast(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(),
-                     {"_control_rate:=200", "_tf_timeout:=3.0", "_check_map:=false"});
+    arguments.insert(arguments.begin(), {"_control_rate:=" + std::to_string(kControlRate),
+                                         "_tf_timeout:=3.0", "_check_map:=false"});
     return arguments;
   }
 
