@@ -27,15 +27,16 @@ struct FilterOptions {
   double accelerometer_walk = 0.006;   // m/s^3/sqrt(Hz)
   double accelerometer_bias = 0.196;   // m/s^2
   double gravity = 9.80665;            // m/s^2
-  double imu_timeout = 0.1;            // s
-  double coast_acceleration = 0.3;     // m/s/sqrt(s)
-  double coast_turn = 0.2;             // rad/sqrt(s)
-  double start_velocity = 0.5;         // m/s
-  double start_tilt = 0.02;            // rad
-  double start_yaw = 0.02;             // rad
-  double dvl_timeout = 1.0;            // s
-  double command_deviation = 0.2;      // m/s
-  double command_period = 1.0;         // s
+  bool imu_averages = true;
+  double imu_timeout = 0.1;         // s
+  double coast_acceleration = 0.3;  // m/s/sqrt(s)
+  double coast_turn = 0.2;          // rad/sqrt(s)
+  double start_velocity = 0.5;      // m/s
+  double start_tilt = 0.02;         // rad
+  double start_yaw = 0.02;          // rad
+  double dvl_timeout = 1.0;         // s
+  double command_deviation = 0.2;   // m/s
+  double command_period = 1.0;      // s
   Gate gate = Gate::CHI_SQUARED;
   double gate_probability = 0.999;
   double gate_distance = 1.0;  // m
@@ -65,6 +66,11 @@ void visitMotionOptions(FilterOptions& o, Visitor& visit) {
                    10.0});
   visit("gravity", o.gravity,
         OptionInfo{"What the accelerometer measures at rest", "m/s^2", 9.0, 10.5});
+  visit("imu_averages", o.imu_averages,
+        OptionInfo{"A measurement of the IMU is the mean since the one before, as of a unit that "
+                   "integrates inside; false: the value at its stamp. The wrong one of the two "
+                   "errs by half a period of the turn",
+                   ""});
   visit(
       "imu_timeout", o.imu_timeout,
       OptionInfo{"A measurement of the IMU holds for so long; then the vehicle is assumed to keep "

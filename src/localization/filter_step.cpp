@@ -45,6 +45,10 @@ bool FilterStep::isBridged(const TimedImu& from, const TimedImu* next_imu) const
          secondsBetween(from.stamp, next_imu->stamp) <= options_.imu_timeout;
 }
 
+Inertial FilterStep::inertialAt(double stamp, const TimedImu& from, const TimedImu& to) const {
+  return options_.imu_averages ? to.measurement.inertial : between(from, to, stamp);
+}
+
 void FilterStep::advance(FilterSnapshot& snapshot, Stamp stamp, const TimedImu* next_imu) const {
   const Stamp from = snapshot.stamp;
   snapshot.stamp = stamp;
@@ -58,9 +62,10 @@ void FilterStep::advance(FilterSnapshot& snapshot, Stamp stamp, const TimedImu* 
     const ImuNoise noise{options_.gyro_noise, options_.gyro_walk, options_.accelerometer_noise,
                          options_.accelerometer_walk, options_.gravity};
     if (coasts_from > from)
-      propagate(snapshot.estimate,
-                bridged ? between(imu, *next_imu, middle(from, stamp)) : imu.measurement.inertial,
-                secondsBetween(from, coasts_from), noise);
+      propagate(
+          snapshot.estimate,
+          bridged ? inertialAt(middle(from, stamp), imu, *next_imu) : imu.measurement.inertial,
+          secondsBetween(from, coasts_from), noise);
   }
   if (stamp > coasts_from)
     coast(snapshot.estimate, secondsBetween(coasts_from, stamp),
@@ -79,7 +84,7 @@ BodyRate FilterStep::rateAt(const FilterSnapshot& snapshot, const TimedImu* next
   const double period = bridged ? secondsBetween(imu.stamp, next_imu->stamp) : 0.01;
   const double variance = square(options_.gyro_noise) / std::max(period, 1e-4);
   if (!bridged) return {imu.measurement.inertial.rate, variance};
-  return {between(imu, *next_imu, static_cast<double>(snapshot.stamp)).rate, variance};
+  return {inertialAt(static_cast<double>(snapshot.stamp), imu, *next_imu).rate, variance};
 }
 
 Outcome FilterStep::apply(FilterSnapshot& snapshot, const Measurement& measurement,

@@ -77,6 +77,8 @@ class FilterStep {
   };
 
   bool isBridged(const TimedImu& from, const TimedImu* next_imu) const;
+  // The motion at `stamp`, which lies between the two.
+  Inertial inertialAt(double stamp, const TimedImu& from, const TimedImu& to) const;
   Outcome take(Context& context, const ImuMeasurement& imu) const;
   Outcome take(Context& context, const DvlVelocity& dvl) const;
   Outcome take(Context& context, const CommandedVelocity& command) const;

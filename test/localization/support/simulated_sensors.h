@@ -44,6 +44,14 @@ class SimulatedSensors {
   double marker_flips = 0.0;   // share
   std::function<bool(Source, double)> cut = [](Source, double) { return false; };
 
+  // The IMU then measures the motion itself.
+  void takeErrorsFromImu() {
+    options.gyro_noise = options.gyro_walk = 0.0;
+    options.accelerometer_noise = options.accelerometer_walk = 0.0;
+    gyro_bias_.setZero();
+    accelerometer_bias_.setZero();
+  }
+
   // In the order of their stamps. Precondition: called once.
   std::vector<Measurement> run(double seconds) {
     std::vector<Measurement> all;
@@ -128,7 +136,9 @@ class SimulatedSensors {
     gyro_bias_ += normal(options.gyro_walk / root);
     accelerometer_bias_ += normal(options.accelerometer_walk / root);
     ImuMeasurement imu;
-    imu.inertial = trajectory.inertialAt(t, options.gravity);
+    imu.inertial = options.imu_averages
+                       ? trajectory.meanInertial(t - 1.0 / rates.imu, t, options.gravity)
+                       : trajectory.inertialAt(t, options.gravity);
     imu.inertial.rate += gyro_bias_ + normal(options.gyro_noise * root);
     imu.inertial.acceleration += accelerometer_bias_ + normal(options.accelerometer_noise * root);
     const Eigen::Vector3d error(draw(options.start_tilt), draw(options.start_tilt),

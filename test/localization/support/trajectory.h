@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "localization/imu_propagation.h"
+#include "localization/so3.h"
 #include "localization/state.h"
 
 namespace grid_path_planner::localization {
@@ -53,6 +54,16 @@ struct Trajectory {
     inertial.acceleration =
         stateAt(t).attitude.conjugate() * (acceleration + Eigen::Vector3d(0.0, 0.0, gravity));
     return inertial;
+  }
+
+  // What an IMU without errors measures that integrates turn and velocity inside.
+  Inertial meanInertial(double from, double to, double gravity) const {
+    const State before = stateAt(from), after = stateAt(to);
+    const double seconds = to - from;
+    const Eigen::Vector3d turn = logSO3<double>(before.attitude.conjugate() * after.attitude);
+    const Eigen::Vector3d force =
+        (after.velocity - before.velocity) / seconds + Eigen::Vector3d(0.0, 0.0, gravity);
+    return {turn / seconds, (before.attitude * expSO3<double>(0.5 * turn)).conjugate() * force};
   }
 };
 
