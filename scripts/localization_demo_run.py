@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """A drive on an estimated pose, on a roscore of its own: planned on the shipped map, to a pose before the testing panel.
 
-    rosrun grid_path_planner localization_demo_run.py [--rviz] [--seed N] [--out FOLDER]
+    rosrun grid_path_planner localization_demo_run.py [--rviz] [--seed N] [--out FOLDER] [--record]
 
 Nobody tells the vehicle where it is: vehicle_localizer estimates it by IMU, DVL, pressure and acoustic fixes, and by the
 panel's markers once the camera sees them. Into FOLDER (default: out) go waypoints.yaml and the nodes' output,
-localization_demo.log. The table says how far the estimate was from the truth, and whether the ellipse that the
-estimate gives itself, 95 % of a plane, holds the truth at the end. Exit code 0 only if nothing was touched and the
-vehicle is, in truth, where it was sent.
+localization_demo.log; with --record also navigation_<time>.bag: what vehicle_localizer heard, and the truth. The table
+says how far the estimate was from the truth, and whether the ellipse that the estimate gives itself, 95 % of a plane, holds
+the truth at the end. Exit code 0 only if nothing was touched and the vehicle is, in truth, where it was sent.
 """
 import argparse
 import math
@@ -111,6 +111,8 @@ def run(arguments):
     launch_arguments = ["rviz:=" + str(arguments.rviz).lower(), "seed:=%d" % arguments.seed,
                         "waypoints_file:=" + waypoints, "save_folder:=" + os.path.abspath(arguments.out),
                         "load_folder:=" + os.path.abspath(arguments.out)]
+    if arguments.record:
+        launch_arguments.append("record:=" + os.path.abspath(os.path.join(arguments.out, "navigation")))
     log = os.path.join(arguments.out, "localization_demo.log")
     with Nodes("localization_demo.launch", launch_arguments, log) as nodes:
         print("localization: nodes start on %s" % os.environ["ROS_MASTER_URI"], flush=True)
@@ -142,6 +144,7 @@ def main():
     parser.add_argument("--rviz", action="store_true", help="show it in rviz")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="other errors of all sensors (default: 1)")
     parser.add_argument("--out", default="out", metavar="FOLDER", help="for the results (default: out)")
+    parser.add_argument("--record", action="store_true", help="what vehicle_localizer hears, as a bag")
     run_session("localization", run, parser.parse_args())
 
 

@@ -1,0 +1,64 @@
+"""Estimates of a pose over time and their errors against the truth, for localization_peers. Needs python3-scipy."""
+import numpy
+from scipy.spatial.transform import Rotation, Slerp
+
+
+def angles_of(orientation):
+    """Roll, pitch, yaw in rad."""
+    return tuple(Rotation.from_quat((orientation.x, orientation.y, orientation.z, orientation.w)).as_euler("xyz").tolist())
+
+
+class Track:
+    """Poses by the time that they are stamped with, from nav_msgs/Odometry."""
+
+    def __init__(self):
+        self.poses = {}  # nanoseconds: (position, quaternion x y z w, covariance 6x6 of position and fixed axes)
+
+    def take(self, message):
+        pose = message.pose.pose
+        self.poses[message.header.stamp.to_nsec()] = (
+            (pose.position.x, pose.position.y, pose.position.z),
+            (pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w),
+            message.pose.covariance)
+
+    def begin(self):
+        return min(self.poses) if self.poses else None
+
+    def between(self, begin, end):
+        """(stamps, positions, rotations, covariances)"""
+        stamps = sorted(stamp for stamp in self.poses if begin <= stamp <= end)
+        columns = [numpy.array([self.poses[stamp][column] for stamp in stamps]) for column in range(3)]
+        return numpy.array(stamps), columns[0], Rotation.from_quat(columns[1]), columns[2].reshape(-1, 6, 6)
+
+
+class Truth(Track):
+    def at(self, stamps):
+        """(positions, rotations), interpolated. Precondition: the stamps lie between its first and its last."""
+        own, positions, rotations, _ = self.between(min(self.poses), max(self.poses))
+        columns = [numpy.interp(stamps, own, positions[:, column]) for column in range(3)]
+        return numpy.stack(columns, axis=1), Slerp(own, rotations)(stamps)
+
+
+def errors(track, truth, begin):
+    """(metres, degrees, NEES) of each estimate from `begin` on; the mean of NEES is 6 where the covariance is right. None
+    without an estimate."""
+    begin, end = max(begin, min(truth.poses)), max(truth.poses)
+    if not any(begin <= stamp <= end for stamp in track.poses):
+        return None
+    stamps, positions, rotations, covariances = track.between(begin, end)
+    true_positions, true_rotations = truth.at(stamps)
+    turns = (true_rotations * rotations.inv()).as_rotvec()
+    both = numpy.concatenate((true_positions - positions, turns), axis=1)
+    nees = numpy.einsum("ij,ij->i", both, numpy.linalg.solve(covariances, both[:, :, None])[:, :, 0])
+    return numpy.linalg.norm(both[:, :3], axis=1), numpy.degrees(numpy.linalg.norm(turns, axis=1)), nees
+
+
+def cells(track, truth, begin):
+    """Of localization_peers' table; dashes without an estimate."""
+    found = errors(track, truth, begin)
+    if found is None:
+        return ["–"] * 5
+    metres, degrees, nees = found
+    return ["%d" % len(metres), "%.3f, %.3f" % (numpy.sqrt(numpy.mean(metres ** 2)), metres.max()),
+            "%.2f, %.2f" % (numpy.sqrt(numpy.mean(degrees ** 2)), degrees.max()),
+            "%.1f, %.1f" % (numpy.mean(nees), numpy.median(nees)), "%.3f" % metres[-1]]
