@@ -115,6 +115,7 @@ Outcome FilterStep::fuse(Context& context, Innovation innovation, const Deviatio
     (this->*forget)(snapshot.estimate);
     innovation.project(snapshot.estimate.covariance);
     outcome.verdict = Verdict::RESET;
+    snapshot.begun_anew = NewBegin{context.source, snapshot.stamp};
   }
   innovation.apply(snapshot.estimate);
   rejections.clear();
@@ -249,11 +250,15 @@ Outcome FilterStep::take(Context& context, const PoseFix& fix) const {
            deviation, &FilterStep::forgetPose));
 }
 
-// A fix that was used shows that the filter is not astray, whatever others say.
+// A fix that was used shows that the filter is not astray, whatever others say, and that one of another
+// kind which began the position anew was right.
 Outcome FilterStep::fixed(Context& context, const Outcome& outcome) const {
-  if (outcome.verdict != Verdict::GATED)
-    for (const Source source : {Source::USBL, Source::MARKER})
-      context.snapshot.rejections[static_cast<std::size_t>(source)].clear();
+  if (outcome.verdict == Verdict::GATED) return outcome;
+  std::optional<NewBegin>& begun = context.snapshot.begun_anew;
+  for (const Source source : {Source::USBL, Source::MARKER}) {
+    context.snapshot.rejections[static_cast<std::size_t>(source)].clear();
+    if (begun && begun->source == source && context.source != source) begun.reset();
+  }
   return outcome;
 }
 
@@ -284,6 +289,7 @@ Outcome FilterStep::setPose(FilterSnapshot& snapshot, const PoseFix& fix) const 
   snapshot.estimate = next;
   snapshot.started = true;
   snapshot.rejections = {};
+  snapshot.begun_anew.reset();
   return {Verdict::TAKEN, 0, 0.0};
 }
 

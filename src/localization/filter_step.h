@@ -36,6 +36,12 @@ struct Outcome {
   double nis = 0.0;  // normalised innovation squared
 };
 
+// Rejected measurements that agree began anew what they measure.
+struct NewBegin {
+  Source source;
+  Stamp stamp;
+};
+
 struct FilterSnapshot {
   Stamp stamp = 0;
   bool started = false;
@@ -47,6 +53,8 @@ struct FilterSnapshot {
   std::optional<double> depth_offset;  // m, of a filter that starts at the origin
   std::optional<Stamp> dvl_used, command_used;
   std::array<Rejections, kSources> rejections;
+  // The last one that no fix of another kind has confirmed, and no pose that was set.
+  std::optional<NewBegin> begun_anew;
 };
 
 // Of the body, with its variance by the noise of the gyro.

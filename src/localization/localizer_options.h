@@ -11,6 +11,7 @@ struct LocalizerOptions {
   double max_angle = 12.0;     // deg
   double input_timeout = 3.0;  // s
   double fix_timeout = 60.0;   // s; 0: never
+  double reset_doubt = 60.0;   // s
 };
 
 template <class Visitor>
@@ -33,6 +34,11 @@ void visitOptions(LocalizerOptions& o, Visitor&& visit) {
                  "for so long, whatever the standard deviations say, and DEGRADED after a third of "
                  "it: without fixes nothing shows what they leave out; 0: never",
                  "s", 0.0, 86400.0});
+  visit("reset_doubt", o.reset_doubt,
+        OptionInfo{"DEGRADED for so long after rejected measurements that agree began anew what "
+                   "they measure (reset_after), unless a fix of another kind confirms them: it may "
+                   "have been they that were wrong; 0: not",
+                   "s", 0.0, 86400.0});
 }
 
 }  // namespace grid_path_planner::localization

@@ -127,6 +127,19 @@ double VehicleLocalizer::sinceFix(Stamp now) const {
   return newest ? std::max(0.0, secondsBetween(*newest, now)) : 0.0;
 }
 
+// Why the pose may be off though the standard deviations are small; empty: nothing shows it.
+std::string VehicleLocalizer::problemOf(const FilterSnapshot& snapshot, Stamp now) const {
+  if (const std::string silent = silence(now); !silent.empty()) return silent;
+  if (isContradicted(snapshot)) return "fixes that agree contradict the pose";
+  if (options_.fix_timeout > 0.0 && sinceFix(now) > options_.fix_timeout / 3.0)
+    return "no fix has been used for " + rounded(sinceFix(now)) + " s";
+  if (!snapshot.begun_anew) return {};
+  const double since = secondsBetween(snapshot.begun_anew->stamp, now);
+  if (since >= options_.reset_doubt) return {};
+  return std::string(nameOf(snapshot.begun_anew->source)) + " began the pose anew " +
+         rounded(since) + " s ago, against the others";
+}
+
 LocalizationReport VehicleLocalizer::report(Stamp now) const {
   const auto snapshot = mapAt(now);
   if (!snapshot) return {LocalizationStatus::INITIALIZING, whatIsMissing(map_)};
@@ -136,13 +149,9 @@ LocalizationReport VehicleLocalizer::report(Stamp now) const {
   report.angle_deviation = deviationOf(covariance, kAttitude) * 180.0 / M_PI;
   report.sentence = "the pose is known to " + rounded(report.deviation) + " m, " +
                     rounded(report.angle_deviation) + " deg (standard deviations)";
-  std::string problem = silence(now);
-  if (problem.empty() && isContradicted(*snapshot))
-    problem = "fixes that agree contradict the pose";
   const double without_fix =
       options_.fix_timeout > 0.0 ? sinceFix(now) / options_.fix_timeout : 0.0;
-  if (problem.empty() && without_fix > 1.0 / 3.0)
-    problem = "no fix has been used for " + rounded(sinceFix(now)) + " s";
+  const std::string problem = problemOf(*snapshot, now);
   if (!problem.empty()) report.sentence = problem + "; " + report.sentence;
   const double worst = std::max({report.deviation / options_.max_deviation,
                                  report.angle_deviation / options_.max_angle, without_fix});

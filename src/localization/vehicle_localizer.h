@@ -57,6 +57,7 @@ class VehicleLocalizer {
  private:
   std::string silence(Stamp now) const;
   double sinceFix(Stamp now) const;
+  std::string problemOf(const FilterSnapshot& snapshot, Stamp now) const;
 
   LocalizerOptions options_;
   LaggedFilter map_, odometry_;
