@@ -10,6 +10,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <sched.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -53,8 +54,7 @@ Function next(const char* name) {
 // The table's place of a mutex; between the two lines of the flag.
 template <class Work>
 void withLock(const void* mutex, Work work) {
-  while (busy.test_and_set(std::memory_order_acquire)) {
-  }
+  while (busy.test_and_set(std::memory_order_acquire)) ::sched_yield();
   std::size_t at = reinterpret_cast<std::size_t>(mutex) / 8 % kLocks;
   while (locks[at].mutex != nullptr && locks[at].mutex != mutex) at = (at + 1) % kLocks;
   locks[at].mutex = mutex;
@@ -93,6 +93,28 @@ bool isControl() {
   return std::strcmp(name, "control") == 0;
 }
 
+// What a place in the code that takes a lock belongs to.
+struct Kind {
+  const void* site = nullptr;
+  bool watched = false;
+  bool slow = false;  // publishes or logs
+  bool maps = false;
+};
+
+// To look a place up takes longer than all that is done with the lock: each thread does so once.
+const Kind& kindOf(const void* site) {
+  thread_local std::array<Kind, 1024> known;
+  Kind& kind = known[reinterpret_cast<std::size_t>(site) / 4 % known.size()];
+  if (kind.site == site) return kind;
+  const std::string function = functionOf(site);
+  kind.site = site;
+  kind.watched = isWatched(site);
+  kind.slow = publishesOrLogs(libraryOf(site));
+  kind.maps = function.find("MapReceiver") != std::string::npos ||
+              function.find("MapWatch") != std::string::npos;
+  return kind;
+}
+
 // All that this thread holds.
 void markSlow() {
   if (depth == 0 || isControl()) return;
@@ -104,17 +126,13 @@ void markSlow() {
 void noteLocked(const void* mutex, const void* site) {
   if (inside) return;
   inside = true;
-  const bool watched = isWatched(site);
-  if (publishesOrLogs(libraryOf(site))) markSlow();
-  if (depth < kDeepest) held[depth++] = {mutex, site, watched};
-  if (watched) {
-    const std::string function = functionOf(site);
-    if (isControl())
-      withLock(mutex, [&](Lock& lock) { lock.control_site = site; });
-    else if (function.find("MapReceiver") != std::string::npos ||
-             function.find("MapWatch") != std::string::npos)
-      withLock(mutex, [&](Lock& lock) { lock.slow_site = site; });
-  }
+  const Kind& kind = kindOf(site);
+  if (kind.slow) markSlow();
+  if (depth < kDeepest) held[depth++] = {mutex, site, kind.watched};
+  if (kind.watched && isControl())
+    withLock(mutex, [&](Lock& lock) { lock.control_site = site; });
+  else if (kind.watched && kind.maps)
+    withLock(mutex, [&](Lock& lock) { lock.slow_site = site; });
   inside = false;
 }
 
