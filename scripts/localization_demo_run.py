@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """A drive on an estimated pose, on a roscore of its own: planned on the shipped map, to a pose before the testing panel.
 
-    rosrun grid_path_planner localization_demo_run.py [--rviz] [--seed N] [--out FOLDER] [--record]
+    rosrun grid_path_planner localization_demo_run.py [--rviz] [--seed N] [--survey] [--out FOLDER] [--record]
 
 Nobody tells the vehicle where it is: vehicle_localizer estimates it by IMU, DVL, pressure and acoustic fixes, and by the
-panel's markers once the camera sees them. Into FOLDER (default: out) go waypoints.yaml and the nodes' output,
+panel's markers once the camera sees them. With --survey it maps the site first, on its estimate, and plans on that map, which
+is projected_map.yaml then; how many cells differ from the shipped one is told. Into FOLDER (default: out) go waypoints.yaml and the nodes' output,
 localization_demo.log; with --record also navigation_<time>.bag: what vehicle_localizer heard, and the truth. The table
 says how far the estimate was from the truth, and whether the ellipse that the estimate gives itself, 95 % of a plane, holds
 the truth at the end. Exit code 0 only if nothing was touched and the vehicle is, in truth, where it was sent.
@@ -12,13 +13,16 @@ the truth at the end. Exit code 0 only if nothing was touched and the vehicle is
 import argparse
 import math
 import os
+import re
 import sys
 
-from ros_session import START_SECONDS, Nodes, Planner, SessionFailed, Vehicle, plan_rows, run_session
+import demo_run
+from ros_session import START_SECONDS, Mapping, Nodes, Planner, SessionFailed, Vehicle, plan_rows, run_session, share_file
 
 GOAL = (4.66, -1.92, 2.9, 1.99)  # x, y, z in m, yaw in rad: 1.5 m before the panel, looking at it
 LARGEST_ARRIVAL_ERROR = 0.25     # m, of the true pose
 DRIVE_SECONDS = 600.0            # of the wall clock
+LARGEST_SURVEY_ERROR = 0.5       # m, of the true pose at the end of the survey
 ELLIPSE_95 = 5.991               # chi squared of two coordinates
 KEPT_SECONDS = 5.0               # of truth, for estimates that come late
 
@@ -97,6 +101,38 @@ def arrival_rows(vehicle, localization):
             ("touched", vehicle.contact.data if vehicle.contact else "nothing (%d contacts)" % vehicle.contacts.data)]
 
 
+def cells_of(map_file):
+    """(columns, the bytes of all cells) of a map whose image is a PGM."""
+    import yaml
+    with open(map_file) as file:
+        image = yaml.safe_load(file)["image"]
+    with open(os.path.join(os.path.dirname(map_file), image), "rb") as file:
+        content = file.read()
+    head = re.match(rb"P5\s+(?:#.*\n)*(\d+)\s+(\d+)\s+\d+\s", content)
+    return int(head.group(1)), content[head.end():]
+
+
+def difference(map_file, shipped):
+    columns, cells = cells_of(map_file)
+    shipped_columns, shipped_cells = cells_of(shipped)
+    if (columns, len(cells)) != (shipped_columns, len(shipped_cells)):
+        return "of another size than the shipped map"
+    pairs = [pair for pair in zip(cells, shipped_cells) if pair[0] != pair[1]]
+    opposite = sum(1 for pair in pairs if set(pair) == {0, 254})
+    return "%d of %d cells differ from the shipped map, %d free in one and occupied in the other" % (
+        len(pairs), len(cells), opposite)
+
+
+def survey(nodes, vehicle, localization, out):
+    """Maps the site on the estimate. Returns the rows of the report."""
+    map_file = os.path.join(out, "projected_map.yaml")
+    rows = demo_run.survey(nodes, vehicle, Mapping(nodes), map_file, LARGEST_SURVEY_ERROR)
+    metres = [error[0] for error in localization.errors]
+    localization.errors.clear()
+    return rows + [("its estimate", "%.3f m off on average, %.3f at most" % (sum(metres) / len(metres), max(metres))),
+                   ("map", difference(map_file, share_file("maps", "dexrov_site.yaml")))]
+
+
 def drive(vehicle, localization, waypoints):
     driven = vehicle.driven_m
     seconds = vehicle.drive_file("", waypoints, DRIVE_SECONDS)
@@ -109,6 +145,7 @@ def run(arguments):
     if os.path.exists(waypoints):
         os.remove(waypoints)
     launch_arguments = ["rviz:=" + str(arguments.rviz).lower(), "seed:=%d" % arguments.seed,
+                        "survey:=" + str(arguments.survey).lower(),
                         "waypoints_file:=" + waypoints, "save_folder:=" + os.path.abspath(arguments.out),
                         "load_folder:=" + os.path.abspath(arguments.out)]
     if arguments.record:
@@ -121,8 +158,9 @@ def run(arguments):
         vehicle.wait_until_ready()
         localization.wait_until_known()
         print("localization: the vehicle knows where it is after %.1f s" % vehicle.now(), flush=True)
+        rows = survey(nodes, vehicle, localization, arguments.out) if arguments.survey else []
         statistics, path = Planner(nodes, vehicle).plan(GOAL)
-        rows = plan_rows(statistics, path)
+        rows += plan_rows(statistics, path)
         nodes.wait_until(lambda: os.path.exists(waypoints), 10.0, "waypoint file")
         print("localization: a path is found, the vehicle drives", flush=True)
         rows += drive(vehicle, localization, waypoints) + arrival_rows(vehicle, localization)
@@ -143,6 +181,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--rviz", action="store_true", help="show it in rviz")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="other errors of all sensors (default: 1)")
+    parser.add_argument("--survey", action="store_true", help="map the site first, on the estimate")
     parser.add_argument("--out", default="out", metavar="FOLDER", help="for the results (default: out)")
     parser.add_argument("--record", action="store_true", help="what vehicle_localizer hears, as a bag")
     run_session("localization", run, parser.parse_args())
