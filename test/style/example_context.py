@@ -21,7 +21,7 @@ CONTEXT = {
     "sweep.h": "extern const Footprint footprint; extern const grid::GridGeometry geometry; extern const Motion motion;"
                "extern const FootprintObstacles obstacles; void report(grid::Cell, const Eigen::Vector2d&, double yaw);",
     "fitted_plan.h": "extern const path::Footprint footprint; extern const costmap::CostGrid costs; extern std::size_t memory;"
-                     "extern const std::shared_ptr<const grid::OccupancyGrid> map; extern const PlannerOptions options;"
+                     "extern const FittedPlanner::Inflate inflate; extern const PlannerOptions options;"
                      "extern MultiResolutionPlanner search; extern const PoseRequest request;",
     "footprint_check.h": "extern const path::Footprint footprint; extern const costmap::CostGrid costs;"
                          "extern const PlannerOptions options; extern const path::Pose start, goal; extern const path::Path path;",
