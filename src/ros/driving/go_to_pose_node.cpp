@@ -1,6 +1,7 @@
 #include "ros/driving/go_to_pose_node.h"
 
 #include <ros/console.h>
+#include <std_msgs/Empty.h>
 
 #include <cmath>
 #include <utility>
@@ -72,6 +73,7 @@ GoToPoseNode::GoToPoseNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
   status_publisher_ = nh_.advertise<GoToStatus>("go_to_status", 1, true);
   current_goal_publisher_ =
       nh_.advertise<geometry_msgs::PoseStamped>(options_.action_name + "/current_goal", 1, true);
+  clear_publisher_ = nh_.advertise<std_msgs::Empty>("clear_scan", 1);
   startServer();
   reconfigurable_ = std::make_unique<Reconfigurable<GoToPoseConfig, GoToPoseOptions>>(
       private_nh, options_, [this](const GoToPoseOptions& options) { use(options); });
@@ -289,6 +291,8 @@ void GoToPoseNode::carryOut(const Order& order) {
       return drive(order.path);
     case Order::Kind::STOP:
       return driver_.cancel();
+    case Order::Kind::CLEAR_SCAN:
+      return clearScan();
     case Order::Kind::TELL:
       ROS_INFO_STREAM(order.sentence);
       return;
@@ -316,6 +320,13 @@ void GoToPoseNode::drive(Path path) {
   goal.path = pathToMessage(path, ros::Time::now());
   driver_.send(goal);
   path_publisher_.publish(goal.path);
+}
+
+void GoToPoseNode::clearScan() {
+  if (clear_publisher_.getNumSubscribers() == 0)
+    ROS_WARN_STREAM("Nobody clears a laser's obstacles: no map_layers with use_scan listens to "
+                    << clear_publisher_.getTopic());
+  clear_publisher_.publish(std_msgs::Empty());
 }
 
 void GoToPoseNode::showNoPath() {
