@@ -12,6 +12,7 @@
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/master/system_state.h"
 #include "ros/common/network_text.h"
+#include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
@@ -29,8 +30,7 @@ namespace {
 // Wall time
 constexpr double kTickPeriod = 0.05;  // s
 constexpr std::chrono::milliseconds kTellPeriod(200);
-constexpr double kDiagnosticsEvery = 1.0;  // s
-constexpr double kSendingTime = 0.1;       // s, in which roscpp sends what was published last
+constexpr double kSendingTime = 0.1;  // s, in which roscpp sends what was published last
 
 GoToPoseOptions loadGoToPoseOptions(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh) {
   GoToPoseOptions options;
@@ -101,17 +101,13 @@ void GoToPoseNode::startServer() {
   simple_goal_subscriber_ = subscribeChecked<geometry_msgs::PoseStamped>(
       nh_, "move_base_simple/goal", 1,
       [this](const geometry_msgs::PoseStamped& message) { onSimpleGoal(message); });
-  diagnostics_.setHardwareID("none");
   diagnostics_.add("go to pose", this, &GoToPoseNode::diagnose);
 }
 
 void GoToPoseNode::startTimers() {
   timer_ = nh_.createSteadyTimer(ros::WallDuration(kTickPeriod),
                                  [this](const ros::SteadyTimerEvent&) { tick(); });
-  // force_update: the updater's own clock is ROS time, which may jump back.
-  diagnostics_timer_ =
-      nh_.createSteadyTimer(ros::WallDuration(kDiagnosticsEvery),
-                            [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
+  diagnostics_timer_ = diagnosticsTimer(nh_, diagnostics_);
 }
 
 void GoToPoseNode::use(const GoToPoseOptions& options) {
@@ -292,7 +288,9 @@ void GoToPoseNode::carryOut(const Order& order) {
     case Order::Kind::STOP:
       return driver_.cancel();
     case Order::Kind::CLEAR_SCAN:
-      return clearScan();
+      if (clear_publisher_.getNumSubscribers() == 0)
+        ROS_WARN_STREAM("No map_layers with use_scan listens to " << clear_publisher_.getTopic());
+      return clear_publisher_.publish(std_msgs::Empty());
     case Order::Kind::TELL:
       ROS_INFO_STREAM(order.sentence);
       return;
@@ -320,13 +318,6 @@ void GoToPoseNode::drive(Path path) {
   goal.path = pathToMessage(path, ros::Time::now());
   driver_.send(goal);
   path_publisher_.publish(goal.path);
-}
-
-void GoToPoseNode::clearScan() {
-  if (clear_publisher_.getNumSubscribers() == 0)
-    ROS_WARN_STREAM("Nobody clears a laser's obstacles: no map_layers with use_scan listens to "
-                    << clear_publisher_.getTopic());
-  clear_publisher_.publish(std_msgs::Empty());
 }
 
 void GoToPoseNode::showNoPath() {

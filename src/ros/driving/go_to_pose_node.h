@@ -91,7 +91,6 @@ class GoToPoseNode {
   void carryOut(const Order& order);
   void askForPlan(double tolerance);
   void drive(path::Path path);
-  void clearScan();
   void showNoPath();
   void end(Order::Kind kind, const std::string& sentence);
   void abortAll(const std::string& reason);
