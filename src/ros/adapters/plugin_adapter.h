@@ -73,7 +73,8 @@ class PluginAdapter {
     if (planner.options().use_footprint) planner.setFootprint(footprintOf(costmap_ros));
   }
 
-  // Padded: that of which costmap_2d takes the inscribed radius, and by which local planners judge.
+  // Padded: that of which costmap_2d takes the inscribed radius, and by which local planners judge. costmap_2d
+  // guards it by no mutex: they read it so, too.
   static std::vector<Eigen::Vector2d> footprintOf(const costmap_2d::Costmap2DROS& costmap_ros) {
     std::vector<Eigen::Vector2d> corners;
     for (const geometry_msgs::Point& corner : costmap_ros.getRobotFootprint())
