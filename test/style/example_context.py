@@ -12,8 +12,7 @@ CONTEXT = {
     "panel_model.h": "extern path::Pose goal; extern double now; extern unsigned id; extern PlanAnswer answer;",
     "route_planning.h": "extern RoutePlanning planning; extern RoutePoints points; extern double now; extern unsigned id;"
                         "extern PlanAnswer answer; extern bool best_order;",
-    "route_points.h": "extern path::Pose goal;"
-                      "void plan(const std::optional<path::Pose>&, const std::vector<path::Pose>&, const path::Pose&);",
+    "route_points.h": "extern path::Pose goal; template <class... T> void plan(const T&...);",
     "footprint_clearance.h": "extern const grid::OccupancyGrid map; extern const ClearanceLimits limits; void halt(const Eigen::Vector2d&);"
                              "extern const path::Footprint footprint; extern const std::vector<Eigen::Vector3d> ahead;",
     "dubins.h": "extern const Eigen::Vector2d from, to; extern const double direction, radius; void add(const Eigen::Vector2d&);",
