@@ -67,7 +67,7 @@ foreach(component ${CPACK_COMPONENTS_ALL})
 endforeach()
 # Launch files that start nodes of several components are those of simulation.
 set(recommended)
-foreach(component driving mapping avoidance)
+foreach(component driving mapping avoidance localization)
   if(component IN_LIST CPACK_COMPONENTS_ALL)
     list(APPEND recommended ${CPACK_PACKAGE_NAME}-${component})
   endif()

@@ -58,6 +58,11 @@ void PanelModel::removeLastVia() {
   pointsChanged("");
 }
 
+void PanelModel::setBestOrder(bool best) {
+  best_order_ = best;
+  if (points_.via().size() > 1) planAgain();
+}
+
 void PanelModel::clear() {
   points_.clear();
   follows_ = false;
@@ -82,7 +87,7 @@ void PanelModel::pointsChanged(const std::string& complaint) {
 void PanelModel::plan() {
   if (planners_ == 0 || !points_.goal()) return;
   follows_ = true;
-  planning_.ask(points_);
+  planning_.ask(points_, best_order_);
   say(Tone::BUSY, "Planning ...");
 }
 

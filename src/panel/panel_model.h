@@ -42,6 +42,8 @@ class PanelModel {
   void addVia(const std::string& frame, const path::Pose& pose);
   void startAtVehicle();
   void removeLastVia();
+  // Whether via-points are passed in the order that costs least instead of the one in which they were set.
+  void setBestOrder(bool best);
   void clear();
   const RoutePoints& points() const { return points_; }
 
@@ -90,6 +92,7 @@ class PanelModel {
   std::size_t planners_ = 0, drivers_ = 0;
   RoutePoints points_;
   RoutePlanning planning_;
+  bool best_order_ = false;
   bool follows_ = false;    // the plan follows the points
   double answered_ = -1e9;  // s, when it was last
   Call call_ = Call::NONE;

@@ -63,16 +63,4 @@ void RoutePoints::moveTo(const std::string& frame) {
   frame_ = frame;
 }
 
-std::vector<Leg> RoutePoints::legs() const {
-  std::vector<Leg> legs;
-  if (!goal_) return legs;
-  std::optional<Pose> from = start_;
-  for (const Pose& via : via_) {
-    legs.push_back({from, via});
-    from = via;
-  }
-  legs.push_back({from, *goal_});
-  return legs;
-}
-
 }  // namespace grid_path_planner::panel

@@ -2,7 +2,7 @@
 //
 //   RoutePoints points;
 //   points.set({RoutePoints::Kind::GOAL}, "map", goal);   // "": taken; else why not
-//   for (const Leg& leg : points.legs()) use(leg);
+//   if (points.goal()) plan(points.start(), points.via(), *points.goal());
 //
 // All points are in one frame: one that comes in another frame replaces all of them.
 #pragma once
@@ -14,12 +14,6 @@
 #include "grid_path_planner/path/path.h"
 
 namespace grid_path_planner::panel {
-
-// From one point to the next; no start: from where the vehicle is.
-struct Leg {
-  std::optional<path::Pose> start;
-  path::Pose goal;
-};
 
 class RoutePoints {
  public:
@@ -40,12 +34,10 @@ class RoutePoints {
   void clear();
 
   const std::string& frame() const { return frame_; }
+  // None: where the vehicle is.
   const std::optional<path::Pose>& start() const { return start_; }
   const std::vector<path::Pose>& via() const { return via_; }
   const std::optional<path::Pose>& goal() const { return goal_; }
-
-  // None without a goal.
-  std::vector<Leg> legs() const;
 
  private:
   void moveTo(const std::string& frame);

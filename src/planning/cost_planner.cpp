@@ -7,14 +7,18 @@
 
 #include "grid/map_differences.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
+#include "path/footprint/footprint.h"
+#include "planning/footprint/fitted_plan.h"
 #include "planning/plan_on_costs.h"
 
 namespace grid_path_planner::planning {
 
 using base::checkOptionLimits, base::InputError, base::sameOptions, base::Status, base::StopPoll,
     base::StopSource, base::StopToken;
-using costmap::CostGrid, costmap::CostmapBuilder;
-using grid::CellRect, grid::disjointRects, grid::Grid, grid::GridGeometry, grid::Occupancy;
+using costmap::CostGrid, costmap::CostmapBuilder, costmap::CostmapOptions, costmap::KeptDistances;
+using grid::Cell, grid::CellRect, grid::disjointRects, grid::Grid, grid::GridGeometry,
+    grid::Occupancy, grid::OccupancyGrid;
+using path::Footprint;
 using planners::memoryLimitOf, planners::PlannerMaker;
 
 namespace {
@@ -39,6 +43,42 @@ void copyRows(const Cost* from, const CellRect& rect, Grid<Cost>& to) {
   for (int row = rect.row; row < rect.row + rect.height; ++row)
     std::copy_n(from + static_cast<std::size_t>(row) * width + rect.column, rect.width,
                 to.row(row) + rect.column);
+}
+
+OccupancyGrid occupancyOf(const Grid<Occupancy>& classes, StopPoll& poll) {
+  OccupancyGrid map(classes.geometry());
+  const auto valueOf = [](Occupancy occupancy) -> std::int8_t {
+    if (occupancy == Occupancy::UNKNOWN) return -1;
+    return occupancy == Occupancy::OCCUPIED ? 100 : 0;
+  };
+  for (int row = 0; row < map.height(); ++row) {
+    poll();
+    std::transform(classes.row(row), classes.row(row) + map.width(), map.row(row), valueOf);
+  }
+  return map;
+}
+
+// The same weights, blocked also where a disc of the options' radius meets an obstacle.
+std::shared_ptr<const CostGrid> inflated(const CostGrid& costs, const CostmapOptions& options,
+                                         const KeptDistances& kept, const StopToken& stop) {
+  StopPoll poll(stop, 64);
+  CostmapBuilder builder(options, kept);
+  builder.setMap(std::make_shared<const OccupancyGrid>(occupancyOf(costs.classes(), poll)));
+  const std::shared_ptr<const CostGrid> discs = builder.fullResolution(stop);
+  Grid<CostGrid::Weight> weights = costs.weights();
+  for (int row = 0; row < weights.height(); ++row) {
+    poll();
+    for (int column = 0; column < weights.width(); ++column)
+      if (!discs->passable({column, row})) weights[Cell{column, row}] = CostGrid::kBlocked;
+  }
+  auto both = std::make_shared<CostGrid>(std::move(weights), costs.classes(), costs.motion());
+  both->setKeptDistances(discs->keptDistances());
+  return both;
+}
+
+// That inflated() takes beside what the tries of a footprint take.
+std::size_t bytesOfInflated(const GridGeometry& geometry) {
+  return geometry.size() * (sizeof(std::int8_t) + sizeof(CostGrid::Weight) + sizeof(Occupancy));
 }
 
 constexpr std::size_t kBuffers = 2;  // of weights: double_buffered.h
@@ -145,6 +185,22 @@ CostmapPair CostPlanner::costmaps(const StopToken& stop) {
   return {weights_.current(), weights_.current(), weights_.changes(), weights_.changes()};
 }
 
+// On `costs`, which the search is prepared for.
+Plan CostPlanner::planOn(const CostGrid& costs, const PoseRequest& request,
+                         const PlannerOptions& options, const StopToken& stop) {
+  if (!options_.use_footprint) return planOnCosts(costs, *search_, request, options, stop);
+  const Footprint footprint("the costmap's footprint", footprint_);
+  const auto inflate = [&costs](const CostmapOptions& wider, const KeptDistances& kept,
+                                const StopToken& until) {
+    return inflated(costs, wider, kept, until);
+  };
+  const std::size_t taken =
+      bytesFor(costs.geometry()) + search_->bytes() + bytesOfInflated(costs.geometry());
+  const std::size_t limit = memoryLimitOf(options_.search);
+  return FittedPlanner(footprint, costs, inflate, options, limit - std::min(limit, taken))
+      .plan(*search_, request, stop);
+}
+
 Plan CostPlanner::plan(const PoseRequest& request, double tolerance, const StopSource& stop) {
   if (costs_.values().empty()) return failedPlan(Status::NO_MAP, "no costmap has been given yet");
   PlannerOptions options = plannerOptions(options_, inscribed_radius_);
@@ -156,7 +212,7 @@ Plan CostPlanner::plan(const PoseRequest& request, double tolerance, const StopS
     const CostmapPair maps = costmaps(token);
     search_->prepare(maps, token);
     const auto prepared = StopToken::Clock::now();
-    Plan plan = planOnCosts(*maps.full_resolution, *search_, request, options, token);
+    Plan plan = planOn(*maps.full_resolution, request, options, token);
     plan.preparation_time_s = std::chrono::duration<double>(prepared - begin).count();
     return plan;
   });

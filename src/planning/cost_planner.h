@@ -9,13 +9,17 @@
 // that only (cost_weights.h), and updates what the planner prepared; other sides, another resolution or
 // another origin of the map begin anew.
 //
+// With use_footprint the vehicle's own footprint, which setFootprint() gives, meets no cell of cost 254 on the path
+// (planning/footprint/fitted_plan.h), nor one of 255 without allow_unknown, unless it does so at an end.
 // No cell that a path touches is of cost 253 or 254, nor of 255 without allow_unknown, but on the
 // first segment of a start that is itself in one. The costs are never written.
 // Not thread-safe: one call at a time.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
@@ -41,6 +45,9 @@ class CostPlanner {
   // metres, for messages. Throws InputError, and keeps the old costs, where the map and what is made of
   // it would take more than the memory limit.
   void setCosts(const grid::GridGeometry& geometry, const Cost* costs, double inscribed_radius);
+  // Corners in metres, base_link; they count from the next plan() on, which answers INVALID_REQUEST where they are no
+  // footprint (path/footprint/footprint.h) and use_footprint asks for one.
+  void setFootprint(std::vector<Eigen::Vector2d> corners) { footprint_ = std::move(corners); }
   // Cells in the rectangles of which weights are to be made by the next plan().
   std::size_t changedCells() const;
 
@@ -54,10 +61,13 @@ class CostPlanner {
  private:
   void checkMemory(const grid::GridGeometry& geometry) const;
   CostmapPair costmaps(const base::StopToken& stop);
+  Plan planOn(const costmap::CostGrid& costs, const PoseRequest& request,
+              const PlannerOptions& options, const base::StopToken& stop);
 
   planners::PlannerMaker make_planner_;
   CostPlannerOptions options_;
   double inscribed_radius_ = 0.0;  // m
+  std::vector<Eigen::Vector2d> footprint_;
   grid::Grid<Cost> costs_;
   std::vector<grid::CellRect> changed_;  // of costs_, since weights_ were made
   grid::DoubleBuffered<costmap::CostGrid, costmap::CostGrid::Change> weights_;

@@ -13,6 +13,7 @@ struct CostPlannerOptions {
   planners::SearchOptions search;
   CostWeightOptions weights;
   costmap::MotionModel motion;
+  bool use_footprint = false;
   double default_tolerance = 0.0;    // m
   double start_escape_radius = 0.1;  // m
   bool smooth = true;
@@ -34,6 +35,15 @@ void visitOptions(CostPlannerOptions& o, Visitor&& visit) {
         base::OptionInfo{"Length of a diagonal step: sqrt2, or unit (1)", ""});
   visit("cut_corners", o.motion.cut_corners,
         base::OptionInfo{"Whether a diagonal step may pass a blocked cell's corner", ""});
+  visit(
+      "use_footprint", o.use_footprint,
+      base::OptionInfo{
+          "Whether the costmap's own footprint, padded as there, meets no cell of cost 254 on a "
+          "path, "
+          "turns on the spot included; where no such path is found there is none. false: only the "
+          "inscribed radius counts",
+          ""}
+          .under("The vehicle's shape"));
   visit(
       "default_tolerance", o.default_tolerance,
       base::OptionInfo{"How far from a blocked or unreachable goal a path may end, where who asks "

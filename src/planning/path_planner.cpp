@@ -23,7 +23,7 @@ namespace grid_path_planner::planning {
 using base::checkOptionLimits, base::choiceName, base::InputError, base::sameOptions, base::Status,
     base::StopSource, base::StopToken;
 using costmap::checkCostmapOptions, costmap::CostGrid, costmap::CostmapBuilder,
-    costmap::keptDistances, costmap::KeptDistances;
+    costmap::CostmapOptions, costmap::keptDistances, costmap::KeptDistances;
 using grid::CellRect, grid::checkOccupancyValues, grid::GridGeometry, grid::OccupancyGrid;
 using path::Footprint, path::HeadingMode;
 using planners::checkSearchOptions, planners::memoryLimitOf, planners::PlannerMaker,
@@ -269,7 +269,13 @@ Plan PathPlanner::planFor(const PoseRequest& request, const CostGrid& costs,
     return planOnCosts(costs, search, request, searched_, stop, terms);
   }
   const std::size_t memory = memoryLimit() - std::min(memoryLimit(), bytes());
-  return FittedPlanner(*footprint_, costs, map_, searched_, memory).plan(search, request, stop);
+  const auto inflate = [this](const CostmapOptions& options, const KeptDistances& kept,
+                              const StopToken& until) {
+    CostmapBuilder builder(options, kept);
+    builder.setMap(map_);
+    return builder.fullResolution(until);
+  };
+  return FittedPlanner(*footprint_, costs, inflate, searched_, memory).plan(search, request, stop);
 }
 
 Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {

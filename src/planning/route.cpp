@@ -81,12 +81,6 @@ std::vector<RoutePoint> pointsOf(const Route& route) {
   return points;
 }
 
-bool straightLineLegal(const CostGrid& map, const Eigen::Vector2d& from,
-                       const Eigen::Vector2d& to) {
-  return lineOfSight(map, SegmentPoint::nearest(map.geometry().gridFromWorld(from)),
-                     SegmentPoint::nearest(map.geometry().gridFromWorld(to)));
-}
-
 using Positions = std::vector<Eigen::Vector2d>;
 
 Path pathThrough(const Eigen::Vector2d& start, const Positions& between,
@@ -122,6 +116,12 @@ void smoothRoute(Route& route, const StopToken& stop) {
   route.plan.optimal = false;
   route.plan.cost = {};
   route.plan.segment_cost = cost;
+}
+
+bool straightLineLegal(const CostGrid& map, const Eigen::Vector2d& from,
+                       const Eigen::Vector2d& to) {
+  return lineOfSight(map, SegmentPoint::nearest(map.geometry().gridFromWorld(from)),
+                     SegmentPoint::nearest(map.geometry().gridFromWorld(to)));
 }
 
 void priceRoute(Route& route, const CostGrid& costs) {

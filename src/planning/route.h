@@ -30,6 +30,10 @@ void smoothRoute(Route& route, const base::StopToken& stop);
 // Gives the route the cost that it has on another costmap of the same geometry. Precondition: FOUND, with kernel 1.
 void priceRoute(Route& route, const costmap::CostGrid& costs);
 
+// Whether the line between two points in metres is legal (costmap/line_of_sight.h).
+bool straightLineLegal(const costmap::CostGrid& map, const Eigen::Vector2d& from,
+                       const Eigen::Vector2d& to);
+
 // An end of the path, in metres: the pose's position, and the centre of the cell that was searched
 // from, which a straight line joins to it.
 struct RouteEnd {

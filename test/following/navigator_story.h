@@ -37,6 +37,8 @@ inline std::string nameOf(const NavigatorOrder& order) {
       return "FORGET";
     case NavigatorOrder::Kind::STOP:
       return "STOP";
+    case NavigatorOrder::Kind::CLEAR_SCAN:
+      return "CLEAR_SCAN";
     case NavigatorOrder::Kind::SUCCEED:
       return "SUCCEED";
     case NavigatorOrder::Kind::ABORT:

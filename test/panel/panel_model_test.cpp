@@ -108,10 +108,29 @@ TEST_F(PanelModelTest, APlanFollowsItsPointsOnceThereIsOne) {
   setGoal(6.0);
   const auto request = model_.tick(0.0);
   ASSERT_TRUE(request);
-  EXPECT_EQ(request->leg.goal.position.x(), 6.0);
+  EXPECT_EQ(request->points.goal()->position.x(), 6.0);
   model_.planAnswered(request->id, answerOf("FOUND"), 0.0);
   model_.planAgain();
   EXPECT_TRUE(model_.tick(0.0)) << "a parameter changed";
+}
+
+TEST_F(PanelModelTest, TheBestOrderIsPlannedForAtOnceWhereThereIsOne) {
+  bothNodes();
+  setGoal();
+  model_.setBestOrder(true);
+  EXPECT_FALSE(model_.tick(0.0)) << "nobody pressed Plan";
+  planAndFind();
+  model_.setBestOrder(false);
+  EXPECT_FALSE(model_.tick(0.0)) << "without via-points there is one order";
+  for (int i = 0; i < 2; ++i) model_.addVia("map", poseAt(1, i));
+  auto request = model_.tick(0.0);
+  ASSERT_TRUE(request);
+  EXPECT_FALSE(request->best_order);
+  model_.planAnswered(request->id, answerOf("FOUND"), 0.0);
+  model_.setBestOrder(true);
+  request = model_.tick(0.0);
+  ASSERT_TRUE(request);
+  EXPECT_TRUE(request->best_order);
 }
 
 TEST_F(PanelModelTest, APlannerThatDiesLosesTheRequestAndSaysSo) {
@@ -238,7 +257,7 @@ TEST_F(PanelModelTest, NoStateIsForEver) {
     if (round % 50 != 0) continue;
     bothNodes();
     setGoal();
-    for (int legs = 0; legs < 3; ++legs) {
+    for (int requests = 0; requests < 3; ++requests) {
       now += RoutePlanning::kPatience + 1.0;
       if (const auto request = model_.tick(now)) last = request->id;
     }

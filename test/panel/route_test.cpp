@@ -25,27 +25,23 @@ RoutePoints routeOf(int via) {
   return points;
 }
 
-// The straight path of a leg; one from the vehicle begins at the origin.
-PlanAnswer straight(const Leg& leg) {
+PlanAnswer found() {
   PlanAnswer answer;
   answer.status = "FOUND";
   answer.message = "a path";
   answer.path.frame_id = "map";
-  answer.path.poses = {leg.start.value_or(poseAt(0, 0)), leg.goal};
-  answer.figures.cost = answer.figures.length = 1.0;
-  answer.figures.clearance = leg.goal.position.x();
+  answer.path.poses = {poseAt(0, 0), poseAt(10, 0)};
   return answer;
 }
 
-TEST(RoutePoints, LegsLeadFromPointToPoint) {
+TEST(RoutePoints, KeepTheirOrder) {
   RoutePoints points = routeOf(2);
-  ASSERT_EQ(points.legs().size(), 3U);
-  EXPECT_FALSE(points.legs()[0].start);
-  EXPECT_EQ(points.legs()[1].start->position, poseAt(1, 1).position);
-  EXPECT_EQ(points.legs()[2].goal.position, poseAt(10, 0).position);
+  ASSERT_EQ(points.via().size(), 2U);
+  EXPECT_FALSE(points.start());
+  EXPECT_EQ(points.via()[1].position, poseAt(2, 1).position);
+  EXPECT_EQ(points.goal()->position, poseAt(10, 0).position);
   points.removeLastVia();
-  EXPECT_EQ(points.legs().size(), 2U);
-  EXPECT_TRUE(RoutePoints().legs().empty());
+  EXPECT_EQ(points.via().size(), 1U);
 }
 
 TEST(RoutePoints, RefusesWhatIsNoPlace) {
@@ -69,66 +65,59 @@ TEST(RoutePoints, APointInAnotherFrameReplacesAll) {
   EXPECT_EQ(points.frame(), "odom");
 }
 
-TEST(RoutePlanning, JoinsItsLegs) {
+TEST(RoutePlanning, AsksOnceForAllPointsAndGivesTheAnswer) {
   RoutePlanning planning;
-  planning.ask(routeOf(2));
-  for (int leg = 0; leg < 3; ++leg) {
-    const auto request = planning.next(0.0);
-    ASSERT_TRUE(request);
-    EXPECT_FALSE(planning.next(0.0)) << "one at a time";
-    EXPECT_EQ(planning.take(request->id, straight(request->leg), 0.0), leg == 2);
-  }
+  planning.ask(routeOf(2), true);
+  const auto request = planning.next(0.0);
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->points.via().size(), 2U);
+  EXPECT_TRUE(request->best_order);
+  EXPECT_FALSE(planning.next(0.0)) << "one at a time";
+  EXPECT_TRUE(planning.busy());
+  EXPECT_TRUE(planning.take(request->id, found(), 0.0));
   EXPECT_FALSE(planning.busy());
-  const PlanAnswer& whole = planning.outcome();
-  ASSERT_EQ(whole.path.poses.size(), 4U) << "via-points stand once";
-  EXPECT_EQ(whole.figures.cost, 3.0);
-  EXPECT_EQ(whole.figures.clearance, 1.0);
-}
-
-TEST(RoutePlanning, AFailedLegNamesItselfAndEndsThePlan) {
-  RoutePlanning planning;
-  planning.ask(routeOf(1));
-  const auto first = planning.next(0.0);
-  EXPECT_FALSE(planning.take(first->id, straight(first->leg), 0.0));
+  EXPECT_EQ(planning.outcome().path.poses.size(), 2U);
+  planning.ask(routeOf(2), false);
   const auto second = planning.next(0.0);
   PlanAnswer failure;
   failure.status = "UNREACHABLE";
-  failure.message = "no path";
+  failure.message = "to via-point 2: no path";
+  EXPECT_FALSE(second->best_order);
   EXPECT_TRUE(planning.take(second->id, failure, 0.0));
-  EXPECT_EQ(planning.outcome().message, "from the last via-point to the goal: no path");
-  EXPECT_TRUE(planning.outcome().path.empty());
+  EXPECT_EQ(planning.outcome().message, failure.message);
+  EXPECT_TRUE(planning.outcome().path.empty()) << "nothing is left of the answer before";
 }
 
 // A goal is dragged faster than plans are made: the last place counts.
 TEST(RoutePlanning, PointsThatMovedAreAskedAnew) {
   RoutePlanning planning;
-  planning.ask(routeOf(0));
+  planning.ask(routeOf(0), false);
   const auto first = planning.next(0.0);
   RoutePoints moved = routeOf(0);
   for (int x = 1; x < 5; ++x) {
     EXPECT_EQ(moved.set({Kind::GOAL, 0}, "map", poseAt(x, 0)), "");
-    planning.ask(moved);
+    planning.ask(moved, false);
     EXPECT_FALSE(planning.next(0.0));
   }
-  EXPECT_FALSE(planning.take(first->id, straight(first->leg), 0.0)) << "nobody wants it any more";
+  EXPECT_FALSE(planning.take(first->id, found(), 0.0)) << "nobody wants it any more";
   const auto second = planning.next(0.0);
   ASSERT_TRUE(second);
-  EXPECT_EQ(second->leg.goal.position.x(), 4.0);
-  EXPECT_TRUE(planning.take(second->id, straight(second->leg), 0.0));
+  EXPECT_EQ(second->points.goal()->position.x(), 4.0);
+  EXPECT_TRUE(planning.take(second->id, found(), 0.0));
 }
 
 TEST(RoutePlanning, AnswersTwiceLateOrOfOthersArePassedOver) {
   RoutePlanning planning;
-  planning.ask(routeOf(0));
+  planning.ask(routeOf(0), false);
   const auto request = planning.next(0.0);
-  EXPECT_FALSE(planning.take(request->id + 1, straight(request->leg), 0.0));
-  EXPECT_TRUE(planning.take(request->id, straight(request->leg), 0.0));
-  EXPECT_FALSE(planning.take(request->id, straight(request->leg), 0.0));
+  EXPECT_FALSE(planning.take(request->id + 1, found(), 0.0));
+  EXPECT_TRUE(planning.take(request->id, found(), 0.0));
+  EXPECT_FALSE(planning.take(request->id, found(), 0.0));
 }
 
 TEST(RoutePlanning, SilenceIsOverdueAndSignsOfLifeAreNot) {
   RoutePlanning planning;
-  planning.ask(routeOf(0));
+  planning.ask(routeOf(0), false);
   const auto request = planning.next(100.0);
   EXPECT_FALSE(planning.overdue(100.0 + RoutePlanning::kPatience));
   EXPECT_TRUE(planning.overdue(100.1 + RoutePlanning::kPatience));

@@ -10,12 +10,11 @@
 #include "grid_path_planner/planning/path_planner.h"
 #include "support/error_text.h"
 #include "support/footprint_reference.h"
+#include "support/random_footprints.h"
 
 namespace grid_path_planner::planning {
 
 using base::Status;
-using grid::Cell;
-using grid::GridGeometry;
 using grid::OccupancyGrid;
 using path::HeadingMode;
 using path::Path;
@@ -23,40 +22,12 @@ using path::Pose;
 using planners::plannerNames;
 using planners::traitsOf;
 using test::largestOverlap;
+using test::randomRooms;
+using test::randomVehicle;
 
 namespace {
 
 using Corners = std::vector<Eigen::Vector2d>;
-
-// Rooms of 2 m with doors of 0.4 to 0.9 m, and some clutter.
-OccupancyGrid randomRooms(std::mt19937& random) {
-  constexpr int kSide = 60, kRoom = 20;
-  OccupancyGrid map(GridGeometry(kSide, kSide, 0.1, {-1.3, 0.7, random() % 2 == 0 ? 0.0 : 0.6}));
-  for (int wall = kRoom; wall < kSide; wall += kRoom) {
-    for (int i = 0; i < kSide; ++i) map[Cell{wall, i}] = map[Cell{i, wall}] = 100;
-    for (int room = 0; room < kSide; room += kRoom) {
-      const int width = 4 + random() % 6;
-      const int first = room + 2 + random() % (kRoom - width - 3);
-      for (int i = first; i < first + width; ++i) {
-        map[Cell{wall, i}] = 0;
-        if (random() % 5 != 0) map[Cell{i, wall}] = 0;
-      }
-    }
-  }
-  for (unsigned clutter = random() % 30; clutter > 0; --clutter)
-    map[Cell{static_cast<int>(random() % kSide), static_cast<int>(random() % kSide)}] = 100;
-  return map;
-}
-
-// About the origin, which need not be the middle; half of them rectangles.
-Corners randomVehicle(std::mt19937& random) {
-  std::uniform_real_distribution<double> part(0.0, 1.0);
-  const double front = 0.1 + 0.5 * part(random), rear = 0.1 + 0.3 * part(random);
-  const double left = 0.1 + 0.1 * part(random), right = 0.1 + 0.1 * part(random);
-  Corners corners = {{front, left}, {-rear, left}, {-rear, -right}, {front, -right}};
-  if (random() % 2 == 0) corners.insert(corners.begin() + 1, {0.02, left * 0.6});  // a notch
-  return corners;
-}
 
 std::string textOfCorners(const Corners& corners) {
   std::ostringstream text;
@@ -97,7 +68,8 @@ TEST(FootprintLaw, noPathMeetsAnObstacle) {
   std::mt19937 random(seed);
   int found = 0, at_first = 0, none = 0;
   for (int i = 0; i < 120; ++i) {
-    const auto map = std::make_shared<const OccupancyGrid>(randomRooms(random));
+    const double yaw = random() % 2 == 0 ? 0.0 : 0.6;
+    const auto map = std::make_shared<const OccupancyGrid>(randomRooms(random, yaw));
     const Corners vehicle = randomVehicle(random);
     PlannerOptions options = randomFootprintOptions(random);
     options.footprint = textOfCorners(vehicle);

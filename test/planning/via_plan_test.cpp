@@ -24,7 +24,7 @@ namespace {
 
 using test::AsciiMap;
 
-Pose poseAt(double x, double y, double yaw = 0.0) {
+Pose viaPose(double x, double y, double yaw = 0.0) {
   Pose pose;
   pose.position << x, y, 0.0;
   pose.yaw = yaw;
@@ -66,8 +66,9 @@ const OccupancyGrid& hall() {
 
 TEST(ViaPlan, PassesThePointsAsTheyAreGiven) {
   PathPlanner planner = plannerOn(hall());
-  const std::vector<Pose> via = {poseAt(9.5, 0.5), poseAt(0.5, 5.5), poseAt(9.5, 5.5)};
-  const ViaPlan found = planThrough(planner, through(poseAt(0.5, 0.5), via, poseAt(5.5, 0.5, 1.0)));
+  const std::vector<Pose> via = {viaPose(9.5, 0.5), viaPose(0.5, 5.5), viaPose(9.5, 5.5)};
+  const ViaPlan found =
+      planThrough(planner, through(viaPose(0.5, 0.5), via, viaPose(5.5, 0.5, 1.0)));
   ASSERT_TRUE(found.plan.found()) << found.plan.message;
   for (const Pose& pose : via) EXPECT_TRUE(passes(found.plan, pose));
   EXPECT_EQ(found.order, (std::vector<std::size_t>{0, 1, 2}));
@@ -86,7 +87,7 @@ TEST(ViaPlan, PassesThePointsAsTheyAreGiven) {
 
 TEST(ViaPlan, IsTheSumOfItsLegs) {
   PathPlanner planner = plannerOn(hall());
-  const Pose start = poseAt(0.5, 0.5), via = poseAt(9.2, 3.3), goal = poseAt(0.7, 5.1);
+  const Pose start = viaPose(0.5, 0.5), via = viaPose(9.2, 3.3), goal = viaPose(0.7, 5.1);
   const ViaPlan found = planThrough(planner, through(start, {via}, goal));
   const Plan first = planner.plan({start, via, false}), second = planner.plan({via, goal, false});
   EXPECT_DOUBLE_EQ(found.plan.costValue(), first.costValue() + second.costValue());
@@ -98,7 +99,7 @@ TEST(ViaPlan, IsTheSumOfItsLegs) {
 // navigation2#2494, #4792: repeated via-poses fail.
 TEST(ViaPlan, TheSamePlaceAgainIsNoFailure) {
   PathPlanner planner = plannerOn(hall());
-  const Pose here = poseAt(0.5, 0.5), there = poseAt(9.5, 0.5);
+  const Pose here = viaPose(0.5, 0.5), there = viaPose(9.5, 0.5);
   for (const ViaOrder order : {ViaOrder::GIVEN, ViaOrder::BEST}) {
     const ViaPlan found =
         planThrough(planner, through(here, {here, there, there, here}, here, order));
@@ -111,7 +112,8 @@ TEST(ViaPlan, NamesTheFirstPointThatNoPathLeadsTo) {
   const AsciiMap picture({"...#.", "...#.", "...#."});
   PathPlanner planner = plannerOn(picture.map);
   const ViaPlan found = planThrough(
-      planner, through(poseAt(0.5, 0.5), {poseAt(2.5, 0.5), poseAt(4.5, 1.5)}, poseAt(2.5, 2.5)));
+      planner,
+      through(viaPose(0.5, 0.5), {viaPose(2.5, 0.5), viaPose(4.5, 1.5)}, viaPose(2.5, 2.5)));
   EXPECT_EQ(found.plan.status, Status::UNREACHABLE);
   EXPECT_TRUE(viaSays(found.plan, "to via-point 2: no path")) << found.plan.message;
   EXPECT_EQ(found.unreachable, std::vector<std::size_t>{1});
@@ -123,8 +125,8 @@ TEST(ViaPlan, NamesAllPointsThatNoPathLeadsToWhereItOrdersThem) {
   const AsciiMap picture({"...#.", "...#.", "...#."});
   PathPlanner planner = plannerOn(picture.map);
   const ViaPlan found = planThrough(
-      planner, through(poseAt(0.5, 0.5), {poseAt(4.5, 0.5), poseAt(2.5, 0.5), poseAt(3.5, 1.5)},
-                       poseAt(2.5, 2.5), ViaOrder::BEST));
+      planner, through(viaPose(0.5, 0.5), {viaPose(4.5, 0.5), viaPose(2.5, 0.5), viaPose(3.5, 1.5)},
+                       viaPose(2.5, 2.5), ViaOrder::BEST));
   EXPECT_EQ(found.plan.status, Status::UNREACHABLE);
   EXPECT_EQ(found.unreachable, (std::vector<std::size_t>{0, 2}));
   EXPECT_TRUE(viaSays(found.plan, "to via-points 1 and 3: ")) << found.plan.message;
@@ -135,7 +137,7 @@ TEST(ViaPlan, AStartThatCannotBeUsedIsNoFaultOfThePoints) {
   const AsciiMap picture({"#...", "...."});
   PathPlanner planner = plannerOn(picture.map);
   const ViaPlan found = planThrough(
-      planner, through(poseAt(0.5, 0.5), {poseAt(2.5, 0.5)}, poseAt(3.5, 1.5), ViaOrder::BEST));
+      planner, through(viaPose(0.5, 0.5), {viaPose(2.5, 0.5)}, viaPose(3.5, 1.5), ViaOrder::BEST));
   EXPECT_EQ(found.plan.status, Status::START_OCCUPIED);
   EXPECT_TRUE(found.unreachable.empty());
 }
@@ -148,9 +150,9 @@ TEST(ViaPlan, GoesOnFromWhereATolerantLegEnds) {
   PathPlanner planner = plannerOn(picture.map, options);
   for (const ViaOrder order : {ViaOrder::GIVEN, ViaOrder::BEST}) {
     const ViaPlan found = planThrough(
-        planner, through(poseAt(0.5, 0.5), {poseAt(4.5, 0.5)}, poseAt(0.5, 2.5), order));
+        planner, through(viaPose(0.5, 0.5), {viaPose(4.5, 0.5)}, viaPose(0.5, 2.5), order));
     ASSERT_TRUE(found.plan.found()) << found.plan.message;
-    EXPECT_TRUE(passes(found.plan, poseAt(3.5, 0.5)) || passes(found.plan, poseAt(4.5, 1.5)));
+    EXPECT_TRUE(passes(found.plan, viaPose(3.5, 0.5)) || passes(found.plan, viaPose(4.5, 1.5)));
     EXPECT_TRUE(viaSays(found.plan, "to via-point 1: ")) << found.plan.message;
   }
 }
@@ -178,7 +180,7 @@ TEST(ViaPlan, NoOrderOfSeededPointsCostsLess) {
     const auto pose = [&] {
       const Eigen::Vector2d centre =
           map.geometry().centre(test::randomCell(random, map.geometry()));
-      return poseAt(centre.x(), centre.y());
+      return viaPose(centre.x(), centre.y());
     };
     PlannerOptions options;
     options.smooth = round % 2 == 0;
@@ -201,31 +203,31 @@ TEST(ViaPlan, NoOrderOfSeededPointsCostsLess) {
 TEST(ViaPlan, ManyPointsAreOrderedByAHeuristicThatSaysSo) {
   PathPlanner planner = plannerOn(hall());
   std::vector<Pose> via;
-  for (int i = 0; i < 14; ++i) via.push_back(poseAt(0.5 + (i * 7) % 10, i % 2 == 0 ? 0.5 : 5.5));
+  for (int i = 0; i < 14; ++i) via.push_back(viaPose(0.5 + (i * 7) % 10, i % 2 == 0 ? 0.5 : 5.5));
   const ViaPlan found =
-      planThrough(planner, through(poseAt(0.5, 0.5), via, poseAt(0.5, 5.5), ViaOrder::BEST));
+      planThrough(planner, through(viaPose(0.5, 0.5), via, viaPose(0.5, 5.5), ViaOrder::BEST));
   ASSERT_TRUE(found.plan.found()) << found.plan.message;
   EXPECT_FALSE(found.order_exact);
   EXPECT_FALSE(found.plan.optimal);
   EXPECT_TRUE(viaSays(found.plan, "found by a heuristic")) << found.plan.message;
-  const ViaPlan given = planThrough(planner, through(poseAt(0.5, 0.5), via, poseAt(0.5, 5.5)));
+  const ViaPlan given = planThrough(planner, through(viaPose(0.5, 0.5), via, viaPose(0.5, 5.5)));
   EXPECT_LT(found.plan.costValue(), given.plan.costValue() / 2);
 }
 
 TEST(ViaPlan, TooManyPointsAreRefusedWithTheirNumber) {
   PathPlanner planner = plannerOn(hall());
-  const std::vector<Pose> via(kMostOrdered + 1, poseAt(1.5, 1.5));
+  const std::vector<Pose> via(kMostOrdered + 1, viaPose(1.5, 1.5));
   const ViaPlan found =
-      planThrough(planner, through(poseAt(0.5, 0.5), via, poseAt(2.5, 0.5), ViaOrder::BEST));
+      planThrough(planner, through(viaPose(0.5, 0.5), via, viaPose(2.5, 0.5), ViaOrder::BEST));
   EXPECT_EQ(found.plan.status, Status::INVALID_REQUEST);
   EXPECT_TRUE(viaSays(found.plan, "51 via-points, and at most 50")) << found.plan.message;
 }
 
 TEST(ViaPlan, PointsThatAreNoNumbersAreNamed) {
   PathPlanner planner = plannerOn(hall());
-  const Pose nan = poseAt(std::numeric_limits<double>::quiet_NaN(), 0.0);
+  const Pose nan = viaPose(std::numeric_limits<double>::quiet_NaN(), 0.0);
   const ViaPlan found =
-      planThrough(planner, through(poseAt(0.5, 0.5), {poseAt(1.5, 1.5), nan}, poseAt(2.5, 0.5)));
+      planThrough(planner, through(viaPose(0.5, 0.5), {viaPose(1.5, 1.5), nan}, viaPose(2.5, 0.5)));
   EXPECT_EQ(found.plan.status, Status::INVALID_REQUEST);
   EXPECT_TRUE(viaSays(found.plan, "via-point 2 must be finite")) << found.plan.message;
 }
@@ -234,8 +236,8 @@ TEST(ViaPlan, StopsWhenItIsCancelledOrItsTimeIsOver) {
   PlannerOptions options;
   options.timeout = 1e-7;
   PathPlanner planner = plannerOn(OccupancyGrid(GridGeometry(400, 400, 1.0)), options);
-  const ViaRequest request = through(poseAt(0.5, 0.5), {poseAt(399.5, 0.5), poseAt(0.5, 399.5)},
-                                     poseAt(399.5, 399.5), ViaOrder::BEST);
+  const ViaRequest request = through(viaPose(0.5, 0.5), {viaPose(399.5, 0.5), viaPose(0.5, 399.5)},
+                                     viaPose(399.5, 399.5), ViaOrder::BEST);
   StopSource stop;
   const ViaPlan late = planThrough(planner, request, stop);
   EXPECT_EQ(late.plan.status, Status::TIMEOUT);

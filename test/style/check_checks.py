@@ -155,6 +155,17 @@ class Docs(unittest.TestCase):
             self.assertEqual(len(self.planted("doc/architecture.md", "`grid/` `common/` `nodes/` `%s`\n" % text)), 1, text)
         self.assertEqual(self.planted("src/cellar/a.cpp", ""), ["doc/architecture.md: src/cellar is missing"])
 
+    def test_counterparts(self):
+        def page(row):
+            tree = dict(self.TREE, **{"src/grid/halved.cpp": 'visit("radius"); serve("~reset");\n',
+                                      "doc/nav2.md": "| nav2 | here |\n|---|---|\n" + row})
+            tree["README.md"] = tree["README.md"] % self.TABLE + "[nav2](doc/nav2.md)\n"
+            return complaints("check_docs.py", more=tree)
+        self.assertEqual(page("| **Layers** | |\n| static layer | `planner` |\n"), [])
+        self.assertEqual(page("| inflation | `radius`, `radius: 0.4`, `~reset`, `FOUND`; no: `x.y` is theirs |\n"),
+                         ["doc/nav2.md: there is no `x.y`, which stands for 'inflation'"])
+        self.assertEqual(page("| **Layers** | |\n| denoise layer | |\n"), ["doc/nav2.md: what is here for 'denoise layer'?"])
+
     def test_scripts(self):
         self.assertEqual(len(self.planted("README.md", "<README>./scripts/run --slow\n")), 1)
         self.assertEqual(len(self.planted("README.md", "<README>scripts/jump\n")), 1)

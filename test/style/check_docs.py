@@ -2,7 +2,7 @@
 
 The table of launch arguments is made from launch/; option_files makes those of parameters. Some page names
 every node, status, message type, script and dependency. doc/architecture.md names every folder of src/, and
-no file that is not there. Links resolve, to files and to headings, and every page can be reached from
+no file that is not there. doc/nav2.md names nothing of ours that is not in the sources. Links resolve, to files and to headings, and every page can be reached from
 README.md, which stays short.
 
     check_docs.py --write    makes the table anew
@@ -16,6 +16,7 @@ import xml.etree.ElementTree
 from common import ROOT, files, finish, read
 
 README_LINES = 165
+COMPARISON = "doc/nav2.md"
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE_BLOCK = re.compile(r"^(?: {4,}[^\n]*\n|```.*?^```\n)", re.M | re.S)
 
@@ -144,6 +145,34 @@ def wrong_places():
             yield "doc/architecture.md: %s is missing" % folder
 
 
+def names_of_the_package():
+    """What stands in the sources between quotes (options and their values, topics, services, planners, ...), and the
+    names of nodes, launch files, scripts, messages, their fields and statuses."""
+    names = set()
+    for name in files(("src", "include"), (".h", ".cpp")):
+        names |= set(re.findall(r'"~?([\w./]+)"', read(name)))
+    for name in files(("msg", "srv", "action"), (".msg", ".srv", ".action")):
+        names |= set(re.findall(r"^[\w/]+(?:\[\])? +(\w+)", read(name), re.M)) | set(re.findall(r"\b[A-Z_]{2,}\b", read(name)))
+    names |= set(re.findall(r"\b[A-Z_]{3,}\b", read("include/grid_path_planner/base/status.h")))
+    for name in files(("src/nodes", "launch", "scripts", "benchmark", "test/style"), ("",)):
+        names |= {name, os.path.basename(name), os.path.splitext(os.path.basename(name))[0]}
+    for name in files((".",), ("_plugins.xml",)):
+        names |= set(re.findall(r'name="([\w/]+)"', read(name)))
+    return names
+
+
+def unknown_counterparts(page, text, names):
+    """Rows of a page that compares features without a word on what is here, and names in backquotes on that side
+    which are nowhere in the sources. `a: b` names an option and one of its values."""
+    for theirs, ours in re.findall(r"^\| (?!\*\*|-)(.+?) \|(.*)\|$", text, re.M):
+        if not ours.strip():
+            yield "%s: what is here for '%s'?" % (page, theirs)
+        for quoted in re.findall(r"`([^`]+)`", ours):
+            for name in re.split(r": | ", quoted):
+                if name.strip("~/-") not in names and not re.fullmatch(r"[\d.]+", name):
+                    yield "%s: there is no `%s`, which stands for '%s'" % (page, name, theirs)
+
+
 def main():
     pages = {name: read(name) for name in ["README.md"] + files(("doc",), (".md",))}
     made = {name: with_table(text) for name, text in pages.items()}
@@ -160,6 +189,8 @@ def main():
     complaints += unexplained_dependencies()
     complaints += unreachable(pages)
     complaints += wrong_places()
+    if COMPARISON in pages:
+        complaints += unknown_counterparts(COMPARISON, pages[COMPARISON], names_of_the_package())
     guides = dict(pages, **{name: read(name) for name in ("CONTRIBUTING.md", "maps/README.md", "benchmark/README.md")
                             if os.path.exists(os.path.join(ROOT, name))})
     everything = "\n".join(guides.values())

@@ -11,8 +11,8 @@ CONTEXT = {
                        "void show(const ComparePlans::Response&); void complain(const std::string&);",
     "panel_model.h": "extern path::Pose goal; extern double now; extern unsigned id; extern PlanAnswer answer;",
     "route_planning.h": "extern RoutePlanning planning; extern RoutePoints points; extern double now; extern unsigned id;"
-                        "extern PlanAnswer answer;",
-    "route_points.h": "extern path::Pose goal;",
+                        "extern PlanAnswer answer; extern bool best_order;",
+    "route_points.h": "extern path::Pose goal; template <class... T> void plan(const T&...);",
     "footprint_clearance.h": "extern const grid::OccupancyGrid map; extern const ClearanceLimits limits; void halt(const Eigen::Vector2d&);"
                              "extern const path::Footprint footprint; extern const std::vector<Eigen::Vector3d> ahead;",
     "dubins.h": "extern const Eigen::Vector2d from, to; extern const double direction, radius; void add(const Eigen::Vector2d&);",
@@ -21,7 +21,7 @@ CONTEXT = {
     "sweep.h": "extern const Footprint footprint; extern const grid::GridGeometry geometry; extern const Motion motion;"
                "extern const FootprintObstacles obstacles; void report(grid::Cell, const Eigen::Vector2d&, double yaw);",
     "fitted_plan.h": "extern const path::Footprint footprint; extern const costmap::CostGrid costs; extern std::size_t memory;"
-                     "extern const std::shared_ptr<const grid::OccupancyGrid> map; extern const PlannerOptions options;"
+                     "extern const FittedPlanner::Inflate inflate; extern const PlannerOptions options;"
                      "extern MultiResolutionPlanner search; extern const PoseRequest request;",
     "footprint_check.h": "extern const path::Footprint footprint; extern const costmap::CostGrid costs;"
                          "extern const PlannerOptions options; extern const path::Pose start, goal; extern const path::Path path;",

@@ -290,6 +290,10 @@ bool Navigator::beginStep(RecoveryStep step, double now) {
     case RecoveryStep::PLAN_WITH_TOLERANCE:
       plan(options_.recovery_tolerance, now);
       return true;
+    case RecoveryStep::CLEAR_SCAN:
+      orders_.push_back({Kind::CLEAR_SCAN});
+      wait_until_ = now + kClearing;
+      return true;
   }
   return false;
 }

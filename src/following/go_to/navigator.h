@@ -40,7 +40,18 @@ const char* toString(NavigatorState state);
 
 // What somebody has to do. A later PLAN replaces one that is not answered, a later DRIVE the drive before.
 struct NavigatorOrder {
-  enum class Kind { PLAN, FORGET_PLAN, DRIVE, STOP, TELL, WARN, SUCCEED, ABORT, PREEMPT };
+  enum class Kind {
+    PLAN,
+    FORGET_PLAN,
+    DRIVE,
+    STOP,
+    CLEAR_SCAN,
+    TELL,
+    WARN,
+    SUCCEED,
+    ABORT,
+    PREEMPT
+  };
   Kind kind;
   std::string sentence = {};  // TELL, WARN and the ends
   double tolerance = 0.0;     // m, of PLAN; 0: the planner's own
@@ -68,6 +79,7 @@ class Navigator {
       "NO_ANSWER";                             // the status of a planner or driver that is gone
   static constexpr double kProgress = 0.5;     // m
   static constexpr double kStopTimeout = 2.0;  // s
+  static constexpr double kClearing = 1.0;     // s, in which the map comes without what was cleared
 
   // Throws InputError for options that checkNavigatorOptions refuses.
   explicit Navigator(const NavigatorOptions& options = {});

@@ -35,7 +35,8 @@ void visitOptions(NavigatorOptions& o, Visitor&& visit) {
   visit("recovery_steps", o.recovery_steps,
         base::OptionInfo{"What is tried in this order where there is no path, or it cannot go on, "
                          "each once until the vehicle has come nearer to its goal: wait, back_off, "
-                         "turn_and_look, plan_with_tolerance; empty: the goal is aborted at once",
+                         "turn_and_look, plan_with_tolerance, clear_scan; empty: the goal is "
+                         "aborted at once",
                          ""}
             .under("Recovery"));
   visit("recovery_wait", o.recovery_wait,

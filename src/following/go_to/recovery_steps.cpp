@@ -16,7 +16,8 @@ const std::vector<std::pair<const char*, RecoveryStep>>& knownSteps() {
       {"wait", RecoveryStep::WAIT},
       {"back_off", RecoveryStep::BACK_OFF},
       {"turn_and_look", RecoveryStep::TURN_AND_LOOK},
-      {"plan_with_tolerance", RecoveryStep::PLAN_WITH_TOLERANCE}};
+      {"plan_with_tolerance", RecoveryStep::PLAN_WITH_TOLERANCE},
+      {"clear_scan", RecoveryStep::CLEAR_SCAN}};
   return steps;
 }
 
@@ -32,10 +33,6 @@ RecoveryStep stepNamed(const std::string& name) {
     if (name == text) return step;
     known += (known.empty() ? "" : ", ") + std::string(text);
   }
-  if (name == "clear_layer")
-    throw InputError(
-        "recovery_steps: there is no 'clear_layer', since projected_map has no layer of a sensor "
-        "that could be cleared by itself");
   throw InputError("recovery_steps must be a list of " + known + ", got '" + name + "'");
 }
 

@@ -6,13 +6,12 @@
 
 namespace grid_path_planner::following {
 
-enum class RecoveryStep { WAIT, BACK_OFF, TURN_AND_LOOK, PLAN_WITH_TOLERANCE };
+enum class RecoveryStep { WAIT, BACK_OFF, TURN_AND_LOOK, PLAN_WITH_TOLERANCE, CLEAR_SCAN };
 // As in the list: "back_off".
 const char* toString(RecoveryStep step);
 
 // The steps of a list such as "wait, back_off"; a step may come twice, and an empty list has none. Throws
-// InputError naming what is no step. `clear_layer`, which costmaps of several layers know, is refused with
-// the reason: projected_map has no layer of a sensor that could be cleared by itself.
+// InputError naming what is no step.
 std::vector<RecoveryStep> recoverySteps(const std::string& list);
 
 }  // namespace grid_path_planner::following

@@ -9,13 +9,15 @@
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "planning/end_segments.h"
 #include "planning/message_text.h"
+#include "planning/route.h"
 #include "planning/turning/curves.h"
 #include "planning/waypoints.h"
 
 namespace grid_path_planner::planning {
 
 using base::Status, base::StopToken;
-using costmap::CostGrid, costmap::CostmapBuilder, costmap::KeptDistances, costmap::keptDistances;
+using costmap::CostGrid, costmap::CostmapBuilder, costmap::KeptDistances, costmap::keptDistances,
+    costmap::SegmentRule;
 using path::Footprint, path::FootprintContact, path::Path, path::Pose;
 
 namespace {
@@ -38,12 +40,11 @@ PlannerOptions ofTries(PlannerOptions options) {
 
 }  // namespace
 
-FittedPlanner::FittedPlanner(const Footprint& footprint, const CostGrid& costs,
-                             const std::shared_ptr<const grid::OccupancyGrid>& map,
+FittedPlanner::FittedPlanner(const Footprint& footprint, const CostGrid& costs, Inflate inflate,
                              const PlannerOptions& options, std::size_t memory)
     : footprint_(footprint),
       costs_(costs),
-      map_(map),
+      inflate_(std::move(inflate)),
       options_(options),
       memory_(memory),
       check_(footprint, costs, options) {
@@ -105,9 +106,7 @@ std::shared_ptr<const CostGrid> FittedPlanner::turningCosts(const PoseRequest& r
   const KeptDistances kept =
       EndSegments(costs_, keptDistances(options))
           .loweredTo(request.start.position.head<2>(), request.goal.position.head<2>());
-  CostmapBuilder builder(options, kept);
-  builder.setMap(map_);
-  return builder.fullResolution(stop);
+  return inflate_(options, kept, stop);
 }
 
 // The pose on the straight line that leaves (sign 1) or reaches (-1) an end in its heading, where the vehicle can turn
@@ -125,6 +124,9 @@ std::optional<Pose> FittedPlanner::lead(const Pose& end, double sign,
     pose.position.head<2>() += sign * length * along;
     const std::optional<grid::Cell> cell = geometry.cellAt(pose.position.head<2>());
     if (!cell || !costs_.passable(*cell)) break;
+    if (costs_.segmentRule() != SegmentRule::CENTRE_LATTICE &&
+        !straightLineLegal(costs_, end.position.head<2>(), pose.position.head<2>()))
+      break;
     lead = pose;
     if (turning.passable(*cell)) break;
   }

@@ -1,7 +1,7 @@
 // Plans for a vehicle with a footprint: a path between cells that a disc of the inscribed radius may take, on which the
 // footprint itself is then checked, turns on the spot included.
 //
-//   Plan plan = FittedPlanner(footprint, costs, map, options, memory).plan(search, request, stop);
+//   Plan plan = FittedPlanner(footprint, costs, inflate, options, memory).plan(search, request, stop);
 //
 // Where it does not fit the path is searched again: at most kTries times on costs that lead it through the middle of narrow
 // places and around those where it did not fit (try_costs.h), smoothed and not, from and to the ends by any line and by one
@@ -17,7 +17,6 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/grid/occupancy.h"
 #include "planning/footprint/footprint_check.h"
 #include "planning/footprint/try_costs.h"
 #include "planning/plan_on_costs.h"
@@ -28,10 +27,13 @@ class FittedPlanner {
  public:
   static constexpr int kTries = 8;
 
-  // `costs` is the costmap of `map` at full resolution that the search is prepared for; the radius of `options` is that
-  // which it keeps. `memory`: bytes that the tries may take. All outlive this.
-  FittedPlanner(const path::Footprint& footprint, const costmap::CostGrid& costs,
-                const std::shared_ptr<const grid::OccupancyGrid>& map,
+  // Gives the costmap at full resolution for the radius of other options, which keeps other distances. Throws Stopped.
+  using Inflate = std::function<std::shared_ptr<const costmap::CostGrid>(
+      const costmap::CostmapOptions&, const costmap::KeptDistances&, const base::StopToken&)>;
+
+  // `costs` is the costmap at full resolution that the search is prepared for; the radius of `options` is that
+  // which it keeps. `memory`: bytes that the tries may take. All references outlive this.
+  FittedPlanner(const path::Footprint& footprint, const costmap::CostGrid& costs, Inflate inflate,
                 const PlannerOptions& options, std::size_t memory);
 
   // Throws Stopped, and what searches throw. Preconditions of planOnCosts().
@@ -70,7 +72,7 @@ class FittedPlanner {
 
   const path::Footprint& footprint_;
   const costmap::CostGrid& costs_;
-  const std::shared_ptr<const grid::OccupancyGrid>& map_;
+  const Inflate inflate_;
   const PlannerOptions& options_;
   const std::size_t memory_;
   FootprintCheck check_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <costmap_2d/costmap_2d_ros.h>
+#include <geometry_msgs/Point.h>
 #include <ros/console.h>
 
 #include <boost/thread/locks.hpp>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <pluginlib/exceptions.hpp>
 #include <string>
+#include <vector>
 
 #include "grid_path_planner/base/errors.h"
 #include "ros/adapters/planner_adapter.h"
@@ -68,6 +70,16 @@ class PluginAdapter {
                                       {costmap.getOriginX(), costmap.getOriginY(), 0.0});
     planner.setCosts(geometry, costmap.getCharMap(),
                      costmap_ros.getLayeredCostmap()->getInscribedRadius());
+    if (planner.options().use_footprint) planner.setFootprint(footprintOf(costmap_ros));
+  }
+
+  // Padded: that of which costmap_2d takes the inscribed radius, and by which local planners judge. costmap_2d
+  // guards it by no mutex: they read it so, too.
+  static std::vector<Eigen::Vector2d> footprintOf(const costmap_2d::Costmap2DROS& costmap_ros) {
+    std::vector<Eigen::Vector2d> corners;
+    for (const geometry_msgs::Point& corner : costmap_ros.getRobotFootprint())
+      corners.emplace_back(corner.x, corner.y);
+    return corners;
   }
 
   costmap_2d::Costmap2DROS* costmap_ = nullptr;

@@ -1,6 +1,7 @@
 #include "ros/driving/go_to_pose_node.h"
 
 #include <ros/console.h>
+#include <std_msgs/Empty.h>
 
 #include <cmath>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/master/system_state.h"
 #include "ros/common/network_text.h"
+#include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
@@ -28,8 +30,7 @@ namespace {
 // Wall time
 constexpr double kTickPeriod = 0.05;  // s
 constexpr std::chrono::milliseconds kTellPeriod(200);
-constexpr double kDiagnosticsEvery = 1.0;  // s
-constexpr double kSendingTime = 0.1;       // s, in which roscpp sends what was published last
+constexpr double kSendingTime = 0.1;  // s, in which roscpp sends what was published last
 
 GoToPoseOptions loadGoToPoseOptions(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh) {
   GoToPoseOptions options;
@@ -72,6 +73,7 @@ GoToPoseNode::GoToPoseNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
   status_publisher_ = nh_.advertise<GoToStatus>("go_to_status", 1, true);
   current_goal_publisher_ =
       nh_.advertise<geometry_msgs::PoseStamped>(options_.action_name + "/current_goal", 1, true);
+  clear_publisher_ = nh_.advertise<std_msgs::Empty>("clear_scan", 1);
   startServer();
   reconfigurable_ = std::make_unique<Reconfigurable<GoToPoseConfig, GoToPoseOptions>>(
       private_nh, options_, [this](const GoToPoseOptions& options) { use(options); });
@@ -99,17 +101,13 @@ void GoToPoseNode::startServer() {
   simple_goal_subscriber_ = subscribeChecked<geometry_msgs::PoseStamped>(
       nh_, "move_base_simple/goal", 1,
       [this](const geometry_msgs::PoseStamped& message) { onSimpleGoal(message); });
-  diagnostics_.setHardwareID("none");
   diagnostics_.add("go to pose", this, &GoToPoseNode::diagnose);
 }
 
 void GoToPoseNode::startTimers() {
   timer_ = nh_.createSteadyTimer(ros::WallDuration(kTickPeriod),
                                  [this](const ros::SteadyTimerEvent&) { tick(); });
-  // force_update: the updater's own clock is ROS time, which may jump back.
-  diagnostics_timer_ =
-      nh_.createSteadyTimer(ros::WallDuration(kDiagnosticsEvery),
-                            [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
+  diagnostics_timer_ = diagnosticsTimer(nh_, diagnostics_);
 }
 
 void GoToPoseNode::use(const GoToPoseOptions& options) {
@@ -289,6 +287,10 @@ void GoToPoseNode::carryOut(const Order& order) {
       return drive(order.path);
     case Order::Kind::STOP:
       return driver_.cancel();
+    case Order::Kind::CLEAR_SCAN:
+      if (clear_publisher_.getNumSubscribers() == 0)
+        ROS_WARN_STREAM("No map_layers with use_scan listens to " << clear_publisher_.getTopic());
+      return clear_publisher_.publish(std_msgs::Empty());
     case Order::Kind::TELL:
       ROS_INFO_STREAM(order.sentence);
       return;

@@ -6,6 +6,7 @@
 //   publishes   go_to_status           grid_path_planner/GoToStatus, latched
 //               go_to_path             nav_msgs/Path, latched; the one that is driven, empty without one
 //               move_base/current_goal geometry_msgs/PoseStamped, latched
+//               clear_scan             std_msgs/Empty, by the step of recovery of that name: map_layers obeys
 //               /diagnostics
 //   calls       plan_path, navigate_path   actions of the planner and the driver
 //
@@ -116,7 +117,8 @@ class GoToPoseNode {
   bool carrying_out_ = false;
   std::chrono::steady_clock::time_point told_;
 
-  ros::Publisher status_publisher_, path_publisher_, current_goal_publisher_, goal_publisher_;
+  ros::Publisher status_publisher_, path_publisher_, current_goal_publisher_, goal_publisher_,
+      clear_publisher_;
   ros::Subscriber simple_goal_subscriber_;
   ActionCaller<PlanPathAction> planner_;
   ActionCaller<NavigatePathAction> driver_;

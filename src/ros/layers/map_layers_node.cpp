@@ -1,6 +1,7 @@
 #include "ros/layers/map_layers_node.h"
 
 #include <ros/console.h>
+#include <std_msgs/Empty.h>
 
 #include <utility>
 
@@ -121,11 +122,14 @@ void MapLayersNode::listen() {
     live_maps_.start(
         nh_, [this](const MapChange& change) { onLiveMap(change); }, [this] { onLiveHeartbeat(); },
         "live_map");
-  if (options_.use_scan)
+  if (options_.use_scan) {
     subscribers_.push_back(
         subscribeChecked<sensor_msgs::LaserScan, const sensor_msgs::LaserScan::ConstPtr&>(
             nh_, "scan", 5,
             [this](const sensor_msgs::LaserScan::ConstPtr& scan) { onScan(scan); }));
+    subscribers_.push_back(subscribeChecked<std_msgs::Empty>(
+        nh_, "clear_scan", 1, [this](const std_msgs::Empty&) { onClearScan(); }));
+  }
   if (options_.use_keep_out_mask)
     listenToMask(keep_out_source_, "keep_out_mask",
                  [this](LayeredMap::Map mask) { map_.setKeepOutMask(std::move(mask)); });
@@ -211,6 +215,14 @@ void MapLayersNode::onScan(const sensor_msgs::LaserScan::ConstPtr& scan) {
   if (!noticeTime()) return;
   scans_.add(scan);
   takeScans();
+}
+
+// What waits for its transform was seen before, too.
+void MapLayersNode::onClearScan() {
+  scans_.clear();
+  map_.forgetScans();
+  ROS_INFO_STREAM_THROTTLE(
+      1.0, "The obstacles of " << scan_source_.topic() << " are forgotten, as clear_scan asks");
 }
 
 // False while there is no ROS time.

@@ -3,6 +3,7 @@
 //   subscribes  static_map, static_map_updates   gives the grid
 //               live_map, live_map_updates       with use_live_map: that of projected_map, with its heartbeat
 //               scan                             sensor_msgs/LaserScan, with use_scan
+//               clear_scan                       std_msgs/Empty, with use_scan: the laser's obstacles are forgotten
 //               keep_out_mask, speed_mask        nav_msgs/OccupancyGrid, with use_keep_out_mask, use_speed_mask
 //               tf                               where the laser is in map_frame
 //   publishes   projected_map, projected_map_updates, speed_limit      layered_map_publisher.h
@@ -65,6 +66,7 @@ class MapLayersNode {
   // Up to when the live map holds what was seen.
   ros::Time liveStamp() const;
   void onScan(const sensor_msgs::LaserScan::ConstPtr& scan);
+  void onClearScan();
   bool noticeTime();
   void takeScans();
   void publish();

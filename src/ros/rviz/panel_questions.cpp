@@ -2,6 +2,8 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 
 #include <QFileDialog>
+#include <tuple>
+#include <utility>
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/waypoint_file.h"
@@ -17,6 +19,7 @@ using panel::cornersOf;
 using panel::PlanAnswer;
 using panel::PlanFigures;
 using panel::PlanRequest;
+using panel::RoutePoints;
 using panel::Tone;
 using path::Path;
 using path::Pose;
@@ -57,6 +60,22 @@ PlanAnswer answerOf(const PlanPathResult& result) {
   return answer;
 }
 
+// With a stamp of 0: by the newest transform.
+geometry_msgs::PoseStamped newestPose(const std::string& frame, const Pose& pose) {
+  geometry_msgs::PoseStamped message;
+  message.header.frame_id = frame;
+  message.pose = poseToMessage(pose);
+  return message;
+}
+
+// Start and goal; an empty start is where the vehicle is. Precondition: there is a goal.
+std::pair<geometry_msgs::PoseStamped, geometry_msgs::PoseStamped> endsOf(
+    const RoutePoints& points) {
+  geometry_msgs::PoseStamped start;
+  if (points.start()) start = newestPose(points.frame(), *points.start());
+  return {start, newestPose(points.frame(), *points.goal())};
+}
+
 Path pathOrNothing(const nav_msgs::Path& message) {
   try {
     return pathFromMessage(message);
@@ -87,33 +106,19 @@ void PlanPanel::otherPlan(const PlanStatistics& plan) {
   model_.otherPlan(answerOf(plan), now());
 }
 
-// A stamp of 0: the newest transform.
-geometry_msgs::PoseStamped PlanPanel::stamped(const Pose& pose) const {
-  geometry_msgs::PoseStamped message;
-  message.header.frame_id = model_.points().frame();
-  message.pose = poseToMessage(pose);
-  return message;
-}
-
 void PlanPanel::sendPlan(const PlanRequest& request) {
   PlanPathGoal goal;
-  if (request.leg.start) goal.start = stamped(*request.leg.start);
-  goal.goal = stamped(request.leg.goal);
-  goal.start.header.frame_id = request.leg.start ? request.frame : "";
-  goal.goal.header.frame_id = request.frame;
+  const RoutePoints& points = request.points;
+  std::tie(goal.start, goal.goal) = endsOf(points);
+  for (const Pose& via : points.via()) goal.via_points.push_back(newestPose(points.frame(), via));
+  goal.order = request.best_order && points.via().size() > 1 ? "best" : "given";
   requests_ = {{nodes_->plan.send(goal), request.id}};
-}
-
-template <class Service>
-void PlanPanel::askFromStartToGoal(Service& service) const {
-  if (model_.points().start()) service.request.start = stamped(*model_.points().start());
-  service.request.goal = stamped(*model_.points().goal());
 }
 
 void PlanPanel::compare() {
   if (!model_.buttons().compare) return;
   ComparePlans question;
-  askFromStartToGoal(question);
+  std::tie(question.request.start, question.request.goal) = endsOf(model_.points());
   question.request.planners = widgets_.comparison->chosen();
   if (question.request.planners.empty()) {
     model_.say(Tone::BAD, "Tick the planners to be compared in the list below");
@@ -151,7 +156,7 @@ void PlanPanel::showComparison(const ComparePlans::Response& response, unsigned 
 void PlanPanel::explain() {
   if (!model_.buttons().explain) return;
   ExplainPlan question;
-  askFromStartToGoal(question);
+  std::tie(question.request.start, question.request.goal) = endsOf(model_.points());
   model_.callBegan(Call::EXPLAIN);
   calls_.start<ExplainPlan>(
       nodes_->nh(), "path_planner/explain_plan", question, kPatienceOfQuestions,

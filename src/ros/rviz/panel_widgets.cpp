@@ -72,6 +72,7 @@ PanelWidgets::PanelWidgets(QWidget* parent, ParameterControls* parameters)
       start_at_vehicle(buttonOf("From vehicle", "Plans start where the vehicle is")),
       remove_via(buttonOf("Remove via", "Takes the last via-point away")),
       clear(buttonOf("Clear", "Takes away all points, the path and the comparison")),
+      best_order(new QCheckBox("Via-points in the best order")),
       plan(buttonOf("Plan",
                     "A path through the via-points to the goal; it follows what is dragged")),
       compare(buttonOf("Compare", "The paths of the planners that are ticked below, side by side")),
@@ -99,6 +100,9 @@ PanelWidgets::PanelWidgets(QWidget* parent, ParameterControls* parameters)
   addRow(column, {name_space, nodes});
   column->addWidget(parameters);
   addRow(column, {start_at_vehicle, remove_via, clear});
+  best_order->setToolTip(
+      "In the order that costs least, instead of the one in which they were set");
+  column->addWidget(best_order);
   addRow(column, {plan, compare, explain});
   addRow(column, {drive, pause, resume, cancel});
   addRow(column, {save, load});

@@ -1,6 +1,7 @@
 // The panel's widgets and where they are; what they do is given by PlanPanel.
 #pragma once
 
+#include <QCheckBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QProgressBar>
@@ -23,6 +24,7 @@ struct PanelWidgets {
   QLineEdit* name_space;
   QLabel* nodes;
   QPushButton *start_at_vehicle, *remove_via, *clear;
+  QCheckBox* best_order;
   QPushButton *plan, *compare, *explain;
   QPushButton *drive, *pause, *resume, *cancel;
   QPushButton *save, *load;

@@ -60,6 +60,8 @@ void PlanPanel::connectButtons() {
       {widgets_.clear, [this] { model_.clear(); }}};
   for (const auto& [button, pressed] : buttons)
     connect(button, &QPushButton::clicked, this, pressed);
+  connect(widgets_.best_order, &QCheckBox::toggled, this,
+          [this](bool best) { model_.setBestOrder(best); });
   connect(widgets_.name_space, &QLineEdit::editingFinished, this, [this] {
     connectNodes();
     Q_EMIT configChanged();

@@ -51,9 +51,6 @@ class PlanPanel : public rviz::Panel {
 
   void otherPlan(const PlanStatistics& plan);
   void sendPlan(const panel::PlanRequest& request);
-  geometry_msgs::PoseStamped stamped(const path::Pose& pose) const;
-  template <class Service>
-  void askFromStartToGoal(Service& service) const;
   void compare();
   // `points`: the revision of the model that was asked about.
   void showComparison(const ComparePlans::Response& response, unsigned points);

@@ -19,7 +19,8 @@ using visualization_msgs::Marker;
 
 namespace {
 
-constexpr double kSize = 0.7;  // m, of a handle
+constexpr double kSize = 0.7;   // m, of a handle
+constexpr double kLift = 0.25;  // m: above the paths, which the mouse would take hold of else
 
 // As in the pictures of grid_path plan.
 Colour colourOfKind(RoutePoints::Kind kind) {
@@ -31,6 +32,7 @@ Marker part(int type, const Colour& colour, double x, double y, double z) {
   Marker marker;
   marker.type = type;
   marker.pose.orientation.w = 1.0;
+  marker.pose.position.z = kLift;
   marker.scale.x = x;
   marker.scale.y = y;
   marker.scale.z = z;

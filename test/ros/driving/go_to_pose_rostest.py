@@ -9,9 +9,18 @@ import actionlib
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalID
+from dynamic_reconfigure.msg import Config, StrParameter
+from dynamic_reconfigure.srv import Reconfigure
 from move_base_msgs.msg import MoveBaseAction, MoveBaseActionResult, MoveBaseGoal
+from std_msgs.msg import Empty
 
 from go_to_session import DEADLINE, PACKAGE, GoToTest, executable, pose, room
+
+
+def set_recovery_steps(steps):
+    answer = rospy.ServiceProxy("go_to_pose/set_parameters", Reconfigure)(
+        Config(strs=[StrParameter("recovery_steps", steps)]))
+    assert [each.value for each in answer.config.strs if each.name == "recovery_steps"] == [steps], answer
 
 
 class GoToPose(GoToTest):
@@ -114,6 +123,18 @@ class GoToPose(GoToTest):
         steps = [status.step for status in self.heard()]
         self.assertTrue("wait" in steps and "turn_and_look" in steps, steps)
         self.assertIn("UNREACHABLE", self.heard()[-1].sentence)
+
+    def test_the_step_clear_scan_asks_for_it_and_plans_on_the_map_without(self):
+        """What dust marked in the door is in nobody's way once it is cleared."""
+        asked = rospy.Subscriber("clear_scan", Empty, lambda _: self.maps.publish(room(door=True)))
+        self.addCleanup(asked.unregister)
+        self.addCleanup(set_recovery_steps, "wait, back_off, turn_and_look")
+        set_recovery_steps("clear_scan")
+        self.maps.publish(room(door=False))
+        self.wait_for(lambda: asked.get_num_connections() > 0)
+        self.send(pose(8, 1.5))
+        self.ends("SUCCEEDED")
+        self.assertIn("clear_scan", [status.step for status in self.heard()])
 
     def test_a_cancel_during_recovery_ends_it(self):
         self.maps.publish(room(door=False))

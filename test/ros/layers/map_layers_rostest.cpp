@@ -1,5 +1,6 @@
 // map_layers through a real roscore: what it hears as one map, and when there is none.
 #include <sensor_msgs/LaserScan.h>
+#include <std_msgs/Empty.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <fstream>
@@ -93,6 +94,22 @@ TEST_F(MapLayers, ALasersObstacleAppearsAndIsClearedAndOnlyWhatChangedIsSent) {
   EXPECT_EQ(at(7, 0), 100);
   EXPECT_EQ(copy_.maps(), maps) << "as updates";
   for (const auto& update : beats_.all()) EXPECT_LE(update.width * update.height, 12U);
+}
+
+// What was carried away while no ray crossed its place, and what dust marked, stay until somebody asks.
+TEST_F(MapLayers, TheLasersObstaclesAreForgottenByClearScanAndThoseOfTheMapAreNot) {
+  placeLaser();
+  std::vector<std::string> room = kRoom;
+  room[2][8] = '#';
+  publishStatic(room);
+  start({"_use_scan:=true", "_source_timeout:=60"});
+  EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
+  ros::Publisher clear = nh_.advertise<std_msgs::Empty>("clear_scan", 1);
+  ASSERT_TRUE(waitFor([&] { return clear.getNumSubscribers() > 0; }));
+  clear.publish(std_msgs::Empty());
+  EXPECT_TRUE(becomes(5, 0, 0));
+  EXPECT_EQ(at(8, 2), 100) << "of the static map";
+  EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100)) << "what is still there is seen again";
 }
 
 TEST_F(MapLayers, ALiveMapWithUpdatesIsLaidOverAndItsHeartbeatGoesOn) {

@@ -1,7 +1,9 @@
 // The plugin that pluginlib loads for move_base, on a real costmap_2d and beside the planners that
 // move_base has.
 #include <nav_core/base_global_planner.h>
+#include <tf2/utils.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <thread>
@@ -147,6 +149,71 @@ TEST_F(MoveBasePlanner, FollowsARollingWindow) {
   EXPECT_FALSE(ours->makePlan(test::stampedPose(1.0, 5.0), test::stampedPose(9.0, 5.0), plan))
       << "the start lies outside now";
   EXPECT_TRUE(ours->makePlan(test::stampedPose(3.0, 5.0), test::stampedPose(11.0, 5.0), plan));
+}
+
+// Half the sides of a vehicle, in metres.
+constexpr double kHalfLength = 0.8, kHalfWidth = 0.2;
+
+// Whether some point of that vehicle lies in a lethal cell at a pose of the plan or while it turns from one heading to the next.
+bool meetsLethalCells(test::Site& site, const Poses& plan) {
+  const auto lethal = [&](double x, double y) {
+    return std::min(x, y) > 0.0 && std::max(x, y) < 10.0 && site.costAt(x, y) == LETHAL_OBSTACLE;
+  };
+  const auto meets = [&](const geometry_msgs::Point& at, double yaw) {
+    const double c = std::cos(yaw), s = std::sin(yaw);
+    for (double x = -kHalfLength; x <= kHalfLength; x += 0.02)
+      for (double y = -kHalfWidth; y <= kHalfWidth; y += 0.02)
+        if (lethal(at.x + x * c - y * s, at.y + x * s + y * c)) return true;
+    return false;
+  };
+  for (std::size_t i = 1; i < plan.size(); ++i) {
+    const double from = tf2::getYaw(plan[i - 1].pose.orientation);
+    const double turn = std::remainder(tf2::getYaw(plan[i].pose.orientation) - from, 2.0 * M_PI);
+    const int steps = 1 + static_cast<int>(std::abs(turn) / 0.05);
+    for (int step = 0; step <= steps; ++step)
+      if (meets(plan[i].pose.position, from + turn * step / steps)) return true;
+  }
+  return false;
+}
+
+TEST_F(MoveBasePlanner, WithUseFootprintTheCostmapsOwnMeetsNothing) {
+  std::vector<geometry_msgs::Point> corners(4);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    corners[i].x = i == 0 || i == 3 ? kHalfLength : -kHalfLength;
+    corners[i].y = i < 2 ? kHalfWidth : -kHalfWidth;
+  }
+  site_.ros().setUnpaddedRobotFootprint(corners);
+  site_.ros().updateMap();
+  const auto disc = planner(kOurs, "ours"), ours = planner(kOurs, "footprint");
+  int found = 0, met_by_disc = 0;
+  for (int query = 0; query < 40; ++query) {
+    const auto start = site_.freePose(random_), goal = site_.freePose(random_);
+    Poses plan;
+    if (disc->makePlan(start, goal, plan)) met_by_disc += meetsLethalCells(site_, plan);
+    if (!ours->makePlan(start, goal, plan)) continue;
+    ++found;
+    EXPECT_FALSE(meetsLethalCells(site_, plan)) << "query " << query;
+  }
+  EXPECT_GT(found, 10);
+  EXPECT_GT(met_by_disc, 2) << "of plans that only the inscribed radius was asked for";
+  std::cout << found << " plans of 40 with the footprint, " << met_by_disc
+            << " without meet something\n";
+}
+
+// The topic `footprint` of costmap_2d changes it while move_base runs.
+TEST_F(MoveBasePlanner, AFootprintThatChangesCountsForTheNextPlan) {
+  const auto ours = planner(kOurs, "footprint");
+  clear();
+  drawColumn(100, 0, 95, LETHAL_OBSTACLE);
+  drawColumn(100, 105, 200, LETHAL_OBSTACLE);  // a door of 0.5 m
+  const auto start = test::stampedPose(2.0, 5.0), goal = test::stampedPose(8.0, 5.0);
+  Poses plan;
+  EXPECT_TRUE(ours->makePlan(start, goal, plan));
+  std::vector<geometry_msgs::Point> wide = site_.ros().getUnpaddedRobotFootprint();
+  for (geometry_msgs::Point& corner : wide) corner.y *= 2.0;
+  site_.ros().setUnpaddedRobotFootprint(wide);
+  EXPECT_FALSE(ours->makePlan(start, goal, plan));
+  EXPECT_TRUE(plan.empty());
 }
 
 TEST_F(MoveBasePlanner, WithAParameterThatCannotBeUsedItIsNotCreated) {

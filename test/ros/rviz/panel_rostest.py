@@ -15,7 +15,7 @@ import rostest
 from nav_msgs.msg import OccupancyGrid
 from visualization_msgs.msg import InteractiveMarkerFeedback, MarkerArray
 
-from grid_path_planner.msg import PlanStatistics
+from grid_path_planner.msg import PlanPathActionResult, PlanStatistics
 from screen import Screen
 
 PACKAGE = "grid_path_planner"
@@ -63,6 +63,7 @@ class PanelTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.statistics = Heard("plan_statistics", PlanStatistics)
+        cls.answers = Heard("plan_path/result", PlanPathActionResult)
         cls.drawn = Heard("plan_panel/markers", MarkerArray)
         cls.dragged = Heard("plan_panel/points/feedback", InteractiveMarkerFeedback)
         cls.map = rospy.Publisher("projected_map", OccupancyGrid, queue_size=1, latch=True)
@@ -125,6 +126,42 @@ class PanelTest(unittest.TestCase):
         answer = self.answer_to(lambda: self.screen.drag(self.view.at(0.7, 0.7), self.view.at(0.7, 0.5)), "a plan")
         wait_for(lambda: self.statistics.all[-1].goal.pose.position.y > before.y + 0.5, "a plan to the new place")
         self.assertEqual(answer.status, "FOUND")
+
+    def wait_for_plan(self, condition, act, what):
+        """The first answer of plan_path after `act` that is as it should be."""
+        seen = len(self.answers.all)
+        act()
+        return wait_for(lambda: next((answer.result for answer in self.answers.all[seen:] if condition(answer.result)),
+                                     None), what)
+
+    def passes(self, result, pixel):
+        """Whether the path comes within 0.3 m of that place of the view."""
+        x, y = self.position_of(pixel)
+        return any(abs(pose.pose.position.x - x) < 0.3 and abs(pose.pose.position.y - y) < 0.3 for pose in result.path.poses)
+
+    def position_of(self, pixel):
+        """In the map: the view from above is not turned, and where start and goal of the first plan were set is known."""
+        first, last = self.answers.all[0].result.path.poses[0], self.answers.all[0].result.path.poses[-1]
+        (left, y), (right, _) = self.view.at(0.3, 0.7), self.view.at(0.7, 0.7)
+        metres = (last.pose.position.x - first.pose.position.x) / (right - left)
+        return (first.pose.position.x + metres * (pixel[0] - left), first.pose.position.y - metres * (pixel[1] - y))
+
+    def test_2b_via_points_are_passed_as_they_are_set_or_in_the_best_order(self):
+        """The second one lies before the first. A via-point is dragged by its middle, where the path passes it."""
+        far, near = self.view.at(0.45, 0.3), self.view.at(0.33, 0.5)  # both on the near side of the wall
+        self.wait_for_plan(lambda result: self.passes(result, far), lambda: self.set_point("v", far), "a plan through it")
+        given = self.wait_for_plan(lambda result: len(result.order) == 2, lambda: self.set_point("v", near), "both")
+        self.assertEqual(("FOUND", (0, 1)), (given.status, tuple(given.order)))
+        self.assertTrue(self.passes(given, far) and self.passes(given, near))
+        plan = self.button()
+        best = self.wait_for_plan(lambda result: tuple(result.order) == (1, 0),
+                                  lambda: self.screen.click((plan.left + 8, plan.top - 16)), "the best order")
+        self.assertTrue(best.order_exact)
+        self.assertLess(best.statistics.length_m, given.statistics.length_m)
+        self.screen.do("mousemove", *self.view.middle(), "sleep", 0.1, "key", "i", "sleep", 0.2)
+        moved = self.view.at(0.33, 0.35)
+        self.wait_for_plan(lambda result: self.passes(result, moved), lambda: self.screen.drag(near, moved),
+                           "the plan through the via-point that was dragged")
 
     def click_compare(self):
         """Which stands right of Plan."""

@@ -58,7 +58,8 @@ NODES = {
         arguments=["_no_progress_timeout:=0"], tf="listens", probe=probes.drives),
     "go_to_pose": Row(
         inputs=dict(PLANNER[0], **DRIVER[0], **{"move_base_simple/goal": "geometry_msgs/PoseStamped"}),
-        outputs=dict(PLANNER[1], **DRIVER[1], go_to_status="grid_path_planner/GoToStatus", go_to_path="nav_msgs/Path"),
+        outputs=dict(PLANNER[1], **DRIVER[1], go_to_status="grid_path_planner/GoToStatus", go_to_path="nav_msgs/Path",
+                     clear_scan="std_msgs/Empty"),
         services={}, actions={"move_base": "move_base_msgs/MoveBase"}, arguments=[], tf="listens",
         probe=probes.goes_to_a_pose),
     "local_planner": Row(
@@ -103,8 +104,8 @@ NODES = {
     "map_layers": Row(
         inputs={"static_map": "nav_msgs/OccupancyGrid", "static_map_updates": "map_msgs/OccupancyGridUpdate",
                 "live_map": "nav_msgs/OccupancyGrid", "live_map_updates": "map_msgs/OccupancyGridUpdate",
-                "scan": "sensor_msgs/LaserScan", "keep_out_mask": "nav_msgs/OccupancyGrid",
-                "speed_mask": "nav_msgs/OccupancyGrid"},
+                "scan": "sensor_msgs/LaserScan", "clear_scan": "std_msgs/Empty",
+                "keep_out_mask": "nav_msgs/OccupancyGrid", "speed_mask": "nav_msgs/OccupancyGrid"},
         outputs=dict(MAPS, speed_limit="nav_msgs/OccupancyGrid"), services={}, actions={},
         arguments=["_zones_file:=zones.yaml", "_use_live_map:=true", "_use_scan:=true", "_use_keep_out_mask:=true",
                    "_use_speed_mask:=true", "_source_timeout:=10"],
