@@ -15,6 +15,7 @@
 #include "ros/common/parameters.h"
 #include "ros/simulation/transform_message.h"
 #include "simulation/camera/pinhole.h"
+#include "simulation/obstacle_distance.h"
 
 namespace grid_path_planner::nodes {
 
@@ -22,6 +23,7 @@ using base::InputError;
 using base::sameOptions;
 using grid::OccupancyGrid;
 using simulation::NavigationSensors;
+using simulation::obstacleDistance;
 using simulation::readSensorFaults;
 using simulation::readWorld;
 using simulation::SensorFault;
@@ -41,6 +43,18 @@ constexpr double kLongestWait = 0.2;  // s
 
 VehicleState initialState(const SimulatorOptions& o) {
   return {Eigen::Vector3d(o.initial.x, o.initial.y, o.initial.z), o.initial.yaw, {}};
+}
+
+// A vehicle that starts where it cannot drive is told before somebody wonders why it does not.
+void warnOfStart(const OccupancyGrid& map, const VehicleState& state, const SimulatorOptions& o) {
+  const Eigen::Vector2d at = state.position.head<2>();
+  const double radius = o.vehicle.vehicle_radius;
+  const bool outside = !map.geometry().cellAt(at);
+  if (!outside && obstacleDistance(map, o.vehicle.occupied_min, at, radius) >= radius) return;
+  ROS_WARN_STREAM("The vehicle starts at ("
+                  << at.x() << ", " << at.y() << "), "
+                  << (outside ? "outside the map" : "nearer than its radius to an obstacle")
+                  << ": initial_x and initial_y (x and y of map_demo.launch) put it elsewhere");
 }
 
 VehicleFrameNames frameNames(const SimulatorOptions& o) {
@@ -191,7 +205,9 @@ void SimulatorNode::onMap(const nav_msgs::OccupancyGrid& message) {
     const std::string frame = frameName(message.header.frame_id);
     if (!frame.empty() && frame != options_.map_frame)
       throw InputError("its frame must be " + options_.map_frame + ", got '" + frame + "'");
-    vehicle_->setMap(std::make_shared<OccupancyGrid>(occupancyFromMessage(message)));
+    const auto map = std::make_shared<OccupancyGrid>(occupancyFromMessage(message));
+    if (!std::exchange(has_map_, true)) warnOfStart(*map, vehicle_->state(), options_);
+    vehicle_->setMap(map);
     contact_publisher_.start(*vehicle_);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("projected_map refused, the one before stays: " << error.what());
