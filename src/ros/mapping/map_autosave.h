@@ -1,7 +1,7 @@
 // The file that a projected_map begins with when it was ended and started again: a node that is
 // killed must not erase the world.
 //
-//   MapAutosave autosave(folder, private_nh.getNamespace(), "map");
+//   MapAutosave autosave(folder, private_nh.getNamespace(), "map", "site.bt");
 //   MapModel map(options, autosave.begin());   // the file of this run, if there is one
 //   autosave.save(map, newest_cloud);          // in the mapping thread, as often as wanted
 //

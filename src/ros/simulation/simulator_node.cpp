@@ -15,7 +15,6 @@
 #include "ros/common/parameters.h"
 #include "ros/simulation/transform_message.h"
 #include "simulation/camera/pinhole.h"
-#include "simulation/obstacle_distance.h"
 
 namespace grid_path_planner::nodes {
 
@@ -23,7 +22,6 @@ using base::InputError;
 using base::sameOptions;
 using grid::OccupancyGrid;
 using simulation::NavigationSensors;
-using simulation::obstacleDistance;
 using simulation::readSensorFaults;
 using simulation::readWorld;
 using simulation::SensorFault;
@@ -48,12 +46,11 @@ VehicleState initialState(const SimulatorOptions& o) {
 // A vehicle that starts where it cannot drive is told before somebody wonders why it does not.
 void warnOfStart(const OccupancyGrid& map, const VehicleState& state, const SimulatorOptions& o) {
   const Eigen::Vector2d at = state.position.head<2>();
-  const double radius = o.vehicle.vehicle_radius;
-  const bool outside = !map.geometry().cellAt(at);
-  if (!outside && obstacleDistance(map, o.vehicle.occupied_min, at, radius) >= radius) return;
+  const auto cell = map.geometry().cellAt(at);
+  if (cell && map[*cell] < o.vehicle.occupied_min) return;
   ROS_WARN_STREAM("The vehicle starts at ("
                   << at.x() << ", " << at.y() << "), "
-                  << (outside ? "outside the map" : "nearer than its radius to an obstacle")
+                  << (cell ? "in an occupied cell" : "outside the map")
                   << ": initial_x and initial_y (x and y of map_demo.launch) put it elsewhere");
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "grid_path_planner/SaveFile.h"
 #include "ros/support/mapping_fixture.h"
 #include "support/temporary_folder.h"
 

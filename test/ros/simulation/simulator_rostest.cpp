@@ -130,9 +130,8 @@ TEST_F(SimulatorTest, AStartWhereItCannotDriveIsToldWithTheMap) {
   maps.publish(occupancyToMessage(test::AsciiMap({"....#"}, 1.0).map, "/map", ros::Time(1.0)));
   start({"_initial_x:=50", "_initial_y:=0.5"});
   EXPECT_TRUE(simulator_->says("The vehicle starts at (50, 0.5), outside the map"));
-  start({"_initial_x:=3.8", "_initial_y:=0.5"});
-  EXPECT_TRUE(
-      simulator_->says("The vehicle starts at (3.8, 0.5), nearer than its radius to an obstacle"));
+  start({"_initial_x:=4.5", "_initial_y:=0.5"});
+  EXPECT_TRUE(simulator_->says("The vehicle starts at (4.5, 0.5), in an occupied cell"));
   start({"_initial_x:=1.5", "_initial_y:=0.5"});
   ASSERT_TRUE(driveUntil(twist(1.0), [](const Odometry& o) {
     return o.pose.pose.position.x > 3.69 && o.twist.twist.linear.x == 0.0;
