@@ -19,14 +19,14 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CATKIN_DEVEL_PREFIX}/lib)  # o
 set(CPACK_STRIP_FILES ON)
 
 set(runtime_planning python3-roslaunch rosbash python3-rosbag python3-rospy python3-rostopic python3-rosservice
-  python3-rosnode python3-geometry-msgs python3-nav-msgs python3-rosgraph-msgs python3-std-msgs python3-std-srvs)
+  python3-rosnode python3-rosparam python3-geometry-msgs python3-nav-msgs python3-rosgraph-msgs python3-std-msgs python3-std-srvs)
 set(runtime_rviz rviz)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 if(EXISTS /opt/ros/noetic)
   set(CPACK_PACKAGE_NAME ros-noetic-grid-path-planner)
   set(CPACK_PACKAGING_INSTALL_PREFIX /opt/ros/noetic)
   set(runtime_planning ros-noetic-roslaunch ros-noetic-rosbash ros-noetic-rosbag ros-noetic-rospy ros-noetic-rostopic
-    ros-noetic-rosservice ros-noetic-rosnode ros-noetic-geometry-msgs ros-noetic-nav-msgs ros-noetic-rosgraph-msgs
+    ros-noetic-rosservice ros-noetic-rosnode ros-noetic-rosparam ros-noetic-geometry-msgs ros-noetic-nav-msgs ros-noetic-rosgraph-msgs
     ros-noetic-std-msgs ros-noetic-std-srvs)
   set(runtime_rviz ros-noetic-rviz)
 endif()

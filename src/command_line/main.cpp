@@ -11,10 +11,12 @@ namespace {
 
 using grid_path_planner::command_line::Command, grid_path_planner::command_line::commands;
 
+constexpr std::size_t kNameWidth = 14;  // with the gap after the longest name
+
 int usage(std::ostream& out, int code) {
   out << "usage: grid_path COMMAND [options]\n\n";
   for (const Command& command : commands())
-    out << "  " << command.name << std::string(12 - std::strlen(command.name), ' ')
+    out << "  " << command.name << std::string(kNameWidth - std::strlen(command.name), ' ')
         << command.purpose << '\n';
   out << "\n'grid_path COMMAND --help' lists a command's options, 'grid_path --version' prints the "
          "version.\n";

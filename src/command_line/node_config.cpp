@@ -12,9 +12,9 @@
 
 namespace grid_path_planner::command_line {
 
-using base::closestName, base::InputError, base::loadYamlFile, base::OptionInfo, base::parseOption,
-    base::yamlAs, base::yamlError;
-using nodes::optionNames, nodes::PathPlannerNodeOptions;
+using base::InputError, base::loadYamlFile, base::OptionInfo, base::parseOption, base::yamlAs,
+    base::yamlError;
+using nodes::meantText, nodes::optionNames, nodes::PathPlannerNodeOptions;
 using planning::PlannerOptions;
 
 namespace {
@@ -50,15 +50,22 @@ struct FromYaml {
   }
 };
 
+// The first known parameter in a map, "" where there is none.
+std::string knownBelow(const YAML::Node& node, const std::vector<std::string>& known) {
+  if (!node.IsMap()) return "";
+  const auto found = std::find_if(known.begin(), known.end(),
+                                  [&](const std::string& name) { return node[name].IsDefined(); });
+  return found == known.end() ? "" : *found;
+}
+
 void warnAboutUnknown(const YAML::Node& root, const std::string& file) {
   const std::vector<std::string> known = optionNames<PathPlannerNodeOptions>();
   for (const auto& entry : root) {
     const auto name = yamlAs<std::string>(entry.first, "a key", file, "the name of a parameter");
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    const std::string meant = closestName(name, known);
     std::cerr << "warning: "
               << yamlError(entry.first, file, "unknown parameter " + name + " is not used").what()
-              << (meant.empty() ? "" : "; did you mean " + meant + "?") << '\n';
+              << meantText(name, knownBelow(entry.second, known), known) << '\n';
   }
 }
 

@@ -88,6 +88,10 @@ OccupancyGrid readMap(const std::string& content, const std::string& file,
   const std::string extension = extensionOf(file);
   if (isBag(content, extension))
     throw InputError(file, "is a bag, which is read with ROS (grid_path_planner/ros/bag.h)");
+  if (startsWith(content, "# Octomap OcTree"))
+    throw InputError(file,
+                     "is an octree, no map: grid_path project makes a map of it, and the node "
+                     "projected_map publishes one");
   if (isImage(content, extension)) return readPlainImage(file, options);
   if (!options.plain_image.none())
     throw InputError(file,

@@ -19,6 +19,7 @@ constexpr double kFastest = 100.0;           // m/s
 constexpr double kFastestTurn = 100.0;       // rad/s
 constexpr double kStrongest = 1000.0;        // m/s^2
 constexpr double kFarthestMounted = 1000.0;  // m
+constexpr double kOtherClock = 1e6;          // s
 constexpr double kLeastVariance = 1e-12, kLargestVariance = 1e12;
 
 void checkVector(const char* what, const Eigen::Vector3d& vector, double limit) {
@@ -89,6 +90,13 @@ void checkData(const PoseFix& fix) {
   checkMounting(fix.mounting);
 }
 
+// What makes years between two stamps, as when a recording is played for nodes on the wall clock.
+std::string clocksText(double between) {
+  return std::abs(between) < kOtherClock
+             ? ""
+             : ": stamps and clock are not of one time; a bag that is played needs use_sim_time";
+}
+
 }  // namespace
 
 void checkMounting(const Mounting& in_body) {
@@ -113,10 +121,10 @@ void checkMeasurement(const Measurement& measurement) {
 void checkStamp(Stamp stamp, Stamp now, double history) {
   const double ahead = secondsBetween(now, stamp);
   if (ahead > kMostAhead)
-    throw InputError("its stamp is " + decimalText(ahead) + " s in the future");
+    throw InputError("its stamp is " + decimalText(ahead) + " s in the future" + clocksText(ahead));
   if (-ahead > history)
     throw InputError("it is " + decimalText(-ahead) + " s old, more than the history of " +
-                     decimalText(history) + " s");
+                     decimalText(history) + " s" + clocksText(ahead));
 }
 
 }  // namespace grid_path_planner::localization

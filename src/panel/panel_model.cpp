@@ -201,7 +201,7 @@ std::string PanelModel::nodesText() const {
 }
 
 std::string PanelModel::driveText() const {
-  if (!driving_) return drive_state_.empty() ? "not driving" : drive_state_;
+  if (!driving_) return drive_state_.empty() ? "no drive is reported" : drive_state_;
   const std::optional<double> left = progress_.secondsLeft();
   return drive_state_ + ", waypoint " + std::to_string(waypoint_) + ", time left " +
          (left ? shownDuration(*left) : "unknown");

@@ -1,5 +1,6 @@
 #include "planning/message_text.h"
 
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -23,6 +24,11 @@ std::string metresText(double length) {
   std::ostringstream out;
   out << std::setprecision(4) << length << " m";
   return out.str();
+}
+
+std::string headingText(double yaw) {
+  const double degrees = std::round(std::remainder(yaw, 2.0 * M_PI) * 180.0 / M_PI);
+  return "heading " + std::to_string(static_cast<int>(degrees)) + " deg";
 }
 
 std::string unreachableText(const Eigen::Vector2d& start, const Eigen::Vector2d& goal,

@@ -15,6 +15,9 @@ std::string positionText(const Eigen::Vector2d& position);
 // "12.34 m", four digits.
 std::string metresText(double length);
 
+// "heading -90 deg", whole degrees.
+std::string headingText(double yaw);
+
 // "no path leads from (1.5, 2) to (3, 4) or within 0.5 m of it".
 std::string unreachableText(const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
                             double tolerance);

@@ -214,6 +214,32 @@ TEST_F(Plan, TakesTheYamlOfTheNode) {
       << warning;
 }
 
+// A file written as for move_base, below the node's name, was planned with radius 0, and the warning asked whether 'planner' was
+// meant.
+TEST_F(Plan, ParametersBelowTheNodesNameAreSeenAsSuch) {
+  const std::string config = folder_.write("vehicle.yaml", "path_planner:\n  radius: 0.4\n");
+  testing::internal::CaptureStderr();
+  runCommand(runPlan, {"plan", "--map", map_, "--start", "0.05,0.05", "--goal", "0.35,0.25",
+                       "--config", config});
+  const std::string warning = testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(contains(warning,
+                       "vehicle.yaml:1: unknown parameter path_planner is not used; radius stands "
+                       "below it: leave the line "
+                       "'path_planner:' out"))
+      << warning;
+}
+
+// "is not text: byte 0".
+TEST_F(Plan, AnOctreeIsNamedWithTheCommandThatProjectsIt) {
+  const std::string tree =
+      folder_.write("site.bt", std::string("# Octomap OcTree binary file\nid OcTree\n\0", 41));
+  const auto outcome =
+      runCommand(runPlan, {"plan", "--map", tree, "--start", "0,0", "--goal", "1,1"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(contains(outcome.error, "site.bt: is an octree, no map: grid_path project"))
+      << outcome.error;
+}
+
 // An office of 20 m was planned on as one of 400 m.
 TEST_F(Plan, AnImageAloneIsAskedForItsResolution) {
   const std::string image = folder_.path("office.png");

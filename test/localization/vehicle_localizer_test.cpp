@@ -305,6 +305,13 @@ TEST(Stamps, OfTheFutureAndOfLongAgoAreRefused) {
   EXPECT_NO_THROW(checkStamp(stampAt(1.05), stampAt(1.0), 5.0));
   EXPECT_TRUE(contains(errorText([] { checkStamp(stampAt(1.2), stampAt(1.0), 5.0); }), "future"));
   EXPECT_TRUE(contains(errorText([] { checkStamp(stampAt(1.0), stampAt(7.0), 5.0); }), "history"));
+  // "USBL refused: it is 1795457560.6 s old", said of a bag that was played without use_sim_time.
+  for (const auto& [stamp, now] : {std::pair(32.0, 1.8e9), std::pair(1.8e9, 32.0)})
+    EXPECT_TRUE(
+        contains(errorText([s = stamp, n = now] { checkStamp(stampAt(s), stampAt(n), 5.0); }),
+                 "use_sim_time"));
+  EXPECT_FALSE(
+      contains(errorText([] { checkStamp(stampAt(1.0), stampAt(7.0), 5.0); }), "use_sim_time"));
 }
 
 TEST(Localizer, OptionsOutsideTheirLimitsAreRefusedByName) {

@@ -134,6 +134,24 @@ TEST(TurningRadius, whereNoCurveFitsItSaysSoAndTheParameterDecides) {
   EXPECT_EQ(0u, curved.sharp_corners) << curved.message;
 }
 
+// "The first at (-10, 0.5)" was the goal, whose heading, 0 by default, nobody had asked for.
+TEST(TurningRadius, aCornerAtAnEndIsToldAsTheHeadingThere) {
+  TurningQuestion question(AsciiMap({"##########", "#S......G#", "##########"}, 1.0));
+  EXPECT_EQ(Status::FOUND, question.plan().status);
+  question.request.goal.yaw = M_PI / 2;
+  const Plan goal = question.plan();
+  EXPECT_EQ(Status::UNREACHABLE, goal.status);
+  EXPECT_TRUE(
+      contains(goal.message, "the first at the goal (8.5, 1.5), which asks for heading 90 deg"))
+      << goal.message;
+  question.request.goal.yaw = 0.0;
+  question.request.start.yaw = M_PI;
+  const Plan start = question.plan();
+  EXPECT_EQ(Status::UNREACHABLE, start.status);
+  EXPECT_TRUE(contains(start.message, "the first at the start (1.5, 1.5), with heading 180 deg"))
+      << start.message;
+}
+
 TEST(TurningRadius, turningOnTheSpotIsNoPath) {
   TurningQuestion question(roomWithAWall());
   question.request.goal = question.request.start;

@@ -46,6 +46,8 @@ struct MapFileOptions {
   // Whether an image without a YAML is refused where `resolution` is not given: its cells are hardly
   // ever 1 m wide.
   bool images_need_resolution = false;
+  // Whether such an image is warned of, where it is read.
+  bool warn_of_cells_of_images = false;
   // Other files are refused with any of these.
   PlainImageOptions plain_image;
   // Called with a message where a file is doubtful: a colour image, letters that the format does not

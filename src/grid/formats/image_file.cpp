@@ -236,6 +236,11 @@ OccupancyGrid readPlainImage(const std::string& file, MapFileOptions& options) {
     throw InputError(file,
                      "is an image without a YAML, and nothing says how wide a pixel is: "
                      "give its resolution in metres, as in 0.05");
+  if (options.warn_of_cells_of_images && options.warn && !options.resolution)
+    options.warn(
+        file +
+        ": is an image without a YAML, so each pixel is taken for a cell of 1 m: a YAML of "
+        "map_server's form says how wide it is (image: NAME, resolution: 0.05, origin: [0, 0, 0])");
   const PlainImageOptions& wanted = options.plain_image;
   const GreyImage image = readGrey(file, MapMode::TRINARY, 1.0, {}, options);
   if (wanted.columns > image.pixels.cols)

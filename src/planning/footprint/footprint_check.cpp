@@ -23,11 +23,6 @@ bool outsideCounts(const CostmapOptions& options) {
          (options.outside == Outside::UNKNOWN && unknownCounts(options));
 }
 
-std::string headingText(double yaw) {
-  const double degrees = std::round(std::remainder(yaw, 2.0 * M_PI) * 180.0 / M_PI);
-  return "heading " + std::to_string(static_cast<int>(degrees)) + " deg";
-}
-
 }  // namespace
 
 FootprintCheck::FootprintCheck(const Footprint& footprint, const CostGrid& costs,

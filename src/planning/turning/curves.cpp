@@ -48,7 +48,8 @@ class Curves {
     plan.optimal = false;
     plan.cost = {};
     plan.segment_cost = costOf(plan.path);
-    tell(plan, curved.sharp, curved.first_sharp.value_or(first.position.head<2>()));
+    tell(plan, curved.sharp,
+         placeText(curved.first_sharp.value_or(first.position.head<2>()), last));
   }
 
  private:
@@ -70,17 +71,29 @@ class Curves {
   void standing(Plan& plan) const {
     const double turn = std::remainder(plan.path.poses.back().yaw - request_.start.yaw, 2.0 * M_PI);
     if (request_.any_goal_heading || std::abs(turn) < kRepeatedPose) return;
-    tell(plan, 1, plan.path.poses.front().position.head<2>());
+    tell(plan, 1, placeText(plan.path.poses.back().position.head<2>(), plan.path.poses.back()));
   }
 
-  void tell(Plan& plan, std::size_t sharp, const Eigen::Vector2d& first) const {
+  // A corner at an end is the turn to the goal's heading, or from the start's.
+  std::string placeText(const Eigen::Vector2d& corner, const Pose& goal) const {
+    const auto isAt = [&](const Pose& pose) {
+      return (corner - pose.position.head<2>()).norm() < kRepeatedPose;
+    };
+    if (isAt(goal))
+      return "the goal " + positionText(corner) + ", which asks for " + headingText(goal.yaw);
+    if (isAt(request_.start))
+      return "the start " + positionText(corner) + ", with " + headingText(request_.start.yaw);
+    return positionText(corner);
+  }
+
+  void tell(Plan& plan, std::size_t sharp, const std::string& first) const {
     plan.sharp_corners = sharp;
     const std::string of_radius = metresText(options_.min_turning_radius);
     if (sharp == 0)
       return addNote(plan.message, "its turns have a radius of " + of_radius + " at least");
     addNote(plan.message, std::to_string(sharp) + (sharp == 1 ? " corner stays" : " corners stay") +
                               " sharp, since no curve of " + of_radius + " fits, the first at " +
-                              positionText(first));
+                              first);
   }
 
   SegmentPoint pointOf(const Eigen::Vector2d& position) const {

@@ -178,13 +178,24 @@ std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
   return {unknown.begin(), unknown.end()};
 }
 
+std::string meantText(const std::string& name, const std::string& inner,
+                      const std::vector<std::string>& known) {
+  if (!inner.empty())
+    return "; " + inner + " stands below it: leave the line '" + name +
+           ":' out and begin those below it at the left margin";
+  const std::string meant = closestName(name, known);
+  return meant.empty() ? "" : "; did you mean " + meant + "?";
+}
+
 void warnUnknownParameters(const ros::NodeHandle& private_nh,
                            const std::vector<std::string>& known) {
   for (const std::string& name : unknownParameters(private_nh, known)) {
-    const std::string meant = closestName(name, known);
-    ROS_WARN_STREAM("Unknown parameter " << private_nh.getNamespace() << "/" << name
-                                         << " is not used"
-                                         << (meant.empty() ? "" : "; did you mean " + meant + "?"));
+    const auto inner = std::find_if(known.begin(), known.end(), [&](const std::string& one) {
+      return private_nh.hasParam(name + "/" + one);
+    });
+    ROS_WARN_STREAM("Unknown parameter "
+                    << private_nh.getNamespace() << "/" << name << " is not used"
+                    << meantText(name, inner == known.end() ? "" : *inner, known));
   }
 }
 

@@ -70,7 +70,12 @@ const XmlRpc::XmlRpcValue* findParameter(const XmlRpc::XmlRpcValue& tree, const 
 std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
                                            const std::vector<std::string>& known);
 
-// Warns about each of them, naming the closest known one.
+// What is said of an unknown name: the closest known one, or that it holds the known `inner`, as in a
+// file whose parameters stand below the node's name.
+std::string meantText(const std::string& name, const std::string& inner,
+                      const std::vector<std::string>& known);
+
+// Warns about each of them, with meantText().
 void warnUnknownParameters(const ros::NodeHandle& private_nh,
                            const std::vector<std::string>& known);
 

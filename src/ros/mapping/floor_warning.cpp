@@ -20,14 +20,16 @@ bool leavesOutWhatIsLow(const ProjectedMapOptions& options) {
 
 }  // namespace
 
-bool showsTheFloor(const grid::OccupancyGrid& map, const ProjectedMapOptions& options) {
-  if (leavesOutWhatIsLow(options)) return false;
+std::string floorWarning(const grid::OccupancyGrid& map, const ProjectedMapOptions& options) {
+  if (leavesOutWhatIsLow(options)) return "";
   std::size_t known = 0, occupied = 0;
   for (const std::int8_t value : map.values()) {
     known += value >= 0 ? 1 : 0;
     occupied += value > 50 ? 1 : 0;
   }
-  return known >= kFewCells && 2 * occupied > known;
+  if (known < kFewCells || 2 * occupied <= known) return "";
+  return "More than half of what was seen is occupied: is the floor mapped as an obstacle? Set "
+         "projection_min_z above it, or filter_ground, or projection_reference seabed";
 }
 
 }  // namespace grid_path_planner::nodes

@@ -55,11 +55,18 @@ std::string runId() {
 }  // namespace
 
 MapAutosave::MapAutosave(const std::string& folder, const std::string& node,
-                         const std::string& frame_id)
-    : folder_(folder), file_(folder + "/" + fileName(node)), run_(runId()), frame_id_(frame_id) {}
+                         const std::string& frame_id, const std::string& octree)
+    : folder_(folder), file_(folder + "/" + fileName(node)), run_(runId()), frame_id_(frame_id) {
+  beginWith(octree);
+}
+
+void MapAutosave::beginWith(const std::string& octree) {
+  octree_ = octree;
+  std::replace(octree_.begin(), octree_.end(), '\n', ' ');
+}
 
 std::string MapAutosave::marker() const {
-  return "run " + run_ + ", frame " + frame_id_;
+  return "run " + run_ + ", frame " + frame_id_ + (octree_.empty() ? "" : ", file " + octree_);
 }
 
 // The lines of the file that say whose it is and what is in it; "" without such a file.
@@ -80,10 +87,13 @@ std::string MapAutosave::beginning() const {
 std::string MapAutosave::begin() const {
   if (!std::filesystem::exists(file_)) return "";
   if (beginning().empty()) {
-    ROS_INFO_STREAM("Begins empty: the map in " << file_ << " is of another run or frame");
+    ROS_INFO_STREAM("The map that was kept in "
+                    << file_ << " is of another run, frame or octree file: it is not begun with");
     return "";
   }
-  ROS_WARN_STREAM("Begins with the map that was kept in " << file_);
+  ROS_WARN_STREAM("Begins with the map that was kept in "
+                  << file_ << (octree_.empty() ? "" : ", which began with " + octree_)
+                  << "; the service ~reset forgets it");
   return file_;
 }
 

@@ -1,12 +1,13 @@
 // The file that a projected_map begins with when it was ended and started again: a node that is
 // killed must not erase the world.
 //
-//   MapAutosave autosave(folder, private_nh.getNamespace(), "map");
+//   MapAutosave autosave(folder, private_nh.getNamespace(), "map", "site.bt");
 //   MapModel map(options, autosave.begin());   // the file of this run, if there is one
 //   autosave.save(map, newest_cloud);          // in the mapping thread, as often as wanted
 //
 // The file is an octree (.ot) below the folder, whose first lines name the run (the roscore's
-// /run_id) and the frame; one of another run or frame is not begun with. Its name holds the node's
+// /run_id), the frame and the octree file that the node began with; one of another run, frame or file is
+// not begun with. Its name holds the node's
 // name and the master's address, so that no two nodes write the same one, and begins with a dot, so
 // that no service can be asked to write it. The tree becomes text in the mapping thread, which takes
 // at most a tenth of its time; it is written by a thread of its own, beside, synced and renamed. What
@@ -28,8 +29,13 @@ namespace grid_path_planner::nodes {
 
 class MapAutosave {
  public:
-  // Asks the master for the run. `folder` need not exist; `node` is the node's full name.
-  MapAutosave(const std::string& folder, const std::string& node, const std::string& frame_id);
+  // Asks the master for the run. `folder` need not exist; `node` is the node's full name; `octree` is
+  // the file that it would begin with, "" for none.
+  MapAutosave(const std::string& folder, const std::string& node, const std::string& frame_id,
+              const std::string& octree);
+
+  // As `octree` there, from now on. Not while save() runs.
+  void beginWith(const std::string& octree);
 
   // The file of this run, "" where there is none, and the newest cloud in it. Says what was found.
   std::string begin() const;
@@ -59,6 +65,7 @@ class MapAutosave {
   std::string file_;  // its path
   std::string run_;   // "": unknown, then nothing is written
   std::string frame_id_;
+  std::string octree_;  // in one line
 
   std::uint64_t saved_revision_ = 0;  // of the mapping thread, as the next
   Clock::time_point not_before_;

@@ -7,6 +7,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "ros/common/file_kinds.h"
+#include "ros/mapping/floor_warning.h"
 
 namespace grid_path_planner::nodes {
 
@@ -30,10 +31,11 @@ void answerSaving(const NodeFiles& files, const SaveFile::Request& request, cons
     if (file.empty())
       throw InputError("the request names no file, and the parameter " + target.option +
                        " is empty");
-    save(files.toWrite(target.option, file, target.kind));
+    const base::OutputFile output = files.toWrite(target.option, file, target.kind);
+    save(output);
     response.success = true;
-    response.message = "written to " + file;
-    ROS_INFO_STREAM("Saved " << file);
+    response.message = "written to " + output.name();
+    ROS_INFO_STREAM("Saved " << output.name());
   } catch (const InputError& error) {
     response.success = false;
     response.message = error.what();
@@ -90,6 +92,11 @@ bool MappingServices::saveMap(SaveFile::Request& request, SaveFile::Response& re
   thread_.run([&](MapModel& map) {
     answerSaving(files_, request, {"map_file", map.options().map_file, mapServerFiles()}, response,
                  [&](const base::OutputFile& file) { map.saveMap(file); });
+    if (!response.success) return;
+    const std::string warning = floorWarning(map.grid(), map.options());
+    if (warning.empty()) return;
+    response.message += ". " + warning;
+    ROS_WARN_STREAM(warning);
   });
   return true;
 }

@@ -23,8 +23,9 @@ using mapping::ProjectionReference;
 namespace {
 
 constexpr std::size_t kMostArriving = 64 << 20;  // bytes of clouds, before the queue has them
-constexpr double kCloudPeriod = 0.01;  // s of the wall clock between two lookups of transforms
-constexpr double kDecayPeriod = 1.0;   // s of ROS time; decay visits every occupied voxel
+constexpr double kCloudPeriod = 0.01;    // s of the wall clock between two lookups of transforms
+constexpr double kFirstCloudWait = 5.0;  // s of the wall clock without the first cloud
+constexpr double kDecayPeriod = 1.0;     // s of ROS time; decay visits every occupied voxel
 
 void warnIgnoredParameters(const ros::NodeHandle& private_nh, std::vector<std::string>& known) {
   for (const std::string& name : unknownParameters(private_nh, known)) {
@@ -87,7 +88,7 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   ProjectedMapOptions options = loadOptions(private_nh, files);
   if (options.autosave_period > 0.0)
     autosave_ = std::make_unique<MapAutosave>(files.saveFolder().path(), private_nh.getNamespace(),
-                                              options.frame_id);
+                                              options.frame_id, options.filename);
   thread_ = makeThread(withFile(options), autosave_.get());
   thread_->run([&](MapModel& map) { options = map.options(); });  // a file has its own resolution
   options.filename = filename_;
@@ -115,6 +116,10 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
       [this](const CloudEvent& event) { onCloud(event.getMessage()); });
   cloud_timer_ = nh.createWallTimer(ros::WallDuration(kCloudPeriod),
                                     [this](const ros::WallTimerEvent&) { resolveTransforms(); });
+  if (filename_.empty())
+    silence_timer_ = nh.createWallTimer(
+        ros::WallDuration(kFirstCloudWait), [this](const ros::WallTimerEvent&) { warnOfSilence(); },
+        true);
   startPublishing(options);
   if (autosave_) startAutosave(options.autosave_period);
   complete_ = true;
@@ -124,6 +129,7 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
 
 ProjectedMapNode::~ProjectedMapNode() {
   cloud_subscription_->shutdown();
+  silence_timer_.stop();
   cloud_timer_.stop();
   publish_timer_.stop();
   heartbeat_timer_.stop();
@@ -150,7 +156,10 @@ ProjectedMapOptions ProjectedMapNode::withFile(ProjectedMapOptions options) {
 void ProjectedMapNode::use(const ProjectedMapOptions& options) {
   const ProjectedMapOptions with_file = withFile(options);
   const EndOfNode end;
-  thread_->run([&](MapModel& map) { map.setOptions(with_file, end.token()); });
+  thread_->run([&](MapModel& map) {
+    map.setOptions(with_file, end.token());
+    if (autosave_) autosave_->beginWith(options.filename);
+  });
   queue_.setOptions(queueOptions(options));
   startPublishing(options);
   postPublishing();
@@ -177,7 +186,14 @@ void ProjectedMapNode::startAutosave(double period) {
       });
 }
 
+void ProjectedMapNode::warnOfSilence() const {
+  ROS_WARN_STREAM("No point cloud has come on " << nh_.resolveName("cloud_in") << " in "
+                                                << kFirstCloudWait
+                                                << " s: is that the topic of the clouds?");
+}
+
 void ProjectedMapNode::onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
+  silence_timer_.stop();
   checkClock();
   queue_.add(cloud);
   resolveTransforms();

@@ -64,6 +64,7 @@ class ProjectedMapNode {
   void use(const mapping::ProjectedMapOptions& options);
   void apply(const mapping::ProjectedMapOptions& options);
   void startPublishing(const mapping::ProjectedMapOptions& options);
+  void warnOfSilence() const;
   void onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud);
   void checkClock();
   void resolveTransforms();
@@ -104,6 +105,7 @@ class ProjectedMapNode {
   ros::WallTimer publish_timer_;
   ros::WallTimer heartbeat_timer_;
   ros::WallTimer autosave_timer_;
+  ros::WallTimer silence_timer_;  // until the first cloud
 };
 
 }  // namespace grid_path_planner::nodes

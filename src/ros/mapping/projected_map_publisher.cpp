@@ -52,11 +52,10 @@ void ProjectedMapPublisher::send(MapModel& map, const ros::Time& stamp) {
 
 void ProjectedMapPublisher::warnOfFloor(const OccupancyGrid& grid,
                                         const ProjectedMapOptions& options) {
-  if (warned_of_floor_ || !showsTheFloor(grid, options)) return;
-  warned_of_floor_ = true;
-  ROS_WARN(
-      "More than half of what was seen is occupied: is the floor mapped as an obstacle? Set "
-      "projection_min_z above it, or filter_ground, or projection_reference seabed");
+  if (warned_of_floor_) return;
+  const std::string warning = floorWarning(grid, options);
+  warned_of_floor_ = !warning.empty();
+  if (warned_of_floor_) ROS_WARN_STREAM(warning);
 }
 
 void ProjectedMapPublisher::countCloud(const ros::Time& stamp, const ros::Time& now) {

@@ -68,6 +68,7 @@ OccupancyGrid MapPublisherNode::readMap(const MapPublisherOptions& wanted) const
   options.limits = {wanted.reading, end.token()};
   if (files_.isArgument("filename", filename))
     options.warn = [](const std::string& warning) { ROS_WARN_STREAM(warning); };
+  options.warn_of_cells_of_images = true;
   OccupancyGrid map = files_.read("filename", filename, mapFiles(), [&](const std::string& file) {
     return readAnyMapFile(file, options);
   });

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grid_path_planner/PathPlannerConfig.h"
+#include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/planning/replan_policy.h"
 #include "grid_path_planner/planning/unused_options.h"
 #include "ros/common/clock.h"
@@ -17,6 +18,7 @@
 
 namespace grid_path_planner::nodes {
 
+using base::decimalText;
 using base::InputError;
 using base::sameOptions;
 using base::Stopped;
@@ -72,6 +74,15 @@ bool changesPath(const PathPlannerNodeOptions& a, const PathPlannerNodeOptions& 
          a.map_frame != b.map_frame || a.base_frame != b.base_frame;
 }
 
+// What the vehicle is taken for, since a file of parameters that was not read shows nowhere else.
+std::string vehicleText(const PlannerOptions& options) {
+  std::string text = "a vehicle of radius " + decimalText(options.costmap.radius) + " m";
+  if (!options.footprint.empty()) text += " with a footprint";
+  if (options.min_turning_radius > 0.0)
+    text += " that turns with " + decimalText(options.min_turning_radius) + " m at least";
+  return text;
+}
+
 }  // namespace
 
 PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
@@ -79,6 +90,7 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
     : nh_(nh) {
   const PathPlannerNodeOptions options = loadOptions(private_nh, files);
   warnUnusedOptions(options.planner);
+  ROS_INFO_STREAM("Plans for " << vehicleText(options.planner));
   ROS_INFO("Planning may take %zu MB (memory_limit)",
            memoryLimitOf(options.planner.search) / 1000000);
   refuseOtherCommander({{}, {nh.resolveName("plan_path")}, "", false});

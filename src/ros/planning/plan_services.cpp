@@ -174,10 +174,11 @@ bool PlanServices::saveWaypoints(SaveWaypoints::Request& request,
     response.message = "no path has been found yet";
   } else {
     try {
-      writeWaypointFile(server_.files().toWrite("waypoints_file", file, waypointFiles()),
-                        *waypoints);
+      const base::OutputFile output =
+          server_.files().toWrite("waypoints_file", file, waypointFiles());
+      writeWaypointFile(output, *waypoints);
       response.success = true;
-      response.message = std::to_string(waypoints->poses.size()) + " waypoints in " + file;
+      response.message = std::to_string(waypoints->poses.size()) + " waypoints in " + output.name();
     } catch (const InputError& error) {
       response.message = error.what();
     }

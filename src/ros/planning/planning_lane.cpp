@@ -244,6 +244,12 @@ double PlanningLane::cellSize(const Plan& plan) const {
   return has_map ? planner_->map()->geometry().resolution() * plan.kernel : 1.0;
 }
 
+double PlanningLane::mapSide() const {
+  if (!planner_ || !planner_->hasMap()) return 0.0;
+  const auto& geometry = planner_->map()->geometry();
+  return geometry.resolution() * std::max(geometry.width(), geometry.height());
+}
+
 void PlanningLane::takeMap(std::uint64_t at_least) {
   if (!planner_) planner_ = std::make_unique<PathPlanner>(store_);
   planner_->takeMap(at_least);

@@ -75,6 +75,8 @@ class PlanningLane {
                                    const PathPlannerNodeOptions& options) const;
   // Of the map that this plan was searched on, in metres.
   double cellSize(const planning::Plan& plan) const;
+  // The longer side of its map, 0 without one, in metres.
+  double mapSide() const;
 
   // Takes the newest map, and lets go of one of another geometry or frame.
   void takeMap(std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());

@@ -201,6 +201,7 @@ void PlanningServer::publish(const PlanningLane& lane, const Plan& plan,
   const PathPlannerNodeOptions options = settings().options;
   const bool placed = vehicle(lane.frame(options), options).has_value();
   ShownPlan shown{plan, statistics, lane.cellSize(plan), 0.0, options.base_frame};
+  shown.map_side = lane.mapSide();
   if (placed) {
     shown.radius = options.planner.costmap.radius;
     shown.footprint = Footprint::fromText("footprint", options.planner.footprint).corners();

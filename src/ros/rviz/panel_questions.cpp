@@ -76,6 +76,19 @@ std::pair<geometry_msgs::PoseStamped, geometry_msgs::PoseStamped> endsOf(
   return {start, newestPose(points.frame(), *points.goal())};
 }
 
+// "; rectangle_map: INVALID_REQUEST: …", "" where every planner found a path.
+std::string firstWithout(const std::vector<PlanStatistics>& results) {
+  for (const PlanStatistics& result : results)
+    if (result.status != "FOUND")
+      return "; " + result.planner + ": " + result.status + ": " + result.message;
+  return "";
+}
+
+// Where rviz was started, which roslaunch starts in ~/.ros.
+QString folderToBegin() {
+  return qEnvironmentVariable("PWD", ".");
+}
+
 Path pathOrNothing(const nav_msgs::Path& message) {
   try {
     return pathFromMessage(message);
@@ -147,10 +160,9 @@ void PlanPanel::showComparison(const ComparePlans::Response& response, unsigned 
     if (response.results[i].status == "FOUND") ++found;
   }
   draw();
-  const std::string last = response.results.empty() ? "" : response.results.back().message;
   model_.callEnded(found > 0 ? Tone::GOOD : Tone::BAD,
                    std::to_string(found) + " of " + std::to_string(count) +
-                       " planners found a path" + (found > 0 ? "" : ": " + last));
+                       " planners found a path" + firstWithout(response.results));
 }
 
 void PlanPanel::explain() {
@@ -184,8 +196,8 @@ void PlanPanel::setParameter(const dynamic_reconfigure::Config& change) {
 
 void PlanPanel::saveWaypoints() {
   const QString file =
-      QFileDialog::getSaveFileName(this, "Waypoint file", "waypoints.yaml", kKindOfFile, nullptr,
-                                   QFileDialog::DontUseNativeDialog);
+      QFileDialog::getSaveFileName(this, "Waypoint file", folderToBegin() + "/waypoints.yaml",
+                                   kKindOfFile, nullptr, QFileDialog::DontUseNativeDialog);
   if (file.isEmpty()) return;
   const std::string name = withSuffix(file).toStdString();
   try {
@@ -198,8 +210,9 @@ void PlanPanel::saveWaypoints() {
 }
 
 void PlanPanel::loadWaypoints() {
-  const QString file = QFileDialog::getOpenFileName(this, "Waypoint file", "", kKindOfFile, nullptr,
-                                                    QFileDialog::DontUseNativeDialog);
+  const QString file =
+      QFileDialog::getOpenFileName(this, "Waypoint file", folderToBegin(), kKindOfFile, nullptr,
+                                   QFileDialog::DontUseNativeDialog);
   if (file.isEmpty()) return;
   try {
     model_.loaded(file.toStdString(), readWaypointFile(file.toStdString()).path);

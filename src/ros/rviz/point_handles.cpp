@@ -62,6 +62,14 @@ InteractiveMarkerControl discOf(const Colour& colour) {
   return control;
 }
 
+// "2" on the disc of the second via-point, as messages call it.
+Marker numberOf(const RoutePoints::Id& id) {
+  Marker number = part(Marker::TEXT_VIEW_FACING, {0, 0, 0}, 0.0, 0.0, kSize);
+  number.pose.position.z = 0.2;
+  number.text = std::to_string(id.index + 1);
+  return number;
+}
+
 bool samePlace(const Pose& a, const Pose& b) {
   return a.position == b.position && a.yaw == b.yaw;
 }
@@ -104,6 +112,8 @@ void PointHandles::insert(const std::string& name, const Handle& handle) {
   marker.description = name;
   marker.scale = static_cast<float>(kSize);
   marker.controls.push_back(discOf(colourOfKind(handle.id.kind)));
+  if (handle.id.kind == RoutePoints::Kind::VIA)
+    marker.controls.back().markers.push_back(numberOf(handle.id));
   // rviz draws a ring about it.
   marker.controls.push_back(uprightControl("turn", InteractiveMarkerControl::ROTATE_AXIS));
   server_.insert(marker, [this](const InteractiveMarkerFeedback::ConstPtr& feedback) {

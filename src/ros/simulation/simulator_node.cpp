@@ -43,6 +43,17 @@ VehicleState initialState(const SimulatorOptions& o) {
   return {Eigen::Vector3d(o.initial.x, o.initial.y, o.initial.z), o.initial.yaw, {}};
 }
 
+// A vehicle that starts where it cannot drive is told before somebody wonders why it does not.
+void warnOfStart(const OccupancyGrid& map, const VehicleState& state, const SimulatorOptions& o) {
+  const Eigen::Vector2d at = state.position.head<2>();
+  const auto cell = map.geometry().cellAt(at);
+  if (cell && map[*cell] < o.vehicle.occupied_min) return;
+  ROS_WARN_STREAM("The vehicle starts at ("
+                  << at.x() << ", " << at.y() << "), "
+                  << (cell ? "in an occupied cell" : "outside the map")
+                  << ": initial_x and initial_y (x and y of map_demo.launch) put it elsewhere");
+}
+
 VehicleFrameNames frameNames(const SimulatorOptions& o) {
   return {o.map_frame, o.odom_frame, o.base_frame, o.publish_map_to_odom, o.publish_odom_to_base};
 }
@@ -191,7 +202,9 @@ void SimulatorNode::onMap(const nav_msgs::OccupancyGrid& message) {
     const std::string frame = frameName(message.header.frame_id);
     if (!frame.empty() && frame != options_.map_frame)
       throw InputError("its frame must be " + options_.map_frame + ", got '" + frame + "'");
-    vehicle_->setMap(std::make_shared<OccupancyGrid>(occupancyFromMessage(message)));
+    const auto map = std::make_shared<OccupancyGrid>(occupancyFromMessage(message));
+    if (!std::exchange(has_map_, true)) warnOfStart(*map, vehicle_->state(), options_);
+    vehicle_->setMap(map);
     contact_publisher_.start(*vehicle_);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("projected_map refused, the one before stays: " << error.what());

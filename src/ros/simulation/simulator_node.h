@@ -112,6 +112,7 @@ class SimulatorNode {
   ros::Publisher clock_publisher_;
   ros::Subscriber command_subscriber_;
   ros::Subscriber map_subscriber_;
+  bool has_map_ = false;
   ros::SteadyTimer timer_;
   std::unique_ptr<Reconfigurable<SimulatorConfig, SimulatorOptions>> reconfigurable_;
 };

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "grid_path_planner/SaveFile.h"
 #include "ros/support/mapping_fixture.h"
 #include "support/temporary_folder.h"
 
@@ -114,6 +115,32 @@ TEST_F(Restart, UnderAnotherRunItBeginsEmpty) {
   ros::param::set("/run_id", run);
   ASSERT_TRUE(map);
   EXPECT_TRUE(isEmpty(*map));
+}
+
+// Started again with another file, it showed the map of the one before.
+TEST_F(Restart, WithAnotherOctreeFileItBeginsWithThat) {
+  start();
+  mapWall(1.5F);
+  for (const char* name : {"one.bt", "two.bt"}) {
+    SaveFile saving;
+    saving.request.filename = name;
+    ASSERT_TRUE(ros::service::call("/projected_map/save_octree", saving) &&
+                saving.response.success);
+  }
+  const std::string one = folder_.path("one.bt"), two = folder_.path("two.bt");
+  start({one});
+  mapWall(2.0F);
+  start({one});
+  EXPECT_TRUE(node_->says("which began with " + one));
+  const Maps kept(nh_, "projected_map");
+  ASSERT_TRUE(firstMap(kept));
+  EXPECT_EQ(valueAt(*firstMap(kept), 2.05, 0.05), 100);
+  start({two});
+  EXPECT_TRUE(node_->says("is of another run, frame or octree file"));
+  const Maps fresh(nh_, "projected_map");
+  ASSERT_TRUE(firstMap(fresh));
+  EXPECT_EQ(valueAt(*firstMap(fresh), 1.55, 0.05), 100) << "as in the file";
+  EXPECT_NE(valueAt(*firstMap(fresh), 2.05, 0.05), 100) << "mapped on the other file";
 }
 
 TEST_F(Restart, AResetIsForEver) {

@@ -116,7 +116,9 @@ TEST_F(ProjectedMapTest, MapAndOctreeAreSavedAndLoaded) {
   const Maps maps(nh_, "projected_map");
   publish(wallAt(2.0F));
   ASSERT_TRUE(becomes(maps, 2.05, 0.05, 100));
-  EXPECT_TRUE(save("save_map", folder_.path("map.yaml")).success);
+  const SaveFile::Response saved = save("save_map", "map.yaml");
+  EXPECT_EQ(saved.message.find("written to " + folder_.path("map.yaml")), 0u) << saved.message;
+  EXPECT_TRUE(saved.success);
   EXPECT_EQ(readMapFile(folder_.path("map.yaml")), occupancyFromMessage(maps.all().back()));
   EXPECT_TRUE(save("save_octree", folder_.path("tree.bt")).success);
   EXPECT_TRUE(save("save_octree", "").success) << "where the parameter says";
@@ -129,6 +131,27 @@ TEST_F(ProjectedMapTest, MapAndOctreeAreSavedAndLoaded) {
     const Maps loaded(nh_, "projected_map");
     EXPECT_TRUE(becomes(loaded, 2.05, 0.05, 100)) << name;
   }
+}
+
+// Nobody listened to the 2-D map while a bag was mapped, and what was saved was all floor without a word.
+TEST_F(ProjectedMapTest, WhoSavesAMapOfTheFloorIsTold) {
+  startMapping({"--save-folder", folder_.path("")});
+  std::vector<Eigen::Vector3f> floor;
+  for (int i = 0; i < 900; ++i)
+    floor.emplace_back(0.05F + 0.1F * static_cast<float>(i % 30),
+                       0.05F + 0.1F * static_cast<float>(i / 30), 0.05F);
+  publish(floor);
+  ASSERT_TRUE(reports("inserted", "1"));
+  const SaveFile::Response saved = save("save_map", "floor.yaml");
+  EXPECT_TRUE(saved.success);
+  EXPECT_NE(saved.message.find("is the floor mapped as an obstacle?"), std::string::npos)
+      << saved.message;
+}
+
+// A wrong cloud_topic looked like a slow sensor.
+TEST_F(ProjectedMapTest, ATopicOnWhichNoCloudComesIsNamed) {
+  startMapping();
+  EXPECT_TRUE(node_->says("No point cloud has come on /cloud_in in 5 s"));
 }
 
 // octomap#211: the .bt given as an argument was ignored.

@@ -66,6 +66,16 @@ TEST_F(MapPublisherTest, PublishesLatchedWithMetadataAndService) {
   EXPECT_EQ(occupancyFromMessage(call.response.map), map_);
 }
 
+// An office of 30 m was published as one of 620 m.
+TEST_F(MapPublisherTest, AnImageAloneIsWarnedOf) {
+  const std::string file = testing::TempDir() + "gpp_alone.png";
+  writeImageFile(file, map_);
+  test::Process process("map_publisher", {"--filename", file});
+  EXPECT_TRUE(process.says(
+      "gpp_alone.png: is an image without a YAML, so each pixel is taken for a cell of 1 m"));
+  EXPECT_TRUE(process.says("3x2 cells of 1 m"));
+}
+
 TEST_F(MapPublisherTest, ReadsBagsToo) {
   const test::Process process("map_publisher", {"--filename", GPP_TEST_DATA "/projected_map.bag"});
   test::Latest<nav_msgs::OccupancyGrid> maps(nh_, "projected_map");

@@ -308,6 +308,8 @@ TEST_F(PathPlannerTest, MarkersShowExpandedCellsAndWaypoints) {
   EXPECT_EQ(failed->markers[3].action, visualization_msgs::Marker::DELETE);
   EXPECT_EQ(failed->markers[5].text.find("GOAL_OCCUPIED: "), 0u) << failed->markers[5].text;
   EXPECT_EQ(failed->markers[5].pose.position.x, 2.5) << "at the goal";
+  EXPECT_GT(failed->markers[5].pose.position.y - failed->markers[5].scale.z, 1.5)
+      << "above it: a point that stands there could not be dragged away";
 }
 
 // Whether the vehicle fits could be seen nowhere.

@@ -2,6 +2,8 @@
 """A real rviz on a screen without a monitor is used as people use it: points are set with the tools, Plan is clicked,
 the goal is dragged; the planner is stopped and killed meanwhile. What came of it is asked of ROS, and the view is not
 blank. The last picture is build/panel_rostest.png."""
+import importlib.machinery
+import importlib.util
 import os
 import signal
 import subprocess
@@ -12,6 +14,7 @@ import unittest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import rospy
 import rostest
+import yaml
 from nav_msgs.msg import OccupancyGrid
 from visualization_msgs.msg import InteractiveMarkerFeedback, MarkerArray
 
@@ -19,6 +22,7 @@ from grid_path_planner.msg import PlanPathActionResult, PlanStatistics
 from screen import Screen
 
 PACKAGE = "grid_path_planner"
+SOURCES = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
 SECONDS = 30.0
 BACKGROUND = 90, 96, 104      # of the view, in rviz/planning.rviz
 FIRST_BUTTON = 11, 95, 165    # Plan, where it may be pressed: src/ros/rviz/panel_widgets.cpp
@@ -196,6 +200,21 @@ class PanelTest(unittest.TestCase):
 
     def test_6_the_view_is_not_blank(self):
         self.assertGreater(self.screen.look().colours(self.view), 20)
+
+    def test_7_one_of_several_vehicles_is_shown(self):
+        loader = importlib.machinery.SourceFileLoader("rviz_on_map", os.path.join(SOURCES, "scripts", "rviz_on_map"))
+        module = importlib.util.module_from_spec(importlib.util.spec_from_loader("rviz_on_map", loader))
+        loader.exec_module(module)
+        with open(os.path.join(SOURCES, "rviz", "planning.rviz")) as file:
+            config = yaml.safe_load(file)
+        module.show_vehicle(config, "a")
+        manager = config["Visualization Manager"]
+        topics = {one["Name"]: one.get("Topic", one.get("Marker Topic")) for one in manager["Displays"]}
+        self.assertEqual((topics["Path"], topics["Plan"], topics["Map"]), ("/a/path", "/a/search_markers", "/projected_map"))
+        self.assertIn("/a/move_base_simple/goal", [tool.get("Topic") for tool in manager["Tools"]])
+        self.assertEqual([panel["Namespace"] for panel in config["Panels"] if "Namespace" in panel], ["/a"])
+        self.assertEqual([one["Reference Frame"] for one in manager["Displays"] if one["Name"] == "Vehicle frame"],
+                         ["a/base_link"])
 
 
 if __name__ == "__main__":

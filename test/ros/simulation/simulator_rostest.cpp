@@ -124,6 +124,21 @@ TEST_F(SimulatorTest, CountsContactsWithTheMap) {
   EXPECT_LE(odom_.all().back().pose.pose.position.x, 3.7 + 1e-6);
 }
 
+// It stood outside the map, and nothing said so before somebody gave it a goal.
+TEST_F(SimulatorTest, AStartWhereItCannotDriveIsToldWithTheMap) {
+  ros::Publisher maps = nh_.advertise<nav_msgs::OccupancyGrid>("projected_map", 1, true);
+  maps.publish(occupancyToMessage(test::AsciiMap({"....#"}, 1.0).map, "/map", ros::Time(1.0)));
+  start({"_initial_x:=50", "_initial_y:=0.5"});
+  EXPECT_TRUE(simulator_->says("The vehicle starts at (50, 0.5), outside the map"));
+  start({"_initial_x:=4.5", "_initial_y:=0.5"});
+  EXPECT_TRUE(simulator_->says("The vehicle starts at (4.5, 0.5), in an occupied cell"));
+  start({"_initial_x:=1.5", "_initial_y:=0.5"});
+  ASSERT_TRUE(driveUntil(twist(1.0), [](const Odometry& o) {
+    return o.pose.pose.position.x > 3.69 && o.twist.twist.linear.x == 0.0;
+  }));
+  EXPECT_FALSE(simulator_->hasSaid("The vehicle starts at"));
+}
+
 // The demo's vehicle drove on for 2 s of simulated time without a command, 1.8 m, because its
 // commands came too late for a shorter timeout.
 TEST_F(SimulatorTest, FasterThanRealTimeItWaitsForTheCommandThatIsDue) {

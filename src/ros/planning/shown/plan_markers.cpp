@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t kMostMarkers = 50000;
 constexpr double kDiscHeight = 0.02, kOutline = 0.03;                 // m
 constexpr double kSmallestEnd = 0.25, kArrow = 0.8, kTextSize = 0.4;  // m
+constexpr double kLinesOfText = 45.0;  // in the height of a map that fills the view
+constexpr double kClearOfGoal = 0.6;   // m, so that rviz's handle of a point there can be clicked
 
 struct Colour {
   float red, green, blue, alpha;
@@ -118,12 +120,14 @@ Marker failureMarker(const ShownPlan& shown) {
   Marker marker = nothing(shown, "failure", kFailure);
   const geometry_msgs::PoseStamped& goal = shown.statistics.goal;
   if (shown.plan.found() || goal.header.frame_id.empty()) return marker;
-  const double size = std::max(kTextSize, 6.0 * shown.cell_size);
+  const double size = std::max({kTextSize, 6.0 * shown.cell_size, shown.map_side / kLinesOfText});
   show(marker, Marker::TEXT_VIEW_FACING, 0.0, 0.0, size);
   marker.header.frame_id = goal.header.frame_id;
-  marker.pose.position = goal.pose.position;
-  marker.pose.position.z += size;
   marker.text = wrappedText(shown.statistics.status + ": " + shown.statistics.message);
+  marker.pose.position = goal.pose.position;
+  const auto breaks = std::count(marker.text.begin(), marker.text.end(), '\n');
+  marker.pose.position.y += kClearOfGoal + size * (1.0 + static_cast<double>(breaks)) / 2.0;
+  marker.pose.position.z += size;
   return marker;
 }
 
