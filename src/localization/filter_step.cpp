@@ -254,11 +254,12 @@ Outcome FilterStep::take(Context& context, const PoseFix& fix) const {
 // kind which began the position anew was right.
 Outcome FilterStep::fixed(Context& context, const Outcome& outcome) const {
   if (outcome.verdict == Verdict::GATED) return outcome;
-  std::optional<NewBegin>& begun = context.snapshot.begun_anew;
-  for (const Source source : {Source::USBL, Source::MARKER}) {
+  for (const Source source : {Source::USBL, Source::MARKER})
     context.snapshot.rejections[static_cast<std::size_t>(source)].clear();
-    if (begun && begun->source == source && context.source != source) begun.reset();
-  }
+  std::optional<NewBegin>& begun = context.snapshot.begun_anew;
+  const bool of_position =
+      begun && (begun->source == Source::USBL || begun->source == Source::MARKER);
+  if (of_position && begun->source != context.source) begun.reset();
   return outcome;
 }
 

@@ -36,8 +36,8 @@ void visitOptions(LocalizerOptions& o, Visitor&& visit) {
                  "s", 0.0, 86400.0});
   visit("reset_doubt", o.reset_doubt,
         OptionInfo{"DEGRADED for so long after rejected measurements that agree began anew what "
-                   "they measure (reset_after), unless a fix of another kind confirms them: it may "
-                   "have been they that were wrong; 0: not",
+                   "they measure (reset_after), unless they told the position and a fix of another "
+                   "kind confirms it: it may have been they that were wrong; 0: not",
                    "s", 0.0, 86400.0});
 }
 

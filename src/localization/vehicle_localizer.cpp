@@ -136,7 +136,7 @@ std::string VehicleLocalizer::problemOf(const FilterSnapshot& snapshot, Stamp no
   if (!snapshot.begun_anew) return {};
   const double since = secondsBetween(snapshot.begun_anew->stamp, now);
   if (since >= options_.reset_doubt) return {};
-  return std::string(nameOf(snapshot.begun_anew->source)) + " began the pose anew " +
+  return std::string(nameOf(snapshot.begun_anew->source)) + " began anew what it measures " +
          rounded(since) + " s ago, against the others";
 }
 

@@ -189,9 +189,12 @@ std::string meantText(const std::string& name, const std::string& inner,
 
 void warnUnknownParameters(const ros::NodeHandle& private_nh,
                            const std::vector<std::string>& known) {
-  for (const std::string& name : unknownParameters(private_nh, known)) {
+  const std::vector<std::string> unknown = unknownParameters(private_nh, known);
+  if (unknown.empty()) return;
+  const XmlRpcValue tree = parameterTree(private_nh);
+  for (const std::string& name : unknown) {
     const auto inner = std::find_if(known.begin(), known.end(), [&](const std::string& one) {
-      return private_nh.hasParam(name + "/" + one);
+      return findParameter(tree, name + "/" + one) != nullptr;
     });
     ROS_WARN_STREAM("Unknown parameter "
                     << private_nh.getNamespace() << "/" << name << " is not used"

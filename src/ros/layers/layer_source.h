@@ -30,6 +30,8 @@ class LayerSource {
     stamp_ = stamp;
     heard_ = Clock::now();
   }
+  // What it said before does not hold any more: it counts as not there until it says something else.
+  void forget() { there_ = false; }
   // It said something that cannot be used: it counts as not there until it says something else.
   void refuse(std::string problem) { problem_ = std::move(problem); }
 

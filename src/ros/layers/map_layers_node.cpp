@@ -217,10 +217,12 @@ void MapLayersNode::onScan(const sensor_msgs::LaserScan::ConstPtr& scan) {
   takeScans();
 }
 
-// What waits for its transform was seen before, too.
+// What waits for its transform was seen before, too. Without a scan since then nobody knows what is there: there is
+// no map until the next.
 void MapLayersNode::onClearScan() {
   scans_.clear();
   map_.forgetScans();
+  scan_source_.forget();
   ROS_INFO_STREAM_THROTTLE(
       1.0, "The obstacles of " << scan_source_.topic() << " are forgotten, as clear_scan asks");
 }

@@ -88,8 +88,15 @@ TEST(Parameters, UnknownNamesAreFound) {
   nh.setParam("radius", 1.0);
   nh.setParam("radios", 1.0);
   nh.setParam("nested/name", 1.0);
+  XmlRpc::XmlRpcValue hyphened;  // as the command line spells them; no name of the ROS graph
+  hyphened["unknown-weight"] = 2.0;
+  nh.setParam("below", hyphened);
+  ros::NodeHandle below("/misspelt/below");
+  EXPECT_EQ(unknownParameters(below, optionNames<Options>()),
+            std::vector<std::string>{"unknown-weight"});
+  EXPECT_NO_THROW(warnUnknownParameters(below, optionNames<Options>()));
   EXPECT_EQ(unknownParameters(nh, optionNames<Options>()),
-            (std::vector<std::string>{"nested", "radios"}));
+            (std::vector<std::string>{"below", "nested", "radios"}));
   test::Latest<rosgraph_msgs::Log> log(ros::NodeHandle(), "/rosout");
   ASSERT_TRUE(test::waitFor([&] { return log.connected(); }));
   warnUnknownParameters(nh, optionNames<Options>());
