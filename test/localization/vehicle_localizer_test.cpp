@@ -112,7 +112,8 @@ TEST(Localizer, IsDegradedAfterWhatBeganThePoseAnew) {
     believed = believed || believing.report(measurement.stamp).status == LocalizationStatus::OK;
   }
   EXPECT_TRUE(believed);
-  EXPECT_TRUE(contains(localizer.report(stampAt(70.0)).sentence, "USBL began anew what it measures"))
+  EXPECT_TRUE(
+      contains(localizer.report(stampAt(70.0)).sentence, "USBL began anew what it measures"))
       << localizer.report(stampAt(70.0)).sentence;
   localizer.add(poseSetAt(70.0, sensors));
   EXPECT_FALSE(contains(localizer.report(stampAt(70.0)).sentence, "anew"));
