@@ -114,11 +114,16 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
 LocalPlannerNode::~LocalPlannerNode() {
   control_timer_.stop();
   diagnostics_timer_.stop();
+  sendLastCommand();
   for (const auto& clouds : cloud_subscriptions_) clouds->shutdown();
   for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
   reconfigurable_.reset();
   action_.reset();
+}
+
+// Before anything that asks the master, which may not answer.
+void LocalPlannerNode::sendLastCommand() {
   if (!flies_) return;
   publisher_.command({}, at_.yaw, options_.map_frame, ros::Time::now());
   if (publisher_.anyListener())

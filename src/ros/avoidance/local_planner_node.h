@@ -85,6 +85,7 @@ class LocalPlannerNode {
   ~LocalPlannerNode();
 
  private:
+  void sendLastCommand();
   void subscribe();
   void subscribeClouds();
   void startLog(const NodeFiles& files);

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "ros/common/guarded_queue.h"
+#include "ros/common/master/end_without_master.h"
 #include "ros/common/master/master_watch.h"
 
 namespace grid_path_planner::nodes {
@@ -118,6 +119,7 @@ int runNode(int argc, char** argv, const std::string& name, const NodeMaker& mak
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
+  const EndWithoutMaster limit(name, endReason);
   int result = 0;
   master_is_there = ros::master::check();
   if (const auto exit_code = exitCodeOf(check, name)) return *exit_code;

@@ -76,9 +76,13 @@ DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& optio
 }
 
 DriveLoop::~DriveLoop() {
-  cancel("navigate_path ends");
+  finish();
   done_ = true;
   thread_.join();
+}
+
+void DriveLoop::finish() {
+  cancel("navigate_path ends");
   if (numberOfListeners() > 0)
     ros::WallDuration(0.1).sleep();  // roscpp sends in a thread of its own and says not when it has
 }

@@ -81,6 +81,9 @@ class DriveLoop {
   following::PathFollower::Answer pause();
   following::PathFollower::Answer resume();
   following::PathFollower::Answer cancel(const std::string& reason);
+  // Cancels the drive of a node that ends, and waits until the last command is sent. To be called
+  // before anything that asks the master, which may not answer.
+  void finish();
   void setOptions(const NavigatePathOptions& options);  // precondition: checked
   DriveStanding standing();
 

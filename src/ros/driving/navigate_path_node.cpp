@@ -109,6 +109,8 @@ NavigatePathNode::~NavigatePathNode() {
   clock_timer_.stop();
   feedback_timer_.stop();
   diagnostics_timer_.stop();
+  loop_->finish();
+  takeReports();
   path_subscriber_.shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
   reconfigurable_.reset();

@@ -8,6 +8,7 @@
 #include "ros/common/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/cloud_reader.h"
+#include "ros/common/master/end_without_master.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
@@ -128,17 +129,17 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
 }
 
 ProjectedMapNode::~ProjectedMapNode() {
-  cloud_subscription_->shutdown();
   silence_timer_.stop();
   cloud_timer_.stop();
   publish_timer_.stop();
   heartbeat_timer_.stop();
   autosave_timer_.stop();
+  service_spinner_.stop();
+  if (autosave_) thread_->run([this](MapModel& map) { save(map); });
+  cloud_subscription_->shutdown();  // asks the master, which may not answer
   reconfigurable_.reset();
   services_->shutdown();
   octree_publisher_->shutdown();
-  service_spinner_.stop();
-  if (autosave_) thread_->run([this](MapModel& map) { save(map); });
   thread_->stop();
 }
 
@@ -265,6 +266,7 @@ void ProjectedMapNode::publish(MapModel& map) {
 }
 
 void ProjectedMapNode::save(const MapModel& map) {
+  const LastWork work;
   autosave_->save(map, map_publisher_->newestCloud());
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <thread>
 
+#include "ros/support/own_master.h"
 #include "ros/support/planner_fixture.h"
 #include "support/temporary_folder.h"
 
@@ -62,6 +63,25 @@ TEST(EndOfNodes, BySignal) {
       process.end(number);
       EXPECT_EQ(process.exitCode(), 0) << node.name;
     }
+}
+
+// One that takes connections and is stopped, or that has too much to do: roscpp waits for its answer to every topic
+// that is given back. In CI a planner with thirty of them took longer than ten seconds.
+TEST(EndOfNodes, WhileTheMasterAnswersNobody) {
+  const test::OwnMaster master;
+  std::vector<std::unique_ptr<Process>> processes;
+  for (Node node : everyNode()) {  // each with a vehicle of its own
+    node.arguments.insert(node.arguments.end(), {"__ns:=/" + std::string(node.name), "/tf:=tf"});
+    processes.push_back(master.start(node.name, node.arguments));
+  }
+  for (const auto& process : processes) ASSERT_TRUE(process->says(" runs"));
+  master.signal(SIGSTOP);
+  for (const auto& process : processes) process->signal(SIGTERM);
+  for (const auto& process : processes) {
+    EXPECT_TRUE(process->waitForExit(Process::patience()));
+    EXPECT_EQ(process->exitCode(), 0);
+    EXPECT_TRUE(process->hasSaid("does not answer"));
+  }
 }
 
 // `rosrun grid_path_planner projected_map missing.bt` ended the projected_map that ran, and then itself:

@@ -4,16 +4,14 @@
 // waypoints silenced cmd_vel for 0.2, 2 and 5.7 s; a log that nobody read, for ever; a vehicle whose
 // /clock stopped drove on; and one whose roscore was restarted could not be cancelled any more.
 #include <actionlib/client/simple_action_client.h>
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <std_msgs/Bool.h>
-#include <sys/socket.h>
 
 #include <cstdio>
 
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/common/master/xmlrpc_call.h"
+#include "ros/support/own_master.h"
 #include "ros/support/still_fixture.h"
 
 namespace grid_path_planner::nodes {
@@ -21,6 +19,7 @@ namespace {
 
 using path::Path;
 using test::isZero;
+using test::OwnMaster;
 using test::pathOf;
 using test::Process;
 using test::StillWorld;
@@ -129,32 +128,19 @@ TEST_F(NavigateLoop, AClockThatStopsEndsInAZeroAndGoesOn) {
 // A master of its own, which the test may kill; its nodes are seen by what they print.
 class NavigateMaster : public testing::Test {
  protected:
-  NavigateMaster() : port_(freePort()), uri_("http://localhost:" + std::to_string(port_)) {
-    startMaster();
+  NavigateMaster() {
+    useSimulatedTime();
     path::writeWaypointFile(file_.name, pathOf({{0, 0}, {500, 0}}));
   }
 
-  void startMaster() {
-    master_ = std::make_unique<Process>(
-        std::vector<std::string>{"rosmaster", "--core", "-p", std::to_string(port_)});
-    ASSERT_TRUE(test::waitFor([&] { return answersXmlRpc(uri_, 1.0); }));
+  void useSimulatedTime() {
     callXmlRpc(uri_, "setParam",
                {XmlRpcValue("/test"), XmlRpcValue("/use_sim_time"), XmlRpcValue(true)}, 1.0);
   }
-  void killMaster() {
-    master_->signal(SIGKILL);
-    ASSERT_TRUE(master_->waitForExit());
-  }
-  std::unique_ptr<Process> start(const std::string& node, std::vector<std::string> arguments) {
-    std::vector<std::string> command{"env", "ROS_MASTER_URI=" + uri_,
-                                     GPP_DEVEL "/lib/grid_path_planner/" + node};
-    command.insert(command.end(), arguments.begin(), arguments.end());
-    return std::make_unique<Process>(command);
-  }
   void drive(const std::string& file, const std::string& timeout) {
-    simulator_ = start("simulator", {"_real_time_factor:=4"});
-    navigate_ = start("navigate_path", {"_config_filename:=" + file, "_check_map:=false",
-                                        "_tf_timeout:=3.0", "_master_timeout:=" + timeout});
+    simulator_ = master_.start("simulator", {"_real_time_factor:=4"});
+    navigate_ = master_.start("navigate_path", {"_config_filename:=" + file, "_check_map:=false",
+                                                "_tf_timeout:=3.0", "_master_timeout:=" + timeout});
     ASSERT_TRUE(navigate_->says("Drives the waypoints of"));
     ASSERT_TRUE(test::waitFor([&] { return knows(2, "/navigate_path/cancel", "/navigate_path"); }));
   }
@@ -176,6 +162,13 @@ class NavigateMaster : public testing::Test {
            knows(1, "/navigate_path/goal", "/navigate_path") && knows(0, "/odom", "/simulator");
   }
 
+  // The last line of `rostopic echo -p /cmd_vel`, without its time.
+  static bool endsWithZero(const std::string& output) {
+    const std::string lines = output.substr(0, output.rfind('\n'));
+    const std::string last = lines.substr(lines.rfind('\n') + 1);
+    return last.find(",0.0,0.0,0.0,0.0,0.0,0.0") != std::string::npos;
+  }
+
   // Whether the node has a connection for the topic.
   bool hears(const std::string& node, const std::string& topic) {
     const auto uri = callXmlRpc(uri_, "lookupNode", {XmlRpcValue("/test"), XmlRpcValue(node)}, 1.0);
@@ -186,34 +179,21 @@ class NavigateMaster : public testing::Test {
     return false;
   }
 
-  // Below those that the system gives to sockets that name none: nobody is given it while no master has it.
-  static int freePort() {
-    for (int port = 20000 + ::getpid() % 10000;; ++port) {
-      const int descriptor = ::socket(AF_INET, SOCK_STREAM, 0);
-      sockaddr_in address{};
-      address.sin_family = AF_INET;
-      address.sin_port = htons(static_cast<std::uint16_t>(port));
-      const bool is_free =
-          ::bind(descriptor, reinterpret_cast<sockaddr*>(&address), sizeof(address)) == 0;
-      ::close(descriptor);
-      if (is_free) return port;
-    }
-  }
-
   const TemporaryName file_{".yaml"};
-  const int port_;
-  const std::string uri_;
-  std::unique_ptr<Process> master_, simulator_, navigate_;
+  OwnMaster master_;
+  const std::string uri_ = master_.uri();
+  std::unique_ptr<Process> simulator_, navigate_;
 };
 
 TEST_F(NavigateMaster, OneThatIsRestartedKnowsAllNamesAgain) {
   drive(file_.name, "3");
   ASSERT_TRUE(test::waitFor([&] { return knowsAll(); }));
   ros::WallDuration(3.0).sleep();  // its nodes have asked it for their services, once a second
-  killMaster();
+  master_.kill();
   EXPECT_TRUE(navigate_->says("the ROS master has not answered for longer than master_timeout"));
   const auto back = ros::WallTime::now();
-  startMaster();
+  master_.run();
+  useSimulatedTime();
   EXPECT_TRUE(test::waitFor([&] { return knowsAll(); }));
   std::printf("all names again after %.1f s\n", (ros::WallTime::now() - back).toSec());
   EXPECT_TRUE(navigate_->says("goes on"));
@@ -227,8 +207,21 @@ TEST_F(NavigateMaster, TheDriveGoesOnWithoutOne) {
     return hears("/simulator", "/cmd_vel") && hears("/navigate_path", "/tf") &&
            hears("/navigate_path", "/clock");
   }));
-  killMaster();
+  master_.kill();
   EXPECT_TRUE(navigate_->says("ARRIVED: "));
+}
+
+// Its destructor gave a topic back to the master before it cancelled the drive, and waited: the vehicle drove on.
+TEST_F(NavigateMaster, ASignalStopsTheVehicleWhileItAnswersNobody) {
+  drive(file_.name, "0");
+  const auto commands = master_.run({"rostopic", "echo", "-p", "/cmd_vel"});
+  ASSERT_TRUE(commands->says("field.linear.x"));
+  ASSERT_TRUE(test::waitFor([&] { return !endsWithZero(commands->output()); }));
+  master_.signal(SIGSTOP);
+  navigate_->end(SIGTERM);
+  EXPECT_EQ(navigate_->exitCode(), 0);
+  EXPECT_TRUE(test::waitFor([&] { return endsWithZero(commands->output()); }));
+  for (Process* left : {simulator_.get(), commands.get()}) left->signal(SIGKILL);
 }
 
 }  // namespace

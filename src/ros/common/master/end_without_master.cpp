@@ -1,0 +1,59 @@
+#include "ros/common/master/end_without_master.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <iostream>
+#include <utility>
+
+#include "ros/common/master/xmlrpc_call.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+constexpr double kPeriod = 0.1;            // s
+constexpr double kPatience = 1.5;          // s, after which the master is asked
+constexpr double kPatienceOfMaster = 0.2;  // s
+
+std::atomic<int> unfinished{0};
+
+}  // namespace
+
+EndWithoutMaster::EndWithoutMaster(std::string name, std::function<std::string()> asked)
+    : name_(std::move(name)), asked_(std::move(asked)), thread_([this] { run(); }) {}
+
+EndWithoutMaster::~EndWithoutMaster() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_over_ = true;
+  }
+  over_.notify_all();
+  thread_.join();
+}
+
+bool EndWithoutMaster::isOverWithin(double seconds) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  return over_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return is_over_; });
+}
+
+void EndWithoutMaster::run() {
+  while (asked_().empty())
+    if (isOverWithin(kPeriod)) return;
+  if (isOverWithin(kPatience)) return;
+  while (unfinished > 0 || answersXmlRpc(masterUri(), kPatienceOfMaster))
+    if (isOverWithin(kPeriod)) return;
+  std::cerr << name_ << " ends without giving its names back: the master at " << masterUri()
+            << " does not answer\n";
+  ::_exit(0);
+}
+
+LastWork::LastWork() {
+  ++unfinished;
+}
+
+LastWork::~LastWork() {
+  --unfinished;
+}
+
+}  // namespace grid_path_planner::nodes
