@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/level_grid.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 
@@ -11,12 +12,11 @@ namespace grid_path_planner::grid {
 namespace {
 
 constexpr double kStrip = 1e-6;  // cells
-constexpr double kLevel = 1e-9;  // rad
 
 }  // namespace
 
 void checkUnrotated(const GridGeometry& geometry) {
-  if (std::abs(geometry.origin().yaw) > kLevel)
+  if (hasYaw(geometry))
     throw base::InputError("a map whose origin is turned by " +
                            base::decimalText(geometry.origin().yaw) +
                            " rad cannot be merged with others: only maps without a yaw can");

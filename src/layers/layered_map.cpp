@@ -3,32 +3,56 @@
 #include <algorithm>
 #include <utility>
 
+#include "grid/level_grid.h"
 #include "layers/resampling.h"
 
 namespace grid_path_planner::layers {
 
 using grid::CellRect;
-using grid::checkUnrotated;
 using grid::GridAlignment;
+using grid::hasYaw;
 using grid::OccupancyGrid;
+
+namespace {
+
+constexpr int kAnyValue = 1;  // of a keep-out mask; which of them count is seen when it is laid
+
+OccupancyGrid levelLimitsOfMask(const OccupancyGrid& mask, const SpeedMaskScale& scale) {
+  OccupancyGrid limits = limitsOfMask(mask, scale);
+  return hasYaw(limits.geometry()) ? levelLimits(limits) : limits;
+}
+
+}  // namespace
 
 void LayeredMap::configure(const MapLayersOptions& options, const Zones& zones) {
   checkSlowZones(zones, options.max_speed);
   auto mask_limits = mask_limits_;
-  if (speed_mask_) mask_limits = limitsOfMask(*speed_mask_, options.speed_mask);
+  if (speed_mask_) mask_limits = levelLimitsOfMask(*speed_mask_, options.speed_mask);
+  const bool other_rule = options.occupied_min != options_.occupied_min;
   options_ = options;
   zones_ = zones;
   mask_limits_ = std::move(mask_limits);
+  if (other_rule && turned_base_) setBase(turned_base_, Changed::value_type{});
+  if (other_rule && turned_live_) setLive(turned_live_);
   if (!hasBase()) return;
   if (live_) layLive({live_->geometry().rect()});
   layKeepOut();
   layLimits();
 }
 
+// All of a turned map is laid anew, whatever of it changed.
+LayeredMap::Map LayeredMap::levelled(Map map) const {
+  if (!hasYaw(map->geometry())) return map;
+  return std::make_shared<OccupancyGrid>(levelOccupancy(*map, options_.occupied_min));
+}
+
 void LayeredMap::setBase(Map base, const Changed& changed) {
-  checkUnrotated(base->geometry());
+  const Map given = base;
+  base = levelled(std::move(base));
+  turned_base_ = given == base ? nullptr : given;
   if (hasBase() && changed && base->geometry() == merged().geometry()) {
-    stack_.setBase(std::move(base), *changed);
+    const std::vector<CellRect> all{base->geometry().rect()};
+    stack_.setBase(std::move(base), turned_base_ ? all : *changed);
     return;
   }
   stack_.setBase(std::move(base));
@@ -42,8 +66,11 @@ void LayeredMap::setBase(Map base, const Changed& changed) {
 }
 
 void LayeredMap::setLive(Map live, const Changed& changed) {
-  checkUnrotated(live->geometry());
-  const bool elsewhere = !live_ || !changed || live_->geometry() != live->geometry();
+  const Map given = live;
+  live = levelled(std::move(live));
+  turned_live_ = given == live ? nullptr : given;
+  const bool elsewhere =
+      !live_ || !changed || turned_live_ || live_->geometry() != live->geometry();
   live_ = std::move(live);
   if (!hasBase()) return;
   if (elsewhere) {
@@ -76,14 +103,14 @@ bool LayeredMap::liveIsCut() const {
 }
 
 void LayeredMap::setKeepOutMask(Map mask) {
-  checkUnrotated(mask->geometry());
-  keep_out_mask_ = std::move(mask);
+  keep_out_mask_ = hasYaw(mask->geometry())
+                       ? std::make_shared<OccupancyGrid>(levelOccupancy(*mask, kAnyValue))
+                       : std::move(mask);
   if (hasBase()) layKeepOut();
 }
 
 void LayeredMap::setSpeedMask(Map mask) {
-  checkUnrotated(mask->geometry());
-  mask_limits_ = limitsOfMask(*mask, options_.speed_mask);
+  mask_limits_ = levelLimitsOfMask(*mask, options_.speed_mask);
   speed_mask_ = std::move(mask);
   if (hasBase()) layLimits();
 }

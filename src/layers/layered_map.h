@@ -36,7 +36,7 @@ class LayeredMap {
   // limitsOfMask() does.
   void configure(const MapLayersOptions& options, const Zones& zones);
 
-  // Throw InputError for an origin with a yaw.
+  // Those whose origin has a yaw are laid on a grid without one: throw InputError as LevelGrid.
   void setBase(Map base, const Changed& changed = {});
   void setLive(Map live, const Changed& changed = {});
   void setKeepOutMask(Map mask);
@@ -67,6 +67,7 @@ class LayeredMap {
   bool liveIsCut() const;
 
  private:
+  Map levelled(Map map) const;
   void layLive(const std::vector<grid::CellRect>& changed);
   void layKeepOut();
   void layLimits();
@@ -75,6 +76,7 @@ class LayeredMap {
   LayerStack stack_;
   ScanLayer scans_;
   ChangedCells scan_changes_;
+  Map turned_base_, turned_live_;  // as they came; null of those without a yaw
   Map live_;
   std::optional<grid::GridAlignment> live_alignment_;
   Map keep_out_mask_;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "grid/level_grid.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "layers/zone_cells.h"
@@ -14,8 +15,10 @@ namespace grid_path_planner::layers {
 
 using base::decimalText;
 using base::InputError;
+using grid::Cell;
 using grid::CellRect;
 using grid::GridAlignment;
+using grid::LevelGrid;
 using grid::OccupancyGrid;
 using grid::RowSpan;
 
@@ -73,6 +76,17 @@ OccupancyGrid limitsOfMask(const OccupancyGrid& mask, const SpeedMaskScale& scal
     of_mask.values()[i] = *limit;
   }
   return of_mask;
+}
+
+OccupancyGrid levelLimits(const OccupancyGrid& limits) {
+  const LevelGrid level(limits.geometry());
+  OccupancyGrid to(level.geometry(), 0);
+  for (int row = 0; row < to.height(); ++row)
+    for (int column = 0; column < to.width(); ++column)
+      level.sources({column, row}, [&](Cell source) {
+        to[{column, row}] = lower(to[{column, row}], limits[source]);
+      });
+  return to;
 }
 
 void addLimits(const OccupancyGrid& others, const GridAlignment& alignment, OccupancyGrid& limits) {

@@ -28,6 +28,9 @@ struct SpeedMaskScale {
 // Throws InputError for a value that comes to less than one percent.
 grid::OccupancyGrid limitsOfMask(const grid::OccupancyGrid& mask, const SpeedMaskScale& scale);
 
+// On the grid without a yaw over them, on each cell of it that they touch. Throws InputError as LevelGrid.
+grid::OccupancyGrid levelLimits(const grid::OccupancyGrid& limits);
+
 // The limits of another grid, on each cell of `limits` that they touch.
 void addLimits(const grid::OccupancyGrid& others, const grid::GridAlignment& alignment,
                grid::OccupancyGrid& limits);

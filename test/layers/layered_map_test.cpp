@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <random>
 
 #include "support/error_text.h"
@@ -57,13 +60,88 @@ TEST(LayeredMap, AnObstacleOfACoarserMapIsOneInEveryCellThatItTouches) {
   EXPECT_EQ(map.merged().values(), (Values{0, 0, 100, 100}));
 }
 
-TEST(LayeredMap, AMapWithAYawIsRefusedAndChangesNothing) {
+TEST(LayeredMap, AMapThatIsTurnedByAQuarterIsTheSameMap) {
+  LayeredMap map;
+  map.configure({}, {});
+  map.setBase(mapOf(GridGeometry(3, 2, 1.0, {5, 0, M_PI / 2}), {0, 1, 2, 100, -1, 5}));
+  EXPECT_EQ(map.merged().geometry(), GridGeometry(2, 3, 1.0, {3, 0, 0}));
+  EXPECT_EQ(map.merged().values(), (Values{100, 0, -1, 1, 5, 2}));
+}
+
+Values randomValues(const GridGeometry& geometry, std::mt19937& random) {
+  Values values(geometry.size());
+  for (std::int8_t& value : values) value = std::array<std::int8_t, 4>{0, 0, -1, 100}[random() % 4];
+  return values;
+}
+
+TEST(LayeredMap, AMapWithAYawKeepsEveryObstacleAndNoUnknownCellBecomesFree) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 50; ++round) {
+    const double yaw = std::uniform_real_distribution<double>(-7.0, 7.0)(random);
+    const GridGeometry geometry(9, 14, 0.3, {-2.0, 1.0, yaw});
+    const Map turned = mapOf(geometry, randomValues(geometry, random));
+    LayeredMap map;
+    map.configure({}, {});
+    map.setBase(turned);
+    const OccupancyGrid& level = map.merged();
+    const auto classOf = [](std::int8_t value) { return value < 0 ? 1 : value >= 65 ? 2 : 0; };
+    for (int i = 0; i < 2000; ++i) {  // by points, which know nothing of squares
+      std::uniform_real_distribution<double> within(-0.2, 1.2);
+      const Eigen::Vector2d point = geometry.worldFromGrid(
+          {within(random) * geometry.width(), within(random) * geometry.height()});
+      const auto there = level.geometry().cellAt(point);
+      const auto source = geometry.cellAt(point);
+      if (!there) {
+        EXPECT_FALSE(source) << "the grid holds the whole map";
+        continue;
+      }
+      const int least = source ? classOf((*turned)[*source]) : 1;
+      EXPECT_GE(classOf(level[*there]), least) << "yaw " << yaw << " at " << point.transpose();
+    }
+    for (int row = 0; row < level.height(); ++row)  // and grows by no more than a cell's diagonal
+      for (int column = 0; column < level.width(); ++column) {
+        if (classOf(level[{column, row}]) != 2) continue;
+        const Eigen::Vector2d centre = level.geometry().centre({column, row});
+        double nearest = 1e9;
+        for (int y = 0; y < geometry.height(); ++y)
+          for (int x = 0; x < geometry.width(); ++x)
+            if (classOf((*turned)[{x, y}]) == 2)
+              nearest = std::min(nearest, (geometry.centre({x, y}) - centre).norm());
+        EXPECT_LE(nearest, std::sqrt(2.0) * 0.3);
+      }
+  }
+}
+
+TEST(LayeredMap, MasksWithAYawTouchWhatLiesUnderThem) {
   LayeredMap map = rowOf({0, 0, 0, 0});
-  const Map turned = mapOf(GridGeometry(4, 1, 1.0, {0, 0, 0.5}), {100, 100, 100, 100});
-  EXPECT_TRUE(contains(errorText([&] { map.setLive(turned); }), "turned by 0.5 rad"));
-  EXPECT_TRUE(contains(errorText([&] { map.setBase(turned); }), "turned by 0.5 rad"));
-  EXPECT_TRUE(contains(errorText([&] { map.setKeepOutMask(turned); }), "turned by 0.5 rad"));
-  EXPECT_TRUE(contains(errorText([&] { map.setSpeedMask(turned); }), "turned by 0.5 rad"));
+  map.setKeepOutMask(mapOf(GridGeometry(2, 1, 1.0, {1, 0, M_PI / 2}), {100, 0}));
+  map.setSpeedMask(mapOf(GridGeometry(2, 1, 1.0, {3, 0, M_PI / 2}), {70, 0}));
+  EXPECT_EQ(map.merged().values(), (Values{100, 0, 0, 0}));
+  EXPECT_EQ(map.speedLimits().values(), (Values{0, 0, 30, 0}));
+}
+
+TEST(LayeredMap, ATurnedMapFollowsOccupiedMin) {
+  MapLayersOptions options;
+  LayeredMap map;
+  map.configure(options, {});
+  const GridGeometry square(2, 2, 1.0, {0, 0, M_PI / 4});
+  map.setBase(mapOf(square, {50, 50, 50, 50}));
+  const auto most = [&] {
+    return *std::max_element(map.merged().values().begin(), map.merged().values().end());
+  };
+  EXPECT_EQ(map.merged().values().front(), -1)
+      << "the map holds a part of it, and 50 is no obstacle";
+  options.occupied_min = 40;
+  map.configure(options, {});
+  EXPECT_EQ(most(), 50);
+  EXPECT_EQ(map.merged().values()[1], 50);
+}
+
+TEST(LayeredMap, ALongThinMapWithAYawIsRefusedAndChangesNothing) {
+  LayeredMap map = rowOf({0, 0, 0, 0});
+  const Map thin = mapOf(GridGeometry(4000, 1, 1.0, {0, 0, 0.5}), Values(4000, 100));
+  EXPECT_TRUE(contains(errorText([&] { map.setLive(thin); }), "turned by 0.5 rad"));
+  EXPECT_TRUE(contains(errorText([&] { map.setBase(thin); }), "turned by 0.5 rad"));
   EXPECT_EQ(map.merged().values(), (Values{0, 0, 0, 0}));
 }
 

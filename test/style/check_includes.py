@@ -38,6 +38,7 @@ LENT = {
     "grid/formats/rectangle_map_file.h": {"planners"},
     "following/speed_limit.h": {"ros_driving"},
     "grid/grid_alignment.h": {"layers"},
+    "grid/level_grid.h": {"layers", "ros_layers"},
     "grid/polygon_cover.h": {"path", "layers"},
     "layers/layered_map.h": {"ros_layers"},
     "layers/map_layers_options.h": {"option_files"},

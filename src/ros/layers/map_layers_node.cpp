@@ -5,7 +5,9 @@
 
 #include <utility>
 
+#include "grid/level_grid.h"
 #include "grid_path_planner/MapLayersConfig.h"
+#include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/end_of_node.h"
 #include "ros/common/file_kinds.h"
@@ -55,6 +57,14 @@ void checkUnchanged(const MapLayersOptions& a, const MapLayersOptions& b) {
       a.use_keep_out_mask != b.use_keep_out_mask || a.use_speed_mask != b.use_speed_mask)
     throw InputError(
         "map_frame and the sources that are used cannot be changed while the node runs");
+}
+
+void tellOfYaw(const LayerSource& source, const OccupancyGrid& map) {
+  if (!source.there() || !grid::hasYaw(map.geometry())) return;
+  ROS_INFO_STREAM_THROTTLE(
+      60.0, source.topic() << " is turned by " << base::decimalText(map.geometry().origin().yaw)
+                           << " rad: it is laid on a grid without a yaw, where obstacles grow by "
+                              "a cell's diagonal at most");
 }
 
 void addTo(diagnostic_updater::DiagnosticStatusWrapper& status, const LayerSource& source,
@@ -183,7 +193,9 @@ void MapLayersNode::onStaticMap(const MapChange& change) {
     checkFrame(change.map.frame_id, options_);
     map_.setBase(change.map.grid, change.changed);
   });
-  if (!change.changed) warnOfZonesOutside();
+  if (change.changed) return;
+  warnOfZonesOutside();
+  tellOfYaw(static_source_, *change.map.grid);
 }
 
 void MapLayersNode::onLiveMap(const MapChange& change) {
@@ -191,7 +203,9 @@ void MapLayersNode::onLiveMap(const MapChange& change) {
     checkFrame(change.map.frame_id, options_);
     map_.setLive(change.map.grid, change.changed);
   });
-  if (!change.changed && map_.liveIsCut())
+  if (change.changed) return;
+  tellOfYaw(live_source_, *change.map.grid);
+  if (map_.liveIsCut())
     ROS_WARN_STREAM_THROTTLE(60.0, live_source_.topic()
                                        << " reaches beyond " << static_source_.topic()
                                        << ": that part is left out");
