@@ -149,6 +149,10 @@ LocalizationReport VehicleLocalizer::report(Stamp now) const {
   report.angle_deviation = deviationOf(covariance, kAttitude) * 180.0 / M_PI;
   report.sentence = "the pose is known to " + rounded(report.deviation) + " m, " +
                     rounded(report.angle_deviation) + " deg (standard deviations)";
+  if (report.deviation > options_.max_deviation)
+    report.sentence += ", max_deviation is " + rounded(options_.max_deviation) + " m";
+  if (report.angle_deviation > options_.max_angle)
+    report.sentence += ", max_angle is " + rounded(options_.max_angle) + " deg";
   const double without_fix =
       options_.fix_timeout > 0.0 ? sinceFix(now) / options_.fix_timeout : 0.0;
   const std::string problem = problemOf(*snapshot, now);

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "grid_path_planner/costmap/costmap_builder.h"
@@ -23,6 +25,8 @@ using planners::reachableFrom;
 
 namespace {
 
+constexpr double kFarSide =
+    4.0;  // of the vehicle's radius: as far as the other side of a gap may be
 constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
 Eigen::Vector2d placeOf(const path::Pose& pose) {
@@ -34,7 +38,8 @@ double roundedDown(double radius) {
   return std::floor(radius * 1000.0 + 1e-6) / 1000.0;
 }
 
-// Across the gap at a cell: from its centre straight to the nearest obstacle, and back to the one opposite.
+// Across the gap at a cell: from the nearest obstacle to the nearest one on the other side, which is no more than
+// 60 degrees from opposite: the posts of a door need not face one another as seen from a cell's centre.
 class Across {
  public:
   Across(const CostGrid& costs, const CostmapOptions& options, const StopToken& stop)
@@ -43,13 +48,15 @@ class Across {
   Gap at(Cell cell, double largest_radius) const {
     const GridGeometry& geometry = costs_.geometry();
     const Eigen::Vector2d middle(cell.column + 0.5, cell.row + 0.5);
-    const Eigen::Vector2d side = nearestEdge(cell) - middle;
-    const double near = side.norm();
-    if (near == 0.0) return {geometry.centre(cell), 0.0, largest_radius};
-    const Eigen::Vector2d away = -side / near;
-    const double far = freeAlong(middle, away, 4.0 * options_.radius / geometry.resolution());
-    return {geometry.worldFromGrid(middle + away * 0.5 * (far - near)),
-            (near + far) * geometry.resolution(), largest_radius};
+    const auto side = nearestEdge(middle, 1.0, [](const Eigen::Vector2d&) { return true; });
+    if (!side) return {geometry.centre(cell), 0.0, largest_radius};
+    const Eigen::Vector2d away = (middle - *side).normalized();
+    const auto beyond = nearestEdge(middle, kFarSide, [&](const Eigen::Vector2d& point) {
+      return (point - middle).normalized().dot(away) > 0.5;
+    });
+    const Eigen::Vector2d other = beyond.value_or(middle + kFarSide * reach() * away);
+    return {geometry.worldFromGrid(0.5 * (*side + other)),
+            (other - *side).norm() * geometry.resolution(), largest_radius};
   }
 
  private:
@@ -60,16 +67,19 @@ class Across {
            (occupancy == Occupancy::UNKNOWN && !options_.unknown_is_passable);
   }
 
-  // Of the closed cells around, the nearest point of the nearest one; the cell's own centre where
-  // there is none. In cells.
-  Eigen::Vector2d nearestEdge(Cell cell) const {
-    const Eigen::Vector2d middle(cell.column + 0.5, cell.row + 0.5);
+  double reach() const { return options_.radius / costs_.geometry().resolution(); }
+
+  // Of the closed cells within `radii` of the vehicle's around, the nearest of those nearest points
+  // of cells that are `wanted`, in cells.
+  template <class Wanted>
+  std::optional<Eigen::Vector2d> nearestEdge(const Eigen::Vector2d& middle, double radii,
+                                             Wanted wanted) const {
     const CellRect map = costs_.geometry().rect().grown(1);
-    const double reach = std::ceil(options_.radius / costs_.geometry().resolution()) + 1.0;
-    const int cells = static_cast<int>(std::min<double>(reach, std::max(map.width, map.height)));
-    const CellRect around = CellRect{cell.column, cell.row, 1, 1}.grown(cells).intersection(map);
-    Eigen::Vector2d nearest = middle;
-    double least = kEverywhere;
+    const int cells = static_cast<int>(
+        std::min<double>(std::ceil(radii * reach()) + 1.0, std::max(map.width, map.height)));
+    const Cell own{static_cast<int>(middle.x()), static_cast<int>(middle.y())};
+    const CellRect around = CellRect{own.column, own.row, 1, 1}.grown(cells).intersection(map);
+    std::optional<Eigen::Vector2d> nearest;
     StopPoll poll(stop_);
     for (int row = around.row; row < around.row + around.height; ++row)
       for (int column = around.column; column < around.column + around.width; ++column) {
@@ -77,24 +87,10 @@ class Across {
         if (!closed({column, row})) continue;
         const Eigen::Vector2d low(column, row);
         const Eigen::Vector2d point = middle.cwiseMax(low).cwiseMin(low + Eigen::Vector2d::Ones());
-        if ((point - middle).norm() >= least) continue;
-        least = (point - middle).norm();
-        nearest = point;
+        if (!wanted(point)) continue;
+        if (!nearest || (point - middle).norm() < (*nearest - middle).norm()) nearest = point;
       }
     return nearest;
-  }
-
-  // How far, in cells and to a twentieth of one, nothing is closed; at most `limit`.
-  double freeAlong(const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
-                   double limit) const {
-    constexpr double kStep = 0.05;
-    double length = 0.0;
-    for (; length < limit; length += kStep) {
-      const Eigen::Vector2d at = from + direction * (length + 0.5 * kStep);
-      if (closed({static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))}))
-        break;
-    }
-    return length;
   }
 
   const CostGrid& costs_;
@@ -129,10 +125,17 @@ class Explainer {
       const Gap gap = Across(costs_, costmap, stop_).at(widest->narrowest, widest->clearance);
       explanation.gap = gap;
       explanation.text = "the gap at " + positionText(gap.position) + " is " +
-                         metresText(gap.width) + " wide; radius " + metresText(costmap.radius) +
-                         " needs " + metresText(2.0 * costmap.radius) + "; " +
+                         metresText(gap.width) + " wide" + whyTooNarrow(gap) + "; " +
                          metresText(roundedDown(gap.largest_radius)) + " would pass";
     }
+  }
+
+  // A vehicle passes on the centres of cells, none of which may lie in the middle of the gap.
+  std::string whyTooNarrow(const Gap& gap) const {
+    const double radius = options_.costmap.radius;
+    if (gap.width < 2.0 * radius - 1e-6)
+      return "; radius " + metresText(radius) + " needs " + metresText(2.0 * radius);
+    return ", but has no centre of a cell that is " + metresText(radius) + " from either side";
   }
 
   // Whatever the vehicle's size.

@@ -46,8 +46,21 @@ std::optional<PathEnd> PathEnds::start(Plan& failure) const {
       "start " + positionText(position) + " " +
       (passable ? "is nearer to obstacles than every straight line away from it allows"
                 : whyBlocked(*cell));
-  if (radius > 0.0) failure.message += ", with no passable cell within " + metresText(radius);
+  failure.message +=
+      radius > 0.0 ? ", with no passable cell within " + metresText(radius) : escapeText(position);
   return std::nullopt;
+}
+
+// What start_escape_radius a start needs that only keeps too little distance; empty for others.
+std::string PathEnds::escapeText(const Eigen::Vector2d& position) const {
+  const Cell own = *costs_.geometry().cellAt(position);
+  const CostmapOptions& costmap = options_.costmap;
+  if (costs_.occupancy(own) == Occupancy::OCCUPIED && !costmap.occupied_is_passable) return "";
+  const auto nearest = nearestCell(costs_.geometry(), position, 2.0 * costmap.radius,
+                                   [this](Cell cell) { return costs_.passable(cell); });
+  if (!nearest) return "";
+  return "; the nearest passable cell is " + metresText(nearest->distance) +
+         " away, which a start_escape_radius of no less allows";
 }
 
 // The passable cell nearest a position to whose centre a straight line is legal: mostly its own.

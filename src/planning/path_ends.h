@@ -59,6 +59,7 @@ class PathEnds {
   std::optional<grid::Cell> joinedCell(const Eigen::Vector2d& position, Legal&& legal) const;
   std::optional<PathEnd> measuredStart(const Eigen::Vector2d& position) const;
   std::optional<PathEnd> measuredGoal(const Eigen::Vector2d& position, std::string& why) const;
+  std::string escapeText(const Eigen::Vector2d& position) const;
   std::string whyBlocked(grid::Cell cell) const;
   // Of the goal at this position.
   std::string complaintAt(const Eigen::Vector2d& position) const;

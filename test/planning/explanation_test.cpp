@@ -82,6 +82,45 @@ TEST(Explanation, NamesTheWiderOfTwoDoorsWithItsWidth) {
   EXPECT_EQ(question.plan(0.25).status, Status::FOUND);
 }
 
+// Its posts stand a cell apart along the wall: it was told as 1.9 m wide, since the line from one post through the
+// middle of the narrowest cell misses the other.
+TEST(Explanation, MeasuresADoorBetweenPostsThatDoNotFaceOneAnother) {
+  const Question question = questionOn(AsciiMap({".......#......",  //
+                                                 ".......#......",  //
+                                                 ".......#......",  //
+                                                 ".S..........G.",  //
+                                                 "..............",  //
+                                                 "..............",  //
+                                                 "......#.......",  //
+                                                 "......#.......",  //
+                                                 "......#......."},
+                                                0.1),
+                                       0.2);
+  ASSERT_EQ(question.plan(0.2).status, Status::UNREACHABLE);
+  const Explanation why = question.explained(Status::UNREACHABLE);
+  ASSERT_TRUE(why.gap);
+  EXPECT_NEAR(why.gap->width, 0.3, 0.02) << why.text;
+}
+
+// A door as wide as the vehicle, whose middle is on the line between two cells: it said "is 0.4 m wide; radius 0.2 m
+// needs 0.4 m".
+TEST(Explanation, SaysThatNoCellsCentreLiesInTheMiddleOfTheGap) {
+  const Question question = questionOn(AsciiMap({".....#.....",  //
+                                                 ".S.......G.",  //
+                                                 "...........",  //
+                                                 "...........",  //
+                                                 "...........",  //
+                                                 ".....#....."},
+                                                0.1),
+                                       0.2);
+  ASSERT_EQ(question.plan(0.2).status, Status::UNREACHABLE);
+  const Explanation why = question.explained(Status::UNREACHABLE);
+  EXPECT_TRUE(contains(why.text,
+                       "is 0.4 m wide, but has no centre of a cell that is 0.2 m from "
+                       "either side; 0.15 m would pass"))
+      << why.text;
+}
+
 TEST(Explanation, SaysThatOnlyUnknownCellsLeadThere) {
   Question question = questionOn(AsciiMap({"S.#..",  //
                                            "..?.G",  //

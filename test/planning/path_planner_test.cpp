@@ -101,6 +101,21 @@ TEST(PathPlanner, NamesTheEndThatIsWrong) {
   EXPECT_TRUE(says(near, "radius")) << near.message;
 }
 
+// A plan from where the drive had come nearer than the radius was refused, and nothing said what would help.
+TEST(PathPlanner, SaysHowFarAStartMustEscape) {
+  const OccupancyGrid map = AsciiMap({"#....", "#....", "#...."}).map;
+  const Pose goal = poseAt({4.5, 1.5});
+  PlannerOptions options;
+  options.costmap.radius = 1.2;
+  const Plan refused = planBetween(map, poseAt({1.4, 1.5}), goal, options);
+  EXPECT_EQ(refused.status, Status::START_OCCUPIED);
+  EXPECT_TRUE(says(refused, "the nearest passable cell is 1.1 m away")) << refused.message;
+  options.start_escape_radius = 1.1;
+  EXPECT_EQ(planBetween(map, poseAt({1.4, 1.5}), goal, options).status, Status::FOUND);
+  EXPECT_FALSE(says(planBetween(map, poseAt({0.5, 1.5}), goal), "start_escape_radius"))
+      << "a vehicle in a wall is in the wrong place";
+}
+
 // navigation2#2494, #4792, #2517, #5673: start = goal fails.
 TEST(PathPlanner, StartAtTheGoalIsAPath) {
   const OccupancyGrid map = AsciiMap({".."}).map;

@@ -235,7 +235,7 @@ OccupancyGrid readPlainImage(const std::string& file, MapFileOptions& options) {
   if (options.images_need_resolution && !options.resolution)
     throw InputError(file,
                      "is an image without a YAML, and nothing says how wide a pixel is: "
-                     "give its resolution in metres, as in 0.05");
+                     "give it in metres, as in --resolution 0.05");
   if (options.warn_of_cells_of_images && options.warn && !options.resolution)
     options.warn(
         file +

@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -41,6 +42,13 @@ void answerSaving(const NodeFiles& files, const SaveFile::Request& request, cons
     response.message = error.what();
     ROS_ERROR_STREAM("Not saved: " << error.what());
   }
+}
+
+// An empty map would take the place of the one that was saved before.
+void checkMapped(MapModel& map) {
+  const auto& values = map.grid().values();
+  if (std::all_of(values.begin(), values.end(), [](std::int8_t value) { return value < 0; }))
+    throw InputError("nothing has been mapped yet: every cell is unknown");
 }
 
 Eigen::Vector3d vectorOf(const geometry_msgs::Point& point) {
@@ -91,7 +99,10 @@ bool MappingServices::clearBox(ClearBoxService::Request& request, ClearBoxServic
 bool MappingServices::saveMap(SaveFile::Request& request, SaveFile::Response& response) {
   thread_.run([&](MapModel& map) {
     answerSaving(files_, request, {"map_file", map.options().map_file, mapServerFiles()}, response,
-                 [&](const base::OutputFile& file) { map.saveMap(file); });
+                 [&](const base::OutputFile& file) {
+                   checkMapped(map);
+                   map.saveMap(file);
+                 });
     if (!response.success) return;
     const std::string warning = floorWarning(map.grid(), map.options());
     if (warning.empty()) return;

@@ -111,6 +111,15 @@ TEST_F(ProjectedMapTest, ClearBbxFreesABox) {
   EXPECT_FALSE(ros::service::call("/projected_map/clear_bbx", call));
 }
 
+// It was written, in the place of the survey that had been saved before.
+TEST_F(ProjectedMapTest, AMapOfNothingIsNotSaved) {
+  startMapping({"--save-folder", folder_.path("")});
+  const SaveFile::Response saved = save("save_map", "map.yaml");
+  EXPECT_FALSE(saved.success);
+  EXPECT_EQ(saved.message, "nothing has been mapped yet: every cell is unknown");
+  EXPECT_FALSE(std::ifstream(folder_.path("map.yaml")));
+}
+
 TEST_F(ProjectedMapTest, MapAndOctreeAreSavedAndLoaded) {
   startMapping({"_octree_file:=parameter.ot", "--save-folder", folder_.path("")});
   const Maps maps(nh_, "projected_map");
