@@ -249,7 +249,8 @@ TEST_F(Plan, AnImageAloneIsAskedForItsResolution) {
                 {"plan", "--map", image, "--start", "0.05,0.05", "--goal", "0.35,0.25"});
     return runCommand(runPlan, more);
   };
-  EXPECT_TRUE(contains(planOn({}).error, "give it in metres, as in --resolution 0.05")) << planOn({}).error;
+  EXPECT_TRUE(contains(planOn({}).error, "give it in metres, as in --resolution 0.05"))
+      << planOn({}).error;
   EXPECT_EQ(planOn({"--resolution", "0.1"}).code, 0);
 }
 
