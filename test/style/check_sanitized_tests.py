@@ -38,6 +38,13 @@ TESTS = """
 add_test(_ctest_grid_path_planner_gtest_grid_path_planner_found {program} {fault})
 set_tests_properties(_ctest_grid_path_planner_gtest_grid_path_planner_found PROPERTIES WORKING_DIRECTORY {folder})
 """
+# The first is to run alone, when the second has ended.
+IN_TURN = """
+add_test(_ctest_grid_path_planner_gtest_grid_path_planner_alone /usr/bin/test -e {folder}/ended)
+add_test(_ctest_grid_path_planner_gtest_grid_path_planner_other /bin/sh -c "sleep 1; touch {folder}/ended")
+set_tests_properties(_ctest_grid_path_planner_gtest_grid_path_planner_alone PROPERTIES WORKING_DIRECTORY {folder} RUN_SERIAL ON)
+set_tests_properties(_ctest_grid_path_planner_gtest_grid_path_planner_other PROPERTIES WORKING_DIRECTORY {folder})
+"""
 FLAGS = {"address": "-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all",
          "thread": "-fsanitize=thread"}
 
@@ -80,6 +87,8 @@ def complaints_with(folder, tool, faults):
     hangs = TESTS.format(program="/bin/sleep", fault=1000, folder=folder).replace("PROPERTIES", "PROPERTIES TIMEOUT 1")
     if told(folder, hangs) != (1, ["found", tool, "TIMEOUT", "0"]):
         yield "of one that hangs it says %s" % (told(folder, hangs),)
+    if told(folder, IN_TURN.format(folder=folder)) != (0,):
+        yield "one that is to run alone does not"
     if told(folder, "") != (2,):
         yield "of no test it says %s" % (told(folder, ""),)
 

@@ -110,7 +110,8 @@ class RunningNode:
         nodelet = roslib.packages.find_node("nodelet", "nodelet")[0]
         prefix = os.environ.get("GPP_NODELET_PREFIX", "").split()  # the sanitizer's library, in its runs
         self.run(prefix + [nodelet, "manager", "__ns:=" + self.space, "__name:=manager"])
-        self.run([nodelet, "load", "%s/%s" % (PACKAGE, self.name), "manager"] + remaps)
+        # A bond that says nothing for 4 s, as where the machine stands still for so long, unloads the nodelet.
+        self.run([nodelet, "load", "%s/%s" % (PACKAGE, self.name), "manager", "--no-bond"] + remaps)
 
     def run(self, command):
         limited = not is_sanitized(executable(self.name))
