@@ -41,8 +41,8 @@ RecordedJob::RecordedJob(RecordedTrial trial, localization::NavigationRecording 
   for (const RecordedRow& row : rows_)
     if (row.missing.empty()) possible_.push_back(row.row);
   if (possible_.empty())
-    throw InputError(trial_.bag, "allows no row: L1 needs " + rows_.front().missing + "; L2 needs " +
-                                     rows_[2].missing);
+    throw InputError(trial_.bag, "allows no row: L1 needs " + rows_.front().missing +
+                                     "; L2 needs " + rows_[2].missing);
 }
 
 std::function<std::string(std::size_t)> RecordedJob::work(const std::string& folder) const {
@@ -62,7 +62,8 @@ std::string RecordedJob::lineOfRow(std::size_t unit, const std::string& folder) 
 // The measurements are told by their number and stamps.
 std::uint64_t RecordedJob::fingerprint() const {
   std::string text;
-  for (const TapeEntry& entry : tape_.entries) text += std::to_string(entry.measurement.stamp) + ' ';
+  for (const TapeEntry& entry : tape_.entries)
+    text += std::to_string(entry.measurement.stamp) + ' ';
   return fingerprintOf({trial_.file}, text);
 }
 

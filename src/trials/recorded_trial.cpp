@@ -41,11 +41,12 @@ std::string missingFor(const TrialRow& row, const NavigationRecording& recording
   for (const Source source : needed)
     if (!has(recording, source))
       missing += (missing.empty() ? "" : "; ") + absenceOf(recording, source);
-  if (!missing.empty() || has(recording, Source::MARKER) || !recording.truth.empty()) return missing;
+  if (!missing.empty() || has(recording, Source::MARKER) || !recording.truth.empty())
+    return missing;
   if (row.usbl == UsblKind::NONE) return "nothing says where it begins: no marker pose, no truth";
-  return has(recording, Source::HEADING)
-             ? ""
-             : "nothing says how it is turned at the begin: " + absenceOf(recording, Source::HEADING);
+  return has(recording, Source::HEADING) ? ""
+                                         : "nothing says how it is turned at the begin: " +
+                                               absenceOf(recording, Source::HEADING);
 }
 
 std::vector<Stamp> markerStamps(const NavigationRecording& recording) {
@@ -124,7 +125,8 @@ class TapeMaker {
   void addInstant(Stamp stamp) {
     if (tape_.instants.size() == kMostInstants)
       throw InputError(trial_.bag, "is too long: more than a million poses to compare from " +
-                                       std::to_string(1e-9 * static_cast<double>(begin_)) + " s on");
+                                       std::to_string(1e-9 * static_cast<double>(begin_)) +
+                                       " s on");
     tape_.instants.push_back({secondsBetween(begin_, stamp), stamp, truthAt(stamp)});
   }
 

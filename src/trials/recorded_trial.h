@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "localization/navigation_recording.h"
+#include "localization/recording/navigation_recording.h"
 #include "trials/sensor_tape.h"
 #include "trials/trial_nodes.h"
 #include "trials/trial_rows.h"

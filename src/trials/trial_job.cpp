@@ -10,9 +10,9 @@
 #include "trials/marker_errors.h"
 #include "trials/report/trial_report.h"
 #include "trials/sensor_tape.h"
+#include "trials/track_file.h"
 #include "trials/trial_plan.h"
 #include "trials/trial_record.h"
-#include "trials/track_file.h"
 #include "trials/trial_run.h"
 
 namespace grid_path_planner::trials {

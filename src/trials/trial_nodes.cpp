@@ -58,9 +58,8 @@ void TrialNodes::readOptions(const YAML::Node& parent, const std::string& key,
   for (const auto& entry : parent[key]) {
     const auto name = yamlAs<std::string>(entry.first, "an option", file(), "a name");
     bool known = false;
-    atLine(entry.second, [&] {
-      known = set(name, yamlAs<std::string>(entry.second, name, file(), "a value"));
-    });
+    atLine(entry.second,
+           [&] { known = set(name, yamlAs<std::string>(entry.second, name, file(), "a value")); });
     if (!known) throw yamlError(entry.first, file(), key + " has no option '" + name + "'");
   }
 }

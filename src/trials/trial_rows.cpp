@@ -122,8 +122,8 @@ const std::vector<TrialRow>& recordedRows() {
     std::vector<TrialRow> all = publishedRows();
     all.push_back({"joint", "IMU, DVL, depth, markers", kInsDepth, UsblKind::NONE, Method::JOINT});
     all.push_back({"USBL", "IMU, DVL, depth, USBL", kInsDepth, UsblKind::USUAL});
-    all.push_back({"all", "IMU, DVL, depth, USBL, markers", kInsDepth, UsblKind::USUAL,
-                   Method::JOINT});
+    all.push_back(
+        {"all", "IMU, DVL, depth, USBL, markers", kInsDepth, UsblKind::USUAL, Method::JOINT});
     for (TrialRow& row : all)
       if (row.markers) row.markers = Method::MEAN;
     return all;

@@ -182,8 +182,8 @@ class RowPlayer {
   const SensorTape& tape_;
   LaggedFilter filter_;
   SpreadSum markers_, in_view_, all_;
-  PoseTrack estimates_;             // all
-  PoseTrack compared_, truths_;     // those of which the truth is known
+  PoseTrack estimates_;          // all
+  PoseTrack compared_, truths_;  // those of which the truth is known
   RowResult result_;
   double next_nees_ = 0.0, next_statistics_;  // s
   bool fault_seen_ = false;

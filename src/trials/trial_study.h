@@ -91,7 +91,7 @@ struct TrialStudy : TrialSettings {
   double current = 0.05;  // m/s, standard deviation of what the command does not tell, each axis
   simulation::ImageCameraOptions camera;
   vision::MarkerPoseOptions markers;
-  std::vector<ErrorSet> sets;  // the first as modelled
+  std::vector<ErrorSet> sets;                       // the first as modelled
   std::map<std::string, double> published_figures;  // by name
 };
 

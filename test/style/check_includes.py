@@ -95,7 +95,7 @@ LENT = {
     "simulation/sensors/navigation_sensors.h": {"ros_simulation"},
     "simulation/sensors/pressure_sensor.h": {"trials"},
     "simulation/sensors/usbl.h": {"trials"},
-    "localization/navigation_recording.h": {"ros_localization", "trials"},
+    "localization/recording/navigation_recording.h": {"ros_localization", "trials"},
     "trials/recorded_job.h": {"command_line"},
     "trials/trial_job.h": {"command_line"},
     "vision/camera_calibration.h": {"ros_localization"},

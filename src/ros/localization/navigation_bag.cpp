@@ -28,8 +28,9 @@ using localization::HeardInput, localization::Measurement, localization::Navigat
 
 namespace {
 
-constexpr std::size_t kBytesOfStamp = 64;      // of a set, to find the second of its stamp
-constexpr Stamp kMostDisorder = 1'000'000'000;  // ns; what is received at once may be written out of order
+constexpr std::size_t kBytesOfStamp = 64;  // of a set, to find the second of its stamp
+constexpr Stamp kMostDisorder =
+    1'000'000'000;  // ns; what is received at once may be written out of order
 
 std::string withoutSlash(const std::string& topic) {
   return !topic.empty() && topic.front() == '/' ? topic.substr(1) : topic;
@@ -127,17 +128,24 @@ class NavigationBag {
     return ids;
   }
 
-  // Why there is nothing of a type on a topic, with the topics on which there is.
+  bool isAskedFor(const std::string& topic) const {
+    const localization::NavigationTopics& topics = question_.topics;
+    for (const std::string& name : {topics.imu, topics.dvl, topics.depth, topics.pressure,
+                                    topics.usbl, topics.marker, topics.truth})
+      if (withoutSlash(topic) == withoutSlash(name)) return true;
+    return false;
+  }
+
+  // Why there is nothing of a type on a topic, with the other topics on which there is.
   template <class Message>
   std::string absence() const {
     const std::string type = ros::message_traits::datatype<Message>();
     std::set<std::string> others;
     for (const BagConnection& connection : bag_.connections())
-      if (connection.type == type) others.insert(connection.topic);
-    std::string text = "the bag has no such topic";
-    for (const std::string& topic : others)
-      text += (text.back() == 'c' ? "; " + type + " is on " : ", ") + topic;
-    return text;
+      if (connection.type == type && !isAskedFor(connection.topic)) others.insert(connection.topic);
+    std::string list;
+    for (const std::string& topic : others) list += (list.empty() ? "" : ", ") + topic;
+    return "the bag has no such topic" + (list.empty() ? "" : "; " + type + " is on " + list);
   }
 
   // `take` makes measurements of a message; what it throws is a refusal.
@@ -186,12 +194,12 @@ class NavigationBag {
 
   void add(const Measurement& measurement, Stamp received) {
     localization::checkMeasurement(measurement);
-    localization::checkStamp(measurement.stamp, received, question_.options.localizer.filter.history);
+    localization::checkStamp(measurement.stamp, received,
+                             question_.options.localizer.filter.history);
     if (!stamps_[static_cast<std::size_t>(measurement.source)].insert(measurement.stamp).second)
       throw InputError("there is one of this stamp already");
-    const Stamp arrives = measurement.source == Source::USBL
-                              ? std::max(received, measurement.stamp)
-                              : measurement.stamp;
+    const Stamp arrives = measurement.source == Source::USBL ? std::max(received, measurement.stamp)
+                                                             : measurement.stamp;
     recording_.measurements.push_back({arrives, measurement});
     if (measurement.source == Source::IMU) recording_.base = messages_.base();
   }

@@ -12,14 +12,14 @@
 #include <string>
 
 #include "grid_path_planner/base/read_limits.h"
-#include "localization/navigation_recording.h"
+#include "localization/recording/navigation_recording.h"
 #include "ros/localization/vehicle_localizer_options.h"
 
 namespace grid_path_planner::nodes {
 
 struct NavigationQuestion {
   localization::NavigationTopics topics;
-  std::string truth_frame;  // of a truth that is in tf, "" for none
+  std::string truth_frame;                               // of a truth that is in tf, "" for none
   std::map<std::string, localization::Mounting> frames;  // in base_frame
   VehicleLocalizerOptions options;
 };

@@ -13,8 +13,8 @@
 #include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
-#include <sensor_msgs/FluidPressure.h>
 #include <ros/time.h>
+#include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Imu.h>
 #include <std_msgs/Header.h>
 
@@ -34,8 +34,8 @@ ros::Time timeOf(localization::Stamp stamp);
 class SensorMessages {
  public:
   // The latest transform of what is in `source` into `target`; throws std::runtime_error where there is none.
-  using Lookup = std::function<geometry_msgs::Transform(const std::string& target,
-                                                        const std::string& source)>;
+  using Lookup =
+      std::function<geometry_msgs::Transform(const std::string& target, const std::string& source)>;
 
   SensorMessages(Lookup lookup, const VehicleLocalizerOptions& options);
 

@@ -45,7 +45,8 @@ Row figuresRow(const TrialData& data, std::size_t set, std::size_t number) {
   const TrialRow& row = trialRows()[number];
   Row cells = {data.study.sets[set].name, row.name, row.inputs};
   Row published = publishedCells(data.study, row.name);
-  if (row.name == "L1" && published[0].text.empty()) {  // no more was published than what it stays below
+  if (row.name == "L1" &&
+      published[0].text.empty()) {  // no more was published than what it stays below
     published[0] = TableCell(publishedFigure(data, "L1 metres"), 2);
     published[1] = TableCell(publishedFigure(data, "L1 degrees"), 2);
   }
