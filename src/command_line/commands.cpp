@@ -13,7 +13,7 @@ const std::vector<Command>& commands() {
       {"flights", "fly the local planner through simulated worlds, and report", runFlights},
 #endif
 #ifdef GPP_WITH_TRIALS
-      {"localization", "run a trial of the localization in simulation, and report",
+      {"localization", "run a trial of the localization, in simulation or on a bag, and report",
        runLocalization},
 #endif
       {"replay", "plan again what was recorded, and compare the paths", runReplay},

@@ -180,9 +180,10 @@ class TapeRecorder {
   }
 
   void addTruth(TapeInstant& instant) const {
-    instant.truth = bodyState(drive_.stateAt(instant.time));
-    instant.truth.gyro_bias = imu_.gyroscopeBias();
-    instant.truth.accelerometer_bias = imu_.accelerometerBias();
+    State truth = bodyState(drive_.stateAt(instant.time));
+    truth.gyro_bias = imu_.gyroscopeBias();
+    truth.accelerometer_bias = imu_.accelerometerBias();
+    instant.truth = truth;
   }
 
   // The poses of all images; those of the two methods of one image arrive at once.

@@ -29,7 +29,8 @@ struct TapeEntry {
 struct TapeInstant {
   double time = 0.0;  // s
   localization::Stamp stamp = 0;
-  localization::State truth;  // of the body, biases included
+  std::optional<localization::State> truth =
+      {};  // of the body, biases included; none: nobody knows
 };
 
 struct SensorTape {

@@ -3,23 +3,17 @@
 
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/base/yaml_file.h"
-#include "study/file/study_nodes.h"
 #include "study/study_yaml.h"
-#include "trials/trial_study.h"
+#include "trials/trial_nodes.h"
 
 namespace grid_path_planner::trials {
 
-using base::yamlAs, base::yamlError, base::yamlHas, base::yamlNode, base::yamlValue;
-using study::checkKeys, study::StudyNodes;
+using base::checkKeys, base::yamlError, base::yamlHas, base::yamlNode, base::yamlValue;
 
 namespace {
 
 constexpr int kMostSeeds = 10000;
 constexpr int kMostSeed = 1000000000;
-
-struct Limits {
-  double least, most;
-};
 
 // Reads one file; every method reads a node of it and reports errors with its line.
 class TrialReader {
@@ -67,33 +61,14 @@ class TrialReader {
   }
 
  private:
-  void readNumber(const YAML::Node& parent, const char* key, Limits limits, double& value) const {
-    if (!yamlHas(parent, key, file_)) return;
-    value = yamlValue<double>(parent, key, file_, "a number");
-    if (value < limits.least || value > limits.most)
-      throw yamlError(parent[key], file_,
-                      std::string(key) + " must be from " + base::decimalText(limits.least) +
-                          " to " + base::decimalText(limits.most));
-  }
-
-  std::vector<double> numbersOf(const YAML::Node& node, const std::string& name,
-                                std::size_t count) const {
-    std::vector<double> numbers;
-    for (const YAML::Node& entry : nodes_.entriesOf(node, name))
-      numbers.push_back(yamlAs<double>(entry, name, file_, "a number"));
-    if (numbers.size() != count)
-      throw yamlError(node, file_, name + " must have " + std::to_string(count) + " numbers");
-    return numbers;
-  }
-
   void readPanel(const YAML::Node& node) {
-    const auto panel = numbersOf(node, "panel", 4);
+    const auto panel = nodes_.numbersOf(node, "panel", 4);
     study_.map_from_panel = Eigen::Translation3d(panel[0], panel[1], panel[2]) *
                             Eigen::AngleAxisd(panel[3], Eigen::Vector3d::UnitZ());
   }
 
   TimeWindow windowOf(const YAML::Node& node, const std::string& name) const {
-    const auto times = numbersOf(node, name, 2);
+    const auto times = nodes_.numbersOf(node, name, 2);
     if (!(times[0] >= 0.0 && times[0] < times[1]))
       throw yamlError(node, file_, name + " must be two times, the earlier one first");
     return {times[0], times[1]};
@@ -104,19 +79,19 @@ class TrialReader {
               {"seconds", "arc", "range", "arc_period", "range_period", "rise", "rise_period",
                "rock", "rock_period", "away", "away_turn", "away_ramp"});
     DriveOptions& drive = study_.drive;
-    const Limits periods = {1.0, 3600.0};
-    readNumber(node, "seconds", {5.0, 3600.0}, drive.seconds);
-    readNumber(node, "arc", {0.0, 1.5}, drive.arc);
-    readNumber(node, "arc_period", periods, drive.arc_period);
-    readNumber(node, "range_period", periods, drive.range_period);
-    readNumber(node, "rise", {0.0, 10.0}, drive.rise);
-    readNumber(node, "rise_period", periods, drive.rise_period);
-    readNumber(node, "rock", {0.0, 0.5}, drive.rock);
-    readNumber(node, "rock_period", periods, drive.rock_period);
-    readNumber(node, "away_turn", {0.0, M_PI}, drive.away_turn);
-    readNumber(node, "away_ramp", {0.1, 60.0}, drive.away_ramp);
+    const TrialNodes::Limits periods = {1.0, 3600.0};
+    nodes_.readNumber(node, "seconds", {5.0, 3600.0}, drive.seconds);
+    nodes_.readNumber(node, "arc", {0.0, 1.5}, drive.arc);
+    nodes_.readNumber(node, "arc_period", periods, drive.arc_period);
+    nodes_.readNumber(node, "range_period", periods, drive.range_period);
+    nodes_.readNumber(node, "rise", {0.0, 10.0}, drive.rise);
+    nodes_.readNumber(node, "rise_period", periods, drive.rise_period);
+    nodes_.readNumber(node, "rock", {0.0, 0.5}, drive.rock);
+    nodes_.readNumber(node, "rock_period", periods, drive.rock_period);
+    nodes_.readNumber(node, "away_turn", {0.0, M_PI}, drive.away_turn);
+    nodes_.readNumber(node, "away_ramp", {0.1, 60.0}, drive.away_ramp);
     if (node["range"]) {
-      const auto range = numbersOf(node["range"], "range", 2);
+      const auto range = nodes_.numbersOf(node["range"], "range", 2);
       if (!(range[0] > 0.1 && range[0] <= range[1] && range[1] <= 100.0))
         throw yamlError(node["range"], file_, "range must be the nearest and the farthest, in m");
       drive.nearest = range[0];
@@ -128,55 +103,27 @@ class TrialReader {
       drive.away.push_back(windowOf(entry, "away"));
   }
 
-  StatedDeviation deviationOf(const YAML::Node& node, const std::string& name) const {
-    const auto numbers = numbersOf(node, name, 2);
-    if (!(numbers[0] > 0.0 && numbers[1] > 0.0))
-      throw yamlError(node, file_, name + " must be standard deviations, m and rad, above 0");
-    return {numbers[0], numbers[1]};
-  }
-
   void readSetting(const YAML::Node& root) {
     if (root["seeds"]) study_.seeds = nodes_.wholeNumber(root["seeds"], "seeds", 2, kMostSeeds);
     if (root["first_seed"])
       study_.first_seed = nodes_.wholeNumber(root["first_seed"], "first_seed", 1, kMostSeed);
-    readNumber(root, "settle", {0.0, 0.5 * study_.drive.seconds}, study_.settle);
-    readNumber(root, "outliers", {0.0, 1.0}, study_.outliers);
-    readNumber(root, "flips", {0.0, 1.0}, study_.flips);
-    readNumber(root, "start_deviation", {0.001, 100.0}, study_.start_deviation);
-    readNumber(root, "current", {0.0, 10.0}, study_.current);
+    nodes_.readNumber(root, "settle", {0.0, 0.5 * study_.drive.seconds}, study_.settle);
+    nodes_.readNumber(root, "outliers", {0.0, 1.0}, study_.outliers);
+    nodes_.readNumber(root, "flips", {0.0, 1.0}, study_.flips);
+    nodes_.readNumber(root, "current", {0.0, 10.0}, study_.current);
     if (root["fault"]) study_.fault = windowOf(root["fault"], "fault");
     if (study_.fault.to > study_.drive.seconds)
       throw yamlError(root["fault"] ? root["fault"] : root, file_,
                       "fault must end within the drive");
-    if (root["default_covariance"])
-      study_.default_covariance = deviationOf(root["default_covariance"], "default_covariance");
-    if (root["published_covariance"])
-      study_.published_covariance =
-          deviationOf(root["published_covariance"], "published_covariance");
+    nodes_.readStated(root, study_);
   }
 
   // A mapping of options of one struct.
   template <class Options>
   void readOptions(const YAML::Node& parent, const std::string& key, Options& options) const {
-    if (!yamlHas(parent, key, file_)) return;
-    if (!parent[key].IsMap()) throw yamlError(parent[key], file_, key + " must be a mapping");
-    for (const auto& entry : parent[key]) {
-      const auto name = yamlAs<std::string>(entry.first, "an option", file_, "a name");
-      if (!tryOption(options, name, entry.second))
-        throw yamlError(entry.first, file_, key + " has no option '" + name + "'");
-    }
-  }
-
-  template <class Options>
-  bool tryOption(Options& options, const std::string& name, const YAML::Node& value_node) const {
-    bool known = false;
-    visitOptions(options, [&](const char* each, auto& value, const base::OptionInfo& info) {
-      if (name != each) return;
-      known = true;
-      const auto text = yamlAs<std::string>(value_node, name, file_, "a value");
-      nodes_.atLine(value_node, [&] { base::parseOption(name, text, info, value); });
+    nodes_.readOptions(parent, key, [&](const std::string& name, const std::string& text) {
+      return base::setOption(options, name, text);
     });
-    return known;
   }
 
   void readSets(const YAML::Node& list) {
@@ -190,11 +137,11 @@ class TrialReader {
       nodes_.refuseTwice(entry["name"], names, set.name, "error_sets");
       set.sensors = sensors_;
       readOptions(entry, "sensors", set.sensors);
-      readNumber(entry, "camera_offset", {0.0, 10.0}, set.camera_offset);
-      readNumber(entry, "camera_turn", {0.0, 0.5}, set.camera_turn);
-      readNumber(entry, "focal_error", {-0.5, 0.5}, set.focal_error);
-      readNumber(entry, "camera_clock", {0.0, 2.0}, set.camera_clock);
-      readNumber(entry, "corner_noise", {0.0, 10.0}, set.corner_noise);
+      nodes_.readNumber(entry, "camera_offset", {0.0, 10.0}, set.camera_offset);
+      nodes_.readNumber(entry, "camera_turn", {0.0, 0.5}, set.camera_turn);
+      nodes_.readNumber(entry, "focal_error", {-0.5, 0.5}, set.focal_error);
+      nodes_.readNumber(entry, "camera_clock", {0.0, 2.0}, set.camera_clock);
+      nodes_.readNumber(entry, "corner_noise", {0.0, 10.0}, set.corner_noise);
       nodes_.atLine(entry, [&] { checkNavigationSensorOptions(set.sensors, 0.01); });
       study_.sets.push_back(set);
     }
@@ -202,19 +149,13 @@ class TrialReader {
 
   void readPublished(const YAML::Node& node) {
     checkKeys(node, "published", file_, {"source", "rows", "figures"});
-    study_.published_source = yamlValue<std::string>(node, "source", file_, "a sentence");
-    for (const auto& entry : yamlNode(node, "rows", file_, "a mapping of rows")) {
-      const auto name = yamlAs<std::string>(entry.first, "a row", file_, "a name");
-      const auto numbers = numbersOf(entry.second, name, 5);
-      study_.published[name] = {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
-    }
     if (node["figures"])
       study_.published_figures =
           study::mappingOf<std::string, double>(node["figures"], "figures", file_);
   }
 
   std::string file_;
-  StudyNodes nodes_;
+  TrialNodes nodes_;
   simulation::NavigationSensorOptions sensors_;
   TrialStudy study_;
 };

@@ -1,6 +1,5 @@
 #include "trials/trial_job.h"
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -11,6 +10,7 @@
 #include "trials/marker_errors.h"
 #include "trials/report/trial_report.h"
 #include "trials/sensor_tape.h"
+#include "trials/track_file.h"
 #include "trials/trial_plan.h"
 #include "trials/trial_record.h"
 #include "trials/trial_run.h"
@@ -25,13 +25,6 @@ namespace {
 
 constexpr std::size_t kLargestTable = std::size_t{1} << 30;
 constexpr char kTable[] = "/marker_poses.jsonl";
-
-// "L5_joint"
-std::string fileNameOf(std::string name) {
-  for (char& letter : name)
-    if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
-  return name;
-}
 
 // Reads the world when the first unit needs it, and the table of marker poses when the first run does.
 class TrialWorker {
@@ -64,19 +57,11 @@ class TrialWorker {
     for (const TrialRow& row : trialRows()) {
       RunTracks tracks;
       record.rows.push_back(played(study, row, tape, kept ? &tracks : nullptr));
-      if (kept) keep(study.sets[unit.set].name + "_" + row.name, tracks.estimate);
+      if (kept) writeTrack(folder_, study.sets[unit.set].name + "_" + row.name, tracks.estimate);
       if (kept && &row == &trialRows().front())
-        keep(study.sets[unit.set].name + "_truth", tracks.truth);
+        writeTrack(folder_, study.sets[unit.set].name + "_truth", tracks.truth);
     }
     return lineOf(record) + '\n';
-  }
-
-  void keep(const std::string& name, const PoseTrack& track) const {
-    const std::string tracks = folder_ + "/tum";
-    std::error_code error;
-    std::filesystem::create_directories(tracks, error);
-    if (error) throw InputError(tracks, "cannot be made a folder: " + error.message());
-    base::writeFileAtomically(tracks + '/' + fileNameOf(name) + ".txt", tumText(track));
   }
 
   void readTable() {

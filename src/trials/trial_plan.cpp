@@ -16,6 +16,16 @@ constexpr std::size_t kLargestFile = std::size_t{256} << 20;
 
 }  // namespace
 
+std::uint64_t fingerprintOf(const std::vector<std::string>& files, const std::string& more) {
+  std::ostringstream text;
+  text << kSourcesHash << more;
+  for (const std::string& file : files) text << base::readWholeFile(file, kLargestFile);
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+  for (const char letter : text.str())
+    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211u;
+  return hash;
+}
+
 TrialPlan::TrialPlan(TrialStudy study) : study_(std::move(study)) {
   const int all = frameCount(study_);
   for (const Water water : {Water::TURBID, Water::CLEAR})
@@ -40,14 +50,7 @@ std::string TrialPlan::nameOf(const TrialUnit& unit) const {
 
 // Whatever is in the study file counts, comments too.
 std::uint64_t TrialPlan::fingerprint() const {
-  std::ostringstream text;
-  text << kSourcesHash;
-  for (const std::string& file : {study_.file, study_.world, study_.layout})
-    text << base::readWholeFile(file, kLargestFile);
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
-  for (const char letter : text.str())
-    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211u;
-  return hash;
+  return fingerprintOf({study_.file, study_.world, study_.layout}, "");
 }
 
 }  // namespace grid_path_planner::trials

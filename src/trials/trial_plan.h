@@ -18,6 +18,9 @@ struct TrialUnit {
   int seed = 0;         // kShownSeed: with the poses that the images showed
 };
 
+// A hash of the files' contents, of `more`, and of the sources of this room and those below.
+std::uint64_t fingerprintOf(const std::vector<std::string>& files, const std::string& more);
+
 class TrialPlan {
  public:
   explicit TrialPlan(TrialStudy study);

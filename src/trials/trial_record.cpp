@@ -159,6 +159,10 @@ std::string lineOf(const RunRecord& run) {
   return json{{"set", run.set}, {"seed", run.seed}, {"rows", rows}}.dump();
 }
 
+std::string lineOf(const RowRecord& row) {
+  return json{{"row", row.row}, {"result", jsonOf(row.result)}}.dump();
+}
+
 bool isFrameLine(const std::string& line) {
   return line.rfind("{\"frame\"", 0) == 0;
 }
@@ -181,6 +185,12 @@ RunRecord runFromLine(const std::string& line) {
     object.at("seed").get_to(run.seed);
     for (const json& row : object.at("rows")) run.rows.push_back(rowResult(row));
     return run;
+  });
+}
+
+RowRecord rowFromLine(const std::string& line) {
+  return fromLine(line, "a row", [](const json& object) {
+    return RowRecord{object.at("row").get<std::string>(), rowResult(object.at("result"))};
   });
 }
 

@@ -18,11 +18,19 @@ struct RunRecord {
 
 constexpr int kShownSeed = 0;
 
+// A row of a recording.
+struct RowRecord {
+  std::string row;  // its name
+  RowResult result;
+};
+
 // One line of JSON, with numbers in full, and back. Throw InputError for a line of another form.
 std::string lineOf(const SeenFrame& frame);
 std::string lineOf(const RunRecord& run);
+std::string lineOf(const RowRecord& row);
 bool isFrameLine(const std::string& line);
 SeenFrame frameFromLine(const std::string& line);
 RunRecord runFromLine(const std::string& line);
+RowRecord rowFromLine(const std::string& line);
 
 }  // namespace grid_path_planner::trials

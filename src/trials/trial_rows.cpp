@@ -117,6 +117,20 @@ const std::vector<TrialRow>& trialRows() {
   return rows;
 }
 
+const std::vector<TrialRow>& recordedRows() {
+  static const std::vector<TrialRow> rows = [] {
+    std::vector<TrialRow> all = publishedRows();
+    all.push_back({"joint", "IMU, DVL, depth, markers", kInsDepth, UsblKind::NONE, Method::JOINT});
+    all.push_back({"USBL", "IMU, DVL, depth, USBL", kInsDepth, UsblKind::USUAL});
+    all.push_back(
+        {"all", "IMU, DVL, depth, USBL, markers", kInsDepth, UsblKind::USUAL, Method::JOINT});
+    for (TrialRow& row : all)
+      if (row.markers) row.markers = Method::MEAN;
+    return all;
+  }();
+  return rows;
+}
+
 std::size_t rowNumber(const std::string& name) {
   for (std::size_t i = 0; i < trialRows().size(); ++i)
     if (trialRows()[i].name == name) return i;

@@ -31,6 +31,8 @@ struct TrialRow {
 };
 
 const std::vector<TrialRow>& trialRows();
+// Those for which a recording may have what they need; its marker poses are of one method.
+const std::vector<TrialRow>& recordedRows();
 // By name; throws std::out_of_range.
 std::size_t rowNumber(const std::string& name);
 

@@ -65,7 +65,7 @@ localization::FilterOptions optionsFor(localization::FilterOptions options, cons
 
 class RowPlayer {
  public:
-  RowPlayer(const TrialStudy& study, const TrialRow& row, const SensorTape& tape)
+  RowPlayer(const TrialSettings& study, const TrialRow& row, const SensorTape& tape)
       : study_(study),
         row_(row),
         tape_(tape),
@@ -119,24 +119,28 @@ class RowPlayer {
   void look(const TapeInstant& instant, const std::optional<TimedPose>& by_markers) {
     const localization::Estimate estimate = filter_.snapshotAt(instant.stamp).estimate;
     const TimedPose pose{instant.time, estimate.state.position, estimate.state.attitude};
-    const TimedPose truth{instant.time, instant.truth.position, instant.truth.attitude};
     takeStatistics(instant.time);
-    if (instant.time >= study_.fault.to && !fault_seen_) {
+    const bool settled = instant.time >= study_.settle;
+    if (settled) estimates_.push_back(pose);
+    if (settled && by_markers) markers_.add(errorBetweenPoses(pose, *by_markers));
+    if (instant.truth)
+      compare(pose, {instant.time, instant.truth->position, instant.truth->attitude},
+              neesOf(estimate, *instant.truth), by_markers.has_value());
+  }
+
+  void compare(const TimedPose& pose, const TimedPose& truth, const Nees& nees, bool in_view) {
+    if (truth.time >= study_.fault.to && !fault_seen_) {
       fault_seen_ = true;
       result_.fault_end = errorBetweenPoses(pose, truth);
-      result_.fault_nees = neesOf(estimate, instant.truth).all;
+      result_.fault_nees = nees.all;
     }
-    if (instant.time < study_.settle) return;
-    estimates_.push_back(pose);
+    if (truth.time < study_.settle) return;
+    compared_.push_back(pose);
     truths_.push_back(truth);
     all_.add(errorBetweenPoses(pose, truth));
-    if (by_markers) {
-      markers_.add(errorBetweenPoses(pose, *by_markers));
-      in_view_.add(errorBetweenPoses(pose, truth));
-    }
-    if (instant.time < next_nees_) return;
-    next_nees_ = std::floor(instant.time) + 1.0;
-    const Nees nees = neesOf(estimate, instant.truth);
+    if (in_view) in_view_.add(errorBetweenPoses(pose, truth));
+    if (truth.time < next_nees_) return;
+    next_nees_ = std::floor(truth.time) + 1.0;
     result_.nees.push_back(nees.all);
     result_.pose_nees.push_back(nees.pose);
   }
@@ -162,9 +166,9 @@ class RowPlayer {
     for (const TimedPose& pose : estimates_) positions.push_back(pose.position);
     result_.smoothness = smoothnessOf(positions);
     result_.position_smoothness = autocorrelationOf(positions);
-    if (!truths_.empty()) result_.ate = absoluteError(estimates_, truths_);
+    if (!truths_.empty()) result_.ate = absoluteError(compared_, truths_);
     for (std::size_t i = 0; i < kRpeLengths.size(); ++i)
-      result_.rpe[i] = relativeError(estimates_, truths_, kRpeLengths[i]);
+      result_.rpe[i] = relativeError(compared_, truths_, kRpeLengths[i]);
     for (const Source source : {Source::USBL, Source::MARKER}) {
       const localization::SourceCounts counts = filter_.counts(source);
       result_.gated += static_cast<int>(counts.gated);
@@ -173,12 +177,13 @@ class RowPlayer {
     return result_;
   }
 
-  const TrialStudy& study_;
+  const TrialSettings& study_;
   const TrialRow& row_;
   const SensorTape& tape_;
   LaggedFilter filter_;
   SpreadSum markers_, in_view_, all_;
-  PoseTrack estimates_, truths_;
+  PoseTrack estimates_;          // all
+  PoseTrack compared_, truths_;  // those of which the truth is known
   RowResult result_;
   double next_nees_ = 0.0, next_statistics_;  // s
   bool fault_seen_ = false;
@@ -194,7 +199,7 @@ Nees neesOf(const localization::Estimate& estimate, const State& truth) {
           base::Cholesky<6>(poseOf(estimate).covariance).squaredMahalanobis(pose)};
 }
 
-RowResult played(const TrialStudy& study, const TrialRow& row, const SensorTape& tape,
+RowResult played(const TrialSettings& study, const TrialRow& row, const SensorTape& tape,
                  RunTracks* tracks) {
   RowPlayer player(study, row, tape);
   const RowResult result = player.play();

@@ -45,12 +45,13 @@ struct RowResult {
   double fault_nees = 0.0;    // then, of 15
 };
 
+// Where the truth is not known, there is none of it.
 struct RunTracks {
   PoseTrack estimate, truth;
 };
 
 // `tracks`: filled unless null.
-RowResult played(const TrialStudy& study, const TrialRow& row, const SensorTape& tape,
+RowResult played(const TrialSettings& study, const TrialRow& row, const SensorTape& tape,
                  RunTracks* tracks = nullptr);
 
 // Normalised estimation errors squared, of all 15 and of the pose's 6.

@@ -65,7 +65,19 @@ struct PublishedRow {
   double smoothness = 0.0;  // m_A
 };
 
-struct TrialStudy {
+// What the rows of any trial are played with.
+struct TrialSettings {
+  localization::FilterOptions filter;
+  double settle = 10.0;               // s, not measured
+  TimeWindow fault = {130.0, 160.0};  // of the rows in which an input is lost
+  double start_deviation = 0.05;      // m, of the pose that is set at the start
+  StatedDeviation default_covariance = {0.02, 0.0174533};
+  StatedDeviation published_covariance = {0.126, 0.0802851};
+  std::string published_source;
+  std::map<std::string, PublishedRow> published;  // by row
+};
+
+struct TrialStudy : TrialSettings {
   std::string file;
   std::string title;
   std::string world;   // SDF
@@ -74,21 +86,13 @@ struct TrialStudy {
   DriveOptions drive;
   int first_seed = 1;
   int seeds = 50;
-  double settle = 10.0;               // s, not measured
-  TimeWindow fault = {130.0, 160.0};  // of the rows in which an input is lost
-  double outliers = 0.3;              // share of USBL, of the row with many
-  double flips = 0.1;                 // share of marker poses
-  double start_deviation = 0.05;      // m, of the pose that is set at the start
+  double outliers = 0.3;  // share of USBL, of the row with many
+  double flips = 0.1;     // share of marker poses
   double current = 0.05;  // m/s, standard deviation of what the command does not tell, each axis
-  StatedDeviation default_covariance = {0.02, 0.0174533};
-  StatedDeviation published_covariance = {0.126, 0.0802851};
   simulation::ImageCameraOptions camera;
   vision::MarkerPoseOptions markers;
-  localization::FilterOptions filter;
-  std::vector<ErrorSet> sets;  // the first as modelled
-  std::string published_source;
-  std::map<std::string, PublishedRow> published;    // by row
-  std::map<std::string, double> published_figures;  // others, by name
+  std::vector<ErrorSet> sets;                       // the first as modelled
+  std::map<std::string, double> published_figures;  // by name
 };
 
 // File names in it are relative to its folder. Throws InputError naming file and line.

@@ -96,6 +96,8 @@ LENT = {
     "simulation/sensors/navigation_sensors.h": {"ros_simulation"},
     "simulation/sensors/pressure_sensor.h": {"trials"},
     "simulation/sensors/usbl.h": {"trials"},
+    "localization/recording/navigation_recording.h": {"ros_localization", "trials"},
+    "trials/recorded_job.h": {"command_line"},
     "trials/trial_job.h": {"command_line"},
     "vision/camera_calibration.h": {"ros_localization"},
     "vision/grey_conversion.h": {"ros_localization", "trials"},

@@ -43,6 +43,18 @@ void parseOption(const std::string& name, const std::string& text, const OptionI
   }
 }
 
+// The option `name` of a struct from a text, as parseOption reads it; false where there is no such option.
+template <class Options>
+bool setOption(Options& options, const std::string& name, const std::string& text) {
+  bool known = false;
+  visitOptions(options, [&](const char* each, auto& value, const OptionInfo& info) {
+    if (name != each) return;
+    known = true;
+    parseOption(name, text, info, value);
+  });
+  return known;
+}
+
 // The text that parseOption reads back as the same value.
 template <class Value>
 std::string valueText(const Value& value) {

@@ -89,6 +89,11 @@ class Fields {
   }
   std::uint32_t id() const { return static_cast<std::uint32_t>(number("conn", 4)); }
   unsigned char operation() const { return static_cast<unsigned char>(number("op", 1)); }
+  // Seconds, then nanoseconds.
+  std::int64_t time() const {
+    const std::uint64_t both = number("time", 8);
+    return static_cast<std::int64_t>((both & 0xffffffffu) * 1'000'000'000u + (both >> 32));
+  }
 
  private:
   std::map<std::string, std::string> fields_;
@@ -218,8 +223,8 @@ void BagReader::walk() {
 
 std::optional<std::string> BagReader::firstMessage(const std::set<std::uint32_t>& wanted) const {
   std::optional<std::string> first;
-  visit(wanted, [&first](std::uint32_t, std::string_view bytes) {
-    first = std::string(bytes);
+  visit(wanted, [&first](const BagMessage& message) {
+    first = std::string(message.bytes);
     return false;
   });
   return first;
@@ -247,7 +252,7 @@ bool BagReader::visitChunk(const Chunk& chunk, const std::set<std::uint32_t>& wa
     const std::string_view data = cursor.takeBlock();
     if (header.operation() != MESSAGE || wanted.count(header.id()) == 0) continue;
     limits_.check(file_, content.size() + data.size());
-    if (!visit(header.id(), data)) return false;
+    if (!visit({header.id(), header.time(), data})) return false;
   }
   return true;
 }

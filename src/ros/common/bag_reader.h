@@ -3,7 +3,7 @@
 //   const BagReader bag("run.bag");
 //   for (const BagConnection& connection : bag.connections())
 //     std::optional<std::string> bytes = bag.firstMessage({connection.id});
-//   bag.visit({1, 2}, [](std::uint32_t, std::string_view bytes) { return bytes.size() > 9; });
+//   bag.visit({1, 2}, [](const BagMessage& message) { return message.bytes.size() > 9; });
 //
 // rosbag_storage trusts the lengths in a file: one wrong byte of a bag's header makes it read beyond
 // its buffer and can end the process. Here every length is checked against the bytes that are left.
@@ -33,6 +33,12 @@ struct BagConnection {
   std::string md5_sum;  // of the type's definition
 };
 
+struct BagMessage {
+  std::uint32_t connection = 0;
+  std::int64_t received = 0;  // ns, by the recorder's clock
+  std::string_view bytes;
+};
+
 class BagReader {
  public:
   // Position of a chunk: messages that are compressed together.
@@ -56,9 +62,9 @@ class BagReader {
   // InputError where the chunk that should hold it is damaged.
   std::optional<std::string> firstMessage(const std::set<std::uint32_t>& connections) const;
 
-  // Calls `visit` with the bytes of each message of the `connections`, until it returns false. Throws
-  // InputError where a chunk that should hold one is damaged.
-  using Visit = std::function<bool(std::uint32_t connection, std::string_view bytes)>;
+  // Calls `visit` with each message of the `connections`, until it returns false. Throws InputError where
+  // a chunk that should hold one is damaged.
+  using Visit = std::function<bool(const BagMessage& message)>;
   void visit(const std::set<std::uint32_t>& connections, const Visit& visit) const;
 
  private:

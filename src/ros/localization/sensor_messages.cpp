@@ -83,14 +83,13 @@ ros::Time timeOf(Stamp stamp) {
   return time;
 }
 
-SensorMessages::SensorMessages(const FrameTransforms& transforms,
-                               const VehicleLocalizerOptions& options)
-    : transforms_(transforms), options_(options) {}
+SensorMessages::SensorMessages(Lookup lookup, const VehicleLocalizerOptions& options)
+    : lookup_(std::move(lookup)), options_(options) {}
 
 Mounting SensorMessages::mountingOf(const std::string& frame) const {
   if (body_frame_.empty()) throw InputError("no IMU has said where it is yet");
   if (frame == body_frame_) return {};
-  const geometry_msgs::Transform in_body = transforms_.transform(body_frame_, frame).transform;
+  const geometry_msgs::Transform in_body = lookup_(body_frame_, frame);
   const Mounting mounting{vectorOf(in_body.translation), rotationOf(in_body.rotation)};
   localization::checkMounting(mounting);
   return mounting;
@@ -114,7 +113,7 @@ Measurement SensorMessages::imu(const sensor_msgs::Imu& message) {
   if (hasOrientation(message)) imu.attitude = unitOf(rotationOf(message.orientation));
   const Stamp stamp = stampOf(message.header);
   if (body_frame_.empty()) {
-    transforms_.transform(frame, options_.base_frame);  // throws where tf does not know it
+    lookup_(frame, options_.base_frame);  // throws where tf does not know it
     body_frame_ = frame;
   }
   return {stamp, Source::IMU, imu};

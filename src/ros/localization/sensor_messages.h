@@ -1,6 +1,7 @@
 // Messages of navigation sensors as measurements of the filter.
 //
-//   SensorMessages messages(transforms, options);
+//   SensorMessages messages([&](const auto& to, const auto& from) { return tf.transform(to, from).transform; },
+//                           options);
 //   localizer.add(messages.imu(message));         // throws InputError, TransformError
 //
 // The filter's body frame is that of the first message of the IMU whose place on the vehicle tf knows;
@@ -9,18 +10,20 @@
 #pragma once
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
+#include <ros/time.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Imu.h>
 #include <std_msgs/Header.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "localization/measurement.h"
 #include "localization/mounted_pose.h"
-#include "ros/common/frame_transforms.h"
 #include "ros/localization/vehicle_localizer_options.h"
 
 namespace grid_path_planner::nodes {
@@ -30,8 +33,11 @@ ros::Time timeOf(localization::Stamp stamp);
 
 class SensorMessages {
  public:
-  // `transforms` outlives this.
-  SensorMessages(const FrameTransforms& transforms, const VehicleLocalizerOptions& options);
+  // The latest transform of what is in `source` into `target`; throws std::runtime_error where there is none.
+  using Lookup =
+      std::function<geometry_msgs::Transform(const std::string& target, const std::string& source)>;
+
+  SensorMessages(Lookup lookup, const VehicleLocalizerOptions& options);
 
   void use(const VehicleLocalizerOptions& options) { options_ = options; }
   // The next message of an IMU names the body frame anew.
@@ -58,7 +64,7 @@ class SensorMessages {
   localization::Mounting mountingOf(const std::string& frame) const;
   void checkMapFrame(const std_msgs::Header& header) const;
 
-  const FrameTransforms& transforms_;
+  Lookup lookup_;
   VehicleLocalizerOptions options_;
   std::string body_frame_;
 };

@@ -81,7 +81,11 @@ VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle&
       transforms_(nh, [this](const tf2_msgs::TFMessage& message, const std::string& node,
                              bool is_static) { rivals_.hear(message, node, is_static); }),
       localizer_(options_.localizer),
-      messages_(transforms_, options_),
+      messages_(
+          [this](const std::string& target, const std::string& source) {
+            return transforms_.transform(target, source).transform;
+          },
+          options_),
       publisher_(nh_, options_),
       status_publisher_(nh_.advertise<std_msgs::String>("localization_status", 1, true)),
       heard_since_(ros::SteadyTime::now()),

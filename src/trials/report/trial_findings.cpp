@@ -3,6 +3,8 @@
 #include <cmath>
 #include <map>
 
+#include "trials/report/trial_cells.h"
+
 namespace grid_path_planner::trials {
 
 using study::Finding, study::shownNumber, study::Table, study::TableCell;
@@ -24,13 +26,6 @@ double viewDegrees(const RowResult& row) {
   return row.in_view.degrees;
 }
 
-// "0.26 ± 0.39"
-TableCell withSpread(double value, double spread) {
-  TableCell cell(value, 3);
-  cell.text += " ± " + shownNumber(spread, 2);
-  return cell;
-}
-
 TableCell cellOf(const MeanAndSpread& figure) {
   return withSpread(figure.mean, figure.deviation);
 }
@@ -48,21 +43,14 @@ double publishedFigure(const TrialData& data, const std::string& name) {
 
 Row figuresRow(const TrialData& data, std::size_t set, std::size_t number) {
   const TrialRow& row = trialRows()[number];
-  const auto published = data.study.published.find(row.name);
-  const bool is_published = published != data.study.published.end();
   Row cells = {data.study.sets[set].name, row.name, row.inputs};
-  if (is_published) {
-    const PublishedRow& p = published->second;
-    cells.push_back(withSpread(p.metres, p.metres_spread));
-    cells.push_back(withSpread(p.degrees, p.degrees_spread));
-    cells.push_back(TableCell(p.smoothness, 2));
-  } else if (row.name == "L1") {  // no more was published of it than what it stays below
-    cells.push_back(TableCell(publishedFigure(data, "L1 metres"), 2));
-    cells.push_back(TableCell(publishedFigure(data, "L1 degrees"), 2));
-    cells.emplace_back("");
-  } else {
-    for (int i = 0; i < 3; ++i) cells.emplace_back("");
+  Row published = publishedCells(data.study, row.name);
+  if (row.name == "L1" &&
+      published[0].text.empty()) {  // no more was published than what it stays below
+    published[0] = TableCell(publishedFigure(data, "L1 metres"), 2);
+    published[1] = TableCell(publishedFigure(data, "L1 degrees"), 2);
   }
+  cells.insert(cells.end(), published.begin(), published.end());
   cells.push_back(overTime(data, set, number, markersMetres,
                            [](const RowResult& r) { return r.markers.metres_deviation; }));
   cells.push_back(overTime(data, set, number, markersDegrees,

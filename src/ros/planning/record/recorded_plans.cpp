@@ -82,9 +82,9 @@ class Reading {
  private:
   void readPlans() {
     const Ids ids = connectionsOfPlans();
-    bag_.visit(ids, [&](std::uint32_t, std::string_view bytes) {
-      limits_.take(file_, 2 * bytes.size());
-      recording_.plans.push_back(messageFromBytes<PlanRecord>(bytes));
+    bag_.visit(ids, [&](const BagMessage& message) {
+      limits_.take(file_, 2 * message.bytes.size());
+      recording_.plans.push_back(messageFromBytes<PlanRecord>(message.bytes));
       return true;
     });
     if (recording_.plans.empty()) throw InputError(file_, "has no plans: none was made");
@@ -122,8 +122,8 @@ class Reading {
       all.insert(source.of_maps.begin(), source.of_maps.end());
       all.insert(source.of_updates.begin(), source.of_updates.end());
     }
-    bag_.visit(all, [&](std::uint32_t id, std::string_view bytes) {
-      for (Source& source : sources_) takeMap(source, id, bytes);
+    bag_.visit(all, [&](const BagMessage& message) {
+      for (Source& source : sources_) takeMap(source, message.connection, message.bytes);
       return recording_.maps.size() < wanted_.size();
     });
   }
