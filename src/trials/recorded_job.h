@@ -1,5 +1,7 @@
 // A recorded trial from its measurements to its report.
 //
+//   RecordedTrial trial;                          // readRecordedTrialFile
+//   localization::NavigationRecording recording;  // of its bag
 //   const RecordedJob job(trial, recording);
 //   ProcessPool workers(2, job.work("out"));
 //   const StudyOutcome outcome = job.run({"out", "what made it", "", ""}, workers, stop, progress);

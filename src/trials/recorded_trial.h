@@ -1,8 +1,9 @@
 // A trial whose measurements are a bag's: its file, which rows it allows, and its tape.
 //
-//   const RecordedTrial trial = readRecordedTrialFile("dive.yaml", set_option);
-//   for (const RecordedRow& row : rowsOf(recording))
-//     if (row.missing.empty()) played(trial, row.row, tapeOf(trial, recording));
+//   localization::NavigationRecording recording;  // of trial.bag
+//   const RecordedTrial trial = readRecordedTrialFile("dive.yaml", [](auto& name, auto& text) { return false; });
+//   const std::vector<RecordedRow> rows = rowsOf(recording);
+//   const SensorTape tape = tapeOf(trial, recording);
 #pragma once
 
 #include <map>

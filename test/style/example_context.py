@@ -140,7 +140,7 @@ CONTEXT = {
     "vehicle_localizer.h": """extern LocalizerOptions options; extern Measurement measurement; extern Stamp now;
         void drive(const Estimate&);""",
     "sensor_messages.h": """#include "localization/vehicle_localizer.h"
-        extern FrameTransforms transforms; extern VehicleLocalizerOptions options; extern sensor_msgs::Imu message;
+        extern SensorMessages::Lookup lookup; extern VehicleLocalizerOptions options; extern sensor_msgs::Imu message;
         extern localization::VehicleLocalizer localizer;""",
     "transform_rivals.h": "extern ros::Time stamp; void beSilent(const std::string&);"
                           "extern const tf2_msgs::TFMessage& message; extern std::string node; extern bool is_static;",
@@ -204,14 +204,14 @@ CONTEXT = {
     "marker_errors.h": "extern const TrialStudy study; extern std::vector<SeenFrame> frames; extern std::size_t set; extern int frame;"
                        "extern Noise noise;",
     "marker_views.h": "extern const TrialStudy study; extern const simulation::World& world;",
-    "trials/noise.h": "extern int seed;",
+    "trials/noise.h": "extern int seed;", "navigation_recording.h": "extern NavigationRecording recording; void use(Stamp, Measurement);",
     "panel_drive.h": """#include "simulation/sensors/imu.h"
         extern const TrialStudy study; extern simulation::Imu imu; extern std::int64_t time_ns;""",
     "pose_errors.h": "extern std::vector<Eigen::Vector3d> positions; extern PoseTrack estimate, truth;",
     "sensor_tape.h": """#include "localization/lagged_filter.h"
         extern const TrialStudy study; extern const simulation::World& world; extern std::size_t set; extern int seed;
         extern const MarkerErrors& errors; bool wants(const TapeEntry&); extern localization::LaggedFilter filter;""",
-    "trial_job.h": "void progress(std::size_t);",
+    **dict.fromkeys(["trial_job.h", "recorded_job.h"], "void progress(std::size_t);"),
     "flights/flight.h": """#include "flights/flight_study.h"
         extern const FlightStudy& study; extern std::size_t variant; extern int seed;""",
     "sight_audit.h": """extern const simulation::World& world; extern simulation::DepthCameraOptions camera_options;

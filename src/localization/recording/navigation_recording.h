@@ -1,6 +1,6 @@
 // What navigation sensors said on a dive, as measurements of the filter, and the truth where somebody knows it.
 //
-//   for (const HeardMeasurement& heard : recording.measurements) filter.add(heard.measurement);
+//   for (const HeardMeasurement& heard : recording.measurements) use(heard.arrives, heard.measurement);
 //
 // The body frame is the IMU's.
 #pragma once

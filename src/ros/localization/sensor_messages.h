@@ -1,7 +1,6 @@
 // Messages of navigation sensors as measurements of the filter.
 //
-//   SensorMessages messages([&](const auto& to, const auto& from) { return tf.transform(to, from).transform; },
-//                           options);
+//   SensorMessages messages(lookup, options);     // lookup: of tf
 //   localizer.add(messages.imu(message));         // throws InputError, TransformError
 //
 // The filter's body frame is that of the first message of the IMU whose place on the vehicle tf knows;
