@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "grid_path_planner/path/smoothing.h"
+#include "path/zigzags.h"
 
 namespace grid_path_planner::planning {
 
 using base::StopToken;
 using costmap::CostGrid, costmap::SegmentPoint, costmap::waypointOf;
 using grid::Cell;
-using path::smoothed, path::SmoothPath;
+using path::smoothed, path::SmoothPath, path::withoutZigzags;
 using planners::SearchResult;
 
 namespace {
@@ -26,7 +27,7 @@ std::vector<SegmentPoint> pointsOf(const CostGrid& map, const SearchResult& resu
 
 bool smoothUntimed(const CostGrid& map, SearchResult& result, const StopToken& stop) {
   const std::vector<SegmentPoint> points = pointsOf(map, result);
-  const SmoothPath smooth = smoothed(map, points, stop);
+  const SmoothPath smooth = withoutZigzags(map, points, smoothed(map, points, stop), stop);
   if (std::isinf(smooth.cost)) return false;
   std::vector<Cell> kept_cells;
   result.points.clear();

@@ -33,6 +33,7 @@ LENT = {
     "following/footprint_clearance.h": {"ros_driving"},
     "following/go_to/navigator.h": {"ros_driving"},
     "following/go_to/navigator_options.h": {"ros_driving"},
+    "path/zigzags.h": {"planning"},
     "grid/float_decimal.h": {"ros_common"},
     "grid/map_differences.h": {"planning", "ros_common", "ros_planning"},
     "grid/formats/rectangle_map_file.h": {"planners"},

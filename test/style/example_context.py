@@ -345,7 +345,7 @@ CONTEXT = {
     "run_node.h": '#include "ros/simulation/simulator_node.h"',
     "seabed.h": "extern const OccupancyBricks& bricks; extern std::vector<BrickColumn> changed;"
                 "extern BrickColumn column;",
-    "smoothing.h": "extern const CostGrid& map; extern std::vector<SegmentPoint> points;",
+    **dict.fromkeys(["smoothing.h", "zigzags.h"], "extern const CostGrid& map; extern std::vector<SegmentPoint> points;"),
     "costmap_builder.h": "extern CostmapOptions options; extern std::shared_ptr<const OccupancyGrid> map;",
     "tile_nodes.h": "extern GridGeometry geometry; extern Cell cell;",
     "prefetch.h": """#include "grid_path_planner/grid/occupancy.h"

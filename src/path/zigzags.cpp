@@ -1,0 +1,109 @@
+#include "path/zigzags.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+namespace grid_path_planner::path {
+
+using base::StopPoll, base::StopToken;
+using costmap::CostGrid, costmap::lineCostWithin, costmap::SegmentPoint;
+using Eigen::Vector2d;
+
+namespace {
+
+constexpr double kDeviation = 1.0;  // of points from the line, in cells
+constexpr double kHidden = 1.0;     // cost that a cell of the line's length may be worth more
+constexpr double kToAndFro = 0.5;   // rad that a run turned and turned back at least
+
+double angleBetween(const Vector2d& a, const Vector2d& b) {
+  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+}
+
+class StraightRuns {
+ public:
+  StraightRuns(const CostGrid& map, const std::vector<SegmentPoint>& points,
+               const std::vector<std::size_t>& kept, const StopToken& stop)
+      : map_(map), poll_(stop, 256) {
+    for (const std::size_t i : kept) points_.push_back(points[i]);
+  }
+
+  // Numbers of points.
+  std::vector<std::size_t> ends() {
+    std::vector<std::size_t> ends = {0};
+    while (ends.back() + 1 < points_.size()) ends.push_back(endOfRun(ends.back()));
+    return ends;
+  }
+
+ private:
+  std::size_t endOfRun(std::size_t first) {
+    for (std::size_t end = straightUntil(first); end > first + 2; end -= (end - first + 3) / 4)
+      if (isZigzag(first, end) && nearLine(first, end) && affordable(first, end)) return end;
+    return first + 1;
+  }
+
+  // The last point to which those in between are near the line, by steps that double, then bisection.
+  std::size_t straightUntil(std::size_t first) {
+    std::size_t good = first + 1, step = 2;
+    for (; first + step < points_.size() && nearLine(first, first + step); step *= 2)
+      good = first + step;
+    std::size_t bad = std::min(first + step, points_.size());
+    while (bad - good > 1) {
+      const std::size_t middle = good + (bad - good) / 2;
+      (nearLine(first, middle) ? good : bad) = middle;
+    }
+    return good;
+  }
+
+  bool nearLine(std::size_t first, std::size_t last) {
+    const Vector2d along = between(first, last).normalized();
+    for (std::size_t i = first + 1; i < last; ++i) {
+      poll_();
+      const Vector2d to = between(first, i);
+      if (std::abs(along.x() * to.y() - along.y() * to.x()) > kDeviation) return false;
+    }
+    return true;
+  }
+
+  bool isZigzag(std::size_t first, std::size_t last) const {
+    double turned = 0.0, net = 0.0;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      const double angle = angleBetween(between(i - 1, i), between(i, i + 1));
+      turned += std::abs(angle);
+      net += angle;
+    }
+    return turned - std::abs(net) > kToAndFro;
+  }
+
+  bool affordable(std::size_t first, std::size_t last) {
+    double limit = kHidden * between(first, last).norm();
+    for (std::size_t i = first + 1; i <= last; ++i)
+      limit += costmap::lineCost(map_, points_[i - 1], points_[i]);
+    return lineCostWithin(map_, nullptr, points_[first], points_[last], limit).has_value();
+  }
+
+  // In cells.
+  Vector2d between(std::size_t from, std::size_t to) const {
+    return Vector2d(points_[to].x - points_[from].x, points_[to].y - points_[from].y) /
+           SegmentPoint::kUnitsPerCell;
+  }
+
+  const CostGrid& map_;
+  std::vector<SegmentPoint> points_;
+  StopPoll poll_;
+};
+
+}  // namespace
+
+SmoothPath withoutZigzags(const CostGrid& map, const std::vector<SegmentPoint>& points,
+                          SmoothPath path, const StopToken& stop) {
+  if (map.uniform() || std::isinf(path.cost)) return path;
+  StraightRuns runs(map, points, path.kept, stop);
+  SmoothPath calm;
+  for (const std::size_t end : runs.ends()) calm.kept.push_back(path.kept[end]);
+  for (std::size_t i = 1; i < calm.kept.size(); ++i)
+    calm.cost += costmap::lineCost(map, points[calm.kept[i - 1]], points[calm.kept[i]]);
+  return calm;
+}
+
+}  // namespace grid_path_planner::path
