@@ -295,6 +295,8 @@ int runPlan(int argc, char** argv) {
   if (!request.via.empty()) measures.via = jsonOf(answer);
   if (values.count("explain") != 0 && report.status != Status::FOUND)
     measures.explanation = explain(planner, answer.last_leg, report);
+  else if (report.status == Status::UNREACHABLE || report.status == Status::GOAL_OCCUPIED)
+    std::cerr << "grid_path plan: --explain says more about why there is no path\n";
   print(report, measures, options.planner, preparation_ms, values.count("json") != 0);
   return exitCodeOf(report.status);
 }

@@ -165,6 +165,8 @@ LocalizationReport VehicleLocalizer::report(Stamp now) const {
     report.status = LocalizationStatus::DEGRADED;
   else
     report.status = LocalizationStatus::OK;
+  if (report.status == LocalizationStatus::LOST)
+    report.sentence += "; until a fix, set_pose or reset tell it, map -> odom ceases";
   return report;
 }
 

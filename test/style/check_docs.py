@@ -29,6 +29,8 @@ def launch_table():
     rows = [row("launch file", "argument", "default", ""), "|---|---|---|---|"]
     for name in files(("launch",), (".launch",)):
         for argument in xml.etree.ElementTree.fromstring(read(name)).findall("arg"):
+            if argument.get("value") is not None:  # nobody can set it
+                continue
             default = argument.get("default")
             rows.append(row("`%s`" % os.path.basename(name), "`%s`" % argument.get("name"),
                             "required" if default is None else "`%s`" % default if default else "",

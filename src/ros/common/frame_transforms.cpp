@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <thread>
 #include <utility>
@@ -39,13 +40,48 @@ std::string sentence(const std::string& target, const std::string& source, const
   return text.str();
 }
 
-// tf2's reason for a frame that nobody publishes speaks of the arguments of a function.
+// The newest transform of a frame in its parent; none for a root.
+std::optional<geometry_msgs::TransformStamped> toParent(const tf2_ros::Buffer& buffer,
+                                                        const std::string& frame) {
+  std::string parent;
+  if (!buffer._getParent(frame, ros::Time(0), parent)) return std::nullopt;
+  try {
+    return buffer.lookupTransform(parent, frame, ros::Time(0));
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;  // tf was cleared meanwhile
+  }
+}
+
+// The transform above one of the frames whose newest is oldest, where that is no static one.
+std::optional<geometry_msgs::TransformStamped> oldestAbove(const tf2_ros::Buffer& buffer,
+                                                           const std::vector<std::string>& frames) {
+  constexpr int kMostLinks = 100;
+  std::optional<geometry_msgs::TransformStamped> oldest;
+  for (const std::string& frame : frames) {
+    auto link = toParent(buffer, frame);
+    for (int i = 0; link && i < kMostLinks; ++i, link = toParent(buffer, link->header.frame_id)) {
+      const ros::Time stamp = link->header.stamp;
+      if (!stamp.isZero() && (!oldest || stamp < oldest->header.stamp)) oldest = link;
+    }
+  }
+  return oldest;
+}
+
+// In the place of tf2's reason, which speaks of the arguments of a function and of extrapolation.
 std::string reasonOf(const tf2_ros::Buffer& buffer, const std::string& target,
                      const std::string& source, const std::string& otherwise) {
+  constexpr double kOld = 1.0;  // s
   std::string missing;
   for (const std::string& frame : {source, target})
     if (!buffer._frameExists(frame)) missing += (missing.empty() ? "'" : " or '") + frame + "'";
-  return missing.empty() ? otherwise : "nothing on /tf names the frame " + missing;
+  if (!missing.empty()) return "nothing on /tf names the frame " + missing;
+  const auto oldest = oldestAbove(buffer, {source, target});
+  const double age = oldest ? secondsBetween(oldest->header.stamp, ros::Time::now()) : 0.0;
+  if (age < kOld) return otherwise;
+  std::ostringstream text;
+  text << "the newest from " << oldest->child_frame_id << " to " << oldest->header.frame_id
+       << " is " << std::fixed << std::setprecision(1) << age << " s old";
+  return text.str();
 }
 
 // Says once that something waits for tf: with a long limit nobody would know why nothing happens.

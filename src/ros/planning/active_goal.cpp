@@ -36,10 +36,15 @@ void ActiveGoal::mapChanged() {
   map_changed_ = true;
 }
 
-bool ActiveGoal::retryIsDue(Time now) const {
-  std::lock_guard<std::mutex> lock(mutex_);
-  return map_changed_ && goal_ && goal_->answered && goal_->path.empty() &&
-         now - planned_ >= kRetryPeriod;
+bool ActiveGoal::retryIsDue(Time now, const std::function<bool(const GoalState&)>& placed) const {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (!goal_ || !goal_->answered || !goal_->path.empty() || now - planned_ < kRetryPeriod)
+    return false;
+  if (map_changed_) return true;
+  if (goal_->status != base::Status::TRANSFORM_ERROR) return false;
+  const GoalState goal = *goal_;
+  lock.unlock();
+  return placed(goal);
 }
 
 std::optional<GoalState> ActiveGoal::beginPlanning(Time now) {

@@ -1,6 +1,7 @@
 // The goal that path_planner plans for, its present path, and the start pose of the next goal. A
 // result belongs to its goal: one for an older goal is dropped. A goal without a path stands: it is
-// due again when the map has changed since its last planning began, once in kRetryPeriod.
+// due again when the map has changed since its last planning began, or, where a transform was
+// missing, when that is there; once in kRetryPeriod.
 #pragma once
 
 #include <chrono>
@@ -39,8 +40,9 @@ class ActiveGoal {
   static constexpr std::chrono::seconds kRetryPeriod{1};
 
   void mapChanged();
-  // Whether a goal without a path is due again.
-  bool retryIsDue(Time now) const;
+  // Whether a goal without a path is due again. `placed`: whether vehicle and goal have poses in the
+  // frame of its empty path; asked where a transform was missing.
+  bool retryIsDue(Time now, const std::function<bool(const GoalState&)>& placed) const;
   // The goal, whose planning begins `now`, on a map with all changes so far.
   std::optional<GoalState> beginPlanning(Time now);
 

@@ -130,7 +130,10 @@ PathPlannerNode::~PathPlannerNode() {
 
 void PathPlannerNode::checkTime() {
   server_->checkClock();
-  if (active_goal_.retryIsDue(std::chrono::steady_clock::now())) postPlanForGoal();
+  const auto placed = [this](const GoalState& goal) {
+    return server_->placed(goal.path.frame_id, goal.request.goal);
+  };
+  if (active_goal_.retryIsDue(std::chrono::steady_clock::now(), placed)) postPlanForGoal();
 }
 
 void PathPlannerNode::onGoal(const geometry_msgs::PoseStamped& message) {

@@ -61,12 +61,11 @@ geometry_msgs::Quaternion levelOrientation() {
   return orientation;
 }
 
-// Of the vehicle's pose, in seconds.
+}  // namespace
+
 std::optional<double> oldestStart(const PathPlannerNodeOptions& options) {
   return options.tf_timeout > 0.0 ? std::make_optional(options.tf_timeout) : std::nullopt;
 }
-
-}  // namespace
 
 PlanningLane::PlanningLane(const MapReceiver& maps, std::shared_ptr<MapStore> store,
                            const FrameTransforms& transforms, const PlanningLane* other)

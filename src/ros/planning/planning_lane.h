@@ -33,6 +33,9 @@
 
 namespace grid_path_planner::nodes {
 
+// How old the vehicle's pose may be where a plan starts from it, in seconds; none: as old as it is.
+std::optional<double> oldestStart(const PathPlannerNodeOptions& options);
+
 class PlanningLane {
  public:
   using PhaseListener = std::function<void(const char* phase)>;

@@ -169,6 +169,19 @@ std::optional<Eigen::Vector2d> PlanningServer::vehicle(
   }
 }
 
+bool PlanningServer::placed(const std::string& frame,
+                            const geometry_msgs::PoseStamped& goal) const {
+  const PathPlannerNodeOptions options = settings().options;
+  try {
+    transforms_.poseOf(options.base_frame, frame, 0.0, StopToken(), oldestStart(options));
+    transforms_.poseIn(frame, goal, 0.0, StopToken());
+    return true;
+  } catch (const TransformError&) {
+  } catch (const InputError&) {
+  }
+  return false;
+}
+
 void PlanningServer::checkClock() {
   if (!clock_.jumpedBack()) return;
   ROS_WARN("ROS time jumped back: transforms and start poses from before are forgotten");

@@ -129,6 +129,8 @@ class PlanningServer {
   // The vehicle's position in this frame from tf, without waiting; none where tf has none.
   std::optional<Eigen::Vector2d> vehicle(const std::string& frame,
                                          const PathPlannerNodeOptions& options) const;
+  // Whether tf has what a plan in this frame from the vehicle to a pose needs, without waiting.
+  bool placed(const std::string& frame, const geometry_msgs::PoseStamped& goal) const;
 
  private:
   void answer(PlanTicket& ticket, const PlanningRequest& request, Publish publish, Explain explain,

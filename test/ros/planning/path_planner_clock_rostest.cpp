@@ -24,6 +24,16 @@ class ClockTest : public test::PlannerTest {
       return path_.header.stamp == ros::Time(seconds);
     }));
   }
+  void move(const std::string& parent, const std::string& child, double x, double stamp) {
+    geometry_msgs::TransformStamped transform;
+    transform.header.frame_id = parent;
+    transform.header.stamp.fromSec(stamp);
+    transform.child_frame_id = child;
+    transform.transform.translation.x = x;
+    transform.transform.translation.y = 0.5;
+    transform.transform.rotation.w = 1.0;
+    moving_.sendTransform(transform);
+  }
   bool logged(const std::string& text) {
     return log_
         .waitFor(0,
@@ -63,16 +73,7 @@ TEST_F(ClockTest, TimeThatJumpsBackClearsTransforms) {
   }));
   maps_.publish(occupancyToMessage(AsciiMap({"...."}).map, "map", ros::Time(200.0)));
   setTimeAndWait(200.0);
-  const auto place = [&](double x, double stamp) {
-    geometry_msgs::TransformStamped transform;
-    transform.header.frame_id = "map";
-    transform.header.stamp.fromSec(stamp);
-    transform.child_frame_id = "rover";
-    transform.transform.translation.x = x;
-    transform.transform.translation.y = 0.5;
-    transform.transform.rotation.w = 1.0;
-    moving_.sendTransform(transform);
-  };
+  const auto place = [&](double x, double stamp) { move("map", "rover", x, stamp); };
   ASSERT_TRUE(test::waitFor([&] {
     place(0.5, 200.0);
     makePlan({}, poseAt(3.5, 0.5));
@@ -87,6 +88,24 @@ TEST_F(ClockTest, TimeThatJumpsBackClearsTransforms) {
     makePlan({}, poseAt(3.5, 0.5));
     return answer_.status == "FOUND" && endsAt(path_.poses.front(), 1.5, 0.5);
   }));
+}
+
+// tf2 spoke of extrapolation into the past, and nobody knew which node had ceased.
+TEST_F(ClockTest, ATransformThatHasCeasedIsNamedWithItsAge) {
+  startPlanner({"_tf_timeout:=0.05", "_base_frame:=glider"});
+  ASSERT_TRUE(test::waitFor([&] {
+    setTime(300.0);
+    return ros::Time::now() == ros::Time(300.0);
+  }));
+  maps_.publish(occupancyToMessage(AsciiMap({"...."}).map, "map", ros::Time(300.0)));
+  setTimeAndWait(300.0);
+  ASSERT_TRUE(test::waitFor([&] {
+    move("map", "odom", 0.0, 290.5);
+    move("odom", "glider", 0.5, 300.0);
+    makePlan({}, poseAt(3.5, 0.5));
+    return answer_.message.find("the newest from odom to map is 9.5 s old") != std::string::npos;
+  })) << answer_.message;
+  EXPECT_EQ(answer_.status, "TRANSFORM_ERROR");
 }
 
 // A map from outside the bag keeps its stamp when the bag begins again: its updates count all the

@@ -233,6 +233,22 @@ TEST_F(ReplanTest, AGoalBeforeTheFirstMapStands) {
   ASSERT_TRUE(paths_.waitFor(0, [](const nav_msgs::Path& path) { return !path.poses.empty(); }));
 }
 
+// A goal that came before the localiser had a pose was answered with TRANSFORM_ERROR and forgotten:
+// a map that stands never changes.
+TEST_F(ReplanTest, AGoalBeforeTheFirstTransformStands) {
+  startPlanner({"_tf_timeout:=0.3"});
+  publishMap({".....", "....."});
+  sendGoal(poseAt(4.5, 0.5));
+  ASSERT_EQ(answer_.status, "TRANSFORM_ERROR");
+  const std::size_t answers = statistics_.count();
+  ASSERT_TRUE(test::waitFor([&] {
+    placeVehicle(0.5, 0.5);
+    const std::vector<nav_msgs::Path> paths = paths_.all();
+    return !paths.empty() && !paths.back().poses.empty();
+  }));
+  EXPECT_LE(statistics_.count(), answers + 2) << "nothing is tried before there are transforms";
+}
+
 // A radius that was raised changed nothing until the next goal.
 TEST_F(ReplanTest, AChangedParameterPlansTheGoalAnew) {
   startPlanner();
