@@ -64,5 +64,6 @@ if(GPP_WITH_rviz)
   install(FILES rviz_plugins.xml COMPONENT rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 endif()
 catkin_install_python(PROGRAMS scripts/demo_run.py scripts/flight_demo_run.py scripts/localization_demo_run.py
-  scripts/ros_session.py scripts/rviz_on_map
+  scripts/rviz_on_map
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(FILES scripts/ros_session.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})  # of those

@@ -48,7 +48,7 @@ def complaints(check, name=None, text=None, more=()):
 
 class Tools(unittest.TestCase):
     def test_a_check_without_its_tool_fails_and_names_the_package(self):
-        for check, package in (("api_pages", "doxygen"), ("house", "universal-ctags"),
+        for check, package in (("api_pages", "doxygen"), ("house", "universal-ctags"), ("catkin_lint", "catkin-lint"),
                                ("format", "clang-format-14"), ("scripts", "shellcheck")):
             answer = subprocess.run([sys.executable, os.path.join(HERE, "check_%s.py" % check)], check=False,
                                     env=dict(os.environ, PATH=""), capture_output=True, text=True)
@@ -208,6 +208,18 @@ class ApiPages(unittest.TestCase):
 
     def test_warnings(self):
         self.assertNotEqual(self.planted("// Of x.\n#pragma once\n/** @nonsense */\nvoid f();\n"), [])
+
+
+@unittest.skipIf(UBUNTU_2004, "its catkin_lint is another one")
+class CatkinLint(unittest.TestCase):
+    def test_a_dependency_that_is_not_found(self):
+        package = ("<package format=\"2\"><name>package</name><version>0.1.0</version><description>x</description>"
+                   "<maintainer email=\"a@b.de\">a</maintainer><license>BSD</license>"
+                   "<buildtool_depend>catkin</buildtool_depend><depend>roscpp</depend></package>")
+        cmake = ("cmake_minimum_required(VERSION 3.16)\nproject(package)\nfind_package(catkin REQUIRED)\n"
+                 "catkin_package()\n")
+        found = complaints("check_catkin_lint.py", "package.xml", package, {"CMakeLists.txt": cmake})
+        self.assertTrue(any("roscpp" in line for line in found), found)
 
 
 class Headers(unittest.TestCase):

@@ -17,6 +17,7 @@ TOOLS = {
     "rviz": ("rviz",),
     "clang-format": ("clang-format", "clang-format-14"),
     "shellcheck": ("shellcheck",),
+    "catkin_lint": ("catkin_lint",),
 }
 
 

@@ -13,6 +13,7 @@
 #include "grid_path_planner/SaveFile.h"
 #include "grid_path_planner/SaveWaypoints.h"
 #include "grid_path_planner/path/waypoint_file.h"
+#include "ros/support/mapping_fixture.h"
 #include "ros/support/planner_fixture.h"
 #include "support/temporary_folder.h"
 
@@ -147,7 +148,11 @@ TEST_F(NamedFiles, MapsAndOctreesAreSavedBelowTheFolderOnly) {
   for (const char* service : {"/projected_map/save_map", "/projected_map/save_octree"})
     for (const std::string& name : namesOutside())
       EXPECT_FALSE(save<SaveFile>(service, name).success) << service << ' ' << name;
-  EXPECT_TRUE(save<SaveFile>("/projected_map/save_map", "map.yaml").success);
+  ros::Publisher clouds = nh_.advertise<sensor_msgs::PointCloud2>("cloud_in", 10);
+  EXPECT_TRUE(test::waitFor([&] {  // a map of which nothing is known is not saved
+    clouds.publish(test::cloudOf(test::wallAt(1.0F), "map", ros::Time::now()));
+    return save<SaveFile>("/projected_map/save_map", "map.yaml").success;
+  }));
   EXPECT_TRUE(save<SaveFile>("/projected_map/save_octree", "tree.bt").success);
   EXPECT_TRUE(std::filesystem::exists(files() + "/tree.bt"));
 }
