@@ -152,7 +152,7 @@ TEST(ZigzagsLaw, WhatIsLeftOutWasNearAndCostHardlyLess) {
         EXPECT_LE(distanceToLine(cellsOf(points[p]), cellsOf(points[from]), cellsOf(points[to])),
                   1.0 + 1e-9);
       }
-      EXPECT_LE(line, before * (1.0 + 1e-12)) << "trial " << trial;
+      EXPECT_LE(line, before * (1.0 + 1e-9)) << "trial " << trial;
     }
     EXPECT_NEAR(cost, calm.cost, 1e-9 * (1.0 + cost));
   }
