@@ -148,8 +148,7 @@ geometry_msgs::TransformStamped FrameTransforms::waitFor(const std::string& targ
     try {
       return transform(target, source, stamp);
     } catch (const TransformError& error) {
-      const std::string why =
-          sentence(target, source, stamp, reasonOf(buffer_, target, source, error.what()));
+      const std::string why = sentence(target, source, stamp, error.what());
       if (std::chrono::steady_clock::now() >= end) throw TransformError(why);
       wait.tell(why);
     }
@@ -164,7 +163,7 @@ geometry_msgs::TransformStamped FrameTransforms::transform(const std::string& ta
   try {
     return buffer_.lookupTransform(target, source, stamp);
   } catch (const tf2::TransformException& error) {
-    throw TransformError(error.what());
+    throw TransformError(reasonOf(buffer_, target, source, error.what()));
   }
 }
 

@@ -48,7 +48,8 @@ class FrameTransforms {
   path::Pose poseOf(const std::string& vehicle, const std::string& frame, double limit,
                     const base::StopToken& stop, std::optional<double> max_age = {}) const;
 
-  // The latest transform, or that at `stamp`. Throws TransformError with tf2's reason.
+  // The latest transform, or that at `stamp`. Throws TransformError with the reason: a frame that nothing names, a
+  // transform that has ceased, else tf2's.
   geometry_msgs::TransformStamped transform(const std::string& target, const std::string& source,
                                             const ros::Time& stamp = ros::Time(0)) const;
 

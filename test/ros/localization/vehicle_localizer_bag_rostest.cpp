@@ -70,7 +70,7 @@ std::vector<Pain> allPains() {
           [](Imu& m) { m.linear_acceleration.x = 1e308; });
   Pains<TwistWithCovarianceStamped> dvl(all, test::kDvl);
   dvl.addVariances(twist, 0, kZero, "a variance is -1: negative means no measurement");
-  dvl.addStampsAndFrame("\"nowhere\" passed to lookupTransform");
+  dvl.addStampsAndFrame("nothing on /tf names the frame 'nowhere'");
   Pains<Fix> depth(all, test::kDepth);
   depth.addVariances(pose, 14, kZero, "");  // the variance of z counts: -1 elsewhere is not its
   depth.addStampsAndFrame("its frame must be map, got nowhere");

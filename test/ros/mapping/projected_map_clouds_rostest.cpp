@@ -57,7 +57,9 @@ TEST_F(HostileClouds, CloudsThatWaitAreBoundedInBytes) {
   const std::size_t wait = kMostCloudBytes / cloud.data.size();
   EXPECT_TRUE(reports("waiting", std::to_string(wait)));
   EXPECT_TRUE(drops("too many bytes waiting", std::to_string(kClouds - wait)));
-  if (!test::hasShadowMemory()) EXPECT_LT(node_->peakMemory(), std::size_t{600} << 20);
+  if (!test::hasShadowMemory()) {
+    EXPECT_LT(node_->peakMemory(), std::size_t{600} << 20);
+  }
   placeSensor(0.0, 0.0, 0.0);
   EXPECT_TRUE(stillMaps());
 }
