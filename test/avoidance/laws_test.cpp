@@ -167,9 +167,9 @@ TEST(Laws, NothingIsEnteredThatRaysHaveNotPassed) {
 TEST(Laws, TheSameSeedFliesTheSameBits) {
   for (const Case& one : kCases) {
     FlightSetup setup = groveSetup(3, one.search, one.memory);
-    setup.seconds = 10.0;
+    setup.seconds = 7.0;
     const FlightResult first = fly(setup), second = fly(setup);
-    EXPECT_GT(first.metres, 5.0) << "it flew";
+    EXPECT_GT(first.metres, 3.0) << "it flew";
     ASSERT_EQ(first.track.size(), second.track.size());
     for (std::size_t i = 0; i < first.track.size(); ++i)
       ASSERT_EQ(std::memcmp(first.track[i].data(), second.track[i].data(), 3 * sizeof(double)), 0);

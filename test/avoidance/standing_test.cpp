@@ -35,7 +35,7 @@ TEST(Standing, AHoldIsNoLackOfProgress) {
     FlightSetup setup = fieldFlight();
     setup.options.recover = recover;
     setup.alter = [](PilotInput& input) {
-      if (input.time > 2.0 && input.time < 72.0) input.hold = "held by the test";
+      if (input.time > 2.0 && input.time < 42.0) input.hold = "held by the test";
     };
     setup.each = [](const PilotInput& input, const PilotAnswer& answer, const auto&, const Pilot&) {
       if (input.hold.empty()) return;
@@ -52,7 +52,7 @@ TEST(Standing, AHoldIsNoLackOfProgress) {
 TEST(Standing, WithoutAPoseIsNoLackOfProgress) {
   FlightSetup setup = fieldFlight();
   setup.alter = [](PilotInput& input) {
-    if (input.time > 2.0 && input.time < 72.0) input.pose.reset();
+    if (input.time > 2.0 && input.time < 42.0) input.pose.reset();
   };
   const FlightResult result = fly(setup);
   EXPECT_EQ(result.status, PilotStatus::ARRIVED) << result.sentence;
