@@ -52,19 +52,20 @@ class SimulatedSensors {
     accelerometer_bias_.setZero();
   }
 
-  // In the order of their stamps. Precondition: called once.
+  // In the order of their stamps, from where the last call ended.
   std::vector<Measurement> run(double seconds) {
     std::vector<Measurement> all;
-    const int ticks = static_cast<int>(std::lround(seconds * kTicks));
-    for (int tick = 0; tick <= ticks; ++tick) {
-      const double t = static_cast<double>(tick) / kTicks;
+    const long end = static_cast<long>(std::lround(seconds * kTicks)) + begun_;
+    for (; tick_ <= end; ++tick_) {
+      const double t = static_cast<double>(tick_) / kTicks;
       for (const auto source : {Source::IMU, Source::DVL, Source::COMMAND, Source::DEPTH,
                                 Source::USBL, Source::MARKER}) {
-        if (!isDue(source, tick)) continue;
+        if (!isDue(source, tick_)) continue;
         const Measurement measurement = measure(source, t);
         if (!cut(source, t)) all.push_back(measurement);
       }
     }
+    begun_ = end;
     return all;
   }
 
@@ -95,9 +96,9 @@ class SimulatedSensors {
         return rates.marker;
     }
   }
-  bool isDue(Source source, int tick) const {
+  bool isDue(Source source, long tick) const {
     const double rate = rateOf(source);
-    return rate > 0.0 && tick % static_cast<int>(std::lround(kTicks / rate)) == 0;
+    return rate > 0.0 && tick % std::lround(kTicks / rate) == 0;
   }
 
   double draw(double deviation) { return deviation * normal_(random_); }
@@ -166,6 +167,7 @@ class SimulatedSensors {
     return fix;
   }
 
+  long tick_ = 0, begun_ = 0;
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
   std::uniform_real_distribution<double> uniform_;

@@ -16,6 +16,12 @@ class ClockTest : public test::PlannerTest {
     clock.clock.fromSec(seconds);
     clock_.publish(clock);
   }
+  void beginAt(double seconds) {
+    ASSERT_TRUE(test::waitFor([&] {
+      setTime(seconds);
+      return ros::Time::now() == ros::Time(seconds);
+    }));
+  }
   // Until the planner has heard it too, which shows in the stamp of an answer.
   void setTimeAndWait(double seconds) {
     ASSERT_TRUE(test::waitFor([&] {
@@ -67,10 +73,7 @@ TEST_F(ClockTest, NoClockYetIsWaitedForWithAMessageNotAZeroStamp) {
 
 TEST_F(ClockTest, TimeThatJumpsBackClearsTransforms) {
   startPlanner({"_tf_timeout:=0.05", "_base_frame:=rover"});
-  ASSERT_TRUE(test::waitFor([&] {
-    setTime(200.0);
-    return ros::Time::now() == ros::Time(200.0);
-  }));
+  beginAt(200.0);
   maps_.publish(occupancyToMessage(AsciiMap({"...."}).map, "map", ros::Time(200.0)));
   setTimeAndWait(200.0);
   const auto place = [&](double x, double stamp) { move("map", "rover", x, stamp); };
@@ -93,10 +96,7 @@ TEST_F(ClockTest, TimeThatJumpsBackClearsTransforms) {
 // tf2 spoke of extrapolation into the past, and nobody knew which node had ceased.
 TEST_F(ClockTest, ATransformThatHasCeasedIsNamedWithItsAge) {
   startPlanner({"_tf_timeout:=0.05", "_base_frame:=glider"});
-  ASSERT_TRUE(test::waitFor([&] {
-    setTime(300.0);
-    return ros::Time::now() == ros::Time(300.0);
-  }));
+  beginAt(300.0);
   maps_.publish(occupancyToMessage(AsciiMap({"...."}).map, "map", ros::Time(300.0)));
   setTimeAndWait(300.0);
   ASSERT_TRUE(test::waitFor([&] {
@@ -112,10 +112,7 @@ TEST_F(ClockTest, ATransformThatHasCeasedIsNamedWithItsAge) {
 // same.
 TEST_F(ClockTest, UpdatesAreTakenAfterTimeJumpedBack) {
   startPlanner();
-  ASSERT_TRUE(test::waitFor([&] {
-    setTime(200.0);
-    return ros::Time::now() == ros::Time(200.0);
-  }));
+  beginAt(200.0);
   publishMap(AsciiMap({"...."}).map, "map", ros::Time(200.0));
   setTimeAndWait(200.0);
   setTimeAndWait(10.0);
