@@ -103,13 +103,22 @@ void ImageCamera::castOncePerPixel(const View& view, const base::StopToken& stop
   }
 }
 
-// Whether one of the up to eight neighbours meets another surface.
-bool ImageCamera::isEdge(const std::vector<std::uint32_t>& surfaces, int column, int row) const {
-  const std::uint32_t here = surfaces[row * options_.width + column];
-  for (int r = std::max(0, row - 1); r <= std::min(options_.height - 1, row + 1); ++r)
-    for (int c = std::max(0, column - 1); c <= std::min(options_.width - 1, column + 1); ++c)
-      if (surfaces[r * options_.width + c] != here) return true;
-  return false;
+// Whether one of the up to eight neighbours of each pixel of a row meets another surface.
+void ImageCamera::findEdges(const std::vector<std::uint32_t>& surfaces, int row,
+                            std::vector<std::uint8_t>& edges) const {
+  const int width = options_.width;
+  const std::uint32_t* here = &surfaces[static_cast<std::size_t>(row) * width];
+  const std::uint32_t* above = row > 0 ? here - width : here;
+  const std::uint32_t* below = row + 1 < options_.height ? here + width : here;
+  edges.assign(width, 0);
+  std::uint32_t left = 0;  // what differs in the column before
+  for (int c = 0; c < width; ++c) {
+    const std::uint32_t column = (above[c] ^ here[c]) | (below[c] ^ here[c]);
+    const std::uint32_t beside = c > 0 ? here[c - 1] ^ here[c] : 0;
+    edges[c] = (left | column | beside) != 0;
+    if (c > 0) edges[c - 1] |= (column | beside) != 0;
+    left = column;
+  }
 }
 
 Eigen::Array3f ImageCamera::meanOverPixel(const View& view, int column, int row) const {
@@ -135,10 +144,12 @@ void ImageCamera::render(const Eigen::Isometry3d& map_from_optical, std::uint64_
   std::vector<std::uint32_t> surfaces;
   castOncePerPixel(view, stop, colours, surfaces);
   base::StopPoll poll(stop, 1);
+  std::vector<std::uint8_t> edges;
   for (int row = 0; row < options_.height; ++row) {
     poll();
+    findEdges(surfaces, row, edges);
     for (int column = 0; column < options_.width; ++column)
-      if (isEdge(surfaces, column, row))
+      if (edges[column] != 0)
         colours[row * options_.width + column] = meanOverPixel(view, column, row);
   }
   putPixels(colours, options_, frame, rgb);

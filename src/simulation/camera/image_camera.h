@@ -56,7 +56,8 @@ class ImageCamera {
   void castOncePerPixel(const View& view, const base::StopToken& stop,
                         std::vector<Eigen::Array3f>& colours,
                         std::vector<std::uint32_t>& surfaces) const;
-  bool isEdge(const std::vector<std::uint32_t>& surfaces, int column, int row) const;
+  void findEdges(const std::vector<std::uint32_t>& surfaces, int row,
+                 std::vector<std::uint8_t>& edges) const;
   Eigen::Array3f meanOverPixel(const View& view, int column, int row) const;
 
   ImageCameraOptions options_;

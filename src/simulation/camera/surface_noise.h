@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <cstdint>
 
 namespace grid_path_planner::simulation {
@@ -14,28 +13,37 @@ class SurfaceNoise {
 
   // From -1 to 1 with mean 0; smooth over distances much shorter than the size of a blotch.
   float at(const Eigen::Vector3f& point) const {
-    const Eigen::Array3f scaled = point.array() * scale_;
-    const Eigen::Array3f corner = scaled.floor();
-    const Eigen::Array3f share = scaled - corner;
-    const Eigen::Array3i cell = corner.cast<int>();
-    float sum = 0.0f;
-    for (int i = 0; i < 8; ++i) {
-      const int x = i & 1, y = i >> 1 & 1, z = i >> 2;
-      sum += (x ? share.x() : 1.0f - share.x()) * (y ? share.y() : 1.0f - share.y()) *
-             (z ? share.z() : 1.0f - share.z()) * drawn(cell.x() + x, cell.y() + y, cell.z() + z);
+    std::uint32_t hash = seed_;
+    float low[3], high[3];  // the weights of a cell's lower and upper side
+    constexpr std::uint32_t kPrimes[3] = {kX, kY, kZ};
+    for (int axis = 0; axis < 3; ++axis) {
+      const float scaled = point[axis] * scale_;
+      const int cell = floorOf(scaled);
+      high[axis] = scaled - static_cast<float>(cell);
+      low[axis] = 1.0f - high[axis];
+      hash += static_cast<std::uint32_t>(cell) * kPrimes[axis];
     }
+    const float xy[4] = {low[0] * low[1], high[0] * low[1], low[0] * high[1], high[0] * high[1]};
+    float sum = 0.0f;
+    for (int i = 0; i < 4; ++i) sum += xy[i] * low[2] * drawn(hash + kCorners[i]);
+    for (int i = 0; i < 4; ++i) sum += xy[i] * high[2] * drawn(hash + kZ + kCorners[i]);
     return sum;
   }
 
  private:
-  // Even in [-1, 1), of a lattice point (Chris Wellons' lowbias32 of three large primes' sum).
-  float drawn(int x, int y, int z) const {
-    std::uint32_t h = seed_ + static_cast<std::uint32_t>(x) * 0x8da6b343u +
-                      static_cast<std::uint32_t>(y) * 0xd8163841u +
-                      static_cast<std::uint32_t>(z) * 0xcb1ab31fu;
+  static constexpr std::uint32_t kX = 0x8da6b343u, kY = 0xd8163841u, kZ = 0xcb1ab31fu;
+  static constexpr std::uint32_t kCorners[4] = {0, kX, kY, kX + kY};
+
+  static int floorOf(float value) {
+    const int truncated = static_cast<int>(value);
+    return truncated - (value < static_cast<float>(truncated));
+  }
+
+  // Even in [-1, 1), of a lattice point's sum of large primes (Chris Wellons' lowbias32).
+  static float drawn(std::uint32_t h) {
     h = (h ^ (h >> 16)) * 0x7feb352du;
     h = (h ^ (h >> 15)) * 0x846ca68bu;
-    return static_cast<float>(h >> 8) * 0x1p-23f - 1.0f;
+    return static_cast<float>(static_cast<std::int32_t>(h >> 8)) * 0x1p-23f - 1.0f;
   }
 
   std::uint32_t seed_;
