@@ -40,6 +40,7 @@ def main():
     assert not differing, "not the same with one worker and two: %s" % differing
     for wanted in ("report.html", "summary.yaml", "figures.csv", "tum/nominal_L5.txt"):
         assert one.get(wanted), "%s is missing or empty" % wanted
+    assert b"standard_error" in one["summary.yaml"], "NEES has no standard error"
     for line in one["tum/nominal_L5.txt"].decode().splitlines():
         assert len([float(word) for word in line.split()]) == 8, line
     again = subprocess.run([program, "localization", study, "--out", "out"], cwd=os.path.join(work, "1"),

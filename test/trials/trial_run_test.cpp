@@ -133,6 +133,14 @@ TEST(TrialRecord, IsReadAsItWasWritten) {
   EXPECT_THROW(runFromLine("{}"), base::InputError);
 }
 
+// Of {1, 3} the deviation of one is the root of 2, so that of the mean is 1.
+TEST(MeanOf, HasAStandardErrorOfMoreThanOneRun) {
+  EXPECT_NEAR(meanOf({1.0, 3.0}).standard_error, 1.0, 1e-12);
+  EXPECT_NEAR(meanOf({1.0, 3.0, 1.0, 3.0, 1.0, 3.0, 1.0, 3.0, 1.0, 3.0}).standard_error, 1.0 / 3.0,
+              1e-12);
+  EXPECT_EQ(meanOf({5.0}).standard_error, 0.0);
+}
+
 TEST(Consistency, CountsTheSecondsInsideTheBoundsOfTheMean) {
   TrialStudy study;
   study.sets.resize(1);

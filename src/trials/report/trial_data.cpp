@@ -41,6 +41,7 @@ MeanAndSpread meanOf(const std::vector<double>& values) {
   for (const double value : values)
     result.deviation += (value - result.mean) * (value - result.mean) / count;
   result.deviation = std::sqrt(result.deviation);
+  if (count > 1.0) result.standard_error = result.deviation / std::sqrt(count - 1.0);
   return result;
 }
 

@@ -12,7 +12,8 @@ namespace grid_path_planner::trials {
 
 struct MeanAndSpread {
   double mean = 0.0;
-  double deviation = 0.0;  // of the runs about their mean
+  double deviation = 0.0;       // of the runs about their mean
+  double standard_error = 0.0;  // of the mean; of one run it is not known, and 0
 };
 
 MeanAndSpread meanOf(const std::vector<double>& values);

@@ -248,16 +248,20 @@ Finding tracksFinding(const TrialData& data) {
 }
 
 Finding goalsFinding(const TrialData& data) {
-  Finding finding{
-      "Which goals are met?",
-      {"goals", "Means over the seeds.", {"goal", "wanted", "found", "unit", "met"}, {}},
-      {}};
+  Finding finding{"Which goals are met?",
+                  {"goals",
+                   "Means over the seeds, those of NEES with their standard error.",
+                   {"goal", "wanted", "found", "standard error", "unit", "met"},
+                   {}},
+                  {}};
   std::size_t met = 0;
   const std::vector<Goal> goals = goalsOf(data);
   for (const Goal& goal : goals) {
     met += goal.met;
     finding.table.rows.push_back(
-        {goal.name, goal.wanted, TableCell(goal.found, 3), goal.unit, goal.met ? "yes" : "no"});
+        {goal.name, goal.wanted, TableCell(goal.found, 3),
+         goal.standard_error ? TableCell(*goal.standard_error, 2) : TableCell(""), goal.unit,
+         goal.met ? "yes" : "no"});
   }
   finding.answers.push_back(std::to_string(met) + " of " + std::to_string(goals.size()) +
                             " are met.");

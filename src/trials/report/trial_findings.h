@@ -27,6 +27,7 @@ struct Goal {
   std::string wanted;
   std::string unit;
   double found = 0.0;
+  std::optional<double> standard_error;  // of `found`, where that is a mean of NEES over the seeds
   bool met = false;
 };
 std::vector<Goal> goalsOf(const TrialData& data);

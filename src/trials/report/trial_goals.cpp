@@ -11,6 +11,8 @@ constexpr Figure kDegreesInView = [](const RowResult& row) { return row.in_view.
 constexpr Figure kMetres = [](const RowResult& row) { return row.all.metres; };
 constexpr Figure kDegrees = [](const RowResult& row) { return row.all.degrees; };
 constexpr Figure kFaultMetres = [](const RowResult& row) { return row.fault_end.metres; };
+constexpr Figure kNees = [](const RowResult& row) { return meanOf(row.nees).mean; };
+constexpr Figure kPoseNees = [](const RowResult& row) { return meanOf(row.pose_nees).mean; };
 constexpr Figure kFaultNees = [](const RowResult& row) { return row.fault_nees; };
 
 class GoalList {
@@ -21,14 +23,15 @@ class GoalList {
     return data_.mean(data_.setNamed(set), rowNumber(row), figure).mean;
   }
   void atMost(const std::string& name, double limit, const std::string& unit, double found) {
-    goals_.push_back({name, "≤ " + study::shownNumber(limit), unit, found, found <= limit});
+    goals_.push_back({name, "≤ " + study::shownNumber(limit), unit, found, {}, found <= limit});
   }
-  void within(const std::string& name, double low, double high, double found) {
-    goals_.push_back({name, study::shownNumber(low) + " to " + study::shownNumber(high), "", found,
-                      low <= found && found <= high});
+  // Of means of NEES.
+  void within(const std::string& name, double low, double high, const MeanAndSpread& found) {
+    goals_.push_back({name, study::shownNumber(low) + " to " + study::shownNumber(high), "",
+                      found.mean, found.standard_error, low <= found.mean && found.mean <= high});
   }
   void atLeast(const std::string& name, double limit, double found) {
-    goals_.push_back({name, "≥ " + study::shownNumber(limit), "", found, found >= limit});
+    goals_.push_back({name, "≥ " + study::shownNumber(limit), "", found, {}, found >= limit});
   }
   std::vector<Goal> goals() const { return goals_; }
 
@@ -64,11 +67,11 @@ void addAgainstTruth(const TrialData& data, GoalList& list) {
 }
 
 void addAnees(const TrialData& data, std::size_t set, const char* row, GoalList& list) {
-  const Consistency c = consistencyOf(data, set, rowNumber(row));
+  const std::size_t number = rowNumber(row);
   const std::string name = std::string("ANEES of ") + row + ", " + data.study.sets[set].name;
-  list.within(name + ", 15 states", 13.5, 16.6, c.mean);
-  list.within(name + ", pose", 5.1, 7.0, c.pose_mean);
-  list.atLeast(name + ", seconds inside", 0.9, c.inside);
+  list.within(name + ", 15 states", 13.5, 16.6, data.mean(set, number, kNees));
+  list.within(name + ", pose", 5.1, 7.0, data.mean(set, number, kPoseNees));
+  list.atLeast(name + ", seconds inside", 0.9, consistencyOf(data, set, number).inside);
 }
 
 void addConsistency(const TrialData& data, GoalList& list) {
@@ -77,7 +80,7 @@ void addConsistency(const TrialData& data, GoalList& list) {
   if (data.hasSet("coarse")) addAnees(data, data.setNamed("coarse"), "all", list);
 }
 
-void addFaults(GoalList& list, int seeds) {
+void addFaults(const TrialData& data, GoalList& list) {
   const auto ratio = [&list](const char* row, const char* without) {
     return list.mean("nominal", row, kMetres) / list.mean("nominal", without, kMetres);
   };
@@ -87,10 +90,10 @@ void addFaults(GoalList& list, int seeds) {
   list.atMost("camera black, at its end", 0.1, "m", after("camera black"));
   list.atMost("DVL out, USBL, at its end", 0.6, "m", after("DVL out, USBL"));
   list.atMost("DVL out, cmd_vel, at its end", 2.5, "m", after("DVL out, cmd_vel"));
-  const auto bounds = localization::meanBounds(15, seeds, 0.95);
+  const auto bounds = localization::meanBounds(15, data.study.seeds, 0.95);
   for (const char* row : {"DVL out, USBL", "DVL out, nothing", "DVL out, cmd_vel"})
     list.within(std::string("NEES at its end, ") + row, bounds.low, bounds.high,
-                list.mean("nominal", row, kFaultNees));
+                data.mean(data.setNamed("nominal"), rowNumber(row), kFaultNees));
 }
 
 }  // namespace
@@ -100,7 +103,7 @@ std::vector<Goal> goalsOf(const TrialData& data) {
   addPanel(data, list);
   addAgainstTruth(data, list);
   addConsistency(data, list);
-  addFaults(list, data.study.seeds);
+  addFaults(data, list);
   return list.goals();
 }
 

@@ -85,8 +85,10 @@ std::string summaryOf(const TrialData& data) {
   std::string text = "goals:\n";
   for (const Goal& goal : goalsOf(data))
     text += "  - {goal: " + quoted(goal.name) + ", wanted: " + quoted(goal.wanted) +
-            ", found: " + base::decimalText(goal.found) + ", unit: " + quoted(goal.unit) +
-            ", met: " + (goal.met ? "true" : "false") + "}\n";
+            ", found: " + base::decimalText(goal.found) +
+            (goal.standard_error ? ", standard_error: " + base::decimalText(*goal.standard_error)
+                                 : "") +
+            ", unit: " + quoted(goal.unit) + ", met: " + (goal.met ? "true" : "false") + "}\n";
   text += "predictions:\n";
   for (const Prediction& prediction : predictionsOf(data))
     text += "  - {claim: " + quoted(prediction.claim) + ", verdict: " + textOf(prediction.verdict) +
