@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/cholesky.h"
 #include "localization/so3.h"
 #include "simulation/camera/pinhole.h"
 
@@ -29,6 +30,16 @@ CameraError errorFrom(const JointPose& pose, const Isometry3d& truth) {
   return error;
 }
 
+// The error as many deviations off as `drawn` is, in those of another covariance.
+CameraError rescaled(const CameraError& drawn, const vision::Matrix6& covariance) {
+  vision::Matrix6 from = drawn.covariance, into = covariance;
+  base::factorizeCholesky(from.data(), from.rows());
+  base::factorizeCholesky(into.data(), into.rows());
+  vision::Vector6 deviations = drawn.error;
+  base::solveLower(from.data(), from.rows(), deviations.data());
+  return {into.triangularView<Eigen::Lower>() * deviations, covariance};
+}
+
 // Metres, a radian of the line of sight counting as one.
 double distance(const Isometry3d& a, const Isometry3d& b) {
   return (a.translation() - b.translation()).norm() +
@@ -38,7 +49,7 @@ double distance(const Isometry3d& a, const Isometry3d& b) {
 }  // namespace
 
 MarkerErrors::MarkerErrors(const TrialStudy& study, const std::vector<SeenFrame>& frames)
-    : errors_(study.sets.size()) {
+    : errors_(study.sets.size()), from_noise_(study.sets.size()) {
   const PanelDrive drive(study.drive, study.map_from_panel);
   const Isometry3d base_from_camera = study.camera.mounting.pose() * simulation::opticalFrame();
   for (const SeenFrame& frame : frames) {
@@ -51,6 +62,7 @@ MarkerErrors::MarkerErrors(const TrialStudy& study, const std::vector<SeenFrame>
       if (solution.joint) joint = errorFrom(*solution.joint, truths_.back());
       errors_[set][static_cast<std::size_t>(Method::MEAN)].push_back(mean);
       errors_[set][static_cast<std::size_t>(Method::JOINT)].push_back(joint);
+      if (joint && study.sets[set].corner_noise > 0.0) from_noise_[set].push_back(*joint);
     }
   }
   findNeighbours();
@@ -74,9 +86,12 @@ std::optional<CameraError> MarkerErrors::shown(std::size_t set, Method method, i
 
 std::optional<CameraError> MarkerErrors::drawn(std::size_t set, Method method, int frame,
                                                Noise& noise) const {
+  const auto own = shown(set, method, frame);
+  if (own && method == Method::JOINT && !from_noise_[set].empty())
+    return rescaled(from_noise_[set][noise.below(from_noise_[set].size())], own->covariance);
   const std::vector<int>& near = neighbours_[static_cast<std::size_t>(frame)];
   const std::size_t first = noise.below(near.size());
-  if (!shown(set, method, frame)) return {};
+  if (!own) return {};
   for (std::size_t i = 0; i < near.size(); ++i)
     if (const auto error = shown(set, method, near[(first + i) % near.size()])) return error;
   return {};

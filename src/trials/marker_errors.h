@@ -4,7 +4,9 @@
 //   const auto pose = errors.drawn(set, Method::JOINT, frame, noise);
 //
 // A pose is drawn from one of the rendered frames that were taken from nearly the same place: its error, in the
-// camera's frame, is put on the true pose. A frame in which the images showed no pose has none.
+// camera's frame, is put on the true pose. Noise of the corners is new in each image wherever it was taken, so that
+// joint poses with that are drawn from all frames, in deviations of their covariance: those of some neighbours
+// repeat, and the filter takes each repetition for news. A frame in which the images showed no pose has none.
 #pragma once
 
 #include <array>
@@ -45,6 +47,7 @@ class MarkerErrors {
   std::vector<Eigen::Isometry3d> truths_;
   // By error set, method, frame.
   std::vector<std::array<std::vector<std::optional<CameraError>>, 2>> errors_;
+  std::vector<std::vector<CameraError>> from_noise_;  // all joint ones of a set with noisy corners
   std::vector<std::vector<int>> neighbours_;  // of each frame, itself included, the nearest first
 };
 

@@ -114,6 +114,39 @@ TEST_F(ThreeFrames, DrawsAreFromNeighboursAndNoneWhereTheImageShowedNone) {
   EXPECT_LT(own, 180);
 }
 
+// A set with noise of the corners; the error of frame 1 is two deviations of its own covariance, and of no other.
+class NoisyCorners : public ThreeFrames {
+ protected:
+  NoisyCorners() {
+    study.sets[0].corner_noise = 0.5;
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Isometry3d truth = MarkerErrors(study, frames).truth(i);
+      const double deviation = 0.001 * (i + 1);
+      JointPose joint{
+          {truth * Vector3d(0.0, 0.0, 2.0 * i * deviation), Quaterniond(truth.linear())},
+          vision::Matrix6::Identity() * deviation * deviation};
+      frames[static_cast<std::size_t>(i)].solutions[0].joint = joint;
+    }
+  }
+};
+
+TEST_F(NoisyCorners, AreDrawnFromAllFramesInDeviationsOfTheirOwn) {
+  const MarkerErrors errors(study, frames);
+  Noise noise(1, Purpose::MARKERS);
+  EXPECT_FALSE(errors.drawn(0, Method::JOINT, 2, noise));
+  int off = 0;
+  for (int i = 0; i < 200; ++i) {
+    const auto drawn = errors.drawn(0, Method::JOINT, 0, noise);
+    ASSERT_TRUE(drawn);
+    EXPECT_EQ(drawn->covariance, errors.shown(0, Method::JOINT, 0)->covariance);
+    const double deviations = drawn->error.z() / 0.001;
+    EXPECT_LT(std::min(std::abs(deviations), std::abs(deviations - 2.0)), 1e-6) << deviations;
+    off += deviations > 1.0;
+  }
+  EXPECT_GT(off, 60);
+  EXPECT_LT(off, 140);
+}
+
 TEST(TrialRecord, IsReadAsItWasWritten) {
   SeenFrame frame{7, Water::CLEAR, {{}, {}}};
   frame.solutions[1].markers = 3;
