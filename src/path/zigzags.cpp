@@ -66,11 +66,12 @@ class StraightRuns {
   }
 
   bool nearLine(std::size_t first, std::size_t last) {
-    const Vector2d along = between(first, last).normalized();
+    const Vector2d line = between(first, last), along = line.normalized();
     for (std::size_t i = first + 1; i < last; ++i) {
       poll_();
       const Vector2d to = between(first, i);
-      if (std::abs(along.x() * to.y() - along.y() * to.x()) > kDeviation) return false;
+      const double foot = std::clamp(along.dot(to), 0.0, line.norm());
+      if ((to - foot * along).norm() > kDeviation) return false;
     }
     return true;
   }

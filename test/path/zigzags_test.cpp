@@ -96,6 +96,15 @@ TEST(Zigzags, OneWeightHasNothingToRound) {
   EXPECT_EQ(calmOver(map, centresOf({{3, 2}})).kept, std::vector<std::size_t>{0});
 }
 
+// All points of a round trip lie on the line of no length between its ends.
+TEST(Zigzags, ARoundTripStays) {
+  const CostGrid map = test::costMap(kStaircase);
+  const std::vector<Cell> there_and_back = {{0, 3}, {1, 2}, {3, 2}, {4, 1}, {3, 2}, {1, 2}, {0, 3}};
+  const SmoothPath calm = calmOver(map, centresOf(there_and_back));
+  EXPECT_GT(calm.kept.size(), 2u);
+  EXPECT_GT(calm.cost, 4.0);
+}
+
 TEST(Zigzags, StopsWhenAsked) {
   Points points;
   for (int column = 0; column < 400; ++column)
@@ -124,6 +133,8 @@ Points randomWalk(std::mt19937& random, const CostGrid& map) {
 }
 
 double distanceToLine(const Vector2d& point, const Vector2d& from, const Vector2d& to) {
+  if ((point - from).dot(to - from) <= 0.0) return (point - from).norm();
+  if ((point - to).dot(from - to) <= 0.0) return (point - to).norm();
   return Eigen::Hyperplane<double, 2>::Through(from, to).absDistance(point);
 }
 

@@ -52,18 +52,37 @@ std::optional<geometry_msgs::TransformStamped> toParent(const tf2_ros::Buffer& b
   }
 }
 
-// The transform above one of the frames whose newest is oldest, where that is no static one.
-std::optional<geometry_msgs::TransformStamped> oldestAbove(const tf2_ros::Buffer& buffer,
-                                                           const std::vector<std::string>& frames) {
-  constexpr int kMostLinks = 100;
-  std::optional<geometry_msgs::TransformStamped> oldest;
-  for (const std::string& frame : frames) {
-    auto link = toParent(buffer, frame);
-    for (int i = 0; link && i < kMostLinks; ++i, link = toParent(buffer, link->header.frame_id)) {
-      const ros::Time stamp = link->header.stamp;
-      if (!stamp.isZero() && (!oldest || stamp < oldest->header.stamp)) oldest = link;
-    }
+// The newest transform of the frame and of each above it.
+std::vector<geometry_msgs::TransformStamped> linksAbove(const tf2_ros::Buffer& buffer,
+                                                        const std::string& frame) {
+  constexpr std::size_t kMost = 100;  // tf may have a loop for a moment
+  std::vector<geometry_msgs::TransformStamped> links;
+  for (auto link = toParent(buffer, frame); link && links.size() < kMost;
+       link = toParent(buffer, link->header.frame_id))
+    links.push_back(*link);
+  return links;
+}
+
+// Of the transforms between two frames the one whose newest is oldest, where that is no static one; none where nothing
+// joins them.
+std::optional<geometry_msgs::TransformStamped> oldestBetween(const tf2_ros::Buffer& buffer,
+                                                             const std::string& one,
+                                                             const std::string& other) {
+  auto up = linksAbove(buffer, one), down = linksAbove(buffer, other);
+  const auto root = [](const auto& links, const std::string& frame) {
+    return links.empty() ? frame : links.back().header.frame_id;
+  };
+  if (root(up, one) != root(down, other)) return std::nullopt;
+  while (!up.empty() && !down.empty() &&
+         up.back().child_frame_id == down.back().child_frame_id) {  // above both
+    up.pop_back();
+    down.pop_back();
   }
+  up.insert(up.end(), down.begin(), down.end());
+  std::optional<geometry_msgs::TransformStamped> oldest;
+  for (const auto& link : up)
+    if (!link.header.stamp.isZero() && (!oldest || link.header.stamp < oldest->header.stamp))
+      oldest = link;
   return oldest;
 }
 
@@ -75,7 +94,7 @@ std::string reasonOf(const tf2_ros::Buffer& buffer, const std::string& target,
   for (const std::string& frame : {source, target})
     if (!buffer._frameExists(frame)) missing += (missing.empty() ? "'" : " or '") + frame + "'";
   if (!missing.empty()) return "nothing on /tf names the frame " + missing;
-  const auto oldest = oldestAbove(buffer, {source, target});
+  const auto oldest = oldestBetween(buffer, source, target);
   const double age = oldest ? secondsBetween(oldest->header.stamp, ros::Time::now()) : 0.0;
   if (age < kOld) return otherwise;
   std::ostringstream text;

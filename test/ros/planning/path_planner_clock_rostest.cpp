@@ -100,6 +100,7 @@ TEST_F(ClockTest, ATransformThatHasCeasedIsNamedWithItsAge) {
   maps_.publish(occupancyToMessage(AsciiMap({"...."}).map, "map", ros::Time(300.0)));
   setTimeAndWait(300.0);
   ASSERT_TRUE(test::waitFor([&] {
+    move("earth", "map", 0.0, 289.0);  // older, and of no matter
     move("map", "odom", 0.0, 290.5);
     move("odom", "glider", 0.5, 300.0);
     makePlan({}, poseAt(3.5, 0.5));
