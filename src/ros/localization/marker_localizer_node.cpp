@@ -242,6 +242,7 @@ void MarkerLocalizerNode::summarize(diagnostic_updater::DiagnosticStatusWrapper&
 }
 
 void MarkerLocalizerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  noticeTime();  // before the first image after a jump, whose tf may be there already
   const std::lock_guard<std::mutex> lock(mutex_);
   const vision::MarkerFix fix = tally_.newest ? tally_.newest->fix : vision::MarkerFix();
   const double age = secondsBetween(tally_.newest_stamp, ros::Time::now());

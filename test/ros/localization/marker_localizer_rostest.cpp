@@ -17,6 +17,7 @@
 
 #include "ros/support/latest.h"
 #include "ros/support/panel_image.h"
+#include "ros/support/panel_site.h"
 #include "ros/support/process.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
@@ -28,72 +29,22 @@ using Eigen::Isometry3d, Eigen::Vector3d;
 using geometry_msgs::PoseWithCovarianceStamped;
 using sensor_msgs::CameraInfo;
 using sensor_msgs::Image;
+using test::angleBetween;
+using test::baseFromCamera;
 using test::contains;
+using test::distanceBetween;
+using test::kPanelKnown;
 using test::Latest;
+using test::mapFromBase;
+using test::mapFromPanel;
 using test::panelCamera;
 using test::panelImage;
+using test::poseOf;
 using test::Process;
+using test::transformOf;
 using test::waitFor;
 
 constexpr char kLayout[] = GPP_TEST_DATA "/two_markers.yaml";
-
-// The camera looks along the vehicle's x axis, 0.3 m ahead of base_link.
-Isometry3d baseFromCamera() {
-  Isometry3d pose(Eigen::Translation3d(0.3, 0.0, 0.1));
-  pose.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
-  return pose;
-}
-
-// The panel of the launch arguments below: 5 m along x, upright, its front towards the map's origin.
-Isometry3d mapFromPanel() {
-  Isometry3d pose(Eigen::Translation3d(5.0, 1.0, 2.0));
-  pose.rotate(Eigen::AngleAxisd(-M_PI / 2.0, Vector3d::UnitZ()));
-  return pose.rotate(Eigen::AngleAxisd(M_PI / 2.0, Vector3d::UnitX()));
-}
-
-const std::vector<std::string> kPanelKnown = {"_panel_known:=true",
-                                              "_panel_x:=5",
-                                              "_panel_y:=1",
-                                              "_panel_z:=2",
-                                              "_panel_yaw:=" + std::to_string(-M_PI / 2.0),
-                                              "_panel_roll:=" + std::to_string(M_PI / 2.0)};
-
-// A metre before the panel and a little aside and turned, so that the two tags are seen from aside.
-Isometry3d mapFromBase() {
-  Isometry3d pose(Eigen::Translation3d(3.7, 1.25, 1.95));
-  return pose.rotate(Eigen::AngleAxisd(-0.2, Vector3d::UnitZ()));
-}
-
-geometry_msgs::TransformStamped transformOf(const char* frame, const char* child,
-                                            const Isometry3d& pose) {
-  const Eigen::Quaterniond q(pose.linear());
-  geometry_msgs::TransformStamped transform;
-  transform.header.frame_id = frame;
-  transform.header.stamp = ros::Time::now();
-  transform.child_frame_id = child;
-  transform.transform.translation.x = pose.translation().x();
-  transform.transform.translation.y = pose.translation().y();
-  transform.transform.translation.z = pose.translation().z();
-  transform.transform.rotation.x = q.x();
-  transform.transform.rotation.y = q.y();
-  transform.transform.rotation.z = q.z();
-  transform.transform.rotation.w = q.w();
-  return transform;
-}
-
-Isometry3d poseOf(const geometry_msgs::Pose& pose) {
-  Isometry3d isometry(Eigen::Translation3d(pose.position.x, pose.position.y, pose.position.z));
-  return isometry.rotate(Eigen::Quaterniond(pose.orientation.w, pose.orientation.x,
-                                            pose.orientation.y, pose.orientation.z));
-}
-
-double distanceBetween(const Isometry3d& a, const Isometry3d& b) {
-  return (a.translation() - b.translation()).norm();
-}
-
-double angleBetween(const Isometry3d& a, const Isometry3d& b) {
-  return Eigen::AngleAxisd(Eigen::Matrix3d(a.linear().transpose() * b.linear())).angle();
-}
 
 // Before the left tag, 3 m away and 35 degrees aside: alone, and by a lens of long focal length, it looks alike from
 // the other side.
@@ -126,10 +77,12 @@ class Frames {
  private:
   void run() {
     while (!over_) {
-      broadcaster_.sendTransform(transformOf("base_link", "camera", baseFromCamera()));
+      broadcaster_.sendTransform(
+          transformOf("base_link", "camera", baseFromCamera(), ros::Time::now()));
       {
         const std::lock_guard<std::mutex> lock(mutex_);
-        if (vehicle_) broadcaster_.sendTransform(transformOf("map", "base_link", *vehicle_));
+        if (vehicle_)
+          broadcaster_.sendTransform(transformOf("map", "base_link", *vehicle_, ros::Time::now()));
       }
       ros::WallDuration(0.02).sleep();
     }

@@ -1,4 +1,4 @@
-// Images of two markers, the panel of test/data/two_markers.yaml, as messages of a camera.
+// Images of markers as messages of a camera: the panel of test/data/two_markers.yaml, and with a third marker above.
 //
 //   const sensor_msgs::Image image = panelImage(panel_from_camera, stamp);
 #pragma once
@@ -16,24 +16,33 @@ namespace grid_path_planner::test {
 constexpr int kPanelColumns = 240, kPanelRows = 160;
 constexpr double kPanelFocal = 200.0;  // pixels
 
-// Of the panel's plane at x to the right, y up (m): the first two tags of the family 36h11, row by row from the upper
-// left, 1 is white; all around them is white.
-inline bool isWhite(double x, double y) {
-  constexpr std::array<std::uint64_t, 2> kBits = {0x21a146bab, 0x92d18fe9b};
+struct PanelTag {
+  std::uint64_t bits;  // row by row from the upper left, 1 is white
+  double x, y;         // of its centre, m
+};
+
+// The first tags of the family 36h11.
+constexpr std::array<PanelTag, 3> kPanelTags = {
+    {{0x21a146bab, -0.2, 0.0}, {0x92d18fe9b, 0.2, 0.0}, {0x7089014bb, 0.0, 0.22}}};
+
+// Of the panel's plane at x to the right, y up (m), with so many tags; all around them is white.
+inline bool isWhite(double x, double y, std::size_t tags) {
   constexpr double kCell = 0.2 / 8.0;
-  for (std::size_t tag = 0; tag < kBits.size(); ++tag) {
-    const auto column = static_cast<int>(std::floor((x - (tag == 0 ? -0.3 : 0.1)) / kCell));
-    const auto row = static_cast<int>(std::floor((0.1 - y) / kCell));
+  for (std::size_t tag = 0; tag < tags; ++tag) {
+    const auto& [bits, centre_x, centre_y] = kPanelTags[tag];
+    const auto column = static_cast<int>(std::floor((x - (centre_x - 0.1)) / kCell));
+    const auto row = static_cast<int>(std::floor((centre_y + 0.1 - y) / kCell));
     if (column < 0 || column > 7 || row < 0 || row > 7) continue;
     const bool inside = column > 0 && column < 7 && row > 0 && row < 7;
-    return inside && (kBits[tag] >> (35 - 6 * (row - 1) - (column - 1)) & 1) == 1;
+    return inside && (bits >> (35 - 6 * (row - 1) - (column - 1)) & 1) == 1;
   }
   return true;
 }
 
 // The camera's optical frame in the panel's, before its front; sixteen samples a pixel.
 inline sensor_msgs::Image panelImage(const Eigen::Isometry3d& panel_from_camera,
-                                     const ros::Time& stamp, double focal = kPanelFocal) {
+                                     const ros::Time& stamp, double focal = kPanelFocal,
+                                     std::size_t tags = 2) {
   sensor_msgs::Image image;
   image.header.frame_id = "camera";
   image.header.stamp = stamp;
@@ -51,7 +60,7 @@ inline sensor_msgs::Image panelImage(const Eigen::Isometry3d& panel_from_camera,
         const Eigen::Vector3d at = panel_from_camera.translation(),
                               along = panel_from_camera.linear() * ray;
         const double range = -at.z() / along.z();
-        white += isWhite(at.x() + range * along.x(), at.y() + range * along.y());
+        white += isWhite(at.x() + range * along.x(), at.y() + range * along.y(), tags);
       }
       image.data.push_back(static_cast<std::uint8_t>(40 + 10 * white));
     }
