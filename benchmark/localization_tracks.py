@@ -1,4 +1,8 @@
-"""Estimates of a pose over time and their errors against the truth, for localization_peers. Needs python3-scipy."""
+"""Estimates of a pose over time, their errors against the truth and how long they took, for localization_peers. Needs
+python3-scipy."""
+import struct
+import time
+
 import numpy
 from scipy.spatial.transform import Rotation, Slerp
 
@@ -8,11 +12,40 @@ def angles_of(orientation):
     return tuple(Rotation.from_quat((orientation.x, orientation.y, orientation.z, orientation.w)).as_euler("xyz").tolist())
 
 
+def stamp_of(data):
+    """Nanoseconds, of a message that begins with a header and is left as bytes."""
+    seconds, nanoseconds = struct.unpack_from("<II", data, 4)
+    return 1000000000 * seconds + nanoseconds
+
+
+class Arrivals:
+    """When messages came, by the steady clock, by what they are stamped with; handed over as bytes, so that other
+    messages do not wait for this process."""
+
+    def __init__(self):
+        self.times = {}  # nanoseconds: s
+
+    def take(self, message):
+        self.times.setdefault(stamp_of(message._buff), time.monotonic())
+
+
 class Track:
     """Poses by the time that they are stamped with, from nav_msgs/Odometry."""
 
     def __init__(self):
-        self.poses = {}  # nanoseconds: (position, quaternion x y z w, covariance 6x6 of position and fixed axes)
+        self.arrivals = Arrivals()
+        self.waiting = []  # messages as bytes
+        self.poses = {}    # nanoseconds: (position, quaternion x y z w, covariance 6x6 of position and fixed axes)
+
+    def hear(self, message):
+        self.arrivals.take(message)
+        self.waiting.append(message._buff)
+
+    def unpack(self):
+        from nav_msgs.msg import Odometry
+        for data in self.waiting:
+            self.take(Odometry().deserialize(data))
+        self.waiting = []
 
     def take(self, message):
         pose = message.pose.pose
@@ -51,6 +84,18 @@ def errors(track, truth, begin):
     both = numpy.concatenate((true_positions - positions, turns), axis=1)
     nees = numpy.einsum("ij,ij->i", both, numpy.linalg.solve(covariances, both[:, :, None])[:, :, 0])
     return numpy.linalg.norm(both[:, :3], axis=1), numpy.degrees(numpy.linalg.norm(turns, axis=1)), nees
+
+
+def delays(track, inputs, begin):
+    """Milliseconds from the arrival of the measurement of the IMU to that of the estimate with its stamp, from `begin` on."""
+    both = [(own, inputs.times[stamp]) for stamp, own in track.arrivals.times.items() if stamp >= begin and stamp in inputs.times]
+    return 1e3 * numpy.array([own - given for own, given in both])
+
+
+def delay_cell(track, inputs, begin):
+    """Median, 99th percentile and largest; a dash where no estimate has the stamp of a measurement."""
+    found = delays(track, inputs, begin)
+    return "%.1f, %.1f, %.1f" % tuple(numpy.percentile(found, (50, 99, 100))) if len(found) else "–"
 
 
 def cells(track, truth, begin):

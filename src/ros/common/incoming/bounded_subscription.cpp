@@ -81,6 +81,7 @@ ArrivalSubscription::ArrivalSubscription(ros::NodeHandle nh, ros::SubscribeOptio
     if (inbox_->add(std::move(arrival))) announce();
   });
   options.callback_queue = &at_once_;
+  options.transport_hints.tcpNoDelay();  // as in claimed_lengths.h
   subscriber_ = nh.subscribe(options);
 }
 

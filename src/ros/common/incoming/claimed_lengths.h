@@ -124,7 +124,8 @@ class CheckedMessages : public ros::SubscriptionCallbackHelperT<Parameter> {
   }
 };
 
-// As NodeHandle::subscribe(); messages whose lengths lie are dropped, with roscpp's line in the log.
+// As NodeHandle::subscribe(); messages whose lengths lie are dropped, with roscpp's line in the log. Publishers are asked
+// to send each message at once: else TCP may keep a small one back until the one before is acknowledged, up to 40 ms.
 // Parameter: `const ros::MessageEvent<const Message>&` for a callback that asks who sent it.
 template <class Message, class Parameter = const Message&, class Callback>
 ros::Subscriber subscribeChecked(ros::NodeHandle nh, const std::string& topic,
@@ -132,6 +133,7 @@ ros::Subscriber subscribeChecked(ros::NodeHandle nh, const std::string& topic,
   ros::SubscribeOptions options(topic, queue_size, ros::message_traits::md5sum<Message>(),
                                 ros::message_traits::datatype<Message>());
   options.helper = boost::make_shared<CheckedMessages<Parameter>>(callback);
+  options.transport_hints.tcpNoDelay();
   return nh.subscribe(options);
 }
 
