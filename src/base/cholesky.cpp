@@ -34,7 +34,10 @@ bool factorizeCholesky(double* matrix, Eigen::Index size) {
 }
 
 void solveLower(const double* factor, Eigen::Index size, double* vector) {
-  for (Eigen::Index i = 0; i < size; ++i) {
+  Eigen::Index first = 0;
+  if (!std::isnan(factor[0]))
+    while (first < size && vector[first] == 0.0) ++first;  // stay 0
+  for (Eigen::Index i = first; i < size; ++i) {
     vector[i] /= factor[i * size + i];
     for (Eigen::Index row = i + 1; row < size; ++row)
       vector[row] -= factor[i * size + row] * vector[i];

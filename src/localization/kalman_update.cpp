@@ -4,6 +4,20 @@
 
 namespace grid_path_planner::localization {
 
+namespace {
+
+// The columns of attitude and velocity: `up` in the body is the axis that `velocity` is the arm of.
+template <class Matrix>
+void carryOver(const Eigen::Matrix3d& attitude, const Eigen::Vector3d& velocity,
+               const Eigen::Vector3d& up, Matrix&& covariance) {
+  const Eigen::Matrix<double, kErrors, 3> turn = covariance.template middleCols<3>(kAttitude);
+  const ErrorVector heading = turn * up;
+  covariance.template middleCols<3>(kVelocity).noalias() += heading * velocity.transpose();
+  covariance.template middleCols<3>(kAttitude).noalias() = turn * attitude.transpose();
+}
+
+}  // namespace
+
 void correct(Estimate& estimate, const ErrorVector& error) {
   const State before = estimate.state;
   State& after = estimate.state;
@@ -12,13 +26,8 @@ void correct(Estimate& estimate, const ErrorVector& error) {
   const Eigen::Matrix3d to_world = before.attitude.toRotationMatrix();
   const Eigen::Matrix3d attitude = after.attitude.toRotationMatrix().transpose() * to_world;
   const Eigen::Vector3d velocity = Eigen::Vector3d::UnitZ().cross(after.velocity - before.velocity);
-  for (int side = 0; side < 2; ++side) {  // from the left, and, transposed, from the right
-    const Eigen::Matrix<double, 3, kErrors> turn = estimate.covariance.middleRows<3>(kAttitude);
-    const Eigen::Matrix<double, 1, kErrors> heading = to_world.row(2) * turn;
-    estimate.covariance.middleRows<3>(kVelocity) += velocity * heading;
-    estimate.covariance.middleRows<3>(kAttitude) = attitude * turn;
-    estimate.covariance.transposeInPlace();
-  }
+  carryOver(attitude, velocity, to_world.row(2), estimate.covariance.transpose());
+  carryOver(attitude, velocity, to_world.row(2), estimate.covariance);
 }
 
 namespace {
