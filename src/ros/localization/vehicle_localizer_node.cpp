@@ -87,6 +87,7 @@ VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle&
           },
           options_),
       publisher_(nh_, options_),
+      fixes_(nh_),
       status_publisher_(nh_.advertise<std_msgs::String>("localization_status", 1, true)),
       heard_since_(ros::SteadyTime::now()),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
@@ -199,6 +200,7 @@ void VehicleLocalizerNode::beginAnew() {
   transforms_.clear();
   rivals_.reset();
   publisher_.reset();
+  fixes_.clear();
   report_ = {};
   last_command_ = {};
 }
@@ -212,7 +214,9 @@ std::string VehicleLocalizerNode::take(Source source, const Convert& convert) {
     const localization::Measurement measurement = convert();
     localization::checkStamp(measurement.stamp, stampOf(ros::Time::now()),
                              options_.localizer.filter.history);
-    if (localizer_.add(measurement) == Verdict::RESET)
+    const Verdict verdict = localizer_.add(measurement);
+    fixes_.add(measurement, verdict, options_.map_frame);
+    if (verdict == Verdict::RESET)
       ROS_WARN_STREAM(options_.localizer.filter.reset_after
                       << " measurements in a row of " << nameOf(source)
                       << " agree with each other and not with the pose: what they measure begins "

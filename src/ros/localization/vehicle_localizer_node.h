@@ -11,6 +11,7 @@
 //               tf           where the sensors are on the vehicle
 //   publishes   odometry/filtered, odometry/local, tf      pose_publisher.h
 //               localization_status   std_msgs/String, latched: "OK: the pose is known to ..."
+//               fix_markers           fix_markers.h
 //               /diagnostics
 //   services    ~set_pose    grid_path_planner/SetPose
 //               ~reset       std_srvs/Trigger: everything begins anew
@@ -34,6 +35,7 @@
 #include "localization/vehicle_localizer.h"
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
+#include "ros/localization/fix_markers.h"
 #include "ros/localization/input_log.h"
 #include "ros/localization/pose_publisher.h"
 #include "ros/localization/sensor_messages.h"
@@ -87,6 +89,7 @@ class VehicleLocalizerNode {
   SensorMessages messages_;
   InputLog inputs_;
   PosePublisher publisher_;
+  FixMarkers fixes_;
   ros::Publisher status_publisher_;
   localization::LocalizationReport report_;
   std::string told_;             // of status and rival

@@ -6,6 +6,7 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include "grid_path_planner/SetPose.h"
 #include "ros/support/latest.h"
@@ -125,6 +126,32 @@ TEST_F(VehicleLocalizerTest, NoTransformOfTheMapWhereThePoseIsLost) {
   stream_.sends_dvl = stream_.sends_fixes = true;
   EXPECT_TRUE(hasStatus("OK"));
   EXPECT_TRUE(moreTransformsTo("odom", of_map + 1));
+}
+
+TEST_F(VehicleLocalizerTest, FixesAreShownAsTheyWereJudged) {
+  using visualization_msgs::MarkerArray;
+  Latest<MarkerArray> markers(nh_, "fix_markers");
+  ros::Publisher strays = nh_.advertise<SensorStream::Fix>("usbl/pose", 1);
+  start();
+  ASSERT_TRUE(hasStatus("OK"));
+  ASSERT_TRUE(waitFor([&] { return markers.connected() && strays.getNumSubscribers() > 0; }));
+  const ros::Time now = ros::Time::now();
+  SensorStream::Fix stray = stream_.usbl(now, live_->secondsAt(now));
+  stray.pose.pose.position.x += 20.0;
+  strays.publish(stray);
+  const auto shown = markers.waitFor(0, [](const MarkerArray& array) {
+    return array.markers[0].ns == "accepted" && array.markers[0].points.size() > 5 &&
+           array.markers[1].ns == "rejected" && array.markers[1].points.size() == 1;
+  });
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(shown->markers[0].header.frame_id, "map");
+  EXPECT_EQ(shown->markers[1].points[0].x, stray.pose.pose.position.x);
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(ros::service::call("vehicle_localizer/reset", reset));
+  EXPECT_TRUE(markers.waitFor(0, [](const MarkerArray& array) {
+    return array.markers[1].action == visualization_msgs::Marker::DELETE &&
+           array.markers[1].points.empty() && array.markers[0].points.size() < 5;
+  }));
 }
 
 // The simulator, or a second localisation, publishes it already: the vehicle would jump to and fro.
