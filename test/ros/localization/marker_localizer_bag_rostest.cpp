@@ -149,7 +149,7 @@ class MarkerLocalizerBagTest : public testing::Test {
     })) << node_->output();
     tell(kFirstImage);
   }
-  // The node has the clock when it diagnoses for the second time: the first may have been on its way.
+  // The node has the clock when it diagnoses for the second time: the first may be older.
   void tell(const ros::Time& time) {
     player_->tell(time);
     const std::size_t seen = diagnostics_.count();
