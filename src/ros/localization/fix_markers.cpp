@@ -8,7 +8,7 @@ using visualization_msgs::MarkerArray;
 
 namespace {
 
-constexpr double kDiameter = 0.12;  // m
+constexpr double kDiameter = 0.2;  // m
 
 std::optional<Eigen::Vector3d> positionOf(const localization::Measurement& measurement) {
   if (const auto* fix = std::get_if<localization::PositionFix>(&measurement.data))
