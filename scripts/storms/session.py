@@ -47,6 +47,16 @@ def resident_mb(pid):
     return 0.0
 
 
+def cpu_seconds(pid):
+    """0 where the process has ended."""
+    try:
+        with open("/proc/%d/stat" % pid) as file:
+            fields = file.read().rsplit(")", 1)[1].split()
+    except OSError:
+        return 0.0
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 class Overrides:
     """Parameter files of config/ with some values replaced. Those that the user gave as NODE/NAME=VALUE win: with
     them a storm is shown to fail."""
