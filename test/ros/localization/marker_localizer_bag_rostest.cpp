@@ -112,8 +112,8 @@ void writeBag(const std::string& file, const std::vector<Trouble>& troubles) {
     const ros::Time time = stampOfImage(image);
     tf2_msgs::TFMessage frames;
     frames.transforms = {
-        test::transformOf("base_link", "camera", test::baseFromCamera(), time),
-        test::transformOf("map", "base_link", mapFromBaseAt(image), time),
+        test::stampedTransform("base_link", "camera", test::baseFromCamera(), time),
+        test::stampedTransform("map", "base_link", mapFromBaseAt(image), time),
     };
     bag.write("/tf", time, frames);
     if (image == 0) bag.write("camera/camera_info", time, test::panelCamera());

@@ -41,7 +41,7 @@ using test::panelCamera;
 using test::panelImage;
 using test::poseOf;
 using test::Process;
-using test::transformOf;
+using test::stampedTransform;
 using test::waitFor;
 
 constexpr char kLayout[] = GPP_TEST_DATA "/two_markers.yaml";
@@ -78,11 +78,12 @@ class Frames {
   void run() {
     while (!over_) {
       broadcaster_.sendTransform(
-          transformOf("base_link", "camera", baseFromCamera(), ros::Time::now()));
+          stampedTransform("base_link", "camera", baseFromCamera(), ros::Time::now()));
       {
         const std::lock_guard<std::mutex> lock(mutex_);
         if (vehicle_)
-          broadcaster_.sendTransform(transformOf("map", "base_link", *vehicle_, ros::Time::now()));
+          broadcaster_.sendTransform(
+              stampedTransform("map", "base_link", *vehicle_, ros::Time::now()));
       }
       ros::WallDuration(0.02).sleep();
     }

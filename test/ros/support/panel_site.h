@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "ros/simulation/transform_message.h"
+
 namespace grid_path_planner::test {
 
 // The camera looks along the vehicle's x axis, 0.3 m ahead of base_link.
@@ -41,21 +43,11 @@ inline Eigen::Isometry3d mapFromBase() {
   return pose.rotate(Eigen::AngleAxisd(-0.2, Eigen::Vector3d::UnitZ()));
 }
 
-inline geometry_msgs::TransformStamped transformOf(const char* frame, const char* child,
-                                                   const Eigen::Isometry3d& pose,
-                                                   const ros::Time& stamp) {
-  const Eigen::Quaterniond q(pose.linear());
-  geometry_msgs::TransformStamped transform;
-  transform.header.frame_id = frame;
+inline geometry_msgs::TransformStamped stampedTransform(const char* frame, const char* child,
+                                                        const Eigen::Isometry3d& pose,
+                                                        const ros::Time& stamp) {
+  geometry_msgs::TransformStamped transform = nodes::transformOf(frame, child, pose);
   transform.header.stamp = stamp;
-  transform.child_frame_id = child;
-  transform.transform.translation.x = pose.translation().x();
-  transform.transform.translation.y = pose.translation().y();
-  transform.transform.translation.z = pose.translation().z();
-  transform.transform.rotation.x = q.x();
-  transform.transform.rotation.y = q.y();
-  transform.transform.rotation.z = q.z();
-  transform.transform.rotation.w = q.w();
   return transform;
 }
 
