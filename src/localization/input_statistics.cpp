@@ -12,7 +12,8 @@ InputStatistics inputStatistics(const LaggedFilter& filter, Source source, Stamp
     if (!first) first = event.measurement.stamp;
     last = event.measurement.stamp;
     ++number;
-    if (event.outcome.degrees_of_freedom == 0) continue;
+    statistics.gated += event.outcome.verdict == Verdict::GATED;
+    if (event.outcome.verdict != Verdict::TAKEN || event.outcome.degrees_of_freedom == 0) continue;
     dimension = event.outcome.degrees_of_freedom;
     statistics.nis_mean += event.outcome.nis;
     ++statistics.nis_count;

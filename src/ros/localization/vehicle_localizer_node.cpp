@@ -308,6 +308,8 @@ void VehicleLocalizerNode::diagnoseInput(Source source,
     status.summary(DiagnosticStatus::OK, "not heard");
   else if (!statistics.age)
     status.summary(DiagnosticStatus::WARN, "silent, or refused: " + input.reason());
+  else if (statistics.gated > statistics.nis_count)
+    status.summary(DiagnosticStatus::WARN, "most are gated: they contradict the pose");
   else if (overconfident)
     status.summary(DiagnosticStatus::WARN, "its errors are larger than its covariance says");
   else

@@ -118,16 +118,15 @@ std::string overconfidentInputs(const RowResult& result) {
 }
 
 Finding consistencyFinding(const RecordedResults& results) {
-  Finding finding{
-      "Are the errors as large as covariances say?",
-      {"consistency",
-       "NIS: mean of each input, gated ones included, and in brackets what holds 95 % of "
-       "such means where covariances are right; above: its errors are larger than its "
-       "covariance says. NEES: of the pose's 6, where there is a truth.",
-       {"row", "NIS DVL", "NIS depth", "NIS USBL", "NIS markers", "NEES of the pose's 6",
-        "fixes gated", "resets"},
-       {}},
-      {}};
+  Finding finding{"Are the errors as large as covariances say?",
+                  {"consistency",
+                   "NIS: mean of what was taken of each input, and in brackets what holds 95 % of "
+                   "such means where covariances are right; above: its errors are larger than its "
+                   "covariance says. NEES: of the pose's 6, where there is a truth.",
+                   {"row", "NIS DVL", "NIS depth", "NIS USBL", "NIS markers",
+                    "NEES of the pose's 6", "fixes gated", "resets"},
+                   {}},
+                  {}};
   std::string answer;
   forEachPlayed(results, [&](const TrialRow& row, const RowResult& result) {
     Row cells = {row.name};

@@ -194,9 +194,9 @@ Finding consistencyFinding(const TrialData& data) {
                   {"consistency",
                    "NEES: mean over runs and seconds; inside: share of seconds in which the mean "
                    "over the runs is "
-                   "within its 95 % bounds. NIS: mean of each source, which is 3 of DVL and USBL, "
-                   "1 of depth and 6 of "
-                   "markers where covariances are right, gated ones included.",
+                   "within its 95 % bounds. NIS: mean of what was taken of each source, which "
+                   "is 3 of DVL and USBL, 1 of depth and 6 of "
+                   "markers where covariances are right.",
                    {"errors", "row", "NEES of 15", "inside", "NEES of the pose's 6", "inside",
                     "NIS DVL", "NIS depth", "NIS USBL", "NIS markers", "fixes gated", "resets"},
                    {}},
