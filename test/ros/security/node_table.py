@@ -83,7 +83,7 @@ NODES = {
         inputs={"imu/data": "sensor_msgs/Imu", "dvl/twist": "geometry_msgs/TwistWithCovarianceStamped",
                 "depth": FIX, "usbl/pose": FIX, "marker_pose": FIX, "initialpose": FIX, "cmd_vel": "geometry_msgs/Twist"},
         outputs={"odometry/filtered": "nav_msgs/Odometry", "odometry/local": "nav_msgs/Odometry",
-                 "localization_status": "std_msgs/String"},
+                 "localization_status": "std_msgs/String", "fix_markers": "visualization_msgs/MarkerArray"},
         services={"~set_pose": "grid_path_planner/SetPose", "~reset": TRIGGER}, actions={},
         # Others publish these transforms in the test.
         arguments=["_publish_map_to_odom:=false", "_publish_odom_to_base:=false", "_usbl_frame:=base_link",
