@@ -17,6 +17,11 @@ constexpr double kAnyPosition = 1e6;  // m^2
 constexpr double kAnyVelocity = 1e2;  // m^2/s^2
 constexpr double kAnyAngle = 10.0;    // rad^2
 
+// An IMU that was silent for so long, when roll or pitch are known no better (standard deviation): after 1.6 s without
+// anything; after 25 s where it tells no attitude, so that only set_pose or markers can begin anew.
+constexpr double kSilence = 1.0;                                          // s
+constexpr double kUnknownTilt = 0.25, kUnknownTiltWithoutAttitude = 1.0;  // rad
+
 using Scalar = Eigen::Matrix<double, 1, 1>;
 
 Inertial between(const TimedImu& from, const TimedImu& to, double stamp) {
@@ -25,6 +30,14 @@ Inertial between(const TimedImu& from, const TimedImu& to, double stamp) {
   const Inertial &a = from.measurement.inertial, &b = to.measurement.inertial;
   return {a.rate + share * (b.rate - a.rate),
           a.acceleration + share * (b.acceleration - a.acceleration)};
+}
+
+bool isTiltUnknown(const Estimate& estimate, const ImuMeasurement& imu) {
+  const Eigen::Matrix<double, 2, 3> level = estimate.state.attitude.toRotationMatrix().topRows<2>();
+  const Eigen::Matrix2d tilt =
+      level * estimate.covariance.block<3, 3>(kAttitude, kAttitude) * level.transpose();
+  const double limit = imu.attitude ? kUnknownTilt : kUnknownTiltWithoutAttitude;
+  return !(tilt.diagonal().maxCoeff() <= square(limit));
 }
 
 double middle(Stamp from, Stamp to) {
@@ -124,6 +137,10 @@ Outcome FilterStep::fuse(Context& context, Innovation innovation, const Deviatio
 
 Outcome FilterStep::take(Context& context, const ImuMeasurement& imu) const {
   FilterSnapshot& snapshot = context.snapshot;
+  const bool was_silent =
+      snapshot.imu && secondsBetween(snapshot.imu->stamp, snapshot.stamp) > kSilence;
+  if (snapshot.started && was_silent && isTiltUnknown(snapshot.estimate, imu))
+    beginAnew(snapshot, imu);
   snapshot.imu = TimedImu{snapshot.stamp, imu};
   if (!snapshot.started && start_ == Start::AT_ORIGIN) {
     snapshot.estimate = estimateAt(poseAtOrigin(imu, options_), options_);
@@ -275,6 +292,23 @@ Outcome FilterStep::begin(FilterSnapshot& snapshot, const MountedPose& pose) con
   snapshot.started = true;
   snapshot.first_fix.reset();
   return {Verdict::TAKEN, 0, 0.0};
+}
+
+void FilterStep::beginAnew(FilterSnapshot& snapshot, const ImuMeasurement& imu) const {
+  snapshot.dvl_used.reset();
+  snapshot.rejections = {};
+  snapshot.begun_anew.reset();
+  snapshot.first_fix.reset();
+  snapshot.started = start_ == Start::AT_ORIGIN;
+  if (!snapshot.started) return;
+  const Estimate& before = snapshot.estimate;
+  MountedPose pose = poseAtOrigin(imu, options_);
+  pose.position = before.state.position;
+  pose.attitude = Eigen::AngleAxisd(yawOf(before.state.attitude) - yawOf(pose.attitude),
+                                    Eigen::Vector3d::UnitZ()) *
+                  pose.attitude;
+  pose.covariance.topLeftCorner<3, 3>() = before.covariance.topLeftCorner<3, 3>();
+  snapshot.estimate = estimateAt(pose, options_);
 }
 
 Outcome FilterStep::setPose(FilterSnapshot& snapshot, const PoseFix& fix) const {

@@ -9,6 +9,10 @@
 // A filter that starts AT_FIX begins where a set pose says, or where two fixes in a row agree; the
 // attitude is that of the fix, or of the IMU. One that starts AT_ORIGIN begins with the first
 // measurement of the IMU, at position 0, and takes no fix but depth, relative to the first.
+//
+// An IMU that comes back when nobody knows any more how the vehicle is tilted begins the estimate anew: errors of such
+// angles are not linear, and a filter that goes on may settle upside down. AT_FIX it begins with the next two fixes
+// that agree, AT_ORIGIN with the tilt of the IMU at the position and heading of before.
 #pragma once
 
 #include <array>
@@ -97,6 +101,7 @@ class FilterStep {
   Outcome fuseVelocity(Context& context, const DvlVelocity& dvl) const;
   Outcome fixed(Context& context, const Outcome& outcome) const;
   Outcome begin(FilterSnapshot& snapshot, const MountedPose& pose) const;
+  void beginAnew(FilterSnapshot& snapshot, const ImuMeasurement& imu) const;
   void adoptVelocity(Context& context, const DvlVelocity& dvl) const;
   Outcome setPose(FilterSnapshot& snapshot, const PoseFix& fix) const;
   bool passes(const Innovation& innovation) const;

@@ -63,16 +63,18 @@ std::vector<geometry_msgs::TransformStamped> linksAbove(const tf2_ros::Buffer& b
   return links;
 }
 
+std::string rootOf(const std::vector<geometry_msgs::TransformStamped>& links,
+                   const std::string& frame) {
+  return links.empty() ? frame : links.back().header.frame_id;
+}
+
 // Of the transforms between two frames the one whose newest is oldest, where that is no static one; none where nothing
 // joins them.
 std::optional<geometry_msgs::TransformStamped> oldestBetween(const tf2_ros::Buffer& buffer,
                                                              const std::string& one,
                                                              const std::string& other) {
   auto up = linksAbove(buffer, one), down = linksAbove(buffer, other);
-  const auto root = [](const auto& links, const std::string& frame) {
-    return links.empty() ? frame : links.back().header.frame_id;
-  };
-  if (root(up, one) != root(down, other)) return std::nullopt;
+  if (rootOf(up, one) != rootOf(down, other)) return std::nullopt;
   while (!up.empty() && !down.empty() &&
          up.back().child_frame_id == down.back().child_frame_id) {  // above both
     up.pop_back();
@@ -230,6 +232,16 @@ Path FrameTransforms::pathIn(const nav_msgs::Path& message, const std::string& v
     }
   }
   return pathFromMessage(path);
+}
+
+std::string FrameTransforms::commonFrame(const std::string& one, const std::string& other) const {
+  const auto up = linksAbove(buffer_, one), down = linksAbove(buffer_, other);
+  std::string common = rootOf(up, one);
+  if (common != rootOf(down, other)) return "";
+  for (auto a = up.rbegin(), b = down.rbegin();
+       a != up.rend() && b != down.rend() && a->child_frame_id == b->child_frame_id; ++a, ++b)
+    common = a->child_frame_id;
+  return common;
 }
 
 std::vector<Eigen::Vector3d> FrameTransforms::pointsIn(const std::string& to,

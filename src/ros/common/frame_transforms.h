@@ -72,6 +72,9 @@ class FrameTransforms {
   // `vehicle`), poses that cannot be transformed, and what pathFromMessage refuses.
   path::Path pathIn(const nav_msgs::Path& message, const std::string& vehicle) const;
 
+  // The frame by which tf joins the two: above both, or one of them; empty where nothing does.
+  std::string commonFrame(const std::string& one, const std::string& other) const;
+
   // Points of the frame `from` in the frame `to`. Throws TransformError.
   std::vector<Eigen::Vector3d> pointsIn(const std::string& to, const std::string& from,
                                         std::vector<Eigen::Vector3d> points) const;

@@ -12,6 +12,7 @@
 #include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/network_text.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
 #include "ros/localization/camera_messages.h"
@@ -67,6 +68,14 @@ void checkStamp(const ros::Time& stamp, const ros::Time& last, double max_age) {
   localization::checkStamp(stampOf(stamp), stampOf(ros::Time::now()), max_age);
   if (stamp == last) throw InputError("its stamp came before");
   if (stamp < last) throw InputError("it is older than the one before");
+}
+
+// Two cameras on one topic: by the lens of the other the vehicle is a metre off, and no residual shows it.
+void checkSameCamera(const std::string& image, const std::string& info) {
+  checkNetworkText("its frame", image);
+  if (!info.empty() && frameName(image) != info)
+    throw InputError("its frame is '" + frameName(image) + "', that of the camera_info '" + info +
+                     "': another camera's");
 }
 
 void addTo(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
@@ -162,7 +171,9 @@ bool MarkerLocalizerNode::noticeTime() {
 void MarkerLocalizerNode::onInfo(const sensor_msgs::CameraInfo& message) {
   infos_.receive();
   try {
+    checkNetworkText("its frame", message.header.frame_id);
     calibration_ = calibrationOf(message);
+    calibration_frame_ = frameName(message.header.frame_id);
   } catch (const InputError& error) {
     infos_.refuse(error.what());
   }
@@ -174,6 +185,7 @@ void MarkerLocalizerNode::onImage(const sensor_msgs::ImageConstPtr& message) {
   try {
     checkStamp(stamp, last_stamp_, options_.max_age);
     if (!calibration_) throw InputError("no camera_info that can be used has come yet");
+    checkSameCamera(message->header.frame_id, calibration_frame_);
   } catch (const InputError& error) {
     const std::lock_guard<std::mutex> lock(mutex_);
     tally_.images.receive();

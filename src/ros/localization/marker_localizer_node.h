@@ -80,6 +80,7 @@ class MarkerLocalizerNode {
   MarkerPublisher publisher_;
   InputRecord infos_{"camera_info"};
   std::optional<vision::CameraCalibration> calibration_;
+  std::string calibration_frame_;  // that its message names; may be empty
   std::optional<vision::PanelPose> panel_;
   ros::Time last_stamp_;
   std::uint64_t diagnosed_images_ = 0;  // when the diagnostics were last made

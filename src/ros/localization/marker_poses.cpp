@@ -43,6 +43,9 @@ Isometry3d baseFromCamera(const MarkerImage& image, const FrameTransforms& trans
   const Mounting mounting = mountingOf(
       transforms.waitFor(o.base_frame, frame, ros::Time(0), o.prediction_wait, stop).transform);
   localization::checkMounting(mounting);
+  // Through the map it would be where tf has the vehicle, and confirm whatever that is.
+  if (transforms.commonFrame(o.base_frame, frame) == o.map_frame)
+    throw InputError("tf has its frame '" + frame + "' in " + o.map_frame + ", not on the vehicle");
   return isometryOf(mounting);
 }
 

@@ -181,6 +181,8 @@ class NavigationBag {
     listen<sensor_msgs::Imu>(recording_.inputs[Source::IMU], topics.imu,
                              [this](const sensor_msgs::Imu& message, Stamp received) {
                                add(messages_.imu(message), received);
+                               messages_.keep(message);
+                               recording_.base = messages_.base();
                                addHeading(message, received);
                              });
     listenTo(Source::DVL, topics.dvl, &SensorMessages::dvl);
@@ -201,7 +203,6 @@ class NavigationBag {
     const Stamp arrives = measurement.source == Source::USBL ? std::max(received, measurement.stamp)
                                                              : measurement.stamp;
     recording_.measurements.push_back({arrives, measurement});
-    if (measurement.source == Source::IMU) recording_.base = messages_.base();
   }
 
   // Of an IMU that has an orientation; what it is for is told by each row.
@@ -285,7 +286,8 @@ class NavigationBag {
     if (message.received < newest_ - kMostDisorder)
       throw InputError(file_, "goes back in time, from " + secondsText(newest_) + " to " +
                                   secondsText(message.received) +
-                                  " s: it holds two recordings; `rosbag filter` takes one of them");
+                                  " s: it holds two recordings, of which `rosbag filter` takes "
+                                  "one, or is not in order");
     newest_ = std::max(newest_, message.received);
   }
 

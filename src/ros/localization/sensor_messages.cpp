@@ -101,7 +101,7 @@ void SensorMessages::checkMapFrame(const std_msgs::Header& header) const {
     throw InputError("its frame must be " + options_.map_frame + ", got " + frame);
 }
 
-Measurement SensorMessages::imu(const sensor_msgs::Imu& message) {
+Measurement SensorMessages::imu(const sensor_msgs::Imu& message) const {
   const std::string frame = nameOf(message.header);
   if (!body_frame_.empty() && frame != body_frame_)
     throw InputError("its frame is " + frame + ", that of the IMU before " + body_frame_);
@@ -111,12 +111,12 @@ Measurement SensorMessages::imu(const sensor_msgs::Imu& message) {
   localization::ImuMeasurement imu;
   imu.inertial = {vectorOf(message.angular_velocity), vectorOf(message.linear_acceleration)};
   if (hasOrientation(message)) imu.attitude = unitOf(rotationOf(message.orientation));
-  const Stamp stamp = stampOf(message.header);
-  if (body_frame_.empty()) {
-    lookup_(frame, options_.base_frame);  // throws where tf does not know it
-    body_frame_ = frame;
-  }
-  return {stamp, Source::IMU, imu};
+  if (body_frame_.empty()) lookup_(frame, options_.base_frame);  // throws where tf does not know it
+  return {stampOf(message.header), Source::IMU, imu};
+}
+
+void SensorMessages::keep(const sensor_msgs::Imu& message) {
+  body_frame_ = nameOf(message.header);
 }
 
 std::optional<Measurement> SensorMessages::heading(const sensor_msgs::Imu& message) const {

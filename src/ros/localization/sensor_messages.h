@@ -39,10 +39,12 @@ class SensorMessages {
   SensorMessages(Lookup lookup, const VehicleLocalizerOptions& options);
 
   void use(const VehicleLocalizerOptions& options) { options_ = options; }
-  // The next message of an IMU names the body frame anew.
+  // The next message of an IMU that is kept names the body frame anew.
   void reset() { body_frame_.clear(); }
 
-  localization::Measurement imu(const sensor_msgs::Imu& message);
+  localization::Measurement imu(const sensor_msgs::Imu& message) const;
+  // Its measurement was used: its frame is the body frame from now on. One that is refused names none.
+  void keep(const sensor_msgs::Imu& message);
   // None where the message has no orientation.
   std::optional<localization::Measurement> heading(const sensor_msgs::Imu& message) const;
   localization::Measurement dvl(const geometry_msgs::TwistWithCovarianceStamped& message) const;

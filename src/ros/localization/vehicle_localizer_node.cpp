@@ -81,11 +81,9 @@ VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle&
       transforms_(nh, [this](const tf2_msgs::TFMessage& message, const std::string& node,
                              bool is_static) { rivals_.hear(message, node, is_static); }),
       localizer_(options_.localizer),
-      messages_(
-          [this](const std::string& target, const std::string& source) {
-            return transforms_.transform(target, source).transform;
-          },
-          options_),
+      messages_([this](const std::string& target,
+                       const std::string& source) { return placeOnVehicle(target, source); },
+                options_),
       publisher_(nh_, options_),
       fixes_(nh_),
       status_publisher_(nh_.advertise<std_msgs::String>("localization_status", 1, true)),
@@ -108,6 +106,17 @@ VehicleLocalizerNode::~VehicleLocalizerNode() {
   diagnostics_timer_.stop();
   for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
+}
+
+// Not through the map or the odometry, which are this node's own estimate.
+geometry_msgs::Transform VehicleLocalizerNode::placeOnVehicle(const std::string& target,
+                                                              const std::string& source) const {
+  const auto found = transforms_.transform(target, source).transform;
+  const std::string common = transforms_.commonFrame(target, source);
+  if (common == options_.map_frame || common == options_.odom_frame)
+    throw InputError("tf has '" + source + "' in " + common + ", not on the vehicle of '" + target +
+                     "'");
+  return found;
 }
 
 void VehicleLocalizerNode::subscribe() {
@@ -230,6 +239,7 @@ std::string VehicleLocalizerNode::take(Source source, const Convert& convert) {
 
 void VehicleLocalizerNode::onImu(const sensor_msgs::Imu& message) {
   if (!take(Source::IMU, [&] { return messages_.imu(message); }).empty()) return;
+  messages_.keep(message);
   if (options_.use_heading && messages_.heading(message))
     take(Source::HEADING, [&] { return *messages_.heading(message); });
   if (publisher_.isDue(message.header.stamp)) publish(message.header.stamp);
@@ -306,6 +316,8 @@ void VehicleLocalizerNode::diagnoseInput(Source source,
       statistics.nis_count > 0 && statistics.nis_mean > statistics.nis_bounds.high;
   if (input.received() == 0)
     status.summary(DiagnosticStatus::OK, "not heard");
+  else if (statistics.counts.taken == 0 && statistics.counts.gated == 0 && statistics.age)
+    status.summary(DiagnosticStatus::WARN, "heard, and not used yet");
   else if (!statistics.age)
     status.summary(DiagnosticStatus::WARN, "silent, or refused: " + input.reason());
   else if (statistics.gated > statistics.nis_count)

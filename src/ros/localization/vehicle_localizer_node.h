@@ -61,6 +61,8 @@ class VehicleLocalizerNode {
   ~VehicleLocalizerNode();
 
  private:
+  geometry_msgs::Transform placeOnVehicle(const std::string& target,
+                                          const std::string& source) const;
   void subscribe();
   void subscribeSensors();
   void offerServices(ros::NodeHandle& private_nh);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -257,6 +258,26 @@ TEST_F(MarkerLocalizerTest, ImagesThatCannotBeUsedAreRefusedAndNothingIsLost) {
     i.data.resize(i.data.size() / 2);
   });
   refuses("'nowhere'", [](Image& i) { i.header.frame_id = "nowhere"; });
+  CameraInfo other = panelCamera(1.5 * test::kPanelFocal);  // 0.9 m off, and no residual showed it
+  other.header.frame_id = "other_camera";
+  sendInfo(other);
+  refuses("that of the camera_info 'other_camera'", [](Image&) {});
+}
+
+// The pose of tf came back as that of the panel, 3 m off as tf was, known to a centimetre.
+TEST_F(MarkerLocalizerTest, ACameraThatTfHasInTheMapConfirmsNothing) {
+  tf2_ros::StaticTransformBroadcaster fixed;
+  fixed.sendTransform(
+      stampedTransform("map", "fixed_camera", mapFromBase() * baseFromCamera(), ros::Time::now()));
+  frames_.say(Eigen::Translation3d(3.0, 0.0, 0.0) * mapFromBase());
+  start();
+  expectRefused(
+      [&] {
+        Image wrong = image();
+        wrong.header.frame_id = "fixed_camera";
+        return wrong;
+      },
+      "tf has its frame 'fixed_camera' in map, not on the vehicle");
 }
 
 TEST_F(MarkerLocalizerTest, ACalibrationThatIsNoneIsRefusedAndTheOneBeforeStays) {

@@ -8,6 +8,8 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <limits>
+
 #include "grid_path_planner/SetPose.h"
 #include "ros/support/latest.h"
 #include "ros/support/process.h"
@@ -126,6 +128,46 @@ TEST_F(VehicleLocalizerTest, NoTransformOfTheMapWhereThePoseIsLost) {
   stream_.sends_dvl = stream_.sends_fixes = true;
   EXPECT_TRUE(hasStatus("OK"));
   EXPECT_TRUE(moreTransformsTo("odom", of_map + 1));
+}
+
+// It named the body frame though it was refused, and the vehicle's own IMU was another one for ever.
+TEST_F(VehicleLocalizerTest, AnImuThatIsRefusedNamesNoFrame) {
+  ros::Publisher strangers = nh_.advertise<sensor_msgs::Imu>("imu/data", 1);
+  tf2_ros::TransformBroadcaster broadcaster;
+  ros::param::del("/vehicle_localizer");
+  node_ = std::make_unique<Process>("vehicle_localizer", std::vector<std::string>{});
+  sensor_msgs::Imu wrong = stream_.imu(ros::Time::now(), 0.0);
+  wrong.header.frame_id = "usbl_link";
+  wrong.angular_velocity.x = std::numeric_limits<double>::quiet_NaN();
+  ASSERT_TRUE(waitFor([&] {
+    wrong.header.stamp = ros::Time::now();
+    broadcaster.sendTransform(stream_.frames(wrong.header.stamp));
+    if (strangers.getNumSubscribers() > 0) strangers.publish(wrong);
+    return node_->hasSaid("the angular velocity (rad/s) must be within");
+  })) << node_->output();
+  live_ = std::make_unique<LiveStream>(stream_);
+  EXPECT_TRUE(hasStatus("OK")) << node_->output();
+}
+
+// Its place on the vehicle would be that of the estimate itself.
+TEST_F(VehicleLocalizerTest, ASensorThatTfHasInTheMapIsRefused) {
+  tf2_ros::StaticTransformBroadcaster fixed;
+  geometry_msgs::TransformStamped in_map;
+  in_map.header.stamp = ros::Time::now();
+  in_map.header.frame_id = "map";
+  in_map.child_frame_id = "fixed_dvl";
+  in_map.transform.rotation.w = 1.0;
+  fixed.sendTransform(in_map);
+  ros::Publisher others = nh_.advertise<geometry_msgs::TwistWithCovarianceStamped>("dvl/twist", 1);
+  start();
+  ASSERT_TRUE(hasStatus("OK"));
+  EXPECT_TRUE(waitFor([&] {
+    const ros::Time now = ros::Time::now();
+    auto twist = stream_.dvl(now, live_->secondsAt(now));
+    twist.header.frame_id = "fixed_dvl";
+    others.publish(twist);
+    return node_->hasSaid("tf has 'fixed_dvl' in map, not on the vehicle");
+  })) << node_->output();
 }
 
 TEST_F(VehicleLocalizerTest, FixesAreShownAsTheyWereJudged) {
