@@ -23,7 +23,8 @@ TEST(KnownAnswers, FreeFall) {
 TEST(KnownAnswers, AnImuAtRestStaysWhereItIs) {
   State state;
   for (int i = 0; i < 1000; ++i)
-    state = propagated<double>(state, {{}, {0.0, 0.0, kGravity}}, 0.01, kGravity);
+    state =
+        propagated<double>(state, {Eigen::Vector3d::Zero(), {0.0, 0.0, kGravity}}, 0.01, kGravity);
   EXPECT_LT(errorBetween<double>(State(), state).norm(), 1e-9);
 }
 
