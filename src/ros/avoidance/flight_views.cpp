@@ -30,6 +30,7 @@ sensor_msgs::PointCloud2 cloudOf(const std::vector<RememberedPoint>& remembered)
   sensor_msgs::PointCloud2Modifier modifier(cloud);
   modifier.setPointCloud2FieldsByString(1, "xyz");
   modifier.resize(remembered.size());
+  if (remembered.empty()) return cloud;  // an iterator asks for the first byte
   sensor_msgs::PointCloud2Iterator<float> value(cloud, "x");
   for (const RememberedPoint& point : remembered) {
     for (int axis = 0; axis < 3; ++axis) value[axis] = static_cast<float>(point.position[axis]);

@@ -123,6 +123,7 @@ sensor_msgs::PointCloud2 occupiedCentres(const octomap::OcTree& tree, const Heig
   sensor_msgs::PointCloud2Modifier modifier(cloud);
   modifier.setPointCloud2FieldsByString(1, "xyz");
   modifier.resize(centres.size());
+  if (centres.empty()) return cloud;  // an iterator asks for the first byte
   sensor_msgs::PointCloud2Iterator<float> x(cloud, "x");
   for (const octomap::point3d& centre : centres) {
     x[0] = centre.x();

@@ -329,6 +329,17 @@ TEST_F(HoldsTest, ACloudStampedZeroBlindsNobody) {
   EXPECT_TRUE(flies()) << said();
 }
 
+// Under the sanitizers the node ended when it remembered nothing and someone asked to see that: the
+// iterator over a cloud without points took a reference to its first byte.
+TEST_F(HoldsTest, NothingRememberedIsShownAsACloudWithoutPoints) {
+  const Latest<sensor_msgs::PointCloud2> remembered(nh_, "remembered_points");
+  ASSERT_NO_FATAL_FAILURE(startAndFly());
+  const auto cloud = remembered.waitFor(0, [](const auto& cloud) { return cloud.width == 0; });
+  ASSERT_TRUE(cloud);
+  EXPECT_EQ(cloud->fields.size(), 3U);
+  EXPECT_TRUE(flies()) << said();
+}
+
 TEST_F(HoldsTest, SigtermInFlightIsFollowedByAZero) {
   ASSERT_NO_FATAL_FAILURE(startAndFly());
   pilot_->end(SIGTERM);

@@ -31,6 +31,7 @@ inline sensor_msgs::PointCloud2 cloudOf(const CloudPoints& points, const std::st
   sensor_msgs::PointCloud2Modifier modifier(cloud);
   modifier.setPointCloud2FieldsByString(1, "xyz");
   modifier.resize(points.size());
+  if (points.empty()) return cloud;  // an iterator asks for the first byte
   sensor_msgs::PointCloud2Iterator<float> x(cloud, "x");
   for (const Eigen::Vector3f& point : points) {
     x[0] = point.x();
