@@ -6,6 +6,7 @@ import time
 import numpy
 from scipy.spatial.transform import Rotation, Slerp
 
+PLANE = [0, 1, 5]  # x, y and yaw among the six numbers of a pose
 
 def angles_of(orientation):
     """Roll, pitch, yaw in rad."""
@@ -73,17 +74,20 @@ class Truth(Track):
 
 
 def errors(track, truth, begin):
-    """(metres, degrees, NEES) of each estimate from `begin` on; the mean of NEES is 6 where the covariance is right. None
-    without an estimate."""
+    """(errors, covariances) of the estimates from `begin` on: x, y, z in m, turns about the fixed axes in rad. None without
+    an estimate."""
     begin, end = max(begin, min(truth.poses)), max(truth.poses)
     if not any(begin <= stamp <= end for stamp in track.poses):
         return None
     stamps, positions, rotations, covariances = track.between(begin, end)
     true_positions, true_rotations = truth.at(stamps)
     turns = (true_rotations * rotations.inv()).as_rotvec()
-    both = numpy.concatenate((true_positions - positions, turns), axis=1)
-    nees = numpy.einsum("ij,ij->i", both, numpy.linalg.solve(covariances, both[:, :, None])[:, :, 0])
-    return numpy.linalg.norm(both[:, :3], axis=1), numpy.degrees(numpy.linalg.norm(turns, axis=1)), nees
+    return numpy.concatenate((true_positions - positions, turns), axis=1), covariances
+
+
+def nees(found, covariances):
+    """Of each estimate; its mean is the number of errors where the covariance is right."""
+    return numpy.einsum("ij,ij->i", found, numpy.linalg.solve(covariances, found[:, :, None])[:, :, 0])
 
 
 def delays(track, inputs, begin):
@@ -98,12 +102,26 @@ def delay_cell(track, inputs, begin):
     return "%.1f, %.1f, %.1f" % tuple(numpy.percentile(found, (50, 99, 100))) if len(found) else "–"
 
 
-def cells(track, truth, begin):
-    """Of localization_peers' table; dashes without an estimate."""
+def cells(track, truth, begin, planar):
+    """Of localization_peers' table; dashes without an estimate, and for what a planar filter does not estimate."""
     found = errors(track, truth, begin)
     if found is None:
-        return ["–"] * 5
-    metres, degrees, nees = found
-    return ["%d" % len(metres), "%.3f, %.3f" % (numpy.sqrt(numpy.mean(metres ** 2)), metres.max()),
-            "%.2f, %.2f" % (numpy.sqrt(numpy.mean(degrees ** 2)), degrees.max()),
-            "%.1f, %.1f" % (numpy.mean(nees), numpy.median(nees)), "%.3f" % metres[-1]]
+        return ["–"] * 6
+    return ["%d" % len(found[0])] + (["–"] * 4 if planar else spatial_cells(*found)) + [plane_cell(*found)]
+
+
+def spatial_cells(found, covariances):
+    metres, degrees = numpy.linalg.norm(found[:, :3], axis=1), numpy.degrees(numpy.linalg.norm(found[:, 3:], axis=1))
+    ratios = nees(found, covariances)
+    return ["%.3f, %.3f" % (rms(metres), metres.max()), "%.2f, %.2f" % (rms(degrees), degrees.max()),
+            "%.1f, %.1f" % (numpy.mean(ratios), numpy.median(ratios)), "%.3f" % metres[-1]]
+
+
+def plane_cell(found, covariances):
+    found, covariances = found[:, PLANE], covariances[:, PLANE][:, :, PLANE]
+    metres, degrees = numpy.linalg.norm(found[:, :2], axis=1), numpy.degrees(found[:, 2])
+    return "%.3f, %.2f, %.1f, %.3f" % (rms(metres), rms(degrees), numpy.mean(nees(found, covariances)), metres[-1])
+
+
+def rms(values):
+    return numpy.sqrt(numpy.mean(values ** 2))
