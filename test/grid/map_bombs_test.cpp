@@ -97,8 +97,9 @@ TEST_F(MapBombs, PointsThatAreNamedAgainAndAgainEndWithTheTime) {
 }
 
 TEST_F(MapBombs, APolygonOfThreeThousandCornersOnSixteenMillionCellsTakesLessThanTwoSeconds) {
-  const BoundedRun run =
-      reading("star.yaml", drawingOf("4000", "polygon: [" + starOf(3000, 2000) + "]"));
+  constexpr double kBusyMachine = 300.0;  // s by the clock; the processor's are what counts here
+  const BoundedRun run = reading(
+      "star.yaml", drawingOf("4000", "polygon: [" + starOf(3000, 2000) + "]"), kBusyMachine);
   expectBounded(run);
   EXPECT_EQ(run.refusal, "");
   EXPECT_LT(run.cpu_seconds, test::hasShadowMemory() ? 20.0 : 2.0) << run;
