@@ -34,7 +34,7 @@ PoseFix poseOff(double metres, double degrees, double variance = 1.0) {
       {metres, 0.0, 0.0}, expSO3<double>(turn), variance * PoseCovariance::Identity(), Mounting()};
 }
 
-// As was published, "1 m and 12 degrees", read in two ways; a variance of 1 lets chi squared pass all of these.
+// As was published, "1 m and 12 degrees" with either reading; a variance of 1 lets chi squared pass all of these.
 TEST(Gates, TheFixedOnesRejectByDistanceAndAngleAsTheirNamesSay) {
   const struct {
     double metres, degrees;
