@@ -11,16 +11,24 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kCellsAcross = 8;         // of a tag, its black border included
-constexpr double kBlur = 1.5;           // pixels, to where a neighbouring cell's edge is seen
-constexpr double kShortestReach = 1.5;  // pixels, half a profile
-constexpr double kLongestReach = 5.0;
+constexpr int kCellsAcross = 8;  // of a tag, its black border included
+
+// Half of a profile, in pixels: what is left of the tag's cell, within limits.
+struct Reach {
+  double beside;  // of a cell: to where the edge of the neighbouring one is seen
+  double shortest, longest;
+};
+// The first finds the side from where OpenCV has it. The second is no longer than what a pixel blurs: a longer one sees
+// the next cells of a tag that is seen from aside, and blotches beside the edge, which err alike in each image.
+constexpr Reach kWide{1.5, 1.5, 5.0}, kNarrow{0.75, 1.0, 1.25};
+
 constexpr double kSampleStep = 0.25;  // pixels along a profile
 constexpr double kFirst =
     0.06;  // of a side, where the first profile is; the last one symmetrically
 constexpr double kLeastContrast = 5.0;  // of 255
 constexpr double kFarthestMove = 3.0;   // pixels, of a corner by the refinement
-constexpr int kRounds = 4;
+constexpr int kWideRounds = 3, kRounds = 15;
+constexpr double kSettled = 0.002;  // pixels, of all corners in a round: no further rounds
 constexpr int kTrims = 5;
 constexpr double kNear = 0.1;         // pixels from a line: never too far
 constexpr double kFarFromMost = 4.0;  // times the median distance: too far
@@ -99,7 +107,8 @@ std::optional<Line> lineThroughMost(std::vector<Vector2d> points, std::size_t fe
 }
 
 // The side from corner i to the next one, whose outside is to the left of it in an image.
-std::optional<Line> sideOf(const GreyImage& image, const PixelCorners& corners, int i) {
+std::optional<Line> sideOf(const GreyImage& image, const PixelCorners& corners, int i,
+                           const Reach& limits) {
   const Vector2d &a = corners[i], &b = corners[(i + 1) % 4];
   const double length = (b - a).norm();
   if (!(length > kCellsAcross)) return std::nullopt;
@@ -107,7 +116,8 @@ std::optional<Line> sideOf(const GreyImage& image, const PixelCorners& corners, 
   // Seen from aside, cells are narrower across the side than along it.
   const double depth = std::min(std::abs(outwards.dot(corners[(i + 3) % 4] - a)),
                                 std::abs(outwards.dot(corners[(i + 2) % 4] - b)));
-  const double reach = std::clamp(depth / kCellsAcross - kBlur, kShortestReach, kLongestReach);
+  const double reach =
+      std::clamp(depth / kCellsAcross - limits.beside, limits.shortest, limits.longest);
   const int profiles = std::max(8, static_cast<int>(length));
   std::vector<Vector2d> points;
   for (int i = 0; i < profiles; ++i) {
@@ -128,9 +138,10 @@ std::optional<Vector2d> intersection(const Line& a, const Line& b) {
   return a.point + a.direction * (cross(b.point - a.point, b.direction) / sine);
 }
 
-std::optional<PixelCorners> onceRefined(const GreyImage& image, const PixelCorners& corners) {
+std::optional<PixelCorners> onceRefined(const GreyImage& image, const PixelCorners& corners,
+                                        const Reach& limits) {
   std::array<std::optional<Line>, 4> sides;
-  for (int i = 0; i < 4; ++i) sides[i] = sideOf(image, corners, i);
+  for (int i = 0; i < 4; ++i) sides[i] = sideOf(image, corners, i, limits);
   PixelCorners result;
   for (int i = 0; i < 4; ++i) {
     const auto &before = sides[(i + 3) % 4], &after = sides[i];
@@ -141,16 +152,22 @@ std::optional<PixelCorners> onceRefined(const GreyImage& image, const PixelCorne
   return result;
 }
 
+double farthestMove(const PixelCorners& from, const PixelCorners& to) {
+  double farthest = 0.0;
+  for (int i = 0; i < 4; ++i) farthest = std::max(farthest, (from[i] - to[i]).norm());
+  return farthest;
+}
+
 }  // namespace
 
 std::optional<PixelCorners> refinedCorners(const GreyImage& image, const PixelCorners& corners) {
   PixelCorners result = corners;
   for (int round = 0; round < kRounds; ++round) {
-    const auto next = onceRefined(image, result);
-    if (!next) return std::nullopt;
-    for (int i = 0; i < 4; ++i)
-      if ((corners[i] - (*next)[i]).norm() > kFarthestMove) return std::nullopt;
+    const auto next = onceRefined(image, result, round < kWideRounds ? kWide : kNarrow);
+    if (!next || farthestMove(corners, *next) > kFarthestMove) return std::nullopt;
+    const bool settled = round > kWideRounds && farthestMove(result, *next) < kSettled;
     result = *next;
+    if (settled) break;
   }
   return result;
 }

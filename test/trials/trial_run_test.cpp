@@ -174,6 +174,23 @@ TEST(MeanOf, HasAStandardErrorOfMoreThanOneRun) {
   EXPECT_EQ(meanOf({5.0}).standard_error, 0.0);
 }
 
+// Of 50 throws of a coin 18 to 32 are heads by chance.
+TEST(Verdict, OfATendencyIsThatOfMoreRunsThanByChance) {
+  EXPECT_EQ(verdictOfTendency(33, 50), PredictionVerdict::CONFIRMED);
+  EXPECT_EQ(verdictOfTendency(32, 50), PredictionVerdict::UNDECIDED);
+  EXPECT_EQ(verdictOfTendency(18, 50), PredictionVerdict::UNDECIDED);
+  EXPECT_EQ(verdictOfTendency(17, 50), PredictionVerdict::REFUTED);
+  EXPECT_EQ(verdictOfTendency(0, 0), PredictionVerdict::UNDECIDED);
+}
+
+// Blocks of two: -3, -1, -3 have a mean of -2.33 and a standard error of 0.67; the last value fills none.
+TEST(Verdict, OfAMeanIsByBlocksOfNeighbours) {
+  EXPECT_EQ(verdictOfMean({-4, -2, -1, -1, -3, -3, 90}, 2), PredictionVerdict::CONFIRMED);
+  EXPECT_EQ(verdictOfMean({4, 2, 1, 1, 3, 3}, 2), PredictionVerdict::REFUTED);
+  EXPECT_EQ(verdictOfMean({-4, -2, 1, 1, -3, -3}, 2), PredictionVerdict::UNDECIDED);
+  EXPECT_EQ(verdictOfMean({-4, -2, -1}, 2), PredictionVerdict::UNDECIDED) << "one block";
+}
+
 TEST(Consistency, CountsTheSecondsInsideTheBoundsOfTheMean) {
   TrialStudy study;
   study.sets.resize(1);

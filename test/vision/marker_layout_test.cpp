@@ -38,6 +38,23 @@ TEST(MarkerLayout, TheShippedOneIsThePanelOfTheWorld) {
   EXPECT_FALSE(layout.has(14));
 }
 
+// Where wheels, levers and hot stab leave room on the front, and behind those of the corners on the back.
+TEST(MarkerLayout, TheShippedOneHasEightMarkersOnTheFrontAndSixOnTheBack) {
+  const MarkerLayout layout = readMarkerLayout("config/panel_markers.yaml");
+  EXPECT_EQ(layout.tag_size, 0.2);
+  const std::pair<double, double> front[] = {// right and up from the board's centre, m
+                                             {-1.3, 0.8},   {-0.15, 0.8},  {1.3, 0.8},
+                                             {-1.3, -0.8},  {-0.15, -0.8}, {1.3, -0.8},
+                                             {-0.5, -0.15}, {0.65, -0.05}};
+  for (int id = 0; id < 14; ++id) {
+    const auto& [right, up] = front[id < 8 ? id : id - 8];
+    const Vector3d& place = layout.panel_from_tag.at(id).translation();
+    EXPECT_NEAR(place.x(), right, 1e-12) << id;
+    EXPECT_NEAR(place.z(), up, 1e-12) << id;
+    EXPECT_EQ(place.y() < 0.0, id < 8) << id;
+  }
+}
+
 TEST(MarkerLayout, AMistakeIsToldWithFileAndLine) {
   const std::pair<std::string, const char*> mistakes[] = {
       {"markers: []\n", "layout.yaml:1: has no 'family' (36h11)"},

@@ -1,11 +1,11 @@
 #include "ros/simulation/image_camera_publisher.h"
 
-#include <sensor_msgs/Image.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include <boost/make_shared.hpp>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "ros/common/guarded_queue.h"
 #include "ros/simulation/camera_info.h"
@@ -14,13 +14,17 @@ namespace grid_path_planner::nodes {
 
 using base::StopSource;
 using base::StopToken;
+using simulation::FaultKind;
 using simulation::ImageCameraOptions;
+using simulation::SensorFault;
 using simulation::VehicleState;
 using simulation::World;
 
 ImageCameraPublisher::ImageCameraPublisher(ros::NodeHandle& nh, const World& world,
-                                           const ImageCameraOptions& options)
+                                           const ImageCameraOptions& options,
+                                           std::vector<SensorFault> faults)
     : camera_(world, options),
+      faults_(std::move(faults)),
       period_ns_(std::llround(1e9 / options.rate)),
       images_(nh.advertise<sensor_msgs::Image>("camera/image_raw", 1)),
       info_(nh.advertise<sensor_msgs::CameraInfo>("camera/camera_info", 10)),
@@ -30,35 +34,46 @@ bool ImageCameraPublisher::wants(std::int64_t time_ns) {
   if (time_ns < next_ns_) return false;
   next_ns_ = (time_ns / period_ns_ + 1) * period_ns_;
   if (images_.getNumSubscribers() == 0 && info_.getNumSubscribers() == 0) return false;
+  if (cameraFaultAt(faults_, time_ns) == FaultKind::CUT) return false;
   return !task_ || task_->waitFor(std::chrono::seconds(0));
 }
 
 void ImageCameraPublisher::capture(const VehicleState& state, std::int64_t time_ns,
                                    const Header& header) {
-  const Eigen::Isometry3d map_from_optical = mapFromBase(state) * camera_.baseFromOptical();
   const auto frame = static_cast<std::uint64_t>(time_ns / period_ns_);
-  task_ = renderer_.post([this, map_from_optical, frame, header](const StopSource& stop) {
-    render(map_from_optical, frame, header, stop.token());
-  });
+  const Shot shot{mapFromBase(state) * camera_.baseFromOptical(), frame, header,
+                  cameraFaultAt(faults_, time_ns)};
+  task_ = renderer_.post([this, shot](const StopSource& stop) { publish(shot, stop.token()); });
 }
 
-void ImageCameraPublisher::render(const Eigen::Isometry3d& map_from_optical, std::uint64_t frame,
-                                  const Header& header, const StopToken& stop) {
-  if (images_.getNumSubscribers() == 0) return publishInfo(header);
+// In the renderer's thread.
+void ImageCameraPublisher::publish(const Shot& shot, const StopToken& stop) {
+  if (images_.getNumSubscribers() == 0) return publishInfo(shot.header);
   const auto image = boost::make_shared<sensor_msgs::Image>();
   try {
-    camera_.render(map_from_optical, frame, image->data, stop);
+    fill(shot, stop, image->data);
   } catch (const base::Stopped&) {
     return;  // the camera ends
   }
-  image->header.frame_id = header.frame;
-  image->header.stamp = header.stamp;
+  image->header.frame_id = shot.header.frame;
+  image->header.stamp = shot.header.stamp;
   image->width = static_cast<std::uint32_t>(options().width);
   image->height = static_cast<std::uint32_t>(options().height);
   image->encoding = sensor_msgs::image_encodings::RGB8;
   image->step = 3 * image->width;
-  publishInfo(header);
+  last_ = image;
+  publishInfo(shot.header);
   images_.publish(image);
+}
+
+void ImageCameraPublisher::fill(const Shot& shot, const StopToken& stop,
+                                std::vector<std::uint8_t>& pixels) {
+  if (shot.fault == FaultKind::FROZEN && last_)
+    pixels = last_->data;
+  else if (shot.fault == FaultKind::NOT_A_NUMBER)
+    pixels.assign(static_cast<std::size_t>(3 * options().width * options().height), 0);
+  else
+    camera_.render(shot.map_from_optical, shot.frame, pixels, stop);
 }
 
 void ImageCameraPublisher::publishInfo(const Header& header) {

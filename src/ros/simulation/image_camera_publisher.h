@@ -1,6 +1,6 @@
 // The image camera of a simulated vehicle as topics.
 //
-//   ImageCameraPublisher camera(nh, world, options);
+//   ImageCameraPublisher camera(nh, world, options, faults);
 //   if (camera.wants(time_ns))                     // after tf of the same stamp was sent
 //     camera.capture(vehicle.state(), time_ns, {frame, stamp});
 //
@@ -10,20 +10,25 @@
 // Guaranteed: images are due at whole multiples of 1 / rate of simulated time and rendered in a thread of
 // its own; nothing waits for one. Where the one before is still being rendered, an image is left out.
 // Without a subscriber nothing is rendered. An image is published with the stamp of the pose that it shows.
-// Pose and time decide what is in an image; the load of the machine only which ones there are.
+// Pose and time decide what is in an image; the load of the machine only which ones there are. Of `faults` those of the
+// camera are done to the images.
 #pragma once
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/time.h>
+#include <sensor_msgs/Image.h>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/simulation/vehicle.h"
 #include "simulation/camera/image_camera.h"
+#include "simulation/sensors/sensor_faults.h"
 
 namespace grid_path_planner::nodes {
 
@@ -31,7 +36,8 @@ class ImageCameraPublisher {
  public:
   // Throws InputError as ImageCamera's constructor does.
   ImageCameraPublisher(ros::NodeHandle& nh, const simulation::World& world,
-                       const simulation::ImageCameraOptions& options);
+                       const simulation::ImageCameraOptions& options,
+                       std::vector<simulation::SensorFault> faults);
 
   const simulation::ImageCameraOptions& options() const { return camera_.options(); }
 
@@ -47,15 +53,23 @@ class ImageCameraPublisher {
   void capture(const simulation::VehicleState& state, std::int64_t time_ns, const Header& header);
 
  private:
-  void render(const Eigen::Isometry3d& map_from_optical, std::uint64_t frame, const Header& header,
-              const base::StopToken& stop);
+  struct Shot {
+    Eigen::Isometry3d map_from_optical;
+    std::uint64_t frame;
+    Header header;
+    std::optional<simulation::FaultKind> fault;
+  };
+  void publish(const Shot& shot, const base::StopToken& stop);
+  void fill(const Shot& shot, const base::StopToken& stop, std::vector<std::uint8_t>& pixels);
   void publishInfo(const Header& header);
 
   simulation::ImageCamera camera_;
+  std::vector<simulation::SensorFault> faults_;
   std::int64_t period_ns_;
   std::int64_t next_ns_ = 0;
   ros::Publisher images_;
   ros::Publisher info_;
+  sensor_msgs::ImageConstPtr last_;              // of the renderer; a frozen camera repeats it
   std::shared_ptr<base::TaskQueue::Task> task_;  // of the newest image
   base::TaskQueue renderer_;                     // ends first
 };

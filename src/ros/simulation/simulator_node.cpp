@@ -24,7 +24,6 @@ using grid::OccupancyGrid;
 using simulation::NavigationSensors;
 using simulation::readSensorFaults;
 using simulation::readWorld;
-using simulation::SensorFault;
 using simulation::SensorReadings;
 using simulation::Vehicle;
 using simulation::VehicleState;
@@ -129,13 +128,12 @@ void SimulatorNode::loadWorld() {
 }
 
 void SimulatorNode::startSensors() {
-  std::vector<SensorFault> faults;
   const auto read = [&](const std::string& file) {
     return readSensorFaults(file, options_.reading);
   };
   if (!options_.sensor_faults.empty())
-    faults = files_.read("sensor_faults", options_.sensor_faults, sensorFaultFiles(), read);
-  sensors_ = std::make_unique<NavigationSensors>(options_.sensors, world_, faults);
+    faults_ = files_.read("sensor_faults", options_.sensor_faults, sensorFaultFiles(), read);
+  sensors_ = std::make_unique<NavigationSensors>(options_.sensors, world_, faults_);
   sensor_publisher_.setOptions(options_.sensors);
 }
 
@@ -172,7 +170,7 @@ void SimulatorNode::updateImageCamera(const simulation::ImageCameraOptions& opti
   if (image_camera_ && sameOptions(options, image_camera_->options())) return;
   image_camera_.reset();
   if (options.enabled)
-    image_camera_ = std::make_unique<ImageCameraPublisher>(nh_, *world_, options);
+    image_camera_ = std::make_unique<ImageCameraPublisher>(nh_, *world_, options, faults_);
 }
 
 void SimulatorNode::resetVehicle(const SimulatorOptions& options) {

@@ -96,6 +96,7 @@ class SimulatorNode {
   std::unique_ptr<simulation::Vehicle> vehicle_;
   simulation::DeadReckoning odometry_;
   std::shared_ptr<const simulation::World> world_;  // none: only the map's obstacles
+  std::vector<simulation::SensorFault> faults_;     // of sensors and image camera
   double pending_time_ = 0.0;                       // s of simulated time that are due
   ros::SteadyTime last_tick_;
   ros::Time last_tick_stamp_;  // ROS time then

@@ -56,6 +56,9 @@ class FaultReader {
     if (!wanted && entry_["by"])
       throw yamlError(entry_["by"], file_, "a fault of kind " + kind + " has no 'by'");
     if (!wanted) return {};
+    if (fault.sensor == SensorName::CAMERA)
+      throw yamlError(entry_["kind"], file_,
+                      "a fault of the camera must be cut, frozen or nan (black), got " + kind);
     const std::size_t count = countOfNumbers(fault.sensor);
     const std::string expected =
         "a list of numbers, " + std::to_string(count) + " for " + choiceName(fault.sensor);
@@ -84,12 +87,23 @@ const std::vector<std::pair<const char*, FaultKind>>& choicesOf(FaultKind) {
   return choices;
 }
 
+std::optional<FaultKind> cameraFaultAt(const std::vector<SensorFault>& faults,
+                                       std::int64_t time_ns) {
+  for (const FaultKind kind : {FaultKind::CUT, FaultKind::FROZEN, FaultKind::NOT_A_NUMBER})
+    for (const SensorFault& fault : faults)
+      if (fault.sensor == SensorName::CAMERA && fault.kind == kind && fault.holdsAt(time_ns))
+        return kind;
+  return std::nullopt;
+}
+
 std::size_t countOfNumbers(SensorName sensor) {
   switch (sensor) {
     case SensorName::IMU:
       return 6;
     case SensorName::PRESSURE:
       return 1;
+    case SensorName::CAMERA:
+      return 0;
     case SensorName::DVL:
     case SensorName::USBL:
       break;

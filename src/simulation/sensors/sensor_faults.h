@@ -1,4 +1,4 @@
-// Faults of navigation sensors: what is cut or spoiled, and when.
+// Faults of navigation sensors and of the image camera: what is cut or spoiled, and when.
 //
 //   faults:
 //     - {sensor: dvl, from: 60, to: 90, kind: cut}
@@ -14,7 +14,8 @@
 //   nan      the numbers are none
 //
 // `by` has the sensor's numbers: imu 6 (angular velocity x, y, z in rad/s, specific force x, y, z in
-// m/s^2), dvl 3 (m/s), pressure 1 (Pa), usbl 3 (m). Covariances stay as they were.
+// m/s^2), dvl 3 (m/s), pressure 1 (Pa), usbl 3 (m). Covariances stay as they were. An image has no such
+// numbers: of the camera there are cut, frozen and nan, which is a black image.
 #pragma once
 
 #include <cmath>
@@ -46,6 +47,10 @@ struct SensorFault {
 // Throws InputError naming file and line for what is no such file.
 std::vector<SensorFault> readSensorFaults(const std::string& file,
                                           const base::ReadLimits& limits = {});
+
+// What befalls an image of this time: cut rather than frozen, frozen rather than black (NOT_A_NUMBER).
+std::optional<FaultKind> cameraFaultAt(const std::vector<SensorFault>& faults,
+                                       std::int64_t time_ns);
 
 // How many numbers a measurement of the sensor has.
 std::size_t countOfNumbers(SensorName sensor);

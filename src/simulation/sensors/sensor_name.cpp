@@ -7,7 +7,8 @@ const std::vector<std::pair<const char*, SensorName>>& choicesOf(SensorName) {
       {"imu", SensorName::IMU},
       {"dvl", SensorName::DVL},
       {"pressure", SensorName::PRESSURE},
-      {"usbl", SensorName::USBL}};
+      {"usbl", SensorName::USBL},
+      {"camera", SensorName::CAMERA}};
   return choices;
 }
 

@@ -1,4 +1,4 @@
-// The navigation sensors by name.
+// The sensors of a simulated vehicle by name; the camera is that of images.
 #pragma once
 
 #include <utility>
@@ -6,7 +6,7 @@
 
 namespace grid_path_planner::simulation {
 
-enum class SensorName { IMU, DVL, PRESSURE, USBL };
+enum class SensorName { IMU, DVL, PRESSURE, USBL, CAMERA };
 
 const std::vector<std::pair<const char*, SensorName>>& choicesOf(SensorName);
 

@@ -272,7 +272,9 @@ Finding predictionsFinding(const TrialData& data) {
   Finding finding{
       "What of that was predicted?",
       {"predictions",
-       "Confirmed where it holds in 95 % of the runs, refuted where it holds in 5 % or less.",
+       "A limit is confirmed where it holds in 95 % of the runs, refuted where it holds in 5 % or "
+       "less; which of two is larger, where more runs say so than by chance (two standard errors "
+       "from a half), or fewer.",
        {"prediction", "verdict", "figures"},
        {}},
       {""}};

@@ -41,4 +41,11 @@ struct Prediction {
 };
 std::vector<Prediction> predictionsOf(const TrialData& data);
 
+// Of a claim about which of two is larger that holds in `some` of `all` runs: more than half, or less, by two standard
+// errors of a fair coin.
+PredictionVerdict verdictOfTendency(std::size_t some, std::size_t all);
+// Whether values have a mean below 0, by two standard errors. Neighbours are alike: the standard error is that of the
+// means of blocks of `block` in a row.
+PredictionVerdict verdictOfMean(const std::vector<double>& values, std::size_t block);
+
 }  // namespace grid_path_planner::trials

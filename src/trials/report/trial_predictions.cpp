@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "trials/report/trial_findings.h"
 
@@ -9,7 +11,8 @@ using study::shownNumber;
 
 namespace {
 
-constexpr double kMost = 0.95;  // share of the seeds that confirms; one less refutes
+constexpr std::size_t kAlike = 50;  // images, 10 s, in which a view changes
+constexpr double kMost = 0.95;      // share of the seeds that confirms; one less refutes
 
 PredictionVerdict verdictOf(double share) {
   return share >= kMost         ? PredictionVerdict::CONFIRMED
@@ -26,18 +29,19 @@ class PredictionList {
  public:
   PredictionList(const TrialData& data, std::size_t set) : data_(data), set_(set) {}
 
-  // By the share of the seeds in which it holds.
+  // Of a limit, by the share of the seeds in which it holds.
   void add(const std::string& claim, bool (*holds)(const RunRecord&), const std::string& figures) {
-    std::size_t all = 0, some = 0;
-    for (const RunRecord& run : data_.runs) {
-      if (run.set != set_ || run.seed == kShownSeed) continue;
-      ++all;
-      some += holds(run);
-    }
-    predictions_.push_back(
-        {claim + " (" + data_.study.sets[set_].name + ")",
-         verdictOf(static_cast<double>(some) / static_cast<double>(std::max<std::size_t>(all, 1))),
-         "in " + std::to_string(some) + " of " + std::to_string(all) + " runs; " + figures});
+    const auto [some, all] = countOf(holds);
+    const double share =
+        static_cast<double>(some) / static_cast<double>(std::max<std::size_t>(all, 1));
+    decide(claim, verdictOf(share), countText(some, all) + figures);
+  }
+
+  // Of which is the larger one, by whether more seeds say so than by chance.
+  void addTendency(const std::string& claim, bool (*holds)(const RunRecord&),
+                   const std::string& figures) {
+    const auto [some, all] = countOf(holds);
+    decide(claim, verdictOfTendency(some, all), countText(some, all) + figures);
   }
 
   // By one comparison over all images.
@@ -53,13 +57,42 @@ class PredictionList {
   ErrorSpread panel(Water water, PanelMethod method) const {
     return panelError(data_, set_, water, method);
   }
+  // Of each image with a pose in both waters, by the mean over markers.
+  std::vector<double> clearMinusTurbid() const;
   std::vector<Prediction> predictions() const { return predictions_; }
 
  private:
+  std::pair<std::size_t, std::size_t> countOf(bool (*holds)(const RunRecord&)) const {
+    std::size_t all = 0, some = 0;
+    for (const RunRecord& run : data_.runs) {
+      if (run.set != set_ || run.seed == kShownSeed) continue;
+      ++all;
+      some += holds(run);
+    }
+    return {some, all};
+  }
+  static std::string countText(std::size_t some, std::size_t all) {
+    return "in " + std::to_string(some) + " of " + std::to_string(all) + " runs; ";
+  }
+
   const TrialData& data_;
   std::size_t set_;
   std::vector<Prediction> predictions_;
 };
+
+std::vector<double> PredictionList::clearMinusTurbid() const {
+  std::map<int, double> clear, turbid;
+  for (const SeenFrame& frame : data_.frames) {
+    const ViewSolution& solution = frame.solutions[set_];
+    if (solution.mean)
+      (frame.water == Water::CLEAR ? clear : turbid)[frame.frame] = solution.panel.mean.metres;
+  }
+  std::vector<double> differences;
+  for (const auto& [frame, metres] : clear)
+    if (const auto other = turbid.find(frame); other != turbid.end())
+      differences.push_back(metres - other->second);
+  return differences;
+}
 
 double smoothness(const RowResult& row) {
   return row.smoothness;
@@ -80,34 +113,46 @@ double degreesToTruth(const RowResult& row) {
   return row.in_view.degrees;
 }
 
+bool hasPublishedOrder(const RunRecord& run, const char* gated) {
+  const double l3 = rowOf(run, "L3").smoothness, l4 = rowOf(run, "L4").smoothness;
+  return l3 < l4 && l4 < rowOf(run, gated).smoothness && l3 < rowOf(run, "L2").smoothness;
+}
+
 void addSmoothness(PredictionList& list) {
   const std::string figures = list.mean("L2", smoothness) + ", " + list.mean("L3", smoothness) +
                               ", " + list.mean("L4", smoothness) + ", " +
                               list.mean("L5", smoothness);
-  list.add(
+  list.addTendency(
       "m_A grows from L3 to L4",
       [](const RunRecord& run) {
         return rowOf(run, "L3").smoothness < rowOf(run, "L4").smoothness;
       },
       figures);
-  list.add(
+  list.addTendency(
       "m_A grows from L4 to L5 (gate either)",
       [](const RunRecord& run) {
         return rowOf(run, "L4").smoothness < rowOf(run, "L5").smoothness;
       },
       figures);
-  list.add(
+  list.addTendency(
       "with the gate both it grows from L4 to L5",
       [](const RunRecord& run) {
         return rowOf(run, "L4").smoothness < rowOf(run, "L5 both").smoothness;
       },
       list.mean("L4", smoothness) + ", " + list.mean("L5 both", smoothness));
-  list.add(
+  list.addTendency(
       "m_A of L2 is above that of L3",
       [](const RunRecord& run) {
         return rowOf(run, "L3").smoothness < rowOf(run, "L2").smoothness;
       },
       figures);
+  list.addTendency(
+      "m_A has the published order at once: L3 < L4 < L5 and L3 < L2 (gate either)",
+      [](const RunRecord& run) { return hasPublishedOrder(run, "L5"); }, figures);
+  list.addTendency(
+      "the same with the gate both",
+      [](const RunRecord& run) { return hasPublishedOrder(run, "L5 both"); },
+      figures + "; both: " + list.mean("L5 both", smoothness));
   list.add(
       "of positions instead of increments it is above 0.99 for any filter",
       [](const RunRecord& run) {
@@ -121,7 +166,7 @@ void addSmoothness(PredictionList& list) {
 }
 
 void addReference(PredictionList& list) {
-  list.add(
+  list.addTendency(
       "what L5 is off from the markers is mostly the markers' own noise: the truth is less than "
       "half as far",
       [](const RunRecord& run) {
@@ -169,14 +214,6 @@ PredictionVerdict verdictOf(bool holds) {
   return holds ? PredictionVerdict::CONFIRMED : PredictionVerdict::REFUTED;
 }
 
-// Whether the mean of `a` is less by two standard errors, or more.
-PredictionVerdict isLess(const ErrorSpread& a, const ErrorSpread& b) {
-  const double error = std::hypot(a.metres_deviation / std::sqrt(std::max(a.count, 1)),
-                                  b.metres_deviation / std::sqrt(std::max(b.count, 1)));
-  if (std::abs(a.metres - b.metres) <= 2.0 * error) return PredictionVerdict::UNDECIDED;
-  return verdictOf(a.metres < b.metres);
-}
-
 std::string textOf(const ErrorSpread& error) {
   return shownNumber(error.metres, 3) + " m, " + shownNumber(error.degrees, 3) + "°";
 }
@@ -186,8 +223,8 @@ void addPanel(PredictionList& list) {
   const ErrorSpread clear = list.panel(Water::CLEAR, PanelMethod::MEAN);
   const ErrorSpread joint = list.panel(Water::TURBID, PanelMethod::JOINT);
   const ErrorSpread sequential = list.panel(Water::TURBID, PanelMethod::SEQUENTIAL);
-  list.decide("T_P is better in clear water (E0) than in turbid (E*), in metres",
-              isLess(clear, mean), textOf(clear) + "; " + textOf(mean));
+  list.decide("T_P is better in clear water (E0) than in turbid (E*), in metres, image by image",
+              verdictOfMean(list.clearMinusTurbid(), kAlike), textOf(clear) + "; " + textOf(mean));
   list.decide("the joint pose is at least four times as good as the mean over markers",
               verdictOf(joint.metres <= 0.25 * mean.metres && joint.degrees <= 0.25 * mean.degrees),
               textOf(joint) + "; " + textOf(mean));
@@ -197,6 +234,25 @@ void addPanel(PredictionList& list) {
 }
 
 }  // namespace
+
+PredictionVerdict verdictOfTendency(std::size_t some, std::size_t all) {
+  const auto count = static_cast<double>(all);
+  const double excess = static_cast<double>(some) - 0.5 * count;
+  if (std::abs(excess) <= std::sqrt(count)) return PredictionVerdict::UNDECIDED;
+  return verdictOf(excess > 0.0);
+}
+
+PredictionVerdict verdictOfMean(const std::vector<double>& values, std::size_t block) {
+  std::vector<double> means;
+  for (std::size_t first = 0; first + block <= values.size(); first += block) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
+    means.push_back(meanOf({begin, begin + static_cast<std::ptrdiff_t>(block)}).mean);
+  }
+  const MeanAndSpread all = meanOf(means);
+  if (means.size() < 2 || std::abs(all.mean) <= 2.0 * all.standard_error)
+    return PredictionVerdict::UNDECIDED;
+  return verdictOf(all.mean < 0.0);
+}
 
 const char* textOf(PredictionVerdict verdict) {
   return verdict == PredictionVerdict::CONFIRMED ? "confirmed"

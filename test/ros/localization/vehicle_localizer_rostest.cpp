@@ -1,6 +1,8 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/Twist.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
 #include <ros/ros.h>
 #include <std_msgs/String.h>
 #include <std_srvs/Trigger.h>
@@ -9,6 +11,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <limits>
+#include <map>
 
 #include "grid_path_planner/SetPose.h"
 #include "ros/support/latest.h"
@@ -69,6 +72,13 @@ class VehicleLocalizerTest : public testing::Test {
         count += transform.child_frame_id == child && transform.header.frame_id != "rival";
     return count;
   }
+  std::vector<ros::Time> stampsTo(const std::string& child) const {
+    std::vector<ros::Time> stamps;
+    for (const tf2_msgs::TFMessage& message : tf_.all())
+      for (const auto& transform : message.transforms)
+        if (transform.child_frame_id == child) stamps.push_back(transform.header.stamp);
+    return stamps;
+  }
   bool moreTransformsTo(const std::string& child, std::size_t than) {
     return waitFor([&] { return transformsTo(child) > than; });
   }
@@ -97,10 +107,79 @@ TEST_F(VehicleLocalizerTest, EstimatesThePoseAndPublishesEachStampOnce) {
   const auto all = filtered_.all();
   for (std::size_t i = 1; i < all.size(); ++i)
     EXPECT_LT(all[i - 1].header.stamp, all[i].header.stamp);
-  EXPECT_TRUE(moreTransformsTo("odom", 0));
-  EXPECT_TRUE(moreTransformsTo("base_link", 0));
   EXPECT_EQ(all.back().header.frame_id, "map");
   EXPECT_EQ(all.back().child_frame_id, "base_link");
+}
+
+// rl#336, rl#574: a transform whose stamp came before makes tf2 warn for ever. By stamps, whatever the machine's load: the
+// IMU's are 10 ms apart and every second one is published.
+TEST_F(VehicleLocalizerTest, EachTransformHasANewStamp50TimesASecond) {
+  start();
+  ASSERT_TRUE(hasStatus("OK"));
+  for (const char* child : {"odom", "base_link"}) {
+    const std::size_t before = transformsTo(child);
+    ASSERT_TRUE(moreTransformsTo(child, before + 60));
+    const std::vector<ros::Time> stamps = stampsTo(child);
+    for (std::size_t i = 1; i < stamps.size(); ++i) EXPECT_LT(stamps[i - 1], stamps[i]) << child;
+    const double seconds = (stamps.back() - stamps[before]).toSec();
+    const double rate = static_cast<double>(stamps.size() - 1 - before) / seconds;
+    EXPECT_LT(rate, 51.0) << child;
+    EXPECT_GT(rate, 20.0) << child;  // less than 50 where the machine keeps the IMU's messages back
+  }
+}
+
+// Without any fix somebody who knows it says where the vehicle is, by service or with rviz, and again where it is put.
+TEST_F(VehicleLocalizerTest, APoseThatIsSetIsTakenByServiceAndByTopic) {
+  stream_.sends_fixes = false;
+  ros::Publisher initial = nh_.advertise<SensorStream::Fix>("initialpose", 1);
+  start();
+  ASSERT_TRUE(waitFor([&] { return transformsTo("base_link") > 0; })) << "the IMU is heard";
+  EXPECT_EQ(filtered_.count(), 0u);
+  SetPose call;
+  const ros::Time now = ros::Time::now();
+  call.request.pose = stream_.marker(now, live_->secondsAt(now));
+  ASSERT_TRUE(ros::service::call("vehicle_localizer/set_pose", call));
+  EXPECT_TRUE(call.response.success) << call.response.message;
+  ASSERT_TRUE(waitFor([&] { return filtered_.count() > 5; }));
+  EXPECT_LT(errorOf(filtered_.all().back()), 0.2);
+  ASSERT_TRUE(waitFor([&] { return initial.getNumSubscribers() > 0; }));
+  const ros::Time later = ros::Time::now();
+  SensorStream::Fix elsewhere = stream_.marker(later, live_->secondsAt(later));
+  elsewhere.pose.pose.position.x += 5.0;
+  initial.publish(elsewhere);
+  ASSERT_TRUE(waitFor([&] { return errorOf(filtered_.all().back()) > 4.0; }));
+  EXPECT_NEAR(errorOf(filtered_.all().back()), 5.0, 0.3);
+}
+
+TEST_F(VehicleLocalizerTest, DiagnosticsTellRateAgeCountsAndNisOfEachInput) {
+  Latest<diagnostic_msgs::DiagnosticArray> diagnostics(nh_, "/diagnostics");
+  start();
+  ASSERT_TRUE(hasStatus("OK"));
+  const auto number = [](const diagnostic_msgs::DiagnosticStatus& status, const std::string& key) {
+    for (const auto& value : status.values)
+      if (value.key == key) return std::stod(value.value);
+    ADD_FAILURE() << status.name << " does not tell " << key;
+    return 0.0;
+  };
+  std::map<std::string, diagnostic_msgs::DiagnosticStatus> told;
+  ASSERT_TRUE(diagnostics.waitFor(0, [&](const diagnostic_msgs::DiagnosticArray& array) {
+    for (const auto& status : array.status) told[status.name] = status;
+    const auto dvl = told.find("vehicle_localizer: DVL");
+    return dvl != told.end() && dvl->second.message == "used" && number(dvl->second, "taken") > 10;
+  }));
+  const std::map<std::string, double> rates = {
+      {"IMU", 100.0}, {"DVL", 7.1}, {"depth", 10.0}, {"USBL", 5.0}};
+  for (const auto& [name, rate] : rates) {
+    const auto& status = told["vehicle_localizer: " + name];
+    EXPECT_NEAR(number(status, "rate (Hz)"), rate, 0.1 * rate) << name;
+    EXPECT_LT(number(status, "age (s)"), 2.0) << name;
+    EXPECT_GT(number(status, "taken"), 0.0) << name;
+    EXPECT_EQ(number(status, "gated"), 0.0) << name;
+    EXPECT_GE(number(status, "refused"), 0.0) << name;  // before tf knew its frame
+    if (name == "IMU") continue;
+    EXPECT_LT(number(status, "NIS, 95 % low"), number(status, "NIS, 95 % high")) << name;
+    EXPECT_LT(number(status, "NIS, mean"), number(status, "NIS, 95 % high")) << name;
+  }
 }
 
 TEST_F(VehicleLocalizerTest, GoesOnWithoutItsImuAndSaysSo) {
@@ -128,6 +207,42 @@ TEST_F(VehicleLocalizerTest, NoTransformOfTheMapWhereThePoseIsLost) {
   stream_.sends_dvl = stream_.sends_fixes = true;
   EXPECT_TRUE(hasStatus("OK"));
   EXPECT_TRUE(moreTransformsTo("odom", of_map + 1));
+}
+
+// Sensors are lost, the pose is LOST, map -> odom ceases, and the vehicle that drives on it stands.
+TEST_F(VehicleLocalizerTest, ADriveStandsWhileThePoseIsLostAndGoesOnAfterwards) {
+  ros::param::del("/navigate_path");
+  Latest<geometry_msgs::Twist> commands(nh_, "cmd_vel");
+  ros::Publisher paths = nh_.advertise<nav_msgs::Path>("path", 1);
+  start({"_max_deviation:=0.3"});
+  ASSERT_TRUE(hasStatus("OK"));
+  const Process navigate("navigate_path", {"_check_map:=false", "_no_progress_timeout:=0"});
+  ASSERT_TRUE(waitFor([&] { return paths.getNumSubscribers() > 0 && commands.connected(); }));
+  nav_msgs::Path path;
+  path.header.frame_id = "map";
+  path.header.stamp = ros::Time::now();
+  path.poses.resize(2);
+  for (auto& pose : path.poses) {
+    pose.pose.position = filtered_.all().back().pose.pose.position;
+    pose.pose.orientation.w = 1.0;
+  }
+  path.poses[1].pose.position.x += 100.0;
+  paths.publish(path);
+  const auto drives = [&](bool wanted) {
+    return waitFor([&] {
+      const auto all = commands.all();
+      if (all.empty()) return !wanted;
+      const geometry_msgs::Vector3& v = all.back().linear;
+      return (v.x != 0.0 || v.y != 0.0 || v.z != 0.0) == wanted;
+    });
+  };
+  ASSERT_TRUE(drives(true)) << navigate.output();
+  stream_.sends_dvl = stream_.sends_fixes = false;
+  ASSERT_TRUE(hasStatus("LOST"));
+  EXPECT_TRUE(drives(false)) << navigate.output();
+  // DEGRADED for reset_doubt, since the commands were not obeyed, but known.
+  stream_.sends_dvl = stream_.sends_fixes = true;
+  EXPECT_TRUE(drives(true)) << navigate.output();
 }
 
 // It named the body frame though it was refused, and the vehicle's own IMU was another one for ever.

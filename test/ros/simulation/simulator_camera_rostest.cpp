@@ -10,12 +10,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "grid_path_planner/simulation/world.h"
 #include "ros/simulation/simulator_options.h"
 #include "ros/support/latest.h"
 #include "ros/support/process.h"
 #include "simulation/camera/image_camera.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -134,6 +138,48 @@ TEST_F(SimulatorCamera, AnImageShowsThePoseAtItsStamp) {
   EXPECT_EQ(info->K[2], 15.5);
   EXPECT_TRUE(images.waitFor(
       0, [&](const Image& image) { return image.header.stamp == infos.all()[0].header.stamp; }));
+}
+
+// While the vehicle turns: nothing, then images, one of them again and again, and black ones.
+TEST_F(SimulatorCamera, AFaultFileCutsItFreezesItAndMakesItBlack) {
+  const test::TemporaryFolder folder;
+  const std::string faults = folder.write("faults.yaml",
+                                          "faults:\n"
+                                          "  - {sensor: camera, from: 0, to: 1, kind: cut}\n"
+                                          "  - {sensor: camera, from: 3, to: 4, kind: frozen}\n"
+                                          "  - {sensor: camera, from: 4, to: 5, kind: nan}\n");
+  Latest<Image> images(nh_, "camera/image_raw");
+  start({"_image_camera_enabled:=true", "_image_camera_width:=32", "_image_camera_height:=24",
+         "--sensor-faults=" + faults});
+  ros::Publisher command = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+  geometry_msgs::Twist turn;
+  turn.angular.z = 0.5;
+  ASSERT_TRUE(test::waitFor([&] {
+    command.publish(turn);
+    ros::WallDuration(0.02).sleep();
+    const auto all = images.all();
+    return !all.empty() && all.back().header.stamp.toSec() > 105.5;
+  }));
+  std::vector<std::uint8_t> before;
+  int frozen = 0, black = 0, sound = 0;
+  for (const Image& image : images.all()) {
+    const double t = image.header.stamp.toSec() - 100.0;
+    const bool is_black = std::all_of(image.data.begin(), image.data.end(),
+                                      [](std::uint8_t value) { return value == 0; });
+    EXPECT_GE(t, 1.0);
+    EXPECT_EQ(is_black, t >= 4.0 && t < 5.0) << t;
+    const bool is_frozen = t >= 3.0 && t < 4.0;
+    if (is_frozen && !before.empty()) {
+      EXPECT_EQ(image.data, before) << t;
+    } else if (!is_black) {
+      EXPECT_NE(image.data, before) << t;
+    }
+    before = image.data;
+    ++(is_black ? black : is_frozen ? frozen : sound);
+  }
+  EXPECT_GT(frozen, 0);
+  EXPECT_GT(black, 0);
+  EXPECT_GT(sound, 1);
 }
 
 // An image takes some 0.1 s and is due in each step of 0.01 s: most are left out, and no step waits.

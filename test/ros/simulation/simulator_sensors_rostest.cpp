@@ -8,6 +8,7 @@
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/Range.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <algorithm>
@@ -33,6 +34,9 @@ using test::Process;
 
 const std::vector<std::string> kAllSensors = {"_imu_enabled:=true", "_dvl_enabled:=true",
                                               "_pressure_enabled:=true", "_usbl_enabled:=true"};
+
+const std::string kSensorFrames[] = {"imu_link", "dvl_link", "dvl_altitude_link", "pressure_link",
+                                     "usbl_link"};
 
 std::set<std::string> publishedTopics() {
   ros::master::V_TopicInfo topics;
@@ -121,7 +125,9 @@ TEST_F(SimulatorSensors, SpeakAtTheirRatesInTheirFramesWithTheirCovariances) {
   EXPECT_EQ(depth.all()[0].pose.covariance[0], 1e6) << "x is not measured";
 }
 
+// Never a static one: tf would keep it for ever, and a bag of /tf alone would lack it.
 TEST_F(SimulatorSensors, HaveFramesInTf) {
+  Latest<tf2_msgs::TFMessage> fixed(nh_, "/tf_static");
   startAll({"_dvl_x:=0.4"});
   ASSERT_TRUE(test::waitFor([&] {
     return knows("base_link", "imu_link") && knows("base_link", "dvl_altitude_link") &&
@@ -135,6 +141,12 @@ TEST_F(SimulatorSensors, HaveFramesInTf) {
       buffer_.lookupTransform("dvl_link", "dvl_altitude_link", ros::Time(0)).transform;
   EXPECT_NEAR(down.rotation.y, std::sqrt(0.5), 1e-9);
   EXPECT_NEAR(down.rotation.w, std::sqrt(0.5), 1e-9);
+  for (const tf2_msgs::TFMessage& message : fixed.all())
+    for (const auto& transform : message.transforms)
+      EXPECT_EQ(
+          std::count(std::begin(kSensorFrames), std::end(kSensorFrames), transform.child_frame_id),
+          0)
+          << transform.child_frame_id;
 }
 
 // Fixes are of whole seconds, and nobody knows them for 0.6 s.

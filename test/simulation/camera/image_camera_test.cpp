@@ -71,6 +71,20 @@ TEST(ImageCameraOptions, AllHoldToTheLaws) {
   test::expectOptionLaws<ImageCameraOptions>();
 }
 
+// 640 x 480 pixels that are 1.2 rad wide, level, in the water E*.
+TEST(ImageCameraOptions, AreByDefaultThoseOfTheDocumentation) {
+  const ImageCameraOptions o;
+  EXPECT_EQ(o.rate, 5.0);
+  EXPECT_EQ(o.width, 640);
+  EXPECT_EQ(o.height, 480);
+  EXPECT_EQ(o.horizontal_fov, 1.2);
+  EXPECT_EQ(o.noise, 2.0);
+  EXPECT_EQ(o.mounting.pitch, 0.0);
+  EXPECT_EQ(Vector3d(o.attenuation_red, o.attenuation_green, o.attenuation_blue),
+            Vector3d(0.45, 0.14, 0.10));
+  EXPECT_EQ(Vector3d(o.water_red, o.water_green, o.water_blue), Vector3d(12.0, 62.0, 70.0));
+}
+
 TEST(ImageCamera, ASurfaceHasItsColour) {
   EXPECT_TRUE(isNear(Image(colouredWallAt(2.0), withoutWater()).at(0, 0), {204.0f, 102.0f, 51.0f}));
   EXPECT_TRUE(isNear(Image(World({}), withoutWater()).at(0, 0), Array3f::Zero()))

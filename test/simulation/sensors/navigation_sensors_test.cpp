@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -48,6 +50,38 @@ std::vector<double> recorded(const NavigationSensorOptions& options) {
 
 TEST(NavigationSensorOptions, AllHoldToTheLaws) {
   test::expectOptionLaws<NavigationSensorOptions>();
+}
+
+// The figures of doc/sensors.md: those of the IMU are uuv_simulator's.
+TEST(NavigationSensorOptions, AreByDefaultThoseOfUsualUnderwaterSensors) {
+  const ImuOptions imu;
+  EXPECT_EQ(imu.rate, 100.0);
+  const auto isTriad = [](const TriadErrors& triad, const std::array<double, 4>& expected) {
+    return std::array<double, 4>{triad.noise, triad.walk, triad.correlation_time, triad.turn_on} ==
+           expected;
+  };
+  EXPECT_TRUE(isTriad(imu.gyroscope, {3.394e-4, 3.879e-5, 1000.0, 0.0087}));
+  EXPECT_TRUE(isTriad(imu.accelerometer, {0.004, 0.006, 300.0, 0.196}));
+  EXPECT_EQ(imu.tilt_noise, 0.01);
+  const DvlOptions dvl;
+  EXPECT_EQ(dvl.rate, 7.0);
+  EXPECT_NEAR(dvl.beam_angle, M_PI / 6.0, 1e-7);
+  EXPECT_EQ(dvl.beam_noise, 0.005);
+  EXPECT_EQ(dvl.range_min, 0.7);
+  EXPECT_EQ(dvl.range_max, 90.0);
+  const PressureOptions pressure;
+  EXPECT_EQ(pressure.rate, 10.0);
+  EXPECT_EQ(pressure.noise, 200.0);
+  EXPECT_EQ(pressure.surface_z, 7.0);
+  EXPECT_EQ(pressure.water_density, 1025.0);
+  const UsblOptions usbl;
+  EXPECT_EQ(usbl.rate, 1.0);
+  EXPECT_EQ(usbl.range_noise, 0.1);
+  EXPECT_NEAR(usbl.bearing_noise, M_PI / 180.0, 1e-7);
+  EXPECT_EQ(usbl.delay, 0.6);
+  EXPECT_EQ(usbl.outlier_share, 0.05);
+  EXPECT_EQ(usbl.outlier_min, 2.0);
+  EXPECT_EQ(usbl.outlier_max, 20.0);
 }
 
 TEST(NavigationSensorOptions, SenselessOnesAreRefusedByName) {

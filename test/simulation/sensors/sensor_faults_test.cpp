@@ -66,6 +66,9 @@ TEST(SensorFaults, AMistakeIsToldWithFileAndLine) {
       {"{sensor: usbl, from: 1, to: 2, kind: offset, by: [1, 2]}", "3 for usbl"},
       {"{sensor: imu, from: 1, to: 2, kind: outlier, by: 5}", "6 for imu, got '5'"},
       {"{sensor: usbl, from: 1, to: 2, kind: offset, by: [1, 2, .inf]}", "finite numbers"},
+      {"{sensor: camera, from: 1, to: 2, kind: offset, by: [1]}",
+       "a fault of the camera must be cut, frozen or nan (black), got offset"},
+      {"{sensor: camera, from: 1, to: 2, kind: cut, by: [1]}", "a fault of kind cut has no 'by'"},
       {"cut", "a fault must be a mapping, got 'cut'"}};
   for (const auto& [entry, expected] : mistakes) {
     const std::string error =
@@ -116,6 +119,26 @@ TEST(SensorFaults, OfTwoAtOneTimeBothHappen) {
       "  - {sensor: pressure, from: 3, to: 4, kind: offset, by: [10]}\n");
   EXPECT_EQ(both[2], sound[2] + 1.0);
   EXPECT_EQ(both[3], sound[3] + 1.0 + 10.0);
+}
+
+//   s  0    1    2    3    4    5    6      of two at one time that which leaves less of an image
+//      .....cut..........
+//                ....frozen....
+//           ...................nan....
+TEST(SensorFaults, OfTheCameraSayWhatBefallsAnImage) {
+  const auto faults = faultsOf(
+      "faults:\n"
+      "  - {sensor: camera, from: 1, to: 6, kind: nan}\n"
+      "  - {sensor: camera, from: 2, to: 5, kind: frozen}\n"
+      "  - {sensor: camera, from: 0.5, to: 3, kind: cut}\n"
+      "  - {sensor: imu, from: 0, to: 9, kind: cut}\n");
+  const auto at = [&](double t) { return cameraFaultAt(faults, std::llround(1e9 * t)); };
+  EXPECT_FALSE(at(0.4));
+  EXPECT_EQ(at(0.5), FaultKind::CUT);
+  EXPECT_EQ(at(2.9), FaultKind::CUT);
+  EXPECT_EQ(at(3.0), FaultKind::FROZEN);
+  EXPECT_EQ(at(5.0), FaultKind::NOT_A_NUMBER);
+  EXPECT_FALSE(at(6.0));
 }
 
 // A fix is spoiled for the time at which it was valid, not for that at which it arrives.
