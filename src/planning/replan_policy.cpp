@@ -94,8 +94,9 @@ bool pathBlocked(const Path& path, const std::optional<Eigen::Vector2d>& positio
 bool keepsPath(const Path& old, const Path& fresh, const CostGrid& costs, double hysteresis) {
   if (old.empty() || fresh.empty() || !sameEnd(old, fresh)) return false;
   const auto old_cost = costOf(remainingPath(old, fresh.poses.front().position.head<2>()), costs);
+  if (!old_cost) return false;
   const auto fresh_cost = costOf(polylineOf(fresh), costs);
-  return old_cost && fresh_cost && *old_cost <= (1.0 + hysteresis) * *fresh_cost;
+  return fresh_cost && *old_cost <= (1.0 + hysteresis) * *fresh_cost;
 }
 
 }  // namespace grid_path_planner::planning

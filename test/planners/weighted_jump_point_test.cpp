@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "planners/astar/a_star.h"
 #include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
@@ -209,6 +210,48 @@ TEST(WeightedJumpPointLaw, CostsAreLeastWhicheverSearchAnswers) {
   }
   EXPECT_GT(answers["a_star"], 0);
   EXPECT_GT(answers["weighted_jump_point"], 0);
+}
+
+// Weights that fall with the distance to walls 40 cells apart; 100 tiles.
+Grid<CostGrid::Weight> slopesBetweenWalls() {
+  Grid<CostGrid::Weight> weights(GridGeometry(640, 640, 1.0), 1);
+  for (int row = 0; row < 640; ++row)
+    for (int column = 0; column < 640; ++column) {
+      const int from_wall = std::min(row % 40, 40 - row % 40);
+      const bool gap = column % 160 < 20;
+      weights[Cell{column, row}] = from_wall == 0 && !gap
+                                       ? CostGrid::kBlocked
+                                       : static_cast<CostGrid::Weight>(std::max(1, 16 - from_wall));
+    }
+  return weights;
+}
+
+// Who answers across the map once a square of this side in its middle is blocked but for its first
+// row, after all was prepared.
+std::string answersAfterEdit(int side) {
+  Grid<CostGrid::Weight> weights = slopesBetweenWalls();
+  WeightedJumpPoint planner;
+  planner.prepare(costsOf(weights), StopToken());
+  planner.finishBackgroundWork(StopToken());
+  const CellRect changed{300, 300, side, side};
+  for (int row = 301; row < 300 + side; ++row)
+    std::fill_n(weights.row(row) + 300, side, CostGrid::kBlocked);
+  const auto map = costsOf(weights, {}, 1);
+  planner.update(map, {changed}, StopToken());
+  AStar a_star;
+  a_star.prepare(map, StopToken());
+  const SearchRequest across{{5, 5}, {{630, 630}}, false};
+  const SearchResult result = planner.search(across, StopToken());
+  EXPECT_EQ(result.cost, a_star.search(across, StopToken()).cost);
+  return result.answered_by;
+}
+
+TEST(WeightedJumpPoint, MakesAnewTheFewTilesThatAnEditUndid) {
+  EXPECT_EQ(answersAfterEdit(70), "weighted_jump_point");
+}
+
+TEST(WeightedJumpPoint, LeavesWhatAnEditOfHalfTheMapUndidToAStar) {
+  EXPECT_EQ(answersAfterEdit(330), "a_star");
 }
 
 TEST(WeightedJumpPointLaw, AfterEditsPlansLikeAFreshOne) {

@@ -16,7 +16,8 @@
 // Until then A* answers, at the same cost, searches that come to more new tiles than were paid for:
 // one for so many expansions of A* that making it adds some per cent to their time. So a first plan
 // waits for no preparation, and ten plans pay little for it. Small maps, and a part of maps of one
-// weight, are paid for; of maps above 2^26 cells nothing is.
+// weight, are paid for, and what an update undid where that is little; of maps above 2^26 cells
+// nothing is.
 //
 // No map is refused: where a path costs more than the keys of the jumps hold, A* answers too. No
 // option is ignored: with a search option (heuristic, scale, epsilon, tie-break) that is not the
@@ -56,6 +57,7 @@ class WeightedJumpPoint : public Planner {
   std::optional<SearchResult> searchWithJumps(const SearchRequest& request,
                                               const base::StopToken& stop);
 
+  void updateJumps(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
   bool shouldJump() const;
   int blockOfBound() const;
   std::size_t bytesOfAStar(const grid::GridGeometry& geometry) const;

@@ -40,7 +40,20 @@ void WeightedJumpSearch::prepare(const CostGrid& map, const StopToken& stop, int
   jumps_.reset(map);
   if (g_.size() == map.geometry().size()) return;
   g_ = ZeroedArray<StampedG>(map.geometry().size());
+  g_is_mapped_ = false;
   stamp_.restart();
+}
+
+void WeightedJumpSearch::finish(const CostGrid& map, const StopToken& stop) {
+  jumps_.makeAllReady(map, stop);
+  if (g_is_mapped_) return;
+  constexpr std::size_t kPage = 4096 / sizeof(StampedG);
+  StopPoll poll(stop, kExpansionsBetweenPolls);
+  for (std::size_t at = 0; at < g_.size(); at += kPage) {
+    poll();
+    g_[at] = 0;  // of no query
+  }
+  g_is_mapped_ = true;
 }
 
 void WeightedJumpSearch::update(const CostGrid& map, const std::vector<CellRect>& changed,

@@ -57,11 +57,9 @@ class WeightedJumpSearch {
   // Stopped.
   void update(const costmap::CostGrid& map, const std::vector<grid::CellRect>& changed,
               const base::StopToken& stop, int block = kBlock);
-  // Makes all tiles ready, so that no run() makes one; those made stay where it is stopped. Throws
-  // Stopped.
-  void finish(const costmap::CostGrid& map, const base::StopToken& stop) {
-    jumps_.makeAllReady(map, stop);
-  }
+  // Makes all tiles ready, so that no run() makes one, and has the memory of g-values mapped; what
+  // is done stays where it is stopped. Throws Stopped.
+  void finish(const costmap::CostGrid& map, const base::StopToken& stop);
   bool finished() const { return jumps_.allReady(); }
   std::size_t tilesReady() const { return jumps_.tilesReady(); }
   // After how many expansions of a query the bound of the blocks is made (tables/block_bound.h).
@@ -118,6 +116,7 @@ class WeightedJumpSearch {
   WeightedJumpMap jumps_;
   BlockBounds blocks_{kSmallBlock};
   std::size_t bound_after_ = 0;
+  bool g_is_mapped_ = false;
   base::ZeroedArray<StampedG> g_;
   QueryStamp<StampedG, kKeyBits> stamp_;
   BucketQueue open_;
