@@ -96,6 +96,7 @@ LENT = {
     "simulation/sensors/navigation_sensor_options.h": {"ros_simulation", "trials"},
     "simulation/sensors/navigation_sensors.h": {"ros_simulation"},
     "simulation/sensors/pressure_sensor.h": {"trials"},
+    "simulation/sensors/sensor_faults.h": {"ros_simulation"},
     "simulation/sensors/usbl.h": {"trials"},
     "localization/recording/navigation_recording.h": {"ros_localization", "trials"},
     "trials/recorded_job.h": {"command_line"},
