@@ -22,10 +22,15 @@ const ProjectedMapOptions& checked(const ProjectedMapOptions& options) {
   return options;
 }
 
-OctreeMap mapOf(const ProjectedMapOptions& options, const std::string& file,
+constexpr double kEndless = 1e6;  // s
+
+OctreeMap mapOf(const ProjectedMapOptions& options, const std::string& begin_with,
                 const StopToken& stop) {
   OctreeMap map(options.octree);
-  if (!file.empty()) map.load(file, {options.reading, stop});
+  base::ReadOptions reading = options.reading;
+  if (!begin_with.empty()) reading.read_time_limit = kEndless;
+  const std::string& file = begin_with.empty() ? options.filename : begin_with;
+  if (!file.empty()) map.load(file, {reading, stop});
   return map;
 }
 
@@ -34,7 +39,7 @@ OctreeMap mapOf(const ProjectedMapOptions& options, const std::string& file,
 MapModel::MapModel(const ProjectedMapOptions& options, const std::string& begin_with,
                    const StopToken& stop)
     : options_(checked(options)),
-      map_(mapOf(options, begin_with.empty() ? options.filename : begin_with, stop)),
+      map_(mapOf(options, begin_with, stop)),
       projection_(map_.options().resolution, projectionOptions(options)) {
   options_.octree.resolution = map_.options().resolution;
 }

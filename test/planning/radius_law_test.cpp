@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <random>
 
+#include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "grid_path_planner/planning/path_planner.h"
 #include "grid_path_planner/planning/replan_policy.h"
@@ -33,6 +37,11 @@ namespace {
 using Points = std::vector<Eigen::Vector2d>;
 
 constexpr double kRounding = 1e-6;  // m
+
+// GPP_LONG_STORM: ten thousand random maps, and more of each file.
+bool isLong() {
+  return std::getenv("GPP_LONG_STORM") != nullptr;
+}
 
 Pose randomRadiusPose(std::mt19937& random, const GridGeometry& geometry) {
   std::uniform_real_distribution<double> x(0.0, geometry.width()), y(0.0, geometry.height());
@@ -195,36 +204,79 @@ void expectWaypoints(const Plan& plan, const OccupancyGrid& map, const PlannerOp
   }
 }
 
+struct Counts {
+  int found = 0;
+  std::size_t left_out = 0;  // of the paths' poses
+};
+
+// Plans between random poses, and judges what is found.
+void judge(const OccupancyGrid& map, const PlannerOptions& options, int queries,
+           std::mt19937& random, Counts& counts) {
+  PathPlanner planner(options);
+  planner.setMap(std::make_shared<const OccupancyGrid>(map));
+  for (int query = 0; query < queries; ++query) {
+    const PoseRequest request{randomRadiusPose(random, map.geometry()),
+                              randomRadiusPose(random, map.geometry()), false};
+    const Plan plan = planner.plan(request);
+    if (plan.status != Status::FOUND) continue;
+    ++counts.found;
+    expectAllKept(pointsOf(plan.path), map, options.costmap);
+    expectWaypoints(plan, map, options);
+    counts.left_out +=
+        std::max(plan.path.poses.size(), plan.waypoints.poses.size()) - plan.waypoints.poses.size();
+    const Points start = {request.start.position.head<2>()};
+    EXPECT_EQ(plan.message.find("nearer than the radius") != std::string::npos,
+              nearest(start, map, kOccupied, options.costmap.radius) <
+                  options.costmap.radius * (1.0 - 1e-7))
+        << plan.message;
+    expectNotBlocked(plan, *planner.fullResolutionCosts(StopToken()), random);
+  }
+}
+
 TEST(RadiusLaw, NoPointOfAPathIsNearerThanItMay) {
   std::mt19937 random(13);
-  int found = 0;
-  std::size_t left_out = 0;
-  for (int trial = 0; trial < 1500; ++trial) {
+  Counts counts;
+  for (int trial = 0; trial < (isLong() ? 10000 : 1500); ++trial) {
     const OccupancyGrid map = randomRadiusMap(random, 48);
     const PlannerOptions options = randomRadiusOptions(random);
     SCOPED_TRACE("trial " + std::to_string(trial) + ' ' + describe(options, map));
-    PathPlanner planner(options);
-    planner.setMap(std::make_shared<const OccupancyGrid>(map));
-    for (int query = 0; query < 3; ++query) {
-      const PoseRequest request{randomRadiusPose(random, map.geometry()),
-                                randomRadiusPose(random, map.geometry()), false};
-      const Plan plan = planner.plan(request);
-      if (plan.status != Status::FOUND) continue;
-      ++found;
-      expectAllKept(pointsOf(plan.path), map, options.costmap);
-      expectWaypoints(plan, map, options);
-      left_out += std::max(plan.path.poses.size(), plan.waypoints.poses.size()) -
-                  plan.waypoints.poses.size();
-      const Points start = {request.start.position.head<2>()};
-      EXPECT_EQ(plan.message.find("nearer than the radius") != std::string::npos,
-                nearest(start, map, kOccupied, options.costmap.radius) <
-                    options.costmap.radius * (1.0 - 1e-7))
-          << plan.message;
-      expectNotBlocked(plan, *planner.fullResolutionCosts(StopToken()), random);
+    judge(map, options, 3, random, counts);
+  }
+  std::printf("%d paths\n", counts.found);
+  EXPECT_GT(counts.found, 1000);
+  EXPECT_GT(counts.left_out, 1000U);
+}
+
+// The options above are made for cells of 0.05 m.
+PlannerOptions scaled(PlannerOptions options, double factor) {
+  options.costmap.radius *= factor;
+  if (options.costmap.radius_to_unknown > 0.0) options.costmap.radius_to_unknown *= factor;
+  options.costmap.decay /= factor;
+  options.waypoint_tolerance *= factor;
+  options.waypoint_spacing *= factor;
+  return options;
+}
+
+// Of maps/, or of the folder that GPP_MAPS names.
+TEST(RadiusLaw, HoldsOnTheMapsOfFiles) {
+  const char* folder = std::getenv("GPP_MAPS");
+  std::mt19937 random(5);
+  Counts counts;
+  int maps = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder ? folder : "maps")) {
+    const std::string ending = entry.path().extension();
+    if (ending != ".yaml" && ending != ".map") continue;
+    const OccupancyGrid map = grid::readMapFile(entry.path());
+    ++maps;
+    for (int trial = 0; trial < (isLong() ? 40 : 6); ++trial) {
+      const PlannerOptions options =
+          scaled(randomRadiusOptions(random), map.geometry().resolution() / 0.05);
+      SCOPED_TRACE(entry.path().string() + ' ' + describe(options, map));
+      judge(map, options, 4, random, counts);
     }
   }
-  EXPECT_GT(found, 1000);
-  EXPECT_GT(left_out, 1000U) << "of the paths' poses";
+  std::printf("%d paths on %d maps\n", counts.found, maps);
+  EXPECT_GT(counts.found, 3 * maps);
 }
 
 }  // namespace

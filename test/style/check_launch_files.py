@@ -1,4 +1,5 @@
-"""Every launch file can be loaded and is installed, its nodes exist, and it sets no parameter that its node lacks."""
+"""Every launch file can be loaded and is installed, its nodes exist and are started again when they end, and it sets no
+parameter that its node lacks."""
 import functools
 import os
 import re
@@ -11,6 +12,7 @@ import yaml
 from common import ROOT, files, finish, read
 
 PACKAGE = "grid_path_planner"
+WINDOWS = ("rviz_on_map",)  # whoever closes one wants it closed
 MAP = "map:=maps/dexrov_site.yaml"
 ARGUMENTS = {"map_file.launch": [MAP], "map_demo.launch": [MAP], "two_vehicles.launch": [MAP], "vehicle.launch": ["name:=a"]}
 
@@ -33,6 +35,8 @@ def complaints_of(name):
             continue
         if not roslib.packages.find_node(PACKAGE, node.type):
             complaints.append("%s: there is no executable %s" % (name, node.type))
+        if not node.respawn and node.type not in WINDOWS:
+            complaints.append("%s: %s is not started again when it ends: respawn" % (name, node.name))
         prefix = "%s%s/" % (node.namespace, node.name)
         for parameter in config.params:
             if parameter.startswith(prefix) and "/" not in parameter[len(prefix):]:

@@ -168,10 +168,12 @@ void visitOptions(ProjectedMapOptions& o, Visitor&& visit) {
             "names no file",
             ""});
   visit("autosave_period", o.autosave_period,
-        base::OptionInfo{"How old the file is at most that this node begins with when it was ended "
-                         "and starts again under the same roscore; 0: there is none, and such a "
-                         "node begins empty; read at the start",
-                         "s", 0.0, 3600.0});
+        base::OptionInfo{
+            "How old the file is at most that this node begins with when it was ended "
+            "and starts again under the same roscore, where the machine keeps up: diagnostics "
+            "warn where not; 0: there is none, and such a "
+            "node begins empty; read at the start",
+            "s", 0.0, 3600.0});
   visitOptions(o.reading, visit);
 }
 

@@ -10,7 +10,6 @@
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/master/system_state.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
@@ -51,7 +50,6 @@ Commands commandsOf(const ros::NodeHandle& nh, const LocalPlannerOptions& option
   if (!options.share_cmd_vel) commands.topics = {nh.resolveName("cmd_vel")};
   commands.actions = {nh.resolveName("navigate_path")};
   commands.manual_control = nh.resolveName("manual_control");
-  refuseOtherCommander(commands);
   return commands;
 }
 
@@ -88,14 +86,15 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
                                    const NodeFiles& files)
     : nh_(nh),
       options_(loadLocalPlannerOptions(private_nh, files)),
+      commands_(private_nh.getNamespace(), commandsOf(nh_, options_)),
       transforms_(nh),
       pilot_(options_.pilot),
       clouds_(resolvedTopics(nh_, options_)),
-      publisher_((commandsOf(nh_, options_), nh_)),
+      publisher_(nh_),
       views_(nh_),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   action_ = std::make_unique<FlightAction>(nh_, files, hands());
-  refuseSimultaneousCommander(commandsOf(nh_, options_));
+  commands_.refuseSimultaneous();
   startLog(files);
   if (MapPlanner::isBuilt())
     pilot_.setMapPlan([this](const auto& from, const auto& goal) { return map_.plan(from, goal); });

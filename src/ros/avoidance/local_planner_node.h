@@ -62,6 +62,7 @@
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
 #include "ros/common/incoming/bounded_subscription.h"
+#include "ros/common/master/command_claim.h"
 #include "ros/common/node_files.h"
 
 namespace grid_path_planner {
@@ -110,6 +111,7 @@ class LocalPlannerNode {
 
   ros::NodeHandle nh_;
   LocalPlannerOptions options_;
+  const CommandClaim commands_;
   FrameTransforms transforms_;
   ClockWatch clock_;
   MapPlanner map_;

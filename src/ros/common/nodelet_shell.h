@@ -5,12 +5,14 @@
 //
 // `Node` is constructed from a node handle and a private one, whose callbacks may throw
 // (guarded_queue.h). As in a process of its own, none is called before the constructor has returned:
-// the manager would call them in another thread.
+// the manager would call them in another thread. Why it is not loaded stands in the manager's log.
 #pragma once
 
 #include <nodelet/nodelet.h>
+#include <ros/console.h>
 #include <ros/node_handle.h>
 
+#include <exception>
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -29,7 +31,12 @@ class NodeletShell : public nodelet::Nodelet {
     nh_.setCallbackQueue(queue_.get());
     private_nh_.setCallbackQueue(queue_.get());
     queue_->hold();
-    node_ = std::make_unique<Node>(nh_, private_nh_);
+    try {
+      node_ = std::make_unique<Node>(nh_, private_nh_);
+    } catch (const std::exception& error) {  // of which the manager tells nobody
+      ROS_FATAL_STREAM(getName() << " is not loaded: " << error.what());
+      throw;
+    }
     queue_->release();
     registered_ = MasterWatch::shared();
   }

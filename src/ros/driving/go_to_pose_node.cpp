@@ -10,7 +10,6 @@
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/master/system_state.h"
 #include "ros/common/network_text.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
@@ -32,12 +31,11 @@ constexpr double kTickPeriod = 0.05;  // s
 constexpr std::chrono::milliseconds kTellPeriod(200);
 constexpr double kSendingTime = 0.1;  // s, in which roscpp sends what was published last
 
-GoToPoseOptions loadGoToPoseOptions(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh) {
+GoToPoseOptions loadGoToPoseOptions(const ros::NodeHandle& private_nh) {
   GoToPoseOptions options;
   loadParameters(private_nh, options);
   checkGoToPoseOptions(options);
   warnUnknownParameters(private_nh, optionNames<GoToPoseOptions>());
-  refuseOtherCommander({{}, {nh.resolveName(options.action_name)}, "", false});
   return options;
 }
 
@@ -51,7 +49,8 @@ NavigatorDrive::State stateOf(const NavigatePathFeedback& feedback) {
 
 GoToPoseNode::GoToPoseNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
     : nh_(nh),
-      options_(loadGoToPoseOptions(nh, private_nh)),
+      options_(loadGoToPoseOptions(private_nh)),
+      commands_(private_nh.getNamespace(), {{}, {nh.resolveName(options_.action_name)}, "", false}),
       transforms_(nh),
       navigator_(options_.navigator),
       planner_(
@@ -95,7 +94,7 @@ void GoToPoseNode::startServer() {
       nh_, options_.action_name, [this](const MoveBaseGoal& handle) { onGoal(handle); },
       [this](const MoveBaseGoal& handle) { onCancel(handle); }, false);
   server_->start();
-  refuseSimultaneousCommander({{}, {nh_.resolveName(options_.action_name)}, "", false});
+  commands_.refuseSimultaneous();
   goal_publisher_ =
       nh_.advertise<move_base_msgs::MoveBaseActionGoal>(options_.action_name + "/goal", 1);
   simple_goal_subscriber_ = subscribeChecked<geometry_msgs::PoseStamped>(

@@ -39,6 +39,7 @@
 #include "ros/common/action/action_caller.h"
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
+#include "ros/common/master/command_claim.h"
 #include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/move_base_action.h"
 
@@ -104,6 +105,7 @@ class GoToPoseNode {
 
   ros::NodeHandle nh_;
   GoToPoseOptions options_;
+  const CommandClaim commands_;
   FrameTransforms transforms_;
   ClockWatch clock_;
   ros::Time started_;

@@ -68,7 +68,6 @@ Commands commandsOf(const ros::NodeHandle& nh, const NavigatePathOptions& option
   if (!options.share_cmd_vel) commands.topics = {nh.resolveName("cmd_vel")};
   commands.actions = {nh.resolveName("navigate_path")};
   commands.manual_control = nh.resolveName("manual_control");
-  refuseOtherCommander(commands);
   return commands;
 }
 
@@ -85,7 +84,7 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
       files_(files),
       options_(loadOptions(private_nh, files)),
       file_(fileOf(options_, files)),
-      commands_(commandsOf(nh_, options_)),
+      commands_(private_nh.getNamespace(), commandsOf(nh_, options_)),
       transforms_(nh),
       action_(nh, "navigate_path", false),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
@@ -99,7 +98,7 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
       [](const std::string& error) { tellGivenUp("A file or question", error); });
   offerServices(private_nh);
   startAction();
-  refuseSimultaneousCommander(commands_);
+  commands_.refuseSimultaneous();
   reconfigurable_ = std::make_unique<Reconfigurable<NavigatePathConfig, NavigatePathOptions>>(
       private_nh, options_, [this](const NavigatePathOptions& options) { use(options); });
   startTimers();
@@ -378,7 +377,7 @@ void NavigatePathNode::diagnoseOthers(diagnostic_updater::DiagnosticStatusWrappe
   status.add("last answer of the master (s ago)", silence);
   reader_->post(
       [this](const StopSource&) {
-        const auto found = otherCommander(commands_);
+        const auto found = commands_.other();
         auto other = found ? std::make_shared<const OtherCommander>(*found) : nullptr;
         callLater([this, other] { other_ = other; });
       },

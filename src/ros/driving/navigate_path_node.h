@@ -44,7 +44,7 @@
 #include "ros/common/action/navigate_path_action.h"
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
-#include "ros/common/master/system_state.h"
+#include "ros/common/master/command_claim.h"
 #include "ros/common/node_files.h"
 #include "ros/driving/drive_loop.h"
 #include "ros/driving/map_watch.h"
@@ -102,7 +102,7 @@ class NavigatePathNode {
   NodeFiles files_;
   NavigatePathOptions options_;
   path::Path file_;  // of config_filename
-  Commands commands_;
+  const CommandClaim commands_;
   FrameTransforms transforms_;
   ClockWatch clock_;
   ros::Time started_;

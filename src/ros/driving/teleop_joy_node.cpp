@@ -6,7 +6,6 @@
 #include "grid_path_planner/TeleopJoyConfig.h"
 #include "grid_path_planner/base/options.h"
 #include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/master/system_state.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
@@ -43,15 +42,13 @@ void checkTeleopJoyOptions(const TeleopJoyOptions& options) {
 }
 
 TeleopJoyNode::TeleopJoyNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
-    : nh_(nh), options_(loadTeleopJoyOptions(private_nh)) {
-  Commands commands;
-  commands.topics = {nh_.resolveName("cmd_vel")};
-  commands.manual_control = nh_.resolveName("manual_control");
-  commands.is_joystick = true;
-  refuseOtherCommander(commands);
+    : nh_(nh),
+      options_(loadTeleopJoyOptions(private_nh)),
+      commands_(private_nh.getNamespace(),
+                {{nh.resolveName("cmd_vel")}, {}, nh.resolveName("manual_control"), true}) {
   manual_publisher_ = nh_.advertise<std_msgs::Bool>("manual_control", 1, true);
   publisher_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10);
-  refuseSimultaneousCommander(commands);
+  commands_.refuseSimultaneous();
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
       nh_, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
   subscriber_ = subscribeChecked<sensor_msgs::Joy>(

@@ -24,6 +24,7 @@
 #include <memory>
 #include <optional>
 
+#include "ros/common/master/command_claim.h"
 #include "ros/driving/teleop_joy_options.h"
 
 namespace grid_path_planner {
@@ -58,6 +59,7 @@ class TeleopJoyNode {
 
   ros::NodeHandle nh_;
   TeleopJoyOptions options_;
+  const CommandClaim commands_;
   std::optional<base::BodyVelocity> velocity_;  // none: the joystick commands nothing
   bool stopped_ = false;                        // by the topic
   ros::SteadyTime heard_;

@@ -25,7 +25,6 @@ namespace {
 
 constexpr char kSlot[] = "autosave";
 constexpr std::size_t kBeginning = 4096;  // bytes, that hold the lines before the octree
-constexpr int kPause = 9;                 // times what making the text took
 constexpr char kNewestCloud[] = "# newest cloud ";
 
 // "/a/projected_map" to "a.projected_map": names of nodes have no dots.
@@ -106,18 +105,24 @@ ros::Time MapAutosave::newestCloud() const {
   return {seconds, nanoseconds};
 }
 
-void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud) {
-  const auto start = Clock::now();
+void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud, When when) {
   const bool failed = !state().problem.empty();
-  if (run_.empty() || start < not_before_ || (map.revision() == saved_revision_ && !failed)) return;
+  if (run_.empty() || (map.revision() == saved_revision_ && !failed)) return;
+  noteUnsaved();
+  if (when == When::IF_DUE && !share_.due()) return;
   const std::string newest =
       std::to_string(newest_cloud.sec) + " " + std::to_string(newest_cloud.nsec);
-  std::string text = map.map().fileText({marker(), "newest cloud " + newest});
+  std::string text;
+  share_.take([&] { text = map.map().fileText({marker(), "newest cloud " + newest}); });
   saved_revision_ = map.revision();
-  not_before_ = Clock::now() + kPause * (Clock::now() - start);
   writer_.post([this, newest_cloud,
                 text = std::move(text)](const StopSource&) { write(text, newest_cloud); },
                kSlot);
+}
+
+void MapAutosave::noteUnsaved() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!unsaved_since_) unsaved_since_ = Clock::now();
 }
 
 void MapAutosave::write(const std::string& text, const ros::Time& newest_cloud) {
@@ -133,7 +138,10 @@ void MapAutosave::write(const std::string& text, const ros::Time& newest_cloud) 
         10.0, "The map cannot be kept for a node that starts again: " << state.problem);
   }
   std::lock_guard<std::mutex> lock(mutex_);
-  if (state.problem.empty()) written_ = Clock::now();
+  if (state.problem.empty()) {
+    written_ = Clock::now();
+    unsaved_since_.reset();  // what came meanwhile is noted again soon
+  }
   state_ = state;
 }
 
@@ -149,6 +157,7 @@ void MapAutosave::remove() {
                                << error.message());
             std::lock_guard<std::mutex> lock(mutex_);
             written_ = {};
+            unsaved_since_.reset();
           },
           kSlot, TaskQueue::Turn::NEXT)
       ->wait();
@@ -158,8 +167,11 @@ void MapAutosave::remove() {
 MapAutosave::State MapAutosave::state() const {
   std::lock_guard<std::mutex> lock(mutex_);
   State state = state_;
-  if (written_ != Clock::time_point())
-    state.age = std::chrono::duration<double>(Clock::now() - written_).count();
+  const auto since = [now = Clock::now()](Clock::time_point then) {
+    return std::chrono::duration<double>(now - then).count();
+  };
+  if (written_ != Clock::time_point()) state.age = since(written_);
+  if (unsaved_since_) state.behind = since(*unsaved_since_);
   return state;
 }
 

@@ -10,7 +10,7 @@
 // not begun with. Its name holds the node's
 // name and the master's address, so that no two nodes write the same one, and begins with a dot, so
 // that no service can be asked to write it. The tree becomes text in the mapping thread, which takes
-// at most a tenth of its time; it is written by a thread of its own, beside, synced and renamed. What
+// at most a fifth of its processor time; it is written by a thread of its own, beside, synced and renamed. What
 // cannot be written is warned of and tried again.
 #pragma once
 
@@ -19,11 +19,13 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/mapping/map_model.h"
 #include "ros/common/guarded_queue.h"
+#include "ros/mapping/cpu_share.h"
 
 namespace grid_path_planner::nodes {
 
@@ -41,14 +43,16 @@ class MapAutosave {
   std::string begin() const;
   ros::Time newestCloud() const;
 
+  enum class When { IF_DUE, AT_ONCE };  // whatever share of the thread's time it takes
   // Has the map written, unless it is in the file already.
-  void save(const mapping::MapModel& map, const ros::Time& newest_cloud);
+  void save(const mapping::MapModel& map, const ros::Time& newest_cloud, When when);
   // The file is gone when this returns, and what was still to be written is not written.
   void remove();
 
   // Thread-safe.
   struct State {
     double age = -1.0;       // s since the file was written; below 0: not yet
+    double behind = 0.0;     // s since save() first saw what is not in the file
     ros::Time newest_cloud;  // in it, or in what could not be written
     std::string problem;     // why the last writing failed; empty: it did not
   };
@@ -58,6 +62,7 @@ class MapAutosave {
   using Clock = std::chrono::steady_clock;
 
   std::string marker() const;
+  void noteUnsaved();
   std::string beginning() const;
   void write(const std::string& text, const ros::Time& newest_cloud);
 
@@ -68,11 +73,12 @@ class MapAutosave {
   std::string octree_;  // in one line
 
   std::uint64_t saved_revision_ = 0;  // of the mapping thread, as the next
-  Clock::time_point not_before_;
+  CpuShare share_{0.2};
 
   mutable std::mutex mutex_;
   State state_;
   Clock::time_point written_;
+  std::optional<Clock::time_point> unsaved_since_;
   base::TaskQueue writer_{[](const std::string& error) { tellGivenUp("Keeping the map", error); }};
 };
 

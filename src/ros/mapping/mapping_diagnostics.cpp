@@ -22,11 +22,13 @@ std::uint64_t sumOf(const std::map<std::string, std::uint64_t>& dropped) {
 
 MappingDiagnostics::MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
                                        const CloudQueue& queue, MappingThread& thread,
-                                       const OctreePublisher& octree, const MapAutosave* autosave)
+                                       const OctreePublisher& octree, const MapAutosave* autosave,
+                                       double autosave_period)
     : queue_(queue),
       thread_(thread),
       octree_(octree),
       autosave_(autosave),
+      autosave_period_(autosave_period),
       updater_(nh, private_nh, private_nh.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("clouds", this, &MappingDiagnostics::reportClouds);
@@ -95,11 +97,15 @@ void MappingDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& 
 
 void MappingDiagnostics::reportAutosave(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const MapAutosave::State state = autosave_->state();
-  if (state.problem.empty())
-    status.summary(DiagnosticStatus::OK, "the map is kept for a node that starts again");
-  else
+  if (!state.problem.empty())
     status.summary(DiagnosticStatus::WARN, "the map is not kept: " + state.problem);
+  else if (state.behind > autosave_period_)
+    status.summary(DiagnosticStatus::WARN,
+                   "what was seen longer than autosave_period ago is not kept yet");
+  else
+    status.summary(DiagnosticStatus::OK, "the map is kept for a node that starts again");
   status.add("age_s", state.age);
+  status.add("behind_s", state.behind);
   status.add("newest_cloud", state.newest_cloud);
 }
 

@@ -8,7 +8,8 @@
 //           warning, tree_messages: how often the 3-D topics were built
 //
 // autosave: age_s of the file that a node begins with when it starts again, below 0: none yet;
-// newest_cloud: the stamp of the newest cloud in it; a warning where it cannot be written.
+// behind_s: since when there is something that is not in it; newest_cloud: the stamp of the newest cloud in it; a warning
+// where it cannot be written, and where it is behind by more than autosave_period, as on a machine that has too much to do.
 //
 // All received clouds are in the map when waiting is 0 and received is inserted + dropped.
 #pragma once
@@ -33,7 +34,7 @@ class MappingDiagnostics {
   // `queue`, `thread`, `octree` and `autosave` outlive this; the last is null where there is none.
   MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, const CloudQueue& queue,
                      MappingThread& thread, const OctreePublisher& octree,
-                     const MapAutosave* autosave);
+                     const MapAutosave* autosave, double autosave_period);
   ~MappingDiagnostics() { timer_.stop(); }
 
   // Records an insertion. Thread-safe.
@@ -59,6 +60,7 @@ class MappingDiagnostics {
   MappingThread& thread_;
   const OctreePublisher& octree_;
   const MapAutosave* autosave_;
+  const double autosave_period_;  // s
   std::mutex mutex_;
   Figures figures_;
   double last_insertion_ = 0.0;  // s

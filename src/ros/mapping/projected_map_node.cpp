@@ -107,8 +107,9 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
       std::make_unique<MappingServices>(private_service_nh, *thread_, files_, on_change, [this] {
         if (autosave_) autosave_->remove();
       });
-  diagnostics_ = std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *thread_,
-                                                      *octree_publisher_, autosave_.get());
+  diagnostics_ =
+      std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *thread_, *octree_publisher_,
+                                           autosave_.get(), options.autosave_period);
   service_spinner_.start();
 
   using CloudEvent = ros::MessageEvent<const sensor_msgs::PointCloud2>;
@@ -135,7 +136,7 @@ ProjectedMapNode::~ProjectedMapNode() {
   heartbeat_timer_.stop();
   autosave_timer_.stop();
   service_spinner_.stop();
-  if (autosave_) thread_->run([this](MapModel& map) { save(map); });
+  if (autosave_) thread_->run([this](MapModel& map) { save(map, MapAutosave::When::AT_ONCE); });
   cloud_subscription_->shutdown();  // asks the master, which may not answer
   reconfigurable_.reset();
   services_->shutdown();
@@ -183,7 +184,7 @@ void ProjectedMapNode::startAutosave(double period) {
       [this](MapModel&) { map_publisher_->countCloud(autosave_->newestCloud(), ros::TIME_MAX); });
   autosave_timer_ =
       nh_.createWallTimer(ros::WallDuration(period / 2.0), [this](const ros::WallTimerEvent&) {
-        thread_->post("autosave", [this](MapModel& map) { save(map); });
+        thread_->post("autosave", [this](MapModel& map) { save(map, MapAutosave::When::IF_DUE); });
       });
 }
 
@@ -265,9 +266,9 @@ void ProjectedMapNode::publish(MapModel& map) {
   octree_publisher_->publish(map, stamp);
 }
 
-void ProjectedMapNode::save(const MapModel& map) {
+void ProjectedMapNode::save(const MapModel& map, MapAutosave::When when) {
   const LastWork work;
-  autosave_->save(map, map_publisher_->newestCloud());
+  autosave_->save(map, map_publisher_->newestCloud(), when);
 }
 
 void ProjectedMapNode::publishHeartbeat(MapModel& map) {

@@ -77,7 +77,7 @@ class ProjectedMapNode {
   void insert(mapping::MapModel& map, const CloudQueue::Ready& ready);
   void publish(mapping::MapModel& map);
   void publishHeartbeat(mapping::MapModel& map);
-  void save(const mapping::MapModel& map);
+  void save(const mapping::MapModel& map, MapAutosave::When when);
   void decay(mapping::MapModel& map);
   bool updateVehicleHeight(mapping::MapModel& map);
 

@@ -12,7 +12,7 @@
 #include "ros/common/clock.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/master/system_state.h"
+#include "ros/common/master/command_claim.h"
 #include "ros/common/network_text.h"
 #include "ros/common/parameters.h"
 
@@ -93,13 +93,15 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   ROS_INFO_STREAM("Plans for " << vehicleText(options.planner));
   ROS_INFO("Planning may take %zu MB (memory_limit)",
            memoryLimitOf(options.planner.search) / 1000000);
-  refuseOtherCommander({{}, {nh.resolveName("plan_path")}, "", false});
+  commands_ = std::make_unique<CommandClaim>(
+      private_nh.getNamespace(), Commands{{}, {nh.resolveName("plan_path")}, "", false});
   server_ =
       std::make_unique<PlanningServer>(nh, options, files, [this] { active_goal_.forgetStart(); });
   planning_map_ = std::make_unique<PlanningMapPublisher>(nh, [this] { postSearchedMap(); });
   cost_to_go_ = std::make_unique<CostToGoPublisher>(private_nh, [this] { postCostToGo(); });
   services_ = std::make_unique<PlanServices>(private_nh, *server_);
   action_ = std::make_unique<PlanAction>(nh, *server_);
+  commands_->refuseSimultaneous();
   diagnostics_ = std::make_unique<PlanDiagnostics>(nh, private_nh, *server_);
   reconfigurable_ = std::make_unique<Reconfigurable<PathPlannerConfig, PathPlannerNodeOptions>>(
       private_nh, options, [this](const PathPlannerNodeOptions& wanted) { onOptions(wanted); });

@@ -15,6 +15,7 @@
 
 #include <memory>
 
+#include "ros/common/master/command_claim.h"
 #include "ros/planning/active_goal.h"
 #include "ros/planning/plan_action.h"
 #include "ros/planning/plan_diagnostics.h"
@@ -69,6 +70,7 @@ class PathPlannerNode {
   void postCostToGo();
 
   ros::NodeHandle nh_;
+  std::unique_ptr<CommandClaim> commands_;  // set in the constructor, after what may be refused
   ActiveGoal active_goal_;
   std::shared_ptr<const costmap::CostGrid> cut_costs_;  // into rectangles; the worker's
   std::unique_ptr<RectanglePublisher> rectangles_;      // the worker's; null until wanted

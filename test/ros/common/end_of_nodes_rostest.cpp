@@ -1,11 +1,10 @@
 // Every node ends within 2 s of SIGINT and of SIGTERM, also while it works.
 #include <nav_msgs/GetPlan.h>
 
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <thread>
 
+#include "ros/support/known_nodes.h"
 #include "ros/support/own_master.h"
 #include "ros/support/planner_fixture.h"
 #include "support/temporary_folder.h"
@@ -36,23 +35,10 @@ std::vector<Node> everyNode() {
           {"simulator", {}}};
 }
 
-// Those that the package has, by nodelet_plugins.xml.
-std::set<std::string> knownNodes() {
-  std::ifstream file(GPP_TEST_DATA "/../../nodelet_plugins.xml");
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const std::string before = "class name=\"grid_path_planner/";
-  std::set<std::string> names;
-  for (std::size_t at = 0; (at = text.find(before, at)) != std::string::npos;) {
-    at += before.size();
-    names.insert(text.substr(at, text.find('"', at) - at));
-  }
-  return names;
-}
-
 TEST(EndOfNodes, EveryNodeOfThePackageIsTested) {
   std::set<std::string> tested;
   for (const Node& node : everyNode()) tested.insert(node.name);
-  EXPECT_EQ(tested, knownNodes());
+  EXPECT_EQ(tested, test::knownNodes());
 }
 
 TEST(EndOfNodes, BySignal) {

@@ -17,10 +17,12 @@
 #include <atomic>
 #include <map>
 #include <random>
+#include <set>
 #include <thread>
 
 #include "grid_path_planner/NavigatePathActionGoal.h"
 #include "grid_path_planner/PlanPathActionGoal.h"
+#include "ros/support/known_nodes.h"
 #include "ros/support/mapping_fixture.h"
 #include "ros/support/nodelet_command.h"
 #include "ros/support/planner_fixture.h"
@@ -34,12 +36,25 @@ using test::waitFor;
 
 constexpr int kCells = 500;  // a side of the map, of 0.1 m
 
-// By the names of their types; the mapping's own would be remapped with its map.
-const std::map<std::string, std::string> kNodelets = {
-    {"map_publisher", "map_publisher"}, {"path_planner", "path_planner"},
-    {"mapping", "projected_map"},       {"simulator", "simulator"},
-    {"navigate_path", "navigate_path"}, {"teleop_joy", "teleop_joy"},
-    {"go_to_pose", "go_to_pose"}};
+// Their types by their names; the mapping's own would be remapped with its map.
+const std::map<std::string, std::string> kNodelets = {{"map_publisher", "map_publisher"},
+                                                      {"path_planner", "path_planner"},
+                                                      {"mapping", "projected_map"},
+                                                      {"simulator", "simulator"},
+                                                      {"navigate_path", "navigate_path"},
+                                                      {"teleop_joy", "teleop_joy"},
+                                                      {"go_to_pose", "go_to_pose"},
+                                                      {"map_layers", "map_layers"},
+                                                      {"marker_localizer", "marker_localizer"},
+                                                      {"vehicle_localizer", "vehicle_localizer"},
+                                                      {"pilot", "local_planner"}};
+
+// Of those that would command or publish what another does.
+const std::map<std::string, std::map<std::string, std::string>> kRemapped = {
+    {"mapping", {{"/projected_map", "/octree_map"}}},
+    {"map_layers", {{"/projected_map", "/layered_map"}, {"/static_map", "/projected_map"}}},
+    {"pilot",
+     {{"/cmd_vel", "/pilot/cmd_vel"}, {"/navigate_path", "/fly"}, {"/points", "/cloud_in"}}}};
 
 std::vector<std::string> names() {
   std::vector<std::string> all;
@@ -162,6 +177,9 @@ class Unload : public testing::Test {
     ros::param::set("/map_publisher/filename", "projected_map.bag");
     ros::param::set("/map_publisher/topic", "map_of_the_file");
     ros::param::set("/path_planner/timeout", 0);
+    ros::param::set("/marker_localizer/layout", "two_markers.yaml");
+    for (const char* transform : {"publish_map_to_odom", "publish_odom_to_base"})
+      ros::param::set(std::string("/vehicle_localizer/") + transform, false);
     ros::param::set("/simulator/camera_width", 32);
     ros::param::set("/simulator/camera_height", 24);
     manager_ = std::make_unique<Process>(test::nodeletCommand({"manager", "__name:=manager"}));
@@ -171,10 +189,12 @@ class Unload : public testing::Test {
     nodelet::NodeletLoad call;
     call.request.name = "/" + name;
     call.request.type = "grid_path_planner/" + kNodelets.at(name);
-    if (name == "mapping") {
-      call.request.remap_source_args = {"/projected_map"};
-      call.request.remap_target_args = {"/octree_map"};
-    }
+    const auto remapped = kRemapped.find(name);
+    if (remapped != kRemapped.end())
+      for (const auto& [from, to] : remapped->second) {
+        call.request.remap_source_args.push_back(from);
+        call.request.remap_target_args.push_back(to);
+      }
     ASSERT_TRUE(ros::service::call("/manager/load_nodelet", call) && call.response.success) << name;
   }
   static void unload(const std::string& name) {
@@ -191,6 +211,12 @@ class Unload : public testing::Test {
   std::unique_ptr<Process> manager_;
   inline static double longest_ = 0.0;
 };
+
+TEST(UnloadedNodelets, AreAllOfThePackage) {
+  std::set<std::string> tested;
+  for (const auto& [name, type] : kNodelets) tested.insert(type);
+  EXPECT_EQ(tested, test::knownNodes());
+}
 
 TEST_F(Unload, OfEveryNodeletUnderLoad) {
   ASSERT_TRUE(waitFor([] { return ros::service::exists("/manager/load_nodelet", false); }));

@@ -180,10 +180,16 @@ TEST_F(NamedFiles, WaypointsOfAGoalAreReadBelowTheFolderOnlyAndNotQuoted) {
 
 TEST_F(NamedFiles, WhatIsReadAtTheStartLiesBelowTheFolderToo) {
   const std::vector<std::pair<std::string, std::string>> options = {
-      {"navigate_path", "_config_filename"}, {"projected_map", "_filename"},
-      {"map_publisher", "_filename"},        {"marker_localizer", "_layout"},
-      {"map_layers", "_zones_file"},         {"simulator", "_world"},
-      {"simulator", "_sensor_faults"}};
+      {"navigate_path", "_config_filename"},
+      {"projected_map", "_filename"},
+      {"map_publisher", "_filename"},
+      {"marker_localizer", "_layout"},
+      {"map_layers", "_zones_file"},
+      {"simulator", "_world"},
+      {"simulator", "_sensor_faults"},
+      {"local_planner", "_config_filename"},
+      {"local_planner", "_log"},
+      {"path_planner", "_waypoints_file"}};
   for (const auto& [node, option] : options)
     for (const std::string& name : {start_up_, other_, std::string("../home/notes.yaml")}) {
       EXPECT_EQ(exitCodeOf(node, {option + ":=" + name, "--load-folder", files()}), 1) << node;

@@ -46,10 +46,6 @@ std::string otherPublisher(const SystemState& state, const std::string& topic, C
   return "";
 }
 
-[[noreturn]] void refuse(const OtherCommander& other) {
-  throw base::InputError(other.sentence + ": two must not command one vehicle");
-}
-
 }  // namespace
 
 std::optional<SystemState> systemStateOf(XmlRpcValue lists) {
@@ -87,14 +83,8 @@ std::optional<OtherCommander> otherCommander(const Commands& commands) {
   return std::nullopt;
 }
 
-void refuseOtherCommander(const Commands& commands) {
-  const auto other = otherCommander(commands);
-  if (other) refuse(*other);
-}
-
-void refuseSimultaneousCommander(const Commands& commands) {
-  const auto other = otherCommander(commands);
-  if (other && other->node < ros::this_node::getName()) refuse(*other);
+void refuse(const OtherCommander& other) {
+  throw base::InputError(other.sentence + ": two must not command one vehicle");
 }
 
 }  // namespace grid_path_planner::nodes

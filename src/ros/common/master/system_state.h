@@ -41,10 +41,7 @@ struct OtherCommander {
 // a second at most.
 std::optional<OtherCommander> otherCommander(const Commands& commands);
 
-// Throws InputError naming it. Asked before a node advertises anything.
-void refuseOtherCommander(const Commands& commands);
-
-// The same after it has: of two nodes that start at once, that with the later name is refused.
-void refuseSimultaneousCommander(const Commands& commands);
+// Throws InputError naming it.
+[[noreturn]] void refuse(const OtherCommander& other);
 
 }  // namespace grid_path_planner::nodes

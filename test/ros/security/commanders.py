@@ -1,0 +1,141 @@
+"""Every node that commands a vehicle: what makes it command a motion, and what it cannot do without.
+
+A row is complete: every_commander_rostest.py compares the table with node_table.py. Whoever adds a node that publishes
+velocities adds a row.
+
+    arguments   in the place of those of node_table.py: the vehicle never moves, and that is no failure
+    feeds       by name, what it hears all the time; without any of them it has to stop the vehicle
+    offer       gives it something to drive; teleop_joy has that in what it is fed
+    clock       whether ROS time that stands still stops the vehicle
+"""
+import collections
+import struct
+import threading
+import time
+
+import node_probes as probes
+import rospy
+from node_table import NODES
+from running_nodes import Clock, RunningNode
+
+Commander = collections.namedtuple("Commander", "arguments feeds offer clock")
+
+VELOCITIES = ("geometry_msgs/Twist", "geometry_msgs/TwistStamped")
+TICK = 0.05       # s, between two of what it is fed
+CLOUD_EVERY = 4   # ticks
+WIDTH, HEIGHT, FOCAL = 80, 60, 52.6
+NOTHING_SEEN = struct.pack("<f", float("nan")) * 3 * WIDTH * HEIGHT
+
+
+def send_transforms(node, _):
+    message = node.transforms(node.clock.now())
+    camera = node.transforms(node.clock.now()).transforms[0]
+    camera.child_frame_id, turn = "camera", camera.transform.rotation
+    turn.x, turn.y, turn.z, turn.w = -0.5, 0.5, -0.5, 0.5
+    message.transforms.append(camera)
+    node.send("tf", message)
+
+
+def send_cloud(node, tick):
+    """Of a sky in which no pixel measures anything."""
+    if tick % CLOUD_EVERY:
+        return
+    header = probes.header(node, "camera")
+    node.send("camera_info", probes.of("sensor_msgs/CameraInfo", header=header, width=WIDTH, height=HEIGHT,
+                                       K=[FOCAL, 0.0, 0.5 * WIDTH, 0.0, FOCAL, 0.5 * HEIGHT, 0.0, 0.0, 1.0]))
+    cloud = probes.cloud(node)
+    cloud.header.frame_id, cloud.width, cloud.height = "camera", WIDTH, HEIGHT
+    cloud.row_step, cloud.data = WIDTH * cloud.point_step, NOTHING_SEEN
+    node.send("points", cloud)
+
+
+def send_joystick(node, _):
+    node.send("joy", probes.joystick(node))
+
+
+def offer_goal(node):
+    goal = probes.pose_stamped(node)
+    goal.pose.position.x = 40.0
+    node.send("goal", goal)
+
+
+COMMANDERS = {
+    "navigate_path": Commander(
+        ["_check_map:=false", "_no_progress_timeout:=0"], {"tf": send_transforms},
+        lambda node: node.send("path", probes.path(node)), True),
+    "local_planner": Commander(
+        ["_no_return_clears:=10", "_recover:=false", "_cloud_timeout:=1", "_tf_timeout:=1", "_stuck_timeout:=1e6"],
+        {"tf": send_transforms, "clouds": send_cloud}, offer_goal, True),
+    "teleop_joy": Commander([], {"joy": send_joystick}, lambda _: None, False),
+}
+
+
+class StoppableClock(Clock):
+    """A /clock that can stand still."""
+
+    def __init__(self):
+        self.stood, self.stands_since = 0.0, None
+        super().__init__(True)
+
+    def now(self):
+        until = self.stands_since or time.monotonic()
+        return rospy.Time.from_sec(100.0 + until - self.begin - self.stood)
+
+    def stop(self):
+        self.stands_since = time.monotonic()
+
+    def go_on(self):
+        self.stood += time.monotonic() - self.stands_since
+        self.stands_since = None
+
+
+def is_zero(twist):
+    return not any(getattr(part, axis) for part in (twist.linear, twist.angular) for axis in "xyz")
+
+
+class RunningCommander(RunningNode):
+    """One that is fed. `commands` has all velocities that it gave, as (monotonic s, topic, Twist)."""
+
+    def __init__(self, name, kind, clock, folder, stopped=False):
+        from std_msgs.msg import Bool
+        self.table, self.ceased, self.commands = COMMANDERS[name], set(), []
+        self.velocities = {topic for topic, kind in NODES[name].outputs.items() if kind in VELOCITIES}
+        self.stops = rospy.Publisher("/%s_as_%s/stop" % (name, kind), Bool, queue_size=1, latch=True)
+        self.stops.publish(stopped)
+        super().__init__(name, NODES[name]._replace(arguments=self.table.arguments), kind, clock, folder)
+        threading.Thread(target=self.feed, daemon=True).start()
+
+    def feed_transforms(self):
+        """feed() does."""
+
+    def feed(self):
+        tick = 0
+        while not rospy.is_shutdown() and not self.ended:
+            tick += 1
+            try:
+                for name, send in self.table.feeds.items():
+                    if name not in self.ceased:
+                        send(self, tick)
+            except rospy.ROSException:
+                return  # shut down meanwhile
+            time.sleep(TICK)
+
+    def keep(self, message, topic):
+        if topic in self.velocities:
+            with self.lock:
+                self.commands.append((time.monotonic(), topic, getattr(message, "twist", message)))
+        super().keep(message, topic)
+
+    def stop(self, is_stopped):
+        self.stops.publish(is_stopped)
+
+    def moved_after(self, begin):
+        """Whether it commanded a motion since then."""
+        with self.lock:
+            return any(at > begin and not is_zero(twist) for at, _, twist in self.commands)
+
+    def ends_in_zeros(self):
+        """Whether its last velocity of each topic is none."""
+        with self.lock:
+            last = {topic: twist for _, topic, twist in self.commands}
+        return bool(last) and all(map(is_zero, last.values()))
