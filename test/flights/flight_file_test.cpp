@@ -13,12 +13,12 @@ using test::contains, test::errorText, test::SmallFlights;
 TEST(FlightFile, TheStudyOfTheRescueCourseIsTheNineUnderBothRulesAndOurs) {
   const FlightStudy study = readFlightFile("config/flights_rescue.yaml");
   ASSERT_EQ(study.variants.size(), 19u);
-  EXPECT_EQ(study.variants.front().label(), "NHNM published");
-  EXPECT_EQ(study.variants.back().label(), "best safe");
-  EXPECT_EQ(study.variants[17].label(), "LHLM safe");
-  EXPECT_EQ(study.variants[17].pilot.look_ahead, 8.0);
-  EXPECT_EQ(study.variants[17].pilot.memory, 15.0);
-  EXPECT_FALSE(study.variants[17].pilot.recover);
+  EXPECT_EQ(study.variants.front().label(), "best safe");
+  EXPECT_EQ(study.variants[1].label(), "LHLM published");
+  EXPECT_EQ(study.variants[2].label(), "LHLM safe");
+  EXPECT_EQ(study.variants[2].pilot.look_ahead, 8.0);
+  EXPECT_EQ(study.variants[2].pilot.memory, 15.0);
+  EXPECT_FALSE(study.variants[2].pilot.recover);
   for (const FlightVariant& variant : study.variants) EXPECT_EQ(variant.flights, 20);
   EXPECT_EQ(study.published.size(), 9u);
   EXPECT_EQ(study.published.at("LHLM").time_s, 75.3);
