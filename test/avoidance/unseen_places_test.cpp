@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "avoidance/seen_space.h"
 #include "avoidance/steering/unseen_places.h"
 #include "avoidance/steering/vantage.h"
 
@@ -17,21 +18,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSafe = 0.6;  // m
-
-// All of a box about the origin is seen but for one voxel.
-OpenSpace spaceWithout(const Voxel& missing) {
-  VoxelMemory memory;
-  memory.moveTo(Vector3d::Zero());
-  memory.beginFrame(0);
-  constexpr int kBox = 25;
-  for (int z = -kBox; z <= kBox; ++z)
-    for (int y = -kBox; y <= kBox; ++y)
-      for (int x = -kBox; x <= kBox; ++x)
-        if (!(Voxel{x, y, z} == missing)) memory.cross(slotOf(x, y, z));
-  OpenSpace space;
-  space.refresh(memory, kSafe, {-100.0, 100.0});
-  return space;
-}
 
 Steering waitingFor(const Vector3d& place) {
   Steering steering;
@@ -59,7 +45,7 @@ TEST(UnseenPlaces, APlaceIsUnseenJustWhereSomethingAboutItIs) {
     const Vector3d place(coordinate(random), coordinate(random), coordinate(random));
     const Voxel at = voxelAt(place);
     const Voxel missing{at.x + offset(random), at.y + offset(random), at.z + offset(random)};
-    const OpenSpace space = spaceWithout(missing);
+    const OpenSpace space = seenSpace(kSafe, missing);
     const Vector3d vehicle = place + Vector3d(-2.5, 0.0, 0.0);
     const auto aside = unseenAside(space, vehicle, M_PI, place, kSafe);
     ASSERT_EQ(aside.empty(), space.seen(place)) << i;
@@ -74,7 +60,7 @@ TEST(UnseenPlaces, APlaceIsUnseenJustWhereSomethingAboutItIs) {
 TEST(UnseenPlaces, WhatThePictureShowsIsNotAside) {
   const Voxel missing{2, 1, 0};
   const Vector3d place(0.3, 0.1, 0.1), vehicle(-1.5, 0.1, 0.1);
-  const OpenSpace space = spaceWithout(missing);
+  const OpenSpace space = seenSpace(kSafe, missing);
   ASSERT_FALSE(space.seen(place));
   EXPECT_TRUE(unseenAside(space, vehicle, 0.0, place, kSafe).empty());
   EXPECT_EQ(unseenAside(space, vehicle, 1.0, place, kSafe).size(), 1u);
@@ -85,7 +71,7 @@ TEST(UnseenPlaces, TurnsOnceToWhatIsUnseenBesideThePath) {
   Motion motion;
   motion.position = {0.1, 0.1, 0.1};
   const Vector3d place(0.35, 0.1, 0.1);
-  const OpenSpace space = spaceWithout(missing);
+  const OpenSpace space = seenSpace(kSafe, missing);
   ASSERT_FALSE(space.seen(place));
   UnseenPlaces places;
   double time = 0.0;
@@ -103,7 +89,7 @@ TEST(UnseenPlaces, TurnsOnceToWhatIsUnseenBesideThePath) {
 TEST(UnseenPlaces, FliesBackFromWhatIsAboveThePath) {
   const Voxel missing{1, 0, 3};
   const Vector3d vehicle(0.1, 0.1, 0.1), place(0.35, 0.1, 0.1);
-  const OpenSpace space = spaceWithout(missing);
+  const OpenSpace space = seenSpace(kSafe, missing);
   ASSERT_FALSE(space.seen(place));
   EXPECT_TRUE(unseenAside(space, vehicle, M_PI, place, kSafe).empty());
   const KeptRoom room(space, kSafe, vehicle);
