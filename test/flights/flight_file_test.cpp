@@ -37,6 +37,22 @@ TEST(FlightFile, TheOtherStudiesAreReadAndNoReportedSeedIsOneOfTuning) {
   EXPECT_EQ(readFlightFile("config/flights_many.yaml").variants.front().flights, 300);
 }
 
+TEST(FlightFile, OtherVehiclesAreOptionsOfThePilot) {
+  const FlightStudy rov = readFlightFile("config/flights/rov.yaml");
+  EXPECT_TRUE(rov.variants.front().pilot.elevation);
+  const FlightStudy ground = readFlightFile("config/flights/ground.yaml");
+  EXPECT_FALSE(ground.variants.front().pilot.elevation);
+  EXPECT_FALSE(ground.variants.front().pilot.sway);
+  for (const FlightStudy& study :
+       {rov, ground}) {  // the pilot must not ask for more than the vehicle can
+    const avoidance::PilotOptions& pilot = study.variants.front().pilot;
+    EXPECT_LE(pilot.max_speed, study.vehicle.max_surge_speed);
+    EXPECT_LE(pilot.max_acceleration, study.vehicle.max_acceleration);
+    EXPECT_LE(pilot.max_yaw_rate, study.vehicle.max_yaw_rate + 1e-9);
+    EXPECT_GE(pilot.response_time, study.vehicle.response_time);
+  }
+}
+
 TEST(FlightFile, MistakesAreToldWithFileAndLine) {
   const SmallFlights small;
   const auto refusal = [&](const std::string& configurations, const std::string& more = "") {
