@@ -13,7 +13,7 @@ if(CATKIN_ENABLE_TESTING AND GPP_WITH_study AND GPP_WITH_mapping AND GPP_WITH_si
   file(GLOB benchmark_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/benchmark/*.cpp)
   foreach(source ${benchmark_sources})
     get_filename_component(name ${source} NAME_WE)
-    if(name STREQUAL avoidance_frame AND NOT GPP_WITH_avoidance)
+    if(name MATCHES "^avoidance_" AND NOT GPP_WITH_avoidance)
       continue()
     endif()
     if(name MATCHES "^(localization_filter|marker_pose)$" AND NOT GPP_WITH_localization)
@@ -23,7 +23,7 @@ if(CATKIN_ENABLE_TESTING AND GPP_WITH_study AND GPP_WITH_mapping AND GPP_WITH_si
     target_link_libraries(${PROJECT_NAME}_${name} PRIVATE
       ${PROJECT_NAME}_study ${PROJECT_NAME}_mapping ${PROJECT_NAME}_simulation
       ${PROJECT_NAME}_test_support)
-    if(name STREQUAL avoidance_frame)
+    if(name MATCHES "^avoidance_")
       target_link_libraries(${PROJECT_NAME}_${name} PRIVATE ${PROJECT_NAME}_avoidance)
     endif()
     if(name STREQUAL localization_filter)
@@ -39,6 +39,7 @@ if(CATKIN_ENABLE_TESTING AND GPP_WITH_study AND GPP_WITH_mapping AND GPP_WITH_si
   gpp_run_benchmark(cancel_latency 3 2)
   if(GPP_WITH_avoidance)
     gpp_run_benchmark(avoidance_frame worlds/rescue_course.sdf 2)
+    gpp_run_benchmark(avoidance_hour worlds/rescue_course.sdf 4 2)
   endif()
   if(GPP_WITH_localization)
     gpp_run_benchmark(localization_filter 5 2)

@@ -236,8 +236,7 @@ Steering Pilot::Parts::steer() const {
 // What cannot be seen from here is looked at from elsewhere; in vain, it closes paths.
 void Pilot::Parts::lookAtUnseen(const Steering& steering) {
   const KeptRoom room(surroundings.space(), options.d_safe, motion_.position);
-  if (!unseen.update(time_, motion_.position, steering, surroundings.space(), room, options.d_safe))
-    return;
+  if (!unseen.update(time_, motion_, steering, surroundings.space(), room, options.d_safe)) return;
   if (unseen.looks())
     flown.set(unseen.path(), std::nullopt);
   else
@@ -253,7 +252,10 @@ void Pilot::Parts::describe(const Steering& steering) {
                 shortNumber((target() - motion_.position).norm()) + " m off";
     return;
   }
-  sentence_ = steering.closed ? closedText(*steering.closed) : "waiting for room to brake";
+  if (unseen.lookAt())
+    sentence_ = "looking at " + placeText(*unseen.lookAt()) + ", which was not seen";
+  else
+    sentence_ = steering.closed ? closedText(*steering.closed) : "waiting for room to brake";
 }
 
 std::string Pilot::Parts::closedText(const Vector3d& at) const {

@@ -111,6 +111,35 @@ TEST(LookAhead, AStepFromATightPlaceLeavesIt) {
   EXPECT_GT(steps, 2);
 }
 
+double distanceToSegment(const Vector3d& place, const Vector3d& from, const Vector3d& to) {
+  double least = 1e9;
+  for (int i = 0; i <= 1000; ++i)
+    least = std::min(least, (from + i / 1000.0 * (to - from) - place).norm());
+  return least;
+}
+
+// A place that was given up closed only the steps that ended at it: the vehicle stood before one 0.3 m ahead,
+// and every path led through it again.
+TEST(LookAhead, StepsKeepFromClosedPlacesOrLeaveThem) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<> coordinate(-3.0, 3.0);
+  for (int i = 0; i < 10; ++i) {
+    const PilotOptions options;
+    std::vector<Vector3d> closed = {{0.3, 0.0, 0.0}};
+    for (int k = 0; k < 5; ++k) closed.emplace_back(coordinate(random), coordinate(random), 0.0);
+    LookAheadTree tree(options);
+    tree.search(Thicket().space(options), options, Vector3d::Zero(), {9.0, 0.0, 0.0}, {}, closed);
+    ASSERT_GT(tree.nodes().size(), 4u);
+    for (const TreeNode& node : tree.nodes()) {
+      if (node.parent < 0) continue;
+      const Vector3d from = tree.nodes()[node.parent].position;
+      for (const Vector3d& place : closed)
+        EXPECT_GE(distanceToSegment(place, from, node.position),
+                  std::min(0.5, (from - place).norm()) - 1e-5);
+    }
+  }
+}
+
 // A single direction is a metre long. What was looked at, and braked for, beyond it lay towards the waypoint
 // after the present one: the vehicle flew north looking east, and stood where nothing was seen there.
 TEST(LookAhead, ASingleDirectionIsLookedAlong) {

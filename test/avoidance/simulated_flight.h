@@ -35,6 +35,7 @@ struct FlightSetup {
   double last_frame = 1e9;   // s, after which the camera is cut
   double focal_error = 1.0;  // of the intrinsics
   int false_points = 0;      // in each frame
+  bool tracks = true;        // whether the result holds the track
   MapPlan map_plan = {};
   // Called before each update: what the pilot is told instead.
   std::function<void(PilotInput&)> alter = {};
@@ -203,7 +204,7 @@ class SimulatedFlight {
     if (vehicle_.contacts() > contacts && speed.norm() > 0.1) ++result_.contacts_moving;
     if (const auto surface = setup_.world->nearest(now.position, 3.0))
       result_.least_clearance = std::min(result_.least_clearance, surface->distance);
-    result_.track.push_back(now.position);
+    if (setup_.tracks) result_.track.push_back(now.position);
   }
 
   FlightSetup setup_;

@@ -13,12 +13,12 @@ using test::contains, test::errorText, test::SmallFlights;
 TEST(FlightFile, TheStudyOfTheRescueCourseIsTheNineUnderBothRulesAndOurs) {
   const FlightStudy study = readFlightFile("config/flights_rescue.yaml");
   ASSERT_EQ(study.variants.size(), 19u);
-  EXPECT_EQ(study.variants.front().label(), "NHNM published");
-  EXPECT_EQ(study.variants.back().label(), "best safe");
-  EXPECT_EQ(study.variants[17].label(), "LHLM safe");
-  EXPECT_EQ(study.variants[17].pilot.look_ahead, 8.0);
-  EXPECT_EQ(study.variants[17].pilot.memory, 15.0);
-  EXPECT_FALSE(study.variants[17].pilot.recover);
+  EXPECT_EQ(study.variants.front().label(), "best safe");
+  EXPECT_EQ(study.variants[1].label(), "LHLM published");
+  EXPECT_EQ(study.variants[2].label(), "LHLM safe");
+  EXPECT_EQ(study.variants[2].pilot.look_ahead, 8.0);
+  EXPECT_EQ(study.variants[2].pilot.memory, 15.0);
+  EXPECT_FALSE(study.variants[2].pilot.recover);
   for (const FlightVariant& variant : study.variants) EXPECT_EQ(variant.flights, 20);
   EXPECT_EQ(study.published.size(), 9u);
   EXPECT_EQ(study.published.at("LHLM").time_s, 75.3);
@@ -35,6 +35,22 @@ TEST(FlightFile, TheOtherStudiesAreReadAndNoReportedSeedIsOneOfTuning) {
   ASSERT_EQ(worldsOf("config/flights_courses.yaml").size(), 50u);
   EXPECT_EQ(worldsOf("config/flights_courses.yaml").front().name, "course_200");
   EXPECT_EQ(readFlightFile("config/flights_many.yaml").variants.front().flights, 300);
+}
+
+TEST(FlightFile, OtherVehiclesAreOptionsOfThePilot) {
+  const FlightStudy rov = readFlightFile("config/flights/rov.yaml");
+  EXPECT_TRUE(rov.variants.front().pilot.elevation);
+  const FlightStudy ground = readFlightFile("config/flights/ground.yaml");
+  EXPECT_FALSE(ground.variants.front().pilot.elevation);
+  EXPECT_FALSE(ground.variants.front().pilot.sway);
+  for (const FlightStudy& study :
+       {rov, ground}) {  // the pilot must not ask for more than the vehicle can
+    const avoidance::PilotOptions& pilot = study.variants.front().pilot;
+    EXPECT_LE(pilot.max_speed, study.vehicle.max_surge_speed);
+    EXPECT_LE(pilot.max_acceleration, study.vehicle.max_acceleration);
+    EXPECT_LE(pilot.max_yaw_rate, study.vehicle.max_yaw_rate + 1e-9);
+    EXPECT_GE(pilot.response_time, study.vehicle.response_time);
+  }
 }
 
 TEST(FlightFile, MistakesAreToldWithFileAndLine) {

@@ -81,7 +81,9 @@ void VoxelMemory::average(Detail& detail, const Voxel& voxel, const Eigen::Vecto
   if (detail.points < kMean) ++detail.points;
   const auto mean = [&](std::uint16_t& value, double coordinate, int index) {
     const int difference = static_cast<int>(shareOf(coordinate, index)) - value;
-    value = static_cast<std::uint16_t>(value + difference / detail.points);
+    // By a constant where most points are, which takes no division.
+    const int part = detail.points == kMean ? difference / kMean : difference / detail.points;
+    value = static_cast<std::uint16_t>(value + part);
   };
   mean(detail.x, point.x(), voxel.x);
   mean(detail.y, point.y(), voxel.y);

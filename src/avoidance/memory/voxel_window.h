@@ -27,7 +27,9 @@ struct Voxel {
 };
 
 inline int voxelIndex(double coordinate) {
-  return static_cast<int>(std::floor(coordinate * (1.0 / kVoxel)));
+  const double voxels = coordinate * (1.0 / kVoxel);
+  const int whole = static_cast<int>(voxels);  // std::floor is a call without SSE 4.1
+  return whole - (voxels < whole ? 1 : 0);
 }
 inline Voxel voxelAt(const Eigen::Vector3d& point) {
   return {voxelIndex(point.x()), voxelIndex(point.y()), voxelIndex(point.z())};

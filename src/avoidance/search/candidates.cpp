@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kEscapeStep = 0.1;    // m
 constexpr double kEscapeGrowth = 0.2;  // m for each metre
+constexpr double kLeaves = 1e-6;       // m
 constexpr int kMostTests = 150;  // of exact distances for a node; a node in a thicket has none left
 
 // Up to here a point closes its bin.
@@ -29,9 +30,19 @@ bool escapes(const OpenSpace& space, const Eigen::Vector3d& from, const Eigen::V
   return true;
 }
 
-bool isClosed(const Eigen::Vector3d& end, const std::vector<Eigen::Vector3d>& closed) {
+double distanceToStep(const Eigen::Vector3d& place, const Eigen::Vector3d& from,
+                      const Eigen::Vector3d& end) {
+  const Eigen::Vector3d step = end - from;
+  const double share = std::clamp((place - from).dot(step) / step.squaredNorm(), 0.0, 1.0);
+  return (from + share * step - place).norm();
+}
+
+// Whether a step comes near a closed place; one from beside it, nearer than it begins.
+bool isClosed(const Eigen::Vector3d& from, const Eigen::Vector3d& end,
+              const std::vector<Eigen::Vector3d>& closed) {
   return std::any_of(closed.begin(), closed.end(), [&](const Eigen::Vector3d& place) {
-    return (end - place).norm() < kClosedPlace;
+    const double kept = std::min(kClosedPlace, (from - place).norm() - kLeaves);
+    return distanceToStep(place, from, end) < kept;
   });
 }
 
@@ -58,7 +69,7 @@ bool Candidates::isFree(const OpenSpace& space, const PilotOptions& options,
       return ahead > 0.0 &&
              point.squaredNorm() - ahead * ahead < options.widening * options.widening;
     });
-  if (isClosed(end, query.closed)) return false;
+  if (isClosed(query.from, end, query.closed)) return false;
   const double kept = options.d_safe + kPlanRoom;
   const double room = space.nearest(query.from, kept);
   return room < kept ? escapes(space, query.from, end, room, kept)

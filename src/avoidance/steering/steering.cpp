@@ -14,6 +14,7 @@ constexpr double kEscapeSpeed = 0.3;               // m/s
 constexpr double kSteerNear = 0.4;                 // m ahead on the path to which it steers
 constexpr double kSteerTime = 0.4;                 // s, the same for each metre a second
 constexpr double kLookNear = 1.5, kLookFar = 5.0;  // m ahead on the path
+constexpr double kAtEnd = 0.15;                    // m
 constexpr double kLookAside = 30.0 * M_PI / 180.0;
 // m before what was not seen, from where the camera sees all of the ball about the path
 constexpr double kViewRoom = 1.1;
@@ -42,18 +43,30 @@ double yawTo(const Vector3d& point, const Motion& motion) {
   return direction.head<2>().norm() < 0.3 ? motion.yaw : std::atan2(direction.y(), direction.x());
 }
 
-// To where the path is not seen, but not far from where it leads next.
-double wantedYaw(const Motion& motion, const FlownPath& path, const FlownPath::Clear& clear) {
+// m ahead on the path.
+double steersTo(const Motion& motion) {
+  return kSteerNear + kSteerTime * motion.velocity.norm();
+}
+
+// To where the path is not seen, but not far from where it leads next; without sway, along the path.
+double wantedYaw(const Motion& motion, const FlownPath& path, const FlownPath::Clear& clear,
+                 const PilotOptions& options) {
+  if (!options.sway) return yawTo(path.ahead(steersTo(motion)), motion);
   const double next = yawTo(path.ahead(kLookNear), motion);
   const double far = std::clamp(clear.metres + 0.5, kLookNear, kLookFar);
   const double turn = angleDifference(next, yawTo(path.ahead(far), motion));
   return next + std::clamp(turn, -kLookAside, kLookAside);
 }
 
+// Who cannot sway looks along the path until its end is reached.
+bool looksAlong(const Motion& motion, const FlownPath& path, const PilotOptions& options) {
+  return !options.sway && (path.points().back() - motion.position).norm() > kAtEnd;
+}
+
 Vector3d openVelocity(const Motion& motion, const FlownPath& path, double speed, double yaw_rate,
                       const KeptRoom& room, const std::vector<Eigen::Vector3f>& moving,
                       const PilotOptions& options) {
-  const double far = kSteerNear + kSteerTime * motion.velocity.norm();
+  const double far = steersTo(motion);
   for (const double share : kShares)
     for (const double metres : {far, 0.5 * kSteerNear}) {
       const Vector3d direction = path.ahead(metres) - motion.position;
@@ -84,7 +97,9 @@ Steering steerSafely(const Motion& motion, const FlownPath& path, const OpenSpac
   steering.clear_path = clear.metres;
   steering.closed = clear.closed;
   steering.unseen = clear.closed && !space.seen(*clear.closed);
-  const double yaw = look_at ? yawTo(*look_at, motion) : wantedYaw(motion, path, clear);
+  const double yaw = look_at && !looksAlong(motion, path, options)
+                         ? yawTo(*look_at, motion)
+                         : wantedYaw(motion, path, clear, options);
   steering.look_error = angleDifference(motion.yaw, yaw);
   const double room_to_look = steering.unseen ? kViewRoom : 0.0;
   double speed = std::min(top, speedWithin(clear.metres - room_to_look, options));

@@ -21,6 +21,11 @@ constexpr std::size_t kLongestTrack = 16;
 constexpr double kGivenUp = 30.0;  // s
 constexpr std::size_t kMostPlaces = 32;
 
+bool isAmong(const std::vector<Vector3d>& places, const Vector3d& place) {
+  return std::any_of(places.begin(), places.end(),
+                     [&](const Vector3d& other) { return (other - place).norm() < kSamePlace; });
+}
+
 void add(const Vector3d& place, std::vector<Vector3d>& places) {
   if (places.size() >= kMostPlaces) places.erase(places.begin());
   places.push_back(place);
@@ -32,6 +37,7 @@ void UnseenPlaces::forget() {
   path_.clear();
   look_at_.reset();
   waits_since_.reset();
+  turned_.clear();
   tried_.clear();
   closed_.clear();
 }
@@ -42,9 +48,17 @@ void UnseenPlaces::remember(const Vector3d& vehicle) {
   track_.push_back(vehicle);
 }
 
-bool UnseenPlaces::wasTried(const Vector3d& place) const {
-  return std::any_of(tried_.begin(), tried_.end(),
-                     [&](const Vector3d& tried) { return (tried - place).norm() < kSamePlace; });
+// At something that it did not turn to yet.
+bool UnseenPlaces::looksAside(const Motion& motion, const Vector3d& place, const OpenSpace& space,
+                              double d_safe) {
+  for (const Vector3d& aside : unseenAside(space, motion.position, motion.yaw, place, d_safe)) {
+    if (isAmong(turned_, aside)) continue;
+    add(aside, turned_);
+    path_ = {motion.position, motion.position};
+    look_at_ = aside;
+    return true;
+  }
+  return false;
 }
 
 // Until the place is seen, or the vehicle has been there and looked, or cannot come there.
@@ -71,21 +85,20 @@ bool UnseenPlaces::waitedInVain(double time, const Steering& steering) {
   return true;
 }
 
-bool UnseenPlaces::update(double time, const Vector3d& vehicle, const Steering& steering,
+bool UnseenPlaces::update(double time, const Motion& motion, const Steering& steering,
                           const OpenSpace& space, const KeptRoom& room, double d_safe) {
+  const Vector3d& vehicle = motion.position;
   if (!closed_.empty() && time - closed_at_ > kGivenUp) forget();
   remember(vehicle);
   if (looks()) return look(time, vehicle, steering, space);
   if (!waitedInVain(time, steering)) return false;
   const Vector3d place = *steering.closed;
-  if (!wasTried(place)) {
+  if (!looksAside(motion, place, space, d_safe) && !isAmong(tried_, place)) {
     add(place, tried_);
     path_ = pathToVantage(space, room, vehicle, place, d_safe, track_);
+    if (looks()) look_at_ = place;
   }
-  if (looks())
-    look_at_ = place;
-  else
-    add(place, closed_);
+  if (!looks()) add(place, closed_);
   (looks() ? began_ : closed_at_) = time;
   return true;
 }

@@ -1,6 +1,7 @@
 // Places on the path that stay unseen although the vehicle stands and looks there.
 //
-// Such a place is looked at from a vantage first; where that shows nothing more, it closes paths for a while.
+// What is unseen about such a place may lie beside the picture, then the vehicle turns to it. Then the place is
+// looked at from a vantage; where that shows nothing more, it closes paths for a while.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,8 +19,8 @@ class UnseenPlaces {
 
   // With what was steered along the present path. Whether that path is to be given up: for the one to the
   // vantage, or to be searched for anew.
-  bool update(double time, const Eigen::Vector3d& vehicle, const Steering& steering,
-              const OpenSpace& space, const KeptRoom& room, double d_safe);
+  bool update(double time, const Motion& motion, const Steering& steering, const OpenSpace& space,
+              const KeptRoom& room, double d_safe);
 
   // Where the vehicle flies to look, if it does, and at what.
   bool looks() const { return !path_.empty(); }
@@ -32,11 +33,13 @@ class UnseenPlaces {
             const OpenSpace& space);
   bool waitedInVain(double time, const Steering& steering);
   void remember(const Eigen::Vector3d& vehicle);
-  bool wasTried(const Eigen::Vector3d& place) const;
+  bool looksAside(const Motion& motion, const Eigen::Vector3d& place, const OpenSpace& space,
+                  double d_safe);
 
   std::vector<Eigen::Vector3d> path_;  // to the vantage; empty: none
   std::optional<Eigen::Vector3d> look_at_;
   std::vector<Eigen::Vector3d> track_;   // where the vehicle was, the newest last
+  std::vector<Eigen::Vector3d> turned_;  // to what was turned
   std::vector<Eigen::Vector3d> tried_;   // looked at from a vantage
   std::vector<Eigen::Vector3d> closed_;  // given up
   std::optional<double> waits_since_;

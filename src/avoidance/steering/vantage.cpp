@@ -1,7 +1,10 @@
 #include "avoidance/steering/vantage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include "avoidance/steering/steering.h"
 
 namespace grid_path_planner::avoidance {
 namespace {
@@ -9,35 +12,42 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSlope = 0.52;      // height by distance that a camera sees for certain
+constexpr double kPicture = 0.5;     // rad beside its middle that a camera sees for certain
 constexpr double kLeastRange = 0.5;  // m
+constexpr double kRounding = 1e-9;   // m
 constexpr double kThin = 0.1;        // m about a line of sight
 constexpr double kTurnStep = M_PI / 6.0;
 
+// The voxels for which the place does not count as seen, as OpenSpace judges: about its voxel's centre.
 std::vector<Vector3d> unseenAbout(const OpenSpace& space, const Vector3d& place, double radius) {
-  const Voxel low = voxelAt((place.array() - radius).matrix());
-  const Voxel high = voxelAt((place.array() + radius).matrix());
+  const Vector3d middle = centreOf(voxelAt(place));
+  const Voxel low = voxelAt((middle.array() - radius).matrix());
+  const Voxel high = voxelAt((middle.array() + radius).matrix());
   std::vector<Vector3d> unseen;
   for (int z = low.z; z <= high.z; ++z)
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x) {
         const Vector3d centre = centreOf({x, y, z});
-        if ((centre - place).norm() <= radius && !space.observed(slotOf(x, y, z)))
+        if ((centre - middle).norm() <= radius + kRounding && !space.observed(slotOf(x, y, z)))
           unseen.push_back(centre);
       }
   return unseen;
 }
 
+// In view of a camera that turns to it.
+bool isInView(const OpenSpace& space, const Vector3d& voxel, const Vector3d& from) {
+  const Vector3d direction = voxel - from;
+  const double level = direction.head<2>().norm();
+  if (direction.norm() < kLeastRange || std::abs(direction.z()) > kSlope * level) return false;
+  const Vector3d before = from + direction * std::max(0.0, 1.0 - 0.3 / direction.norm());
+  return space.clear(from, before, kThin);
+}
+
 // How many of the voxels are in view.
 int inView(const OpenSpace& space, const std::vector<Vector3d>& voxels, const Vector3d& from) {
-  int count = 0;
-  for (const Vector3d& voxel : voxels) {
-    const Vector3d direction = voxel - from;
-    const double level = direction.head<2>().norm();
-    if (direction.norm() < kLeastRange || std::abs(direction.z()) > kSlope * level) continue;
-    const Vector3d before = from + direction * std::max(0.0, 1.0 - 0.3 / direction.norm());
-    count += space.clear(from, before, kThin);
-  }
-  return count;
+  return static_cast<int>(std::count_if(voxels.begin(), voxels.end(), [&](const Vector3d& voxel) {
+    return isInView(space, voxel, from);
+  }));
 }
 
 bool isOpenLine(const KeptRoom& room, const Vector3d& from, const Vector3d& to) {
@@ -69,6 +79,17 @@ std::optional<Vector3d> straightVantage(const OpenSpace& space, const KeptRoom& 
 }
 
 }  // namespace
+
+std::vector<Vector3d> unseenAside(const OpenSpace& space, const Vector3d& vehicle, double yaw,
+                                  const Vector3d& place, double d_safe) {
+  std::vector<Vector3d> aside;
+  for (const Vector3d& voxel : unseenAbout(space, place, d_safe)) {
+    const Vector3d direction = voxel - vehicle;
+    const double turn = angleDifference(yaw, std::atan2(direction.y(), direction.x()));
+    if (std::abs(turn) > kPicture && isInView(space, voxel, vehicle)) aside.push_back(voxel);
+  }
+  return aside;
+}
 
 std::vector<Vector3d> pathToVantage(const OpenSpace& space, const KeptRoom& room,
                                     const Vector3d& vehicle, const Vector3d& place, double d_safe,

@@ -1,8 +1,8 @@
 // Where to look from at a place that cannot be seen from here: the camera sees neither its own skirts nor
 // round corners.
 //
-// Of the places around the vehicle, in what is open, the nearest from which what is unseen about the place
-// lies in the picture and behind no remembered point.
+// Where a turn shows more, that is here. Else, of the places around the vehicle, in what is open, the nearest
+// from which what is unseen about the place lies in the picture and behind no remembered point.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,6 +11,10 @@
 #include "avoidance/steering/kept_room.h"
 
 namespace grid_path_planner::avoidance {
+
+// What is unseen about the place, to be seen from the vehicle, but not in a picture that is taken at `yaw`.
+std::vector<Eigen::Vector3d> unseenAside(const OpenSpace& space, const Eigen::Vector3d& vehicle,
+                                         double yaw, const Eigen::Vector3d& place, double d_safe);
 
 // The path there, which begins at the vehicle: straight, or back along `track`, where the vehicle was, the
 // newest last. Empty where no place shows more than here.
