@@ -7,6 +7,7 @@
 
 #include "planners/astar/heuristic.h"
 #include "planners/core/keys.h"
+#include "planners/jump_point/jump_point.h"
 #include "planners/tables/precomputed_heuristic.h"
 
 namespace grid_path_planner::planners {
@@ -24,10 +25,8 @@ constexpr std::size_t kLate = 65536;
 
 // Expansions of A* for which a search may make one more tile of the jumps.
 constexpr std::size_t kTilePrice = 65536;
-constexpr std::size_t kPlainTilePrice = 4096;
-// Tiles that may be made before: all of small maps, and of maps of one weight a part.
+// Tiles of a map of which all may be made at once.
 constexpr std::size_t kSmallMap = 8;
-constexpr std::size_t kFirstPart = 32;
 // Tiles that an update undid and that may be made again at once: in the time of 1 to 5 ms.
 constexpr std::uint64_t kMostRemade = 32;
 // A search comes to more tiles than lie on the straight line to its goal, seldom to fewer than this
@@ -84,11 +83,18 @@ bool WeightedJumpPoint::optimalFor(const CostGrid& map) const {
   return optimalWith(optionsOfAStar(map), map);
 }
 
-// Both where A* answers searches until the jumps are prepared.
+// Both where the substitute answers searches until the jumps are prepared.
 std::size_t WeightedJumpPoint::bytesFor(const GridGeometry& geometry) const {
-  if (jumps_ready_ && a_star_)
-    return WeightedJumpSearch::bytesFor(geometry) + bytesOfAStar(geometry);
-  return std::max(WeightedJumpSearch::bytesFor(geometry), bytesOfAStar(geometry));
+  if (jumps_ready_ && substitute_) return bytesOfBoth();
+  const std::size_t one = std::max(WeightedJumpSearch::bytesFor(geometry), bytesOfAStar(geometry));
+  return a_star_asked_for_ ? one : std::max(one, JumpPoint().bytesFor(geometry));
+}
+
+// The jumps' and the substitute's.
+std::size_t WeightedJumpPoint::bytesOfBoth() const {
+  const GridGeometry& geometry = map().geometry();
+  return WeightedJumpSearch::bytesFor(geometry) +
+         (jumpPointSubstitutes() ? JumpPoint().bytesFor(geometry) : bytesOfAStar(geometry));
 }
 
 std::size_t WeightedJumpPoint::bytesOfAStar(const GridGeometry& geometry) const {
@@ -103,21 +109,24 @@ std::string WeightedJumpPoint::lessMemoryAdvice() const {
 }
 
 BackgroundWork WeightedJumpPoint::backgroundWork() {
-  BackgroundWork work = a_star_ ? a_star_->backgroundWork() : BackgroundWork();
-  work.pending = work.pending || (jumps_ready_ && !jumps_.finished());
+  BackgroundWork work = substitute_ ? substitute_->backgroundWork() : BackgroundWork();
+  work.pending = work.pending || (shouldJump() && !(jumps_ready_ && jumps_.finished()));
   return work;
 }
 
 void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
-  if (jumps_ready_) {
+  if (shouldJump()) {
+    if (bytesOfBoth() > memoryLimit()) substitute_.reset();
+    if (!jumps_ready_) prepareJumps(stop);
     jumps_.finish(map(), stop);
-    a_star_.reset();
+    substitute_.reset();
   }
-  if (a_star_) a_star_->finishBackgroundWork(stop);
+  if (substitute_) substitute_->finishBackgroundWork(stop);
 }
 
 bool WeightedJumpPoint::shouldJump() const {
-  return !a_star_asked_for_ && jumpsSupport(map().motion()) && pruning_.jumpingPays();
+  return !a_star_asked_for_ && jumpsSupport(map().motion()) &&
+         (map().uniform() || pruning_.jumpingPays());
 }
 
 int WeightedJumpPoint::blockOfBound() const {
@@ -126,14 +135,28 @@ int WeightedJumpPoint::blockOfBound() const {
 }
 
 void WeightedJumpPoint::doPrepare(const StopToken& stop) {
-  a_star_.reset();
-  jumps_ready_ = false;
-  if (jumpsSupport(map().motion())) pruning_.sample(map(), stop);
-  if (!shouldJump()) {
-    jumps_.release();
-    prepareAStar(stop);
-    return;
+  substitute_.reset();
+  jumps_ready_ = sampled_ = false;
+  estimate({}, stop);
+  if (shouldJump() && !jumpPointSubstitutes()) return prepareJumps(stop);
+  jumps_.release();
+  prepareSubstitute(stop);
+}
+
+// Nothing depends on the estimate on maps of one weight.
+void WeightedJumpPoint::estimate(const std::vector<CellRect>& changed, const StopToken& stop) {
+  if (!jumpsSupport(map().motion()) || map().uniform()) {
+    pruning_ = PruningEstimate();
+    sampled_ = false;
+  } else if (sampled_) {
+    for (const CellRect& rect : changed) pruning_.update(map(), rect);
+  } else {
+    pruning_.sample(map(), stop);
+    sampled_ = true;
   }
+}
+
+void WeightedJumpPoint::prepareJumps(const StopToken& stop) {
   jumps_.prepare(map(), stop, blockOfBound());
   jumps_ready_ = true;
   tiles_left_ = firstTiles();
@@ -141,11 +164,20 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
 }
 
 void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
-  if (jumpsSupport(map().motion()))
-    for (const CellRect& rect : changed) pruning_.update(map(), rect);
-  if (shouldJump() != jumps_ready_) return doPrepare(stop);
+  estimate(changed, stop);
+  const bool jumps = shouldJump();
+  if (jumps_ready_ ? !jumps : jumps && !jumpPointSubstitutes()) return doPrepare(stop);
   if (jumps_ready_) updateJumps(changed, stop);
-  if (a_star_) a_star_->update(sharedMap(), changed, stop);
+  if (substitute_) updateSubstitute(changed, stop);
+}
+
+// Another one where the map has become one for the other kind.
+void WeightedJumpPoint::updateSubstitute(const std::vector<CellRect>& changed,
+                                         const StopToken& stop) {
+  if (substitute_jumps_ == jumpPointSubstitutes())
+    return substitute_->update(sharedMap(), changed, stop);
+  substitute_.reset();
+  if (!jumps_ready_) prepareSubstitute(stop);
 }
 
 // Few tiles that the change undid are made anew by the searches that come to them: A* in their place
@@ -160,35 +192,43 @@ void WeightedJumpPoint::updateJumps(const std::vector<CellRect>& changed, const 
 std::uint64_t WeightedJumpPoint::firstTiles() const {
   constexpr std::size_t kTileCells = WeightedJumpMap::kTile * WeightedJumpMap::kTile;
   const std::size_t tiles = map().geometry().size() / kTileCells;
-  if (map().uniform()) return std::max(kSmallMap, tiles / kFirstPart);
   return tiles <= kSmallMap ? 2 * kSmallMap : 0;
 }
 
-void WeightedJumpPoint::prepareAStar(const StopToken& stop) {
-  auto a_star = std::make_unique<AStar>(optionsOfAStar(map()));
-  a_star->prepare(sharedMap(), stop);
-  a_star_ = std::move(a_star);
+// Whether JumpPoint is the one that answers until the jumps are prepared.
+bool WeightedJumpPoint::jumpPointSubstitutes() const {
+  return shouldJump() && map().uniform();
 }
 
-// That a search may make: all of them where memory for A* is not left.
+void WeightedJumpPoint::prepareSubstitute(const StopToken& stop) {
+  const bool jumps = jumpPointSubstitutes();
+  std::unique_ptr<Planner> substitute;
+  if (jumps)
+    substitute = std::make_unique<JumpPoint>();
+  else
+    substitute = std::make_unique<AStar>(optionsOfAStar(map()));
+  substitute->prepare(sharedMap(), stop);
+  substitute_ = std::move(substitute);
+  substitute_jumps_ = jumps;
+}
+
+// That a search may make: all of them where memory for the substitute is not left.
 std::uint64_t WeightedJumpPoint::mostTiles() const {
   constexpr auto kAll = std::numeric_limits<std::uint64_t>::max();
   if (jumps_.finished()) return kAll;
-  const GridGeometry& geometry = map().geometry();
-  const std::size_t both = WeightedJumpSearch::bytesFor(geometry) + bytesOfAStar(geometry);
-  if (both > memoryLimit()) return kAll;
+  if (bytesOfBoth() > memoryLimit()) return kAll;
   // Tiles far from each other touch so many new pages of memory that they cost more than A*.
   constexpr std::size_t kMostCells = std::size_t{1} << 26;
-  return geometry.size() > kMostCells ? 0 : tiles_left_;
+  return map().geometry().size() > kMostCells ? 0 : tiles_left_;
 }
 
-// What A* expanded pays for tiles: of one weight they are made in the time of some thousand
-// expansions, of several in that of ten thousand, and little is lost if they are never used.
+// What A* expanded pays for tiles: one is made in the time of some ten thousand expansions, and
+// little is lost if it is never used. JumpPoint pays for none: it is no slower than their search.
 void WeightedJumpPoint::payForTiles(std::size_t expanded) {
+  if (substitute_jumps_) return;
   paid_ += expanded;
-  const std::size_t price = map().uniform() ? kPlainTilePrice : kTilePrice;
-  tiles_left_ += paid_ / price;
-  paid_ %= price;
+  tiles_left_ += paid_ / kTilePrice;
+  paid_ %= kTilePrice;
 }
 
 // Nothing where it would have to make more tiles than it may, or its keys do not hold the cost.
@@ -215,9 +255,9 @@ SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const Sto
   if (jumps_ready_) {
     if (std::optional<SearchResult> result = searchWithJumps(request, stop))
       return *std::move(result);
-    if (!a_star_) prepareAStar(stop);
+    if (!substitute_) prepareSubstitute(stop);
   }
-  SearchResult result = a_star_->search(request, stop);
+  SearchResult result = substitute_->search(request, stop);
   payForTiles(result.statistics.expanded);
   return result;
 }

@@ -6,18 +6,19 @@
 // Where diagonals are sqrt 2 long and cut no corners, the search with jumps
 // (planners/jump_point/weighted_jump_search.h) prunes symmetric paths: nearly all cells of
 // plateaus, many of the slopes around obstacles, few where every cell has another weight. Whether
-// jumping pays is estimated when a map is prepared and updated
+// jumping pays is estimated when a map of several weights is prepared and updated
 // (planners/jump_point/pruning_estimate.h). Where it does not, and for other motion models, A*
 // answers, with the bound of the blocks where weights differ (planners/tables/block_bound.h), else with
 // the heuristic that fits the motion model. Jumps use that bound too: from their first expansions on
 // where the octile distance says little of costs, else in long searches only.
 //
 // The jumps are prepared by tiles, when a search first comes to them or by finishBackgroundWork().
-// Until then A* answers, at the same cost, searches that come to more new tiles than were paid for:
-// one for so many expansions of A* that making it adds some per cent to their time. So a first plan
-// waits for no preparation, and ten plans pay little for it. Small maps, and a part of maps of one
-// weight, are paid for, and what an update undid where that is little; of maps above 2^26 cells
-// nothing is.
+// Until then a substitute answers at the same cost, so that a first plan waits for no preparation:
+// - JumpPoint on maps of one weight. Its bits are made in the time in which A* is prepared, and the
+//   jumps are left to finishBackgroundWork().
+// - elsewhere A*, where a search comes to more new tiles than were paid for: one for so many
+//   expansions of A* that making it adds some per cent to their time. Small maps are paid for, and
+//   what an update undid where that is little; of maps above 2^26 cells nothing is.
 //
 // No map is refused: where a path costs more than the keys of the jumps hold, A* answers too. No
 // option is ignored: with a search option (heuristic, scale, epsilon, tie-break) that is not the
@@ -61,20 +62,27 @@ class WeightedJumpPoint : public Planner {
   bool shouldJump() const;
   int blockOfBound() const;
   std::size_t bytesOfAStar(const grid::GridGeometry& geometry) const;
+  std::size_t bytesOfBoth() const;
   std::uint64_t firstTiles() const;
   std::uint64_t mostTiles() const;
   void payForTiles(std::size_t expanded);
-  void prepareAStar(const base::StopToken& stop);
+  void estimate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
+  void prepareJumps(const base::StopToken& stop);
+  void prepareSubstitute(const base::StopToken& stop);
+  void updateSubstitute(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
+  bool jumpPointSubstitutes() const;
   AStarOptions optionsOfAStar(const costmap::CostGrid& map) const;
 
   AStarOptions options_;
   bool a_star_asked_for_;
   PruningEstimate pruning_;
+  bool sampled_ = false;  // pruning_ is of the map
   bool jumps_ready_ = false;
   std::uint64_t tiles_left_ = 0;  // that searches may make
   std::size_t paid_ = 0;          // expansions of A* towards the next one
   WeightedJumpSearch jumps_;
-  std::unique_ptr<AStar> a_star_;  // null until it is prepared
+  std::unique_ptr<Planner> substitute_;  // A* or JumpPoint; null until it is prepared
+  bool substitute_jumps_ = false;        // it is JumpPoint
 };
 
 }  // namespace grid_path_planner::planners
