@@ -204,14 +204,14 @@ void expectWaypoints(const Plan& plan, const OccupancyGrid& map, const PlannerOp
   }
 }
 
-struct Counts {
+struct RadiusCounts {
   int found = 0;
   std::size_t left_out = 0;  // of the paths' poses
 };
 
 // Plans between random poses, and judges what is found.
 void judge(const OccupancyGrid& map, const PlannerOptions& options, int queries,
-           std::mt19937& random, Counts& counts) {
+           std::mt19937& random, RadiusCounts& counts) {
   PathPlanner planner(options);
   planner.setMap(std::make_shared<const OccupancyGrid>(map));
   for (int query = 0; query < queries; ++query) {
@@ -235,7 +235,7 @@ void judge(const OccupancyGrid& map, const PlannerOptions& options, int queries,
 
 TEST(RadiusLaw, NoPointOfAPathIsNearerThanItMay) {
   std::mt19937 random(13);
-  Counts counts;
+  RadiusCounts counts;
   for (int trial = 0; trial < (isLong() ? 10000 : 1500); ++trial) {
     const OccupancyGrid map = randomRadiusMap(random, 48);
     const PlannerOptions options = randomRadiusOptions(random);
@@ -261,7 +261,7 @@ PlannerOptions scaled(PlannerOptions options, double factor) {
 TEST(RadiusLaw, HoldsOnTheMapsOfFiles) {
   const char* folder = std::getenv("GPP_MAPS");
   std::mt19937 random(5);
-  Counts counts;
+  RadiusCounts counts;
   int maps = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder ? folder : "maps")) {
     const std::string ending = entry.path().extension();
