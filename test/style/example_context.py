@@ -177,8 +177,8 @@ CONTEXT = {
     "marker_poses.h": """extern MarkerImage image; extern vision::MarkerLayout layout; extern FrameTransforms transforms;
         void publish(const localization::MountedPose&); void tell(const std::string&);""",
     "image_camera_publisher.h": """extern ros::NodeHandle nh; extern simulation::World world;
-        extern simulation::ImageCameraOptions options; extern simulation::Vehicle vehicle; extern std::int64_t time_ns;
-        extern std::string frame; extern ros::Time stamp;""",
+        extern std::vector<simulation::SensorFault> faults; extern simulation::ImageCameraOptions options;
+        extern simulation::Vehicle vehicle; extern std::int64_t time_ns; extern std::string frame; extern ros::Time stamp;""",
     "grey_conversion.h": """#include "vision/grey_image.h"
         extern EncodedImage image;""",
     "panel_learning.h": """extern PanelLearningOptions options; extern double seconds; extern Eigen::Isometry3d map_from_base;

@@ -3,7 +3,7 @@
 //
 //   MapAutosave autosave(folder, private_nh.getNamespace(), "map", "site.bt");
 //   MapModel map(options, autosave.begin());   // the file of this run, if there is one
-//   autosave.save(map, newest_cloud);          // in the mapping thread, as often as wanted
+//   autosave.save(map, newest_cloud, MapAutosave::When::IF_DUE);  // in the mapping thread, as often as wanted
 //
 // The file is an octree (.ot) below the folder, whose first lines name the run (the roscore's
 // /run_id), the frame and the octree file that the node began with; one of another run, frame or file is

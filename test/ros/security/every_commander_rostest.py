@@ -196,8 +196,9 @@ class EveryCommander(unittest.TestCase):
         return node
 
     def second(self, node, name):
-        """Started beside it, in its namespace and, of nodelets, its manager. Its exit code, None where it runs."""
-        words = ["__ns:=" + node.space, "__name:=a_second_" + name]
+        """Started beside it, in its namespace and, of nodelets, its manager, by a later name: of two that start at once it is
+        the one to go, and the first may not be through yet."""
+        words = ["__ns:=" + node.space, "__name:=z_second_" + name]
         if node.kind == "process":
             command = [executable(name)] + words
         else:
@@ -237,7 +238,7 @@ class EveryCommander(unittest.TestCase):
                 for first, second in ((driver, "teleop_joy"), ("teleop_joy", driver)):
                     node = self.first(first, kind)
                     process = self.second(node, second)
-                    name = "%s/a_second_%s" % (node.space, second)
+                    name = "%s/z_second_%s" % (node.space, second)
                     self.assertTrue(probes.until(node, lambda: self.offers_parameters(name), time.monotonic() + DEADLINE),
                                     "%s beside %s: %s" % (second, node, self.said(node)))
                     self.assertIsNone(process.poll() if kind == "process" else None)

@@ -10,6 +10,8 @@
 namespace grid_path_planner::nodes {
 namespace {
 
+constexpr int kAskedAtStart = 10;  // times
+
 struct Claim {
   const CommandClaim* owner;
   std::string node;
@@ -49,7 +51,7 @@ std::string conflict(const Claim& other, const Commands& commands) {
 
 CommandClaim::CommandClaim(const std::string& node, const Commands& commands)
     : node_(node), commands_(commands) {
-  if (const auto found = other()) refuse(*found);
+  if (const auto found = otherCommander(commands_, kAskedAtStart)) refuse(*found);
   const std::lock_guard<std::mutex> lock(claims().mutex);
   for (const Claim& other : claims().all) {
     const std::string sentence = conflict(other, commands_);
@@ -64,7 +66,7 @@ CommandClaim::~CommandClaim() {
 }
 
 void CommandClaim::refuseSimultaneous() const {
-  const auto found = other();
+  const auto found = otherCommander(commands_, kAskedAtStart);
   if (found && found->node < ros::this_node::getName()) refuse(*found);
 }
 

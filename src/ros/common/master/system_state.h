@@ -37,9 +37,9 @@ struct OtherCommander {
 };
 
 // Another node that answers and publishes one of the topics, or offers one of the actions; none
-// where there is none. A node that was killed stays registered, so each that is found is asked, for
-// a second at most.
-std::optional<OtherCommander> otherCommander(const Commands& commands);
+// where there is none. A node that was killed stays registered, so each that is found is asked. It
+// and the master have a second to answer, `times` at most: on a busy machine they may need more.
+std::optional<OtherCommander> otherCommander(const Commands& commands, int times = 1);
 
 // Throws InputError naming it.
 [[noreturn]] void refuse(const OtherCommander& other);
