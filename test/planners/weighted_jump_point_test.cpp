@@ -246,6 +246,20 @@ TEST(WeightedJumpPointLaw, CostsAreLeastWhileMapsBecomeOfOneWeightAndBack) {
     EXPECT_GT(answers[name], 0) << name;
 }
 
+// Where memory is for one of both searches the substitute goes first, and a preparation that is stopped leaves none.
+TEST(WeightedJumpPoint, AnswersAfterAStoppedPreparationWithoutMemoryForBoth) {
+  const auto map = costsOf(Grid<CostGrid::Weight>(GridGeometry(300, 200, 1.0), 1));
+  WeightedJumpPoint planner;
+  planner.limitMemory(planner.bytesFor(map->geometry()));
+  planner.prepare(map, StopToken());
+  base::StopSource stopped;
+  stopped.cancel();
+  EXPECT_THROW(planner.finishBackgroundWork(stopped.token()), base::Stopped);
+  const SearchResult result = planner.search({{3, 3}, {{290, 180}}, false}, StopToken());
+  EXPECT_EQ(result.status, Status::FOUND);
+  EXPECT_EQ(result.cost, (ExactCost{110, 177}));
+}
+
 // Weights that fall with the distance to walls 40 cells apart; 100 tiles.
 Grid<CostGrid::Weight> slopesBetweenWalls() {
   Grid<CostGrid::Weight> weights(GridGeometry(640, 640, 1.0), 1);

@@ -223,7 +223,7 @@ std::uint64_t WeightedJumpPoint::mostTiles() const {
 }
 
 // What A* expanded pays for tiles: one is made in the time of some ten thousand expansions, and
-// little is lost if it is never used. JumpPoint pays for none: it is no slower than their search.
+// little is lost if it is never used. JumpPoint's pay for none: where it answers, they are made in idle time.
 void WeightedJumpPoint::payForTiles(std::size_t expanded) {
   if (substitute_jumps_) return;
   paid_ += expanded;
@@ -255,8 +255,8 @@ SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const Sto
   if (jumps_ready_) {
     if (std::optional<SearchResult> result = searchWithJumps(request, stop))
       return *std::move(result);
-    if (!substitute_) prepareSubstitute(stop);
   }
+  if (!substitute_) prepareSubstitute(stop);
   SearchResult result = substitute_->search(request, stop);
   payForTiles(result.statistics.expanded);
   return result;

@@ -20,7 +20,7 @@
 //   expansions of A* that making it adds some per cent to their time. Small maps are paid for, and
 //   what an update undid where that is little; of maps above 2^26 cells nothing is.
 //
-// No map is refused: where a path costs more than the keys of the jumps hold, A* answers too. No
+// No map is refused: where a path costs more than the keys of the jumps hold, the substitute answers. No
 // option is ignored: with a search option (heuristic, scale, epsilon, tie-break) that is not the
 // default, A* answers with it.
 #pragma once
