@@ -1,21 +1,14 @@
 #!/usr/bin/env python3
-"""What a vehicle may rely on of whatever commands it: one suite over the table in commanders.py, and over every node
-that offers an action.
-
-What was seen before: two navigate_paths drove one vehicle along two paths; two nodelets of one manager did so long after
-two nodes could not, since the master knows both by the manager's name.
-"""
+"""What a vehicle may rely on of whatever commands it: one suite over the table in commanders.py."""
 import math
 import os
 import signal
-import subprocess
 import sys
 import tempfile
 import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import roslib.packages
 import rospy
 import rostest
 from roslib.message import get_service_class
@@ -24,30 +17,12 @@ from std_msgs.msg import Bool
 import node_probes as probes
 from commanders import COMMANDERS, VELOCITIES, RunningCommander, StoppableClock
 from node_table import NODES
-from running_nodes import PACKAGE, RunningNode, executable
+from running_nodes import PACKAGE
 
 DEADLINE = 60.0   # s
 QUIET = 1.0       # s without a motion: it stands
 END_SECONDS = 10.0
 DRIVERS = [name for name in COMMANDERS if "manual_control" in NODES[name].inputs]
-
-
-def commands(name):
-    """The topics of velocities and the actions that nobody else may command or offer."""
-    row = NODES[name]
-    return {topic for topic, kind in row.outputs.items() if kind in VELOCITIES} | set(row.actions)
-
-
-def is_joystick(name):
-    return "joy" in NODES[name].inputs
-
-
-def conflict(first, second):
-    """What both command, but for a driver and a joystick, to which it yields."""
-    return commands(first) & commands(second) if is_joystick(first) == is_joystick(second) else set()
-
-
-PAIRS = [(first, second) for first in NODES for second in NODES if conflict(first, second)]
 
 
 class EveryCommander(unittest.TestCase):
@@ -186,70 +161,6 @@ class EveryCommander(unittest.TestCase):
     def resumes(node):
         answer = node.call("~resume", get_service_class("std_srvs/Trigger")._request_class())
         return answer is not None and answer.success
-
-    def first(self, name, kind):
-        """A node that is to be alone, all there."""
-        row = NODES[name]._replace(arguments=COMMANDERS[name].arguments if name in COMMANDERS else NODES[name].arguments)
-        node = RunningNode(name, row, kind, self.clock, self.folder)
-        self.started.append(node)
-        self.assertTrue(probes.until(node, node.is_connected, time.monotonic() + DEADLINE), str(node))
-        return node
-
-    def second(self, node, name):
-        """Started beside it, in its namespace and, of nodelets, its manager, by a later name: of two that start at once it is
-        the one to go, and the first may not be through yet."""
-        words = ["__ns:=" + node.space, "__name:=z_second_" + name]
-        if node.kind == "process":
-            command = [executable(name)] + words
-        else:
-            nodelet = roslib.packages.find_node("nodelet", "nodelet")[0]
-            command = [nodelet, "load", "%s/%s" % (PACKAGE, name), "manager", "--no-bond"] + words
-        process = subprocess.Popen(command, stdout=node.log, stderr=subprocess.STDOUT)
-        node.processes.append(process)
-        return process
-
-    def refused(self, first, second, kind):
-        node = self.first(first, kind)
-        process = self.second(node, second)
-        try:
-            code = process.wait(DEADLINE)
-        except subprocess.TimeoutExpired:
-            code = 0
-        node.processes.remove(process)
-        if code == 0:
-            process.kill()
-        said = self.said(node)
-        self.assertNotEqual(0, code, "%s beside %s: %s" % (second, node, said))
-        self.assertRegex(said, "the node %s (publishes|offers) " % node.full_name(), "%s beside %s" % (second, node))
-        self.assertTrue(node.lives(), str(node))
-        node.end(signal.SIGKILL)
-
-    def test_a_second_process_is_refused_and_names_the_first(self):
-        for first, second in PAIRS:
-            self.refused(first, second, "process")
-
-    def test_a_second_nodelet_of_a_manager_is_refused_and_names_the_first(self):
-        for first, second in PAIRS:
-            self.refused(first, second, "nodelet")
-
-    def test_a_joystick_and_a_driver_stand_beside_each_other(self):
-        for driver in DRIVERS:
-            for kind in ("process", "nodelet"):
-                for first, second in ((driver, "teleop_joy"), ("teleop_joy", driver)):
-                    node = self.first(first, kind)
-                    process = self.second(node, second)
-                    name = "%s/z_second_%s" % (node.space, second)
-                    self.assertTrue(probes.until(node, lambda: self.offers_parameters(name), time.monotonic() + DEADLINE),
-                                    "%s beside %s: %s" % (second, node, self.said(node)))
-                    self.assertIsNone(process.poll() if kind == "process" else None)
-                    node.end(signal.SIGKILL)
-
-    @staticmethod
-    def offers_parameters(name):
-        """What a node does last of all when it starts."""
-        import rosgraph
-        services = rosgraph.Master("/every_commander").getSystemState()[2]
-        return any(service == name + "/set_parameters" for service, _ in services)
 
 
 if __name__ == "__main__":

@@ -60,9 +60,9 @@ def limit_memory():
 
 
 class RunningNode:
-    def __init__(self, name, row, kind, clock, log_folder):
+    def __init__(self, name, row, kind, clock, log_folder, space=None):
         self.name, self.row, self.kind, self.clock = name, row, kind, clock
-        self.space = "/%s_as_%s" % (name, kind)
+        self.space = space or "/%s_as_%s" % (name, kind)
         self.messages, self.publishers, self.processes = {}, {}, []
         self.ended = False
         self.log = open(os.path.join(log_folder, self.space[1:] + ".log"), "w")
@@ -182,14 +182,9 @@ class RunningNode:
         return probes.right(message_type, self)
 
     def restart(self):
-        """As after kill -9; what it said before is forgotten, and so are the connections to what was killed, which
-        rospy would count until it next sends: a goal that is sent once would go to one of them."""
+        """As after kill -9; what it said before is forgotten."""
         self.end_processes(signal.SIGKILL)
         self.processes = []
-        for publisher in self.publishers.values():
-            for connection in list(publisher.impl.connections):
-                publisher.impl.remove_connection(connection)
-                connection.close()
         with self.lock:
             self.messages.clear()
         self.start()
@@ -210,4 +205,13 @@ class RunningNode:
             except subprocess.TimeoutExpired:
                 process.kill()
                 return None
+        self.forget_connections()
         return time.monotonic() - begin
+
+    def forget_connections(self):
+        """To what was killed: rospy counts them until it next sends, so that the next node of this name would be taken for
+        connected, and a goal that is sent once would go to one of them."""
+        for publisher in self.publishers.values():
+            for connection in list(publisher.impl.connections):
+                publisher.impl.remove_connection(connection)
+                connection.close()

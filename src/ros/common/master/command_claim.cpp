@@ -7,10 +7,14 @@
 #include <mutex>
 #include <vector>
 
+#include "grid_path_planner/base/errors.h"
+#include "ros/common/master/xmlrpc_call.h"
+
 namespace grid_path_planner::nodes {
 namespace {
 
 constexpr int kAskedAtStart = 10;  // times
+constexpr double kPatienceWithMaster = 1.0;  // s, each time
 
 struct Claim {
   const CommandClaim* owner;
@@ -47,11 +51,21 @@ std::string conflict(const Claim& other, const Commands& commands) {
   return "the node " + other.node + " publishes " + topic;
 }
 
+// Of a node that starts. A master that says nothing is no leave to drive.
+SystemState stateAtStart() {
+  const auto state = askPatiently(kAskedAtStart, [] { return systemState(kPatienceWithMaster); });
+  if (!state)
+    throw base::InputError("the master at " + masterUri() +
+                           " does not say whether another node commands the vehicle");
+  return *state;
+}
+
 }  // namespace
 
 CommandClaim::CommandClaim(const std::string& node, const Commands& commands)
     : node_(node), commands_(commands) {
-  if (const auto found = otherCommander(commands_, kAskedAtStart)) refuse(*found);
+  const auto others = otherCommanders(stateAtStart(), commands_, ros::this_node::getName());
+  if (const auto found = firstThatAnswers(others, kAskedAtStart)) refuse(*found);
   const std::lock_guard<std::mutex> lock(claims().mutex);
   for (const Claim& other : claims().all) {
     const std::string sentence = conflict(other, commands_);
@@ -66,8 +80,14 @@ CommandClaim::~CommandClaim() {
 }
 
 void CommandClaim::refuseSimultaneous() const {
-  const auto found = otherCommander(commands_, kAskedAtStart);
-  if (found && found->node < ros::this_node::getName()) refuse(*found);
+  const auto earlier = earlierCommanders(stateAtStart(), commands_, ros::this_node::getName());
+  if (const auto found = firstThatAnswers(earlier, kAskedAtStart)) refuse(*found);
+}
+
+std::optional<OtherCommander> CommandClaim::other() const {
+  const auto state = systemState(kPatienceWithMaster);
+  if (!state) return std::nullopt;
+  return firstThatAnswers(otherCommanders(*state, commands_, ros::this_node::getName()), 1);
 }
 
 }  // namespace grid_path_planner::nodes

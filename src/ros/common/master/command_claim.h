@@ -7,24 +7,25 @@
 #include <optional>
 #include <string>
 
-#include "ros/common/master/system_state.h"
+#include "ros/common/master/commanders.h"
 
 namespace grid_path_planner::nodes {
 
 class CommandClaim {
  public:
-  // Before the node advertises anything. Throws InputError naming another node that commands the same.
+  // Before the node advertises anything. Throws InputError naming another node that commands the same,
+  // or the master that does not answer within some ten seconds.
   CommandClaim(const std::string& node, const Commands& commands);
   ~CommandClaim();
   CommandClaim(const CommandClaim&) = delete;
   CommandClaim& operator=(const CommandClaim&) = delete;
 
-  // After it has advertised: of two nodes that start at once, that with the later name is refused.
-  // Throws InputError.
+  // After it has advertised all that it commands: of nodes that start at once, those that the master
+  // had later are refused. Throws InputError as above.
   void refuseSimultaneous() const;
 
-  // A node of another process that commands the same by now; asks the master and waits for it.
-  std::optional<OtherCommander> other() const { return otherCommander(commands_); }
+  // A node of another process that commands the same by now; asks the master and waits a second for it.
+  std::optional<OtherCommander> other() const;
 
  private:
   const std::string node_;

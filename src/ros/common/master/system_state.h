@@ -8,10 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "ros/common/run_node.h"
+
 namespace grid_path_planner::nodes {
 
 struct SystemState {
-  using Nodes = std::map<std::string, std::vector<std::string>>;  // by topic or service
+  // By topic or service, in the order in which they registered.
+  using Nodes = std::map<std::string, std::vector<std::string>>;
   Nodes publishers, subscribers, services;
 };
 
@@ -21,27 +24,12 @@ std::optional<SystemState> systemStateOf(XmlRpc::XmlRpcValue lists);
 // None where the master does not answer within `seconds`.
 std::optional<SystemState> systemState(double seconds);
 
-// What a node commands, and nobody else may.
-struct Commands {
-  std::vector<std::string> topics;   // resolved names, of velocities
-  std::vector<std::string> actions;  // resolved names
-  // A topic: who publishes it (joysticks) and who subscribes to it (drivers) may publish the same
-  // velocities, since drivers yield to joysticks.
-  std::string manual_control;
-  bool is_joystick = false;
-};
-
-struct OtherCommander {
-  std::string node;
-  std::string sentence;
-};
-
-// Another node that answers and publishes one of the topics, or offers one of the actions; none
-// where there is none. A node that was killed stays registered, so each that is found is asked. It
-// and the master have a second to answer, `times` at most: on a busy machine they may need more.
-std::optional<OtherCommander> otherCommander(const Commands& commands, int times = 1);
-
-// Throws InputError naming it.
-[[noreturn]] void refuse(const OtherCommander& other);
+// Again and again, `times` at most, until there is an answer or the node is to end.
+template <class Ask>
+auto askPatiently(int times, const Ask& ask) {
+  auto answer = ask();
+  for (int asked = 1; asked < times && !answer && !nodeIsToEnd(); ++asked) answer = ask();
+  return answer;
+}
 
 }  // namespace grid_path_planner::nodes

@@ -1,0 +1,185 @@
+#!/usr/bin/env python3
+"""One vehicle has one commander: each pair of nodes that publish its velocities or offer the same action.
+
+What was seen before: two navigate_paths drove one vehicle along two paths; two nodelets of one manager did so long after
+two nodes could not, since the master knows both by the manager's name; on a busy machine a second's silence of the master
+was taken for leave; and of two that started at once both stayed, since that with the earlier name took the other, which
+had looked before, for one that would go.
+"""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import rosgraph
+import roslib.packages
+import rospy
+import rostest
+
+import node_probes as probes
+from commanders import COMMANDERS, VELOCITIES, StoppableClock
+from node_table import NODES
+from running_nodes import PACKAGE, RunningNode, executable
+from slow_master import SlowMaster
+
+DEADLINE = 60.0  # s
+DRIVERS = [name for name in COMMANDERS if "manual_control" in NODES[name].inputs]
+
+
+def commands(name):
+    """The topics of velocities and the actions that nobody else may command or offer."""
+    row = NODES[name]
+    return {topic for topic, kind in row.outputs.items() if kind in VELOCITIES} | set(row.actions)
+
+
+def is_joystick(name):
+    return "joy" in NODES[name].inputs
+
+
+def conflict(first, second):
+    """What both command, but for a driver and a joystick, to which it yields."""
+    return commands(first) & commands(second) if is_joystick(first) == is_joystick(second) else set()
+
+
+PAIRS = [(first, second) for first in NODES for second in NODES if conflict(first, second)]
+
+
+class EveryCommanderStart(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.clock = StoppableClock()
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.started = []
+        self.addCleanup(self.end_all)
+
+    def end_all(self):
+        for node in self.started:
+            node.end(signal.SIGKILL)
+
+    @staticmethod
+    def said(node):
+        with open(node.log.name, errors="replace") as file:
+            return file.read()[-2000:]
+
+    def started_node(self, name, kind):
+        """In a namespace of its own: the master goes on to name what was killed."""
+        row = NODES[name]._replace(arguments=COMMANDERS[name].arguments if name in COMMANDERS else NODES[name].arguments)
+        space = "/%s_%d" % (self.id().rsplit(".", 1)[1], len(self.started))
+        self.started.append(RunningNode(name, row, kind, self.clock, self.folder, space))
+        return self.started[-1]
+
+    def first(self, name, kind):
+        """A node that is to be alone, all there."""
+        node = self.started_node(name, kind)
+        self.assertTrue(probes.until(node, lambda: self.is_up(node.full_name()), time.monotonic() + DEADLINE),
+                        "%s: %s" % (node, self.said(node)))
+        return node
+
+    @staticmethod
+    def is_up(name):
+        """Whether it offers what a node offers last of all when it starts."""
+        services = rosgraph.Master("/every_commander_start").getSystemState()[2]
+        return any(service == name + "/set_parameters" for service, _ in services)
+
+    @staticmethod
+    def second(node, name, master=None):
+        """Started beside it, in its namespace and, of nodelets, its manager."""
+        words = ["__ns:=" + node.space, "__name:=second_" + name]
+        if node.kind == "process":
+            command = [executable(name)] + words
+        else:
+            nodelet = roslib.packages.find_node("nodelet", "nodelet")[0]
+            command = [nodelet, "load", "%s/%s" % (PACKAGE, name), "manager", "--no-bond"] + words
+        environment = dict(os.environ, ROS_MASTER_URI=master) if master else None
+        process = subprocess.Popen(command, stdout=node.log, stderr=subprocess.STDOUT, env=environment)
+        node.processes.append(process)
+        return process
+
+    def ends_refused(self, node, process, sentence, name):
+        """Neither the log nor a status says that it runs: it has ended with an error and the sentence."""
+        try:
+            code = process.wait(DEADLINE)
+        except subprocess.TimeoutExpired:
+            self.fail("%s runs beside %s: %s" % (name, node, self.said(node)))
+        node.processes.remove(process)
+        self.assertNotEqual(0, code, "%s beside %s: %s" % (name, node, self.said(node)))
+        self.assertRegex(self.said(node), sentence, "%s beside %s" % (name, node))
+        self.assertTrue(node.lives(), str(node))
+
+    def refused(self, first, second, kind, master=None):
+        node = self.first(first, kind)
+        process = self.second(node, second, master)
+        self.ends_refused(node, process, "the node %s (publishes|offers) " % node.full_name(), second)
+        node.end(signal.SIGKILL)
+
+    def test_a_second_process_is_refused_and_names_the_first(self):
+        for first, second in PAIRS:
+            self.refused(first, second, "process")
+
+    def test_a_second_nodelet_of_a_manager_is_refused_and_names_the_first(self):
+        for first, second in PAIRS:
+            self.refused(first, second, "nodelet")
+
+    def test_of_two_that_start_at_once_one_at_most_stays(self):
+        for first, second in PAIRS:
+            node = self.started_node(first, "process")
+            process = self.second(node, second)
+            name = "%s/second_%s" % (node.space, second)
+            both = [(node.processes[0], node.full_name()), (process, name)]
+
+            def settled():
+                return all(one.poll() is not None or self.is_up(full_name) for one, full_name in both)
+            self.assertTrue(probes.until(self.anybody(), settled, time.monotonic() + DEADLINE), str(node))
+            codes = [one.poll() for one, _ in both]
+            self.assertTrue(any(code is not None and code != 0 for code in codes), "%s beside %s: %s: %s" % (
+                second, node, codes, self.said(node)))
+            node.end(signal.SIGKILL)
+
+    @staticmethod
+    def anybody():
+        class Anybody:
+            @staticmethod
+            def lives():
+                return True
+        return Anybody
+
+    def test_a_master_that_is_slow_to_answer_gives_no_leave(self):
+        """As on a busy machine: it answers after two of the seconds that it is given."""
+        for driver in DRIVERS:
+            slow = SlowMaster(rosgraph.get_master_uri(), 2.0, 2)
+            self.addCleanup(slow.end)
+            self.refused(driver, driver, "process", slow.uri)
+            self.assertGreaterEqual(slow.asked, 3, driver)
+
+    def test_a_master_that_never_answers_gives_no_leave(self):
+        for driver in DRIVERS:
+            node = self.first(driver, "process")
+            silent = SlowMaster(rosgraph.get_master_uri(), 2.0 * DEADLINE, 1000)
+            process = self.second(node, driver, silent.uri)
+            self.ends_refused(node, process, "does not say whether another node commands the vehicle", driver)
+            node.end(signal.SIGKILL)
+
+    def test_a_joystick_and_a_driver_stand_beside_each_other(self):
+        for driver in DRIVERS:
+            for kind in ("process", "nodelet"):
+                for first, second in ((driver, "teleop_joy"), ("teleop_joy", driver)):
+                    node = self.first(first, kind)
+                    process = self.second(node, second)
+                    name = "%s/second_%s" % (node.space, second)
+                    self.assertTrue(probes.until(node, lambda: self.is_up(name), time.monotonic() + DEADLINE),
+                                    "%s beside %s: %s" % (second, node, self.said(node)))
+                    self.assertIsNone(process.poll() if kind == "process" else None)
+                    node.end(signal.SIGKILL)
+
+
+if __name__ == "__main__":
+    rospy.init_node("every_commander_start")
+    rostest.rosrun(PACKAGE, "every_commander_start", EveryCommanderStart)

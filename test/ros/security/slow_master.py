@@ -1,0 +1,50 @@
+"""A ROS master that is slow to say who publishes what, in front of the real one."""
+import http.server
+import threading
+import time
+import urllib.error
+import urllib.request
+
+
+class SlowMaster:
+    """Hands all calls on to `master`; the first `times` of getSystemState are answered after `seconds`."""
+
+    def __init__(self, master, seconds, times):
+        self.master, self.seconds, self.times = master, seconds, times
+        self.asked, self.lock = 0, threading.Lock()
+        self.server = http.server.ThreadingHTTPServer(("localhost", 0), self.handler())
+        self.uri = "http://localhost:%d/" % self.server.server_address[1]
+        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+
+    def end(self):
+        self.server.shutdown()
+        self.server.server_close()
+
+    def is_slow(self):
+        with self.lock:
+            self.asked += 1
+            return self.asked <= self.times
+
+    def handler(slow):  # pylint: disable=no-self-argument
+        class Handler(http.server.BaseHTTPRequestHandler):
+            protocol_version = "HTTP/1.1"
+
+            def do_POST(self):  # pylint: disable=invalid-name
+                body = self.rfile.read(int(self.headers["Content-Length"]))
+                if b"getSystemState" in body and slow.is_slow():
+                    time.sleep(slow.seconds)
+                request = urllib.request.Request(slow.master, body, {"Content-Type": "text/xml"})
+                try:
+                    with urllib.request.urlopen(request) as answer:
+                        said = answer.read()
+                    self.send_response(200)
+                    self.send_header("Content-Type", "text/xml")
+                    self.send_header("Content-Length", str(len(said)))
+                    self.end_headers()
+                    self.wfile.write(said)
+                except (urllib.error.URLError, OSError):
+                    self.close_connection = True  # either of the two has gone
+
+            def log_message(self, *_):
+                pass
+        return Handler
