@@ -13,7 +13,7 @@
 namespace grid_path_planner::nodes {
 namespace {
 
-constexpr int kAskedAtStart = 10;  // times
+constexpr int kAskedAtStart = 10;            // times
 constexpr double kPatienceWithMaster = 1.0;  // s, each time
 
 struct Claim {
