@@ -1,11 +1,14 @@
 // The bits of every cell are those that walking cell by cell gives, and after any edits those of a
-// fresh build.
+// fresh build. So is what is counted of a map, which tells mazes, halls and noise apart.
 #include "planners/jump_point/jump_point_bits.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
+#include <string>
+#include <vector>
 
+#include "planners/jump_point/jump_point_density.h"
 #include "support/random_map.h"
 
 namespace grid_path_planner::planners {
@@ -153,6 +156,103 @@ TEST(JumpPointBits, TakeTheBytesTheyReport) {
   JumpPointBits jump_points;
   jump_points.build(BitMaps(weights, StopToken()), StopToken());
   EXPECT_EQ(jump_points.bytes(), JumpPointBits::bytesFor(weights.geometry()));
+}
+
+// The picture, again and again.
+Weights repeated(const std::vector<std::string>& picture, int width, int height) {
+  Weights weights(GridGeometry(width, height, 1.0), 1);
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) {
+      const std::string& line = picture[std::size_t(row) % picture.size()];
+      if (line[std::size_t(column) % line.size()] == '#')
+        weights[Cell{column, row}] = CostGrid::kBlocked;
+    }
+  return weights;
+}
+
+JumpPointDensity::Counts walked(const Weights& weights) {
+  JumpPointDensity::Counts counts;
+  for (std::uint32_t i = 0; i < weights.values().size(); ++i) {
+    const Cell cell = weights.geometry().cell(CellIndex(i));
+    if (!passable(weights, cell)) continue;
+    ++counts.free;
+    for (int step = 0; step < 4; ++step) {
+      if (!passable(weights, beside(cell, step))) ++counts.borders;
+      const Cell before = beside(cell, (step + 2) % 4);
+      if (passable(weights, before) && jumpPointAfter(weights, before, step)) ++counts.jump_points;
+    }
+  }
+  return counts;
+}
+
+void expectCounts(const JumpPointDensity& density, const JumpPointDensity::Counts& expected) {
+  EXPECT_EQ(density.counts().free, expected.free);
+  EXPECT_EQ(density.counts().borders, expected.borders);
+  EXPECT_EQ(density.counts().jump_points, expected.jump_points);
+}
+
+JumpPointDensity densityOf(const Weights& weights) {
+  JumpPointDensity density;
+  density.sample(BitMaps(weights, StopToken()), StopToken());
+  return density;
+}
+
+TEST(JumpPointDensityLaw, CountsWhatWalkingCellByCellFinds) {
+  std::mt19937 random(1);
+  for (const int width : {1, 2, 63, 65, 100, 130})
+    for (const int height : {1, 2, 70, 128}) {
+      const Weights weights = blockedWith(random, width, height, 0.3);
+      SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
+      expectCounts(densityOf(weights), walked(weights));
+    }
+}
+
+TEST(JumpPointDensityLaw, AfterEditsEqualsAFreshSample) {
+  std::mt19937 random(2);
+  Weights weights = blockedWith(random, 150, 700, 0.2);
+  BitMaps bits(weights, StopToken());
+  JumpPointDensity density = densityOf(weights);
+  for (int edit = 0; edit < 200; ++edit) {
+    const Cell low = test::randomCell(random, weights.geometry());
+    const CellRect changed =
+        CellRect{low.column, low.row, 1 + int(random() % 40), 1 + int(random() % 40)}.intersection(
+            weights.geometry().rect());
+    for (int row = changed.row; row < changed.row + changed.height; ++row)
+      for (int column = changed.column; column < changed.column + changed.width; ++column)
+        weights[Cell{column, row}] = static_cast<CostGrid::Weight>(random() % 2);
+    bits.update(weights, changed, StopToken());
+    density.update(bits, changed);
+    expectCounts(density, densityOf(weights).counts());
+    if (HasFailure()) FAIL() << "edit " << edit;
+  }
+}
+
+TEST(JumpPointDensity, LeavesNoiseToAStar) {
+  std::mt19937 random(3);
+  for (const double share : {0.03, 0.1, 0.2, 0.35}) {
+    const JumpPointDensity density = densityOf(blockedWith(random, 300, 300, share));
+    EXPECT_TRUE(density.aStarPays()) << share;
+    EXPECT_EQ(density.jumpsPay(), share == 0.35) << share;
+  }
+}
+
+TEST(JumpPointDensity, TellsNarrowPassagesFromHalls) {
+  const Weights narrow = repeated({"####.#####", "..........", ".........."}, 500, 500);
+  EXPECT_FALSE(densityOf(narrow).aStarPays());
+  EXPECT_TRUE(densityOf(narrow).jumpsPay());
+  const Weights halls = repeated(std::vector<std::string>(20, "#..................."), 500, 500);
+  EXPECT_FALSE(densityOf(halls).aStarPays());
+  EXPECT_FALSE(densityOf(halls).jumpsPay());
+  const Weights open = repeated({"."}, 500, 500);
+  EXPECT_FALSE(densityOf(open).aStarPays());
+  EXPECT_FALSE(densityOf(open).jumpsPay());
+}
+
+// Corridors one cell wide: every second row, or every fourth, is a wall.
+TEST(JumpPointDensity, IsNotMisledByAMapThatRepeatsItself) {
+  const std::vector<std::string> maze{"#########.", "..........", "####.#####", ".........."};
+  for (const int height : {128, 256, 512, 1024, 2048})
+    EXPECT_TRUE(densityOf(repeated(maze, 200, height)).jumpsPay()) << height;
 }
 
 }  // namespace

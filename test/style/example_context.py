@@ -257,7 +257,7 @@ CONTEXT = {
         extern std::vector<double> axes; extern std::vector<bool> buttons; extern Vehicle vehicle;""",
     "straight_jump_table.h": "extern const StraightJumpTable& table; extern std::size_t row; extern unsigned column;"
                     "extern const CostGrid::Weight* weights;",
-    "jump_point_bits.h": "extern const CostGrid& map; extern Cell cell;",
+    "jump_point_bits.h": "extern const CostGrid& map; extern Cell cell;", "jump_point_density.h": "extern const CostGrid& map;",
     "inconsistency_scan.h": "extern const BackwardNodes& nodes; extern CellRect rect;",
     "landmark_table.h": "extern const CostGrid& map; extern std::uint32_t index, goal_index;",
     "map_model.h": "extern ProjectedMapOptions options; extern std::vector<Eigen::Vector3d> points;"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planners/jump_point/row_neighbours.h"
+
 namespace grid_path_planner::planners {
 
 using base::StopPoll, base::StopToken;
@@ -13,14 +15,6 @@ namespace {
 
 using Word = BitMap::Word;
 constexpr int kBits = BitMap::kWordBits;
-
-// Bit i of the result is the bit of the cell before (after) cell i of the line.
-Word before(const Word* at) {
-  return *at << 1 | at[-1] >> 63;
-}
-Word after(const Word* at) {
-  return *at >> 1 | at[1] << 63;
-}
 
 // Of 64 cells of a line, those from which the jump towards higher (lower) bits ends at a jump
 // point. The jump stops at `jump_points` and goes on over `passes`. `carry`: whether the neighbour

@@ -126,7 +126,7 @@ void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
 
 bool WeightedJumpPoint::shouldJump() const {
   return !a_star_asked_for_ && jumpsSupport(map().motion()) &&
-         (map().uniform() || pruning_.jumpingPays());
+         (map().uniform() ? density_.jumpsPay() : pruning_.jumpingPays());
 }
 
 int WeightedJumpPoint::blockOfBound() const {
@@ -136,16 +136,26 @@ int WeightedJumpPoint::blockOfBound() const {
 
 void WeightedJumpPoint::doPrepare(const StopToken& stop) {
   substitute_.reset();
-  jumps_ready_ = sampled_ = false;
+  jumps_ready_ = sampled_ = counted_ = false;
   estimate({}, stop);
-  if (shouldJump() && !jumpPointSubstitutes()) return prepareJumps(stop);
+  if (shouldJump() && !map().uniform()) return prepareJumps(stop);
   jumps_.release();
   prepareSubstitute(stop);
 }
 
-// Nothing depends on the estimate on maps of one weight.
+// Of the kind that the map is of.
 void WeightedJumpPoint::estimate(const std::vector<CellRect>& changed, const StopToken& stop) {
-  if (!jumpsSupport(map().motion()) || map().uniform()) {
+  const bool jumps = !a_star_asked_for_ && jumpsSupport(map().motion());
+  const bool one_weight = jumps && map().uniform();
+  if (!one_weight) {
+    counted_ = false;
+  } else if (counted_) {
+    for (const CellRect& rect : changed) density_.update(map().bitMaps(stop), rect);
+  } else {
+    density_.sample(map().bitMaps(stop), stop);
+    counted_ = true;
+  }
+  if (!jumps || one_weight) {
     pruning_ = PruningEstimate();
     sampled_ = false;
   } else if (sampled_) {
@@ -166,7 +176,7 @@ void WeightedJumpPoint::prepareJumps(const StopToken& stop) {
 void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
   estimate(changed, stop);
   const bool jumps = shouldJump();
-  if (jumps_ready_ ? !jumps : jumps && !jumpPointSubstitutes()) return doPrepare(stop);
+  if (jumps_ready_ ? !jumps : jumps && !map().uniform()) return doPrepare(stop);
   if (jumps_ready_) updateJumps(changed, stop);
   if (substitute_) updateSubstitute(changed, stop);
 }
@@ -195,9 +205,10 @@ std::uint64_t WeightedJumpPoint::firstTiles() const {
   return tiles <= kSmallMap ? 2 * kSmallMap : 0;
 }
 
-// Whether JumpPoint is the one that answers until the jumps are prepared.
+// Whether JumpPoint is the one that answers where the jumps do not.
 bool WeightedJumpPoint::jumpPointSubstitutes() const {
-  return shouldJump() && map().uniform();
+  return !a_star_asked_for_ && jumpsSupport(map().motion()) && map().uniform() &&
+         !density_.aStarPays();
 }
 
 void WeightedJumpPoint::prepareSubstitute(const StopToken& stop) {

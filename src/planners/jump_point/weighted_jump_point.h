@@ -13,12 +13,15 @@
 // where the octile distance says little of costs, else in long searches only.
 //
 // The jumps are prepared by tiles, when a search first comes to them or by finishBackgroundWork().
-// Until then a substitute answers at the same cost, so that a first plan waits for no preparation:
-// - JumpPoint on maps of one weight. Its bits are made in the time in which A* is prepared, and the
-//   jumps are left to finishBackgroundWork().
-// - elsewhere A*, where a search comes to more new tiles than were paid for: one for so many
-//   expansions of A* that making it adds some per cent to their time. Small maps are paid for, and
-//   what an update undid where that is little; of maps above 2^26 cells nothing is.
+// Until then a substitute answers at the same cost, so that a first plan waits for no preparation: A*,
+// where a search comes to more new tiles than were paid for. One is for so many expansions of A* that
+// making it adds some per cent to their time. Small maps are paid for, and what an update undid where
+// that is little; of maps above 2^26 cells nothing is.
+//
+// On maps of one weight JumpPoint answers, whose bits are made in the time in which A* is prepared, and
+// on random noise A*. There finishBackgroundWork() prepares the jumps where they are faster, once they
+// are there; elsewhere nothing more is prepared, and searches stay as they are
+// (planners/jump_point/jump_point_density.h).
 //
 // No map is refused: where a path costs more than the keys of the jumps hold, the substitute answers. No
 // option is ignored: with a search option (heuristic, scale, epsilon, tie-break) that is not the
@@ -32,6 +35,7 @@
 #include "grid_path_planner/planners/a_star_options.h"
 #include "grid_path_planner/planners/planner.h"
 #include "planners/astar/a_star.h"
+#include "planners/jump_point/jump_point_density.h"
 #include "planners/jump_point/pruning_estimate.h"
 #include "planners/jump_point/weighted_jump_search.h"
 
@@ -75,8 +79,10 @@ class WeightedJumpPoint : public Planner {
 
   AStarOptions options_;
   bool a_star_asked_for_;
-  PruningEstimate pruning_;
-  bool sampled_ = false;  // pruning_ is of the map
+  PruningEstimate pruning_;   // of maps of several weights
+  JumpPointDensity density_;  // of maps of one
+  bool sampled_ = false;      // pruning_ is of the map
+  bool counted_ = false;      // density_ is
   bool jumps_ready_ = false;
   std::uint64_t tiles_left_ = 0;  // that searches may make
   std::size_t paid_ = 0;          // expansions of A* towards the next one
