@@ -4,7 +4,8 @@ subscriber that never reads.
 On path_planner and navigate_path with a simulated vehicle, without a world; the map is free but for a wall. Half of the
 time maps come at 5 Hz, half at 10 Hz. Holds if no node ends, resident memory ends up below MOST_MB, 95 % of the answers
 of ~make_plan come within PROMPT seconds at 5 Hz and all within LONGEST_ANSWER, once the load is over within 1 s, and
-cmd_vel is silent no longer than silence.py allows. A machine whose load is above twice its cores has more time, in
+cmd_vel is silent no longer than silence.py allows. A drive that ends, where path_planner finds no path, is silent too:
+the row says how often that was. A machine whose load is above twice its cores has more time, in
 proportion: the clients take a core themselves.
 """
 import os
@@ -153,6 +154,10 @@ class Nodes:
         if ended:
             raise SessionFailed("these have ended: " + ", ".join(ended))
 
+    def drives_ended(self):
+        with open(self.log.name, errors="replace") as log:
+            return sum("CANCELLED: the path is empty" in line for line in log)
+
     def resident(self):
         return {name: resident_mb(process.pid) for name, process in self.processes.items()}
 
@@ -211,7 +216,7 @@ def suffer(nodes, seconds, silence, map_rate):
 
 
 def verdict(answers, most, calm, silent):
-    """`answers`: their seconds by the rate of the maps."""
+    """`answers`: their seconds by the rate of the maps. `silent`: of cmd_vel, in words."""
     if not all(answers.values()):
         raise SessionFailed("no answer under load")
     text = "; ".join("maps at %g Hz: %d answers, p95 %.2f s, longest %.1f s" % (
@@ -222,6 +227,14 @@ def verdict(answers, most, calm, silent):
     if late or calm > patience(1.0) or most > MOST_MB:
         raise SessionFailed(text)
     return text
+
+
+def judged(silence, nodes):
+    ended = ", %d drives ended meanwhile" % nodes.drives_ended()
+    try:
+        return silence.verdict() + ended
+    except SessionFailed as reason:
+        raise SessionFailed(str(reason) + ended) from reason
 
 
 def storm(minutes, folder, given):
@@ -241,7 +254,7 @@ def storm(minutes, folder, given):
                     most = max(most, megabytes)
                 time.sleep(2.0)
                 calm, _ = plan(5.0, 5.0)
-                return verdict(answers, most, calm, silence.verdict())
+                return verdict(answers, most, calm, judged(silence, nodes))
         finally:
             nodes.stop()
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "grid_path_planner/avoidance/pilot.h"
+#include "ros/common/outgoing/direct_publisher.h"
 
 namespace grid_path_planner::nodes {
 
@@ -28,10 +29,11 @@ class FlightPublisher {
   void trajectory(const avoidance::Pilot& pilot, const avoidance::PilotAnswer& answer,
                   const avoidance::VehiclePose& at, const std::string& map_frame,
                   const std::string& base_frame, const ros::Time& stamp);
-  bool anyListener() const { return velocity_.getNumSubscribers() > 0; }
+  bool anyListener() const { return velocity_.numberOfListeners() > 0; }
 
  private:
-  ros::Publisher velocity_, setpoint_, trajectory_, path_, status_;
+  DirectPublisher velocity_;
+  ros::Publisher setpoint_, trajectory_, path_, status_;
   std::string told_;
 };
 

@@ -61,10 +61,10 @@ DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& optio
       footprint_(Footprint::fromText("check_footprint", options.check_footprint)),
       transforms_(transforms),
       on_report_(std::move(on_report)),
-      follower_(options.follower) {
+      follower_(options.follower),
+      velocity_publisher_(ros::NodeHandle(nh).advertise<geometry_msgs::Twist>("cmd_vel", 10)) {
   ros::NodeHandle own(nh);
   own.setCallbackQueue(&guarded_);
-  velocity_publisher_ = own.advertise<geometry_msgs::Twist>("cmd_vel", 10);
   manual_subscriber_ = subscribeChecked<std_msgs::Bool>(
       own, "manual_control", 1, [this](const std_msgs::Bool& message) { onManual(message); });
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
@@ -84,7 +84,7 @@ DriveLoop::~DriveLoop() {
 void DriveLoop::finish() {
   cancel("navigate_path ends");
   if (numberOfListeners() > 0)
-    ros::WallDuration(0.1).sleep();  // roscpp sends in a thread of its own and says not when it has
+    ros::WallDuration(0.1).sleep();  // what a connection did not take is sent by roscpp's thread
 }
 
 // Exceptions of `work` come back; the tick shows its effect on cmd_vel at once.

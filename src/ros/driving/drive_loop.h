@@ -11,13 +11,13 @@
 // non-zero velocity is followed by a zero within a tick when the drive ends, is paused or blocked,
 // and by the wall clock when ROS time stands still. While `stop` is true there are zeros only, and
 // while a joystick commands (`manual_control`) there is nothing at all: the drive is paused, and
-// resumed by hand. Not guaranteed: a bound on what roscpp takes to send a velocity.
+// resumed by hand. A velocity is written to its connections by this thread itself. Not guaranteed: that
+// the machine gives it a processor in time.
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
 #include <ros/subscriber.h>
 #include <std_msgs/Bool.h>
 
@@ -38,6 +38,7 @@
 #include "ros/common/frame_transforms.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/master/master_watch.h"
+#include "ros/common/outgoing/direct_publisher.h"
 #include "ros/driving/map_life.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/speed_limit_receiver.h"
@@ -94,9 +95,9 @@ class DriveLoop {
   std::vector<DriveReport> takeReports();
 
   // Resolved names.
-  std::string velocityTopic() const { return velocity_publisher_.getTopic(); }
+  std::string velocityTopic() const { return velocity_publisher_.topic(); }
   std::string manualTopic() const { return manual_subscriber_.getTopic(); }
-  std::size_t numberOfListeners() const { return velocity_publisher_.getNumSubscribers(); }
+  std::size_t numberOfListeners() const { return velocity_publisher_.numberOfListeners(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -146,7 +147,7 @@ class DriveLoop {
 
   ros::CallbackQueue queue_;
   GuardedQueue guarded_{queue_};
-  ros::Publisher velocity_publisher_;
+  DirectPublisher velocity_publisher_;
   ros::Subscriber manual_subscriber_;
   ros::Subscriber stop_subscriber_;
   std::atomic<bool> done_{false};

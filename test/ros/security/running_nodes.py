@@ -59,6 +59,15 @@ def limit_memory():
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY_LIMIT, MEMORY_LIMIT))
 
 
+def threads_of(process):
+    """Where they stand, if the machine has gdb and lets it look: what hangs once in many runs is not there to be asked."""
+    try:
+        return subprocess.run(["gdb", "-p", str(process.pid), "-batch", "-ex", "thread apply all backtrace"], timeout=60,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, universal_newlines=True).stdout
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return str(error)
+
+
 class RunningNode:
     def __init__(self, name, row, kind, clock, log_folder, space=None):
         self.name, self.row, self.kind, self.clock = name, row, kind, clock
@@ -203,6 +212,7 @@ class RunningNode:
             try:
                 process.wait(10)
             except subprocess.TimeoutExpired:
+                print("%s: %s has not ended; its threads:\n%s" % (self, " ".join(process.args[:2]), threads_of(process)))
                 process.kill()
                 return None
         self.forget_connections()
