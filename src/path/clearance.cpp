@@ -173,7 +173,7 @@ double clearanceOf(const Path& path, const OccupancyGrid& map,
   for (const Pose& pose : path.poses)
     points.push_back(geometry.gridFromWorld(pose.position.head<2>()));
   const OccupiedCells occupied(map, thresholds);
-  return ClearanceSearch(occupied, withoutPointsOnTheWay(points, kFirstReach)).least() *
+  return ClearanceSearch(occupied, withoutCollinearPoints(points, kFirstReach)).least() *
          geometry.resolution();
 }
 

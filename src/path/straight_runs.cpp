@@ -5,7 +5,7 @@
 namespace grid_path_planner::path {
 namespace {
 
-// Steps whose directions differ by less, in radians, lie on one straight way. Above the rounding of
+// Steps whose directions differ by less, in radians, lie on one straight line. Above the rounding of
 // positions in metres on maps of some kilometres.
 constexpr double kStraight = 1e-10;
 
@@ -17,8 +17,8 @@ bool sameDirection(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> withoutPointsOnTheWay(const std::vector<Eigen::Vector2d>& points,
-                                                   double longest) {
+std::vector<Eigen::Vector2d> withoutCollinearPoints(const std::vector<Eigen::Vector2d>& points,
+                                                    double longest) {
   std::vector<Eigen::Vector2d> left;
   if (points.empty()) return left;
   left.push_back(points.front());

@@ -14,12 +14,12 @@ namespace grid_path_planner::planning {
 using costmap::CostGrid, costmap::KeptDistances, costmap::lineCost, costmap::lineOfSight,
     costmap::SegmentPoint;
 using grid::GridGeometry;
-using path::Path, path::Pose, path::withoutPointsOnTheWay;
+using path::Path, path::Pose, path::withoutCollinearPoints;
 
 namespace {
 
 constexpr std::size_t kFromStart = 2;       // segments from where a vehicle is
-constexpr double kMeasuredTogether = 32.0;  // cells of a straight way
+constexpr double kMeasuredTogether = 32.0;  // cells of a straight run
 
 Polyline polylineOf(const Path& path) {
   Polyline line;
@@ -51,8 +51,8 @@ bool keepsDistances(const Polyline& line, const CostGrid& costs) {
   for (std::size_t i = 0; i + 1 < line.size() && i < kFromStart; ++i)
     if (!segments.leavesStart(line[i], line[i + 1], at_start)) return false;
   if (line.size() <= kFromStart) return true;
-  const Polyline rest = withoutPointsOnTheWay({line.begin() + kFromStart, line.end()},
-                                              kMeasuredTogether * costs.geometry().resolution());
+  const Polyline rest = withoutCollinearPoints({line.begin() + kFromStart, line.end()},
+                                               kMeasuredTogether * costs.geometry().resolution());
   for (std::size_t i = 0; i + 1 < rest.size(); ++i)
     if (!segments.keeps(rest[i], rest[i + 1])) return false;
   return true;

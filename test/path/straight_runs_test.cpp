@@ -13,21 +13,21 @@ using Points = std::vector<Eigen::Vector2d>;
 
 TEST(StraightRuns, TurnsAndEndsStay) {
   const Points path = {{0, 0}, {1, 0}, {2, 0}, {3, 1}, {4, 2}, {4, 3}, {4, 2}, {4, 1}};
-  EXPECT_EQ(withoutPointsOnTheWay(path, 100.0), (Points{{0, 0}, {2, 0}, {4, 2}, {4, 3}, {4, 1}}));
+  EXPECT_EQ(withoutCollinearPoints(path, 100.0), (Points{{0, 0}, {2, 0}, {4, 2}, {4, 3}, {4, 1}}));
 }
 
 TEST(StraightRuns, NoneIsLongerThanAsked) {
   const Points path = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}};
-  EXPECT_EQ(withoutPointsOnTheWay(path, 2.0), (Points{{0, 0}, {2, 0}, {4, 0}, {5, 0}}));
-  EXPECT_EQ(withoutPointsOnTheWay({{0, 0}, {9, 0}, {10, 0}}, 2.0),
+  EXPECT_EQ(withoutCollinearPoints(path, 2.0), (Points{{0, 0}, {2, 0}, {4, 0}, {5, 0}}));
+  EXPECT_EQ(withoutCollinearPoints({{0, 0}, {9, 0}, {10, 0}}, 2.0),
             (Points{{0, 0}, {9, 0}, {10, 0}}));
 }
 
 TEST(StraightRuns, FewPointsAndNoSteps) {
-  EXPECT_EQ(withoutPointsOnTheWay({}, 2.0), Points());
-  EXPECT_EQ(withoutPointsOnTheWay({{1, 2}}, 2.0), (Points{{1, 2}}));
-  EXPECT_EQ(withoutPointsOnTheWay({{1, 2}, {1, 2}}, 2.0), (Points{{1, 2}, {1, 2}}));
-  EXPECT_EQ(withoutPointsOnTheWay({{0, 0}, {1, 0}, {1, 0}, {2, 0}}, 9.0),
+  EXPECT_EQ(withoutCollinearPoints({}, 2.0), Points());
+  EXPECT_EQ(withoutCollinearPoints({{1, 2}}, 2.0), (Points{{1, 2}}));
+  EXPECT_EQ(withoutCollinearPoints({{1, 2}, {1, 2}}, 2.0), (Points{{1, 2}, {1, 2}}));
+  EXPECT_EQ(withoutCollinearPoints({{0, 0}, {1, 0}, {1, 0}, {2, 0}}, 9.0),
             (Points{{0, 0}, {1, 0}, {1, 0}, {2, 0}}));
 }
 
@@ -56,7 +56,7 @@ TEST(StraightRunsLaw, EveryPointLiesOnTheSegmentThatTakesItsPlace) {
       if (random() % 5 == 0) step = Eigen::Vector2d(int(random() % 3) - 1, int(random() % 3) - 1);
       cell += step;
     }
-    const Points rest = withoutPointsOnTheWay(path, longest);
+    const Points rest = withoutCollinearPoints(path, longest);
     points += path.size();
     left += rest.size();
     std::size_t segment = 0;
@@ -68,7 +68,7 @@ TEST(StraightRunsLaw, EveryPointLiesOnTheSegmentThatTakesItsPlace) {
           << "trial " << trial;
     }
   }
-  EXPECT_LT(2 * left, points) << "straight ways were not found";
+  EXPECT_LT(2 * left, points) << "straight runs were not found";
 }
 
 }  // namespace

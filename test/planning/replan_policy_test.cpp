@@ -59,7 +59,7 @@ TEST(PathBlocked, OnlyWhatRemainsCounts) {
   EXPECT_FALSE(pathBlocked(path, Eigen::Vector2d(2.5, 1.5), *costs)) << "it lies behind";
 }
 
-// Long straight ways among obstacles, where a step that is too near must not be lost among others.
+// Long straight runs among obstacles, where a step that is too near must not be lost among others.
 TEST(CostOfLaw, ThereIsOneExactlyWhereNoPointIsNearerThanTheRadius) {
   std::mt19937 random(1473);
   int legal = 0, illegal = 0;

@@ -102,10 +102,11 @@ void PlanningLane::finishLater(const PathPlannerNodeOptions& options) {
   finishing_ = worker_.post(
       [this, options](const StopSource& stop) {
         if (!planner_ || !planner_->hasMap()) return;
-        if (planner_->map()->geometry().size() > kMostFinished) return;
+        const std::size_t cells = planner_->map()->geometry().size();
         try {
           setOptions(options.planner);
-          planner_->finishPreparation(stop.token());
+          if (cells <= kMostCopied) planner_->makeReadyForChanges(stop.token());
+          if (cells <= kMostFinished) planner_->finishPreparation(stop.token());
         } catch (const Stopped&) {
         } catch (const InputError&) {
         }
