@@ -7,12 +7,12 @@ namespace {
 
 // Steps whose directions differ by less, in radians, lie on one straight line. Above the rounding of
 // positions in metres on maps of some kilometres.
-constexpr double kStraight = 1e-10;
+constexpr double kSameDirection = 1e-10;
 
 bool sameDirection(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const double cross = a.x() * b.y() - a.y() * b.x();
   return a.dot(b) > 0.0 &&
-         cross * cross <= kStraight * kStraight * a.squaredNorm() * b.squaredNorm();
+         cross * cross <= kSameDirection * kSameDirection * a.squaredNorm() * b.squaredNorm();
 }
 
 }  // namespace

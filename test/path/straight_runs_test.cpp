@@ -9,29 +9,31 @@
 namespace grid_path_planner::path {
 namespace {
 
-using Points = std::vector<Eigen::Vector2d>;
+using Polyline = std::vector<Eigen::Vector2d>;
 
 TEST(StraightRuns, TurnsAndEndsStay) {
-  const Points path = {{0, 0}, {1, 0}, {2, 0}, {3, 1}, {4, 2}, {4, 3}, {4, 2}, {4, 1}};
-  EXPECT_EQ(withoutCollinearPoints(path, 100.0), (Points{{0, 0}, {2, 0}, {4, 2}, {4, 3}, {4, 1}}));
+  const Polyline path = {{0, 0}, {1, 0}, {2, 0}, {3, 1}, {4, 2}, {4, 3}, {4, 2}, {4, 1}};
+  EXPECT_EQ(withoutCollinearPoints(path, 100.0),
+            (Polyline{{0, 0}, {2, 0}, {4, 2}, {4, 3}, {4, 1}}));
 }
 
 TEST(StraightRuns, NoneIsLongerThanAsked) {
-  const Points path = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}};
-  EXPECT_EQ(withoutCollinearPoints(path, 2.0), (Points{{0, 0}, {2, 0}, {4, 0}, {5, 0}}));
+  const Polyline path = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}};
+  EXPECT_EQ(withoutCollinearPoints(path, 2.0), (Polyline{{0, 0}, {2, 0}, {4, 0}, {5, 0}}));
   EXPECT_EQ(withoutCollinearPoints({{0, 0}, {9, 0}, {10, 0}}, 2.0),
-            (Points{{0, 0}, {9, 0}, {10, 0}}));
+            (Polyline{{0, 0}, {9, 0}, {10, 0}}));
 }
 
 TEST(StraightRuns, FewPointsAndNoSteps) {
-  EXPECT_EQ(withoutCollinearPoints({}, 2.0), Points());
-  EXPECT_EQ(withoutCollinearPoints({{1, 2}}, 2.0), (Points{{1, 2}}));
-  EXPECT_EQ(withoutCollinearPoints({{1, 2}, {1, 2}}, 2.0), (Points{{1, 2}, {1, 2}}));
+  EXPECT_EQ(withoutCollinearPoints({}, 2.0), Polyline());
+  EXPECT_EQ(withoutCollinearPoints({{1, 2}}, 2.0), (Polyline{{1, 2}}));
+  EXPECT_EQ(withoutCollinearPoints({{1, 2}, {1, 2}}, 2.0), (Polyline{{1, 2}, {1, 2}}));
   EXPECT_EQ(withoutCollinearPoints({{0, 0}, {1, 0}, {1, 0}, {2, 0}}, 9.0),
-            (Points{{0, 0}, {1, 0}, {1, 0}, {2, 0}}));
+            (Polyline{{0, 0}, {1, 0}, {1, 0}, {2, 0}}));
 }
 
-double distance(const Eigen::Vector2d& point, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+double distanceToSegment(const Eigen::Vector2d& point, const Eigen::Vector2d& a,
+                         const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = b - a;
   const double length = along.squaredNorm();
   const double share = length > 0.0 ? std::clamp((point - a).dot(along) / length, 0.0, 1.0) : 0.0;
@@ -47,7 +49,7 @@ TEST(StraightRunsLaw, EveryPointLiesOnTheSegmentThatTakesItsPlace) {
     const Eigen::Vector2d origin(place(random), place(random));
     const double yaw = angle(random), resolution = trial % 2 == 0 ? 0.05 : 1.0;
     const double longest = (1 + trial % 40) * resolution;
-    Points path;
+    Polyline path;
     Eigen::Vector2d cell(0.5, 0.5), step(1.0, 0.0);
     for (int i = 0; i < 300; ++i) {
       const Eigen::Vector2d at = resolution * cell;
@@ -56,15 +58,15 @@ TEST(StraightRunsLaw, EveryPointLiesOnTheSegmentThatTakesItsPlace) {
       if (random() % 5 == 0) step = Eigen::Vector2d(int(random() % 3) - 1, int(random() % 3) - 1);
       cell += step;
     }
-    const Points rest = withoutCollinearPoints(path, longest);
+    const Polyline rest = withoutCollinearPoints(path, longest);
     points += path.size();
     left += rest.size();
     std::size_t segment = 0;
     for (const Eigen::Vector2d& point : path) {
       while (segment + 2 < rest.size() &&
-             distance(point, rest[segment], rest[segment + 1]) > 1e-9 * longest)
+             distanceToSegment(point, rest[segment], rest[segment + 1]) > 1e-9 * longest)
         ++segment;
-      ASSERT_LE(distance(point, rest[segment], rest[segment + 1]), 1e-9 * longest)
+      ASSERT_LE(distanceToSegment(point, rest[segment], rest[segment + 1]), 1e-9 * longest)
           << "trial " << trial;
     }
   }
