@@ -107,6 +107,16 @@ def one_cell(node, generator, effort, result):
 
 
 @case()
+def one_cell_after_a_rest(node, generator, effort, result):
+    """one cell changed, half a second after the one before. What a node does while it is idle is done then, and in its
+    processor time."""
+    for _ in effort.rounds():
+        time.sleep(0.5)
+        cell = a_cell_of_the_path(node, generator)
+        result.times.append(node.path_around([cell], lambda: node.update([cell])))
+
+
+@case()
 def two_cells(node, generator, effort, result):
     """two cells at opposite corners. Both are on the path, an update each; until a path avoids both."""
     for _ in effort.rounds():

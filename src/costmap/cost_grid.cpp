@@ -13,7 +13,7 @@
 
 namespace grid_path_planner::costmap {
 
-using base::StopToken;
+using base::StopPoll, base::StopToken;
 using grid::addChange, grid::Cell, grid::CellRect, grid::copyCells, grid::Grid, grid::GridGeometry,
     grid::Occupancy;
 
@@ -42,6 +42,29 @@ std::pair<CostGrid::Weight, CostGrid::Weight> rangeOf(
   for (std::size_t lane = 0; lane < kTogether; ++lane) add(least_eight[lane], most_eight[lane]);
   for (; i < weights.size(); ++i) add(static_cast<CostGrid::Weight>(weights[i] - 1), weights[i]);
   return {static_cast<CostGrid::Weight>(least + 1), most};
+}
+
+// Row by row.
+template <class T>
+Grid<T> copied(const Grid<T>& from, const StopToken& stop) {
+  StopPoll poll(stop, 64);
+  std::vector<T> values;
+  values.reserve(from.values().size());
+  for (int row = 0; row < from.height(); ++row) {
+    poll();
+    values.insert(values.end(), from.row(row), from.row(row) + from.width());
+  }
+  return Grid<T>(from.geometry(), std::move(values));
+}
+
+WeightCounts countsOf(const Grid<CostGrid::Weight>& weights, const StopToken& stop) {
+  StopPoll poll(stop, 64);
+  WeightCounts counts;
+  for (int row = 0; row < weights.height(); ++row) {
+    poll();
+    counts.add(weights.row(row), weights.row(row) + weights.width());
+  }
+  return counts;
 }
 
 }  // namespace
@@ -122,7 +145,18 @@ void CostGrid::finishEdit(const CostGrid& before, const std::vector<CellRect>& r
   derived_->updateBits(weights_, rects);
 }
 
+std::unique_ptr<CostGrid> CostGrid::copyToEdit(const StopToken& stop) const {
+  auto copy = std::make_unique<CostGrid>(copied(weights_, stop), copied(classes_, stop), motion_,
+                                         kernel_, original_);
+  copy->kept_ = kept_;
+  copy->revision_ = revision_;
+  copy->derived_ = derived_->copy();
+  if (copy->derived_->counts.empty()) copy->derived_->counts = countsOf(weights_, stop);
+  return copy;
+}
+
 void CostGrid::catchUp(const CostGrid& with, const Change& change) {
+  if (change.weights.empty() && change.classes.empty()) return;
   copyCells(with.weights_, change.weights, weights_);
   copyCells(with.classes_, change.classes, classes_);
   min_weight_ = with.min_weight_;

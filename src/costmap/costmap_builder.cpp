@@ -195,6 +195,12 @@ std::shared_ptr<const CostGrid> CostmapBuilder::downsampled(const StopToken& sto
   return options_.kernel == 1 ? full_.current() : downsampled_.current();
 }
 
+void CostmapBuilder::makeReadyForChanges(const StopToken& stop) {
+  const auto copy = [&stop](const CostGrid& map) { return map.copyToEdit(stop); };
+  full_.makeSpare(copy);
+  downsampled_.makeSpare(copy);
+}
+
 void CostmapBuilder::bringUpToDate(const StopToken& stop) {
   assert(map_);
   if (!full_.current()) return build(stop);

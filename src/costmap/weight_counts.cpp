@@ -27,11 +27,15 @@ void WeightCounts::makeRoomFor(Weight weight) {
 
 void WeightCounts::add(const Grid<Weight>& weights) {
   const std::vector<Weight>& values = weights.values();
-  for (auto at = values.begin(); at != values.end();) {
-    const auto first = at;
-    while (at != values.end() && *at == *first) ++at;
-    makeRoomFor(*first);
-    counts_[*first][0] += static_cast<std::uint32_t>(at - first);
+  add(values.data(), values.data() + values.size());
+}
+
+void WeightCounts::add(const Weight* first, const Weight* last) {
+  while (first != last) {
+    const Weight* const run = first;
+    while (first != last && *first == *run) ++first;
+    makeRoomFor(*run);
+    counts_[*run][0] += static_cast<std::uint32_t>(first - run);
   }
 }
 

@@ -23,6 +23,7 @@ class WeightCounts {
   using Weight = std::uint16_t;
 
   void add(const grid::Grid<Weight>& weights);
+  void add(const Weight* first, const Weight* last);
   // Counts the cells of `rect` of `after` in the place of those of `before`, which were added.
   // Precondition: `rect` lies in both, which are of the same size.
   void replace(const grid::Grid<Weight>& before, const grid::Grid<Weight>& after,

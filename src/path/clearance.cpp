@@ -10,6 +10,7 @@
 
 #include "grid_path_planner/path/metrics.h"
 #include "path/segment.h"
+#include "path/straight_runs.h"
 
 namespace grid_path_planner::path {
 
@@ -172,7 +173,8 @@ double clearanceOf(const Path& path, const OccupancyGrid& map,
   for (const Pose& pose : path.poses)
     points.push_back(geometry.gridFromWorld(pose.position.head<2>()));
   const OccupiedCells occupied(map, thresholds);
-  return ClearanceSearch(occupied, std::move(points)).least() * geometry.resolution();
+  return ClearanceSearch(occupied, withoutCollinearPoints(points, kFirstReach)).least() *
+         geometry.resolution();
 }
 
 }  // namespace grid_path_planner::path

@@ -22,13 +22,12 @@ void addCrossings(double from, double to, double side, std::vector<double>& shar
 
 // The shares of the segment's length at which it passes from cell to cell, its ends included, in
 // order.
-std::vector<double> crossingsOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
-                                const GridGeometry& geometry) {
-  std::vector<double> shares = {0.0, 1.0};
+void findCrossings(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                   const GridGeometry& geometry, std::vector<double>& shares) {
+  shares = {0.0, 1.0};
   addCrossings(from.x(), to.x(), geometry.width(), shares);
   addCrossings(from.y(), to.y(), geometry.height(), shares);
   std::sort(shares.begin(), shares.end());
-  return shares;
 }
 
 double* lengthFor(ClassLengths& lengths, Occupancy occupancy) {
@@ -47,10 +46,11 @@ double* lengthFor(ClassLengths& lengths, Occupancy occupancy) {
 template <class ClassOf>
 ClassLengths lengthsIn(const GridGeometry& geometry, const Path& path, ClassOf&& class_of) {
   ClassLengths lengths;
+  std::vector<double> shares;
   for (std::size_t i = 1; i < path.poses.size(); ++i) {
     const Eigen::Vector2d from = geometry.gridFromWorld(path.poses[i - 1].position.head<2>());
     const Eigen::Vector2d to = geometry.gridFromWorld(path.poses[i].position.head<2>());
-    const std::vector<double> shares = crossingsOf(from, to, geometry);
+    findCrossings(from, to, geometry, shares);
     const double metres = (to - from).norm() * geometry.resolution();
     for (std::size_t piece = 1; piece < shares.size(); ++piece) {
       const double share = shares[piece] - shares[piece - 1];

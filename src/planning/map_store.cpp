@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "grid_path_planner/base/options.h"
@@ -12,6 +14,12 @@ namespace grid_path_planner::planning {
 using base::sameOptions, base::Stopped, base::StopReason, base::StopToken;
 using costmap::CostmapOptions, costmap::KeptDistances;
 using grid::CellRect, grid::DoubleBuffered, grid::OccupancyGrid;
+
+namespace {
+
+constexpr auto kNewerThanAll = std::numeric_limits<std::uint64_t>::max();  // of revisions
+
+}  // namespace
 
 MapSeries::MapSeries(std::shared_ptr<const OccupancyGrid> first, std::string frame_id)
     : geometry_(first->geometry()), frame_id_(std::move(frame_id)) {
@@ -96,6 +104,11 @@ SharedCostmap::Result SharedCostmap::newest(const StopToken& stop, std::uint64_t
     revision_.reset();  // the costmaps may be half made
     throw;
   }
+}
+
+void SharedCostmap::makeReadyForChanges(const StopToken& stop) {
+  const Turn turn(*this, kNewerThanAll, stop);
+  builder_.makeReadyForChanges(stop);
 }
 
 // Precondition: mutex_ is held.

@@ -77,6 +77,9 @@ class SharedCostmap {
   Result newest(const base::StopToken& stop,
                 std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
 
+  // CostmapBuilder's, of what was made last. Throws Stopped.
+  void makeReadyForChanges(const base::StopToken& stop);
+
  private:
   class Turn;
   std::optional<Result> madeSince(std::uint64_t revision) const;

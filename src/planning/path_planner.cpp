@@ -250,6 +250,10 @@ void PathPlanner::finishPreparation(const StopToken& stop) {
   search().finishBackgroundWork(stop);
 }
 
+void PathPlanner::makeReadyForChanges(const StopToken& stop) {
+  if (costmap_) costmap_->makeReadyForChanges(stop);
+}
+
 std::string PathPlanner::footprintContact(const path::Path& path, std::optional<double> start_yaw,
                                           const StopToken& stop) {
   if (!footprint_ || path.empty()) return "";

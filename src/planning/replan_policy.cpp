@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "grid_path_planner/costmap/line_of_sight.h"
+#include "path/straight_runs.h"
 #include "planning/end_segments.h"
 
 namespace grid_path_planner::planning {
@@ -12,9 +14,12 @@ namespace grid_path_planner::planning {
 using costmap::CostGrid, costmap::KeptDistances, costmap::lineCost, costmap::lineOfSight,
     costmap::SegmentPoint;
 using grid::GridGeometry;
-using path::Path, path::Pose;
+using path::Path, path::Pose, path::withoutCollinearPoints;
 
 namespace {
+
+constexpr std::size_t kFromStart = 2;       // segments from where a vehicle is
+constexpr double kMeasuredTogether = 32.0;  // cells of a straight run
 
 Polyline polylineOf(const Path& path) {
   Polyline line;
@@ -43,10 +48,13 @@ bool keepsDistances(const Polyline& line, const CostGrid& costs) {
   const KeptDistances lowered = EndSegments(costs).loweredTo(line.front(), line.back());
   const EndSegments segments(costs, lowered);
   const KeptDistances at_start = segments.at(line.front());
-  for (std::size_t i = 0; i + 1 < line.size(); ++i)
-    if (i < 2 ? !segments.leavesStart(line[i], line[i + 1], at_start)
-              : !segments.keeps(line[i], line[i + 1]))
-      return false;
+  for (std::size_t i = 0; i + 1 < line.size() && i < kFromStart; ++i)
+    if (!segments.leavesStart(line[i], line[i + 1], at_start)) return false;
+  if (line.size() <= kFromStart) return true;
+  const Polyline rest = withoutCollinearPoints({line.begin() + kFromStart, line.end()},
+                                               kMeasuredTogether * costs.geometry().resolution());
+  for (std::size_t i = 0; i + 1 < rest.size(); ++i)
+    if (!segments.keeps(rest[i], rest[i + 1])) return false;
   return true;
 }
 

@@ -141,6 +141,22 @@ TEST(CostmapUpdates, AStoppedUpdateLosesNothing) {
   expectSame(*builder.downsampled(StopToken()), *freshlyDownsampled(map, options));
 }
 
+TEST(CostmapUpdates, StoppedWhileItIsMadeReadyForChangesItLosesNothing) {
+  OccupancyGrid map(GridGeometry(300, 300, 1.0), 0);
+  CostmapBuilder builder({});
+  builder.makeReadyForChanges(StopToken());  // of no map
+  builder.setMap(std::make_shared<const OccupancyGrid>(map));
+  builder.makeReadyForChanges(StopToken());  // nothing is made yet
+  const Costs before = builder.downsampled(StopToken());
+  StopSource source;
+  source.cancel();
+  EXPECT_THROW(builder.makeReadyForChanges(source.token()), Stopped);
+  map[Cell{7, 7}] = 100;
+  builder.updateMap(std::make_shared<const OccupancyGrid>(map), {{7, 7, 1, 1}});
+  expectSame(*builder.downsampled(StopToken()), *freshlyDownsampled(map, {}));
+  EXPECT_TRUE(before->passable({7, 7}));
+}
+
 // What a sensor sees change: everything in a rectangle becomes `to`, where it was one of `from`.
 struct Seen {
   std::vector<std::int8_t> from;
@@ -289,6 +305,7 @@ TEST(CostmapUpdatesLaw, EqualsAFreshGridAfterUpdatesAndEarlierGridsStay) {
     for (int edit = 0; edit < 12; ++edit) {
       const Costs before = builder.downsampled(StopToken());
       held.push_back({before, *before});
+      if (random() % 2 == 0) builder.makeReadyForChanges(StopToken());
       while (random() % 2 == 0 && !held.empty()) held.pop_front();
 
       for (unsigned i = 0; i <= random() % 3; ++i) {

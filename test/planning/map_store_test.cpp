@@ -95,6 +95,7 @@ TEST(MapStoreLaw, PlannersThatMissChangesPlanAsOnAFreshMap) {
         if (round % every[i] != 0) continue;
         SCOPED_TRACE("trial " + std::to_string(trial) + " round " + std::to_string(round) + ' ' +
                      planners[i]->options().planner);
+        if (random() % 2 == 0) planners[i]->makeReadyForChanges(StopToken());
         planners[i]->takeMap();
         expectAsOnAFreshMap(*planners[i], map,
                             requestBetween(map.geometry(), test::randomCell(random, map.geometry()),

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "support/cost_maps.h"
+#include "support/kept_distance.h"
+#include "support/random_map.h"
 
 namespace grid_path_planner::planning {
 
@@ -53,6 +57,34 @@ TEST(PathBlocked, OnlyWhatRemainsCounts) {
   EXPECT_TRUE(pathBlocked(path, Eigen::Vector2d(0.5, 1.5), *costs));
   EXPECT_TRUE(pathBlocked(path, std::nullopt, *costs));
   EXPECT_FALSE(pathBlocked(path, Eigen::Vector2d(2.5, 1.5), *costs)) << "it lies behind";
+}
+
+// Long straight runs among obstacles, where a step that is too near must not be lost among others.
+TEST(CostOfLaw, ThereIsOneExactlyWhereNoPointIsNearerThanTheRadius) {
+  std::mt19937 random(1473);
+  int legal = 0, illegal = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    costmap::CostmapOptions options;
+    options.radius = 1.37;  // not a distance between a centre and a cell
+    options.outside = costmap::Outside::FREE;
+    const grid::OccupancyGrid map = test::randomOccupancy(random, 60, 0.003, 0.0);
+    const auto costs = test::costsOf(map, options);
+    Polyline line;
+    grid::Cell cell{int(random() % unsigned(map.width())), int(random() % unsigned(map.height()))};
+    int columns = 1, rows = 0;
+    while (line.size() < 80 && map.geometry().contains(cell)) {
+      line.push_back(map.geometry().centre(cell));
+      if (random() % 12 == 0) columns = int(random() % 3) - 1, rows = int(random() % 3) - 1;
+      cell = {cell.column + columns, cell.row + rows};
+    }
+    const double at_start = test::leastDistance({line.front()}, map, {}, 9.0);
+    if (at_start < options.radius) continue;
+    const bool kept = test::leastDistance(line, map, {}, 9.0) >= options.radius;
+    EXPECT_EQ(costOf(line, *costs).has_value(), kept) << "trial " << trial;
+    ++(kept ? legal : illegal);
+  }
+  EXPECT_GT(legal, 100);
+  EXPECT_GT(illegal, 50);
 }
 
 // navigation2 #2381, #2085, navigation #1194: replans flip left and right.

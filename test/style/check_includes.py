@@ -23,6 +23,7 @@ PLANNER_FLOORS = {
 }
 # Private headers that rooms above include too, though no other package should.
 LENT = {
+    "path/straight_runs.h": {"planning"},
     "base/available_memory.h": {"planners"},
     "base/child_process.h": {"simulation"},
     "base/cholesky.h": {"localization", "trials", "vision"},

@@ -97,6 +97,9 @@ class CostGrid {
   // the revision stays.
   void catchUp(const CostGrid& with, const Change& change);
 
+  // A copy with all that its first edit would compute of the whole map. Throws Stopped.
+  std::unique_ptr<CostGrid> copyToEdit(const base::StopToken& stop) const;
+
  private:
   struct Derived;
 

@@ -47,6 +47,10 @@ class CostmapBuilder {
   std::shared_ptr<const CostGrid> fullResolution(const base::StopToken& stop);
   std::shared_ptr<const CostGrid> downsampled(const base::StopToken& stop);
 
+  // Whoever has time does now what the first change after setMap() would do of the whole map: copies the
+  // costmaps that were made. Throws Stopped; then nothing of it is kept.
+  void makeReadyForChanges(const base::StopToken& stop);
+
   // What changed in each of the two from revision to revision: nothing is known of the time before
   // setMap() and of other builders' costmaps.
   const CostChanges& fullResolutionChanges() const { return full_.changes(); }

@@ -12,7 +12,8 @@
 // reader still holds the previous map, a third one takes part, and where that is held too, the
 // current one is copied instead. So a change costs time in proportion to its rectangles as long as
 // no more than two readers keep maps of before. Memory: two maps from the first change on, and
-// another for each old one that is held.
+// another for each old one that is held. Whoever has time before a change lets makeSpare() copy the map
+// then, so that no change waits for that.
 //
 // Every map of a series has a revision, which no map of another series has, and changes() tells what
 // changed since one of them: whoever misses some maps catches up with all at once.
@@ -125,6 +126,20 @@ class DoubleBuffered {
     if (spares_.size() == kMostSpares) spares_.erase(spares_.begin());
     spares_.push_back({std::exchange(current_, shownTo(std::move(next))), before});
     spares_.back().buffer.shown.reset();
+  }
+
+  // Makes now the copy that the next change would make, if it would: copy(map) gives it, in a pointer. If
+  // it throws, nothing is changed.
+  template <class Copy>
+  void makeSpare(Copy&& copy) {
+    const auto is_free = [](const Spare& spare) {
+      return !spare.buffer.is_read->load(std::memory_order_acquire);
+    };
+    if (!current_.map || spares_.size() == kMostSpares) return;
+    if (std::any_of(spares_.begin(), spares_.end(), is_free)) return;
+    std::shared_ptr<Map> map = copy(std::as_const(*current_.map));
+    auto is_read = std::make_shared<std::atomic<bool>>(false);
+    spares_.push_back({{std::move(map), std::move(is_read), nullptr}, revision()});
   }
 
  private:

@@ -210,6 +210,11 @@ class PathPlanner {
   // waits for the planner's background work. Throws Stopped too; what is done stays.
   void finishPreparation(const base::StopToken& stop);
 
+  // Does now what would keep the first plan after the first change of the map: copies the costmaps that
+  // were made, since they will change while others still read them. Throws Stopped; a copy that is not
+  // finished is not kept.
+  void makeReadyForChanges(const base::StopToken& stop);
+
   // Where the footprint of the options meets an obstacle on a path with headings as they say, in words: "the
   // footprint meets the occupied cell at ..."; "" where nowhere, and for a round vehicle. The vehicle first turns
   // from `start_yaw`, where it is given. Throws as fullResolutionCosts() does. Precondition: hasMap().

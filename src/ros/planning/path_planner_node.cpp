@@ -209,14 +209,16 @@ void PathPlannerNode::planForGoal(const StopSource& stop) {
   const Plan plan =
       lane.plan(goal->request, server_->recordingOptions(settings.options), stop).plan;
   server_->record(lane, plan, settings.options);
-  const PlanStatistics statistics = lane.statistics(plan, goal->request, settings.options);
   if (stop.cancelled() || keepsOldPath(*goal, plan, settings, stop)) return;
   const bool as_before = goal->answered && !plan.found() && plan.status == goal->status;
-  active_goal_.commit(goal->id, plan, settings.revision, [&] {
+  const bool taken = active_goal_.commit(goal->id, plan, settings.revision, [&] {
+    server_->remember(plan);
     if (!as_before) server_->publisher().publishPath(lane.posesAlong(plan, settings.options));
-    server_->publish(lane, plan, statistics, as_before);
-    if (!as_before) server_->explainLater(goal->request, plan);
   });
+  if (!taken) return;
+  // Who drives the path does not wait for what is told of it.
+  server_->publish(lane, plan, lane.statistics(plan, goal->request, settings.options), as_before);
+  if (!as_before) server_->explainLater(goal->request, plan);
 }
 
 bool PathPlannerNode::keepsOldPath(const GoalState& goal, const Plan& plan,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 #include <utility>
 
 #include "base/current_error.h"
@@ -61,6 +62,14 @@ geometry_msgs::Quaternion levelOrientation() {
   return orientation;
 }
 
+// Where there is no memory for copies, nothing is lost: the first change asks for it again.
+void copyForChanges(PathPlanner& planner, const StopToken& stop) {
+  try {
+    planner.makeReadyForChanges(stop);
+  } catch (const std::bad_alloc&) {
+  }
+}
+
 }  // namespace
 
 std::optional<double> oldestStart(const PathPlannerNodeOptions& options) {
@@ -102,10 +111,11 @@ void PlanningLane::finishLater(const PathPlannerNodeOptions& options) {
   finishing_ = worker_.post(
       [this, options](const StopSource& stop) {
         if (!planner_ || !planner_->hasMap()) return;
-        if (planner_->map()->geometry().size() > kMostFinished) return;
+        const std::size_t cells = planner_->map()->geometry().size();
         try {
           setOptions(options.planner);
-          planner_->finishPreparation(stop.token());
+          if (cells <= kMostCopied) copyForChanges(*planner_, stop.token());
+          if (cells <= kMostFinished) planner_->finishPreparation(stop.token());
         } catch (const Stopped&) {
         } catch (const InputError&) {
         }

@@ -55,8 +55,9 @@ class PlanningLane {
 
   // What a plan on the newest map would do first, outside its time limit.
   void prepare(const PathPlannerNodeOptions& options, const base::StopToken& stop);
-  // Computes whatever makes plans faster on the newest map while the thread has nothing else to do;
-  // what is done when a task comes stays. Nothing for maps of more than kMostFinished cells.
+  // Computes whatever makes plans faster on the newest map, and after its changes, while the thread has
+  // nothing else to do; what is done when a task comes stays, but for a copy that is not finished.
+  // Of maps of more than kMostFinished cells only the copies, of more than kMostCopied not these.
   void finishLater(const PathPlannerNodeOptions& options);
 
   // `at_least`: as PathPlanner::takeMap() has it.
@@ -108,6 +109,7 @@ class PlanningLane {
 
  private:
   static constexpr std::size_t kMostFinished = std::size_t{1} << 22;
+  static constexpr std::size_t kMostCopied = std::size_t{1} << 26;
 
   planning::ViaPlan tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
                               const base::StopSource& stop, const PhaseListener& on_phase,

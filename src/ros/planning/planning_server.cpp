@@ -119,8 +119,10 @@ void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, 
     ticket.statistics_ = question_lane_.statistics(plan, request, options);
     ticket.poses_ = question_lane_.posesAlong(plan, options);
     ticket.plan_ = std::move(plan);
-    if (publish == Publish::YES && !stop.cancelled())
+    if (publish == Publish::YES && !stop.cancelled()) {
+      remember(ticket.plan_);
       this->publish(question_lane_, ticket.plan_, ticket.statistics_);
+    }
   } catch (...) {
     ticket.plan_ =
         failedPlan(Status::INVALID_REQUEST, "the request was given up: " + currentErrorText());
@@ -221,6 +223,9 @@ void PlanningServer::publish(const PlanningLane& lane, const Plan& plan,
   }
   publisher_.publishSearch(shown);
   if (plan.found()) writeWaypoints(plan.waypoints);
+}
+
+void PlanningServer::remember(const Plan& plan) {
   std::lock_guard<std::mutex> lock(mutex_);
   outcome_ = Outcome{plan.status, plan.message};
   if (plan.found()) last_waypoints_ = plan.waypoints;

@@ -8,7 +8,7 @@
 //   use(ticket->plan());
 //
 // Whatever goes wrong with a request is a status with a sentence. Publish::YES publishes statistics
-// and markers, writes ~waypoints_file and stores the plan for lastOutcome() and lastWaypoints().
+// and markers, writes ~waypoints_file and remembers the plan for lastOutcome() and lastWaypoints().
 #pragma once
 
 #include <atomic>
@@ -122,7 +122,10 @@ class PlanningServer {
   void record(const PlanningLane& lane, const planning::Plan& plan,
               const PathPlannerNodeOptions& options) const;
 
-  // Publishes a plan just made in `lane`, whose thread calls. A failure `as_before` is not logged.
+  // For lastOutcome() and lastWaypoints(), before the plan is published.
+  void remember(const planning::Plan& plan);
+
+  // Publishes what is told of a plan just made in `lane`, whose thread calls. A failure `as_before` is not logged.
   void publish(const PlanningLane& lane, const planning::Plan& plan,
                const PlanStatistics& statistics, bool as_before = false);
 
