@@ -1,4 +1,4 @@
-// What searches that used up their nodes have learned about places: the least that the way to the goal costs
+// What searches that used up their nodes have learned about places: the least that a path to the goal costs
 // from there. As in real-time adaptive A*, later searches take that for the estimate where it is more than the
 // straight line's: else one that ends in a pocket leads to one end of it, and the next one back to the other.
 #pragma once

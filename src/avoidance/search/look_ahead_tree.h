@@ -8,7 +8,7 @@
 // (accumulate: false) the cost of the node's direction as it is seen from the root. The search ends at the goal,
 // at a node beyond the look-ahead, which is not expanded, or after `nodes` nodes; the path leads to the last
 // node at hand. A search whose nodes are used up learns (search: tree, accumulate: true): from a node that was
-// at hand the way to the goal costs at least the least F of those still open, less its own C.
+// at hand a path to the goal costs at least the least F of those still open, less its own C.
 #pragma once
 
 #include <Eigen/Core>
