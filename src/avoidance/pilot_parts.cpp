@@ -186,7 +186,7 @@ void Pilot::Parts::findPath() {
     ++frames_without_;
     return;
   }
-  const PathQuery query{motion_.position, target(), targetRadius()};
+  const PathQuery query{motion_.position, target(), targetRadius(), time_};
   auto found =
       finder.find(surroundings.space(), query, kept_ ? flown.points() : Points(), unseen.closed());
   kept_ = true;
@@ -294,7 +294,7 @@ bool Pilot::Parts::recovers() {
 // What is too narrow between here and the goal, for the sentences.
 void Pilot::Parts::noteNarrow() {
   const auto place =
-      finder.tooNarrow(surroundings.space(), {motion_.position, target(), targetRadius()});
+      finder.tooNarrow(surroundings.space(), {motion_.position, target(), targetRadius(), time_});
   narrow_ = place
                 ? "; the passage at " + placeText(place->at) + " is " + shortNumber(place->width) +
                       " m wide, " + shortNumber(finder.neededWidth()) + " m are needed"

@@ -162,5 +162,51 @@ TEST(LookAhead, ASingleDirectionIsLookedAlong) {
   EXPECT_LT(result.metres, 1.1 * 24.0);
 }
 
+// From the root at least the least F of what stayed open; nowhere less than the straight line; until forgotten.
+TEST(LookAhead, ASearchThatUsedUpItsNodesLearns) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    PilotOptions options;
+    options.search = Search::TREE;
+    options.nodes = 12;
+    const Thicket thicket = randomThicket(seed, 1.0);
+    const OpenSpace space = thicket.space(options);
+    const Vector3d goal(9.0, 1.0, 0.0);
+    LookAheadTree tree(options);
+    tree.search(space, options, Vector3d::Zero(), goal, {}, {});
+    double least = 1e9;  // F of what is open
+    for (const TreeNode& node : tree.nodes())
+      if (node.parent >= 0 && nearestTo(node.position, tree.expanded()) >= options.spacing)
+        least = std::min(least, node.total);
+    ASSERT_LT(least, 1e9) << "seed " << seed;
+    EXPECT_GE(tree.estimate(options, Vector3d::Zero(), goal), least - 1e-9) << "seed " << seed;
+    for (const Vector3d& place : tree.expanded())
+      EXPECT_GE(tree.estimate(options, place, goal), 30.0 * (place - goal).norm() - 1e-9);
+    tree.learned().forget();
+    EXPECT_EQ(tree.estimate(options, Vector3d::Zero(), goal), 30.0 * goal.norm());
+  }
+}
+
+// The goal lies behind a wall with a path around either end, where the nodes do not suffice to come round: the
+// vehicle flew 100 m to and fro.
+TEST(LookAhead, ALongWallIsFlownAround) {
+  std::vector<simulation::TriangleMesh> meshes = drawnMeshes({}, 1.0);
+  meshes.push_back(boxAt("wall", {8.0, -8.0, 0.0}, {8.3, 8.0, kDrawnHeight}));
+  FlightSetup setup;
+  setup.world = worldOf(std::move(meshes));
+  setup.options = flyingOptions();
+  setup.options.search = Search::TREE;
+  setup.options.memory = 15.0;
+  setup.options.recover = false;
+  setup.waypoints = {{14.0, 0.0, 1.5}};
+  setup.seconds = 60.0;
+  for (const int seed : {1, 2}) {
+    setup.seed = seed;
+    const FlightResult result = fly(setup);
+    EXPECT_EQ(result.status, PilotStatus::ARRIVED) << result.sentence;
+    EXPECT_EQ(result.contacts, 0);
+    EXPECT_LT(result.metres, 50.0);
+  }
+}
+
 }  // namespace
 }  // namespace grid_path_planner::avoidance

@@ -79,6 +79,15 @@ TEST_F(FlightReport, TestsAreCorrectedAndStandBesideThePublishedOnes) {
   for (const FlightTest& test : tests) EXPECT_GE(test.corrected, test.p);
 }
 
+// 0.001 stood there as 0.00100000.
+TEST_F(FlightReport, PublishedPValuesStandAsTheyWerePrinted) {
+  const study::Finding tests = testsFinding(dataOf(4, 18, 60.0));
+  ASSERT_EQ(tests.table.rows.size(), 3u);
+  EXPECT_EQ(tests.table.rows[0].back().text, "0.001");
+  EXPECT_EQ(tests.table.rows[1].back().text, "0.2");
+  EXPECT_EQ(tests.table.rows[2].back().text, "–");
+}
+
 TEST_F(FlightReport, EveryFailureHasItsCauseAndTheCommandThatRepeatsIt) {
   const study::Finding failures = failuresFinding(dataOf(19, 20, 60.0), "grid_path flights f.yaml");
   ASSERT_EQ(failures.table.rows.size(), 1u);

@@ -13,6 +13,7 @@ int LookAheadTree::takeLeastCost(double spacing) {
     const Vector3d& position = nodes_[best].position;
     const auto same = [&](const Vector3d& other) { return (other - position).norm() < spacing; };
     if (std::any_of(expanded_.begin(), expanded_.end(), same)) continue;
+    closed_.push_back(best);
     expanded_.push_back(position);
     return best;
   }
@@ -35,29 +36,50 @@ void LookAheadTree::grow(int parent, const OpenSpace& space, const PilotOptions&
     const double cost = options.accumulate ? at.cost + candidate.cost
                                            : directionCost(options, anglesOf(candidate.end - root),
                                                            root_goal, before);
-    const double total = cost + options.heuristic_weight * (candidate.end - goal).norm();
+    const double total = cost + estimate(options, candidate.end, goal);
     add({candidate.end, parent, candidate.angles, cost, total});
   }
+}
+
+double LookAheadTree::estimate(const PilotOptions& options, const Vector3d& place,
+                               const Vector3d& goal) const {
+  return std::max(options.heuristic_weight * (place - goal).norm(), learned_.at(place));
+}
+
+// Nothing where no node is open: then there is no path yet, whatever it costs.
+void LookAheadTree::learn(const PilotOptions& options, double time) {
+  const std::size_t count = closed_.size();
+  const int next = takeLeastCost(sameNode(options));
+  if (next < 0) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const TreeNode& node = nodes_[closed_[i]];
+    learned_.learn(node.position, nodes_[next].total - node.cost, time);
+  }
+  closed_.pop_back();
+  expanded_.pop_back();
 }
 
 std::vector<Vector3d> LookAheadTree::search(const OpenSpace& space, const PilotOptions& options,
                                             const Vector3d& start, const Vector3d& goal,
                                             const Angles& before,
-                                            const std::vector<Vector3d>& closed) {
+                                            const std::vector<Vector3d>& closed, double time) {
   nodes_.clear();
+  closed_.clear();
   expanded_.clear();
   open_ = {};
   add({start, -1, before, 0.0, 0.0});
   int last = 0;
-  bool reached = false;
+  bool reached = false, finished = false;
   for (int count = 0; count < options.nodes; ++count) {
     const int next = takeLeastCost(sameNode(options));
     if (next < 0) break;
     last = next;
     reached = (nodes_[next].position - goal).norm() <= options.step;
-    if (reached || (nodes_[next].position - start).norm() > options.look_ahead) break;
+    finished = reached || (nodes_[next].position - start).norm() > options.look_ahead;
+    if (finished) break;
     grow(next, space, options, goal, closed);
   }
+  if (!finished && options.accumulate && options.search == Search::TREE) learn(options, time);
   std::vector<Vector3d> path;
   for (int i = last; i >= 0; i = nodes_[i].parent) path.push_back(nodes_[i].position);
   std::reverse(path.begin(), path.end());

@@ -2,11 +2,13 @@
 //
 // Of the node at hand at most `children` free directions, one step away and mutually at least `spacing`
 // apart, enter the open list; the next node is the one with the least F = C + H, H the weighted distance to
-// the goal. A node nearer than `spacing` to one that was at hand before counts as that one, as A* closes a
-// state once: else the same places are expanded over and over, and a dead end uses up all nodes. C is the sum
-// of the costs of the directions along the branch, or (accumulate: false) the cost of the node's direction as it
-// is seen from the root. The search ends at the goal, at a node beyond the look-ahead, which is not expanded, or
-// after `nodes` nodes; the path leads to the last node at hand.
+// the goal, or what earlier searches have learned where that is more. A node nearer than `spacing` to one that
+// was at hand before counts as that one, as A* closes a state once: else the same places are expanded over and
+// over, and a dead end uses up all nodes. C is the sum of the costs of the directions along the branch, or
+// (accumulate: false) the cost of the node's direction as it is seen from the root. The search ends at the goal,
+// at a node beyond the look-ahead, which is not expanded, or after `nodes` nodes; the path leads to the last
+// node at hand. A search whose nodes are used up learns (search: tree, accumulate: true): from a node that was
+// at hand a path to the goal costs at least the least F of those still open, less its own C.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,6 +18,7 @@
 #include <vector>
 
 #include "avoidance/search/candidates.h"
+#include "avoidance/search/learned_costs.h"
 
 namespace grid_path_planner::avoidance {
 
@@ -31,17 +34,24 @@ class LookAheadTree {
  public:
   explicit LookAheadTree(const PilotOptions& options) : candidates_(options) {}
 
-  // The path from `start` on, which it contains; only that where no direction is free.
+  // The path from `start` on, which it contains; only that where no direction is free. At `time`, s, it
+  // learns.
   std::vector<Eigen::Vector3d> search(const OpenSpace& space, const PilotOptions& options,
                                       const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
                                       const Angles& before,
-                                      const std::vector<Eigen::Vector3d>& closed);
+                                      const std::vector<Eigen::Vector3d>& closed,
+                                      double time = 0.0);
 
   // Of the last search, the root first.
   const std::vector<TreeNode>& nodes() const { return nodes_; }
   // The places that were at hand, in their order.
   const std::vector<Eigen::Vector3d>& expanded() const { return expanded_; }
   Candidates& candidates() { return candidates_; }
+  // About the goal of the searches so far; to be forgotten before there is another one.
+  LearnedCosts& learned() { return learned_; }
+  // H.
+  double estimate(const PilotOptions& options, const Eigen::Vector3d& place,
+                  const Eigen::Vector3d& goal) const;
 
  private:
   void grow(int parent, const OpenSpace& space, const PilotOptions& options,
@@ -51,9 +61,13 @@ class LookAheadTree {
   // closed one; -1: none is left.
   int takeLeastCost(double spacing);
 
+  void learn(const PilotOptions& options, double time);
+
   Candidates candidates_;
+  LearnedCosts learned_;
   std::vector<TreeNode> nodes_;
-  std::vector<Eigen::Vector3d> expanded_;  // where the closed nodes are
+  std::vector<int> closed_;                // the nodes that were at hand
+  std::vector<Eigen::Vector3d> expanded_;  // where those are
   using Open = std::pair<double, int>;     // F, index
   std::priority_queue<Open, std::vector<Open>, std::greater<Open>> open_;
 };

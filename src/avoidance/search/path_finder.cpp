@@ -29,6 +29,7 @@ PathFinder::PathFinder(const PilotOptions& options) : options_(options), tree_(o
 void PathFinder::setOptions(const PilotOptions& options) {
   const bool other_bins = options.bin != options_.bin || options.elevation != options_.elevation;
   options_ = options;
+  tree_.learned().forget();
   if (other_bins) tree_ = LookAheadTree(options);
 }
 
@@ -77,7 +78,11 @@ VoxelPath PathFinder::gridPath(const OpenSpace& space, const PathQuery& query, d
 Points PathFinder::treePath(const OpenSpace& space, const PathQuery& query) {
   PilotOptions options = options_;
   if (options.search == Search::DIRECTION) options.nodes = 1;
-  Points path = tree_.search(space, options, query.start, query.goal, before_, closed_);
+  LearnedCosts& learned = tree_.learned();
+  if (query.goal != learned_about_) learned.forget();
+  learned.forgetBefore(query.time - options.memory);
+  learned_about_ = query.goal;
+  Points path = tree_.search(space, options, query.start, query.goal, before_, closed_, query.time);
   if (options.search == Search::DIRECTION && path.size() < 2) {
     const TreeNode* best = nullptr;
     for (const TreeNode& node : tree_.nodes())
@@ -97,7 +102,7 @@ double PathFinder::treeCost(const Points& path, const Vector3d& goal) const {
             options_.step;
     before = angles;
   }
-  return cost + options_.heuristic_weight * (goal - path.back()).norm();
+  return cost + tree_.estimate(options_, path.back(), goal);
 }
 
 bool PathFinder::isFree(const OpenSpace& space, const Points& path) const {

@@ -17,6 +17,7 @@ struct PathQuery {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   double goal_radius = 0.0;  // m
+  double time = 0.0;         // s
 };
 
 class PathFinder {
@@ -55,7 +56,8 @@ class PathFinder {
   PilotOptions options_;
   LookAheadTree tree_;
   VoxelSearch grid_;
-  Angles before_;  // of the direction chosen last
+  Angles before_;                                            // of the direction chosen last
+  Eigen::Vector3d learned_about_ = Eigen::Vector3d::Zero();  // the goal of the tree's last search
   std::vector<Eigen::Vector3d> closed_;
   bool exhausted_ = false;
 };

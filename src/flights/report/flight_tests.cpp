@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdio>
 
 #include "flights/report/flight_findings.h"
 #include "study/confidence.h"
@@ -115,6 +116,18 @@ ClaimVerdict verdictOn(const PublishedConclusion& claim, const std::vector<Fligh
 
 namespace {
 
+// As it was printed: six decimals at most, without trailing zeros.
+TableCell publishedCell(double p) {
+  constexpr int kDecimals = 6;
+  TableCell cell(p, kDecimals);
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", kDecimals, p);
+  cell.text = text;
+  cell.text.erase(cell.text.find_last_not_of('0') + 1);
+  if (cell.text.back() == '.') cell.text.pop_back();
+  return cell;
+}
+
 std::vector<TableCell> rowOfTest(const std::string& rules, const FlightTest& test) {
   const TableCell none("–");
   return {rules,
@@ -123,7 +136,7 @@ std::vector<TableCell> rowOfTest(const std::string& rules, const FlightTest& tes
           test.testable ? TableCell(test.difference, 3) : none,
           test.testable ? TableCell(test.p, 2) : none,
           test.testable ? TableCell(test.corrected, 2) : none,
-          test.published < 0.0 ? none : TableCell(test.published, 6)};
+          test.published < 0.0 ? none : publishedCell(test.published)};
 }
 
 }  // namespace
