@@ -213,6 +213,7 @@ TEST_F(ReplayTest, APlannerThatHadSpentItsPreparationIsRepeated) {
   planner.setMap(std::make_shared<const OccupancyGrid>(map));
   PlanQuestion question;
   question.options.planner = "a_star";
+  question.options.costmap.decay = 0.3;
   question.options.smooth = false;
   question.request.start.position = {1.5, 1.5, 0.0};
   question.request.goal.position = {190.5, 160.5, 0.0};

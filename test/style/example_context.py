@@ -33,7 +33,7 @@ CONTEXT = {
                      "bool legal(const std::vector<Eigen::Vector2d>&);",
     "cholesky.h": "extern const Eigen::Matrix<double, 6, 6> covariance; extern const Eigen::Matrix<double, 6, 1> error, right;",
     "shown_text.h": "extern std::string message;",
-    "guarded_queue.h": "extern ros::NodeHandle nh;",
+    "guarded_queue.h": "extern ros::NodeHandle nh;", "straight_runs.h": "extern const std::vector<Eigen::Vector2d> points;",
     "master_watch.h": "void halt();",
     "turning_points.h": "extern std::vector<Cell> cells; extern const CostGrid& map;",
     "update_sequence.h": "#include <map_msgs/OccupancyGridUpdate.h>\n#include <ros/message_event.h>\nextern UpdateSequence sequence;"
@@ -48,7 +48,7 @@ CONTEXT = {
         extern ros::NodeHandle nh; extern const PlanPathGoal goal; extern double timeout;
         void on_result(const PlanPathResult&); void on_feedback(const PlanPathFeedback&);
         void on_lost(const std::string&);""",
-    "map_watch.h": "extern ros::NodeHandle nh;",
+    "map_watch.h": "extern ros::NodeHandle nh;", "direct_publisher.h": "#include <geometry_msgs/Twist.h>\nextern ros::NodeHandle nh; extern geometry_msgs::Twist twist;",
     "map_autosave.h": "extern std::string folder; extern ros::NodeHandle private_nh; extern ProjectedMapOptions options;"
                       "extern ros::Time newest_cloud;",
     "path_clearance_check.h": "extern const OccupancyGrid& map; extern std::vector<Eigen::Vector3d> ahead; void halt(const Eigen::Vector2d&);",
