@@ -9,9 +9,12 @@ velocities adds a row.
     clock       whether ROS time that stands still stops the vehicle
 """
 import collections
+import signal
 import struct
+import tempfile
 import threading
 import time
+import unittest
 
 import node_probes as probes
 import rospy
@@ -139,3 +142,36 @@ class RunningCommander(RunningNode):
         with self.lock:
             last = {topic: twist for _, topic, twist in self.commands}
         return bool(last) and all(map(is_zero, last.values()))
+
+
+class CommanderTest(unittest.TestCase):
+    """Nodes that are `started` on a clock that can stand still, and killed at the end of a test."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.clock = StoppableClock()
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.started = []
+        self.addCleanup(self.end_all)
+
+    def end_all(self):
+        for node in self.started:
+            node.end(signal.SIGKILL)
+
+    @staticmethod
+    def said(node):
+        with open(node.log.name, errors="replace") as file:
+            return file.read()[-2000:]
+
+    @staticmethod
+    def anybody():
+        """For a wait that no node's end cuts short."""
+        class Anybody:
+            @staticmethod
+            def lives():
+                return True
+        return Anybody

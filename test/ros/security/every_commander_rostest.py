@@ -4,9 +4,7 @@ import math
 import os
 import signal
 import sys
-import tempfile
 import time
-import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import rospy
@@ -15,7 +13,7 @@ from roslib.message import get_service_class
 from std_msgs.msg import Bool
 
 import node_probes as probes
-from commanders import COMMANDERS, VELOCITIES, RunningCommander, StoppableClock
+from commanders import COMMANDERS, VELOCITIES, CommanderTest, RunningCommander
 from node_table import NODES
 from running_nodes import PACKAGE
 
@@ -25,22 +23,11 @@ END_SECONDS = 10.0
 DRIVERS = [name for name in COMMANDERS if "manual_control" in NODES[name].inputs]
 
 
-class EveryCommander(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.clock = StoppableClock()
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.started = []
-        self.addCleanup(self.end_all)
-
+class EveryCommander(CommanderTest):
     def end_all(self):
         """Whatever was commanded in the test is finite."""
+        super().end_all()
         for node in self.started:
-            node.end(signal.SIGKILL)
             for _, topic, twist in getattr(node, "commands", ()):
                 for number in (twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z):
                     self.assertTrue(math.isfinite(number), "%s of %s" % (topic, node))
@@ -53,10 +40,6 @@ class EveryCommander(unittest.TestCase):
         node = self.commander(name, kind)
         self.assertTrue(self.moves(node), "%s: %s" % (node, self.said(node)))
         return node
-
-    def said(self, node):
-        with open(node.log.name, errors="replace") as file:
-            return file.read()[-2000:]
 
     def moves(self, node):
         begin = time.monotonic()
@@ -126,15 +109,7 @@ class EveryCommander(unittest.TestCase):
             for number in (signal.SIGINT, signal.SIGTERM):
                 node = self.moving(name)
                 self.assertIsNotNone(node.end(number), name)
-                self.assertTrue(probes.until(self.alive(), node.ends_in_zeros, time.monotonic() + END_SECONDS), name)
-
-    @staticmethod
-    def alive():
-        class Alive:
-            @staticmethod
-            def lives():
-                return True
-        return Alive
+                self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, time.monotonic() + END_SECONDS), name)
 
     def test_a_joystick_takes_over_and_a_hand_gives_back(self):
         for name in DRIVERS:

@@ -10,9 +10,7 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import rosgraph
@@ -21,7 +19,7 @@ import rospy
 import rostest
 
 import node_probes as probes
-from commanders import COMMANDERS, VELOCITIES, StoppableClock
+from commanders import COMMANDERS, VELOCITIES, CommanderTest
 from node_table import NODES
 from running_nodes import PACKAGE, RunningNode, executable
 from slow_master import SlowMaster
@@ -48,27 +46,7 @@ def conflict(first, second):
 PAIRS = [(first, second) for first in NODES for second in NODES if conflict(first, second)]
 
 
-class EveryCommanderStart(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.clock = StoppableClock()
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.started = []
-        self.addCleanup(self.end_all)
-
-    def end_all(self):
-        for node in self.started:
-            node.end(signal.SIGKILL)
-
-    @staticmethod
-    def said(node):
-        with open(node.log.name, errors="replace") as file:
-            return file.read()[-2000:]
-
+class EveryCommanderStart(CommanderTest):
     def started_node(self, name, kind):
         """In a namespace of its own: the master goes on to name what was killed."""
         row = NODES[name]._replace(arguments=COMMANDERS[name].arguments if name in COMMANDERS else NODES[name].arguments)
@@ -142,14 +120,6 @@ class EveryCommanderStart(unittest.TestCase):
             self.assertTrue(any(code is not None and code != 0 for code in codes), "%s beside %s: %s: %s" % (
                 second, node, codes, self.said(node)))
             node.end(signal.SIGKILL)
-
-    @staticmethod
-    def anybody():
-        class Anybody:
-            @staticmethod
-            def lives():
-                return True
-        return Anybody
 
     def test_a_master_that_is_slow_to_answer_gives_no_leave(self):
         """As on a busy machine: it answers after two of the seconds that it is given."""
