@@ -28,6 +28,17 @@ std::optional<double> ClockWatch::jumpedBack(const ros::Time& now) {
   return now < before ? std::make_optional(secondsBetween(now, before)) : std::nullopt;
 }
 
+ros::Time LateClock::timeFor(const ros::Time& stamp, double ahead) {
+  using std::chrono::milliseconds, std::chrono::steady_clock;
+  const auto begin = steady_clock::now();
+  const auto isLate = [&] { return secondsBetween(ros::Time::now(), stamp) > ahead; };
+  if (!ros::Time::isSimTime() || begin < next_wait_) return ros::Time::now();
+  while (isLate() && steady_clock::now() < begin + milliseconds(50))
+    std::this_thread::sleep_for(milliseconds(1));
+  if (isLate()) next_wait_ = steady_clock::now() + std::chrono::seconds(1);
+  return ros::Time::now();
+}
+
 double secondsBetween(const ros::Time& from, const ros::Time& to) {
   const auto seconds = [](std::uint32_t count) { return static_cast<double>(count); };
   return seconds(to.sec) - seconds(from.sec) + 1e-9 * (seconds(to.nsec) - seconds(from.nsec));

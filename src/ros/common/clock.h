@@ -1,4 +1,4 @@
-// ROS time that has not come yet, and ROS time that jumps back.
+// ROS time that has not come yet, that jumps back, and that comes after the messages of its instant.
 #pragma once
 
 #include <ros/time.h>
@@ -26,6 +26,18 @@ class ClockWatch {
   std::mutex mutex_;
   ros::Time latest_;
   std::chrono::steady_clock::time_point next_warning_{};
+};
+
+// With /clock ROS time comes by a topic of its own, and messages overtake it: as `rosbag play -r 20`
+// has it every second one. Not thread-safe.
+class LateClock {
+ public:
+  // ROS time. With /clock, where `stamp` is more than `ahead` (s) after it, it is waited for: 50 ms of
+  // wall clock at most, and not for a second after that was in vain, as for a stamp that is wrong.
+  ros::Time timeFor(const ros::Time& stamp, double ahead);
+
+ private:
+  std::chrono::steady_clock::time_point next_wait_{};
 };
 
 // From `from` to `to` in seconds. roscpp's difference of times throws beyond 2^31 s, as a stamp from

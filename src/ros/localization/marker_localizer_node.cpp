@@ -63,9 +63,10 @@ std::optional<PanelPose> givenPanel(const MarkerLocalizerOptions& o) {
   return panel;
 }
 
-void checkStamp(const ros::Time& stamp, const ros::Time& last, double max_age) {
+void checkStamp(const ros::Time& stamp, const ros::Time& now, const ros::Time& last,
+                double max_age) {
   if (stamp.isZero()) throw InputError("it has no stamp");
-  localization::checkStamp(stampOf(stamp), stampOf(ros::Time::now()), max_age);
+  localization::checkStamp(stampOf(stamp), stampOf(now), max_age);
   if (stamp == last) throw InputError("its stamp came before");
   if (stamp < last) throw InputError("it is older than the one before");
 }
@@ -183,7 +184,8 @@ void MarkerLocalizerNode::onImage(const sensor_msgs::ImageConstPtr& message) {
   if (!noticeTime()) return;
   const ros::Time stamp = message->header.stamp;
   try {
-    checkStamp(stamp, last_stamp_, options_.max_age);
+    checkStamp(stamp, late_clock_.timeFor(stamp, localization::kMostAhead), last_stamp_,
+               options_.max_age);
     if (!calibration_) throw InputError("no camera_info that can be used has come yet");
     checkSameCamera(message->header.frame_id, calibration_frame_);
   } catch (const InputError& error) {

@@ -77,6 +77,7 @@ class MarkerLocalizerNode {
   const vision::MarkerLayout layout_;
   FrameTransforms transforms_;
   ClockWatch clock_;
+  LateClock late_clock_;
   MarkerPublisher publisher_;
   InputRecord infos_{"camera_info"};
   std::optional<vision::CameraCalibration> calibration_;

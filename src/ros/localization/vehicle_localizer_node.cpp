@@ -221,8 +221,8 @@ std::string VehicleLocalizerNode::take(Source source, const Convert& convert) {
   inputs_[source].receive();
   try {
     const localization::Measurement measurement = convert();
-    localization::checkStamp(measurement.stamp, stampOf(ros::Time::now()),
-                             options_.localizer.filter.history);
+    const ros::Time now = late_clock_.timeFor(timeOf(measurement.stamp), localization::kMostAhead);
+    localization::checkStamp(measurement.stamp, stampOf(now), options_.localizer.filter.history);
     const Verdict verdict = localizer_.add(measurement);
     fixes_.add(measurement, verdict, options_.map_frame);
     if (verdict == Verdict::RESET)

@@ -87,6 +87,7 @@ class VehicleLocalizerNode {
   TransformRivals rivals_;
   FrameTransforms transforms_;  // tells the rivals
   ClockWatch clock_;
+  LateClock late_clock_;
   localization::VehicleLocalizer localizer_;
   SensorMessages messages_;
   InputLog inputs_;

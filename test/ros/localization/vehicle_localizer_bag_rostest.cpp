@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "localization/measurement_check.h"
 #include "ros/support/bag_player.h"
 #include "ros/support/latest.h"
 #include "ros/support/process.h"
@@ -42,7 +43,8 @@ using Fix = TrajectoryMessages::Fix;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kLead = 200, kRound = 50, kRecovery = 100;  // ticks of 10 ms
-const ros::Duration kLate(0.2);                           // a node that is waited for
+// A node that is waited for: less than what a stamp may be ahead of its clock.
+const ros::Duration kLate(0.8 * localization::kMostAhead);
 
 // kobuki#383, apriltag_ros#122: covariances of nought, which robot_localization mends in silence.
 const std::string kZero = "a variance is 0: no sensor is exact";

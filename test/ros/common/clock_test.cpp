@@ -1,0 +1,49 @@
+// ROS time of a clock that comes late.
+#include "ros/common/clock.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace grid_path_planner::nodes {
+namespace {
+
+constexpr double kAhead = 0.1;
+
+// Its ROS time is that of /clock, which here comes from the tests.
+class LateClockTest : public testing::Test {
+ protected:
+  LateClockTest() {
+    ros::Time::init();
+    ros::Time::setNow(ros::Time(100.0));
+  }
+  ~LateClockTest() override { ros::Time::init(); }
+
+  LateClock clock_;
+};
+
+TEST_F(LateClockTest, WaitsForTheClockThatAMessageOvertook) {
+  std::thread late([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ros::Time::setNow(ros::Time(100.5));
+  });
+  EXPECT_EQ(clock_.timeFor(ros::Time(100.5), kAhead), ros::Time(100.5));
+  late.join();
+}
+
+TEST_F(LateClockTest, DoesNotWaitForWhatMayBeAhead) {
+  EXPECT_EQ(clock_.timeFor(ros::Time(100.05), kAhead), ros::Time(100.0));
+  EXPECT_EQ(clock_.timeFor(ros::Time(), kAhead), ros::Time(100.0));
+}
+
+// The second would be the clock's if it were waited for.
+TEST_F(LateClockTest, OneStampThatIsWrongDoesNotHoldTheOthers) {
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(clock_.timeFor(ros::Time(4294967295u, 0), kAhead), ros::Time(100.0));
+  for (int i = 0; i < 100; ++i) clock_.timeFor(ros::Time(101.0), kAhead);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(spent.count(), 100 * 0.05);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
