@@ -367,7 +367,7 @@ void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& 
 }
 
 void NavigatePathNode::diagnoseOthers(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const double silence = MasterWatch::shared()->silence();
+  const double silence = master_->silence();
   if (other_)
     status.summary(DiagnosticStatus::ERROR, other_->sentence + " too");
   else if (silence > 3.0)

@@ -45,6 +45,7 @@
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
 #include "ros/common/master/command_claim.h"
+#include "ros/common/master/master_watch.h"
 #include "ros/common/node_files.h"
 #include "ros/driving/drive_loop.h"
 #include "ros/driving/map_watch.h"
@@ -103,6 +104,7 @@ class NavigatePathNode {
   NavigatePathOptions options_;
   path::Path file_;  // of config_filename
   const CommandClaim commands_;
+  const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   FrameTransforms transforms_;
   ClockWatch clock_;
   ros::Time started_;

@@ -18,10 +18,10 @@
 namespace grid_path_planner::nodes {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using XmlRpc::XmlRpcValue;
 
 constexpr auto kMasterPeriod = std::chrono::seconds(1);
+constexpr auto kLongestBetween = std::chrono::seconds(16);
 constexpr double kMasterPatience = 1.0;  // that the master is asked
 
 XmlRpcValue self() {
@@ -50,6 +50,7 @@ std::shared_ptr<MasterWatch> MasterWatch::shared() {
   const std::lock_guard<std::mutex> lock(mutex);
   std::shared_ptr<MasterWatch> watch = known.lock();
   if (!watch) known = watch = std::shared_ptr<MasterWatch>(new MasterWatch);
+  watch->services_grow_ = true;
   return watch;
 }
 
@@ -102,7 +103,20 @@ void MasterWatch::ask() {
   if (ros::isShuttingDown()) return;  // its names are gone because they were given back
   if (restarted || (known_ && !knows)) registerAgain();
   known_ = known_ || knows;
-  rememberServices();
+  if (rememberingIsDue()) rememberServices();
+}
+
+// Whoever holds the watch has just made its services, or is about to.
+bool MasterWatch::rememberingIsDue() {
+  const auto now = Clock::now();
+  if (services_grow_.exchange(false)) {
+    between_ = kMasterPeriod / 2;
+  } else if (now < remembers_at_) {
+    return false;
+  }
+  between_ = std::min<Clock::duration>(2 * between_, kLongestBetween);
+  remembers_at_ = now + between_;
+  return true;
 }
 
 void MasterWatch::rememberServices() {

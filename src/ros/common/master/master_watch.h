@@ -7,7 +7,9 @@
 // the services and topics of a node that runs on. The watch asks every second and registers all
 // topics and services of the process again, within 2 s of the master's return. Connections that
 // exist are not touched, but where the new master sends another list of publishers. Parameters are
-// lost with their master. Not guaranteed: names of nodes outside this package.
+// lost with their master. Not guaranteed: names of nodes outside this package; services offered later
+// than a second after the last shared(), for up to 16 s: only the master lists them, with those of all
+// nodes, so that it is asked ever more seldom.
 #pragma once
 
 #include <atomic>
@@ -33,20 +35,26 @@ class MasterWatch {
   double silence() const;
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   MasterWatch();
   void run();
   void ask();
   void rememberServices();
+  bool rememberingIsDue();
   void registerAgain() const;
   void registerTopics(const char* list, const char* method) const;
 
   const std::string services_uri_;  // asked for once: roscpp has none when it is shut down
-  std::atomic<std::chrono::steady_clock::rep> answered_;
+  std::atomic<Clock::rep> answered_;
   // The thread's:
   int pid_ = 0;         // of the master
   bool known_ = false;  // to the master, once
   std::vector<std::string> services_;
+  Clock::time_point remembers_at_{};
+  Clock::duration between_{};
 
+  std::atomic<bool> services_grow_{true};
   std::mutex mutex_;
   std::condition_variable ends_;
   bool done_ = false;
