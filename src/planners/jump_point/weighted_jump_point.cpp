@@ -27,6 +27,9 @@ constexpr std::size_t kLate = 65536;
 constexpr std::size_t kTilePrice = 65536;
 // Tiles of a map of which all may be made at once.
 constexpr std::size_t kSmallMap = 8;
+// On maps of more, tiles far from each other touch so many new pages of memory that they cost more than
+// A*.
+constexpr std::size_t kMostCells = std::size_t{1} << 26;
 // Tiles that an update undid and that may be made again at once: in the time of 1 to 5 ms.
 constexpr std::uint64_t kMostRemade = 32;
 // A search comes to more tiles than lie on the straight line to its goal, seldom to fewer than this
@@ -110,13 +113,14 @@ std::string WeightedJumpPoint::lessMemoryAdvice() const {
 
 BackgroundWork WeightedJumpPoint::backgroundWork() {
   BackgroundWork work = substitute_ ? substitute_->backgroundWork() : BackgroundWork();
-  work.pending = work.pending || (shouldJump() && !(jumps_ready_ && jumps_.finished()));
+  work.pending =
+      work.pending || estimatesLater() || (shouldJump() && !(jumps_ready_ && jumps_.finished()));
   return work;
 }
 
 void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
+  if (estimatesLater()) estimateNow(stop);
   if (shouldJump()) {
-    if (bytesOfBoth() > memoryLimit()) substitute_.reset();
     if (!jumps_ready_) prepareJumps(stop);
     jumps_.finish(map(), stop);
     substitute_.reset();
@@ -125,8 +129,19 @@ void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
 }
 
 bool WeightedJumpPoint::shouldJump() const {
-  return !a_star_asked_for_ && jumpsSupport(map().motion()) &&
-         (map().uniform() ? density_.jumpsPay() : pruning_.jumpingPays());
+  if (a_star_asked_for_ || !jumpsSupport(map().motion())) return false;
+  return map().uniform() ? density_.jumpsPay() : sampled_ && pruning_.jumpingPays();
+}
+
+// Whether jumps may pay, and nobody has looked yet.
+bool WeightedJumpPoint::estimatesLater() const {
+  return !a_star_asked_for_ && jumpsSupport(map().motion()) && !map().uniform() && !sampled_;
+}
+
+void WeightedJumpPoint::estimateNow(const StopToken& stop) {
+  pruning_.sample(map(), stop);
+  sampled_ = true;
+  if (shouldJump()) prepareJumps(stop);
 }
 
 int WeightedJumpPoint::blockOfBound() const {
@@ -137,9 +152,10 @@ int WeightedJumpPoint::blockOfBound() const {
 void WeightedJumpPoint::doPrepare(const StopToken& stop) {
   substitute_.reset();
   jumps_ready_ = sampled_ = counted_ = false;
+  tiles_left_ = paid_ = 0;
+  jumps_.release();
   estimate({}, stop);
   if (shouldJump() && !map().uniform()) return prepareJumps(stop);
-  jumps_.release();
   prepareSubstitute(stop);
 }
 
@@ -160,25 +176,27 @@ void WeightedJumpPoint::estimate(const std::vector<CellRect>& changed, const Sto
     sampled_ = false;
   } else if (sampled_) {
     for (const CellRect& rect : changed) pruning_.update(map(), rect);
-  } else {
+  } else if (jumps_ready_ || isSmall()) {  // ready: those of one weight, until now
     pruning_.sample(map(), stop);
     sampled_ = true;
   }
 }
 
+// The substitute goes where memory does not hold both.
 void WeightedJumpPoint::prepareJumps(const StopToken& stop) {
+  if (bytesOfBoth() > memoryLimit()) substitute_.reset();
   jumps_.prepare(map(), stop, blockOfBound());
   jumps_ready_ = true;
-  tiles_left_ = firstTiles();
-  paid_ = 0;
+  if (isSmall()) tiles_left_ = 2 * kSmallMap;
 }
 
 void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
   estimate(changed, stop);
   const bool jumps = shouldJump();
-  if (jumps_ready_ ? !jumps : jumps && !map().uniform()) return doPrepare(stop);
+  if (jumps_ready_ && !jumps) return doPrepare(stop);
   if (jumps_ready_) updateJumps(changed, stop);
   if (substitute_) updateSubstitute(changed, stop);
+  if (!jumps_ready_ && jumps && !map().uniform()) prepareJumps(stop);
 }
 
 // Another one where the map has become one for the other kind.
@@ -199,10 +217,9 @@ void WeightedJumpPoint::updateJumps(const std::vector<CellRect>& changed, const 
   if (undone <= kMostRemade) tiles_left_ += undone;
 }
 
-std::uint64_t WeightedJumpPoint::firstTiles() const {
+bool WeightedJumpPoint::isSmall() const {
   constexpr std::size_t kTileCells = WeightedJumpMap::kTile * WeightedJumpMap::kTile;
-  const std::size_t tiles = map().geometry().size() / kTileCells;
-  return tiles <= kSmallMap ? 2 * kSmallMap : 0;
+  return map().geometry().size() / kTileCells <= kSmallMap;
 }
 
 // Whether JumpPoint is the one that answers where the jumps do not.
@@ -228,15 +245,13 @@ std::uint64_t WeightedJumpPoint::mostTiles() const {
   constexpr auto kAll = std::numeric_limits<std::uint64_t>::max();
   if (jumps_.finished()) return kAll;
   if (bytesOfBoth() > memoryLimit()) return kAll;
-  // Tiles far from each other touch so many new pages of memory that they cost more than A*.
-  constexpr std::size_t kMostCells = std::size_t{1} << 26;
   return map().geometry().size() > kMostCells ? 0 : tiles_left_;
 }
 
 // What A* expanded pays for tiles: one is made in the time of some ten thousand expansions, and
 // little is lost if it is never used. JumpPoint's pay for none: where it answers, they are made in idle time.
 void WeightedJumpPoint::payForTiles(std::size_t expanded) {
-  if (substitute_jumps_) return;
+  if (substitute_jumps_ || map().geometry().size() > kMostCells) return;
   paid_ += expanded;
   tiles_left_ += paid_ / kTilePrice;
   paid_ %= kTilePrice;
@@ -263,6 +278,7 @@ std::optional<SearchResult> WeightedJumpPoint::searchWithJumps(const SearchReque
 }
 
 SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const StopToken& stop) {
+  if (estimatesLater() && tiles_left_ > 0) estimateNow(stop);
   if (jumps_ready_) {
     if (std::optional<SearchResult> result = searchWithJumps(request, stop))
       return *std::move(result);

@@ -6,17 +6,17 @@
 // Where diagonals are sqrt 2 long and cut no corners, the search with jumps
 // (planners/jump_point/weighted_jump_search.h) prunes symmetric paths: nearly all cells of
 // plateaus, many of the slopes around obstacles, few where every cell has another weight. Whether
-// jumping pays is estimated when a map of several weights is prepared and updated
-// (planners/jump_point/pruning_estimate.h). Where it does not, and for other motion models, A*
-// answers, with the bound of the blocks where weights differ (planners/tables/block_bound.h), else with
-// the heuristic that fits the motion model. Jumps use that bound too: from their first expansions on
-// where the octile distance says little of costs, else in long searches only.
+// jumping pays is estimated on maps of several weights (planners/jump_point/pruning_estimate.h). Where
+// it does not, and for other motion models, A* answers, with the bound of the blocks where weights
+// differ (planners/tables/block_bound.h), else with the heuristic that fits the motion model. Jumps use
+// that bound too: from their first expansions on where the octile distance says little of costs, else
+// in long searches only.
 //
 // The jumps are prepared by tiles, when a search first comes to them or by finishBackgroundWork().
 // Until then a substitute answers at the same cost, so that a first plan waits for no preparation: A*,
 // where a search comes to more new tiles than were paid for. One is for so many expansions of A* that
-// making it adds some per cent to their time. Small maps are paid for, and what an update undid where
-// that is little; of maps above 2^26 cells nothing is.
+// making it adds some per cent to their time; before the first one nothing is estimated either. Small
+// maps are paid for, and what an update undid where that is little; of maps above 2^26 cells nothing is.
 //
 // On maps of one weight JumpPoint answers, whose bits are made in the time in which A* is prepared, and
 // on random noise A*. There finishBackgroundWork() prepares the jumps where they are faster, once they
@@ -63,11 +63,13 @@ class WeightedJumpPoint : public Planner {
                                               const base::StopToken& stop);
 
   void updateJumps(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
+  bool estimatesLater() const;
+  void estimateNow(const base::StopToken& stop);
   bool shouldJump() const;
   int blockOfBound() const;
   std::size_t bytesOfAStar(const grid::GridGeometry& geometry) const;
   std::size_t bytesOfBoth() const;
-  std::uint64_t firstTiles() const;
+  bool isSmall() const;
   std::uint64_t mostTiles() const;
   void payForTiles(std::size_t expanded);
   void estimate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
