@@ -72,7 +72,7 @@ class Child {
       : file_(file) {
     const std::string path = pathOfProgram(program);
     std::array<std::string, 5> words = {path, file, std::to_string(limits.bytesLeft()),
-                                        std::to_string(std::ceil(limits.secondsLeft())),
+                                        std::to_string(std::ceil(limits.processorSeconds())),
                                         std::to_string(::getpid())};
     std::array<char*, 6> arguments{};
     for (std::size_t i = 0; i < words.size(); ++i) arguments[i] = words[i].data();

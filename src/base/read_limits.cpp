@@ -10,6 +10,7 @@ namespace grid_path_planner::base {
 namespace {
 
 constexpr std::size_t kMegabyte = 1000000;
+constexpr double kPatience = 60.0;  // seconds by the clock for each of processor time
 
 }  // namespace
 
@@ -17,12 +18,19 @@ ReadLimits::ReadLimits(const ReadOptions& options, StopToken stop)
     : bytes_(std::min(static_cast<std::size_t>(options.read_memory_limit) * kMegabyte,
                       halfOfAvailableMemory())),
       seconds_(options.read_time_limit),
+      clock_seconds_(seconds_),
       stop_(std::move(stop)) {}
+
+ReadLimits ReadLimits::ofProcessorTime(const ReadOptions& options) {
+  ReadLimits limits(options);
+  limits.clock_seconds_ *= kPatience;
+  return limits;
+}
 
 void ReadLimits::start() {
   if (end_) return;
   end_ = Clock::now() +
-         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds_));
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(clock_seconds_));
 }
 
 void ReadLimits::take(const std::string& file, std::size_t bytes) {
@@ -47,9 +55,10 @@ bool ReadLimits::mayGoOn() const {
   return !stopped() && (!end_ || Clock::now() < *end_);
 }
 
-double ReadLimits::secondsLeft() const {
+double ReadLimits::processorSeconds() const {
   if (!end_) return seconds_;
-  return std::max(0.0, std::chrono::duration<double>(*end_ - Clock::now()).count());
+  const double left = std::chrono::duration<double>(*end_ - Clock::now()).count();
+  return std::clamp(left, 0.0, seconds_);
 }
 
 InputError ReadLimits::tooLarge(const std::string& file) const {

@@ -270,7 +270,7 @@ FlightSetup::FlightSetup(const FlightStudy& study, std::size_t world)
     : study_(study),
       number_(world),
       world_(std::make_shared<const simulation::World>(
-          simulation::readWorld(study.worlds[world].file))),
+          simulation::readWorld(study.worlds[world].file, base::ReadLimits::ofProcessorTime()))),
       bodies_(std::make_shared<const simulation::MovingBodies>(study.bodies)),
       camera_(*world_, study.camera) {}
 

@@ -33,7 +33,9 @@ class TrialWorker {
       : plan_(plan), folder_(std::move(folder)) {}
 
   std::string linesOf(std::size_t number) {
-    if (!world_) world_.emplace(simulation::readWorld(plan_.study().world));
+    if (!world_)
+      world_.emplace(
+          simulation::readWorld(plan_.study().world, base::ReadLimits::ofProcessorTime()));
     const TrialUnit& unit = plan_.units()[number];
     return unit.renders ? render(unit) : run(unit);
   }

@@ -47,6 +47,11 @@ class ReadLimits {
   // `stop` ends the reading at once.
   ReadLimits(const ReadOptions& options = {}, StopToken stop = {});  // NOLINT: options are limits
 
+  // For work whose results must not depend on how busy the machine is: `read_time_limit` is the processor
+  // time of a process that reads (child_process.h). By the clock the reading has 60 times as long, which
+  // ends a process that sleeps.
+  static ReadLimits ofProcessorTime(const ReadOptions& options = {});
+
   // The time runs from the first of these calls on; later ones change nothing.
   void start();
 
@@ -62,8 +67,9 @@ class ReadLimits {
   bool mayGoOn() const;
 
   std::size_t bytesLeft() const { return bytes_ - taken_; }
-  // Of the time, at least 0; all of it before start().
-  double secondsLeft() const;
+  // The processor time that a process that reads may take: no more than what is left by the clock, at
+  // least 0; all of it before start().
+  double processorSeconds() const;
   bool stopped() const { return stop_.reason() != StopReason::NONE; }
 
   // Errors, for readers that find out by themselves.
@@ -75,7 +81,7 @@ class ReadLimits {
 
   std::size_t bytes_;
   std::size_t taken_ = 0;
-  double seconds_;
+  double seconds_, clock_seconds_;
   StopToken stop_;
   std::optional<Clock::time_point> end_;
 };

@@ -162,9 +162,10 @@ std::string flightResultsPage(const FlightData& data, const std::vector<Finding>
 
 const std::vector<Outline>& WorldOutlines::of(std::size_t world) {
   if (outlines_[world].empty())
-    outlines_[world] = outlinesOf(simulation::readWorld(study_.worlds[world].file),
-                                  std::max(study_.fence_low, study_.start.z() - 1.0),
-                                  std::min(study_.fence_high, study_.start.z() + 1.0));
+    outlines_[world] = outlinesOf(
+        simulation::readWorld(study_.worlds[world].file, base::ReadLimits::ofProcessorTime()),
+        std::max(study_.fence_low, study_.start.z() - 1.0),
+        std::min(study_.fence_high, study_.start.z() + 1.0));
   return outlines_[world];
 }
 
