@@ -247,6 +247,23 @@ TEST(WeightedJumpPoint, NothingIsSearchedAfterAnEditThatDoesNotMatter) {
   expectLeastAcross(*driving.slopes.map(), driving.result);
 }
 
+TEST(KeptSearchTree, IsWantedForAGoalThatIsSearchedForOnTwoMaps) {
+  const Slopes slopes;
+  Slopes changed;
+  changed.edit({200, 100, 2, 2}, 50);
+  SearchRequest elsewhere = kAcross;
+  elsewhere.goals = {{290, 5}};
+  KeptSearchTree tree;
+  tree.searched(*slopes.map(), kAcross, kAllCells);
+  tree.searched(*slopes.map(), kAcross, kAllCells);
+  EXPECT_FALSE(tree.wanted(*slopes.map()));
+  tree.searched(*changed.map(), elsewhere, kAllCells);
+  EXPECT_FALSE(tree.wanted(*changed.map()));
+  tree.searched(*changed.map(), kAcross, kAllCells);
+  tree.searched(*slopes.map(), kAcross, kAllCells);
+  EXPECT_TRUE(tree.wanted(*slopes.map()));
+}
+
 TEST(KeptSearchTree, ACancelledMakingLeavesNone) {
   const Slopes slopes;
   Slopes changed;
