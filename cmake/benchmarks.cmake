@@ -50,6 +50,7 @@ if(CATKIN_ENABLE_TESTING AND GPP_WITH_study AND GPP_WITH_mapping AND GPP_WITH_si
   gpp_run_benchmark(engine_growth --sides 64 --densities 0.1)
   gpp_run_benchmark(engine_queries --list all)
   gpp_run_benchmark(map_updates maps/study_site.yaml --side 300 --rounds 1)
+  gpp_run_benchmark(one_cell_edits --side 256 --edits 6)
   gpp_run_benchmark(rectangle_decomposition maps/study_site.yaml 20)
   gpp_run_benchmark(rectangle_repair maps/study_site.yaml 200)
   gpp_run_benchmark(rectangle_tables maps)

@@ -16,8 +16,8 @@ PLANNER_FLOORS = {
     "core": set(),
     "tables": {"core"},
     "astar": {"core", "tables"},
-    "jump_point": {"core", "tables", "astar"},
     "replanning": {"core", "tables", "astar"},
+    "jump_point": {"core", "tables", "astar", "replanning"},
     "rectangles": {"core"},
     "any_angle": {"core", "rectangles", "tables", "astar"},
 }

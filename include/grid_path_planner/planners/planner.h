@@ -5,8 +5,8 @@
 //   SearchResult result = planner->search({Cell{1, 2}, {Cell{30, 40}}}, source.token());
 //
 // search() checks the request once and then computes. It never changes the map, and the same request
-// on the same map gives the same cells, whatever the machine's load. A request that cannot be
-// answered gives a status with a sentence; search() before prepare() gives NO_MAP.
+// on the same map gives the same cells, whatever the load, unless one answers that is `incremental`.
+// What cannot be answered gives a status with a sentence; search() before prepare() gives NO_MAP.
 #pragma once
 
 #include <limits>

@@ -8,11 +8,12 @@
 #include "planners/astar/heuristic.h"
 #include "planners/core/keys.h"
 #include "planners/jump_point/jump_point.h"
+#include "planners/replanning/incremental_a_star.h"
 #include "planners/tables/precomputed_heuristic.h"
 
 namespace grid_path_planner::planners {
 
-using base::StopToken;
+using base::Status, base::StopToken;
 using costmap::Connectivity, costmap::CostGrid, costmap::DiagonalCost, costmap::MotionModel;
 using grid::Cell, grid::CellRect, grid::GridGeometry;
 
@@ -42,6 +43,11 @@ std::uint64_t tilesExpected(const SearchRequest& request) {
                                 std::abs(goal.row - request.start.row));
   return std::uint64_t(straight / WeightedJumpMap::kTile) * kTilesBesideLine;
 }
+
+// Expansions of A* in whose time jumps expand one cell, on inflated maps.
+constexpr std::uint64_t kCellsOfAJump = 8;
+// Searches of fewer expansions are nearly as fast as a tree.
+constexpr std::uint64_t kLeastForTree = 4096;
 
 bool jumpsSupport(const MotionModel& motion) {
   return motion == MotionModel();
@@ -86,8 +92,15 @@ bool WeightedJumpPoint::optimalFor(const CostGrid& map) const {
   return optimalWith(optionsOfAStar(map), map);
 }
 
-// Both where the substitute answers searches until the jumps are prepared.
+// A tree is no reason to refuse a map: it goes where memory is little.
 std::size_t WeightedJumpPoint::bytesFor(const GridGeometry& geometry) const {
+  const std::size_t searches = bytesOfSearches(geometry);
+  const std::size_t all = searches + (tree_.held() ? KeptSearchTree::bytesFor(geometry) : 0);
+  return all > memoryLimit() ? searches : all;
+}
+
+// Both where the substitute answers searches until the jumps are prepared.
+std::size_t WeightedJumpPoint::bytesOfSearches(const GridGeometry& geometry) const {
   if (jumps_ready_ && substitute_) return bytesOfBoth();
   const std::size_t one = std::max(WeightedJumpSearch::bytesFor(geometry), bytesOfAStar(geometry));
   return a_star_asked_for_ ? one : std::max(one, JumpPoint().bytesFor(geometry));
@@ -113,8 +126,8 @@ std::string WeightedJumpPoint::lessMemoryAdvice() const {
 
 BackgroundWork WeightedJumpPoint::backgroundWork() {
   BackgroundWork work = substitute_ ? substitute_->backgroundWork() : BackgroundWork();
-  work.pending =
-      work.pending || estimatesLater() || (shouldJump() && !(jumps_ready_ && jumps_.finished()));
+  work.pending = work.pending || estimatesLater() ||
+                 (shouldJump() && !(jumps_ready_ && jumps_.finished())) || treeWanted();
   return work;
 }
 
@@ -126,6 +139,16 @@ void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
     substitute_.reset();
   }
   if (substitute_) substitute_->finishBackgroundWork(stop);
+  if (treeWanted()) tree_.make(map(), stop);
+}
+
+bool WeightedJumpPoint::treeFits() const {
+  const GridGeometry& geometry = map().geometry();
+  return bytesOfSearches(geometry) + KeptSearchTree::bytesFor(geometry) <= memoryLimit();
+}
+
+bool WeightedJumpPoint::treeWanted() const {
+  return !a_star_asked_for_ && !map().uniform() && tree_.wanted(map()) && treeFits();
 }
 
 bool WeightedJumpPoint::shouldJump() const {
@@ -151,6 +174,7 @@ int WeightedJumpPoint::blockOfBound() const {
 
 void WeightedJumpPoint::doPrepare(const StopToken& stop) {
   substitute_.reset();
+  tree_.release();
   jumps_ready_ = sampled_ = counted_ = false;
   tiles_left_ = paid_ = 0;
   jumps_.release();
@@ -197,6 +221,8 @@ void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const Sto
   if (jumps_ready_) updateJumps(changed, stop);
   if (substitute_) updateSubstitute(changed, stop);
   if (!jumps_ready_ && jumps && !map().uniform()) prepareJumps(stop);
+  if (map().uniform()) tree_.release();
+  tree_.update(previousMap(), map(), changed, stop);
 }
 
 // Another one where the map has become one for the other kind.
@@ -278,6 +304,24 @@ std::optional<SearchResult> WeightedJumpPoint::searchWithJumps(const SearchReque
 }
 
 SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const StopToken& stop) {
+  if (a_star_asked_for_ || map().uniform()) return searchAnew(request, stop);
+  if (tree_.held() && !treeFits()) tree_.release();
+  SearchResult by_tree;
+  if (tree_.search(map(), request, by_tree, stop)) {
+    by_tree.answered_by = IncrementalAStar::declaredTraits().name;
+    return by_tree;
+  }
+  SearchResult result = searchAnew(request, stop);
+  const bool by_jumps = result.answered_by.empty();
+  const std::uint64_t cells = result.statistics.expanded * (by_jumps ? kCellsOfAJump : 1);
+  if (result.status == Status::FOUND && cells >= kLeastForTree)
+    tree_.searched(map(), request, cells);
+  result.statistics += by_tree.statistics;
+  result.expanded.insert(result.expanded.begin(), by_tree.expanded.begin(), by_tree.expanded.end());
+  return result;
+}
+
+SearchResult WeightedJumpPoint::searchAnew(const SearchRequest& request, const StopToken& stop) {
   if (estimatesLater() && tiles_left_ > 0) estimateNow(stop);
   if (jumps_ready_) {
     if (std::optional<SearchResult> result = searchWithJumps(request, stop))

@@ -18,6 +18,12 @@
 // making it adds some per cent to their time; before the first one nothing is estimated either. Small
 // maps are paid for, and what an update undid where that is little; of maps above 2^26 cells nothing is.
 //
+// A goal that is asked for again after a change of the map is that of a vehicle which drives:
+// finishBackgroundWork() makes its tree then, on maps of several weights, and the tree answers after
+// small changes, where that takes less than a search (planners/replanning/kept_search_tree.h). Which of several
+// least-cost paths it finds depends on the calls before, as that of incremental_a_star does, which
+// `answered_by` names then.
+//
 // On maps of one weight JumpPoint answers, whose bits are made in the time in which A* is prepared, and
 // on random noise A*. There finishBackgroundWork() prepares the jumps where they are faster, once they
 // are there; elsewhere nothing more is prepared, and searches stay as they are
@@ -38,6 +44,7 @@
 #include "planners/jump_point/jump_point_density.h"
 #include "planners/jump_point/pruning_estimate.h"
 #include "planners/jump_point/weighted_jump_search.h"
+#include "planners/replanning/kept_search_tree.h"
 
 namespace grid_path_planner::planners {
 
@@ -59,6 +66,7 @@ class WeightedJumpPoint : public Planner {
   void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
+  SearchResult searchAnew(const SearchRequest& request, const base::StopToken& stop);
   std::optional<SearchResult> searchWithJumps(const SearchRequest& request,
                                               const base::StopToken& stop);
 
@@ -70,6 +78,9 @@ class WeightedJumpPoint : public Planner {
   std::size_t bytesOfAStar(const grid::GridGeometry& geometry) const;
   std::size_t bytesOfBoth() const;
   bool isSmall() const;
+  std::size_t bytesOfSearches(const grid::GridGeometry& geometry) const;
+  bool treeFits() const;
+  bool treeWanted() const;
   std::uint64_t mostTiles() const;
   void payForTiles(std::size_t expanded);
   void estimate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
@@ -91,6 +102,7 @@ class WeightedJumpPoint : public Planner {
   WeightedJumpSearch jumps_;
   std::unique_ptr<Planner> substitute_;  // A* or JumpPoint; null until it is prepared
   bool substitute_jumps_ = false;        // it is JumpPoint
+  KeptSearchTree tree_;
 };
 
 }  // namespace grid_path_planner::planners

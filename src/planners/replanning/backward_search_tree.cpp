@@ -150,8 +150,13 @@ std::uint64_t BackwardSearchTree::advance(const Bound& bound, const Lowered& low
 }
 
 Status BackwardSearchTree::plan(const CostGrid& map, Cell start, bool record, SearchResult& result,
-                                const StopToken& stop) {
-  constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+                                const StopToken& stop, std::uint64_t most) {
+  const std::uint64_t before = result.statistics.expanded;
+  const auto left = [&] {
+    const std::uint64_t spent = result.statistics.expanded - before;
+    if (spent >= most) throw TooManyCells();
+    return most - spent;
+  };
   nodes_.setMap(map);
   const Index from = map.geometry().index(start).value();
   StopPoll poll(stop);
@@ -171,15 +176,18 @@ Status BackwardSearchTree::plan(const CostGrid& map, Cell start, bool record, Se
   std::uint64_t growth = kFirstGrowth;
   while (true) {
     // 1. Cost decreases are propagated as far as they may lower the g-value of the start.
-    advance(below_start, ignore, kUnlimited, record, result, poll);
+    advance(below_start, ignore, left(), record, result, poll);
+    left();
     if (nodes_.state(from) == BackwardNodes::NEW) return unreachable();
 
     // 2. A path around the cost increases; cost decreases that may lower its cost.
-    const bool found = repair_search_.run(nodes_, from, consistent_below_, record, result, poll);
+    const bool found =
+        repair_search_.run(nodes_, from, consistent_below_, record, result, poll, left());
     repair_expanded_ += repair_search_.expanded();
     if (found) {
       affected = false;
-      advance(below_path, checkPath, kUnlimited, record, result, poll);
+      advance(below_path, checkPath, left(), record, result, poll);
+      left();
       if (affected) continue;
       path_ = repair_search_.path(nodes_);
       path_cost_ = exactCostOf(repair_search_.cost(), kPackedScale) * map.kernel();
@@ -191,7 +199,8 @@ Status BackwardSearchTree::plan(const CostGrid& map, Cell start, bool record, Se
     // 3. No path over the cells of the tree: the tree grows.
     overflowed_ = overflowed_ || repair_search_.overflowed();
     if (!repair_search_.leftTheTree()) return unreachable();
-    if (advance(unbounded, ignore, growth, record, result, poll) == 0) return unreachable();
+    if (advance(unbounded, ignore, std::min(growth, left()), record, result, poll) == 0)
+      return unreachable();
     growth *= 2;
   }
 }

@@ -5,7 +5,7 @@
 //   tree.prepare(map, moves);                             // moves.update() before tree.update()
 //   tree.build(map, goal, start, extra, false, result, stop);
 //   tree.update(old_map, new_map, changed);               // cells of `changed` have new weights
-//   tree.plan(new_map, moved_start, false, result, stop);
+//   tree.plan(new_map, moved_start, false, result, stop);  // of no more cells than that, if asked for
 //
 // plan() returns the rest of the last path where the start is on it, no cost on it increased and no
 // cost anywhere decreased. Cost increases elsewhere are not repaired: a g-value whose path is no
@@ -18,11 +18,12 @@
 // Invariant: where a cell's g-value exceeds that of a neighbour plus the step, or is missing, the
 // neighbour is OPEN.
 //
-// Guaranteed: the cost found is the least there is, exactly. A stopped plan() continues at the next
-// call. Not guaranteed: which of several least-cost paths is found; that depends on earlier calls.
+// Guaranteed: the cost found is the least there is, exactly. A plan() that was stopped, or would have
+// taken too many cells, continues at the next call. Not guaranteed: which of several least-cost paths is found; that depends on earlier calls.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "grid_path_planner/planners/planner.h"
@@ -36,6 +37,9 @@ namespace grid_path_planner::planners {
 
 class BackwardSearchTree {
  public:
+  // Of build(): so many times as many cells as its first plan needs, for a goal that stays.
+  static constexpr double kUsualExtra = 3.0;
+
   BackwardSearchTree() = default;
   BackwardSearchTree(const BackwardSearchTree&) = delete;
   BackwardSearchTree& operator=(const BackwardSearchTree&) = delete;
@@ -64,9 +68,11 @@ class BackwardSearchTree {
   bool usableFor(const costmap::CostGrid& map, grid::Cell goal) const;
 
   // The least-cost path from `start`; searches only as far as the changes require. Throws as
-  // build(), and continues at the next call. Precondition: usableFor().
+  // build(), and TooManyCells where more than `most` cells would have to be expanded, and continues at
+  // the next call. Precondition: usableFor().
   base::Status plan(const costmap::CostGrid& map, grid::Cell start, bool record,
-                    SearchResult& result, const base::StopToken& stop);
+                    SearchResult& result, const base::StopToken& stop,
+                    std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
   // Of the open list and the last repair search.
   std::size_t searchBytes() const { return open_.bytes() + repair_search_.bytes(); }

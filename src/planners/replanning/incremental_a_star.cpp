@@ -4,18 +4,12 @@
 #include <utility>
 
 #include "planners/core/bucket_queue.h"
+#include "planners/replanning/kept_search_tree.h"
 
 namespace grid_path_planner::planners {
 
 using base::Status, base::Stopped, base::StopToken;
 using grid::Cell, grid::CellRect, grid::GridGeometry;
-
-namespace {
-
-// How many times as many cells as its first plan needs are expanded for a new goal.
-constexpr double kExtra = 3.0;
-
-}  // namespace
 
 PlannerTraits IncrementalAStar::declaredTraits() {
   PlannerTraits traits{"incremental_a_star"};
@@ -28,11 +22,7 @@ PlannerTraits IncrementalAStar::declaredTraits() {
 IncrementalAStar::IncrementalAStar() : Planner(declaredTraits()) {}
 
 std::size_t IncrementalAStar::bytesFor(const GridGeometry& geometry) const {
-  return std::max(treeBytes(geometry), BucketSearch::bytesFor(geometry));
-}
-
-std::size_t IncrementalAStar::treeBytes(const GridGeometry& geometry) {
-  return BackwardSearchTree::bytesFor(geometry) + geometry.size();
+  return std::max(KeptSearchTree::bytesFor(geometry), BucketSearch::bytesFor(geometry));
 }
 
 void IncrementalAStar::doPrepare(const StopToken& stop) {
@@ -59,7 +49,8 @@ SearchResult IncrementalAStar::doSearch(const SearchRequest& request, const Stop
     switchToAStar(stop);
     return a_star_->search(request, stop);
   }
-  result.statistics.search_bytes = treeBytes(map().geometry()) + tree_->searchBytes() +
+  result.statistics.search_bytes = KeptSearchTree::bytesFor(map().geometry()) +
+                                   tree_->searchBytes() +
                                    result.statistics.peak_open * sizeof(BucketQueue::Index);
   return result;
 }
@@ -77,7 +68,8 @@ Status IncrementalAStar::planByTree(const SearchRequest& request, SearchResult& 
   const Cell goal = request.goals.front();
   const bool record = request.record_expanded;
   if (tree_->usableFor(map(), goal)) return tree_->plan(map(), request.start, record, result, stop);
-  return tree_->build(map(), goal, request.start, kExtra, record, result, stop);
+  return tree_->build(map(), goal, request.start, BackwardSearchTree::kUsualExtra, record, result,
+                      stop);
 }
 
 }  // namespace grid_path_planner::planners

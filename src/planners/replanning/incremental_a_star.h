@@ -46,7 +46,6 @@ class IncrementalAStar : public Planner {
   void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
-  static std::size_t treeBytes(const grid::GridGeometry& geometry);
   base::Status planByTree(const SearchRequest& request, SearchResult& result,
                           const base::StopToken& stop);
   void switchToAStar(const base::StopToken& stop);

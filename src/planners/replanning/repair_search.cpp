@@ -61,7 +61,7 @@ void RepairSearch::prepare(const CostGrid& map) {
 }
 
 bool RepairSearch::run(const BackwardNodes& tree, Index start, SearchKey consistent_below,
-                       bool record, SearchResult& result, StopPoll& poll) {
+                       bool record, SearchResult& result, StopPoll& poll, std::uint64_t most) {
   start_ = last_ = start;
   consistent_below_ = consistent_below;
   expanded_ = 0;
@@ -85,6 +85,10 @@ bool RepairSearch::run(const BackwardNodes& tree, Index start, SearchKey consist
     Node& node = nodes_.at(cell);
     if (node.closed()) continue;
     if (cost_ != kNoCost && node.g() + tree.g(index) >= cost_) continue;
+    if (expanded_ == most) {
+      result.statistics.expanded += expanded_;
+      throw TooManyCells();
+    }
     node.close();
     ++expanded_;
     if (record) result.expanded.emplace_back(index);

@@ -3,7 +3,8 @@
 //
 //   RepairSearch repair;
 //   repair.prepare(map);
-//   if (repair.run(nodes, start, consistent_below, false, result, poll)) use(repair.path(nodes));
+//   if (repair.run(nodes, start, consistent_below, false, result, poll, most))
+//     use(repair.path(nodes));
 //
 // After changes of the map a g-value of the tree is a lower bound of the cost-to-go of its cell
 // (backward_search_tree.h ensures that), and equal to it where every cell of the cell's path is
@@ -27,15 +28,19 @@
 
 namespace grid_path_planner::planners {
 
+// Thrown where a repair would have to expand more cells than it may.
+struct TooManyCells {};
+
 class RepairSearch {
  public:
   void prepare(const costmap::CostGrid& map);
 
   // Whether a path was found. Paths of cells with g-values below `consistent_below` are consistent.
-  // Adds to the result's statistics and, with `record`, to its expanded cells. Throws Stopped.
+  // Adds to the result's statistics and, with `record`, to its expanded cells. Throws Stopped, and
+  // TooManyCells where it would have to expand more than `most`.
   // Precondition: `start` has a g-value.
   bool run(const BackwardNodes& tree, BackwardNodes::Index start, SearchKey consistent_below,
-           bool record, SearchResult& result, base::StopPoll& poll);
+           bool record, SearchResult& result, base::StopPoll& poll, std::uint64_t most);
 
   // Of the last run(): the cost of the path, the number of expanded cells, and the path's cells from
   // the start to the goal.

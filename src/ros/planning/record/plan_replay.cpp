@@ -22,6 +22,7 @@ using grid::differences;
 using grid::OccupancyGrid;
 using path::Path;
 using planners::Heuristic;
+using planners::plannerNames;
 using planners::traitsOf;
 using planning::failedPlan;
 using planning::PathPlanner;
@@ -110,9 +111,11 @@ std::string differenceText(const PlanRecord& then, const PlanRecord& now) {
 std::string reasonText(const PlanRecord& record, const PlanQuestion& question) {
   if (record.version != packageVersion())
     return "; it was recorded by version " + record.version + ", and this is " + packageVersion();
-  if (traitsOf(question.options.planner).incremental)
-    return "; " + question.options.planner +
-           " repairs what the plans and maps before left, and not all of these are recorded";
+  for (const std::string& planner : plannerNames())
+    if (traitsOf(planner).incremental &&
+        (planner == question.options.planner || planner == record.answered_by))
+      return "; " + planner +
+             " repairs what the plans and maps before left, and not all of these are recorded";
   return "";
 }
 

@@ -11,9 +11,8 @@
 
 #include "planners/astar/dijkstra.h"
 #include "planners/replanning/incremental_a_star.h"
+#include "planners/replanning/journey.h"
 #include "support/cost_maps.h"
-#include "support/random_map.h"
-#include "support/reference_search.h"
 
 namespace grid_path_planner::planners {
 
@@ -21,113 +20,19 @@ using base::Status;
 using base::Stopped;
 using base::StopSource;
 using base::StopToken;
-using costmap::Connectivity;
 using costmap::CostGrid;
-using costmap::costOfSteps;
-using costmap::DiagonalCost;
 using costmap::ExactCost;
-using costmap::MotionModel;
-using costmap::stepAllowed;
 using grid::Cell;
 using grid::CellIndex;
 using grid::CellRect;
 using grid::Grid;
 using grid::GridGeometry;
 using test::costMap;
+using test::expectLeast;
+using test::Journey;
+using test::Map;
 
 namespace {
-
-using Map = std::shared_ptr<const CostGrid>;
-
-MotionModel motionOf(std::mt19937& random) {
-  MotionModel motion;
-  if (random() % 3 != 0) return motion;
-  motion.connectivity = random() % 2 == 0 ? Connectivity::EIGHT : Connectivity::FOUR;
-  motion.diagonal_cost = random() % 2 == 0 ? DiagonalCost::SQRT2 : DiagonalCost::UNIT;
-  motion.cut_corners = random() % 2 == 0;
-  return motion;
-}
-
-struct Edited {
-  Map map;
-  CellRect changed;
-};
-
-// New weights in a small rectangle: blocked, open, as it was when the world began, or any.
-Edited edited(std::mt19937& random, const CostGrid& before, const CostGrid& world) {
-  Grid<CostGrid::Weight> weights = before.weights();
-  const Cell low = test::randomCell(random, before.geometry());
-  const int side = 1 + static_cast<int>(random() % 7);
-  const CellRect changed =
-      CellRect{low.column, low.row, side, side}.intersection(before.geometry().rect());
-  const unsigned kind = random() % 4;
-  for (int row = changed.row; row < changed.row + changed.height; ++row)
-    for (int column = changed.column; column < changed.column + changed.width; ++column) {
-      const Cell cell{column, row};
-      const CostGrid::Weight choices[] = {CostGrid::kBlocked, before.minWeight(),
-                                          world.weight(cell),
-                                          static_cast<CostGrid::Weight>(random() % 40)};
-      weights[cell] = choices[kind];
-    }
-  auto map = std::make_shared<CostGrid>(weights, before.classes(), before.motion());
-  map->setRevision(before.revision() + 1);
-  return {map, changed};
-}
-
-std::optional<ExactCost> leastCost(const CostGrid& map, Cell start, Cell goal) {
-  return test::referenceCosts(map, goal)[map.geometry().index(start).value()];
-}
-
-void expectLeast(const CostGrid& map, Cell start, Cell goal, bool found,
-                 const SearchResult& result) {
-  const auto least = leastCost(map, start, goal);
-  ASSERT_EQ(found, least.has_value());
-  if (!least) return;
-  ASSERT_FALSE(result.cells.empty());
-  EXPECT_EQ(result.cells.front(), start);
-  EXPECT_EQ(result.cells.back(), goal);
-  for (std::size_t i = 1; i < result.cells.size(); ++i)
-    ASSERT_TRUE(stepAllowed(map, result.cells[i - 1], result.cells[i]));
-  ASSERT_EQ(result.cost, *least);
-  EXPECT_EQ(costOfSteps(map, result.cells), *least);
-}
-
-// A vehicle that drives to a goal over a changing world.
-class Journey {
- public:
-  Journey(std::mt19937& random, int largest_side)
-      : random_(random),
-        world_(std::make_shared<const CostGrid>(
-            test::randomCosts(random, largest_side, motionOf(random)))),
-        map_(world_),
-        start_(test::randomCell(random, map_->geometry())),
-        goal_(test::randomCell(random, map_->geometry())) {}
-
-  bool possible() const { return map_->passable(start_) && map_->passable(goal_); }
-  const Map& map() const { return map_; }
-  Cell start() const { return start_; }
-  Cell goal() const { return goal_; }
-
-  CellRect edit() {
-    const Edited next = edited(random_, *map_, *world_);
-    map_ = next.map;
-    return next.changed;
-  }
-  // Along the path, or to anywhere.
-  void move(const std::vector<Cell>& path) {
-    if (random_() % 6 == 0 || path.empty())
-      start_ = test::randomCell(random_, map_->geometry());
-    else
-      start_ = path[std::min<std::size_t>(path.size() - 1, random_() % 4)];
-  }
-
- private:
-  std::mt19937& random_;
-  Map world_;
-  Map map_;
-  Cell start_;
-  Cell goal_;
-};
 
 // The status that `search` returns; none where keys cannot hold the cost.
 template <class Search>
