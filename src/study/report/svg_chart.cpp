@@ -34,13 +34,14 @@ class LogAxis {
   double operator()(double value) const {
     return from_ + (std::log10(value) - low_) / (high_ - low_) * (to_ - from_);
   }
-  // 1, 2 and 5 of every decade, or fewer where the axis is long.
+  // 1, 2 and 5 of every decade, fewer where the axis is long, more where it is short.
   std::vector<double> ticks() const {
-    const bool many = high_ - low_ > 3.0;
+    std::vector<double> steps = {1.0, 2.0, 5.0};
+    if (high_ - low_ > 3.0) steps = {1.0};
+    if (high_ - low_ < 0.9) steps = {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
     std::vector<double> ticks;
     for (int decade = static_cast<int>(std::floor(low_)); decade <= high_; ++decade)
-      for (const double step : {1.0, 2.0, 5.0}) {
-        if (many && step != 1.0) continue;
+      for (const double step : steps) {
         const double value = step * std::pow(10.0, decade);
         if (std::log10(value) >= low_ && std::log10(value) <= high_) ticks.push_back(value);
       }
