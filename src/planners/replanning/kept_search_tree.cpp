@@ -1,5 +1,6 @@
 #include "planners/replanning/kept_search_tree.h"
 
+#include <algorithm>
 #include <new>
 
 namespace grid_path_planner::planners {
@@ -17,6 +18,9 @@ constexpr std::uint64_t kStaleShare = 16;
 
 // A change of a larger part of the map than this leaves little of a tree, and following it takes long.
 constexpr std::size_t kFollowedShare = 64;
+
+// Two to its power is the longest time without a tree, in searches, and one more.
+constexpr unsigned kMostInVain = 5;
 
 bool isLarge(const std::vector<CellRect>& changed, const GridGeometry& geometry) {
   std::size_t cells = 0;
@@ -41,6 +45,7 @@ void KeptSearchTree::searched(const CostGrid& map, const SearchRequest& request,
                               std::uint64_t cells) {
   const Cell goal = request.goals.front();
   const bool same = asked_ && goal == goal_;
+  notePayOff(same);
   again_ = same && (again_ || map.revision() != revision_);
   asked_ = true;
   goal_ = goal;
@@ -48,6 +53,19 @@ void KeptSearchTree::searched(const CostGrid& map, const SearchRequest& request,
   revision_ = map.revision();
   effort_ = cells;
   stale_ = true;
+}
+
+// A search went by without a tree.
+void KeptSearchTree::notePayOff(bool same_goal) {
+  if (!same_goal || use_ == Use::ANSWERED) {
+    in_vain_ = to_wait_ = 0;
+  } else if (use_ == Use::MADE) {
+    in_vain_ = std::min(in_vain_ + 1, kMostInVain);
+    to_wait_ = (1U << in_vain_) - 1;
+  } else if (to_wait_ > 0) {
+    --to_wait_;
+  }
+  use_ = Use::NONE;
 }
 
 void KeptSearchTree::update(const CostGrid& before, const CostGrid& after,
@@ -87,12 +105,14 @@ bool KeptSearchTree::tryToSearch(const CostGrid& map, const SearchRequest& reque
       tree_->plan(map, request.start, request.record_expanded, result, stop, effort_ / kMostShare);
   result.statistics.search_bytes = bytesFor(map.geometry()) + tree_->searchBytes();
   start_ = request.start;
+  use_ = Use::ANSWERED;
   stale_ = result.statistics.expanded > effort_ / kStaleShare;
   return true;
 }
 
 bool KeptSearchTree::wanted(const CostGrid& map) const {
-  return again_ && stale_ && !impossible_ && map.passable(start_) && map.passable(goal_);
+  return again_ && stale_ && !impossible_ && to_wait_ == 0 && map.passable(start_) &&
+         map.passable(goal_);
 }
 
 void KeptSearchTree::make(const CostGrid& map, const StopToken& stop) {
@@ -106,6 +126,7 @@ void KeptSearchTree::make(const CostGrid& map, const StopToken& stop) {
     SearchResult found;
     tree_->build(map, goal_, start_, BackwardSearchTree::kUsualExtra, false, found, stop);
     stale_ = false;
+    if (use_ == Use::NONE) use_ = Use::MADE;
   } catch (const TooExpensive&) {
     giveUp();
   } catch (const std::bad_alloc&) {

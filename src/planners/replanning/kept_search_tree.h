@@ -12,7 +12,9 @@
 // A tree is wanted for a goal that was searched for twice, on maps of two revisions. It takes several
 // times as long as a search, so it is made in idle time: anew once answering by it took more than a
 // small share of a search, since what is repaired for one plan is repaired for the next one, too
-// (repair_search.h). An answer that would take more than half of a search is given up.
+// (repair_search.h). An answer that would take more than half of a search is given up. After trees that
+// answered nothing, as on a map of which much changes each time, ever more searches go by before the
+// next one is made, 31 at most: idle time is processor time, too.
 //
 // Guaranteed: the cost found is the least there is, exactly, whatever was stopped, given up or out of
 // memory before. Not guaranteed: which of several least-cost paths is found.
@@ -62,6 +64,7 @@ class KeptSearchTree {
   bool tryToSearch(const costmap::CostGrid& map, const SearchRequest& request, SearchResult& result,
                    const base::StopToken& stop);
   void giveUp();
+  void notePayOff(bool same_goal);
 
   MovePruning moves_;
   std::unique_ptr<BackwardSearchTree> tree_;
@@ -75,6 +78,11 @@ class KeptSearchTree {
   std::uint64_t effort_ = 0;    // cells that it expanded
   bool again_ = false;          // searched for on maps of two revisions
   bool stale_ = true;           // no tree, or one that is far from the present map
+
+  enum class Use { NONE, MADE, ANSWERED };
+  Use use_ = Use::NONE;   // of a tree, since the last search without it
+  unsigned in_vain_ = 0;  // trees in a row that answered nothing
+  unsigned to_wait_ = 0;  // searches, before another is made
 };
 
 }  // namespace grid_path_planner::planners
