@@ -34,8 +34,7 @@ CONTEXT = {
     "cholesky.h": "extern const Eigen::Matrix<double, 6, 6> covariance; extern const Eigen::Matrix<double, 6, 1> error, right;",
     "shown_text.h": "extern std::string message;",
     "guarded_queue.h": "extern ros::NodeHandle nh;", "straight_runs.h": "extern const std::vector<Eigen::Vector2d> points;",
-    "master_watch.h": "void halt();",
-    "turning_points.h": "extern std::vector<Cell> cells; extern const CostGrid& map;",
+    "master_watch.h": "void halt();", "turning_points.h": "extern std::vector<Cell> cells; extern const CostGrid& map;",
     "update_sequence.h": "#include <map_msgs/OccupancyGridUpdate.h>\n#include <ros/message_event.h>\nextern UpdateSequence sequence;"
                          "extern ros::MessageEvent<map_msgs::OccupancyGridUpdate const> event;"
                          "extern map_msgs::OccupancyGridUpdate message; void askForAWholeMap();",
@@ -242,7 +241,7 @@ CONTEXT = {
         extern ros::Time stamp;""",
     "repair_search.h": "extern const CostGrid& map; extern const BackwardNodes& nodes;"
                        "extern BackwardNodes::Index start; extern SearchKey consistent_below;"
-                       "extern SearchResult result; extern StopPoll poll;",
+                       "extern SearchResult result; extern StopPoll poll; extern std::uint64_t most;",
     "file_folder.h": '#include "ros/common/file_kinds.h"\nextern std::string text;',
     "frame_transforms.h": "extern ros::NodeHandle nh; extern double limit;",
     "backward_nodes.h": "extern const BackwardNodes& nodes; extern BackwardNodes::Index index;",
@@ -387,8 +386,9 @@ CONTEXT = {
                            "extern ros::Time stamp; extern VehicleFrameNames frames;",
     "tiled_open_list.h": "extern GridGeometry geometry; extern SearchKey first, width, below;"
                        "extern DStarKeys keys; extern TiledOpenList::Index index;",
-    "waypoint_file.h": "extern Path path;",
-    "pose_spacing.h": "extern Path path;",
+    "waypoint_file.h": "extern Path path;", "pose_spacing.h": "extern Path path;",
+    "kept_search_tree.h": "extern const CostGrid &map, &before, &after; extern const SearchRequest& request; extern Planner& planner;"
+                          "extern const std::vector<CellRect>& changed;",
     "cost_changes.h": "extern const CostGrid &before, &after; extern CellRect changed;",
     "weight_counts.h": "extern Grid<WeightCounts::Weight> weights, next_weights; extern CellRect changed;",
     "weighted_jump_map.h": "extern const CostGrid& map; extern Cell cell, goal; extern std::uint32_t index;"
