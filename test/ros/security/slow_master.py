@@ -1,4 +1,4 @@
-"""A ROS master that is slow to say who publishes what, in front of the real one."""
+"""A ROS master that is slow in one of its answers, in front of the real one."""
 import http.server
 import threading
 import time
@@ -7,10 +7,10 @@ import urllib.request
 
 
 class SlowMaster:
-    """Hands all calls on to `master`; the first `times` of getSystemState are answered after `seconds`."""
+    """Hands all calls on to `master`; the first `times` of `method` are answered after `seconds`."""
 
-    def __init__(self, master, seconds, times):
-        self.master, self.seconds, self.times = master, seconds, times
+    def __init__(self, master, seconds, times, method="getSystemState"):
+        self.master, self.seconds, self.times, self.method = master, seconds, times, method.encode()
         self.asked, self.lock = 0, threading.Lock()
         self.server = http.server.ThreadingHTTPServer(("localhost", 0), self.handler())
         self.uri = "http://localhost:%d/" % self.server.server_address[1]
@@ -31,7 +31,7 @@ class SlowMaster:
 
             def do_POST(self):  # pylint: disable=invalid-name
                 body = self.rfile.read(int(self.headers["Content-Length"]))
-                if b"getSystemState" in body and slow.is_slow():
+                if slow.method in body and slow.is_slow():
                     time.sleep(slow.seconds)
                 request = urllib.request.Request(slow.master, body, {"Content-Type": "text/xml"})
                 try:

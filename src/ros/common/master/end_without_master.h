@@ -7,7 +7,9 @@
 // second for each, a node with thirty of them ends late or never. 1.5 s after it was asked, the
 // process ends as it is (exit code 0) if the master has no answer within 0.2 s; the master forgets
 // its names when another node takes them. A master that does answer is waited for: whatever else
-// keeps the node from ending is not hidden.
+// keeps the node from ending is not hidden. But a single answer may be lost, and roscpp waits for it in
+// poll() without a limit of time: now and then the main thread is interrupted there, so that it asks
+// again.
 //
 // A destructor does first what others rely on (a last command, a file), and then what asks the
 // master: subscribers, services and publishers.
@@ -23,7 +25,7 @@ namespace grid_path_planner::nodes {
 
 class EndWithoutMaster {
  public:
-  // `asked`: why the process is to end; empty while it is not. Called from a thread, ten times a second.
+  // Made by the main thread, at its beginning. `asked`: why the process is to end; empty while it is not. Called from a thread, ten times a second.
   EndWithoutMaster(std::string name, std::function<std::string()> asked);
   ~EndWithoutMaster();
   EndWithoutMaster(const EndWithoutMaster&) = delete;
@@ -35,6 +37,7 @@ class EndWithoutMaster {
 
   const std::string name_;
   const std::function<std::string()> asked_;
+  const std::thread::native_handle_type main_thread_;
   std::mutex mutex_;
   std::condition_variable over_;
   bool is_over_ = false;

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""A node ends although an answer of the master is lost, while the master answers all else.
+
+What was seen before: once in some hundred ends roscpp stood in poll() for an answer to a name given back, without a
+limit of time, and the master answered everybody. A node that ends only where the master answers nobody stood for good.
+"""
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import rosgraph
+import rosnode
+import rospy
+import rostest
+
+from running_nodes import PACKAGE, executable
+from slow_master import SlowMaster
+
+DEADLINE = 60.0  # s
+LOST = 10.0 * DEADLINE  # s: an answer that comes later than any test ends
+GIVEN_BACK = ("unregisterPublisher", "unregisterSubscriber", "unregisterService")
+
+
+def started(node, master):
+    environment = dict(os.environ, ROS_MASTER_URI=master.uri)
+    return subprocess.Popen([executable(node), "__name:=" + node], env=environment, stdout=subprocess.DEVNULL)
+
+
+def is_up(node):
+    try:
+        return rosnode.rosnode_ping("/" + node, max_count=1)
+    except rosnode.ROSNodeIOException:
+        return False
+
+
+class LostAnswer(unittest.TestCase):
+    def ends(self, node, method, times):
+        master = SlowMaster(rosgraph.get_master_uri(), LOST, times, method)
+        process = started(node, master)
+        try:
+            end = time.monotonic() + DEADLINE
+            while not is_up(node) and time.monotonic() < end:
+                time.sleep(0.05)
+            self.assertTrue(is_up(node))
+            process.send_signal(signal.SIGTERM)
+            self.assertEqual(process.wait(DEADLINE), 0, "%s, %s" % (node, method))
+            self.assertGreater(master.asked, 0, "%s, %s: nothing was lost" % (node, method))
+        finally:
+            process.kill()
+
+    def test_of_each_kind(self):
+        for method in GIVEN_BACK:
+            self.ends("path_planner", method, 1)
+
+    def test_three_in_a_row(self):
+        self.ends("go_to_pose", "unregisterPublisher", 3)
+
+
+if __name__ == "__main__":
+    rospy.init_node("lost_answer")
+    rostest.rosrun(PACKAGE, "lost_answer", LostAnswer)
