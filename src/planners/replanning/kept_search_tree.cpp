@@ -116,6 +116,7 @@ bool KeptSearchTree::wanted(const CostGrid& map) const {
 }
 
 void KeptSearchTree::make(const CostGrid& map, const StopToken& stop) {
+  if (use_ == Use::NONE) use_ = Use::MADE;  // stopped, too: there may never be enough idle time
   try {
     if (!tree_) {
       moves_.build(map, stop);
@@ -126,7 +127,6 @@ void KeptSearchTree::make(const CostGrid& map, const StopToken& stop) {
     SearchResult found;
     tree_->build(map, goal_, start_, BackwardSearchTree::kUsualExtra, false, found, stop);
     stale_ = false;
-    if (use_ == Use::NONE) use_ = Use::MADE;
   } catch (const TooExpensive&) {
     giveUp();
   } catch (const std::bad_alloc&) {

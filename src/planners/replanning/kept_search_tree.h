@@ -13,8 +13,8 @@
 // times as long as a search, so it is made in idle time: anew once answering by it took more than a
 // small share of a search, since what is repaired for one plan is repaired for the next one, too
 // (repair_search.h). An answer that would take more than half of a search is given up. After trees that
-// answered nothing, as on a map of which much changes each time, ever more searches go by before the
-// next one is made, 31 at most: idle time is processor time, too.
+// answered nothing, as where much of the map changes each time or idle times are short, ever more
+// searches go by before the next one is made, 31 at most: idle time is processor time, too.
 //
 // Guaranteed: the cost found is the least there is, exactly, whatever was stopped, given up or out of
 // memory before. Not guaranteed: which of several least-cost paths is found.
