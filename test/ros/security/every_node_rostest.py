@@ -167,8 +167,7 @@ class EveryNode(unittest.TestCase):
         for node in self.nodes:
             seconds = node.end(signal.SIGINT if node.name < "n" else signal.SIGTERM)
             self.assertIsNotNone(seconds, str(node))
-            if node.kind != "nodelet":  # whose manager is not ours: running_nodes.stands_in_roscpp
-                self.assertLess(seconds, END_SECONDS * overbooked(), str(node))
+            self.assertLess(seconds, END_SECONDS * overbooked(), str(node))
 
 
 if __name__ == "__main__":

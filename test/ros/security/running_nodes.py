@@ -69,8 +69,8 @@ def threads_of(process):
 
 
 def stands_in_roscpp(threads):
-    """Whether roscpp gives its names back to the master, for which it waits without a limit of time. It stood there for eight
-    and ten seconds, in two of some hundred ends, while the master answered others, and once went on when gdb had stopped it.
+    """Whether roscpp gives its names back to the master, for which it waits without a limit of time. It stood there for ten
+    seconds, once in some hundred ends, while the master answered others, and went on when gdb had stopped it for a moment.
     In a process of ours EndWithoutMaster ends that (src/ros/common/master); a nodelet manager is not ours to end."""
     return "ros::shutdown" in threads and "ros::master::execute" in threads
 
