@@ -68,13 +68,6 @@ def threads_of(process):
         return str(error)
 
 
-def stands_in_roscpp(threads):
-    """Whether roscpp gives its names back to the master, for which it waits without a limit of time. It stood there for ten
-    seconds, once in some hundred ends, while the master answered others, and went on when gdb had stopped it for a moment.
-    In a process of ours EndWithoutMaster ends that (src/ros/common/master); a nodelet manager is not ours to end."""
-    return "ros::shutdown" in threads and "ros::master::execute" in threads
-
-
 class RunningNode:
     def __init__(self, name, row, kind, clock, log_folder, space=None):
         self.name, self.row, self.kind, self.clock = name, row, kind, clock
@@ -219,12 +212,9 @@ class RunningNode:
             try:
                 process.wait(10)
             except subprocess.TimeoutExpired:
-                threads = threads_of(process)
-                print("%s: %s has not ended; its threads:\n%s" % (self, " ".join(process.args[:2]), threads))
+                print("%s: %s has not ended; its threads:\n%s" % (self, " ".join(process.args[:2]), threads_of(process)))
                 process.kill()
-                if self.kind != "nodelet" or not stands_in_roscpp(threads):
-                    return None
-                begin = time.monotonic()
+                return None
         self.forget_connections()
         return time.monotonic() - begin
 
