@@ -15,8 +15,6 @@
 // corners, 16 and 256 anywhere, 0.1 % of all. The costs of the last path of each are compared with
 // those of a planner made anew. Before these: the first of 100 plans on the new map with its
 // preparation, the others, and the same plans once all is prepared.
-#include <time.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -28,6 +26,7 @@
 #include <string>
 #include <vector>
 
+#include "cpu_time.h"
 #include "grid/map_differences.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/option_text.h"
@@ -41,6 +40,7 @@ using grid_path_planner::base::InputError;
 using grid_path_planner::base::numberFromText;
 using grid_path_planner::base::Status;
 using grid_path_planner::base::StopToken;
+using grid_path_planner::benchmark::milliseconds;
 using grid_path_planner::costmap::CostmapBuilder;
 using grid_path_planner::costmap::CostmapOptions;
 using grid_path_planner::costmap::Outside;
@@ -111,18 +111,6 @@ double median(std::vector<double> times) {
 
 double sum(const std::vector<double>& times) {
   return std::accumulate(times.begin(), times.end(), 0.0);
-}
-
-template <class Work>
-double milliseconds(const Work& work) {
-  const auto now = [] {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-  };
-  const double begin = now();
-  work();
-  return now() - begin;
 }
 
 CostmapOptions costmapOptions(const Arguments& arguments) {

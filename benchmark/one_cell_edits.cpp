@@ -10,8 +10,6 @@
 // Planner::update(), of the search and of the background work; and who answered. Every cost is
 // compared with that of A* made for the map; exit code 1 where one differs. The first two edits are not counted: no
 // planner knows yet that the goal stays. The path of A* decides where edits are, so that all planners meet the same.
-#include <ctime>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -21,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "cpu_time.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/grid/double_buffered.h"
 #include "grid_path_planner/planners/planner_factory.h"
@@ -28,6 +27,7 @@
 namespace {
 
 using grid_path_planner::base::StopToken;
+using grid_path_planner::benchmark::milliseconds;
 using grid_path_planner::costmap::CostGrid;
 using grid_path_planner::costmap::CostmapBuilder;
 using grid_path_planner::costmap::CostmapOptions;
@@ -90,18 +90,6 @@ SearchOptions blocks() {
 
 int apart(Cell a, Cell b) {
   return std::max(std::abs(a.column - b.column), std::abs(a.row - b.row));
-}
-
-template <class Work>
-double milliseconds(const Work& work) {
-  const auto now = [] {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-  };
-  const double begin = now();
-  work();
-  return now() - begin;
 }
 
 struct Times {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "planners/astar/a_star.h"
+#include "planners/jump_point/walls.h"
 #include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
@@ -299,24 +300,10 @@ TEST(WeightedJumpPoint, AnswersAfterAStoppedPreparationWithoutMemoryForBoth) {
   EXPECT_EQ(result.cost, a_star.search(request, StopToken()).cost);
 }
 
-// Weights that fall with the distance to walls 40 cells apart; 100 tiles.
-Grid<CostGrid::Weight> slopesBetweenWalls() {
-  Grid<CostGrid::Weight> weights(GridGeometry(640, 640, 1.0), 1);
-  for (int row = 0; row < 640; ++row)
-    for (int column = 0; column < 640; ++column) {
-      const int from_wall = std::min(row % 40, 40 - row % 40);
-      const bool gap = column % 160 < 20;
-      weights[Cell{column, row}] = from_wall == 0 && !gap
-                                       ? CostGrid::kBlocked
-                                       : static_cast<CostGrid::Weight>(std::max(1, 16 - from_wall));
-    }
-  return weights;
-}
-
 // Who answers across the map once a square of this side in its middle is blocked but for its first
 // row, after all was prepared.
 std::string answersAfterEdit(int side) {
-  Grid<CostGrid::Weight> weights = slopesBetweenWalls();
+  Grid<CostGrid::Weight> weights = test::slopesBetweenWalls();
   WeightedJumpPoint planner;
   planner.prepare(costsOf(weights), StopToken());
   planner.finishBackgroundWork(StopToken());

@@ -132,7 +132,7 @@ BackgroundWork WeightedJumpPoint::backgroundWork() {
 }
 
 void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
-  if (estimatesLater()) estimateNow(stop);
+  sampleLate(stop);
   if (shouldJump()) {
     if (!jumps_ready_) prepareJumps(stop);
     jumps_.finish(map(), stop);
@@ -161,10 +161,10 @@ bool WeightedJumpPoint::estimatesLater() const {
   return !a_star_asked_for_ && jumpsSupport(map().motion()) && !map().uniform() && !sampled_;
 }
 
-void WeightedJumpPoint::estimateNow(const StopToken& stop) {
+void WeightedJumpPoint::sampleLate(const StopToken& stop) {
+  if (!estimatesLater()) return;
   pruning_.sample(map(), stop);
   sampled_ = true;
-  if (shouldJump()) prepareJumps(stop);
 }
 
 int WeightedJumpPoint::blockOfBound() const {
@@ -322,7 +322,10 @@ SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const Sto
 }
 
 SearchResult WeightedJumpPoint::searchAnew(const SearchRequest& request, const StopToken& stop) {
-  if (estimatesLater() && tiles_left_ > 0) estimateNow(stop);
+  if (tiles_left_ > 0 && !jumps_ready_ && !map().uniform()) {
+    sampleLate(stop);
+    if (shouldJump()) prepareJumps(stop);
+  }
   if (jumps_ready_) {
     if (std::optional<SearchResult> result = searchWithJumps(request, stop))
       return *std::move(result);

@@ -72,7 +72,7 @@ class WeightedJumpPoint : public Planner {
 
   void updateJumps(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
   bool estimatesLater() const;
-  void estimateNow(const base::StopToken& stop);
+  void sampleLate(const base::StopToken& stop);
   bool shouldJump() const;
   int blockOfBound() const;
   std::size_t bytesOfAStar(const grid::GridGeometry& geometry) const;

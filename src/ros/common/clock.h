@@ -28,8 +28,8 @@ class ClockWatch {
   std::chrono::steady_clock::time_point next_warning_{};
 };
 
-// With /clock ROS time comes by a topic of its own, and messages overtake it: as `rosbag play -r 20`
-// has it every second one. Not thread-safe.
+// With /clock ROS time comes by a topic of its own, and messages overtake it, the farther the faster a
+// bag is played. Not thread-safe.
 class LateClock {
  public:
   // ROS time. With /clock, where `stamp` is more than `ahead` (s) after it, it is waited for: 50 ms of

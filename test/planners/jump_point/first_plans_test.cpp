@@ -1,10 +1,10 @@
 // On a new map of several weights the default planner prepares nothing that its first plans do not need.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
 
 #include "planners/astar/a_star.h"
+#include "planners/jump_point/walls.h"
 #include "planners/jump_point/weighted_jump_point.h"
 #include "support/cost_maps.h"
 
@@ -14,26 +14,13 @@ namespace {
 using base::Status, base::StopToken;
 using costmap::CostGrid;
 using grid::Cell, grid::Grid, grid::GridGeometry;
-using test::costsOf;
+using test::costsOf, test::slopesBetweenWalls;
 
 const SearchRequest kAcross{{5, 5}, {{630, 630}}, false};
 
-// Walls 40 cells apart with gaps; the cells beside them weigh more.
-Grid<CostGrid::Weight> walls() {
-  Grid<CostGrid::Weight> weights(GridGeometry(640, 640, 1.0), 1);
-  for (int row = 0; row < 640; ++row)
-    for (int column = 0; column < 640; ++column) {
-      const int from_wall = std::min(row % 40, 40 - row % 40);
-      const bool blocked = from_wall == 0 && column % 160 >= 20;
-      weights[Cell{column, row}] =
-          static_cast<CostGrid::Weight>(blocked ? 0 : std::max(1, 16 - from_wall));
-    }
-  return weights;
-}
-
 TEST(FirstPlans, AStarAnswersUntilThereIsIdleTime) {
   WeightedJumpPoint planner;
-  planner.prepare(costsOf(walls()), StopToken());
+  planner.prepare(costsOf(slopesBetweenWalls()), StopToken());
   EXPECT_TRUE(planner.backgroundWork().pending);
   const SearchResult first = planner.search(kAcross, StopToken());
   EXPECT_EQ(first.answered_by, "a_star");
@@ -47,7 +34,7 @@ TEST(FirstPlans, AStarAnswersUntilThereIsIdleTime) {
 // What A* expands pays for the jumps.
 TEST(FirstPlans, ManyOfThemBringTheJumpsWithoutIdleTime) {
   WeightedJumpPoint planner;
-  planner.prepare(costsOf(walls()), StopToken());
+  planner.prepare(costsOf(slopesBetweenWalls()), StopToken());
   const SearchResult first = planner.search(kAcross, StopToken());
   SearchResult last = first;
   for (int i = 0; i < 100 && last.answered_by == "a_star"; ++i) {
@@ -59,7 +46,7 @@ TEST(FirstPlans, ManyOfThemBringTheJumpsWithoutIdleTime) {
 
 // The jumps take its place then.
 TEST(FirstPlans, AStarGoesWhereMemoryHoldsOneOfBoth) {
-  const auto map = costsOf(walls());
+  const auto map = costsOf(slopesBetweenWalls());
   AStar a_star;
   a_star.prepare(map, StopToken());
   const SearchResult least = a_star.search(kAcross, StopToken());

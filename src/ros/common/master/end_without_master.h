@@ -25,7 +25,8 @@ namespace grid_path_planner::nodes {
 
 class EndWithoutMaster {
  public:
-  // Made by the main thread, at its beginning. `asked`: why the process is to end; empty while it is not. Called from a thread, ten times a second.
+  // Made by the main thread. `asked`: why the process is to end; empty while it is not. Called from a
+  // thread, ten times a second.
   EndWithoutMaster(std::string name, std::function<std::string()> asked);
   ~EndWithoutMaster();
   EndWithoutMaster(const EndWithoutMaster&) = delete;
