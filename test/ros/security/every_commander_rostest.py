@@ -15,6 +15,7 @@ from std_msgs.msg import Bool
 import node_probes as probes
 from commanders import COMMANDERS, VELOCITIES, CommanderTest, RunningCommander
 from node_table import NODES
+from own_master import start_own_master
 from running_nodes import PACKAGE
 
 DEADLINE = 60.0   # s
@@ -139,5 +140,6 @@ class EveryCommander(CommanderTest):
 
 
 if __name__ == "__main__":
+    start_own_master()
     rospy.init_node("every_commander")
     rostest.rosrun(PACKAGE, "every_commander", EveryCommander)

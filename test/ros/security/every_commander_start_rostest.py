@@ -21,6 +21,7 @@ import rostest
 import node_probes as probes
 from commanders import COMMANDERS, VELOCITIES, CommanderTest
 from node_table import NODES
+from own_master import start_own_master
 from running_nodes import PACKAGE, RunningNode, executable
 from slow_master import SlowMaster
 
@@ -150,5 +151,6 @@ class EveryCommanderStart(CommanderTest):
 
 
 if __name__ == "__main__":
+    start_own_master()
     rospy.init_node("every_commander_start")
     rostest.rosrun(PACKAGE, "every_commander_start", EveryCommanderStart)

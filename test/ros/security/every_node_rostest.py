@@ -22,6 +22,7 @@ from genpy import Time
 
 import hostile_messages as hostile
 from node_table import NODES
+from own_master import start_own_master
 from running_nodes import PACKAGE, Clock, RunningNode
 
 ANSWER_SECONDS = 5.0
@@ -171,5 +172,6 @@ class EveryNode(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    start_own_master()
     rospy.init_node("every_node")
     rostest.rosrun(PACKAGE, "every_node", EveryNode)

@@ -16,6 +16,7 @@ from roslib.message import get_service_class
 
 import node_probes as probes
 from node_table import NODES
+from own_master import start_own_master
 from running_nodes import PACKAGE, Clock, RunningNode
 
 DEADLINE = 60.0  # s
@@ -181,5 +182,6 @@ class Restart(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    start_own_master()
     rospy.init_node("restart")
     rostest.rosrun(PACKAGE, "restart", Restart)

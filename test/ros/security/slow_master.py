@@ -6,13 +6,17 @@ import urllib.error
 import urllib.request
 
 
+class Server(http.server.ThreadingHTTPServer):
+    request_queue_size = 128  # as the real one's: a sixth node that connects meanwhile would wait a second
+
+
 class SlowMaster:
     """Hands all calls on to `master`; the first `times` of `method` are answered after `seconds`."""
 
     def __init__(self, master, seconds, times, method="getSystemState"):
         self.master, self.seconds, self.times, self.method = master, seconds, times, method.encode()
         self.asked, self.lock = 0, threading.Lock()
-        self.server = http.server.ThreadingHTTPServer(("localhost", 0), self.handler())
+        self.server = Server(("localhost", 0), self.handler())
         self.uri = "http://localhost:%d/" % self.server.server_address[1]
         threading.Thread(target=self.server.serve_forever, daemon=True).start()
 
