@@ -13,6 +13,7 @@
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/driving/realtime_priority.h"
 
 namespace grid_path_planner::nodes {
 
@@ -135,7 +136,8 @@ PathFollower::Answer DriveLoop::cancel(const std::string& reason) {
 void DriveLoop::setOptions(const NavigatePathOptions& options) {
   ask([this, &options] {
     follower_.setOptions(options.follower);
-    options_ = options;
+    const int before = std::exchange(options_, options).realtime_priority;
+    if (options_.realtime_priority != before) takePriority();
     footprint_ = Footprint::fromText("check_footprint", options.check_footprint);
   });
 }
@@ -157,8 +159,24 @@ std::vector<DriveReport> DriveLoop::takeReports() {
   return std::exchange(reports_, {});
 }
 
+std::string DriveLoop::scheduling() const {
+  const std::lock_guard<std::mutex> lock(reports_mutex_);
+  return scheduling_;
+}
+
+void DriveLoop::takePriority() {
+  const int priority = options_.realtime_priority;
+  const std::string why = takeRealtimePriority(priority);
+  const std::lock_guard<std::mutex> lock(reports_mutex_);
+  if (!why.empty())
+    scheduling_ = "ordinary: " + why;
+  else
+    scheduling_ = priority > 0 ? "real-time priority " + std::to_string(priority) : "ordinary";
+}
+
 // Work that comes is done at once; ticks that were missed are not made up for.
 void DriveLoop::run() {
+  takePriority();
   auto next = Clock::now();
   while (!done_) {
     const auto left = std::chrono::duration<double>(next - Clock::now()).count();

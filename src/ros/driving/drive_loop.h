@@ -12,7 +12,7 @@
 // and by the wall clock when ROS time stands still. While `stop` is true there are zeros only, and
 // while a joystick commands (`manual_control`) there is nothing at all: the drive is paused, and
 // resumed by hand. A velocity is written to its connections by this thread itself. Not guaranteed: that
-// the machine gives it a processor in time.
+// the machine gives it a processor in time, where the system grants it no realtime_priority.
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
@@ -94,6 +94,9 @@ class DriveLoop {
 
   std::vector<DriveReport> takeReports();
 
+  // How the thread is scheduled, in words.
+  std::string scheduling() const;
+
   // Resolved names.
   std::string velocityTopic() const { return velocity_publisher_.topic(); }
   std::string manualTopic() const { return manual_subscriber_.getTopic(); }
@@ -108,6 +111,7 @@ class DriveLoop {
 
   // In the loop's thread:
   void run();
+  void takePriority();
   void tick();
   void tryToTick();
   void noticeTimeJump(const ros::Time& now);
@@ -142,7 +146,8 @@ class DriveLoop {
   bool silent_ = true;  // nothing, or a zero, was sent last and there is no drive
   int reported_waypoint_ = -1;
 
-  std::mutex reports_mutex_;
+  mutable std::mutex reports_mutex_;
+  std::string scheduling_;
   std::vector<DriveReport> reports_;
 
   ros::CallbackQueue queue_;

@@ -346,6 +346,7 @@ void NavigatePathNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("distance remaining (m)", standing.distance_remaining);
   status.add("time remaining (s)", standing.time_remaining);
   status.add("missed waypoints", standing.missed.size());
+  status.add("scheduling of commands", loop_->scheduling());
 }
 
 void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& status) {

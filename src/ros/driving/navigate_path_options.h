@@ -21,6 +21,7 @@ struct NavigatePathOptions {
   std::string base_frame = "base_link";
   double tf_timeout = 0.5;       // s
   double control_rate = 50.0;    // Hz, wall time
+  int realtime_priority = 1;
   double master_timeout = 30.0;  // s, wall time
   bool share_cmd_vel = false;
 };
@@ -90,6 +91,10 @@ void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
       base::OptionInfo{"How often the velocity is computed, by the wall clock; simulated time that "
                        "runs faster needs more",
                        "Hz", 1.0, 1000.0});
+  visit("realtime_priority", o.realtime_priority,
+        base::OptionInfo{"Of the thread that commands (SCHED_FIFO), where the system grants it "
+                         "(RLIMIT_RTPRIO): without, a busy machine silences the vehicle; 0: none",
+                         "", 0, 99});
   visit("master_timeout", o.master_timeout,
         base::OptionInfo{"The vehicle stands when the ROS master has not answered for so long, by "
                          "the wall clock; 0: it drives on",

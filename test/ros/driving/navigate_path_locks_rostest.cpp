@@ -1,8 +1,12 @@
 // A law of structure: the thread that commands the vehicle takes no lock that code holds which reads or
-// writes files, handles maps, publishes or logs. Watched from outside, by support/lock_watch.cpp.
+// writes files, handles maps, publishes or logs. Watched from outside, by support/lock_watch.cpp. And of its
+// priority the diagnostics tell the truth.
 #include <actionlib/client/simple_action_client.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <map_msgs/OccupancyGridUpdate.h>
+#include <sched.h>
+
+#include <filesystem>
 
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/path/waypoint_file.h"
@@ -80,6 +84,36 @@ TEST_F(ControlThread, TakesNoLockThatFilesMapsOrLogsAreHandledUnder) {
   EXPECT_GT(counted("slow"), 0) << "the others are";
   const std::string text = test::contentOf(report_);
   EXPECT_EQ(text.find("both: "), std::string::npos) << text;
+}
+
+// SCHED_FIFO or SCHED_OTHER; -1 before there is such a thread.
+int policyOfThread(pid_t process, const std::string& name) {
+  namespace fs = std::filesystem;
+  for (const auto& task : fs::directory_iterator("/proc/" + std::to_string(process) + "/task"))
+    if (test::contentOf((task.path() / "comm").string()) == name + "\n")
+      return ::sched_getscheduler(std::stoi(task.path().filename().string()));
+  return -1;
+}
+
+TEST_F(ControlThread, HasThePriorityOfTheDiagnostics) {
+  StillWorld world(100.0);
+  drive();
+  const std::string key = "scheduling of commands";
+  ASSERT_TRUE(test::waitFor([&] { return !reported(key).empty(); }));
+  const bool granted = reported(key) == "real-time priority 1";
+  if (!granted) {
+    EXPECT_EQ(reported(key), "ordinary: Operation not permitted");
+  }
+  EXPECT_EQ(policyOfThread(navigate_->pid(), "control"), granted ? SCHED_FIFO : SCHED_OTHER);
+
+  dynamic_reconfigure::Reconfigure call;
+  call.request.config.ints.emplace_back();
+  call.request.config.ints.back().name = "realtime_priority";
+  call.request.config.ints.back().value = 0;
+  ASSERT_TRUE(ros::service::call("/navigate_path/set_parameters", call));
+  EXPECT_TRUE(test::waitFor([&] { return reported(key) == "ordinary"; }));
+  EXPECT_EQ(policyOfThread(navigate_->pid(), "control"), SCHED_OTHER);
+  EXPECT_TRUE(isDriving());
 }
 
 }  // namespace

@@ -71,6 +71,7 @@ class Process {
   void signal(int number) {
     if (running()) ::kill(pid_, number);
   }
+  pid_t pid() const { return pid_; }
   // What it held at most, in bytes; 0 where it has ended.
   std::size_t peakMemory() const {
     std::ifstream file("/proc/" + std::to_string(pid_) + "/status");
