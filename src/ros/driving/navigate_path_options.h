@@ -19,8 +19,8 @@ struct NavigatePathOptions {
   double map_timeout = 3.0;     // s, wall time
   bool use_speed_limit = false;
   std::string base_frame = "base_link";
-  double tf_timeout = 0.5;       // s
-  double control_rate = 50.0;    // Hz, wall time
+  double tf_timeout = 0.5;     // s
+  double control_rate = 50.0;  // Hz, wall time
   int realtime_priority = 1;
   double master_timeout = 30.0;  // s, wall time
   bool share_cmd_vel = false;

@@ -61,9 +61,8 @@ TEST(RealtimePriority, ThatIsNotGrantedChangesNothing) {
   const auto ends = [] {
     giveUpPermission();
     const std::string why = takeRealtimePriority(1);
-    std::exit(why == "Operation not permitted" && schedulingOfThisThread().policy == SCHED_OTHER
-                  ? 0
-                  : 1);
+    std::exit(
+        why == "Operation not permitted" && schedulingOfThisThread().policy == SCHED_OTHER ? 0 : 1);
   };
   EXPECT_EXIT(ends(), testing::ExitedWithCode(0), "");
 }
