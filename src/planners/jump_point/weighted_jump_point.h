@@ -41,6 +41,7 @@
 #include "grid_path_planner/planners/a_star_options.h"
 #include "grid_path_planner/planners/planner.h"
 #include "planners/astar/a_star.h"
+#include "planners/astar/bound_choice.h"
 #include "planners/jump_point/jump_point_density.h"
 #include "planners/jump_point/pruning_estimate.h"
 #include "planners/jump_point/weighted_jump_search.h"
@@ -70,6 +71,7 @@ class WeightedJumpPoint : public Planner {
   std::optional<SearchResult> searchWithJumps(const SearchRequest& request,
                                               const base::StopToken& stop);
 
+  void learnFromJumps(const base::StopToken& stop);
   void updateJumps(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
   bool estimatesLater() const;
   void sampleLate(const base::StopToken& stop);
@@ -92,6 +94,8 @@ class WeightedJumpPoint : public Planner {
 
   AStarOptions options_;
   bool a_star_asked_for_;
+  BoundChoice bound_of_a_star_{kPricesOfAStar};
+  BoundChoice bound_of_jumps_{kPricesOfJumps};
   PruningEstimate pruning_;   // of maps of several weights
   JumpPointDensity density_;  // of maps of one
   bool sampled_ = false;      // pruning_ is of the map
