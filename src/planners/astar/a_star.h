@@ -29,7 +29,7 @@ class AStar : public Planner {
   // Throws InputError for options that cannot be used.
   explicit AStar(const AStarOptions& options = {});
   // With heuristic blocks: it is used where `choice` says so, and the octile distance elsewhere. The
-  // choice must live as long as the planner, and be that of its map.
+  // choice must live as long as the planner, and be that of its map. Precondition: tie_break none.
   AStar(const AStarOptions& options, BoundChoice& choice);
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;

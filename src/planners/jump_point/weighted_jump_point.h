@@ -7,10 +7,10 @@
 // (planners/jump_point/weighted_jump_search.h) prunes symmetric paths: nearly all cells of
 // plateaus, many of the slopes around obstacles, few where every cell has another weight. Whether
 // jumping pays is estimated on maps of several weights (planners/jump_point/pruning_estimate.h). Where
-// it does not, and for other motion models, A* answers, with the bound of the blocks where weights
-// differ (planners/tables/block_bound.h), else with the heuristic that fits the motion model. Jumps use
-// that bound too: from their first expansions on where the octile distance says little of costs, else
-// in long searches only.
+// it does not, and for other motion models, A* answers, with the heuristic that fits the motion model or,
+// where weights differ and it pays, the bound of the blocks (planners/tables/block_bound.h). Jumps use
+// that bound from their first expansions on where it pays, else in long searches only. A sample of the map
+// and the first searches tell, for each of both, where it does (planners/astar/bound_choice.h).
 //
 // The jumps are prepared by tiles, when a search first comes to them or by finishBackgroundWork().
 // Until then a substitute answers at the same cost, so that a first plan waits for no preparation: A*,

@@ -136,7 +136,7 @@ TEST(BoundChoice, ThinIslandsEndWithTheBlocks) {
 TEST(BoundChoiceLaw, CostsAreTheLeast) {
   std::mt19937 random(20261126);
   int found = 0, decided_by_searches = 0;
-  for (int trial = 0; trial < 24; ++trial) {
+  for (int trial = 0; trial < 12; ++trial) {
     const costmap::MotionModel motion{
         trial % 4 == 3 ? costmap::Connectivity::FOUR : costmap::Connectivity::EIGHT,
         trial % 4 == 2 ? costmap::DiagonalCost::UNIT : costmap::DiagonalCost::SQRT2,
@@ -178,8 +178,8 @@ TEST(BoundChoiceLaw, CostsAreTheLeast) {
     }
     decided_by_searches += !at_once && !choice.undecided();
   }
-  EXPECT_GT(found, 300);
-  EXPECT_GT(decided_by_searches, 8);
+  EXPECT_GT(found, 150);
+  EXPECT_GT(decided_by_searches, 4);
 }
 
 }  // namespace
