@@ -31,7 +31,7 @@ struct BoundPrices {
   std::size_t enough;  // after how many of them it is decided
 };
 // Measured on 22 maps (doc/notes/engine_experiments.md).
-constexpr BoundPrices kPricesOfAStar{1.7, 0.8, 65536};
+constexpr BoundPrices kPricesOfAStar{1.4, 0.8, 65536};
 constexpr BoundPrices kPricesOfJumps{1.5, 0.3, 4096};
 
 class BoundChoice {
