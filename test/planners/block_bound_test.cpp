@@ -129,6 +129,31 @@ TEST(BlockBoundLaw, DependsOnTheMapAndTheGoalAlone) {
   }
 }
 
+// What is known without searching on is never more than what the search would find.
+TEST(BlockBoundLaw, IsNoLessThanWhatIsKnownOfIt) {
+  std::mt19937 random(7);
+  int less = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const CostGrid map = costsInTurn(trial, random);
+    const Cell goal = openCellOf(random, map), start = openCellOf(random, map);
+    if (!map.passable(goal) || !map.passable(start)) continue;
+    BlockBounds known(trial % 2 == 0 ? 4 : 8), all(known.side());
+    known.prepare(map, StopToken());
+    all.prepare(map, StopToken());
+    BlockBound& bound = known.to(goal);
+    ASSERT_EQ(bound.at(start, StopToken()), all.to(goal).at(start, StopToken()));
+    const std::uint64_t expanded = bound.expanded();
+    for (const Cell cell : cellsOf(map)) {
+      if (!map.passable(cell)) continue;
+      const std::uint64_t whole = all.to(goal).at(cell, StopToken());
+      ASSERT_LE(bound.known(cell), whole) << "trial " << trial << ", " << cell;
+      less += bound.known(cell) < whole;
+    }
+    EXPECT_EQ(bound.expanded(), expanded);
+  }
+  EXPECT_GT(less, 100);
+}
+
 TEST(BlockBoundLaw, AfterEditsIsThatOfAFreshMap) {
   std::mt19937 random(6);
   for (int trial = 0; trial < 40; ++trial) {

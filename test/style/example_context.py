@@ -232,7 +232,7 @@ CONTEXT = {
     "cost_to_go.h": "extern std::shared_ptr<const CostGrid> map; extern Cell cell;",
     "dead_reckoning.h": """#include "grid_path_planner/simulation/vehicle.h"
         extern DeadReckoningOptions options; extern Vehicle vehicle;""",
-    "decomposition.h": "extern const CostGrid& map;",
+    "decomposition.h": "extern const CostGrid& map;", "bound_choice.h": "extern const CostGrid& map;",
     "depth_camera.h": "extern const World& world; extern DepthCameraOptions options;"
                       "extern Eigen::Isometry3d map_from_base; extern int row, column, frame_number;",
     "depth_camera_publisher.h": """#include "grid_path_planner/simulation/vehicle.h"

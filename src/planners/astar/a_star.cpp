@@ -14,6 +14,10 @@ using grid::Cell, grid::CellIndex, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
+// Searches of fewer expansions tell too little of what a bound spares.
+constexpr std::size_t kLeastWeighed = 4096;
+constexpr std::size_t kSampledCells = 4096;
+
 // The second key of the open list: the least comes first.
 SearchKey tieKey(TieBreak tie_break, SearchKey g, const Estimate& estimate, Cell cell) {
   switch (tie_break) {
@@ -60,6 +64,10 @@ AStar::AStar(const AStarOptions& options)
   checkAStarOptions(options);
 }
 
+AStar::AStar(const AStarOptions& options, BoundChoice& choice) : AStar(options) {
+  choice_ = &choice;
+}
+
 std::size_t AStar::bytesFor(const GridGeometry& geometry) const {
   const std::size_t search =
       strictly_ordered_ ? BestFirstSearch::bytesFor(geometry) : BucketSearch::bytesFor(geometry);
@@ -82,7 +90,8 @@ void AStar::doPrepare(const StopToken& stop) {
     in_order_.prepare(map(), stop);
   else
     by_buckets_.prepare(map(), stop);
-  if (options_.heuristic == Heuristic::BLOCKS) blocks_.prepare(map(), stop);
+  blocks_ready_ = false;
+  last_ = LastSearch();
   tables_.prepare(sharedMap());
 }
 
@@ -91,35 +100,80 @@ void AStar::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop
     in_order_.update(map(), changed, stop);
   else
     by_buckets_.update(map(), changed, stop);
-  if (options_.heuristic == Heuristic::BLOCKS) blocks_.update(map(), changed);
+  if (blocks_ready_) blocks_.update(map(), changed);
+  last_ = LastSearch();
   tables_.update(previousMap(), sharedMap(), changed);
 }
 
 SearchResult AStar::doSearch(const SearchRequest& request, const StopToken& stop) {
-  const bool bounded = options_.heuristic == Heuristic::BLOCKS || tables_.ready();
+  if (choice_ != nullptr && choice_->undecided()) weighLastSearch(stop);
+  const bool bounded = useBlocks() || tables_.ready();
   SearchResult result = strictly_ordered_ ? planInOrder(request, stop)
                         : blocksAlone()   ? planWithBlocks(request, stop)
                         : bounded         ? planWithBound(request, stop)
                                           : planByBuckets(request, stop);
+  if (choice_ != nullptr && choice_->undecided() && result.status == Status::FOUND)
+    last_ = {request.start, request.goals.front(), result.costValue(), result.statistics.expanded};
   result.statistics.search_bytes += tables_.work().bytes;
-  if (options_.heuristic == Heuristic::BLOCKS)
+  if (blocks_ready_)
     result.statistics.search_bytes += BlockBounds::bytesFor(map().geometry(), kBlock);
   return result;
 }
 
+bool AStar::useBlocks() const {
+  return options_.heuristic == Heuristic::BLOCKS && (choice_ == nullptr || choice_->blocks());
+}
+
 // Whether the bound of the blocks is the whole heuristic: there is no octile distance to enlarge.
 bool AStar::blocksAlone() const {
-  return options_.heuristic == Heuristic::BLOCKS && options_.epsilon == 1.0 &&
-         !heuristicScale(options_);
+  return useBlocks() && options_.epsilon == 1.0 && !heuristicScale(options_);
+}
+
+BlockBound& AStar::boundTo(Cell goal, const StopToken& stop) {
+  if (!blocks_ready_) blocks_.prepare(map(), stop);
+  blocks_ready_ = true;
+  return blocks_.to(goal);
+}
+
+// Tells the choice what the bound of the blocks would have spared the last search.
+void AStar::weighLastSearch(const StopToken& stop) {
+  if (last_.expanded < kLeastWeighed) return;
+  BlockBound& bound = boundTo(last_.goal, stop);
+  const BlockEstimate blocks(bound, kWideScale, stop);
+  if (blocks(last_.start) != kInfiniteKey)
+    choice_->learn({last_.expanded, shareSpared(blocks), bound.expanded()});
+  last_ = LastSearch();
+  if (choice_->undecided() || choice_->blocks()) return;
+  blocks_.release();
+  blocks_ready_ = false;
+}
+
+// Of a sample of the cells that it expanded.
+double AStar::shareSpared(const BlockEstimate& blocks) const {
+  const Estimate octile(options_, map(), last_.start, last_.goal, kWideScale);
+  const auto keyOf = [](double cost) { return SearchKey(cost * double(kWideScale.straight)); };
+  const SearchKey cost = keyOf(last_.cost);
+  const std::size_t size = map().geometry().size();
+  const std::size_t stride = size / kSampledCells | 1;
+  std::size_t expanded = 0, spared = 0;
+  for (std::size_t index = stride / 2; index < size; index += stride) {
+    const double from_start = by_buckets_.costFromStart(std::uint32_t(index));
+    if (from_start > last_.cost) continue;
+    const SearchKey g = keyOf(from_start);
+    const Cell cell = map().geometry().cell(CellIndex(index));
+    if (g + octile(cell) >= cost) continue;
+    ++expanded;
+    if (g + blocks.known(cell) >= cost) ++spared;
+  }
+  return expanded == 0 ? 0.0 : double(spared) / double(expanded);
 }
 
 // What `search(boundIn)` gives, with the bounds to the goal from blocks or tables.
 template <class Search>
 SearchResult AStar::withBound(Cell goal, const StopToken& stop, const Search& search) {
   const GridGeometry& geometry = map().geometry();
-  if (options_.heuristic != Heuristic::BLOCKS)
-    return tables_.withBound(geometry.index(goal).value(), search);
-  BlockBound& bound = blocks_.to(goal);
+  if (!useBlocks()) return tables_.withBound(geometry.index(goal).value(), search);
+  BlockBound& bound = boundTo(goal, stop);
   return search([&](const KeyScale& scale) {
     return [&geometry, estimate = BlockEstimate(bound, scale, stop)](std::uint32_t index) {
       return estimate(geometry.cell(CellIndex(index)));
@@ -131,7 +185,7 @@ SearchResult AStar::planWithBlocks(const SearchRequest& request, const StopToken
   const Cell goal = request.goals.front();
   const std::uint32_t goal_index = map().geometry().index(goal).value();
   const auto isGoal = [goal_index](std::uint32_t index) { return index == goal_index; };
-  BlockBound& bound = blocks_.to(goal);
+  BlockBound& bound = boundTo(goal, stop);
   if (auto result = unreachableBy(BlockEstimate(bound, kWideScale, stop)(request.start)))
     return std::move(*result);
   const auto estimateIn = [&](const KeyScale& scale) {

@@ -15,6 +15,7 @@
 #include "grid_path_planner/planners/a_star_options.h"
 #include "grid_path_planner/planners/planner.h"
 #include "planners/astar/best_first_search.h"
+#include "planners/astar/bound_choice.h"
 #include "planners/astar/bucket_search.h"
 #include "planners/tables/block_bound.h"
 #include "planners/tables/precomputed_heuristic.h"
@@ -27,6 +28,9 @@ class AStar : public Planner {
 
   // Throws InputError for options that cannot be used.
   explicit AStar(const AStarOptions& options = {});
+  // With heuristic blocks: it is used where `choice` says so, and the octile distance elsewhere. The
+  // choice must live as long as the planner, and be that of its map. Precondition: tie_break none.
+  AStar(const AStarOptions& options, BoundChoice& choice);
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
   bool optimalFor(const costmap::CostGrid& map) const override;
@@ -40,6 +44,10 @@ class AStar : public Planner {
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
   SearchResult planByBuckets(const SearchRequest& request, const base::StopToken& stop);
   bool blocksAlone() const;
+  bool useBlocks() const;
+  BlockBound& boundTo(grid::Cell goal, const base::StopToken& stop);
+  void weighLastSearch(const base::StopToken& stop);
+  double shareSpared(const BlockEstimate& blocks) const;
   template <class Search>
   SearchResult withBound(grid::Cell goal, const base::StopToken& stop, const Search& search);
   SearchResult planWithBlocks(const SearchRequest& request, const base::StopToken& stop);
@@ -53,7 +61,17 @@ class AStar : public Planner {
   // Of blocks that are smaller than those of jumps, since an expansion of A* gains more by a larger
   // bound.
   static constexpr int kBlock = 4;
-  BlockBounds blocks_{kBlock};  // where the options ask for them
+  BlockBounds blocks_{kBlock};
+  bool blocks_ready_ = false;
+
+  BoundChoice* choice_ = nullptr;
+  // By the octile distance, while the choice is undecided; its g-values are still there.
+  struct LastSearch {
+    grid::Cell start, goal;
+    double cost = 0.0;
+    std::size_t expanded = 0;  // 0: there is none
+  };
+  LastSearch last_;
   PrecomputedHeuristic tables_;
 };
 

@@ -1,9 +1,9 @@
 // Estimates of what a search can save on a map, from a sample of cells spread over it: by pruning,
-// and by a better bound than the octile distance.
+// and by smaller blocks of the bound that knows what cells cost.
 //
 //   estimate.sample(map, stop);
 //   if (estimate.jumpingPays()) use(map);
-//   if (estimate.octileSaysLittle(map.minWeight())) use(BlockBounds(8));
+//   if (estimate.octileSaysNothing(map.minWeight())) use(BlockBounds(4));
 //
 // Jumping: the share of the diagonal steps into sampled cells after which the default steps
 // (planners/core/natural_moves.h) are natural and no others. On the maps that were measured it is
@@ -29,12 +29,9 @@ class PruningEstimate {
   void update(const costmap::CostGrid& map, const grid::CellRect& changed);
 
   bool jumpingPays() const { return 100 * default_only_ >= 60 * steps_; }
-  // Whether the octile distance at the least weight of the map says little of costs: the mean over
-  // the sampled cells of least weight / weight is below a half.
-  bool octileSaysLittle(costmap::CostGrid::Weight least) const {
-    return 2 * static_cast<std::int64_t>(least) * inverse_weights_ < kInverse * passable_;
-  }
-  // The same with a fourth: there smaller blocks pay, which bound more and take longer.
+  // Whether the octile distance at the least weight of the map says next to nothing of costs: the mean
+  // over the sampled cells of least weight / weight is below a fourth. There smaller blocks pay, which
+  // bound more and take longer.
   bool octileSaysNothing(costmap::CostGrid::Weight least) const {
     return 4 * static_cast<std::int64_t>(least) * inverse_weights_ < kInverse * passable_;
   }

@@ -25,7 +25,7 @@ constexpr std::size_t kEarly = 64;
 constexpr std::size_t kLate = 65536;
 
 // Expansions of A* for which a search may make one more tile of the jumps.
-constexpr std::size_t kTilePrice = 65536;
+constexpr std::size_t kTilePrice = 196608;
 // Tiles of a map of which all may be made at once.
 constexpr std::size_t kSmallMap = 8;
 // On maps of more, tiles far from each other touch so many new pages of memory that they cost more than
@@ -178,6 +178,8 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
   jumps_ready_ = sampled_ = counted_ = false;
   tiles_left_ = paid_ = 0;
   jumps_.release();
+  bound_of_a_star_.prepare(map());
+  bound_of_jumps_.prepare(map());
   estimate({}, stop);
   if (shouldJump() && !map().uniform()) return prepareJumps(stop);
   prepareSubstitute(stop);
@@ -215,6 +217,8 @@ void WeightedJumpPoint::prepareJumps(const StopToken& stop) {
 }
 
 void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
+  bound_of_a_star_.update(map(), changed);
+  bound_of_jumps_.update(map(), changed);
   estimate(changed, stop);
   const bool jumps = shouldJump();
   if (jumps_ready_ && !jumps) return doPrepare(stop);
@@ -259,8 +263,10 @@ void WeightedJumpPoint::prepareSubstitute(const StopToken& stop) {
   std::unique_ptr<Planner> substitute;
   if (jumps)
     substitute = std::make_unique<JumpPoint>();
+  else if (a_star_asked_for_)
+    substitute = std::make_unique<AStar>(options_);
   else
-    substitute = std::make_unique<AStar>(optionsOfAStar(map()));
+    substitute = std::make_unique<AStar>(optionsOfAStar(map()), bound_of_a_star_);
   substitute->prepare(sharedMap(), stop);
   substitute_ = std::move(substitute);
   substitute_jumps_ = jumps;
@@ -283,14 +289,20 @@ void WeightedJumpPoint::payForTiles(std::size_t expanded) {
   paid_ %= kTilePrice;
 }
 
+// From the last search, which did not wait for it.
+void WeightedJumpPoint::learnFromJumps(const StopToken& stop) {
+  if (!bound_of_jumps_.undecided() || map().uniform()) return;
+  if (const auto evidence = jumps_.evidence(stop)) bound_of_jumps_.learn(*evidence);
+}
+
 // Nothing where it would have to make more tiles than it may, or its keys do not hold the cost.
 std::optional<SearchResult> WeightedJumpPoint::searchWithJumps(const SearchRequest& request,
                                                                const StopToken& stop) {
   const std::uint64_t most = mostTiles();
   const std::size_t ready = jumps_.tilesReady();
   if (most < tilesExpected(request) && ready < tilesExpected(request)) return std::nullopt;
-  const bool early = pruning_.octileSaysLittle(map().minWeight());
-  jumps_.makeBoundAfter(early ? kEarly : kLate);
+  learnFromJumps(stop);
+  jumps_.makeBoundAfter(bound_of_jumps_.blocks() ? kEarly : kLate);
   const auto spend = [&] { tiles_left_ -= std::min(tiles_left_, jumps_.tilesReady() - ready); };
   try {
     SearchResult result = jumps_.run(map(), request, stop, most);

@@ -7,10 +7,10 @@
 // (planners/jump_point/weighted_jump_search.h) prunes symmetric paths: nearly all cells of
 // plateaus, many of the slopes around obstacles, few where every cell has another weight. Whether
 // jumping pays is estimated on maps of several weights (planners/jump_point/pruning_estimate.h). Where
-// it does not, and for other motion models, A* answers, with the bound of the blocks where weights
-// differ (planners/tables/block_bound.h), else with the heuristic that fits the motion model. Jumps use
-// that bound too: from their first expansions on where the octile distance says little of costs, else
-// in long searches only.
+// it does not, and for other motion models, A* answers, with the heuristic that fits the motion model or,
+// where weights differ and it pays, the bound of the blocks (planners/tables/block_bound.h). Jumps use
+// that bound from their first expansions on where it pays, else in long searches only. A sample of the map
+// and the first searches tell, for each of both, where it does (planners/astar/bound_choice.h).
 //
 // The jumps are prepared by tiles, when a search first comes to them or by finishBackgroundWork().
 // Until then a substitute answers at the same cost, so that a first plan waits for no preparation: A*,
@@ -41,6 +41,7 @@
 #include "grid_path_planner/planners/a_star_options.h"
 #include "grid_path_planner/planners/planner.h"
 #include "planners/astar/a_star.h"
+#include "planners/astar/bound_choice.h"
 #include "planners/jump_point/jump_point_density.h"
 #include "planners/jump_point/pruning_estimate.h"
 #include "planners/jump_point/weighted_jump_search.h"
@@ -70,6 +71,7 @@ class WeightedJumpPoint : public Planner {
   std::optional<SearchResult> searchWithJumps(const SearchRequest& request,
                                               const base::StopToken& stop);
 
+  void learnFromJumps(const base::StopToken& stop);
   void updateJumps(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
   bool estimatesLater() const;
   void sampleLate(const base::StopToken& stop);
@@ -92,6 +94,8 @@ class WeightedJumpPoint : public Planner {
 
   AStarOptions options_;
   bool a_star_asked_for_;
+  BoundChoice bound_of_a_star_{kPricesOfAStar};
+  BoundChoice bound_of_jumps_{kPricesOfJumps};
   PruningEstimate pruning_;   // of maps of several weights
   JumpPointDensity density_;  // of maps of one
   bool sampled_ = false;      // pruning_ is of the map

@@ -37,6 +37,7 @@ Cell moved(Cell cell, unsigned step) {
 void WeightedJumpSearch::prepare(const CostGrid& map, const StopToken& stop, int block) {
   blocks_.setSide(block);
   blocks_.prepare(map, stop);
+  sample_.clear();
   jumps_.reset(map);
   if (g_.size() == map.geometry().size()) return;
   g_ = ZeroedArray<StampedG>(map.geometry().size());
@@ -58,6 +59,7 @@ void WeightedJumpSearch::finish(const CostGrid& map, const StopToken& stop) {
 
 void WeightedJumpSearch::update(const CostGrid& map, const std::vector<CellRect>& changed,
                                 const StopToken& stop, int block) {
+  sample_.clear();
   if (block == blocks_.side()) {
     blocks_.update(map, changed);
   } else {
@@ -86,6 +88,8 @@ void WeightedJumpSearch::startQuery(const CostGrid& map, const SearchRequest& re
   map_ = &map;
   weights_ = map.weights().values().data();
   width_ = std::uint32_t(map.geometry().width());
+  start_ = request.start;
+  sample_.clear();
   goal_ = request.goals.front();
   goal_index_ = indexOf(goal_);
   straight_ = map.minWeight() * kStraight;
@@ -117,6 +121,7 @@ SearchResult WeightedJumpSearch::search(const SearchRequest& request, const Stop
     const Key g = gOf(index);
     if (goal_reached_ && g + estimate(cell) >= most_) continue;
     if (request.record_expanded) result.expanded.emplace_back(index);
+    sample(index);
     expand(index, cell, g);
   }
   if (!goal_reached_ && too_expensive_) throw TooExpensive();
@@ -138,6 +143,19 @@ bool WeightedJumpSearch::makeBound(const SearchRequest& request, const StopToken
     open_.push(gOf(index) + estimate(map_->geometry().cell(CellIndex(index))), index);
   slack_ = kDiagonalSlackWithBound * straight_;
   return true;
+}
+
+std::optional<BoundChoice::Evidence> WeightedJumpSearch::evidence(const StopToken& stop) {
+  if (bound_ || !goal_reached_ || counts_.expanded < kLeastWeighed || sample_.empty())
+    return std::nullopt;
+  BlockBound& bound = blocks_.to(goal_);
+  const BlockEstimate blocks(bound, kMediumScale, stop);
+  if (blocks(start_) == kInfiniteKey) return std::nullopt;
+  std::size_t spared = 0;
+  for (const std::uint32_t index : sample_)
+    if (gOf(index) + blocks.known(map_->geometry().cell(CellIndex(index))) >= most_) ++spared;
+  return BoundChoice::Evidence{counts_.expanded, double(spared) / double(sample_.size()),
+                               bound.expanded()};
 }
 
 void WeightedJumpSearch::expandStart(Cell start) {

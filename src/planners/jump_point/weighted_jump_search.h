@@ -32,6 +32,7 @@
 
 #include "base/zeroed_array.h"
 #include "grid_path_planner/planners/planner.h"
+#include "planners/astar/bound_choice.h"
 #include "planners/core/bucket_queue.h"
 #include "planners/core/keys.h"
 #include "planners/core/stamped_array.h"
@@ -64,6 +65,9 @@ class WeightedJumpSearch {
   std::size_t tilesReady() const { return jumps_.tilesReady(); }
   // After how many expansions of a query the bound of the blocks is made (tables/block_bound.h).
   void makeBoundAfter(std::size_t expansions) { bound_after_ = expansions; }
+  // What the last run() tells of the bound of the blocks: of one without it that found a path of at least
+  // kLeastWeighed expansions. The next run() or update() forgets it. Throws Stopped.
+  std::optional<BoundChoice::Evidence> evidence(const base::StopToken& stop);
   // Frees all memory; prepare() must be called before the next run().
   void release();
 
@@ -82,6 +86,8 @@ class WeightedJumpSearch {
   static constexpr Key kLargest = kMediumScale.largest;
   static constexpr int kKeyBits = 48;
   static_assert(kLargest == (Key{1} << kKeyBits) - 1);
+  static constexpr std::size_t kLeastWeighed = 512;
+  static constexpr std::size_t kExpansionsASample = 8;
 
   // A g-value of one query: the query's number, then kLargest - g. The larger one is the better
   // one, and any of this query is better than any of an earlier query.
@@ -109,6 +115,9 @@ class WeightedJumpSearch {
   Key estimate(grid::Cell cell) const { return bound_ ? (*bound_)(cell) : octile(cell); }
   Key octile(grid::Cell cell) const;
   bool makeBound(const SearchRequest& request, const base::StopToken& stop);
+  void sample(std::uint32_t index) {
+    if (counts_.expanded % kExpansionsASample == 0) sample_.push_back(index);
+  }
   void trace(grid::Cell start, SearchResult& result) const;
   grid::Cell predecessorOf(grid::Cell cell, unsigned step) const;
   SearchResult withStatus(base::Status status, SearchResult result) const;
@@ -121,7 +130,9 @@ class WeightedJumpSearch {
   QueryStamp<StampedG, kKeyBits> stamp_;
   BucketQueue open_;
 
-  // Of the current query
+  // Of the current query, then of the last one
+  grid::Cell start_;
+  std::vector<std::uint32_t> sample_;  // of the cells that it expanded
   const costmap::CostGrid* map_ = nullptr;
   const costmap::CostGrid::Weight* weights_ = nullptr;
   std::uint32_t width_ = 0;

@@ -117,6 +117,20 @@ class BlockBound {
     return interpolated(a, b, c, d, cell.column & (side - 1), cell.row & (side - 1), side);
   }
 
+  // The same without searching on: where the search did not come, the least that cells there may have.
+  std::uint64_t known(grid::Cell cell) const {
+    const std::uint32_t node = weights_.nodeOf(cell), stride = weights_.stride();
+    const Value* corner = &values_[node];
+    const Value a = corner[0], b = corner[1], c = corner[stride], d = corner[stride + 1];
+    const int side = weights_.side();
+    const Value ab = a > b ? a : b, cd = c > d ? c : d;
+    if ((ab > cd ? ab : cd) < settled_below_)
+      return interpolated(a, b, c, d, cell.column & (side - 1), cell.row & (side - 1), side);
+    const Value below = a < b ? a : b, above = c < d ? c : d;
+    const Value least = below < above ? below : above;
+    return 2 * std::uint64_t(side) * (least < settled_below_ ? least : settled_below_);
+  }
+
   std::uint64_t expanded() const { return expanded_; }
 
  private:
@@ -196,11 +210,17 @@ class BlockEstimate {
   SearchKey operator()(grid::Cell cell) const {
     const std::uint64_t value = bound_.at(cell, stop_);
     if (value == BlockBound::kInfinite) return kInfiniteKey;
-    return SearchKey(Product{value} * straight_ >> shift_);
+    return keyOf(value);
   }
+  // See BlockBound::known().
+  SearchKey known(grid::Cell cell) const { return keyOf(bound_.known(cell)); }
 
  private:
   __extension__ using Product = unsigned __int128;
+
+  SearchKey keyOf(std::uint64_t value) const {
+    return SearchKey(Product{value} * straight_ >> shift_);
+  }
 
   BlockBound& bound_;
   const base::StopToken& stop_;
