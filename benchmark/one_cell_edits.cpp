@@ -1,16 +1,17 @@
 // What a search takes after one cell changed, while a vehicle drives to one goal across a city.
 //
-//   grid_path_planner_one_cell_edits [--side N] [--edits N] [--seed N] [--planner NAME] [--near-vehicle] [--busy]
+//   grid_path_planner_one_cell_edits [--side N] [--edits N] [--seed N] [--planner NAME] [--kind KIND] [--stay] [--pause MS]
 //
 // The city of benchmark/node_latency: blocks between streets of 1.5 m, cells of 0.05 m, radius 0.3 m, decay 3
-// per metre. The vehicle moves by 15 cells along its path between edits, and each edit toggles one
-// cell: in turn anywhere, in the middle of the path, near the vehicle and near the goal; or, with
-// --near-vehicle, within 60 cells of it, a third of them on the path. Between edits the planner does its
-// background work, but with --busy. Prints, for each kind, means of the CPU time of the thread, in ms: of
-// Planner::update(), of the search and of the background work; and who answered. Every cost is
+// per metre. The vehicle moves by 15 cells along its path between edits, but with --stay, and each edit toggles
+// one cell: in turn anywhere, in the middle of the path, near the vehicle and near the goal. --kind takes one of them only
+// ("anywhere", "middle", "vehicle", "goal"), or "near": within 60 cells of the vehicle, a third of them on the path. Between edits the
+// planner does its background work, with --pause for so many milliseconds at most. Prints, for each kind, means of the CPU time of the
+// thread, in ms: of Planner::update(), of the search and of the background work; and who answered. Every cost is
 // compared with that of A* made for the map; exit code 1 where one differs. The first two edits are not counted: no
 // planner knows yet that the goal stays. The path of A* decides where edits are, so that all planners meet the same.
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -26,6 +27,8 @@
 
 namespace {
 
+using grid_path_planner::base::Stopped;
+using grid_path_planner::base::StopSource;
 using grid_path_planner::base::StopToken;
 using grid_path_planner::benchmark::milliseconds;
 using grid_path_planner::costmap::CostGrid;
@@ -54,8 +57,9 @@ struct Arguments {
   int edits = 42;
   unsigned seed = 1;
   std::string planner = "weighted_jump_point";
-  bool near_vehicle = false;
-  bool busy = false;
+  bool stay = false;
+  std::string kind;
+  double pause = -1.0;
 };
 
 int between(std::mt19937& random, int low, int high) {
@@ -126,7 +130,7 @@ class Drive {
 
   void edit(int number) {
     const char* kinds[] = {"anywhere", "middle", "vehicle", "goal"};
-    const std::string kind = arguments_.near_vehicle ? "near" : kinds[number % 4];
+    const std::string kind = !arguments_.kind.empty() ? arguments_.kind : kinds[number % 4];
     const std::uint64_t before = builder_.downsampledChanges().newest();
     toggle(cellOf(kind));
     const auto costs = builder_.downsampled(StopToken());
@@ -139,7 +143,7 @@ class Drive {
     check(result, plan(*a_star_));
     if (number >= kNotCounted) times_[kind].add(update, search, idle);
     if (number >= kNotCounted) ++answers_[result.answered_by];
-    vehicle_ = path_[std::min(kStride, path_.size() - 1)];
+    if (!arguments_.stay) vehicle_ = path_[std::min(kStride, path_.size() - 1)];
     path_ = plan(*a_star_).cells;
   }
 
@@ -158,7 +162,15 @@ class Drive {
   }
 
   void rest() {
-    if (!arguments_.busy) planner_->finishBackgroundWork(StopToken());
+    try {
+      planner_->finishBackgroundWork(pauseToken());
+    } catch (const Stopped&) {
+    }
+  }
+
+  StopToken pauseToken() const {
+    if (arguments_.pause < 0.0) return StopToken();
+    return StopSource().token(std::chrono::duration<double>(1e-3 * arguments_.pause));
   }
 
   Cell cellOf(const std::string& kind) {
@@ -217,8 +229,9 @@ Arguments parsed(int argc, char** argv) {
     if (name == "--edits") arguments.edits = std::atoi(value());
     if (name == "--seed") arguments.seed = static_cast<unsigned>(std::atoi(value()));
     if (name == "--planner") arguments.planner = value();
-    if (name == "--near-vehicle") arguments.near_vehicle = true;
-    if (name == "--busy") arguments.busy = true;
+    if (name == "--kind") arguments.kind = value();
+    if (name == "--pause") arguments.pause = std::atof(value());
+    if (name == "--stay") arguments.stay = true;
   }
   return arguments;
 }

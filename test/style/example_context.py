@@ -246,8 +246,8 @@ CONTEXT = {
     "frame_transforms.h": "extern ros::NodeHandle nh; extern double limit;",
     "backward_nodes.h": "extern const BackwardNodes& nodes; extern BackwardNodes::Index index;",
     "backward_search_tree.h": "extern const CostGrid &map, &old_map, &new_map; extern const MovePruning& moves;"
-                   "extern Cell goal, start, moved_start; extern double extra; extern SearchResult result;"
-                   "extern CellRect changed;",
+                   "extern Cell goal, start, moved_start; extern double extra; extern SearchResult result; extern CellRect changed;",
+    "outdated_cells.h": "extern BackwardNodes& nodes; extern CellRect rect; extern StopPoll poll;",
     "ground_filter.h": "extern std::vector<Eigen::Vector3d> points; extern GroundFilterOptions options;",
     "headings.h": "extern Path path; extern Pose start, goal;",
     "incremental_a_star.h": "extern std::shared_ptr<const CostGrid> map, changed_map;"

@@ -83,10 +83,14 @@ bool PruningRules::missing(std::uint32_t steps, unsigned step,
   return (tried_[step][neighbourhood] & ~done) != 0;
 }
 
-void MovePruning::build(const CostGrid& map, const StopToken& stop) {
+void MovePruning::begin(const CostGrid& map) {
   classes_.resize(map.geometry().size());
   offsets_ = stepOffsets(map.geometry().width());
   rules_ = PruningRules(map);
+}
+
+void MovePruning::build(const CostGrid& map, const StopToken& stop) {
+  begin(map);
   update(map, map.geometry().rect(), stop);
 }
 

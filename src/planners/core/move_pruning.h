@@ -76,6 +76,8 @@ class PruningRules {
 // The rules, and the neighbourhood class of every cell of a map.
 class MovePruning {
  public:
+  // For a map of which update() is then called for all cells.
+  void begin(const costmap::CostGrid& map);
   // Throw Stopped. `changed`: the cells whose weights changed since.
   void build(const costmap::CostGrid& map, const base::StopToken& stop);
   void update(const costmap::CostGrid& map, const grid::CellRect& changed,

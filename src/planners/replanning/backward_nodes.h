@@ -74,6 +74,9 @@ class BackwardNodes {
     words_[index] = (words_[index] & ~kStateMask) | Word{state};
   }
 
+  // Makes it NEW.
+  void remove(Index index) { words_[index] = 0; }
+
   const MovePruning& moves() const { return *moves_; }
   // The steps that the map allows, bit n for step n of steps.h; and the cell to which a step leads.
   std::uint32_t stepsFrom(Index index) const { return moves_->from(index); }

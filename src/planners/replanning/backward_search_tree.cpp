@@ -25,75 +25,111 @@ constexpr SearchKey kQueueWidth = 2 * kPackedScale.straight;
 // See usableFor().
 constexpr std::uint64_t kRebuildRatio = 2;
 
+constexpr auto kNoLimit = std::numeric_limits<std::uint64_t>::max();
+
+// Cells that a repair expands for each that was outdated, at most.
+constexpr std::uint64_t kRepairedShare = 2;
+
+// What is done in idle time is stopped within a fraction of a millisecond.
+constexpr std::uint32_t kPollInterval = 1024;
+
 // How many cells are expanded at first where the tree has no path from the start.
 constexpr std::uint64_t kFirstGrowth = 4096;
 
 }  // namespace
 
 void BackwardSearchTree::prepare(const CostGrid& map, const MovePruning& moves) {
-  built_ = false;
+  begun_ = built_ = false;
   nodes_.prepare(map, moves);
   repair_search_.prepare(map);
   open_.prepare(map.geometry());
 }
 
-void BackwardSearchTree::setRoot(const CostGrid& map, Cell goal, Cell start) {
-  overflowed_ = false;
+void BackwardSearchTree::begin(const CostGrid& map, Cell goal, Cell start) {
+  begun_ = true;
+  built_ = grown_ = repairing_ = overflowed_ = false;
+  path_.clear();
+  outdated_.clear();
+  removed_ = opened_ = 0;
   consistent_below_ = kInfiniteKey;
+  expanded_ = repair_expanded_ = 0;
+  limit_ = kNoLimit;
   goal_ = goal;
+  nodes_.setMap(map);
   nodes_.reset(map.geometry().index(goal).value());
   keys_.reset(nodes_, map, start);
+  growing_.reset(keys_.of(nodes_.root()), kBucketShift);
+  growing_.push(keys_.of(nodes_.root()), nodes_.root());
 }
 
 Status BackwardSearchTree::build(const CostGrid& map, Cell goal, Cell start, double extra,
                                  bool record, SearchResult& result, const StopToken& stop) {
-  built_ = false;
-  path_.clear();
+  begin(map, goal, start);
+  grow(map, start, extra, record, result, stop);
+  return plan(map, start, record, result, stop);
+}
+
+void BackwardSearchTree::grow(const CostGrid& map, Cell start, double extra, bool record,
+                              SearchResult& result, const StopToken& stop) {
   nodes_.setMap(map);
-  setRoot(map, goal, start);
+  keys_.moveStart(start);
   const Index from = map.geometry().index(start).value();
   Statistics& counts = result.statistics;
-  StopPoll poll(stop);
-  BucketQueue open;
-  open.reset(keys_.of(nodes_.root()), kBucketShift);
-  const auto push = [&](Index index) { open.push(keys_.of(index), index); };
-  push(nodes_.root());
+  StopPoll poll(stop, kPollInterval);
+  const auto push = [this](Index index) { growing_.push(keys_.of(index), index); };
 
-  // 1. Until no open cell can lower the g-value of the start; 2. and `extra` times as many more.
-  std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
-  bool found = false;
-  while (!open.empty() && counts.expanded < limit) {
+  removeOutdated(poll);
+  while (!grown_ && !growing_.empty() && !grownEnough(from, extra)) {
     poll();
-    counts.peak_open = std::max(counts.peak_open, open.size());
-    if (!found && nodes_.state(from) != BackwardNodes::NEW && open.lowest() >= nodes_.g(from)) {
-      found = true;
-      limit = counts.expanded +
-              static_cast<std::uint64_t>(extra * static_cast<double>(counts.expanded));
-    }
-    const Index index = open.pop();
+    counts.peak_open = std::max(counts.peak_open, growing_.size());
+    const Index index = growing_.pop();
     if (nodes_.state(index) != BackwardNodes::OPEN) continue;
+    ++(repairing_ ? repaired_ : expanded_);
     ++counts.expanded;
     if (record) result.expanded.emplace_back(index);
     expand(index, counts, push);
   }
+  keepFrontier(from, poll);
+}
 
-  expanded_ = counts.expanded;
-  repair_expanded_ = 0;
+// Until no open cell can lower the g-value of the start, and `extra` times as many cells more; a repair
+// until all is known again, but not beyond: some cells are expanded twice, and others have no path.
+bool BackwardSearchTree::grownEnough(Index from, double extra) {
+  if (repairing_) return repaired_ >= kRepairedShare * to_repair_;
+  const bool found = nodes_.state(from) != BackwardNodes::NEW &&
+                     growing_.lowest() >= keys_.withKeyModifier(nodes_.g(from));
+  if (found && limit_ == kNoLimit)
+    limit_ = expanded_ + static_cast<std::uint64_t>(extra * static_cast<double>(expanded_));
+  return expanded_ >= limit_;
+}
 
-  // 3. The frontier stays open for later plans.
-  const bool reached = nodes_.state(from) != BackwardNodes::NEW;
-  open_.reset(reached ? nodes_.g(from) : 0, kQueueWidth * std::max<SearchKey>(keys_.scale(), 1));
-  while (!open.empty()) {
-    const Index index = open.pop();
+// The frontier stays open for later plans.
+void BackwardSearchTree::keepFrontier(Index from, StopPoll& poll) {
+  if (!grown_ && !repairing_) {
+    const bool reached = nodes_.state(from) != BackwardNodes::NEW;
+    open_.reset(reached ? keys_.withKeyModifier(nodes_.g(from)) : 0,
+                kQueueWidth * std::max<SearchKey>(keys_.scale(), 1));
+  }
+  grown_ = true;
+  while (!growing_.empty()) {
+    poll();
+    const Index index = growing_.pop();
     if (nodes_.state(index) == BackwardNodes::OPEN) open_.push(keys_, index);
   }
   built_ = true;
-  return plan(map, start, record, result, stop);
+  repairing_ = false;
+}
+
+bool BackwardSearchTree::growing(const CostGrid& map, Cell goal) const {
+  return begun_ && !built_ && validOn(map, goal);
+}
+
+bool BackwardSearchTree::validOn(const CostGrid& map, Cell goal) const {
+  return goal_ == goal && keys_.scale() <= map.minWeight() && keys_.inRange();
 }
 
 bool BackwardSearchTree::usableFor(const CostGrid& map, Cell goal) const {
-  return built_ && goal_ == goal && keys_.scale() <= map.minWeight() && keys_.inRange() &&
-         repair_expanded_ <= kRebuildRatio * expanded_;
+  return built_ && validOn(map, goal) && repair_expanded_ <= kRebuildRatio * expanded_;
 }
 
 template <class Push>
@@ -141,7 +177,7 @@ std::uint64_t BackwardSearchTree::advance(const Bound& bound, const Lowered& low
       open_.push(keys_, entry.index);
       continue;
     }
-    ++expanded;
+    if (++expanded == 1) outdated_.restart();
     ++counts.expanded;
     if (record) result.expanded.emplace_back(entry.index);
     expand(entry.index, counts, push);
@@ -222,7 +258,7 @@ Status BackwardSearchTree::unreachable() const {
 
 void BackwardSearchTree::update(const CostGrid& before, const CostGrid& after,
                                 const CellRect& changed) {
-  if (!built_) return;
+  if (!begun_) return;
   nodes_.setMap(after);
   const CellRect all = after.geometry().rect();
   const auto around = [&all](const CellRect& rect) {
@@ -241,6 +277,7 @@ void BackwardSearchTree::update(const CostGrid& before, const CostGrid& after,
 // paths from cells with lower g-values than all of the border's do not pass the rectangle.
 void BackwardSearchTree::onCostIncrease(const CellRect& rect) {
   if (rect.empty()) return;
+  outdated_.add(nodes_, rect);
   if (rect.contains(goal_)) consistent_below_ = 0;
   const auto lowerBound = [this](int column, int row) {
     const auto index = static_cast<Index>(nodes_.geometry().index({column, row}).value());
@@ -290,8 +327,53 @@ void BackwardSearchTree::checkStep(Index index, std::uint32_t step) {
 void BackwardSearchTree::markInconsistent(Index index, std::uint32_t step) {
   if (nodes_.state(index) != BackwardNodes::CLOSED || (nodes_.stepsFrom(index) >> step & 1U) == 0)
     return;
+  open(index);
+}
+
+void BackwardSearchTree::beginRepair(const CostGrid& map, Cell start, const StopToken& stop) {
+  nodes_.setMap(map);
+  keys_.moveStart(start);
+  StopPoll poll(stop, kPollInterval);
+  outdated_.find(nodes_, poll);
+  path_.clear();
+  built_ = grown_ = false;
+  repairing_ = true;
+  repaired_ = 0;
+  to_repair_ = outdated_.cells().size();
+  removed_ = opened_ = 0;
+  repair_expanded_ = 0;
+  growing_.reset(keys_.of(nodes_.root()), kBucketShift);
+}
+
+// Then opens the cells around them: see the invariant.
+void BackwardSearchTree::removeOutdated(StopPoll& poll) {
+  const std::vector<Index>& cells = outdated_.cells();
+  for (; removed_ < cells.size(); ++removed_) {
+    poll();
+    nodes_.remove(cells[removed_]);
+  }
+  for (; opened_ < cells.size(); ++opened_) {
+    poll();
+    openAround(cells[opened_]);
+  }
+  outdated_.removed();
+  removed_ = opened_ = 0;
+  if (outdated_.noneAdded()) consistent_below_ = kInfiniteKey;
+}
+
+void BackwardSearchTree::openAround(Index index) {
+  for (unsigned mask = nodes_.stepsFrom(index); mask != 0; mask &= mask - 1) {
+    const Index other = nodes_.along(index, static_cast<std::uint32_t>(__builtin_ctz(mask)));
+    if (nodes_.state(other) == BackwardNodes::CLOSED) open(other);
+  }
+}
+
+void BackwardSearchTree::open(Index index) {
   nodes_.setState(index, BackwardNodes::OPEN);
-  open_.push(keys_, index);
+  if (built_)
+    open_.push(keys_, index);
+  else
+    growing_.push(keys_.of(index), index);
 }
 
 }  // namespace grid_path_planner::planners

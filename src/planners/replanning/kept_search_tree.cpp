@@ -5,16 +5,21 @@
 
 namespace grid_path_planner::planners {
 
-using base::StopToken;
+using base::StopPoll, base::StopToken;
 using costmap::CostGrid;
 using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
-// The part of a search's expansions after which an answer is given up, and after which a new tree is
-// wanted. An expansion of a repair takes up to twice as long as one of A*.
+// The part of a search's expansions after which an answer is given up, the first time.
 constexpr std::uint64_t kMostShare = 2;
+// The same that is lost until the tree is repaired.
 constexpr std::uint64_t kStaleShare = 16;
+// Each time in a row that it was given up halves what the next answer may take, so often at most.
+constexpr unsigned kMostGivenUp = 8;
+
+// Rows whose moves are looked up at once.
+constexpr int kRows = 16;
 
 // A change of a larger part of the map than this leaves little of a tree, and following it takes long.
 constexpr std::size_t kFollowedShare = 64;
@@ -41,6 +46,14 @@ void KeptSearchTree::giveUp() {
   impossible_ = true;
 }
 
+// What was lost with a tree does not matter for another one.
+void KeptSearchTree::drop() {
+  tree_.reset();
+  making_ = false;
+  given_up_ = 0;
+  lost_ = 0;
+}
+
 void KeptSearchTree::searched(const CostGrid& map, const SearchRequest& request,
                               std::uint64_t cells) {
   const Cell goal = request.goals.front();
@@ -52,28 +65,26 @@ void KeptSearchTree::searched(const CostGrid& map, const SearchRequest& request,
   start_ = request.start;
   revision_ = map.revision();
   effort_ = cells;
-  stale_ = true;
 }
 
 // A search went by without a tree.
 void KeptSearchTree::notePayOff(bool same_goal) {
   if (!same_goal || use_ == Use::ANSWERED) {
     in_vain_ = to_wait_ = 0;
-  } else if (use_ == Use::MADE) {
+  } else if (use_ == Use::MADE && !(tree_ && making_)) {
     in_vain_ = std::min(in_vain_ + 1, kMostInVain);
     to_wait_ = (1U << in_vain_) - 1;
   } else if (to_wait_ > 0) {
     --to_wait_;
   }
-  use_ = Use::NONE;
+  if (!making_) use_ = Use::NONE;
 }
 
 void KeptSearchTree::update(const CostGrid& before, const CostGrid& after,
                             const std::vector<CellRect>& changed, const StopToken& stop) {
   if (!tree_) return;
   if (isLarge(changed, after.geometry())) {
-    stale_ = true;
-    tree_.reset();
+    drop();
     return;
   }
   try {
@@ -87,10 +98,12 @@ void KeptSearchTree::update(const CostGrid& before, const CostGrid& after,
 bool KeptSearchTree::search(const CostGrid& map, const SearchRequest& request, SearchResult& result,
                             const StopToken& stop) {
   if (!tree_ || !tree_->usableFor(map, request.goals.front())) return false;
+  const std::uint64_t most = effort_ / kMostShare >> given_up_;
   try {
-    return tryToSearch(map, request, result, stop);
+    return tryToSearch(map, request, result, stop, most);
   } catch (const TooManyCells&) {
-    stale_ = true;
+    lost_ += most + effort_;
+    given_up_ = std::min(given_up_ + 1, kMostGivenUp);
   } catch (const TooExpensive&) {
     giveUp();
   } catch (const std::bad_alloc&) {
@@ -100,37 +113,76 @@ bool KeptSearchTree::search(const CostGrid& map, const SearchRequest& request, S
 }
 
 bool KeptSearchTree::tryToSearch(const CostGrid& map, const SearchRequest& request,
-                                 SearchResult& result, const StopToken& stop) {
-  result.status =
-      tree_->plan(map, request.start, request.record_expanded, result, stop, effort_ / kMostShare);
+                                 SearchResult& result, const StopToken& stop, std::uint64_t most) {
+  result.status = tree_->plan(map, request.start, request.record_expanded, result, stop, most);
   result.statistics.search_bytes = bytesFor(map.geometry()) + tree_->searchBytes();
   start_ = request.start;
   use_ = Use::ANSWERED;
-  stale_ = result.statistics.expanded > effort_ / kStaleShare;
+  given_up_ = 0;
+  lost_ += result.statistics.expanded;
   return true;
 }
 
+// No tree, or one that searches too much.
+bool KeptSearchTree::stale(const CostGrid& map) const {
+  return !tree_ || making_ || !tree_->validOn(map, goal_) || lost_ > effort_ / kStaleShare;
+}
+
 bool KeptSearchTree::wanted(const CostGrid& map) const {
-  return again_ && stale_ && !impossible_ && to_wait_ == 0 && map.passable(start_) &&
-         map.passable(goal_);
+  return again_ && !impossible_ && to_wait_ == 0 && map.passable(start_) && map.passable(goal_) &&
+         stale(map);
 }
 
 void KeptSearchTree::make(const CostGrid& map, const StopToken& stop) {
-  if (use_ == Use::NONE) use_ = Use::MADE;  // stopped, too: there may never be enough idle time
   try {
-    if (!tree_) {
-      moves_.build(map, stop);
-      auto tree = std::make_unique<BackwardSearchTree>();
-      tree->prepare(map, moves_);
-      tree_ = std::move(tree);
-    }
-    SearchResult found;
-    tree_->build(map, goal_, start_, BackwardSearchTree::kUsualExtra, false, found, stop);
-    stale_ = false;
+    goOnMaking(map, stop);
   } catch (const TooExpensive&) {
     giveUp();
   } catch (const std::bad_alloc&) {
     giveUp();
+  }
+}
+
+void KeptSearchTree::goOnMaking(const CostGrid& map, const StopToken& stop) {
+  if (!tree_) prepare(map);
+  lookUpMoves(map, stop);
+  if (!tree_->growing(map, goal_)) begin(map, stop);
+  SearchResult found;
+  tree_->grow(map, start_, BackwardSearchTree::kUsualExtra, false, found, stop);
+  making_ = false;
+  given_up_ = 0;
+  lost_ = 0;
+  tree_->plan(map, start_, false, found, stop);
+}
+
+void KeptSearchTree::begin(const CostGrid& map, const StopToken& stop) {
+  if (tree_->usableFor(map, goal_)) {
+    tree_->beginRepair(map, start_, stop);
+    if (use_ == Use::NONE) use_ = Use::MADE;
+  } else {
+    tree_->begin(map, goal_, start_);
+    use_ = Use::MADE;
+  }
+  making_ = true;
+}
+
+void KeptSearchTree::prepare(const CostGrid& map) {
+  moves_.begin(map);
+  rows_ = 0;
+  auto tree = std::make_unique<BackwardSearchTree>();
+  tree->prepare(map, moves_);
+  tree_ = std::move(tree);
+  making_ = true;
+  use_ = Use::MADE;
+}
+
+void KeptSearchTree::lookUpMoves(const CostGrid& map, const StopToken& stop) {
+  const CellRect all = map.geometry().rect();
+  StopPoll poll(stop, 1);
+  while (rows_ < all.height) {
+    moves_.update(map, CellRect{0, rows_, all.width, kRows}.intersection(all), StopToken());
+    rows_ += kRows;
+    poll();
   }
 }
 

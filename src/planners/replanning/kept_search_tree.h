@@ -10,11 +10,12 @@
 //   if (tree.wanted(map)) tree.make(map, stop);  // in idle time
 //
 // A tree is wanted for a goal that was searched for twice, on maps of two revisions. It takes several
-// times as long as a search, so it is made in idle time: anew once answering by it took more than a
-// small share of a search, since what is repaired for one plan is repaired for the next one, too
-// (repair_search.h). An answer that would take more than half of a search is given up. After trees that
-// answered nothing, as where much of the map changes each time or idle times are short, ever more
-// searches go by before the next one is made, 31 at most: idle time is processor time, too.
+// times as long as a search, so it is made in idle time, and repaired there once its answers took more than
+// a small share of a search: what is out of date for one plan is so for the next one, too. Idle times add
+// up: a making or repair that is stopped goes on in the next one, on the map of then. Meanwhile there is no
+// tree to ask. An answer that would take more than half of a search is given up, and half as much each time
+// in a row. After trees that answered nothing, as where much of the map changes each time, ever more searches go by before
+// the next one is made, 31 at most: idle time is processor time, too.
 //
 // Guaranteed: the cost found is the least there is, exactly, whatever was stopped, given up or out of
 // memory before. Not guaranteed: which of several least-cost paths is found.
@@ -56,18 +57,30 @@ class KeptSearchTree {
               const base::StopToken& stop);
 
   bool wanted(const costmap::CostGrid& map) const;
-  // Makes it, but where there is too little memory or paths cost too much. Throws Stopped.
+  // Makes or repairs it, but where there is too little memory or paths cost too much. Throws Stopped, within
+  // a fraction of a millisecond, and goes on at the next call.
   // Precondition: wanted().
   void make(const costmap::CostGrid& map, const base::StopToken& stop);
 
  private:
   bool tryToSearch(const costmap::CostGrid& map, const SearchRequest& request, SearchResult& result,
-                   const base::StopToken& stop);
+                   const base::StopToken& stop, std::uint64_t most);
+  bool stale(const costmap::CostGrid& map) const;
+  void prepare(const costmap::CostGrid& map);
+  void lookUpMoves(const costmap::CostGrid& map, const base::StopToken& stop);
+  void goOnMaking(const costmap::CostGrid& map, const base::StopToken& stop);
+  void begin(const costmap::CostGrid& map, const base::StopToken& stop);
+  void drop();
   void giveUp();
   void notePayOff(bool same_goal);
 
   MovePruning moves_;
   std::unique_ptr<BackwardSearchTree> tree_;
+  int rows_ = 0;         // whose moves are looked up
+  bool making_ = false;  // or repairing: begun, and not done
+  std::uint64_t lost_ =
+      0;  // expansions since the tree was last right, which repairing it might have saved
+  unsigned given_up_ = 0;    // answers in a row
   bool impossible_ = false;  // to make one
 
   // Of the goal that was asked for last:
@@ -77,7 +90,6 @@ class KeptSearchTree {
   std::uint64_t revision_ = 0;  // of the map at the last search
   std::uint64_t effort_ = 0;    // cells that it expanded
   bool again_ = false;          // searched for on maps of two revisions
-  bool stale_ = true;           // no tree, or one that is far from the present map
 
   enum class Use { NONE, MADE, ANSWERED };
   Use use_ = Use::NONE;   // of a tree, since the last search without it

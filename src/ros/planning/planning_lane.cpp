@@ -115,7 +115,10 @@ void PlanningLane::finishLater(const PathPlannerNodeOptions& options) {
         try {
           setOptions(options.planner);
           if (cells <= kMostCopied) copyForChanges(*planner_, stop.token());
-          if (cells <= kMostFinished) planner_->finishPreparation(stop.token());
+          if (cells <= kMostFinished)
+            planner_->finishPreparation(stop.token());
+          else
+            planner_->prepareLastQuestion(stop.token());
         } catch (const Stopped&) {
         } catch (const InputError&) {
         }

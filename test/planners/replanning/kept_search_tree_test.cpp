@@ -12,6 +12,7 @@
 
 #include "planners/jump_point/weighted_jump_point.h"
 #include "planners/replanning/journey.h"
+#include "planners/replanning/slopes.h"
 #include "support/cost_maps.h"
 #include "support/random_map.h"
 
@@ -49,6 +50,7 @@ using grid::GridGeometry;
 using test::expectLeast;
 using test::Journey;
 using test::Map;
+using test::Slopes;
 
 namespace {
 
@@ -163,37 +165,6 @@ TEST(KeptSearchTreeLaw, AnswersCostTheLeastAfterMemoryRanOut) {
   EXPECT_GT(failures, 300);
   EXPECT_GT(answers, 1000);
 }
-
-// Gentle slopes with posts, across which a vehicle drives.
-class Slopes {
- public:
-  Slopes() : weights_(GridGeometry(300, 300, 1.0)) {
-    for (int row = 0; row < 300; ++row)
-      for (int column = 0; column < 300; ++column)
-        weights_[Cell{column, row}] = static_cast<CostGrid::Weight>(
-            column % 50 == 25 && row % 60 < 40 ? 0 : 1 + (column * 7 + row * 5) % 23);
-    map_ = test::costsOf(weights_);
-  }
-
-  const Map& map() const { return map_; }
-  Map edit(const CellRect& rect, CostGrid::Weight weight) {
-    for (int row = rect.row; row < rect.row + rect.height; ++row)
-      std::fill_n(weights_.row(row) + rect.column, rect.width, weight);
-    map_ = test::costsOf(weights_, {}, map_->revision() + 1);
-    return map_;
-  }
-  // Blocks a few cells on the path.
-  CellRect editOn(const std::vector<Cell>& path, double share) {
-    const Cell cell = path[static_cast<std::size_t>(share * static_cast<double>(path.size()))];
-    const CellRect rect = CellRect{cell.column - 2, cell.row - 2, 5, 5};
-    edit(rect, CostGrid::kBlocked);
-    return rect;
-  }
-
- private:
-  Grid<CostGrid::Weight> weights_;
-  Map map_;
-};
 
 const SearchRequest kAcross{{5, 5}, {{294, 290}}, false};
 
