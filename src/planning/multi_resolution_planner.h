@@ -58,8 +58,6 @@ class MultiResolutionPlanner {
 
   // Returns when the planner's background work is done. Throws Stopped.
   void finishBackgroundWork(const base::StopToken& stop) { planner_->finishBackgroundWork(stop); }
-  // See Planner.
-  void prepareLastQuestion(const base::StopToken& stop) { planner_->prepareLastQuestion(stop); }
 
   // Precondition: both cells are passable at full resolution.
   Route find(grid::Cell start, grid::Cell goal, bool retry_finer, bool record_expanded,

@@ -250,11 +250,6 @@ void PathPlanner::finishPreparation(const StopToken& stop) {
   search().finishBackgroundWork(stop);
 }
 
-void PathPlanner::prepareLastQuestion(const StopToken& stop) {
-  prepare(stop);
-  search().prepareLastQuestion(stop);
-}
-
 void PathPlanner::makeReadyForChanges(const StopToken& stop) {
   if (costmap_) costmap_->makeReadyForChanges(stop);
 }

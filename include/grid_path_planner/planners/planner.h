@@ -106,9 +106,6 @@ class Planner {
   virtual BackgroundWork backgroundWork() { return {}; }
   // Does the rest of it, or waits for it. Throws Stopped; what is done stays, and a thread continues.
   virtual void finishBackgroundWork(const base::StopToken&) {}
-  // The part of it that only makes the last question quicker, if that is asked again after a change of the
-  // map and it seems that it will be; nothing else. Throws Stopped; what is done stays.
-  virtual void prepareLastQuestion(const base::StopToken&) {}
 
   SearchResult search(const SearchRequest& request, const base::StopToken& stop);
 

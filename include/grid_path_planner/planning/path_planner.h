@@ -209,9 +209,6 @@ class PathPlanner {
   // The same, and everything else that searches use, without which the first plans take longer;
   // waits for the planner's background work. Throws Stopped too; what is done stays.
   void finishPreparation(const base::StopToken& stop);
-  // As prepare(), and of the rest what only makes the last question quicker after a change of the map, if
-  // it seems to be asked again: the part that pays on maps of any size. Throws Stopped too; what is done stays.
-  void prepareLastQuestion(const base::StopToken& stop);
 
   // Does now what would keep the first plan after the first change of the map: copies the costmaps that
   // were made, since they will change while others still read them. Throws Stopped; a copy that is not

@@ -139,10 +139,6 @@ void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
     substitute_.reset();
   }
   if (substitute_) substitute_->finishBackgroundWork(stop);
-  prepareLastQuestion(stop);
-}
-
-void WeightedJumpPoint::prepareLastQuestion(const StopToken& stop) {
   if (treeWanted()) tree_.make(map(), stop);
 }
 

@@ -60,7 +60,6 @@ class WeightedJumpPoint : public Planner {
   bool optimalFor(const costmap::CostGrid& map) const override;
   BackgroundWork backgroundWork() override;
   void finishBackgroundWork(const base::StopToken& stop) override;
-  void prepareLastQuestion(const base::StopToken& stop) override;
 
  private:
   std::string lessMemoryAdvice() const override;

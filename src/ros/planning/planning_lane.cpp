@@ -115,10 +115,7 @@ void PlanningLane::finishLater(const PathPlannerNodeOptions& options) {
         try {
           setOptions(options.planner);
           if (cells <= kMostCopied) copyForChanges(*planner_, stop.token());
-          if (cells <= kMostFinished)
-            planner_->finishPreparation(stop.token());
-          else
-            planner_->prepareLastQuestion(stop.token());
+          if (cells <= kMostFinished) planner_->finishPreparation(stop.token());
         } catch (const Stopped&) {
         } catch (const InputError&) {
         }

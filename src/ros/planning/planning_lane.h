@@ -57,8 +57,7 @@ class PlanningLane {
   void prepare(const PathPlannerNodeOptions& options, const base::StopToken& stop);
   // Computes whatever makes plans faster on the newest map, and after its changes, while the thread has
   // nothing else to do; what is done when a task comes stays, but for a copy that is not finished.
-  // Of maps of more than kMostFinished cells not what is in proportion to the map and only pays after
-  // many questions, of more than kMostCopied not the copies.
+  // Of maps of more than kMostFinished cells only the copies, of more than kMostCopied not these.
   void finishLater(const PathPlannerNodeOptions& options);
 
   // `at_least`: as PathPlanner::takeMap() has it.
