@@ -228,18 +228,18 @@ TEST(KeptSearchTree, IsRepairedRatherThanMadeAgain) {
   }
 }
 
-// As a node does on maps that are too large to prepare all of them.
-TEST(WeightedJumpPoint, MakesTheTreeOfItsLastQuestionAlone) {
+// As a node does while it is idle.
+TEST(WeightedJumpPoint, RepairsItsTreeAfterEditsOnItsPath) {
   Slopes slopes;
   WeightedJumpPoint planner;
   planner.prepare(slopes.map(), StopToken());
   SearchResult result = planner.search(kOverSlopes, StopToken());
-  planner.prepareLastQuestion(StopToken());
+  planner.finishBackgroundWork(StopToken());
   for (const double share : {0.5, 0.3, 0.7}) {
     const CellRect changed = slopes.editOn(result.cells, share);
     planner.update(slopes.map(), {changed}, StopToken());
     result = planner.search(kOverSlopes, StopToken());
-    planner.prepareLastQuestion(StopToken());
+    planner.finishBackgroundWork(StopToken());
   }
   EXPECT_EQ(result.answered_by, "incremental_a_star");
   expectLeast(*slopes.map(), {5, 5}, {294, 290}, result.status == Status::FOUND, result);
