@@ -1,5 +1,6 @@
 """Simulated time jumps back and forth: the simulator is killed, and starts again with another time and the vehicle
-where it was. Holds if no other node ends, the vehicle goes on after every jump and touches nothing."""
+where it was. Holds if no other node ends, and after every jump the map and the path are of the new time, the vehicle
+goes on and touches nothing; and if navigate_path says of each jump back that there was one."""
 import os
 import signal
 
@@ -8,20 +9,60 @@ from ros_session import SessionFailed
 from .session import BEGIN, BACK_SECONDS, Demo, patience, process_id
 
 JUMPS = (0.1, -2.0, 3600.0, -3600.0, 2e9, -1.9e9, -100.0)  # s
+LEAST_BACK = 1.0  # s: of a shorter way back the node may see nothing, since the simulator takes a while to start
+WORD = "ROS time went back by"
+
+
+class NewMaps:
+    """The stamp of the newest map, s; 0 before there is one."""
+
+    def __init__(self):
+        import rospy
+        from nav_msgs.msg import OccupancyGrid
+        self.stamp = 0.0
+        self.subscriber = rospy.Subscriber("/projected_map", OccupancyGrid, self.on_map)
+
+    def on_map(self, message):
+        self.stamp = message.header.stamp.to_sec()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.subscriber.unregister()
+
+
+def times_said(demo):
+    with open(demo.nodes.log_name, errors="replace") as file:
+        return sum(WORD in line for line in file)
+
+
+def is_new(demo, stamp, begin):
+    """Whether it is of the time that began at `begin`, which has not come to it before."""
+    return begin <= stamp <= demo.vehicle.now() + LEAST_BACK
 
 
 def jump(demo, seconds):
     import rospy
-    pid = process_id("/simulator")
+    pid, before, said = process_id("/simulator"), demo.vehicle.now(), times_said(demo)
     os.kill(pid, signal.SIGKILL)
     for name, value in zip(BEGIN, demo.vehicle.pose()):
         rospy.set_param("/simulator/" + name, value)
-    to = min(max(1.0, demo.vehicle.now() + seconds), 2e9)
+    to = min(max(1.0, before + seconds), 2e9)
     rospy.set_param("/simulator/start_time", to)
     demo.vehicle.clock = None
     demo.nodes.wait_until(lambda: process_id("/simulator") not in (None, pid) and demo.vehicle.clock,
                           patience(BACK_SECONDS), "simulator")
-    demo.drive.goes_on()
+    with NewMaps() as maps:
+        demo.drive.goes_on()
+        demo.nodes.wait_until(lambda: is_new(demo, maps.stamp, to), patience(BACK_SECONDS),
+                              "map of the time after a jump of %g s" % seconds)
+    stamp = demo.drive.path.header.stamp.to_sec()
+    if not is_new(demo, stamp, to):
+        raise SessionFailed("after a jump of %g s to %.1f s a path is stamped %.1f" % (seconds, to, stamp))
+    if to < before - LEAST_BACK:
+        demo.nodes.wait_until(lambda: times_said(demo) > said, patience(BACK_SECONDS),
+                              "word of navigate_path that time went back by %g s" % -seconds)
 
 
 def storm(rounds, folder, given):
@@ -34,4 +75,5 @@ def storm(rounds, folder, given):
         ended = [node for node, pid in demo.pids().items() if pid != before[node] and node != "/simulator"]
         if ended:
             raise SessionFailed("these have ended: " + ", ".join(ended))
-    return "%d jumps, the vehicle went on after each and touched nothing" % (rounds * len(JUMPS))
+    return "%d jumps, after each map and path were of the new time, and the vehicle went on and touched nothing" % (
+        rounds * len(JUMPS))
