@@ -3,6 +3,7 @@ where it was. Holds if no other node ends, and after every jump the map and the 
 goes on and touches nothing; and if navigate_path says of each jump back that there was one."""
 import os
 import signal
+import struct
 
 from ros_session import SessionFailed
 
@@ -14,16 +15,18 @@ WORD = "ROS time went back by"
 
 
 class NewMaps:
-    """The stamp of the newest map, s; 0 before there is one."""
+    """The stamp of the newest map, s, which is that of the newest cloud in it; 0 before there is one. A map that nothing
+    changes is told of by heartbeats."""
 
     def __init__(self):
         import rospy
-        from nav_msgs.msg import OccupancyGrid
         self.stamp = 0.0
-        self.subscriber = rospy.Subscriber("/projected_map", OccupancyGrid, self.on_map)
+        self.subscriber = rospy.Subscriber("/projected_map_updates", rospy.AnyMsg, self.on_update)
 
-    def on_map(self, message):
-        self.stamp = message.header.stamp.to_sec()
+    def on_update(self, message):
+        """An OccupancyGridUpdate, which begins with its header; Debian has no map_msgs for Python."""
+        _, seconds, nanoseconds = struct.unpack_from("<III", message._buff)  # pylint: disable=protected-access
+        self.stamp = seconds + 1e-9 * nanoseconds
 
     def __enter__(self):
         return self
