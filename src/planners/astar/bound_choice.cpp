@@ -5,7 +5,7 @@
 namespace grid_path_planner::planners {
 
 using costmap::CostGrid;
-using grid::CellRect;
+using grid::CellRect, grid::GridGeometry;
 
 namespace {
 
@@ -59,9 +59,25 @@ void BoundChoice::prepare(const CostGrid& map) {
 }
 
 void BoundChoice::update(const CostGrid& map, const std::vector<CellRect>& changed) {
-  for (const CellRect& rect : changed)
-    changed_ += static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
-  if (changed_ > map.geometry().size() / 8) prepare(map);
+  for (const CellRect& rect : changed) noteChange(map.geometry(), rect);
+  if (changed_blocks_ * kChangedBlock * kChangedBlock > map.geometry().size() / 8) prepare(map);
+}
+
+void BoundChoice::noteChange(const GridGeometry& geometry, const CellRect& rect) {
+  const auto blocks = [](int cells) {
+    return static_cast<std::size_t>((cells + kChangedBlock - 1) / kChangedBlock);
+  };
+  const std::size_t width = blocks(geometry.width());
+  changed_.resize(width * blocks(geometry.height()));
+  for (int row = rect.row / kChangedBlock; row * kChangedBlock < rect.row + rect.height; ++row) {
+    for (int column = rect.column / kChangedBlock;
+         column * kChangedBlock < rect.column + rect.width; ++column) {
+      const std::size_t block =
+          static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
+      if (!changed_[block]) ++changed_blocks_;
+      changed_[block] = true;
+    }
+  }
 }
 
 void BoundChoice::learn(const Evidence& evidence) {

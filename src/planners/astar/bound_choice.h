@@ -13,8 +13,8 @@
 // a first plan waits for nothing, and what they expanded decides: how many of these cells the bound
 // would have left out, against what it costs.
 //
-// Guaranteed: a decision stays until an eighth of the map's cells changed. It depends on the map and
-// the searches before, never on a clock. Not guaranteed: that it is the faster one for every query.
+// Guaranteed: a decision stays until an eighth of the map has changed, in blocks of 8×8 cells; a place
+// that changes again and again counts once. It depends on the map and the searches before, never on a clock. Not guaranteed: that it is the faster one for every query.
 #pragma once
 
 #include <cstddef>
@@ -56,12 +56,17 @@ class BoundChoice {
   void learn(const Evidence& evidence);
 
  private:
+  static constexpr int kChangedBlock = 8;
+
+  void noteChange(const grid::GridGeometry& geometry, const grid::CellRect& rect);
+
   BoundPrices prices_;
   bool decided_ = false;
   bool blocks_ = false;
-  std::size_t changed_ = 0;   // cells, since it was prepared
-  std::size_t expanded_ = 0;  // by the searches that it learnt from,
-  double with_blocks_ = 0.0;  // and what they would have taken with the blocks, in expansions
+  std::vector<bool> changed_;       // of each block of kChangedBlock² cells, since it was prepared
+  std::size_t changed_blocks_ = 0;  // the number of these
+  std::size_t expanded_ = 0;        // by the searches that it learnt from,
+  double with_blocks_ = 0.0;        // and what they would have taken with the blocks, in expansions
 };
 
 }  // namespace grid_path_planner::planners

@@ -96,7 +96,7 @@ void WeightedJumpSearch::startQuery(const CostGrid& map, const SearchRequest& re
   saving_ = map.minWeight() * (2 * kStraight - kDiagonal);
   zero_g_ = stamp_.word() | kLargest;
   most_ = kLargest;
-  goal_reached_ = too_expensive_ = false;
+  goal_reached_ = found_ = too_expensive_ = false;
   counts_ = Statistics();
   bound_.reset();
   slack_ = kDiagonalSlack * straight_;
@@ -127,6 +127,7 @@ SearchResult WeightedJumpSearch::search(const SearchRequest& request, const Stop
   if (!goal_reached_ && too_expensive_) throw TooExpensive();
   if (!goal_reached_) return withStatus(Status::UNREACHABLE, std::move(result));
   trace(request.start, result);
+  found_ = true;
   return withStatus(Status::FOUND, std::move(result));
 }
 
@@ -146,7 +147,7 @@ bool WeightedJumpSearch::makeBound(const SearchRequest& request, const StopToken
 }
 
 std::optional<BoundChoice::Evidence> WeightedJumpSearch::evidence(const StopToken& stop) {
-  if (bound_ || !goal_reached_ || counts_.expanded < kLeastWeighed || sample_.empty())
+  if (bound_ || !found_ || counts_.expanded < kLeastWeighed || sample_.empty())
     return std::nullopt;
   BlockBound& bound = blocks_.to(goal_);
   const BlockEstimate blocks(bound, kMediumScale, stop);

@@ -146,6 +146,7 @@ class WeightedJumpSearch {
   unsigned bucket_shift_ = 0;
   Key most_ = 0;  // paths that cost as much are of no use: the goal's g-value, once it has one
   bool goal_reached_ = false;
+  bool found_ = false;  // with nothing left that could be less
   bool too_expensive_ =
       false;  // a path was left out, perhaps because the keys do not hold its cost
   base::Statistics counts_;
