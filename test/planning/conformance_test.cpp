@@ -172,6 +172,35 @@ TEST_P(Conformance, EpsilonBoundsTheCost) {
   }
 }
 
+// Plateaus, on which jumps pay.
+std::shared_ptr<const CostGrid> plateaus(int side, std::uint64_t revision) {
+  grid::Grid<CostGrid::Weight> weights(grid::GridGeometry(side, side, 1.0));
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column)
+      weights[Cell{column, row}] =
+          static_cast<CostGrid::Weight>(1 + 3 * ((column / 32 + row / 32) % 2));
+  return test::costsOf(weights, {}, revision);
+}
+
+// A map that grew beyond memory_limit while the node was idle: the default planner then went on with
+// what it had prepared of the smaller one, outside of its memory.
+TEST_P(Conformance, DoesNothingInIdleTimeForAMapThatItRefuses) {
+  const auto small = plateaus(128, 1), large = plateaus(600, 2);
+  const auto planner = make();
+  planner->prepare(small, StopToken());
+  planner->limitMemory(planner->bytesFor(small->geometry()));
+  planner->update(large, {{0, 0, 600, 600}}, StopToken());
+  const SearchRequest request{{1, 1}, {{120, 100}}, false};
+  ASSERT_EQ(planner->search(request, StopToken()).status, Status::INVALID_REQUEST);
+  EXPECT_FALSE(planner->backgroundWork().pending);
+  planner->finishBackgroundWork(StopToken());
+  planner->update(small, {{0, 0, 128, 128}}, StopToken());
+  planner->finishBackgroundWork(StopToken());
+  const bool refuses_weights = !planner->traits().weights;
+  EXPECT_EQ(planner->search(request, StopToken()).status,
+            refuses_weights ? Status::INVALID_REQUEST : Status::FOUND);
+}
+
 TEST_P(Conformance, SameQuestionSameAnswer) {
   std::mt19937 random(3);
   const auto map = std::make_shared<const CostGrid>(test::randomCosts(random, 60, {}));

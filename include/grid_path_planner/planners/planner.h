@@ -103,9 +103,10 @@ class Planner {
 
   // Searches take longer until background work is done. An optimal planner finds the same cost
   // before and after, though perhaps another path of that cost.
-  virtual BackgroundWork backgroundWork() { return {}; }
+  // Nothing where the last map was refused, or its preparation was stopped.
+  BackgroundWork backgroundWork();
   // Does the rest of it, or waits for it. Throws Stopped; what is done stays, and a thread continues.
-  virtual void finishBackgroundWork(const base::StopToken&) {}
+  void finishBackgroundWork(const base::StopToken& stop);
 
   SearchResult search(const SearchRequest& request, const base::StopToken& stop);
 
@@ -131,6 +132,9 @@ class Planner {
   virtual void doUpdate(const std::vector<grid::CellRect>&, const base::StopToken& stop) {
     doPrepare(stop);
   }
+  // For the prepared map.
+  virtual BackgroundWork doBackgroundWork() { return {}; }
+  virtual void doFinishBackgroundWork(const base::StopToken&) {}
   // Precondition: start and goals are in the map and passable. May throw Stopped; TIMEOUT or
   // CANCELLED with the statistics so far is better.
   virtual SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) = 0;
@@ -138,6 +142,7 @@ class Planner {
  private:
   PlannerTraits traits_;
   std::string reasonAgainst(const costmap::CostGrid& map) const;
+  bool holdsItsMap() const { return prepared_ && refusal_.empty(); }
 
   std::size_t memory_limit_ = std::numeric_limits<std::size_t>::max();
   std::shared_ptr<const costmap::CostGrid> map_;

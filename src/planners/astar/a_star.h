@@ -34,13 +34,13 @@ class AStar : public Planner {
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
   bool optimalFor(const costmap::CostGrid& map) const override;
-  BackgroundWork backgroundWork() override { return tables_.work(); }
-  void finishBackgroundWork(const base::StopToken& stop) override { tables_.wait(stop); }
 
  private:
   std::string lessMemoryAdvice() const override;
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
+  BackgroundWork doBackgroundWork() override { return tables_.work(); }
+  void doFinishBackgroundWork(const base::StopToken& stop) override { tables_.wait(stop); }
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
   SearchResult planByBuckets(const SearchRequest& request, const base::StopToken& stop);
   bool blocksAlone() const;

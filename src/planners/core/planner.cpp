@@ -140,7 +140,7 @@ void Planner::prepare(std::shared_ptr<const CostGrid> map, const StopToken& stop
 void Planner::update(std::shared_ptr<const CostGrid> map, const std::vector<CellRect>& changed,
                      const StopToken& stop) {
   if (prepared_ && map == map_) return;
-  const bool follows = prepared_ && refusal_.empty() && map->geometry() == map_->geometry() &&
+  const bool follows = holdsItsMap() && map->geometry() == map_->geometry() &&
                        map->motion() == map_->motion() && map->revision() > map_->revision();
   if (!follows || !reasonAgainst(*map).empty()) return prepare(std::move(map), stop);
   map_before_ = std::exchange(map_, std::move(map));
@@ -148,6 +148,14 @@ void Planner::update(std::shared_ptr<const CostGrid> map, const std::vector<Cell
   doUpdate(grownRects(changed, 0, map_->geometry().rect()), stop);
   prepared_ = true;
   map_before_.reset();
+}
+
+BackgroundWork Planner::backgroundWork() {
+  return holdsItsMap() ? doBackgroundWork() : BackgroundWork();
+}
+
+void Planner::finishBackgroundWork(const StopToken& stop) {
+  if (holdsItsMap()) doFinishBackgroundWork(stop);
 }
 
 SearchResult Planner::search(const SearchRequest& request, const StopToken& stop) {

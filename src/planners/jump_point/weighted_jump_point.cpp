@@ -124,14 +124,14 @@ std::string WeightedJumpPoint::lessMemoryAdvice() const {
   return advice.empty() ? Planner::lessMemoryAdvice() : advice;
 }
 
-BackgroundWork WeightedJumpPoint::backgroundWork() {
+BackgroundWork WeightedJumpPoint::doBackgroundWork() {
   BackgroundWork work = substitute_ ? substitute_->backgroundWork() : BackgroundWork();
   work.pending = work.pending || estimatesLater() ||
                  (shouldJump() && !(jumps_ready_ && jumps_.finished())) || treeWanted();
   return work;
 }
 
-void WeightedJumpPoint::finishBackgroundWork(const StopToken& stop) {
+void WeightedJumpPoint::doFinishBackgroundWork(const StopToken& stop) {
   sampleLate(stop);
   if (shouldJump()) {
     if (!jumps_ready_) prepareJumps(stop);

@@ -58,13 +58,13 @@ class WeightedJumpPoint : public Planner {
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
   bool optimalFor(const costmap::CostGrid& map) const override;
-  BackgroundWork backgroundWork() override;
-  void finishBackgroundWork(const base::StopToken& stop) override;
 
  private:
   std::string lessMemoryAdvice() const override;
   void doPrepare(const base::StopToken& stop) override;
   void doUpdate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop) override;
+  BackgroundWork doBackgroundWork() override;
+  void doFinishBackgroundWork(const base::StopToken& stop) override;
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
 
   SearchResult searchAnew(const SearchRequest& request, const base::StopToken& stop);
