@@ -205,9 +205,9 @@ TEST_F(ReplayTest, WhoAnsweredInPlaceOfThePlannerAnswersAgain) {
 // What path_planner records where weighted_jump_point let A* answer a question that it answers itself now.
 TEST_F(ReplayTest, APlannerThatHadSpentItsPreparationIsRepeated) {
   std::mt19937 random(10);
-  OccupancyGrid map(GridGeometry(200, 200, 1.0), 0);
-  for (int i = 0; i < 3000; ++i) map[test::randomCell(random, map.geometry())] = 100;
-  map[Cell{1, 1}] = map[Cell{190, 160}] = 0;
+  OccupancyGrid map(GridGeometry(120, 120, 1.0), 0);
+  for (int i = 0; i < 1100; ++i) map[test::randomCell(random, map.geometry())] = 100;
+  map[Cell{1, 1}] = map[Cell{110, 100}] = 0;
   writeMap(map, 1.0);
   PathPlanner planner;
   planner.setMap(std::make_shared<const OccupancyGrid>(map));
@@ -216,7 +216,7 @@ TEST_F(ReplayTest, APlannerThatHadSpentItsPreparationIsRepeated) {
   question.options.costmap.decay = 0.3;
   question.options.smooth = false;
   question.request.start.position = {1.5, 1.5, 0.0};
-  question.request.goal.position = {190.5, 160.5, 0.0};
+  question.request.goal.position = {110.5, 100.5, 0.0};
   PlanRecord record = answered(planner, question);
   const std::string asked = "planner: a_star";
   record.options.replace(record.options.find(asked), asked.size(), "planner: weighted_jump_point");

@@ -157,5 +157,26 @@ TEST(WeightedJumpSearch, ThrowsWhereATooExpensivesItsKeys) {
   EXPECT_EQ(near.cost, (ExactCost{97LL * 65535, 2LL * 65535}));
 }
 
+// A run() that has to make too many tiles around its goal forgets what the last one told, too.
+TEST(WeightedJumpSearch, ARunThatMayMakeNoTileForgetsTheEvidenceOfTheLastOne) {
+  grid::Grid<costmap::CostGrid::Weight> weights(grid::GridGeometry(640, 640, 1.0));
+  for (int row = 0; row < 640; ++row)
+    for (int column = 0; column < 640; ++column)
+      weights[grid::Cell{column, row}] = static_cast<costmap::CostGrid::Weight>(
+          column % 50 == 25 && row % 60 < 40 ? 0 : 1 + (column * 7 + row * 5) % 23);
+  const costmap::CostGrid map = test::costMap(weights);
+  WeightedJumpSearch search;
+  search.prepare(map, base::StopToken());
+  search.makeBoundAfter(std::size_t{1} << 30);
+  search.run(map, {{5, 5}, {{100, 90}}, false}, base::StopToken());
+  ASSERT_TRUE(search.evidence(base::StopToken()).has_value());
+  EXPECT_THROW(search.run(map, {{5, 5}, {{600, 600}}, false}, base::StopToken(), 0), TooManyTiles);
+  EXPECT_FALSE(search.evidence(base::StopToken()).has_value());
+
+  search.run(map, {{5, 5}, {{100, 90}}, false}, base::StopToken());
+  search.update(map, {{0, 0, 1, 1}}, base::StopToken(), WeightedJumpSearch::kBlock);
+  EXPECT_FALSE(search.evidence(base::StopToken()).has_value()) << "of the map before";
+}
+
 }  // namespace
 }  // namespace grid_path_planner::planners

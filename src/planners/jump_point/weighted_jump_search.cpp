@@ -77,6 +77,7 @@ void WeightedJumpSearch::release() {
 
 SearchResult WeightedJumpSearch::run(const CostGrid& map, const SearchRequest& request,
                                      const StopToken& stop, std::uint64_t most_tiles) {
+  found_ = false;  // the tiles around the goal may be too many
   const WeightedJumpMap::ScopedLimit scoped_limit(jumps_, stop, most_tiles);
   const WeightedJumpMap::ScopedGoal scoped_goal(jumps_, map, request.goals.front());
   startQuery(map, request);
@@ -147,8 +148,7 @@ bool WeightedJumpSearch::makeBound(const SearchRequest& request, const StopToken
 }
 
 std::optional<BoundChoice::Evidence> WeightedJumpSearch::evidence(const StopToken& stop) {
-  if (bound_ || !found_ || counts_.expanded < kLeastWeighed || sample_.empty())
-    return std::nullopt;
+  if (bound_ || !found_ || counts_.expanded < kLeastWeighed || sample_.empty()) return std::nullopt;
   BlockBound& bound = blocks_.to(goal_);
   const BlockEstimate blocks(bound, kMediumScale, stop);
   if (blocks(start_) == kInfiniteKey) return std::nullopt;

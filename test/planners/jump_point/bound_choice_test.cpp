@@ -88,6 +88,24 @@ TEST(BoundChoice, StaysUntilAnEighthOfTheMapChanged) {
   EXPECT_FALSE(choice.blocks());
 }
 
+TEST(BoundChoice, LearnsNothingFromASearchOfTheMapBefore) {
+  const auto map = costsOf(roomsBetweenWalls(400, 2));
+  BoundChoice choice({1.4, 0.8, 1});
+  choice.prepare(*map);
+  AStarOptions options;
+  options.heuristic = Heuristic::BLOCKS;
+  AStar a_star(options, choice);
+  a_star.prepare(map, StopToken());
+  const SearchRequest across{{10, 200}, {{390, 200}}, false};
+  a_star.search(across, StopToken());
+  const auto next = costsOf(map->weights(), {}, map->revision() + 1);
+  a_star.update(next, {CellRect{0, 0, 1, 1}}, StopToken());
+  a_star.search(across, StopToken());
+  EXPECT_TRUE(choice.undecided());
+  a_star.search(across, StopToken());
+  EXPECT_FALSE(choice.undecided());
+}
+
 // A user plans across an office. Its walls are thinner than a block, so the bound of the blocks sees through
 // them: it took longer than the octile distance, from the first plan on and for ever.
 TEST(BoundChoice, ThinWallsEndWithTheOctileDistance) {
