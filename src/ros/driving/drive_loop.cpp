@@ -13,7 +13,8 @@
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"
-#include "ros/driving/realtime_priority.h"
+#include "ros/common/scheduling/cpu_share.h"
+#include "ros/common/scheduling/realtime_priority.h"
 
 namespace grid_path_planner::nodes {
 
@@ -36,6 +37,8 @@ namespace {
 // By the wall clock.
 constexpr std::chrono::milliseconds kClockTimeout(500);
 constexpr std::chrono::milliseconds kManualTimeout(2500);
+
+constexpr double kMostShare = 0.5;  // of a processor: before a real-time thread no other comes
 
 std::string sentenceOf(const Obstruction& obstruction) {
   std::ostringstream text;
@@ -174,21 +177,27 @@ void DriveLoop::takePriority() {
     scheduling_ = priority > 0 ? "real-time priority " + std::to_string(priority) : "ordinary";
 }
 
-// Work that comes is done at once; ticks that were missed are not made up for.
 void DriveLoop::run() {
   takePriority();
-  auto next = Clock::now();
+  CpuShare share(kMostShare);
   while (!done_) {
-    const auto left = std::chrono::duration<double>(next - Clock::now()).count();
-    if (left > 0.0) {
-      queue_.callOne(ros::WallDuration(left));
-      continue;
-    }
-    const auto period = std::chrono::duration<double>(1.0 / options_.control_rate);
-    next = std::max(next + std::chrono::duration_cast<Clock::duration>(period), Clock::now());
-    queue_.callAvailable();
-    tryToTick();
+    std::this_thread::sleep_until(share.notBefore());
+    share.take([this] { workOrTick(); });
   }
+}
+
+// Work that comes is done at once; ticks that were missed are not made up for.
+void DriveLoop::workOrTick() {
+  const auto left = std::chrono::duration<double>(next_tick_ - Clock::now()).count();
+  if (left > 0.0) {
+    queue_.callOne(ros::WallDuration(left));
+    return;
+  }
+  const auto period = std::chrono::duration<double>(1.0 / options_.control_rate);
+  next_tick_ =
+      std::max(next_tick_ + std::chrono::duration_cast<Clock::duration>(period), Clock::now());
+  queue_.callAvailable();
+  tryToTick();
 }
 
 void DriveLoop::tryToTick() {

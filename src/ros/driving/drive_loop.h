@@ -12,7 +12,8 @@
 // and by the wall clock when ROS time stands still. While `stop` is true there are zeros only, and
 // while a joystick commands (`manual_control`) there is nothing at all: the drive is paused, and
 // resumed by hand. A velocity is written to its connections by this thread itself. Not guaranteed: that
-// the machine gives it a processor in time, where the system grants it no realtime_priority.
+// the machine gives it a processor in time: realtime_priority, where the system grants it, puts it before all
+// ordinary threads, and it takes half of a processor at most, however long its ticks are.
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
@@ -111,6 +112,7 @@ class DriveLoop {
 
   // In the loop's thread:
   void run();
+  void workOrTick();
   void takePriority();
   void tick();
   void tryToTick();
@@ -140,13 +142,14 @@ class DriveLoop {
   MapLife map_;
   SpeedLimits limits_;
   ros::Time now_;
+  Clock::time_point next_tick_ = Clock::now();
   Clock::time_point moved_;                  // when ROS time did last
   std::optional<Clock::time_point> manual_;  // when the joystick last said that it commands
   bool stopped_ = false;                     // by the topic
   bool silent_ = true;  // nothing, or a zero, was sent last and there is no drive
   int reported_waypoint_ = -1;
 
-  mutable std::mutex reports_mutex_;
+  mutable std::mutex reports_mutex_;  // of what the loop tells others
   std::string scheduling_;
   std::vector<DriveReport> reports_;
 

@@ -25,7 +25,7 @@
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/mapping/map_model.h"
 #include "ros/common/guarded_queue.h"
-#include "ros/mapping/cpu_share.h"
+#include "ros/common/scheduling/cpu_share.h"
 
 namespace grid_path_planner::nodes {
 

@@ -1,6 +1,6 @@
 // A law of structure: the thread that commands the vehicle takes no lock that code holds which reads or
 // writes files, handles maps, publishes or logs. Watched from outside, by support/lock_watch.cpp. And of its
-// priority the diagnostics tell the truth.
+// priority the diagnostics tell the truth, and however long a tick is, the others get a processor.
 #include <actionlib/client/simple_action_client.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <map_msgs/OccupancyGridUpdate.h>
@@ -29,8 +29,8 @@ class ControlThread : public test::StillTest {
     const std::size_t at = text.find(name + ": ");
     return at == std::string::npos ? -1 : std::stoi(text.substr(at + name.size() + 2));
   }
-  void publishMap() {
-    grid::OccupancyGrid map(grid::GridGeometry(200, 200, 0.5));
+  void publishMap(int side = 200) {
+    grid::OccupancyGrid map(grid::GridGeometry(side, side, 100.0 / side));
     for (std::int8_t& value : map.values()) value = 0;
     maps_.publish(occupancyToMessage(map, "map", ros::Time::now()));
     map_msgs::OccupancyGridUpdate update;
@@ -86,13 +86,23 @@ TEST_F(ControlThread, TakesNoLockThatFilesMapsOrLogsAreHandledUnder) {
   EXPECT_EQ(text.find("both: "), std::string::npos) << text;
 }
 
-// SCHED_FIFO or SCHED_OTHER; -1 before there is such a thread.
-int policyOfThread(pid_t process, const std::string& name) {
-  namespace fs = std::filesystem;
+namespace fs = std::filesystem;
+
+// Its folder in /proc.
+fs::path controlThreadOf(pid_t process) {
   for (const auto& task : fs::directory_iterator("/proc/" + std::to_string(process) + "/task"))
-    if (test::contentOf((task.path() / "comm").string()) == name + "\n")
-      return ::sched_getscheduler(std::stoi(task.path().filename().string()));
-  return -1;
+    if (test::contentOf((task.path() / "comm").string()) == "control\n") return task.path();
+  throw std::runtime_error("there is no thread \"control\"");
+}
+
+// SCHED_FIFO or SCHED_OTHER.
+int policyOf(const fs::path& thread) {
+  return ::sched_getscheduler(std::stoi(thread.filename().string()));
+}
+
+// Of a processor, so far.
+double secondsOf(const fs::path& thread) {
+  return 1e-9 * std::stod(test::contentOf((thread / "schedstat").string()));
 }
 
 TEST_F(ControlThread, HasThePriorityOfTheDiagnostics) {
@@ -104,7 +114,8 @@ TEST_F(ControlThread, HasThePriorityOfTheDiagnostics) {
   if (!granted) {
     EXPECT_EQ(reported(key), "ordinary: Operation not permitted");
   }
-  EXPECT_EQ(policyOfThread(navigate_->pid(), "control"), granted ? SCHED_FIFO : SCHED_OTHER);
+  const fs::path thread = controlThreadOf(navigate_->pid());
+  EXPECT_EQ(policyOf(thread), granted ? SCHED_FIFO : SCHED_OTHER);
 
   dynamic_reconfigure::Reconfigure call;
   call.request.config.ints.emplace_back();
@@ -112,7 +123,26 @@ TEST_F(ControlThread, HasThePriorityOfTheDiagnostics) {
   call.request.config.ints.back().value = 0;
   ASSERT_TRUE(ros::service::call("/navigate_path/set_parameters", call));
   EXPECT_TRUE(test::waitFor([&] { return reported(key) == "ordinary"; }));
-  EXPECT_EQ(policyOfThread(navigate_->pid(), "control"), SCHED_OTHER);
+  EXPECT_EQ(policyOf(thread), SCHED_OTHER);
+  EXPECT_TRUE(isDriving());
+}
+
+// Any client may set check_radius: before a real-time thread that never sleeps nobody would come, on a machine of
+// one processor not even the stop.
+TEST_F(ControlThread, TakesHalfOfAProcessorAtMost) {
+  StillWorld world(100.0);
+  publishMap(2000);
+  startNavigate({"_check_map:=true", "_check_radius:=100", "_no_progress_timeout:=0"});
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(isDriving());
+  const fs::path thread = controlThreadOf(navigate_->pid());
+  const auto begin = std::chrono::steady_clock::now();
+  const double before = secondsOf(thread);
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  const double used = secondsOf(thread) - before;
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+  EXPECT_GT(used, 0.1) << "no long ticks";
+  EXPECT_LT(used, 0.6 * passed.count());
   EXPECT_TRUE(isDriving());
 }
 

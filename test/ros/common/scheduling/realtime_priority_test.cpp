@@ -1,4 +1,4 @@
-#include "ros/driving/realtime_priority.h"
+#include "ros/common/scheduling/realtime_priority.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>

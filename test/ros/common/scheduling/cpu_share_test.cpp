@@ -1,6 +1,6 @@
 // The map that projected_map keeps for a restart was 23 s old, and not 5, on a machine with other work:
 // its thread rests nine times as long as the writing has taken, and that was told by the clock.
-#include "ros/mapping/cpu_share.h"
+#include "ros/common/scheduling/cpu_share.h"
 
 #include <gtest/gtest.h>
 

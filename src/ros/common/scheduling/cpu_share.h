@@ -15,7 +15,8 @@ class CpuShare {
   // Precondition: 0 < share <= 1.
   explicit CpuShare(double share) : share_(share) {}
 
-  // Whether what was taken last has been paid for.
+  // When what was taken last has been paid for, and whether it has.
+  std::chrono::steady_clock::time_point notBefore() const { return not_before_; }
   bool due() const { return std::chrono::steady_clock::now() >= not_before_; }
 
   template <class Work>
