@@ -3,13 +3,15 @@
 //   grid_path_planner_one_cell_edits [--side N] [--edits N] [--seed N] [--planner NAME] [--kind KIND] [--stay] [--pause MS]
 //
 // The city of benchmark/node_latency: blocks between streets of 1.5 m, cells of 0.05 m, radius 0.3 m, decay 3
-// per metre. The vehicle moves by 15 cells along its path between edits, but with --stay, and each edit toggles
-// one cell: in turn anywhere, in the middle of the path, near the vehicle and near the goal. --kind takes one of them only
-// ("anywhere", "middle", "vehicle", "goal"), or "near": within 60 cells of the vehicle, a third of them on the path. Between edits the
-// planner does its background work, with --pause for so many milliseconds at most. Prints, for each kind, means of the CPU time of the
-// thread, in ms: of Planner::update(), of the search and of the background work; and who answered. Every cost is
-// compared with that of A* made for the map; exit code 1 where one differs. The first two edits are not counted: no
-// planner knows yet that the goal stays. The path of A* decides where edits are, so that all planners meet the same.
+// per metre. The vehicle moves by 15 cells along its path between edits, but with --stay, and each edit
+// toggles one cell: in turn anywhere, in the middle of the path, near the vehicle and near the goal. --kind
+// takes one of them only ("anywhere", "middle", "vehicle", "goal"), or "near": within 60 cells of the
+// vehicle, a third of them on the path. Between edits the planner does its background work, with --pause for
+// so many milliseconds of the clock at most. Prints, for each kind, means of the CPU time of the thread, in
+// ms: of Planner::update(), of the search and of the background work; and who answered. Every cost is
+// compared with that of A* made for the map; exit code 1 where one differs. The first two edits are not
+// counted: no planner knows yet that the goal stays. The path of A* decides where edits are, so that all
+// planners meet the same.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "planners/jump_point/walls.h"
 #include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
@@ -155,6 +156,44 @@ TEST(WeightedJumpSearch, ThrowsWhereATooExpensivesItsKeys) {
   EXPECT_THROW(search.run(map, {{0, 0}, {{399, 2}}, false}, StopToken()), TooExpensive);
   const SearchResult near = search.run(map, {{0, 0}, {{99, 2}}, false}, StopToken());
   EXPECT_EQ(near.cost, (ExactCost{97LL * 65535, 2LL * 65535}));
+}
+
+SearchKey keyOf(const ExactCost& cost) {
+  return SearchKey(cost.straight) * kMediumScale.straight +
+         SearchKey(cost.diagonal) * kMediumScale.diagonal;
+}
+
+// Of a search of many more expansions than samples are kept of: nearly the share of all of them. One cheap
+// cell makes the octile distance a bound that says little.
+TEST(WeightedJumpSearch, TheSampleOfALongSearchIsSpreadOverIt) {
+  Grid<CostGrid::Weight> weights = test::slopesBetweenWalls();
+  for (CostGrid::Weight& weight : weights.values())
+    if (weight != CostGrid::kBlocked) weight += 30;
+  weights[Cell{0, 1}] = 1;
+  const CostGrid map = costMap(weights);
+  const Cell start{5, 5}, goal{630, 630};
+  WeightedJumpSearch search = prepared(map);
+  search.makeBoundAfter(std::size_t{1} << 30);
+  const SearchResult result = search.run(map, {start, {goal}, true}, StopToken());
+  const auto evidence = search.evidence(StopToken());
+  ASSERT_TRUE(evidence.has_value());
+  ASSERT_GT(evidence->expanded, 33000U);
+
+  BlockBounds blocks(WeightedJumpSearch::kBlock);
+  blocks.prepare(map, StopToken());
+  const StopToken stop;
+  const BlockEstimate bound(blocks.to(goal), kMediumScale, stop);
+  bound(start);
+  const auto costs = test::referenceCosts(map, start);
+  double spared = 0.0;
+  for (const CellIndex index : result.expanded)
+    if (keyOf(*costs[index.value()]) + bound.known(map.geometry().cell(index)) >=
+        keyOf(result.cost))
+      ++spared;
+  spared /= double(result.expanded.size());
+  EXPECT_GT(spared, 0.1);
+  EXPECT_LT(spared, 0.9);
+  EXPECT_NEAR(evidence->spared, spared, 0.05);
 }
 
 // A run() that has to make too many tiles around its goal forgets what the last one told, too.

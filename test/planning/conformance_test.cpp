@@ -178,23 +178,23 @@ std::shared_ptr<const CostGrid> plateaus(int side, std::uint64_t revision) {
   for (int row = 0; row < side; ++row)
     for (int column = 0; column < side; ++column)
       weights[Cell{column, row}] =
-          static_cast<CostGrid::Weight>(1 + 3 * ((column / 32 + row / 32) % 2));
+          static_cast<CostGrid::Weight>(1 + 3 * ((column / 16 + row / 16) % 2));
   return test::costsOf(weights, {}, revision);
 }
 
 // A map that grew beyond memory_limit while the node was idle: the default planner then went on with
 // what it had prepared of the smaller one, outside of its memory.
 TEST_P(Conformance, DoesNothingInIdleTimeForAMapThatItRefuses) {
-  const auto small = plateaus(128, 1), large = plateaus(600, 2);
+  const auto small = plateaus(64, 1), large = plateaus(300, 2);
   const auto planner = make();
   planner->prepare(small, StopToken());
   planner->limitMemory(planner->bytesFor(small->geometry()));
-  planner->update(large, {{0, 0, 600, 600}}, StopToken());
-  const SearchRequest request{{1, 1}, {{120, 100}}, false};
+  planner->update(large, {{0, 0, 300, 300}}, StopToken());
+  const SearchRequest request{{1, 1}, {{60, 50}}, false};
   ASSERT_EQ(planner->search(request, StopToken()).status, Status::INVALID_REQUEST);
   EXPECT_FALSE(planner->backgroundWork().pending);
   planner->finishBackgroundWork(StopToken());
-  planner->update(small, {{0, 0, 128, 128}}, StopToken());
+  planner->update(small, {{0, 0, 64, 64}}, StopToken());
   planner->finishBackgroundWork(StopToken());
   const bool refuses_weights = !planner->traits().weights;
   EXPECT_EQ(planner->search(request, StopToken()).status,

@@ -106,18 +106,23 @@ void AStar::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop
 }
 
 SearchResult AStar::doSearch(const SearchRequest& request, const StopToken& stop) {
-  if (choice_ != nullptr && choice_->undecided()) weighLastSearch(stop);
+  if (learns()) weighLastSearch(stop);
   const bool bounded = useBlocks() || tables_.ready();
   SearchResult result = strictly_ordered_ ? planInOrder(request, stop)
                         : blocksAlone()   ? planWithBlocks(request, stop)
                         : bounded         ? planWithBound(request, stop)
                                           : planByBuckets(request, stop);
-  if (choice_ != nullptr && choice_->undecided() && result.status == Status::FOUND)
+  if (learns() && result.status == Status::FOUND)
     last_ = {request.start, request.goals.front(), result.costValue(), result.statistics.expanded};
   result.statistics.search_bytes += tables_.work().bytes;
   if (blocks_ready_)
     result.statistics.search_bytes += BlockBounds::bytesFor(map().geometry(), kBlock);
   return result;
+}
+
+// Not on maps of one weight, whose options ask for no blocks.
+bool AStar::learns() const {
+  return options_.heuristic == Heuristic::BLOCKS && choice_ != nullptr && choice_->undecided();
 }
 
 bool AStar::useBlocks() const {
@@ -161,9 +166,9 @@ double AStar::shareSpared(const BlockEstimate& blocks) const {
     if (from_start > last_.cost) continue;
     const SearchKey g = keyOf(from_start);
     const Cell cell = map().geometry().cell(CellIndex(index));
-    if (g + octile(cell) >= cost) continue;
+    if (saturatingSum(g, octile(cell)) >= cost) continue;
     ++expanded;
-    if (g + blocks.known(cell) >= cost) ++spared;
+    if (saturatingSum(g, blocks.known(cell)) >= cost) ++spared;
   }
   return expanded == 0 ? 0.0 : double(spared) / double(expanded);
 }

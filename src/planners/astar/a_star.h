@@ -28,8 +28,9 @@ class AStar : public Planner {
 
   // Throws InputError for options that cannot be used.
   explicit AStar(const AStarOptions& options = {});
-  // With heuristic blocks: it is used where `choice` says so, and the octile distance elsewhere. The
-  // choice must live as long as the planner, and be that of its map. Precondition: tie_break none.
+  // With heuristic blocks: they are used where `choice` says so, and the closed form of the motion model
+  // elsewhere. The choice must live as long as the planner, and be that of its map. Precondition:
+  // tie_break none.
   AStar(const AStarOptions& options, BoundChoice& choice);
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
@@ -44,6 +45,7 @@ class AStar : public Planner {
   SearchResult doSearch(const SearchRequest& request, const base::StopToken& stop) override;
   SearchResult planByBuckets(const SearchRequest& request, const base::StopToken& stop);
   bool blocksAlone() const;
+  bool learns() const;
   bool useBlocks() const;
   BlockBound& boundTo(grid::Cell goal, const base::StopToken& stop);
   void weighLastSearch(const base::StopToken& stop);

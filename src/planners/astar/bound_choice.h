@@ -14,7 +14,8 @@
 // would have left out, against what it costs.
 //
 // Guaranteed: a decision stays until an eighth of the map has changed, in blocks of 8×8 cells; a place
-// that changes again and again counts once. It depends on the map and the searches before, never on a clock. Not guaranteed: that it is the faster one for every query.
+// that changes again and again counts once. It depends on the map and the searches before, never on a
+// clock. Not guaranteed: that it is the faster one for every query.
 #pragma once
 
 #include <cstddef>

@@ -91,6 +91,7 @@ void WeightedJumpSearch::startQuery(const CostGrid& map, const SearchRequest& re
   width_ = std::uint32_t(map.geometry().width());
   start_ = request.start;
   sample_.clear();
+  sampled_each_ = kFirstSampledEach;
   goal_ = request.goals.front();
   goal_index_ = indexOf(goal_);
   straight_ = map.minWeight() * kStraight;
@@ -145,6 +146,13 @@ bool WeightedJumpSearch::makeBound(const SearchRequest& request, const StopToken
     open_.push(gOf(index) + estimate(map_->geometry().cell(CellIndex(index))), index);
   slack_ = kDiagonalSlackWithBound * straight_;
   return true;
+}
+
+// Every second one stays, so that the sample of a long search is spread over it, too.
+void WeightedJumpSearch::thinSample() {
+  for (std::size_t i = 0; 2 * i < sample_.size(); ++i) sample_[i] = sample_[2 * i];
+  sample_.resize((sample_.size() + 1) / 2);
+  sampled_each_ *= 2;
 }
 
 std::optional<BoundChoice::Evidence> WeightedJumpSearch::evidence(const StopToken& stop) {

@@ -87,7 +87,8 @@ class WeightedJumpSearch {
   static constexpr int kKeyBits = 48;
   static_assert(kLargest == (Key{1} << kKeyBits) - 1);
   static constexpr std::size_t kLeastWeighed = 512;
-  static constexpr std::size_t kExpansionsASample = 8;
+  static constexpr std::size_t kMostSamples = 4096;
+  static constexpr std::uint64_t kFirstSampledEach = 8;
 
   // A g-value of one query: the query's number, then kLargest - g. The larger one is the better
   // one, and any of this query is better than any of an earlier query.
@@ -116,8 +117,10 @@ class WeightedJumpSearch {
   Key octile(grid::Cell cell) const;
   bool makeBound(const SearchRequest& request, const base::StopToken& stop);
   void sample(std::uint32_t index) {
-    if (counts_.expanded % kExpansionsASample == 0) sample_.push_back(index);
+    if (counts_.expanded % sampled_each_ == 0) sample_.push_back(index);
+    if (sample_.size() >= kMostSamples) thinSample();
   }
+  void thinSample();
   void trace(grid::Cell start, SearchResult& result) const;
   grid::Cell predecessorOf(grid::Cell cell, unsigned step) const;
   SearchResult withStatus(base::Status status, SearchResult result) const;
@@ -132,7 +135,8 @@ class WeightedJumpSearch {
 
   // Of the current query, then of the last one
   grid::Cell start_;
-  std::vector<std::uint32_t> sample_;  // of the cells that it expanded
+  std::vector<std::uint32_t> sample_;  // of the cells that it expanded,
+  std::uint64_t sampled_each_ = kFirstSampledEach;
   const costmap::CostGrid* map_ = nullptr;
   const costmap::CostGrid::Weight* weights_ = nullptr;
   std::uint32_t width_ = 0;

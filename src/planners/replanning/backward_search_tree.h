@@ -22,8 +22,8 @@
 // neighbour is OPEN.
 //
 // Guaranteed: the cost found is the least there is, exactly. A plan() that was stopped, or would have
-// taken too many cells, continues at the next call; so do grow() and beginRepair(), and update() may come in between.
-// Not guaranteed: which of several least-cost paths is found; that depends on earlier calls.
+// taken too many cells, continues at the next call; so do grow() and beginRepair(), and update() may
+// come in between. Not guaranteed: which of several least-cost paths is found; that depends on earlier calls.
 #pragma once
 
 #include <cstdint>
@@ -140,7 +140,7 @@ class BackwardSearchTree {
   bool begun_ = false;
   bool built_ = false;
   bool repairing_ = false;  // growing, and not from its root
-  bool grown_ = false;      // and what is left to do is to move growing_ into open_
+  bool grown_ = false;      // what is left to do is to move growing_ into open_
   OutdatedCells outdated_;
   std::size_t removed_ = 0, opened_ = 0;  // of these: removed, and their neighbours opened
   bool overflowed_ = false;               // a g-value was left out that keys cannot hold
@@ -149,9 +149,9 @@ class BackwardSearchTree {
   std::vector<grid::Cell> path_;
   costmap::ExactCost path_cost_;
   std::uint64_t expanded_ = 0;                 // until it was built
+  std::uint64_t limit_ = 0;                    // of these, once the start was reached
   std::uint64_t repaired_ = 0;                 // expanded by the repair that was begun last
   std::uint64_t to_repair_ = 0;                // cells that were outdated then
-  std::uint64_t limit_ = 0;                    // of these
   std::uint64_t repair_expanded_ = 0;          // by repair searches since
   SearchKey consistent_below_ = kInfiniteKey;  // paths from g-values below it are consistent
 };

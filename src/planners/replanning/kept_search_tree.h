@@ -14,8 +14,8 @@
 // a small share of a search: what is out of date for one plan is so for the next one, too. Idle times add
 // up: a making or repair that is stopped goes on in the next one, on the map of then. Meanwhile there is no
 // tree to ask. An answer that would take more than half of a search is given up, and half as much each time
-// in a row. After trees that answered nothing, as where much of the map changes each time, ever more searches go by before
-// the next one is made, 31 at most: idle time is processor time, too.
+// in a row. After trees that answered nothing, as where much of the map changes each time, ever more
+// searches go by before the next one is made, 31 at most: idle time is processor time, too.
 //
 // Guaranteed: the cost found is the least there is, exactly, whatever was stopped, given up or out of
 // memory before. Not guaranteed: which of several least-cost paths is found.
@@ -78,8 +78,8 @@ class KeptSearchTree {
   std::unique_ptr<BackwardSearchTree> tree_;
   int rows_ = 0;         // whose moves are looked up
   bool making_ = false;  // or repairing: begun, and not done
-  std::uint64_t lost_ =
-      0;  // expansions since the tree was last right, which repairing it might have saved
+  // Expansions since the tree was last right, which repairing it might have saved.
+  std::uint64_t lost_ = 0;
   unsigned given_up_ = 0;    // answers in a row
   bool impossible_ = false;  // to make one
 

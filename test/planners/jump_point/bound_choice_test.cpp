@@ -106,6 +106,23 @@ TEST(BoundChoice, LearnsNothingFromASearchOfTheMapBefore) {
   EXPECT_FALSE(choice.undecided());
 }
 
+// Of one weight the options ask for no blocks: nothing is made of them in order to learn.
+TEST(BoundChoice, LearnsNothingOfAMapOfOneWeight) {
+  Grid<CostGrid::Weight> weights = roomsBetweenWalls(400, 2);
+  for (CostGrid::Weight& weight : weights.values()) weight = std::min<CostGrid::Weight>(weight, 1);
+  const auto map = costsOf(weights);
+  BoundChoice choice({1.4, 0.8, 1});
+  choice.prepare(*map);
+  AStar by_choice(AStarOptions(), choice), alone;
+  by_choice.prepare(map, StopToken());
+  alone.prepare(map, StopToken());
+  const SearchRequest across{{10, 200}, {{390, 200}}, false};
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(by_choice.search(across, StopToken()).statistics.search_bytes,
+              alone.search(across, StopToken()).statistics.search_bytes);
+  EXPECT_TRUE(choice.undecided());
+}
+
 // A user plans across an office. Its walls are thinner than a block, so the bound of the blocks sees through
 // them: it took longer than the octile distance, from the first plan on and for ever.
 TEST(BoundChoice, ThinWallsEndWithTheOctileDistance) {

@@ -25,8 +25,16 @@ def start_own_master():
     atexit.register(process.kill)
     os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
     deadline = time.monotonic() + START_SECONDS
-    while not rosgraph.is_master_online():
+    while process_of_master() != process.pid:  # another test may have taken the port meanwhile
         if process.poll() is not None or time.monotonic() > deadline:
-            raise RuntimeError("no ROS master on port %d" % port)
+            raise RuntimeError("no ROS master of this test on port %d" % port)
         time.sleep(0.05)
     rosgraph.Master("/own_master").setParam("/", parameters)
+
+
+def process_of_master():
+    """None where nobody answers."""
+    try:
+        return rosgraph.Master("/own_master").getPid()
+    except OSError:
+        return None
