@@ -3,6 +3,9 @@
     with Silence() as silence:            # a process of its own, which does nothing else
         silence.begin(); ...; silence.end()
         print(silence.verdict())          # SessionFailed where the law does not hold
+
+With Silence(stops=True) the vehicle is stopped by `stop` every STOP_EVERY seconds, too: a zero follows within
+cmd_vel_timeout.
 """
 import json
 import os
@@ -13,6 +16,8 @@ import time
 
 TICK = 0.02             # s; of a control_rate of 50 Hz, and of the bare thread
 CMD_VEL_TIMEOUT = 0.5   # s
+STOP_EVERY = 5.0        # s
+STOP_FOR = 0.5          # s
 ENOUGH = 2000           # silences; of fewer, p99.9 is the longest one of a moment, held to the half of that timeout
 
 
@@ -21,9 +26,23 @@ def quantile(values, share):
     return values[min(len(values) - 1, int(share * len(values)))]
 
 
+def judge_stops(delays):
+    """`delays`: from `stop` to the first zero, in s."""
+    from ros_session import SessionFailed
+    text = ", %d times stopped, the zero came after %.0f ms (p95), at most %.0f ms" % (
+        len(delays), 1e3 * quantile(delays, 0.95), 1e3 * max(delays)) if delays else ", never stopped"
+    if not delays or max(delays) > CMD_VEL_TIMEOUT:
+        raise SessionFailed(text[2:])
+    return text
+
+
 class Silence:
+    def __init__(self, stops=False):
+        self.stops = stops
+
     def __enter__(self):
-        self.process = subprocess.Popen([sys.executable, __file__], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        arguments = [sys.executable, __file__] + ["stops"] * self.stops
+        self.process = subprocess.Popen(arguments, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                         text=True)
         self.process.stdout.readline()  # it listens
         return self
@@ -41,7 +60,7 @@ class Silence:
     def verdict(self):
         from ros_session import SessionFailed
         self.tell("report")
-        gaps, late = json.loads(self.process.stdout.readline())
+        gaps, late, delays = json.loads(self.process.stdout.readline())
         if len(gaps) < 50:
             raise SessionFailed("cmd_vel has been heard %d times only" % len(gaps))
         silence, bare = quantile(gaps, 0.999), quantile(late, 0.999)
@@ -50,7 +69,7 @@ class Silence:
         few = len(gaps) < ENOUGH
         if silence > (CMD_VEL_TIMEOUT / 2 + bare if few else min(2 * TICK + bare, CMD_VEL_TIMEOUT / 2)):
             raise SessionFailed(text)
-        return text
+        return text + (judge_stops(delays) if self.stops else "")
 
     def __exit__(self, *_):
         self.process.stdin.close()
@@ -58,18 +77,25 @@ class Silence:
 
 
 class Listener:
-    def __init__(self):
+    def __init__(self, stops):
         import rospy
         from geometry_msgs.msg import Twist
         self.listens, self.last, self.gaps, self.late = False, None, [], []
+        self.stands, self.stopped_at, self.delays = True, None, []
         rospy.Subscriber("/cmd_vel", Twist, self.on_velocity, tcp_nodelay=True)
         threading.Thread(target=self.tick, daemon=True).start()
+        if stops:
+            threading.Thread(target=self.stop_again_and_again, daemon=True).start()
 
-    def on_velocity(self, _):
+    def on_velocity(self, velocity):
         now = time.monotonic()
         if self.listens and self.last is not None:
             self.gaps.append(now - self.last)
         self.last = now if self.listens else None
+        self.stands = velocity.linear.x == velocity.linear.y == velocity.linear.z == velocity.angular.z == 0.0
+        if self.stands and self.stopped_at is not None:
+            self.delays.append(now - self.stopped_at)
+            self.stopped_at = None
 
     def tick(self):
         due = time.monotonic()
@@ -79,11 +105,27 @@ class Listener:
             if self.listens:
                 self.late.append(time.monotonic() - due)
 
+    def stop_again_and_again(self):
+        import rospy
+        from std_msgs.msg import Bool
+        publisher = rospy.Publisher("/stop", Bool, queue_size=1, tcp_nodelay=True)
+        while True:
+            time.sleep(STOP_EVERY)
+            if not self.listens or self.stands:
+                continue
+            self.stopped_at = time.monotonic()
+            publisher.publish(True)
+            time.sleep(STOP_FOR)
+            if self.stopped_at is not None:  # it is not there yet: as long as that, at least
+                self.delays.append(time.monotonic() - self.stopped_at)
+                self.stopped_at = None
+            publisher.publish(False)
+
     def run(self):
         print("listens", flush=True)
         for word in map(str.strip, sys.stdin):
             if word == "report":
-                print(json.dumps([self.gaps, self.late]), flush=True)
+                print(json.dumps([self.gaps, self.late, self.delays]), flush=True)
             self.listens = word == "begin"
 
 
@@ -99,7 +141,7 @@ def main():
     take_realtime_priority()  # before there are threads
     import rospy
     rospy.init_node("silence", anonymous=True, disable_signals=True)
-    Listener().run()
+    Listener("stops" in sys.argv[1:]).run()
 
 
 if __name__ == "__main__":
