@@ -1,40 +1,50 @@
-"""Surveys the site again and again, and watches the resident memory of all nodes.
+"""Surveys the site, plans over it and drives there and back, again and again, and watches the resident memory of all nodes.
 
-Prints every half minute of simulated time what projected_map and all nodes together take. What is asked is the slope of
-a straight line through each node's memory over the last two thirds of the time, and not before the survey's third
+Prints every minute of the wall clock what projected_map and all nodes together take. What is asked is the slope of
+a straight line through each node's memory over the last two thirds of the time, and not before the third
 round, with the interval that holds it with a confidence of 95 %; neighbouring samples are alike, which widens it. Holds
-where an hour of the wall clock and more grows by no more than HOURLY_GROWTH an hour; is *not run* where the interval is
+where an hour and more grows by no more than HOURLY_GROWTH an hour; is *not run* where the interval is
 wider than that, so that nobody knows. A shorter run fails only where it grew, surely, by more than LARGEST_GROWTH.
 
-Time runs as fast as pictures are mapped, at most SPEED times: those that wait take memory that is no leak.
+Simulated time runs as fast as pictures are mapped, at most SPEED times: those that wait take memory that is no leak.
 """
 import math
 import os
+import threading
 import time
 
 from ros_session import Mapping, Nodes, SessionFailed, Vehicle, set_simulator, share_file
 
-from .session import Master, NotRun, Overrides, process_id, resident_mb
+from .session import Drive, Master, NotRun, Overrides, patience, process_id, resident_mb
 
-WATCHED = ("/projected_map", "/path_planner", "/survey/navigate_path", "/simulator")
-ROUND_SECONDS = 135.0     # of simulated time, at the survey's speed
+WATCHED = ("/projected_map", "/path_planner", "/survey/navigate_path", "/navigate_path", "/simulator")
+# From the survey's end, where a drive ends too, up and around to its beginning: x, y, z in m, yaw in rad.
+WAY_BACK = ((13.5, -12.45, 4.0, 0.0), (16.65, -12.3, 4.5, math.pi / 2))
 LARGEST_GROWTH = 0.03     # of a run of less than an hour, over all of the window
 HOURLY_GROWTH = 0.01
-SAMPLE_SECONDS = 10.0     # of simulated time
-PRINTED = 3               # every so many samples
+SAMPLE_SECONDS = 2.0      # of the wall clock
+PRINTED = 30              # every so many samples
 MOST_WAITING = 5          # pictures; of more, time runs slower
 SPEED = 8.0               # simulated seconds in a second of the wall clock, if the machine allows
+SURVEY_SECONDS = 1500.0   # of the wall clock, of an idle machine
+DRIVE_SECONDS = 300.0
 
 
-def write_round(folder):
-    """The survey's lines without the descent at the end."""
+def waypoint(x, y, z, yaw):
+    return {"position": {"x": x, "y": y, "z": z},
+            "orientation": {"x": 0.0, "y": 0.0, "z": math.sin(yaw / 2), "w": math.cos(yaw / 2)}}
+
+
+def write_surveys(folder):
+    """The survey's waypoint file, and one that begins with the way back to it."""
     import yaml
     with open(share_file("config", "survey_waypoints.yaml")) as file:
-        lines = [w for w in yaml.safe_load(file)["waypoints"] if w["position"]["z"] == 4.5]
-    name = os.path.join(folder, "round.yaml")
-    with open(name, "w") as file:
-        yaml.safe_dump({"waypoints": lines}, file)
-    return name
+        survey = yaml.safe_load(file)["waypoints"]
+    names = [os.path.join(folder, name) for name in ("survey.yaml", "again.yaml")]
+    for name, before in zip(names, ((), WAY_BACK)):
+        with open(name, "w") as file:
+            yaml.safe_dump({"waypoints": [waypoint(*pose) for pose in before] + survey}, file)
+    return names
 
 
 class Pace:
@@ -50,29 +60,72 @@ class Pace:
         self.factor = factor
 
 
-def report(sample, mapping, factor):
-    seconds, _, memory = sample
-    print("storm: %5.0f s simulated, %6.1f MB of projected_map, %6.1f MB of all, %d pictures mapped, %d dropped, "
-          "%.1f times real time" % (seconds, memory["/projected_map"], sum(memory.values()), mapping.count("inserted"),
-                                    mapping.count("dropped"), factor), flush=True)
+class Watch(threading.Thread):
+    """(round, wall clock h, {node: MB}) every SAMPLE_SECONDS, in a thread of its own."""
+
+    def __init__(self, vehicle, mapping):
+        super().__init__(daemon=True)
+        self.vehicle, self.mapping, self.pace = vehicle, mapping, Pace()
+        self.pids = {node: process_id(node) for node in WATCHED}
+        self.samples, self.round, self.failure = [], 0, None
+        self.begin, self.simulated_begin = time.monotonic(), vehicle.now()
+
+    def hours(self):
+        return (time.monotonic() - self.begin) / 3600.0
+
+    def simulated_hours(self):
+        return (self.vehicle.now() - self.simulated_begin) / 3600.0
+
+    def check(self):
+        if self.failure:
+            raise SessionFailed(self.failure)
+
+    def run(self):
+        while not self.failure:
+            memory = {node: resident_mb(pid) for node, pid in self.pids.items()}
+            ended = [node for node, megabytes in memory.items() if not megabytes]
+            if ended:
+                self.failure = "these have ended: " + ", ".join(ended)
+            self.samples.append((self.round, self.hours(), memory))
+            if len(self.samples) % PRINTED == 0:
+                self.report(memory)
+            count = self.mapping.count
+            self.pace.follow(count("received") - count("inserted") - count("dropped"))
+            time.sleep(SAMPLE_SECONDS)
+
+    def report(self, memory):
+        print("storm: %.2f h, round %d, %6.1f MB of projected_map, %6.1f MB of all, %d pictures mapped, %d dropped, "
+              "%.1f times real time" % (
+                  self.hours(), self.round, memory["/projected_map"], sum(memory.values()),
+                  self.mapping.count("inserted"), self.mapping.count("dropped"), self.simulated_hours() / self.hours()),
+              flush=True)
 
 
-def watch(nodes, vehicle, mapping, seconds):
-    """(simulated s, wall clock h, {node: MB}) every SAMPLE_SECONDS."""
-    pids = {node: process_id(node) for node in WATCHED}
-    begin, start, samples, pace = vehicle.now(), time.monotonic(), [], Pace()
-    while not samples or samples[-1][0] < seconds:
-        due = begin + SAMPLE_SECONDS * (len(samples) + 1)
-        nodes.wait_until(lambda: vehicle.now() >= due, 600.0, "simulated time")
-        vehicle.check_untouched()
-        memory = {node: resident_mb(pid) for node, pid in pids.items()}
-        if not all(memory.values()):
-            raise SessionFailed("a node has ended")
-        samples.append((vehicle.now() - begin, (time.monotonic() - start) / 3600.0, memory))
-        if len(samples) % PRINTED == 0:
-            report(samples[-1], mapping, pace.factor)
-        pace.follow(mapping.count("received") - mapping.count("inserted") - mapping.count("dropped"))
-    return samples
+def there_and_back(nodes, drive, watch):
+    """Between the ends of the study's path, each way by a plan of its own."""
+    for end in (1, 0):
+        drive.end = end
+        drive.ask()
+
+        def arrived():
+            watch.check()
+            drive.vehicle.check_untouched()
+            return drive.vehicle.distance(drive.ends[end]) < 0.1 and drive.vehicle.speed() < 0.02
+        nodes.wait_until(arrived, patience(DRIVE_SECONDS), "end of a drive")
+
+
+def run_rounds(nodes, vehicle, folder, hours):
+    """The samples, and how often real time was run through."""
+    watch, drive = Watch(vehicle, Mapping(nodes)), Drive(nodes, vehicle)
+    set_simulator("real_time_factor", SPEED)
+    watch.start()
+    survey, again = write_surveys(folder)
+    while watch.hours() < hours:
+        vehicle.drive_file("/survey", again if watch.round else survey, patience(SURVEY_SECONDS))
+        there_and_back(nodes, drive, watch)
+        watch.round += 1
+    watch.check()
+    return watch.samples, watch.simulated_hours() / watch.hours()
 
 
 def slope(points):
@@ -98,13 +151,13 @@ def hourly_growth(points):
     return tuple(value / mean for value in slope(points))
 
 
-def verdict(samples):
+def verdict(samples, factor):
     hours = samples[-1][1]
-    kept = [sample for sample in samples if sample[0] >= 2 * ROUND_SECONDS and sample[1] >= hours / 3]
+    kept = [sample for sample in samples if sample[0] >= 2 and sample[1] >= hours / 3]
     if len(kept) < 10:
-        raise SessionFailed("too short: two rounds take %.0f s" % (2 * ROUND_SECONDS))
+        raise SessionFailed("too short: %d rounds in %.2f h" % (samples[-1][0] + 1, hours))
     growth = {node: hourly_growth([(at, memory[node]) for _, at, memory in kept]) for node in WATCHED}
-    text = "%.2f h at %.1f times real time: " % (hours, samples[-1][0] / 3600.0 / hours) + ", ".join(
+    text = "%.2f h, %d rounds, at %.1f times real time: " % (hours, samples[-1][0] + 1, factor) + ", ".join(
         "%s %+.2f ± %.2f %% an hour" % (node, 100 * rise, 100 * half) for node, (rise, half) in growth.items())
     if hours < 1.0:
         window = kept[-1][1] - kept[0][1]
@@ -118,13 +171,15 @@ def verdict(samples):
     return text
 
 
-def storm(minutes, folder, given):
+def storm(hours, folder, given):
     overrides = Overrides(folder, given)
-    arguments = ["real_time_factor:=%g" % SPEED, "survey:=true", "survey_waypoints:=" + write_round(folder),
-                 "survey_overrides:=" + overrides.write("navigate_path", "survey_navigate.yaml", loop=True)]
+    arguments = ["survey_load_folder:=" + folder,
+                 "navigate_overrides:=" + overrides.write("navigate_path", "demo_navigate.yaml", hold_pose=False)]
     os.environ["GRID_PATH_PLANNER_SAVE_FOLDER"] = os.path.join(folder, "kept")
     with Master(), Nodes("demo.launch", arguments, os.path.join(folder, "log"), own_master=False) as nodes:
-        vehicle, mapping = Vehicle(nodes), Mapping(nodes)
+        vehicle = Vehicle(nodes)
         vehicle.wait_until_ready()
-        nodes.wait_for_service("/projected_map/save_map")
-        return verdict(watch(nodes, vehicle, mapping, 60.0 * minutes))
+        for service in ("/projected_map/save_map", "/path_planner/make_plan"):
+            nodes.wait_for_service(service)
+        nodes.wait_until(lambda: all(map(process_id, WATCHED)), 60.0, "nodes")
+        return verdict(*run_rounds(nodes, vehicle, folder, hours))
