@@ -15,6 +15,7 @@
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
+#include "ros/driving/follow_log.h"
 
 namespace grid_path_planner::nodes {
 
@@ -22,6 +23,7 @@ using base::InputError;
 using base::StopSource;
 using base::TaskQueue;
 using diagnostic_msgs::DiagnosticStatus;
+using following::DriveStatus;
 using following::FollowEvent;
 using following::FollowState;
 using following::Join;
@@ -69,11 +71,6 @@ Commands commandsOf(const ros::NodeHandle& nh, const NavigatePathOptions& option
   commands.actions = {nh.resolveName("navigate_path")};
   commands.manual_control = nh.resolveName("manual_control");
   return commands;
-}
-
-bool isWarning(FollowEvent::Kind kind) {
-  return kind == FollowEvent::Kind::MISSED || kind == FollowEvent::Kind::RETRY ||
-         kind == FollowEvent::Kind::BLOCKED;
 }
 
 }  // namespace
@@ -179,6 +176,7 @@ void NavigatePathNode::watchClock() {
     ROS_WARN_STREAM("ROS time went back by " << *back
                                              << " s: tf is cleared and the drive cancelled");
     started_ = now;
+    given_goals_.forget();
   }
   if (started_.isZero()) startDriving(now);
 }
@@ -211,8 +209,14 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
     loop_->cancel("the path is empty: none was found");
     return;
   }
+  if (given_goals_.isOver(message)) {
+    ROS_INFO("A path is not driven: its goal was given before the last drive ended; give it again");
+    return;
+  }
   try {
     loop_->start(transforms_.pathIn(message, options_.base_frame), Join::NEAREST);
+    takeReports();  // the end of the drive before is not this one's
+    given_goals_.drive(message);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
   }
@@ -221,6 +225,7 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
 void NavigatePathNode::onGoal() {
   if (goal_active_) cancel("replaced by another goal");
   takeReports();
+  given_goals_.endAllUntil(ros::Time::now());
   const auto goal = action_.acceptNewGoal();
   goal_active_ = true;
   ++goals_;
@@ -273,6 +278,7 @@ void NavigatePathNode::onPreempt() {
 
 NavigatePathNode::Answer NavigatePathNode::cancel(const std::string& reason) {
   const Answer answer = loop_->cancel(reason);
+  given_goals_.endAllUntil(ros::Time::now());
   takeReports();
   if (!std::exchange(goal_is_read_, false) || !goal_active_) return answer;
   finishGoal("CANCELLED", reason, loop_->standing());
@@ -291,19 +297,12 @@ void NavigatePathNode::takeReports() {
     if (report.waypoint) waypoint_publisher_.publish(*report.waypoint);
     if (!report.note.empty()) ROS_WARN_STREAM(report.note);
     if (!report.event) continue;
-    log(*report.event);
-    if (report.event->kind == FollowEvent::Kind::ENDED && goal_active_ && !goal_is_read_)
+    logEvent(*report.event);
+    if (report.event->kind != FollowEvent::Kind::ENDED) continue;
+    if (report.standing.status != DriveStatus::CANCELLED) given_goals_.end();
+    if (goal_active_ && !goal_is_read_)
       finishGoal(toString(report.standing.status), report.standing.message, report.standing);
   }
-}
-
-void NavigatePathNode::log(const FollowEvent& event) {
-  if (event.kind == FollowEvent::Kind::REACHED)
-    ROS_DEBUG_STREAM(event.message);
-  else if (isWarning(event.kind))
-    ROS_WARN_STREAM(event.message);
-  else
-    ROS_INFO_STREAM(event.message);
 }
 
 void NavigatePathNode::finishGoal(const std::string& status, const std::string& message,

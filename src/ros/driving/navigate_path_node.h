@@ -20,7 +20,8 @@
 // Guaranteed: cmd_vel is zeroed on every orderly shutdown, and at once by ~pause and ~cancel; without
 // a drive nothing is published, so that others may command the vehicle. A path that cannot be driven
 // is refused with an error and the present drive goes on. A goal of the action has priority over
-// `path`: paths received meanwhile are ignored with a warning. The rate follows the wall clock, the
+// `path`: paths received meanwhile are ignored with a warning. A path for a goal whose drive is over
+// (arrived, failed, cancelled by somebody) is not driven. The rate follows the wall clock, the
 // control ROS time, so that both may run at different speeds. ROS time that goes back clears tf and
 // cancels the drive. The node does not start where another publishes cmd_vel (but a joystick, and
 // with ~share_cmd_vel) or offers the action. Not guaranteed: a zero after SIGKILL, or as a nodelet
@@ -44,6 +45,7 @@
 #include "ros/common/action/navigate_path_action.h"
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
+#include "ros/common/incoming/given_goals.h"
 #include "ros/common/master/command_claim.h"
 #include "ros/common/master/master_watch.h"
 #include "ros/common/node_files.h"
@@ -90,7 +92,6 @@ class NavigatePathNode {
   Answer cancel(const std::string& reason);
 
   void takeReports();
-  void log(const following::FollowEvent& event);
   void finishGoal(const std::string& status, const std::string& message,
                   const DriveStanding& standing);
   void publishFeedback();
@@ -112,6 +113,7 @@ class NavigatePathNode {
   bool goal_active_ = false;
   unsigned goals_ = 0;         // accepted so far
   bool goal_is_read_ = false;  // its file, still
+  GivenGoals given_goals_;     // of the topic `path`
   std::unique_ptr<DriveLoop> loop_;
   std::unique_ptr<MapWatch> map_;
   std::unique_ptr<SpeedLimitReceiver> limits_;

@@ -6,6 +6,17 @@ namespace grid_path_planner::nodes {
 
 using planning::Plan;
 
+namespace {
+
+// `now`, or a nanosecond after `before` where time stands still.
+ros::Time distinctFrom(const ros::Time& before, const ros::Time& now) {
+  const bool stands = !now.isZero() && now <= before && before < ros::TIME_MAX &&
+                      before.toSec() - now.toSec() < 1e-3;  // their difference as times may throw
+  return stands ? ros::Time().fromNSec(before.toNSec() + 1) : now;
+}
+
+}  // namespace
+
 void ActiveGoal::setStart(const geometry_msgs::PoseStamped& start) {
   std::lock_guard<std::mutex> lock(mutex_);
   start_ = start;
@@ -17,9 +28,10 @@ void ActiveGoal::forgetStart() {
   if (goal_) goal_->request.start.reset();
 }
 
-void ActiveGoal::setGoal(const geometry_msgs::PoseStamped& goal) {
+void ActiveGoal::setGoal(const geometry_msgs::PoseStamped& goal, const ros::Time& now) {
   std::lock_guard<std::mutex> lock(mutex_);
   GoalState next;
+  next.given = goal_ ? distinctFrom(goal_->given, now) : now;
   next.id = next_id_++;
   next.request.goal = goal;
   next.request.start = std::exchange(start_, std::nullopt);

@@ -20,6 +20,7 @@ namespace grid_path_planner::nodes {
 struct GoalState {
   std::uint64_t id = 0;
   PlanningRequest request;
+  ros::Time given;                             // of no other goal; 0 without a clock
   bool answered = false;                       // the start of the request holds until then
   base::Status status = base::Status::NO_MAP;  // of the last planning, once it is answered
   path::Path path;                             // empty where that found none
@@ -32,8 +33,8 @@ class ActiveGoal {
   void setStart(const geometry_msgs::PoseStamped& start);
   void forgetStart();
 
-  // Replaces the goal and uses up the start.
-  void setGoal(const geometry_msgs::PoseStamped& goal);
+  // Replaces the goal and uses up the start. `now`: ROS time.
+  void setGoal(const geometry_msgs::PoseStamped& goal, const ros::Time& now);
   std::optional<GoalState> goal() const;
 
   using Time = std::chrono::steady_clock::time_point;

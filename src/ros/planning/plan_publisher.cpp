@@ -38,8 +38,10 @@ PlanPublisher::PlanPublisher(ros::NodeHandle nh)
       "search_markers", 1, [this](const auto&) { showUnseenSearch(); }, {}, {}, true);
 }
 
-void PlanPublisher::publishPath(const Path& path) {
-  path_.publish(pathToMessage(path, ros::Time::now()));
+void PlanPublisher::publishPath(const Path& path, const ros::Time& goal_given) {
+  nav_msgs::Path message = pathToMessage(path, ros::Time::now());
+  if (!message.poses.empty()) message.poses.back().header.stamp = goal_given;
+  path_.publish(message);
 }
 
 void PlanPublisher::publishSearch(ShownPlan shown) {

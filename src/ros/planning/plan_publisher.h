@@ -20,8 +20,9 @@ class PlanPublisher {
  public:
   explicit PlanPublisher(ros::NodeHandle nh);
 
-  // `path`: empty but with frame and stamp unless found.
-  void publishPath(const path::Path& path);
+  // `path`: empty but with frame and stamp unless found. Its last pose is stamped with when the goal was
+  // given, by which a driver knows whether it is planned again for one that it has reached.
+  void publishPath(const path::Path& path, const ros::Time& goal_given);
   // `plan_statistics`, stamped now, and `search_markers`, which are made for subscribers only: one that
   // comes later gets those of the newest plan.
   void publishSearch(ShownPlan shown);

@@ -72,6 +72,26 @@ TEST_F(ReplanTest, AMapUpdateThatBlocksThePathTriggersAReplan) {
   EXPECT_TRUE(endsAt(path_.poses.front(), 0.5, 2.5));
 }
 
+// A vehicle that had reached its goal drove there again when the map changed: a driver could not tell
+// a path that is planned again from one for a new goal.
+TEST_F(ReplanTest, TheLastPoseIsStampedWithWhenTheGoalWasGiven) {
+  startPlanner();
+  publishMap(kCorridors);
+  placeVehicleAndWait(0.5, 2.5);
+  const ros::Time before = ros::Time::now();
+  sendGoal(poseAt(6.5, 2.5));
+  const ros::Time given = path_.poses.back().header.stamp;
+  EXPECT_GE(given, before);
+  EXPECT_LE(given, path_.header.stamp);
+  const std::size_t statistics = statistics_.count();
+  const std::size_t paths = paths_.count();
+  sendUpdate(3, 2, 1, 1, {100});
+  waitForAnswer(statistics, paths);
+  EXPECT_EQ(path_.poses.back().header.stamp, given) << "the same goal";
+  sendGoal(poseAt(6.5, 2.5));
+  EXPECT_GT(path_.poses.back().header.stamp, given) << "given once more";
+}
+
 // navigation #750: stop when planning fails.
 TEST_F(ReplanTest, AWholeMapThatClosesEveryCorridorEmptiesThePath) {
   startPlanner();

@@ -57,9 +57,7 @@ class StillTest : public NavigateTest {
     return value;
   }
 
-  Latest<diagnostic_msgs::DiagnosticArray> diagnostics_{nh_, "/diagnostics"};
-
- private:
+  // Whether a command that is not zero comes before the deadline.
   bool drivesWithin(std::chrono::seconds deadline) {
     const std::size_t seen = velocity_.count();
     return waitFor(
@@ -70,6 +68,8 @@ class StillTest : public NavigateTest {
         },
         deadline);
   }
+
+  Latest<diagnostic_msgs::DiagnosticArray> diagnostics_{nh_, "/diagnostics"};
 };
 
 }  // namespace grid_path_planner::test

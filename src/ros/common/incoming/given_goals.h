@@ -1,0 +1,39 @@
+// Which goals of the topic `path` the vehicle still drives for: a goal whose drive is over is not
+// begun again by itself when its path is planned anew.
+//
+//   if (goals.isOver(message)) return;   // planned again for a goal that was reached
+//   goals.drive(message);
+//   goals.end();                         // arrived
+//
+// path_planner stamps the last pose of a path with the time at which it got the goal, so that paths of
+// one goal are told from those of the next. Paths of others have stamps of their own, which are never
+// the same, or none: they are driven. Not guaranteed: anything where the clocks of two machines differ by more
+// than tf would bear.
+#pragma once
+
+#include <nav_msgs/Path.h>
+#include <ros/time.h>
+
+namespace grid_path_planner::nodes {
+
+class GivenGoals {
+ public:
+  // `path` is driven from now on.
+  void drive(const nav_msgs::Path& path);
+  // The drive for that path's goal is over.
+  void end();
+  // Somebody ended the drive at `now`: what was asked for until then is over, also where no path was
+  // found yet.
+  void endAllUntil(const ros::Time& now);
+  // Time went back: stamps say nothing any more.
+  void forget();
+
+  bool isOver(const nav_msgs::Path& path) const;
+
+ private:
+  ros::Time driven_;
+  ros::Time ended_;
+  ros::Time until_;
+};
+
+}  // namespace grid_path_planner::nodes

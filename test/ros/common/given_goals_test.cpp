@@ -1,0 +1,59 @@
+#include "ros/common/incoming/given_goals.h"
+
+#include <gtest/gtest.h>
+
+namespace grid_path_planner::nodes {
+namespace {
+
+// A path for the goal that was given at `seconds`.
+nav_msgs::Path pathFor(double seconds) {
+  nav_msgs::Path path;
+  path.poses.resize(2);
+  path.poses.back().header.stamp = ros::Time(seconds);
+  return path;
+}
+
+TEST(GivenGoals, AGoalIsOverWithItsDriveAndOthersAreNot) {
+  GivenGoals goals;
+  EXPECT_FALSE(goals.isOver(pathFor(1)));
+  goals.drive(pathFor(5));
+  EXPECT_FALSE(goals.isOver(pathFor(5))) << "planned again on the way";
+  goals.end();
+  EXPECT_TRUE(goals.isOver(pathFor(5)));
+  EXPECT_FALSE(goals.isOver(pathFor(4))) << "given before, planned later: of another planner";
+  EXPECT_FALSE(goals.isOver(pathFor(6)));
+  goals.drive(pathFor(6));
+  EXPECT_FALSE(goals.isOver(pathFor(6)));
+  goals.end();
+  goals.end();
+  EXPECT_TRUE(goals.isOver(pathFor(6))) << "an end without a drive changes nothing";
+}
+
+TEST(GivenGoals, WhatWasAskedForBeforeSomebodyCancelledIsOver) {
+  GivenGoals goals;
+  goals.drive(pathFor(5));
+  goals.endAllUntil(ros::Time(8));
+  EXPECT_TRUE(goals.isOver(pathFor(5)));
+  EXPECT_TRUE(goals.isOver(pathFor(7))) << "no path was found for it yet";
+  EXPECT_FALSE(goals.isOver(pathFor(9)));
+}
+
+TEST(GivenGoals, PathsOfOthersHaveNoTime) {
+  GivenGoals goals;
+  goals.drive(pathFor(0));
+  goals.end();
+  goals.endAllUntil(ros::TIME_MAX);
+  EXPECT_FALSE(goals.isOver(pathFor(0)));
+  EXPECT_FALSE(goals.isOver(nav_msgs::Path())) << "an empty one stops the vehicle";
+}
+
+TEST(GivenGoals, NothingIsOverWhenTimeHasGoneBack) {
+  GivenGoals goals;
+  goals.drive(pathFor(5));
+  goals.endAllUntil(ros::Time(1000));
+  goals.forget();
+  EXPECT_FALSE(goals.isOver(pathFor(5)));
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,92 @@
+// A drive that is over is not begun again by a path that path_planner plans anew for its goal.
+//
+// What was seen before: path_planner keeps its goal. A vehicle that had arrived was driven elsewhere by
+// somebody else, the map changed there, and it turned around and drove back to the goal of half an hour
+// ago; after ~cancel the next obstacle on the path set it going again.
+#include <utility>
+
+#include "ros/support/still_fixture.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using test::pathOf;
+using test::StillWorld;
+
+const char* const kNotDriven = "A path is not driven: its goal was given before";
+
+class GivenGoalsTest : public test::StillTest {
+ protected:
+  void start() { startNavigate({"_no_progress_timeout:=0"}); }
+  ros::Time now() const { return ros::Time(world_.time()); }
+  // As path_planner does.
+  void publishPathFor(const ros::Time& goal, const path::Path& path) {
+    nav_msgs::Path message = pathToMessage(path, now());
+    message.poses.back().header.stamp = goal;
+    paths_.publish(message);
+  }
+  int refusals() const {
+    const std::string said = navigate_->output();
+    int count = 0;
+    for (std::size_t at = said.find(kNotDriven); at != std::string::npos;
+         at = said.find(kNotDriven, at + 1))
+      ++count;
+    return count;
+  }
+  ros::Time driveToNewGoal() {
+    const ros::Time goal = now();
+    publishPathFor(goal, far_);
+    EXPECT_TRUE(isDriving());
+    return goal;
+  }
+  void expectNotDriven(const ros::Time& goal) {
+    const int before = refusals();
+    publishPathFor(goal, far_);
+    EXPECT_TRUE(test::waitFor([&] { return refusals() > before; }));
+    EXPECT_FALSE(drivesWithin(std::chrono::seconds(1)));
+  }
+
+  StillWorld world_{100.0};  // the vehicle stands at its origin
+  const path::Path far_ = pathOf({{0, 0}, {50, 0}});
+  const path::Path here_ = pathOf({{0, 0}, {0.01, 0}});
+};
+
+TEST_F(GivenGoalsTest, AGoalThatWasReachedIsNotDrivenToAgain) {
+  start();
+  const ros::Time goal = now();
+  publishPathFor(goal, here_);
+  ASSERT_TRUE(navigate_->says("ARRIVED"));
+  expectNotDriven(goal);
+  driveToNewGoal();
+}
+
+TEST_F(GivenGoalsTest, APathThatIsPlannedAgainOnTheWayIsDriven) {
+  start();
+  const ros::Time goal = driveToNewGoal();
+  paths_.publish(pathToMessage(path::Path{"map", {}}, now()));
+  EXPECT_TRUE(stops()) << "no path was found";
+  publishPathFor(goal, far_);
+  EXPECT_TRUE(isDriving());
+}
+
+TEST_F(GivenGoalsTest, WhatSomebodyCancelledStaysCancelled) {
+  start();
+  const ros::Time goal = driveToNewGoal();
+  const ros::Time not_found_yet = now();
+  EXPECT_TRUE(ask("cancel"));
+  expectNotDriven(goal);
+  expectNotDriven(not_found_yet);
+  driveToNewGoal();
+}
+
+TEST_F(GivenGoalsTest, AfterTimeHasGoneBackNewGoalsAreDriven) {
+  start();
+  driveToNewGoal();
+  EXPECT_TRUE(ask("cancel"));
+  world_.jumpTo(20.0);
+  ASSERT_TRUE(navigate_->says("ROS time went back"));
+  driveToNewGoal();
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes

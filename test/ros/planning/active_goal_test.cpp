@@ -1,0 +1,36 @@
+#include "ros/planning/active_goal.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace grid_path_planner::nodes {
+namespace {
+
+ros::Time givenAt(ActiveGoal& goal, const ros::Time& now) {
+  goal.setGoal({}, now);
+  return goal.goal()->given;
+}
+
+TEST(ActiveGoal, EachGoalIsGivenAtATimeOfItsOwnWhileTimeStands) {
+  ActiveGoal goal;
+  std::set<ros::Time> given;
+  for (int i = 0; i < 1000; ++i) given.insert(givenAt(goal, ros::Time(100, 999999990)));
+  EXPECT_EQ(given.size(), 1000U);
+  EXPECT_EQ(*given.begin(), ros::Time(100, 999999990));
+  EXPECT_EQ(givenAt(goal, ros::Time(101, 5000000)), ros::Time(101, 5000000)) << "time goes on";
+  EXPECT_EQ(givenAt(goal, ros::Time(3, 0)), ros::Time(3, 0)) << "time has gone back";
+}
+
+TEST(ActiveGoal, NoTimeOfDayEndsIt) {
+  for (const ros::Time& now : {ros::Time(), ros::TIME_MIN, ros::TIME_MAX}) {
+    ActiveGoal goal;
+    EXPECT_EQ(givenAt(goal, now), now);
+    EXPECT_EQ(givenAt(goal, ros::TIME_MAX), ros::TIME_MAX);
+    EXPECT_EQ(givenAt(goal, ros::TIME_MIN), ros::TIME_MIN);
+    EXPECT_EQ(givenAt(goal, ros::Time()), ros::Time()) << "there is no clock";
+  }
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
