@@ -299,7 +299,7 @@ void NavigatePathNode::takeReports() {
     if (!report.event) continue;
     logEvent(*report.event);
     if (report.event->kind != FollowEvent::Kind::ENDED) continue;
-    if (report.standing.status != DriveStatus::CANCELLED) given_goals_.end();
+    if (report.standing.status == DriveStatus::ARRIVED) given_goals_.end();
     if (goal_active_ && !goal_is_read_)
       finishGoal(toString(report.standing.status), report.standing.message, report.standing);
   }

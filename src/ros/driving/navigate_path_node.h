@@ -21,7 +21,7 @@
 // a drive nothing is published, so that others may command the vehicle. A path that cannot be driven
 // is refused with an error and the present drive goes on. A goal of the action has priority over
 // `path`: paths received meanwhile are ignored with a warning. A path for a goal whose drive is over
-// (arrived, failed, cancelled by somebody) is not driven. The rate follows the wall clock, the
+// (arrived, or cancelled by somebody) is not driven. The rate follows the wall clock, the
 // control ROS time, so that both may run at different speeds. ROS time that goes back clears tf and
 // cancels the drive. The node does not start where another publishes cmd_vel (but a joystick, and
 // with ~share_cmd_vel) or offers the action. Not guaranteed: a zero after SIGKILL, or as a nodelet
