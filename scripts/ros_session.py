@@ -190,7 +190,7 @@ class Vehicle:
             lambda: publisher.get_num_connections() > 0 and subscriber.get_num_connections() > 0,
             START_SECONDS, action)
         goal = NavigatePathActionGoal()
-        goal.goal_id.id = waypoint_file
+        goal.goal_id.id = "%s, asked at %r" % (waypoint_file, time.time())  # one that was known is not driven
         goal.goal.filename = os.path.abspath(waypoint_file)
         begin = self.now()
         publisher.publish(goal)
