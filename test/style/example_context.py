@@ -16,7 +16,7 @@ CONTEXT = {
     "footprint_clearance.h": "extern const grid::OccupancyGrid map; extern const ClearanceLimits limits; void halt(const Eigen::Vector2d&);"
                              "extern const path::Footprint footprint; extern const std::vector<Eigen::Vector3d> ahead;",
     "dubins.h": "extern const Eigen::Vector2d from, to; extern const double direction, radius; void add(const Eigen::Vector2d&);",
-    "footprint.h": "void search(double radius);",
+    "footprint.h": "void search(double radius);", "joystick_loop.h": "extern ros::NodeHandle nh; extern TeleopJoyOptions options;",
     "motions.h": "extern const Path path; extern const Pose start, goal; void check(const Motion&);",
     "sweep.h": "extern const Footprint footprint; extern const grid::GridGeometry geometry; extern const Motion motion;"
                "extern const FootprintObstacles obstacles; void report(grid::Cell, const Eigen::Vector2d&, double yaw);",
@@ -42,7 +42,7 @@ CONTEXT = {
                     "extern Path path; void queue(std::function<void()>); void takeReports();",
     "navigator.h": "extern NavigatorOptions options; extern double now; extern path::Path path;"
                    "void carryOut(const NavigatorOrder&);",
-    "driven_track.h": "extern path::Pose pose;",
+    "driven_track.h": "extern path::Pose pose;", "control_thread.h": "#include <ros/node_handle.h>\nextern ros::NodeHandle nh; void tick();",
     "action_caller.h": """#include "grid_path_planner/PlanPathAction.h"
         extern ros::NodeHandle nh; extern const PlanPathGoal goal; extern double timeout;
         void on_result(const PlanPathResult&); void on_feedback(const PlanPathFeedback&);
@@ -183,8 +183,8 @@ CONTEXT = {
     "panel_learning.h": """extern PanelLearningOptions options; extern double seconds; extern Eigen::Isometry3d map_from_base;
         extern Eigen::Isometry3d base_from_camera; extern PoseEstimate pose;""",
     "seen_map.h": """extern SeenMap map; extern avoidance::Frame frame; extern Eigen::Vector3d position, goal;""",
-    "flight_hold.h": "extern double master_timeout;",
-    "flight_job.h": "extern std::function<void(std::size_t)> progress;",
+    "flight_hold.h": "extern double master_timeout;", "manager_end.h": "void stopVehicle();",
+    "flight_job.h": "extern std::function<void(std::size_t)> progress;", "flight_commander.h": "extern ros::NodeHandle nh;",
     "flight_log.h": """extern std::string file; extern PilotOptions options; extern std::uint64_t limit;
         extern std::vector<Eigen::Vector3d> waypoints; extern PilotInput input; extern PilotAnswer answer;""",
     "moving_bodies.h": """#include "grid_path_planner/simulation/depth_camera.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
@@ -149,6 +150,14 @@ std::string CloudFrames::silence(const ros::Time& now, double timeout) const {
            inBrackets(sensor.problem);
   }
   return "";
+}
+
+double CloudFrames::age(const ros::Time& now) const {
+  double oldest = 0.0;
+  for (const Sensor& sensor : sensors_)
+    oldest = std::max(oldest, sensor.newest ? secondsBetween(*sensor.newest, now)
+                                            : std::numeric_limits<double>::infinity());
+  return oldest;
 }
 
 std::string CloudFrames::problems() const {

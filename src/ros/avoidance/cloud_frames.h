@@ -37,6 +37,9 @@ class CloudFrames {
 
   // Of a topic of which no cloud could be used for longer than `timeout` (s), in a sentence; empty: none.
   std::string silence(const ros::Time& now, double timeout) const;
+  // Since the stamp of the newest cloud that was used, of the topic where that is longest (s); infinite where
+  // none was.
+  double age(const ros::Time& now) const;
   // Why the newest clouds could not be used; empty: they could.
   std::string problems() const;
 

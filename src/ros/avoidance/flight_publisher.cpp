@@ -1,7 +1,5 @@
 #include "ros/avoidance/flight_publisher.h"
 
-#include <geometry_msgs/Twist.h>
-#include <geometry_msgs/TwistStamped.h>
 #include <nav_msgs/Path.h>
 #include <trajectory_msgs/MultiDOFJointTrajectory.h>
 
@@ -62,29 +60,9 @@ void addPath(const std::vector<Eigen::Vector3d>& path, double open, double yaw, 
 }  // namespace
 
 FlightPublisher::FlightPublisher(ros::NodeHandle& nh)
-    : velocity_(nh.advertise<geometry_msgs::Twist>("cmd_vel", 10)),
-      setpoint_(nh.advertise<geometry_msgs::TwistStamped>("setpoint_velocity", 10)),
-      trajectory_(nh.advertise<Trajectory>("setpoint_trajectory", 10)),
+    : trajectory_(nh.advertise<Trajectory>("setpoint_trajectory", 10)),
       path_(nh.advertise<nav_msgs::Path>("local_path", 1, true)),
       status_(nh.advertise<AvoidanceStatus>("avoidance_status", 1, true)) {}
-
-void FlightPublisher::command(const base::BodyVelocity& velocity, double yaw,
-                              const std::string& map_frame, const ros::Time& stamp) {
-  geometry_msgs::Twist twist;
-  twist.linear.x = velocity.surge;
-  twist.linear.y = velocity.sway;
-  twist.linear.z = velocity.heave;
-  twist.angular.z = velocity.yaw_rate;
-  velocity_.publish(twist);
-  geometry_msgs::TwistStamped stamped;
-  stamped.header.frame_id = map_frame;
-  stamped.header.stamp = stamp;
-  stamped.twist = twist;
-  const Eigen::Vector3d in_map = base::inMap(velocity, yaw);
-  stamped.twist.linear.x = in_map.x();
-  stamped.twist.linear.y = in_map.y();
-  setpoint_.publish(stamped);
-}
 
 void FlightPublisher::path(const Pilot& pilot, const std::string& map_frame,
                            const ros::Time& stamp) {

@@ -1,4 +1,4 @@
-// What local_planner commands, and what it says of it; what it sees: flight_views.h.
+// What local_planner says of its flight; what it commands: flight_commander.h, what it sees: flight_views.h.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -7,7 +7,6 @@
 #include <string>
 
 #include "grid_path_planner/avoidance/pilot.h"
-#include "ros/common/outgoing/direct_publisher.h"
 
 namespace grid_path_planner::nodes {
 
@@ -15,9 +14,6 @@ class FlightPublisher {
  public:
   explicit FlightPublisher(ros::NodeHandle& nh);
 
-  // cmd_vel in `base_frame`, and the same in the map's frame as setpoint_velocity.
-  void command(const base::BodyVelocity& velocity, double yaw, const std::string& map_frame,
-               const ros::Time& stamp);
   void path(const avoidance::Pilot& pilot, const std::string& map_frame, const ros::Time& stamp);
   // Where it differs from the last one.
   // The status of a new flight is told, though it be that of the one before.
@@ -29,11 +25,9 @@ class FlightPublisher {
   void trajectory(const avoidance::Pilot& pilot, const avoidance::PilotAnswer& answer,
                   const avoidance::VehiclePose& at, const std::string& map_frame,
                   const std::string& base_frame, const ros::Time& stamp);
-  bool anyListener() const { return velocity_.numberOfListeners() > 0; }
 
  private:
-  DirectPublisher velocity_;
-  ros::Publisher setpoint_, trajectory_, path_, status_;
+  ros::Publisher trajectory_, path_, status_;
   std::string told_;
 };
 

@@ -92,6 +92,7 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
       clouds_(resolvedTopics(nh_, options_)),
       publisher_(nh_),
       views_(nh_),
+      commander_(nh_, options_, hold_),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   action_ = std::make_unique<FlightAction>(nh_, files, hands());
   commands_.refuseSimultaneous();
@@ -113,20 +114,12 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
 LocalPlannerNode::~LocalPlannerNode() {
   control_timer_.stop();
   diagnostics_timer_.stop();
-  sendLastCommand();
+  stop();
   for (const auto& clouds : cloud_subscriptions_) clouds->shutdown();
   for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
   reconfigurable_.reset();
   action_.reset();
-}
-
-// Before anything that asks the master, which may not answer.
-void LocalPlannerNode::sendLastCommand() {
-  if (!flies_) return;
-  publisher_.command({}, at_.yaw, options_.map_frame, ros::Time::now());
-  if (publisher_.anyListener())
-    ros::WallDuration(0.1).sleep();  // roscpp sends in a thread of its own and says not when it has
 }
 
 void LocalPlannerNode::startLog(const NodeFiles& files) {
@@ -168,11 +161,7 @@ void LocalPlannerNode::subscribe() {
       subscribeChecked<geometry_msgs::PoseStamped>(
           nh_, "goal", 1, [this](const geometry_msgs::PoseStamped& goal) { onGoal(goal); }),
       subscribeChecked<nav_msgs::Path>(nh_, "path", 1,
-                                       [this](const nav_msgs::Path& path) { onPath(path); }),
-      subscribeChecked<std_msgs::Bool>(
-          nh_, "stop", 1, [this](const std_msgs::Bool& stop) { hold_.stop(stop.data); }),
-      subscribeChecked<std_msgs::Bool>(
-          nh_, "manual_control", 1, [this](const std_msgs::Bool& is) { hold_.manual(is.data); })};
+                                       [this](const nav_msgs::Path& path) { onPath(path); })};
 }
 
 void LocalPlannerNode::offerServices(ros::NodeHandle& private_nh) {
@@ -209,6 +198,7 @@ void LocalPlannerNode::use(LocalPlannerOptions options) {
         "config_filename, share_cmd_vel, map_frame, log, log_limit and cloud_topics cannot be "
         "changed while the node runs");
   pilot_.setOptions(options.pilot);
+  commander_.setOptions(options);
   const bool other_rate = options.control_rate != options_.control_rate;
   options_ = options;
   if (other_rate) startTimer();
@@ -315,16 +305,19 @@ PilotInput LocalPlannerNode::input(const ros::Time& now) {
   PilotInput input;
   input.time = now.toSec();
   input.velocity = velocityAt(now);
+  double pose_for = 0.0;  // s, until it is too old
   try {
     const auto recent =
         transforms_.recentPoseOf(options_.base_frame, options_.map_frame, now, options_.tf_timeout);
     at_ = carriedOn(recent, input.velocity);
     input.pose = at_;
+    pose_for = options_.tf_timeout - recent.age;
   } catch (const TransformError& error) {
     input.pose_problem = error.what();
   }
   input.hold = hold_.why(options_.master_timeout);
   takeFrames(input, now);
+  good_for_ = std::min(pose_for, options_.pilot.cloud_timeout - clouds_.age(now));
   return input;
 }
 
@@ -343,11 +336,17 @@ void LocalPlannerNode::control() {
 }
 
 void LocalPlannerNode::tick(const ros::Time& now) {
-  if (hold_.notice(now, flies_))
-    ROS_WARN("The joystick commands: the flight is paused until ~resume");
+  const bool yields = hold_.notice(now, flies_);
   answer_ = pilot_.update(input(now));
+  const bool ended = answer_.status == PilotStatus::ARRIVED ||
+                     answer_.status == PilotStatus::STUCK ||
+                     answer_.status == PilotStatus::CANCELLED;
+  if (flies_) commander_.command({answer_.velocity, at_.yaw, now, good_for_, ended});
+  if (yields) ROS_WARN("The joystick commands: the flight is paused until ~resume");
   if (const auto problem = pilot_.takeLogProblem()) ROS_WARN_STREAM(*problem);
   publish(now);
+  if (ended && std::exchange(flies_, false))
+    ROS_INFO_STREAM(toString(answer_.status) << ": " << answer_.sentence);
   action_->report(answer_, at_);
 }
 
@@ -356,17 +355,8 @@ void LocalPlannerNode::publish(const ros::Time& now) {
   publisher_.status(answer_, map, now);
   if (answer_.new_path) publisher_.path(pilot_.pilot(), map, now);
   if (!frames_.empty()) views_.show({pilot_.pilot(), answer_, at_, map, base, now});
-  if (hold_.stopped() || (flies_ && !hold_.isManual())) {
-    publisher_.command(answer_.velocity, at_.yaw, map, now);
+  if (hold_.stopped() || (flies_ && !hold_.isManual()))
     publisher_.trajectory(pilot_.pilot(), answer_, at_, map, base, now);
-  }
-  const bool ended = answer_.status == PilotStatus::ARRIVED ||
-                     answer_.status == PilotStatus::STUCK ||
-                     answer_.status == PilotStatus::CANCELLED;
-  if (flies_ && ended) {
-    ROS_INFO_STREAM(toString(answer_.status) << ": " << answer_.sentence);
-    flies_ = false;
-  }
 }
 
 void LocalPlannerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -379,6 +369,8 @@ void LocalPlannerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("nearest point (m)", answer_.clearance);
   status.add("open path (m)", answer_.clear_path);
   status.add("problems of the newest clouds", clouds_.problems());
+  status.add("stops for want of a newer plan", commander_.overdue());
+  status.add("scheduling of commands", commander_.scheduling());
 }
 
 }  // namespace grid_path_planner::nodes

@@ -30,9 +30,12 @@
 // that cannot be flown is refused with an error, one from before the node's start with a warning, and the
 // present flight goes on; goals without a stamp are new. ROS time that goes back cancels the flight and
 // forgets what was seen. The node does not start where another publishes cmd_vel (but a joystick, and with
-// ~share_cmd_vel) or offers the action. Files, maps and plans on maps are made in other threads; the log is
-// written in this one. Not
-// guaranteed: a zero after SIGKILL: the vehicle itself must stop when commands cease.
+// ~share_cmd_vel) or offers the action.
+//
+// The queue's thread unpacks clouds, plans, publishes what is seen and writes the logs; another commands
+// (flight_commander.h) and stops the vehicle while the first is late, however long that takes. Files are read, maps
+// made and planned on in further ones. Not guaranteed: a zero after SIGKILL: the vehicle itself must stop when
+// commands cease.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -43,7 +46,6 @@
 #include <ros/steady_timer.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/PointCloud2.h>
-#include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
 
 #include <memory>
@@ -53,6 +55,7 @@
 #include "grid_path_planner/avoidance/pilot.h"
 #include "ros/avoidance/cloud_frames.h"
 #include "ros/avoidance/flight_action.h"
+#include "ros/avoidance/flight_commander.h"
 #include "ros/avoidance/flight_hold.h"
 #include "ros/avoidance/flight_publisher.h"
 #include "ros/avoidance/flight_views.h"
@@ -85,8 +88,10 @@ class LocalPlannerNode {
   // Zeroes cmd_vel.
   ~LocalPlannerNode();
 
+  // Zeroes cmd_vel, and nothing is commanded any more. Thread-safe.
+  void stop() { commander_.finish(); }
+
  private:
-  void sendLastCommand();
   void subscribe();
   void subscribeClouds();
   void startLog(const NodeFiles& files);
@@ -123,9 +128,11 @@ class LocalPlannerNode {
   FlightViews views_;
   std::optional<nav_msgs::Odometry> odometry_;
   FlightHold hold_;
+  FlightCommander commander_;
   ros::Time started_;  // when there was ROS time first, or after it jumped back
   avoidance::VehiclePose at_;
-  bool flies_ = false;  // there is a route, and cmd_vel is published
+  double good_for_ = 0.0;  // s from the newest plan, until clouds or pose are too old
+  bool flies_ = false;     // there is a route, and cmd_vel is published
 
   std::vector<ros::Subscriber> subscribers_;
   std::vector<std::unique_ptr<BoundedSubscription<sensor_msgs::PointCloud2>>> cloud_subscriptions_;

@@ -3,7 +3,7 @@
 
 namespace grid_path_planner::nodes {
 
-class LocalPlannerNodelet : public NodeletShell<LocalPlannerNode> {};
+class LocalPlannerNodelet : public CommanderShell<LocalPlannerNode> {};
 
 }  // namespace grid_path_planner::nodes
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "grid_path_planner/avoidance/pilot_options.h"
+#include "ros/common/scheduling/realtime_priority.h"
 
 namespace grid_path_planner::nodes {
 
@@ -16,8 +17,9 @@ struct LocalPlannerOptions {
   avoidance::PilotOptions pilot;
   std::string map_frame = "map";
   std::string base_frame = "base_link";
-  double tf_timeout = 0.3;       // s
-  double control_rate = 20.0;    // Hz, wall time
+  double tf_timeout = 0.3;     // s
+  double control_rate = 20.0;  // Hz, wall time
+  int realtime_priority = 1;
   double master_timeout = 30.0;  // s, wall time
   bool share_cmd_vel = false;
 };
@@ -59,6 +61,7 @@ void visitOptions(LocalPlannerOptions& o, Visitor&& visit) {
         base::OptionInfo{"How often the velocity is computed, by the wall clock; at least once in "
                          "frame_period; PX4 wants more than 2",
                          "Hz", 2.0, 1000.0});
+  visitRealtimePriority(o.realtime_priority, visit);
   visit("master_timeout", o.master_timeout,
         base::OptionInfo{"The vehicle stands when the ROS master has not answered for so long, by "
                          "the wall clock; 0: it flies on",

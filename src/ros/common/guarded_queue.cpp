@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <chrono>
+#include <future>
+#include <memory>
 #include <utility>
 
 #include "base/current_error.h"
@@ -87,6 +90,21 @@ void tellGivenUp(const std::string& what, const std::string& error) {
 
 ros::CallbackInterfacePtr callbackOf(std::function<void()> work) {
   return boost::make_shared<Work>(std::move(work));
+}
+
+bool doneWithin(double limit, ros::CallbackQueueInterface& queue, std::function<void()> work) {
+  const auto done = std::make_shared<std::promise<void>>();
+  const auto owner = reinterpret_cast<std::uint64_t>(done.get());
+  queue.addCallback(callbackOf([done, work = std::move(work)] {
+                      work();
+                      done->set_value();
+                    }),
+                    owner);
+  const auto result = done->get_future();
+  const bool is =
+      result.wait_for(std::chrono::duration<double>(limit)) == std::future_status::ready;
+  queue.removeByID(owner);  // waits where it is being done just now
+  return is;
 }
 
 }  // namespace grid_path_planner::nodes

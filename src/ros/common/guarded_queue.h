@@ -45,4 +45,8 @@ void tellGivenUp(const std::string& what, const std::string& error);
 // Work for the thread that serves a queue.
 ros::CallbackInterfacePtr callbackOf(std::function<void()> work);
 
+// Whether the thread that serves `queue` did `work` within `limit` seconds; it is not done later. For other threads
+// than that.
+bool doneWithin(double limit, ros::CallbackQueueInterface& queue, std::function<void()> work);
+
 }  // namespace grid_path_planner::nodes

@@ -6,6 +6,9 @@
 // `Node` is constructed from a node handle and a private one, whose callbacks may throw
 // (guarded_queue.h). As in a process of its own, none is called before the constructor has returned:
 // the manager would call them in another thread. Why it is not loaded stands in the manager's log.
+//
+// One that commands a vehicle derives from CommanderShell<Node>: before a signal ends the manager its
+// `stop()` is called, from another thread (manager_end.h).
 #pragma once
 
 #include <nodelet/nodelet.h>
@@ -14,8 +17,10 @@
 
 #include <exception>
 #include <memory>
+#include <optional>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "ros/common/ending/manager_end.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/master/master_watch.h"
 
@@ -23,7 +28,9 @@ namespace grid_path_planner::nodes {
 
 template <class Node>
 class NodeletShell : public nodelet::Nodelet {
- private:
+ protected:
+  Node& node() { return *node_; }
+
   void onInit() override {
     nh_ = getNodeHandle();
     private_nh_ = getPrivateNodeHandle();
@@ -41,11 +48,23 @@ class NodeletShell : public nodelet::Nodelet {
     registered_ = MasterWatch::shared();
   }
 
+ private:
   ros::NodeHandle nh_, private_nh_;
   std::unique_ptr<GuardedQueue> queue_;
 
   std::unique_ptr<Node> node_;
   std::shared_ptr<MasterWatch> registered_;
+};
+
+template <class Node>
+class CommanderShell : public NodeletShell<Node> {
+ private:
+  void onInit() override {
+    NodeletShell<Node>::onInit();
+    end_.emplace([this] { this->node().stop(); });
+  }
+
+  std::optional<ManagerEnd> end_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -1,7 +1,6 @@
 #include "ros/driving/drive_loop.h"
 
 #include <geometry_msgs/Twist.h>
-#include <sys/prctl.h>
 
 #include <sstream>
 #include <utility>
@@ -11,10 +10,7 @@
 #include "following/speed_limit.h"
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "grid_path_planner/ros/conversions.h"
-#include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/scheduling/cpu_share.h"
-#include "ros/common/scheduling/realtime_priority.h"
 
 namespace grid_path_planner::nodes {
 
@@ -37,8 +33,6 @@ namespace {
 // By the wall clock.
 constexpr std::chrono::milliseconds kClockTimeout(500);
 constexpr std::chrono::milliseconds kManualTimeout(2500);
-
-constexpr double kMostShare = 0.5;  // of a processor: before a real-time thread no other comes
 
 std::string sentenceOf(const Obstruction& obstruction) {
   std::ostringstream text;
@@ -68,25 +62,24 @@ DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& optio
       follower_(options.follower),
       velocity_publisher_(ros::NodeHandle(nh).advertise<geometry_msgs::Twist>("cmd_vel", 10)) {
   ros::NodeHandle own(nh);
-  own.setCallbackQueue(&guarded_);
+  own.setCallbackQueue(&thread_.queue());
   manual_subscriber_ = subscribeChecked<std_msgs::Bool>(
       own, "manual_control", 1, [this](const std_msgs::Bool& message) { onManual(message); });
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
       own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
-  thread_ = std::thread([this] {
-    ::prctl(PR_SET_NAME, "control");  // for top, debuggers and navigate_path_locks_rostest.cpp
-    run();
-  });
+  thread_.start(options_.control_rate, options_.realtime_priority);
 }
 
 DriveLoop::~DriveLoop() {
   finish();
-  done_ = true;
-  thread_.join();
+  thread_.stop();
 }
 
 void DriveLoop::finish() {
-  cancel("navigate_path ends");
+  ask([this] {
+    follower_.cancel("navigate_path ends");
+    finished_ = true;
+  });
   if (numberOfListeners() > 0)
     ros::WallDuration(0.1).sleep();  // what a connection did not take is sent by roscpp's thread
 }
@@ -94,28 +87,15 @@ void DriveLoop::finish() {
 // Exceptions of `work` come back; the tick shows its effect on cmd_vel at once.
 template <class Work>
 auto DriveLoop::ask(Work work) -> std::invoke_result_t<Work> {
-  const auto task = std::make_shared<std::packaged_task<std::invoke_result_t<Work>()>>(
-      [this, work = std::move(work)]() {
-        noticeTimeJump(ros::Time::now());
-        return work();
-      });
-  auto result = task->get_future();
-  const auto ticked = std::make_shared<std::promise<void>>();
-  post([this, task, ticked] {
-    (*task)();
-    tryToTick();
-    ticked->set_value();
+  return thread_.ask([this, work = std::move(work)]() {
+    noticeTimeJump(ros::Time::now());
+    return work();
   });
-  ticked->get_future().wait();
-  return result.get();
-}
-
-void DriveLoop::post(std::function<void()> work) {
-  guarded_.addCallback(callbackOf(std::move(work)));
 }
 
 void DriveLoop::start(const Path& path, Join join) {
   ask([this, &path, join] {
+    if (finished_) throw base::InputError("navigate_path ends");
     follower_.start(path, join);
     reported_waypoint_ = -1;
   });
@@ -139,8 +119,9 @@ PathFollower::Answer DriveLoop::cancel(const std::string& reason) {
 void DriveLoop::setOptions(const NavigatePathOptions& options) {
   ask([this, &options] {
     follower_.setOptions(options.follower);
-    const int before = std::exchange(options_, options).realtime_priority;
-    if (options_.realtime_priority != before) takePriority();
+    options_ = options;
+    thread_.setRate(options.control_rate);
+    thread_.setPriority(options.realtime_priority);
     footprint_ = Footprint::fromText("check_footprint", options.check_footprint);
   });
 }
@@ -150,54 +131,16 @@ DriveStanding DriveLoop::standing() {
 }
 
 void DriveLoop::setMap(const MapLife& life) {
-  post([this, life] { map_ = life; });
+  thread_.post([this, life] { map_ = life; });
 }
 
 void DriveLoop::setSpeedLimits(const SpeedLimits& limits) {
-  post([this, limits] { limits_ = limits; });
+  thread_.post([this, limits] { limits_ = limits; });
 }
 
 std::vector<DriveReport> DriveLoop::takeReports() {
   const std::lock_guard<std::mutex> lock(reports_mutex_);
   return std::exchange(reports_, {});
-}
-
-std::string DriveLoop::scheduling() const {
-  const std::lock_guard<std::mutex> lock(reports_mutex_);
-  return scheduling_;
-}
-
-void DriveLoop::takePriority() {
-  const int priority = options_.realtime_priority;
-  const std::string why = takeRealtimePriority(priority);
-  const std::lock_guard<std::mutex> lock(reports_mutex_);
-  if (!why.empty())
-    scheduling_ = "ordinary: " + why;
-  else
-    scheduling_ = priority > 0 ? "real-time priority " + std::to_string(priority) : "ordinary";
-}
-
-void DriveLoop::run() {
-  takePriority();
-  CpuShare share(kMostShare);
-  while (!done_) {
-    std::this_thread::sleep_until(share.notBefore());
-    share.take([this] { workOrTick(); });
-  }
-}
-
-// Work that comes is done at once; ticks that were missed are not made up for.
-void DriveLoop::workOrTick() {
-  const auto left = std::chrono::duration<double>(next_tick_ - Clock::now()).count();
-  if (left > 0.0) {
-    queue_.callOne(ros::WallDuration(left));
-    return;
-  }
-  const auto period = std::chrono::duration<double>(1.0 / options_.control_rate);
-  next_tick_ =
-      std::max(next_tick_ + std::chrono::duration_cast<Clock::duration>(period), Clock::now());
-  queue_.callAvailable();
-  tryToTick();
 }
 
 void DriveLoop::tryToTick() {
@@ -310,11 +253,11 @@ void DriveLoop::onManual(const std_msgs::Bool& message) {
     manual_ = Clock::now();
   else
     manual_.reset();
-  if (was != isManual()) tryToTick();
+  if (was != isManual()) thread_.tick();
 }
 
 void DriveLoop::onStop(const std_msgs::Bool& message) {
-  if (std::exchange(stopped_, message.data) != message.data) tryToTick();
+  if (std::exchange(stopped_, message.data) != message.data) thread_.tick();
 }
 
 // A joystick whose node was killed says nothing any more.

@@ -11,35 +11,30 @@
 // non-zero velocity is followed by a zero within a tick when the drive ends, is paused or blocked,
 // and by the wall clock when ROS time stands still. While `stop` is true there are zeros only, and
 // while a joystick commands (`manual_control`) there is nothing at all: the drive is paused, and
-// resumed by hand. A velocity is written to its connections by this thread itself. Not guaranteed: that
-// the machine gives it a processor in time: realtime_priority, where the system grants it, puts it before all
-// ordinary threads, and it takes half of a processor at most, however long its ticks are.
+// resumed by hand. A velocity is written to its connections by this thread itself. How it is scheduled:
+// control_thread.h.
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
-#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 #include <std_msgs/Bool.h>
 
-#include <atomic>
 #include <chrono>
 #include <functional>
-#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <type_traits>
 #include <vector>
 
 #include "grid_path_planner/following/path_follower.h"
 #include "path/footprint/footprint.h"
 #include "ros/common/frame_transforms.h"
-#include "ros/common/guarded_queue.h"
 #include "ros/common/master/master_watch.h"
 #include "ros/common/outgoing/direct_publisher.h"
+#include "ros/common/scheduling/control_thread.h"
 #include "ros/driving/map_life.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/speed_limit_receiver.h"
@@ -83,8 +78,8 @@ class DriveLoop {
   following::PathFollower::Answer pause();
   following::PathFollower::Answer resume();
   following::PathFollower::Answer cancel(const std::string& reason);
-  // Cancels the drive of a node that ends, and waits until the last command is sent. To be called
-  // before anything that asks the master, which may not answer.
+  // Cancels the drive of a node that ends, begins no other, and waits until the last command is sent. To be
+  // called before anything that asks the master, which may not answer.
   void finish();
   void setOptions(const NavigatePathOptions& options);  // precondition: checked
   DriveStanding standing();
@@ -96,7 +91,7 @@ class DriveLoop {
   std::vector<DriveReport> takeReports();
 
   // How the thread is scheduled, in words.
-  std::string scheduling() const;
+  std::string scheduling() const { return thread_.scheduling(); }
 
   // Resolved names.
   std::string velocityTopic() const { return velocity_publisher_.topic(); }
@@ -108,12 +103,8 @@ class DriveLoop {
 
   template <class Work>
   auto ask(Work work) -> std::invoke_result_t<Work>;
-  void post(std::function<void()> work);
 
   // In the loop's thread:
-  void run();
-  void workOrTick();
-  void takePriority();
   void tick();
   void tryToTick();
   void noticeTimeJump(const ros::Time& now);
@@ -142,24 +133,20 @@ class DriveLoop {
   MapLife map_;
   SpeedLimits limits_;
   ros::Time now_;
-  Clock::time_point next_tick_ = Clock::now();
   Clock::time_point moved_;                  // when ROS time did last
   std::optional<Clock::time_point> manual_;  // when the joystick last said that it commands
   bool stopped_ = false;                     // by the topic
+  bool finished_ = false;                    // the node ends
   bool silent_ = true;  // nothing, or a zero, was sent last and there is no drive
   int reported_waypoint_ = -1;
 
-  mutable std::mutex reports_mutex_;  // of what the loop tells others
-  std::string scheduling_;
+  std::mutex reports_mutex_;
   std::vector<DriveReport> reports_;
 
-  ros::CallbackQueue queue_;
-  GuardedQueue guarded_{queue_};
   DirectPublisher velocity_publisher_;
+  ControlThread thread_{[this] { tryToTick(); }};
   ros::Subscriber manual_subscriber_;
   ros::Subscriber stop_subscriber_;
-  std::atomic<bool> done_{false};
-  std::thread thread_;
 };
 
 }  // namespace grid_path_planner::nodes

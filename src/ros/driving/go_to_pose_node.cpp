@@ -82,11 +82,15 @@ GoToPoseNode::GoToPoseNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
 GoToPoseNode::~GoToPoseNode() {
   timer_.stop();
   diagnostics_timer_.stop();
-  if (driver_.active()) driver_.cancel();
+  giveUp();
+  simple_goal_subscriber_.shutdown();  // asks the master, which may not answer
+}
+
+void GoToPoseNode::giveUp() {
+  driver_.cancel();
+  driver_.forget();  // or its end might begin something new
   if (goal_) end(Order::Kind::ABORT, "go_to_pose ends");
   ros::WallDuration(kSendingTime).sleep();  // roscpp sends in a thread of its own
-  simple_goal_subscriber_.shutdown();       // asks the master, which may not answer
-  reconfigurable_.reset();
 }
 
 void GoToPoseNode::startServer() {

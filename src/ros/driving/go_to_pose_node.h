@@ -39,6 +39,7 @@
 #include "ros/common/action/action_caller.h"
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
+#include "ros/common/guarded_queue.h"
 #include "ros/common/master/command_claim.h"
 #include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/move_base_action.h"
@@ -62,6 +63,11 @@ class GoToPoseNode {
   // Stops the vehicle.
   ~GoToPoseNode();
 
+  // The same, from any thread but the queue's.
+  void stop() {
+    doneWithin(1.0, *nh_.getCallbackQueue(), [this] { giveUp(); });
+  }
+
  private:
   using Order = following::NavigatorOrder;
 
@@ -72,6 +78,7 @@ class GoToPoseNode {
     std::optional<geometry_msgs::PoseStamped> pose;  // in the map's frame; none until tf knows it
   };
 
+  void giveUp();
   void startServer();
   void startTimers();
   void use(const GoToPoseOptions& options);

@@ -3,7 +3,7 @@
 
 namespace grid_path_planner::nodes {
 
-class GoToPoseNodelet : public NodeletShell<GoToPoseNode> {};
+class GoToPoseNodelet : public CommanderShell<GoToPoseNode> {};
 
 }  // namespace grid_path_planner::nodes
 

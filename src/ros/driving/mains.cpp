@@ -1,7 +1,7 @@
 #include "ros/driving/mains.h"
 
 #include "grid_path_planner/path/waypoint_file.h"
-#include "ros/common/end_of_node.h"
+#include "ros/common/ending/end_of_node.h"
 #include "ros/common/run_node.h"
 #include "ros/driving/go_to_pose_node.h"
 #include "ros/driving/navigate_path_node.h"

@@ -10,7 +10,7 @@
 #include "grid_path_planner/NavigatePathConfig.h"
 #include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/path/waypoint_file.h"
-#include "ros/common/end_of_node.h"
+#include "ros/common/ending/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"

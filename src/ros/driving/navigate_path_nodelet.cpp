@@ -3,7 +3,7 @@
 
 namespace grid_path_planner::nodes {
 
-class NavigatePathNodelet : public NodeletShell<NavigatePathNode> {};
+class NavigatePathNodelet : public CommanderShell<NavigatePathNode> {};
 
 }  // namespace grid_path_planner::nodes
 

@@ -5,6 +5,7 @@
 
 #include "grid_path_planner/following/follower_options.h"
 #include "grid_path_planner/following/path_clearance_check.h"
+#include "ros/common/scheduling/realtime_priority.h"
 
 namespace grid_path_planner::nodes {
 
@@ -91,10 +92,7 @@ void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
       base::OptionInfo{"How often the velocity is computed, by the wall clock; simulated time that "
                        "runs faster needs more",
                        "Hz", 1.0, 1000.0});
-  visit("realtime_priority", o.realtime_priority,
-        base::OptionInfo{"Of the thread that commands (SCHED_FIFO), where the system grants it "
-                         "(RLIMIT_RTPRIO): without, a busy machine silences the vehicle; 0: none",
-                         "", 0, 99});
+  visitRealtimePriority(o.realtime_priority, visit);
   visit("master_timeout", o.master_timeout,
         base::OptionInfo{"The vehicle stands when the ROS master has not answered for so long, by "
                          "the wall clock; 0: it drives on",

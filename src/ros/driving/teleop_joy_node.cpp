@@ -1,24 +1,23 @@
 #include "ros/driving/teleop_joy_node.h"
 
-#include <geometry_msgs/Twist.h>
+#include <ros/callback_queue_interface.h>
 #include <ros/console.h>
 
 #include "grid_path_planner/TeleopJoyConfig.h"
 #include "grid_path_planner/base/options.h"
-#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/guarded_queue.h"
+#include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
 
-using base::BodyVelocity;
 using base::checkOptionLimits;
-using base::InputError;
-using following::JoystickState;
-using following::joystickVelocity;
+using base::StopSource;
+using diagnostic_msgs::DiagnosticStatus;
 
 namespace {
 
-constexpr double kErrorPeriod = 5.0;  // s, between two of the same
+constexpr int kMostNotes = 100;  // that wait for the log
 
 TeleopJoyOptions loadTeleopJoyOptions(const ros::NodeHandle& private_nh) {
   TeleopJoyOptions options;
@@ -26,13 +25,6 @@ TeleopJoyOptions loadTeleopJoyOptions(const ros::NodeHandle& private_nh) {
   checkTeleopJoyOptions(options);
   warnUnknownParameters(private_nh, optionNames<TeleopJoyOptions>());
   return options;
-}
-
-JoystickState stateOf(const sensor_msgs::Joy& message) {
-  JoystickState state;
-  state.axes.assign(message.axes.begin(), message.axes.end());
-  for (const auto button : message.buttons) state.buttons.push_back(button != 0);
-  return state;
 }
 
 }  // namespace
@@ -45,105 +37,63 @@ TeleopJoyNode::TeleopJoyNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
     : nh_(nh),
       options_(loadTeleopJoyOptions(private_nh)),
       commands_(private_nh.getNamespace(),
-                {{nh.resolveName("cmd_vel")}, {}, nh.resolveName("manual_control"), true}) {
-  manual_publisher_ = nh_.advertise<std_msgs::Bool>("manual_control", 1, true);
-  publisher_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10);
+                {{nh.resolveName("cmd_vel")}, {}, nh.resolveName("manual_control"), true}),
+      manual_publisher_(nh_.advertise<std_msgs::Bool>("manual_control", 1, true)),
+      diagnostics_(nh, private_nh, private_nh.getNamespace()) {
+  const JoystickLoop::Handlers handlers = {
+      [this](bool commands) { announce(commands); },
+      [this](JoystickLoop::Level level, const std::string& sentence) { note(level, sentence); }};
+  loop_ = std::make_unique<JoystickLoop>(nh_, options_, handlers);
   commands_.refuseSimultaneous();
-  stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      nh_, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
-  subscriber_ = subscribeChecked<sensor_msgs::Joy>(
-      nh_, "joy", 10, [this](const sensor_msgs::Joy& message) { onJoy(message); });
   reconfigurable_ = std::make_unique<Reconfigurable<TeleopJoyConfig, TeleopJoyOptions>>(
       private_nh, options_, [this](const TeleopJoyOptions& options) { use(options); });
-  startTimer();
+  diagnostics_.add("joystick", this, &TeleopJoyNode::diagnose);
+  diagnostics_timer_ = diagnosticsTimer(nh_, diagnostics_);
 }
 
 TeleopJoyNode::~TeleopJoyNode() {
-  timer_.stop();
-  if (!velocity_) return;
-  release();
-  if (publisher_.getNumSubscribers() > 0)
-    ros::WallDuration(0.1).sleep();  // roscpp sends in a thread of its own and says not when it has
+  diagnostics_timer_.stop();
+  stop();
+  reconfigurable_.reset();
+  loop_.reset();
+  nh_.getCallbackQueue()->removeByID(reinterpret_cast<std::uint64_t>(this));
 }
 
 void TeleopJoyNode::use(const TeleopJoyOptions& options) {
   checkTeleopJoyOptions(options);
-  const bool other_rate = options.command_rate != options_.command_rate;
+  loop_->setOptions(options);
   options_ = options;
-  if (other_rate) startTimer();
 }
 
-void TeleopJoyNode::startTimer() {
-  timer_ = nh_.createSteadyTimer(ros::WallDuration(1.0 / options_.command_rate),
-                                 &TeleopJoyNode::onTimer, this);
+// Of those that wait the newest of each kind counts.
+void TeleopJoyNode::announce(bool commands) {
+  const auto publish = [this, commands](const StopSource&) {
+    std_msgs::Bool message;
+    message.data = commands;
+    manual_publisher_.publish(message);
+  };
+  announcer_.post(publish, commands ? "true" : "false");
 }
 
-void TeleopJoyNode::onJoy(const sensor_msgs::Joy& message) {
-  heard_ = ros::SteadyTime::now();
-  try {
-    const auto velocity = joystickVelocity(options_.joystick, stateOf(message));
-    if (velocity)
-      command(*velocity);
+void TeleopJoyNode::note(JoystickLoop::Level level, const std::string& sentence) {
+  if (notes_ >= kMostNotes) return;
+  ++notes_;
+  const auto log = [this, level, sentence] {
+    --notes_;
+    if (level == JoystickLoop::Level::ERROR)
+      ROS_ERROR_STREAM(sentence);
+    else if (level == JoystickLoop::Level::WARN)
+      ROS_WARN_STREAM(sentence);
     else
-      release();
-  } catch (const InputError& error) {
-    ROS_ERROR_STREAM_THROTTLE(kErrorPeriod, "joy refused: " << error.what());
-    release();
-  }
+      ROS_INFO_STREAM(sentence);
+  };
+  nh_.getCallbackQueue()->addCallback(callbackOf(log), reinterpret_cast<std::uint64_t>(this));
 }
 
-void TeleopJoyNode::onStop(const std_msgs::Bool& message) {
-  stopped_ = message.data;
-  if (stopped_) publish({});
-}
-
-// The first command at once.
-void TeleopJoyNode::command(const BodyVelocity& velocity) {
-  const bool takes_over = !velocity_;
-  velocity_ = velocity;
-  if (!takes_over) return;
-  ROS_INFO("The joystick commands");
-  announce(true);
-  publish(stopped_ ? BodyVelocity{} : velocity);
-}
-
-void TeleopJoyNode::onTimer(const ros::SteadyTimerEvent&) {
-  if (!velocity_) {
-    if (stopped_) publish({});
-    return;
-  }
-  const double silence = (ros::SteadyTime::now() - heard_).toSec();
-  if (silence > options_.joy_timeout) {
-    ROS_WARN_STREAM("Nothing has come from the joystick for " << silence
-                                                              << " s: the vehicle is stopped");
-    release();
-    return;
-  }
-  announce(true);
-  publish(stopped_ ? BodyVelocity{} : *velocity_);
-}
-
-void TeleopJoyNode::announce(bool manual) {
-  std_msgs::Bool message;
-  message.data = manual;
-  manual_publisher_.publish(message);
-}
-
-void TeleopJoyNode::publish(const BodyVelocity& velocity) {
-  geometry_msgs::Twist message;
-  message.linear.x = velocity.surge;
-  message.linear.y = velocity.sway;
-  message.linear.z = velocity.heave;
-  message.angular.z = velocity.yaw_rate;
-  publisher_.publish(message);
-}
-
-void TeleopJoyNode::release() {
-  if (!velocity_) return;
-  velocity_.reset();
-  publish({});
-  announce(false);
-  ROS_INFO("The joystick commands no longer");
+void TeleopJoyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK,
+                 loop_->commands() ? "the joystick commands" : "the joystick commands nothing");
+  status.add("scheduling of commands", loop_->scheduling());
 }
 
 }  // namespace grid_path_planner::nodes

@@ -5,26 +5,30 @@
 //   publishes   cmd_vel  geometry_msgs/Twist in base_link, while the deadman button is held
 //               manual_control  std_msgs/Bool, latched; true with every command, false afterwards:
 //                        navigate_path pauses its drive and yields
+//               /diagnostics
 //
 // Guaranteed: it takes over with the first message with the deadman button held. A zero is published
 // when the deadman button is released, when no message has come for joy_timeout of the wall clock, on
 // a message that cannot be used, and when the node ends; after that nothing is published, so that
 // navigate_path may command the vehicle. ROS time has no effect. The node does not start where
-// another joystick's, or one that does not yield, publishes cmd_vel. Not guaranteed: a zero after
-// SIGKILL.
+// another joystick's, or one that does not yield, publishes cmd_vel. Velocities come from JoystickLoop,
+// whose thread waits for nothing; this class logs, and announces in a thread of its own. Not guaranteed:
+// a zero after SIGKILL.
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/steady_timer.h>
-#include <ros/subscriber.h>
-#include <sensor_msgs/Joy.h>
 #include <std_msgs/Bool.h>
 
+#include <atomic>
 #include <memory>
-#include <optional>
+#include <string>
 
+#include "grid_path_planner/base/task_queue.h"
 #include "ros/common/master/command_claim.h"
+#include "ros/driving/joystick_loop.h"
 #include "ros/driving/teleop_joy_options.h"
 
 namespace grid_path_planner {
@@ -40,34 +44,30 @@ class Reconfigurable;
 
 class TeleopJoyNode {
  public:
-  // Throws InputError for parameters that cannot be used and another node that commands. All callbacks are served by the queue of
-  // `nh`, which must be one thread's.
+  // Throws InputError for parameters that cannot be used and another node that commands. All callbacks
+  // but the loop's are served by the queue of `nh`, which must be one thread's.
   TeleopJoyNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
   // Stops the vehicle if it is being driven.
   ~TeleopJoyNode();
 
+  // The same, and nothing is commanded any more. Thread-safe.
+  void stop() { loop_->finish(); }
+
  private:
   void use(const TeleopJoyOptions& options);
-  void startTimer();
-  void onJoy(const sensor_msgs::Joy& message);
-  void onStop(const std_msgs::Bool& message);
-  void onTimer(const ros::SteadyTimerEvent& event);
-  void command(const base::BodyVelocity& velocity);
-  void publish(const base::BodyVelocity& velocity);
-  void announce(bool manual);
-  void release();
+  void announce(bool commands);
+  void note(JoystickLoop::Level level, const std::string& sentence);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle nh_;
   TeleopJoyOptions options_;
   const CommandClaim commands_;
-  std::optional<base::BodyVelocity> velocity_;  // none: the joystick commands nothing
-  bool stopped_ = false;                        // by the topic
-  ros::SteadyTime heard_;
-  ros::Publisher publisher_;
   ros::Publisher manual_publisher_;
-  ros::Subscriber subscriber_;
-  ros::Subscriber stop_subscriber_;
-  ros::SteadyTimer timer_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::SteadyTimer diagnostics_timer_;
+  std::atomic<int> notes_{0};  // that wait for the log
+  base::TaskQueue announcer_;
+  std::unique_ptr<JoystickLoop> loop_;
   std::unique_ptr<Reconfigurable<TeleopJoyConfig, TeleopJoyOptions>> reconfigurable_;
 };
 

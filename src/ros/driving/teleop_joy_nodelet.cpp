@@ -3,7 +3,7 @@
 
 namespace grid_path_planner::nodes {
 
-class TeleopJoyNodelet : public NodeletShell<TeleopJoyNode> {};
+class TeleopJoyNodelet : public CommanderShell<TeleopJoyNode> {};
 
 }  // namespace grid_path_planner::nodes
 

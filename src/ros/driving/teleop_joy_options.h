@@ -2,6 +2,7 @@
 #pragma once
 
 #include "grid_path_planner/following/joystick.h"
+#include "ros/common/scheduling/realtime_priority.h"
 
 namespace grid_path_planner::nodes {
 
@@ -9,6 +10,7 @@ struct TeleopJoyOptions {
   following::JoystickOptions joystick;
   double joy_timeout = 0.5;    // s, wall time
   double command_rate = 20.0;  // Hz, wall time
+  int realtime_priority = 1;
 };
 
 template <class Visitor>
@@ -22,6 +24,7 @@ void visitOptions(TeleopJoyOptions& o, Visitor&& visit) {
         base::OptionInfo{
             "How often the vehicle is commanded; simulated time that runs faster needs more", "Hz",
             1.0, 1000.0});
+  visitRealtimePriority(o.realtime_priority, visit);
 }
 
 // Throws InputError naming the option for a value outside its limits.

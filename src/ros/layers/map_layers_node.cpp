@@ -9,7 +9,7 @@
 #include "grid_path_planner/MapLayersConfig.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/end_of_node.h"
+#include "ros/common/ending/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/outgoing/diagnostics_timer.h"

@@ -8,7 +8,7 @@
 #include "grid_path_planner/MarkerLocalizerConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "localization/measurement_check.h"
-#include "ros/common/end_of_node.h"
+#include "ros/common/ending/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"

@@ -5,7 +5,7 @@
 
 #include "grid_path_planner/ProjectedMapConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/end_of_node.h"
+#include "ros/common/ending/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/cloud_reader.h"
 #include "ros/common/master/end_without_master.h"

@@ -5,7 +5,7 @@
 #include "grid_path_planner/MapPublisherConfig.h"
 #include "grid_path_planner/ros/bag.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/end_of_node.h"
+#include "ros/common/ending/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/network_text.h"
 #include "ros/common/parameters.h"

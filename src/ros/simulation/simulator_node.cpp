@@ -9,7 +9,7 @@
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "grid_path_planner/simulation/world.h"
-#include "ros/common/end_of_node.h"
+#include "ros/common/ending/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What go_to_pose does when a door closes ahead, and when a node dies: the vehicle stops rather than guesses."""
 import os
+import signal
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -78,6 +79,23 @@ class GoToPoseFailures(GoToTest):
         self.processes["go_to_pose"].wait(20)
         self.ends("ABORTED")
         self.wait_for(self.stands)
+        self.start("go_to_pose")
+        self.connect()
+
+    def test_a_manager_that_is_signalled_stops_the_vehicle(self):
+        """roscpp closes the connections at SIGINT before a nodelet hears of it, and SIGTERM ends a manager at once."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self.kill("go_to_pose")
+            self.start("go_to_pose", as_nodelet=True)
+            self.connect()
+            self.drive_to(2, 1.5)
+            self.send(pose(8, 1.5))
+            self.wait_for(self.moves)
+            self.processes["go_to_pose"].send_signal(number)
+            self.processes["go_to_pose"].wait(20)
+            self.ends("ABORTED")
+            self.wait_for(self.stands)
+            self.assertFalse(self.is_at(8, 1.5, within=1.0), self.at())
         self.start("go_to_pose")
         self.connect()
 

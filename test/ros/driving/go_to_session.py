@@ -13,6 +13,7 @@ import xmlrpc.client
 
 import actionlib
 import rosgraph
+import roslib.packages
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import PoseStamped
@@ -90,9 +91,13 @@ class GoToTest(unittest.TestCase):
         assert cls.client.wait_for_server(rospy.Duration(DEADLINE * 8)), cls.logs()
 
     @classmethod
-    def start(cls, name, *more):
+    def start(cls, name, *more, as_nodelet=False):
         log = open(os.path.join(cls.folder.name, name + ".log"), "a")
-        cls.processes[name] = subprocess.Popen([executable(name), "__name:=" + name] + ARGUMENTS[name] + list(more),
+        program = [executable(name)]
+        if as_nodelet:  # in a manager of that name; the prefix is the sanitizer's library, in its runs
+            nodelet = roslib.packages.find_node("nodelet", "nodelet")[0]
+            program = os.environ.get("GPP_NODELET_PREFIX", "").split() + [nodelet, "standalone", PACKAGE + "/" + name]
+        cls.processes[name] = subprocess.Popen(program + ["__name:=" + name] + ARGUMENTS[name] + list(more),
                                                stdout=log, stderr=subprocess.STDOUT)
 
     @classmethod

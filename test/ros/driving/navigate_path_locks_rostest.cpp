@@ -6,11 +6,13 @@
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <sched.h>
 
-#include <filesystem>
+#include <chrono>
+#include <thread>
 
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/support/control_thread.h"
 #include "ros/support/still_fixture.h"
 #include "support/temporary_folder.h"
 
@@ -21,14 +23,8 @@ using test::pathOf;
 using test::Process;
 using test::StillWorld;
 
-class ControlThread : public test::StillTest {
+class NavigatePathLocks : public test::StillTest {
  protected:
-  // The number behind `name: ` in the report.
-  int counted(const std::string& name) const {
-    const std::string text = test::contentOf(report_);
-    const std::size_t at = text.find(name + ": ");
-    return at == std::string::npos ? -1 : std::stoi(text.substr(at + name.size() + 2));
-  }
   void publishMap(int side = 200) {
     grid::OccupancyGrid map(grid::GridGeometry(side, side, 100.0 / side));
     for (std::int8_t& value : map.values()) value = 0;
@@ -66,7 +62,7 @@ class ControlThread : public test::StillTest {
       nh_.advertise<map_msgs::OccupancyGridUpdate>("projected_map_updates", 10);
 };
 
-TEST_F(ControlThread, TakesNoLockThatFilesMapsOrLogsAreHandledUnder) {
+TEST_F(NavigatePathLocks, TakesNoLockThatFilesMapsOrLogsAreHandledUnder) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the sanitizers watch the same calls";
 #endif
@@ -80,32 +76,10 @@ TEST_F(ControlThread, TakesNoLockThatFilesMapsOrLogsAreHandledUnder) {
   keepBusy("line.yaml");
   navigate_->end(SIGINT);
   ASSERT_EQ(navigate_->exitCode(), 0);
-  EXPECT_GT(counted("control"), 0) << "the thread is watched";
-  EXPECT_GT(counted("slow"), 0) << "the others are";
-  const std::string text = test::contentOf(report_);
-  EXPECT_EQ(text.find("both: "), std::string::npos) << text;
+  EXPECT_TRUE(test::takesNoSlowLock(report_));
 }
 
-namespace fs = std::filesystem;
-
-// Its folder in /proc.
-fs::path controlThreadOf(pid_t process) {
-  for (const auto& task : fs::directory_iterator("/proc/" + std::to_string(process) + "/task"))
-    if (test::contentOf((task.path() / "comm").string()) == "control\n") return task.path();
-  throw std::runtime_error("there is no thread \"control\"");
-}
-
-// SCHED_FIFO or SCHED_OTHER.
-int policyOf(const fs::path& thread) {
-  return ::sched_getscheduler(std::stoi(thread.filename().string()));
-}
-
-// Of a processor, so far.
-double secondsOf(const fs::path& thread) {
-  return 1e-9 * std::stod(test::contentOf((thread / "schedstat").string()));
-}
-
-TEST_F(ControlThread, HasThePriorityOfTheDiagnostics) {
+TEST_F(NavigatePathLocks, HasThePriorityOfTheDiagnostics) {
   StillWorld world(100.0);
   drive();
   const std::string key = "scheduling of commands";
@@ -114,8 +88,8 @@ TEST_F(ControlThread, HasThePriorityOfTheDiagnostics) {
   if (!granted) {
     EXPECT_EQ(reported(key), "ordinary: Operation not permitted");
   }
-  const fs::path thread = controlThreadOf(navigate_->pid());
-  EXPECT_EQ(policyOf(thread), granted ? SCHED_FIFO : SCHED_OTHER);
+  const auto thread = test::controlThreadOf(navigate_->pid());
+  EXPECT_EQ(test::policyOf(thread), granted ? SCHED_FIFO : SCHED_OTHER);
 
   dynamic_reconfigure::Reconfigure call;
   call.request.config.ints.emplace_back();
@@ -123,23 +97,23 @@ TEST_F(ControlThread, HasThePriorityOfTheDiagnostics) {
   call.request.config.ints.back().value = 0;
   ASSERT_TRUE(ros::service::call("/navigate_path/set_parameters", call));
   EXPECT_TRUE(test::waitFor([&] { return reported(key) == "ordinary"; }));
-  EXPECT_EQ(policyOf(thread), SCHED_OTHER);
+  EXPECT_EQ(test::policyOf(thread), SCHED_OTHER);
   EXPECT_TRUE(isDriving());
 }
 
 // Any client may set check_radius: before a real-time thread that never sleeps nobody would come, on a machine of
 // one processor not even the stop.
-TEST_F(ControlThread, TakesHalfOfAProcessorAtMost) {
+TEST_F(NavigatePathLocks, TakesHalfOfAProcessorAtMost) {
   StillWorld world(100.0);
   publishMap(2000);
   startNavigate({"_check_map:=true", "_check_radius:=100", "_no_progress_timeout:=0"});
   publishPath(pathOf({{0, 0}, {50, 0}}));
   ASSERT_TRUE(isDriving());
-  const fs::path thread = controlThreadOf(navigate_->pid());
+  const auto thread = test::controlThreadOf(navigate_->pid());
   const auto begin = std::chrono::steady_clock::now();
-  const double before = secondsOf(thread);
+  const double before = test::secondsOf(thread);
   std::this_thread::sleep_for(std::chrono::seconds(3));
-  const double used = secondsOf(thread) - before;
+  const double used = test::secondsOf(thread) - before;
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
   EXPECT_GT(used, 0.1) << "no long ticks";
   EXPECT_LT(used, 0.6 * passed.count());

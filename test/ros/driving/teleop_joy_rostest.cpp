@@ -1,13 +1,17 @@
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/Twist.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Joy.h>
+#include <std_msgs/Bool.h>
 
+#include "ros/support/control_thread.h"
 #include "ros/support/latest.h"
 #include "ros/support/navigate_fixture.h"
 #include "ros/support/nodelet_command.h"
 #include "ros/support/process.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -32,6 +36,13 @@ class TeleopJoyTest : public testing::Test {
 
   void start(const std::vector<std::string>& arguments = {}) {
     node_ = std::make_unique<Process>("teleop_joy", arguments);
+    ASSERT_NO_FATAL_FAILURE(waitUntilItIsUp());
+  }
+  void startBy(const std::vector<std::string>& command) {
+    node_ = std::make_unique<Process>(command);
+    ASSERT_NO_FATAL_FAILURE(waitUntilItIsUp());
+  }
+  void waitUntilItIsUp() {
     ASSERT_TRUE(
         test::waitFor([&] { return joy_.getNumSubscribers() > 0 && commands_.publishers() > 0; }));
   }
@@ -51,6 +62,16 @@ class TeleopJoyTest : public testing::Test {
   }
   bool lastCommandIsZero() {
     return test::waitFor([&] { return isZero(commands_.all().back()); });
+  }
+
+  // Each time the node logs two lines.
+  void takeOverAndLetGo(int times) {
+    for (int i = 0; i < times; ++i) {
+      joy_.publish(joyOf(1.0f, true));
+      ros::WallDuration(0.001).sleep();
+      joy_.publish(joyOf(0.0f, false));
+      ros::WallDuration(0.001).sleep();
+    }
   }
 
   ros::NodeHandle nh_;
@@ -108,6 +129,59 @@ TEST_F(TeleopJoyTest, DrivesTheSimulatedVehicle) {
     const auto all = odom.all();
     return !all.empty() && all.back().pose.pose.position.x > 1.0;
   }));
+}
+
+// Before, the thread that commanded wrote the log: cmd_vel was silent for ever.
+TEST_F(TeleopJoyTest, ALogThatNobodyReadsDoesNotHoldIt) {
+  const test::TemporaryFolder folder;
+  const std::string pipe = folder.path("pipe");
+  Latest<std_msgs::Bool> manual(nh_, "manual_control");
+  // A pipe that is open and never read takes 64 kB; then who writes waits.
+  ASSERT_NO_FATAL_FAILURE(
+      startBy({"bash", "-c",
+               "mkfifo " + pipe + "; exec 3<>" + pipe +
+                   "; exec " GPP_DEVEL "/lib/grid_path_planner/teleop_joy >&3 2>&3"}));
+  takeOverAndLetGo(1500);
+  ASSERT_TRUE(driveAhead());
+  const auto newest = [&] { return manual.count() > 0 && manual.all().back().data != 0; };
+  EXPECT_TRUE(test::waitFor([&] {
+    joy_.publish(joyOf(1.0f, true));
+    return newest();
+  }));
+  EXPECT_TRUE(lastCommandIsZero()) << "the joystick is silent";
+  EXPECT_TRUE(test::waitFor([&] { return !newest(); }));
+  node_->signal(SIGKILL);  // the log holds its orderly end
+}
+
+// As navigate_path's: see navigate_path_locks_rostest.cpp.
+TEST_F(TeleopJoyTest, TakesNoLockThatLogsAreWrittenUnder) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizers watch the same calls";
+#endif
+  const test::TemporaryFolder folder;
+  const std::string report = folder.path("report");
+  Latest<diagnostic_msgs::DiagnosticArray> diagnostics(nh_, "/diagnostics");
+  ASSERT_NO_FATAL_FAILURE(
+      startBy({"env", "LD_PRELOAD=" GPP_LOCK_WATCH, "LOCK_WATCH_REPORT=" + report,
+               GPP_DEVEL "/lib/grid_path_planner/teleop_joy"}));
+  takeOverAndLetGo(20);
+  ASSERT_TRUE(driveAhead());
+  ASSERT_TRUE(test::waitFor(
+      [&] { return !test::valueIn(diagnostics.all(), "scheduling of commands").empty(); }));
+  node_->end(SIGINT);
+  ASSERT_EQ(node_->exitCode(), 0);
+  EXPECT_TRUE(test::takesNoSlowLock(report));
+}
+
+TEST_F(TeleopJoyTest, HasThePriorityOfTheDiagnostics) {
+  Latest<diagnostic_msgs::DiagnosticArray> diagnostics(nh_, "/diagnostics");
+  start();
+  const auto reported = [&] { return test::valueIn(diagnostics.all(), "scheduling of commands"); };
+  ASSERT_TRUE(test::waitFor([&] { return !reported().empty(); }));
+  const bool granted = reported() == "real-time priority 1";
+  EXPECT_TRUE(granted || reported() == "ordinary: Operation not permitted") << reported();
+  EXPECT_EQ(test::policyOf(test::controlThreadOf(node_->pid())),
+            granted ? SCHED_FIFO : SCHED_OTHER);
 }
 
 TEST_F(TeleopJoyTest, RunsAsANodelet) {

@@ -112,6 +112,19 @@ class EveryCommander(CommanderTest):
                 self.assertIsNotNone(node.end(number), name)
                 self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, time.monotonic() + END_SECONDS), name)
 
+    def test_a_manager_that_is_signalled_leaves_a_zero(self):
+        """roscpp closes the connections at SIGINT before a nodelet hears of it, and SIGTERM ends a manager at once."""
+        for name in COMMANDERS:
+            for number in (signal.SIGINT, signal.SIGTERM):
+                node = self.moving(name, "nodelet")
+                manager = node.processes[0]
+                manager.send_signal(number)
+                self.assertTrue(probes.until(self.anybody(), lambda: manager.poll() is not None,
+                                             time.monotonic() + END_SECONDS), "%s after signal %d" % (name, number))
+                self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, time.monotonic() + END_SECONDS),
+                                "%s after signal %d: %s" % (name, number, self.said(node)))
+                node.end(signal.SIGKILL)
+
     def test_a_joystick_takes_over_and_a_hand_gives_back(self):
         for name in DRIVERS:
             node = self.moving(name)

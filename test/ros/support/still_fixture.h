@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/support/control_thread.h"
 #include "ros/support/navigate_fixture.h"
 
 namespace grid_path_planner::test {
@@ -48,14 +49,7 @@ class StillTest : public NavigateTest {
         .has_value();
   }
   // The value of `key` in the newest diagnostics that have one; empty before.
-  std::string reported(const std::string& key) const {
-    std::string value;
-    for (const auto& array : diagnostics_.all())
-      for (const auto& status : array.status)
-        for (const auto& entry : status.values)
-          if (entry.key == key) value = entry.value;
-    return value;
-  }
+  std::string reported(const std::string& key) const { return valueIn(diagnostics_.all(), key); }
 
   // Whether a command that is not zero comes before the deadline.
   bool drivesWithin(std::chrono::seconds deadline) {

@@ -9,7 +9,7 @@
 // What a connection does not take, or one that is written to just then, is left to that thread. The order
 // stays, as long as nothing is published otherwise on this topic of the process.
 //
-// For messages without a header, by one thread. Subscribers of the same process are called as usual.
+// For one thread. Subscribers of the same process are called as usual.
 #pragma once
 
 #include <ros/publication.h>

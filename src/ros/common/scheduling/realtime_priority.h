@@ -9,11 +9,22 @@
 
 #include <string>
 
+#include "grid_path_planner/base/options.h"
+
 namespace grid_path_planner::nodes {
 
 // SCHED_FIFO (sched(7)) of `priority`, 1 to 99; 0: the ordinary scheduling. Returns why it is not
 // granted, in the system's words, and then nothing has changed: it takes RLIMIT_RTPRIO of at least
 // `priority`, or CAP_SYS_NICE.
 std::string takeRealtimePriority(int priority);
+
+// The option by which nodes that command take it.
+template <class Visitor>
+void visitRealtimePriority(int& priority, Visitor&& visit) {
+  visit("realtime_priority", priority,
+        base::OptionInfo{"Of the thread that commands (SCHED_FIFO), where the system grants it "
+                         "(RLIMIT_RTPRIO): without, a busy machine silences the vehicle; 0: none",
+                         "", 0, 99});
+}
 
 }  // namespace grid_path_planner::nodes

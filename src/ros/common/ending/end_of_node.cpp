@@ -1,4 +1,4 @@
-#include "ros/common/end_of_node.h"
+#include "ros/common/ending/end_of_node.h"
 
 #include <ros/init.h>
 

@@ -1,0 +1,87 @@
+// What local_planner commands: cmd_vel and setpoint_velocity, from a thread of their own.
+//
+//   FlightHold hold;
+//   FlightCommander commander(nh, LocalPlannerOptions(), hold);
+//   commander.command({{0.5, 0.0, 0.0, 0.0}, 0.0, ros::Time::now(), 0.2});   // with every answer of the pilot
+//
+// Clouds, plans, logs, views and services have other threads, however long they take. A command is sent as soon
+// as it is handed over, and again where no other has come for a period of control_rate. Guaranteed: zeros take its
+// place where it has been held for longer than frame_period (one and a half periods, if those are longer), where what
+// it rests on has grown too old by ROS time or ROS time went back, and where the hold says so; they last until the next
+// command. While `stop` is true there are zeros only, and while a joystick commands nothing. The thread logs
+// nothing, reads and publishes nothing else and takes no lock but for values that are copied; how it is scheduled:
+// control_thread.h.
+#pragma once
+
+#include <geometry_msgs/Twist.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <std_msgs/Bool.h>
+
+#include <atomic>
+#include <chrono>
+#include <string>
+
+#include "grid_path_planner/base/body_velocity.h"
+#include "ros/avoidance/flight_hold.h"
+#include "ros/avoidance/local_planner_options.h"
+#include "ros/common/outgoing/direct_publisher.h"
+#include "ros/common/scheduling/control_thread.h"
+
+namespace grid_path_planner::nodes {
+
+class FlightCommander {
+ public:
+  struct Command {
+    base::BodyVelocity velocity = {};
+    double yaw = 0.0;       // rad, of the vehicle in map_frame
+    ros::Time time = {};    // of the decision
+    double good_for = 0.0;  // s of ROS time, until the clouds or the pose are too old
+    bool is_last = false;   // the flight has ended: nothing follows
+  };
+
+  // `hold` is told `stop` and `manual_control`; it outlives this.
+  FlightCommander(const ros::NodeHandle& nh, const LocalPlannerOptions& options, FlightHold& hold);
+  ~FlightCommander() { thread_.stop(); }
+
+  // Thread-safe, all of these.
+  void command(const Command& command);
+  void setOptions(const LocalPlannerOptions& options);  // precondition: checked
+  // A zero ends the flight of a node that ends; no command is sent after this. Waits until it is. To be called
+  // before anything that asks the master, which may not answer.
+  void finish();
+
+  // How the thread is scheduled, in words.
+  std::string scheduling() const { return thread_.scheduling(); }
+  // How many motions became zeros for want of a newer command.
+  unsigned overdue() const { return overdue_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // In the thread:
+  void take(const Command& command, Clock::time_point handed_over);
+  void use(const LocalPlannerOptions& options);
+  void onStop(const std_msgs::Bool& message);
+  void onManual(const std_msgs::Bool& message);
+  void tick();
+  bool isOverdue() const;
+  void send(const base::BodyVelocity& velocity);
+  geometry_msgs::Twist inMap(const geometry_msgs::Twist& twist) const;
+
+  FlightHold& hold_;
+  std::string map_frame_;
+  double master_timeout_ = 0.0;  // s
+  Clock::duration most_held_{};
+  Command command_;
+  Clock::time_point handed_over_;
+  bool flies_ = false;
+  bool finished_ = false;
+  std::atomic<unsigned> overdue_{0};
+
+  DirectPublisher velocity_, setpoint_;
+  ControlThread thread_{[this] { tick(); }};
+  ros::Subscriber stop_subscriber_, manual_subscriber_;
+};
+
+}  // namespace grid_path_planner::nodes

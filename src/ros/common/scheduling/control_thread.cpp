@@ -1,0 +1,92 @@
+#include "ros/common/scheduling/control_thread.h"
+
+#include <sys/prctl.h>
+
+#include <algorithm>
+
+#include "ros/common/scheduling/cpu_share.h"
+#include "ros/common/scheduling/realtime_priority.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+constexpr double kMostShare = 0.5;  // of a processor
+
+}  // namespace
+
+void ControlThread::start(double rate, int priority) {
+  rate_ = rate;
+  priority_ = priority;
+  next_tick_ = Clock::now();
+  thread_ = std::thread([this] {
+    ::prctl(PR_SET_NAME, "control");  // for top, debuggers and test/ros/support/lock_watch.cpp
+    run();
+  });
+}
+
+void ControlThread::stop() {
+  done_ = true;
+  post([] {});  // it may wait for most of a period
+  if (thread_.joinable()) thread_.join();
+}
+
+void ControlThread::post(std::function<void()> work) {
+  guarded_.addCallback(callbackOf(std::move(work)));
+}
+
+// An owner that can say why it failed catches that itself.
+void ControlThread::tick() {
+  try {
+    tick_();
+  } catch (...) {
+    return;
+  }
+}
+
+void ControlThread::restartPeriod() {
+  next_tick_ = Clock::now() + period();
+}
+
+void ControlThread::setPriority(int priority) {
+  if (std::exchange(priority_, priority) != priority) takePriority();
+}
+
+std::string ControlThread::scheduling() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return scheduling_;
+}
+
+ControlThread::Clock::duration ControlThread::period() const {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate_));
+}
+
+void ControlThread::takePriority() {
+  const std::string why = takeRealtimePriority(priority_);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!why.empty())
+    scheduling_ = "ordinary: " + why;
+  else
+    scheduling_ = priority_ > 0 ? "real-time priority " + std::to_string(priority_) : "ordinary";
+}
+
+void ControlThread::run() {
+  takePriority();
+  CpuShare share(kMostShare);
+  while (!done_) {
+    std::this_thread::sleep_until(share.notBefore());
+    share.take([this] { workOrTick(); });
+  }
+}
+
+void ControlThread::workOrTick() {
+  const auto left = std::chrono::duration<double>(next_tick_ - Clock::now()).count();
+  if (left > 0.0) {
+    queue_.callOne(ros::WallDuration(left));
+    return;
+  }
+  next_tick_ = std::max(next_tick_ + period(), Clock::now());
+  queue_.callAvailable();
+  tick();
+}
+
+}  // namespace grid_path_planner::nodes

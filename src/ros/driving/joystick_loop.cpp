@@ -1,0 +1,131 @@
+#include "ros/driving/joystick_loop.h"
+
+#include <geometry_msgs/Twist.h>
+
+#include <utility>
+
+#include "ros/common/incoming/claimed_lengths.h"
+
+namespace grid_path_planner::nodes {
+
+using base::BodyVelocity;
+using following::JoystickState;
+using following::joystickVelocity;
+
+namespace {
+
+constexpr std::chrono::seconds kRefusalPeriod(5);  // between two that are told
+
+JoystickState stateOf(const sensor_msgs::Joy& message) {
+  JoystickState state;
+  state.axes.assign(message.axes.begin(), message.axes.end());
+  for (const auto button : message.buttons) state.buttons.push_back(button != 0);
+  return state;
+}
+
+}  // namespace
+
+JoystickLoop::JoystickLoop(const ros::NodeHandle& nh, const TeleopJoyOptions& options,
+                           Handlers handlers)
+    : handlers_(std::move(handlers)),
+      options_(options),
+      publisher_(ros::NodeHandle(nh).advertise<geometry_msgs::Twist>("cmd_vel", 10)) {
+  ros::NodeHandle own(nh);
+  own.setCallbackQueue(&thread_.queue());
+  stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
+      own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
+  joy_subscriber_ = subscribeChecked<sensor_msgs::Joy>(
+      own, "joy", 10, [this](const sensor_msgs::Joy& message) { onJoy(message); });
+  thread_.start(options.command_rate, options.realtime_priority);
+}
+
+void JoystickLoop::setOptions(const TeleopJoyOptions& options) {
+  thread_.ask([this, &options] {
+    options_ = options;
+    thread_.setRate(options.command_rate);
+    thread_.setPriority(options.realtime_priority);
+  });
+}
+
+void JoystickLoop::finish() {
+  const bool sent = thread_.ask([this] {
+    finished_ = true;
+    return release();
+  });
+  if (sent && publisher_.numberOfListeners() > 0)
+    ros::WallDuration(0.1).sleep();  // what a connection did not take is sent by roscpp's thread
+}
+
+void JoystickLoop::onJoy(const sensor_msgs::Joy& message) {
+  if (finished_) return;
+  heard_ = Clock::now();
+  try {
+    const auto velocity = joystickVelocity(options_.joystick, stateOf(message));
+    if (velocity)
+      command(*velocity);
+    else
+      release();
+  } catch (const base::InputError& error) {
+    refuse(error.what());
+    release();
+  }
+}
+
+void JoystickLoop::refuse(const std::string& why) {
+  if (refused_ && heard_ - *refused_ < kRefusalPeriod) return;
+  refused_ = heard_;
+  handlers_.note(Level::ERROR, "joy refused: " + why);
+}
+
+void JoystickLoop::onStop(const std_msgs::Bool& message) {
+  stopped_ = message.data;
+  if (stopped_ && !finished_) publish({});
+}
+
+// The first command at once.
+void JoystickLoop::command(const BodyVelocity& velocity) {
+  const bool takes_over = !std::exchange(velocity_, velocity);
+  if (!takes_over) return;
+  commands_ = true;
+  handlers_.announce(true);
+  publish(stopped_ ? BodyVelocity{} : velocity);
+  handlers_.note(Level::INFO, "The joystick commands");
+}
+
+void JoystickLoop::tick() {
+  if (finished_) return;
+  if (!velocity_) {
+    if (stopped_) publish({});
+    return;
+  }
+  const double silence = std::chrono::duration<double>(Clock::now() - heard_).count();
+  if (silence > options_.joy_timeout) {
+    release();
+    handlers_.note(Level::WARN, "Nothing has come from the joystick for " +
+                                    std::to_string(silence) + " s: the vehicle is stopped");
+    return;
+  }
+  handlers_.announce(true);
+  publish(stopped_ ? BodyVelocity{} : *velocity_);
+}
+
+void JoystickLoop::publish(const BodyVelocity& velocity) {
+  geometry_msgs::Twist message;
+  message.linear.x = velocity.surge;
+  message.linear.y = velocity.sway;
+  message.linear.z = velocity.heave;
+  message.angular.z = velocity.yaw_rate;
+  publisher_.publish(message);
+}
+
+// Whether it commanded.
+bool JoystickLoop::release() {
+  if (!std::exchange(velocity_, std::nullopt)) return false;
+  commands_ = false;
+  publish({});
+  handlers_.announce(false);
+  handlers_.note(Level::INFO, "The joystick commands no longer");
+  return true;
+}
+
+}  // namespace grid_path_planner::nodes

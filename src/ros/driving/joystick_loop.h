@@ -1,0 +1,75 @@
+// The control loop of teleop_joy: a thread of its own that turns what the joystick says into cmd_vel.
+//
+//   JoystickLoop loop(nh, options, {[](bool) {}, [](JoystickLoop::Level, const std::string&) {}});
+//   loop.finish();                                // a zero, if the joystick commands
+//
+// It serves `joy` and `stop`. Guaranteed: the thread logs nothing, publishes nothing but cmd_vel, which it writes to its
+// connections itself, and takes no lock that code holds which does. How it is scheduled: control_thread.h.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <sensor_msgs/Joy.h>
+#include <std_msgs/Bool.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "ros/common/outgoing/direct_publisher.h"
+#include "ros/common/scheduling/control_thread.h"
+#include "ros/driving/teleop_joy_options.h"
+
+namespace grid_path_planner::nodes {
+
+class JoystickLoop {
+ public:
+  enum class Level { INFO, WARN, ERROR };
+
+  // Called in the loop's thread; they may not wait.
+  struct Handlers {
+    std::function<void(bool commands)> announce;
+    std::function<void(Level, const std::string& sentence)> note;
+  };
+
+  JoystickLoop(const ros::NodeHandle& nh, const TeleopJoyOptions& options, Handlers handlers);
+  ~JoystickLoop() { thread_.stop(); }
+
+  void setOptions(const TeleopJoyOptions& options);  // precondition: checked
+  // Stops the vehicle if it is being driven; nothing is commanded after this. Waits until the zero is sent.
+  // Thread-safe.
+  void finish();
+
+  bool commands() const { return commands_; }
+  // How the thread is scheduled, in words.
+  std::string scheduling() const { return thread_.scheduling(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // In the thread:
+  void onJoy(const sensor_msgs::Joy& message);
+  void onStop(const std_msgs::Bool& message);
+  void refuse(const std::string& why);
+  void tick();
+  void command(const base::BodyVelocity& velocity);
+  void publish(const base::BodyVelocity& velocity);
+  bool release();
+
+  const Handlers handlers_;
+  TeleopJoyOptions options_;
+  std::optional<base::BodyVelocity> velocity_;  // none: the joystick commands nothing
+  bool stopped_ = false;                        // by the topic
+  bool finished_ = false;                       // the node ends
+  Clock::time_point heard_;
+  std::optional<Clock::time_point> refused_;  // when that was told last
+  std::atomic<bool> commands_{false};
+
+  DirectPublisher publisher_;
+  ControlThread thread_{[this] { tick(); }};
+  ros::Subscriber joy_subscriber_, stop_subscriber_;
+};
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,299 @@
+// What local_planner commands waits for nobody, and rests on nothing that is too old.
+//
+// What was seen before: the thread that unpacked clouds, planned and logged commanded, too. A log that nobody read
+// silenced cmd_vel for ever; clouds of 16 MB silenced it for as long as they took; and a velocity stayed in force
+// however late the next one was.
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sensor_msgs/Image.h>
+#include <trajectory_msgs/MultiDOFJointTrajectory.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "grid_path_planner/NavigatePathActionGoal.h"
+#include "grid_path_planner/path/waypoint_file.h"
+#include "ros/avoidance/flight_commander.h"
+#include "ros/support/control_thread.h"
+#include "ros/support/flight_fixture.h"
+#include "support/temporary_folder.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using geometry_msgs::Twist;
+using test::drives;
+using test::Latest;
+using test::Process;
+using test::stands;
+
+// The class alone, of which the test is the pilot.
+class CommanderTest : public testing::Test {
+ protected:
+  using Command = FlightCommander::Command;
+
+  // Held for so long (s) by the wall clock where no other comes.
+  void start(double frame_period) {
+    options_.pilot.frame_period = frame_period;
+    options_.control_rate = 50.0;
+    options_.master_timeout = 0.0;
+    ASSERT_TRUE(test::waitFor([&] { return !ros::Time::now().isZero(); }));
+    commander_ = std::make_unique<FlightCommander>(nh_, options_, hold_);
+    ASSERT_TRUE(
+        test::waitFor([&] { return commands_.connected() && manuals_.getNumSubscribers() > 0; }));
+  }
+  void plan(double good_for) {
+    hold_.notice(ros::Time::now(), true);
+    commander_->command({{1.0, 0.0, 0.0, 0.0}, 0.0, ros::Time::now(), good_for, false});
+  }
+  // With a new plan every now and then.
+  bool fliesBy(double good_for) {
+    const std::size_t seen = commands_.count();
+    return test::waitFor([&] {
+      plan(good_for);
+      return anyDrives(seen);
+    });
+  }
+  bool anyDrives(std::size_t from) const {
+    const auto all = commands_.all();
+    return std::any_of(all.begin() + static_cast<std::ptrdiff_t>(from), all.end(), drives);
+  }
+  // Zeros come, and nothing else after the first, though the clock goes on.
+  bool endsInZeros() {
+    const auto noticed = [&](const std::function<bool()>& condition) {
+      return test::waitFor([&] {
+        hold_.notice(ros::Time::now(), true);
+        return condition();
+      });
+    };
+    if (!noticed([&] { return stands(commands_.all().back()); })) return false;
+    const std::size_t seen = commands_.count();
+    return noticed([&] { return commands_.count() > seen + 10; }) && !anyDrives(seen);
+  }
+  bool becomesManual(bool is) {
+    std_msgs::Bool message;
+    message.data = is;
+    manuals_.publish(message);
+    return test::waitFor([&] { return hold_.isManual() == is; });
+  }
+
+  test::Sky sky_;
+  ros::NodeHandle nh_;
+  Latest<Twist> commands_{nh_, "cmd_vel"};
+  ros::Publisher manuals_ = nh_.advertise<std_msgs::Bool>("manual_control", 1);
+  LocalPlannerOptions options_;
+  FlightHold hold_;
+  std::unique_ptr<FlightCommander> commander_;
+};
+
+TEST_F(CommanderTest, AVelocityThatNoOtherFollowsBecomesAZero) {
+  ASSERT_NO_FATAL_FAILURE(start(0.1));
+  ASSERT_TRUE(fliesBy(1e3));
+  EXPECT_TRUE(endsInZeros());
+  EXPECT_GE(commander_->overdue(), 1U);
+  EXPECT_TRUE(fliesBy(1e3)) << "by the next plan";
+}
+
+TEST_F(CommanderTest, AVelocityWhoseCloudsGrowTooOldBecomesAZero) {
+  ASSERT_NO_FATAL_FAILURE(start(10.0));
+  ASSERT_TRUE(fliesBy(0.5));
+  EXPECT_TRUE(endsInZeros());
+  EXPECT_GE(commander_->overdue(), 1U);
+}
+
+TEST_F(CommanderTest, AVelocityOfATimeToComeBecomesAZero) {
+  ASSERT_NO_FATAL_FAILURE(start(10.0));
+  ASSERT_TRUE(fliesBy(1e12));
+  sky_.jumpTo(5e8);
+  EXPECT_TRUE(endsInZeros());
+}
+
+TEST_F(CommanderTest, AJoystickThatTookOverWhileThePlanWasLateIsNotForgotten) {
+  ASSERT_NO_FATAL_FAILURE(start(10.0));
+  ASSERT_TRUE(fliesBy(1e3));
+  ASSERT_TRUE(becomesManual(true));
+  const std::size_t before = commands_.count();
+  ASSERT_TRUE(becomesManual(false));
+  EXPECT_TRUE(endsInZeros());
+  EXPECT_FALSE(anyDrives(before + 1)) << "one may have been sent before";
+  EXPECT_TRUE(hold_.resume(true).done);
+  EXPECT_TRUE(fliesBy(1e3));
+}
+
+TEST_F(CommanderTest, NothingComesAfterItsLastZero) {
+  ASSERT_NO_FATAL_FAILURE(start(10.0));
+  ASSERT_TRUE(fliesBy(1e3));
+  commander_->finish();
+  ASSERT_TRUE(test::waitFor([&] { return stands(commands_.all().back()); }));
+  const std::size_t seen = commands_.count();
+  plan(1e3);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_EQ(commands_.count(), seen);
+}
+
+class LocalPlannerLocks : public test::FlightTest {
+ protected:
+  // Zeros come from now on, and a second long nothing else.
+  bool standsFromNowOn() const {
+    return test::waitFor([&] {
+      const std::size_t seen = commands_.count();
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+      const auto all = commands_.all();
+      return all.size() > seen &&
+             std::none_of(all.begin() + static_cast<std::ptrdiff_t>(seen), all.end(), drives);
+    });
+  }
+  // Until the node's slow side says nothing for two seconds.
+  bool silences(const std::function<void()>& disturb) {
+    return test::waitFor([&] {
+      disturb();
+      const std::size_t reports = diagnostics_.count();
+      return !test::waitFor([&] { return diagnostics_.count() > reports; },
+                            std::chrono::seconds(2));
+    });
+  }
+
+  const test::TemporaryFolder folder_;
+  Latest<diagnostic_msgs::DiagnosticArray> diagnostics_{nh_, "/diagnostics"};
+};
+
+TEST_F(LocalPlannerLocks, ALogThatNobodyReadsEndsInZeros) {
+  const std::string pipe = folder_.path("pipe");
+  // A pipe that is open and never read takes 64 kB; then who writes waits.
+  std::string command = "mkfifo " + pipe + "; exec 3<>" + pipe +
+                        "; exec " GPP_DEVEL "/lib/grid_path_planner/local_planner";
+  for (const std::string& argument : arguments()) command += " " + argument;
+  pilot_ = std::make_unique<Process>(std::vector<std::string>{"bash", "-c", command + " >&3 2>&3"});
+  ASSERT_NO_FATAL_FAILURE(waitUntilItIsUp());
+  sendGoal(ros::Time());
+  ASSERT_TRUE(flies()) << said();
+  ASSERT_TRUE(silences([&] {
+    geometry_msgs::PoseStamped refused;
+    refused.header.frame_id = "map";
+    refused.pose.position.x = 1e180;
+    for (int i = 0; i < 200; ++i) {
+      goals_.publish(refused);
+      ros::WallDuration(0.002).sleep();
+    }
+  }));
+  EXPECT_TRUE(standsFromNowOn());
+  send(manuals_, true);
+  EXPECT_TRUE(test::waitFor([&] {
+    send(manuals_, true);
+    const std::size_t seen = commands_.count();
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    return commands_.count() == seen;
+  })) << "and the joystick's velocities are in force";
+  pilot_->signal(SIGKILL);  // the log holds its orderly end
+}
+
+sensor_msgs::PointCloud2 largeCloud() {
+  constexpr std::uint32_t kWidth = 1280, kHeight = 1024;  // 16 MB
+  sensor_msgs::PointCloud2 cloud;
+  sensor_msgs::PointCloud2Modifier modifier(cloud);
+  modifier.setPointCloud2FieldsByString(1, "xyz");
+  modifier.resize(kWidth * kHeight);
+  cloud.header.frame_id = "camera";
+  cloud.width = kWidth;
+  cloud.height = kHeight;
+  cloud.row_step = kWidth * cloud.point_step;
+  std::fill(cloud.data.begin(), cloud.data.end(), std::uint8_t{0xff});  // NaN
+  return cloud;
+}
+
+// Each plan says where it leads: with the velocities in the same thread there were as many of the one as of the other.
+TEST_F(LocalPlannerLocks, LargeCloudsAndSlowViewersDelayPlansAndNoVelocities) {
+  Latest<trajectory_msgs::MultiDOFJointTrajectory> plans(nh_, "setpoint_trajectory");
+  ros::Publisher clouds = nh_.advertise<sensor_msgs::PointCloud2>("points", 1);
+  ASSERT_NO_FATAL_FAILURE(startAndFly({"_control_rate:=200"}));
+  Process viewer(std::vector<std::string>{"rostopic", "echo", "/avoidance_markers"});
+  ASSERT_TRUE(viewer.says("header"));
+  viewer.signal(SIGSTOP);
+  ASSERT_TRUE(plans.waitForMoreThan(0));
+  sensor_msgs::PointCloud2 cloud = largeCloud();
+  const std::size_t ahead = commands_.count() - std::min(commands_.count(), plans.count());
+  EXPECT_TRUE(test::waitFor([&] {
+    cloud.header.stamp = sky_.now();
+    clouds.publish(cloud);
+    return commands_.count() > plans.count() + ahead + 300;
+  })) << commands_.count()
+      << " velocities, " << plans.count() << " plans";
+  viewer.signal(SIGKILL);
+  EXPECT_TRUE(flies()) << said();
+}
+
+// As navigate_path's: see there.
+TEST_F(LocalPlannerLocks, TakesNoLockThatCloudsFilesOrLogsAreHandledUnder) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizers watch the same calls";
+#endif
+  const std::string report = folder_.path("report");
+  path::Path line;
+  line.poses = {{{0.0, 0.0, 0.0}, 0.0}, {{40.0, 0.0, 0.0}, 0.0}};
+  path::writeWaypointFile(base::OutputFile(folder_.path("line.yaml")), line);
+  std::vector<std::string> command{"env",
+                                   "LD_PRELOAD=" GPP_LOCK_WATCH,
+                                   "LOCK_WATCH_REPORT=" + report,
+                                   GPP_DEVEL "/lib/grid_path_planner/local_planner",
+                                   "--load-folder",
+                                   folder_.path("."),
+                                   "--log",
+                                   folder_.path("log.flight")};
+  for (const std::string& argument : arguments()) command.push_back(argument);
+  pilot_ = std::make_unique<Process>(command);
+  ASSERT_NO_FATAL_FAILURE(waitUntilItIsUp());
+  const Latest<sensor_msgs::Image> pictures(nh_, "histogram_image");
+  const ros::Publisher files = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1, true);
+  for (int round = 0; round < 5; ++round) {
+    NavigatePathActionGoal goal;
+    goal.goal_id.id = std::to_string(round);
+    goal.goal.filename = "line.yaml";
+    files.publish(goal);
+    ASSERT_TRUE(flies()) << said();
+    EXPECT_TRUE(call("pause").success);
+    EXPECT_TRUE(call("resume").success);
+    dynamic_reconfigure::Reconfigure reconfigure;
+    EXPECT_TRUE(ros::service::call("/local_planner/set_parameters", reconfigure));
+    send(stops_, true);
+    ASSERT_TRUE(says("stopped by the topic stop")) << said();
+    send(stops_, false);
+    const std::size_t seen = diagnostics_.count(), shown = pictures.count();
+    EXPECT_TRUE(
+        test::waitFor([&] { return diagnostics_.count() > seen && pictures.count() > shown; }));
+    EXPECT_TRUE(call("cancel").success);
+  }
+  pilot_->end(SIGINT);
+  ASSERT_EQ(pilot_->exitCode(), 0);
+  EXPECT_TRUE(test::takesNoSlowLock(report));
+}
+
+TEST_F(LocalPlannerLocks, HasThePriorityOfTheDiagnostics) {
+  ASSERT_NO_FATAL_FAILURE(startAndFly());
+  const auto reported = [&] { return test::valueIn(diagnostics_.all(), "scheduling of commands"); };
+  ASSERT_TRUE(test::waitFor([&] { return !reported().empty(); }));
+  const bool granted = reported() == "real-time priority 1";
+  if (!granted) {
+    EXPECT_EQ(reported(), "ordinary: Operation not permitted");
+  }
+  const auto thread = test::controlThreadOf(pilot_->pid());
+  EXPECT_EQ(test::policyOf(thread), granted ? SCHED_FIFO : SCHED_OTHER);
+  dynamic_reconfigure::Reconfigure call;
+  call.request.config.ints.emplace_back();
+  call.request.config.ints.back().name = "realtime_priority";
+  call.request.config.ints.back().value = 0;
+  ASSERT_TRUE(ros::service::call("/local_planner/set_parameters", call));
+  EXPECT_TRUE(test::waitFor([&] { return reported() == "ordinary"; }));
+  EXPECT_EQ(test::policyOf(thread), SCHED_OTHER);
+  EXPECT_TRUE(flies()) << said();
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
