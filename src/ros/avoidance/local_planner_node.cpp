@@ -132,10 +132,12 @@ FlightAction::Hands LocalPlannerNode::hands() {
   return {
       [this](const path::Path& path, bool along) {
         const path::Path flown = inMap(path);
+        given_goals_.endAllUntil(ros::Time::now());
         fly(flown, along);
         return flown;
       },
       [this](const std::string& reason) {
+        given_goals_.endAllUntil(ros::Time::now());
         if (flies_) pilot_.cancel(reason);
       },
       [this](const nav_msgs::Path& path) { return transforms_.pathIn(path, options_.base_frame); }};
@@ -180,6 +182,7 @@ void LocalPlannerNode::offerServices(ros::NodeHandle& private_nh) {
   offer("pause", [this] { return hold_.pause(flies_); });
   offer("resume", [this] { return hold_.resume(flies_); });
   offer("cancel", [this] {
+    given_goals_.endAllUntil(ros::Time::now());
     if (!flies_) return Answer{false, "nothing to cancel: nothing is flown"};
     pilot_.cancel("asked for by ~cancel");
     return Answer{true, "cancelled"};
@@ -231,6 +234,7 @@ bool LocalPlannerNode::noticeTime() {
   clouds_.clear();
   map_.forget();
   odometry_.reset();
+  given_goals_.forget();
   tick(now);  // a goal that comes now is of this time
   return true;
 }
@@ -269,8 +273,13 @@ void LocalPlannerNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   if (isFromBefore("A path", message.header.stamp)) return;
+  if (given_goals_.isOver(message)) {
+    ROS_INFO("A path is not flown: its goal was reached or cancelled; give it again");
+    return;
+  }
   try {
     fly(inMap(transforms_.pathIn(message, options_.base_frame)), true);
+    given_goals_.drive(message);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
   }
@@ -341,6 +350,8 @@ void LocalPlannerNode::tick(const ros::Time& now) {
   const bool ended = answer_.status == PilotStatus::ARRIVED ||
                      answer_.status == PilotStatus::STUCK ||
                      answer_.status == PilotStatus::CANCELLED;
+  if (flies_ && answer_.status == PilotStatus::ARRIVED) given_goals_.end();
+  if (!flies_ && hold_.isManual()) given_goals_.endAllUntil(now);  // somebody moves the vehicle
   if (flies_) commander_.command({answer_.velocity, at_.yaw, now, good_for_, ended});
   if (yields) ROS_WARN("The joystick commands: the flight is paused until ~resume");
   if (const auto problem = pilot_.takeLogProblem()) ROS_WARN_STREAM(*problem);

@@ -65,6 +65,7 @@
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
 #include "ros/common/incoming/bounded_subscription.h"
+#include "ros/common/incoming/given_goals.h"
 #include "ros/common/master/command_claim.h"
 #include "ros/common/node_files.h"
 
@@ -131,8 +132,9 @@ class LocalPlannerNode {
   FlightCommander commander_;
   ros::Time started_;  // when there was ROS time first, or after it jumped back
   avoidance::VehiclePose at_;
-  double good_for_ = 0.0;  // s from the newest plan, until clouds or pose are too old
-  bool flies_ = false;     // there is a route, and cmd_vel is published
+  double good_for_ = 0.0;   // s from the newest plan, until clouds or pose are too old
+  GivenGoals given_goals_;  // of the topic `path`
+  bool flies_ = false;      // there is a route, and cmd_vel is published
 
   std::vector<ros::Subscriber> subscribers_;
   std::vector<std::unique_ptr<BoundedSubscription<sensor_msgs::PointCloud2>>> cloud_subscriptions_;

@@ -253,7 +253,13 @@ void DriveLoop::onManual(const std_msgs::Bool& message) {
     manual_ = Clock::now();
   else
     manual_.reset();
-  if (was != isManual()) thread_.tick();
+  if (was == isManual()) return;
+  if (isManual() && !follower_.active()) {
+    DriveReport report;
+    report.taken_over = true;
+    hand({report});
+  }
+  thread_.tick();
 }
 
 void DriveLoop::onStop(const std_msgs::Bool& message) {

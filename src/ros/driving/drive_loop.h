@@ -56,13 +56,14 @@ struct DriveStanding {
   double yaw_error = 0.0;       // rad
 };
 
-// What happened: an event of the follower with the standing after it, another waypoint, or what is
-// said in the note.
+// What happened: an event of the follower with the standing after it, another waypoint, what is
+// said in the note, or a joystick that takes over a vehicle that nothing drives.
 struct DriveReport {
   std::optional<following::FollowEvent> event;
   DriveStanding standing;
   std::optional<geometry_msgs::PoseStamped> waypoint;
   std::string note;
+  bool taken_over = false;
 };
 
 class DriveLoop {

@@ -210,7 +210,7 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   if (given_goals_.isOver(message)) {
-    ROS_INFO("A path is not driven: its goal was given before the last drive ended; give it again");
+    ROS_INFO("A path is not driven: its goal was reached or cancelled; give it again");
     return;
   }
   try {
@@ -296,6 +296,7 @@ void NavigatePathNode::takeReports() {
   for (const DriveReport& report : loop_->takeReports()) {
     if (report.waypoint) waypoint_publisher_.publish(*report.waypoint);
     if (!report.note.empty()) ROS_WARN_STREAM(report.note);
+    if (report.taken_over) given_goals_.endAllUntil(ros::Time::now());
     if (!report.event) continue;
     logEvent(*report.event);
     if (report.event->kind != FollowEvent::Kind::ENDED) continue;

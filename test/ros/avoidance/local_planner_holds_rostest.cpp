@@ -76,6 +76,31 @@ TEST_F(HoldsTest, ServicesSayWhetherTheyDidAnything) {
   EXPECT_FALSE(call("cancel").success);
 }
 
+// path_planner keeps a goal and plans anew when the map changes: a flight that had been cancelled began
+// again by itself.
+TEST_F(HoldsTest, APathForAGoalThatWasCancelledIsNotFlown) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  const ros::Time goal = sky_.now();
+  sendPath(goal, {0.0, 40.0});
+  ASSERT_TRUE(flies()) << said();
+  EXPECT_TRUE(call("cancel").success);
+  ASSERT_TRUE(says("CANCELLED")) << said();
+  sendPath(goal, {0.0, 40.0});
+  EXPECT_TRUE(pilot_->says("A path is not flown: its goal was reached or cancelled"));
+  EXPECT_TRUE(endsInAZero());
+  sendPath(sky_.now(), {0.0, 40.0});
+  EXPECT_TRUE(flies()) << said();
+}
+
+TEST_F(HoldsTest, APathForAGoalThatWasReachedIsNotFlown) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  const ros::Time goal = sky_.now();
+  sendPath(goal, {0.0, 0.05});
+  ASSERT_TRUE(says("ARRIVED")) << said();
+  sendPath(goal, {0.0, 40.0});
+  EXPECT_TRUE(pilot_->says("A path is not flown: its goal was reached or cancelled"));
+}
+
 TEST_F(HoldsTest, APathIsFlownUntilAnEmptyOneComes) {
   ASSERT_NO_FATAL_FAILURE(start());
   sendPath(sky_.now(), {0.0, 10.0, 20.0, 40.0});

@@ -3,6 +3,9 @@
 // What was seen before: path_planner keeps its goal. A vehicle that had arrived was driven elsewhere by
 // somebody else, the map changed there, and it turned around and drove back to the goal of half an hour
 // ago; after ~cancel the next obstacle on the path set it going again.
+#include <std_msgs/Bool.h>
+#include <std_srvs/Trigger.h>
+
 #include <utility>
 
 #include "ros/support/still_fixture.h"
@@ -13,7 +16,7 @@ namespace {
 using test::pathOf;
 using test::StillWorld;
 
-const char* const kNotDriven = "A path is not driven: its goal was given before";
+const char* const kNotDriven = "A path is not driven: its goal was reached or cancelled";
 
 class GivenGoalsTest : public test::StillTest {
  protected:
@@ -76,6 +79,26 @@ TEST_F(GivenGoalsTest, WhatSomebodyCancelledStaysCancelled) {
   EXPECT_TRUE(ask("cancel"));
   expectNotDriven(goal);
   expectNotDriven(not_found_yet);
+  driveToNewGoal();
+}
+
+// Whoever takes a vehicle that stands by a joystick does not find it driving off when he lets go.
+TEST_F(GivenGoalsTest, AJoystickEndsWhatNothingIsDrivenFor) {
+  start();
+  const ros::Time not_found_yet = now();
+  ros::Publisher manual = nh_.advertise<std_msgs::Bool>("manual_control", 1);
+  ASSERT_TRUE(test::waitFor([&] { return manual.getNumSubscribers() > 0; }));
+  ASSERT_TRUE(test::waitFor([&] {
+    std_msgs::Bool on;
+    on.data = true;
+    manual.publish(on);
+    std_srvs::Trigger resume;
+    return ros::service::call("/navigate_path/resume", resume) &&
+           resume.response.message.find("joystick") != std::string::npos;
+  }));
+  expectNotDriven(not_found_yet);
+  manual.publish(std_msgs::Bool());
+  EXPECT_FALSE(drivesWithin(std::chrono::seconds(1)));
   driveToNewGoal();
 }
 
