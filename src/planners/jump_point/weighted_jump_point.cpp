@@ -179,7 +179,6 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
   tiles_left_ = paid_ = 0;
   jumps_.release();
   bound_of_a_star_.prepare(map());
-  bound_of_jumps_.prepare(map());
   estimate({}, stop);
   if (shouldJump() && !map().uniform()) return prepareJumps(stop);
   prepareSubstitute(stop);
@@ -212,13 +211,14 @@ void WeightedJumpPoint::estimate(const std::vector<CellRect>& changed, const Sto
 void WeightedJumpPoint::prepareJumps(const StopToken& stop) {
   if (bytesOfBoth() > memoryLimit()) substitute_.reset();
   jumps_.prepare(map(), stop, blockOfBound());
+  bound_of_jumps_.prepare(map());
   jumps_ready_ = true;
   if (isSmall()) tiles_left_ = 2 * kSmallMap;
 }
 
 void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
   bound_of_a_star_.update(map(), changed);
-  bound_of_jumps_.update(map(), changed);
+  if (jumps_ready_) bound_of_jumps_.update(map(), changed);
   estimate(changed, stop);
   const bool jumps = shouldJump();
   if (jumps_ready_ && !jumps) return doPrepare(stop);
