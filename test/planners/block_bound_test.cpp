@@ -50,6 +50,64 @@ Cell openCellOf(std::mt19937& random, const CostGrid& map) {
   return cell;
 }
 
+// By a look at every cell.
+CostGrid::Weight leastOf(const CostGrid& map, const CellRect& block) {
+  CostGrid::Weight least = CostGrid::kBlocked;
+  const CellRect cells = block.intersection(map.geometry().rect());
+  for (int row = cells.row; row < cells.row + cells.height; ++row)
+    for (int column = cells.column; column < cells.column + cells.width; ++column) {
+      const CostGrid::Weight weight = map.weight({column, row});
+      if (weight != CostGrid::kBlocked && (least == CostGrid::kBlocked || weight < least))
+        least = weight;
+    }
+  return least;
+}
+
+// All blocks of the map and those around it. The sum tells whether one changed.
+std::uint64_t expectLeastWeights(const CostGrid& map, const BlockWeights& blocks) {
+  const int side = blocks.side();
+  std::uint64_t sum = 0;
+  for (int row = -side; row < map.geometry().height() + side; row += side)
+    for (int column = -side; column < map.geometry().width() + side; column += side) {
+      // The node at the block's upper right corner.
+      const auto node = std::uint32_t((row / side + 1) * int(blocks.stride()) + column / side + 1);
+      const CostGrid::Weight least = leastOf(map, {column, row, side, side});
+      EXPECT_EQ(blocks.below(node), least) << Cell{column, row};
+      sum = sum * 31 + least;
+    }
+  return sum;
+}
+
+TEST(BlockWeightsLaw, AreTheLeastOfTheirCellsAfterEditsToo) {
+  std::mt19937 random(37);
+  int unchanged = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    CostGrid map = costsInTurn(trial, random);
+    BlockWeights blocks(trial % 2 == 0 ? 4 : 8);
+    blocks.prepare(map, StopToken());
+    std::uint64_t sum = expectLeastWeights(map, blocks);
+    for (int edit = 0; edit < 8; ++edit) {
+      Grid<CostGrid::Weight> weights = map.weights();
+      const Cell cell = test::randomCell(random, map.geometry());
+      const CellRect changed =
+          CellRect{cell.column, cell.row, 1 + int(random() % 3), 1 + edit}.intersection(
+              map.geometry().rect());
+      for (int row = changed.row; row < changed.row + changed.height; ++row)
+        for (int i = 0; i < changed.width; ++i)
+          weights[Cell{changed.column + i, row}] = CostGrid::Weight(random() % 60);
+      const CostGrid edited = costMap(weights, map.motion());
+      const bool any = blocks.update(edited, changed);
+      const std::uint64_t before = sum;
+      sum = expectLeastWeights(edited, blocks);
+      ASSERT_EQ(any, sum != before) << "trial " << trial << ", " << changed.column;
+      unchanged += !any;
+      map = edited;
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+  EXPECT_GT(unchanged, 20);
+}
+
 // Never above the least cost, in any scale that holds it; infinite only where no path leads. No step
 // changes it by more than it costs, but for the rounding of keys.
 TEST(BlockBoundLaw, IsAConsistentLowerBoundInEveryMotionModel) {

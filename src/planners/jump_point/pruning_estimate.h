@@ -5,10 +5,10 @@
 //   if (estimate.jumpingPays()) use(map);
 //   if (estimate.octileSaysNothing(map.minWeight())) use(BlockBounds(4));
 //
-// Jumping: the share of the diagonal steps into sampled cells after which the default steps
-// (planners/core/natural_moves.h) are natural and no others. On the maps that were measured it is
-// 72 to 100 of 100, inflated ones included, and 36 to 53 where every cell has a weight drawn from
-// three or more: there A* is faster. The threshold is 60.
+// Jumping: the share of the diagonal steps into sampled cells, on large maps a fourth of them, after
+// which the default steps (planners/core/natural_moves.h) are natural and no others. On the maps that
+// were measured it is 72 to 100 of 100, inflated ones included, and 36 to 53 where every cell has a
+// weight drawn from three or more: there A* is faster. The threshold is 60.
 //
 // Guaranteed: it depends on the weights alone; update() gives the same as a fresh sample.
 #pragma once
@@ -44,7 +44,7 @@ class PruningEstimate {
   };
   static constexpr std::int64_t kInverse = 65535;
 
-  static Count countAt(const costmap::CostGrid& map, grid::Cell cell);
+  static Count countAt(const costmap::CostGrid& map, grid::Cell cell, bool with_steps);
   void add(const Count& count, int times);
   void replace(const costmap::CostGrid& map, int column, int row);
 

@@ -24,8 +24,11 @@ namespace {
 constexpr std::size_t kEarly = 64;
 constexpr std::size_t kLate = 65536;
 
-// Expansions of A* for which a search may make one more tile of the jumps.
+// Expansions of A* for which a search may make one more tile of the jumps: many at first, since most
+// maps see a few plans or idle time, fewer once A* has expanded as many cells as so many maps have.
+constexpr std::size_t kFirstTilePrice = 786432;
 constexpr std::size_t kTilePrice = 196608;
+constexpr std::size_t kMapsAtFirst = 8;
 // Tiles of a map of which all may be made at once.
 constexpr std::size_t kSmallMap = 8;
 // On maps of more, tiles far from each other touch so many new pages of memory that they cost more than
@@ -176,10 +179,9 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
   substitute_.reset();
   tree_.release();
   jumps_ready_ = sampled_ = counted_ = false;
-  tiles_left_ = paid_ = 0;
+  tiles_left_ = paid_ = expanded_ = 0;
   jumps_.release();
   bound_of_a_star_.prepare(map());
-  bound_of_jumps_.prepare(map());
   estimate({}, stop);
   if (shouldJump() && !map().uniform()) return prepareJumps(stop);
   prepareSubstitute(stop);
@@ -212,13 +214,14 @@ void WeightedJumpPoint::estimate(const std::vector<CellRect>& changed, const Sto
 void WeightedJumpPoint::prepareJumps(const StopToken& stop) {
   if (bytesOfBoth() > memoryLimit()) substitute_.reset();
   jumps_.prepare(map(), stop, blockOfBound());
+  bound_of_jumps_.prepare(map());
   jumps_ready_ = true;
   if (isSmall()) tiles_left_ = 2 * kSmallMap;
 }
 
 void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
   bound_of_a_star_.update(map(), changed);
-  bound_of_jumps_.update(map(), changed);
+  if (jumps_ready_) bound_of_jumps_.update(map(), changed);
   estimate(changed, stop);
   const bool jumps = shouldJump();
   if (jumps_ready_ && !jumps) return doPrepare(stop);
@@ -284,9 +287,12 @@ std::uint64_t WeightedJumpPoint::mostTiles() const {
 // little is lost if it is never used. JumpPoint's pay for none: where it answers, they are made in idle time.
 void WeightedJumpPoint::payForTiles(std::size_t expanded) {
   if (substitute_jumps_ || map().geometry().size() > kMostCells) return;
+  expanded_ += expanded;
+  const bool at_first = expanded_ < kMapsAtFirst * map().geometry().size();
+  const std::size_t price = at_first ? kFirstTilePrice : kTilePrice;
   paid_ += expanded;
-  tiles_left_ += paid_ / kTilePrice;
-  paid_ %= kTilePrice;
+  tiles_left_ += paid_ / price;
+  paid_ %= price;
 }
 
 // From the last search, which did not wait for it.

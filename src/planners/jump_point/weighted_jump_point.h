@@ -15,8 +15,9 @@
 // The jumps are prepared by tiles, when a search first comes to them or by finishBackgroundWork().
 // Until then a substitute answers at the same cost, so that a first plan waits for no preparation: A*,
 // where a search comes to more new tiles than were paid for. One is for so many expansions of A* that
-// making it adds some per cent to their time; before the first one nothing is estimated either. Small
-// maps are paid for, and what an update undid where that is little; of maps above 2^26 cells nothing is.
+// making it adds some per cent to their time, more once they are many; before the first one nothing is
+// estimated either. Small maps are paid for, and what an update undid where that is little; of maps
+// above 2^26 cells nothing is.
 //
 // A goal that is asked for again after a change of the map is that of a vehicle which drives:
 // finishBackgroundWork() makes its tree then, on maps of several weights, and the tree answers after
@@ -103,6 +104,7 @@ class WeightedJumpPoint : public Planner {
   bool jumps_ready_ = false;
   std::uint64_t tiles_left_ = 0;  // that searches may make
   std::size_t paid_ = 0;          // expansions of A* towards the next one
+  std::size_t expanded_ = 0;      // by A* since the map is prepared
   WeightedJumpSearch jumps_;
   std::unique_ptr<Planner> substitute_;  // A* or JumpPoint; null until it is prepared
   bool substitute_jumps_ = false;        // it is JumpPoint

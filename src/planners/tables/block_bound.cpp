@@ -40,52 +40,46 @@ void BlockWeights::prepare(const CostGrid& map, const StopToken& stop) {
   StopPoll poll(stop, 64);
   for (int row = 0; row < geometry.height(); row += side_) {
     poll();
-    for (int column = 0; column < geometry.width(); column += side_)
-      weights_[nodeOf({column, row}) + stride_ + 1] = leastOf(map, column, row);
+    for (int column = 0; column < geometry.width(); column += kSimdCells) set(map, column, row);
   }
 }
 
 bool BlockWeights::update(const CostGrid& map, const CellRect& changed) {
   bool any = false;
   for (int row = changed.row / side_ * side_; row < changed.row + changed.height; row += side_)
-    for (int column = changed.column / side_ * side_; column < changed.column + changed.width;
-         column += side_) {
-      Weight& known = weights_[nodeOf({column, row}) + stride_ + 1];
-      const Weight weight = leastOf(map, column, row);
-      any = any || weight != known;
-      known = weight;
-    }
+    for (int column = changed.column / kSimdCells * kSimdCells;
+         column < changed.column + changed.width; column += kSimdCells)
+      any = set(map, column, row) || any;
   least_ = std::max<Weight>(map.minWeight(), 1);
   return any;
 }
 
-BlockWeights::Weight BlockWeights::leastOf(const CostGrid& map, int column, int row) const {
-  // One less, so that 0, which is blocked, is the largest.
-  auto least = Weight(CostGrid::kBlocked - 1);
-  const int width = std::min(side_, map.geometry().width() - column);
-  const int end = std::min(row + side_, map.geometry().height());
-  if (width == int(kSimdCells) && side_ == kSimdCells) return leastOfEights(map, column, row, end);
-  for (int at = row; at < end; ++at) {
-    const Weight* weights = map.weights().row(at) + column;
-    for (int i = 0; i < width; ++i) least = std::min(least, Weight(weights[i] - 1));
-  }
-  return Weight(least + 1);
-}
-
-// Of rows of eight cells.
-BlockWeights::Weight BlockWeights::leastOfEights(const CostGrid& map, int column, int row,
-                                                 int end) {
+// The blocks of eight columns from this cell on, one or two. Whether a weight is another than it was.
+bool BlockWeights::set(const CostGrid& map, int column, int row) {
   using Eight = SimdNeighbourhood::Eight;
+  const int width = std::min(kSimdCells, map.geometry().width() - column);
+  const int end = std::min(row + side_, map.geometry().height());
+  // One less, so that 0, which is blocked, is the largest.
   Eight least = ~Eight{};
   for (int at = row; at < end; ++at) {
-    Eight weights;
-    std::memcpy(&weights, map.weights().row(at) + column, sizeof weights);
+    Eight weights{};
+    const Weight* from = map.weights().row(at) + column;
+    if (width == kSimdCells)
+      std::memcpy(&weights, from, sizeof weights);
+    else
+      std::memcpy(&weights, from, std::size_t(width) * sizeof *from);
     weights -= 1;
     least = weights < least ? weights : least;
   }
-  Weight one = least[0];
-  for (int i = 1; i < kSimdCells; ++i) one = std::min<Weight>(one, least[i]);
-  return Weight(one + 1);
+  bool any = false;
+  Weight* block = &weights_[nodeOf({column, row}) + stride_ + 1];
+  for (int first = 0; first < width; first += side_, ++block) {
+    Weight one = least[first];
+    for (int i = 1; i < side_; ++i) one = std::min<Weight>(one, least[first + i]);
+    any |= *block != Weight(one + 1);
+    *block = Weight(one + 1);
+  }
+  return any;
 }
 
 void BlockBound::reset(Cell goal) {

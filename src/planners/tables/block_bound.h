@@ -51,7 +51,7 @@ class BlockWeights {
  public:
   using Weight = costmap::CostGrid::Weight;
 
-  // `side` of a block in cells: a power of two. Smaller: a larger bound for more time, with the
+  // `side` of a block in cells: 4 or 8. Smaller: a larger bound for more time, with the
   // square of it.
   explicit BlockWeights(int side) : side_(side) {
     while (1 << shift_ < side) ++shift_;
@@ -76,8 +76,7 @@ class BlockWeights {
   const costmap::MotionModel& motion() const { return motion_; }
 
  private:
-  Weight leastOf(const costmap::CostGrid& map, int column, int row) const;
-  static Weight leastOfEights(const costmap::CostGrid& map, int column, int row, int end);
+  bool set(const costmap::CostGrid& map, int column, int row);
 
   int side_;
   unsigned shift_ = 0;
