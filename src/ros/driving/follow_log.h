@@ -5,7 +5,7 @@
 
 namespace grid_path_planner::nodes {
 
-// A waypoint that was reached on the way is for debugging; a missed one, a retry and an obstacle are warnings.
+// A waypoint before the last that was reached is for debugging; a missed one, a retry and an obstacle are warnings.
 void logEvent(const following::FollowEvent& event);
 
 }  // namespace grid_path_planner::nodes

@@ -213,7 +213,8 @@ void PathPlannerNode::planForGoal(const StopSource& stop) {
   const bool as_before = goal->answered && !plan.found() && plan.status == goal->status;
   const bool taken = active_goal_.commit(goal->id, plan, settings.revision, [&] {
     server_->remember(plan);
-    if (!as_before) server_->publisher().publishPath(lane.posesAlong(plan, settings.options), goal->given);
+    if (!as_before)
+      server_->publisher().publishPath(lane.posesAlong(plan, settings.options), goal->given);
   });
   if (!taken) return;
   // Who drives the path does not wait for what is told of it.

@@ -63,7 +63,7 @@ TEST_F(GivenGoalsTest, AGoalThatWasReachedIsNotDrivenToAgain) {
   driveToNewGoal();
 }
 
-TEST_F(GivenGoalsTest, APathThatIsPlannedAgainOnTheWayIsDriven) {
+TEST_F(GivenGoalsTest, APathThatIsPlannedAgainMeanwhileIsDriven) {
   start();
   const ros::Time goal = driveToNewGoal();
   paths_.publish(pathToMessage(path::Path{"map", {}}, now()));

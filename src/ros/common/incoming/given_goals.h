@@ -1,14 +1,16 @@
-// Which goals of the topic `path` the vehicle still drives for: a goal whose drive is over is not
-// begun again by itself when its path is planned anew.
+// Which goals of the topic `path` the vehicle still drives for: a drive that is over is not begun
+// again by itself when a path for its goal is planned anew.
 //
-//   if (goals.isOver(message)) return;   // planned again for a goal that was reached
-//   goals.drive(message);
-//   goals.end();                         // arrived
+//   GivenGoals goals;
+//   const nav_msgs::Path path;
+//   if (!goals.isOver(path)) goals.drive(path);
+//   goals.end();                                 // arrived
+//   const bool is_driven = !goals.isOver(path);  // planned again: no
 //
 // path_planner stamps the last pose of a path with the time at which it got the goal, so that paths of
 // one goal are told from those of the next. Paths of others have stamps of their own, which are never
-// the same, or none: they are driven. Not guaranteed: anything where the clocks of two machines differ by more
-// than tf would bear.
+// the same, or none: they are driven. Not guaranteed: anything where the clocks of two machines differ by
+// more than tf would bear.
 #pragma once
 
 #include <nav_msgs/Path.h>

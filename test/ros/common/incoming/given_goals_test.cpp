@@ -17,7 +17,7 @@ TEST(GivenGoals, AGoalIsOverWithItsDriveAndOthersAreNot) {
   GivenGoals goals;
   EXPECT_FALSE(goals.isOver(pathFor(1)));
   goals.drive(pathFor(5));
-  EXPECT_FALSE(goals.isOver(pathFor(5))) << "planned again on the way";
+  EXPECT_FALSE(goals.isOver(pathFor(5))) << "planned again meanwhile";
   goals.end();
   EXPECT_TRUE(goals.isOver(pathFor(5)));
   EXPECT_FALSE(goals.isOver(pathFor(4))) << "given before, planned later: of another planner";
