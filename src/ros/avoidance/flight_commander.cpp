@@ -59,7 +59,7 @@ void FlightCommander::setOptions(const LocalPlannerOptions& options) {
 void FlightCommander::finish() {
   const bool sent = thread_.ask([this] {
     finished_ = true;
-    const bool commands = std::exchange(flies_, false) && !hold_.isManual();
+    const bool commands = std::exchange(flies_, false);
     if (commands) send({});
     return commands;
   });

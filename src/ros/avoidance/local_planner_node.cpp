@@ -132,8 +132,8 @@ FlightAction::Hands LocalPlannerNode::hands() {
   return {
       [this](const path::Path& path, bool along) {
         const path::Path flown = inMap(path);
-        given_goals_.endAllUntil(ros::Time::now());
         fly(flown, along);
+        given_goals_.endAllUntil(ros::Time::now());
         return flown;
       },
       [this](const std::string& reason) {
@@ -226,6 +226,7 @@ bool LocalPlannerNode::noticeTime() {
   if (!clock_.hasTime()) return false;
   const ros::Time now = ros::Time::now();
   const auto back = clock_.jumpedBack(now);
+  if (started_.isZero()) given_goals_.endAllUntil(now);  // of one that was there before
   if (started_.isZero() || back) started_ = now;
   if (!back) return true;
   ROS_WARN_STREAM("ROS time went back by "
@@ -266,6 +267,7 @@ void LocalPlannerNode::onGoal(const geometry_msgs::PoseStamped& goal) {
 void LocalPlannerNode::onPath(const nav_msgs::Path& message) {
   if (action_->isActive()) {
     ROS_WARN("A path is not flown: a goal of the action navigate_path is");
+    given_goals_.endAllUntil(ros::Time::now());
     return;
   }
   if (message.poses.empty()) {
@@ -351,7 +353,8 @@ void LocalPlannerNode::tick(const ros::Time& now) {
                      answer_.status == PilotStatus::STUCK ||
                      answer_.status == PilotStatus::CANCELLED;
   if (flies_ && answer_.status == PilotStatus::ARRIVED) given_goals_.end();
-  if (!flies_ && hold_.isManual()) given_goals_.endAllUntil(now);  // somebody moves the vehicle
+  const bool was_manual = std::exchange(manual_, hold_.isManual());
+  if (manual_ && !was_manual && !flies_) given_goals_.endAllUntil(now);  // somebody takes it
   if (flies_) commander_.command({answer_.velocity, at_.yaw, now, good_for_, ended});
   if (yields) ROS_WARN("The joystick commands: the flight is paused until ~resume");
   if (const auto problem = pilot_.takeLogProblem()) ROS_WARN_STREAM(*problem);

@@ -134,6 +134,7 @@ class LocalPlannerNode {
   avoidance::VehiclePose at_;
   double good_for_ = 0.0;   // s from the newest plan, until clouds or pose are too old
   GivenGoals given_goals_;  // of the topic `path`
+  bool manual_ = false;     // a joystick commanded at the last plan
   bool flies_ = false;      // there is a route, and cmd_vel is published
 
   std::vector<ros::Subscriber> subscribers_;

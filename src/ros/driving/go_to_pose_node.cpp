@@ -87,6 +87,9 @@ GoToPoseNode::~GoToPoseNode() {
 }
 
 void GoToPoseNode::giveUp() {
+  finished_ = true;
+  navigator_.drop();  // a plan that comes now is not driven
+  carryOutOrders();
   driver_.cancel();
   driver_.forget();  // or its end might begin something new
   if (goal_) end(Order::Kind::ABORT, "go_to_pose ends");
@@ -137,6 +140,7 @@ void GoToPoseNode::onSimpleGoal(const geometry_msgs::PoseStamped& message) {
 }
 
 void GoToPoseNode::checkGoal(const geometry_msgs::PoseStamped& pose) {
+  if (finished_) throw InputError("go_to_pose ends");
   checkNetworkText("the frame of the goal", pose.header.frame_id);
   if (frameName(pose.header.frame_id).empty()) throw InputError("a goal must name its frame");
   poseFromMessage(pose.pose);
@@ -193,10 +197,8 @@ void GoToPoseNode::locate() {
   }
 }
 
-// Time
-
 void GoToPoseNode::tick() {
-  if (!clock_.hasTime()) return;
+  if (!clock_.hasTime() || finished_) return;
   const ros::Time now = ros::Time::now();
   if (started_.isZero()) started_ = now;
   if (const std::optional<double> back = clock_.jumpedBack(now)) {
@@ -264,8 +266,6 @@ void GoToPoseNode::onDriveEnd(const NavigatePathResult& result) {
   navigator_.driveEnded(result.status, result.message, seconds());
   carryOutOrders();
 }
-
-// Orders
 
 // An order may bring about others: a goal of the driver that was not sent yet ends at once.
 void GoToPoseNode::carryOutOrders() {

@@ -124,6 +124,7 @@ class GoToPoseNode {
   double distance_remaining_ = std::numeric_limits<double>::infinity();  // m
   double time_remaining_ = std::numeric_limits<double>::infinity();      // s
   bool carrying_out_ = false;
+  bool finished_ = false;  // the node ends
   std::chrono::steady_clock::time_point told_;
 
   ros::Publisher status_publisher_, path_publisher_, current_goal_publisher_, goal_publisher_,

@@ -25,18 +25,28 @@ JoystickState stateOf(const sensor_msgs::Joy& message) {
 
 }  // namespace
 
-JoystickLoop::JoystickLoop(const ros::NodeHandle& nh, const TeleopJoyOptions& options,
-                           Handlers handlers)
-    : handlers_(std::move(handlers)),
+JoystickLoop::JoystickLoop(const ros::NodeHandle& nh, const TeleopJoyOptions& options, Note note)
+    : nh_(nh),
+      note_(std::move(note)),
       options_(options),
-      publisher_(ros::NodeHandle(nh).advertise<geometry_msgs::Twist>("cmd_vel", 10)) {
-  ros::NodeHandle own(nh);
-  own.setCallbackQueue(&thread_.queue());
+      publisher_(nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10)),
+      manual_publisher_(nh_.advertise<std_msgs::Bool>("manual_control", 10)) {
+  nh_.setCallbackQueue(&thread_.queue());
+}
+
+JoystickLoop::~JoystickLoop() {
+  if (!started_) return;
+  finish();
+  thread_.stop();
+}
+
+void JoystickLoop::start() {
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
+      nh_, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
   joy_subscriber_ = subscribeChecked<sensor_msgs::Joy>(
-      own, "joy", 10, [this](const sensor_msgs::Joy& message) { onJoy(message); });
-  thread_.start(options.command_rate, options.realtime_priority);
+      nh_, "joy", 10, [this](const sensor_msgs::Joy& message) { onJoy(message); });
+  thread_.start(options_.command_rate, options_.realtime_priority);
+  started_ = true;
 }
 
 void JoystickLoop::setOptions(const TeleopJoyOptions& options) {
@@ -74,7 +84,7 @@ void JoystickLoop::onJoy(const sensor_msgs::Joy& message) {
 void JoystickLoop::refuse(const std::string& why) {
   if (refused_ && heard_ - *refused_ < kRefusalPeriod) return;
   refused_ = heard_;
-  handlers_.note(Level::ERROR, "joy refused: " + why);
+  note_(Level::ERROR, "joy refused: " + why);
 }
 
 void JoystickLoop::onStop(const std_msgs::Bool& message) {
@@ -87,9 +97,9 @@ void JoystickLoop::command(const BodyVelocity& velocity) {
   const bool takes_over = !std::exchange(velocity_, velocity);
   if (!takes_over) return;
   commands_ = true;
-  handlers_.announce(true);
+  announce(true);
   publish(stopped_ ? BodyVelocity{} : velocity);
-  handlers_.note(Level::INFO, "The joystick commands");
+  note_(Level::INFO, "The joystick commands");
 }
 
 void JoystickLoop::tick() {
@@ -101,11 +111,11 @@ void JoystickLoop::tick() {
   const double silence = std::chrono::duration<double>(Clock::now() - heard_).count();
   if (silence > options_.joy_timeout) {
     release();
-    handlers_.note(Level::WARN, "Nothing has come from the joystick for " +
-                                    std::to_string(silence) + " s: the vehicle is stopped");
+    note_(Level::WARN, "Nothing has come from the joystick for " + std::to_string(silence) +
+                           " s: the vehicle is stopped");
     return;
   }
-  handlers_.announce(true);
+  announce(true);
   publish(stopped_ ? BodyVelocity{} : *velocity_);
 }
 
@@ -118,13 +128,19 @@ void JoystickLoop::publish(const BodyVelocity& velocity) {
   publisher_.publish(message);
 }
 
+void JoystickLoop::announce(bool commands) {
+  std_msgs::Bool message;
+  message.data = commands;
+  manual_publisher_.publish(message);
+}
+
 // Whether it commanded.
 bool JoystickLoop::release() {
   if (!std::exchange(velocity_, std::nullopt)) return false;
   commands_ = false;
   publish({});
-  handlers_.announce(false);
-  handlers_.note(Level::INFO, "The joystick commands no longer");
+  announce(false);
+  note_(Level::INFO, "The joystick commands no longer");
   return true;
 }
 

@@ -1,10 +1,12 @@
 // The control loop of teleop_joy: a thread of its own that turns what the joystick says into cmd_vel.
 //
-//   JoystickLoop loop(nh, options, {[](bool) {}, [](JoystickLoop::Level, const std::string&) {}});
+//   JoystickLoop loop(nh, options, [](JoystickLoop::Level, const std::string&) {});
+//   loop.start();
 //   loop.finish();                                // a zero, if the joystick commands
 //
-// It serves `joy` and `stop`. Guaranteed: the thread logs nothing, publishes nothing but cmd_vel, which it writes to its
-// connections itself, and takes no lock that code holds which does. How it is scheduled: control_thread.h.
+// It serves `joy` and `stop`. Guaranteed: the thread logs nothing, publishes nothing but cmd_vel and manual_control,
+// which it writes to their connections itself, manual_control before the velocity, and takes no lock that code
+// holds which does. How it is scheduled: control_thread.h.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -28,15 +30,15 @@ class JoystickLoop {
  public:
   enum class Level { INFO, WARN, ERROR };
 
-  // Called in the loop's thread; they may not wait.
-  struct Handlers {
-    std::function<void(bool commands)> announce;
-    std::function<void(Level, const std::string& sentence)> note;
-  };
+  // What the log is to say. Called in the loop's thread; it may not wait.
+  using Note = std::function<void(Level, const std::string& sentence)>;
 
-  JoystickLoop(const ros::NodeHandle& nh, const TeleopJoyOptions& options, Handlers handlers);
-  ~JoystickLoop() { thread_.stop(); }
+  // Advertises.
+  JoystickLoop(const ros::NodeHandle& nh, const TeleopJoyOptions& options, Note note);
+  ~JoystickLoop();
 
+  // Listens to the joystick from now on. To be called once, before what follows.
+  void start();
   void setOptions(const TeleopJoyOptions& options);  // precondition: checked
   // Stops the vehicle if it is being driven; nothing is commanded after this. Waits until the zero is sent.
   // Thread-safe.
@@ -56,9 +58,11 @@ class JoystickLoop {
   void tick();
   void command(const base::BodyVelocity& velocity);
   void publish(const base::BodyVelocity& velocity);
+  void announce(bool commands);
   bool release();
 
-  const Handlers handlers_;
+  ros::NodeHandle nh_;  // whose callbacks the thread serves
+  const Note note_;
   TeleopJoyOptions options_;
   std::optional<base::BodyVelocity> velocity_;  // none: the joystick commands nothing
   bool stopped_ = false;                        // by the topic
@@ -66,8 +70,9 @@ class JoystickLoop {
   Clock::time_point heard_;
   std::optional<Clock::time_point> refused_;  // when that was told last
   std::atomic<bool> commands_{false};
+  bool started_ = false;
 
-  DirectPublisher publisher_;
+  DirectPublisher publisher_, manual_publisher_;
   ControlThread thread_{[this] { tick(); }};
   ros::Subscriber joy_subscriber_, stop_subscriber_;
 };

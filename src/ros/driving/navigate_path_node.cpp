@@ -183,6 +183,7 @@ void NavigatePathNode::watchClock() {
 
 void NavigatePathNode::startDriving(const ros::Time& now) {
   started_ = now;
+  if (!options_.follow_latched) given_goals_.endAllUntil(now);  // of a driver that was there before
   if (options_.config_filename.empty()) {
     path_subscriber_ = subscribeChecked<nav_msgs::Path>(
         nh_, "path", 1, [this](const nav_msgs::Path& path) { onPath(path); });
@@ -203,6 +204,7 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
   }
   if (goal_active_) {
     ROS_WARN("A path is not driven: a goal of the action navigate_path is");
+    given_goals_.endAllUntil(ros::Time::now());
     return;
   }
   if (message.poses.empty()) {
@@ -225,7 +227,6 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
 void NavigatePathNode::onGoal() {
   if (goal_active_) cancel("replaced by another goal");
   takeReports();
-  given_goals_.endAllUntil(ros::Time::now());
   const auto goal = action_.acceptNewGoal();
   goal_active_ = true;
   ++goals_;
@@ -248,6 +249,7 @@ void NavigatePathNode::onGoal() {
 void NavigatePathNode::startGoal(const std::function<Path()>& read, Join join) {
   try {
     loop_->start(read(), join);
+    given_goals_.endAllUntil(ros::Time::now());
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
     finishGoal("INVALID_REQUEST", error.what(), loop_->standing());

@@ -12,7 +12,6 @@
 namespace grid_path_planner::nodes {
 
 using base::checkOptionLimits;
-using base::StopSource;
 using diagnostic_msgs::DiagnosticStatus;
 
 namespace {
@@ -38,13 +37,12 @@ TeleopJoyNode::TeleopJoyNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
       options_(loadTeleopJoyOptions(private_nh)),
       commands_(private_nh.getNamespace(),
                 {{nh.resolveName("cmd_vel")}, {}, nh.resolveName("manual_control"), true}),
-      manual_publisher_(nh_.advertise<std_msgs::Bool>("manual_control", 1, true)),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
-  const JoystickLoop::Handlers handlers = {
-      [this](bool commands) { announce(commands); },
-      [this](JoystickLoop::Level level, const std::string& sentence) { note(level, sentence); }};
-  loop_ = std::make_unique<JoystickLoop>(nh_, options_, handlers);
+  loop_ = std::make_unique<JoystickLoop>(
+      nh_, options_,
+      [this](JoystickLoop::Level level, const std::string& sentence) { note(level, sentence); });
   commands_.refuseSimultaneous();
+  loop_->start();  // nothing is commanded before
   reconfigurable_ = std::make_unique<Reconfigurable<TeleopJoyConfig, TeleopJoyOptions>>(
       private_nh, options_, [this](const TeleopJoyOptions& options) { use(options); });
   diagnostics_.add("joystick", this, &TeleopJoyNode::diagnose);
@@ -65,21 +63,11 @@ void TeleopJoyNode::use(const TeleopJoyOptions& options) {
   options_ = options;
 }
 
-// Of those that wait the newest of each kind counts.
-void TeleopJoyNode::announce(bool commands) {
-  const auto publish = [this, commands](const StopSource&) {
-    std_msgs::Bool message;
-    message.data = commands;
-    manual_publisher_.publish(message);
-  };
-  announcer_.post(publish, commands ? "true" : "false");
-}
-
 void TeleopJoyNode::note(JoystickLoop::Level level, const std::string& sentence) {
-  if (notes_ >= kMostNotes) return;
-  ++notes_;
-  const auto log = [this, level, sentence] {
-    --notes_;
+  if (*notes_ >= kMostNotes) return;
+  ++*notes_;
+  const auto log = [waiting = notes_, level, sentence] {
+    --*waiting;
     if (level == JoystickLoop::Level::ERROR)
       ROS_ERROR_STREAM(sentence);
     else if (level == JoystickLoop::Level::WARN)

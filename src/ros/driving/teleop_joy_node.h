@@ -3,7 +3,7 @@
 //   subscribes  joy      sensor_msgs/Joy; its driver must repeat (joy_node's ~autorepeat_rate)
 //               stop     std_msgs/Bool; zeros while it is true
 //   publishes   cmd_vel  geometry_msgs/Twist in base_link, while the deadman button is held
-//               manual_control  std_msgs/Bool, latched; true with every command, false afterwards:
+//               manual_control  std_msgs/Bool; true before every command, false afterwards:
 //                        navigate_path pauses its drive and yields
 //               /diagnostics
 //
@@ -12,21 +12,17 @@
 // a message that cannot be used, and when the node ends; after that nothing is published, so that
 // navigate_path may command the vehicle. ROS time has no effect. The node does not start where
 // another joystick's, or one that does not yield, publishes cmd_vel. Velocities come from JoystickLoop,
-// whose thread waits for nothing; this class logs, and announces in a thread of its own. Not guaranteed:
-// a zero after SIGKILL.
+// whose thread waits for nothing; this class logs. Not guaranteed: a zero after SIGKILL.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
 #include <ros/steady_timer.h>
-#include <std_msgs/Bool.h>
 
 #include <atomic>
 #include <memory>
 #include <string>
 
-#include "grid_path_planner/base/task_queue.h"
 #include "ros/common/master/command_claim.h"
 #include "ros/driving/joystick_loop.h"
 #include "ros/driving/teleop_joy_options.h"
@@ -55,18 +51,16 @@ class TeleopJoyNode {
 
  private:
   void use(const TeleopJoyOptions& options);
-  void announce(bool commands);
   void note(JoystickLoop::Level level, const std::string& sentence);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle nh_;
   TeleopJoyOptions options_;
   const CommandClaim commands_;
-  ros::Publisher manual_publisher_;
   diagnostic_updater::Updater diagnostics_;
   ros::SteadyTimer diagnostics_timer_;
-  std::atomic<int> notes_{0};  // that wait for the log
-  base::TaskQueue announcer_;
+  // That wait for the log; shared with them, since they may outlive a node that does not start.
+  const std::shared_ptr<std::atomic<int>> notes_ = std::make_shared<std::atomic<int>>(0);
   std::unique_ptr<JoystickLoop> loop_;
   std::unique_ptr<Reconfigurable<TeleopJoyConfig, TeleopJoyOptions>> reconfigurable_;
 };

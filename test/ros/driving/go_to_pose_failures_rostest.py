@@ -3,6 +3,7 @@
 import os
 import signal
 import sys
+import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import rospy
@@ -96,6 +97,23 @@ class GoToPoseFailures(GoToTest):
             self.ends("ABORTED")
             self.wait_for(self.stands)
             self.assertFalse(self.is_at(8, 1.5, within=1.0), self.at())
+        self.start("go_to_pose")
+        self.connect()
+
+    def test_a_manager_that_is_signalled_while_it_plans_begins_no_drive(self):
+        """The plan came after the drive had been cancelled, and was driven: nobody was left to stop it."""
+        for seconds in (0.0, 0.1):
+            self.kill("go_to_pose")
+            self.start("go_to_pose", as_nodelet=True)
+            self.connect()
+            self.drive_to(2, 1.5)
+            self.send(pose(8, 1.5))
+            time.sleep(seconds)
+            self.processes["go_to_pose"].send_signal(signal.SIGINT)
+            self.assertEqual(self.processes["go_to_pose"].wait(20), 0)
+            self.wait_for(self.stands)
+            time.sleep(1.0)
+            self.assertTrue(self.stands(), self.at())
         self.start("go_to_pose")
         self.connect()
 

@@ -8,6 +8,7 @@
 
 #include <utility>
 
+#include "grid_path_planner/NavigatePathActionGoal.h"
 #include "ros/support/still_fixture.h"
 
 namespace grid_path_planner::nodes {
@@ -20,8 +21,14 @@ const char* const kNotDriven = "A path is not driven: its goal was reached or ca
 
 class GivenGoalsTest : public test::StillTest {
  protected:
-  void start() { startNavigate({"_no_progress_timeout:=0"}); }
+  // Until goals of a while ago are from after it.
+  void start() {
+    startNavigate({"_no_progress_timeout:=0"});
+    ASSERT_TRUE(test::waitFor([&, until = world_.time() + 6.0] { return world_.time() > until; }));
+  }
   ros::Time now() const { return ros::Time(world_.time()); }
+  // Of a goal for which there was no path.
+  ros::Time aWhileAgo() const { return ros::Time(world_.time() - 5.0); }
   // As path_planner does.
   void publishPathFor(const ros::Time& goal, const path::Path& path) {
     nav_msgs::Path message = pathToMessage(path, now());
@@ -75,17 +82,38 @@ TEST_F(GivenGoalsTest, APathThatIsPlannedAgainMeanwhileIsDriven) {
 TEST_F(GivenGoalsTest, WhatSomebodyCancelledStaysCancelled) {
   start();
   const ros::Time goal = driveToNewGoal();
-  const ros::Time not_found_yet = now();
+  const ros::Time not_found_yet = aWhileAgo();
   EXPECT_TRUE(ask("cancel"));
   expectNotDriven(goal);
   expectNotDriven(not_found_yet);
   driveToNewGoal();
 }
 
+TEST_F(GivenGoalsTest, AGoalOfTheActionThatIsRefusedEndsNothing) {
+  start();
+  const ros::Time goal = driveToNewGoal();
+  ros::Publisher action = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1);
+  ASSERT_TRUE(test::waitFor([&] { return action.getNumSubscribers() > 0; }));
+  action.publish(NavigatePathActionGoal());
+  ASSERT_TRUE(navigate_->says("The goal is refused"));
+  paths_.publish(pathToMessage(path::Path{"map", {}}, now()));
+  EXPECT_TRUE(stops());
+  publishPathFor(goal, far_);
+  EXPECT_TRUE(isDriving());
+}
+
+// Its predecessor may have reached it, or been told to cancel it.
+TEST_F(GivenGoalsTest, AGoalFromBeforeTheStartIsNotDriven) {
+  const ros::Time before = aWhileAgo();
+  start();
+  expectNotDriven(before);
+  driveToNewGoal();
+}
+
 // Whoever takes a vehicle that stands by a joystick does not find it driving off when he lets go.
 TEST_F(GivenGoalsTest, AJoystickEndsWhatNothingIsDrivenFor) {
   start();
-  const ros::Time not_found_yet = now();
+  const ros::Time not_found_yet = aWhileAgo();
   ros::Publisher manual = nh_.advertise<std_msgs::Bool>("manual_control", 1);
   ASSERT_TRUE(test::waitFor([&] { return manual.getNumSubscribers() > 0; }));
   ASSERT_TRUE(test::waitFor([&] {

@@ -5,9 +5,17 @@
 namespace grid_path_planner::nodes {
 namespace {
 
-// When the goal of `path` was given; 0: nobody knows.
+// Clocks of nodes differ, most of all those that hear /clock: a goal that is given in answer to an end may be stamped
+// before it.
+const ros::Duration kClocksDiffer(0.5);
+
+// When the goal of `path` was given; 0: nobody knows. All other poses of a path of path_planner have the stamp of the
+// path, those of a trajectory have times of their own.
 ros::Time goalTime(const nav_msgs::Path& path) {
-  return path.poses.empty() ? ros::Time() : path.poses.back().header.stamp;
+  if (path.poses.empty()) return {};
+  const ros::Time& given = path.poses.back().header.stamp;
+  const bool others = path.poses.size() > 1 && path.poses.front().header.stamp != path.header.stamp;
+  return others || given > path.header.stamp ? ros::Time() : given;
 }
 
 }  // namespace
@@ -22,7 +30,7 @@ void GivenGoals::end() {
 
 void GivenGoals::endAllUntil(const ros::Time& now) {
   end();
-  until_ = now;
+  until_ = now.toSec() > kClocksDiffer.toSec() ? now - kClocksDiffer : ros::Time();
 }
 
 void GivenGoals::forget() {
@@ -31,7 +39,7 @@ void GivenGoals::forget() {
 
 bool GivenGoals::isOver(const nav_msgs::Path& path) const {
   const ros::Time given = goalTime(path);
-  return !given.isZero() && (given == ended_ || given <= until_);
+  return !given.isZero() && (given == ended_ || given < until_);
 }
 
 }  // namespace grid_path_planner::nodes

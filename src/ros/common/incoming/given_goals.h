@@ -8,8 +8,8 @@
 //   const bool is_driven = !goals.isOver(path);  // planned again: no
 //
 // path_planner stamps the last pose of a path with the time at which it got the goal, so that paths of
-// one goal are told from those of the next. Paths of others have stamps of their own, which are never
-// the same, or none: they are driven. Not guaranteed: anything where the clocks of two machines differ by
+// one goal are told from those of the next. Paths whose other poses have not the path's stamp, or whose last one has
+// none, are of others: they are driven. Not guaranteed: anything where the clocks of two machines differ by
 // more than tf would bear.
 #pragma once
 
@@ -24,8 +24,8 @@ class GivenGoals {
   void drive(const nav_msgs::Path& path);
   // The drive for that path's goal is over.
   void end();
-  // Somebody ended the drive at `now`: what was asked for until then is over, also where no path was
-  // found yet.
+  // Somebody ended the drive at `now`: its goal is over, and what was asked for until half a second before, also
+  // where no path was found yet.
   void endAllUntil(const ros::Time& now);
   // Time went back: stamps say nothing any more.
   void forget();

@@ -8,7 +8,9 @@ namespace {
 // A path for the goal that was given at `seconds`.
 nav_msgs::Path pathFor(double seconds) {
   nav_msgs::Path path;
-  path.poses.resize(2);
+  path.header.stamp = ros::Time(2000);
+  path.poses.resize(3);
+  for (auto& pose : path.poses) pose.header.stamp = path.header.stamp;
   path.poses.back().header.stamp = ros::Time(seconds);
   return path;
 }
@@ -45,6 +47,31 @@ TEST(GivenGoals, PathsOfOthersHaveNoTime) {
   goals.endAllUntil(ros::TIME_MAX);
   EXPECT_FALSE(goals.isOver(pathFor(0)));
   EXPECT_FALSE(goals.isOver(nav_msgs::Path())) << "an empty one stops the vehicle";
+}
+
+// Somebody republishes what was recorded, or times from the beginning of a trajectory.
+TEST(GivenGoals, TimesOfATrajectoryAreNoGoals) {
+  GivenGoals goals;
+  nav_msgs::Path trajectory = pathFor(9);
+  trajectory.poses.front().header.stamp = ros::Time(8);
+  nav_msgs::Path ahead = pathFor(3000);
+  for (const nav_msgs::Path& path : {trajectory, ahead}) {
+    goals.drive(path);
+    goals.end();
+    goals.endAllUntil(ros::Time(4000));
+    EXPECT_FALSE(goals.isOver(path));
+  }
+}
+
+// A test gave a goal right after ~cancel, and the planner's /clock was a step behind the driver's.
+TEST(GivenGoals, AGoalOfTheMomentOfACancelIsANewOne) {
+  GivenGoals goals;
+  goals.drive(pathFor(7.9));
+  goals.endAllUntil(ros::Time(8));
+  EXPECT_FALSE(goals.isOver(pathFor(7.95))) << "clocks differ";
+  EXPECT_TRUE(goals.isOver(pathFor(7.9))) << "it was driven";
+  goals.endAllUntil(ros::Time(0.1));
+  EXPECT_FALSE(goals.isOver(pathFor(0.05)));
 }
 
 TEST(GivenGoals, NothingIsOverWhenTimeHasGoneBack) {
