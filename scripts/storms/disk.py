@@ -49,6 +49,12 @@ def expect(answers, success):
         raise SessionFailed("%s: success is %s" % (", ".join(wrong), not success))
 
 
+def fill(filler):
+    """What room there is, or has become free again: a map that was being kept while the disk became full is removed."""
+    with open(filler, "ab") as file:
+        subprocess.run(["dd", "if=/dev/zero", "bs=1024"], stdout=file, stderr=subprocess.DEVNULL)
+
+
 def suffer(demo, folder):
     """Full, then read-only; and every time there again."""
     expect(saved(), True)
@@ -56,10 +62,12 @@ def suffer(demo, folder):
     for trouble in ("full", "read-only"):
         filler = os.path.join(folder, "filler")
         if trouble == "full":
-            subprocess.run(["dd", "if=/dev/zero", "of=" + filler, "bs=1024"], stderr=subprocess.DEVNULL)
+            fill(filler)
         else:
             mount("-o", "remount,ro", folder)
         demo.drive.goes_on()
+        if trouble == "full":
+            fill(filler)
         expect(saved(), False)
         if contents(folder) != before:
             raise SessionFailed("a disk that is %s has changed what was saved" % trouble)
