@@ -49,10 +49,11 @@ class BmpHeader {
   // Call after check() and once the size is accepted.
   void checkLength() const {
     const std::int64_t line = (width_ * bits_ + 31) / 32 * 4;
-    const std::int64_t pixels = isPacked() ? packed_size_ : line * lines_;
     const std::int64_t size = static_cast<std::int64_t>(content_.size());
-    if (size < offset_ + pixels || size < 14 + info_size_ + bytesOfColours())
-      refuseEarlyEnd(file_, content_.size());
+    const std::int64_t room = size - offset_;
+    // Not line * lines_: a header may speak of 2^31 lines of 2^31 pixels of 2^16 bits.
+    const bool fits = isPacked() ? packed_size_ <= room : line <= room / lines_;
+    if (!fits || size < 14 + info_size_ + bytesOfColours()) refuseEarlyEnd(file_, content_.size());
   }
 
  private:

@@ -10,6 +10,18 @@ using path::Path, path::Pose, path::WaypointFormat;
 
 const path::Datum kDatum = {{53.5, 8.1, 3.0}, 0.3};
 
+// What was read can be written, where the format has its frame: one with a quote is refused.
+bool isWritten(const std::string& file, WaypointFormat format, const Path& path) {
+  try {
+    path::writeWaypoints(file, format, path, {kDatum, 0.5});
+    return true;
+  } catch (const base::InputError& error) {
+    mustHold(std::string(error.what()).find("this format has no frame") != std::string::npos,
+             "all but the frame can be written");
+    return false;
+  }
+}
+
 // Whatever was read can be written, and read again to the same.
 void readAndWrite(WaypointFormat format, const std::string& input) {
   const std::string file = fileOf("fuzz.waypoints", input);
@@ -22,7 +34,7 @@ void readAndWrite(WaypointFormat format, const std::string& input) {
   // At the largest coordinate rounding decides.
   for (const Pose& pose : path.poses)
     if (pose.position.cwiseAbs().maxCoeff() > 0.99 * path::kLargestCoordinate) return;
-  path::writeWaypoints(file, format, path, {kDatum, 0.5});
+  if (!isWritten(file, format, path)) return;
   const Path again = path::readWaypoints(file, format, kDatum);
   mustHold(again.poses.size() == path.poses.size(), "all waypoints are read back");
   for (std::size_t i = 0; i < path.poses.size(); ++i)
@@ -46,7 +58,9 @@ std::vector<std::string> seedsOfPoseArrays() {
   return {
       "header: \n  seq: 0\n  frame_id: \"odom\"\nposes: \n  - \n    position: \n      x: 1.5\n"
       "      y: 2.0\n      z: 0.0\n    orientation: \n      x: 0.0\n      y: 0.0\n"
-      "      z: 1.0\n      w: 0.0\n---\n"};
+      "      z: 1.0\n      w: 0.0\n---\n",
+      "header: \n  frame_id: odom\"\nposes: \n  - \n    position: {x: 1.5, y: 2.0, z: 0.0}\n"
+      "    orientation: {x: 0.0, y: 0.0, z: 1.0, w: 0.0}\n"};
 }
 
 FUZZ_TARGET(pose_array, seedsOfPoseArrays) {
