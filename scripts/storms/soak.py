@@ -81,17 +81,23 @@ class Watch(threading.Thread):
             raise SessionFailed(self.failure)
 
     def run(self):
-        while not self.failure:
-            memory = {node: resident_mb(pid) for node, pid in self.pids.items()}
-            ended = [node for node, megabytes in memory.items() if not megabytes]
-            if ended:
-                self.failure = "these have ended: " + ", ".join(ended)
-            self.samples.append((self.round, self.hours(), memory))
-            if len(self.samples) % PRINTED == 0:
-                self.report(memory)
-            count = self.mapping.count
-            self.pace.follow(count("received") - count("inserted") - count("dropped"))
-            time.sleep(SAMPLE_SECONDS)
+        try:
+            while not self.failure:
+                self.sample()
+                time.sleep(SAMPLE_SECONDS)
+        except Exception as reason:  # else nobody would notice that it has ended
+            self.failure = "no sample could be taken: %s" % reason
+
+    def sample(self):
+        memory = {node: resident_mb(pid) for node, pid in self.pids.items()}
+        ended = [node for node, megabytes in memory.items() if not megabytes]
+        if ended:
+            self.failure = "these have ended: " + ", ".join(ended)
+        self.samples.append((self.round, self.hours(), memory))
+        if len(self.samples) % PRINTED == 0:
+            self.report(memory)
+        count = self.mapping.count
+        self.pace.follow(count("received") - count("inserted") - count("dropped"))
 
     def report(self, memory):
         print("storm: %.2f h, round %d, %6.1f MB of projected_map, %6.1f MB of all, %d pictures mapped, %d dropped, "
@@ -120,7 +126,8 @@ def run_rounds(nodes, vehicle, folder, hours):
     set_simulator("real_time_factor", SPEED)
     watch.start()
     survey, again = write_surveys(folder)
-    while watch.hours() < hours:
+    while not watch.samples or watch.samples[-1][1] < hours:
+        watch.check()
         vehicle.drive_file("/survey", again if watch.round else survey, patience(SURVEY_SECONDS))
         there_and_back(nodes, drive, watch)
         watch.round += 1

@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
+#include "grid/formats/image_formats.h"
 #include "grid_path_planner/grid/map_file.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
@@ -55,6 +56,16 @@ TEST_F(DamagedImage, ThatEndsEarlyIsRefusedInOneSentence) {
   expectRefusedWhereCut(".pbm", "P1\n3 2\n101011");
   const std::string text = errorOf(".png", encoded(".png").substr(0, 100));
   EXPECT_EQ(text, "a.png: is not an image that can be read: it ends early, after 100 bytes");
+}
+
+// 2^30 lines of 2^30 pixels of 128 bits are 2^64 bytes, which was taken for none.
+TEST_F(DamagedImage, ABmpOfMoreBytesThanCanBeCountedEndsEarly) {
+  std::string content = encoded(".bmp");
+  content.replace(18, 8, std::string("\0\0\0\x40\0\0\0\x40", 8));
+  content.replace(28, 2, std::string("\x80\0", 2));
+  base::ReadLimits limits({64, 60.0});
+  const auto decode = [&] { decodeBmp(content, "a.bmp", {[](int, int) {}, limits}); };
+  EXPECT_TRUE(contains(test::errorText(decode), "it ends early")) << test::errorText(decode);
 }
 
 TEST_F(DamagedImage, AByteOfAPngIsNoticed) {

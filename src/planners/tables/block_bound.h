@@ -35,6 +35,7 @@
 // is asked, and goes on from there (Silver's resumable search, RRA*).
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <list>
 #include <vector>
@@ -54,6 +55,7 @@ class BlockWeights {
   // `side` of a block in cells: 4 or 8. Smaller: a larger bound for more time, with the
   // square of it.
   explicit BlockWeights(int side) : side_(side) {
+    assert(side == 4 || side == 8);
     while (1 << shift_ < side) ++shift_;
   }
 

@@ -7,6 +7,7 @@
 
 #include "ros/common/clock.h"
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/velocity_message.h"
 
 namespace grid_path_planner::nodes {
 
@@ -14,17 +15,8 @@ using base::BodyVelocity;
 
 namespace {
 
-constexpr double kPeriodsHeld =
-    1.5;  // of control_rate, at least: the next plan may be a little late
-
-geometry_msgs::Twist twistOf(const BodyVelocity& velocity) {
-  geometry_msgs::Twist twist;
-  twist.linear.x = velocity.surge;
-  twist.linear.y = velocity.sway;
-  twist.linear.z = velocity.heave;
-  twist.angular.z = velocity.yaw_rate;
-  return twist;
-}
+// Of control_rate, at least: the next plan may be a little late.
+constexpr double kPeriodsHeld = 1.5;
 
 }  // namespace
 
@@ -111,22 +103,13 @@ bool FlightCommander::isOverdue() const {
 }
 
 void FlightCommander::send(const BodyVelocity& velocity) {
-  const geometry_msgs::Twist twist = twistOf(velocity);
-  velocity_.publish(twist);
+  velocity_.publish(velocityToMessage(velocity));
+  const Eigen::Vector3d in_map = base::inMap(velocity, command_.yaw);
   geometry_msgs::TwistStamped stamped;
   stamped.header.frame_id = map_frame_;
   stamped.header.stamp = ros::Time::now();
-  stamped.twist = inMap(twist);
+  stamped.twist = velocityToMessage({in_map.x(), in_map.y(), velocity.heave, velocity.yaw_rate});
   setpoint_.publish(stamped);
-}
-
-geometry_msgs::Twist FlightCommander::inMap(const geometry_msgs::Twist& twist) const {
-  const BodyVelocity plane{twist.linear.x, twist.linear.y, twist.linear.z, 0.0};
-  const Eigen::Vector3d velocity = base::inMap(plane, command_.yaw);
-  geometry_msgs::Twist turned = twist;
-  turned.linear.x = velocity.x();
-  turned.linear.y = velocity.y();
-  return turned;
 }
 
 }  // namespace grid_path_planner::nodes

@@ -13,7 +13,6 @@
 // control_thread.h.
 #pragma once
 
-#include <geometry_msgs/Twist.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 #include <std_msgs/Bool.h>
@@ -67,7 +66,6 @@ class FlightCommander {
   void tick();
   bool isOverdue() const;
   void send(const base::BodyVelocity& velocity);
-  geometry_msgs::Twist inMap(const geometry_msgs::Twist& twist) const;
 
   FlightHold& hold_;
   std::string map_frame_;

@@ -11,6 +11,7 @@
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
+#include "ros/common/velocity_message.h"
 
 namespace grid_path_planner::nodes {
 
@@ -308,8 +309,7 @@ void LocalPlannerNode::fly(const path::Path& path, bool along) {
 BodyVelocity LocalPlannerNode::velocityAt(const ros::Time& now) const {
   if (!odometry_ || std::abs(secondsBetween(odometry_->header.stamp, now)) >= kOdometryAge)
     return answer_.velocity;
-  const geometry_msgs::Twist& twist = odometry_->twist.twist;
-  return {twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z};
+  return velocityFromMessage(odometry_->twist.twist);
 }
 
 PilotInput LocalPlannerNode::input(const ros::Time& now) {

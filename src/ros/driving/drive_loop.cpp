@@ -1,7 +1,5 @@
 #include "ros/driving/drive_loop.h"
 
-#include <geometry_msgs/Twist.h>
-
 #include <sstream>
 #include <utility>
 
@@ -11,6 +9,7 @@
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/velocity_message.h"
 
 namespace grid_path_planner::nodes {
 
@@ -291,12 +290,7 @@ void DriveLoop::publish(const BodyVelocity& velocity) {
   const bool driven = follower_.active() && follower_.state() != FollowState::PAUSED;
   if (!driven && !stopped_ && velocity.isZero() && silent_) return;
   silent_ = !driven && velocity.isZero();
-  geometry_msgs::Twist message;
-  message.linear.x = velocity.surge;
-  message.linear.y = velocity.sway;
-  message.linear.z = velocity.heave;
-  message.angular.z = velocity.yaw_rate;
-  velocity_publisher_.publish(message);
+  velocity_publisher_.publish(velocityToMessage(velocity));
 }
 
 void DriveLoop::report(const ros::Time& now) {

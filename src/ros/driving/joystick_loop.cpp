@@ -1,10 +1,9 @@
 #include "ros/driving/joystick_loop.h"
 
-#include <geometry_msgs/Twist.h>
-
 #include <utility>
 
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/velocity_message.h"
 
 namespace grid_path_planner::nodes {
 
@@ -120,12 +119,7 @@ void JoystickLoop::tick() {
 }
 
 void JoystickLoop::publish(const BodyVelocity& velocity) {
-  geometry_msgs::Twist message;
-  message.linear.x = velocity.surge;
-  message.linear.y = velocity.sway;
-  message.linear.z = velocity.heave;
-  message.angular.z = velocity.yaw_rate;
-  publisher_.publish(message);
+  publisher_.publish(velocityToMessage(velocity));
 }
 
 void JoystickLoop::announce(bool commands) {

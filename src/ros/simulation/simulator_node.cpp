@@ -13,6 +13,7 @@
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
+#include "ros/common/velocity_message.h"
 #include "ros/simulation/transform_message.h"
 #include "simulation/camera/pinhole.h"
 
@@ -189,7 +190,7 @@ void SimulatorNode::startTimer() {
 void SimulatorNode::onCommand(const geometry_msgs::Twist& message) {
   try {
     commanded_at_ = ros::SteadyTime::now();
-    vehicle_->command({message.linear.x, message.linear.y, message.linear.z, message.angular.z});
+    vehicle_->command(velocityFromMessage(message));
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("cmd_vel refused: " << error.what());
   }
