@@ -3,13 +3,40 @@
 import os
 import signal
 import sys
+import threading
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import actionlib
 import rospy
 import rostest
+from grid_path_planner.msg import PlanPathAction, PlanPathResult
 
-from go_to_session import PACKAGE, GoToTest, pose, room
+from go_to_session import DEADLINE, PACKAGE, GoToTest, pose, room
+
+
+class HeldPlanner:
+    """Answers `plan_path`, by the straight line to the goal from (2, 1.5), when it is told to."""
+
+    def __enter__(self):
+        self.asked, self.answers = threading.Event(), threading.Event()
+        self.server = actionlib.SimpleActionServer("plan_path", PlanPathAction, self.plan, auto_start=False)
+        self.server.start()
+        return self
+
+    def plan(self, goal):
+        self.asked.set()
+        self.answers.wait(DEADLINE)
+        result = PlanPathResult(status="FOUND")
+        result.path.header.frame_id, result.path.header.stamp = "map", rospy.Time.now()
+        result.path.poses = [pose(2, 1.5), goal.goal]
+        self.server.set_succeeded(result)
+
+    def __exit__(self, *_):
+        self.answers.set()
+        action = self.server.action_server
+        for topic in (action.goal_sub, action.cancel_sub, action.status_pub, action.result_pub, action.feedback_pub):
+            topic.unregister()
 
 
 class GoToPoseFailures(GoToTest):
@@ -101,21 +128,30 @@ class GoToPoseFailures(GoToTest):
         self.connect()
 
     def test_a_manager_that_is_signalled_while_it_plans_begins_no_drive(self):
-        """The plan came after the drive had been cancelled, and was driven: nobody was left to stop it."""
-        for seconds in (0.0, 0.1):
-            self.kill("go_to_pose")
+        """The plan came while the node gave up its goal, and was driven: nobody was left to stop it."""
+        self.drive_to(2, 1.5)
+        self.kill("path_planner")
+        try:
+            for seconds in (0.07, 0.08, 0.09, 0.1):  # giving up takes a tenth of a second
+                self.plan_after_a_signal(seconds)
+        finally:
+            self.start_planner()
+            self.start("go_to_pose")
+            self.connect()
+
+    def plan_after_a_signal(self, seconds):
+        self.kill("go_to_pose")
+        with HeldPlanner() as planner:
             self.start("go_to_pose", as_nodelet=True)
             self.connect()
-            self.drive_to(2, 1.5)
-            self.send(pose(8, 1.5))
-            time.sleep(seconds)
+            self.send(pose(2, 4.5))
+            self.wait_for(planner.asked.is_set)
             self.processes["go_to_pose"].send_signal(signal.SIGINT)
+            time.sleep(seconds)
+            planner.answers.set()
             self.assertEqual(self.processes["go_to_pose"].wait(20), 0)
-            self.wait_for(self.stands)
-            time.sleep(1.0)
-            self.assertTrue(self.stands(), self.at())
-        self.start("go_to_pose")
-        self.connect()
+            rospy.sleep(4.0)
+            self.assertTrue(self.is_at(2, 1.5), self.at())
 
 
 if __name__ == "__main__":
