@@ -6,10 +6,14 @@ round, with the interval that holds it with a confidence of 95 %; neighbouring s
 where an hour and more grows by no more than HOURLY_GROWTH an hour; is *not run* where the interval is
 wider than that, so that nobody knows. A shorter run fails only where it grew, surely, by more than LARGEST_GROWTH.
 
+In the first survey projected_map is stopped a few times for STALL_SECONDS, so that as many pictures wait as may: its heap
+keeps that size, and what grows later is no queue that was longer once because others had the processor.
+
 Simulated time runs as fast as pictures are mapped, at most SPEED times: those that wait take memory that is no leak.
 """
 import math
 import os
+import signal
 import threading
 import time
 
@@ -24,6 +28,8 @@ LARGEST_GROWTH = 0.03     # of a run of less than an hour, over all of the windo
 HOURLY_GROWTH = 0.01
 SAMPLE_SECONDS = 2.0      # of the wall clock
 PRINTED = 30              # every so many samples
+STALLS = (20, 30, 40)     # before these samples
+STALL_SECONDS = 2.5       # of the wall clock
 MOST_WAITING = 5          # pictures; of more, time runs slower
 SPEED = 8.0               # simulated seconds in a second of the wall clock, if the machine allows
 SURVEY_SECONDS = 1500.0   # of the wall clock, of an idle machine
@@ -60,6 +66,15 @@ class Pace:
         self.factor = factor
 
 
+def stall(pid):
+    """As if others had the processor."""
+    os.kill(pid, signal.SIGSTOP)
+    try:
+        time.sleep(STALL_SECONDS)
+    finally:
+        os.kill(pid, signal.SIGCONT)
+
+
 class Watch(threading.Thread):
     """(round, wall clock h, {node: MB}) every SAMPLE_SECONDS, in a thread of its own."""
 
@@ -83,6 +98,8 @@ class Watch(threading.Thread):
     def run(self):
         try:
             while not self.failure:
+                if len(self.samples) in STALLS:
+                    stall(self.pids["/projected_map"])
                 self.sample()
                 time.sleep(SAMPLE_SECONDS)
         except Exception as reason:  # else nobody would notice that it has ended
