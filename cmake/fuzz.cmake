@@ -7,6 +7,7 @@ if(GRID_PATH_PLANNER_FUZZ)
   endif()
   set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")
   set(sanitizers address,undefined,float-cast-overflow)
-  add_compile_options(-fsanitize=fuzzer-no-link,${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_compile_options(-fsanitize=fuzzer-no-link,${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer
+                      -fsanitize-coverage-ignorelist=${CMAKE_CURRENT_SOURCE_DIR}/test/fuzz/uncounted_functions.txt)
   add_link_options(-fsanitize=${sanitizers})
 endif()

@@ -1,0 +1,98 @@
+"""scripts/fuzz tells what it found and sums its runs: a target that ends, one that crashes and one that hangs, by a program
+that prints what libFuzzer prints; and which targets have not had enough."""
+import contextlib
+import importlib.machinery
+import importlib.util
+import io
+import os
+import pathlib
+import sys
+import tempfile
+from unittest import mock
+
+from common import ROOT, finish
+
+# Its targets: "crash" leaves an input and ends with a code, "hang" never ends, "well" runs as often as it is allowed.
+PROGRAM = r"""#!/bin/sh
+case " $* " in *" --list "*) echo "crash hang well"; exit 0 ;; esac
+for word; do
+  case $word in
+    --target=*) target=${word#--target=} ;;
+    --write-seeds=*) echo seed > "${word#--write-seeds=}/seed0"; exit 0 ;;
+    -artifact_prefix=*) prefix=${word#-artifact_prefix=} ;;
+    -runs=*) runs=${word#-runs=} ;;
+    -entropic=0) edges=9 ;;
+  esac
+done
+echo "#2	INITED cov: 5 ft: 6 corp: 1/1b exec/s: 0 rss: 30Mb" >&2
+[ $target != hang ] || exec sleep 100
+[ $target != crash ] || { echo x > "${prefix}crash-1"; exit 77; }
+half=$((runs / 2))
+echo "#3	NEW    cov: ${edges:-7} ft: 8 corp: 2/2b lim: 4 exec/s: 0 rss: 30Mb L: 2/2 MS: 1 CopyPart-" >&2
+echo "#9	REDUCE cov: ${edges:-7} ft: 8 corp: 2/2b lim: 4 exec/s: 0 rss: 30Mb L: 1/1 MS: 1 EraseBytes-" >&2
+echo "stat::number_of_executed_units: $half" >&2
+"""
+
+
+def load(folder):
+    """scripts/fuzz with that program, whose inputs may take a second."""
+    path = os.path.join(ROOT, "scripts/fuzz")
+    loader = importlib.machinery.SourceFileLoader("fuzz", path)
+    fuzz = importlib.util.module_from_spec(importlib.util.spec_from_loader("fuzz", loader))
+    loader.exec_module(fuzz)
+    fuzz.PROGRAM, fuzz.TABLE, fuzz.SPARE_SECONDS = folder / "program", folder / "table.txt", 1
+    fuzz.PROGRAM.write_text(PROGRAM, encoding="utf-8")
+    fuzz.PROGRAM.chmod(0o755)
+    return fuzz
+
+
+def told(fuzz, *arguments):
+    """Exit code, and {target: the numbers of its row} of the last table."""
+    drawn = io.StringIO()
+    with mock.patch.object(sys, "argv", ["fuzz", "--no-build", *arguments]), contextlib.redirect_stdout(drawn):
+        code = fuzz.main()
+    last = drawn.getvalue().split("all runs", 1)[1]
+    rows = (line.split() for line in last.splitlines()[1:] if not line.startswith("FOUND"))
+    return code, {row[0]: [float(cell.replace(",", "")) for cell in row[1:]] for row in rows}, drawn.getvalue()
+
+
+def complaints_of_runs(fuzz, corpus):
+    arguments = ("--corpus", str(corpus), "--seconds", "8", "--executions", "800")
+    code, rows, text = told(fuzz, *arguments, "well")
+    if code != 0 or rows["well"][0] != 600 or rows["well"][2:] != [9, 403, 0]:
+        yield f"a half of 800 and one of 400 are 600, with 9 edges since the third of the second: {code} {rows}"
+    code, rows, text = told(fuzz, *arguments, "well")
+    if rows["well"][0] != 1200 or rows["well"][3] != 403:
+        yield f"what another run covered again is no growth: {rows}"
+    code, rows, text = told(fuzz, "--corpus", str(corpus), "--seconds", "1", "--executions", "2", "well")
+    if rows["well"][0] != 1201 or rows["well"][2:4] != [9, 403]:
+        yield f"a run that covered less takes edges away: {rows}"
+    code, rows, text = told(fuzz, *arguments, "crash")
+    if code != 1 or rows["crash"][4] != 1 or "crash-1" not in text:
+        yield f"a crash is not told: {code} {text}"
+    code, rows, text = told(fuzz, "--corpus", str(corpus), "--seconds", "1", "hang")
+    if code != 1 or rows["hang"][4] != 1 or "last.log" not in text:
+        yield f"a program that hangs is not ended and told: {code} {text}"
+
+
+def complaints_of_targets(fuzz, corpus):
+    runs = fuzz.kept(corpus)
+    if fuzz.unfinished(["well", "crash", "new"], runs, 9999)[0] != "new":
+        yield "the target without a run is not the first"
+    if "well" in fuzz.unfinished(["well"], runs, 1201) or "well" not in fuzz.unfinished(["well"], runs, 1202):
+        yield "1201 executions are not told from 1202"
+    long = {"well": runs["well"]._replace(cpu=fuzz.ENOUGH_CPU_SECONDS)}
+    if fuzz.unfinished(["well"], long, 10**7):
+        yield "an hour of the processor is not enough"
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        fuzz = load(folder)
+        complaints = [*complaints_of_runs(fuzz, folder / "corpus"), *complaints_of_targets(fuzz, folder / "corpus")]
+    finish(complaints, "8 rules of scripts/fuzz")
+
+
+if __name__ == "__main__":
+    main()
