@@ -1,66 +1,80 @@
 #include "planners/replanning/outdated_cells.h"
 
-#include <algorithm>
-
 namespace grid_path_planner::planners {
 
 using base::StopPoll;
-using grid::CellRect;
+using grid::CellRect, grid::GridGeometry;
 
 namespace {
 
-// So many are compacted at no notable cost.
-constexpr std::size_t kFew = 4096;
+constexpr int kTile = 32;
+
+int tilesAlong(int cells) {
+  return (cells + kTile - 1) / kTile;
+}
 
 }  // namespace
 
 void OutdatedCells::clear() {
+  marked_.clear();
   added_.clear();
   removed();
 }
 
 void OutdatedCells::removed() {
-  first_.clear();
+  found_.clear();
   cells_ = std::vector<Index>();
   visited_ = 0;
 }
 
 void OutdatedCells::restart() {
-  added_.insert(added_.end(), first_.begin(), first_.end());
+  for (const Tile tile : found_) mark(tile);
   removed();
 }
 
+void OutdatedCells::mark(Tile tile) {
+  if (marked_[tile] != 0) return;
+  marked_[tile] = 1;
+  added_.push_back(tile);
+}
+
 void OutdatedCells::add(const BackwardNodes& nodes, const CellRect& rect) {
-  for (int row = rect.row; row < rect.row + rect.height; ++row)
-    for (int column = rect.column; column < rect.column + rect.width; ++column) {
-      const auto index = static_cast<Index>(nodes.geometry().index({column, row}).value());
-      if (nodes.known(index) && !nodes.consistent(index)) added_.push_back(index);
-    }
-  if (added_.size() > 2 * compacted_ + kFew) compact(nodes);
+  if (marked_.empty()) {
+    const GridGeometry& map = nodes.geometry();
+    columns_ = tilesAlong(map.width());
+    marked_.resize(static_cast<std::size_t>(columns_) *
+                   static_cast<std::size_t>(tilesAlong(map.height())));
+  }
+  for (int row = rect.row / kTile; row <= (rect.row + rect.height - 1) / kTile; ++row)
+    for (int column = rect.column / kTile; column <= (rect.column + rect.width - 1) / kTile;
+         ++column)
+      mark(static_cast<Tile>(row * columns_ + column));
 }
 
 void OutdatedCells::find(const BackwardNodes& nodes, StopPoll& poll) {
-  takeAdded(nodes);
+  while (!added_.empty()) {
+    const Tile tile = added_.back();
+    addInconsistent(nodes, tile, poll);
+    found_.push_back(tile);
+    marked_[tile] = 0;
+    added_.pop_back();
+  }
   for (; visited_ < cells_.size(); ++visited_) {
     poll();
     addChildren(nodes, cells_[visited_]);
   }
 }
 
-// Each once, and none that is right again.
-void OutdatedCells::compact(const BackwardNodes& nodes) {
-  const auto right = [&](Index index) { return !nodes.known(index) || nodes.consistent(index); };
-  std::sort(added_.begin(), added_.end());
-  added_.erase(std::unique(added_.begin(), added_.end()), added_.end());
-  added_.erase(std::remove_if(added_.begin(), added_.end(), right), added_.end());
-  compacted_ = added_.size();
-}
-
-void OutdatedCells::takeAdded(const BackwardNodes& nodes) {
-  compact(nodes);
-  first_.insert(first_.end(), added_.begin(), added_.end());
-  cells_.insert(cells_.end(), added_.begin(), added_.end());
-  added_.clear();
+void OutdatedCells::addInconsistent(const BackwardNodes& nodes, Tile tile, StopPoll& poll) {
+  const int column = static_cast<int>(tile) % columns_ * kTile;
+  const int row = static_cast<int>(tile) / columns_ * kTile;
+  const CellRect cells = CellRect{column, row, kTile, kTile}.intersection(nodes.geometry().rect());
+  for (int r = row; r < row + cells.height; ++r) {
+    poll();
+    auto index = static_cast<Index>(nodes.geometry().index({column, r}).value());
+    for (int c = 0; c < cells.width; ++c, ++index)
+      if (nodes.known(index) && !nodes.consistent(index)) cells_.push_back(index);
+  }
 }
 
 // The neighbours whose paths lead over the cell; inconsistent ones were added by themselves.

@@ -6,11 +6,14 @@
 //   outdated.find(nodes, poll);       // throws Stopped, and goes on at the next call
 //   for (auto index : outdated.cells()) nodes.remove(index);
 //
-// Guaranteed: after find() no path of another cell leads over one of them. Some may be listed twice, and
-// some may be right again. Whoever changes a step towards the goal must call restart().
+// add() marks tiles only, so that it costs next to nothing and changes that come again and again, and
+// are never looked for, take no more memory. Guaranteed: after find() no path of another cell leads over one
+// of them. Some may be listed twice, and some may be right again. Whoever changes a step towards the goal must
+// call restart().
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
@@ -23,8 +26,9 @@ class OutdatedCells {
   using Index = BackwardNodes::Index;
 
   void clear();
+  // Precondition: `rect` lies in the map.
   void add(const BackwardNodes& nodes, const grid::CellRect& rect);
-  // Whether none was added since the last find() began, or went on.
+  // Whether nothing was added since the last find() began, or went on.
   bool noneAdded() const { return added_.empty(); }
 
   void find(const BackwardNodes& nodes, base::StopPoll& poll);
@@ -34,17 +38,21 @@ class OutdatedCells {
   // Precondition: find() returned. Its cells were removed.
   void removed();
   std::size_t bytes() const {
-    return (added_.capacity() + first_.capacity() + cells_.capacity()) * sizeof(Index);
+    return marked_.capacity() + (added_.capacity() + found_.capacity()) * sizeof(std::uint32_t) +
+           cells_.capacity() * sizeof(Index);
   }
 
  private:
-  void addChildren(const BackwardNodes& nodes, Index index);
-  void compact(const BackwardNodes& nodes);
-  void takeAdded(const BackwardNodes& nodes);
+  using Tile = std::uint32_t;
 
-  std::vector<Index> added_;   // inconsistent ones
-  std::size_t compacted_ = 0;  // how many of them there were after compact()
-  std::vector<Index> first_;   // those that cells_ was begun with
+  void mark(Tile tile);
+  void addInconsistent(const BackwardNodes& nodes, Tile tile, base::StopPoll& poll);
+  void addChildren(const BackwardNodes& nodes, Index index);
+
+  int columns_ = 0;                   // of tiles
+  std::vector<std::uint8_t> marked_;  // by tile: whether it is in added_
+  std::vector<Tile> added_;
+  std::vector<Tile> found_;  // whose cells are in cells_
   std::vector<Index> cells_;
   std::size_t visited_ = 0;  // of cells_
 };
