@@ -36,6 +36,8 @@ constexpr std::size_t kSmallMap = 8;
 constexpr std::size_t kMostCells = std::size_t{1} << 26;
 // Tiles that an update undid and that may be made again at once: in the time of 1 to 5 ms.
 constexpr std::uint64_t kMostRemade = 32;
+// Changes that the jumps have not followed yet: in the time of 1 to 5 ms, too.
+constexpr std::size_t kMostBehind = 16;
 // A search comes to more tiles than lie on the straight line to its goal, seldom to fewer than this
 // many times as many.
 constexpr int kTilesBesideLine = 2;
@@ -129,7 +131,7 @@ std::string WeightedJumpPoint::lessMemoryAdvice() const {
 
 BackgroundWork WeightedJumpPoint::doBackgroundWork() {
   BackgroundWork work = substitute_ ? substitute_->backgroundWork() : BackgroundWork();
-  work.pending = work.pending || estimatesLater() ||
+  work.pending = work.pending || estimatesLater() || !behind_.empty() ||
                  (shouldJump() && !(jumps_ready_ && jumps_.finished())) || treeWanted();
   return work;
 }
@@ -138,6 +140,7 @@ void WeightedJumpPoint::doFinishBackgroundWork(const StopToken& stop) {
   sampleLate(stop);
   if (shouldJump()) {
     if (!jumps_ready_) prepareJumps(stop);
+    catchUp(stop);
     jumps_.finish(map(), stop);
     substitute_.reset();
   }
@@ -181,6 +184,7 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
   jumps_ready_ = sampled_ = counted_ = false;
   tiles_left_ = paid_ = expanded_ = 0;
   jumps_.release();
+  behind_.clear();
   bound_of_a_star_.prepare(map());
   estimate({}, stop);
   if (shouldJump() && !map().uniform()) return prepareJumps(stop);
@@ -241,11 +245,20 @@ void WeightedJumpPoint::updateSubstitute(const std::vector<CellRect>& changed,
   if (!jumps_ready_) prepareSubstitute(stop);
 }
 
-// Few tiles that the change undid are made anew by the searches that come to them: A* in their place
-// would take longer.
+// Beside a tree that may answer they wait for idle time, or for the next search that asks for jumps: repairing
+// their tiles takes longer than the tree's answer.
 void WeightedJumpPoint::updateJumps(const std::vector<CellRect>& changed, const StopToken& stop) {
+  grid::addChange(changed, behind_);
+  if (!tree_.held() || behind_.size() > kMostBehind) catchUp(stop);
+}
+
+// Where it is stopped the next one does it again. Few tiles that the changes undid are made anew by the searches that come to them: A* in their place
+// would take longer.
+void WeightedJumpPoint::catchUp(const StopToken& stop) {
+  if (behind_.empty()) return;
   const std::size_t ready = jumps_.tilesReady();
-  jumps_.update(map(), changed, stop, blockOfBound());
+  jumps_.update(map(), behind_, stop, blockOfBound());
+  behind_.clear();
   const std::uint64_t undone = ready - jumps_.tilesReady();
   if (undone <= kMostRemade) tiles_left_ += undone;
 }
@@ -304,6 +317,7 @@ void WeightedJumpPoint::learnFromJumps(const StopToken& stop) {
 // Nothing where it would have to make more tiles than it may, or its keys do not hold the cost.
 std::optional<SearchResult> WeightedJumpPoint::searchWithJumps(const SearchRequest& request,
                                                                const StopToken& stop) {
+  catchUp(stop);
   const std::uint64_t most = mostTiles();
   const std::size_t ready = jumps_.tilesReady();
   if (most < tilesExpected(request) && ready < tilesExpected(request)) return std::nullopt;

@@ -74,6 +74,7 @@ class WeightedJumpPoint : public Planner {
 
   void learnFromJumps(const base::StopToken& stop);
   void updateJumps(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
+  void catchUp(const base::StopToken& stop);
   bool estimatesLater() const;
   void sampleLate(const base::StopToken& stop);
   bool shouldJump() const;
@@ -106,6 +107,7 @@ class WeightedJumpPoint : public Planner {
   std::size_t paid_ = 0;          // expansions of A* towards the next one
   std::size_t expanded_ = 0;      // by A* since the map is prepared
   WeightedJumpSearch jumps_;
+  std::vector<grid::CellRect> behind_;   // changes that jumps_ has not followed yet
   std::unique_ptr<Planner> substitute_;  // A* or JumpPoint; null until it is prepared
   bool substitute_jumps_ = false;        // it is JumpPoint
   KeptSearchTree tree_;

@@ -64,7 +64,7 @@ void WeightedJumpSearch::update(const CostGrid& map, const std::vector<CellRect>
     blocks_.update(map, changed);
   } else {
     blocks_.setSide(block);
-    blocks_.prepare(map, stop);
+    blocks_.prepare(map, StopToken());
   }
   jumps_.update(map, changed, stop);
 }
