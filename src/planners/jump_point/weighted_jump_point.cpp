@@ -245,15 +245,15 @@ void WeightedJumpPoint::updateSubstitute(const std::vector<CellRect>& changed,
   if (!jumps_ready_) prepareSubstitute(stop);
 }
 
-// Beside a tree that may answer they wait for idle time, or for the next search that asks for jumps: repairing
-// their tiles takes longer than the tree's answer.
+// Beside a tree that may answer they wait for idle time, or for the next search that asks for jumps:
+// repairing their tiles takes longer than the tree's answer.
 void WeightedJumpPoint::updateJumps(const std::vector<CellRect>& changed, const StopToken& stop) {
   grid::addChange(changed, behind_);
   if (!tree_.held() || behind_.size() > kMostBehind) catchUp(stop);
 }
 
-// Where it is stopped the next one does it again. Few tiles that the changes undid are made anew by the searches that come to them: A* in their place
-// would take longer.
+// Where it is stopped the next one does it again. Few tiles that the changes undid are made anew by the
+// searches that come to them: A* in their place would take longer.
 void WeightedJumpPoint::catchUp(const StopToken& stop) {
   if (behind_.empty()) return;
   const std::size_t ready = jumps_.tilesReady();
