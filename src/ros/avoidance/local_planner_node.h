@@ -34,8 +34,8 @@
 //
 // The queue's thread unpacks clouds, plans, publishes what is seen and writes the logs; another commands
 // (flight_commander.h) and stops the vehicle while the first is late, however long that takes. Files are read, maps
-// made and planned on in further ones. Not guaranteed: a zero after SIGKILL, or as a nodelet
-// whose manager `rosnode kill` ends: the vehicle itself must stop when commands cease.
+// made and planned on in further ones. Not guaranteed: a zero after SIGKILL: the vehicle
+// itself must stop when commands cease.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>

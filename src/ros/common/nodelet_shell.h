@@ -7,8 +7,8 @@
 // (guarded_queue.h). As in a process of its own, none is called before the constructor has returned:
 // the manager would call them in another thread. Why it is not loaded stands in the manager's log.
 //
-// One that commands a vehicle derives from CommanderShell<Node>: before a signal ends the manager its
-// `stop()` is called, from another thread (manager_end.h).
+// One that commands a vehicle derives from CommanderShell<Node>: before a signal or `rosnode kill` ends the
+// manager its `stop()` is called, from another thread (manager_end.h).
 #pragma once
 
 #include <nodelet/nodelet.h>

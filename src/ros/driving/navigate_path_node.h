@@ -24,8 +24,8 @@
 // (arrived, or cancelled by somebody) is not driven. The rate follows the wall clock, the
 // control ROS time, so that both may run at different speeds. ROS time that goes back clears tf and
 // cancels the drive. The node does not start where another publishes cmd_vel (but a joystick, and
-// with ~share_cmd_vel) or offers the action. Not guaranteed: a zero after SIGKILL, or as a nodelet
-// whose manager `rosnode kill` ends: the vehicle itself must stop when commands cease.
+// with ~share_cmd_vel) or offers the action. Not guaranteed: a zero after SIGKILL: the vehicle
+// itself must stop when commands cease.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>

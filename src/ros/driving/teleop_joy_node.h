@@ -12,8 +12,7 @@
 // a message that cannot be used, and when the node ends; after that nothing is published, so that
 // navigate_path may command the vehicle. ROS time has no effect. The node does not start where
 // another joystick's, or one that does not yield, publishes cmd_vel. Velocities come from JoystickLoop,
-// whose thread waits for nothing; this class logs. Not guaranteed: a zero after SIGKILL,
-// or as a nodelet whose manager `rosnode kill` ends.
+// whose thread waits for nothing; this class logs. Not guaranteed: a zero after SIGKILL.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>

@@ -8,6 +8,7 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import actionlib
+import rosnode
 import rospy
 import rostest
 from grid_path_planner.msg import PlanPathAction, PlanPathResult
@@ -110,16 +111,19 @@ class GoToPoseFailures(GoToTest):
         self.start("go_to_pose")
         self.connect()
 
-    def test_a_manager_that_is_signalled_stops_the_vehicle(self):
-        """roscpp closes the connections at SIGINT before a nodelet hears of it, and SIGTERM ends a manager at once."""
-        for number in (signal.SIGINT, signal.SIGTERM):
+    def test_a_manager_that_is_ended_stops_the_vehicle(self):
+        """roscpp closes the connections at SIGINT and `rosnode kill` before a nodelet hears of it, and SIGTERM ends a manager
+        at once."""
+        ends = [lambda manager: manager.send_signal(signal.SIGINT), lambda manager: manager.send_signal(signal.SIGTERM),
+                lambda _: rosnode.kill_nodes(["/go_to_pose"])]
+        for end in ends:
             self.kill("go_to_pose")
             self.start("go_to_pose", as_nodelet=True)
             self.connect()
             self.drive_to(2, 1.5)
             self.send(pose(8, 1.5))
             self.wait_for(self.moves)
-            self.processes["go_to_pose"].send_signal(number)
+            end(self.processes["go_to_pose"])
             self.processes["go_to_pose"].wait(20)
             self.ends("ABORTED")
             self.wait_for(self.stands)

@@ -7,6 +7,7 @@ import sys
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import rosnode
 import rospy
 import rostest
 from roslib.message import get_service_class
@@ -114,16 +115,27 @@ class EveryCommander(CommanderTest):
 
     def test_a_manager_that_is_signalled_leaves_a_zero(self):
         """roscpp closes the connections at SIGINT before a nodelet hears of it, and SIGTERM ends a manager at once."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self.managers_leave_zeros(lambda node, number=number: node.processes[0].send_signal(number), "signal %d" % number)
+
+    def test_a_manager_that_is_asked_to_end_leaves_a_zero(self):
+        """By `rosnode kill`; roscpp closes the connections before a nodelet hears of it, as at SIGINT."""
+        self.managers_leave_zeros(lambda node: rosnode.kill_nodes([node.space + "/manager"]), "rosnode kill")
+
+    def test_a_manager_whose_name_another_takes_leaves_a_zero(self):
+        """The master asks it to end."""
+        self.managers_leave_zeros(RunningCommander.start_manager, "another of its name")
+
+    def managers_leave_zeros(self, ask_to_end, what):
         for name in COMMANDERS:
-            for number in (signal.SIGINT, signal.SIGTERM):
-                node = self.moving(name, "nodelet")
-                manager = node.processes[0]
-                manager.send_signal(number)
-                self.assertTrue(probes.until(self.anybody(), lambda: manager.poll() is not None,
-                                             time.monotonic() + END_SECONDS), "%s after signal %d" % (name, number))
-                self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, time.monotonic() + END_SECONDS),
-                                "%s after signal %d: %s" % (name, number, self.said(node)))
-                node.end(signal.SIGKILL)
+            node = self.moving(name, "nodelet")
+            manager = node.processes[0]
+            ask_to_end(node)
+            self.assertTrue(probes.until(self.anybody(), lambda: manager.poll() is not None,
+                                         time.monotonic() + END_SECONDS), "%s after %s" % (name, what))
+            self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, time.monotonic() + END_SECONDS),
+                            "%s after %s: %s" % (name, what, self.said(node)))
+            node.end(signal.SIGKILL)
 
     def test_a_joystick_takes_over_and_a_hand_gives_back(self):
         for name in DRIVERS:

@@ -14,7 +14,6 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import rosgraph
-import roslib.packages
 import rospy
 import rostest
 
@@ -22,7 +21,7 @@ import node_probes as probes
 from commanders import COMMANDERS, VELOCITIES, CommanderTest
 from node_table import NODES
 from own_master import start_own_master
-from running_nodes import PACKAGE, RunningNode, executable
+from running_nodes import PACKAGE, RunningNode, executable, nodelet_program
 from slow_master import SlowMaster
 
 DEADLINE = 60.0  # s
@@ -75,8 +74,7 @@ class EveryCommanderStart(CommanderTest):
         if node.kind == "process":
             command = [executable(name)] + words
         else:
-            nodelet = roslib.packages.find_node("nodelet", "nodelet")[0]
-            command = [nodelet, "load", "%s/%s" % (PACKAGE, name), "manager", "--no-bond"] + words
+            command = [nodelet_program(), "load", "%s/%s" % (PACKAGE, name), "manager", "--no-bond"] + words
         environment = dict(os.environ, ROS_MASTER_URI=master) if master else None
         process = subprocess.Popen(command, stdout=node.log, stderr=subprocess.STDOUT, env=environment)
         node.processes.append(process)

@@ -49,6 +49,10 @@ def executable(name):
     return os.path.join(os.environ["CMAKE_PREFIX_PATH"].split(":")[0], "lib", PACKAGE, name)
 
 
+def nodelet_program():
+    return roslib.packages.find_node("nodelet", "nodelet")[0]
+
+
 def is_sanitized(program):
     """A sanitizer needs more addresses than any limit allows."""
     with open(program, "rb") as file:
@@ -116,11 +120,13 @@ class RunningNode:
         if self.kind == "process":
             self.run([executable(self.name)] + remaps)
             return
-        nodelet = roslib.packages.find_node("nodelet", "nodelet")[0]
-        prefix = os.environ.get("GPP_NODELET_PREFIX", "").split()  # the sanitizer's library, in its runs
-        self.run(prefix + [nodelet, "manager", "__ns:=" + self.space, "__name:=manager"])
+        self.start_manager()
         # A bond that says nothing for 4 s, as where the machine stands still for so long, unloads the nodelet.
-        self.run([nodelet, "load", "%s/%s" % (PACKAGE, self.name), "manager", "--no-bond"] + remaps)
+        self.run([nodelet_program(), "load", "%s/%s" % (PACKAGE, self.name), "manager", "--no-bond"] + remaps)
+
+    def start_manager(self):
+        prefix = os.environ.get("GPP_NODELET_PREFIX", "").split()  # the sanitizer's library, in its runs
+        self.run(prefix + [nodelet_program(), "manager", "__ns:=" + self.space, "__name:=manager"])
 
     def run(self, command):
         limited = not is_sanitized(executable(self.name))

@@ -1,12 +1,14 @@
-// What a nodelet does before a signal ends its manager.
+// What a nodelet does before its manager ends.
 //
 //   const ManagerEnd end([] { stopVehicle(); });
 //
-// The manager is another package's program: at SIGINT roscpp closes all connections before any nodelet hears of
-// it, and SIGTERM ends the process at once, so that the last velocity stays in force. While one of these lives
-// both signals are taken over: a thread calls every `stop`, then whoever handled the signal before gets it: roscpp,
-// or the system. Guaranteed: the second signal of a process is not held up; one that is ignored, as below nohup, stays
-// so. For processes whose main program is not run_node.h, which looks after signals itself.
+// The manager is another package's program: at SIGINT, and where its XML-RPC method `shutdown` is called (`rosnode kill`,
+// another node of its name), roscpp closes all connections before any nodelet hears of it, and SIGTERM ends the process
+// at once, so that the last velocity stays in force. While one of these lives all three are taken over: a thread
+// calls every `stop`, then whoever handled it before gets the signal or the request: roscpp, or the system. Guaranteed:
+// the second signal or request of a process is not held up; a signal that is ignored, as below nohup, stays so; with
+// the last of these all is given back. For processes whose main program is not run_node.h, which looks after
+// these itself.
 #pragma once
 
 #include <functional>
@@ -14,7 +16,7 @@
 
 namespace grid_path_planner::nodes {
 
-class SignalWatch;
+class EndWatch;
 
 class ManagerEnd {
  public:
@@ -27,7 +29,7 @@ class ManagerEnd {
 
  private:
   const std::function<void()> stop_;
-  const std::shared_ptr<SignalWatch> watch_;
+  std::shared_ptr<EndWatch> watch_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -1,16 +1,20 @@
-// A vehicle that a nodelet commanded drove on when its manager got a signal: roscpp closes the connections before
-// the nodelet hears of it, and SIGTERM ends a manager at once. Here each manager is a child of the test.
+// A vehicle that a nodelet commanded drove on when its manager got a signal or was asked to end: roscpp closes the
+// connections before the nodelet hears of it, and SIGTERM ends a manager at once. Here each manager is a child of the test.
 #include "ros/common/ending/manager_end.h"
 
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <ros/xmlrpc_manager.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <xmlrpcpp/XmlRpcClient.h>
 
 #include <functional>
+#include <future>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -141,6 +145,143 @@ TEST(ManagerEnd, SignalsAreGivenBackWithTheLast) {
   ASSERT_EQ(manager.heard(), '.');
   manager.signal(SIGTERM);
   EXPECT_EQ(manager.endedBy(), SIGTERM);
+}
+
+// Two threads make and end them: one made while the last one ended took that one's handler for the process's own.
+TEST(ManagerEnd, SignalsAreGivenBackHoweverManyComeAndGo) {
+  Manager manager([](const Manager::Say& say) {
+    const auto comeAndGo = [] {
+      for (int i = 0; i < 3000; ++i) const ManagerEnd end([] {});
+    };
+    std::thread other(comeAndGo);
+    comeAndGo();
+    other.join();
+    struct sigaction now = {};
+    ::sigaction(SIGTERM, nullptr, &now);
+    say(now.sa_handler == SIG_DFL ? 'd' : 'o');
+  });
+  EXPECT_EQ(manager.heard(), 'd');
+}
+
+// One of an earlier watch was passed on again when a later one ended.
+TEST(ManagerEnd, ASignalThatEndedNothingIsPassedOnOnce) {
+  Manager manager([](const Manager::Say& say) {
+    says = say;
+    ::signal(SIGINT, [](int) { says('h'); });
+    std::promise<void> stopped;
+    {
+      const ManagerEnd end([&] {
+        say('s');
+        stopped.set_value();
+      });
+      ::raise(SIGINT);
+      stopped.get_future().wait();
+    }
+    {
+      const ManagerEnd later([] {});
+    }
+    say('.');
+  });
+  EXPECT_EQ(manager.heard(), 's');
+  EXPECT_EQ(manager.heard(), 'h');
+  EXPECT_EQ(manager.heard(), '.');
+}
+
+// What roscpp does before its own `shutdown` is called, whose place `shutdown` takes.
+void startXmlRpc(const ros::XMLRPCFunc& shutdown) {
+  ros::XMLRPCManager::instance()->bind("shutdown", shutdown);
+  ros::XMLRPCManager::instance()->start();
+}
+
+// As `rosnode kill` and the master do, from another process or not; whether it was answered well.
+bool askToEnd(bool with_reason = true) {
+  XmlRpc::XmlRpcClient client("localhost", int(ros::XMLRPCManager::instance()->getServerPort()),
+                              "/");
+  XmlRpc::XmlRpcValue request, response;
+  request[0] = std::string("/test");
+  if (with_reason) request[1] = std::string("asked by the test");
+  return client.execute("shutdown", request, response) && !client.isFault() &&
+         int(response[0]) == 1;
+}
+
+ros::XMLRPCFunc saying(const Manager::Say& say, char letter) {
+  return [say, letter](XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue& response) {
+    say(letter);
+    response = ros::xmlrpc::responseInt(1, "", 0);
+  };
+}
+
+TEST(ManagerEnd, AllStopBeforeARequestEndsTheManager) {
+  Manager manager([](const Manager::Say& say) {
+    startXmlRpc(saying(say, 'r'));
+    const ManagerEnd one([&] { say('a'); });
+    const ManagerEnd other([&] { say('b'); });
+    say(askToEnd() ? '.' : '!');
+    waitForEver();
+  });
+  std::string heard;  // the answer does not wait for the stops
+  while (heard.size() < 4) heard += manager.heard();
+  EXPECT_NE(heard.find('.'), std::string::npos) << heard;
+  heard.erase(heard.find('.'), 1);
+  EXPECT_EQ(heard, "abr");
+}
+
+TEST(ManagerEnd, TheSecondRequestIsNotHeldUpNorASignalAfterTheFirst) {
+  Manager manager([](const Manager::Say& say) {
+    startXmlRpc(saying(say, 'r'));
+    const ManagerEnd end([&] {
+      say('s');
+      waitForEver();
+    });
+    askToEnd();
+    askToEnd();
+    waitForEver();
+  });
+  const std::string heard{manager.heard(), manager.heard()};
+  EXPECT_TRUE(heard == "sr" || heard == "rs") << heard;
+  manager.signal(SIGTERM);
+  EXPECT_EQ(manager.endedBy(), SIGTERM);
+}
+
+TEST(ManagerEnd, ARequestWithoutAReasonIsRoscppsToRefuse) {
+  Manager manager([](const Manager::Say& say) {
+    startXmlRpc(saying(say, 'r'));
+    const ManagerEnd end([&] { say('s'); });
+    say(askToEnd(false) ? '.' : '!');
+    waitForEver();
+  });
+  EXPECT_EQ(manager.heard(), 'r');
+  EXPECT_EQ(manager.heard(), '.');
+}
+
+TEST(ManagerEnd, TheMethodIsGivenBackWithTheLast) {
+  Manager manager([](const Manager::Say& say) {
+    startXmlRpc(saying(say, 'r'));
+    for (int i = 0; i < 3; ++i) const ManagerEnd end([&] { say('s'); });
+    say(askToEnd() ? '.' : '!');
+    waitForEver();
+  });
+  EXPECT_EQ(manager.heard(), 'r');
+  EXPECT_EQ(manager.heard(), '.');
+}
+
+TEST(ManagerEnd, ARequestWhileTheLastEndsIsNotLost) {
+  for (int i = 0; i < 20; ++i) {
+    Manager manager([](const Manager::Say& say) {
+      startXmlRpc(saying(say, 'r'));
+      std::thread asks;
+      {
+        const ManagerEnd end([] {});
+        asks = std::thread([&] {
+          while (!askToEnd()) {
+          }
+        });
+      }
+      asks.join();
+      waitForEver();
+    });
+    ASSERT_EQ(manager.heard(), 'r');
+  }
 }
 
 }  // namespace
