@@ -3,6 +3,7 @@
 #include <geometry_msgs/TwistStamped.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "ros/common/clock.h"
@@ -17,6 +18,21 @@ namespace {
 
 // Of control_rate, at least: the next plan may be a little late.
 constexpr double kPeriodsHeld = 1.5;
+
+double nearerOf(double one, double other) {
+  return std::abs(one) < std::abs(other) ? one : other;
+}
+
+double lessBy(double change, double speed) {
+  return std::copysign(std::max(0.0, std::abs(speed) - change), speed);
+}
+
+// From where an axis is braked that had `measured` and was to have `commanded` for a while, in which it may have changed
+// by `change`: never faster than either.
+double brakedFrom(double measured, double commanded, double change) {
+  const double reached = measured + std::clamp(commanded - measured, -change, change);
+  return reached * commanded <= 0.0 ? 0.0 : nearerOf(reached, commanded);
+}
 
 }  // namespace
 
@@ -62,14 +78,29 @@ void FlightCommander::finish() {
 void FlightCommander::use(const LocalPlannerOptions& options) {
   map_frame_ = options.map_frame;
   master_timeout_ = options.master_timeout;
-  const std::chrono::duration<double> most(
-      std::max(options.pilot.frame_period, kPeriodsHeld / options.control_rate));
-  most_held_ = std::chrono::duration_cast<Clock::duration>(most);
+  max_acceleration_ = options.pilot.max_acceleration;
+  frame_period_ = options.pilot.frame_period;
+  const auto seconds = [](double number) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(number));
+  };
+  period_ = seconds(1.0 / options.control_rate);
+  most_held_ = seconds(std::max(options.pilot.frame_period, kPeriodsHeld / options.control_rate));
+}
+
+BodyVelocity FlightCommander::sent() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return sent_;
+}
+
+void FlightCommander::keep(const BodyVelocity& sent) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sent_ = sent;
 }
 
 void FlightCommander::take(const Command& command, Clock::time_point handed_over) {
   command_ = command;
   handed_over_ = handed_over;
+  brakes_since_.reset();
   flies_ = true;
   thread_.restartPeriod();
   thread_.tick();
@@ -87,22 +118,40 @@ void FlightCommander::onManual(const std_msgs::Bool& message) {
 
 void FlightCommander::tick() {
   if (finished_) return;
+  const bool time_went_back = secondsBetween(command_.time, ros::Time::now()) < 0.0;
+  if (time_went_back || !hold_.why(master_timeout_).empty()) command_.velocity = {};
   if (hold_.stopped()) return send({});
-  if (!flies_ || hold_.isManual()) return;
-  if (!hold_.why(master_timeout_).empty()) command_.velocity = {};
-  if (!command_.velocity.isZero() && isOverdue()) {
-    command_.velocity = {};
-    ++overdue_;
-  }
-  send(command_.velocity);
+  if (hold_.isManual()) return keep({});
+  if (!flies_) return;
+  if (!brakes_since_ && !command_.velocity.isZero() && isOverdue()) beginToBrake();
+  send(due());
 }
 
 bool FlightCommander::isOverdue() const {
-  const double age = secondsBetween(command_.time, ros::Time::now());
-  return Clock::now() - handed_over_ > most_held_ || age < 0.0 || age > command_.good_for;
+  return Clock::now() - handed_over_ > most_held_ ||
+         secondsBetween(command_.time, ros::Time::now()) > command_.good_for;
+}
+
+// From when it was to, though this thread has come to it later.
+void FlightCommander::beginToBrake() {
+  brakes_since_ = std::min(handed_over_ + most_held_, Clock::now());
+  ++overdue_;
+}
+
+// Braking, it is what the vehicle may have at the end of the period that the velocity is in force for.
+BodyVelocity FlightCommander::due() const {
+  if (!brakes_since_) return command_.velocity;
+  const std::chrono::duration<double> time = Clock::now() - *brakes_since_ + period_;
+  const auto axis = [&](double BodyVelocity::*speed) {
+    return lessBy(max_acceleration_ * time.count(),
+                  brakedFrom(command_.measured.*speed, command_.velocity.*speed,
+                             max_acceleration_ * frame_period_));
+  };
+  return {axis(&BodyVelocity::surge), axis(&BodyVelocity::sway), axis(&BodyVelocity::heave), 0.0};
 }
 
 void FlightCommander::send(const BodyVelocity& velocity) {
+  keep(velocity);
   velocity_.publish(velocityToMessage(velocity));
   const Eigen::Vector3d in_map = base::inMap(velocity, command_.yaw);
   geometry_msgs::TwistStamped stamped;

@@ -308,7 +308,7 @@ void LocalPlannerNode::fly(const path::Path& path, bool along) {
 // As measured; without odometry that commanded last.
 BodyVelocity LocalPlannerNode::velocityAt(const ros::Time& now) const {
   if (!odometry_ || std::abs(secondsBetween(odometry_->header.stamp, now)) >= kOdometryAge)
-    return answer_.velocity;
+    return commander_.sent();
   return velocityFromMessage(odometry_->twist.twist);
 }
 
@@ -348,14 +348,16 @@ void LocalPlannerNode::control() {
 
 void LocalPlannerNode::tick(const ros::Time& now) {
   const bool yields = hold_.notice(now, flies_);
-  answer_ = pilot_.update(input(now));
+  const PilotInput given = input(now);
+  answer_ = pilot_.update(given);
   const bool ended = answer_.status == PilotStatus::ARRIVED ||
                      answer_.status == PilotStatus::STUCK ||
                      answer_.status == PilotStatus::CANCELLED;
   if (flies_ && answer_.status == PilotStatus::ARRIVED) given_goals_.end();
   const bool was_manual = std::exchange(manual_, hold_.isManual());
   if (manual_ && !was_manual && !flies_) given_goals_.endAllUntil(now);  // somebody takes it
-  if (flies_) commander_.command({answer_.velocity, at_.yaw, now, good_for_, ended});
+  if (flies_)
+    commander_.command({answer_.velocity, given.velocity, at_.yaw, now, good_for_, ended});
   if (yields) ROS_WARN("The joystick commands: the flight is paused until ~resume");
   if (const auto problem = pilot_.takeLogProblem()) ROS_WARN_STREAM(*problem);
   publish(now);
@@ -383,7 +385,7 @@ void LocalPlannerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("nearest point (m)", answer_.clearance);
   status.add("open path (m)", answer_.clear_path);
   status.add("problems of the newest clouds", clouds_.problems());
-  status.add("stops for want of a newer plan", commander_.overdue());
+  status.add("braked for want of a newer plan", commander_.overdue());
   status.add("scheduling of commands", commander_.scheduling());
 }
 

@@ -2,7 +2,8 @@
 //
 // What was seen before: the thread that unpacked clouds, planned and logged commanded, too. A log that nobody read
 // silenced cmd_vel for ever; clouds of 16 MB silenced it for as long as they took; and a velocity stayed in force
-// however late the next one was.
+// however late the next one was. Then it became a zero at once, so that the vehicle stuttered where plans were a little
+// late, and without odometry was thought to have the velocity that it had been refused.
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
@@ -20,6 +21,7 @@
 #include <vector>
 
 #include "grid_path_planner/NavigatePathActionGoal.h"
+#include "grid_path_planner/avoidance/flight_log.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/avoidance/flight_commander.h"
 #include "ros/support/control_thread.h"
@@ -52,7 +54,7 @@ class CommanderTest : public testing::Test {
   }
   void plan(double good_for) {
     hold_.notice(ros::Time::now(), true);
-    commander_->command({{1.0, 0.0, 0.0, 0.0}, 0.0, ros::Time::now(), good_for, false});
+    commander_->command({{1.0, 0.0, 0.0, 0.0}, measured_, 0.0, ros::Time::now(), good_for, false});
   }
   // With a new plan every now and then.
   bool fliesBy(double good_for) {
@@ -78,6 +80,13 @@ class CommanderTest : public testing::Test {
     const std::size_t seen = commands_.count();
     return noticed([&] { return commands_.count() > seen + 10; }) && !anyDrives(seen);
   }
+  static bool isSlower(const Twist& v) { return v.linear.x > 0.0 && v.linear.x < 0.95; }
+  bool becomesSlower() {
+    return test::waitFor([&] {
+      hold_.notice(ros::Time::now(), true);
+      return isSlower(commands_.all().back());
+    });
+  }
   bool becomesManual(bool is) {
     std_msgs::Bool message;
     message.data = is;
@@ -91,6 +100,7 @@ class CommanderTest : public testing::Test {
   ros::Publisher manuals_ = nh_.advertise<std_msgs::Bool>("manual_control", 1);
   LocalPlannerOptions options_;
   FlightHold hold_;
+  base::BodyVelocity measured_{1.0, 0.0, 0.0, 0.0};
   std::unique_ptr<FlightCommander> commander_;
 };
 
@@ -100,6 +110,53 @@ TEST_F(CommanderTest, AVelocityThatNoOtherFollowsBecomesAZero) {
   EXPECT_TRUE(endsInZeros());
   EXPECT_GE(commander_->overdue(), 1U);
   EXPECT_TRUE(fliesBy(1e3)) << "by the next plan";
+}
+
+TEST_F(CommanderTest, ALatePlanFindsTheVehicleALittleSlower) {
+  options_.pilot.max_acceleration = 0.05;
+  ASSERT_NO_FATAL_FAILURE(start(0.1));
+  ASSERT_TRUE(fliesBy(1e3));
+  EXPECT_TRUE(becomesSlower());
+  const auto all = commands_.all();
+  const auto brakes = std::find_if(all.begin(), all.end(), isSlower);
+  EXPECT_TRUE(std::is_sorted(brakes, all.end(), [](const Twist& one, const Twist& next) {
+    return one.linear.x > next.linear.x;
+  }));
+  EXPECT_EQ(all.back().linear.y, 0.0);
+  const std::size_t seen = commands_.count();
+  plan(1e3);
+  EXPECT_TRUE(commands_.waitFor(seen, [](const Twist& v) { return v.linear.x == 1.0; }));
+}
+
+// The pilot has seen to room for what it reaches within frame_period, and no more.
+TEST_F(CommanderTest, AVehicleThatSetsOffGetsNoFasterWithoutAPlan) {
+  options_.pilot.max_acceleration = 0.05;
+  measured_ = {};
+  ASSERT_NO_FATAL_FAILURE(start(0.1));
+  ASSERT_TRUE(fliesBy(1e3));
+  ASSERT_TRUE(endsInZeros());
+  for (const Twist& v : commands_.all())
+    EXPECT_TRUE(v.linear.x == 1.0 || v.linear.x < 0.005) << v.linear.x;
+}
+
+TEST_F(CommanderTest, SaysWhatItHasSent) {
+  ASSERT_NO_FATAL_FAILURE(start(10.0));
+  const auto sends = [&](double surge) {
+    return test::waitFor([&] {
+      hold_.notice(ros::Time::now(), true);
+      return commander_->sent().surge == surge;
+    });
+  };
+  ASSERT_TRUE(fliesBy(1e3));
+  EXPECT_TRUE(sends(1.0));
+  hold_.stop(true);
+  EXPECT_TRUE(sends(0.0));
+  hold_.stop(false);
+  EXPECT_TRUE(endsInZeros()) << "until the next plan";
+  ASSERT_TRUE(fliesBy(1e3));
+  EXPECT_TRUE(sends(1.0));
+  EXPECT_TRUE(test::waitFor([&] { return becomesManual(true) && commander_->sent().surge == 0.0; }))
+      << "the joystick's velocities are in force, of which it knows none";
 }
 
 TEST_F(CommanderTest, AVelocityWhoseCloudsGrowTooOldBecomesAZero) {
@@ -228,6 +285,43 @@ TEST_F(LocalPlannerLocks, LargeCloudsAndSlowViewersDelayPlansAndNoVelocities) {
       << " velocities, " << plans.count() << " plans";
   viewer.signal(SIGKILL);
   EXPECT_TRUE(flies()) << said();
+}
+
+// Whether an update of a flight log was given a velocity that was less than the answer before it.
+bool wasGivenLess(const std::string& file) {
+  bool less = false;
+  base::BodyVelocity before;
+  avoidance::replayFlight(file, [&](const auto& input, const auto& answer) {
+    less = less || (input.velocity.surge > 0.0 && input.velocity.surge < 0.99 * before.surge);
+    before = answer.velocity;
+  });
+  return less;
+}
+
+TEST_F(LocalPlannerLocks, WithoutOdometryALatePlanIsGivenTheVelocityThatWasSent) {
+  const std::string log = folder_.path("late.flight");
+  std::vector<std::string> command{GPP_DEVEL "/lib/grid_path_planner/local_planner", "--log", log};
+  for (const std::string& argument :
+       arguments({"_frame_period:=0.01", "_control_rate:=100", "_max_acceleration:=10"}))
+    command.push_back(argument);
+  pilot_ = std::make_unique<Process>(command);
+  ASSERT_NO_FATAL_FAILURE(waitUntilItIsUp());
+  sendGoal(ros::Time());
+  ASSERT_TRUE(flies()) << said();
+  ros::Publisher clouds = nh_.advertise<sensor_msgs::PointCloud2>("points", 1);
+  sensor_msgs::PointCloud2 cloud = largeCloud();
+  ASSERT_TRUE(test::waitFor([&] { return clouds.getNumSubscribers() > 0; }));
+  const auto late = [&] {
+    return test::valueIn(diagnostics_.all(), "braked for want of a newer plan");
+  };
+  ASSERT_TRUE(test::waitFor([&] {
+    cloud.header.stamp = sky_.now();
+    clouds.publish(cloud);
+    return !late().empty() && std::stoi(late()) > 5;
+  }));
+  ASSERT_TRUE(flies()) << said();
+  pilot_->end(SIGINT);
+  EXPECT_TRUE(wasGivenLess(log));
 }
 
 // As navigate_path's: see there.
