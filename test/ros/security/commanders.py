@@ -9,6 +9,7 @@ velocities adds a row.
     clock       whether ROS time that stands still stops the vehicle
 """
 import collections
+import os
 import signal
 import struct
 import tempfile
@@ -99,10 +100,11 @@ def is_zero(twist):
 class RunningCommander(RunningNode):
     """One that is fed. `commands` has all velocities that it gave, as (monotonic s, topic, Twist)."""
 
-    def __init__(self, name, kind, clock, folder, stopped=False):
+    def __init__(self, name, kind, clock, folder, stopped=False, master=None):
         from std_msgs.msg import Bool
         self.table, self.ceased, self.commands = COMMANDERS[name], set(), []
         self.velocities = {topic for topic, kind in NODES[name].outputs.items() if kind in VELOCITIES}
+        self.environment = dict(os.environ, ROS_MASTER_URI=master) if master else None
         self.stops = rospy.Publisher("/%s_as_%s/stop" % (name, kind), Bool, queue_size=1, latch=True)
         self.stops.publish(stopped)
         super().__init__(name, NODES[name]._replace(arguments=self.table.arguments), kind, clock, folder)

@@ -4,7 +4,7 @@
 What was seen before: two navigate_paths drove one vehicle along two paths; two nodelets of one manager did so long after
 two nodes could not, since the master knows both by the manager's name; on a busy machine a second's silence of the master
 was taken for leave; and of two that started at once both stayed, since that with the earlier name took the other, which
-had looked before, for one that would go.
+had looked before, for one that would go. No test had shown that a node commands nothing before it knows to be alone.
 """
 import os
 import signal
@@ -18,7 +18,7 @@ import rospy
 import rostest
 
 import node_probes as probes
-from commanders import COMMANDERS, VELOCITIES, CommanderTest
+from commanders import COMMANDERS, VELOCITIES, CommanderTest, RunningCommander
 from node_table import NODES
 from own_master import start_own_master
 from running_nodes import PACKAGE, RunningNode, executable, nodelet_program
@@ -126,7 +126,7 @@ class EveryCommanderStart(CommanderTest):
             slow = SlowMaster(rosgraph.get_master_uri(), 2.0, 2)
             self.addCleanup(slow.end)
             self.refused(driver, driver, "process", slow.uri)
-            self.assertGreaterEqual(slow.asked, 3, driver)
+            self.assertGreaterEqual(len(slow.asked_at), 3, driver)
 
     def test_a_master_that_never_answers_gives_no_leave(self):
         node = self.first(DRIVERS[0], "process")
@@ -134,6 +134,20 @@ class EveryCommanderStart(CommanderTest):
         process = self.second(node, DRIVERS[0], silent.uri)
         self.ends_refused(node, process, "does not say whether another node commands the vehicle", DRIVERS[0])
         node.end(signal.SIGKILL)
+
+    def test_nothing_is_commanded_before_the_master_has_said_that_it_is_alone(self):
+        """It has asked once before its velocities are registered, and asks again then, which here takes three times; what
+        it is fed and offered would move the vehicle all the while."""
+        for name in COMMANDERS:
+            slow = SlowMaster(rosgraph.get_master_uri(), 2.0, 3, before=1)
+            self.addCleanup(slow.end)
+            node = RunningCommander(name, "process", self.clock, self.folder, master=slow.uri)
+            self.started.append(node)
+            self.assertTrue(probes.until(node, lambda: node.moved_after(0.0), time.monotonic() + DEADLINE,
+                                         lambda: node.table.offer(node), 0.3), "%s: %s" % (name, self.said(node)))
+            asked_before = sum(at < node.commands[0][0] for at in slow.asked_at)
+            self.assertGreater(asked_before, 4, "%s: %s" % (name, self.said(node)))
+            node.end(signal.SIGKILL)
 
     def test_a_joystick_and_a_driver_stand_beside_each_other(self):
         for driver in DRIVERS:

@@ -55,7 +55,7 @@ class LostAnswer(unittest.TestCase):
             self.assertTrue(is_up(node))
             process.send_signal(signal.SIGTERM)
             self.assertEqual(process.wait(DEADLINE), 0, "%s, %s" % (node, method))
-            return master.asked > 0
+            return bool(master.asked_at)
         finally:
             process.kill()
             master.end()

@@ -73,6 +73,8 @@ def threads_of(process):
 
 
 class RunningNode:
+    environment = None  # of its processes; none: this one's
+
     def __init__(self, name, row, kind, clock, log_folder, space=None):
         self.name, self.row, self.kind, self.clock = name, row, kind, clock
         self.space = space or "/%s_as_%s" % (name, kind)
@@ -130,7 +132,7 @@ class RunningNode:
 
     def run(self, command):
         limited = not is_sanitized(executable(self.name))
-        self.processes.append(subprocess.Popen(command, stdout=self.log, stderr=subprocess.STDOUT,
+        self.processes.append(subprocess.Popen(command, stdout=self.log, stderr=subprocess.STDOUT, env=self.environment,
                                                preexec_fn=limit_memory if limited else None))
 
     def lives(self):

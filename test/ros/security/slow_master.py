@@ -11,11 +11,13 @@ class Server(http.server.ThreadingHTTPServer):
 
 
 class SlowMaster:
-    """Hands all calls on to `master`; the first `times` of `method` are answered after `seconds`."""
+    """Hands all calls on to `master`; `times` of `method` are answered after `seconds`, once `before` of them have been at
+    once. `asked_at` has when each came (monotonic s)."""
 
-    def __init__(self, master, seconds, times, method="getSystemState"):
-        self.master, self.seconds, self.times, self.method = master, seconds, times, method.encode()
-        self.asked, self.lock = 0, threading.Lock()
+    def __init__(self, master, seconds, times, method="getSystemState", before=0):
+        self.master, self.seconds, self.method = master, seconds, method.encode()
+        self.slow_ones = range(before, before + times)
+        self.asked_at, self.lock = [], threading.Lock()
         self.server = Server(("localhost", 0), self.handler())
         self.uri = "http://localhost:%d/" % self.server.server_address[1]
         threading.Thread(target=self.server.serve_forever, daemon=True).start()
@@ -26,8 +28,8 @@ class SlowMaster:
 
     def is_slow(self):
         with self.lock:
-            self.asked += 1
-            return self.asked <= self.times
+            self.asked_at.append(time.monotonic())
+            return len(self.asked_at) - 1 in self.slow_ones
 
     def handler(slow):  # pylint: disable=no-self-argument
         class Handler(http.server.BaseHTTPRequestHandler):
