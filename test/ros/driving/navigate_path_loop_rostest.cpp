@@ -13,6 +13,7 @@
 #include "ros/common/master/xmlrpc_call.h"
 #include "ros/support/own_master.h"
 #include "ros/support/still_fixture.h"
+#include "ros/support/unread_log.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -36,14 +37,9 @@ using NavigateLoop = test::StillTest;
 
 TEST_F(NavigateLoop, ALogThatNobodyReadsDoesNotHoldIt) {
   StillWorld world(100.0);
-  const TemporaryName pipe(".pipe");
-  // A pipe that is open and never read takes 64 kB; then who writes waits.
-  navigate_ = std::make_unique<Process>(std::vector<std::string>{
-      "bash", "-c",
-      "mkfifo " + pipe.name + "; exec 3<>" + pipe.name +
-          "; exec " GPP_DEVEL
-          "/lib/grid_path_planner/navigate_path _check_map:=false _no_progress_timeout:=0 "
-          "_tf_timeout:=3.0 >&3 2>&3"});
+  navigate_ = std::make_unique<Process>(
+      test::withUnreadSocket({GPP_DEVEL "/lib/grid_path_planner/navigate_path", "_check_map:=false",
+                              "_no_progress_timeout:=0", "_tf_timeout:=3.0"}));
   ASSERT_TRUE(test::waitFor([&] { return paths_.getNumSubscribers() > 0; }));
   publishPath(pathOf({{0, 0}, {50, 0}}));
   ASSERT_TRUE(isDriving());

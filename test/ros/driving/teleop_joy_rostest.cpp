@@ -11,6 +11,7 @@
 #include "ros/support/navigate_fixture.h"
 #include "ros/support/nodelet_command.h"
 #include "ros/support/process.h"
+#include "ros/support/unread_log.h"
 #include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
@@ -133,14 +134,9 @@ TEST_F(TeleopJoyTest, DrivesTheSimulatedVehicle) {
 
 // Before, the thread that commanded wrote the log: cmd_vel was silent for ever.
 TEST_F(TeleopJoyTest, ALogThatNobodyReadsDoesNotHoldIt) {
-  const test::TemporaryFolder folder;
-  const std::string pipe = folder.path("pipe");
   Latest<std_msgs::Bool> manual(nh_, "manual_control");
-  // A pipe that is open and never read takes 64 kB; then who writes waits.
   ASSERT_NO_FATAL_FAILURE(
-      startBy({"bash", "-c",
-               "mkfifo " + pipe + "; exec 3<>" + pipe +
-                   "; exec " GPP_DEVEL "/lib/grid_path_planner/teleop_joy >&3 2>&3"}));
+      startBy(test::withUnreadSocket({GPP_DEVEL "/lib/grid_path_planner/teleop_joy"})));
   takeOverAndLetGo(1500);
   ASSERT_TRUE(driveAhead());
   const auto newest = [&] { return manual.count() > 0 && manual.all().back().data != 0; };

@@ -1,0 +1,184 @@
+// What local_planner commands rests on nothing that is too old. Here the test is the pilot.
+//
+// What was seen before: a velocity stayed in force however late the next one was. Then it became a zero at once, so that
+// the vehicle stuttered where plans were a little late.
+#include "ros/avoidance/flight_commander.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include "ros/support/flight_fixture.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using geometry_msgs::Twist;
+using test::drives;
+using test::Latest;
+using test::stands;
+
+class CommanderTest : public testing::Test {
+ protected:
+  using Command = FlightCommander::Command;
+
+  // Held for so long (s) by the wall clock where no other comes.
+  void start(double frame_period) {
+    options_.pilot.frame_period = frame_period;
+    options_.control_rate = 50.0;
+    options_.master_timeout = 0.0;
+    ASSERT_TRUE(test::waitFor([&] { return !ros::Time::now().isZero(); }));
+    commander_ = std::make_unique<FlightCommander>(nh_, options_, hold_);
+    ASSERT_TRUE(
+        test::waitFor([&] { return commands_.connected() && manuals_.getNumSubscribers() > 0; }));
+  }
+  void plan(double good_for) {
+    hold_.notice(ros::Time::now(), true);
+    commander_->command({{1.0, 0.0, 0.0, 0.0}, measured_, 0.0, ros::Time::now(), good_for, false});
+  }
+  // With a new plan every now and then.
+  bool fliesBy(double good_for) {
+    const std::size_t seen = commands_.count();
+    return test::waitFor([&] {
+      plan(good_for);
+      return anyDrives(seen);
+    });
+  }
+  bool anyDrives(std::size_t from) const {
+    const auto all = commands_.all();
+    return std::any_of(all.begin() + static_cast<std::ptrdiff_t>(from), all.end(), drives);
+  }
+  // Zeros come, and nothing else after the first, though the clock goes on.
+  bool endsInZeros() {
+    const auto noticed = [&](const std::function<bool()>& condition) {
+      return test::waitFor([&] {
+        hold_.notice(ros::Time::now(), true);
+        return condition();
+      });
+    };
+    if (!noticed([&] { return stands(commands_.all().back()); })) return false;
+    const std::size_t seen = commands_.count();
+    return noticed([&] { return commands_.count() > seen + 10; }) && !anyDrives(seen);
+  }
+  static bool isSlower(const Twist& v) { return v.linear.x > 0.0 && v.linear.x < 0.95; }
+  bool becomesSlower() {
+    return test::waitFor([&] {
+      hold_.notice(ros::Time::now(), true);
+      return isSlower(commands_.all().back());
+    });
+  }
+  bool becomesManual(bool is) {
+    std_msgs::Bool message;
+    message.data = is;
+    manuals_.publish(message);
+    return test::waitFor([&] { return hold_.isManual() == is; });
+  }
+
+  test::Sky sky_;
+  ros::NodeHandle nh_;
+  Latest<Twist> commands_{nh_, "cmd_vel"};
+  ros::Publisher manuals_ = nh_.advertise<std_msgs::Bool>("manual_control", 1);
+  LocalPlannerOptions options_;
+  FlightHold hold_;
+  base::BodyVelocity measured_{1.0, 0.0, 0.0, 0.0};
+  std::unique_ptr<FlightCommander> commander_;
+};
+
+TEST_F(CommanderTest, AVelocityThatNoOtherFollowsBecomesAZero) {
+  ASSERT_NO_FATAL_FAILURE(start(0.1));
+  ASSERT_TRUE(fliesBy(1e3));
+  EXPECT_TRUE(endsInZeros());
+  EXPECT_GE(commander_->overdue(), 1U);
+  EXPECT_TRUE(fliesBy(1e3)) << "by the next plan";
+}
+
+TEST_F(CommanderTest, ALatePlanFindsTheVehicleALittleSlower) {
+  options_.pilot.max_acceleration = 0.05;
+  ASSERT_NO_FATAL_FAILURE(start(0.1));
+  ASSERT_TRUE(fliesBy(1e3));
+  EXPECT_TRUE(becomesSlower());
+  const auto all = commands_.all();
+  const auto brakes = std::find_if(all.begin(), all.end(), isSlower);
+  EXPECT_TRUE(std::is_sorted(brakes, all.end(), [](const Twist& one, const Twist& next) {
+    return one.linear.x > next.linear.x;
+  }));
+  EXPECT_EQ(all.back().linear.y, 0.0);
+  const std::size_t seen = commands_.count();
+  plan(1e3);
+  EXPECT_TRUE(commands_.waitFor(seen, [](const Twist& v) { return v.linear.x == 1.0; }));
+}
+
+// The pilot has seen to room for what it reaches within frame_period, and no more.
+TEST_F(CommanderTest, AVehicleThatSetsOffGetsNoFasterWithoutAPlan) {
+  options_.pilot.max_acceleration = 0.05;
+  measured_ = {};
+  ASSERT_NO_FATAL_FAILURE(start(0.1));
+  ASSERT_TRUE(fliesBy(1e3));
+  ASSERT_TRUE(endsInZeros());
+  for (const Twist& v : commands_.all())
+    EXPECT_TRUE(v.linear.x == 1.0 || v.linear.x < 0.005) << v.linear.x;
+}
+
+TEST_F(CommanderTest, SaysWhatItHasSent) {
+  ASSERT_NO_FATAL_FAILURE(start(10.0));
+  const auto sends = [&](double surge) {
+    return test::waitFor([&] {
+      hold_.notice(ros::Time::now(), true);
+      return commander_->sent().surge == surge;
+    });
+  };
+  ASSERT_TRUE(fliesBy(1e3));
+  EXPECT_TRUE(sends(1.0));
+  hold_.stop(true);
+  EXPECT_TRUE(sends(0.0));
+  hold_.stop(false);
+  EXPECT_TRUE(endsInZeros()) << "until the next plan";
+  ASSERT_TRUE(fliesBy(1e3));
+  EXPECT_TRUE(sends(1.0));
+  EXPECT_TRUE(test::waitFor([&] { return becomesManual(true) && commander_->sent().surge == 0.0; }))
+      << "the joystick's velocities are in force, of which it knows none";
+}
+
+TEST_F(CommanderTest, AVelocityWhoseCloudsGrowTooOldBecomesAZero) {
+  ASSERT_NO_FATAL_FAILURE(start(10.0));
+  ASSERT_TRUE(fliesBy(0.5));
+  EXPECT_TRUE(endsInZeros());
+  EXPECT_GE(commander_->overdue(), 1U);
+}
+
+TEST_F(CommanderTest, AVelocityOfATimeToComeBecomesAZero) {
+  ASSERT_NO_FATAL_FAILURE(start(10.0));
+  ASSERT_TRUE(fliesBy(1e12));
+  sky_.jumpTo(5e8);
+  EXPECT_TRUE(endsInZeros());
+}
+
+TEST_F(CommanderTest, AJoystickThatTookOverWhileThePlanWasLateIsNotForgotten) {
+  ASSERT_NO_FATAL_FAILURE(start(10.0));
+  ASSERT_TRUE(fliesBy(1e3));
+  ASSERT_TRUE(becomesManual(true));
+  const std::size_t before = commands_.count();
+  ASSERT_TRUE(becomesManual(false));
+  EXPECT_TRUE(endsInZeros());
+  EXPECT_FALSE(anyDrives(before + 1)) << "one may have been sent before";
+  EXPECT_TRUE(hold_.resume(true).done);
+  EXPECT_TRUE(fliesBy(1e3));
+}
+
+TEST_F(CommanderTest, NothingComesAfterItsLastZero) {
+  ASSERT_NO_FATAL_FAILURE(start(10.0));
+  ASSERT_TRUE(fliesBy(1e3));
+  commander_->finish();
+  ASSERT_TRUE(test::waitFor([&] { return stands(commands_.all().back()); }));
+  const std::size_t seen = commands_.count();
+  plan(1e3);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_EQ(commands_.count(), seen);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
