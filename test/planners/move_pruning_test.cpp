@@ -2,17 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
 
 #include "support/cost_maps.h"
 #include "support/random_map.h"
+#include "support/reference_search.h"
 
 namespace grid_path_planner::planners {
 
 using base::StopToken;
 using costmap::Connectivity;
 using costmap::CostGrid;
+using costmap::costOfSteps;
 using costmap::DiagonalCost;
+using costmap::ExactCost;
 using costmap::MotionModel;
 using costmap::stepAllowed;
 using grid::Cell;
@@ -106,6 +110,61 @@ TEST(MovePruningLaw, TheStepsFromACellAreThoseThatAreAllowed) {
           allowed |= 1U << step;
       ASSERT_EQ(moves.from(index), allowed) << "trial " << trial << " cell " << cell;
       ASSERT_EQ(masks[index], allowed) << "trial " << trial << " cell " << cell;
+    }
+  }
+}
+
+Cell after(Cell cell, unsigned step) {
+  return {cell.column + kSteps[step].column, cell.row + kSteps[step].row};
+}
+
+// The steps at the end of a least-cost path to each cell, as a mask; `least`: the costs.
+std::vector<std::uint32_t> leastSteps(const CostGrid& map,
+                                      const std::vector<std::optional<ExactCost>>& least) {
+  std::vector<std::uint32_t> all(least.size(), 0);
+  for (std::uint32_t index = 0; index < all.size(); ++index)
+    for (unsigned step = 0; least[index] && step < kSteps.size(); ++step) {
+      const Cell from = map.geometry().cell(CellIndex(index)), to = after(from, step);
+      if (!stepAllowed(map, from, to)) continue;
+      const std::uint32_t next = map.geometry().index(to).value();
+      if (*least[index] + costOfSteps(map, {from, to}) == *least[next]) all[next] |= 1U << step;
+    }
+  return all;
+}
+
+// Whether a step is tried from a cell whichever of `steps` it is expanded by.
+bool isAlwaysTried(const MovePruning& moves, std::uint32_t index, std::uint32_t steps,
+                   unsigned step) {
+  bool tried = (moves.after(0, index) >> step & 1U) != 0;
+  for (unsigned by = 0; by < kSteps.size(); ++by)
+    if ((steps >> by & 1U) != 0) tried = tried && (moves.after(1U << by, index) >> step & 1U) != 0;
+  return tried;
+}
+
+// So a search need not expand a cell again by another step of equal cost.
+TEST(MovePruningLaw, AStepOfLeastCostToEachCellIsTriedWhicheverStepLedToTheOneBefore) {
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 400; ++trial) {
+    const CostGrid map =
+        trial % 2 == 0 ? randomSparseCosts(random, 16) : test::randomCosts(random, 16, {});
+    const Cell start = test::randomCell(random, map.geometry());
+    if (!map.passable(start)) continue;
+    const auto least = test::referenceCosts(map, start);
+    const auto steps = leastSteps(map, least);
+    MovePruning moves;
+    moves.build(map, StopToken());
+    for (std::uint32_t index = 0; index < steps.size(); ++index) {
+      const Cell cell = map.geometry().cell(CellIndex(index));
+      bool is_reached = !least[index] || cell == start;
+      for (unsigned step = 0; step < kSteps.size(); ++step) {
+        if ((steps[index] >> step & 1U) == 0) continue;
+        const std::uint32_t before =
+            map.geometry()
+                .index({cell.column - kSteps[step].column, cell.row - kSteps[step].row})
+                .value();
+        is_reached = is_reached || isAlwaysTried(moves, before, steps[before], step);
+      }
+      ASSERT_TRUE(is_reached) << "trial " << trial << " cell " << cell;
     }
   }
 }

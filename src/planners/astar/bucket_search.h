@@ -185,23 +185,13 @@ std::uint32_t BucketSearch::search(Nodes& nodes, const costmap::CostGrid& map, g
       const auto to = static_cast<std::uint32_t>(from + offsets[step]);
       const SearchKey to_cost =
           cost + (kUniform ? lengths[step] : lengths[step] * std::max(weights[from], weights[to]));
-      const CostComparison comparison = nodes.compare(to, to_cost);
-      if (comparison == CostComparison::WORSE) continue;
+      if (!nodes.isBetter(to, to_cost)) continue;  // one of equal cost leads nowhere else
       const grid::Cell to_cell{cell.column + kSteps[step].column, cell.row + kSteps[step].row};
       const SearchKey f = saturatingSum(to_cost, estimate(to_cell, to));
 
-      // 4. Another path of equal cost: after its step other moves may be natural.
-      if (comparison == CostComparison::EQUAL) {
-        if (!moves_.missing(nodes.steps(to), step, to)) continue;
-        nodes.addStep(to, step);
-        if (!nodes.closed(to)) continue;
-        nodes.reopen(to);
-        ++counts.reopened;
-      } else {
-        // 5. A cheaper path: open the cell, or re-open it.
-        if (f > kScale.largest) return kTooExpensive;
-        if (nodes.improve(to, to_cost, step)) ++counts.reopened;
-      }
+      // 4. A cheaper path: open the cell, or re-open it.
+      if (f > kScale.largest) return kTooExpensive;
+      if (nodes.improve(to, to_cost, step)) ++counts.reopened;
       open_.push(f, to);
       ++counts.generated;
     }

@@ -5,9 +5,11 @@
 // inside the 3x3 cells around x, costs less whatever the weights are (where y is next to p, the
 // straight step costs less); or, where the 3x3 cells or all cells of the map have the same weight,
 // costs the same and takes its diagonals first (Harabor & Grastien, "Online graph pruning for
-// pathfinding on grid maps", AAAI 2011). The tried steps contain a least-cost path to every cell, as
-// long as a cell that is reached at equal cost by another step tries the steps that were left out
-// before: missing().
+// pathfinding on grid maps", AAAI 2011). The tried steps contain a least-cost path to every cell,
+// whichever of the steps that lead to a cell at its least cost it is expanded by: left out for a path
+// of equal cost are diagonal steps after a straight one alone, and the straight step that ends that
+// path is left out only where a cheaper one is. missing() is for searches in which what led to a cell
+// changes later.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// The search node of every cell of a map: the key of its g-value, the steps that led there at that
-// cost, and whether it is closed.
+// The search node of every cell of a map: the key of its g-value, the step that led there, and whether
+// it is closed.
 //
 // Nothing is cleared between queries: a node has the stamp of the query that wrote it
 // (stamped_array.h). Both classes have the same functions. PackedNodes are faster and smaller; they
@@ -14,9 +14,6 @@
 #include "planners/core/stamped_array.h"
 
 namespace grid_path_planner::planners {
-
-// A new cost of a node compared with its g-value; BETTER where it has none.
-enum class CostComparison { WORSE, EQUAL, BETTER };
 
 // 8 bytes a cell: 12 bits of stamp, 43 of largest key - key, 8 of steps, 1 of closed. In this order
 // one comparison of words finds whether a new cost is better: of a later query, or less.
@@ -40,20 +37,17 @@ class PackedNodes {
   std::uint32_t steps(std::uint32_t index) const { return nodes_[index] >> kStepShift & 0xFFU; }
   bool closed(std::uint32_t index) const { return (nodes_[index] & 1) != 0; }
   void close(std::uint32_t index) { nodes_[index] |= 1; }
-  void addStep(std::uint32_t index, unsigned step) { nodes_[index] |= bitOf(step); }
-  void reopen(std::uint32_t index) { nodes_[index] &= ~std::uint64_t{1}; }
 
   void setStart(std::uint32_t start) {
     nodes_[start] = stamp_.word() | kScale.largest << kKeyShift;
   }
 
-  // A key above the largest is BETTER: the caller must refuse it.
-  CostComparison compare(std::uint32_t index, SearchKey key) const {
-    const std::uint64_t offered = valueOf(key), known = nodes_[index];
-    if (offered > (known | kRest)) return CostComparison::BETTER;
-    return offered == (known & ~kRest) ? CostComparison::EQUAL : CostComparison::WORSE;
+  // Whether that is less than its g-value, or it has none. A key above the largest is: the caller must
+  // refuse it.
+  bool isBetter(std::uint32_t index, SearchKey key) const {
+    return valueOf(key) > (nodes_[index] | kRest);
   }
-  // Writes a BETTER cost. Returns whether the cell was closed in this query.
+  // Writes a better cost. Returns whether the cell was closed in this query.
   bool improve(std::uint32_t index, SearchKey key, unsigned step) {
     const std::uint64_t known = nodes_[index];
     nodes_[index] = valueOf(key) | bitOf(step);
@@ -92,17 +86,14 @@ class WideNodes {
   std::uint32_t steps(std::uint32_t index) const { return words_[index] >> kStepShift & 0xFFU; }
   bool closed(std::uint32_t index) const { return (words_[index] & 1) != 0; }
   void close(std::uint32_t index) { words_[index] |= 1; }
-  void addStep(std::uint32_t index, unsigned step) { words_[index] |= bitOf(step); }
-  void reopen(std::uint32_t index) { words_[index] &= ~std::uint32_t{1}; }
 
   void setStart(std::uint32_t start) {
     words_[start] = stamp_.word();
     costs_[start] = 0;
   }
 
-  CostComparison compare(std::uint32_t index, SearchKey key) const {
-    if (!stamp_.wrote(words_[index]) || key < costs_[index]) return CostComparison::BETTER;
-    return key == costs_[index] ? CostComparison::EQUAL : CostComparison::WORSE;
+  bool isBetter(std::uint32_t index, SearchKey key) const {
+    return !stamp_.wrote(words_[index]) || key < costs_[index];
   }
   bool improve(std::uint32_t index, SearchKey key, unsigned step) {
     const std::uint32_t known = words_[index];
