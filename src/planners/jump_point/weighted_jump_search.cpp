@@ -162,7 +162,7 @@ std::optional<BoundChoice::Evidence> WeightedJumpSearch::evidence(const StopToke
   if (blocks(start_) == kInfiniteKey) return std::nullopt;
   std::size_t spared = 0;
   for (const std::uint32_t index : sample_)
-    if (gOf(index) + blocks.known(map_->geometry().cell(CellIndex(index))) >= most_) ++spared;
+    if (gOf(index) + blocks.known({int(index % width_), int(index / width_)}) >= most_) ++spared;
   return BoundChoice::Evidence{counts_.expanded, double(spared) / double(sample_.size()),
                                bound.expanded()};
 }

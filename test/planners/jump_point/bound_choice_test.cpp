@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <memory>
+#include <new>
 #include <random>
 
 #include "planners/astar/a_star.h"
@@ -104,6 +107,28 @@ TEST(BoundChoice, LearnsNothingFromASearchOfTheMapBefore) {
   EXPECT_TRUE(choice.undecided());
   a_star.search(across, StopToken());
   EXPECT_FALSE(choice.undecided());
+}
+
+// A map with the same weights and nothing changed took the place of the one before, which the jumps asked all the
+// same, for the size of what had been freed. Here it was 0.
+TEST(BoundChoice, TheJumpsLearnFromASearchOfAMapThatIsGone) {
+  alignas(CostGrid) std::array<unsigned char, sizeof(CostGrid)> place;
+  const Grid<CostGrid::Weight> weights = roomsBetweenWalls(500, 2);
+  std::shared_ptr<const CostGrid> first(new (place.data()) CostGrid(test::costMap(weights)),
+                                        [&place](const CostGrid* map) {
+                                          map->~CostGrid();
+                                          place.fill(0);
+                                        });
+  WeightedJumpPoint planner;
+  planner.prepare(first, StopToken());
+  planner.finishBackgroundWork(StopToken());
+  const SearchRequest across{{4, 100}, {{495, 493}}, false};
+  const SearchResult before = planner.search(across, StopToken());
+  EXPECT_EQ(before.answered_by, "weighted_jump_point");
+  const auto second = costsOf(weights, {}, first->revision() + 1);
+  first.reset();
+  planner.update(second, {}, StopToken());
+  EXPECT_EQ(planner.search(across, StopToken()).cost, before.cost);
 }
 
 // Of one weight the options ask for no blocks: nothing is made of them in order to learn.
