@@ -11,8 +11,9 @@ void TiledOpenList::prepare(const GridGeometry& geometry) {
     return static_cast<std::uint32_t>((cells - 1) >> kSideBits) + 1;
   };
   across_ = tiles(geometry.width());
-  tile_at_.assign(std::size_t{across_} * tiles(geometry.height()), Tile());
+  tile_at_ = std::vector<Tile>(std::size_t{across_} * tiles(geometry.height()));  // without memory
   used_.clear();
+  reserved_ = 0;
 }
 
 void TiledOpenList::reset(SearchKey first, SearchKey width) {

@@ -289,5 +289,21 @@ TEST(IncrementalAStar, FindsPathsThatTheTreesKeysCannotHold) {
   expectLeast(*changed, {0, 0}, {59, 0}, around.status == Status::FOUND, around);
 }
 
+// A map came in the place of another one. The frontiers of its trees stayed in the tiles that had had memory on the
+// first, in the place of those of later trees: a goal over open ground was said to be unreachable.
+TEST(IncrementalAStar, FindsPathsOnTheMapAfterTheFirst) {
+  const auto open = [] {
+    return test::costsOf(Grid<CostGrid::Weight>(GridGeometry(200, 200, 1.0), 1));
+  };
+  IncrementalAStar planner;
+  for (int map = 0; map < 2; ++map) {
+    planner.prepare(open(), StopToken());
+    for (const int column : {20, 23, 26})
+      EXPECT_EQ(planner.search({{10, 10}, {{column, 10}}, false}, StopToken()).cost,
+                (ExactCost{column - 10, 0}));
+  }
+  EXPECT_EQ(planner.search({{190, 10}, {{26, 10}}, false}, StopToken()).cost, (ExactCost{164, 0}));
+}
+
 }  // namespace
 }  // namespace grid_path_planner::planners
