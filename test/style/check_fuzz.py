@@ -12,21 +12,24 @@ from unittest import mock
 
 from common import ROOT, finish
 
-# Its targets: "crash" leaves an input and ends with a code, "hang" never ends, "well" runs as often as it is allowed.
+# Its targets: "crash" leaves an input and ends with a code, "hang" never ends, "slow" has an input that takes 12 s, "well" runs as
+# often as it is allowed.
 PROGRAM = r"""#!/bin/sh
-case " $* " in *" --list "*) echo "crash hang well"; exit 0 ;; esac
+case " $* " in *" --list "*) echo "crash hang slow well"; exit 0 ;; esac
 for word; do
   case $word in
     --target=*) target=${word#--target=} ;;
     --write-seeds=*) echo seed > "${word#--write-seeds=}/seed0"; exit 0 ;;
     -artifact_prefix=*) prefix=${word#-artifact_prefix=} ;;
     -runs=*) runs=${word#-runs=} ;;
+    -report_slow_units=*) reported=${word#-report_slow_units=} ;;
     -entropic=0) edges=9 ;;
   esac
 done
 echo "#2	INITED cov: 5 ft: 6 corp: 1/1b exec/s: 0 rss: 30Mb" >&2
 [ $target != hang ] || exec sleep 100
 [ $target != crash ] || { echo x > "${prefix}crash-1"; exit 77; }
+[ $target != slow ] || [ ${reported:-10} -gt 12 ] || echo x > "${prefix}slow-unit-1"
 half=$((runs / 2))
 echo "#3	NEW    cov: ${edges:-7} ft: 8 corp: 2/2b lim: 4 exec/s: 0 rss: 30Mb L: 2/2 MS: 1 CopyPart-" >&2
 echo "#9	REDUCE cov: ${edges:-7} ft: 8 corp: 2/2b lim: 4 exec/s: 0 rss: 30Mb L: 1/1 MS: 1 EraseBytes-" >&2
@@ -73,6 +76,9 @@ def complaints_of_runs(fuzz, corpus):
     code, rows, text = told(fuzz, "--corpus", str(corpus), "--seconds", "1", "hang")
     if code != 1 or rows["hang"][4] != 1 or "last.log" not in text:
         yield f"a program that hangs is not ended and told: {code} {text}"
+    code, rows, text = told(fuzz, *arguments, "slow")
+    if code != 0 or rows["slow"][0] != 600 or rows["slow"][4] != 0:
+        yield f"an input that takes no longer than it may is told as a finding, or ends the run: {code} {text}"
 
 
 def complaints_of_targets(fuzz, corpus):
@@ -91,7 +97,7 @@ def main():
         folder = pathlib.Path(name)
         fuzz = load(folder)
         complaints = [*complaints_of_runs(fuzz, folder / "corpus"), *complaints_of_targets(fuzz, folder / "corpus")]
-    finish(complaints, "8 rules of scripts/fuzz")
+    finish(complaints, "9 rules of scripts/fuzz")
 
 
 if __name__ == "__main__":
