@@ -137,15 +137,20 @@ void rootAtTheEnd(const CostGrid& map, MovePruning& moves, BackwardNodes& nodes)
   nodes.reset(static_cast<BackwardNodes::Index>(map.geometry().size() - 1));
 }
 
+// All its cells are closed.
+void treeOfCorridor(const CostGrid& map, MovePruning& moves, BackwardNodes& nodes) {
+  rootAtTheEnd(map, moves, nodes);
+  for (BackwardNodes::Index index = nodes.root(); index-- > 0;)
+    nodes.set(index, nodes.g(index + 1) + nodes.stepKey(index, index + 1, 0), 0,
+              BackwardNodes::CLOSED);
+}
+
 // After a cost rose in the middle of a corridor, only the cells to the west of it are outdated.
 TEST(OutdatedCells, AreThoseWhosePathsLeadOverAChange) {
   const CostGrid before = test::costMap({"........"}), after = test::costMap({"....?..."});
   MovePruning moves;
   BackwardNodes nodes;
-  rootAtTheEnd(before, moves, nodes);
-  for (BackwardNodes::Index index = 7; index-- > 0;)
-    nodes.set(index, nodes.g(index + 1) + nodes.stepKey(index, index + 1, 0), 0,
-              BackwardNodes::CLOSED);
+  treeOfCorridor(before, moves, nodes);
   moves.update(after, {4, 0, 1, 1}, StopToken());
   nodes.setMap(after);
   OutdatedCells outdated;
@@ -176,10 +181,7 @@ TEST(OutdatedCells, AreFoundAgainAfterAChangeBetweenTwoParts) {
   const CostGrid before = test::costMap({std::string(100, '.')});
   MovePruning moves;
   BackwardNodes nodes;
-  rootAtTheEnd(before, moves, nodes);
-  for (BackwardNodes::Index index = 99; index-- > 0;)
-    nodes.set(index, nodes.g(index + 1) + nodes.stepKey(index, index + 1, 0), 0,
-              BackwardNodes::CLOSED);
+  treeOfCorridor(before, moves, nodes);
   const StopToken stop;
   StopPoll poll(stop);
   OutdatedCells outdated;
