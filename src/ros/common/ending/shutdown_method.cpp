@@ -37,10 +37,10 @@ void rebind(ros::XMLRPCManager& manager, const ros::XMLRPCFunc& function) {
   manager.bind(kMethod, function);
 }
 
-// roscpp ignores what gives no reason.
+// roscpp ignores what gives no reason. A value that cannot be read is one to it, an empty one.
 bool isRequest(const XmlRpc::XmlRpcValue& request) {
-  return request.getType() == XmlRpc::XmlRpcValue::TypeArray && request.size() > 1 &&
-         request[1].getType() == XmlRpc::XmlRpcValue::TypeString;
+  if (request.getType() != XmlRpc::XmlRpcValue::TypeArray || request.size() < 2) return false;
+  return !request[1].valid() || request[1].getType() == XmlRpc::XmlRpcValue::TypeString;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include <functional>
 #include <future>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -193,13 +194,15 @@ void startXmlRpc(const ros::XMLRPCFunc& shutdown) {
   ros::XMLRPCManager::instance()->start();
 }
 
+using Reason = std::optional<XmlRpc::XmlRpcValue>;
+
 // As `rosnode kill` and the master do, from another process or not; whether it was answered well.
-bool askToEnd(bool with_reason = true) {
+bool askToEnd(const Reason& reason = XmlRpc::XmlRpcValue("asked by the test")) {
   XmlRpc::XmlRpcClient client("localhost", int(ros::XMLRPCManager::instance()->getServerPort()),
                               "/");
   XmlRpc::XmlRpcValue request, response;
   request[0] = std::string("/test");
-  if (with_reason) request[1] = std::string("asked by the test");
+  if (reason) request[1] = *reason;
   return client.execute("shutdown", request, response) && !client.isFault() &&
          int(response[0]) == 1;
 }
@@ -247,11 +250,23 @@ TEST(ManagerEnd, ARequestWithoutAReasonIsRoscppsToRefuse) {
   Manager manager([](const Manager::Say& say) {
     startXmlRpc(saying(say, 'r'));
     const ManagerEnd end([&] { say('s'); });
-    say(askToEnd(false) ? '.' : '!');
+    say(askToEnd(std::nullopt) ? '.' : '!');
     waitForEver();
   });
   EXPECT_EQ(manager.heard(), 'r');
   EXPECT_EQ(manager.heard(), '.');
+}
+
+// roscpp takes it for an empty one: it ended the manager before any nodelet had stopped its vehicle.
+TEST(ManagerEnd, AllStopBeforeARequestWithAReasonThatCannotBeRead) {
+  Manager manager([](const Manager::Say& say) {
+    startXmlRpc(saying(say, 'r'));
+    const ManagerEnd end([&] { say('s'); });
+    askToEnd(XmlRpc::XmlRpcValue());
+    waitForEver();
+  });
+  EXPECT_EQ(manager.heard(), 's');
+  EXPECT_EQ(manager.heard(), 'r');
 }
 
 TEST(ManagerEnd, TheMethodIsGivenBackWithTheLast) {
