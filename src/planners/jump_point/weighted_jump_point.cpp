@@ -13,7 +13,7 @@
 
 namespace grid_path_planner::planners {
 
-using base::Status, base::StopToken;
+using base::Status, base::Stopped, base::StopToken;
 using costmap::Connectivity, costmap::CostGrid, costmap::DiagonalCost, costmap::MotionModel;
 using grid::Cell, grid::CellRect, grid::GridGeometry;
 
@@ -252,15 +252,24 @@ void WeightedJumpPoint::updateJumps(const std::vector<CellRect>& changed, const 
   if (!tree_.held() || behind_.size() > kMostBehind) catchUp(stop);
 }
 
-// Where it is stopped the next one does it again. Few tiles that the changes undid are made anew by the
-// searches that come to them: A* in their place would take longer.
+// Where it is stopped the next one does it again.
 void WeightedJumpPoint::catchUp(const StopToken& stop) {
   if (behind_.empty()) return;
   const std::size_t ready = jumps_.tilesReady();
-  jumps_.update(map(), behind_, stop, blockOfBound());
+  try {
+    jumps_.update(map(), behind_, stop, blockOfBound());
+  } catch (const Stopped&) {
+    payForUndone(ready - jumps_.tilesReady());
+    throw;
+  }
   behind_.clear();
-  const std::uint64_t undone = ready - jumps_.tilesReady();
-  if (undone <= kMostRemade) tiles_left_ += undone;
+  payForUndone(ready - jumps_.tilesReady());
+}
+
+// Few tiles that the changes undid are made anew by the searches that come to them: A* in their place
+// would take longer.
+void WeightedJumpPoint::payForUndone(std::uint64_t tiles) {
+  if (tiles <= kMostRemade) tiles_left_ += tiles;
 }
 
 bool WeightedJumpPoint::isSmall() const {

@@ -75,6 +75,7 @@ class WeightedJumpPoint : public Planner {
   void learnFromJumps(const base::StopToken& stop);
   void updateJumps(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
   void catchUp(const base::StopToken& stop);
+  void payForUndone(std::uint64_t tiles);
   bool estimatesLater() const;
   void sampleLate(const base::StopToken& stop);
   bool shouldJump() const;

@@ -61,6 +61,17 @@ TEST(WeightedJumpPoint, ItsTreeAnswersWhileChangesWaitForTheJumps) {
   EXPECT_FALSE(vehicle.planner.backgroundWork().pending);
 }
 
+// The tiles that the stopped one had given up were not made any more, and A* was prepared for the whole map instead.
+TEST(WeightedJumpPoint, JumpsAnswerAfterFollowingAChangeWasStopped) {
+  AskedVehicle vehicle;
+  vehicle.change({70, 330, 50, 50}, 30);
+  StopSource cancelled;
+  cancelled.cancel();
+  EXPECT_THROW(vehicle.planner.finishBackgroundWork(cancelled.token()), base::Stopped);
+  EXPECT_TRUE(vehicle.planner.backgroundWork().pending);
+  EXPECT_EQ(vehicle.ask({{75, 325}, {{620, 350}}, false}).answered_by, "weighted_jump_point");
+}
+
 // Asked for other goals after as many changes as may wait, after more, and after a search that was
 // cancelled before it began.
 TEST(WeightedJumpPointLaw, JumpsFollowAllChangesThatWaited) {
