@@ -145,11 +145,14 @@ std::string withoutSlash(std::string frame) {
   return frame;
 }
 
+bool isFrameName(const std::string& frame) {
+  const auto control = [](char letter) { return static_cast<unsigned char>(letter) < 0x20; };
+  return !frame.empty() && std::none_of(frame.begin(), frame.end(), control);
+}
+
 void checkCanBeRead(const std::string& file, const Path& path) {
   if (path.empty()) throw InputError(file, "is not written: a path without waypoints");
-  const auto control = [](char letter) { return static_cast<unsigned char>(letter) < 0x20; };
-  if (path.frame_id.empty() || path.frame_id == "/" ||
-      std::any_of(path.frame_id.begin(), path.frame_id.end(), control))
+  if (!isFrameName(withoutSlash(path.frame_id)))
     throw InputError(file, "is not written: the path's frame has no proper name");
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     const Pose& pose = path.poses[i];

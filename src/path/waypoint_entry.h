@@ -26,6 +26,9 @@ constexpr int kDecimalsOfMetres = 6, kDecimalsOfTurns = 9;  // in YAML files
 // `frame` without a leading slash; empty: none.
 std::string withoutSlash(std::string frame);
 
+// Whether that can be a frame's name: neither empty nor with control characters. Precondition: withoutSlash().
+bool isFrameName(const std::string& frame);
+
 // Throws InputError naming the file, and the waypoint, where it could not be read back: none at all, a
 // frame without a proper name, and numbers as above.
 void checkCanBeRead(const std::string& file, const Path& path);

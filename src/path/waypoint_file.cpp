@@ -31,8 +31,10 @@ std::string frameOf(const YAML::Node& root, const std::string& file) {
   std::string frame =
       yamlValueOr<std::string>(root["header"], "frame_id", file, "the name of a frame", "map");
   frame = withoutSlash(std::move(frame));
-  if (frame.empty())
-    throw yamlError(root["header"], file, "frame_id must be the name of a frame, got an empty one");
+  if (!isFrameName(frame))
+    throw yamlError(root["header"], file,
+                    std::string("frame_id must be the name of a frame, got ") +
+                        (frame.empty() ? "an empty one" : "one with control characters"));
   return frame;
 }
 

@@ -143,9 +143,11 @@ TEST(WaypointFile, HeaderWithoutAFrameIsTheMaps) {
   EXPECT_EQ(read("header: {seq: 3}\nwaypoints:\n" + kGood).frame_id, "map");
 }
 
+// One with a tab was read, and could not be written again: a finding of the fuzzer.
 TEST(WaypointFile, BadHeadersAreNamed) {
   const std::string rest = "\nwaypoints:\n" + kGood;
-  for (const std::string frame : {"''", "/", "[map]", ""})
+  for (const std::string frame :
+       {"''", "/", "[map]", "", R"("a\tmap")", R"("two\nlines")", "'a\tmap'"})
     EXPECT_TRUE(contains(complaint("header: {frame_id: " + frame + "}" + rest), "frame_id must be"))
         << frame;
   EXPECT_TRUE(contains(complaint("header: map" + rest), "path.yaml:1: "));

@@ -11,7 +11,9 @@ std::vector<std::string> seedsOfWaypoints() {
       "    orientation: {x: 0.0, y: 0.0, z: 0.745, w: 0.663}\n"
       "  - position: {x: 1e3, y: 0, z: -0.25}\n    orientation: {z: 0.0, w: 1.0}\n",
       "header:\n  seq: 0\n  frame_id: \"/map\"\nwaypoints:\n- header: {seq: 1}\n"
-      "  position:\n    x: 1\n    y: 2\n    z: 3\n  orientation: {x: 0, y: 0, z: 0, w: 1}\n"};
+      "  position:\n    x: 1\n    y: 2\n    z: 3\n  orientation: {x: 0, y: 0, z: 0, w: 1}\n",
+      "header: {frame_id: \"a\tmap\"}\nwaypoints:\n  - position: {x: 1, y: 2, z: 3}\n"
+      "    orientation: {x: 0, y: 0, z: 0, w: 1}\n"};
 }
 
 // Whatever was read can be written, and read again to the same.

@@ -6,6 +6,8 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
+#include <ros/this_node.h>
+#include <rosgraph_msgs/Log.h>
 #include <sched.h>
 #include <sensor_msgs/Image.h>
 #include <trajectory_msgs/MultiDOFJointTrajectory.h>
@@ -74,6 +76,7 @@ class LocalPlannerLocks : public test::FlightTest {
 
   const test::TemporaryFolder folder_;
   Latest<diagnostic_msgs::DiagnosticArray> diagnostics_{nh_, "/diagnostics"};
+  Latest<rosgraph_msgs::Log> log_{nh_, "/rosout"};
 };
 
 TEST_F(LocalPlannerLocks, ALogThatNobodyReadsLosesLinesInAPipe) {
@@ -84,7 +87,11 @@ TEST_F(LocalPlannerLocks, ALogThatNobodyReadsLosesLinesInAPipe) {
   refuseGoals();
   sendGoal(ros::Time());
   ASSERT_TRUE(flies()) << said();
+  const std::size_t lines = log_.count();
   refuseGoals();
+  EXPECT_TRUE(log_.waitFor(lines, [](const rosgraph_msgs::Log& line) {
+    return line.level >= rosgraph_msgs::Log::WARN && line.name != ros::this_node::getName();
+  })) << "what the pipe loses";
   const std::size_t reports = diagnostics_.count();
   EXPECT_TRUE(diagnostics_.waitForMoreThan(reports + 1));
   EXPECT_TRUE(flies()) << said();
