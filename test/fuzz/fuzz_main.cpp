@@ -1,4 +1,4 @@
-// The fuzzer's program: libFuzzer's own arguments, and first of all
+// A program of the fuzzer: libFuzzer's own arguments, and first of all
 //
 //   --target=NAME             what is fuzzed
 //   --write-seeds=FOLDER      writes the target's seeds and ends
