@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <ros/xmlrpc_manager.h>
 #include <signal.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <xmlrpcpp/XmlRpcClient.h>
@@ -22,6 +23,11 @@ namespace {
 
 constexpr int kDeadline = 20000;  // ms
 
+// As _exit(0), but that the thread sanitizer does not look for threads that nobody has joined: the watch's may have ended.
+void endAtOnce() {
+  ::syscall(SYS_exit_group, 0);
+}
+
 // Runs `main` in a child, which writes to the test by `say`.
 class Manager {
  public:
@@ -33,7 +39,7 @@ class Manager {
     if (pid_ != 0) return;
     ::alarm(kDeadline / 1000);
     main([this](char letter) { (void)!::write(pipe_[1], &letter, 1); });
-    ::_exit(0);
+    endAtOnce();
   }
   ~Manager() {
     ::kill(pid_, SIGKILL);
@@ -92,7 +98,7 @@ TEST(ManagerEnd, WhoeverHandledTheSignalBeforeGetsIt) {
     says = say;
     ::signal(SIGINT, [](int) {
       says('h');
-      ::_exit(0);
+      endAtOnce();
     });
     const ManagerEnd end([&] { say('s'); });
     say('.');
