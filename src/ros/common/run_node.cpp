@@ -15,6 +15,7 @@
 #include "ros/common/master/end_without_master.h"
 #include "ros/common/master/master_watch.h"
 #include "ros/common/outgoing/unread_log.h"
+#include "ros/common/process/freed_memory.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -117,6 +118,7 @@ bool nodeIsToEnd() {
 int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make,
             const std::function<void()>& check) {
   node_process = true;
+  returnFreedMemory();
   loseUnreadLog();
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   std::signal(SIGINT, onSignal);
