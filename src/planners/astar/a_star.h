@@ -10,6 +10,7 @@
 // (best_first_search.h), at several times the cost.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "grid_path_planner/planners/a_star_options.h"
@@ -35,6 +36,12 @@ class AStar : public Planner {
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
   bool optimalFor(const costmap::CostGrid& map) const override;
+
+  // For another search over the same map: where the options ask for landmarks and these are there.
+  // Valid until the next call of another method.
+  std::optional<LandmarkBound> landmarkBound(grid::Cell goal, const KeyScale& scale) {
+    return tables_.landmarkBound(map().geometry().index(goal).value(), scale);
+  }
 
  private:
   std::string lessMemoryAdvice() const override;

@@ -58,10 +58,12 @@ bool jumpsSupport(const MotionModel& motion) {
   return motion == MotionModel();
 }
 
-// Whether a search option is not the default.
+// Whether a search option is not the default, but for landmarks.
 bool asksForAStar(const AStarOptions& options) {
   const AStarOptions defaults;
-  return options.heuristic != defaults.heuristic || options.epsilon != defaults.epsilon ||
+  const bool other_heuristic =
+      options.heuristic != defaults.heuristic && options.heuristic != Heuristic::LANDMARK;
+  return other_heuristic || options.epsilon != defaults.epsilon ||
          options.heuristic_scale != defaults.heuristic_scale ||
          options.tie_break != defaults.tie_break;
 }
@@ -76,7 +78,10 @@ PlannerTraits WeightedJumpPoint::declaredTraits() {
 }
 
 WeightedJumpPoint::WeightedJumpPoint(const AStarOptions& options)
-    : Planner(declaredTraits()), options_(options), a_star_asked_for_(asksForAStar(options)) {
+    : Planner(declaredTraits()),
+      options_(options),
+      a_star_asked_for_(asksForAStar(options)),
+      landmarks_asked_for_(!a_star_asked_for_ && options.heuristic == Heuristic::LANDMARK) {
   checkAStarOptions(options);
 }
 
@@ -84,7 +89,7 @@ WeightedJumpPoint::WeightedJumpPoint(const AStarOptions& options)
 AStarOptions WeightedJumpPoint::optionsOfAStar(const CostGrid& map) const {
   const MotionModel& motion = map.motion();
   AStarOptions options = options_;
-  if (a_star_asked_for_) return options;
+  if (a_star_asked_for_ || landmarks_asked_for_) return options;
   if (motion.connectivity == Connectivity::FOUR)
     options.heuristic = Heuristic::MANHATTAN;
   else if (motion.diagonal_cost == DiagonalCost::UNIT)
@@ -120,7 +125,7 @@ std::size_t WeightedJumpPoint::bytesOfBoth() const {
 
 std::size_t WeightedJumpPoint::bytesOfAStar(const GridGeometry& geometry) const {
   AStarOptions options = options_;
-  if (!a_star_asked_for_) options.heuristic = Heuristic::BLOCKS;
+  if (!a_star_asked_for_ && !landmarks_asked_for_) options.heuristic = Heuristic::BLOCKS;
   return AStar(options).bytesFor(geometry);
 }
 
@@ -142,7 +147,7 @@ void WeightedJumpPoint::doFinishBackgroundWork(const StopToken& stop) {
     if (!jumps_ready_) prepareJumps(stop);
     catchUp(stop);
     jumps_.finish(map(), stop);
-    substitute_.reset();
+    if (!landmarks_asked_for_) substitute_.reset();
   }
   if (substitute_) substitute_->finishBackgroundWork(stop);
   if (treeWanted()) tree_.make(map(), stop);
@@ -157,14 +162,20 @@ bool WeightedJumpPoint::treeWanted() const {
   return !a_star_asked_for_ && !map().uniform() && tree_.wanted(map()) && treeFits();
 }
 
-bool WeightedJumpPoint::shouldJump() const {
+// Whether the options and the map allow it.
+bool WeightedJumpPoint::mayJump() const {
   if (a_star_asked_for_ || !jumpsSupport(map().motion())) return false;
+  return !landmarks_asked_for_ || (!map().uniform() && bytesOfBoth() <= memoryLimit());
+}
+
+bool WeightedJumpPoint::shouldJump() const {
+  if (!mayJump()) return false;
   return map().uniform() ? density_.jumpsPay() : sampled_ && pruning_.jumpingPays();
 }
 
 // Whether jumps may pay, and nobody has looked yet.
 bool WeightedJumpPoint::estimatesLater() const {
-  return !a_star_asked_for_ && jumpsSupport(map().motion()) && !map().uniform() && !sampled_;
+  return mayJump() && !map().uniform() && !sampled_;
 }
 
 void WeightedJumpPoint::sampleLate(const StopToken& stop) {
@@ -187,13 +198,14 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
   behind_.clear();
   bound_of_a_star_.prepare(map());
   estimate({}, stop);
-  if (shouldJump() && !map().uniform()) return prepareJumps(stop);
-  prepareSubstitute(stop);
+  const bool jumps = shouldJump() && !map().uniform();
+  if (jumps) prepareJumps(stop);
+  if (!jumps || landmarks_asked_for_) prepareSubstitute(stop);
 }
 
 // Of the kind that the map is of.
 void WeightedJumpPoint::estimate(const std::vector<CellRect>& changed, const StopToken& stop) {
-  const bool jumps = !a_star_asked_for_ && jumpsSupport(map().motion());
+  const bool jumps = mayJump();
   const bool one_weight = jumps && map().uniform();
   if (!one_weight) {
     counted_ = false;
@@ -279,8 +291,8 @@ bool WeightedJumpPoint::isSmall() const {
 
 // Whether JumpPoint is the one that answers where the jumps do not.
 bool WeightedJumpPoint::jumpPointSubstitutes() const {
-  return !a_star_asked_for_ && jumpsSupport(map().motion()) && map().uniform() &&
-         !density_.aStarPays();
+  return !a_star_asked_for_ && !landmarks_asked_for_ && jumpsSupport(map().motion()) &&
+         map().uniform() && !density_.aStarPays();
 }
 
 void WeightedJumpPoint::prepareSubstitute(const StopToken& stop) {
@@ -288,7 +300,7 @@ void WeightedJumpPoint::prepareSubstitute(const StopToken& stop) {
   std::unique_ptr<Planner> substitute;
   if (jumps)
     substitute = std::make_unique<JumpPoint>();
-  else if (a_star_asked_for_)
+  else if (a_star_asked_for_ || landmarks_asked_for_)
     substitute = std::make_unique<AStar>(options_);
   else
     substitute = std::make_unique<AStar>(optionsOfAStar(map()), bound_of_a_star_);
@@ -323,6 +335,12 @@ void WeightedJumpPoint::learnFromJumps(const StopToken& stop) {
   if (const auto evidence = jumps_.evidence(stop)) bound_of_jumps_.learn(*evidence);
 }
 
+// Once the substitute, which is A* then, has them.
+std::optional<LandmarkBound> WeightedJumpPoint::landmarksTo(Cell goal) {
+  if (!landmarks_asked_for_ || !substitute_) return std::nullopt;
+  return static_cast<AStar&>(*substitute_).landmarkBound(goal, kMediumScale);
+}
+
 // Nothing where it would have to make more tiles than it may, or its keys do not hold the cost.
 std::optional<SearchResult> WeightedJumpPoint::searchWithJumps(const SearchRequest& request,
                                                                const StopToken& stop) {
@@ -334,8 +352,10 @@ std::optional<SearchResult> WeightedJumpPoint::searchWithJumps(const SearchReque
   jumps_.makeBoundAfter(bound_of_jumps_.blocks() ? kEarly : kLate);
   const auto spend = [&] { tiles_left_ -= std::min(tiles_left_, jumps_.tilesReady() - ready); };
   try {
-    SearchResult result = jumps_.run(map(), request, stop, most);
+    SearchResult result =
+        jumps_.run(map(), request, stop, most, landmarksTo(request.goals.front()));
     spend();
+    if (landmarks_asked_for_) result.statistics.search_bytes += bytesOfTables();
     return result;
   } catch (const TooManyTiles&) {
     spend();

@@ -32,7 +32,8 @@
 //
 // No map is refused: where a path costs more than the keys of the jumps hold, the substitute answers. No
 // option is ignored: with a search option (heuristic, scale, epsilon, tie-break) that is not the
-// default, A* answers with it.
+// default, A* answers with it. Heuristic landmark alone bounds the jumps, too, where weights differ,
+// jumps pay and memory holds both: the tables are A*'s, which answers until they and the jumps are there.
 #pragma once
 
 #include <memory>
@@ -76,6 +77,7 @@ class WeightedJumpPoint : public Planner {
   void updateJumps(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
   void catchUp(const base::StopToken& stop);
   void payForUndone(std::uint64_t tiles);
+  bool mayJump() const;
   bool estimatesLater() const;
   void sampleLate(const base::StopToken& stop);
   bool shouldJump() const;
@@ -91,12 +93,15 @@ class WeightedJumpPoint : public Planner {
   void estimate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
   void prepareJumps(const base::StopToken& stop);
   void prepareSubstitute(const base::StopToken& stop);
+  std::optional<LandmarkBound> landmarksTo(grid::Cell goal);
+  std::size_t bytesOfTables() { return substitute_ ? substitute_->backgroundWork().bytes : 0; }
   void updateSubstitute(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
   bool jumpPointSubstitutes() const;
   AStarOptions optionsOfAStar(const costmap::CostGrid& map) const;
 
   AStarOptions options_;
   bool a_star_asked_for_;
+  bool landmarks_asked_for_;  // and nothing else
   BoundChoice bound_of_a_star_{kPricesOfAStar};
   BoundChoice bound_of_jumps_{kPricesOfJumps};
   PruningEstimate pruning_;   // of maps of several weights

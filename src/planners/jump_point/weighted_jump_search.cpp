@@ -76,8 +76,11 @@ void WeightedJumpSearch::release() {
 }
 
 SearchResult WeightedJumpSearch::run(const CostGrid& map, const SearchRequest& request,
-                                     const StopToken& stop, std::uint64_t most_tiles) {
+                                     const StopToken& stop, std::uint64_t most_tiles,
+                                     std::optional<LandmarkBound> landmarks) {
   found_ = false;  // the tiles around the goal may be too many
+  landmarks_.reset();
+  if (landmarks) landmarks_.emplace(*std::move(landmarks));
   const WeightedJumpMap::ScopedLimit scoped_limit(jumps_, stop, most_tiles);
   const WeightedJumpMap::ScopedGoal scoped_goal(jumps_, map, request.goals.front());
   startQuery(map, request);
@@ -101,21 +104,23 @@ void WeightedJumpSearch::startQuery(const CostGrid& map, const SearchRequest& re
   goal_reached_ = found_ = too_expensive_ = false;
   counts_ = Statistics();
   bound_.reset();
-  slack_ = kDiagonalSlack * straight_;
+  slack_ = (landmarks_ ? kDiagonalSlackWithBound : kDiagonalSlack) * straight_;
   bucket_shift_ = 63U - unsigned(__builtin_clzll(straight_ / kBucketsPerStep));
-  open_.reset(octile(request.start), bucket_shift_);
+  open_.reset(estimate(request.start), bucket_shift_);
 }
 
 SearchResult WeightedJumpSearch::search(const SearchRequest& request, const StopToken& stop) {
   SearchResult result;
   StopPoll poll(stop, kExpansionsBetweenPolls);
+  if (landmarks_ && (*landmarks_)(indexOf(request.start)) == kInfiniteKey)
+    return withStatus(Status::UNREACHABLE, std::move(result));
   if (request.record_expanded) result.expanded.emplace_back(indexOf(request.start));
   expandStart(request.start);
   while (!open_.empty() && open_.lowest() < most_) {
     const StopReason reason = poll.ask();
     if (reason != StopReason::NONE) return withStatus(Stopped(reason).status(), std::move(result));
     counts_.peak_open = std::max(counts_.peak_open, open_.size());
-    if (counts_.expanded >= bound_after_ && !bound_ && !makeBound(request, stop)) break;
+    if (needsBound() && !makeBound(request, stop)) break;
     const std::uint32_t index = open_.pop();
     const WeightedJumpMap::Mark& mark = jumps_.mark(index);
     if (mark.reached == mark.expanded) continue;  // a duplicate
@@ -156,7 +161,8 @@ void WeightedJumpSearch::thinSample() {
 }
 
 std::optional<BoundChoice::Evidence> WeightedJumpSearch::evidence(const StopToken& stop) {
-  if (bound_ || !found_ || counts_.expanded < kLeastWeighed || sample_.empty()) return std::nullopt;
+  const bool enough = counts_.expanded >= kLeastWeighed && !sample_.empty();
+  if (bound_ || landmarks_ || !found_ || !enough) return std::nullopt;
   BlockBound& bound = blocks_.to(goal_);
   const BlockEstimate blocks(bound, kMediumScale, stop);
   if (blocks(start_) == kInfiniteKey) return std::nullopt;
@@ -310,6 +316,11 @@ inline WeightedJumpSearch::Key WeightedJumpSearch::octile(Cell cell) const {
   const auto columns = std::uint32_t(std::abs(cell.column - goal_.column));
   const auto rows = std::uint32_t(std::abs(cell.row - goal_.row));
   return (columns + rows) * straight_ - std::min(columns, rows) * saving_;
+}
+
+// No more than keys hold: cells from which no landmark knows a path are beyond all paths.
+WeightedJumpSearch::Key WeightedJumpSearch::byLandmarks(Cell cell) const {
+  return std::min(kLargest, std::max((*landmarks_)(indexOf(cell)), octile(cell)));
 }
 
 // From the goal back, at every cell against a step that reached it.

@@ -10,7 +10,8 @@
 //
 // A search begins with the octile distance at the least weight. Once it has expanded so many cells
 // that another bound pays, it goes on with that of planners/tables/block_bound.h; cells that are
-// open are put back when their turn comes.
+// open are put back when their turn comes. Where it is given landmarks (planners/tables/landmark_table.h)
+// these bound it from the beginning, and nothing else does but the octile distance.
 //
 // Only natural steps outside dead branches are taken (planners/core/natural_moves.h,
 // planners/jump_point/weighted_jump_map.h). A straight jump pushes the cell where it ends. A
@@ -38,6 +39,7 @@
 #include "planners/core/stamped_array.h"
 #include "planners/jump_point/weighted_jump_map.h"
 #include "planners/tables/block_bound.h"
+#include "planners/tables/landmark_table.h"
 
 namespace grid_path_planner::planners {
 
@@ -74,10 +76,12 @@ class WeightedJumpSearch {
   // FOUND, UNREACHABLE, TIMEOUT or CANCELLED. Throws TooManyTiles where it has to make more than
   // `most_tiles` tiles, which stay, and Stopped while it makes one. Throws TooExpensive where there is no path that costs
   // less than the keys hold, 17.6e6 cell lengths x weight, but there may be a more expensive one.
-  // Precondition: `map` is the prepared one, start and goal are passable.
+  // Precondition: `map` is the prepared one, start and goal are passable, `landmarks` bound the cost to
+  // the goal in kMediumScale.
   SearchResult run(const costmap::CostGrid& map, const SearchRequest& request,
                    const base::StopToken& stop,
-                   std::uint64_t most_tiles = std::numeric_limits<std::uint64_t>::max());
+                   std::uint64_t most_tiles = std::numeric_limits<std::uint64_t>::max(),
+                   std::optional<LandmarkBound> landmarks = std::nullopt);
 
  private:
   using Key = SearchKey;
@@ -113,8 +117,13 @@ class WeightedJumpSearch {
   Key gOf(std::uint32_t index) const { return kLargest - (g_[index] & kLargest); }
   bool hasLessThan(std::uint32_t index, Key g) const { return zero_g_ - g < g_[index]; }
   bool hasG(std::uint32_t index) const { return stamp_.wrote(g_[index]); }
-  Key estimate(grid::Cell cell) const { return bound_ ? (*bound_)(cell) : octile(cell); }
+  Key estimate(grid::Cell cell) const {
+    if (bound_) return (*bound_)(cell);
+    return landmarks_ ? byLandmarks(cell) : octile(cell);
+  }
+  Key byLandmarks(grid::Cell cell) const;
   Key octile(grid::Cell cell) const;
+  bool needsBound() const { return counts_.expanded >= bound_after_ && !bound_ && !landmarks_; }
   bool makeBound(const SearchRequest& request, const base::StopToken& stop);
   void sample(std::uint32_t index) {
     if (counts_.expanded % sampled_each_ == 0) sample_.push_back(index);
@@ -146,7 +155,8 @@ class WeightedJumpSearch {
   Key saving_ = 0;       // and what a diagonal step saves against two of these
   StampedG zero_g_ = 0;  // g-value 0
   std::optional<BlockEstimate> bound_;  // once it is made
-  Key slack_ = 0;                       // of a diagonal jump
+  std::optional<LandmarkBound> landmarks_;
+  Key slack_ = 0;  // of a diagonal jump
   unsigned bucket_shift_ = 0;
   Key most_ = 0;  // paths that cost as much are of no use: the goal's g-value, once it has one
   bool goal_reached_ = false;

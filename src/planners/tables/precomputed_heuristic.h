@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,14 +47,18 @@ class PrecomputedHeuristic {
   // Whether there is a table that can be used.
   bool ready() { return (landmarks_ && landmarks_->ready()) || (exact_ && exact_->ready()); }
 
+  // The bound to the cell `goal` by landmarks, where there is a table of them that can be used.
+  std::optional<LandmarkBound> landmarkBound(std::uint32_t goal, const KeyScale& scale) {
+    const LandmarkTable* table = landmarks_ ? landmarks_->ready() : nullptr;
+    if (!table) return std::nullopt;
+    return LandmarkBound(*table, landmarks_->decreases(), goal, scale);
+  }
+
   // What `search(boundIn)` gives, with the bounds to the cell `goal`.
   template <class Search>
   auto withBound(std::uint32_t goal, Search&& search) {
-    if (landmarks_)
-      if (const LandmarkTable* table = landmarks_->ready())
-        return search([&](const KeyScale& scale) {
-          return LandmarkBound(*table, landmarks_->decreases(), goal, scale);
-        });
+    if (landmarks_ && landmarks_->ready())
+      return search([&](const KeyScale& scale) { return *landmarkBound(goal, scale); });
     if (exact_)
       if (const ExactTable* table = exact_->ready())
         return search([&](const KeyScale& scale) {
