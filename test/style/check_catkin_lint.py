@@ -11,7 +11,6 @@ from common import PLANTED, ROOT, finish, need
 # Kind of a finding, a pattern of its text, why it stays.
 ACCEPTED = (
     ("UNINSTALLED_SCRIPT", r"'(scripts|benchmark)/", "for a clone: builds, tests, studies, measurements"),
-    ("UNINSTALLED_TARGET", r"_fuzz'", "for a clone: all fuzz targets"),
     ("SUBPROJECT", r"'examples'", "a package of its own, as users write one; a test builds it on the installed one"),
     ("MISSING_DIRECTORY", r"'include/grid_path_planner/", "rooms without public headers: asked by IS_DIRECTORY"),
     ("MISSING_DIRECTORY", r"devel/include'", "made by generate_messages"),
