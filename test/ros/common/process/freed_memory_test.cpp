@@ -12,19 +12,20 @@
 namespace grid_path_planner::nodes {
 namespace {
 
-constexpr std::size_t kBlock = 9 << 20;
+constexpr long kBlock = 9 << 20;
 constexpr int kBlocks = 8;
 
-std::size_t residentBytes() {
-  std::size_t size = 0, resident = 0;
+long residentBytes() {
+  long size = 0, resident = 0;
   std::ifstream("/proc/self/statm") >> size >> resident;
-  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  return resident * ::sysconf(_SC_PAGESIZE);
 }
 
-// Of blocks below one that stays in use. The first round tells the allocator their size.
-std::size_t bytesKeptOfFreedBlocks() {
+// Of blocks below one that stays in use; the system counts roughly, so it may be less than 0. The first round tells the
+// allocator their size.
+long bytesKeptOfFreedBlocks() {
   constexpr int kRounds = 3;
-  const std::size_t before = residentBytes();
+  const long before = residentBytes();
   std::vector<std::vector<char>> in_use;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<std::vector<char>> freed;
