@@ -82,8 +82,8 @@ CONTEXT = {
         #include <nav_msgs/Path.h>
         extern std::uint8_t* bytes; extern std::uint32_t length; extern ros::NodeHandle nh;
         extern ros::Subscriber subscriber; void onPath(const nav_msgs::Path&);""",
-    "claimed_requests.h": """#include "grid_path_planner/ComparePlans.h"
-        extern ros::ServiceServer service; extern ros::NodeHandle nh; bool answer(ComparePlans::Request&);""",
+    "advertised_service.h": """#include "grid_path_planner/SaveFile.h"
+        extern ros::ServiceServer service; extern ros::NodeHandle private_nh; bool saveMap(SaveFile::Request&, SaveFile::Response&);""",
     "service_caller.h": """#include <ros/service_server.h>
         #include <nav_msgs/GetPlan.h>
         extern ros::ServiceServer service; bool answered(); void waitAWhile();

@@ -9,6 +9,7 @@
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/file_kinds.h"
+#include "ros/common/incoming/advertised_service.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
 #include "ros/common/velocity_message.h"
@@ -168,12 +169,10 @@ void LocalPlannerNode::subscribe() {
 }
 
 void LocalPlannerNode::offerServices(ros::NodeHandle& private_nh) {
-  using Request = std_srvs::Trigger::Request;
-  using Response = std_srvs::Trigger::Response;
   using Answer = FlightHold::Answer;
   const auto offer = [&](const char* name, std::function<Answer()> act) {
     services_.push_back(
-        private_nh.advertiseService<Request, Response>(name, [act](Request&, Response& response) {
+        advertiseService<std_srvs::Trigger>(private_nh, name, [act](auto&, auto& response) {
           const Answer answer = act();
           response.success = answer.done;
           response.message = answer.message;

@@ -4,7 +4,7 @@
 #include <set>
 #include <sstream>
 
-#include "ros/common/incoming/claimed_requests.h"
+#include "ros/common/incoming/advertised_service.h"
 
 namespace ros {
 namespace {
@@ -17,7 +17,7 @@ struct UncheckedReconfigure : Reconfigure {};  // for roscpp's own code, by anot
 
 template <>
 bool ServiceCallbackHelperT<Reconfigure>::call(ServiceCallbackHelperCallParams& given) {
-  grid_path_planner::nodes::checkRequest<RequestType>(given.request);
+  grid_path_planner::nodes::prepareCall<RequestType>(given);
   return ServiceCallbackHelperT<UncheckedReconfigure>(callback_, create_req_, create_res_)
       .call(given);
 }

@@ -39,7 +39,7 @@
 namespace ros {
 
 // Of the service ~set_parameters, which dynamic_reconfigure's server offers by itself: with arrays whose
-// lengths may lie (claimed_requests.h).
+// lengths may lie (advertised_service.h).
 template <>
 bool ServiceCallbackHelperT<
     ServiceSpec<dynamic_reconfigure::ReconfigureRequest,

@@ -13,6 +13,7 @@
 #include "ros/common/ending/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
+#include "ros/common/incoming/advertised_service.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
 #include "ros/driving/follow_log.h"
@@ -120,14 +121,13 @@ NavigatePathNode::~NavigatePathNode() {
 }
 
 void NavigatePathNode::offerServices(ros::NodeHandle& private_nh) {
-  using Request = std_srvs::Trigger::Request;
-  using Response = std_srvs::Trigger::Response;
+  using std_srvs::Trigger;
   services_ = {
-      private_nh.advertiseService<Request, Response>(
-          "pause", [this](Request&, Response& r) { return answer(loop_->pause(), r); }),
-      private_nh.advertiseService<Request, Response>(
-          "resume", [this](Request&, Response& r) { return answer(loop_->resume(), r); }),
-      private_nh.advertiseService<Request, Response>("cancel", [this](Request&, Response& r) {
+      advertiseService<Trigger>(private_nh, "pause",
+                                [this](auto&, auto& r) { return answer(loop_->pause(), r); }),
+      advertiseService<Trigger>(private_nh, "resume",
+                                [this](auto&, auto& r) { return answer(loop_->resume(), r); }),
+      advertiseService<Trigger>(private_nh, "cancel", [this](auto&, auto& r) {
         return answer(cancel("asked for by ~cancel"), r);
       })};
 }

@@ -11,6 +11,7 @@
 #include "ros/common/ending/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
+#include "ros/common/incoming/advertised_service.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/network_text.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
@@ -126,8 +127,8 @@ void MarkerLocalizerNode::listen(ros::NodeHandle& private_nh) {
       nh_, "camera/image_raw", 1,
       [this](const sensor_msgs::ImageConstPtr& image) { onImage(image); }));
   using std_srvs::Trigger;
-  learn_panel_ = private_nh.advertiseService<Trigger::Request, Trigger::Response>(
-      "learn_panel", [this](Trigger::Request&, Trigger::Response& response) {
+  learn_panel_ =
+      advertiseService<Trigger>(private_nh, "learn_panel", [this](auto&, auto& response) {
         learnPanel(response);
         return true;
       });

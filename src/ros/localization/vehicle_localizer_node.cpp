@@ -10,8 +10,8 @@
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "localization/input_statistics.h"
 #include "localization/measurement_check.h"
+#include "ros/common/incoming/advertised_service.h"
 #include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/incoming/claimed_requests.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
 
@@ -146,17 +146,15 @@ void VehicleLocalizerNode::subscribeSensors() {
 }
 
 void VehicleLocalizerNode::offerServices(ros::NodeHandle& private_nh) {
-  services_.push_back(advertiseChecked<ros::ServiceSpec<SetPose::Request, SetPose::Response>>(
-      private_nh, "set_pose", [this](SetPose::Request& request, SetPose::Response& response) {
+  services_.push_back(
+      advertiseService<SetPose>(private_nh, "set_pose", [this](auto& request, auto& response) {
         response.message = setPose(request.pose);
         response.success = response.message.empty();
         if (response.success) response.message = "set";
         return true;
       }));
-  using Request = std_srvs::Trigger::Request;
-  using Response = std_srvs::Trigger::Response;
   services_.push_back(
-      private_nh.advertiseService<Request, Response>("reset", [this](Request&, Response& response) {
+      advertiseService<std_srvs::Trigger>(private_nh, "reset", [this](auto&, auto& response) {
         ROS_INFO("Asked by ~reset: everything begins anew");
         beginAnew();
         response.success = true;

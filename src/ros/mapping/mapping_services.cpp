@@ -8,6 +8,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "ros/common/file_kinds.h"
+#include "ros/common/incoming/advertised_service.h"
 #include "ros/mapping/floor_warning.h"
 
 namespace grid_path_planner::nodes {
@@ -64,10 +65,18 @@ MappingServices::MappingServices(ros::NodeHandle private_nh, MappingThread& thre
       files_(files),
       on_change_(std::move(on_change)),
       on_reset_(std::move(on_reset)) {
-  reset_ = private_nh.advertiseService("reset", &MappingServices::reset, this);
-  clear_box_ = private_nh.advertiseService("clear_bbx", &MappingServices::clearBox, this);
-  save_map_ = private_nh.advertiseService("save_map", &MappingServices::saveMap, this);
-  save_octree_ = private_nh.advertiseService("save_octree", &MappingServices::saveOctree, this);
+  reset_ = advertiseService<std_srvs::Empty>(
+      private_nh, "reset",
+      [this](auto& request, auto& response) { return reset(request, response); });
+  clear_box_ = advertiseService<ClearBoxService>(
+      private_nh, "clear_bbx",
+      [this](auto& request, auto& response) { return clearBox(request, response); });
+  save_map_ = advertiseService<SaveFile>(
+      private_nh, "save_map",
+      [this](auto& request, auto& response) { return saveMap(request, response); });
+  save_octree_ = advertiseService<SaveFile>(
+      private_nh, "save_octree",
+      [this](auto& request, auto& response) { return saveOctree(request, response); });
 }
 
 void MappingServices::shutdown() {

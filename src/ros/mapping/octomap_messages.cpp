@@ -37,17 +37,12 @@ octomap_msgs::Octomap messageOf(const MapModel& map, bool binary, const ros::Tim
 }  // namespace
 
 struct OctomapMessages::Topics {
-  using Request = octomap_msgs::GetOctomap::Request;
-  using Response = octomap_msgs::GetOctomap::Response;
-
   explicit Topics(MappingThread& mapping_thread) : thread(mapping_thread) {}
 
-  bool answer(bool binary, Response& response) {
+  bool answer(bool binary, octomap_msgs::GetOctomap::Response& response) {
     thread.run([&](MapModel& map) { response.map = messageOf(map, binary, ros::Time::now()); });
     return true;
   }
-  bool answerBinary(Request&, Response& response) { return answer(true, response); }
-  bool answerFull(Request&, Response& response) { return answer(false, response); }
 
   MappingThread& thread;
   ros::Publisher binary, full;
@@ -63,10 +58,13 @@ OctomapMessages::OctomapMessages(ros::NodeHandle nh, ros::NodeHandle service_nh,
   topics_->binary =
       nh.advertise<octomap_msgs::Octomap>("octomap_binary", 1, connected, {}, {}, latch);
   topics_->full = nh.advertise<octomap_msgs::Octomap>("octomap_full", 1, connected, {}, {}, latch);
+  const auto answer = [topics = topics_.get()](bool binary) {
+    return [=](auto&, auto& response) { return topics->answer(binary, response); };
+  };
+  using octomap_msgs::GetOctomap;
   topics_->binary_service =
-      service_nh.advertiseService("octomap_binary", &Topics::answerBinary, topics_.get());
-  topics_->full_service =
-      service_nh.advertiseService("octomap_full", &Topics::answerFull, topics_.get());
+      advertiseService<GetOctomap>(service_nh, "octomap_binary", answer(true));
+  topics_->full_service = advertiseService<GetOctomap>(service_nh, "octomap_full", answer(false));
 }
 
 OctomapMessages::~OctomapMessages() = default;

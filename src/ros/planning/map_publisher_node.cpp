@@ -7,6 +7,7 @@
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/ending/end_of_node.h"
 #include "ros/common/file_kinds.h"
+#include "ros/common/incoming/advertised_service.h"
 #include "ros/common/network_text.h"
 #include "ros/common/parameters.h"
 
@@ -49,7 +50,8 @@ MapPublisherNode::MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private
   map_ = readMap(options_);
   map_publisher_ = nh.advertise<nav_msgs::OccupancyGrid>(options_.topic, 1, true);
   metadata_publisher_ = nh.advertise<nav_msgs::MapMetaData>("map_metadata", 1, true);
-  service_ = nh.advertiseService("static_map", &MapPublisherNode::getMap, this);
+  service_ = advertiseService<nav_msgs::GetMap>(
+      nh, "static_map", [this](auto&, auto& response) { return getMap(response); });
   reconfigurable_ = std::make_unique<Reconfigurable<MapPublisherConfig, MapPublisherOptions>>(
       private_nh, options_, [this](const MapPublisherOptions& options) { use(options); });
   timer_ = nh.createWallTimer(ros::WallDuration(0.02),
@@ -99,7 +101,7 @@ void MapPublisherNode::publishOnceThereIsTime() {
                                << map_publisher_.getTopic());
 }
 
-bool MapPublisherNode::getMap(nav_msgs::GetMap::Request&, nav_msgs::GetMap::Response& response) {
+bool MapPublisherNode::getMap(nav_msgs::GetMap::Response& response) {
   if (message_.header.stamp.isZero()) {
     ROS_ERROR("static_map was asked for before there was a ROS time to stamp the map with");
     return false;

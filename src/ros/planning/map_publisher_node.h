@@ -44,7 +44,7 @@ class MapPublisherNode {
   grid::OccupancyGrid readMap(const MapPublisherOptions& wanted) const;
   void use(const MapPublisherOptions& options);
   void publishOnceThereIsTime();
-  bool getMap(nav_msgs::GetMap::Request& request, nav_msgs::GetMap::Response& response);
+  bool getMap(nav_msgs::GetMap::Response& response);
 
   NodeFiles files_;
   MapPublisherOptions options_;

@@ -9,7 +9,7 @@
 #include "grid_path_planner/planners/planner_factory.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/common/file_kinds.h"
-#include "ros/common/incoming/claimed_requests.h"
+#include "ros/common/incoming/advertised_service.h"
 
 namespace grid_path_planner::nodes {
 
@@ -91,13 +91,16 @@ ExplainPlan::Response explanationMessage(const Explanation& explanation) {
 PlanServices::PlanServices(ros::NodeHandle private_nh, PlanningServer& server)
     : server_(server), spinner_(2, &queue_), file_spinner_(1, &file_queue_) {
   private_nh.setCallbackQueue(&guarded_);
-  make_plan_ = private_nh.advertiseService("make_plan", &PlanServices::makePlan, this);
-  compare_plans_ = advertiseChecked<Comparison>(
+  make_plan_ = advertiseServiceBySpec<MakePlan>(private_nh, "make_plan",
+                                                [this](MakePlan& call) { return makePlan(call); });
+  compare_plans_ = advertiseServiceBySpec<Comparison>(
       private_nh, "compare_plans", [this](Comparison& call) { return comparePlans(call); });
-  explain_plan_ = private_nh.advertiseService("explain_plan", &PlanServices::explainPlan, this);
+  explain_plan_ = advertiseServiceBySpec<Why>(private_nh, "explain_plan",
+                                              [this](Why& call) { return explainPlan(call); });
   private_nh.setCallbackQueue(&guarded_files_);
-  save_waypoints_ =
-      private_nh.advertiseService("save_waypoints", &PlanServices::saveWaypoints, this);
+  save_waypoints_ = advertiseService<SaveWaypoints>(
+      private_nh, "save_waypoints",
+      [this](auto& request, auto& response) { return saveWaypoints(request, response); });
   spinner_.start();
   file_spinner_.start();
 }

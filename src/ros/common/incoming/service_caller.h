@@ -1,4 +1,4 @@
-// Who waits for the answer to a service call, and whether they still do.
+// The client of a service call: whether it still waits for the answer, and that the answer reaches it.
 //
 //   const ServiceCaller caller(service.getService(), event.getConnectionHeader());
 //   while (!answered() && !caller.gone()) waitAWhile();
@@ -10,6 +10,7 @@
 #include <ros/connection.h>
 #include <ros/datatypes.h>
 
+#include <boost/shared_ptr.hpp>
 #include <string>
 
 namespace grid_path_planner::nodes {
@@ -25,5 +26,11 @@ class ServiceCaller {
  private:
   ros::ConnectionPtr connection_;  // null: it was closed before
 };
+
+// The connection of the call with this header ends when the client closes it, which any client does once it
+// has read the answer. By itself roscpp closes it right after writing. A client in roscpp that is told of
+// the end before it has begun to read drops the answer, and its call fails: one in some ten thousand on
+// a busy machine. Null is ignored.
+void leaveEndToClient(const boost::shared_ptr<ros::M_string>& header);
 
 }  // namespace grid_path_planner::nodes
