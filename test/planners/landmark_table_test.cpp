@@ -68,31 +68,40 @@ TEST(LandmarkTable, BoundsAreNoLargerThanTheCost) {
   }
 }
 
-// To a landmark the bound is the cost, but for the rounding of high costs.
+// To a landmark the bound is the cost, in 32 bits as in 64.
 TEST(LandmarkTable, KnowsTheCostsOfItsLandmarks) {
   std::mt19937 random(2);
-  int exact = 0;
-  int rounded = 0;
+  int narrow = 0, wide = 0;
   for (int trial = 0; trial < 20; ++trial) {
     const CostGrid map = test::randomCosts(random, 24, {});
     const LandmarkTable table(map, 4, StopToken());
     const CostDecreases unchanged;
+    EXPECT_FALSE(table.landmarks().empty());
     for (const Cell landmark : table.landmarks()) {
       const std::uint32_t goal = map.geometry().index(landmark).value();
       const LandmarkBound bound(table, unchanged, goal);
+      const LandmarkBound medium(table, unchanged, goal, kMediumScale);
       const auto costs = test::referenceCosts(map, landmark);
-      for (std::uint32_t i = 0; i < costs.size(); ++i)
-        if (costs[i] && table.unit().exact()) {
-          EXPECT_EQ(bound(i), searchKeyOf(*costs[i]));
-        } else if (costs[i]) {
-          EXPECT_GE(static_cast<double>(bound(i)),
-                    0.999 * static_cast<double>(searchKeyOf(*costs[i])));
-        }
+      for (std::uint32_t i = 0; i < costs.size(); ++i) {
+        if (!costs[i]) continue;
+        EXPECT_EQ(bound(i), searchKeyOf(*costs[i]));
+        EXPECT_EQ(exactCostOf(medium(i), kMediumScale), *costs[i]);
+      }
     }
-    (table.unit().exact() ? exact : rounded) += 1;
+    ++(table.wide() ? wide : narrow);
   }
-  EXPECT_GT(exact, 0);
-  EXPECT_GT(rounded, 0);
+  EXPECT_GT(narrow, 0);
+  EXPECT_GT(wide, 0);
+}
+
+// From 1.1e7 on.
+TEST(LandmarkTable, HasNoLandmarksWhereCostsFitNeither) {
+  Grid<CostGrid::Weight> weights(grid::GridGeometry(300, 300, 1.0), 65535);
+  const auto shared = test::costsOf(weights);
+  const CostGrid& map = *shared;
+  const LandmarkTable table(map, 8, StopToken());
+  EXPECT_TRUE(table.landmarks().empty());
+  expectBounds(LandmarkBound(table, {}, 12345), map, 12345);
 }
 
 TEST(LandmarkTable, SameMapSameTable) {
@@ -102,7 +111,7 @@ TEST(LandmarkTable, SameMapSameTable) {
   const LandmarkTable b(map, 8, StopToken());
   EXPECT_EQ(a.landmarks(), b.landmarks());
   for (std::uint32_t i = 0; i < map.geometry().size(); ++i)
-    EXPECT_TRUE(std::equal(a.row(i), a.row(i) + a.stride(), b.row(i)));
+    for (int k = 0; k < a.stride(); ++k) EXPECT_EQ(a.entry(i, k), b.entry(i, k));
 }
 
 TEST(LandmarkTable, TheFirstLiesAtAnEnd) {

@@ -4,6 +4,24 @@
 
 namespace grid_path_planner::planners {
 
+WideCost wideCostOf(SearchKey cost) {
+  constexpr auto kMost = std::int64_t{1} << 53;
+  constexpr auto kMostDiagonal = static_cast<std::int64_t>(kMediumScale.straight / 2);
+  if (cost == kInfiniteKey) return kNoWideCost;
+  const costmap::ExactCost exact = exactCostOf(cost, kWideScale);
+  if (exact.diagonal > kMostDiagonal) return kNoWideCost;
+  if (exact.straight > kMost / static_cast<std::int64_t>(kMediumScale.straight)) return kNoWideCost;
+  const std::int64_t entry = exact.straight * static_cast<std::int64_t>(kMediumScale.straight) +
+                             exact.diagonal * static_cast<std::int64_t>(kMediumScale.diagonal);
+  return entry <= kMost ? static_cast<WideCost>(entry) : kNoWideCost;
+}
+
+SearchKey keyOfWide(WideCost difference, const KeyScale& scale) {
+  if (difference >= kNoWideCost / 2) return kInfiniteKey;
+  const auto key = static_cast<SearchKey>(difference);
+  return scale.straight == kMediumScale.straight ? key : differenceKey(key, kMediumScale, scale);
+}
+
 CompactCostUnit CompactCostUnit::rounding(SearchKey longest) {
   CompactCostUnit unit;
   unit.shift_ = 0;

@@ -1,9 +1,10 @@
-// Costs in 32 bits, for tables, which can be converted to keys of any scale.
+// Costs in 32 or 64 bits, for tables, which can be converted to keys of any scale.
 //
 // A cost A + B sqrt 2 is stored as its key of kSmallScale. While B is small, A and B can be computed
 // from it, and from the difference of two: nothing is rounded, so paths of equal cost remain exactly
 // equal, and a search with the table as its heuristic needs to expand only one of them. Larger costs
-// are stored as multiples of a power of two of wide keys, rounded down: another CompactCostUnit.
+// are stored as multiples of a power of two of wide keys, rounded down: another CompactCostUnit; or exactly in
+// 64 bits, as a double that holds a key of kMediumScale, which has 53 bits at most.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,29 @@ namespace grid_path_planner::planners {
 
 using CompactCost = std::int32_t;
 constexpr CompactCost kNoCompactCost = 0x7fffffff;  // for unreachable cells
+
+using WideCost = double;
+constexpr WideCost kNoWideCost = 1e300;  // for unreachable cells
+
+// The entry of a wide key: kNoWideCost for kInfiniteKey, and where it does not fit.
+WideCost wideCostOf(SearchKey cost);
+// |cost - cost| as a key of `scale` where two entries differ by this much, exactly; kInfiniteKey where one of them is
+// kNoWideCost. Precondition: not negative.
+SearchKey keyOfWide(WideCost difference, const KeyScale& scale);
+
+// The key in scale `to` of A straight + B diagonal, whose key in `from` is this one. Precondition: |B| is at most half
+// of from.straight.
+constexpr SearchKey differenceKey(SearchKey difference, const KeyScale& from, const KeyScale& to) {
+  const SearchKey modulo = difference % from.straight * inverseOfDiagonal(from) % from.straight;
+  const auto signed_straight = static_cast<std::int64_t>(from.straight);
+  const std::int64_t diagonal =
+      static_cast<std::int64_t>(modulo) - (modulo > from.straight / 2 ? signed_straight : 0);
+  const std::int64_t straight = (static_cast<std::int64_t>(difference) -
+                                 diagonal * static_cast<std::int64_t>(from.diagonal)) /
+                                signed_straight;
+  return static_cast<SearchKey>(straight * static_cast<std::int64_t>(to.straight) +
+                                diagonal * static_cast<std::int64_t>(to.diagonal));
+}
 
 class CompactCostUnit {
  public:

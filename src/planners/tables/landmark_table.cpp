@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <random>
 #include <utility>
 
@@ -20,19 +22,22 @@ using grid::Cell, grid::CellIndex, grid::CellRect, grid::GridGeometry;
 
 namespace {
 
-using Entry = LandmarkTable::Entry;
-
-constexpr std::size_t kCacheLine = 64 / sizeof(Entry);  // entries
+constexpr std::size_t kCacheLine = 64;  // bytes
 constexpr std::uint32_t kNone = 0xffffffffU;
 constexpr int kMergeDistance = 16;  // cells between places that count as one
 constexpr std::size_t kMostPlaces = 4;
 
-int strideFor(int landmarks) {
-  return (landmarks + LandmarkTable::kLanes - 1) / LandmarkTable::kLanes * LandmarkTable::kLanes;
+CompactCost compactCostOf(SearchKey cost) {
+  return CompactCostUnit().entryOf(cost);
+}
+
+std::size_t rowBytesFor(int landmarks) {
+  const int lanes = (landmarks + LandmarkTable::kLanes - 1) / LandmarkTable::kLanes;
+  return static_cast<std::size_t>(lanes * LandmarkTable::kLanes) * sizeof(CompactCost);
 }
 
 // The largest |a[i] - b[i]|.
-Entry largestDifference(const Entry* a, const Entry* b, int stride) {
+CompactCost largestDifference(const CompactCost* a, const CompactCost* b, int stride) {
 #ifdef __SSE2__
   __m128i largest = _mm_setzero_si128();
   for (int i = 0; i < stride; i += LandmarkTable::kLanes) {
@@ -44,11 +49,26 @@ Entry largestDifference(const Entry* a, const Entry* b, int stride) {
     const __m128i larger = _mm_cmpgt_epi32(absolute, largest);
     largest = _mm_or_si128(_mm_and_si128(larger, absolute), _mm_andnot_si128(larger, largest));
   }
-  alignas(16) Entry lanes[LandmarkTable::kLanes];
+  alignas(16) CompactCost lanes[LandmarkTable::kLanes];
   _mm_store_si128(reinterpret_cast<__m128i*>(lanes), largest);
   return *std::max_element(lanes, lanes + LandmarkTable::kLanes);
 #else
-  Entry largest = 0;
+  CompactCost largest = 0;
+  for (int i = 0; i < stride; ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+#endif
+}
+
+WideCost largestDifference(const WideCost* a, const WideCost* b, int stride) {
+#ifdef __SSE2__
+  const __m128d sign = _mm_set1_pd(-0.0);
+  __m128d largest = _mm_setzero_pd();
+  for (int i = 0; i < stride; i += 2)
+    largest = _mm_max_pd(largest,
+                         _mm_andnot_pd(sign, _mm_sub_pd(_mm_loadu_pd(a + i), _mm_loadu_pd(b + i))));
+  return std::max(_mm_cvtsd_f64(largest), _mm_cvtsd_f64(_mm_unpackhi_pd(largest, largest)));
+#else
+  WideCost largest = 0;
   for (int i = 0; i < stride; ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
   return largest;
 #endif
@@ -70,20 +90,19 @@ class LandmarkTable::Making {
   // Throws Stopped and TooExpensive.
   void run(int landmarks) {
     if (choose(landmarks)) return;
-    chooseUnit();
-    table_.landmarks_.clear();
-    table_.memory_.clear();
-    random_ = std::mt19937();
-    choose(landmarks);
+    beginAnew();
+    table_.wide_ = true;
+    if (!choose(table_.stride())) beginAnew();
   }
 
  private:
   // Whether all costs fit into entries.
   bool choose(int landmarks);
+  void beginAnew();
   std::uint32_t drawRoot();
-  void chooseUnit();
-  bool write(int number);
-  Entry entryOf(SearchKey cost) const { return table_.unit_.entryOf(cost); }
+  template <class Entry>
+  bool write(int number, Entry (*entry_of)(SearchKey), Entry none);
+  WideCost boundBetween(std::uint32_t a, std::uint32_t b) const;
   std::uint32_t farthest() const;
   std::uint32_t worstBounded(std::uint32_t root);
   void weigh(std::uint32_t root);
@@ -94,6 +113,8 @@ class LandmarkTable::Making {
   static constexpr std::uint64_t kCovered = ~std::uint64_t{0};
   // In children_, which counts those that are not done.
   static constexpr std::uint8_t kDone = 255;
+  // In sizes_, so that sums of them stay below kCovered: of 2^31 cells.
+  static constexpr double kMostShort = 4294967296.0;
 
   LandmarkTable& table_;
   const CostGrid& map_;
@@ -111,7 +132,9 @@ bool LandmarkTable::Making::choose(int landmarks) {
     from_.run(root);
     const std::uint32_t landmark = number == 0 ? farthest() : worstBounded(root);
     from_.run(landmark);
-    if (!write(number)) return false;
+    const bool fit = table_.wide_ ? write<WideCost>(number, wideCostOf, kNoWideCost)
+                                  : write<CompactCost>(number, compactCostOf, kNoCompactCost);
+    if (!fit) return false;
     table_.landmarks_.push_back(map_.geometry().cell(CellIndex(landmark)));
   }
   return true;
@@ -127,25 +150,30 @@ std::uint32_t LandmarkTable::Making::drawRoot() {
   return kNone;
 }
 
-// No two cells that the search reached are farther from each other than twice its longest path;
-// larger costs are rounded down to that.
-void LandmarkTable::Making::chooseUnit() {
-  SearchKey longest = 0;
-  for (const SearchKey cost : from_.costs())
-    if (cost != kInfiniteKey) longest = std::max(longest, cost);
-  table_.unit_ = CompactCostUnit::rounding(saturatingSum(longest, longest));
+void LandmarkTable::Making::beginAnew() {
+  table_.landmarks_.clear();
+  table_.memory_.clear();
+  random_ = std::mt19937();
 }
 
-bool LandmarkTable::Making::write(int number) {
+template <class Entry>
+bool LandmarkTable::Making::write(int number, Entry (*entry_of)(SearchKey), Entry none) {
   StopPoll poll(stop_, 1 << 16);
-  Entry* entry = table_.rows_ + number;
+  unsigned char* row = table_.rows_ + static_cast<std::size_t>(number) * sizeof(Entry);
   for (const SearchKey cost : from_.costs()) {
     poll();
-    *entry = entryOf(cost);
-    if (*entry == kNoCompactCost && cost != kInfiniteKey) return false;
-    entry += table_.stride_;
+    const Entry entry = entry_of(cost);
+    if (entry == none && cost != kInfiniteKey) return false;
+    *reinterpret_cast<Entry*>(row) = entry;
+    row += table_.row_bytes_;
   }
   return true;
+}
+
+WideCost LandmarkTable::Making::boundBetween(std::uint32_t a, std::uint32_t b) const {
+  const int stride = table_.stride();
+  return table_.wide_ ? largestDifference(table_.wideRow(a), table_.wideRow(b), stride)
+                      : largestDifference(table_.row(a), table_.row(b), stride);
 }
 
 std::uint32_t LandmarkTable::Making::farthest() const {
@@ -174,8 +202,9 @@ void LandmarkTable::Making::weigh(std::uint32_t root) {
     sizes_[i] = 0;
     if (costs[i] == kInfiniteKey || i == root) continue;
     ++children_[from_.parent(i)];
-    const Entry bound = largestDifference(table_.row(i), table_.row(root), table_.stride_);
-    sizes_[i] = static_cast<std::uint64_t>(std::max(entryOf(costs[i]) - bound, 0));
+    const WideCost cost = table_.wide_ ? wideCostOf(costs[i]) : compactCostOf(costs[i]);
+    sizes_[i] =
+        static_cast<std::uint64_t>(std::clamp(cost - boundBetween(i, root), 0.0, kMostShort));
   }
   for (const Cell landmark : table_.landmarks_)
     sizes_[map_.geometry().index(landmark).value()] = kCovered;
@@ -215,8 +244,7 @@ std::uint32_t LandmarkTable::Making::heaviestChild(std::uint32_t index) const {
 }
 
 std::size_t LandmarkTable::bytesFor(const GridGeometry& geometry, int landmarks) {
-  return (geometry.size() * static_cast<std::size_t>(strideFor(landmarks)) + kCacheLine) *
-         sizeof(Entry);
+  return geometry.size() * rowBytesFor(landmarks) + kCacheLine;
 }
 
 std::size_t LandmarkTable::makingBytesFor(const GridGeometry& geometry, int landmarks) {
@@ -225,10 +253,9 @@ std::size_t LandmarkTable::makingBytesFor(const GridGeometry& geometry, int land
 }
 
 LandmarkTable::LandmarkTable(const CostGrid& map, int landmarks, const StopToken& stop)
-    : stride_(strideFor(landmarks)),
-      memory_(map.geometry().size() * static_cast<std::size_t>(stride_) + kCacheLine) {
+    : row_bytes_(rowBytesFor(landmarks)), memory_(map.geometry().size() * row_bytes_ + kCacheLine) {
   rows_ = &memory_[0];
-  while (reinterpret_cast<std::uintptr_t>(rows_) % 64 != 0) ++rows_;
+  while (reinterpret_cast<std::uintptr_t>(rows_) % kCacheLine != 0) ++rows_;
   try {
     Making(*this, map, stop).run(landmarks);
   } catch (const TooExpensive&) {
@@ -237,18 +264,30 @@ LandmarkTable::LandmarkTable(const CostGrid& map, int landmarks, const StopToken
   }
 }
 
+WideCost LandmarkTable::entry(std::uint32_t index, int landmark) const {
+  if (wide_) return wideRow(index)[landmark];
+  const CompactCost cost = row(index)[landmark];
+  return cost == kNoCompactCost ? kNoWideCost : cost;
+}
+
+SearchKey LandmarkTable::keyOf(WideCost difference, const KeyScale& scale) const {
+  if (wide_) return keyOfWide(difference, scale);
+  return CompactCostUnit().keyOf(static_cast<CompactCost>(difference), scale);
+}
+
 CostDecreases::Place CostDecreases::placeOf(const LandmarkTable& table,
                                             const GridGeometry& geometry, const CellRect& rect) {
   const auto stride = static_cast<std::size_t>(table.stride());
-  Place place{rect, std::vector<Entry>(stride, kNoCompactCost), std::vector<Entry>(stride, 0)};
+  Place place{rect, std::vector<WideCost>(stride, kNoWideCost), std::vector<WideCost>(stride, 0)};
   const CellRect around = rect.grown(1).intersection(geometry.rect());
   for (int row = around.row; row < around.row + around.height; ++row)
     for (int column = around.column; column < around.column + around.width; ++column) {
-      const Entry* entries = table.row(geometry.index({column, row}).value());
+      const std::uint32_t index = geometry.index({column, row}).value();
       for (std::size_t i = 0; i < stride; ++i) {
-        if (entries[i] == kNoCompactCost) continue;
-        place.low[i] = std::min(place.low[i], entries[i]);
-        place.high[i] = std::max(place.high[i], entries[i]);
+        const WideCost entry = table.entry(index, static_cast<int>(i));
+        if (entry == kNoWideCost) continue;
+        place.low[i] = std::min(place.low[i], entry);
+        place.high[i] = std::max(place.high[i], entry);
       }
     }
   return place;
@@ -288,31 +327,37 @@ CellRect CostDecreases::hull() const {
 
 SearchKey CostDecreases::least(const LandmarkTable& table, std::uint32_t index,
                                const KeyScale& scale) const {
-  const Entry* row = table.row(index);
   SearchKey least = kInfiniteKey;
   for (const Place& place : places_) {
-    Entry outside = 0;
+    WideCost outside = 0;
     for (std::size_t i = 0; i < place.low.size(); ++i) {
-      const bool silent = row[i] == kNoCompactCost || place.low[i] > place.high[i];
-      if (!silent) outside = std::max({outside, place.low[i] - row[i], row[i] - place.high[i]});
+      const WideCost entry = table.entry(index, static_cast<int>(i));
+      const bool silent = entry == kNoWideCost || place.low[i] > place.high[i];
+      if (!silent) outside = std::max({outside, place.low[i] - entry, entry - place.high[i]});
     }
-    least = std::min(least, table.unit().keyOf(outside, scale));
+    least = std::min(least, table.keyOf(outside, scale));
   }
   return least;
 }
 
 LandmarkBound::LandmarkBound(const LandmarkTable& table, const CostDecreases& decreases,
                              std::uint32_t goal, const KeyScale& scale)
-    : table_(table),
-      decreases_(decreases),
-      scale_(scale),
-      goal_row_(table.row(goal), table.row(goal) + table.stride()) {
+    : table_(table), decreases_(decreases), scale_(scale) {
+  if (table.wide())
+    wide_goal_row_.assign(table.wideRow(goal), table.wideRow(goal) + table.stride());
+  else
+    goal_row_.assign(table.row(goal), table.row(goal) + table.stride());
   if (!decreases_.empty()) goal_to_decreases_ = decreases_.least(table_, goal, scale_);
 }
 
 SearchKey LandmarkBound::operator()(std::uint32_t index) const {
-  const Entry difference = largestDifference(table_.row(index), goal_row_.data(), table_.stride());
-  const SearchKey unchanged = table_.unit().keyOf(difference, scale_);
+  const int stride = table_.stride();
+  const SearchKey unchanged =
+      table_.wide()
+          ? keyOfWide(largestDifference(table_.wideRow(index), wide_goal_row_.data(), stride),
+                      scale_)
+          : CompactCostUnit().keyOf(largestDifference(table_.row(index), goal_row_.data(), stride),
+                                    scale_);
   if (decreases_.empty()) return unchanged;
   return std::min(unchanged, decreases_.least(table_, index, scale_) + goal_to_decreases_);
 }

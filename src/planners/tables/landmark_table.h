@@ -9,9 +9,8 @@
 //   SearchKey least = bound(index);  // from that cell to the goal
 //
 // The costs are kept in 32 bits a landmark (compact_cost.h), those of one cell side by side: 16
-// landmarks are a cache line. On maps whose costs fit the bounds are exact differences, and
-// consistent. Rounded ones may fall between neighbours by up to two units more than the step costs,
-// so a search must re-open cells to be optimal.
+// landmarks are a cache line. Where a cost does not fit, half as many are kept in 64 bits. The bounds are exact
+// differences, and consistent: of paths of equal cost a search expands only one.
 //
 // Landmarks are chosen where the bounds of those before are worst ("avoid", Goldberg & Werneck
 // 2005), as leaves of the shortest-path tree of a cell drawn by a fixed seed: the same map
@@ -37,31 +36,43 @@ class LandmarkTable {
  public:
   using Decreases = CostDecreases;
   using Bound = LandmarkBound;
-  using Entry = CompactCost;
-  static constexpr int kLanes = 4;  // a row's length is a multiple of it
+  static constexpr int kLanes = 4;  // the 32-bit entries of a row are a multiple of it
 
   // Bytes of a table; of one while it is made.
   static std::size_t bytesFor(const grid::GridGeometry& geometry, int landmarks);
   static std::size_t makingBytesFor(const grid::GridGeometry& geometry, int landmarks);
 
-  // Throws Stopped. Where costs overflow there are no landmarks, and every bound is 0.
+  // Throws Stopped. Where costs overflow, from 1.1e7 on, there are no landmarks, and every bound is 0.
   LandmarkTable(const costmap::CostGrid& map, int landmarks, const base::StopToken& stop);
 
-  // Entries of a cell, one a landmark, the rest 0: kNoCompactCost where the cell is unreachable.
-  const Entry* row(std::uint32_t index) const { return rows_ + std::size_t{index} * stride_; }
-  int stride() const { return stride_; }
+  // Whether entries have 64 bits.
+  bool wide() const { return wide_; }
+  // Entries of a cell, one a landmark, the rest 0: kNoCompactCost, or kNoWideCost, where the cell is unreachable.
+  // Precondition: those of wideRow(): wide(), of row(): not so.
+  const CompactCost* row(std::uint32_t index) const {
+    return reinterpret_cast<const CompactCost*>(rows_ + index * row_bytes_);
+  }
+  const WideCost* wideRow(std::uint32_t index) const {
+    return reinterpret_cast<const WideCost*>(rows_ + index * row_bytes_);
+  }
+  // How many a row has.
+  int stride() const {
+    return static_cast<int>(row_bytes_ / (wide_ ? sizeof(WideCost) : sizeof(CompactCost)));
+  }
+  // One of them, kNoWideCost where the cell is unreachable.
+  WideCost entry(std::uint32_t index, int landmark) const;
+  // A key of `scale` that is certain where entries differ by this much.
+  SearchKey keyOf(WideCost difference, const KeyScale& scale) const;
   const std::vector<grid::Cell>& landmarks() const { return landmarks_; }
-  std::size_t bytes() const { return memory_.size() * sizeof(Entry); }
-
-  const CompactCostUnit& unit() const { return unit_; }
+  std::size_t bytes() const { return memory_.size(); }
 
  private:
   class Making;
 
-  int stride_;
-  CompactCostUnit unit_;
-  base::ZeroedArray<Entry> memory_;
-  Entry* rows_;  // in memory_, where a cache line begins
+  std::size_t row_bytes_;
+  bool wide_ = false;
+  base::ZeroedArray<unsigned char> memory_;
+  unsigned char* rows_;  // in memory_, where a cache line begins
   std::vector<grid::Cell> landmarks_;
 };
 
@@ -74,8 +85,6 @@ class LandmarkTable {
 // landmark's row.
 class CostDecreases {
  public:
-  using Entry = LandmarkTable::Entry;
-
   // Weights of cells of `rect` decreased, or cells became passable. Precondition: `rect` lies in the map.
   void add(const LandmarkTable& table, const grid::GridGeometry& geometry,
            const grid::CellRect& rect);
@@ -90,8 +99,8 @@ class CostDecreases {
  private:
   struct Place {
     grid::CellRect rect;
-    std::vector<Entry> low;   // smallest entry of the rectangle's cells, a landmark
-    std::vector<Entry> high;  // largest; below `low` where the landmark reaches none of them
+    std::vector<WideCost> low;   // smallest entry of the rectangle's cells, a landmark
+    std::vector<WideCost> high;  // largest; below `low` where the landmark reaches none of them
 
     void join(const Place& other);
   };
@@ -112,12 +121,11 @@ class LandmarkBound {
   SearchKey operator()(std::uint32_t index) const;
 
  private:
-  using Entry = LandmarkTable::Entry;
-
   const LandmarkTable& table_;
   const CostDecreases& decreases_;
   KeyScale scale_;
-  std::vector<Entry> goal_row_;
+  std::vector<CompactCost> goal_row_;  // one of both
+  std::vector<WideCost> wide_goal_row_;
   SearchKey goal_to_decreases_ = 0;
 };
 
