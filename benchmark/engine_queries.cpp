@@ -12,6 +12,8 @@
 //     --rounds N           the planners take turns N times in this process, all queries at a time
 //     --fresh N            with --rounds: every N queries a planner is made anew, whose preparation
 //                          counts; nothing is waited for
+//     --idle yes           with --rounds: idle time after each query, as in a node, whose CPU time of the process
+//                          stands apart
 //     --list all           prints the planners, the heuristics and the default planner instead
 //
 // What a planner makes in the background is waited for. Prints "map", "planner" and, a line each,
@@ -215,6 +217,7 @@ struct Turn {
   std::string subject;
   std::unique_ptr<Planner> planner;
   double prepare_ms = 0, finished_ms = 0;
+  double idle_ms = 0;  // CPU time of the process
   std::vector<long long> rounds;
   std::vector<long long> least;  // of each query
   std::vector<SearchResult> results;
@@ -233,6 +236,12 @@ long long makeAnew(Turn& turn, const std::shared_ptr<const CostGrid>& map, bool 
   return taken;
 }
 
+void giveIdleTime(Turn& turn) {
+  const std::clock_t begin = std::clock();
+  turn.planner->finishBackgroundWork(StopToken());
+  turn.idle_ms += 1e3 * double(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
 void ask(Turn& turn, std::size_t i, const ScenarioQuery& query, long long prepared) {
   const long long before = threadNanoseconds();
   SearchResult result = turn.planner->search({query.start, {query.goal}, false}, StopToken());
@@ -244,7 +253,7 @@ void ask(Turn& turn, std::size_t i, const ScenarioQuery& query, long long prepar
 
 void print(const Turn& turn) {
   std::cout << "planner " << turn.subject << " prepare_ms " << turn.prepare_ms << " finished_ms "
-            << turn.finished_ms << '\n';
+            << turn.finished_ms << " idle_ms " << turn.idle_ms << '\n';
   for (std::size_t i = 0; i < turn.rounds.size(); ++i)
     std::cout << "round " << i << ' ' << turn.rounds[i] << '\n';
   for (std::size_t i = 0; i < turn.least.size(); ++i)
@@ -258,6 +267,7 @@ void runInTurns(const Arguments& arguments, const std::vector<std::string>& subj
                 const std::vector<ScenarioQuery>& queries) {
   const auto rounds = static_cast<std::size_t>(arguments.number("--rounds"));
   const auto fresh = static_cast<std::size_t>(arguments.number("--fresh"));
+  const bool idle = !arguments.text("--idle").empty();
   std::vector<Turn> turns(subjects.size());
   for (std::size_t i = 0; i < turns.size(); ++i) {
     turns[i].subject = subjects[i];
@@ -272,6 +282,7 @@ void runInTurns(const Arguments& arguments, const std::vector<std::string>& subj
       for (std::size_t i = 0; i < queries.size(); ++i) {
         const bool anew = fresh > 0 && i % fresh == 0;
         ask(turn, i, queries[i], anew ? makeAnew(turn, map, false) : 0);
+        if (idle) giveIdleTime(turn);
       }
     }
   }

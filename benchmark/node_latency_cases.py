@@ -89,6 +89,25 @@ def make_plan(node, generator, effort, result):
             1e3 * above[int(share * (len(above) - 1))] for share in (0.5, 0.95, 1.0)))
 
 
+@case(needs_goals=True)
+def many_plans(node, generator, effort, result):
+    """`~make_plan` three thousand times. Until searches have paid for landmarks, and with them: `planning_time` by the hundred."""
+    places = [node.world.centre(column, row) for column, row in free_places(node, generator, 40)]
+    first, goals = len(node.statistics.received), []
+    for _ in effort.rounds(3000, 40):
+        start, goal = generator.sample(places, 2)
+        goals.append(goal)
+        begin = time.monotonic()
+        node.plan(node.request(start, goal))
+        result.times.append(time.monotonic() - begin)
+    time.sleep(0.5)  # for the last statistics
+    told = [planning for planning in node.planning_times(first, goals) if planning is not None]
+    if not told:
+        raise Missed("no plan statistics came")
+    hundreds = [told[i:i + 100] for i in range(0, len(told), 100)]
+    result.remark = "mean of each hundred, ms: " + " ".join("%.2f" % (1e3 * sum(times) / len(times)) for times in hundreds)
+
+
 def free_places(node, generator, count):
     places = []
     while len(places) < count:

@@ -25,6 +25,11 @@ struct Rule {
 bool noEstimate(const PlannerOptions& o) {
   return o.search.heuristic == Heuristic::ZERO;
 }
+// weighted_jump_point makes some where no heuristic is asked for.
+bool noLandmarks(const PlannerOptions& o) {
+  if (o.search.heuristic == Heuristic::LANDMARK) return false;
+  return o.planner != "weighted_jump_point" || o.search.heuristic != Heuristic::OCTILE;
+}
 bool noKernel(const PlannerOptions& o) {
   return o.costmap.kernel == 1;
 }
@@ -40,8 +45,7 @@ bool shortestAlready(const PlannerOptions& o) {
 constexpr Rule kRules[] = {
     {"heuristic_scale", "heuristic", noEstimate},
     {"epsilon", "heuristic", noEstimate},
-    {"landmarks", "heuristic",
-     [](const PlannerOptions& o) { return o.search.heuristic != Heuristic::LANDMARK; }},
+    {"landmarks", "heuristic", noLandmarks},
     {"unknown_weight", "unknown_is_passable",
      [](const PlannerOptions& o) { return !o.costmap.unknown_is_passable; }},
     {"occupied_weight", "occupied_is_passable",

@@ -54,6 +54,7 @@ CONTEXT = {
     "extent.h": "extern double x, y; extern CellRect cells; extern std::vector<BrickColumn> changed;"
                 "extern const OccupancyBricks& bricks; extern ProjectionOptions options;",
     "end_segments.h": "extern const CostGrid& costs; extern Eigen::Vector2d pose, centre;",
+    "paid_landmarks.h": "extern SearchResult result; extern const std::shared_ptr<const CostGrid> before, shared_map; extern std::size_t room; extern std::vector<CellRect> changed; extern std::uint32_t goal_index;",
     "bit_maps.h": "extern const CostGrid& map;",
     "map_differences.h": "extern const OccupancyGrid before, after;",
     "class_changes.h": """#include "grid_path_planner/costmap/cost_grid.h"
@@ -82,8 +83,7 @@ CONTEXT = {
         #include <nav_msgs/Path.h>
         extern std::uint8_t* bytes; extern std::uint32_t length; extern ros::NodeHandle nh;
         extern ros::Subscriber subscriber; void onPath(const nav_msgs::Path&);""",
-    "advertised_service.h": """#include "grid_path_planner/SaveFile.h"
-        extern ros::ServiceServer service; extern ros::NodeHandle private_nh; bool saveMap(SaveFile::Request&, SaveFile::Response&);""",
+    "advertised_service.h": "#include \"grid_path_planner/SaveFile.h\"\nextern ros::ServiceServer service; extern ros::NodeHandle private_nh; bool saveMap(SaveFile::Request&, SaveFile::Response&);",
     "service_caller.h": """#include <ros/service_server.h>
         #include <nav_msgs/GetPlan.h>
         extern ros::ServiceServer service; bool answered(); void waitAWhile();

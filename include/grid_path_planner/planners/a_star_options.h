@@ -50,9 +50,12 @@ void visitOptions(AStarOptions& o, Visitor&& visit) {
             "much a cell",
             ""});
   visit("landmarks", o.landmarks,
-        base::OptionInfo{"Cells from which heuristic landmark knows all costs; more: fewer cells "
-                         "expanded, 4 bytes a cell of the map and 2 whole-map searches each",
-                         "", 1, 64});
+        base::OptionInfo{
+            "Cells from which heuristic landmark knows all costs, and weighted_jump_point at most, "
+            "once its searches have cost as much as these tables; more: fewer cells expanded, 4 "
+            "bytes a "
+            "cell of the map and 2 whole-map searches each; 0: weighted_jump_point makes none",
+            "", 0, 64});
 }
 
 // The number that heuristic_scale gives; none for "cheapest". Throws InputError for anything else.

@@ -47,6 +47,8 @@ std::optional<double> heuristicScale(const AStarOptions& options) {
 void checkAStarOptions(const AStarOptions& options) {
   checkOptionLimits(options);
   heuristicScale(options);
+  if (options.heuristic == Heuristic::LANDMARK && options.landmarks == 0)
+    throw InputError("heuristic landmark needs landmarks of 1 or more, got 0");
 }
 
 }  // namespace grid_path_planner::planners

@@ -9,7 +9,6 @@
 #include "planners/core/keys.h"
 #include "planners/jump_point/jump_point.h"
 #include "planners/replanning/incremental_a_star.h"
-#include "planners/tables/precomputed_heuristic.h"
 
 namespace grid_path_planner::planners {
 
@@ -24,19 +23,12 @@ namespace {
 constexpr std::size_t kEarly = 64;
 constexpr std::size_t kLate = 65536;
 
-// Expansions of A* for which a search may make one more tile of the jumps: many at first, since most
-// maps see a few plans or idle time, fewer once A* has expanded as many cells as so many maps have.
-constexpr std::size_t kFirstTilePrice = 786432;
-constexpr std::size_t kTilePrice = 196608;
-constexpr std::size_t kMapsAtFirst = 8;
 // Tiles of a map of which all may be made at once.
 constexpr std::size_t kSmallMap = 8;
 // On maps of more, tiles far from each other touch so many new pages of memory that they cost more than
 // A*.
 constexpr std::size_t kMostCells = std::size_t{1} << 26;
-// Tiles that an update undid and that may be made again at once: in the time of 1 to 5 ms.
-constexpr std::uint64_t kMostRemade = 32;
-// Changes that the jumps have not followed yet: in the time of 1 to 5 ms, too.
+// Changes that the jumps have not followed yet: in the time of 1 to 5 ms.
 constexpr std::size_t kMostBehind = 16;
 // A search comes to more tiles than lie on the straight line to its goal, seldom to fewer than this
 // many times as many.
@@ -81,7 +73,8 @@ WeightedJumpPoint::WeightedJumpPoint(const AStarOptions& options)
     : Planner(declaredTraits()),
       options_(options),
       a_star_asked_for_(asksForAStar(options)),
-      landmarks_asked_for_(!a_star_asked_for_ && options.heuristic == Heuristic::LANDMARK) {
+      landmarks_asked_for_(!a_star_asked_for_ && options.heuristic == Heuristic::LANDMARK),
+      landmarks_(a_star_asked_for_ || landmarks_asked_for_ ? 0 : options.landmarks) {
   checkAStarOptions(options);
 }
 
@@ -102,42 +95,11 @@ bool WeightedJumpPoint::optimalFor(const CostGrid& map) const {
   return optimalWith(optionsOfAStar(map), map);
 }
 
-// A tree is no reason to refuse a map: it goes where memory is little.
-std::size_t WeightedJumpPoint::bytesFor(const GridGeometry& geometry) const {
-  const std::size_t searches = bytesOfSearches(geometry);
-  const std::size_t all = searches + (tree_.held() ? KeptSearchTree::bytesFor(geometry) : 0);
-  return all > memoryLimit() ? searches : all;
-}
-
-// Both where the substitute answers searches until the jumps are prepared.
-std::size_t WeightedJumpPoint::bytesOfSearches(const GridGeometry& geometry) const {
-  if (jumps_ready_ && substitute_) return bytesOfBoth();
-  const std::size_t one = std::max(WeightedJumpSearch::bytesFor(geometry), bytesOfAStar(geometry));
-  return a_star_asked_for_ ? one : std::max(one, JumpPoint().bytesFor(geometry));
-}
-
-// The jumps' and the substitute's.
-std::size_t WeightedJumpPoint::bytesOfBoth() const {
-  const GridGeometry& geometry = map().geometry();
-  return WeightedJumpSearch::bytesFor(geometry) +
-         (jumpPointSubstitutes() ? JumpPoint().bytesFor(geometry) : bytesOfAStar(geometry));
-}
-
-std::size_t WeightedJumpPoint::bytesOfAStar(const GridGeometry& geometry) const {
-  AStarOptions options = options_;
-  if (!a_star_asked_for_ && !landmarks_asked_for_) options.heuristic = Heuristic::BLOCKS;
-  return AStar(options).bytesFor(geometry);
-}
-
-std::string WeightedJumpPoint::lessMemoryAdvice() const {
-  const std::string advice = PrecomputedHeuristic::lessMemoryAdvice(options_);
-  return advice.empty() ? Planner::lessMemoryAdvice() : advice;
-}
-
 BackgroundWork WeightedJumpPoint::doBackgroundWork() {
   BackgroundWork work = substitute_ ? substitute_->backgroundWork() : BackgroundWork();
   work.pending = work.pending || estimatesLater() || !behind_.empty() ||
-                 (shouldJump() && !(jumps_ready_ && jumps_.finished())) || treeWanted();
+                 (shouldJump() && !(jumps_ready_ && jumps_.finished())) || treeWanted() ||
+                 (jumps_ready_ && landmarks_.wanted(map().geometry(), roomForLandmarks()));
   return work;
 }
 
@@ -151,11 +113,7 @@ void WeightedJumpPoint::doFinishBackgroundWork(const StopToken& stop) {
   }
   if (substitute_) substitute_->finishBackgroundWork(stop);
   if (treeWanted()) tree_.make(map(), stop);
-}
-
-bool WeightedJumpPoint::treeFits() const {
-  const GridGeometry& geometry = map().geometry();
-  return bytesOfSearches(geometry) + KeptSearchTree::bytesFor(geometry) <= memoryLimit();
+  if (jumps_ready_ && jumps_.finished()) landmarks_.make(sharedMap(), roomForLandmarks(), stop);
 }
 
 bool WeightedJumpPoint::treeWanted() const {
@@ -193,7 +151,8 @@ void WeightedJumpPoint::doPrepare(const StopToken& stop) {
   substitute_.reset();
   tree_.release();
   jumps_ready_ = sampled_ = counted_ = false;
-  tiles_left_ = paid_ = expanded_ = 0;
+  tiles_.reset();
+  landmarks_.release();
   jumps_.release();
   behind_.clear();
   bound_of_a_star_.prepare(map());
@@ -232,7 +191,7 @@ void WeightedJumpPoint::prepareJumps(const StopToken& stop) {
   jumps_.prepare(map(), stop, blockOfBound());
   bound_of_jumps_.prepare(map());
   jumps_ready_ = true;
-  if (isSmall()) tiles_left_ = 2 * kSmallMap;
+  if (isSmall()) tiles_.add(2 * kSmallMap);
 }
 
 void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const StopToken& stop) {
@@ -244,8 +203,12 @@ void WeightedJumpPoint::doUpdate(const std::vector<CellRect>& changed, const Sto
   if (jumps_ready_) updateJumps(changed, stop);
   if (substitute_) updateSubstitute(changed, stop);
   if (!jumps_ready_ && jumps && !map().uniform()) prepareJumps(stop);
-  if (map().uniform()) tree_.release();
+  if (map().uniform()) {
+    tree_.release();
+    landmarks_.release();
+  }
   tree_.update(previousMap(), map(), changed, stop);
+  landmarks_.update(previousMap(), sharedMap(), changed);
 }
 
 // Another one where the map has become one for the other kind.
@@ -271,17 +234,11 @@ void WeightedJumpPoint::catchUp(const StopToken& stop) {
   try {
     jumps_.update(map(), behind_, stop, blockOfBound());
   } catch (const Stopped&) {
-    payForUndone(ready - jumps_.tilesReady());
+    tiles_.addUndone(ready - jumps_.tilesReady());
     throw;
   }
   behind_.clear();
-  payForUndone(ready - jumps_.tilesReady());
-}
-
-// Few tiles that the changes undid are made anew by the searches that come to them: A* in their place
-// would take longer.
-void WeightedJumpPoint::payForUndone(std::uint64_t tiles) {
-  if (tiles <= kMostRemade) tiles_left_ += tiles;
+  tiles_.addUndone(ready - jumps_.tilesReady());
 }
 
 bool WeightedJumpPoint::isSmall() const {
@@ -314,19 +271,7 @@ std::uint64_t WeightedJumpPoint::mostTiles() const {
   constexpr auto kAll = std::numeric_limits<std::uint64_t>::max();
   if (jumps_.finished()) return kAll;
   if (bytesOfBoth() > memoryLimit()) return kAll;
-  return map().geometry().size() > kMostCells ? 0 : tiles_left_;
-}
-
-// What A* expanded pays for tiles: one is made in the time of some ten thousand expansions, and
-// little is lost if it is never used. JumpPoint's pay for none: where it answers, they are made in idle time.
-void WeightedJumpPoint::payForTiles(std::size_t expanded) {
-  if (substitute_jumps_ || map().geometry().size() > kMostCells) return;
-  expanded_ += expanded;
-  const bool at_first = expanded_ < kMapsAtFirst * map().geometry().size();
-  const std::size_t price = at_first ? kFirstTilePrice : kTilePrice;
-  paid_ += expanded;
-  tiles_left_ += paid_ / price;
-  paid_ %= price;
+  return map().geometry().size() > kMostCells ? 0 : tiles_.left();
 }
 
 // From the last search, which did not wait for it.
@@ -335,9 +280,11 @@ void WeightedJumpPoint::learnFromJumps(const StopToken& stop) {
   if (const auto evidence = jumps_.evidence(stop)) bound_of_jumps_.learn(*evidence);
 }
 
-// Once the substitute, which is A* then, has them.
+// Once the substitute, which is A* then, has those that are asked for, or others are paid for.
 std::optional<LandmarkBound> WeightedJumpPoint::landmarksTo(Cell goal) {
-  if (!landmarks_asked_for_ || !substitute_) return std::nullopt;
+  if (!landmarks_asked_for_)
+    return landmarks_.boundTo(map().geometry().index(goal).value(), kMediumScale);
+  if (!substitute_) return std::nullopt;
   return static_cast<AStar&>(*substitute_).landmarkBound(goal, kMediumScale);
 }
 
@@ -350,12 +297,12 @@ std::optional<SearchResult> WeightedJumpPoint::searchWithJumps(const SearchReque
   if (most < tilesExpected(request) && ready < tilesExpected(request)) return std::nullopt;
   learnFromJumps(stop);
   jumps_.makeBoundAfter(bound_of_jumps_.blocks() ? kEarly : kLate);
-  const auto spend = [&] { tiles_left_ -= std::min(tiles_left_, jumps_.tilesReady() - ready); };
+  const auto spend = [&] { tiles_.spend(jumps_.tilesReady() - ready); };
   try {
     SearchResult result =
         jumps_.run(map(), request, stop, most, landmarksTo(request.goals.front()));
     spend();
-    if (landmarks_asked_for_) result.statistics.search_bytes += bytesOfTables();
+    result.statistics.search_bytes += bytesOfTables();
     return result;
   } catch (const TooManyTiles&) {
     spend();
@@ -366,7 +313,7 @@ std::optional<SearchResult> WeightedJumpPoint::searchWithJumps(const SearchReque
 
 SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const StopToken& stop) {
   if (a_star_asked_for_ || map().uniform()) return searchAnew(request, stop);
-  if (tree_.held() && !treeFits()) tree_.release();
+  releaseBesideSearches();
   SearchResult by_tree;
   if (tree_.search(map(), request, by_tree, stop)) {
     by_tree.answered_by = IncrementalAStar::declaredTraits().name;
@@ -375,6 +322,7 @@ SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const Sto
   SearchResult result = searchAnew(request, stop);
   const bool by_jumps = result.answered_by.empty();
   const std::uint64_t cells = result.statistics.expanded * (by_jumps ? kCellsOfAJump : 1);
+  landmarks_.pay(cells);
   if (result.status == Status::FOUND && cells >= kLeastForTree)
     tree_.searched(map(), request, cells);
   result.statistics += by_tree.statistics;
@@ -383,7 +331,7 @@ SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const Sto
 }
 
 SearchResult WeightedJumpPoint::searchAnew(const SearchRequest& request, const StopToken& stop) {
-  if (tiles_left_ > 0 && !jumps_ready_ && !map().uniform()) {
+  if (tiles_.left() > 0 && !jumps_ready_ && !map().uniform()) {
     sampleLate(stop);
     if (shouldJump()) prepareJumps(stop);
   }
@@ -393,7 +341,9 @@ SearchResult WeightedJumpPoint::searchAnew(const SearchRequest& request, const S
   }
   if (!substitute_) prepareSubstitute(stop);
   SearchResult result = substitute_->search(request, stop);
-  payForTiles(result.statistics.expanded);
+  // JumpPoint's pay for none: where it answers, tiles are made in idle time.
+  const std::size_t cells = map().geometry().size();
+  if (!substitute_jumps_ && cells <= kMostCells) tiles_.pay(result.statistics.expanded, cells);
   return result;
 }
 

@@ -25,6 +25,10 @@
 // least-cost paths it finds depends on the calls before, as that of incremental_a_star does, which
 // `answered_by` names then.
 //
+// Searches that have taken as long as tables of landmarks take are followed by such tables, on maps of several
+// weights where jumps pay: finishBackgroundWork() has them made, and they bound the jumps from then on
+// (planners/jump_point/paid_landmarks.h).
+//
 // On maps of one weight JumpPoint answers, whose bits are made in the time in which A* is prepared, and
 // on random noise A*. There finishBackgroundWork() prepares the jumps where they are faster, once they
 // are there; elsewhere nothing more is prepared, and searches stay as they are
@@ -45,7 +49,9 @@
 #include "planners/astar/a_star.h"
 #include "planners/astar/bound_choice.h"
 #include "planners/jump_point/jump_point_density.h"
+#include "planners/jump_point/paid_landmarks.h"
 #include "planners/jump_point/pruning_estimate.h"
+#include "planners/jump_point/tile_budget.h"
 #include "planners/jump_point/weighted_jump_search.h"
 #include "planners/replanning/kept_search_tree.h"
 
@@ -76,7 +82,6 @@ class WeightedJumpPoint : public Planner {
   void learnFromJumps(const base::StopToken& stop);
   void updateJumps(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
   void catchUp(const base::StopToken& stop);
-  void payForUndone(std::uint64_t tiles);
   bool mayJump() const;
   bool estimatesLater() const;
   void sampleLate(const base::StopToken& stop);
@@ -86,15 +91,17 @@ class WeightedJumpPoint : public Planner {
   std::size_t bytesOfBoth() const;
   bool isSmall() const;
   std::size_t bytesOfSearches(const grid::GridGeometry& geometry) const;
+  std::size_t bytesBesideSearches(const grid::GridGeometry& geometry) const;
+  void releaseBesideSearches();
+  std::size_t roomForLandmarks() const;
   bool treeFits() const;
   bool treeWanted() const;
   std::uint64_t mostTiles() const;
-  void payForTiles(std::size_t expanded);
   void estimate(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
   void prepareJumps(const base::StopToken& stop);
   void prepareSubstitute(const base::StopToken& stop);
   std::optional<LandmarkBound> landmarksTo(grid::Cell goal);
-  std::size_t bytesOfTables() { return substitute_ ? substitute_->backgroundWork().bytes : 0; }
+  std::size_t bytesOfTables();
   void updateSubstitute(const std::vector<grid::CellRect>& changed, const base::StopToken& stop);
   bool jumpPointSubstitutes() const;
   AStarOptions optionsOfAStar(const costmap::CostGrid& map) const;
@@ -109,14 +116,13 @@ class WeightedJumpPoint : public Planner {
   bool sampled_ = false;      // pruning_ is of the map
   bool counted_ = false;      // density_ is
   bool jumps_ready_ = false;
-  std::uint64_t tiles_left_ = 0;  // that searches may make
-  std::size_t paid_ = 0;          // expansions of A* towards the next one
-  std::size_t expanded_ = 0;      // by A* since the map is prepared
+  TileBudget tiles_;  // of jumps_
   WeightedJumpSearch jumps_;
   std::vector<grid::CellRect> behind_;   // changes that jumps_ has not followed yet
   std::unique_ptr<Planner> substitute_;  // A* or JumpPoint; null until it is prepared
   bool substitute_jumps_ = false;        // it is JumpPoint
   KeptSearchTree tree_;
+  PaidLandmarks landmarks_;  // for the jumps
 };
 
 }  // namespace grid_path_planner::planners

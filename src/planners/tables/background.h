@@ -4,12 +4,16 @@
 //   making.start([map](const StopToken& stop) { return Table(*map, stop); });
 //   if (std::shared_ptr<const Table> table = making.take()) use(*table);
 //
+// The thread gives way to others of the process (nice 10): searches go on beside it.
+//
 // A computation that is no longer needed is stopped by its token, so it should check it often. One
 // that throws Stopped or std::bad_alloc gives no result; any other exception ends the program, as
 // it would without a thread.
 //
 // start(), take(), wait() and the destructor belong to one thread.
 #pragma once
+
+#include <sys/resource.h>
 
 #include <chrono>
 #include <condition_variable>
@@ -39,6 +43,7 @@ class Background {
     stop();
     source_ = base::StopSource();
     auto work = [this, compute = std::move(compute), token = source_.token()]() mutable {
+      setpriority(PRIO_PROCESS, 0, kNiceness);  // on Linux of this thread alone
       std::shared_ptr<const Result> result;
       try {
         result = std::make_shared<const Result>(compute(token));
@@ -87,6 +92,8 @@ class Background {
   }
 
  private:
+  static constexpr int kNiceness = 10;
+
   mutable std::mutex mutex_;
   mutable std::condition_variable ended_;
   std::shared_ptr<const Result> result_;

@@ -52,18 +52,28 @@ class PrecomputedTable {
   }
 
   // `map` differs from `before`, the one of the last call, only inside `changed`: rectangles in the
-  // map.
+  // map. Begins a new table where the one that is there is worn.
   void update(const costmap::CostGrid& before, std::shared_ptr<const costmap::CostGrid> map,
+              const std::vector<grid::CellRect>& changed) {
+    follow(before, *map, changed);
+    if (worn()) begin(std::move(map));
+  }
+
+  // The same without a new table.
+  void follow(const costmap::CostGrid& before, const costmap::CostGrid& map,
               const std::vector<grid::CellRect>& changed) {
     adopt();
     for (const grid::CellRect& rect : changed) {
-      const Change change = {rect, costDecreases(before, *map, rect)};
+      const Change change = {rect, costDecreases(before, map, rect)};
       add(change);
       if (begun_) since_begin_.push_back(change);
     }
-    if (!begun_ && made_ &&
-        (!decreases_.usable() || looseAfter(geometry_, changed_cells_, decreases_.hull())))
-      begin(std::move(map));
+  }
+
+  // Whether the map has changed so much that the bounds are loose, and no new table is being made.
+  bool worn() const {
+    return !begun_ && made_ &&
+           (!decreases_.usable() || looseAfter(geometry_, changed_cells_, decreases_.hull()));
   }
 
   // Null while there is no table that can be used. Both hold until the next call of another method.
