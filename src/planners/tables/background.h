@@ -4,7 +4,7 @@
 //   making.start([map](const StopToken& stop) { return Table(*map, stop); });
 //   if (std::shared_ptr<const Table> table = making.take()) use(*table);
 //
-// The thread gives way to others of the process (nice 10): searches go on beside it.
+// The thread has a low priority (nice 10), so that searches go on beside it.
 //
 // A computation that is no longer needed is stopped by its token, so it should check it often. One
 // that throws Stopped or std::bad_alloc gives no result; any other exception ends the program, as
