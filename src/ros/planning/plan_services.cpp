@@ -122,7 +122,8 @@ bool PlanServices::makePlan(MakePlan& call) {
   plan_request.goal = request.goal;
   if (request.tolerance != 0.0F) plan_request.tolerance = request.tolerance;
   const auto ticket = server_.ask(plan_request, PlanningServer::Publish::YES);
-  waitForAnswer(*ticket, caller);
+  while (!ticket->waitForPoses(kAsksCaller))
+    if (caller.gone()) ticket->cancel();
   call.getResponse().plan = pathToMessage(ticket->poses(), ros::Time::now());
   return true;
 }

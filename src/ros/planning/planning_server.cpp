@@ -57,6 +57,18 @@ void PlanningServer::setOptions(const PathPlannerNodeOptions& options) {
   settings_ = {options, settings_.revision + 1};
 }
 
+bool PlanTicket::waitForPoses(std::chrono::duration<double> limit) const {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (told_.wait_for(lock, limit, [this] { return has_poses_; })) return true;
+  return task_->waitFor(std::chrono::duration<double>(0.0));
+}
+
+void PlanTicket::tellPoses() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  has_poses_ = true;
+  told_.notify_all();
+}
+
 std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& request, Publish publish,
                                                 Explain explain) {
   auto ticket = std::make_shared<PlanTicket>();
@@ -109,24 +121,25 @@ void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, 
   ticket.via_ = question_lane_.plan(
       request, options, stop, [&](const char* phase) { ticket.phase_ = phase; }, ticket.map_);
   Plan plan = std::move(ticket.via_.plan);
-  record(question_lane_, plan, options);
   if (publish == Publish::YES || explain == Explain::YES) {
     ticket.explanation_ = question_lane_.explain(
         request, plan.status, options, stop, explain == Explain::YES ? kExplains : kExplainsAtOnce);
     if (!ticket.explanation_.text.empty()) plan.message += "; " + ticket.explanation_.text;
   }
   try {
-    ticket.statistics_ = question_lane_.statistics(plan, request, options);
     ticket.poses_ = question_lane_.posesAlong(plan, options);
+    const bool published = publish == Publish::YES && !stop.cancelled();
+    if (published) remember(plan);
+    ticket.tellPoses();
+    record(question_lane_, plan, options);
+    ticket.statistics_ = question_lane_.statistics(plan, request, options);
     ticket.plan_ = std::move(plan);
-    if (publish == Publish::YES && !stop.cancelled()) {
-      remember(ticket.plan_);
-      this->publish(question_lane_, ticket.plan_, ticket.statistics_);
-    }
+    if (published) this->publish(question_lane_, ticket.plan_, ticket.statistics_);
   } catch (...) {
     ticket.plan_ =
         failedPlan(Status::INVALID_REQUEST, "the request was given up: " + currentErrorText());
     ticket.statistics_ = statisticsMessage(ticket.plan_);
+    ticket.tellPoses();
   }
 }
 

@@ -12,6 +12,8 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -40,6 +42,8 @@ class PlanTicket {
   void wait() const { task_->wait(); }
   // Whether the answer is there before `limit` passed (steady clock).
   bool waitFor(std::chrono::duration<double> limit) const { return task_->waitFor(limit); }
+  // Whether poses() is there before `limit` passed: before what else is told of the plan is measured.
+  bool waitForPoses(std::chrono::duration<double> limit) const;
   // Precondition of these: the wait is over. The path's frame is that of the map; the statistics
   // have no stamp. CANCELLED where the server ended before.
   const planning::Plan& plan() const { return plan_; }
@@ -55,6 +59,8 @@ class PlanTicket {
 
  private:
   friend class PlanningServer;
+  void tellPoses();
+
   std::atomic<const char*> phase_{"waiting"};
   planning::Plan plan_ = planning::failedPlan(base::Status::CANCELLED, "planning was cancelled");
   planning::ViaPlan via_;
@@ -63,6 +69,9 @@ class PlanTicket {
   std::uint64_t map_ = 0;  // the revision of the newest when it was handed in
   planning::Explanation explanation_;
   std::shared_ptr<base::TaskQueue::Task> task_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable told_;
+  bool has_poses_ = false;
 };
 
 class PlanningServer {
