@@ -8,6 +8,7 @@
 
 #include "ros/common/clock.h"
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/master/system_state.h"
 #include "ros/common/velocity_message.h"
 
 namespace grid_path_planner::nodes {
@@ -49,6 +50,7 @@ FlightCommander::FlightCommander(const ros::NodeHandle& nh, const LocalPlannerOp
       own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
   manual_subscriber_ = subscribeChecked<std_msgs::Bool>(
       own, "manual_control", 1, [this](const std_msgs::Bool& message) { onManual(message); });
+  waitForPublishers(stop_subscriber_);
   thread_.start(options.control_rate, options.realtime_priority);
 }
 

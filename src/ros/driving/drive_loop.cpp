@@ -9,6 +9,7 @@
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/master/system_state.h"
 #include "ros/common/velocity_message.h"
 
 namespace grid_path_planner::nodes {
@@ -66,6 +67,7 @@ DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& optio
       own, "manual_control", 1, [this](const std_msgs::Bool& message) { onManual(message); });
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
       own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
+  waitForPublishers(stop_subscriber_);
   thread_.start(options_.control_rate, options_.realtime_priority);
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/master/system_state.h"
 #include "ros/common/velocity_message.h"
 
 namespace grid_path_planner::nodes {
@@ -42,6 +43,7 @@ JoystickLoop::~JoystickLoop() {
 void JoystickLoop::start() {
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
       nh_, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
+  waitForPublishers(stop_subscriber_);
   joy_subscriber_ = subscribeChecked<sensor_msgs::Joy>(
       nh_, "joy", 10, [this](const sensor_msgs::Joy& message) { onJoy(message); });
   thread_.start(options_.command_rate, options_.realtime_priority);

@@ -98,7 +98,7 @@ def is_zero(twist):
 
 
 class RunningCommander(RunningNode):
-    """One that is fed. `commands` has all velocities that it gave, as (monotonic s, topic, Twist)."""
+    """One that is fed. `stopped`: what the topic `stop` has said before it starts. `commands` has all velocities that it gave, as (monotonic s, topic, Twist)."""
 
     def __init__(self, name, kind, clock, folder, stopped=False, master=None):
         from std_msgs.msg import Bool
@@ -106,7 +106,8 @@ class RunningCommander(RunningNode):
         self.velocities = {topic for topic, kind in NODES[name].outputs.items() if kind in VELOCITIES}
         self.environment = dict(os.environ, ROS_MASTER_URI=master) if master else None
         self.stops = rospy.Publisher("/%s_as_%s/stop" % (name, kind), Bool, queue_size=1, latch=True)
-        self.stops.publish(stopped)
+        if stopped is not None:
+            self.stops.publish(stopped)
         super().__init__(name, NODES[name]._replace(arguments=self.table.arguments), kind, clock, folder)
         threading.Thread(target=self.feed, daemon=True).start()
 

@@ -15,6 +15,7 @@ from std_msgs.msg import Bool
 
 import node_probes as probes
 from commanders import COMMANDERS, VELOCITIES, CommanderTest, RunningCommander
+from late_publisher import LatePublisher
 from node_table import NODES
 from own_master import start_own_master
 from running_nodes import PACKAGE
@@ -22,6 +23,7 @@ from running_nodes import PACKAGE
 DEADLINE = 60.0   # s
 QUIET = 1.0       # s without a motion: it stands
 END_SECONDS = 10.0
+LATE = 0.7        # s, within what a node waits for a publisher that is known
 DRIVERS = [name for name in COMMANDERS if "manual_control" in NODES[name].inputs]
 
 
@@ -87,6 +89,19 @@ class EveryCommander(CommanderTest):
             self.assertTrue(self.stays(node, offer), name)
             node.stop(False)
             self.assertTrue(self.moves(node), "%s: %s" % (name, self.said(node)))
+
+    def test_a_stop_from_before_its_start_that_comes_late_holds_it(self):
+        """Over a slow connection; teleop_joy drove until it was there."""
+        for name in COMMANDERS:
+            late = LatePublisher("/%s_as_process/stop" % name, True, LATE)
+            self.addCleanup(late.close)
+            node = self.commander(name, stopped=None)
+            offer = lambda node=node: node.table.offer(node)
+            self.assertTrue(probes.until(node, lambda: node.is_connected() and late.heard > 0,
+                                         time.monotonic() + DEADLINE, offer, 0.1), name)
+            self.assertTrue(self.stays(node, offer), name)
+            self.assertFalse(node.moved_after(0.0), "%s drove before it was told to stop" % name)
+            node.end(signal.SIGTERM)
 
     def test_what_ceases_stops_it(self):
         for name, row in COMMANDERS.items():

@@ -3,6 +3,9 @@
 #include <ros/this_node.h>
 #include <xmlrpcpp/XmlRpcException.h>
 
+#include <chrono>
+#include <thread>
+
 #include "ros/common/master/xmlrpc_call.h"
 
 namespace grid_path_planner::nodes {
@@ -35,6 +38,17 @@ std::optional<SystemState> systemState(double seconds) {
   const auto lists =
       callXmlRpc(masterUri(), "getSystemState", {XmlRpcValue(ros::this_node::getName())}, seconds);
   return lists ? systemStateOf(*lists) : std::nullopt;
+}
+
+void waitForPublishers(const ros::Subscriber& subscriber, double seconds) {
+  using SteadyClock = std::chrono::steady_clock;
+  const auto end = SteadyClock::now() + std::chrono::duration<double>(seconds);
+  const auto state = systemState(seconds);
+  if (!state) return;
+  const auto known = state->publishers.find(subscriber.getTopic());
+  if (known == state->publishers.end()) return;
+  while (subscriber.getNumPublishers() < known->second.size() && SteadyClock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
 }
 
 }  // namespace grid_path_planner::nodes

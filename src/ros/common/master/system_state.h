@@ -1,6 +1,7 @@
 // Who publishes and offers what, as the master knows it.
 #pragma once
 
+#include <ros/subscriber.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <map>
@@ -23,6 +24,14 @@ std::optional<SystemState> systemStateOf(XmlRpc::XmlRpcValue lists);
 
 // None where the master does not answer within `seconds`.
 std::optional<SystemState> systemState(double seconds);
+
+// Publishers answer within milliseconds; one that was killed never does, and the master knows it on.
+constexpr double kLongestWaitForPublishers = 1.0;  // s
+
+// Returns once `subscriber` is connected with as many publishers as the master knows of its topic, or after
+// `seconds` of the steady clock: what they have latched follows at once. At once where the master does not answer.
+void waitForPublishers(const ros::Subscriber& subscriber,
+                       double seconds = kLongestWaitForPublishers);
 
 // Again and again, `times` at most, until there is an answer or the node is to end.
 template <class Ask>
