@@ -98,6 +98,15 @@ std::size_t MultiResolutionPlanner::bytes() const {
   return bytes;
 }
 
+void MultiResolutionPlanner::releaseOptionalMemory() {
+  planner_->releaseOptionalMemory();
+  if (finer_planner_) finer_planner_->releaseOptionalMemory();
+}
+
+void MultiResolutionPlanner::makeRoomFor(std::size_t bytes) {
+  if (this->bytes() + bytes > memory_limit_) releaseOptionalMemory();
+}
+
 std::size_t MultiResolutionPlanner::bytesFor(const GridGeometry& downsampled) const {
   return std::max(bytes(), planner_->bytesFor(downsampled));
 }
@@ -169,9 +178,11 @@ Route MultiResolutionPlanner::findOnKernelOne(Cell start, Cell goal, bool record
 
 SearchResult MultiResolutionPlanner::searchOpenBlock(Cell from, Cell other, const Blocks& wanted,
                                                      bool record_expanded, const StopToken& stop) {
-  if (!open_block_map_ &&
-      bytes() + BucketSearch::bytesFor(full_resolution_->geometry()) > memory_limit_)
-    return tooLarge();
+  if (!open_block_map_) {
+    const std::size_t needed = BucketSearch::bytesFor(full_resolution_->geometry());
+    makeRoomFor(needed);
+    if (bytes() + needed > memory_limit_) return tooLarge();
+  }
   if (!open_block_search_) open_block_search_ = std::make_unique<BucketSearch>();
   if (open_block_map_ != full_resolution_) {
     open_block_map_.reset();
@@ -243,6 +254,7 @@ Route MultiResolutionPlanner::findAtFullResolution(Cell start, Cell goal, bool r
   if (!finer_planner_) finer_planner_ = make_planner_(planner_name_, options_);
   if (finer_map_ != full_resolution_) {
     finer_map_.reset();
+    makeRoomFor(finer_planner_->bytesFor(full_resolution_->geometry()));
     finer_planner_->limitMemory(memory_limit_ - std::min(memory_limit_, bytes()));
     finer_planner_->prepare(full_resolution_, stop);
     finer_map_ = full_resolution_;

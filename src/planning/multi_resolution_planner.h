@@ -41,6 +41,8 @@ class MultiResolutionPlanner {
   void limitMemory(std::size_t bytes) { memory_limit_ = bytes; }
   // Memory that they may take on the maps that they are prepared for.
   std::size_t bytes() const;
+  // As Planner::releaseOptionalMemory().
+  void releaseOptionalMemory();
   // The same once prepare() was called for a costmap of this geometry.
   std::size_t bytesFor(const grid::GridGeometry& downsampled) const;
 
@@ -69,6 +71,8 @@ class MultiResolutionPlanner {
                                       const base::StopToken& stop);
 
  private:
+  // Frees what is optional where so many more are not left.
+  void makeRoomFor(std::size_t bytes);
   grid::Cell blockOf(grid::Cell cell) const {
     return {cell.column / downsampled_->kernel(), cell.row / downsampled_->kernel()};
   }

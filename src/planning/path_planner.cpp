@@ -290,6 +290,7 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     CostmapPair maps = asked_for;
     makeRoom(maps);
     Lowered* lowered = loweredFor(*maps.full_resolution, request);
+    if ((lowered || footprint_) && bytes() > memoryLimit() / 2) searches_->releaseOptionalMemory();
     if (lowered) maps = loweredCosts(*lowered, token);
     MultiResolutionPlanner& search = lowered ? lowered->search : this->search();
     search.prepare(maps, token);

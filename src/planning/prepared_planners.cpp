@@ -37,7 +37,14 @@ void PreparedPlanners::followOthers(const CostmapPair& maps, const StopToken& st
   }
 }
 
+void PreparedPlanners::releaseOptionalMemory() {
+  for (Entry& each : entries_) each.search.releaseOptionalMemory();
+}
+
 void PreparedPlanners::keepWithin(std::size_t bytes, std::size_t bytes_of_current) {
+  if (bytes_of_current + bytesOfOthers() > bytes)
+    for (auto each = std::next(entries_.begin()); each != entries_.end(); ++each)
+      each->search.releaseOptionalMemory();
   while (entries_.size() > 1 && bytes_of_current + bytesOfOthers() > bytes) entries_.pop_back();
 }
 

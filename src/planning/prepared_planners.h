@@ -39,7 +39,9 @@ class PreparedPlanners {
   // by a later call.
   void followOthers(const CostmapPair& maps, const base::StopToken& stop);
 
-  // Gives up others until all take at most `bytes`, of which the current one takes
+  // As Planner::releaseOptionalMemory(), of all.
+  void releaseOptionalMemory();
+  // What is optional of others goes, then others do, until all take at most `bytes`, of which the current one takes
   // `bytes_of_current`.
   void keepWithin(std::size_t bytes, std::size_t bytes_of_current);
   // That the others hold.

@@ -53,9 +53,10 @@ TEST(Drive, TellsItsStartItsMiddleAndItsEndOnceEach) {
   EXPECT_EQ(loop.waypointsOf(Kind::STARTED).size(), 1u);
   EXPECT_EQ(loop.waypointsOf(Kind::HALFWAY), std::vector<int>{2});
   EXPECT_EQ(loop.waypointsOf(Kind::ENDED), std::vector<int>{3});
-  for (const FollowEvent& event : loop.events)
-    if (event.kind == Kind::HALFWAY)
-      EXPECT_NE(event.message.find("waypoint 3 of 4 is next"), std::string::npos) << event.message;
+  for (const FollowEvent& event : loop.events) {
+    if (event.kind != Kind::HALFWAY) continue;
+    EXPECT_NE(event.message.find("waypoint 3 of 4 is next"), std::string::npos) << event.message;
+  }
 }
 
 // follow_waypoints #15, #7: the vehicle stopped at every point.

@@ -67,7 +67,11 @@ TEST(UnusedOptions, WhatThePlannerDoesNotLookAt) {
 }
 
 TEST(UnusedOptions, WhatTheHeuristicDoesNotLookAt) {
-  EXPECT_EQ(unusedWith({{"landmarks", "4"}}), (Lines{"landmarks: heuristic octile"}));
+  EXPECT_EQ(unusedWith({{"landmarks", "4"}, {"planner", "a_star"}}),
+            (Lines{"landmarks: heuristic octile"}));
+  EXPECT_EQ(unusedWith({{"landmarks", "4"}, {"heuristic", "zero"}}),
+            (Lines{"landmarks: heuristic zero"}));
+  EXPECT_EQ(unusedWith({{"landmarks", "4"}}), Lines());  // of paid ones
   EXPECT_EQ(unusedWith({{"landmarks", "4"}, {"heuristic", "landmark"}}), Lines());
   EXPECT_EQ(unusedWith({{"heuristic", "zero"}, {"epsilon", "2"}, {"heuristic_scale", "3"}}),
             (Lines{"heuristic_scale: heuristic zero", "epsilon: heuristic zero"}));

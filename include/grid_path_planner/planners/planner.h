@@ -91,6 +91,9 @@ class Planner {
   // and search() gives INVALID_REQUEST with both figures.
   void limitMemory(std::size_t bytes) { memory_limit_ = bytes; }
 
+  // Frees what bytesFor() counts and searches can do without, at once: for others that cannot.
+  virtual void releaseOptionalMemory() {}
+
   // Stores the map and computes what the planner needs of it; nothing for a map that it cannot
   // search. Throws Stopped.
   void prepare(std::shared_ptr<const costmap::CostGrid> map, const base::StopToken& stop);

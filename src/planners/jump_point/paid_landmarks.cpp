@@ -27,8 +27,8 @@ void PaidLandmarks::release() {
 
 std::size_t PaidLandmarks::bytes() const {
   if (!tables_) return 0;
-  return tables_->work().pending ? LandmarkTable::makingBytesFor(geometry_, made_)
-                                 : LandmarkTable::bytesFor(geometry_, made_);
+  return tables_->work().pending ? LandmarkTable::makingBytesFor(geometry_, count_)
+                                 : tables_->work().bytes;
 }
 
 // As many as memory holds; 0 where that is too few.
@@ -38,12 +38,18 @@ int PaidLandmarks::affordable(const GridGeometry& geometry, std::size_t room) co
     return LandmarkTable::bytesFor(geometry, count) <= kMostBytes &&
            LandmarkTable::makingBytesFor(geometry, count) <= room;
   };
-  while (count >= kFewest && !fits()) count -= LandmarkTable::kLanes;
+  while (count >= kFewest && !fits())
+    count = (count - 1) / LandmarkTable::kLanes * LandmarkTable::kLanes;
   return count >= std::min(kFewest, most_) && fits() ? count : 0;
 }
 
+// Tables that are worn when they are made, or of which nothing came, are paid for again.
 bool PaidLandmarks::wanted(const GridGeometry& geometry, std::size_t room) {
-  if (tables_) return tables_->work().pending;
+  if (tables_) {
+    if (tables_->work().pending) return true;
+    if (tables_->made() && !tables_->worn()) return false;
+    release();
+  }
   const int count = affordable(geometry, room);
   return count > 0 && paid_ >= kSearchesEach * static_cast<std::size_t>(count) * geometry.size();
 }
@@ -53,9 +59,9 @@ void PaidLandmarks::make(std::shared_ptr<const CostGrid> map, std::size_t room,
   if (!wanted(map->geometry(), room)) return;
   if (!tables_) {
     geometry_ = map->geometry();
-    made_ = affordable(geometry_, room);
+    count_ = affordable(geometry_, room);
     tables_ = std::make_unique<PrecomputedTable<LandmarkTable>>(
-        [count = made_](const CostGrid& costs, const StopToken& end) {
+        [count = count_](const CostGrid& costs, const StopToken& end) {
           return LandmarkTable(costs, count, end);
         });
     tables_->prepare(std::move(map));
@@ -73,7 +79,7 @@ void PaidLandmarks::update(const CostGrid& before, std::shared_ptr<const CostGri
 
 std::optional<LandmarkBound> PaidLandmarks::boundTo(std::uint32_t goal, const KeyScale& scale) {
   const LandmarkTable* table = tables_ ? tables_->ready() : nullptr;
-  if (!table) return std::nullopt;
+  if (!table || table->landmarks().empty()) return std::nullopt;
   return LandmarkBound(*table, tables_->decreases(), goal, scale);
 }
 

@@ -55,7 +55,7 @@ class PaidLandmarks {
   int most_;
   std::size_t paid_ = 0;  // expansions since there are none
   grid::GridGeometry geometry_;
-  int made_ = 0;  // landmarks of the tables, or of those that are made
+  int count_ = 0;  // of landmarks, as asked for
   std::unique_ptr<PrecomputedTable<LandmarkTable>> tables_;
 };
 

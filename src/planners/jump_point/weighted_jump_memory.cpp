@@ -20,17 +20,16 @@ std::size_t WeightedJumpPoint::bytesBesideSearches(const GridGeometry& geometry)
   return (tree_.held() ? KeptSearchTree::bytesFor(geometry) : 0) + landmarks_.bytes();
 }
 
-void WeightedJumpPoint::releaseBesideSearches() {
-  const GridGeometry& geometry = map().geometry();
-  if (bytesOfSearches(geometry) + bytesBesideSearches(geometry) <= memoryLimit()) return;
+void WeightedJumpPoint::releaseOptionalMemory() {
   tree_.release();
   landmarks_.release();
 }
 
+// So much that another planner like this one fits beside it, and as much again is left.
 std::size_t WeightedJumpPoint::roomForLandmarks() const {
   const GridGeometry& geometry = map().geometry();
   const std::size_t taken = bytesOfSearches(geometry) + KeptSearchTree::bytesFor(geometry);
-  return memoryLimit() - std::min(memoryLimit(), taken);
+  return (memoryLimit() - std::min(memoryLimit(), 2 * taken)) / 2;
 }
 
 // Both where the substitute answers searches until the jumps are prepared.

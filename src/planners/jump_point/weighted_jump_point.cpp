@@ -313,7 +313,9 @@ std::optional<SearchResult> WeightedJumpPoint::searchWithJumps(const SearchReque
 
 SearchResult WeightedJumpPoint::doSearch(const SearchRequest& request, const StopToken& stop) {
   if (a_star_asked_for_ || map().uniform()) return searchAnew(request, stop);
-  releaseBesideSearches();
+  const grid::GridGeometry& geometry = map().geometry();
+  if (bytesOfSearches(geometry) + bytesBesideSearches(geometry) > memoryLimit())
+    releaseOptionalMemory();
   SearchResult by_tree;
   if (tree_.search(map(), request, by_tree, stop)) {
     by_tree.answered_by = IncrementalAStar::declaredTraits().name;

@@ -27,7 +27,7 @@
 //
 // Searches that have taken as long as tables of landmarks take are followed by such tables, on maps of several
 // weights where jumps pay: finishBackgroundWork() has them made, and they bound the jumps from then on
-// (planners/jump_point/paid_landmarks.h).
+// (planners/jump_point/paid_landmarks.h). They and the tree take memory that others do not need, and give it back.
 //
 // On maps of one weight JumpPoint answers, whose bits are made in the time in which A* is prepared, and
 // on random noise A*. There finishBackgroundWork() prepares the jumps where they are faster, once they
@@ -66,6 +66,8 @@ class WeightedJumpPoint : public Planner {
 
   std::size_t bytesFor(const grid::GridGeometry& geometry) const override;
   bool optimalFor(const costmap::CostGrid& map) const override;
+  // The tree of a goal and paid landmarks.
+  void releaseOptionalMemory() override;
 
  private:
   std::string lessMemoryAdvice() const override;
@@ -92,7 +94,6 @@ class WeightedJumpPoint : public Planner {
   bool isSmall() const;
   std::size_t bytesOfSearches(const grid::GridGeometry& geometry) const;
   std::size_t bytesBesideSearches(const grid::GridGeometry& geometry) const;
-  void releaseBesideSearches();
   std::size_t roomForLandmarks() const;
   bool treeFits() const;
   bool treeWanted() const;

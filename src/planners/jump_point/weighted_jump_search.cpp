@@ -112,7 +112,7 @@ void WeightedJumpSearch::startQuery(const CostGrid& map, const SearchRequest& re
 SearchResult WeightedJumpSearch::search(const SearchRequest& request, const StopToken& stop) {
   SearchResult result;
   StopPoll poll(stop, kExpansionsBetweenPolls);
-  if (landmarks_ && (*landmarks_)(indexOf(request.start)) == kInfiniteKey)
+  if (landmarks_ && landmarks_->separates(indexOf(request.start)))
     return withStatus(Status::UNREACHABLE, std::move(result));
   if (request.record_expanded) result.expanded.emplace_back(indexOf(request.start));
   expandStart(request.start);

@@ -92,7 +92,7 @@ class LandmarkTable::Making {
     if (choose(landmarks)) return;
     beginAnew();
     table_.wide_ = true;
-    if (!choose(table_.stride())) beginAnew();
+    if (!choose(table_.stride())) table_.landmarks_.clear();
   }
 
  private:
@@ -259,9 +259,12 @@ LandmarkTable::LandmarkTable(const CostGrid& map, int landmarks, const StopToken
   try {
     Making(*this, map, stop).run(landmarks);
   } catch (const TooExpensive&) {
-    memory_.clear();
     landmarks_.clear();
   }
+  if (!landmarks_.empty()) return;
+  row_bytes_ = 0;
+  memory_ = base::ZeroedArray<unsigned char>(kCacheLine);  // all rows are the same one
+  rows_ = &memory_[0];
 }
 
 WideCost LandmarkTable::entry(std::uint32_t index, int landmark) const {
@@ -342,7 +345,7 @@ SearchKey CostDecreases::least(const LandmarkTable& table, std::uint32_t index,
 
 LandmarkBound::LandmarkBound(const LandmarkTable& table, const CostDecreases& decreases,
                              std::uint32_t goal, const KeyScale& scale)
-    : table_(table), decreases_(decreases), scale_(scale) {
+    : table_(table), decreases_(decreases), scale_(scale), goal_(goal) {
   if (table.wide())
     wide_goal_row_.assign(table.wideRow(goal), table.wideRow(goal) + table.stride());
   else
@@ -360,6 +363,14 @@ SearchKey LandmarkBound::operator()(std::uint32_t index) const {
                                     scale_);
   if (decreases_.empty()) return unchanged;
   return std::min(unchanged, decreases_.least(table_, index, scale_) + goal_to_decreases_);
+}
+
+bool LandmarkBound::separates(std::uint32_t index) const {
+  if (!decreases_.empty()) return false;
+  for (int i = 0; i < table_.stride(); ++i)
+    if ((table_.entry(index, i) == kNoWideCost) != (table_.entry(goal_, i) == kNoWideCost))
+      return true;
+  return false;
 }
 
 }  // namespace grid_path_planner::planners

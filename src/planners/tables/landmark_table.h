@@ -42,7 +42,8 @@ class LandmarkTable {
   static std::size_t bytesFor(const grid::GridGeometry& geometry, int landmarks);
   static std::size_t makingBytesFor(const grid::GridGeometry& geometry, int landmarks);
 
-  // Throws Stopped. Where costs overflow, from 1.1e7 on, there are no landmarks, and every bound is 0.
+  // Throws Stopped. Where a cost does not fit into 64 bits, its diagonal part being above 8.0e6, there are no
+  // landmarks, no memory, and every bound is 0.
   LandmarkTable(const costmap::CostGrid& map, int landmarks, const base::StopToken& stop);
 
   // Whether entries have 64 bits.
@@ -119,11 +120,14 @@ class LandmarkBound {
                 const KeyScale& scale = kWideScale);
 
   SearchKey operator()(std::uint32_t index) const;
+  // Whether a landmark is known to reach one of both and not the other: no path leads from that cell to the goal.
+  bool separates(std::uint32_t index) const;
 
  private:
   const LandmarkTable& table_;
   const CostDecreases& decreases_;
   KeyScale scale_;
+  std::uint32_t goal_;
   std::vector<CompactCost> goal_row_;  // one of both
   std::vector<WideCost> wide_goal_row_;
   SearchKey goal_to_decreases_ = 0;

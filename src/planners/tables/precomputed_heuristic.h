@@ -50,14 +50,14 @@ class PrecomputedHeuristic {
   // The bound to the cell `goal` by landmarks, where there is a table of them that can be used.
   std::optional<LandmarkBound> landmarkBound(std::uint32_t goal, const KeyScale& scale) {
     const LandmarkTable* table = landmarks_ ? landmarks_->ready() : nullptr;
-    if (!table) return std::nullopt;
+    if (!table || table->landmarks().empty()) return std::nullopt;
     return LandmarkBound(*table, landmarks_->decreases(), goal, scale);
   }
 
   // What `search(boundIn)` gives, with the bounds to the cell `goal`.
   template <class Search>
   auto withBound(std::uint32_t goal, Search&& search) {
-    if (landmarks_ && landmarks_->ready())
+    if (landmarkBound(goal, kWideScale))
       return search([&](const KeyScale& scale) { return *landmarkBound(goal, scale); });
     if (exact_)
       if (const ExactTable* table = exact_->ready())

@@ -83,6 +83,8 @@ class PrecomputedTable {
                ? &made_->table
                : nullptr;
   }
+  // Whether there is one at all.
+  bool made() const { return made_ != nullptr; }
   const Decreases& decreases() const { return decreases_; }
 
   // Waits until no table is being made. Throws Stopped.

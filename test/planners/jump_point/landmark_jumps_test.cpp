@@ -157,6 +157,7 @@ TEST(LandmarkJumps, ATableThatKnowsOfNoPathSaysSo) {
   const SearchResult result = planner.search(kFarAcross, StopToken());
   EXPECT_EQ(result.status, Status::UNREACHABLE);
   EXPECT_EQ(result.answered_by, "weighted_jump_point");
+  EXPECT_EQ(result.statistics.expanded, 0U);
 }
 
 // Plans with idle time after each, until tables bound them. Returns how many went before; 0: none was bounded.
