@@ -263,7 +263,7 @@ TEST_F(Plan, OptionsThatChangeNothingAreTold) {
   };
   EXPECT_EQ(warningsWith({"--planner", "jump_point", "--epsilon", "2"}),
             "warning: --epsilon changes nothing with planner jump_point\n");
-  EXPECT_EQ(warningsWith({"--landmarks", "4"}),
+  EXPECT_EQ(warningsWith({"--landmarks", "4", "--planner", "a_star"}),
             "warning: --landmarks changes nothing with heuristic octile\n");
   EXPECT_EQ(warningsWith({"--planner", "polyanya", "--smooth", "false"}),
             "warning: --smooth changes nothing with planner polyanya\n");
