@@ -17,12 +17,13 @@ constexpr std::size_t kMostBytes = std::size_t{128} << 20;
 constexpr int kFewest = LandmarkTable::kLanes;
 // Each is chosen by one search of the whole map and known by another.
 constexpr std::size_t kSearchesEach = 2;
+constexpr std::size_t kLeastShare = 8;
 
 }  // namespace
 
 void PaidLandmarks::release() {
   tables_.reset();
-  paid_ = 0;
+  paid_ = passable_ = 0;
 }
 
 std::size_t PaidLandmarks::bytes() const {
@@ -44,19 +45,30 @@ int PaidLandmarks::affordable(const GridGeometry& geometry, std::size_t room) co
 }
 
 // Tables that are worn when they are made, or of which nothing came, are paid for again.
-bool PaidLandmarks::wanted(const GridGeometry& geometry, std::size_t room) {
+bool PaidLandmarks::wanted(const CostGrid& map, std::size_t room) {
   if (tables_) {
     if (tables_->work().pending) return true;
     if (tables_->made() && !tables_->worn()) return false;
     release();
   }
-  const int count = affordable(geometry, room);
-  return count > 0 && paid_ >= kSearchesEach * static_cast<std::size_t>(count) * geometry.size();
+  const int count = affordable(map.geometry(), room);
+  return count > 0 && paidFor(map, count);
+}
+
+// Cells are counted once enough is paid for a map of which few are passable.
+bool PaidLandmarks::paidFor(const CostGrid& map, int count) {
+  const std::size_t searches = kSearchesEach * static_cast<std::size_t>(count);
+  const auto& weights = map.weights().values();
+  if (paid_ < searches * weights.size() / kLeastShare) return false;
+  if (passable_ == 0)
+    passable_ = weights.size() - static_cast<std::size_t>(std::count(weights.begin(), weights.end(),
+                                                                     CostGrid::kBlocked));
+  return paid_ >= searches * passable_;
 }
 
 void PaidLandmarks::make(std::shared_ptr<const CostGrid> map, std::size_t room,
                          const StopToken& stop) {
-  if (!wanted(map->geometry(), room)) return;
+  if (!wanted(*map, room)) return;
   if (!tables_) {
     geometry_ = map->geometry();
     count_ = affordable(geometry_, room);

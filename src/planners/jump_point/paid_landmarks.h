@@ -37,7 +37,7 @@ class PaidLandmarks {
   void pay(std::size_t cells) { paid_ += cells; }
 
   // Whether they are paid for, fit into so many bytes, and are not there.
-  bool wanted(const grid::GridGeometry& geometry, std::size_t room);
+  bool wanted(const costmap::CostGrid& map, std::size_t room);
   // Begins if they are wanted, and waits for those that were begun. Throws Stopped; the thread goes on.
   void make(std::shared_ptr<const costmap::CostGrid> map, std::size_t room,
             const base::StopToken& stop);
@@ -50,10 +50,12 @@ class PaidLandmarks {
   std::optional<LandmarkBound> boundTo(std::uint32_t goal, const KeyScale& scale);
 
  private:
+  bool paidFor(const costmap::CostGrid& map, int count);
   int affordable(const grid::GridGeometry& geometry, std::size_t room) const;
 
   int most_;
-  std::size_t paid_ = 0;  // expansions since there are none
+  std::size_t paid_ = 0;      // expansions since there are none
+  std::size_t passable_ = 0;  // cells, once they are counted
   grid::GridGeometry geometry_;
   int count_ = 0;  // of landmarks, as asked for
   std::unique_ptr<PrecomputedTable<LandmarkTable>> tables_;

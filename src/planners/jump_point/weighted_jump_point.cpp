@@ -99,7 +99,7 @@ BackgroundWork WeightedJumpPoint::doBackgroundWork() {
   BackgroundWork work = substitute_ ? substitute_->backgroundWork() : BackgroundWork();
   work.pending = work.pending || estimatesLater() || !behind_.empty() ||
                  (shouldJump() && !(jumps_ready_ && jumps_.finished())) || treeWanted() ||
-                 (jumps_ready_ && landmarks_.wanted(map().geometry(), roomForLandmarks()));
+                 (jumps_ready_ && landmarks_.wanted(map(), roomForLandmarks()));
   return work;
 }
 

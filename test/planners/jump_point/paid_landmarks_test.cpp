@@ -23,19 +23,21 @@ constexpr std::size_t kPaid = std::size_t{1} << 40;
 
 TEST(PaidLandmarkTables, AreWantedOncePaidForAndUntilTheyAreThere) {
   const auto map = costsOf(slopesBetweenWalls());
+  const auto& weights = map->weights().values();
+  const auto blocked = std::count(weights.begin(), weights.end(), CostGrid::kBlocked);
   PaidLandmarks landmarks(4);
-  EXPECT_FALSE(landmarks.wanted(map->geometry(), kAnyRoom));
-  landmarks.pay(8 * map->geometry().size() - 1);
-  EXPECT_FALSE(landmarks.wanted(map->geometry(), kAnyRoom));
+  EXPECT_FALSE(landmarks.wanted(*map, kAnyRoom));
+  landmarks.pay(8 * (weights.size() - static_cast<std::size_t>(blocked)) - 1);
+  EXPECT_FALSE(landmarks.wanted(*map, kAnyRoom));
   landmarks.pay(1);
-  EXPECT_TRUE(landmarks.wanted(map->geometry(), kAnyRoom));
+  EXPECT_TRUE(landmarks.wanted(*map, kAnyRoom));
   EXPECT_EQ(landmarks.bytes(), 0U);
   landmarks.make(map, kAnyRoom, StopToken());
-  EXPECT_FALSE(landmarks.wanted(map->geometry(), kAnyRoom));
+  EXPECT_FALSE(landmarks.wanted(*map, kAnyRoom));
   EXPECT_TRUE(landmarks.boundTo(12345, kMediumScale));
   landmarks.release();
   EXPECT_EQ(landmarks.bytes(), 0U);
-  EXPECT_FALSE(landmarks.wanted(map->geometry(), kAnyRoom));
+  EXPECT_FALSE(landmarks.wanted(*map, kAnyRoom));
 }
 
 TEST(PaidLandmarkTables, AreAsManyAsMemoryHolds) {
@@ -73,7 +75,7 @@ TEST(PaidLandmarkTables, ThatBecomeLooseWhileTheyAreMadeArePaidForAgain) {
   landmarks.update(*before, map, changed);
   landmarks.make(map, kAnyRoom, StopToken());
   EXPECT_FALSE(landmarks.boundTo(12345, kMediumScale));
-  EXPECT_FALSE(landmarks.wanted(map->geometry(), kAnyRoom));
+  EXPECT_FALSE(landmarks.wanted(*map, kAnyRoom));
   EXPECT_EQ(landmarks.bytes(), 0U);
   landmarks.pay(kPaid);
   landmarks.make(map, kAnyRoom, StopToken());
@@ -89,7 +91,7 @@ TEST(PaidLandmarkTables, AreNoneWhereCostsAreTooHighAndAreNotTriedAgain) {
   EXPECT_FALSE(landmarks.boundTo(12345, kMediumScale));
   EXPECT_LT(landmarks.bytes(), 1000U);
   landmarks.pay(kPaid);
-  EXPECT_FALSE(landmarks.wanted(map->geometry(), kAnyRoom));
+  EXPECT_FALSE(landmarks.wanted(*map, kAnyRoom));
 }
 
 TEST(PaidLandmarkTables, KnowWithoutASearchThatNoPathLeadsToAPocket) {
