@@ -12,10 +12,12 @@ from common import ROOT, finish
 
 # As a test it starts itself again, as a rostest does its nodes, and does not ask how that ended.
 PROGRAM = """
+#include <atomic>
 #include <cstdlib>
 #include <string>
 #include <thread>
 volatile int shared = 0;
+std::atomic<bool> written{false};
 int beyond(int index) {
   int numbers[4] = {};
   volatile int* first = numbers;
@@ -28,8 +30,12 @@ int main(int count, char** words) {
   if (fault == "undefined") shared = 2147483647 + count;
   if (fault == "leak") new int;
   if (fault == "race") {
-    std::thread other([] { shared = 1; });
+    std::thread other([] {
+      while (!written.load(std::memory_order_relaxed)) std::this_thread::yield();
+      shared = 1;
+    });
     shared = 2;
+    written.store(true, std::memory_order_relaxed);  // one after the other: of two at the same moment it may see none
     other.join();
   }
 }
