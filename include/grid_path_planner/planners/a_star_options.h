@@ -53,8 +53,8 @@ void visitOptions(AStarOptions& o, Visitor&& visit) {
         base::OptionInfo{
             "Cells from which heuristic landmark knows all costs, and weighted_jump_point at most, "
             "once its searches have cost as much as these tables; more: fewer cells expanded, 4 "
-            "bytes a "
-            "cell of the map and 2 whole-map searches each; 0: weighted_jump_point makes none",
+            "bytes a cell of the map and 2 whole-map searches each; 0: weighted_jump_point makes "
+            "none",
             "", 0, 64});
 }
 
