@@ -3,7 +3,9 @@
 #include "planners/tables/precomputed_table.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <random>
 
 #include "planners/astar/a_star.h"
@@ -114,6 +116,15 @@ INSTANTIATE_TEST_SUITE_P(Heuristics, InTheBackground,
 
 // Where nothing but obstacles appear the table serves on, and so do repaired ones: far fewer cells
 // are expanded than by distance alone.
+TEST(Background, HasALowPriorityAndTheCallerItsOwn) {
+  const int before = getpriority(PRIO_PROCESS, 0);
+  Background<int> asked;
+  asked.start([](const StopToken&) { return getpriority(PRIO_PROCESS, 0); });
+  asked.wait(StopToken());
+  EXPECT_EQ(*asked.take(), std::max(10, before));
+  EXPECT_EQ(getpriority(PRIO_PROCESS, 0), before);
+}
+
 TEST(PrecomputedTable, GuidesOnAfterChanges) {
   std::mt19937 random(12);
   const GridGeometry geometry(200, 200, 1.0);

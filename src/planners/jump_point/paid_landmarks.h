@@ -1,5 +1,5 @@
 // Tables of landmarks that searches have paid for: they are made once the searches of a map have expanded as
-// many cells as making them does, so that they never cost more than they have had the chance to save.
+// many cells as making them does, so that tables of no use double the work at most, as it is counted here.
 //
 //   PaidLandmarks landmarks(16);
 //   landmarks.pay(result.statistics.expanded);          // after each search

@@ -4,7 +4,7 @@
 //   making.start([map](const StopToken& stop) { return Table(*map, stop); });
 //   if (std::shared_ptr<const Table> table = making.take()) use(*table);
 //
-// The thread has a low priority (nice 10), so that searches go on beside it.
+// The thread has a low priority (nice 10, or that of the process where it is lower), so that searches go on beside it.
 //
 // A computation that is no longer needed is stopped by its token, so it should check it often. One
 // that throws Stopped or std::bad_alloc gives no result; any other exception ends the program, as
@@ -15,6 +15,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
@@ -43,7 +44,8 @@ class Background {
     stop();
     source_ = base::StopSource();
     auto work = [this, compute = std::move(compute), token = source_.token()]() mutable {
-      setpriority(PRIO_PROCESS, 0, kNiceness);  // on Linux of this thread alone
+      // On Linux of this thread alone.
+      setpriority(PRIO_PROCESS, 0, std::max(kNiceness, getpriority(PRIO_PROCESS, 0)));
       std::shared_ptr<const Result> result;
       try {
         result = std::make_shared<const Result>(compute(token));
