@@ -91,7 +91,7 @@ class EveryCommander(CommanderTest):
             self.assertTrue(self.moves(node), "%s: %s" % (name, self.said(node)))
 
     def test_a_stop_from_before_its_start_that_comes_late_holds_it(self):
-        """Over a slow connection; teleop_joy drove until it was there."""
+        """Over a slow connection; navigate_path, the first that is asked, drove until it was there."""
         for name in COMMANDERS:
             late = LatePublisher("/%s_as_process/stop" % name, True, LATE)
             self.addCleanup(late.close)
