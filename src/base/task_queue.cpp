@@ -41,8 +41,18 @@ std::shared_ptr<TaskQueue::Task> TaskQueue::post(Work work, const std::string& s
     return task;
   }
   insert(task, turn);
+  if (running_ && idles_) running_->cancel();
   posted_.notify_one();
   return task;
+}
+
+void TaskQueue::postIdle(Work work) {
+  auto task = std::make_shared<Task>();
+  task->work_ = std::move(work);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (stopping_) return;
+  idle_ = std::move(task);
+  posted_.notify_one();
 }
 
 void TaskQueue::insert(const std::shared_ptr<Task>& task, Turn turn) {
@@ -82,6 +92,7 @@ void TaskQueue::stop() {
     stopping_ = true;
     if (running_) running_->cancel();
     for (const auto& task : waiting_) task->cancel();
+    idle_.reset();
     posted_.notify_one();
   }
   if (thread_.joinable()) thread_.join();
@@ -90,15 +101,23 @@ void TaskQueue::stop() {
 void TaskQueue::loop() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
-    posted_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
-    if (waiting_.empty()) return;
-    running_ = waiting_.front();
-    waiting_.pop_front();
+    posted_.wait(lock, [this] { return stopping_ || !waiting_.empty() || idle_; });
+    running_ = next();
+    if (!running_) return;
     lock.unlock();
     run(*running_);
     lock.lock();
     running_.reset();
   }
+}
+
+// Null where none is left. Precondition: mutex_ is held.
+std::shared_ptr<TaskQueue::Task> TaskQueue::next() {
+  idles_ = waiting_.empty();
+  if (idles_) return std::exchange(idle_, nullptr);
+  std::shared_ptr<Task> task = std::move(waiting_.front());
+  waiting_.pop_front();
+  return task;
 }
 
 void TaskQueue::run(Task& task) {

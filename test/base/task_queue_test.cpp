@@ -123,6 +123,53 @@ TEST(TaskQueue, AReplacedTaskKeepsItsPlace) {
   EXPECT_EQ(order, (std::vector<int>{1, 2}));
 }
 
+// Three clients asked while a fourth one's answer was made: idle work from before it, which stood first in
+// the queue, gave its place to that from after it, which no question interrupts that had come before, and
+// all four waited for tables of 2.4 s.
+TEST(TaskQueue, IdleWorkGoesBehindAllThatWaits) {
+  std::vector<int> order;
+  Hold first, second;
+  TaskQueue worker;
+  worker.post(first.work());
+  first.waitUntilHeld();
+  worker.postIdle([&](const StopSource&) { order.push_back(8); });
+  worker.post(second.work());
+  std::promise<void> idled;
+  for (int i = 0; i < 3; ++i) worker.post([&, i](const StopSource&) { order.push_back(i); });
+  worker.postIdle([&](const StopSource& stop) {
+    order.push_back(stop.cancelled() ? -1 : 9);
+    idled.set_value();
+  });
+  first.release();
+  second.release();
+  idled.get_future().wait();
+  EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 9}));
+}
+
+TEST(TaskQueue, IdleWorkIsInterruptedByWhatIsPosted) {
+  Hold idle;
+  TaskQueue worker;
+  worker.postIdle(idle.work());
+  idle.waitUntilHeld();
+  bool cancelled = true;
+  worker.post([&](const StopSource& stop) { cancelled = stop.cancelled(); })->wait();
+  EXPECT_TRUE(idle.cancelled());
+  EXPECT_FALSE(cancelled);
+}
+
+TEST(TaskQueue, IdleWorkEndsWithTheWorkerAndIsNotBegunAfterIt) {
+  Hold idle;
+  bool begun = false;
+  TaskQueue worker;
+  worker.postIdle(idle.work());
+  idle.waitUntilHeld();
+  worker.postIdle([&](const StopSource&) { begun = true; });
+  worker.stop();
+  worker.postIdle([&](const StopSource&) { begun = true; });
+  EXPECT_TRUE(idle.cancelled());
+  EXPECT_FALSE(begun);
+}
+
 // The owner makes itself anew where its memory ended: what it throws then would end the process.
 TEST(TaskQueue, AnOwnerThatThrowsWhenToldEndsNothing) {
   std::atomic<int> told{0};

@@ -5,6 +5,7 @@
 //   worker.post([=](const StopSource& stop) { plan(stop); }, "goal", TaskQueue::Turn::NEXT);
 //   auto task = worker.post([=](const StopSource& stop) { save(stop); });
 //   task->wait();
+//   worker.postIdle([=](const StopSource& stop) { prepare(stop); });  // once nothing else waits
 //
 // Tasks run one at a time. A task that was cancelled before its turn is run too, with a stop source
 // that is cancelled already, so that every task comes to an end by itself and answers who asked. No
@@ -60,6 +61,10 @@ class TaskQueue {
   // LAST takes its place.
   std::shared_ptr<Task> post(Work work, const std::string& slot = "", Turn turn = Turn::LAST);
 
+  // For when nothing else waits: every post(), before or after this, goes before it, and cancels it where
+  // it runs. Dropped in favour of the next one, and where the queue stops.
+  void postIdle(Work work);
+
   // Cancels the task that runs and those that wait in `slot`.
   void cancel(const std::string& slot);
 
@@ -70,6 +75,7 @@ class TaskQueue {
   using Waiting = std::deque<std::shared_ptr<Task>>;
 
   void loop();
+  std::shared_ptr<Task> next();
   void run(Task& task);
   void tellError() const noexcept;
   static void end(Task& task);
@@ -80,7 +86,9 @@ class TaskQueue {
   std::mutex mutex_;
   std::condition_variable posted_;
   Waiting waiting_;
+  std::shared_ptr<Task> idle_;  // waits
   std::shared_ptr<Task> running_;
+  bool idles_ = false;  // running_ was idle_
   bool stopping_ = false;
   std::thread thread_;
 };

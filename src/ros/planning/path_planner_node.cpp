@@ -167,7 +167,8 @@ void PathPlannerNode::onOptions(const PathPlannerNodeOptions& options) {
 
 void PathPlannerNode::onMapChange() {
   active_goal_.mapChanged();
-  server_->vehicleLane().post([this](const StopSource& stop) { processMap(stop); }, kMapSlot);
+  server_->vehicleLane().worker().post([this](const StopSource& stop) { processMap(stop); },
+                                       kMapSlot);
   server_->prepareForQuestions();
 }
 
@@ -181,7 +182,7 @@ void PathPlannerNode::startReplanTimer(double period) {
 }
 
 void PathPlannerNode::postPlanForGoal() {
-  server_->vehicleLane().post(
+  server_->vehicleLane().worker().post(
       [this](const StopSource& stop) {
         planForGoal(stop);
         postCostToGo();
@@ -191,14 +192,14 @@ void PathPlannerNode::postPlanForGoal() {
 }
 
 void PathPlannerNode::postSearchedMap() {
-  server_->vehicleLane().post([this](const StopSource& stop) { publishSearchedMap(stop); },
-                              kSearchedMapSlot);
+  server_->vehicleLane().worker().post([this](const StopSource& stop) { publishSearchedMap(stop); },
+                                       kSearchedMapSlot);
 }
 
 void PathPlannerNode::postCostToGo() {
   if (!cost_to_go_->wanted()) return;
-  server_->vehicleLane().post([this](const StopSource& stop) { publishCostToGo(stop); },
-                              kCostToGoSlot);
+  server_->vehicleLane().worker().post([this](const StopSource& stop) { publishCostToGo(stop); },
+                                       kCostToGoSlot);
 }
 
 void PathPlannerNode::planForGoal(const StopSource& stop) {

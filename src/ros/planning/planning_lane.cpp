@@ -46,8 +46,6 @@ using planning::ViaRequest;
 
 namespace {
 
-constexpr char kFinishingSlot[] = "finishing";
-
 Pose named(const char* which, const std::function<Pose()>& pose) {
   try {
     return pose();
@@ -87,13 +85,6 @@ PlanningLane::PlanningLane(const MapReceiver& maps, std::shared_ptr<MapStore> st
         beginAnew();
       }) {}
 
-std::shared_ptr<TaskQueue::Task> PlanningLane::post(TaskQueue::Work work, const std::string& slot,
-                                                    TaskQueue::Turn turn) {
-  const std::lock_guard<std::mutex> lock(finishing_mutex_);
-  if (finishing_) finishing_->cancel();
-  return worker_.post(std::move(work), slot, turn);
-}
-
 void PlanningLane::prepare(const PathPlannerNodeOptions& options, const StopToken& stop) {
   takeMap();
   setOptions(options.planner);
@@ -107,20 +98,17 @@ void PlanningLane::prepare(const PathPlannerNodeOptions& options, const StopToke
 }
 
 void PlanningLane::finishLater(const PathPlannerNodeOptions& options) {
-  const std::lock_guard<std::mutex> lock(finishing_mutex_);
-  finishing_ = worker_.post(
-      [this, options](const StopSource& stop) {
-        if (!planner_ || !planner_->hasMap()) return;
-        const std::size_t cells = planner_->map()->geometry().size();
-        try {
-          setOptions(options.planner);
-          if (cells <= kMostCopied) copyForChanges(*planner_, stop.token());
-          if (cells <= kMostFinished) planner_->finishPreparation(stop.token());
-        } catch (const Stopped&) {
-        } catch (const InputError&) {
-        }
-      },
-      kFinishingSlot);
+  worker_.postIdle([this, options](const StopSource& stop) {
+    if (!planner_ || !planner_->hasMap()) return;
+    const std::size_t cells = planner_->map()->geometry().size();
+    try {
+      setOptions(options.planner);
+      if (cells <= kMostCopied) copyForChanges(*planner_, stop.token());
+      if (cells <= kMostFinished) planner_->finishPreparation(stop.token());
+    } catch (const Stopped&) {
+    } catch (const InputError&) {
+    }
+  });
 }
 
 ViaPlan PlanningLane::plan(const PlanningRequest& request, const PathPlannerNodeOptions& options,

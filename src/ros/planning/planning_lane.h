@@ -45,10 +45,7 @@ class PlanningLane {
   PlanningLane(const MapReceiver& maps, std::shared_ptr<planning::MapStore> store,
                const FrameTransforms& transforms, const PlanningLane* other);
 
-  // A task for the lane's thread, as TaskQueue::post(). It interrupts finishLater().
-  std::shared_ptr<base::TaskQueue::Task> post(
-      base::TaskQueue::Work work, const std::string& slot = "",
-      base::TaskQueue::Turn turn = base::TaskQueue::Turn::LAST);
+  // Tasks for the lane's thread. They interrupt finishLater().
   base::TaskQueue& worker() { return worker_; }
 
   // In the worker's thread only:
@@ -128,8 +125,6 @@ class PlanningLane {
   std::atomic<std::size_t> bytes_{0};               // that the planner does not share
   std::unique_ptr<planning::PathPlanner> planner_;  // the worker's; null before takeMap()
   std::optional<PlanQuestion> question_;            // of the plan just made
-  std::mutex finishing_mutex_;
-  std::shared_ptr<base::TaskQueue::Task> finishing_;  // posted by finishLater()
   base::TaskQueue worker_;
 };
 

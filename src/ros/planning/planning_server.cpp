@@ -74,8 +74,8 @@ std::shared_ptr<PlanTicket> PlanningServer::ask(const PlanningRequest& request, 
   auto ticket = std::make_shared<PlanTicket>();
   asked_ = true;
   ticket->map_ = store_->revision();
-  ticket->task_ =
-      question_lane_.post([this, ticket, request, publish, explain](const StopSource& stop) {
+  ticket->task_ = question_lane_.worker().post(
+      [this, ticket, request, publish, explain](const StopSource& stop) {
         answer(*ticket, request, publish, explain, stop);
         question_lane_.finishLater(settings().options);
       });
@@ -99,7 +99,7 @@ void PlanningServer::storeMap(const MapChange& change) {
 }
 
 void PlanningServer::prepareForQuestions() {
-  question_lane_.post(
+  question_lane_.worker().post(
       [this](const StopSource& stop) {
         if (!asked_.exchange(false)) return question_lane_.takeMap();
         const PathPlannerNodeOptions options = settings().options;
@@ -148,7 +148,7 @@ void PlanningServer::explainLater(const PlanningRequest& request, const Plan& pl
   const unsigned number = ++explanation_number_;
   if (plan.found()) return explanations_.clear();
   lock.unlock();
-  question_lane_.post(
+  question_lane_.worker().post(
       [this, request, plan, number](const StopSource& stop) {
         explain(request, plan, number, stop);
         question_lane_.finishLater(settings().options);
