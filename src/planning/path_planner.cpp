@@ -98,8 +98,8 @@ void PathPlanner::setOptions(const PlannerOptions& options) {
   if (new_search) {
     if (!searches_) searches_ = std::make_unique<PreparedPlanners>(make_planner_);
     searches_->use(options.planner, options.search);
+    lowered_.reset();
   }
-  lowered_.reset();
   options_ = options;
   searched_ = std::move(searched);
   footprint_.reset(footprint.empty() ? nullptr : new Footprint(std::move(footprint)));

@@ -1,6 +1,7 @@
 // What planners prepared of a map outlives questions to others.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -24,11 +25,13 @@ using planners::SearchResult;
 
 namespace {
 
-constexpr std::size_t kBytes = 10'000'000;  // of each planner
+constexpr std::size_t kBytes = 10'000'000;    // of each planner
+constexpr std::size_t kOptional = 5'000'000;  // more, once its background work is done
 
 struct Counts {
   int prepared = 0;
   int updated = 0;
+  bool optional = false;  // memory is held
 };
 
 // Finds no path, and counts what it prepares.
@@ -36,7 +39,10 @@ class Counting : public Planner {
  public:
   Counting(const std::string& name, bool repairs, Counts& counts)
       : Planner(traitsOf(name, repairs)), counts_(counts) {}
-  std::size_t bytesFor(const GridGeometry&) const override { return kBytes; }
+  std::size_t bytesFor(const GridGeometry&) const override {
+    return kBytes + (counts_.optional ? kOptional : 0);
+  }
+  void releaseOptionalMemory() override { counts_.optional = false; }
 
  private:
   static PlannerTraits traitsOf(const std::string& name, bool repairs) {
@@ -46,6 +52,7 @@ class Counting : public Planner {
   }
   void doPrepare(const StopToken&) override { ++counts_.prepared; }
   void doUpdate(const std::vector<CellRect>&, const StopToken&) override { ++counts_.updated; }
+  void doFinishBackgroundWork(const StopToken&) override { counts_.optional = true; }
   SearchResult doSearch(const SearchRequest&, const StopToken&) override {
     SearchResult result;
     result.status = Status::UNREACHABLE;
@@ -64,8 +71,23 @@ class PreparedState : public ::testing::Test {
     PlannerOptions options;
     options.planner = name;
     options.search.landmarks = landmarks;
+    return ask(options);
+  }
+  Plan ask(const PlannerOptions& options) {
     planner_.setOptions(options);
     return planner_.plan({poseAt({1, 1}), poseAt({30, 30}), false});
+  }
+  // Whether planner "a" keeps its optional memory while a plan is made within so many times what is held.
+  bool keepsOptionalMemory(PlannerOptions options, double times) {
+    options.planner = "a";
+    planner_.limitMemory(std::numeric_limits<std::size_t>::max());
+    ask(options);
+    planner_.finishPreparation(StopToken());
+    EXPECT_TRUE(counts_["a"].optional);
+    planner_.limitMemory(static_cast<std::size_t>(times * static_cast<double>(planner_.bytes())));
+    const Plan plan = ask(options);
+    EXPECT_EQ(plan.status, Status::UNREACHABLE) << "and is not refused: " << plan.message;
+    return counts_["a"].optional;
   }
   void change(const CellRect& rect) {
     auto next = std::make_shared<OccupancyGrid>(*map_);
@@ -124,6 +146,21 @@ TEST_F(PreparedState, IsGivenUpForAnotherMapAndOtherCosts) {
   EXPECT_EQ(counts_["a"].prepared, 3);
 }
 
+// It was made anew for every plan of a node, which gives its options with each.
+TEST_F(PreparedState, OfEndsNearUnknownCellsIsKeptToo) {
+  PlannerOptions options;
+  options.planner = "a";
+  options.costmap.radius_to_unknown = 3.0;  // the start is 1.5 m from the border
+  for (int round = 0; round < 3; ++round) ask(options);
+  EXPECT_EQ(counts_["a"].prepared, 1);
+  options.timeout = 1.0;
+  ask(options);
+  EXPECT_EQ(counts_["a"].prepared, 1);
+  options.search.landmarks = 8;
+  ask(options);
+  EXPECT_EQ(counts_["a"].prepared, 2);
+}
+
 TEST_F(PreparedState, ThatWasAskedForLongestAgoGoesFirst) {
   ask("a");
   planner_.limitMemory(planner_.bytes() + kBytes);  // two of them
@@ -135,6 +172,28 @@ TEST_F(PreparedState, ThatWasAskedForLongestAgoGoesFirst) {
   ask("b");
   EXPECT_EQ(counts_["b"].prepared, 2);
   EXPECT_EQ(ask("b").status, Status::UNREACHABLE) << "and is not refused";
+}
+
+TEST_F(PreparedState, GivesItsOptionalMemoryBeforeAnythingThatIsPrepared) {
+  ask("a");
+  planner_.finishPreparation(StopToken());
+  planner_.limitMemory(planner_.bytes() - kOptional + kBytes);
+  ask("b");
+  EXPECT_FALSE(counts_["a"].optional);
+  ask("a");
+  EXPECT_EQ(counts_["a"].prepared, 1);
+}
+
+// What a footprint's further tries and ends with less room around them take is not known beforehand.
+TEST_F(PreparedState, GivesItsOptionalMemoryToFootprintsAndLoweredEnds) {
+  PlannerOptions lowered, footprint;
+  lowered.costmap.radius_to_unknown = 3.0;  // the start is 1.5 m from the border
+  footprint.footprint = "[[1, 1], [1, -1], [-1, -1], [-1, 1]]";
+  for (const PlannerOptions& options : {lowered, footprint}) {
+    EXPECT_TRUE(keepsOptionalMemory(options, 3.0));
+    EXPECT_FALSE(keepsOptionalMemory(options, 1.9));
+  }
+  EXPECT_TRUE(keepsOptionalMemory({}, 1.9));
 }
 
 }  // namespace
