@@ -6,9 +6,11 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <new>
 #include <random>
 
 #include "planners/astar/a_star.h"
+#include "planners/tables/landmark_table.h"
 #include "support/cost_maps.h"
 #include "support/random_map.h"
 #include "support/reference_search.h"
@@ -114,8 +116,6 @@ TEST_P(InTheBackground, ThatNobodyWaitsForIsStopped) {
 INSTANTIATE_TEST_SUITE_P(Heuristics, InTheBackground,
                          ::testing::Values(Heuristic::LANDMARK, Heuristic::EXACT));
 
-// Where nothing but obstacles appear the table serves on, and so do repaired ones: far fewer cells
-// are expanded than by distance alone.
 TEST(Background, HasALowPriorityAndTheCallerItsOwn) {
   const int before = getpriority(PRIO_PROCESS, 0);
   Background<int> asked;
@@ -125,6 +125,28 @@ TEST(Background, HasALowPriorityAndTheCallerItsOwn) {
   EXPECT_EQ(getpriority(PRIO_PROCESS, 0), before);
 }
 
+TEST(PrecomputedTable, IsNeitherThereNorAwaitedWhereMemoryLackedAndCanBeMadeLater) {
+  const auto map = test::costsOf(Grid<CostGrid::Weight>(GridGeometry(50, 50, 1.0), 1));
+  bool lacks = true;
+  PrecomputedTable<LandmarkTable> tables([&lacks](const CostGrid& costs, const StopToken& stop) {
+    if (lacks) throw std::bad_alloc();
+    return LandmarkTable(costs, 4, stop);
+  });
+  tables.prepare(map);
+  tables.wait(StopToken());
+  EXPECT_FALSE(tables.ready());
+  EXPECT_FALSE(tables.work().pending);
+  EXPECT_FALSE(tables.worn());
+  EXPECT_FALSE(tables.made());
+  tables.follow(*map, *map, {map->geometry().rect()});
+  lacks = false;
+  tables.prepare(map);
+  tables.wait(StopToken());
+  EXPECT_TRUE(tables.ready());
+}
+
+// Where nothing but obstacles appear the table serves on, and so do repaired ones: far fewer cells
+// are expanded than by distance alone.
 TEST(PrecomputedTable, GuidesOnAfterChanges) {
   std::mt19937 random(12);
   const GridGeometry geometry(200, 200, 1.0);

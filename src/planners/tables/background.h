@@ -7,8 +7,7 @@
 // The thread has a low priority (nice 10, or that of the process where it is lower), so that searches go on beside it.
 //
 // A computation that is no longer needed is stopped by its token, so it should check it often. One
-// that throws Stopped or std::bad_alloc gives no result; any other exception ends the program, as
-// it would without a thread.
+// that throws, stopped or for want of memory, gives no result.
 //
 // start(), take(), wait() and the destructor belong to one thread.
 #pragma once
