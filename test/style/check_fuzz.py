@@ -12,7 +12,7 @@ from unittest import mock
 
 from common import ROOT, finish
 
-# Targets: "crash" leaves an input and ends with a code, "hang" never ends, "slow" has an input that takes 12 s, "well" runs as
+# Targets: "crash" leaves an input and ends with a code, "hang" never ends, "killed" is ended by others, "slow" has an input that takes 12 s, "well" runs as
 # often as it is allowed.
 PROGRAM = r"""#!/bin/sh
 case " $* " in *" --list "*) echo "TARGETS"; exit 0 ;; esac
@@ -28,6 +28,7 @@ for word; do
 done
 echo "#2	INITED cov: 5 ft: 6 corp: 1/1b exec/s: 0 rss: 30Mb" >&2
 [ $target != hang ] || exec sleep 100
+[ $target != killed ] || kill -TERM $$
 [ $target != crash ] || { echo x > "${prefix}crash-1"; exit 77; }
 [ $target != slow ] || [ ${reported:-10} -gt 12 ] || echo x > "${prefix}slow-unit-1"
 half=$((runs / 2))
@@ -45,7 +46,7 @@ def load(folder):
     loader.exec_module(fuzz)
     fuzz.PROGRAMS, fuzz.TABLE, fuzz.SPARE_SECONDS = folder / "programs", folder / "table.txt", 1
     fuzz.PROGRAMS.mkdir()
-    for name, targets in (("bad", "crash hang"), ("good", "slow well")):
+    for name, targets in (("bad", "crash hang killed"), ("good", "slow well")):
         program = fuzz.PROGRAMS / name
         program.write_text(PROGRAM.replace("TARGETS", targets), encoding="utf-8")
         program.chmod(0o755)
@@ -79,6 +80,10 @@ def complaints_of_runs(fuzz, corpus):
     code, rows, text = told(fuzz, "--corpus", str(corpus), "--seconds", "1", "hang")
     if code != 1 or rows["hang"][4] != 1 or "last.log" not in text:
         yield f"a program that hangs is not ended and told: {code} {text}"
+    with contextlib.redirect_stderr(io.StringIO()) as errors:
+        code, rows, text = told(fuzz, *arguments, "killed")
+    if code != 0 or rows["killed"][4] != 0 or "killed was killed by others" not in errors.getvalue():
+        yield f"that others kill a program is told as a finding, or not at all: {code} {text} {errors.getvalue()}"
     code, rows, text = told(fuzz, *arguments, "slow")
     if code != 0 or rows["slow"][0] != 600 or rows["slow"][4] != 0:
         yield f"an input that takes no longer than it may is told as a finding, or ends the run: {code} {text}"
@@ -86,13 +91,17 @@ def complaints_of_runs(fuzz, corpus):
 
 def complaints_of_targets(fuzz, corpus):
     runs = fuzz.kept(corpus)
-    if list(fuzz.unfinished(["well", "crash", "new"], runs, 9999))[0] != "new":
+    if list(fuzz.least_first({"well": 1, "crash": 1, "new": 1}, runs))[0] != "new":
         yield "the target without a run is not the first"
-    if fuzz.unfinished(["well"], runs, 1201) or fuzz.unfinished(["well"], runs, 1202) != {"well": 1}:
+    if fuzz.unfinished({"well": 1201}, runs) or fuzz.unfinished({"well": 1202}, runs) != {"well": 1}:
         yield "1201 executions are not told from 1202, of which one is left"
     long = {"well": runs["well"]._replace(cpu=fuzz.ENOUGH_CPU_SECONDS)}
-    if fuzz.unfinished(["well"], long, 10**7):
+    if fuzz.unfinished({"well": 10**7}, long):
         yield "an hour of the processor is not enough"
+    sources = "".join(path.read_text(encoding="utf-8") for path in pathlib.Path(ROOT, "test/fuzz").glob("*/*.cpp"))
+    for target in fuzz.ENOUGH_EXECUTIONS:
+        if f"FUZZ_TARGET({target}," not in sources:
+            yield f"there is no target {target}"
 
 
 def main():
@@ -100,7 +109,7 @@ def main():
         folder = pathlib.Path(name)
         fuzz = load(folder)
         complaints = [*complaints_of_runs(fuzz, folder / "corpus"), *complaints_of_targets(fuzz, folder / "corpus")]
-    finish(complaints, "9 rules of scripts/fuzz")
+    finish(complaints, "11 rules of scripts/fuzz")
 
 
 if __name__ == "__main__":
