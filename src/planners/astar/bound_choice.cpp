@@ -84,7 +84,8 @@ void BoundChoice::learn(const Evidence& evidence) {
   const double left = (1.0 - evidence.spared) * static_cast<double>(evidence.expanded);
   with_blocks_ += prices_.expansion * left + prices_.node * static_cast<double>(evidence.nodes);
   expanded_ += evidence.expanded;
-  decided_ = expanded_ >= prices_.enough;
+  ++searches_;
+  decided_ = expanded_ >= (searches_ < prices_.searches ? 4 : 1) * prices_.enough;
   blocks_ = decided_ && with_blocks_ < static_cast<double>(expanded_);
 }
 

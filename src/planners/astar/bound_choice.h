@@ -27,13 +27,14 @@ namespace grid_path_planner::planners {
 
 // What the bound of the blocks costs a search, in its expansions by the octile distance.
 struct BoundPrices {
-  double expansion;    // one with the bound
-  double node;         // one of the bound's own
-  std::size_t enough;  // after how many of them it is decided
+  double expansion;      // one with the bound
+  double node;           // one of the bound's own
+  std::size_t enough;    // it is decided after so many of them by
+  std::size_t searches;  // so many searches, or after four times as many
 };
 // Measured on 22 maps (doc/notes/engine_experiments.md).
-constexpr BoundPrices kPricesOfAStar{1.4, 0.8, 65536};
-constexpr BoundPrices kPricesOfJumps{1.5, 0.3, 4096};
+constexpr BoundPrices kPricesOfAStar{1.4, 0.8, 65536, 1};
+constexpr BoundPrices kPricesOfJumps{1.5, 0.3, 4096, 8};
 
 class BoundChoice {
  public:
@@ -66,7 +67,8 @@ class BoundChoice {
   bool blocks_ = false;
   std::vector<bool> changed_;       // of each block of kChangedBlock² cells, since it was prepared
   std::size_t changed_blocks_ = 0;  // the number of these
-  std::size_t expanded_ = 0;        // by the searches that it learnt from,
+  std::size_t searches_ = 0;        // that it learnt from,
+  std::size_t expanded_ = 0;        // the cells that they expanded,
   double with_blocks_ = 0.0;        // and what they would have taken with the blocks, in expansions
 };
 

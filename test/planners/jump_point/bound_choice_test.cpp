@@ -23,7 +23,7 @@ using costmap::CostGrid;
 using grid::Cell, grid::CellRect, grid::Grid, grid::GridGeometry;
 using test::costMap, test::costsOf;
 
-constexpr BoundPrices kPrices{1.5, 0.5, 1000};
+constexpr BoundPrices kPrices{1.5, 0.5, 1000, 1};
 
 // Slopes between walls from top to bottom, `thick` cells each, 30 apart, with doors in turn at both ends.
 Grid<CostGrid::Weight> roomsBetweenWalls(int side, int thick) {
@@ -74,6 +74,26 @@ TEST(BoundChoice, SearchesDecideByWhatTheBoundWouldHaveSpared) {
   EXPECT_FALSE(wasted.blocks());
   costly.learn({1100, 0.7, 2000});
   EXPECT_FALSE(costly.blocks());
+}
+
+// Two searches of the jumps, of which the first was not like those that followed, decided for blocks that made
+// plans in offices 1.5 times as long.
+TEST(BoundChoice, AFewSearchesDecideOnlyWhereTheyWereLong) {
+  constexpr BoundPrices kOfThree{1.5, 0.5, 1000, 3};
+  const CostGrid map = costMap(roomsBetweenWalls(100, 2));
+  BoundChoice mixed(kOfThree);
+  mixed.prepare(map);
+  mixed.learn({1100, 0.9, 0});
+  mixed.learn({1100, 0.1, 400});
+  EXPECT_TRUE(mixed.undecided());
+  EXPECT_FALSE(mixed.blocks());
+  mixed.learn({1100, 0.1, 400});
+  EXPECT_FALSE(mixed.undecided());
+  EXPECT_FALSE(mixed.blocks());
+  BoundChoice long_one(kOfThree);
+  long_one.prepare(map);
+  long_one.learn({4000, 0.9, 100});
+  EXPECT_TRUE(long_one.blocks());
 }
 
 TEST(BoundChoice, StaysUntilAnEighthOfTheMapChanged) {
