@@ -103,6 +103,23 @@ TEST_F(WorldBombs, ColladaWhoseCountsLieIsRefused) {
   EXPECT_NE(run.refusal, "");
 }
 
+// Found by the fuzzer: an array without a count leaves the library without a pointer that it follows.
+TEST_F(WorldBombs, AMeshThatEndsTheLibrarysProcessIsRefused) {
+  folder_.write(
+      "uncounted.dae",
+      "<?xml version='1.0'?><COLLADA version='1.4.1'><library_geometries><geometry id='g'><mesh>"
+      "<source id='p'><float_array id='a'>0 0 0 1 0 0 0 1 0</float_array>"
+      "<technique_common><accessor source='#a' count='3' stride='3'/></technique_common></source>"
+      "<vertices id='v'><input semantic='POSITION' source='#p'/></vertices><triangles count='1'>"
+      "<input semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p></triangles></mesh></geometry>"
+      "</library_geometries><library_visual_scenes><visual_scene id='s'><node>"
+      "<instance_geometry url='#g'/></node></visual_scene></library_visual_scenes>"
+      "<scene><instance_visual_scene url='#s'/></scene></COLLADA>");
+  const BoundedRun run = reading(worldOf(modelWith(meshVisual("v", "uncounted.dae"))));
+  expectBounded(run);
+  EXPECT_NE(run.refusal, "") << run;
+}
+
 TEST_F(WorldBombs, BinaryMeshesWhoseCountsLieAreRefused) {
   folder_.write("count.stl", std::string(80, ' ') + "\xff\xff\xff\x7f" + std::string(50, '\0'));
   folder_.write(

@@ -23,8 +23,17 @@ std::vector<std::string> seedsOfMeshes() {
       "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>"};
 }
 
+// assimp 5.2 ends its process where an array has no count. Worlds are read in a child, whose end is a sentence
+// (WorldBombs); here it would end the search for others.
+bool hasUncountedArray(const std::string& text) {
+  const std::string tag = "<float_array";
+  for (std::size_t at = text.find(tag); at != std::string::npos; at = text.find(tag, at + 1))
+    if (text.substr(at, text.find('>', at) - at).find(" count=") == std::string::npos) return true;
+  return false;
+}
+
 FUZZ_TARGET(mesh_file, seedsOfMeshes) {
-  if (input.empty()) return;
+  if (input.empty() || (input[0] == 'd' && hasUncountedArray(input))) return;
   const char* name = input[0] == 'd' ? "fuzz.dae" : input[0] == 's' ? "fuzz.stl" : "fuzz.obj";
   mayRefuse([&] { simulation::readMesh(fileOf(name, input.substr(1))); });
 }
