@@ -5,7 +5,7 @@
 //   worker.post([=](const StopSource& stop) { plan(stop); }, "goal", TaskQueue::Turn::NEXT);
 //   auto task = worker.post([=](const StopSource& stop) { save(stop); });
 //   task->wait();
-//   worker.postIdle([=](const StopSource& stop) { prepare(stop); });  // once nothing else waits
+//   worker.postIdle([=](const StopSource& stop) { plan(stop); });  // once nothing else waits
 //
 // Tasks run one at a time. A task that was cancelled before its turn is run too, with a stop source
 // that is cancelled already, so that every task comes to an end by itself and answers who asked. No

@@ -1,7 +1,7 @@
 // Answers requests on the newest map in a thread of its own, with a planner of its own.
 //
 //   PlanningLane lane(maps, store, transforms, nullptr);
-//   lane.post([&](const StopSource& stop) { use(lane.plan(request, options, stop)); });
+//   lane.worker().post([&](const StopSource& stop) { use(lane.plan(request, options, stop)); });
 //
 // path_planner has two: in one it follows the map and plans for the vehicle, in the other it answers
 // questions of services and actions, so that no question delays the vehicle: both share the map and
