@@ -1,5 +1,6 @@
 // What a real rosbag records beside a running path_planner is planned again, to the bit.
 #include <dynamic_reconfigure/Reconfigure.h>
+#include <unistd.h>
 
 #include <random>
 
@@ -80,6 +81,14 @@ class ReplayTest : public test::PlannerTest {
     ASSERT_TRUE(ros::service::call("/path_planner/set_parameters", call));
   }
 
+  // rosbag leaves its recorder a quarter of a second to end, and ends itself then. The file has its name once
+  // it is whole.
+  void endRecorder() {
+    recorder_->end(SIGINT);
+    ASSERT_TRUE(test::waitFor([&] { return ::access(file_.c_str(), R_OK) == 0; }))
+        << "rosbag's recorder did not end";
+  }
+
   const test::TemporaryFolder folder_;
   const std::string file_ = folder_.path("plans.bag");
   std::mt19937 random_{1723};
@@ -102,7 +111,7 @@ TEST_F(ReplayTest, EveryRecordedPlanIsIdentical) {
   makePlan(poseAt(0.0, 4.0), poseAt(-30.0, 0.0));
   EXPECT_EQ(answer_.status, "GOAL_OUTSIDE_MAP");
   ASSERT_GE(records_.count(), 8u * 4u + 1u);
-  recorder_->end(SIGINT);
+  endRecorder();
 
   Process replay("grid_path", {"replay", file_});
   ASSERT_TRUE(replay.waitForExit());
