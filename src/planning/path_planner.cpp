@@ -194,6 +194,8 @@ std::size_t PathPlanner::memoryLeft(std::size_t taken) const {
 
 CostmapPair PathPlanner::costmaps(const StopToken& stop) {
   assert(hasMap());
+  // It is kept for the next plan from there, but not where others may want its memory.
+  if (lowered_ && bytes() > memoryLimit() / 2) lowered_.reset();
   search().limitMemory(memoryLeft(bytesOfMaps()));
   SharedCostmap::Result newest = costmap_->newest(stop, at_least_);
   map_ = std::move(newest.map);

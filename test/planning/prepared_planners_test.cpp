@@ -159,6 +159,9 @@ TEST_F(PreparedState, OfEndsNearUnknownCellsIsKeptToo) {
   options.search.landmarks = 8;
   ask(options);
   EXPECT_EQ(counts_["a"].prepared, 2);
+  planner_.limitMemory(2 * planner_.bytes() - 2);
+  ask(options);
+  EXPECT_EQ(counts_["a"].prepared, 3) << "others may want its memory";
 }
 
 TEST_F(PreparedState, ThatWasAskedForLongestAgoGoesFirst) {
@@ -189,10 +192,10 @@ TEST_F(PreparedState, GivesItsOptionalMemoryToFootprintsAndLoweredEnds) {
   PlannerOptions lowered, footprint;
   lowered.costmap.radius_to_unknown = 3.0;  // the start is 1.5 m from the border
   footprint.footprint = "[[1, 1], [1, -1], [-1, -1], [-1, 1]]";
-  for (const PlannerOptions& options : {lowered, footprint}) {
-    EXPECT_TRUE(keepsOptionalMemory(options, 3.0));
-    EXPECT_FALSE(keepsOptionalMemory(options, 1.9));
-  }
+  EXPECT_TRUE(keepsOptionalMemory(lowered, 3.0));
+  EXPECT_FALSE(keepsOptionalMemory(lowered, 0.9));
+  EXPECT_TRUE(keepsOptionalMemory(footprint, 3.0));
+  EXPECT_FALSE(keepsOptionalMemory(footprint, 1.9));
   EXPECT_TRUE(keepsOptionalMemory({}, 1.9));
 }
 
