@@ -156,6 +156,8 @@ TEST_F(WaypointFormats, RefusalsNameTheLine) {
   isRefused("p.yaml", "poses: []\n", "p.yaml:1: poses must be a list of at least one pose");
   isRefused("p.yaml", "poses:\n- position: {x: 0, y: .inf, z: 0}\n  orientation: {w: 1, z: 0}\n",
             "p.yaml:2: y of waypoint 1");
+  isRefused("p.yaml", "header:\n  frame_id: o\fm\nposes: [{position: {x: 0, y: 0, z: 0}}]\n",
+            "p.yaml:2: frame_id must be the name of a frame, got one with control characters");
   isRefused("n.yaml", "nothing: 1\n", "neither waypoints nor poses");
   isRefused("g.json", "{\"type\": \"Point\",\n\"coordinates\": [8.1, 153]}",
             "g.json:2: the latitude of position 1");

@@ -20,9 +20,12 @@ Path poseArrayPath(const WaypointText& text) {
   text.limits.take(file, poses.size() * sizeof(Pose));
   WaypointFile read;
   if (yamlHas(root, "header", file)) {
-    const auto frame =
-        yamlValueOr<std::string>(root["header"], "frame_id", file, "the name of a frame", "");
-    if (!withoutSlash(frame).empty()) read.path.frame_id = withoutSlash(frame);
+    const std::string frame = withoutSlash(
+        yamlValueOr<std::string>(root["header"], "frame_id", file, "the name of a frame", ""));
+    if (!frame.empty() && !isFrameName(frame))
+      throw yamlError(root["header"], file,
+                      "frame_id must be the name of a frame, got one with control characters");
+    if (!frame.empty()) read.path.frame_id = frame;
   }
   for (const YAML::Node& node : poses) {
     text.limits.goOn(file);

@@ -60,7 +60,8 @@ std::vector<std::string> seedsOfPoseArrays() {
       "      y: 2.0\n      z: 0.0\n    orientation: \n      x: 0.0\n      y: 0.0\n"
       "      z: 1.0\n      w: 0.0\n---\n",
       "header: \n  frame_id: odom\"\nposes: \n  - \n    position: {x: 1.5, y: 2.0, z: 0.0}\n"
-      "    orientation: {x: 0.0, y: 0.0, z: 1.0, w: 0.0}\n"};
+      "    orientation: {x: 0.0, y: 0.0, z: 1.0, w: 0.0}\n",
+      "header: {frame_id: o\f\fm}\nposes: [{position: {x: 1.5, y: 2.0, z: 0.0}}]\n"};
 }
 
 FUZZ_TARGET(pose_array, seedsOfPoseArrays) {
