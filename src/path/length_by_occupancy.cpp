@@ -1,6 +1,7 @@
 // lengthsByClass() of metrics.h.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "grid_path_planner/path/metrics.h"
@@ -18,6 +19,14 @@ void addCrossings(double from, double to, double side, std::vector<double>& shar
   const double high = std::min(side, std::floor(std::max(from, to)));
   for (double line = low; line <= high; line += 1.0)
     if (from != to) shares.push_back(std::clamp((line - from) / (to - from), 0.0, 1.0));
+}
+
+// The cell that holds this point of the grid; none outside the map.
+std::optional<Cell> cellAt(const Eigen::Vector2d& point, const GridGeometry& geometry) {
+  const bool inside = point.x() >= 0.0 && point.x() < geometry.width() && point.y() >= 0.0 &&
+                      point.y() < geometry.height();
+  if (!inside) return std::nullopt;
+  return Cell{static_cast<int>(point.x()), static_cast<int>(point.y())};
 }
 
 // The shares of the segment's length at which it passes from cell to cell, its ends included, in
@@ -42,23 +51,37 @@ double* lengthFor(ClassLengths& lengths, Occupancy occupancy) {
   return &lengths.occupied_m;
 }
 
-// class_of(cell): the class of a cell of the map.
-template <class ClassOf>
-ClassLengths lengthsIn(const GridGeometry& geometry, const Path& path, ClassOf&& class_of) {
+// The poses in the map's grid. Asks for the cells' memory, which is in no cache along a path across a
+// large map: one after the other they took longer than all else.
+template <class Value>
+std::vector<Eigen::Vector2d> pointsIn(const Grid<Value>& cells, const Path& path) {
+  const GridGeometry& geometry = cells.geometry();
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(path.poses.size());
+  for (const Pose& pose : path.poses) {
+    points.push_back(geometry.gridFromWorld(pose.position.head<2>()));
+    if (const auto cell = cellAt(points.back(), geometry)) __builtin_prefetch(&cells[*cell]);
+  }
+  return points;
+}
+
+// class_of(value): the class of a cell with this value.
+template <class Value, class ClassOf>
+ClassLengths lengthsIn(const Grid<Value>& cells, const Path& path, ClassOf&& class_of) {
+  const GridGeometry& geometry = cells.geometry();
+  const std::vector<Eigen::Vector2d> points = pointsIn(cells, path);
   ClassLengths lengths;
   std::vector<double> shares;
-  for (std::size_t i = 1; i < path.poses.size(); ++i) {
-    const Eigen::Vector2d from = geometry.gridFromWorld(path.poses[i - 1].position.head<2>());
-    const Eigen::Vector2d to = geometry.gridFromWorld(path.poses[i].position.head<2>());
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Eigen::Vector2d &from = points[i - 1], &to = points[i];
     findCrossings(from, to, geometry, shares);
     const double metres = (to - from).norm() * geometry.resolution();
     for (std::size_t piece = 1; piece < shares.size(); ++piece) {
       const double share = shares[piece] - shares[piece - 1];
+      if (share <= 0.0) continue;
       const Eigen::Vector2d middle = from + 0.5 * (shares[piece - 1] + shares[piece]) * (to - from);
-      const Cell cell{static_cast<int>(std::floor(middle.x())),
-                      static_cast<int>(std::floor(middle.y()))};
-      if (share > 0.0 && geometry.contains(cell))
-        *lengthFor(lengths, class_of(cell)) += share * metres;
+      if (const auto cell = cellAt(middle, geometry))
+        *lengthFor(lengths, class_of(cells[*cell])) += share * metres;
     }
   }
   return lengths;
@@ -68,11 +91,11 @@ ClassLengths lengthsIn(const GridGeometry& geometry, const Path& path, ClassOf&&
 
 ClassLengths lengthsByClass(const Path& path, const OccupancyGrid& map,
                             const OccupancyThresholds& thresholds) {
-  return lengthsIn(map.geometry(), path, [&](Cell cell) { return thresholds.classify(map[cell]); });
+  return lengthsIn(map, path, [&](auto value) { return thresholds.classify(value); });
 }
 
 ClassLengths lengthsByClass(const Path& path, const Grid<Occupancy>& classes) {
-  return lengthsIn(classes.geometry(), path, [&](Cell cell) { return classes[cell]; });
+  return lengthsIn(classes, path, [](Occupancy occupancy) { return occupancy; });
 }
 
 }  // namespace grid_path_planner::path
