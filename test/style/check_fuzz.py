@@ -6,13 +6,14 @@ import importlib.util
 import io
 import os
 import pathlib
+import resource
 import sys
 import tempfile
 from unittest import mock
 
 from common import ROOT, finish
 
-# Targets: "crash" leaves an input and ends with a code, "hang" never ends, "killed" is ended by others, "slow" has an input that takes 12 s, "well" runs as
+# Targets: "crash" leaves an input and ends with a code, "loud" prints 200 MB, "hang" never ends, "killed" is ended by others, "slow" has an input that takes 12 s, "well" runs as
 # often as it is allowed.
 PROGRAM = r"""#!/bin/sh
 case " $* " in *" --list "*) echo "TARGETS"; exit 0 ;; esac
@@ -29,6 +30,7 @@ done
 echo "#2	INITED cov: 5 ft: 6 corp: 1/1b exec/s: 0 rss: 30Mb" >&2
 [ $target != hang ] || exec sleep 100
 [ $target != killed ] || kill -TERM $$
+[ $target != loud ] || yes "a library's line" | head -n 10000000 >&2
 [ $target != crash ] || { echo x > "${prefix}crash-1"; exit 77; }
 [ $target != slow ] || [ ${reported:-10} -gt 12 ] || echo x > "${prefix}slow-unit-1"
 half=$((runs / 2))
@@ -46,7 +48,7 @@ def load(folder):
     loader.exec_module(fuzz)
     fuzz.PROGRAMS, fuzz.TABLE, fuzz.SPARE_SECONDS = folder / "programs", folder / "table.txt", 1
     fuzz.PROGRAMS.mkdir()
-    for name, targets in (("bad", "crash hang killed"), ("good", "slow well")):
+    for name, targets in (("bad", "crash hang killed"), ("good", "loud slow well")):
         program = fuzz.PROGRAMS / name
         program.write_text(PROGRAM.replace("TARGETS", targets), encoding="utf-8")
         program.chmod(0o755)
@@ -89,6 +91,15 @@ def complaints_of_runs(fuzz, corpus):
         yield f"an input that takes no longer than it may is told as a finding, or ends the run: {code} {text}"
 
 
+def complaints_of_memory(fuzz, corpus):
+    code, rows, _ = told(fuzz, "--corpus", str(corpus), "--seconds", "8", "--executions", "800", "loud")
+    megabytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    if code != 0 or rows["loud"][0] != 600 or rows["loud"][2:4] != [9, 403]:
+        yield f"what a library prints hides what libFuzzer does: {code} {rows}"
+    if megabytes > 150:
+        yield f"it keeps all that a program prints: {megabytes:.0f} MB, which libFuzzer takes for the next program's memory"
+
+
 def complaints_of_targets(fuzz, corpus):
     runs = fuzz.kept(corpus)
     if list(fuzz.least_first({"well": 1, "crash": 1, "new": 1}, runs))[0] != "new":
@@ -108,8 +119,9 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         fuzz = load(folder)
-        complaints = [*complaints_of_runs(fuzz, folder / "corpus"), *complaints_of_targets(fuzz, folder / "corpus")]
-    finish(complaints, "11 rules of scripts/fuzz")
+        complaints = [*complaints_of_memory(fuzz, folder / "loud"), *complaints_of_runs(fuzz, folder / "corpus"),
+                      *complaints_of_targets(fuzz, folder / "corpus")]
+    finish(complaints, "13 rules of scripts/fuzz")
 
 
 if __name__ == "__main__":
