@@ -90,6 +90,35 @@ TEST(CostToGoLaw, LabelsEveryCellWithItsLeastCost) {
         }
 }
 
+// Each quarter of a tile's side has one weight, and here and there a cell is blocked: tiles that are swept
+// over beside tiles that are searched, at the map's border too.
+TEST(CostToGoLaw, OpenTilesBesideOthers) {
+  std::mt19937 random(5);
+  int trial = 0;
+  for (const Connectivity connectivity : {Connectivity::EIGHT, Connectivity::FOUR})
+    for (const DiagonalCost diagonal : {DiagonalCost::SQRT2, DiagonalCost::UNIT})
+      for (const bool cut : {false, true})
+        for (const int kinds : {1, 2}) {
+          SCOPED_TRACE(++trial);
+          const GridGeometry geometry(300 + static_cast<int>(random() % 130), 290, 1.0);
+          Grid<CostGrid::Weight> areas(GridGeometry(16, 16, 1.0)), weights(geometry);
+          for (auto& weight : areas.values()) weight = random() % kinds * 6 + 1;
+          for (int row = 0; row < geometry.height(); ++row)
+            for (int column = 0; column < geometry.width(); ++column)
+              weights[Cell{column, row}] = areas[Cell{column / 128, row / 64}];
+          for (int i = 0; i < 3; ++i) {
+            const Cell corner = test::randomCell(random, geometry);
+            for (int length = 0; length < 40 && corner.column + length < 300; ++length)
+              weights[Cell{corner.column + length, corner.row}] = 0;
+          }
+          const auto map = costsOf(std::move(weights), {connectivity, diagonal, cut});
+          const std::vector<Cell> goals = {passableCell(random, *map), passableCell(random, *map)};
+          const CostToGo field(map, goals, 1 + trial % 2, StopToken());
+          expectLeastCosts(field, goals);
+          expectLeastPath(field, passableCell(random, *map), goals);
+        }
+}
+
 TEST(CostToGoLaw, PathsAreOfLeastCost) {
   std::mt19937 random(9);
   for (int trial = 0; trial < 20; ++trial) {
@@ -124,7 +153,12 @@ TEST(CostToGo, LabelsGrowWideWhereCostsAreLarge) {
   const CostToGo narrow(costsOf(weights), {{0, 0}}, 1, StopToken());
   EXPECT_EQ(narrow.bytes(), 2u * 128 * 128 * 4);
   EXPECT_EQ(narrow.cost({199, 0}), (ExactCost{199 * 200, 0}));
+  const CostToGo alike(costsOf(Grid<CostGrid::Weight>(weights.geometry(), 65535)), {{0, 0}}, 1,
+                       StopToken());
+  EXPECT_EQ(alike.bytes(), narrow.bytes()) << "costs over the one weight";
+  EXPECT_EQ(alike.cost({199, 0}), (ExactCost{199 * 65535, 0}));
   for (auto& weight : weights.values()) weight = 65535;
+  weights[Cell{1, 0}] = 65534;
   const CostToGo wide(costsOf(weights), {{0, 0}}, 1, StopToken());
   EXPECT_EQ(wide.bytes(), 2u * 128 * 128 * 8);
   EXPECT_EQ(wide.cost({199, 0}), (ExactCost{199 * 65535, 0}));
@@ -139,6 +173,13 @@ TEST(CostToGo, RepeatsWithWideLabelsWhereNarrowOnesOverflow) {
   const CostToGo field(map, {{0, 30}}, 2, StopToken());
   EXPECT_EQ(field.scale().straight, kStraightKey);
   expectLeastCosts(field, {{0, 30}});
+}
+
+// In the open as among obstacles: no cost is left out without a word.
+TEST(CostToGo, RefusesWhatCostsTooMuchInTheOpen) {
+  Grid<CostGrid::Weight> weights(GridGeometry(60000, 1, 1.0), 65535);
+  weights[Cell{59999, 0}] = 1;
+  EXPECT_THROW(CostToGo(costsOf(std::move(weights)), {{0, 0}}, 1, StopToken()), TooExpensive);
 }
 
 TEST(CostToGo, CountsTheKernel) {

@@ -39,7 +39,7 @@ bool narrowLikely(const CostGrid& map) {
   }
   const std::size_t mean = sum / std::max<std::size_t>(passable, 1);
   const auto sides = static_cast<std::size_t>(map.geometry().width()) + map.geometry().height();
-  return mean * sides / 2 <= kSmallScale.largest / kSmallScale.straight;
+  return (map.uniform() ? 1 : mean) * sides / 2 <= kSmallScale.largest / kSmallScale.straight;
 }
 
 // Throws Stopped and TooExpensive.
@@ -64,6 +64,7 @@ CostToGo::CostToGo(std::shared_ptr<const CostGrid> map, const std::vector<Cell>&
                    const StopToken& stop)
     : map_(std::move(map)),
       scale_(kSmallScale),
+      factor_(map_->uniform() ? map_->minWeight() : 1),
       tiles_across_(TileLayout::along(map_->geometry().width())) {
   check(*map_, goals, threads);
   if (narrowLikely(*map_)) {
@@ -92,7 +93,7 @@ std::size_t CostToGo::bytes() const {
 
 ExactCost CostToGo::inCells(Cell cell) const {
   assert(reached(cell));
-  return exactCostOf(key(cell), scale_);
+  return exactCostOf(key(cell), scale_) * factor_;
 }
 
 SearchKey CostToGo::keyIn(const KeyScale& scale, Cell cell) const {
@@ -117,7 +118,8 @@ std::vector<Cell> CostToGo::pathFrom(Cell cell) const {
       if (!stepAllowed(*map_, at, to)) continue;
       const SearchKey length =
           step < 4 ? scale_.straight : diagonalKey(scale_, map_->motion().diagonal_cost);
-      if (key(to) + length * std::max(map_->weight(at), map_->weight(to)) != key(at)) continue;
+      const SearchKey weight = std::max(map_->weight(at), map_->weight(to)) / factor_;
+      if (key(to) + length * weight != key(at)) continue;
       path.push_back(to);
       break;
     }

@@ -11,7 +11,7 @@
 //
 // The map is cut into tiles of 128x128 cells, small enough for a processor's own cache. A thread
 // takes the tile with the least key among the new paths at its border, searches it (buckets, natural
-// moves) and sends the paths that leave it to the tiles around it. Tiles are searched again until no
+// moves; tile_sweep.h where nothing is blocked and all cells weigh the same) and sends the paths that leave it to the tiles around it. Tiles are searched again until no
 // new path is cheaper. Few cells are expanded twice, since tiles are searched in the order of keys.
 #pragma once
 
@@ -29,11 +29,13 @@ namespace grid_path_planner::planners {
 class CostToGo {
  public:
   // The most that a map of this geometry needs while it is computed: 8 bytes of label a cell (4
-  // where no cost reaches 47,321 cells x weight), which stay, and 4 that do not.
+  // where no cost reaches 47,321 cells x weight, or cells where all weigh the same), which stay, and 4 that
+  // do not.
   static std::size_t bytesFor(const grid::GridGeometry& geometry);
 
   // Goals that are blocked are reached from nowhere. Throws InputError for no goal, one outside the
-  // map and threads < 1; Stopped; TooExpensive for costs from 2.9e9 on.
+  // map and threads < 1; Stopped; TooExpensive for costs from 2.9e9 on, over the weight where all cells
+  // have the same.
   CostToGo(std::shared_ptr<const costmap::CostGrid> map, const std::vector<grid::Cell>& goals,
            int threads, const base::StopToken& stop);
 
@@ -46,7 +48,8 @@ class CostToGo {
   // To the nearest goal, both ends included.
   std::vector<grid::Cell> pathFrom(grid::Cell cell) const;
 
-  // The labels' own scale, in which key() is fastest; kInfiniteKey where a cell is not reached.
+  // The labels' own scale, in which key() is fastest, of costs over the weight where all cells have the same;
+  // kInfiniteKey where a cell is not reached.
   const KeyScale& scale() const { return scale_; }
   SearchKey key(grid::Cell cell) const {
     const SearchKey label = labelOf(cell);
@@ -68,6 +71,7 @@ class CostToGo {
 
   std::shared_ptr<const costmap::CostGrid> map_;
   KeyScale scale_;
+  const costmap::CostGrid::Weight factor_;  // of all keys
   std::size_t tiles_across_;
   // Tile by tile, in a tile row by row; one of the two is used.
   base::ZeroedArray<std::uint32_t> narrow_;

@@ -20,13 +20,14 @@
 #include "planners/core/keys.h"
 #include "planners/core/move_pruning.h"
 #include "planners/core/simd_neighbourhood.h"
+#include "planners/tables/tile_sweep.h"
 
 namespace grid_path_planner::planners {
 
 // The layout of a map's cells in memory, tile by tile, so that a tile's rows do not share the same
 // lines of a cache. Tiles at the right and upper border reach beyond the map.
 struct TileLayout {
-  static constexpr std::uint32_t kSide = 128;
+  static constexpr std::uint32_t kSide = TileSweep::kSide;
   static constexpr std::uint32_t kCells = kSide * kSide;
 
   static std::size_t along(int cells) {
@@ -41,7 +42,7 @@ struct TileLayout {
 };
 
 // Label: an unsigned integer whose uppermost bit marks open cells, the others hold largest key -
-// key; 0: not reached.
+// key; 0: not reached. Where all cells of the map weigh the same keys are of weight 1.
 template <class Label>
 class TiledDijkstra {
  public:
@@ -73,6 +74,7 @@ class TiledDijkstra {
   };
   struct Tile {
     bool made = false;               // classes and weights are there
+    bool open = false;               // nothing is blocked, and all its cells weigh the same
     bool busy = false;               // a thread searches it
     SearchKey least = kInfiniteKey;  // of the offers
     unsigned bucket_shift = 0;
@@ -81,6 +83,7 @@ class TiledDijkstra {
   // The data of a thread.
   struct Worker {
     BucketQueue open;
+    TileSweep sweep;
     std::vector<Offer> offers;
     std::vector<Sent> sent;
     bool too_expensive = false;
@@ -95,12 +98,21 @@ class TiledDijkstra {
   using Turn = std::pair<SearchKey, std::size_t>;
 
   View viewOf(std::size_t tile);
+  grid::CellRect rectOf(std::size_t tile) const;
   void deliver(std::size_t tile, const Offer& offer);
   void workSafely();
   void work();
   void make(std::size_t tile);
   void search(std::size_t tile, Worker& worker);
+  bool manyAreCheaper(const View& view, const std::vector<Offer>& offers) const;
+  void takeKeys(bool all_new, const View& view, Worker& worker) const;
+  void sweep(std::size_t tile, const View& view, Worker& worker);
+  void keepSwept(std::size_t tile, const View& view, Worker& worker);
   void expand(std::size_t tile, const View& view, std::uint32_t from, Worker& worker);
+  void offerInside(const View& view, std::uint32_t from, std::uint32_t moves, Worker& worker);
+  void offerOutside(std::size_t tile, const View& view, std::uint32_t from, std::uint32_t moves,
+                    Worker& worker);
+  bool isTooExpensive(SearchKey key, Worker& worker) const;
   void relax(const View& view, const Offer& offer, BucketQueue& open) const;
   SearchKey keyOf(Label label) const { return scale_.largest - (label & ~kOpen); }
 
@@ -110,7 +122,7 @@ class TiledDijkstra {
   const base::StopToken& stop_;
   const PruningRules rules_;
   const std::size_t across_;
-  std::array<SearchKey, 8> lengths_{};  // of steps, times the weight where all weigh the same
+  std::array<SearchKey, 8> lengths_{};  // of steps
 
   // Tile by tile, only the thread that searches a tile accesses it.
   base::ZeroedArray<std::uint8_t> steps_;  // that led to a cell at its cost

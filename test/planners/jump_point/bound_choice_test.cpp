@@ -113,7 +113,7 @@ TEST(BoundChoice, StaysUntilAnEighthOfTheMapChanged) {
 
 TEST(BoundChoice, LearnsNothingFromASearchOfTheMapBefore) {
   const auto map = costsOf(roomsBetweenWalls(400, 2));
-  BoundChoice choice({1.4, 0.8, 1});
+  BoundChoice choice({1.4, 0.8, 1, 0});
   choice.prepare(*map);
   AStarOptions options;
   options.heuristic = Heuristic::BLOCKS;
@@ -156,7 +156,7 @@ TEST(BoundChoice, LearnsNothingOfAMapOfOneWeight) {
   Grid<CostGrid::Weight> weights = roomsBetweenWalls(400, 2);
   for (CostGrid::Weight& weight : weights.values()) weight = std::min<CostGrid::Weight>(weight, 1);
   const auto map = costsOf(weights);
-  BoundChoice choice({1.4, 0.8, 1});
+  BoundChoice choice({1.4, 0.8, 1, 0});
   choice.prepare(*map);
   AStar by_choice(AStarOptions(), choice), alone;
   by_choice.prepare(map, StopToken());
@@ -225,7 +225,7 @@ TEST(BoundChoiceLaw, CostsAreTheLeast) {
         trial % 4 == 2 ? costmap::DiagonalCost::UNIT : costmap::DiagonalCost::SQRT2,
         trial % 3 == 0};
     Grid<CostGrid::Weight> weights = roomsBetweenWalls(120 + int(random() % 60), 1 + trial % 9);
-    BoundChoice choice({1.4, 0.8, trial % 2 == 0 ? 5000U : 20000U});
+    BoundChoice choice({1.4, 0.8, trial % 2 == 0 ? 5000U : 20000U, 0});
     auto map = costsOf(weights, motion);
     choice.prepare(*map);
     const bool at_once = !choice.undecided();
