@@ -71,7 +71,7 @@ class CostToGo {
 
   std::shared_ptr<const costmap::CostGrid> map_;
   KeyScale scale_;
-  const costmap::CostGrid::Weight factor_;  // of all keys
+  costmap::CostGrid::Weight factor_;  // of all keys
   std::size_t tiles_across_;
   // Tile by tile, in a tile row by row; one of the two is used.
   base::ZeroedArray<std::uint32_t> narrow_;
