@@ -1,4 +1,4 @@
-// The whole map's cost-to-go on a noisy map, for benchmark/engine_table.
+// The whole map's cost-to-go, for benchmark/engine_table.
 //
 //   grid_path_planner_engine_cost_to_go [--goal X,Y] [--threads N] [--side CELLS] [--weights KIND]
 //                                       [--write-costs FILE]

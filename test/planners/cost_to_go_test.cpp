@@ -90,7 +90,7 @@ TEST(CostToGoLaw, LabelsEveryCellWithItsLeastCost) {
         }
 }
 
-// Each quarter of a tile's side has one weight, and here and there a cell is blocked: tiles that are swept
+// Each half of a tile has one weight, and here and there a cell is blocked: tiles that are swept
 // over beside tiles that are searched, at the map's border too.
 TEST(CostToGoLaw, OpenTilesBesideOthers) {
   std::mt19937 random(5);
@@ -175,9 +175,10 @@ TEST(CostToGo, RepeatsWithWideLabelsWhereNarrowOnesOverflow) {
   expectLeastCosts(field, {{0, 30}});
 }
 
-// In the open as among obstacles: no cost is left out without a word.
+// In the open as among obstacles, of one weight or several: no cost is left out without a word.
 TEST(CostToGo, RefusesWhatCostsTooMuchInTheOpen) {
   Grid<CostGrid::Weight> weights(GridGeometry(60000, 1, 1.0), 65535);
+  EXPECT_THROW(CostToGo(costsOf(weights), {{0, 0}}, 1, StopToken()), TooExpensive);
   weights[Cell{59999, 0}] = 1;
   EXPECT_THROW(CostToGo(costsOf(std::move(weights)), {{0, 0}}, 1, StopToken()), TooExpensive);
 }

@@ -30,7 +30,7 @@ done
 echo "#2	INITED cov: 5 ft: 6 corp: 1/1b exec/s: 0 rss: 30Mb" >&2
 [ $target != hang ] || exec sleep 100
 [ $target != killed ] || kill -TERM $$
-[ $target != loud ] || yes "a library's line" | head -n 10000000 >&2
+[ $target != loud ] || yes "$(printf %01000d 0)" | head -n 200000 >&2
 [ $target != crash ] || { echo x > "${prefix}crash-1"; exit 77; }
 [ $target != slow ] || [ ${reported:-10} -gt 12 ] || echo x > "${prefix}slow-unit-1"
 half=$((runs / 2))

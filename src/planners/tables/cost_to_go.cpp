@@ -76,6 +76,7 @@ CostToGo::CostToGo(std::shared_ptr<const CostGrid> map, const std::vector<Cell>&
     }
   }
   scale_ = kLabelScale;
+  scale_.largest /= std::max<SearchKey>(factor_, 1);
   compute(*map_, scale_, goals, threads, stop, wide_);
 }
 
@@ -106,8 +107,8 @@ ExactCost CostToGo::cost(Cell cell) const {
   return inCells(cell) * map_->kernel();
 }
 
-// Always to a neighbour whose cost and the step sum up to the cell's cost: there is one, from which
-// the cell was relaxed.
+// Always to a neighbour whose cost and the step sum up to the cell's cost: there is one, over which
+// the cell has it.
 std::vector<Cell> CostToGo::pathFrom(Cell cell) const {
   assert(reached(cell));
   std::vector<Cell> path = {cell};

@@ -30,12 +30,11 @@ class CostToGo {
  public:
   // The most that a map of this geometry needs while it is computed: 8 bytes of label a cell (4
   // where no cost reaches 47,321 cells x weight, or cells where all weigh the same), which stay, and 4 that
-  // do not.
+  // do not; apart from 0.2 MB a thread and what is offered at the borders of tiles.
   static std::size_t bytesFor(const grid::GridGeometry& geometry);
 
   // Goals that are blocked are reached from nowhere. Throws InputError for no goal, one outside the
-  // map and threads < 1; Stopped; TooExpensive for costs from 2.9e9 on, over the weight where all cells
-  // have the same.
+  // map and threads < 1; Stopped; TooExpensive for costs from 2.9e9 on.
   CostToGo(std::shared_ptr<const costmap::CostGrid> map, const std::vector<grid::Cell>& goals,
            int threads, const base::StopToken& stop);
 

@@ -34,8 +34,8 @@ class TileSweep {
   SearchKey& key(std::uint32_t column, std::uint32_t row) { return keys_[at(column, row)]; }
   SearchKey key(std::uint32_t column, std::uint32_t row) const { return keys_[at(column, row)]; }
 
-  // Along steps of these lengths, which no key below kNoKey must exceed; a diagonal one of two straight
-  // ones, or more, is none. Where any cell has a key, all have one, kNoKey if it would be larger.
+  // Along steps of these lengths, each below kNoKey, so that none added to a key overflows; a diagonal one
+  // of two straight ones, or more, is none. Where any cell has a key, all have one, kNoKey if it would be larger.
   void run(SearchKey straight, SearchKey diagonal);
 
  private:

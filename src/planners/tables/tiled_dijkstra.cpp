@@ -8,7 +8,7 @@ using grid::Cell, grid::CellRect, grid::Grid;
 
 namespace {
 
-// So many cells of a tile that get cheaper are swept over, fewer searched from.
+// A tile with so many offers that make cells cheaper is swept over, with fewer searched from these.
 constexpr int kManyCheaper = 32;
 
 constexpr std::uint32_t kLast = TileLayout::kSide - 1;

@@ -125,7 +125,7 @@ class TiledDijkstra {
   std::array<SearchKey, 8> lengths_{};  // of steps
 
   // Tile by tile, only the thread that searches a tile accesses it.
-  base::ZeroedArray<std::uint8_t> steps_;  // that led to a cell at its cost
+  base::ZeroedArray<std::uint8_t> steps_;  // that led to a cell at its cost; 0: all were tried
   base::ZeroedArray<PruningRules::NeighbourhoodClass> classes_;
   base::ZeroedArray<costmap::CostGrid::Weight> weights_;
 
