@@ -58,7 +58,8 @@ class PlanningMaps : public test::PlannerTest {
 
   // With no radius and no decay what is searched is shown as it is.
   bool arrives() const {
-    return test::waitFor([&] { return shown_.grid().values() == map_.values(); });
+    return test::waitFor(
+        [&] { return shown_.maps() > 0 && shown_.grid().values() == map_.values(); });
   }
 
   std::mt19937 random_{1404};
