@@ -35,9 +35,9 @@ geometry_msgs::Twist twist(double surge, double yaw_rate = 0.0) {
 // A simulator of its own for every test, and a commander that speaks for as long as it is told to.
 class SimulatorTest : public testing::Test {
  protected:
-  void start(std::vector<std::string> arguments) {
+  void start(std::vector<std::string> arguments, int real_time_factor = 10) {
     ros::param::del("/simulator");  // what the test before has set
-    arguments.push_back("_real_time_factor:=10");
+    arguments.push_back("_real_time_factor:=" + std::to_string(real_time_factor));
     simulator_ = std::make_unique<Process>("simulator", arguments);
     ASSERT_TRUE(odom_.waitForMoreThan(odom_.count()));
     ASSERT_TRUE(test::waitFor([&] { return commands_.getNumSubscribers() > 0; }));
@@ -83,7 +83,7 @@ TEST_F(SimulatorTest, DrivesAsCommandedAndSaysWhereItIs) {
 
 // A vehicle whose commander dies stops.
 TEST_F(SimulatorTest, StopsWhenCommandsCease) {
-  start({});
+  start({}, 1);  // 0.3 s of the clock below
   ASSERT_TRUE(
       driveUntil(twist(1.0), [](const Odometry& o) { return o.twist.twist.linear.x > 0.99; }));
   const std::size_t seen = odom_.count();
