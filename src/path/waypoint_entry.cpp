@@ -150,6 +150,13 @@ bool isFrameName(const std::string& frame) {
   return !frame.empty() && std::none_of(frame.begin(), frame.end(), control);
 }
 
+void checkFrameName(const YAML::Node& header, const std::string& file, const std::string& frame) {
+  if (isFrameName(frame)) return;
+  throw yamlError(header, file,
+                  std::string("frame_id must be the name of a frame, got ") +
+                      (frame.empty() ? "an empty one" : "one with control characters"));
+}
+
 void checkCanBeRead(const std::string& file, const Path& path) {
   if (path.empty()) throw InputError(file, "is not written: a path without waypoints");
   if (!isFrameName(withoutSlash(path.frame_id)))

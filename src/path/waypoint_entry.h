@@ -29,6 +29,9 @@ std::string withoutSlash(std::string frame);
 // Whether that can be a frame's name: neither empty nor with control characters. Precondition: withoutSlash().
 bool isFrameName(const std::string& frame);
 
+// Throws InputError with the line of `header`, which names the frame, where isFrameName() does not hold.
+void checkFrameName(const YAML::Node& header, const std::string& file, const std::string& frame);
+
 // Throws InputError naming the file, and the waypoint, where it could not be read back: none at all, a
 // frame without a proper name, and numbers as above.
 void checkCanBeRead(const std::string& file, const Path& path);

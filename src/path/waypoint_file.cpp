@@ -31,10 +31,7 @@ std::string frameOf(const YAML::Node& root, const std::string& file) {
   std::string frame =
       yamlValueOr<std::string>(root["header"], "frame_id", file, "the name of a frame", "map");
   frame = withoutSlash(std::move(frame));
-  if (!isFrameName(frame))
-    throw yamlError(root["header"], file,
-                    std::string("frame_id must be the name of a frame, got ") +
-                        (frame.empty() ? "an empty one" : "one with control characters"));
+  checkFrameName(root["header"], file, frame);
   return frame;
 }
 

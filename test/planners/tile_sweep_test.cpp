@@ -44,9 +44,7 @@ TEST(TileSweepLaw, EachCellHasItsLeastKey) {
   const SearchKey straight = kPackedScale.straight;
   for (const SearchKey diagonal : {kPackedScale.diagonal, straight, 2 * straight})
     for (int trial = 0; trial < 15; ++trial) {
-      for (std::uint32_t row = 0; row < TileSweep::kSide; ++row)
-        for (std::uint32_t column = 0; column < TileSweep::kSide; ++column)
-          sweep.key(column, row) = TileSweep::kNoKey;
+      sweep.clear();
       const std::vector<Source> sources = randomSources(random);
       for (const Source& source : sources) {
         SearchKey& key = sweep.key(static_cast<std::uint32_t>(source.column),

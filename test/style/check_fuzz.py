@@ -9,11 +9,12 @@ import pathlib
 import resource
 import sys
 import tempfile
+import time
 from unittest import mock
 
 from common import ROOT, finish
 
-# Targets: "crash" leaves an input and ends with a code, "loud" prints 200 MB, "hang" never ends, "killed" is ended by others, "slow" has an input that takes 12 s, "well" runs as
+# Targets: "crash" leaves an input and ends with a code, "loud" prints 200 MB, "parent" leaves a child that keeps its output, "hang" never ends, "killed" is ended by others, "slow" has an input that takes 12 s, "well" runs as
 # often as it is allowed.
 PROGRAM = r"""#!/bin/sh
 case " $* " in *" --list "*) echo "TARGETS"; exit 0 ;; esac
@@ -30,6 +31,7 @@ done
 echo "#2	INITED cov: 5 ft: 6 corp: 1/1b exec/s: 0 rss: 30Mb" >&2
 [ $target != hang ] || exec sleep 100
 [ $target != killed ] || kill -TERM $$
+[ $target != parent ] || { sleep 20 & exit 0; }
 [ $target != loud ] || yes "$(printf %01000d 0)" | head -n 200000 >&2
 [ $target != crash ] || { echo x > "${prefix}crash-1"; exit 77; }
 [ $target != slow ] || [ ${reported:-10} -gt 12 ] || echo x > "${prefix}slow-unit-1"
@@ -46,9 +48,10 @@ def load(folder):
     loader = importlib.machinery.SourceFileLoader("fuzz", path)
     fuzz = importlib.util.module_from_spec(importlib.util.spec_from_loader("fuzz", loader))
     loader.exec_module(fuzz)
-    fuzz.PROGRAMS, fuzz.TABLE, fuzz.SPARE_SECONDS = folder / "programs", folder / "table.txt", 1
+    fuzz.PROGRAMS, fuzz.TABLE = folder / "programs", folder / "table.txt"
+    fuzz.SPARE_SECONDS, fuzz.LAST_WORDS = 1, 0.5
     fuzz.PROGRAMS.mkdir()
-    for name, targets in (("bad", "crash hang killed"), ("good", "loud slow well")):
+    for name, targets in (("bad", "crash hang killed parent"), ("good", "loud slow well")):
         program = fuzz.PROGRAMS / name
         program.write_text(PROGRAM.replace("TARGETS", targets), encoding="utf-8")
         program.chmod(0o755)
@@ -86,6 +89,10 @@ def complaints_of_runs(fuzz, corpus):
         code, rows, text = told(fuzz, *arguments, "killed")
     if code != 1 or rows["killed"][4] != 0 or "killed was killed by others" not in errors.getvalue():
         yield f"that others kill a program is told as a finding, as a success or not at all: {code} {text} {errors.getvalue()}"
+    begin = time.monotonic()
+    code, rows, text = told(fuzz, *arguments, "parent")
+    if code != 1 or rows["parent"][4] != 1 or "last.log" not in text or time.monotonic() - begin > 15:
+        yield f"a child that keeps a program's output holds the run up, or nothing is told: {code} {text}"
     code, rows, text = told(fuzz, *arguments, "slow")
     if code != 0 or rows["slow"][0] != 600 or rows["slow"][4] != 0:
         yield f"an input that takes no longer than it may is told as a finding, or ends the run: {code} {text}"
@@ -121,7 +128,7 @@ def main():
         fuzz = load(folder)
         complaints = [*complaints_of_memory(fuzz, folder / "loud"), *complaints_of_runs(fuzz, folder / "corpus"),
                       *complaints_of_targets(fuzz, folder / "corpus")]
-    finish(complaints, "13 rules of scripts/fuzz")
+    finish(complaints, "14 rules of scripts/fuzz")
 
 
 if __name__ == "__main__":

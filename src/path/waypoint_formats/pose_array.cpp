@@ -22,10 +22,10 @@ Path poseArrayPath(const WaypointText& text) {
   if (yamlHas(root, "header", file)) {
     const std::string frame = withoutSlash(
         yamlValueOr<std::string>(root["header"], "frame_id", file, "the name of a frame", ""));
-    if (!frame.empty() && !isFrameName(frame))
-      throw yamlError(root["header"], file,
-                      "frame_id must be the name of a frame, got one with control characters");
-    if (!frame.empty()) read.path.frame_id = frame;
+    if (!frame.empty()) {
+      checkFrameName(root["header"], file, frame);
+      read.path.frame_id = frame;
+    }
   }
   for (const YAML::Node& node : poses) {
     text.limits.goOn(file);
