@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <std_srvs/Empty.h>
 
+#include "ros/support/call_manager.h"
 #include "ros/support/planner_fixture.h"
 #include "ros/support/wait.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 std::vector<std::string> loaded() {
   nodelet::NodeletList call;
-  if (!ros::service::call("/manager/list", call)) return {};
+  if (!test::callManager("/manager/list", call)) return {};
   return call.response.nodelets;
 }
 
@@ -31,7 +32,7 @@ TEST(Nodelets, PlanTogetherAndAreUnloaded) {
   for (const char* name : {"/path_planner", "/octree_mapping", "/map_publisher"}) {
     nodelet::NodeletUnload unload;
     unload.request.name = name;
-    EXPECT_TRUE(ros::service::call("/manager/unload_nodelet", unload)) << name;
+    EXPECT_TRUE(test::callManager("/manager/unload_nodelet", unload)) << name;
     EXPECT_TRUE(unload.response.success) << name;
   }
   EXPECT_TRUE(loaded().empty());

@@ -22,6 +22,7 @@
 
 #include "grid_path_planner/NavigatePathActionGoal.h"
 #include "grid_path_planner/PlanPathActionGoal.h"
+#include "ros/support/call_manager.h"
 #include "ros/support/known_nodes.h"
 #include "ros/support/mapping_fixture.h"
 #include "ros/support/nodelet_command.h"
@@ -195,13 +196,13 @@ class Unload : public testing::Test {
         call.request.remap_source_args.push_back(from);
         call.request.remap_target_args.push_back(to);
       }
-    ASSERT_TRUE(ros::service::call("/manager/load_nodelet", call) && call.response.success) << name;
+    ASSERT_TRUE(test::callManager("/manager/load_nodelet", call) && call.response.success) << name;
   }
   static void unload(const std::string& name) {
     nodelet::NodeletUnload call;
     call.request.name = "/" + name;
     const auto start = std::chrono::steady_clock::now();
-    ASSERT_TRUE(ros::service::call("/manager/unload_nodelet", call)) << name;
+    ASSERT_TRUE(test::callManager("/manager/unload_nodelet", call)) << name;
     EXPECT_TRUE(call.response.success) << name;
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     EXPECT_LT(taken, Process::patience()) << name;
