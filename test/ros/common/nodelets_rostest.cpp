@@ -1,26 +1,19 @@
 // map_publisher, projected_map and path_planner as nodelets of one manager.
 #include <gtest/gtest.h>
 #include <nav_msgs/GetPlan.h>
-#include <nodelet/NodeletList.h>
-#include <nodelet/NodeletUnload.h>
 #include <ros/ros.h>
 #include <std_srvs/Empty.h>
 
-#include "ros/support/call_manager.h"
+#include "ros/support/manager_client.h"
 #include "ros/support/planner_fixture.h"
 #include "ros/support/wait.h"
 
 namespace grid_path_planner::nodes {
 namespace {
 
-std::vector<std::string> loaded() {
-  nodelet::NodeletList call;
-  if (!test::callManager("/manager/list", call)) return {};
-  return call.response.nodelets;
-}
-
 TEST(Nodelets, PlanTogetherAndAreUnloaded) {
-  ASSERT_TRUE(test::waitFor([] { return loaded().size() == 3; }));
+  test::ManagerClient manager("/manager");
+  ASSERT_TRUE(test::waitFor([&] { return manager.loaded().size() == 3; }));
   nav_msgs::GetPlan call;
   call.request.start = test::poseAt(-1.5, -1.0);
   call.request.goal = test::poseAt(-0.2, -0.2);
@@ -29,13 +22,9 @@ TEST(Nodelets, PlanTogetherAndAreUnloaded) {
   }));
   std_srvs::Empty reset;
   EXPECT_TRUE(ros::service::call("/octree_mapping/reset", reset));
-  for (const char* name : {"/path_planner", "/octree_mapping", "/map_publisher"}) {
-    nodelet::NodeletUnload unload;
-    unload.request.name = name;
-    EXPECT_TRUE(test::callManager("/manager/unload_nodelet", unload)) << name;
-    EXPECT_TRUE(unload.response.success) << name;
-  }
-  EXPECT_TRUE(loaded().empty());
+  for (const char* name : {"/path_planner", "/octree_mapping", "/map_publisher"})
+    EXPECT_TRUE(manager.unload(name)) << name;
+  EXPECT_TRUE(manager.loaded().empty());
   EXPECT_FALSE(ros::service::exists("/path_planner/make_plan", false));
   EXPECT_FALSE(ros::service::exists("/octree_mapping/reset", false));
 }

@@ -6,9 +6,6 @@
 #include <move_base_msgs/MoveBaseActionGoal.h>
 #include <nav_msgs/GetMap.h>
 #include <nav_msgs/GetPlan.h>
-#include <nodelet/NodeletList.h>
-#include <nodelet/NodeletLoad.h>
-#include <nodelet/NodeletUnload.h>
 #include <sensor_msgs/Joy.h>
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
@@ -22,8 +19,8 @@
 
 #include "grid_path_planner/NavigatePathActionGoal.h"
 #include "grid_path_planner/PlanPathActionGoal.h"
-#include "ros/support/call_manager.h"
 #include "ros/support/known_nodes.h"
+#include "ros/support/manager_client.h"
 #include "ros/support/mapping_fixture.h"
 #include "ros/support/nodelet_command.h"
 #include "ros/support/planner_fixture.h"
@@ -184,9 +181,10 @@ class Unload : public testing::Test {
     ros::param::set("/simulator/camera_width", 32);
     ros::param::set("/simulator/camera_height", 24);
     manager_ = std::make_unique<Process>(test::nodeletCommand({"manager", "__name:=manager"}));
+    client_ = std::make_unique<test::ManagerClient>("/manager");
   }
 
-  static void load(const std::string& name) {
+  void load(const std::string& name) {
     nodelet::NodeletLoad call;
     call.request.name = "/" + name;
     call.request.type = "grid_path_planner/" + kNodelets.at(name);
@@ -196,20 +194,18 @@ class Unload : public testing::Test {
         call.request.remap_source_args.push_back(from);
         call.request.remap_target_args.push_back(to);
       }
-    ASSERT_TRUE(test::callManager("/manager/load_nodelet", call) && call.response.success) << name;
+    ASSERT_TRUE(client_->load(call)) << name;
   }
-  static void unload(const std::string& name) {
-    nodelet::NodeletUnload call;
-    call.request.name = "/" + name;
+  void unload(const std::string& name) {
     const auto start = std::chrono::steady_clock::now();
-    ASSERT_TRUE(test::callManager("/manager/unload_nodelet", call)) << name;
-    EXPECT_TRUE(call.response.success) << name;
+    ASSERT_TRUE(client_->unload("/" + name)) << name;
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     EXPECT_LT(taken, Process::patience()) << name;
     longest_ = std::max(longest_, taken.count());
   }
 
   std::unique_ptr<Process> manager_;
+  std::unique_ptr<test::ManagerClient> client_;
   inline static double longest_ = 0.0;
 };
 
@@ -220,7 +216,6 @@ TEST(UnloadedNodelets, AreAllOfThePackage) {
 }
 
 TEST_F(Unload, OfEveryNodeletUnderLoad) {
-  ASSERT_TRUE(waitFor([] { return ros::service::exists("/manager/load_nodelet", false); }));
   const Messages messages;
   const Questions questions;
   std::mt19937 random(7);  // NOLINT: the same order every time
@@ -244,7 +239,6 @@ TEST_F(Unload, OfEveryNodeletUnderLoad) {
 // Not one by one, but with the manager, which gives its names back to the master: it was taken for a
 // master that had lost them, and the process ended by SIGABRT when it registered again.
 TEST_F(Unload, WithTheManager) {
-  ASSERT_TRUE(waitFor([] { return ros::service::exists("/manager/load_nodelet", false); }));
   const Messages messages;
   const Questions questions;
   for (const std::string& name : names()) load(name);
