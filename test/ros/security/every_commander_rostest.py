@@ -19,6 +19,7 @@ from late_publisher import LatePublisher
 from node_table import NODES
 from own_master import start_own_master
 from running_nodes import PACKAGE
+from session_clock import session_seconds
 
 DEADLINE = 60.0   # s
 QUIET = 1.0       # s without a motion: it stands
@@ -52,7 +53,7 @@ class EveryCommander(CommanderTest):
     def stands(self, node, meanwhile=lambda: None, every=0.1):
         """It soon commands no motion for a while, whatever is done meanwhile, and has said so by a zero."""
         return probes.until(node, lambda: not node.moved_after(time.monotonic() - QUIET) and node.ends_in_zeros(),
-                            time.monotonic() + DEADLINE, meanwhile, every)
+                            session_seconds() + DEADLINE, meanwhile, every)
 
     def stays(self, node, meanwhile=lambda: None):
         """It commands no motion for a while from now on."""
@@ -85,7 +86,7 @@ class EveryCommander(CommanderTest):
                 offered["times"] += 1
                 node.table.offer(node)
             self.assertTrue(probes.until(node, lambda: node.is_connected() and offered["times"] > 5,
-                                         time.monotonic() + DEADLINE, offer, 0.3), name)
+                                         session_seconds() + DEADLINE, offer, 0.3), name)
             self.assertTrue(self.stays(node, offer), name)
             node.stop(False)
             self.assertTrue(self.moves(node), "%s: %s" % (name, self.said(node)))
@@ -98,7 +99,7 @@ class EveryCommander(CommanderTest):
             node = self.commander(name, stopped=None)
             offer = lambda node=node: node.table.offer(node)
             self.assertTrue(probes.until(node, lambda: node.is_connected() and late.heard > 0,
-                                         time.monotonic() + DEADLINE, offer, 0.1), name)
+                                         session_seconds() + DEADLINE, offer, 0.1), name)
             self.assertTrue(self.stays(node, offer), name)
             self.assertFalse(node.moved_after(0.0), "%s drove before it was told to stop" % name)
             node.end(signal.SIGTERM)
@@ -126,7 +127,7 @@ class EveryCommander(CommanderTest):
             for number in (signal.SIGINT, signal.SIGTERM):
                 node = self.moving(name)
                 self.assertIsNotNone(node.end(number), name)
-                self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, time.monotonic() + END_SECONDS), name)
+                self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, session_seconds() + END_SECONDS), name)
 
     def test_a_manager_that_is_signalled_leaves_a_zero(self):
         """roscpp closes the connections at SIGINT before a nodelet hears of it, and SIGTERM ends a manager at once."""
@@ -147,8 +148,8 @@ class EveryCommander(CommanderTest):
             manager = node.processes[0]
             ask_to_end(node)
             self.assertTrue(probes.until(self.anybody(), lambda: manager.poll() is not None,
-                                         time.monotonic() + END_SECONDS), "%s after %s" % (name, what))
-            self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, time.monotonic() + END_SECONDS),
+                                         session_seconds() + END_SECONDS), "%s after %s" % (name, what))
+            self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, session_seconds() + END_SECONDS),
                             "%s after %s: %s" % (name, what, self.said(node)))
             node.end(signal.SIGKILL)
 
@@ -158,7 +159,7 @@ class EveryCommander(CommanderTest):
 
             def hold():
                 node.send("manual_control", Bool(True))
-            probes.until(node, lambda: not node.moved_after(time.monotonic() - QUIET), time.monotonic() + DEADLINE, hold)
+            probes.until(node, lambda: not node.moved_after(time.monotonic() - QUIET), session_seconds() + DEADLINE, hold)
             self.assertTrue(self.stays(node, hold), name)
             self.assertFalse(self.resumes(node), "%s while the joystick commands" % name)
             node.send("manual_control", Bool(False))
@@ -170,7 +171,7 @@ class EveryCommander(CommanderTest):
         for name in DRIVERS:
             node = self.moving(name)
             node.send("manual_control", Bool(True))
-            self.assertTrue(probes.until(node, lambda: self.resumes(node), time.monotonic() + DEADLINE), name)
+            self.assertTrue(probes.until(node, lambda: self.resumes(node), session_seconds() + DEADLINE), name)
             self.assertTrue(self.moves(node), name)
 
     @staticmethod

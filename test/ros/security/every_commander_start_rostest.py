@@ -10,7 +10,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import rosgraph
@@ -22,6 +21,7 @@ from commanders import COMMANDERS, VELOCITIES, CommanderTest, RunningCommander
 from node_table import NODES
 from own_master import start_own_master
 from running_nodes import PACKAGE, RunningNode, executable, nodelet_program
+from session_clock import session_seconds
 from slow_master import SlowMaster
 
 DEADLINE = 60.0  # s
@@ -57,7 +57,7 @@ class EveryCommanderStart(CommanderTest):
     def first(self, name, kind):
         """A node that is to be alone, all there."""
         node = self.started_node(name, kind)
-        self.assertTrue(probes.until(node, lambda: self.is_up(node.full_name()), time.monotonic() + DEADLINE),
+        self.assertTrue(probes.until(node, lambda: self.is_up(node.full_name()), session_seconds() + DEADLINE),
                         "%s: %s" % (node, self.said(node)))
         return node
 
@@ -114,7 +114,7 @@ class EveryCommanderStart(CommanderTest):
 
             def settled():
                 return all(one.poll() is not None or self.is_up(full_name) for one, full_name in both)
-            self.assertTrue(probes.until(self.anybody(), settled, time.monotonic() + DEADLINE), str(node))
+            self.assertTrue(probes.until(self.anybody(), settled, session_seconds() + DEADLINE), str(node))
             codes = [one.poll() for one, _ in both]
             self.assertTrue(any(code is not None and code != 0 for code in codes), "%s beside %s: %s: %s" % (
                 second, node, codes, self.said(node)))
@@ -143,7 +143,7 @@ class EveryCommanderStart(CommanderTest):
             self.addCleanup(slow.end)
             node = RunningCommander(name, "process", self.clock, self.folder, master=slow.uri)
             self.started.append(node)
-            self.assertTrue(probes.until(node, lambda: node.moved_after(0.0), time.monotonic() + DEADLINE,
+            self.assertTrue(probes.until(node, lambda: node.moved_after(0.0), session_seconds() + DEADLINE,
                                          lambda: node.table.offer(node), 0.3), "%s: %s" % (name, self.said(node)))
             asked_before = sum(at < node.commands[0][0] for at in slow.asked_at)
             self.assertGreater(asked_before, 4, "%s: %s" % (name, self.said(node)))
@@ -156,7 +156,7 @@ class EveryCommanderStart(CommanderTest):
                     node = self.first(first, kind)
                     process = self.second(node, second)
                     name = "%s/second_%s" % (node.space, second)
-                    self.assertTrue(probes.until(node, lambda: self.is_up(name), time.monotonic() + DEADLINE),
+                    self.assertTrue(probes.until(node, lambda: self.is_up(name), session_seconds() + DEADLINE),
                                     "%s beside %s: %s" % (second, node, self.said(node)))
                     self.assertIsNone(process.poll() if kind == "process" else None)
                     node.end(signal.SIGKILL)

@@ -9,6 +9,7 @@ import uuid
 from genpy.message import fill_message_args
 from message_classes import message_class
 from roslib.message import get_service_class
+from session_clock import session_seconds
 
 
 def of(kind, **fields):
@@ -180,11 +181,13 @@ def right(kind, node):
 
 
 def until(node, answered, deadline, send=lambda: None, every=0.2):
-    """Sends again and again until it is answered. False after the deadline (monotonic), or when the node has ended."""
+    """Sends again and again until it is answered. False after the deadline (session_clock.py), or when the node has ended."""
     due = 0.0
-    while time.monotonic() < deadline and node.lives():
+    while node.lives():
         if answered():
             return True
+        if session_seconds() > deadline:
+            return False
         if time.monotonic() > due:
             send()
             due = time.monotonic() + every
