@@ -23,11 +23,19 @@
 #include "ros/common/ending/manager_end.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/master/master_watch.h"
+#include "ros/common/outgoing/topic_changes.h"
 
 namespace grid_path_planner::nodes {
 
 template <class Node>
 class NodeletShell : public nodelet::Nodelet {
+ public:
+  ~NodeletShell() override {
+    registered_.reset();
+    const auto alone = lockTopics();
+    node_.reset();
+  }
+
  protected:
   Node& node() { return *node_; }
 
@@ -38,6 +46,7 @@ class NodeletShell : public nodelet::Nodelet {
     nh_.setCallbackQueue(queue_.get());
     private_nh_.setCallbackQueue(queue_.get());
     queue_->hold();
+    const auto alone = lockTopics();
     try {
       node_ = std::make_unique<Node>(nh_, private_nh_);
     } catch (const std::exception& error) {  // of which the manager tells nobody

@@ -14,6 +14,7 @@
 #include "ros/common/guarded_queue.h"
 #include "ros/common/master/end_without_master.h"
 #include "ros/common/master/master_watch.h"
+#include "ros/common/outgoing/topic_changes.h"
 #include "ros/common/outgoing/unread_log.h"
 #include "ros/common/process/freed_memory.h"
 
@@ -82,8 +83,11 @@ void serve(const std::string& name, const NodeMaker& make) {
   nh.setCallbackQueue(&queue);
   private_nh.setCallbackQueue(&queue);
   ShutdownRequest::instance().listen();
-  const std::shared_ptr<void> node = make(nh, private_nh);
-  const auto registered = MasterWatch::shared();
+  std::shared_ptr<void> node = [&] {
+    const auto alone = lockTopics();
+    return make(nh, private_nh);
+  }();
+  auto registered = MasterWatch::shared();
   node_runs = true;
   // A process registers with the master at its first line of log. Were that the line that says why
   // it ends, the master would end the new node of this name in favour of the old one.
@@ -94,6 +98,9 @@ void serve(const std::string& name, const NodeMaker& make) {
     reason = endReason();
   }
   ROS_WARN_STREAM(name << " ends: " << (reason.empty() ? "ROS was shut down" : reason));
+  registered.reset();
+  const auto alone = lockTopics();
+  node.reset();
 }
 
 // Where the check fails: the node does not come up.

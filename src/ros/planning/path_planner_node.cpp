@@ -14,6 +14,7 @@
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/master/command_claim.h"
 #include "ros/common/network_text.h"
+#include "ros/common/outgoing/topic_changes.h"
 #include "ros/common/parameters.h"
 
 namespace grid_path_planner::nodes {
@@ -278,7 +279,10 @@ void PathPlannerNode::publishRectangles(const PathPlannerNodeOptions& options,
     cut_costs_.reset();
     return;
   }
-  if (!rectangles_) rectangles_ = std::make_unique<RectanglePublisher>(nh_);
+  if (!rectangles_) {
+    const auto alone = lockTopicsOfRunningNode();
+    rectangles_ = std::make_unique<RectanglePublisher>(nh_);
+  }
   if (costs != cut_costs_ || !shown)
     rectangles_->publish(costs, server_->vehicleLane().frame(options),
                          memoryLimitOf(options.planner.search));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "grid_path_planner/planners/decomposition.h"
+#include "ros/common/outgoing/topic_changes.h"
 #include "ros/planning/rectangle_markers.h"
 
 namespace grid_path_planner::nodes {
@@ -37,7 +38,10 @@ void RectanglePublisher::clear() {
   worker_.cancel(kSlot);
   worker_.post(
       [this](const StopSource&) {
-        map_.shutdown();
+        {
+          const auto alone = lockTopicsOfRunningNode();
+          map_.shutdown();
+        }
         markers_.publish(rectangleMarkers({}, {}, "map", ros::Time::now()));
       },
       kSlot);
@@ -72,7 +76,10 @@ void RectanglePublisher::cutAndTell(std::shared_ptr<const CostGrid> costs,
   limits.bytes = memory_limit;
   const std::vector<CellRect> rectangles = largestFirst(free, limits, stop);
   const ros::Time now = ros::Time::now();
-  if (!map_) advertiseMap();
+  if (!map_) {
+    const auto alone = lockTopicsOfRunningNode();
+    advertiseMap();
+  }
   map_.publish(rectanglesToMessage(geometry, rectangles, frame_id, now));
   markers_.publish(rectangleMarkers(geometry, rectangles, frame_id, now));
 }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "ros/common/outgoing/topic_changes.h"
+
 namespace grid_path_planner::nodes {
 
 using simulation::NavigationSensorOptions;
@@ -32,6 +34,7 @@ void send(const ros::Publisher& publisher, Message message, const std::string& f
 
 void SensorPublisher::setOptions(const NavigationSensorOptions& options) {
   options_ = options;
+  const auto alone = lockTopicsOfRunningNode();
   using geometry_msgs::PoseWithCovarianceStamped;
   using geometry_msgs::TwistWithCovarianceStamped;
   advertise<sensor_msgs::Imu>(nh_, "imu/data", options.imu.enabled, imu_);

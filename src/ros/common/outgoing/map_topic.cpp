@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "ros/common/outgoing/topic_changes.h"
+
 namespace grid_path_planner::nodes {
 
 using grid::CellRect;
@@ -106,6 +108,7 @@ void MapTopic::forget() {
     if (!std::exchange(sent_, false)) return;
   }
   if (!latch_) return;
+  const auto alone = lockTopicsOfRunningNode();
   maps_.shutdown();
   {
     // Whoever came in between comes again, and its going was not told.

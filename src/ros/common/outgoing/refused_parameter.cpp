@@ -3,6 +3,8 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <std_msgs/String.h>
 
+#include "ros/common/outgoing/topic_changes.h"
+
 namespace grid_path_planner::nodes {
 
 RefusedParameter::RefusedParameter(const ros::NodeHandle& private_nh)
@@ -12,6 +14,7 @@ RefusedParameter::RefusedParameter(const ros::NodeHandle& private_nh)
 void RefusedParameter::refuse(const std::string& sentence) {
   tell(sentence);
   if (diagnostics_) return;
+  const auto alone = lockTopicsOfRunningNode();
   diagnostics_ = private_nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1);
   timer_ = private_nh_.createWallTimer(
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { publishDiagnostics(); });
