@@ -65,8 +65,17 @@ class NodeletShell : public nodelet::Nodelet {
   std::shared_ptr<MasterWatch> registered_;
 };
 
-template <class Node>
+// `finish` stops the vehicle in the thread that destroys the node.
+template <class Node, void (Node::*finish)() = &Node::stop>
 class CommanderShell : public NodeletShell<Node> {
+ public:
+  ~CommanderShell() override {
+    const bool complete = end_.has_value();
+    end_.reset();
+    // At once, not when its turn comes: a nodelet that is loaded just now may read a world for half a minute.
+    if (complete) (this->node().*finish)();
+  }
+
  private:
   void onInit() override {
     NodeletShell<Node>::onInit();

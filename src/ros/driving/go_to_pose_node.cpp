@@ -87,7 +87,7 @@ GoToPoseNode::~GoToPoseNode() {
 }
 
 void GoToPoseNode::giveUp() {
-  finished_ = true;
+  if (std::exchange(finished_, true)) return;
   navigator_.drop();  // a plan that comes now is not driven
   carryOutOrders();
   driver_.cancel();

@@ -63,6 +63,8 @@ class GoToPoseNode {
   // Stops the vehicle.
   ~GoToPoseNode();
 
+  // The same, once, in the queue's thread.
+  void giveUp();
   // The same, from any thread but the queue's.
   void stop() {
     doneWithin(1.0, *nh_.getCallbackQueue(), [this] { giveUp(); });
@@ -78,7 +80,6 @@ class GoToPoseNode {
     std::optional<geometry_msgs::PoseStamped> pose;  // in the map's frame; none until tf knows it
   };
 
-  void giveUp();
   void startServer();
   void startTimers();
   void use(const GoToPoseOptions& options);

@@ -3,7 +3,7 @@
 
 namespace grid_path_planner::nodes {
 
-class GoToPoseNodelet : public CommanderShell<GoToPoseNode> {};
+class GoToPoseNodelet : public CommanderShell<GoToPoseNode, &GoToPoseNode::giveUp> {};
 
 }  // namespace grid_path_planner::nodes
 

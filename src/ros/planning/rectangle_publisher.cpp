@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "grid_path_planner/planners/decomposition.h"
-#include "ros/common/outgoing/topic_changes.h"
+#include "ros/common/outgoing/latched_message.h"
 #include "ros/planning/rectangle_markers.h"
 
 namespace grid_path_planner::nodes {
@@ -28,20 +28,15 @@ constexpr char kSlot[] = "rectangles";
 }  // namespace
 
 RectanglePublisher::RectanglePublisher(ros::NodeHandle nh)
-    : nh_(nh),
-      markers_(nh.advertise<visualization_msgs::MarkerArray>("rectangle_markers", 1, true)) {
-  advertiseMap();
-}
+    : map_(nh.advertise<RectangleMap>("rectangle_map", 1, true)),
+      markers_(nh.advertise<visualization_msgs::MarkerArray>("rectangle_markers", 1, true)) {}
 
 void RectanglePublisher::clear() {
   shown_ = false;
   worker_.cancel(kSlot);
   worker_.post(
       [this](const StopSource&) {
-        {
-          const auto alone = lockTopicsOfRunningNode();
-          map_.shutdown();
-        }
+        forgetLatched(map_);
         markers_.publish(rectangleMarkers({}, {}, "map", ros::Time::now()));
       },
       kSlot);
@@ -76,10 +71,6 @@ void RectanglePublisher::cutAndTell(std::shared_ptr<const CostGrid> costs,
   limits.bytes = memory_limit;
   const std::vector<CellRect> rectangles = largestFirst(free, limits, stop);
   const ros::Time now = ros::Time::now();
-  if (!map_) {
-    const auto alone = lockTopicsOfRunningNode();
-    advertiseMap();
-  }
   map_.publish(rectanglesToMessage(geometry, rectangles, frame_id, now));
   markers_.publish(rectangleMarkers(geometry, rectangles, frame_id, now));
 }

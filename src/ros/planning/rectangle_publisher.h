@@ -29,7 +29,7 @@ class RectanglePublisher {
   // Cancels the decomposition and unadvertises both topics.
   ~RectanglePublisher() { worker_.stop(); }
 
-  // Unadvertises rectangle_map and deletes the markers, which rviz shows on otherwise.
+  // Nobody gets the last rectangle_map any longer; deletes the markers, which rviz shows on otherwise.
   void clear();
   // Whether publish() was called after the last clear().
   bool shown() const { return shown_; }
@@ -41,9 +41,7 @@ class RectanglePublisher {
  private:
   void cutAndTell(std::shared_ptr<const costmap::CostGrid> costs, const std::string& frame_id,
                   std::size_t memory_limit, const base::StopToken& stop);
-  void advertiseMap() { map_ = nh_.advertise<RectangleMap>("rectangle_map", 1, true); }
 
-  ros::NodeHandle nh_;
   ros::Publisher map_;  // the worker's, as is markers_
   ros::Publisher markers_;
   bool shown_ = false;

@@ -15,10 +15,9 @@ constexpr std::uint32_t kQueue = 1000;  // messages: many steps at once in time-
 
 template <class Message>
 void advertise(ros::NodeHandle& nh, const char* topic, bool enabled, ros::Publisher& publisher) {
-  if (!enabled)
-    publisher.shutdown();
-  else if (!publisher)
-    publisher = nh.advertise<Message>(topic, kQueue);
+  if (enabled == static_cast<bool>(publisher)) return;
+  const auto alone = lockTopicsOfRunningNode();
+  publisher = enabled ? nh.advertise<Message>(topic, kQueue) : ros::Publisher();
 }
 
 template <class Message>
@@ -34,7 +33,6 @@ void send(const ros::Publisher& publisher, Message message, const std::string& f
 
 void SensorPublisher::setOptions(const NavigationSensorOptions& options) {
   options_ = options;
-  const auto alone = lockTopicsOfRunningNode();
   using geometry_msgs::PoseWithCovarianceStamped;
   using geometry_msgs::TwistWithCovarianceStamped;
   advertise<sensor_msgs::Imu>(nh_, "imu/data", options.imu.enabled, imu_);

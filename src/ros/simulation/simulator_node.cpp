@@ -12,6 +12,7 @@
 #include "ros/common/ending/end_of_node.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/outgoing/topic_changes.h"
 #include "ros/common/parameters.h"
 #include "ros/common/velocity_message.h"
 #include "ros/simulation/transform_message.h"
@@ -162,13 +163,16 @@ void SimulatorNode::use(const SimulatorOptions& options) {
 void SimulatorNode::updateCamera(const SimulatorOptions& options) {
   const CameraFrameNames frames = cameraFrameNames(options);
   vehicle_publisher_.setFixed(fixedTransforms(options));
-  if (world_ && !(camera_ && camera_->same(options.camera, frames)))
+  if (world_ && !(camera_ && camera_->same(options.camera, frames))) {
+    const auto alone = lockTopicsOfRunningNode();
     camera_ = std::make_unique<DepthCameraPublisher>(nh_, *world_, options.camera, frames);
+  }
   updateImageCamera(options.image_camera);
 }
 
 void SimulatorNode::updateImageCamera(const simulation::ImageCameraOptions& options) {
   if (image_camera_ && sameOptions(options, image_camera_->options())) return;
+  const auto alone = lockTopicsOfRunningNode();
   image_camera_.reset();
   if (options.enabled)
     image_camera_ = std::make_unique<ImageCameraPublisher>(nh_, *world_, options, faults_);

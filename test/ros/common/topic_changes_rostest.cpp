@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ros/common/nodelet_shell.h"
+#include "ros/support/wait.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -49,6 +50,28 @@ TEST(TopicChanges, NodeletsAreMadeAndDestroyedOneAtATime) {
   one.join();
   other.join();
   EXPECT_EQ(most_inside, 1);
+}
+
+std::atomic<bool> stopped{false};
+
+struct Commander {
+  Commander(const ros::NodeHandle&, const ros::NodeHandle&) {}
+  ~Commander() { EXPECT_TRUE(stopped); }
+  void stop() { stopped = true; }
+};
+
+class CommanderNodelet : public CommanderShell<Commander> {};
+
+// The lock may be held by a nodelet that reads a world for half a minute.
+TEST(TopicChanges, ACommanderStopsTheVehicleBeforeItsTurnComes) {
+  ros::CallbackQueue queue;
+  auto nodelet = std::make_unique<CommanderNodelet>();
+  nodelet->init("/commander", {}, {}, &queue, &queue);
+  auto whole = lockTopics();
+  std::thread unloading([&] { nodelet.reset(); });
+  EXPECT_TRUE(test::waitFor([] { return stopped.load(); }));
+  whole.unlock();
+  unloading.join();
 }
 
 TEST(TopicChanges, ANodeThatRunsDoesNotWaitForWhoDestroysIt) {

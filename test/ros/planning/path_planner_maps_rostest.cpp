@@ -155,7 +155,8 @@ TEST_F(CostsToGo, AGoalThatIsNowhereHasNone) {
   EXPECT_EQ(image->width, 3u);
 }
 
-// What was latched when the last subscriber left is not the newest map that a later one gets first.
+// What was latched when the last subscriber left is not the newest map that a later one gets first; who has
+// subscribed stays.
 TEST(MapTopic, WhatIsForgottenIsNotLatched) {
   ros::NodeHandle nh;
   const auto mapOf = [](std::int8_t value) {
@@ -163,13 +164,18 @@ TEST(MapTopic, WhatIsForgottenIsNotLatched) {
                               ros::Time::now());
   };
   MapTopic topic(nh, "forgotten_map", true, [] {});
+  const test::Latest<nav_msgs::OccupancyGrid> early(nh, "forgotten_map");
+  ASSERT_TRUE(test::waitFor([&] { return topic.takeNewSubscriber(); }));
   topic.send(mapOf(100));
+  ASSERT_TRUE(early.waitForMoreThan(0));
   topic.forget();
+  EXPECT_TRUE(topic.hasSubscribers());
   test::WholeMapListener late("/forgotten_map");
   ASSERT_TRUE(test::waitFor([&] { return topic.takeNewSubscriber(); }));
   topic.send(mapOf(0));
   ASSERT_TRUE(late.hasMap());
   EXPECT_EQ(late.firstGrid().values(), std::vector<std::int8_t>{0});
+  EXPECT_TRUE(early.waitForMoreThan(1));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ class EveryCommander(CommanderTest):
 
     def moves(self, node):
         begin = time.monotonic()
-        return probes.until(node, lambda: node.moved_after(begin), begin + DEADLINE, lambda: node.table.offer(node), 2.0)
+        return probes.until(node, lambda: node.moved_after(begin), session_seconds() + DEADLINE, lambda: node.table.offer(node), 2.0)
 
     def stands(self, node, meanwhile=lambda: None, every=0.1):
         """It soon commands no motion for a while, whatever is done meanwhile, and has said so by a zero."""

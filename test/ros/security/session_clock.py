@@ -1,12 +1,13 @@
 """Seconds in which this session had a processor, for deadlines.
 
 A session may be left without any for ten seconds (own_master.py), where its nodes cannot answer and this process cannot
-ask. A thread wakes up fifty times a second; of what it is late by only a tenth of a second counts.
+ask. A thread wakes up fifty times a second; where it is late by more than half a second, which other work alone does not
+bring about, half a second counts.
 """
 import threading
 import time
 
-PERIOD, MOST = 0.02, 0.1  # s
+PERIOD, MOST = 0.02, 0.5  # s
 
 
 class SessionClock:

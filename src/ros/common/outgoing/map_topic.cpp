@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "ros/common/outgoing/topic_changes.h"
+#include "ros/common/outgoing/latched_message.h"
 
 namespace grid_path_planner::nodes {
 
@@ -35,15 +35,11 @@ map_msgs::OccupancyGridUpdate updateOf(const OccupancyGrid& map, const CellRect&
 
 MapTopic::MapTopic(ros::NodeHandle nh, const std::string& topic, bool latch,
                    std::function<void()> on_subscriber)
-    : nh_(std::move(nh)), topic_(topic), latch_(latch), on_subscriber_(std::move(on_subscriber)) {
-  advertiseMaps();
-  updates_ = nh_.advertise<map_msgs::OccupancyGridUpdate>(
-      topic_ + "_updates", 100, adding(of_updates_), removing(of_updates_));
-}
-
-void MapTopic::advertiseMaps() {
-  maps_ = nh_.advertise<nav_msgs::OccupancyGrid>(topic_, 5, adding(of_maps_), removing(of_maps_),
-                                                 {}, latch_);
+    : on_subscriber_(std::move(on_subscriber)) {
+  maps_ = nh.advertise<nav_msgs::OccupancyGrid>(topic, 5, adding(of_maps_), removing(of_maps_), {},
+                                                latch);
+  updates_ = nh.advertise<map_msgs::OccupancyGridUpdate>(
+      topic + "_updates", 100, adding(of_updates_), removing(of_updates_));
 }
 
 ros::SubscriberStatusCallback MapTopic::adding(Subscribers& to) {
@@ -89,7 +85,6 @@ bool MapTopic::wholeMapIsDue(double period) const {
 void MapTopic::send(const nav_msgs::OccupancyGrid& map) {
   maps_.publish(map);
   std::lock_guard<std::mutex> lock(mutex_);
-  sent_ = true;
   updated_ = false;
   sent_at_ = std::chrono::steady_clock::now();
 }
@@ -100,22 +95,12 @@ void MapTopic::send(const map_msgs::OccupancyGridUpdate& update) {
   updated_ = true;
 }
 
-// No other call of roscpp drops a latched message.
 void MapTopic::forget() {
   {
     std::lock_guard<std::mutex> lock(mutex_);
     updated_ = false;
-    if (!std::exchange(sent_, false)) return;
   }
-  if (!latch_) return;
-  const auto alone = lockTopicsOfRunningNode();
-  maps_.shutdown();
-  {
-    // Whoever came in between comes again, and its going was not told.
-    std::lock_guard<std::mutex> lock(mutex_);
-    of_maps_.clear();
-  }
-  advertiseMaps();
+  forgetLatched(maps_);
 }
 
 }  // namespace grid_path_planner::nodes

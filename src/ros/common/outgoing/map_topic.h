@@ -57,20 +57,15 @@ class MapTopic {
  private:
   using Subscribers = std::multiset<std::string>;
 
-  void advertiseMaps();
   ros::SubscriberStatusCallback adding(Subscribers& to);
   ros::SubscriberStatusCallback removing(Subscribers& from);
 
-  ros::NodeHandle nh_;
-  const std::string topic_;
-  const bool latch_;
   const std::function<void()> on_subscriber_;
   mutable std::mutex mutex_;  // of what follows up to the publishers
   Subscribers of_maps_;       // names of their nodes
   Subscribers of_updates_;
   bool new_subscriber_ = false;
-  bool sent_ = false;     // a whole map, which is latched
-  bool updated_ = false;  // since then
+  bool updated_ = false;  // since the last whole map
   std::chrono::steady_clock::time_point sent_at_;
   ros::Publisher maps_;
   ros::Publisher updates_;

@@ -3,19 +3,16 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <std_msgs/String.h>
 
-#include "ros/common/outgoing/topic_changes.h"
-
 namespace grid_path_planner::nodes {
 
 RefusedParameter::RefusedParameter(const ros::NodeHandle& private_nh)
     : private_nh_(private_nh),
-      publisher_(private_nh_.advertise<std_msgs::String>("parameter_refused", 1, true)) {}
+      publisher_(private_nh_.advertise<std_msgs::String>("parameter_refused", 1, true)),
+      diagnostics_(private_nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1)) {}
 
 void RefusedParameter::refuse(const std::string& sentence) {
   tell(sentence);
-  if (diagnostics_) return;
-  const auto alone = lockTopicsOfRunningNode();
-  diagnostics_ = private_nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1);
+  if (timer_) return;
   timer_ = private_nh_.createWallTimer(
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { publishDiagnostics(); });
 }

@@ -7,8 +7,9 @@
 // assertion (`px != 0`) when that is published next. A nodelet manager loads and unloads in one thread, but destroys a
 // nodelet in another where a callback of it was just running: that happened in two of some 60 runs of unload.test.
 //
-// Held while a node is made or destroyed, and by what advertises or gives up a topic while a node runs. Not
-// guarded: nodelets of other packages in the same manager, and the manager's own bonds.
+// Held while a node is made or destroyed, and by what advertises or gives up a topic while a node runs, which better
+// nothing does: advertise() does not return before the master answers. Not guarded: nodelets of other packages
+// in the same manager, and the manager's own bonds.
 #pragma once
 
 #include <mutex>
