@@ -80,9 +80,7 @@ GoToPoseNode::GoToPoseNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
 }
 
 GoToPoseNode::~GoToPoseNode() {
-  timer_.stop();
-  diagnostics_timer_.stop();
-  giveUp();
+  finish();
   simple_goal_subscriber_.shutdown();  // asks the master, which may not answer
 }
 

@@ -63,8 +63,12 @@ class GoToPoseNode {
   // Stops the vehicle.
   ~GoToPoseNode();
 
-  // The same, once, in the queue's thread.
-  void giveUp();
+  // The same, in the thread that destroys it.
+  void finish() {
+    timer_.stop();
+    diagnostics_timer_.stop();
+    giveUp();
+  }
   // The same, from any thread but the queue's.
   void stop() {
     doneWithin(1.0, *nh_.getCallbackQueue(), [this] { giveUp(); });
@@ -80,6 +84,7 @@ class GoToPoseNode {
     std::optional<geometry_msgs::PoseStamped> pose;  // in the map's frame; none until tf knows it
   };
 
+  void giveUp();
   void startServer();
   void startTimers();
   void use(const GoToPoseOptions& options);

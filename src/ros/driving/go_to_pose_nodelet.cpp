@@ -3,7 +3,7 @@
 
 namespace grid_path_planner::nodes {
 
-class GoToPoseNodelet : public CommanderShell<GoToPoseNode, &GoToPoseNode::giveUp> {};
+class GoToPoseNodelet : public CommanderShell<GoToPoseNode, &GoToPoseNode::finish> {};
 
 }  // namespace grid_path_planner::nodes
 
