@@ -107,6 +107,14 @@ def complaints_of_memory(fuzz, corpus):
         yield f"it keeps all that a program prints: {megabytes:.0f} MB, which libFuzzer takes for the next program's memory"
 
 
+def complaints_of_lengths(fuzz, corpus):
+    corpus.mkdir()
+    for length, limit in ((0, 1024), (1024, 1024), (3000, 3000), (10000, 4096)):
+        (corpus / f"seed{length}").write_bytes(bytes(length))
+        if fuzz.plain_guidance(corpus)[-1] != f"-max_len={limit}":
+            yield f"beside a seed of {length} bytes inputs are {fuzz.plain_guidance(corpus)[-1]}"
+
+
 def complaints_of_targets(fuzz, corpus):
     runs = fuzz.kept(corpus)
     if list(fuzz.least_first({"well": 1, "crash": 1, "new": 1}, runs))[0] != "new":
@@ -127,8 +135,8 @@ def main():
         folder = pathlib.Path(name)
         fuzz = load(folder)
         complaints = [*complaints_of_memory(fuzz, folder / "loud"), *complaints_of_runs(fuzz, folder / "corpus"),
-                      *complaints_of_targets(fuzz, folder / "corpus")]
-    finish(complaints, "14 rules of scripts/fuzz")
+                      *complaints_of_lengths(fuzz, folder / "lengths"), *complaints_of_targets(fuzz, folder / "corpus")]
+    finish(complaints, "15 rules of scripts/fuzz")
 
 
 if __name__ == "__main__":
