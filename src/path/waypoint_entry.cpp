@@ -141,8 +141,7 @@ std::string yamlDecimal(double value, int decimals) {
 }
 
 std::string withoutSlash(std::string frame) {
-  if (!frame.empty() && frame.front() == '/') frame.erase(0, 1);
-  return frame;
+  return frame.erase(0, frame.find_first_not_of('/'));
 }
 
 bool isFrameName(const std::string& frame) {

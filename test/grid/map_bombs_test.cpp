@@ -109,9 +109,10 @@ TEST_F(MapBombs, ImagesAreRefusedBeforeTheirPixelsAreMade) {
   expectTooLarge("colours.png", test::plainPng(12000, 12000, 4));
   expectTooLarge("laced.png", test::plainPng(15000, 15000, 1, true));
   expectTooLarge("packed.bmp", test::packedBmp(30000, 30000));
-  expectTooLarge("packed.tif", test::tiffHeader(30000, 30000, 8));
+  expectTooLarge("packed.tif", test::tiffHeader(30000, 30000, 8, 30000));
+  expectTooLarge("strip.tif", test::tiffHeader(12000, 5, 1, 65000));
   EXPECT_TRUE(
-      contains(reading("codec.tif", test::tiffHeader(64, 64, 34925)).refusal, "compression"));
+      contains(reading("codec.tif", test::tiffHeader(64, 64, 34925, 64)).refusal, "compression"));
 }
 
 TEST_F(MapBombs, AnImageThatFitsTakesItsPixelsAndItsCells) {

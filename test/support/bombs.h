@@ -56,11 +56,11 @@ inline std::string plainPng(int width, int height, int channels, bool interlaced
 }
 
 // A grey TIFF of one strip, packed by `compression`, whose pixels are missing.
-inline std::string tiffHeader(std::uint32_t width, std::uint32_t height,
-                              std::uint32_t compression) {
-  const std::uint32_t entries[][2] = {{256, width},       {257, height}, {258, 8},
-                                      {259, compression}, {262, 1},      {273, 8},
-                                      {277, 1},           {278, height}, {279, 8}};
+inline std::string tiffHeader(std::uint32_t width, std::uint32_t height, std::uint32_t compression,
+                              std::uint32_t rows_in_strip) {
+  const std::uint32_t entries[][2] = {{256, width}, {257, height}, {258, 8}, {259, compression},
+                                      {262, 1},     {273, 8},      {277, 1}, {278, rows_in_strip},
+                                      {279, 8}};
   std::string directory = bytesOfNumber(std::size(entries), 2, false);
   for (const auto& [tag, value] : entries)
     directory += bytesOfNumber(tag, 2, false) + bytesOfNumber(4, 2, false) +

@@ -51,15 +51,21 @@ class TiffDirectory {
   std::size_t bytes() const {
     const std::size_t pixel = kMostChannels * std::max<std::size_t>(1, (bits_ + 7) / 8);
     const std::uint64_t piece_width = tile_width_ > 0 ? tile_width_ : width_;
-    const std::uint64_t piece_height =
-        tile_height_ > 0 ? tile_height_ : std::min(rows_in_strip_, height_);
+    const std::uint64_t piece_height = tile_height_ > 0 ? tile_height_ : stripHeight();
     return (width_ * height_) * (pixel + kMostChannels) +
            2 * pixel * std::min(piece_width, kFar) * std::min(piece_height, kFar);
   }
 
  private:
   static constexpr std::uint64_t kEntrySize = 12, kMostChannels = 4;
+  static constexpr std::uint64_t kWholeImage = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::uint64_t kFar = 1u << 24;  // such pieces are refused by OpenCV
+
+  // OpenCV makes room for all rows that a strip claims, however few the image has.
+  std::uint64_t stripHeight() const {
+    const bool is_whole = rows_in_strip_ == 0 || rows_in_strip_ >= kWholeImage;
+    return is_whole ? height_ : rows_in_strip_;
+  }
 
   void readEntry(std::uint64_t at) {
     const std::uint64_t tag = number(at, 2), type = number(at + 2, 2), count = number(at + 4, 4);
@@ -100,7 +106,7 @@ class TiffDirectory {
   std::uint64_t bits_ = 1;
   std::uint64_t compression_ = 1;
   std::uint64_t channels_ = 1;
-  std::uint64_t rows_in_strip_ = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t rows_in_strip_ = 0;
   std::uint64_t tile_width_ = 0;
   std::uint64_t tile_height_ = 0;
 };

@@ -12,6 +12,8 @@ std::vector<std::string> seedsOfWaypoints() {
       "  - position: {x: 1e3, y: 0, z: -0.25}\n    orientation: {z: 0.0, w: 1.0}\n",
       "header:\n  seq: 0\n  frame_id: \"/map\"\nwaypoints:\n- header: {seq: 1}\n"
       "  position:\n    x: 1\n    y: 2\n    z: 3\n  orientation: {x: 0, y: 0, z: 0, w: 1}\n",
+      "header: {frame_id: //map}\nwaypoints:\n  - position: {x: 1, y: 2, z: 3}\n"
+      "    orientation: {x: 0, y: 0, z: 0, w: 1}\n",
       "header: {frame_id: \"a\tmap\"}\nwaypoints:\n  - position: {x: 1, y: 2, z: 3}\n"
       "    orientation: {x: 0, y: 0, z: 0, w: 1}\n",
       "header: {frame_id: map}\nwaypoints:\n  - position: {x: 1.1111111111, y: 2, z: 3}\n"
