@@ -111,6 +111,13 @@ TEST_F(MapBombs, ImagesAreRefusedBeforeTheirPixelsAreMade) {
   expectTooLarge("packed.bmp", test::packedBmp(30000, 30000));
   expectTooLarge("packed.tif", test::tiffHeader(30000, 30000, 8, 30000));
   expectTooLarge("strip.tif", test::tiffHeader(12000, 5, 1, 65000));
+  constexpr std::size_t kColours = 66, kRows = 102;  // where these entries are
+  std::string twice = test::tiffHeader(12000, 5, 1, 1);
+  twice.replace(kColours, 12, test::tiffHeader(12000, 5, 1, 65000).substr(kRows, 12));
+  expectTooLarge("twice.tif", twice);
+  std::string typed = test::tiffHeader(12000, 5, 1, 65000);
+  typed[kRows + 2] = 9;  // a number with a sign
+  EXPECT_TRUE(contains(reading("typed.tif", typed).refusal, "a type that is not meant for it"));
   EXPECT_TRUE(
       contains(reading("codec.tif", test::tiffHeader(64, 64, 34925, 64)).refusal, "compression"));
 }

@@ -63,25 +63,47 @@ class TiffDirectory {
 
   // OpenCV makes room for all rows that a strip claims, however few the image has.
   std::uint64_t stripHeight() const {
-    const bool is_whole = rows_in_strip_ == 0 || rows_in_strip_ >= kWholeImage;
-    return is_whole ? height_ : rows_in_strip_;
+    return whole_strip_ || rows_in_strip_ == 0 ? std::max(rows_in_strip_, height_) : rows_in_strip_;
   }
 
+  // What is kept of a tag; null for others.
+  std::uint64_t* keptOf(std::uint64_t tag) {
+    switch (tag) {
+      case WIDTH:
+        return &width_;
+      case HEIGHT:
+        return &height_;
+      case BITS:
+        return &bits_;
+      case COMPRESSION:
+        return &compression_;
+      case CHANNELS:
+        return &channels_;
+      case ROWS_IN_STRIP:
+        return &rows_in_strip_;
+      case TILE_WIDTH:
+        return &tile_width_;
+      case TILE_HEIGHT:
+        return &tile_height_;
+      default:
+        return nullptr;
+    }
+  }
+
+  // Of a tag that comes twice the largest value: which of them libtiff takes is its own affair.
   void readEntry(std::uint64_t at) {
     const std::uint64_t tag = number(at, 2), type = number(at + 2, 2), count = number(at + 4, 4);
+    std::uint64_t* const kept = keptOf(tag);
+    if (kept == nullptr || count == 0) return;
     const std::uint64_t size = type == BYTE ? 1 : type == SHORT ? 2 : type == LONG ? 4 : 0;
-    if (size == 0 || count == 0) return;
+    if (size == 0)
+      refuse("a size in a type that is not meant for it");  // libtiff reads some of these
     const std::uint64_t value =
         number(size * count <= 4 ? at + 8 : number(at + 8, 4), static_cast<int>(size));
-    const auto keepLargest = [value](std::uint64_t& kept) { kept = std::max(kept, value); };
-    if (tag == WIDTH) keepLargest(width_);
-    if (tag == HEIGHT) keepLargest(height_);
-    if (tag == BITS) keepLargest(bits_);
-    if (tag == COMPRESSION) keepLargest(compression_);
-    if (tag == CHANNELS) keepLargest(channels_);
-    if (tag == ROWS_IN_STRIP) rows_in_strip_ = value;
-    if (tag == TILE_WIDTH) keepLargest(tile_width_);
-    if (tag == TILE_HEIGHT) keepLargest(tile_height_);
+    if (tag == ROWS_IN_STRIP && value >= kWholeImage)
+      whole_strip_ = true;
+    else
+      *kept = std::max(*kept, value);
   }
 
   std::uint64_t number(std::uint64_t at, int count) const {
@@ -107,6 +129,7 @@ class TiffDirectory {
   std::uint64_t compression_ = 1;
   std::uint64_t channels_ = 1;
   std::uint64_t rows_in_strip_ = 0;
+  bool whole_strip_ = false;
   std::uint64_t tile_width_ = 0;
   std::uint64_t tile_height_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <ros/callback_queue.h>
 #include <std_msgs/Empty.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <memory>
