@@ -1,6 +1,7 @@
-"""Shell scripts pass shellcheck, Python ones compile and pass pyflakes, and the worlds are
-what their script makes."""
+"""Shell scripts pass shellcheck, Python ones compile and pass pyflakes, the worlds are what their
+script makes, and everything is built below build/."""
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -43,6 +44,19 @@ def made_file_complaints(script):
             for name in sorted(set(made) | set(committed)) if made.get(name) != committed.get(name)]
 
 
+BUILD_FOLDER = re.compile(r"^\s*folder=\"?([^\s\"]+)|^BUILD = ROOT / \"([^\"]+)\"", re.MULTILINE)
+
+
+def build_folder_complaints():
+    """Programs of a second build elsewhere in the package: rosrun, which overlooks build/, asks which one is meant."""
+    complaints = []
+    for name in ("scripts/build", "scripts/test", "scripts/fuzz"):
+        folders = [shell or python for shell, python in BUILD_FOLDER.findall(read(name))]
+        complaints += ["%s: builds into %s, not below build/" % (name, folder) for folder in folders
+                       if folder.split("/")[0] != "build"] if folders else ["%s: names no build folder" % name]
+    return complaints
+
+
 def main():
     need("shellcheck", "shellcheck")
     need("pyflakes3", "pyflakes3")
@@ -57,6 +71,7 @@ def main():
             compile(read(name), name, "exec")
         except SyntaxError as error:
             complaints.append("%s: %s" % (name, error))
+    complaints += build_folder_complaints()
     complaints += run(["shellcheck", "-x"] + shell)
     complaints += run(["pyflakes3"] + python)
     finish(complaints, "%d scripts" % len(names))
