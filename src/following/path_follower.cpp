@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "following/check_waypoints.h"
 #include "following/follow_events.h"
@@ -77,7 +78,10 @@ void PathFollower::setOptions(const FollowerOptions& options) {
 void PathFollower::start(const Path& path, Join join) {
   checkWaypoints(path, options_.loop);
   progress_ = std::make_unique<RouteProgress>(path, join, options_, *events_);
-  if (state_ != FollowState::PAUSED) state_ = FollowState::DRIVING;
+  if (!std::exchange(starts_paused_, false) && state_ != FollowState::PAUSED)
+    state_ = FollowState::DRIVING;
+  else
+    state_ = FollowState::PAUSED;
   status_ = DriveStatus::NONE;
   message_ = "drives a path of " + std::to_string(path.poses.size()) + " waypoints, " +
              metres(lengthOf(path));
@@ -93,6 +97,11 @@ bool PathFollower::active() const {
 }
 
 PathFollower::Answer PathFollower::pause() {
+  if (starts_paused_) return {true, "paused already"};
+  if (state_ == FollowState::ARRIVED) {
+    cancel("paused");
+    return {true, "the pose at the end of the path is not held any more"};
+  }
   if (!active()) return {false, std::string("nothing to pause: ") + toString(state_)};
   if (state_ == FollowState::PAUSED) return {true, "paused already"};
   state_ = FollowState::PAUSED;
@@ -102,14 +111,22 @@ PathFollower::Answer PathFollower::pause() {
 }
 
 PathFollower::Answer PathFollower::resume() {
+  if (std::exchange(starts_paused_, false)) return {true, "resumed: the next path is driven"};
   if (!active()) return {false, std::string("nothing to resume: ") + toString(state_)};
   if (state_ != FollowState::PAUSED) return {true, "not paused"};
   state_ = FollowState::DRIVING;
   return {true, "resumed while driving to " + progress_->currentName()};
 }
 
+void PathFollower::replace(const std::string& reason) {
+  const bool paused = starts_paused_ || state_ == FollowState::PAUSED;
+  cancel(reason);
+  starts_paused_ = paused;
+}
+
 PathFollower::Answer PathFollower::cancel(const std::string& reason) {
   standStill();
+  starts_paused_ = false;
   if (active()) {
     end({FollowState::CANCELLED, DriveStatus::CANCELLED, reason});
     return {true, "cancelled while driving to " + progress_->currentName()};
@@ -140,10 +157,8 @@ BodyVelocity PathFollower::velocityFor(const FollowInput& input) {
     return {};
   }
   if (input.pose) pose_ = input.pose;
-  if (state_ == FollowState::ARRIVED && input.pose && input.hold.empty()) {
-    limitSpeed(input, {input.pose->position, path().poses.back().position});
-    return controller_->holdPose(path().poses.back(), *input.pose, seconds);
-  }
+  if (state_ == FollowState::ARRIVED && input.pose && input.hold.empty())
+    return holdEnd(input, seconds);
   if (state_ != FollowState::DRIVING && state_ != FollowState::BLOCKED) {
     standStill();
     return {};
@@ -155,6 +170,17 @@ BodyVelocity PathFollower::velocityFor(const FollowInput& input) {
   }
   limitSpeed(input, progress_->ahead(input.pose->position, speedLimitLookahead(options_)));
   return drive(*input.pose, input.time, seconds);
+}
+
+// Back to the end of the path, where nothing stands between.
+BodyVelocity PathFollower::holdEnd(const FollowInput& input, double seconds) {
+  const std::vector<Eigen::Vector3d> back = {input.pose->position, path().poses.back().position};
+  if (input.check && !input.check(back).empty()) {
+    standStill();
+    return {};
+  }
+  limitSpeed(input, back);
+  return controller_->holdPose(path().poses.back(), *input.pose, seconds);
 }
 
 void PathFollower::limitSpeed(const FollowInput& input, const std::vector<Eigen::Vector3d>& ahead) {

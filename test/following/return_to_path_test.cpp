@@ -47,6 +47,32 @@ TEST(ReturnToPath, AWallBetweenTheVehicleAndItsPathStopsIt) {
   EXPECT_NEAR(loop.pose().position.y(), 1.5, 1e-9);
 }
 
+// It was not asked for the pose that is held after the arrival: pushed behind a wall, the vehicle came back through
+// it, and a pause did not stop it.
+TEST(ReturnToPath, AWallBetweenTheVehicleAndThePoseThatItHoldsStopsIt) {
+  ClosedLoop loop = pushedTo(3.5, 4.5);
+  loop.check = [](const auto& ahead) { return blockedBy(ahead, {}); };
+  loop.follower.start(pathOf({{3.5, 4.5}}), Join::FIRST);
+  ASSERT_TRUE(loop.runUntilState(FollowState::ARRIVED));
+  loop.putAt({3.5, 1.5, 0.0});
+  loop.run(5.0);
+  EXPECT_NEAR(loop.pose().position.y(), 1.5, 0.01) << "the wall is between";
+  loop.putAt({3.5, 4.2, 0.0});
+  EXPECT_TRUE(loop.runUntil([&] { return loop.pose().position.y() > 4.4; }, 20.0)) << "nothing is";
+}
+
+TEST(ReturnToPath, APauseGivesUpThePoseThatIsHeld) {
+  ClosedLoop loop = pushedTo(3.5, 4.5);
+  loop.follower.start(pathOf({{3.5, 4.5}}), Join::FIRST);
+  ASSERT_TRUE(loop.runUntilState(FollowState::ARRIVED));
+  loop.putAt({3.5, 1.5, 0.0});
+  loop.run(0.2);
+  EXPECT_TRUE(loop.follower.pause().done);
+  loop.run(5.0);
+  EXPECT_LT(loop.pose().position.y(), 2.5);
+  EXPECT_EQ(loop.speed(), 0.0);
+}
+
 // A vehicle abreast of the path's first waypoint came to rest beside it, for want of progress: the
 // corner there was followed by a segment without length, to which it never came nearer.
 TEST(ReturnToPath, AFreeOneIsDriven) {

@@ -62,9 +62,11 @@ TEST(States, TheVelocityIsZeroInEveryStateButDriving) {
 TEST(States, PauseFromEveryState) {
   for (const FollowState state : kStates) {
     const auto loop = in(state);
-    const bool has_drive = loop->follower.active();
-    EXPECT_EQ(loop->follower.pause().done, has_drive) << toString(state);
-    EXPECT_EQ(loop->follower.state(), has_drive ? FollowState::PAUSED : state) << toString(state);
+    const bool has_drive = loop->follower.active(), holds = state == FollowState::ARRIVED;
+    EXPECT_EQ(loop->follower.pause().done, has_drive || holds) << toString(state);
+    const FollowState without_drive = holds ? FollowState::IDLE : state;
+    EXPECT_EQ(loop->follower.state(), has_drive ? FollowState::PAUSED : without_drive)
+        << toString(state);
     loop->pose_known = true;
     loop->run(2.0);
     EXPECT_TRUE(loop->command.isZero()) << toString(state);
@@ -214,6 +216,30 @@ TEST(States, PathsThatCannotBeDrivenAreRefusedByNameAndTheDriveGoesOn) {
   EXPECT_EQ(refusal(pathOf({{0, 0, 0, nan}})),
             "waypoint 1 of 1: yaw must be a finite angle, got nan");
   EXPECT_TRUE(loop->runUntilState(FollowState::ARRIVED)) << "the drive before";
+}
+
+// A goal of the action that replaced a paused one was driven: the pause was lost with the drive.
+TEST(States, ADriveThatReplacesAPausedOneBeginsPaused) {
+  const Path path = pathOf({{0, 0}, {5, 0}});
+  PathFollower follower;
+  follower.start(path, Join::FIRST);
+  follower.pause();
+  follower.replace("another goal");
+  EXPECT_EQ(follower.state(), FollowState::CANCELLED);
+  follower.start(path, Join::FIRST);
+  EXPECT_EQ(follower.state(), FollowState::PAUSED);
+  follower.replace("another goal");
+  EXPECT_TRUE(follower.resume().done) << "before that comes";
+  follower.start(path, Join::FIRST);
+  EXPECT_EQ(follower.state(), FollowState::DRIVING);
+  follower.pause();
+  follower.replace("another goal");
+  follower.cancel("enough");
+  follower.start(path, Join::FIRST);
+  EXPECT_EQ(follower.state(), FollowState::DRIVING) << "a cancel ends the pause";
+  follower.replace("another goal");
+  follower.start(path, Join::FIRST);
+  EXPECT_EQ(follower.state(), FollowState::DRIVING) << "none was paused";
 }
 
 TEST(States, ALoopInOnePlaceIsRefused) {

@@ -14,7 +14,7 @@
 //                     PAUSED <--------------------------------+        cancel: CANCELLED
 //
 // Guaranteed: the velocity is zero in every state but DRIVING, and ARRIVED while a vehicle that
-// drifted off is brought back (hold_pose). A pause outlives a new path: only `resume` ends it. The
+// drifted off is brought back (hold_pose), which is checked like the path. A pause outlives a new path: only `resume` ends it. The
 // speeds of the options are never exceeded. Every waypoint is either reached (the vehicle came
 // within acceptance_radius), or reported as missed, or lies before the point where the path was
 // joined, which is reported too. Time that goes back cancels. Velocities are finite: a pose or a
@@ -112,8 +112,8 @@ class PathFollower {
   // InputError for a path that checkWaypoints refuses, then the drive before goes on.
   void start(const path::Path& path, Join join);
 
-  // Whether the state is now the one asked for, and a sentence about it. Pausing needs a drive,
-  // resuming a drive; cancelling is always possible.
+  // Whether the state is now the one asked for, and a sentence about it. Pausing needs a drive or a pose
+  // that is held, which is given up; resuming a drive; cancelling is always possible.
   struct Answer {
     bool done;
     std::string message;
@@ -122,6 +122,9 @@ class PathFollower {
   Answer resume();
   // `reason` goes into the message of the drive.
   Answer cancel(const std::string& reason);
+  // Cancels for a path that start() is given later: where this drive was paused, that one begins paused,
+  // unless resume() or cancel() comes before.
+  void replace(const std::string& reason);
 
   // The velocity from now on. Times must not decrease; one that does cancels the drive.
   base::BodyVelocity update(const FollowInput& input);
@@ -153,6 +156,7 @@ class PathFollower {
 
  private:
   base::BodyVelocity velocityFor(const FollowInput& input);
+  base::BodyVelocity holdEnd(const FollowInput& input, double seconds);
   void limitSpeed(const FollowInput& input, const std::vector<Eigen::Vector3d>& ahead);
   bool isBlocked(const FollowInput& input);
   std::string whyNot(const FollowInput& input) const;
@@ -164,6 +168,7 @@ class PathFollower {
 
   FollowerOptions options_;
   FollowState state_ = FollowState::IDLE;
+  bool starts_paused_ = false;  // the next path
   DriveStatus status_ = DriveStatus::NONE;
   std::string message_ = "nothing was driven yet";
   const std::unique_ptr<FollowEvents> events_;

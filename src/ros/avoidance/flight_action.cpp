@@ -50,7 +50,10 @@ FlightAction::~FlightAction() {
 }
 
 void FlightAction::onGoal() {
-  if (active_) finish("CANCELLED", "replaced by another goal");
+  if (active_) {
+    hands_.cancel("replaced by another goal");  // whatever becomes of that
+    finish("CANCELLED", "replaced by another goal");
+  }
   const auto goal = server_.acceptNewGoal();
   active_ = true;
   is_read_ = false;
@@ -68,9 +71,14 @@ void FlightAction::onGoal() {
 
 void FlightAction::onPreempt() {
   if (server_.isNewGoalAvailable() || !active_) return;
-  const bool was_read = std::exchange(is_read_, false);
   hands_.cancel("the goal of the action was cancelled");
-  if (was_read) finish("CANCELLED", "cancelled while its file was read");
+  cancelReading("cancelled while its file was read");
+}
+
+bool FlightAction::cancelReading(const std::string& reason) {
+  if (!active_ || !std::exchange(is_read_, false)) return false;
+  finish("CANCELLED", reason);
+  return true;
 }
 
 // In the reader's thread, and back.

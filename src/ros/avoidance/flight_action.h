@@ -36,6 +36,8 @@ class FlightAction {
   ~FlightAction();
 
   bool isActive() const { return active_; }
+  // Ends a goal whose file is still read. Returns whether there was one.
+  bool cancelReading(const std::string& reason);
   // Feedback, and the result once the flight has ended.
   void report(const avoidance::PilotAnswer& answer, const avoidance::VehiclePose& at);
 

@@ -46,10 +46,12 @@ FlightCommander::FlightCommander(const ros::NodeHandle& nh, const LocalPlannerOp
   use(options);
   ros::NodeHandle own(nh);
   own.setCallbackQueue(&thread_.queue());
+  const auto refused = [this] { ++refused_; };
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
+      own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); }, refused);
   manual_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      own, "manual_control", 1, [this](const std_msgs::Bool& message) { onManual(message); });
+      own, "manual_control", 1, [this](const std_msgs::Bool& message) { onManual(message); },
+      refused);
   waitForPublishers(stop_subscriber_);
   thread_.start(options.control_rate, options.realtime_priority);
 }

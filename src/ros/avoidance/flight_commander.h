@@ -59,6 +59,8 @@ class FlightCommander {
   std::string scheduling() const { return thread_.scheduling(); }
   // How many motions were braked for want of a newer command.
   unsigned overdue() const { return overdue_; }
+  // Messages on stop and manual_control whose bytes were none of it.
+  unsigned refused() const { return refused_; }
   // The velocity that was sent last; none while a joystick commands.
   base::BodyVelocity sent() const;
 
@@ -88,6 +90,7 @@ class FlightCommander {
   bool flies_ = false;
   bool finished_ = false;
   std::atomic<unsigned> overdue_{0};
+  std::atomic<unsigned> refused_{0};
   mutable std::mutex mutex_;  // of sent_
   base::BodyVelocity sent_;
 

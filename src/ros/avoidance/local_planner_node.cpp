@@ -183,6 +183,8 @@ void LocalPlannerNode::offerServices(ros::NodeHandle& private_nh) {
   offer("resume", [this] { return hold_.resume(flies_); });
   offer("cancel", [this] {
     given_goals_.endAllUntil(ros::Time::now());
+    const bool was_read = action_->cancelReading("cancelled by ~cancel while its file was read");
+    if (!flies_ && was_read) return Answer{true, "cancelled while its file was read"};
     if (!flies_) return Answer{false, "nothing to cancel: nothing is flown"};
     pilot_.cancel("asked for by ~cancel");
     return Answer{true, "cancelled"};
@@ -304,11 +306,12 @@ void LocalPlannerNode::fly(const path::Path& path, bool along) {
   flies_ = true;
 }
 
-// As measured; without odometry that commanded last.
+// As measured; without odometry, or with one that is not finite, that commanded last.
 BodyVelocity LocalPlannerNode::velocityAt(const ros::Time& now) const {
   if (!odometry_ || std::abs(secondsBetween(odometry_->header.stamp, now)) >= kOdometryAge)
     return commander_.sent();
-  return velocityFromMessage(odometry_->twist.twist);
+  const BodyVelocity measured = velocityFromMessage(odometry_->twist.twist);
+  return measured.isFinite() ? measured : commander_.sent();
 }
 
 PilotInput LocalPlannerNode::input(const ros::Time& now) {
@@ -385,6 +388,7 @@ void LocalPlannerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("open path (m)", answer_.clear_path);
   status.add("problems of the newest clouds", clouds_.problems());
   status.add("braked for want of a newer plan", commander_.overdue());
+  status.add("refused messages on stop and manual_control", commander_.refused());
   status.add("scheduling of commands", commander_.scheduling());
 }
 

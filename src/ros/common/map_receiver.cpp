@@ -150,8 +150,9 @@ MapChange MapReceiver::use(const MapEvent& event) {
   const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
   const std::string frame_id = frameName(message.header.frame_id);
   auto changed = takeGrid(message, frame_id);
-  MapChange change = store({nullptr, frame_id, message.header.stamp, event.getPublisherName()},
-                           std::move(changed));
+  const std::string sender = event.getPublisherName();
+  MapChange change =
+      store({nullptr, frame_id, message.header.stamp, sender, sender}, std::move(changed));
   std::lock_guard<std::mutex> lock(mutex_);
   lost_.clear();
   return change;
@@ -220,7 +221,7 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   }
   MapChange change;
   try {
-    change = apply(message);
+    change = apply(event);
   } catch (const InputError& error) {
     refuse(updates_->topic(), error.what());
     return;
@@ -228,15 +229,17 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   on_change_(change);
 }
 
-MapChange MapReceiver::apply(const map_msgs::OccupancyGridUpdate& message) {
+MapChange MapReceiver::apply(const UpdateEvent& event) {
+  const map_msgs::OccupancyGridUpdate& message = *event.getConstMessage();
   const ReceivedMap before = latest();
   const std::string frame_id = frameName(message.header.frame_id);
   if (!frame_id.empty() && frame_id != before.frame_id)
     throw InputError("an update in frame " + frame_id + " for a map in frame " + before.frame_id);
   const CellRect changed = checkedRect(*before.grid, message);
   grids_.advance({changed}, [&](OccupancyGrid& next) { applyUpdate(message, changed, next); });
-  return store({nullptr, before.frame_id, message.header.stamp, before.publisher},
-               std::vector<CellRect>{changed});
+  return store(
+      {nullptr, before.frame_id, message.header.stamp, before.publisher, event.getPublisherName()},
+      std::vector<CellRect>{changed});
 }
 
 MapChange MapReceiver::store(ReceivedMap map, std::optional<std::vector<CellRect>> changed) {

@@ -46,6 +46,7 @@ struct ReceivedMap {
   std::string frame_id;   // empty where the message named none
   ros::Time stamp;        // of the newest message in it
   std::string publisher;  // the node that sent it whole
+  std::string sender;     // of the newest message in it: a node
 };
 
 struct MapChange {
@@ -109,7 +110,7 @@ class MapReceiver {
   void noteLoss(const std::string& what);
   void subscribeToMaps();
   void askForAWholeMap();
-  MapChange apply(const map_msgs::OccupancyGridUpdate& message);
+  MapChange apply(const UpdateEvent& event);
   // The map whose grid is the present one of grids_.
   MapChange store(ReceivedMap map, std::optional<std::vector<grid::CellRect>> changed);
   void refuse(const std::string& topic, const std::string& reason);

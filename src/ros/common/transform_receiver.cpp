@@ -5,8 +5,10 @@
 #include <sstream>
 #include <utility>
 
+#include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/clock.h"
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/network_text.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -24,8 +26,20 @@ double mostAhead() {
 
 }  // namespace
 
+TransformStamps::TransformStamps(double length)
+    : length_(static_cast<std::uint64_t>(length * 1e9)) {}
+
+bool TransformStamps::take(const std::string& child, const ros::Time& stamp) {
+  std::set<std::uint64_t>& held = of_[child];
+  const std::uint64_t time = stamp.toNSec();
+  if (!held.empty() && *held.rbegin() > time + length_) return false;
+  if (!held.insert(time).second) return false;
+  while (*held.begin() + length_ < *held.rbegin()) held.erase(held.begin());
+  return true;
+}
+
 TransformReceiver::TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer, Hearer hearer)
-    : buffer_(buffer), hearer_(std::move(hearer)) {
+    : buffer_(buffer), hearer_(std::move(hearer)), stamps_(buffer.getCacheLength().toSec()) {
   nh.setCallbackQueue(&guarded_);
   const auto subscribe = [&](const char* topic, bool is_static) {
     return subscribeChecked<tf2_msgs::TFMessage, const Event&>(
@@ -48,16 +62,24 @@ void TransformReceiver::receive(const tf2_msgs::TFMessage& message, const std::s
                                 bool is_static) {
   if (hearer_) hearer_(message, node, is_static);
   const ros::Time now = ros::Time::now();
-  if (now < std::exchange(latest_, now)) buffer_.clear();
+  if (now < std::exchange(latest_, now)) {
+    buffer_.clear();
+    stamps_.clear();
+  }
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
-    const std::string why = insertTransform(buffer_, transform, node, is_static, now);
+    const std::string why = insertTransform(buffer_, stamps_, transform, node, is_static, now);
     if (!why.empty()) ROS_WARN_STREAM_THROTTLE(kWarningPeriod, why);
   }
 }
 
-std::string insertTransform(tf2::BufferCore& buffer, geometry_msgs::TransformStamped transform,
-                            const std::string& node, bool is_static, const ros::Time& now) {
+std::string insertTransform(tf2::BufferCore& buffer, TransformStamps& stamps,
+                            geometry_msgs::TransformStamped transform, const std::string& node,
+                            bool is_static, const ros::Time& now) {
   std::ostringstream why;
+  for (const std::string* name : {&transform.child_frame_id, &transform.header.frame_id})
+    if (!name->empty() && printable(*name).empty())
+      return "A transform of " + node +
+             " is dropped: a name of its frames is no text that may be told";
   if (is_static) transform.header.stamp = ros::Time();
   const double ahead = secondsBetween(now, transform.header.stamp);
   if (!is_static && (transform.header.stamp.isZero() || ahead > mostAhead())) {
@@ -66,6 +88,8 @@ std::string insertTransform(tf2::BufferCore& buffer, geometry_msgs::TransformSta
         << now;
     return why.str();
   }
+  if (!is_static && !stamps.take(frameName(transform.child_frame_id), transform.header.stamp))
+    return "";
   try {
     buffer.setTransform(transform, node, is_static);
   } catch (const tf2::TransformException& error) {

@@ -7,7 +7,9 @@
 //
 // Guaranteed: transforms that are stamped 0 or some seconds (4; 10 of simulated time, which may run
 // many times faster than messages) ahead of ROS time, and all while there is none, are dropped with
-// a warning; the stamps of static ones do not count. ROS time that jumps back clears the buffer.
+// a warning; the stamps of static ones do not count. ROS time that jumps back clears the buffer. Stamps that come
+// again, and those older than the buffer, do not reach tf2, which writes to stderr under the lock that every lookup
+// waits for: whoever reads no log would stop the vehicle's control.
 #pragma once
 
 #include <geometry_msgs/TransformStamped.h>
@@ -18,17 +20,36 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/buffer.h>
 
+#include <cstdint>
 #include <functional>
+#include <map>
+#include <set>
 #include <string>
 
 #include "ros/common/guarded_queue.h"
 
 namespace grid_path_planner::nodes {
 
+// The stamps that a buffer holds of each frame.
+class TransformStamps {
+ public:
+  // `length` in s, the buffer's.
+  explicit TransformStamps(double length = tf2::BufferCore::DEFAULT_CACHE_TIME);
+
+  // Whether the buffer would take a transform of this frame and stamp; then it counts as taken.
+  bool take(const std::string& child, const ros::Time& stamp);
+  void clear() { of_.clear(); }
+
+ private:
+  const std::uint64_t length_;                         // ns
+  std::map<std::string, std::set<std::uint64_t>> of_;  // by child: ns
+};
+
 // Puts the transform of `node` into the buffer where the rules above let it. Why not, in a sentence;
-// empty where it was.
-std::string insertTransform(tf2::BufferCore& buffer, geometry_msgs::TransformStamped transform,
-                            const std::string& node, bool is_static, const ros::Time& now);
+// empty where it was, and where its stamp came before.
+std::string insertTransform(tf2::BufferCore& buffer, TransformStamps& stamps,
+                            geometry_msgs::TransformStamped transform, const std::string& node,
+                            bool is_static, const ros::Time& now);
 
 class TransformReceiver {
  public:
@@ -44,6 +65,7 @@ class TransformReceiver {
 
   tf2_ros::Buffer& buffer_;
   const Hearer hearer_;
+  TransformStamps stamps_;
   ros::Time latest_;
   ros::CallbackQueue queue_;
   GuardedQueue guarded_{queue_};

@@ -33,6 +33,7 @@ namespace {
 // By the wall clock.
 constexpr std::chrono::milliseconds kClockTimeout(500);
 constexpr std::chrono::milliseconds kManualTimeout(2500);
+constexpr std::chrono::seconds kRefusedPeriod(1);
 
 std::string sentenceOf(const Obstruction& obstruction) {
   std::ostringstream text;
@@ -63,10 +64,12 @@ DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& optio
       velocity_publisher_(ros::NodeHandle(nh).advertise<geometry_msgs::Twist>("cmd_vel", 10)) {
   ros::NodeHandle own(nh);
   own.setCallbackQueue(&thread_.queue());
+  const auto refused = [this] { noteRefused(); };
   manual_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      own, "manual_control", 1, [this](const std_msgs::Bool& message) { onManual(message); });
+      own, "manual_control", 1, [this](const std_msgs::Bool& message) { onManual(message); },
+      refused);
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
+      own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); }, refused);
   waitForPublishers(stop_subscriber_);
   thread_.start(options_.control_rate, options_.realtime_priority);
 }
@@ -94,11 +97,12 @@ auto DriveLoop::ask(Work work) -> std::invoke_result_t<Work> {
   });
 }
 
-void DriveLoop::start(const Path& path, Join join) {
-  ask([this, &path, join] {
+unsigned DriveLoop::start(const Path& path, Join join) {
+  return ask([this, &path, join] {
     if (finished_) throw base::InputError("navigate_path ends");
     follower_.start(path, join);
     reported_waypoint_ = -1;
+    return ++drive_;
   });
 }
 
@@ -115,6 +119,10 @@ PathFollower::Answer DriveLoop::resume() {
 
 PathFollower::Answer DriveLoop::cancel(const std::string& reason) {
   return ask([this, &reason] { return follower_.cancel(reason); });
+}
+
+void DriveLoop::replace(const std::string& reason) {
+  ask([this, &reason] { follower_.replace(reason); });
 }
 
 void DriveLoop::setOptions(const NavigatePathOptions& options) {
@@ -267,6 +275,16 @@ void DriveLoop::onStop(const std_msgs::Bool& message) {
   if (std::exchange(stopped_, message.data) != message.data) thread_.tick();
 }
 
+// Seldom: whoever reads the notes may be slow.
+void DriveLoop::noteRefused() {
+  const auto now = Clock::now();
+  if (refused_ && now - *refused_ < kRefusedPeriod) return;
+  refused_ = now;
+  DriveReport report;
+  report.note = "A message on stop or manual_control was refused: its bytes are none of it";
+  hand({report});
+}
+
 // A joystick whose node was killed says nothing any more.
 bool DriveLoop::isManual() const {
   return manual_ && Clock::now() - *manual_ < kManualTimeout;
@@ -299,8 +317,10 @@ void DriveLoop::report(const ros::Time& now) {
   std::vector<DriveReport> reports;
   for (FollowEvent& event : follower_.takeEvents()) {
     reports.emplace_back();
+    reports.back().drive = drive_;
+    // A tick may pass thousands of waypoints, and the standing takes time for each that is left.
+    if (event.kind == FollowEvent::Kind::ENDED) reports.back().standing = standingNow();
     reports.back().event = std::move(event);
-    reports.back().standing = standingNow();
   }
   const int current = follower_.currentWaypoint();
   if (follower_.active() && std::exchange(reported_waypoint_, current) != current) {

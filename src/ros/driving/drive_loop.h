@@ -56,11 +56,12 @@ struct DriveStanding {
   double yaw_error = 0.0;       // rad
 };
 
-// What happened: an event of the follower with the standing after it, another waypoint, what is
+// What happened: an event of the follower, another waypoint, what is
 // said in the note, or a joystick that takes over a vehicle that nothing drives.
 struct DriveReport {
   std::optional<following::FollowEvent> event;
-  DriveStanding standing;
+  unsigned drive = 0;      // which one, as start() counts them
+  DriveStanding standing;  // of an event that ends it
   std::optional<geometry_msgs::PoseStamped> waypoint;
   std::string note;
   bool taken_over = false;
@@ -75,10 +76,12 @@ class DriveLoop {
   ~DriveLoop();
 
   // These are carried out in the loop's thread, with a tick after them, and waited for.
-  void start(const path::Path& path, following::Join join);  // throws InputError
+  // Returns the drive's number. Throws InputError.
+  unsigned start(const path::Path& path, following::Join join);
   following::PathFollower::Answer pause();
   following::PathFollower::Answer resume();
   following::PathFollower::Answer cancel(const std::string& reason);
+  void replace(const std::string& reason);  // PathFollower::replace
   // Cancels the drive of a node that ends, begins no other, and waits until the last command is sent. To be
   // called before anything that asks the master, which may not answer.
   void finish();
@@ -118,6 +121,7 @@ class DriveLoop {
   double allowedSpeed(const std::vector<Eigen::Vector3d>& ahead) const;
   void onManual(const std_msgs::Bool& message);
   void onStop(const std_msgs::Bool& message);
+  void noteRefused();
   bool isManual() const;
   void yieldToJoystick();
   void publish(const base::BodyVelocity& velocity);
@@ -131,13 +135,15 @@ class DriveLoop {
   const std::function<void()> on_report_;
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   following::PathFollower follower_;
+  unsigned drive_ = 0;  // started so far
   MapLife map_;
   SpeedLimits limits_;
   ros::Time now_;
-  Clock::time_point moved_;                  // when ROS time did last
-  std::optional<Clock::time_point> manual_;  // when the joystick last said that it commands
-  bool stopped_ = false;                     // by the topic
-  bool finished_ = false;                    // the node ends
+  Clock::time_point moved_;                   // when ROS time did last
+  std::optional<Clock::time_point> manual_;   // when the joystick last said that it commands
+  std::optional<Clock::time_point> refused_;  // when a message was, and that was told
+  bool stopped_ = false;                      // by the topic
+  bool finished_ = false;                     // the node ends
   bool silent_ = true;  // nothing, or a zero, was sent last and there is no drive
   int reported_waypoint_ = -1;
 

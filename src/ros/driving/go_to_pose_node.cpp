@@ -126,7 +126,9 @@ void GoToPoseNode::use(const GoToPoseOptions& options) {
 
 // As move_base does it: others see the goal, its status and its result.
 void GoToPoseNode::onSimpleGoal(const geometry_msgs::PoseStamped& message) {
-  if (!message.header.stamp.isZero() && message.header.stamp < started_) {
+  if (started_.isZero() && clock_.hasTime()) started_ = ros::Time::now();
+  const ros::Time& stamp = message.header.stamp;
+  if (!stamp.isZero() && (started_.isZero() || stamp < started_)) {
     ROS_WARN_STREAM("A goal stamped " << message.header.stamp
                                       << " is not driven to: go_to_pose started at " << started_);
     return;

@@ -41,11 +41,12 @@ JoystickLoop::~JoystickLoop() {
 }
 
 void JoystickLoop::start() {
+  const auto refused = [this] { refuse("a message whose bytes are none of its topic"); };
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      nh_, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); });
+      nh_, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); }, refused);
   waitForPublishers(stop_subscriber_);
   joy_subscriber_ = subscribeChecked<sensor_msgs::Joy>(
-      nh_, "joy", 10, [this](const sensor_msgs::Joy& message) { onJoy(message); });
+      nh_, "joy", 10, [this](const sensor_msgs::Joy& message) { onJoy(message); }, refused);
   thread_.start(options_.command_rate, options_.realtime_priority);
   started_ = true;
 }
@@ -83,8 +84,9 @@ void JoystickLoop::onJoy(const sensor_msgs::Joy& message) {
 }
 
 void JoystickLoop::refuse(const std::string& why) {
-  if (refused_ && heard_ - *refused_ < kRefusalPeriod) return;
-  refused_ = heard_;
+  const auto now = Clock::now();
+  if (refused_ && now - *refused_ < kRefusalPeriod) return;
+  refused_ = now;
   note_(Level::ERROR, "joy refused: " + why);
 }
 

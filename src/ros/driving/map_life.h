@@ -16,7 +16,7 @@ struct MapLife {
   ReceivedMap map;         // its grid is null before the first
   bool heartbeat = false;  // whether the publisher of the map sends heartbeats
   ros::Time newest;        // measurement in the map, or the map's own stamp
-  // The last map, piece, heartbeat or, without heartbeats, answer of the publisher.
+  // The last map, piece, heartbeat or, without heartbeats, answer of the publisher; pieces of others are none.
   std::chrono::steady_clock::time_point sign;
 
   double silence() const {

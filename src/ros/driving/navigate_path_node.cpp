@@ -23,7 +23,6 @@ namespace grid_path_planner::nodes {
 using base::InputError;
 using base::StopSource;
 using base::TaskQueue;
-using diagnostic_msgs::DiagnosticStatus;
 using following::DriveStatus;
 using following::FollowEvent;
 using following::FollowState;
@@ -43,6 +42,7 @@ NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFil
   NavigatePathOptions options;
   loadParameters(private_nh, options);
   options.config_filename = files.named("config_filename", options.config_filename);
+  options.base_frame = frameName(options.base_frame);
   checkNavigatePathOptions(options);
   warnUnknownParameters(private_nh, optionNames<NavigatePathOptions>());
   return options;
@@ -154,7 +154,8 @@ void NavigatePathNode::startTimers() {
                             [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
 }
 
-void NavigatePathNode::use(const NavigatePathOptions& options) {
+void NavigatePathNode::use(NavigatePathOptions options) {
+  options.base_frame = frameName(options.base_frame);
   checkNavigatePathOptions(options);
   if (options.config_filename != options_.config_filename)
     throw InputError("config_filename cannot be changed while the node runs: use the action");
@@ -190,13 +191,25 @@ void NavigatePathNode::startDriving(const ros::Time& now) {
     return;
   }
   ROS_INFO_STREAM("Drives the waypoints of " << options_.config_filename);
-  if (!goal_active_) loop_->start(file_, options_.join_nearest ? Join::NEAREST : Join::FIRST);
+  if (goal_active_) return;
+  try {
+    drive(file_, options_.join_nearest ? Join::NEAREST : Join::FIRST);
+  } catch (const InputError& error) {
+    ROS_ERROR_STREAM("The waypoints are refused: " << error.what());
+  }
+}
+
+void NavigatePathNode::drive(const Path& path, Join join) {
+  const std::string& vehicle = options_.base_frame;
+  if (path.frame_id == vehicle || transforms_.commonFrame(path.frame_id, vehicle) == vehicle)
+    throw InputError("the path is in the frame '" + path.frame_id + "', which moves with '" +
+                     vehicle + "': nobody arrives there");
+  drive_ = loop_->start(path, join);
 }
 
 void NavigatePathNode::onPath(const nav_msgs::Path& message) {
   watchClock();
-  if (message.header.stamp < started_ && !options_.follow_latched) {
-    if (message.poses.empty()) return;  // nothing that could have been driven
+  if (!message.poses.empty() && message.header.stamp < started_ && !options_.follow_latched) {
     ROS_WARN_STREAM("A path stamped " << message.header.stamp << " is not driven: navigate_path "
                                       << "started at " << started_
                                       << " (~follow_latched drives it all the same)");
@@ -216,8 +229,7 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   try {
-    loop_->start(transforms_.pathIn(message, options_.base_frame), Join::NEAREST);
-    takeReports();  // the end of the drive before is not this one's
+    drive(transforms_.pathIn(message, options_.base_frame), Join::NEAREST);
     given_goals_.drive(message);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
@@ -225,8 +237,7 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
 }
 
 void NavigatePathNode::onGoal() {
-  if (goal_active_) cancel("replaced by another goal");
-  takeReports();
+  if (goal_active_) replaceGoal();
   const auto goal = action_.acceptNewGoal();
   goal_active_ = true;
   ++goals_;
@@ -248,7 +259,7 @@ void NavigatePathNode::onGoal() {
 
 void NavigatePathNode::startGoal(const std::function<Path()>& read, Join join) {
   try {
-    loop_->start(read(), join);
+    drive(read(), join);
     given_goals_.endAllUntil(ros::Time::now());
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
@@ -271,6 +282,15 @@ void NavigatePathNode::readGoal(const std::string& filename) {
       startGoal(read, options_.join_nearest ? Join::NEAREST : Join::FIRST);
     });
   });
+}
+
+// A pause, also one by a joystick, holds for the next goal, too.
+void NavigatePathNode::replaceGoal() {
+  const std::string reason = "replaced by another goal";
+  loop_->replace(reason);
+  takeReports();
+  goal_is_read_ = false;
+  if (goal_active_) finishGoal("CANCELLED", reason, loop_->standing());
 }
 
 void NavigatePathNode::onPreempt() {
@@ -301,7 +321,7 @@ void NavigatePathNode::takeReports() {
     if (report.taken_over) given_goals_.endAllUntil(ros::Time::now());
     if (!report.event) continue;
     logEvent(*report.event);
-    if (report.event->kind != FollowEvent::Kind::ENDED) continue;
+    if (report.event->kind != FollowEvent::Kind::ENDED || report.drive != drive_) continue;
     if (report.standing.status == DriveStatus::ARRIVED) given_goals_.end();
     if (goal_active_ && !goal_is_read_)
       finishGoal(toString(report.standing.status), report.standing.message, report.standing);
@@ -336,55 +356,6 @@ void NavigatePathNode::publishFeedback() {
   feedback.obstructed = standing.obstructed;
   if (standing.state == FollowState::BLOCKED) feedback.message = standing.message;
   action_.publishFeedback(feedback);
-}
-
-void NavigatePathNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const DriveStanding standing = loop_->standing();
-  const bool warn = standing.state == FollowState::BLOCKED || standing.state == FollowState::FAILED;
-  status.summary(warn ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
-                 std::string(toString(standing.state)) + ": " + standing.message);
-  status.add("waypoint", standing.waypoint + 1);
-  status.add("waypoints", standing.waypoints);
-  status.add("distance remaining (m)", standing.distance_remaining);
-  status.add("time remaining (s)", standing.time_remaining);
-  status.add("missed waypoints", standing.missed.size());
-  status.add("scheduling of commands", loop_->scheduling());
-}
-
-void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const MapLife life = map_->life();
-  const std::string why = whyNoMap(life, options_.map_timeout);
-  if (!options_.check_map)
-    status.summary(DiagnosticStatus::OK, "not watched: check_map is false");
-  else if (!why.empty())
-    status.summary(DiagnosticStatus::WARN, why);
-  else
-    status.summary(DiagnosticStatus::OK, "the map on " + life.topic + " is kept up");
-  status.add("speed limits", limits_->state());
-  status.add("topic", life.topic);
-  if (!life.map.grid) return;
-  status.add("publisher", life.map.publisher);
-  status.add("heartbeat", life.heartbeat);
-  status.add("age (s)", secondsBetween(life.newest, ros::Time::now()));
-  status.add("last sign of life (s ago)", life.silence());
-}
-
-void NavigatePathNode::diagnoseOthers(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const double silence = master_->silence();
-  if (other_)
-    status.summary(DiagnosticStatus::ERROR, other_->sentence + " too");
-  else if (silence > 3.0)
-    status.summary(DiagnosticStatus::WARN, "the ROS master does not answer");
-  else
-    status.summary(DiagnosticStatus::OK, "nobody else commands the vehicle");
-  status.add("last answer of the master (s ago)", silence);
-  reader_->post(
-      [this](const StopSource&) {
-        const auto found = commands_.other();
-        auto other = found ? std::make_shared<const OtherCommander>(*found) : nullptr;
-        callLater([this, other] { other_ = other; });
-      },
-      "others");
 }
 
 void NavigatePathNode::callLater(std::function<void()> work) {

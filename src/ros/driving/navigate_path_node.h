@@ -82,12 +82,14 @@ class NavigatePathNode {
   void offerServices(ros::NodeHandle& private_nh);
   void startAction();
   void startTimers();
-  void use(const NavigatePathOptions& options);
+  void use(NavigatePathOptions options);
   void watchClock();
   void startDriving(const ros::Time& now);
+  void drive(const path::Path& path, following::Join join);  // throws InputError
 
   void onPath(const nav_msgs::Path& message);
   void onGoal();
+  void replaceGoal();
   void onPreempt();
   void startGoal(const std::function<path::Path()>& read, following::Join join);
   void readGoal(const std::string& filename);
@@ -116,6 +118,7 @@ class NavigatePathNode {
   bool goal_active_ = false;
   unsigned goals_ = 0;         // accepted so far
   bool goal_is_read_ = false;  // its file, still
+  unsigned drive_ = 0;         // begun last
   GivenGoals given_goals_;     // of the topic `path`
   std::unique_ptr<DriveLoop> loop_;
   std::unique_ptr<MapWatch> map_;

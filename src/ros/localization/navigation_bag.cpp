@@ -95,7 +95,8 @@ class NavigationBag {
   void insert(const tf2_msgs::TFMessage& message, Stamp received, bool is_static) {
     for (const geometry_msgs::TransformStamped& transform : message.transforms)
       if (question_.frames.count(frameName(transform.child_frame_id)) == 0)
-        insertTransform(transforms_, transform, "the bag", is_static, timeOf(received));
+        insertTransform(transforms_, transform_stamps_, transform, "the bag", is_static,
+                        timeOf(received));
   }
 
   // They count from the begin: who publishes them may have been heard late.
@@ -296,6 +297,7 @@ class NavigationBag {
   ReadLimits& limits_;
   const BagReader bag_;
   tf2::BufferCore transforms_;
+  TransformStamps transform_stamps_;
   SensorMessages messages_;
   std::map<std::uint32_t, Reader> readers_;  // by connection
   std::array<std::set<Stamp>, localization::kSources> stamps_;

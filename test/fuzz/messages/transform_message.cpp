@@ -35,8 +35,9 @@ FUZZ_TARGET(transform_message, seedsOfTransforms) {
   const auto message = messageOf<tf2_msgs::TFMessage>(input);
   if (!message) return;
   tf2::BufferCore buffer;
+  nodes::TransformStamps stamps;
   for (const geometry_msgs::TransformStamped& transform : message->transforms)
-    nodes::insertTransform(buffer, transform, "/fuzz", transform.header.seq == 1, kNow);
+    nodes::insertTransform(buffer, stamps, transform, "/fuzz", transform.header.seq == 1, kNow);
   try {
     buffer.lookupTransform("map", "base_link", ros::Time(0));
   } catch (const tf2::TransformException&) {

@@ -4,14 +4,20 @@
 // or respawned, long after; with /clock standing still every cloud stayed new and the vehicle drove on; one
 // cloud with stamp 0 after the start blinded it until it was restarted; the joystick gave the vehicle
 // back to the flight by itself; ~cancel without a flight was a success.
+#include <geometry_msgs/TwistStamped.h>
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <thread>
 
+#include "grid_path_planner/NavigatePathActionGoal.h"
+#include "grid_path_planner/NavigatePathActionResult.h"
 #include "ros/support/flight_fixture.h"
 
 namespace grid_path_planner::nodes {
@@ -90,6 +96,50 @@ TEST_F(HoldsTest, APathForAGoalThatWasCancelledIsNotFlown) {
   EXPECT_TRUE(endsInAZero());
   sendPath(sky_.now(), {0.0, 40.0});
   EXPECT_TRUE(flies()) << said();
+}
+
+// The flight went on for a goal that had been told its end, and no cancel of the action reached it any more.
+TEST_F(HoldsTest, AGoalThatIsRefusedEndsTheFlightThatItReplaced) {
+  Latest<NavigatePathActionResult> results(nh_, "navigate_path/result");
+  ros::Publisher goals = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1);
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_TRUE(test::waitFor([&] { return goals.getNumSubscribers() > 0 && results.connected(); }));
+  NavigatePathActionGoal goal;
+  goal.goal_id.id = "far";
+  goal.goal.path.header.frame_id = "map";
+  goal.goal.path.poses.resize(1);
+  goal.goal.path.poses[0].pose.position.x = 40.0;
+  goal.goal.path.poses[0].pose.orientation.w = 1.0;
+  goals.publish(goal);
+  ASSERT_TRUE(flies()) << said();
+  NavigatePathActionGoal nothing;
+  nothing.goal_id.id = "nothing";
+  goals.publish(nothing);
+  ASSERT_TRUE(test::waitFor([&] { return results.count() >= 2; }));
+  EXPECT_EQ(results.all()[0].result.status, "CANCELLED");
+  EXPECT_EQ(results.all()[1].result.status, "INVALID_REQUEST");
+  EXPECT_TRUE(endsInAZero());
+}
+
+// What was measured went into the setpoints as it came: 60 of 60 were NaN.
+TEST_F(HoldsTest, OdometryThatIsNotFiniteMakesNoSetpointThatIsNot) {
+  Latest<geometry_msgs::TwistStamped> setpoints(nh_, "setpoint_velocity");
+  ros::Publisher odometry = nh_.advertise<nav_msgs::Odometry>("odom", 1);
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_TRUE(test::waitFor([&] { return odometry.getNumSubscribers() > 0; }));
+  sendGoal(ros::Time());
+  const std::size_t before = setpoints.count();
+  ASSERT_TRUE(test::waitFor([&] {
+    nav_msgs::Odometry message;
+    message.header.stamp = sky_.now();
+    message.twist.twist.angular.z = std::numeric_limits<double>::quiet_NaN();
+    odometry.publish(message);
+    return setpoints.count() > before + 60;
+  }));
+  for (const geometry_msgs::TwistStamped& setpoint : setpoints.all()) {
+    const auto& v = setpoint.twist;
+    EXPECT_TRUE(std::isfinite(v.linear.x + v.linear.y + v.linear.z + v.angular.z));
+  }
 }
 
 TEST_F(HoldsTest, APathForAGoalThatWasReachedIsNotFlown) {

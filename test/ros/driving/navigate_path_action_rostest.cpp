@@ -106,6 +106,21 @@ TEST_F(NavigateAction, ANewGoalTakesThePlaceOfTheOldOne) {
   EXPECT_TRUE(arrivesAt(0, 1));
 }
 
+// It drove off: the pause was lost with the goal that it replaced.
+TEST_F(NavigateAction, AGoalThatReplacesAPausedOneWaitsForResume) {
+  send(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(moves());
+  EXPECT_TRUE(ask("pause"));
+  ASSERT_TRUE(standsStill());
+  const double x = pose().position.x();
+  send(pathOf({{x, 0}, {x, 1}}));
+  EXPECT_TRUE(staysStill());
+  EXPECT_TRUE(ask("resume"));
+  ASSERT_TRUE(done());
+  EXPECT_EQ(client_->getResult()->status, "ARRIVED");
+  EXPECT_TRUE(arrivesAt(x, 1));
+}
+
 TEST_F(NavigateAction, PathsThatComeMeanwhileDoNotTakeItsPlace) {
   send(pathOf({{0, 0}, {2, 0}}));
   ASSERT_TRUE(moves());
@@ -144,6 +159,9 @@ TEST_F(NavigateAction, GoalsThatCannotBeDrivenAreRefusedByName) {
   goal.path.header.frame_id = "mars";
   goal.path.poses[0].header.frame_id = "mars";
   EXPECT_NE(refusal(goal).find("'mars'"), std::string::npos);
+  // The vehicle's own pose is always 0 there: "2 m ahead" was driven for 15 m.
+  goal.path.header.frame_id = goal.path.poses[0].header.frame_id = "base_link";
+  EXPECT_NE(refusal(goal).find("which moves with 'base_link'"), std::string::npos);
   goal.path.poses.clear();
   goal.filename = "/no/such/file.yaml";
   EXPECT_NE(refusal(goal).find("/no/such/file.yaml"), std::string::npos);

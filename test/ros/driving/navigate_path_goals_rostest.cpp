@@ -3,12 +3,14 @@
 // What was seen before: path_planner keeps its goal. A vehicle that had arrived was driven elsewhere by
 // somebody else, the map changed there, and it turned around and drove back to the goal of half an hour
 // ago; after ~cancel the next obstacle on the path set it going again.
+#include <actionlib_msgs/GoalID.h>
 #include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
 
 #include <utility>
 
 #include "grid_path_planner/NavigatePathActionGoal.h"
+#include "grid_path_planner/NavigatePathActionResult.h"
 #include "ros/support/still_fixture.h"
 
 namespace grid_path_planner::nodes {
@@ -79,6 +81,14 @@ TEST_F(GivenGoalsTest, APathThatIsPlannedAgainMeanwhileIsDriven) {
   EXPECT_TRUE(isDriving());
 }
 
+// One without a stamp was dropped without a word.
+TEST_F(GivenGoalsTest, AnEmptyPathWithoutAStampStopsTheVehicle) {
+  start();
+  driveToNewGoal();
+  paths_.publish(pathToMessage(path::Path{"map", {}}, ros::Time()));
+  EXPECT_TRUE(stops());
+}
+
 TEST_F(GivenGoalsTest, WhatSomebodyCancelledStaysCancelled) {
   start();
   const ros::Time goal = driveToNewGoal();
@@ -128,6 +138,34 @@ TEST_F(GivenGoalsTest, AJoystickEndsWhatNothingIsDrivenFor) {
   manual.publish(std_msgs::Bool());
   EXPECT_FALSE(drivesWithin(std::chrono::seconds(1)));
   driveToNewGoal();
+}
+
+// Of 8 goals that came as /clock went back 7 were told that they were cancelled, and the vehicle drove on for them,
+// beyond any cancel: the end of the drive before was taken for theirs.
+TEST_F(GivenGoalsTest, TheEndOfTheDriveBeforeIsNotThatOfANewGoal) {
+  start();
+  const test::Latest<NavigatePathActionResult> results(nh_, "navigate_path/result");
+  ros::Publisher action = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1);
+  ros::Publisher cancels = nh_.advertise<actionlib_msgs::GoalID>("navigate_path/cancel", 1);
+  ASSERT_TRUE(test::waitFor([&] {
+    return action.getNumSubscribers() > 0 && cancels.getNumSubscribers() > 0 && results.connected();
+  }));
+  for (int round = 0; round < 5; ++round) {
+    driveToNewGoal();
+    world_.jumpTo(world_.time() - 2.0);
+    ros::WallDuration(0.003 * round).sleep();
+    NavigatePathActionGoal goal;
+    goal.goal_id.id = "round " + std::to_string(round);
+    goal.goal.path = pathToMessage(far_, now());
+    action.publish(goal);
+    drivesWithin(std::chrono::seconds(1));
+    cancels.publish(actionlib_msgs::GoalID());
+    EXPECT_TRUE(results.waitFor(0, [&](const NavigatePathActionResult& result) {
+      return result.status.goal_id.id == goal.goal_id.id;
+    }));
+    EXPECT_TRUE(test::waitFor([&] { return !drivesWithin(std::chrono::seconds(1)); }))
+        << "the cancel reaches what is driven";
+  }
 }
 
 TEST_F(GivenGoalsTest, AfterTimeHasGoneBackNewGoalsAreDriven) {

@@ -105,6 +105,46 @@ TEST_F(NavigateMap, HeartbeatsOfAnotherNodeDoNotCount) {
   EXPECT_TRUE(reports(DiagnosticStatus::WARN, "blocked: the map on /projected_map is not kept up"));
 }
 
+// A free cell a second of anybody kept the map of a mapping alive that had been killed.
+TEST_F(NavigateMap, PiecesOfAnotherNodeAreNoSignOfLife) {
+  publishMap();
+  startNavigate({"_check_map:=true", "_map_timeout:=1.0", "_no_progress_timeout:=0"});
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(beatsUntil([&] { return drivesNow() && reported("heartbeat") == "True"; }));
+  // It hands on what changes in a map of the test's.
+  const test::Process other("map_layers", {"projected_map:=elsewhere", "_publish_rate:=20"});
+  ros::Publisher below = nh_.advertise<nav_msgs::OccupancyGrid>("static_map", 1, true);
+  ros::Publisher changes = nh_.advertise<map_msgs::OccupancyGridUpdate>("static_map_updates", 10);
+  below.publish(occupancyToMessage(test::AsciiMap({"........"}).map, "map", ros::Time::now()));
+  ASSERT_TRUE(beatsUntil([&] { return changes.getNumSubscribers() > 0; }));
+  std::int8_t value = 0;
+  const auto change = [&] {
+    map_msgs::OccupancyGridUpdate update;
+    update.header.frame_id = "map";
+    update.header.stamp = ros::Time::now();
+    update.x = 7;
+    update.width = update.height = 1;
+    update.data = {value = value == 0 ? -1 : 0};
+    changes.publish(update);
+  };
+  const auto pieces = [&] {
+    const auto all = beats_.all();
+    return std::count_if(all.begin(), all.end(), [](const map_msgs::OccupancyGridUpdate& update) {
+      return update.width == 1;
+    });
+  };
+  ASSERT_TRUE(beatsUntil([&] {
+    change();
+    return pieces() > 5;
+  }));
+  const auto before = pieces();
+  EXPECT_TRUE(test::waitFor([&] {
+    change();
+    return !drivesNow() && pieces() > before + 5;
+  }));
+  EXPECT_TRUE(reports(DiagnosticStatus::WARN, "blocked: the map on /projected_map is not kept up"));
+}
+
 // A map_publisher with a map of its own, which says nothing once the map is sent.
 class NavigateByMapServer : public test::StillTest {
  protected:

@@ -16,8 +16,10 @@
 #include <boost/make_shared.hpp>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "grid_path_planner/base/errors.h"
@@ -107,32 +109,48 @@ class CheckedMessages : public ros::SubscriptionCallbackHelperT<Parameter> {
  public:
   using Base = ros::SubscriptionCallbackHelperT<Parameter>;
   using Message = typename Base::NonConstType;
-  using Base::Base;
+
+  // `refused`, where there is one, is called in the place of a line in the log, in the subscriber's thread.
+  explicit CheckedMessages(const typename Base::Callback& callback,
+                           std::function<void()> refused = {})
+      : Base(callback), refused_(std::move(refused)) {}
 
   ros::VoidConstPtr deserialize(
       const ros::SubscriptionCallbackHelperDeserializeParams& given) override {
     if (given.length == 0 && ros::serialization::serializationLength(Message()) > 0)
       return noMessage<Message>();
-    checkClaimedLengths<Message>(given.buffer, given.length);
+    try {
+      checkClaimedLengths<Message>(given.buffer, given.length);
+    } catch (const std::exception&) {
+      if (refused_) return noMessage<Message>();
+      throw;
+    }
     return Base::deserialize(given);
   }
   void call(ros::SubscriptionCallbackHelperCallParams& given) override {
-    if (given.event.getConstMessage() == noMessage<Message>())
-      tellGivenUp("A message", "it has no bytes");
-    else
+    if (given.event.getConstMessage() != noMessage<Message>())
       Base::call(given);
+    else if (refused_)
+      refused_();
+    else
+      tellGivenUp("A message", "it has no bytes");
   }
+
+ private:
+  const std::function<void()> refused_;
 };
 
 // As NodeHandle::subscribe(); messages whose lengths lie are dropped, with roscpp's line in the log. Publishers are asked
 // to send each message at once: else TCP may keep a small one back until the one before is acknowledged, up to 40 ms.
-// Parameter: `const ros::MessageEvent<const Message>&` for a callback that asks who sent it.
+// Parameter: `const ros::MessageEvent<const Message>&` for a callback that asks who sent it. `refused` is for threads that
+// must not wait for a log.
 template <class Message, class Parameter = const Message&, class Callback>
 ros::Subscriber subscribeChecked(ros::NodeHandle nh, const std::string& topic,
-                                 std::uint32_t queue_size, const Callback& callback) {
+                                 std::uint32_t queue_size, const Callback& callback,
+                                 std::function<void()> refused = {}) {
   ros::SubscribeOptions options(topic, queue_size, ros::message_traits::md5sum<Message>(),
                                 ros::message_traits::datatype<Message>());
-  options.helper = boost::make_shared<CheckedMessages<Parameter>>(callback);
+  options.helper = boost::make_shared<CheckedMessages<Parameter>>(callback, std::move(refused));
   options.transport_hints.tcpNoDelay();
   return nh.subscribe(options);
 }

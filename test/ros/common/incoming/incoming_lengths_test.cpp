@@ -141,6 +141,27 @@ int timesCalledByNoBytes() {
   return called;
 }
 
+// A `stop` of no bytes, or too few, was a line in the log by the thread that commands: it waited for whoever reads that.
+TEST(CheckedMessages, WhereTheyAreCountedNothingIsLoggedOrCalled) {
+  int called = 0, refused = 0;
+  const auto helper = boost::make_shared<CheckedMessages<const sensor_msgs::Joy&>>(
+      [&](const sensor_msgs::Joy&) { ++called; }, [&] { ++refused; });
+  for (const std::uint32_t length : {0u, 5u}) {
+    const ros::SerializedMessage bytes(
+        boost::shared_array<std::uint8_t>(new std::uint8_t[8]{255, 255, 255, 255}), length);
+    ros::MessageDeserializer deserializer(helper, bytes, boost::make_shared<ros::M_string>());
+    const ros::VoidConstPtr message = deserializer.deserialize();
+    ASSERT_TRUE(message) << "roscpp would say that there is none";
+    using Event = ros::MessageEvent<const void>;
+    ros::SubscriptionCallbackHelperCallParams given;
+    given.event = Event(message, deserializer.getConnectionHeader(), ros::Time(1), false,
+                        Event::CreateFunction());
+    helper->call(given);
+  }
+  EXPECT_EQ(called, 0);
+  EXPECT_EQ(refused, 2);
+}
+
 TEST(CheckedMessages, OneWithoutAByteIsUnpackedOnceAndReachesNobody) {
   ros::Time::init();  // for the line in the log
   EXPECT_EQ(timesCalledByNoBytes<tf2_msgs::TFMessage>(), 0);

@@ -1,0 +1,59 @@
+// What navigate_path says in /diagnostics.
+#include "ros/driving/navigate_path_node.h"
+
+namespace grid_path_planner::nodes {
+
+using base::StopSource;
+using diagnostic_msgs::DiagnosticStatus;
+using following::FollowState;
+
+void NavigatePathNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const DriveStanding standing = loop_->standing();
+  const bool warn = standing.state == FollowState::BLOCKED || standing.state == FollowState::FAILED;
+  status.summary(warn ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+                 std::string(toString(standing.state)) + ": " + standing.message);
+  status.add("waypoint", standing.waypoint + 1);
+  status.add("waypoints", standing.waypoints);
+  status.add("distance remaining (m)", standing.distance_remaining);
+  status.add("time remaining (s)", standing.time_remaining);
+  status.add("missed waypoints", standing.missed.size());
+  status.add("scheduling of commands", loop_->scheduling());
+}
+
+void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const MapLife life = map_->life();
+  const std::string why = whyNoMap(life, options_.map_timeout);
+  if (!options_.check_map)
+    status.summary(DiagnosticStatus::OK, "not watched: check_map is false");
+  else if (!why.empty())
+    status.summary(DiagnosticStatus::WARN, why);
+  else
+    status.summary(DiagnosticStatus::OK, "the map on " + life.topic + " is kept up");
+  status.add("speed limits", limits_->state());
+  status.add("topic", life.topic);
+  if (!life.map.grid) return;
+  status.add("publisher", life.map.publisher);
+  status.add("heartbeat", life.heartbeat);
+  status.add("age (s)", secondsBetween(life.newest, ros::Time::now()));
+  status.add("last sign of life (s ago)", life.silence());
+}
+
+void NavigatePathNode::diagnoseOthers(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const double silence = master_->silence();
+  if (other_)
+    status.summary(DiagnosticStatus::ERROR, other_->sentence + " too");
+  else if (silence > 3.0)
+    status.summary(DiagnosticStatus::WARN, "the ROS master does not answer");
+  else
+    status.summary(DiagnosticStatus::OK, "nobody else commands the vehicle");
+  status.add("last answer of the master (s ago)", silence);
+  reader_->post(
+      [this](const StopSource&) {
+        const auto found = commands_.other();
+        auto other = found ? std::make_shared<const OtherCommander>(*found) : nullptr;
+        callLater([this, other] { other_ = other; });
+      },
+      "others");
+}
+
+}  // namespace grid_path_planner::nodes
