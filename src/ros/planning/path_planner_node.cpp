@@ -161,8 +161,8 @@ void PathPlannerNode::onOptions(const PathPlannerNodeOptions& options) {
   warnUnusedOptions(options.planner, before.planner);
   server_->setOptions(options);
   if (options.replan_period != before.replan_period) startReplanTimer(options.replan_period);
-  const std::optional<GoalState> goal = active_goal_.goal();
-  if (goal && goal->answered && changesPath(options, before)) postPlanForGoal();
+  // A planning that runs has the options from before.
+  if (active_goal_.goal() && changesPath(options, before)) postPlanForGoal();
   onMapChange();
 }
 
@@ -227,7 +227,9 @@ void PathPlannerNode::planForGoal(const StopSource& stop) {
 bool PathPlannerNode::keepsOldPath(const GoalState& goal, const Plan& plan,
                                    const PlanningServer::Settings& settings,
                                    const StopSource& stop) {
-  if (goal.path.empty() || !plan.found() || goal.path_settings != settings.revision) return false;
+  if (goal.path.empty() || !plan.found() || goal.path_settings != settings.revision ||
+      goal.path.frame_id != plan.path.frame_id)
+    return false;
   try {
     PlanningLane& lane = server_->vehicleLane();
     const auto costs = lane.fullResolutionCosts(settings.options, stop.token());
@@ -314,6 +316,11 @@ bool PathPlannerNode::goalPathBlocked(const PathPlannerNodeOptions& options,
   if (!goal || goal->path.empty()) return false;
   PlanningLane& lane = server_->vehicleLane();
   const auto costs = lane.fullResolutionCosts(options, stop.token());
+  if (goal->path.frame_id != lane.frame(options)) {
+    ROS_INFO_STREAM("The map is in frame " << lane.frame(options) << " now, the path in "
+                                           << goal->path.frame_id << ": planning again");
+    return true;
+  }
   const std::optional<Eigen::Vector2d> vehicle = server_->vehicle(lane.frame(options), options);
   const bool blocked = pathBlocked(goal->path, vehicle, *costs);
   const std::string contact =

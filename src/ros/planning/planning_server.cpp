@@ -121,17 +121,21 @@ void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, 
   ticket.via_ = question_lane_.plan(
       request, options, stop, [&](const char* phase) { ticket.phase_ = phase; }, ticket.map_);
   Plan plan = std::move(ticket.via_.plan);
-  if (publish == Publish::YES || explain == Explain::YES) {
-    ticket.explanation_ = question_lane_.explain(
-        request, plan.status, options, stop, explain == Explain::YES ? kExplains : kExplainsAtOnce);
-    if (!ticket.explanation_.text.empty()) plan.message += "; " + ticket.explanation_.text;
-  }
   try {
+    // A record names the map that was searched, and what explains a plan takes a newer one. Who waits for
+    // poses does not wait for a record.
+    if (!plan.found()) record(question_lane_, plan, options);
+    if (publish == Publish::YES || explain == Explain::YES) {
+      ticket.explanation_ =
+          question_lane_.explain(request, plan.status, options, stop,
+                                 explain == Explain::YES ? kExplains : kExplainsAtOnce);
+      if (!ticket.explanation_.text.empty()) plan.message += "; " + ticket.explanation_.text;
+    }
     ticket.poses_ = question_lane_.posesAlong(plan, options);
     const bool published = publish == Publish::YES && !stop.cancelled();
     if (published) remember(plan);
     ticket.tellPoses();
-    record(question_lane_, plan, options);
+    if (plan.found()) record(question_lane_, plan, options);
     ticket.statistics_ = question_lane_.statistics(plan, request, options);
     ticket.plan_ = std::move(plan);
     if (published) this->publish(question_lane_, ticket.plan_, ticket.statistics_);

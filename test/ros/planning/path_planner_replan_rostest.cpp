@@ -92,6 +92,30 @@ TEST_F(ReplanTest, TheLastPoseIsStampedWithWhenTheGoalWasGiven) {
   EXPECT_GT(path_.poses.back().header.stamp, given) << "given once more";
 }
 
+// The path kept the frame of the map that it was planned on, and its coordinates were looked up in a map of
+// another frame: the vehicle was led through a wall.
+TEST_F(ReplanTest, AWallInAMapOfAnotherFrameBlocksThePath) {
+  startPlanner();
+  publishMap(kCorridors);
+  placeVehicleAndWait(0.5, 2.5);
+  publishTransform("map", "odom", 0.0, -5.0, 0.0, 0.0);
+  ASSERT_TRUE(test::waitFor([&] {
+    makePlan({}, poseAt(0.5, 7.5, 0.0, "odom"));
+    return answer_.status == "FOUND";
+  }));
+  sendGoal(poseAt(6.5, 2.5));
+  ASSERT_TRUE(passesCell(3, 2)) << "straight on";
+  OccupancyGrid map(GridGeometry(7, 12, 1.0), 0);
+  map[Cell{3, 7}] = 100;  // row 2 of the map before
+  const std::size_t statistics = statistics_.count(), paths = paths_.count();
+  publishMap(map, "odom");
+  waitForAnswer(statistics, paths);
+  EXPECT_EQ(answer_.status, "FOUND");
+  EXPECT_EQ(path_.header.frame_id, "odom");
+  EXPECT_TRUE(endsAt(path_.poses.front(), 0.5, 7.5));
+  EXPECT_FALSE(passesCell(3, 7));
+}
+
 // navigation #750: stop when planning fails.
 TEST_F(ReplanTest, AWholeMapThatClosesEveryCorridorEmptiesThePath) {
   startPlanner();
@@ -286,6 +310,25 @@ TEST_F(ReplanTest, AChangedParameterPlansTheGoalAnew) {
   waitForAnswer(statistics, paths);
   EXPECT_LT(near, 0.9);
   EXPECT_GE(answer_.clearance_m, 0.9);
+}
+
+// It changed nothing: only a goal that had its answer was planned anew.
+TEST_F(ReplanTest, AParameterThatChangesWhileTheGoalIsPlannedPlansItAnew) {
+  startPlanner({"_tf_timeout:=60"});
+  publishMap(kCorridors);
+  placeVehicleAndWait(0.5, 2.5);
+  const std::size_t seen = log_.count();
+  goals_.publish(poseAt(6.5, 2.5, 0.0, "late"));
+  ASSERT_TRUE(logged("Waiting for tf: no transform from late to map", seen));
+  dynamic_reconfigure::Reconfigure call;
+  call.request.config.strs.resize(1);
+  call.request.config.strs[0].name = "heading";
+  call.request.config.strs[0].value = "backward";
+  ASSERT_TRUE(ros::service::call("/path_planner/set_parameters", call));
+  publishTransform("map", "late", 0.0, 0.0, 0.0, 0.0);
+  EXPECT_TRUE(paths_.waitFor(0, [](const nav_msgs::Path& path) {
+    return path.poses.size() > 2 && std::abs(path.poses[1].pose.orientation.z) > 0.99;
+  })) << "the vehicle looks back";
 }
 
 // With a large tf_timeout nothing was said before its end.
