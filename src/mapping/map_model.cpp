@@ -41,18 +41,21 @@ MapModel::MapModel(const ProjectedMapOptions& options, const std::string& begin_
     : options_(checked(options)),
       map_(mapOf(options, begin_with, stop)),
       projection_(map_.options().resolution, projectionOptions(options)) {
-  options_.octree.resolution = map_.options().resolution;
+  asked_resolution_ = options_.octree.resolution = map_.options().resolution;
 }
 
-void MapModel::setOptions(const ProjectedMapOptions& options, const StopToken& stop) {
-  checkProjectedMapOptions(options);
+void MapModel::setOptions(const ProjectedMapOptions& asked, const StopToken& stop) {
+  checkProjectedMapOptions(asked);
+  ProjectedMapOptions options = asked;
+  const double resolution = options_.octree.resolution;
+  if (asked.octree.resolution != asked_resolution_ && asked.octree.resolution != resolution)
+    throw InputError("resolution cannot be changed while the node runs, it is " +
+                     decimalText(resolution) + " m");
+  options.octree.resolution = resolution;
   if (options.frame_id != options_.frame_id)
     throw InputError("frame_id cannot be changed while the node runs, it is " + options_.frame_id);
   if (options.latch != options_.latch)
     throw InputError("latch cannot be changed while the node runs");
-  if (options.octree.resolution != options_.octree.resolution)
-    throw InputError("resolution cannot be changed while the node runs, it is " +
-                     decimalText(options_.octree.resolution) + " m");
   if (options.filename != options_.filename && !options.filename.empty()) {
     replaceMap(options, stop);
   } else {
@@ -60,6 +63,7 @@ void MapModel::setOptions(const ProjectedMapOptions& options, const StopToken& s
     map_.setOptions(options.octree);
     options_ = options;
   }
+  asked_resolution_ = asked.octree.resolution;
   ++revision_;
 }
 

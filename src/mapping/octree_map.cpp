@@ -66,7 +66,8 @@ std::size_t OctreeMap::insert(const Scan& scan) {
   OcTreeKey origin_key;
   if (!tree_->keyOf(scan.origin, origin_key))
     throw InputError("the origin " + text(scan.origin) + " of a scan is outside the octree");
-  return insertion_->insert(scan, origin_key, options_.max_range, *tree_, bricks_);
+  return insertion_->insert(scan, origin_key, options_.max_range, memoryLimitOf(options_), *tree_,
+                            bricks_);
 }
 
 void OctreeMap::clearBox(const point3d& low, const point3d& high) {

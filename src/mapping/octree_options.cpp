@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/available_memory.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/options.h"
 
@@ -12,6 +13,7 @@ namespace grid_path_planner::mapping {
 
 using base::checkOptionLimits;
 using base::decimalText;
+using base::halfOfAvailableMemory;
 using base::InputError;
 
 namespace {
@@ -28,6 +30,11 @@ bool isFinite(double probability) {
 }
 
 }  // namespace
+
+std::size_t memoryLimitOf(const OctreeOptions& options) {
+  if (options.memory_limit == 0) return halfOfAvailableMemory();
+  return static_cast<std::size_t>(options.memory_limit) * 1000000;
+}
 
 void checkOctreeOptions(const OctreeOptions& o) {
   checkOptionLimits(o);

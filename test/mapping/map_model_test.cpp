@@ -36,5 +36,25 @@ TEST(MapModel, BeginsWithAKeptMapHoweverLongThatTakes) {
   EXPECT_TRUE(test::contains(test::errorText([&] { MapModel{options}; }), "read_time_limit"));
 }
 
+// dynamic_reconfigure sends every parameter with every request, the resolution as it was at the start: after a
+// file of another one, no request was accepted any more.
+TEST(MapModel, OptionsChangeAfterAFileOfAnotherResolution) {
+  const test::TemporaryFolder folder;
+  ProjectedMapOptions options;
+  options.octree.resolution = 0.1;
+  const std::string file = writeLargeMap(folder, options);
+  options.octree.resolution = 0.2;
+  MapModel map(options);
+  options.filename = file;
+  map.setOptions(options);
+  EXPECT_EQ(map.map().options().resolution, 0.1);
+  options.occupancy_max_z = 2.0;
+  map.setOptions(options);
+  EXPECT_EQ(map.options().occupancy_max_z, 2.0);
+  EXPECT_EQ(map.map().options().resolution, 0.1);
+  options.octree.resolution = 0.3;
+  EXPECT_TRUE(test::contains(test::errorText([&] { map.setOptions(options); }), "it is 0.1 m"));
+}
+
 }  // namespace
 }  // namespace grid_path_planner::mapping

@@ -137,6 +137,52 @@ TEST(OctreeMap, aLongRayTakesMemoryForItsVoxelsOnly) {
   test::expectBricksMirrorTree(map);
 }
 
+// Rays of `length` metres to all sides.
+Scan starOf(int rays, float length) {
+  Scan scan{{0, 0, 0}, {}, {}};
+  for (int i = 0; i < rays; ++i) {
+    const float z = (2.0f * static_cast<float>(i) + 1.0f) / static_cast<float>(rays) - 1.0f;
+    const float around = 2.4f * static_cast<float>(i), flat = std::sqrt(1.0f - z * z);
+    scan.hits.push_back(point3d(flat * std::cos(around), flat * std::sin(around), z) * length);
+  }
+  return scan;
+}
+
+// A cloud of 2.4 kB took 1.8 GB, one of 12 kB all that there was; its node aborted as it ended.
+TEST(OctreeMap, fewRaysOfKilometresAreRefusedAndChangeNothing) {
+  OctreeOptions options;
+  OctreeMap map(options);
+  map.insert(starOf(20, 3.0f));
+  const std::size_t before = map.tree().size();
+  EXPECT_TRUE(contains(errorText([&] { map.insert(starOf(400, 1500.0f)); }), "max_range"));
+  EXPECT_EQ(map.tree().size(), before);
+  EXPECT_LT(map.memoryUsage(), 50000000u) << "what it took meanwhile is given back";
+  options.max_range = 10.0;
+  map.setOptions(options);
+  EXPECT_EQ(map.insert(starOf(400, 1500.0f)), 0u);
+}
+
+TEST(OctreeMap, aScanBeyondMemoryLimitIsRefusedAndWhatIsKnownIsKeptUpToDate) {
+  OctreeOptions options = tenthOfAMetre();
+  options.memory_limit = 1;
+  OctreeMap map(options);
+  const auto scan = [](int i) {
+    return Scan{{0, 0, 0}, {starOf(200, 20.0f).hits[static_cast<std::size_t>(i)]}, {}};
+  };
+  std::string refusal;
+  int scans = 0;
+  for (; scans < 200 && !contains(refusal, "memory_limit"); ++scans)
+    refusal = errorText([&] { map.insert(scan(scans)); });
+  EXPECT_GT(scans, 10);
+  ASSERT_LT(scans, 200);
+  EXPECT_LT(map.memoryUsage(), 1500000u);
+  const point3d end = scan(0).hits.front();
+  ASSERT_EQ(at(map, end.x(), end.y(), end.z()), Voxel::OCCUPIED);
+  for (int i = 0; i < 10; ++i) map.insert({{0, 0, 0}, {}, {end * 1.02f}});
+  EXPECT_EQ(at(map, end.x(), end.y(), end.z()), Voxel::FREE);
+  test::expectBricksMirrorTree(map);
+}
+
 // Single precision has no direction for points so near to each other, but they lie in two voxels.
 TEST(OctreeMap, aRayOfNoLengthEnds) {
   OctreeMap map(tenthOfAMetre());

@@ -24,10 +24,10 @@ PLANNER_FLOORS = {
 # Private headers that rooms above include too, though no other package should.
 LENT = {
     "path/straight_runs.h": {"planning"},
-    "base/available_memory.h": {"planners"},
+    "base/available_memory.h": {"mapping", "planners"},
     "base/child_process.h": {"simulation"},
     "base/cholesky.h": {"localization", "trials", "vision"},
-    "base/current_error.h": {"ros_common", "ros_driving", "ros_planning", "ros_rviz", "ros_simulation"},
+    "base/current_error.h": {"ros_common", "ros_driving", "ros_mapping", "ros_planning", "ros_rviz", "ros_simulation"},
     "base/deflate.h": {"grid", "planners"},
     "base/zeroed_array.h": {"planners"},
     "costmap/inflation.h": {"planning"},  # the distances that it keeps

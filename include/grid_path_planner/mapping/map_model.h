@@ -30,9 +30,10 @@ class MapModel {
   explicit MapModel(const ProjectedMapOptions& options, const std::string& begin_with = "",
                     const base::StopToken& stop = {});
 
-  // Throws InputError for options that cannot be used or not be changed (frame_id, resolution,
-  // latch), and for a new filename that cannot be loaded; then nothing has changed.
-  void setOptions(const ProjectedMapOptions& options, const base::StopToken& stop = {});
+  // Throws InputError for options that cannot be used or not be changed (frame_id, latch, and a
+  // resolution that is neither as it was asked for before nor the map's), and for a new filename that
+  // cannot be loaded; then nothing has changed.
+  void setOptions(const ProjectedMapOptions& asked, const base::StopToken& stop = {});
   const ProjectedMapOptions& options() const { return options_; }
 
   struct Inserted {
@@ -72,6 +73,7 @@ class MapModel {
   void replaceMap(const ProjectedMapOptions& options, const base::StopToken& stop);
 
   ProjectedMapOptions options_;
+  double asked_resolution_ = 0.0;  // m; a file that came later has its own
   OctreeMap map_;
   Projection projection_;
   ProjectionChange change_;

@@ -1,6 +1,8 @@
 // The sensor model of an octree: octomap_server's parameters, by their names and with their
-// defaults.
+// defaults; and what it may take.
 #pragma once
+
+#include <cstddef>
 
 #include "grid_path_planner/base/options.h"
 
@@ -15,6 +17,7 @@ struct OctreeOptions {
   double max = 0.97;                 //
   double occupancy_threshold = 0.5;  //
   double decay_time = 0.0;           // s, 0: never
+  int memory_limit = 0;              // MB, 0: half of what is available
 };
 
 template <class Visitor>
@@ -46,7 +49,16 @@ void visitOptions(OctreeOptions& o, Visitor&& visit) {
             "A voxel surely occupied is unknown again when it has not been seen for this long; "
             "0: never",
             "s", 0.0, 1e9});
+  visit("memory_limit", o.memory_limit,
+        base::OptionInfo{
+            "What the 3-D map may take: a cloud that may need more is left out, which diagnostics "
+            "and the log say, and what is known already is kept up to date; 0: half of what is "
+            "available at the start, of the machine, the control group and ulimit -v",
+            "MB", 0, 1000000});
 }
+
+// memory_limit in bytes, of 0 too.
+std::size_t memoryLimitOf(const OctreeOptions& options);
 
 // Throws InputError naming the option for a value outside its limits, a max_range of 0, a hit that
 // does not raise the probability or a miss that does not lower it, and for min, occupancy_threshold

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "mapping/insertion/dense_ray_traversal.h"
+#include "mapping/insertion/scan_memory.h"
 #include "mapping/insertion/scan_update.h"
 #include "mapping/insertion/sparse_ray_traversal.h"
 
@@ -19,17 +20,28 @@ using octomap::OcTreeKey;
 using octomap::point3d;
 
 std::size_t ScanInsertion::insert(const Scan& scan, const OcTreeKey& origin, double max_range,
-                                  MapTree& tree, OccupancyBricks& bricks) {
+                                  std::size_t memory_limit, MapTree& tree,
+                                  OccupancyBricks& bricks) {
   const std::size_t left_out = collectEnds(scan, max_range, tree);
   const RaySource rays(tree, scan.origin, origin);
   VoxelWindow::Box box;
-  if (fillsItsBox(origin, box))
-    markWindow(rays, origin, box);
-  else
-    markBricks(rays, origin);
-  updateTree(tree, bricks, marks_);
-  if (marks_.size() > kMostMarksKept) marks_ = {};
+  try {
+    if (fillsItsBox(origin, box))
+      markWindow(rays, origin, box);
+    else
+      markBricks(rays, origin);
+    checkScanMemory(tree, bricks, marks_, memory_limit);
+    updateTree(tree, bricks, marks_);
+  } catch (...) {
+    giveMarksBack();
+    throw;
+  }
+  giveMarksBack();
   return left_out;
+}
+
+void ScanInsertion::giveMarksBack() {
+  if (marks_.capacity() > kMostMarksKept) std::vector<ScanMarks>().swap(marks_);
 }
 
 std::size_t ScanInsertion::memoryUsage() const {
@@ -107,7 +119,11 @@ void ScanInsertion::markBricks(const RaySource& rays, const OcTreeKey& origin) {
   marks_.clear();
   SparseRayTraversal traversal(marks_, origin);
   forEachRay(
-      rays, origin, [&](Ray& ray, const OcTreeKey& key) { traversal.mark(ray, key); },
+      rays, origin,
+      [&](Ray& ray, const OcTreeKey& key) {
+        traversal.mark(ray, key);
+        checkCrossedBricks(marks_);
+      },
       [&] { traversal.markFree(origin); });
   for (const End& end : ends_)
     if (end.is_hit) traversal.markHit(end.key);

@@ -20,9 +20,9 @@ namespace grid_path_planner::mapping {
 
 class ScanInsertion {
  public:
-  // OctreeMap::insert's contract; `origin` is the key of the scan's origin.
+  // OctreeMap::insert's contract; `origin` is the key of the scan's origin, `memory_limit` in bytes.
   std::size_t insert(const Scan& scan, const octomap::OcTreeKey& origin, double max_range,
-                     MapTree& tree, OccupancyBricks& bricks);
+                     std::size_t memory_limit, MapTree& tree, OccupancyBricks& bricks);
 
   std::size_t memoryUsage() const;
 
@@ -42,6 +42,7 @@ class ScanInsertion {
   void markWindow(const RaySource& rays, const octomap::OcTreeKey& origin,
                   const VoxelWindow::Box& box);
   void markBricks(const RaySource& rays, const octomap::OcTreeKey& origin);
+  void giveMarksBack();
 
   std::vector<End> ends_;
   VoxelWindow window_;

@@ -9,17 +9,20 @@
 #include <sstream>
 #include <utility>
 
+#include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
 
 namespace grid_path_planner::nodes {
 
+using base::decimalText;
 using base::InputError;
 using base::RegularFile;
 using base::StopSource;
 using base::TaskQueue;
 using base::writeFileAtomically;
 using mapping::MapModel;
+using mapping::ProjectedMapOptions;
 
 namespace {
 
@@ -42,9 +45,15 @@ bool isRunId(const std::string& text) {
   return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), belongs);
 }
 
+// "" where the master has none, or does not answer.
 std::string runId() {
   std::string run;
-  if (ros::param::get("/run_id", run) && isRunId(run)) return run;
+  return ros::param::get("/run_id", run) && isRunId(run) ? run : "";
+}
+
+std::string firstRunId() {
+  const std::string run = runId();
+  if (!run.empty()) return run;
   ROS_WARN(
       "The master has no /run_id, as roscore sets it: the map is not kept for a node that starts "
       "again");
@@ -54,18 +63,35 @@ std::string runId() {
 }  // namespace
 
 MapAutosave::MapAutosave(const std::string& folder, const std::string& node,
-                         const std::string& frame_id, const std::string& octree)
-    : folder_(folder), file_(folder + "/" + fileName(node)), run_(runId()), frame_id_(frame_id) {
-  beginWith(octree);
+                         const ProjectedMapOptions& options)
+    : folder_(folder),
+      file_(folder + "/" + fileName(node)),
+      run_(firstRunId()),
+      frame_id_(options.frame_id) {
+  setOptions(options);
 }
 
-void MapAutosave::beginWith(const std::string& octree) {
-  octree_ = octree;
+void MapAutosave::setOptions(const ProjectedMapOptions& options) {
+  octree_ = options.filename;
   std::replace(octree_.begin(), octree_.end(), '\n', ' ');
+  resolution_ = options.octree.resolution;
 }
 
+// A roscore that was restarted has another run, under which a node that is killed now starts again. It has a
+// /run_id a moment after it answers.
+void MapAutosave::followMaster() {
+  const unsigned restarts = master_->restarts();
+  if (restarts == restarts_) return;
+  const std::string run = runId();
+  if (run.empty()) return;
+  restarts_ = restarts;
+  if (std::exchange(run_, run) != run) saved_revision_ = 0;
+}
+
+// A file has its own resolution.
 std::string MapAutosave::marker() const {
-  return "run " + run_ + ", frame " + frame_id_ + (octree_.empty() ? "" : ", file " + octree_);
+  return "run " + run_ + ", frame " + frame_id_ +
+         (octree_.empty() ? ", resolution " + decimalText(resolution_) : ", file " + octree_);
 }
 
 // The lines of the file that say whose it is and what is in it; "" without such a file.
@@ -86,8 +112,9 @@ std::string MapAutosave::beginning() const {
 std::string MapAutosave::begin() const {
   if (!std::filesystem::exists(file_)) return "";
   if (beginning().empty()) {
-    ROS_INFO_STREAM("The map that was kept in "
-                    << file_ << " is of another run, frame or octree file: it is not begun with");
+    ROS_INFO_STREAM(
+        "The map that was kept in "
+        << file_ << " is of another run, frame, resolution or octree file: it is not begun with");
     return "";
   }
   ROS_WARN_STREAM("Begins with the map that was kept in "
@@ -106,6 +133,7 @@ ros::Time MapAutosave::newestCloud() const {
 }
 
 void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud, When when) {
+  followMaster();
   const bool failed = !state().problem.empty();
   if (run_.empty() || (map.revision() == saved_revision_ && !failed)) return;
   noteUnsaved();

@@ -1,12 +1,13 @@
 // The file that a projected_map begins with when it was ended and started again: a node that is
 // killed must not erase the world.
 //
-//   MapAutosave autosave(folder, private_nh.getNamespace(), "map", "site.bt");
+//   MapAutosave autosave(folder, private_nh.getNamespace(), options);
 //   MapModel map(options, autosave.begin());   // the file of this run, if there is one
 //   autosave.save(map, newest_cloud, MapAutosave::When::IF_DUE);  // in the mapping thread, as often as wanted
 //
 // The file is an octree (.ot) below the folder, whose first lines name the run (the roscore's
-// /run_id), the frame and the octree file that the node began with; one of another run, frame or file is
+// /run_id; of a roscore that was restarted the new one), the frame, and the octree file that the node began
+// with or, where there was none, the resolution that was asked for; one of other ones is
 // not begun with. Its name holds the node's
 // name and the master's address, so that no two nodes write the same one, and begins with a dot, so
 // that no service can be asked to write it. The tree becomes text in the mapping thread, which takes
@@ -18,6 +19,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -25,19 +27,20 @@
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/mapping/map_model.h"
 #include "ros/common/guarded_queue.h"
+#include "ros/common/master/master_watch.h"
 #include "ros/common/scheduling/cpu_share.h"
 
 namespace grid_path_planner::nodes {
 
 class MapAutosave {
  public:
-  // Asks the master for the run. `folder` need not exist; `node` is the node's full name; `octree` is
-  // the file that it would begin with, "" for none.
-  MapAutosave(const std::string& folder, const std::string& node, const std::string& frame_id,
-              const std::string& octree);
+  // Asks the master for the run. `folder` need not exist; `node` is the node's full name. The options are
+  // as the node's parameters say.
+  MapAutosave(const std::string& folder, const std::string& node,
+              const mapping::ProjectedMapOptions& options);
 
-  // As `octree` there, from now on. Not while save() runs.
-  void beginWith(const std::string& octree);
+  // As the options there, from now on. Not while save() runs.
+  void setOptions(const mapping::ProjectedMapOptions& options);
 
   // The file of this run, "" where there is none, and the newest cloud in it. Says what was found.
   std::string begin() const;
@@ -61,6 +64,7 @@ class MapAutosave {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void followMaster();
   std::string marker() const;
   void noteUnsaved();
   std::string beginning() const;
@@ -71,6 +75,9 @@ class MapAutosave {
   std::string run_;   // "": unknown, then nothing is written
   std::string frame_id_;
   std::string octree_;  // in one line
+  double resolution_ = 0.0;
+  const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
+  unsigned restarts_ = 0;  // of the master, before run_
 
   std::uint64_t saved_revision_ = 0;  // of the mapping thread, as the next
   CpuShare share_{0.2};

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/current_error.h"
 #include "grid_path_planner/ProjectedMapConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/ending/end_of_node.h"
@@ -13,6 +14,7 @@
 
 namespace grid_path_planner::nodes {
 
+using base::currentErrorText;
 using base::InputError;
 using base::StopReason;
 using mapping::checkProjectedMapOptions;
@@ -89,8 +91,11 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   ProjectedMapOptions options = loadOptions(private_nh, files);
   if (options.autosave_period > 0.0)
     autosave_ = std::make_unique<MapAutosave>(files.saveFolder().path(), private_nh.getNamespace(),
-                                              options.frame_id, options.filename);
-  thread_ = makeThread(withFile(options), autosave_.get());
+                                              options);
+  const ProjectedMapOptions with_file = withFile(options);
+  filename_ = options.filename;
+  loaded_ = with_file.filename;
+  thread_ = makeThread(with_file, autosave_.get());
   thread_->run([&](MapModel& map) { options = map.options(); });  // a file has its own resolution
   options.filename = filename_;
   queue_.setOptions(queueOptions(options));
@@ -136,7 +141,7 @@ ProjectedMapNode::~ProjectedMapNode() {
   heartbeat_timer_.stop();
   autosave_timer_.stop();
   service_spinner_.stop();
-  if (autosave_) thread_->run([this](MapModel& map) { save(map, MapAutosave::When::AT_ONCE); });
+  saveAtTheEnd();
   cloud_subscription_->shutdown();  // asks the master, which may not answer
   reconfigurable_.reset();
   services_->shutdown();
@@ -144,14 +149,22 @@ ProjectedMapNode::~ProjectedMapNode() {
   thread_->stop();
 }
 
-// The name of a file is looked for once: what was loaded may be gone when another option changes.
-ProjectedMapOptions ProjectedMapNode::withFile(ProjectedMapOptions options) {
-  if (options.filename != filename_) {
-    loaded_ =
-        options.filename.empty() ? "" : files_.toRead("filename", options.filename, octreeFiles());
-    filename_ = options.filename;
+// There may be no memory for it.
+void ProjectedMapNode::saveAtTheEnd() {
+  if (!autosave_) return;
+  try {
+    thread_->run([this](MapModel& map) { save(map, MapAutosave::When::AT_ONCE); });
+  } catch (...) {
+    tellGivenUp("Keeping the map at the end", currentErrorText());
   }
-  options.filename = loaded_;
+}
+
+// The name of a file is looked for once: what was loaded may be gone when another option changes.
+ProjectedMapOptions ProjectedMapNode::withFile(ProjectedMapOptions options) const {
+  if (options.filename == filename_)
+    options.filename = loaded_;
+  else if (!options.filename.empty())
+    options.filename = files_.toRead("filename", options.filename, octreeFiles());
   return options;
 }
 
@@ -160,8 +173,10 @@ void ProjectedMapNode::use(const ProjectedMapOptions& options) {
   const EndOfNode end;
   thread_->run([&](MapModel& map) {
     map.setOptions(with_file, end.token());
-    if (autosave_) autosave_->beginWith(options.filename);
+    if (autosave_) autosave_->setOptions(options);
   });
+  filename_ = options.filename;
+  loaded_ = with_file.filename;
   queue_.setOptions(queueOptions(options));
   startPublishing(options);
   postPublishing();

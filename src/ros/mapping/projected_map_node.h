@@ -60,9 +60,8 @@ class ProjectedMapNode {
   ~ProjectedMapNode();
 
  private:
-  mapping::ProjectedMapOptions withFile(mapping::ProjectedMapOptions options);
+  mapping::ProjectedMapOptions withFile(mapping::ProjectedMapOptions options) const;
   void use(const mapping::ProjectedMapOptions& options);
-  void apply(const mapping::ProjectedMapOptions& options);
   void startPublishing(const mapping::ProjectedMapOptions& options);
   void warnOfSilence() const;
   void onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud);
@@ -71,6 +70,7 @@ class ProjectedMapNode {
   void postInsertion();
   void postPublishing();
   void startAutosave(double period);
+  void saveAtTheEnd();
 
   // In the map's thread
   void insertNext(mapping::MapModel& map);
@@ -83,7 +83,7 @@ class ProjectedMapNode {
 
   ros::NodeHandle nh_;
   NodeFiles files_;
-  std::string filename_;  // the option, and the file that it named
+  std::string filename_;  // the option that was used last, and the file that it named
   std::string loaded_;
   FrameTransforms transforms_;
   ClockWatch clock_;

@@ -136,11 +136,24 @@ TEST_F(Restart, WithAnotherOctreeFileItBeginsWithThat) {
   ASSERT_TRUE(firstMap(kept));
   EXPECT_EQ(valueAt(*firstMap(kept), 2.05, 0.05), 100);
   start({two});
-  EXPECT_TRUE(node_->says("is of another run, frame or octree file"));
+  EXPECT_TRUE(node_->says("is of another run, frame, resolution or octree file"));
   const Maps fresh(nh_, "projected_map");
   ASSERT_TRUE(firstMap(fresh));
   EXPECT_EQ(valueAt(*firstMap(fresh), 1.55, 0.05), 100) << "as in the file";
   EXPECT_NE(valueAt(*firstMap(fresh), 2.05, 0.05), 100) << "mapped on the other file";
+}
+
+// It began with the coarse map, and set the parameter back to its resolution.
+TEST_F(Restart, WithAnotherResolutionItBeginsEmpty) {
+  start();
+  mapWall(1.5F);
+  ASSERT_TRUE(isKept());
+  start({"_resolution:=0.05"});
+  EXPECT_TRUE(node_->says("is of another run, frame, resolution or octree file"));
+  const Maps maps(nh_, "projected_map");
+  ASSERT_TRUE(firstMap(maps));
+  EXPECT_TRUE(isEmpty(*firstMap(maps)));
+  EXPECT_NEAR(firstMap(maps)->info.resolution, 0.05, 1e-6);
 }
 
 TEST_F(Restart, AResetIsForEver) {

@@ -1,7 +1,9 @@
 // projected_map as octomap_server's users know it: clouds to a map, files, services.
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <std_srvs/Empty.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "grid_path_planner/SaveFile.h"
@@ -140,6 +142,30 @@ TEST_F(ProjectedMapTest, MapAndOctreeAreSavedAndLoaded) {
     const Maps loaded(nh_, "projected_map");
     EXPECT_TRUE(becomes(loaded, 2.05, 0.05, 100)) << name;
   }
+}
+
+// The name of the refused file was taken for the one in force: the one before was looked for anew with every other
+// parameter, and all were refused once it was gone.
+TEST_F(ProjectedMapTest, ParametersChangeAfterAFileThatWasRefused) {
+  startMapping({"--save-folder", folder_.path("")});
+  publish(wallAt(2.0F));
+  ASSERT_TRUE(save("save_octree", "tree.bt").success);
+  startMapping({"--load-folder", folder_.path("")});
+  const auto ask = [](const std::string& name, const std::string& text) {
+    dynamic_reconfigure::Reconfigure call;
+    call.request.config.strs.resize(1);
+    call.request.config.strs[0].name = name;
+    call.request.config.strs[0].value = text;
+    EXPECT_TRUE(ros::service::call("/projected_map/set_parameters", call));
+    std::string now;
+    EXPECT_TRUE(ros::param::get("/projected_map/" + name, now));
+    return now;
+  };
+  EXPECT_EQ(ask("filename", "tree.bt"), "tree.bt");
+  std::ofstream(folder_.path("damaged.bt")) << "nothing";
+  EXPECT_EQ(ask("filename", "damaged.bt"), "tree.bt");
+  std::filesystem::remove(folder_.path("tree.bt"));
+  EXPECT_EQ(ask("projection_max_z", "1.5"), "1.5");
 }
 
 // Nobody listened to the 2-D map while a bag was mapped, and what was saved was all floor without a word.

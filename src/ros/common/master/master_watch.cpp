@@ -99,6 +99,7 @@ void MasterWatch::ask() {
   answered_ = Clock::now().time_since_epoch().count();
   const int before = std::exchange(pid_, static_cast<int&>(*pid));
   const bool restarted = before != 0 && before != pid_;
+  if (restarted) ++restarts_;
   const bool knows = askMaster("lookupNode", {self()}).has_value();
   if (ros::isShuttingDown()) return;  // its names are gone because they were given back
   if (restarted || (known_ && !knows)) registerAgain();

@@ -34,6 +34,9 @@ class MasterWatch {
   // Seconds since the master answered last, to within one; takes no lock.
   double silence() const;
 
+  // How often another master answered than the one before.
+  unsigned restarts() const { return restarts_.load(); }
+
  private:
   using Clock = std::chrono::steady_clock;
 
@@ -47,6 +50,7 @@ class MasterWatch {
 
   const std::string services_uri_;  // asked for once: roscpp has none when it is shut down
   std::atomic<Clock::rep> answered_;
+  std::atomic<unsigned> restarts_{0};
   // The thread's:
   int pid_ = 0;         // of the master
   bool known_ = false;  // to the master, once
