@@ -31,7 +31,10 @@ class LayerSource {
     heard_ = Clock::now();
   }
   // What it said before does not hold any more: it counts as not there until it says something else.
-  void forget() { there_ = false; }
+  void forget() {
+    there_ = false;
+    heard_ = Clock::now();
+  }
   // It said something that cannot be used: it counts as not there until it says something else.
   void refuse(std::string problem) { problem_ = std::move(problem); }
 
@@ -44,10 +47,13 @@ class LayerSource {
     return topic_ + " has been silent for longer than source_timeout, " +
            base::decimalText(timeout) + " s";
   }
-  // s of the wall clock; 0 before the first.
-  double silence() const {
-    return there_ ? std::chrono::duration<double>(Clock::now() - heard_).count() : 0.0;
+  // Whether whyNot() is that it says nothing, for `timeout` or, before the first, for that long since it
+  // was made or forgotten.
+  bool silentFor(double timeout) const {
+    return problem_.empty() && expires_ && secondsSince(heard_) > timeout;
   }
+  // s of the wall clock; 0 before the first.
+  double silence() const { return there_ ? secondsSince(heard_) : 0.0; }
 
   const std::string& topic() const { return topic_; }
   bool used() const { return used_; }
@@ -56,13 +62,17 @@ class LayerSource {
   const ros::Time& stamp() const { return stamp_; }
 
  private:
+  static double secondsSince(Clock::time_point then) {
+    return std::chrono::duration<double>(Clock::now() - then).count();
+  }
+
   const std::string topic_;
   const bool used_;
   const bool expires_;
   bool there_ = false;
   std::string problem_;
   ros::Time stamp_;
-  Clock::time_point heard_;
+  Clock::time_point heard_ = Clock::now();
 };
 
 }  // namespace grid_path_planner::nodes

@@ -267,7 +267,8 @@ void MapLayersNode::takeScans() {
 
 std::string MapLayersNode::whyStale(const LayerSource& source, Layer layer, bool& dropped) {
   const std::string why = source.whyNot(options_.source_timeout);
-  const bool drops = !why.empty() && options_.stale_source == StaleSource::DROP;
+  const bool drops = !why.empty() && options_.stale_source == StaleSource::DROP &&
+                     source.silentFor(options_.source_timeout);
   if (std::exchange(dropped, drops) != drops) {
     if (drops)
       ROS_WARN_STREAM("The map goes on without what is not there: " << why);

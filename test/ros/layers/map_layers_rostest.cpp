@@ -165,6 +165,37 @@ TEST_F(MapLayers, ALaserThatIsSilentCanBeDropped) {
   EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
 }
 
+// It was dropped at the start, before it could have come, where it was refused, and by clear_scan: the vehicle drove
+// through what it had just forgotten.
+TEST_F(MapLayers, OnlyALaserThatIsSilentForItsTimeIsDropped) {
+  placeLaser();
+  publishStatic(kRoom);
+  start({"_use_scan:=true", "_source_timeout:=60", "_stale_source:=drop"});
+  const std::string held = "vehicles stand: nothing has come on /scan yet";
+  EXPECT_TRUE(node_->says(held));
+  EXPECT_EQ(copy_.maps(), 0U);
+  EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
+  ros::Publisher clear = nh_.advertise<std_msgs::Empty>("clear_scan", 1);
+  ASSERT_TRUE(waitFor([&] { return clear.getNumSubscribers() > 0; }));
+  clear.publish(std_msgs::Empty());
+  EXPECT_TRUE(waitFor([&] {
+    const std::string output = node_->output();
+    return output.find(held) != output.rfind(held);
+  })) << "by clear_scan, again";
+  EXPECT_FALSE(node_->hasSaid("The map goes on without"));
+}
+
+TEST_F(MapLayers, ALiveMapThatIsRefusedIsNotDropped) {
+  publishStatic(kRoom);
+  start({"_use_scan:=false", "_use_live_map:=true", "_source_timeout:=0.5", "_stale_source:=drop"});
+  live_.publish(occupancyToMessage(test::AsciiMap(kRoom).map, "elsewhere", ros::Time::now()));
+  EXPECT_TRUE(node_->says("/live_map cannot be used"));
+  const std::size_t maps = copy_.maps(), before = beats();
+  ros::WallDuration(1.5).sleep();  // longer than source_timeout, in which a heartbeat would come
+  EXPECT_EQ(copy_.maps(), maps);
+  EXPECT_EQ(beats(), before);
+}
+
 TEST_F(MapLayers, ZonesAndMasksOfOtherResolutionsAreKeptOutOf) {
   const test::TemporaryFolder folder;
   const std::string zones =
