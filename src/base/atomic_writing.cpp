@@ -264,6 +264,24 @@ class FolderLock {
   bool held_ = false;
 };
 
+// Whether a YAML file in the folder names the part: one of the same stem with another ending, or a copy.
+// One that cannot be read may. Its text may quote the name in its own manner, but not the hash.
+bool isNamedInFolder(const std::filesystem::path& place, int folder, const std::string& part) {
+  constexpr std::size_t kLargest = 1 << 20;  // bytes
+  const std::string hash = part.substr(hashIn(part));
+  bool named = false;
+  forEachName(folder, [&](const std::string& name) {
+    const std::string extension = extensionOf(name);
+    if (named || name.front() == '.' || (extension != "yaml" && extension != "yml")) return;
+    try {
+      named = readWholeFile((place / name).string(), kLargest).find(hash) != std::string::npos;
+    } catch (const InputError&) {
+      named = true;
+    }
+  });
+  return named;
+}
+
 // Removes the parts of a file, but for the newest. What somebody has changed since is theirs.
 void removeOldParts(const OutputFile& newest, int folder, const std::string& leaf) {
   const std::string beginning = leaf.substr(0, hashIn(leaf));
@@ -277,7 +295,9 @@ void removeOldParts(const OutputFile& newest, int folder, const std::string& lea
   for (const std::string& name : old) {
     try {
       const std::size_t largest = std::size_t{1} << 30;
-      if (partState(name, readWholeFile((place / name).string(), largest)) == PartState::AS_WRITTEN)
+      const std::string content = readWholeFile((place / name).string(), largest);
+      if (partState(name, content) == PartState::AS_WRITTEN &&
+          !isNamedInFolder(place, folder, name))
         ::unlinkat(folder, name.c_str(), 0);
     } catch (const InputError&) {
       // It is none that was written here.
@@ -295,10 +315,18 @@ PartState partState(const std::string& name, const std::string& content) {
                                                                 : PartState::CHANGED;
 }
 
-void writeFileWithPart(const OutputFile& file, const std::string& extension,
+OutputFile OutputFile::behindLinks() const {
+  if (folder_) return *this;
+  std::error_code none;
+  const std::filesystem::path behind = std::filesystem::canonical(name_, none);
+  return none ? *this : OutputFile(behind.string());
+}
+
+void writeFileWithPart(const OutputFile& named_file, const std::string& extension,
                        const std::string& part,
                        const std::function<std::string(const std::string& name)>& text_naming) {
   const HoldFileSizeSignal hold;
+  const OutputFile file = named_file.behindLinks();
   const std::string stem = std::filesystem::path(file.name()).stem().string();
   const std::string leaf = stem.substr(0, kLongestBeginning) + "-" + hashOf(part) + "." + extension;
   const OutputFile named = file.beside(leaf);

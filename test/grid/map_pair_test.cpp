@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <random>
 #include <thread>
 
@@ -105,6 +106,31 @@ TEST(MapPair, TheImagesNameIsOfItsContentAndItLiesBesideTheFile) {
                 base::PartState::AS_WRITTEN);
   writeMapServerFile(folder.path("a.yaml"), mapOf(4));
   EXPECT_EQ(readMapFile(folder.path("a-b.yaml")), mapOf(3)) << "another file's image stays";
+}
+
+// site.yaml and site.yml share the beginning of their images' names: writing the one removed the image of the
+// other, which any client of ~save_map could ask for, and a copy of the YAML lost its image as well.
+TEST(MapPair, AnImageThatAnotherFileNamesIsNotRemoved) {
+  const test::TemporaryFolder folder;
+  writeMapServerFile(folder.path("site.yaml"), mapOf(1));
+  folder.write("kept.yaml", test::contentOf(folder.path("site.yaml")));
+  writeMapServerFile(folder.path("site.yml"), mapOf(2));
+  EXPECT_EQ(readMapFile(folder.path("site.yaml")), mapOf(1));
+  writeMapServerFile(folder.path("site.yaml"), mapOf(3));
+  EXPECT_EQ(readMapFile(folder.path("kept.yaml")), mapOf(1));
+  EXPECT_EQ(readMapFile(folder.path("site.yml")), mapOf(2));
+  EXPECT_EQ(readMapFile(folder.path("site.yaml")), mapOf(3));
+}
+
+// The YAML was written behind the link, and its image beside the link.
+TEST(MapPair, BothFilesLieWhereALinkLeadsTo) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("maps"));
+  writeMapServerFile(folder.path("maps/site.yaml"), mapOf(1));
+  std::filesystem::create_symlink("maps/site.yaml", folder.path("latest.yaml"));
+  writeMapServerFile(folder.path("latest.yaml"), mapOf(2));
+  EXPECT_EQ(readMapFile(folder.path("maps/site.yaml")), mapOf(2));
+  EXPECT_EQ(folder.names().size(), 2u) << "the folder and the link";
 }
 
 // A reader found the image gone and the YAML as it had been: two writers took turns with the same maps,

@@ -72,6 +72,8 @@ class OutputFile {
   const std::string& name() const { return name_; }
   // The file `leaf` in the same folder.
   OutputFile beside(const std::string& leaf) const;
+  // The file that a link leads to; this one where it is none, or links are not followed.
+  OutputFile behindLinks() const;
 
  private:
   friend class AtomicWriting;
@@ -108,8 +110,8 @@ class StreamedFile {
 // Writes `part` under a name that is made of `file`'s and of the content of `part`, then `file` with
 // the text that `text_naming` makes of that name: name-0123456789abcdef.EXTENSION. Whoever reads a
 // name in `file` reads the part that it was written with, whoever is killed or writes meanwhile. Parts
-// that earlier writings of `file` left are removed afterwards, if no other writer holds the folder
-// (flock). Throws like writeFileAtomically; then `file` and the part that it names are as they were.
+// that earlier writings of `file` left are removed afterwards, if no YAML file in the folder names them and
+// no other writer holds the folder (flock). Throws like writeFileAtomically; then `file` and the part that it names are as they were.
 void writeFileWithPart(const OutputFile& file, const std::string& extension,
                        const std::string& part,
                        const std::function<std::string(const std::string& name)>& text_naming);
