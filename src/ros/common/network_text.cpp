@@ -44,15 +44,19 @@ bool isUtf8(const std::string& text) {
 
 }  // namespace
 
-void checkNetworkText(const std::string& what, const std::string& text, std::size_t longest) {
+void checkPlainText(const std::string& what, const std::string& text, std::size_t longest) {
   if (text.size() > longest)
     throw InputError(what + " has " + std::to_string(text.size()) + " bytes, expected at most " +
                      std::to_string(longest));
   if (std::any_of(text.begin(), text.end(), isControl))
     throw InputError(what + " must not hold control characters");
+  if (!isUtf8(text)) throw InputError(what + " must be UTF-8 without control characters");
+}
+
+void checkNetworkText(const std::string& what, const std::string& text, std::size_t longest) {
+  checkPlainText(what, text, longest);
   if (std::any_of(text.begin(), text.end(), isQuoting))
     throw InputError(what + " must not hold quotes, dollar signs, backquotes or backslashes");
-  if (!isUtf8(text)) throw InputError(what + " must be UTF-8 without control characters");
 }
 
 std::string printable(const std::string& text) {

@@ -17,6 +17,9 @@ constexpr std::size_t kLongestNetworkText = 256;  // bytes
 void checkNetworkText(const std::string& what, const std::string& text,
                       std::size_t longest = kLongestNetworkText);
 
+// The same for text that may quote: options.
+void checkPlainText(const std::string& what, const std::string& text, std::size_t longest);
+
 // The text, or "" where checkNetworkText refuses it: for answers that repeat what they were asked.
 std::string printable(const std::string& text);
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "ros/common/incoming/advertised_service.h"
+#include "ros/common/network_text.h"
 
 namespace ros {
 namespace {
@@ -57,7 +58,7 @@ const char* typeName(XmlRpcValue::Type type) {
   std::ostringstream text;
   value.write(text);
   throw InputError(name + " must be " + expected + ", got " + typeName(value.getType()) + " " +
-                   text.str());
+                   printable(text.str()));
 }
 
 std::string shortest(double number) {
@@ -112,6 +113,14 @@ std::string reportedName(const std::string& name, const std::vector<std::string>
 
 }  // namespace
 
+std::string optionText(const std::string& name, std::string text) {
+  constexpr std::size_t kLongest = 4096;
+  for (char& letter : text)
+    if (letter == '\n' || letter == '\r' || letter == '\t') letter = ' ';
+  checkPlainText(name, text, kLongest);
+  return text;
+}
+
 void assignParameter(const std::string& name, XmlRpcValue value, bool& target) {
   if (value.getType() != XmlRpcValue::TypeBoolean) refuse(name, "true or false", value);
   target = static_cast<bool>(value);
@@ -133,7 +142,7 @@ void assignParameter(const std::string& name, XmlRpcValue value, double& target)
 
 void assignParameter(const std::string& name, XmlRpcValue value, std::string& target) {
   if (value.getType() == XmlRpcValue::TypeString)
-    target = static_cast<std::string>(value);
+    target = optionText(name, static_cast<std::string>(value));
   else if (value.getType() == XmlRpcValue::TypeInt)
     target = std::to_string(static_cast<int>(value));
   else if (value.getType() == XmlRpcValue::TypeDouble)
@@ -173,7 +182,7 @@ std::vector<std::string> unknownParameters(const ros::NodeHandle& private_nh,
   for (const std::string& full_name : set_names) {
     if (full_name.compare(0, prefix.size(), prefix) != 0) continue;
     const std::string name = full_name.substr(prefix.size());
-    if (!isKnown(name, known)) unknown.insert(reportedName(name, known));
+    if (!isKnown(name, known)) unknown.insert(printable(reportedName(name, known)));
   }
   return {unknown.begin(), unknown.end()};
 }

@@ -113,6 +113,11 @@ void loadParameters(const ros::NodeHandle& private_nh, Options& options) {
   options = std::move(loaded);
 }
 
+// The text of an option as it came, line ends as spaces: whoever refuses it repeats it in the log. Throws
+// InputError that does not repeat it for other control characters, bytes that are no UTF-8, and more than
+// 4096 bytes.
+std::string optionText(const std::string& name, std::string text);
+
 // What the parameter of an option holds: an enum by its name.
 template <class Value>
 XmlRpc::XmlRpcValue parameterValue(const Value& value) {
@@ -158,10 +163,12 @@ Options withConfigMessage(Options options, const dynamic_reconfigure::Config& me
     if constexpr (std::is_enum_v<Value>) {
       std::string text;
       if (ConfigTools::getParameter(message, base::configName(name), text))
-        value = base::choiceFromName<Value>(name, text);
+        value = base::choiceFromName<Value>(name, optionText(name, text));
     } else if (ConfigTools::getParameter(message, base::configName(name), value)) {
       if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>)
         base::checkLimits(name, static_cast<double>(value), info);
+      else if constexpr (std::is_same_v<Value, std::string>)
+        value = optionText(name, value);
     }
   });
   return options;

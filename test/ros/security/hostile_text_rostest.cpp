@@ -1,7 +1,9 @@
 // Names of frames that are more than names. Seen before: a map in the frame $(touch x) was planned
 // on, and what a shell would run stood in the waypoint file.
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include "grid_path_planner/ComparePlans.h"
 #include "grid_path_planner/ros/conversions.h"
@@ -104,6 +106,46 @@ TEST_F(HostileText, TheOtherNodesRefuseItToo) {
   }
   Process simulator("simulator", {});
   EXPECT_TRUE(refuses(simulator, maps_, mapIn(frame)));
+}
+
+// Names in transforms and clouds, and values of parameters, went into the log as they came: lines that nobody had
+// written, escape sequences, 20 MB at a time.
+TEST_F(HostileText, NothingOfItStandsInTheLog) {
+  const std::string forged = "\x1b]0;owned\x07\n[FATAL] the vehicle stands";
+  const std::string large(5000000, 'm');
+  Process mapping("projected_map", {});
+  const auto clouds = nh_.advertise<sensor_msgs::PointCloud2>("cloud_in", 1);
+  const auto transforms = nh_.advertise<tf2_msgs::TFMessage>("/tf", 10);
+  ASSERT_TRUE(test::waitFor([&] {
+    return clouds.getNumSubscribers() > 0 && transforms.getNumSubscribers() > 0 &&
+           ros::service::exists("/projected_map/set_parameters", false);
+  }));
+  for (const std::string& text : {forged, large}) {
+    sensor_msgs::PointCloud2 cloud;
+    cloud.header.frame_id = "map";
+    cloud.header.stamp = ros::Time::now();
+    cloud.fields.resize(1);
+    cloud.fields[0].name = text;
+    clouds.publish(cloud);
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    message.transforms[0].header.frame_id = "map";
+    message.transforms[0].child_frame_id = text;
+    transforms.publish(message);
+    for (const char* option : {"projection_min_z", "cloud_layout", "filename"}) {
+      dynamic_reconfigure::Reconfigure call;
+      call.request.config.strs.resize(1);
+      call.request.config.strs[0].name = option;
+      call.request.config.strs[0].value = text;
+      ASSERT_TRUE(ros::service::call("/projected_map/set_parameters", call)) << option;
+    }
+  }
+  EXPECT_TRUE(mapping.says("the cloud has no field x"));
+  EXPECT_TRUE(mapping.says("a name of its frames is no text that may be told"));
+  EXPECT_TRUE(mapping.says("projection_min_z must not hold control characters"));
+  EXPECT_EQ(mapping.output().find("]0;owned"), std::string::npos);
+  EXPECT_EQ(mapping.output().find("\n[FATAL] the vehicle"), std::string::npos);
+  EXPECT_LT(mapping.output().size(), 100000u);
 }
 
 TEST_F(HostileText, SuchParametersEndANodeAtItsStart) {

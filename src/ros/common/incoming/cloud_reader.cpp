@@ -5,6 +5,7 @@
 #include <string>
 
 #include "grid_path_planner/base/errors.h"
+#include "ros/common/network_text.h"
 
 namespace grid_path_planner::nodes {
 
@@ -16,10 +17,11 @@ using sensor_msgs::PointCloud2;
 using sensor_msgs::PointField;
 
 const PointField& fieldNamed(const PointCloud2& cloud, const std::string& name) {
+  constexpr std::size_t kMostBytes = 256;
   std::string names;
   for (const PointField& field : cloud.fields) {
     if (field.name == name) return field;
-    names += (names.empty() ? "" : ", ") + field.name;
+    if (names.size() < kMostBytes) names += (names.empty() ? "" : ", ") + printable(field.name);
   }
   throw InputError("the cloud has no field " + name +
                    ", only: " + (names.empty() ? "none" : names));
