@@ -45,9 +45,11 @@ void mayRefuse(const Calls& calls) {
   }
 }
 
-// Of readers whose inputs may ask for much: 64 MB, 5 s.
+// Of readers whose inputs may ask for much: 64 MB, 5 s from now on.
 inline base::ReadLimits smallLimits() {
-  return base::ReadLimits({64, 5.0});
+  base::ReadLimits limits({64, 5.0});
+  limits.start();
+  return limits;
 }
 
 // Ends the program where it does not hold, in every build.
