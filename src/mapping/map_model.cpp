@@ -84,6 +84,7 @@ MapModel::Inserted MapModel::insert(std::vector<Eigen::Vector3d> points,
   const FilteredCloud cloud = filterCloud(std::move(points), frames, options_.cloud);
   inserted.ground_missed = cloud.ground_missed;
   inserted.left_out = map_.insert(cloud.scan);
+  inserted.map_is_full = map_.isFull();
   projection_.setSensor(cloud.scan.origin.x(), cloud.scan.origin.y());
   ++revision_;
   inserted.seconds =

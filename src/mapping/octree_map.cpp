@@ -114,6 +114,10 @@ std::string OctreeMap::fileText(const std::vector<std::string>& comments) const 
   return treeText(*tree_, comments);
 }
 
+bool OctreeMap::isFull() const {
+  return !insertion_->fits();
+}
+
 std::size_t OctreeMap::memoryUsage() const {
   return tree_->memoryUsage() + bricks_.memoryUsage() + insertion_->memoryUsage();
 }

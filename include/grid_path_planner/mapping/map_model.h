@@ -40,6 +40,7 @@ class MapModel {
     std::size_t points = 0;
     std::size_t left_out = 0;    // too far away for the tree
     bool ground_missed = false;  // no plane was found
+    bool map_is_full = false;    // OctreeMap::isFull
     double seconds = 0.0;
   };
   // `points` in m, in the sensor's frame. Throws InputError where the sensor is outside the tree.

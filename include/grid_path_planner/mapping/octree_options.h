@@ -51,9 +51,10 @@ void visitOptions(OctreeOptions& o, Visitor&& visit) {
             "s", 0.0, 1e9});
   visit("memory_limit", o.memory_limit,
         base::OptionInfo{
-            "What the 3-D map may take: a cloud that may need more is left out, which diagnostics "
-            "and the log say, and what is known already is kept up to date; 0: half of what is "
-            "available at the start, of the machine, the control group and ulimit -v",
+            "What the 3-D map may take: voxels that were unknown stay so where a cloud would need "
+            "more, which diagnostics and the log say, and what is known is kept up to date; 0: "
+            "half of what is available at the start, of the machine, the control group and "
+            "ulimit -v",
             "MB", 0, 1000000});
 }
 

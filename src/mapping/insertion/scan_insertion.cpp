@@ -29,10 +29,12 @@ std::size_t ScanInsertion::insert(const Scan& scan, const OcTreeKey& origin, dou
     if (fillsItsBox(origin, box))
       markWindow(rays, origin, box);
     else
-      markBricks(rays, origin);
-    checkScanMemory(tree, bricks, marks_, memory_limit);
+      markBricks(rays, origin, mostCrossedBricks(ends_.size(), memory_limit));
+    fits_ = fitsMemory(tree, bricks, marks_, memory_limit);
+    if (!fits_) keepKnown(bricks, marks_);
     updateTree(tree, bricks, marks_);
   } catch (...) {
+    window_ = {};  // where memory ran out while it was read, its cells are still marked
     giveMarksBack();
     throw;
   }
@@ -115,14 +117,14 @@ void ScanInsertion::markWindow(const RaySource& rays, const OcTreeKey& origin,
   collectMarks(window_, marks_);
 }
 
-void ScanInsertion::markBricks(const RaySource& rays, const OcTreeKey& origin) {
+void ScanInsertion::markBricks(const RaySource& rays, const OcTreeKey& origin, std::size_t most) {
   marks_.clear();
   SparseRayTraversal traversal(marks_, origin);
   forEachRay(
       rays, origin,
       [&](Ray& ray, const OcTreeKey& key) {
         traversal.mark(ray, key);
-        checkCrossedBricks(marks_);
+        checkCrossedBricks(marks_, most);
       },
       [&] { traversal.markFree(origin); });
   for (const End& end : ends_)

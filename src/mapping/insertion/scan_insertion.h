@@ -24,6 +24,9 @@ class ScanInsertion {
   std::size_t insert(const Scan& scan, const octomap::OcTreeKey& origin, double max_range,
                      std::size_t memory_limit, MapTree& tree, OccupancyBricks& bricks);
 
+  // False where the new voxels of the last scan were left out, for which there was no memory.
+  bool fits() const { return fits_; }
+
   std::size_t memoryUsage() const;
 
  private:
@@ -41,12 +44,13 @@ class ScanInsertion {
                   MarkOrigin&& mark_origin) const;
   void markWindow(const RaySource& rays, const octomap::OcTreeKey& origin,
                   const VoxelWindow::Box& box);
-  void markBricks(const RaySource& rays, const octomap::OcTreeKey& origin);
+  void markBricks(const RaySource& rays, const octomap::OcTreeKey& origin, std::size_t most);
   void giveMarksBack();
 
   std::vector<End> ends_;
   VoxelWindow window_;
   std::vector<ScanMarks> marks_;
+  bool fits_ = true;
 };
 
 }  // namespace grid_path_planner::mapping

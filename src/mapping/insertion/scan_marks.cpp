@@ -105,4 +105,19 @@ Brick::Words brickWords(const OctantWords& octants) {
   return words;
 }
 
+OctantWords octantWords(const Brick::Words& words) {
+  OctantWords octants{};
+  for (unsigned y = 0; y < 8; ++y)
+    for (unsigned x = 0; x < 8; ++x) {
+      const std::uint64_t column = words[y] >> (8 * x) & 0xFF;
+      if (column == 0) continue;
+      const unsigned octant = x >> 2 | y >> 2 << 1;
+      const unsigned shift = (x & 1) + 2 * (y & 1) + 8 * (x >> 1 & 1) + 16 * (y >> 1 & 1);
+      for (unsigned z = 0; z < 8; ++z)
+        octants[octant + 4 * (z >> 2)] |= (column >> z & 1)
+                                          << (shift + 4 * (z & 1) + 32 * (z >> 1 & 1));
+    }
+  return octants;
+}
+
 }  // namespace grid_path_planner::mapping

@@ -27,7 +27,8 @@ std::uint64_t mortonCode(BrickKey key);
 // of space. The cells are NONE again afterwards.
 void collectMarks(VoxelWindow& window, std::vector<ScanMarks>& bricks);
 
-// The same voxels in the bit order of OccupancyBricks.
+// The same voxels in the bit order of OccupancyBricks, and back.
 Brick::Words brickWords(const OctantWords& octants);
+OctantWords octantWords(const Brick::Words& words);
 
 }  // namespace grid_path_planner::mapping

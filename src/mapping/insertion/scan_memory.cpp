@@ -12,55 +12,98 @@ using base::InputError;
 
 namespace {
 
-// Of a node, its share of its parent's array and of a brick, and the allocator's, where long rays cross
-// unknown space: that takes the most memory for a node.
-constexpr std::size_t kBytesOfNode = 100;
-constexpr std::size_t kMostNodesOfBrick = 1 + 8 + 64 + 512;
-constexpr std::size_t kNodesAbove = 2;  // of a brick, above it
+// With the allocator's share: of a node, of the array of its children, of a brick. Maps take 48 to 85 bytes a
+// node, those of long thin rays the most.
+constexpr std::size_t kNode = 32, kChildren = 80, kBrick = 136;
+constexpr std::size_t kBytesOfNode = 65;
+constexpr std::size_t kMostBytesOfBrick = 585 * kNode + 73 * kChildren + kBrick;
+constexpr std::size_t kBytesAbove = 2 * (kNode + kChildren);       // of a brick, above it
+constexpr std::size_t kBytesOfSplit = 24 * kNode + 3 * kChildren;  // of a leaf down to one voxel
 
-std::size_t countBits(const Brick::Words& words) {
-  std::size_t count = 0;
-  for (const std::uint64_t word : words) count += std::bitset<64>(word).count();
-  return count;
+constexpr std::size_t kAnyScansBricks = std::size_t{1} << 19;
+constexpr std::size_t kBricksOfPoint = 512;                    // 120 m of voxels of 0.05 m
+constexpr std::size_t kBytesOfMarks = sizeof(ScanMarks) + 48;  // with its entry in a table
+
+std::size_t countBits(std::uint64_t word) {
+  return std::bitset<64>(word).count();
 }
 
-// At most. A voxel that becomes known is a leaf, with an inner node for each at worst.
-std::size_t newNodes(const ScanMarks& marks, const Brick& brick) {
-  const Brick::Words hit = brickWords(marks.hit);
-  Brick::Words unseen = brickWords(marks.free);
-  Brick::Words freed{};  // a hit in a free leaf may split it
-  for (unsigned y = 0; y < 8; ++y) {
-    unseen[y] = (unseen[y] | hit[y]) & ~brick.known[y];
-    freed[y] = hit[y] & brick.known[y] & ~brick.occupied[y];
+// Of the nodes below one for an octant of a brick: those of eight voxels, and single ones.
+std::size_t bytesBelow(std::uint64_t octant) {
+  if (octant == 0 || octant == ~std::uint64_t{0}) return 0;
+  std::size_t bytes = kChildren;
+  for (unsigned i = 0; i < 8; ++i) {
+    const std::uint64_t eight = octant >> (8 * i) & 0xFF;
+    if (eight == 0) continue;
+    bytes += kNode;
+    if (eight != 0xFF) bytes += kChildren + kNode * countBits(eight);
   }
-  const std::size_t voxels = countBits(unseen), splits = countBits(freed);
-  if (voxels + splits == 0) return 0;
-  return std::min(kMostNodesOfBrick, 2 * voxels + 24 * splits) + kNodesAbove;
+  return bytes;
 }
 
-std::string megabytes(std::size_t bytes) {
-  return std::to_string(bytes / 1000000) + " MB";
+std::size_t bytesOfVoxels(const OctantWords& octants) {
+  std::size_t bytes = kBytesAbove + kNode + kChildren + kBrick;
+  for (const std::uint64_t octant : octants)
+    if (octant != 0) bytes += kNode + bytesBelow(octant);
+  return bytes;
+}
+
+bool isEmpty(const OctantWords& octants) {
+  return std::all_of(octants.begin(), octants.end(), [](std::uint64_t word) { return word == 0; });
+}
+
+// At most, but for leaves that a miss splits.
+std::size_t addedBytes(const ScanMarks& marks, const Brick& brick) {
+  const OctantWords known = octantWords(brick.known), occupied = octantWords(brick.occupied);
+  OctantWords unseen{};
+  std::size_t splits = 0;
+  for (unsigned i = 0; i < 8; ++i) {
+    unseen[i] = (marks.free[i] | marks.hit[i]) & ~known[i];
+    splits += countBits(marks.hit[i] & known[i] & ~occupied[i]);
+  }
+  const std::size_t bytes = isEmpty(unseen) ? 0 : bytesOfVoxels(unseen);
+  return std::min(kMostBytesOfBrick, bytes + splits * kBytesOfSplit);
 }
 
 }  // namespace
 
-void checkCrossedBricks(const std::vector<ScanMarks>& marks) {
-  if (marks.size() > kMostCrossedBricks)
-    throw InputError("its rays cross more than " + std::to_string(kMostCrossedBricks) +
-                     " bricks of 8x8x8 voxels: a sensor_model/max_range that the sensor sees, or "
-                     "a coarser resolution, helps");
+std::size_t mostCrossedBricks(std::size_t points, std::size_t memory_limit) {
+  return std::min(std::max(kAnyScansBricks, kBricksOfPoint * points),
+                  memory_limit / 2 / kBytesOfMarks);
 }
 
-void checkScanMemory(const MapTree& tree, const OccupancyBricks& bricks,
-                     const std::vector<ScanMarks>& marks, std::size_t limit) {
-  const std::size_t nodes = tree.size();
-  if ((nodes + (kMostNodesOfBrick + kNodesAbove) * marks.size()) * kBytesOfNode <= limit) return;
+void checkCrossedBricks(const std::vector<ScanMarks>& marks, std::size_t most) {
+  if (marks.size() > most)
+    throw InputError("its rays cross more than " + std::to_string(most) +
+                     " bricks of 8x8x8 voxels, too many for so few points or for memory_limit: a "
+                     "sensor_model/max_range that the sensor sees, or a coarser resolution, helps");
+}
+
+bool fitsMemory(const MapTree& tree, const OccupancyBricks& bricks,
+                const std::vector<ScanMarks>& marks, std::size_t limit) {
+  const std::size_t taken = tree.size() * kBytesOfNode;
+  if (taken > limit + limit / 4)
+    throw InputError("the map takes some " + std::to_string(taken / 1000000) +
+                     " MB, memory_limit is " + std::to_string(limit / 1000000) +
+                     " MB: ~reset, or a coarser resolution, helps");
+  if (taken + marks.size() * kMostBytesOfBrick <= limit) return true;
   std::size_t more = 0;
-  for (const ScanMarks& mark : marks) more += newNodes(mark, bricks.brick(mark.key));
-  if (more == 0 || (nodes + more) * kBytesOfNode <= limit) return;
-  throw InputError("the map takes some " + megabytes(nodes * kBytesOfNode) + " and this up to " +
-                   megabytes(more * kBytesOfNode) + " more, memory_limit is " + megabytes(limit) +
-                   ": a shorter sensor_model/max_range, a coarser resolution or ~reset helps");
+  for (const ScanMarks& mark : marks) more += addedBytes(mark, bricks.brick(mark.key));
+  return more == 0 || taken + more <= limit;
+}
+
+void keepKnown(const OccupancyBricks& bricks, std::vector<ScanMarks>& marks) {
+  for (ScanMarks& mark : marks) {
+    const OctantWords known = octantWords(bricks.brick(mark.key).known);
+    for (unsigned i = 0; i < 8; ++i) {
+      mark.free[i] &= known[i];
+      mark.hit[i] &= known[i];
+    }
+  }
+  const auto without = [](const ScanMarks& mark) {
+    return isEmpty(mark.free) && isEmpty(mark.hit);
+  };
+  marks.erase(std::remove_if(marks.begin(), marks.end(), without), marks.end());
 }
 
 }  // namespace grid_path_planner::mapping

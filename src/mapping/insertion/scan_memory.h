@@ -1,9 +1,9 @@
 // Whether there is memory for what a scan adds to a map.
 //
-//   const std::vector<ScanMarks> marks;
+//   std::vector<ScanMarks> marks;
 //   MapTree tree(0.05, OctreeOptions());
 //   OccupancyBricks bricks(0.05);
-//   checkScanMemory(tree, bricks, marks, 2'000'000'000);  // before the tree is changed
+//   if (!fitsMemory(tree, bricks, marks, 2'000'000'000)) keepKnown(bricks, marks);
 #pragma once
 
 #include <cstddef>
@@ -15,16 +15,21 @@
 
 namespace grid_path_planner::mapping {
 
-// The most bricks that the rays of one scan may cross one by one: a few far points, a kilobyte of a
-// cloud, would take gigabytes and minutes otherwise. What fits into a window is not counted.
-constexpr std::size_t kMostCrossedBricks = std::size_t{1} << 20;
+// The most bricks that the rays of a scan of so many points may cross one by one: a few far points, a
+// kilobyte of a cloud, would take gigabytes and minutes otherwise. What fits into a window is not counted.
+// `memory_limit` in bytes.
+std::size_t mostCrossedBricks(std::size_t points, std::size_t memory_limit);
 
-// Throws InputError that names sensor_model/max_range where `marks` are more.
-void checkCrossedBricks(const std::vector<ScanMarks>& marks);
+// Throws InputError that names sensor_model/max_range where `marks` are more than `most`.
+void checkCrossedBricks(const std::vector<ScanMarks>& marks, std::size_t most);
 
-// Throws InputError that names memory_limit where the map with the marks of a scan may take more than
-// `limit` bytes. Voxels that are known already take no more, but where a hit splits a leaf.
-void checkScanMemory(const MapTree& tree, const OccupancyBricks& bricks,
-                     const std::vector<ScanMarks>& marks, std::size_t limit);
+// Whether the map with the marks of a scan takes no more than `limit` bytes. Voxels that are known already count
+// where a hit splits a leaf; what splits otherwise is let through up to a quarter above the limit, beyond
+// which this throws InputError that names memory_limit.
+bool fitsMemory(const MapTree& tree, const OccupancyBricks& bricks,
+                const std::vector<ScanMarks>& marks, std::size_t limit);
+
+// Takes the marks of voxels that are not known away, and bricks without another.
+void keepKnown(const OccupancyBricks& bricks, std::vector<ScanMarks>& marks);
 
 }  // namespace grid_path_planner::mapping

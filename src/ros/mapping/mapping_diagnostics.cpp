@@ -57,6 +57,7 @@ void MappingDiagnostics::measure(const MapModel& map) {
 void MappingDiagnostics::recordInsertion(const MapModel::Inserted& inserted) {
   std::lock_guard<std::mutex> lock(mutex_);
   last_insertion_ = inserted.seconds;
+  full_ = inserted.map_is_full;
   all_insertions_ += inserted.seconds;
   ++insertions_;
 }
@@ -85,7 +86,9 @@ void MappingDiagnostics::reportClouds(diagnostic_updater::DiagnosticStatusWrappe
 void MappingDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
   std::lock_guard<std::mutex> lock(mutex_);
   status.summary(DiagnosticStatus::OK, figures_.nodes == 0 ? "the map is empty" : "a map is there");
-  if (figures_.area_left_out > 0.0)
+  if (full_)
+    status.summary(DiagnosticStatus::WARN, "the map takes memory_limit: nothing new is added");
+  else if (figures_.area_left_out > 0.0)
     status.summary(DiagnosticStatus::WARN, "projected_map leaves out a part of what was seen");
   status.add("nodes", figures_.nodes);
   status.add("bytes", figures_.bytes);

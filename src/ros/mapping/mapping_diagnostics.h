@@ -63,6 +63,7 @@ class MappingDiagnostics {
   const double autosave_period_;  // s
   std::mutex mutex_;
   Figures figures_;
+  bool full_ = false;            // at the last insertion
   double last_insertion_ = 0.0;  // s
   double all_insertions_ = 0.0;  // s
   std::uint64_t insertions_ = 0;

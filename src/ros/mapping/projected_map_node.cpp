@@ -260,6 +260,10 @@ void ProjectedMapNode::insert(MapModel& map, const CloudQueue::Ready& ready) {
                       "No ground plane found in a cloud: points near z = 0 of %s were taken "
                       "for ground",
                       map.options().base_frame_id.c_str());
+  if (inserted.map_is_full)
+    ROS_WARN_THROTTLE(10.0,
+                      "The map takes memory_limit: what was unknown stays so; ~reset, or a coarser "
+                      "resolution, helps");
   if (inserted.left_out > 0)
     ROS_WARN_STREAM_THROTTLE(10.0, inserted.left_out << " of " << inserted.points
                                                      << " points of a cloud lie outside the tree");
