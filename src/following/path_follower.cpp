@@ -85,6 +85,7 @@ void PathFollower::start(const Path& path, Join join) {
   status_ = DriveStatus::NONE;
   message_ = "drives a path of " + std::to_string(path.poses.size()) + " waypoints, " +
              metres(lengthOf(path));
+  if (state_ == FollowState::PAUSED) message_ += ", once it is resumed";
   length_ = {};
   blocked_since_.reset();
   controller_->release();
@@ -98,7 +99,7 @@ bool PathFollower::active() const {
 
 PathFollower::Answer PathFollower::pause() {
   if (starts_paused_) return {true, "paused already"};
-  if (state_ == FollowState::ARRIVED) {
+  if (state_ == FollowState::ARRIVED && options_.hold_pose) {
     cancel("paused");
     return {true, "the pose at the end of the path is not held any more"};
   }

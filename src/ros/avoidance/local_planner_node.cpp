@@ -179,8 +179,8 @@ void LocalPlannerNode::offerServices(ros::NodeHandle& private_nh) {
           return true;
         }));
   };
-  offer("pause", [this] { return hold_.pause(flies_); });
-  offer("resume", [this] { return hold_.resume(flies_); });
+  offer("pause", [this] { return hold_.pause(hasFlight()); });
+  offer("resume", [this] { return hold_.resume(hasFlight()); });
   offer("cancel", [this] {
     given_goals_.endAllUntil(ros::Time::now());
     const bool was_read = action_->cancelReading("cancelled by ~cancel while its file was read");
@@ -349,7 +349,7 @@ void LocalPlannerNode::control() {
 }
 
 void LocalPlannerNode::tick(const ros::Time& now) {
-  const bool yields = hold_.notice(now, flies_);
+  const bool yields = hold_.notice(now, hasFlight());
   const PilotInput given = input(now);
   answer_ = pilot_.update(given);
   const bool ended = answer_.status == PilotStatus::ARRIVED ||
@@ -366,6 +366,11 @@ void LocalPlannerNode::tick(const ros::Time& now) {
   if (ended && std::exchange(flies_, false))
     ROS_INFO_STREAM(toString(answer_.status) << ": " << answer_.sentence);
   action_->report(answer_, at_);
+}
+
+// Or will have it, once its file is read: a pause outlives the goal that is replaced.
+bool LocalPlannerNode::hasFlight() const {
+  return flies_ || action_->isActive();
 }
 
 void LocalPlannerNode::publish(const ros::Time& now) {

@@ -112,6 +112,7 @@ class LocalPlannerNode {
   base::BodyVelocity velocityAt(const ros::Time& now) const;
   avoidance::PilotInput input(const ros::Time& now);
   void takeFrames(avoidance::PilotInput& input, const ros::Time& now);
+  bool hasFlight() const;
   void publish(const ros::Time& now);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 

@@ -244,6 +244,15 @@ std::string FrameTransforms::commonFrame(const std::string& one, const std::stri
   return common;
 }
 
+bool FrameTransforms::movesWith(const std::string& vehicle, const std::string& frame) const {
+  if (frame == vehicle) return true;
+  for (const geometry_msgs::TransformStamped& link : linksAbove(buffer_, frame)) {
+    if (!link.header.stamp.isZero()) return false;
+    if (link.header.frame_id == vehicle) return true;
+  }
+  return false;
+}
+
 std::vector<Eigen::Vector3d> FrameTransforms::pointsIn(const std::string& to,
                                                        const std::string& from,
                                                        std::vector<Eigen::Vector3d> points) const {

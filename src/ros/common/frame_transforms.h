@@ -79,6 +79,10 @@ class FrameTransforms {
   std::vector<Eigen::Vector3d> pointsIn(const std::string& to, const std::string& from,
                                         std::vector<Eigen::Vector3d> points) const;
 
+  // Whether tf has `frame` fixed to the vehicle: its own frame, or one below it that no moving transform joins to it,
+  // as a dock's is that its camera sees.
+  bool movesWith(const std::string& vehicle, const std::string& frame) const;
+
   // Forgets everything but static transforms.
   void clear() { buffer_.clear(); }
 

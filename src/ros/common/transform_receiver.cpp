@@ -38,6 +38,10 @@ bool TransformStamps::take(const std::string& child, const ros::Time& stamp) {
   return true;
 }
 
+void TransformStamps::giveBack(const std::string& child, const ros::Time& stamp) {
+  of_[child].erase(stamp.toNSec());
+}
+
 TransformReceiver::TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer, Hearer hearer)
     : buffer_(buffer), hearer_(std::move(hearer)), stamps_(buffer.getCacheLength().toSec()) {
   nh.setCallbackQueue(&guarded_);
@@ -88,10 +92,11 @@ std::string insertTransform(tf2::BufferCore& buffer, TransformStamps& stamps,
         << now;
     return why.str();
   }
-  if (!is_static && !stamps.take(frameName(transform.child_frame_id), transform.header.stamp))
-    return "";
+  const std::string child = frameName(transform.child_frame_id);
+  if (!is_static && !stamps.take(child, transform.header.stamp)) return "";
   try {
-    buffer.setTransform(transform, node, is_static);
+    if (!buffer.setTransform(transform, node, is_static) && !is_static)
+      stamps.giveBack(child, transform.header.stamp);
   } catch (const tf2::TransformException& error) {
     why << "A transform of " << node << " is dropped: " << error.what();
   }

@@ -38,6 +38,8 @@ class TransformStamps {
 
   // Whether the buffer would take a transform of this frame and stamp; then it counts as taken.
   bool take(const std::string& child, const ros::Time& stamp);
+  // tf2 did not take it for another reason.
+  void giveBack(const std::string& child, const ros::Time& stamp);
   void clear() { of_.clear(); }
 
  private:

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "base/current_error.h"
 #include "grid_path_planner/GoToPoseConfig.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/network_text.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
@@ -16,6 +18,7 @@
 
 namespace grid_path_planner::nodes {
 
+using base::currentErrorText;
 using base::InputError;
 using base::StopSource;
 using following::Navigator;
@@ -272,11 +275,20 @@ void GoToPoseNode::carryOutOrders() {
   if (std::exchange(carrying_out_, true)) return;
   bool any = false;
   for (auto orders = navigator_.takeOrders(); !orders.empty(); orders = navigator_.takeOrders()) {
-    for (const Order& order : orders) carryOut(order);
+    for (const Order& order : orders) tryToCarryOut(order);
     any = true;
   }
   carrying_out_ = false;
   if (any) publishStatus();
+}
+
+// One that fails, for want of memory, keeps no other from being carried out: the next may be STOP.
+void GoToPoseNode::tryToCarryOut(const Order& order) {
+  try {
+    carryOut(order);
+  } catch (...) {
+    tellGivenUp("An order", currentErrorText());
+  }
 }
 
 void GoToPoseNode::carryOut(const Order& order) {
@@ -382,19 +394,6 @@ GoToStatus GoToPoseNode::status() const {
   if (std::isfinite(time_remaining_) && time_remaining_ >= 0.0 && time_remaining_ < 1e6)
     status.arrival = status.header.stamp + ros::Duration(time_remaining_);
   return status;
-}
-
-void GoToPoseNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const bool recovers = navigator_.state() == NavigatorState::RECOVERING;
-  const bool alone = goal_ && (!planner_.isThere() || !driver_.isThere());
-  status.summary(recovers || alone ? diagnostic_msgs::DiagnosticStatus::WARN
-                                   : diagnostic_msgs::DiagnosticStatus::OK,
-                 stateName() + ": " + (goal_ ? navigator_.sentence() : last_sentence_));
-  status.add("recovery step", navigator_.step());
-  status.add("distance remaining (m)", distance_remaining_);
-  status.add("time remaining (s)", time_remaining_);
-  status.add("planner " + planner_.name(), planner_.isThere() ? "there" : "not there");
-  status.add("driver " + driver_.name(), driver_.isThere() ? "there" : "not there");
 }
 
 }  // namespace grid_path_planner::nodes

@@ -102,6 +102,7 @@ class GoToPoseNode {
   void onDriveEnd(const NavigatePathResult& result);
 
   void carryOutOrders();
+  void tryToCarryOut(const Order& order);
   void carryOut(const Order& order);
   void askForPlan(double tolerance);
   void drive(path::Path path);

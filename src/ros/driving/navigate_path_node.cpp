@@ -201,7 +201,7 @@ void NavigatePathNode::startDriving(const ros::Time& now) {
 
 void NavigatePathNode::drive(const Path& path, Join join) {
   const std::string& vehicle = options_.base_frame;
-  if (path.frame_id == vehicle || transforms_.commonFrame(path.frame_id, vehicle) == vehicle)
+  if (transforms_.movesWith(vehicle, path.frame_id))
     throw InputError("the path is in the frame '" + path.frame_id + "', which moves with '" +
                      vehicle + "': nobody arrives there");
   drive_ = loop_->start(path, join);
@@ -318,7 +318,7 @@ void NavigatePathNode::takeReports() {
   for (const DriveReport& report : loop_->takeReports()) {
     if (report.waypoint) waypoint_publisher_.publish(*report.waypoint);
     if (!report.note.empty()) ROS_WARN_STREAM(report.note);
-    if (report.taken_over) given_goals_.endAllUntil(ros::Time::now());
+    if (report.taken_over) endWhatIsNotDriven("the joystick commands");
     if (!report.event) continue;
     logEvent(*report.event);
     if (report.event->kind != FollowEvent::Kind::ENDED || report.drive != drive_) continue;
@@ -326,6 +326,13 @@ void NavigatePathNode::takeReports() {
     if (goal_active_ && !goal_is_read_)
       finishGoal(toString(report.standing.status), report.standing.message, report.standing);
   }
+}
+
+// Whoever took the vehicle that stood still does not find it driving off when he lets it go.
+void NavigatePathNode::endWhatIsNotDriven(const std::string& reason) {
+  given_goals_.endAllUntil(ros::Time::now());
+  if (std::exchange(goal_is_read_, false) && goal_active_)
+    finishGoal("CANCELLED", reason, loop_->standing());
 }
 
 void NavigatePathNode::finishGoal(const std::string& status, const std::string& message,

@@ -97,6 +97,7 @@ class NavigatePathNode {
   Answer cancel(const std::string& reason);
 
   void takeReports();
+  void endWhatIsNotDriven(const std::string& reason);
   void finishGoal(const std::string& status, const std::string& message,
                   const DriveStanding& standing);
   void publishFeedback();

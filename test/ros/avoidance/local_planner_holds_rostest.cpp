@@ -18,7 +18,9 @@
 
 #include "grid_path_planner/NavigatePathActionGoal.h"
 #include "grid_path_planner/NavigatePathActionResult.h"
+#include "grid_path_planner/path/waypoint_file.h"
 #include "ros/support/flight_fixture.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -98,27 +100,65 @@ TEST_F(HoldsTest, APathForAGoalThatWasCancelledIsNotFlown) {
   EXPECT_TRUE(flies()) << said();
 }
 
+class ActionHoldsTest : public HoldsTest {
+ protected:
+  void startWithAction(const std::vector<std::string>& more = {}) {
+    ASSERT_NO_FATAL_FAILURE(start(more));
+    ASSERT_TRUE(test::waitFor(
+        [&] { return goals_of_action_.getNumSubscribers() > 0 && results_.connected(); }));
+    NavigatePathActionGoal goal;
+    goal.goal_id.id = "far";
+    goal.goal.path.header.frame_id = "map";
+    goal.goal.path.poses.resize(1);
+    goal.goal.path.poses[0].pose.position.x = 40.0;
+    goal.goal.path.poses[0].pose.orientation.w = 1.0;
+    goals_of_action_.publish(goal);
+    ASSERT_TRUE(flies()) << said();
+  }
+  void replaceBy(const std::string& file) {
+    NavigatePathActionGoal goal;
+    goal.goal_id.id = "other";
+    goal.goal.filename = file;
+    goals_of_action_.publish(goal);
+    ASSERT_TRUE(results_.waitForMoreThan(0));
+    EXPECT_EQ(results_.all()[0].result.status, "CANCELLED");
+  }
+
+  Latest<NavigatePathActionResult> results_{nh_, "navigate_path/result"};
+  ros::Publisher goals_of_action_ = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1);
+};
+
 // The flight went on for a goal that had been told its end, and no cancel of the action reached it any more.
-TEST_F(HoldsTest, AGoalThatIsRefusedEndsTheFlightThatItReplaced) {
-  Latest<NavigatePathActionResult> results(nh_, "navigate_path/result");
-  ros::Publisher goals = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1);
-  ASSERT_NO_FATAL_FAILURE(start());
-  ASSERT_TRUE(test::waitFor([&] { return goals.getNumSubscribers() > 0 && results.connected(); }));
-  NavigatePathActionGoal goal;
-  goal.goal_id.id = "far";
-  goal.goal.path.header.frame_id = "map";
-  goal.goal.path.poses.resize(1);
-  goal.goal.path.poses[0].pose.position.x = 40.0;
-  goal.goal.path.poses[0].pose.orientation.w = 1.0;
-  goals.publish(goal);
-  ASSERT_TRUE(flies()) << said();
-  NavigatePathActionGoal nothing;
-  nothing.goal_id.id = "nothing";
-  goals.publish(nothing);
-  ASSERT_TRUE(test::waitFor([&] { return results.count() >= 2; }));
-  EXPECT_EQ(results.all()[0].result.status, "CANCELLED");
-  EXPECT_EQ(results.all()[1].result.status, "INVALID_REQUEST");
+TEST_F(ActionHoldsTest, AGoalThatIsRefusedEndsTheFlightThatItReplaced) {
+  ASSERT_NO_FATAL_FAILURE(startWithAction());
+  ASSERT_NO_FATAL_FAILURE(replaceBy(""));
+  const auto refused = results_.waitForMoreThan(1);
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->result.status, "INVALID_REQUEST");
   EXPECT_TRUE(endsInAZero());
+}
+
+// Whoever has paused the vehicle does not see it fly off because another goal comes.
+TEST_F(ActionHoldsTest, AFileThatReplacesAPausedGoalIsFlownWhenItIsResumed) {
+  const test::TemporaryFolder folder;
+  path::Path route{"map", {}};
+  for (int i = 0; i < 5000; ++i) route.poses.push_back({{40.0 + 0.001 * i, 0.0, 0.0}, 0.0});
+  path::writeWaypointFile(folder.path("route.yaml"), route);
+  ASSERT_NO_FATAL_FAILURE(startWithAction({"--load-folder", folder.path("")}));
+  EXPECT_TRUE(call("pause").success);
+  EXPECT_TRUE(standsSaying("paused until ~resume"));
+  const std::size_t from = commands_.count();
+  ASSERT_NO_FATAL_FAILURE(replaceBy("route.yaml"));
+  EXPECT_FALSE(test::waitFor(
+      [&] {
+        const auto all = commands_.all();
+        return std::any_of(all.begin() + static_cast<std::ptrdiff_t>(from), all.end(),
+                           test::drives);
+      },
+      std::chrono::seconds(3)))
+      << "it is read in a fraction of that";
+  EXPECT_TRUE(call("resume").success);
+  EXPECT_TRUE(flies()) << said();
 }
 
 // What was measured went into the setpoints as it came: 60 of 60 were NaN.

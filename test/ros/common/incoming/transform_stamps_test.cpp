@@ -2,6 +2,7 @@
 // log that nobody read, one broadcaster that repeated a stamp stopped the control of a vehicle that drove.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <string>
 
@@ -45,6 +46,9 @@ TEST(TransformStamps, TransformsThatAreDroppedForTheirStampsAreNoneThatCame) {
   EXPECT_NE(insertTransform(buffer, stamps, transformOf("base_link", ros::Time(5000.0)), "/far",
                             false, now),
             "");
+  auto broken = transformOf("base_link", now);
+  broken.transform.translation.x = std::nan("");
+  insertTransform(buffer, stamps, broken, "/broken", false, now);
   EXPECT_EQ(insertTransform(buffer, stamps, transformOf("base_link", now), "/right", false, now),
             "");
   EXPECT_EQ(buffer.lookupTransform("map", "base_link", ros::Time(0)).header.stamp, now);
