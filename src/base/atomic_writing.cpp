@@ -264,15 +264,23 @@ class FolderLock {
   bool held_ = false;
 };
 
+bool hasContent(int folder, const std::string& name) {
+  struct stat info {};
+  return ::fstatat(folder, name.c_str(), &info, 0) == 0 && S_ISREG(info.st_mode) &&
+         info.st_size > 0;
+}
+
 // Whether a YAML file in the folder names the part: one of the same stem with another ending, or a copy.
 // One that cannot be read may. Its text may quote the name in its own manner, but not the hash.
 bool isNamedInFolder(const std::filesystem::path& place, int folder, const std::string& part) {
-  constexpr std::size_t kLargest = 1 << 20;  // bytes
+  constexpr std::size_t kLargest = 1 << 26;  // bytes; files of waypoints lie there, too
   const std::string hash = part.substr(hashIn(part));
   bool named = false;
   forEachName(folder, [&](const std::string& name) {
     const std::string extension = extensionOf(name);
-    if (named || name.front() == '.' || (extension != "yaml" && extension != "yml")) return;
+    if (named || name.front() == '.' || (extension != "yaml" && extension != "yml") ||
+        !hasContent(folder, name))
+      return;
     try {
       named = readWholeFile((place / name).string(), kLargest).find(hash) != std::string::npos;
     } catch (const InputError&) {

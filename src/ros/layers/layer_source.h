@@ -3,6 +3,7 @@
 
 #include <ros/time.h>
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -35,6 +36,9 @@ class LayerSource {
     there_ = false;
     heard_ = Clock::now();
   }
+  // It goes on saying something, of which none can be used: it is not silent, and what it said before holds as long as
+  // it would.
+  void noteRefused() { refused_ = Clock::now(); }
   // It said something that cannot be used: it counts as not there until it says something else.
   void refuse(std::string problem) { problem_ = std::move(problem); }
 
@@ -50,7 +54,7 @@ class LayerSource {
   // Whether whyNot() is that it says nothing, for `timeout` or, before the first, for that long since it
   // was made or forgotten.
   bool silentFor(double timeout) const {
-    return problem_.empty() && expires_ && secondsSince(heard_) > timeout;
+    return problem_.empty() && expires_ && secondsSince(std::max(heard_, refused_)) > timeout;
   }
   // s of the wall clock; 0 before the first.
   double silence() const { return there_ ? secondsSince(heard_) : 0.0; }
@@ -72,7 +76,7 @@ class LayerSource {
   bool there_ = false;
   std::string problem_;
   ros::Time stamp_;
-  Clock::time_point heard_ = Clock::now();
+  Clock::time_point heard_ = Clock::now(), refused_;
 };
 
 }  // namespace grid_path_planner::nodes

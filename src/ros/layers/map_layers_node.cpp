@@ -259,6 +259,8 @@ void MapLayersNode::takeScans() {
     map_.insert(scanInMap(*ready->scan, ready->map_from_scan, options_.scan.inf_clears));
     scan_source_.accept(ready->scan->header.stamp);
   }
+  if (std::exchange(refused_scans_, scans_.record().refused()) != scans_.record().refused())
+    scan_source_.noteRefused();
   const ros::Time now = ros::Time::now();
   if (secondsBetween(expired_, now) < kExpiryPeriod) return;
   map_.expireScans(now.toSec());

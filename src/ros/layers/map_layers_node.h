@@ -91,6 +91,7 @@ class MapLayersNode {
   bool live_dropped_ = false, scan_dropped_ = false;
   std::string held_ = "the node has just started";  // why there is no map
   ScanQueue scans_;
+  std::uint64_t refused_scans_ = 0;
   ros::Time expired_;  // when scans were last looked through
   LayeredMapPublisher publisher_;
 

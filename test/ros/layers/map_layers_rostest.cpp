@@ -185,6 +185,21 @@ TEST_F(MapLayers, OnlyALaserThatIsSilentForItsTimeIsDropped) {
   EXPECT_FALSE(node_->hasSaid("The map goes on without"));
 }
 
+TEST_F(MapLayers, ALaserWhoseScansAreRefusedIsNotDropped) {
+  publishStatic(kRoom);
+  start({"_use_scan:=true", "_source_timeout:=0.5", "_stale_source:=drop", "_tf_timeout:=0.1"});
+  EXPECT_TRUE(waitFor([&] {
+    see(5.0F);
+    return node_->hasSaid("A scan");
+  })) << "tf does not know it";
+  for (int i = 0; i < 20; ++i) {  // for longer than source_timeout
+    see(5.0F);
+    ros::WallDuration(0.1).sleep();
+  }
+  EXPECT_EQ(copy_.maps(), 0U);
+  EXPECT_FALSE(node_->hasSaid("The map goes on without"));
+}
+
 TEST_F(MapLayers, ALiveMapThatIsRefusedIsNotDropped) {
   publishStatic(kRoom);
   start({"_use_scan:=false", "_use_live_map:=true", "_source_timeout:=0.5", "_stale_source:=drop"});
