@@ -85,7 +85,10 @@ class EveryNode(unittest.TestCase):
 
     def all(self, ask):
         """The nodes for which it does not hold."""
-        return [str(node) for node, holds in zip(self.nodes, self.pool.map(ask, self.nodes)) if not holds]
+        failed = [node for node, holds in zip(self.nodes, self.pool.map(ask, self.nodes)) if not holds]
+        for node in failed:
+            print(node.story())
+        return [str(node) for node in failed]
 
     def answers(self, node):
         begin = session_seconds()

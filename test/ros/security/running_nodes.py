@@ -6,6 +6,7 @@ import signal
 import subprocess
 import threading
 import time
+import xmlrpc.client
 
 import rosgraph
 import roslib.packages
@@ -197,6 +198,20 @@ class RunningNode:
             return {name[len(self.space) + 1:]: types.get(name) for name, nodes in entries
                     if names & set(nodes) and name.startswith(self.space + "/")}
         return of(subscribers), of(publishers), of(services)
+
+    def story(self):
+        """For a failure that comes once in many runs: its connections, where they are fewer than one a topic, and what it
+        said last."""
+        name = self.full_name() if self.kind == "process" else self.space + "/manager"
+        try:
+            uri = rosgraph.Master("/every_node").lookupNode(name)
+            links = {link[4] for link in xmlrpc.client.ServerProxy(uri).getBusInfo("/every_node")[2]}
+        except (OSError, rosgraph.MasterException, xmlrpc.client.Error) as error:
+            return "%s: %s" % (self, error)
+        topics = {self.resolved(topic) for topic, _ in list(self.fed()) + list(self.listened())} | {"/clock"}
+        with open(self.log.name, errors="replace") as said:
+            lines = said.read().splitlines()[-8:]
+        return "%s: not connected: %s; it said last:\n%s" % (self, ", ".join(sorted(topics - links)), "\n".join(lines))
 
     def right(self, message_type):
         return probes.right(message_type, self)
