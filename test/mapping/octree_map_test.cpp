@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "mapping/insertion/scan_marks.h"
 #include "mapping/random_scans.h"
 #include "mapping/tree_comparison.h"
 #include "support/error_text.h"
@@ -187,6 +188,34 @@ TEST(OctreeMap, atMemoryLimitWhatIsKnownIsKeptUpToDate) {
   map.setOptions(options);
   map.insert(scan(199));
   EXPECT_FALSE(map.isFull());
+}
+
+// A file, or a kept map, may be larger than the limit of a node that begins with it.
+TEST(OctreeMap, anObstacleIsMappedHoweverFarAboveMemoryLimitTheMapIs) {
+  OctreeOptions options = tenthOfAMetre();
+  OctreeMap map(options);
+  const Scan star = starOf(200, 20.0f);
+  map.insert(star);
+  options.memory_limit = 1;
+  map.setOptions(options);
+  const std::size_t nodes = map.tree().size();
+  ASSERT_GT(nodes, 50000u);
+  const point3d known = star.hits[0] * 0.5f, end = star.hits[1];
+  for (int i = 0; i < 10; ++i) map.insert({{0, 0, 0}, {known}, {end * 1.1f}});
+  EXPECT_TRUE(map.isFull());
+  EXPECT_EQ(at(map, known.x(), known.y(), known.z()), Voxel::OCCUPIED);
+  EXPECT_EQ(at(map, end.x(), end.y(), end.z()), Voxel::OCCUPIED) << "nothing is freed";
+  EXPECT_LT(map.tree().size(), nodes + 100);
+  test::expectBricksMirrorTree(map);
+}
+
+TEST(ScanMarks, WordsOfBricksAndOctantsAreTheSameVoxels) {
+  std::mt19937_64 random(20261127);
+  for (int i = 0; i < 200; ++i) {
+    OctantWords octants;
+    for (std::uint64_t& word : octants) word = random() & random();
+    EXPECT_EQ(octantWords(brickWords(octants)), octants);
+  }
 }
 
 // Single precision has no direction for points so near to each other, but they lie in two voxels.

@@ -111,7 +111,8 @@ class StreamedFile {
 // the text that `text_naming` makes of that name: name-0123456789abcdef.EXTENSION. Whoever reads a
 // name in `file` reads the part that it was written with, whoever is killed or writes meanwhile. Parts
 // that earlier writings of `file` left are removed afterwards, if no YAML file in the folder names them and
-// no other writer holds the folder (flock). Throws like writeFileAtomically; then `file` and the part that it names are as they were.
+// no other writer holds the folder (flock). Throws like writeFileAtomically; then `file` and the part that it
+// names are as they were.
 void writeFileWithPart(const OutputFile& file, const std::string& extension,
                        const std::string& part,
                        const std::function<std::string(const std::string& name)>& text_naming);

@@ -14,8 +14,8 @@
 //                     PAUSED <--------------------------------+        cancel: CANCELLED
 //
 // Guaranteed: the velocity is zero in every state but DRIVING, and ARRIVED while a vehicle that
-// drifted off is brought back (hold_pose), which is checked like the path. A pause outlives a new path: only `resume` ends it. The
-// speeds of the options are never exceeded. Every waypoint is either reached (the vehicle came
+// drifted off is brought back (hold_pose), which is checked like the path. A pause outlives a new
+// path: only `resume` ends it. The speeds of the options are never exceeded. Every waypoint is either reached (the vehicle came
 // within acceptance_radius), or reported as missed, or lies before the point where the path was
 // joined, which is reported too. Time that goes back cancels. Velocities are finite: a pose or a
 // time that cannot be used ends the drive with INVALID_POSE. The same calls give the same

@@ -50,13 +50,12 @@ class OctreeMap {
   // Points beyond max_range clear their ray up to it, clear_only points up to themselves. A
   // point that is not finite or lies outside the tree's range (32768 voxels in each direction; of a point
   // beyond max_range where its ray is cut) is left out; returns how many were. Throws InputError
-  // where the origin itself is such a point,
-  // and where the rays of few points cross a box that they do not fill in very many bricks: half a million
-  // are always allowed, and 512 for each point.
+  // where the origin itself is such a point, and where the rays of few points cross very many bricks of a
+  // box that they do not fill: half a million are always allowed, and 512 for each point.
   std::size_t insert(const Scan& scan);
 
-  // Whether the last scan would have brought more than memory_limit: what it said of voxels that were known is in
-  // the map, the others are still unknown.
+  // Whether the last scan would have brought more than memory_limit: what it said of voxels that were
+  // known is in the map, from a quarter above the limit on its hits alone; the others are still unknown.
   bool isFull() const;
 
   // Known voxels that the box touches become free for sure (octomap_server's clear_bbx, but also

@@ -30,8 +30,9 @@ std::size_t ScanInsertion::insert(const Scan& scan, const OcTreeKey& origin, dou
       markWindow(rays, origin, box);
     else
       markBricks(rays, origin, mostCrossedBricks(ends_.size(), memory_limit));
-    fits_ = fitsMemory(tree, bricks, marks_, memory_limit);
-    if (!fits_) keepKnown(bricks, marks_);
+    const Space space = spaceLeft(tree, bricks, marks_, memory_limit);
+    fits_ = space == Space::FOR_ALL;
+    keepWhatFits(space, bricks, marks_);
     updateTree(tree, bricks, marks_);
   } catch (...) {
     window_ = {};  // where memory ran out while it was read, its cells are still marked

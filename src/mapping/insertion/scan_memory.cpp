@@ -79,24 +79,22 @@ void checkCrossedBricks(const std::vector<ScanMarks>& marks, std::size_t most) {
                      "sensor_model/max_range that the sensor sees, or a coarser resolution, helps");
 }
 
-bool fitsMemory(const MapTree& tree, const OccupancyBricks& bricks,
+Space spaceLeft(const MapTree& tree, const OccupancyBricks& bricks,
                 const std::vector<ScanMarks>& marks, std::size_t limit) {
   const std::size_t taken = tree.size() * kBytesOfNode;
-  if (taken > limit + limit / 4)
-    throw InputError("the map takes some " + std::to_string(taken / 1000000) +
-                     " MB, memory_limit is " + std::to_string(limit / 1000000) +
-                     " MB: ~reset, or a coarser resolution, helps");
-  if (taken + marks.size() * kMostBytesOfBrick <= limit) return true;
+  if (taken > limit + limit / 4) return Space::FOR_HITS;
+  if (taken + marks.size() * kMostBytesOfBrick <= limit) return Space::FOR_ALL;
   std::size_t more = 0;
   for (const ScanMarks& mark : marks) more += addedBytes(mark, bricks.brick(mark.key));
-  return more == 0 || taken + more <= limit;
+  return more == 0 || taken + more <= limit ? Space::FOR_ALL : Space::FOR_KNOWN;
 }
 
-void keepKnown(const OccupancyBricks& bricks, std::vector<ScanMarks>& marks) {
+void keepWhatFits(Space space, const OccupancyBricks& bricks, std::vector<ScanMarks>& marks) {
+  if (space == Space::FOR_ALL) return;
   for (ScanMarks& mark : marks) {
     const OctantWords known = octantWords(bricks.brick(mark.key).known);
     for (unsigned i = 0; i < 8; ++i) {
-      mark.free[i] &= known[i];
+      mark.free[i] &= space == Space::FOR_HITS ? 0 : known[i];
       mark.hit[i] &= known[i];
     }
   }

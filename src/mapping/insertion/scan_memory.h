@@ -3,7 +3,7 @@
 //   std::vector<ScanMarks> marks;
 //   MapTree tree(0.05, OctreeOptions());
 //   OccupancyBricks bricks(0.05);
-//   if (!fitsMemory(tree, bricks, marks, 2'000'000'000)) keepKnown(bricks, marks);
+//   keepWhatFits(spaceLeft(tree, bricks, marks, 2'000'000'000), bricks, marks);
 #pragma once
 
 #include <cstddef>
@@ -23,13 +23,16 @@ std::size_t mostCrossedBricks(std::size_t points, std::size_t memory_limit);
 // Throws InputError that names sensor_model/max_range where `marks` are more than `most`.
 void checkCrossedBricks(const std::vector<ScanMarks>& marks, std::size_t most);
 
-// Whether the map with the marks of a scan takes no more than `limit` bytes. Voxels that are known already count
-// where a hit splits a leaf; what splits otherwise is let through up to a quarter above the limit, beyond
-// which this throws InputError that names memory_limit.
-bool fitsMemory(const MapTree& tree, const OccupancyBricks& bricks,
+// What of a scan there is memory for: all of it; what it says of voxels that are known; the hits among that.
+enum class Space { FOR_ALL, FOR_KNOWN, FOR_HITS };
+
+// FOR_ALL where the map with the marks takes no more than `limit` bytes. Voxels that are known already count where a
+// hit splits a leaf; a miss that splits one does not, so that a map may come to take more: from a quarter above
+// the limit on there is space for hits only. An obstacle in known space is never left out.
+Space spaceLeft(const MapTree& tree, const OccupancyBricks& bricks,
                 const std::vector<ScanMarks>& marks, std::size_t limit);
 
-// Takes the marks of voxels that are not known away, and bricks without another.
-void keepKnown(const OccupancyBricks& bricks, std::vector<ScanMarks>& marks);
+// Takes the other marks away, and bricks without one.
+void keepWhatFits(Space space, const OccupancyBricks& bricks, std::vector<ScanMarks>& marks);
 
 }  // namespace grid_path_planner::mapping

@@ -48,7 +48,7 @@ TransformReceiver::TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer
   const auto subscribe = [&](const char* topic, bool is_static) {
     return subscribeChecked<tf2_msgs::TFMessage, const Event&>(
         nh, topic, kMessages, [this, is_static](const Event& event) {
-          receive(*event.getMessage(), event.getPublisherName(), is_static);
+          receive(*event.getMessage(), printable(event.getPublisherName()), is_static);
         });
   };
   moving_ = subscribe("/tf", false);

@@ -41,7 +41,7 @@ JoystickLoop::~JoystickLoop() {
 }
 
 void JoystickLoop::start() {
-  const auto refused = [this] { refuse("a message whose bytes are none of its topic"); };
+  const auto refused = [this] { refuse("a message on joy or stop has the bytes of another"); };
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
       nh_, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); }, refused);
   waitForPublishers(stop_subscriber_);
@@ -78,7 +78,7 @@ void JoystickLoop::onJoy(const sensor_msgs::Joy& message) {
     else
       release();
   } catch (const base::InputError& error) {
-    refuse(error.what());
+    refuse(std::string("joy: ") + error.what());
     release();
   }
 }
@@ -87,7 +87,7 @@ void JoystickLoop::refuse(const std::string& why) {
   const auto now = Clock::now();
   if (refused_ && now - *refused_ < kRefusalPeriod) return;
   refused_ = now;
-  note_(Level::ERROR, "joy refused: " + why);
+  note_(Level::ERROR, "Refused: " + why);
 }
 
 void JoystickLoop::onStop(const std_msgs::Bool& message) {

@@ -11,7 +11,8 @@
 //
 // Guaranteed: while a source that is used has not come, cannot be used, or is silent, there is
 // no map and no heartbeat, so that vehicles stand; log and diagnostics say which. With stale_source drop a laser or live
-// map that has said nothing for source_timeout, since the start or clear_scan too, is done without. What cannot be used changes nothing.
+// map that has said nothing for source_timeout, since the start or clear_scan too, is done without. What cannot be used
+// changes nothing.
 // The heartbeat is stamped with what the map holds of all sources: the oldest of their newest data. ROS time that goes
 // back forgets scans and tf, not the maps.
 #pragma once

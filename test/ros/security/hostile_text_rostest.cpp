@@ -132,7 +132,7 @@ TEST_F(HostileText, NothingOfItStandsInTheLog) {
     message.transforms[0].header.frame_id = "map";
     message.transforms[0].child_frame_id = text;
     transforms.publish(message);
-    for (const char* option : {"projection_min_z", "cloud_layout", "filename"}) {
+    for (const char* option : {"projection_min_z", "projection_reference", "filename"}) {
       dynamic_reconfigure::Reconfigure call;
       call.request.config.strs.resize(1);
       call.request.config.strs[0].name = option;

@@ -142,7 +142,7 @@ int timesCalledByNoBytes() {
 }
 
 // A `stop` of no bytes, or too few, was a line in the log by the thread that commands: it waited for whoever reads that.
-TEST(CheckedMessages, WhereTheyAreCountedNothingIsLoggedOrCalled) {
+TEST(CheckedMessages, WhereTheyAreCountedNobodyIsCalled) {
   int called = 0, refused = 0;
   const auto helper = boost::make_shared<CheckedMessages<const sensor_msgs::Joy&>>(
       [&](const sensor_msgs::Joy&) { ++called; }, [&] { ++refused; });
