@@ -48,7 +48,7 @@ PAIRS = [(first, second) for first in NODES for second in NODES if conflict(firs
 
 class EveryCommanderStart(CommanderTest):
     def started_node(self, name, kind):
-        """In a namespace of its own: the master goes on to name what was killed."""
+        """In a namespace of its own."""
         row = NODES[name]._replace(arguments=COMMANDERS[name].arguments if name in COMMANDERS else NODES[name].arguments)
         space = "/%s_%d" % (self.id().rsplit(".", 1)[1], len(self.started))
         self.started.append(RunningNode(name, row, kind, self.clock, self.folder, space))
@@ -148,6 +148,17 @@ class EveryCommanderStart(CommanderTest):
             asked_before = sum(at < node.commands[0][0] for at in slow.asked_at)
             self.assertGreater(asked_before, 4, "%s: %s" % (name, self.said(node)))
             node.end(signal.SIGKILL)
+
+    def test_the_master_forgets_what_was_killed(self):
+        """By RunningNode.end(): its ports may be those of other tests' nodes a moment later."""
+        for kind in ("process", "nodelet"):
+            node = self.first(DRIVERS[0], kind)
+            names = node.known_names()
+            self.assertNotEqual([], names)
+            node.end(signal.SIGKILL)
+            self.assertEqual([], node.known_names(), kind)
+            for name in names:
+                self.assertRaises(rosgraph.MasterError, rosgraph.Master("/every_commander_start").lookupNode, name)
 
     def test_a_joystick_and_a_driver_stand_beside_each_other(self):
         for driver in DRIVERS:

@@ -225,9 +225,28 @@ class RunningNode:
         self.start()
 
     def end(self, number):
-        """Ends it for good. As end_processes()."""
+        """Ends it for good. As end_processes().
+
+        What was seen before: a master goes on to know what was killed, and calls its ports, where another test's node may
+        be by then: with the end of every_commander_start 62 ports heard that nobody publishes /clock any more, and a node of
+        every_node_clock, beside it, was without a clock to the end of its test; 24 were told to shut down.
+        """
         self.ended = True
-        return self.end_processes(number)
+        seconds = self.end_processes(number)
+        self.forget_names()
+        return seconds
+
+    def forget_names(self):
+        """By the master: whoever registers a name takes all that was registered by it, cached parameters too."""
+        for name in self.known_names():
+            master = rosgraph.Master(name)
+            master.registerSubscriber("/nobody", "std_msgs/Empty", rospy.get_node_uri())
+            master.unregisterSubscriber("/nobody", rospy.get_node_uri())
+
+    def known_names(self):
+        """Of the nodes in its namespace that the master knows."""
+        state = rosgraph.Master("/every_node").getSystemState()
+        return sorted({name for kind in state for _, nodes in kind for name in nodes if name.startswith(self.space + "/")})
 
     def end_processes(self, number):
         """Sends the signal and returns the seconds until all of its processes had ended, None if they did not."""
