@@ -8,7 +8,11 @@
 #include <mutex>
 #include <utility>
 
+#include "grid_path_planner/NavigatePathActionGoal.h"
+#include "grid_path_planner/NavigatePathActionResult.h"
+#include "grid_path_planner/path/waypoint_file.h"
 #include "ros/support/still_fixture.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -113,6 +117,33 @@ TEST_F(Takeover, AJoystickCommandsAtOnceAndTheDriveIsResumedByHand) {
   EXPECT_EQ(commanders_.latest(), "") << "it does not go on by itself";
   EXPECT_TRUE(ask("resume"));
   EXPECT_TRUE(test::waitFor([&] { return commanders_.latest() == "/navigate_path"; }));
+}
+
+// Whether the file has been read when it takes over or not: whoever lets go does not see the vehicle drive off.
+TEST_F(Takeover, AJoystickTakesOverWhileTheFileOfAGoalIsRead) {
+  const test::TemporaryFolder folder;
+  path::Path route{"map", {}};
+  for (int i = 0; i < 200000; ++i) route.poses.push_back({{40.0 + 0.001 * i, 0.0, 0.0}, 0.0});
+  path::writeWaypointFile(folder.path("route.yaml"), route);
+  startNavigate({"_no_progress_timeout:=0", "--load-folder", folder.path("")});
+  startJoystick();
+  const test::Latest<NavigatePathActionResult> results(nh_, "navigate_path/result");
+  ros::Publisher goals = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1);
+  ASSERT_TRUE(test::waitFor([&] { return goals.getNumSubscribers() > 0; }));
+  commanders_.forget();
+  NavigatePathActionGoal goal;
+  goal.goal_id.id = "long";
+  goal.goal.filename = "route.yaml";
+  goals.publish(goal);
+  ASSERT_TRUE(takesOver());
+  ASSERT_TRUE(pushUntil(false, [&] { return isZero(velocity_.all().back()); }));
+  ASSERT_TRUE(test::waitFor(
+      [&] { return results.count() > 0 || navigate_->hasSaid("the drive is paused"); }));
+  commanders_.forget();
+  ASSERT_TRUE(test::waitFor([&, until = world_.time() + 8.0] { return world_.time() > until; }));
+  EXPECT_EQ(commanders_.latest(), "") << navigate_->output();
+  for (const NavigatePathActionResult& result : results.all())
+    EXPECT_EQ(result.result.message, "the joystick commands");
 }
 
 TEST_F(Takeover, AJoystickThatWasKilledDoesNotHoldTheDriveForEver) {

@@ -7,6 +7,7 @@
 
 #include "grid_path_planner/SaveFile.h"
 #include "ros/support/mapping_fixture.h"
+#include "ros/support/own_master.h"
 #include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
@@ -203,6 +204,48 @@ TEST_F(Restart, ADamagedFileIsNamedAndTheNodeBeginsEmpty) {
   const auto map = firstMap(maps);
   ASSERT_TRUE(map);
   EXPECT_TRUE(isEmpty(*map));
+}
+
+// A master of the test's own, as roslaunch starts it: with an id of the run.
+class RunOfMaster : public ::testing::Test {
+ protected:
+  RunOfMaster() { setRun("first"); }
+
+  void setRun(const std::string& run) {
+    using XmlRpc::XmlRpcValue;
+    ASSERT_TRUE(callXmlRpc(master_.uri(), "setParam",
+                           {XmlRpcValue("/test"), XmlRpcValue("/run_id"), XmlRpcValue(run)}, 1.0));
+  }
+  std::unique_ptr<Process> started() {
+    return master_.start("projected_map",
+                         {"_autosave_period:=0.2", "--save-folder", folder_.path(".")});
+  }
+  // Whether a kept map becomes one of this run.
+  bool becomesOf(const std::string& run) const {
+    return test::waitFor([&] {
+      for (const auto& entry : std::filesystem::directory_iterator(folder_.path(".")))
+        if (test::contentOf(entry.path().string()).find("run " + run + ",") != std::string::npos)
+          return true;
+      return false;
+    });
+  }
+
+  const test::TemporaryFolder folder_;
+  test::OwnMaster master_;
+};
+
+// The kept map was of the run before, so that a mapping that was killed later began empty.
+TEST_F(RunOfMaster, OfARosCoreThatWasRestartedIsThatOfTheKeptMap) {
+  auto node = started();
+  ASSERT_TRUE(becomesOf("first"));
+  master_.kill();
+  master_.run();
+  setRun("second");
+  ASSERT_TRUE(becomesOf("second"));
+  node->signal(SIGKILL);
+  ASSERT_TRUE(node->waitForExit());
+  node = started();
+  EXPECT_TRUE(node->says("Begins with the map that was kept in"));
 }
 
 }  // namespace
