@@ -187,12 +187,13 @@ TEST_F(MapLayers, OnlyALaserThatIsSilentForItsTimeIsDropped) {
 
 TEST_F(MapLayers, ALaserWhoseScansAreRefusedIsNotDropped) {
   publishStatic(kRoom);
-  start({"_use_scan:=true", "_source_timeout:=0.5", "_stale_source:=drop", "_tf_timeout:=0.1"});
+  start({"_use_scan:=true", "_source_timeout:=4", "_stale_source:=drop", "_tf_timeout:=0.1"});
   EXPECT_TRUE(waitFor([&] {
     see(5.0F);
     return node_->hasSaid("A scan");
   })) << "tf does not know it";
-  for (int i = 0; i < 20; ++i) {  // for longer than source_timeout
+  for (int i = 0; i < 50;
+       ++i) {  // for longer than source_timeout, which no stall of the machine is
     see(5.0F);
     ros::WallDuration(0.1).sleep();
   }
