@@ -54,7 +54,7 @@ class GoToPoseFailures(GoToTest):
         self.assertLess(self.at()[0], 5.0)
         self.maps.publish(room(door=True))
         self.ends("SUCCEEDED")
-        self.assertTrue(self.is_at(8, 1.5), self.at())
+        self.wait_for(lambda: self.is_at(8, 1.5))
         self.drive_to(2, 1.5)
 
     def test_a_driver_that_dies_is_given_a_path_again_when_it_is_back(self):
@@ -66,7 +66,7 @@ class GoToPoseFailures(GoToTest):
         self.wait_for(lambda: any(status.state == "RECOVERING" for status in self.heard()))
         self.start("navigate_path")
         self.ends("SUCCEEDED")
-        self.assertTrue(self.is_at(8, 1.5), self.at())
+        self.wait_for(lambda: self.is_at(8, 1.5))
 
     def test_without_a_planner_a_goal_is_aborted_in_time_and_says_so(self):
         self.kill("path_planner")
@@ -91,7 +91,7 @@ class GoToPoseFailures(GoToTest):
         self.kill("go_to_pose")
         with self.time_standing_still():  # or it has arrived before a busy machine has started the node
             self.start("go_to_pose")
-            self.wait_for(lambda: self.is_registered("go_to_pose"))
+            self.wait_for(lambda: self.serves("go_to_pose", "move_base"))
         self.wait_for(self.stands)
         self.assertFalse(self.is_at(8, 1.5, within=1.0), self.at())
         self.connect()

@@ -14,6 +14,8 @@ using test::waitFor;
 
 // It waits for commands, so that the drive does not depend on how busy the machine is.
 const std::vector<std::string> kObedient = {"_cmd_vel_timeout:=0.1"};
+// Else it goes on by a pose of up to 3 s of the simulation ago, and is in the zone before it knows.
+const std::string kStandsWithoutPose = "_tf_timeout:=0.3";
 
 class SpeedLimitedDrive : public test::NavigateTest {
  protected:
@@ -39,13 +41,13 @@ class SpeedLimitedDrive : public test::NavigateTest {
 
 TEST_F(SpeedLimitedDrive, IsSlowInTheZoneAndFastBeforeAndBehindIt) {
   startSimulator(kObedient);
-  startNavigate();
+  startNavigate({kStandsWithoutPose});
   ASSERT_TRUE(waitFor([&] { return limits_.getNumSubscribers() > 0; }));
   publishLimit(25);
   publishPath(pathOf({{0, 0}, {9, 0}}));
   ASSERT_TRUE(arrivesAt(9, 0));
   EXPECT_GT(fastestBetween(0.0, 2.0), 0.6);
-  EXPECT_LT(fastestBetween(3.2, 6.0), 0.2 * 1.1) << "25 % of 0.8 m/s, and what the vehicle lags";
+  EXPECT_LT(fastestBetween(3.5, 6.0), 0.2 * 1.1) << "25 % of 0.8 m/s, and what the vehicle lags";
   EXPECT_GT(fastestBetween(3.2, 6.0), 0.15);
   EXPECT_GT(fastestBetween(6.5, 8.5), 0.5);
 }
@@ -63,17 +65,17 @@ TEST_F(SpeedLimitedDrive, WaitsForTheMapWhereItIsAskedTo) {
 // What cannot be read as limits leaves those before in force.
 TEST_F(SpeedLimitedDrive, KeepsTheMapBeforeOneThatIsRefused) {
   startSimulator(kObedient);
-  startNavigate();
+  startNavigate({kStandsWithoutPose, "_use_speed_limit:=true", "_no_progress_timeout:=0"});
   ASSERT_TRUE(waitFor([&] { return limits_.getNumSubscribers() > 0; }));
+  publishPath(pathOf({{0, 0}, {0.5, 0}}));
+  EXPECT_TRUE(navigate_->says("no map of speed limits has come on speed_limit yet"));
   publishLimit(25);
-  publishPath(pathOf({{0, 0}, {9, 0}}));
-  ASSERT_TRUE(waitFor([&] { return pose().position.x() > 3.2; }));
+  ASSERT_TRUE(arrivesAt(0.5, 0)) << "the map is in force";
   publishLimit(125);
   EXPECT_TRUE(navigate_->says("/speed_limit is refused"));
-  const double refused_at = pose().position.x();
-  EXPECT_LT(refused_at, 4.5);
+  publishPath(pathOf({{0, 0}, {9, 0}}));
   ASSERT_TRUE(waitFor([&] { return pose().position.x() > 5.5; }));
-  EXPECT_LT(fastestBetween(3.2, 5.5), 0.2 * 1.1);
+  EXPECT_LT(fastestBetween(3.5, 5.5), 0.2 * 1.1);
 }
 
 }  // namespace

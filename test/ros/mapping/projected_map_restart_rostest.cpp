@@ -29,6 +29,7 @@ class Restart : public test::MappingTest {
                                           "--save-folder",           folder};
     arguments.insert(arguments.end(), more.begin(), more.end());
     node_.reset();
+    ASSERT_TRUE(test::waitFor([this] { return clouds_.getNumSubscribers() == 0; }));
     node_ = std::make_unique<Process>("projected_map", arguments);
     ASSERT_TRUE(test::waitFor([this] { return clouds_.getNumSubscribers() > 0; }));
   }
@@ -213,8 +214,11 @@ class RunOfMaster : public ::testing::Test {
 
   void setRun(const std::string& run) {
     using XmlRpc::XmlRpcValue;
-    ASSERT_TRUE(callXmlRpc(master_.uri(), "setParam",
-                           {XmlRpcValue("/test"), XmlRpcValue("/run_id"), XmlRpcValue(run)}, 1.0));
+    ASSERT_TRUE(test::waitFor([&] {
+      return callXmlRpc(master_.uri(), "setParam",
+                        {XmlRpcValue("/test"), XmlRpcValue("/run_id"), XmlRpcValue(run)}, 1.0)
+          .has_value();
+    }));
   }
   std::unique_ptr<Process> started() {
     return master_.start("projected_map",

@@ -92,7 +92,7 @@ class RecordedSurvey : public testing::Test {
              ros::service::exists("/path_planner/make_plan", false);
     }));
     test::Process player(
-        {"rosbag", "play", "--clock", "--quiet", "--wait-for-subscribers", "--rate=20", kBag});
+        {"rosbag", "play", "--clock", "--quiet", "--wait-for-subscribers", "--rate=10", kBag});
     ASSERT_TRUE(player.waitForExit(std::chrono::seconds(60)));
     EXPECT_TRUE(test::waitFor(
         [&] {

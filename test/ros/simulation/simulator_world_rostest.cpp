@@ -199,7 +199,7 @@ TEST_F(SimulatorWorldTest, RunningIntoTheWorldEndsTheMotionAndIsPublishedByName)
   EXPECT_EQ(none->data, 0u);
   EXPECT_EQ(touched.count(), 0u);
   ASSERT_TRUE(driveUntil(0.5, [](const Odometry& o) {
-    return positionOf(o).x() > 3.6 && o.twist.twist.linear.x == 0.0;
+    return positionOf(o).x() > 3.7 - 1e-3 && o.twist.twist.linear.x == 0.0;
   }));
   EXPECT_NEAR(positionOf(truth_.all().back()).x(), 3.7, 1e-3) << "0.3 m before the wall";
   EXPECT_TRUE(contacts.waitFor(1, [](const std_msgs::UInt32& c) { return c.data == 1; }));

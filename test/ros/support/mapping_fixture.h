@@ -61,7 +61,10 @@ class MappingTest : public testing::Test {
  protected:
   // Parameters as "_name:=value". The map's frame is map, its resolution 0.1 m.
   void startMapping(std::vector<std::string> arguments = {}) {
-    node_.reset();
+    if (node_) {
+      node_.reset();
+      ASSERT_TRUE(waitFor([this] { return clouds_.getNumSubscribers() == 0; }));
+    }
     ros::param::del("/projected_map");  // what was set before
     arguments.insert(arguments.begin(),
                      {"_resolution:=0.1", "_publish_rate:=50", "_diagnostic_period:=0.1",

@@ -46,6 +46,10 @@ class PlannerTest : public testing::Test {
  protected:
   // Parameters as "_name:=value".
   void startPlanner(const std::vector<std::string>& arguments = {}) {
+    if (planner_) {
+      planner_.reset();
+      ASSERT_TRUE(waitFor([this] { return maps_.getNumSubscribers() == 0; }));
+    }
     ros::param::del("/path_planner");  // what the test before has set
     startPlanner(std::make_unique<Process>("path_planner", arguments));
   }

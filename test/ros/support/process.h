@@ -18,22 +18,24 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "ros/support/killed_node.h"
 #include "ros/support/wait.h"
 
 namespace grid_path_planner::test {
 
 class Process {
  public:
-  // An executable of this package in the devel space.
+  // An executable of this package in the devel space, whose node has its name.
   Process(const std::string& node, const std::vector<std::string>& arguments)
       : Process(joined(GPP_DEVEL "/lib/grid_path_planner/" + node, arguments)) {
-    is_node_ = true;
+    node_ = node;
   }
 
   // Any program, looked up in PATH; the first argument is its name.
@@ -58,6 +60,7 @@ class Process {
 
   ~Process() {
     end(SIGINT);
+    if (killed_) killed_->forget();
     if (testing::Test::HasFailure()) std::cerr << output();
     ::unlink(output_.c_str());
   }
@@ -69,7 +72,9 @@ class Process {
     return !exited_;
   }
   void signal(int number) {
-    if (running()) ::kill(pid_, number);
+    if (!running()) return;
+    if (number == SIGKILL && !node_.empty()) killed_.emplace(node_);
+    ::kill(pid_, number);
   }
   pid_t pid() const { return pid_; }
   // What it held at most, in bytes; 0 where it has ended.
@@ -99,7 +104,7 @@ class Process {
     if (!running()) return;
     signal(number);
     const bool ended = waitForExit(patience());
-    EXPECT_TRUE(ended || !is_node_)
+    EXPECT_TRUE(ended || node_.empty())
         << "it did not end within " << patience().count() << " s of signal " << number;
     if (ended) return;
     signal(SIGKILL);
@@ -137,7 +142,8 @@ class Process {
   pid_t pid_;
   int status_ = 0;
   bool exited_ = false;
-  bool is_node_ = false;
+  std::string node_;  // its name; empty: another program
+  std::optional<KilledNode> killed_;
 };
 
 }  // namespace grid_path_planner::test

@@ -28,12 +28,10 @@ class StillTest : public NavigateTest {
     return velocity_.waitFor(seen, [](const geometry_msgs::Twist& v) { return !isZero(v); })
         .has_value();
   }
-  // Whether a zero comes from now on, and no command that is not zero for a second after it. On a loaded
+  // Whether the last command becomes a zero, and no other comes for a second after it. On a loaded
   // machine the test's own /clock may stand still for half a second before: a stop that does not last.
   bool stops() {
-    return waitFor([&] {
-      return velocity_.waitFor(velocity_.count(), isZero) && !drivesWithin(std::chrono::seconds(1));
-    });
+    return waitFor([&] { return lastCommandIsZero() && !drivesWithin(std::chrono::seconds(1)); });
   }
 
   // Whether /diagnostics of this level has `text` in its message from now on.
