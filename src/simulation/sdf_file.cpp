@@ -60,12 +60,18 @@ sdf::Root loadSdf(const std::string& file,
   const FindCallback callback(find);
   sdf::Root root;
   sdf::Errors errors;
-  std::string printed;
+  std::string printed, thrown;
   {
     const CapturedConsole console;
-    errors = root.Load(file);
+    try {
+      errors = root.Load(file);
+    } catch (const std::exception& error) {  // std::stoi's, of a version that is no number
+      thrown = error.what();
+    }
     printed = withoutEnd(console.text()).substr(0, kLongestText);
   }
+  if (!thrown.empty())
+    throw InputError(file, "libsdformat fails at a version or number in it (" + thrown + ")");
   if (errors.empty()) {
     if (!printed.empty()) std::cerr << file << ": " << printed << "\n";
     return root;

@@ -228,6 +228,14 @@ TEST_F(WorldFile, ErrorsOfSyntaxNameFileAndLine) {
   EXPECT_FALSE(contains(text, "\n"));
 }
 
+// libsdformat throws what std::stoi does: all that was said was 'stoi'.
+TEST_F(WorldFile, AVersionThatIsNoneIsRefused) {
+  const std::string file =
+      folder_.write("version.sdf", "<sdf version='W1.6'>\n<world name='w'></world></sdf>\n");
+  EXPECT_EQ(test::errorText([&] { readWorld(file); }),
+            file + ": libsdformat fails at a version or number in it (stoi)");
+}
+
 TEST_F(WorldFile, ValuesThatAreNoneAreRefused) {
   const std::string text =
       complaint(model("m", "0 0 0 0 0 0", shape("visual", "v", "<box><size>1 x 2</size></box>")));

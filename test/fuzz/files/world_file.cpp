@@ -25,7 +25,8 @@ std::vector<std::string> seedsOfWorlds() {
           "<sdf version='1.7'><world name='w'><frame name='f'><pose>5 0 0 0 0 0</pose></frame>"
           "<model name='m'><pose relative_to='f'>0 7 0 0 0 0</pose><link name='l'>"
           "<visual name='v'><geometry><box><size>1 1 1</size></box></geometry></visual></link>"
-          "</model></world></sdf>"};
+          "</model></world></sdf>",
+          "<sdf version='W1.6'><world name='w'></world></sdf>"};
 }
 
 FUZZ_TARGET(world_file, seedsOfWorlds) {
