@@ -14,7 +14,7 @@ from unittest import mock
 
 from common import ROOT, finish
 
-# Targets: "crash" leaves an input and ends with a code, "loud" prints 200 MB, "parent" leaves a child that keeps its output, "hang" never ends, "killed" is ended by others, "slow" has an input that takes 12 s, "well" runs as
+# Targets: "crash" leaves an input and ends with a code, "loud" prints 200 MB, "parent" leaves a child that keeps its output, "hang" never ends, "killed" is ended by others, "slow" has an input that takes 12 s, "late" one that took too long once, "stuck" one that always does, "well" runs as
 # often as it is allowed.
 PROGRAM = r"""#!/bin/sh
 case " $* " in *" --list "*) echo "TARGETS"; exit 0 ;; esac
@@ -28,6 +28,10 @@ for word; do
     -entropic=0) edges=9 ;;
   esac
 done
+if [ -z "$prefix" ]; then
+  [ $target != stuck ] || python3 -c 'while __import__("time").process_time() < 1.5: pass'
+  exit 0
+fi
 echo "#2	INITED cov: 5 ft: 6 corp: 1/1b exec/s: 0 rss: 30Mb" >&2
 [ $target != hang ] || exec sleep 100
 [ $target != killed ] || kill -TERM $$
@@ -35,6 +39,7 @@ echo "#2	INITED cov: 5 ft: 6 corp: 1/1b exec/s: 0 rss: 30Mb" >&2
 [ $target != loud ] || yes "$(printf %01000d 0)" | head -n 200000 >&2
 [ $target != crash ] || { echo x > "${prefix}crash-1"; exit 77; }
 [ $target != slow ] || [ ${reported:-10} -gt 12 ] || echo x > "${prefix}slow-unit-1"
+case $target in late|stuck) echo x > "${prefix}timeout-1"; exit 70 ;; esac
 half=$((runs / 2))
 echo "#3	NEW    cov: ${edges:-7} ft: 8 corp: 2/2b lim: 4 exec/s: 0 rss: 30Mb L: 2/2 MS: 1 CopyPart-" >&2
 echo "#9	REDUCE cov: ${edges:-7} ft: 8 corp: 2/2b lim: 4 exec/s: 0 rss: 30Mb L: 1/1 MS: 1 EraseBytes-" >&2
@@ -51,7 +56,7 @@ def load(folder):
     fuzz.PROGRAMS, fuzz.TABLE = folder / "programs", folder / "table.txt"
     fuzz.SPARE_SECONDS, fuzz.LAST_WORDS = 1, 0.5
     fuzz.PROGRAMS.mkdir()
-    for name, targets in (("bad", "crash hang killed parent"), ("good", "loud slow well")):
+    for name, targets in (("bad", "crash hang killed parent"), ("good", "late loud slow stuck well")):
         program = fuzz.PROGRAMS / name
         program.write_text(PROGRAM.replace("TARGETS", targets), encoding="utf-8")
         program.chmod(0o755)
@@ -98,6 +103,18 @@ def complaints_of_runs(fuzz, corpus):
         yield f"an input that takes no longer than it may is told as a finding, or ends the run: {code} {text}"
 
 
+def complaints_of_waiting(fuzz, corpus):
+    arguments = ("--corpus", str(corpus), "--seconds", "8", "--executions", "800")
+    with contextlib.redirect_stderr(io.StringIO()) as errors:
+        code, rows, text = told(fuzz, *arguments, "late")
+    if code != 0 or rows["late"][4] != 0 or "kept waiting" not in errors.getvalue():
+        yield f"an input for which others took the processor is a finding, or not told: {code} {text} {errors.getvalue()}"
+    with mock.patch.multiple(fuzz, MOST_SECONDS=1, SPARE_SECONDS=100):
+        code, rows, text = told(fuzz, *arguments, "stuck")
+    if code != 1 or rows["stuck"][4] != 1 or "timeout-1" not in text:
+        yield f"an input that takes too long is no finding: {code} {text}"
+
+
 def complaints_of_memory(fuzz, corpus):
     code, rows, _ = told(fuzz, "--corpus", str(corpus), "--seconds", "8", "--executions", "800", "loud")
     megabytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
@@ -135,8 +152,8 @@ def main():
         folder = pathlib.Path(name)
         fuzz = load(folder)
         complaints = [*complaints_of_memory(fuzz, folder / "loud"), *complaints_of_runs(fuzz, folder / "corpus"),
-                      *complaints_of_lengths(fuzz, folder / "lengths"), *complaints_of_targets(fuzz, folder / "corpus")]
-    finish(complaints, "15 rules of scripts/fuzz")
+                      *complaints_of_waiting(fuzz, folder / "waiting"), *complaints_of_lengths(fuzz, folder / "lengths"), *complaints_of_targets(fuzz, folder / "corpus")]
+    finish(complaints, "17 rules of scripts/fuzz")
 
 
 if __name__ == "__main__":
