@@ -3,6 +3,7 @@
 #include <iostream>
 #include <regex>
 #include <sstream>
+#include <stdexcept>
 
 #include "grid_path_planner/base/errors.h"
 
@@ -60,18 +61,18 @@ sdf::Root loadSdf(const std::string& file,
   const FindCallback callback(find);
   sdf::Root root;
   sdf::Errors errors;
-  std::string printed, thrown;
+  std::string printed;
   {
     const CapturedConsole console;
     try {
       errors = root.Load(file);
-    } catch (const std::exception& error) {  // std::stoi's, of a version that is no number
-      thrown = error.what();
+    } catch (const std::logic_error& error) {  // std::stoi's, of a version that is no number
+      throw InputError(file,
+                       std::string("libsdformat does not accept it: a number in it is none (") +
+                           error.what() + ")");
     }
     printed = withoutEnd(console.text()).substr(0, kLongestText);
   }
-  if (!thrown.empty())
-    throw InputError(file, "libsdformat fails at a version or number in it (" + thrown + ")");
   if (errors.empty()) {
     if (!printed.empty()) std::cerr << file << ": " << printed << "\n";
     return root;

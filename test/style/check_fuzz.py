@@ -14,7 +14,7 @@ from unittest import mock
 
 from common import ROOT, finish
 
-# Targets: "crash" leaves an input and ends with a code, "loud" prints 200 MB, "parent" leaves a child that keeps its output, "hang" never ends, "killed" is ended by others, "slow" has an input that takes 12 s, "late" one that took too long once, "stuck" one that always does, "well" runs as
+# Targets: "crash" leaves an input and ends with a code, "loud" prints 200 MB, "parent" leaves a child that keeps its output, "hang" never ends, "killed" is ended by others, "slow" has an input that takes 12 s, "late" one that took too long once, "stuck" one that always does, "asleep" one that waits for ever, "well" runs as
 # often as it is allowed.
 PROGRAM = r"""#!/bin/sh
 case " $* " in *" --list "*) echo "TARGETS"; exit 0 ;; esac
@@ -29,6 +29,7 @@ for word; do
   esac
 done
 if [ -z "$prefix" ]; then
+  [ $target != asleep ] || exec sleep 100
   [ $target != stuck ] || python3 -c 'while __import__("time").process_time() < 1.5: pass'
   exit 0
 fi
@@ -39,7 +40,7 @@ echo "#2	INITED cov: 5 ft: 6 corp: 1/1b exec/s: 0 rss: 30Mb" >&2
 [ $target != loud ] || yes "$(printf %01000d 0)" | head -n 200000 >&2
 [ $target != crash ] || { echo x > "${prefix}crash-1"; exit 77; }
 [ $target != slow ] || [ ${reported:-10} -gt 12 ] || echo x > "${prefix}slow-unit-1"
-case $target in late|stuck) echo x > "${prefix}timeout-1"; exit 70 ;; esac
+case $target in asleep|late|stuck) echo x > "${prefix}timeout-1"; exit 70 ;; esac
 half=$((runs / 2))
 echo "#3	NEW    cov: ${edges:-7} ft: 8 corp: 2/2b lim: 4 exec/s: 0 rss: 30Mb L: 2/2 MS: 1 CopyPart-" >&2
 echo "#9	REDUCE cov: ${edges:-7} ft: 8 corp: 2/2b lim: 4 exec/s: 0 rss: 30Mb L: 1/1 MS: 1 EraseBytes-" >&2
@@ -56,7 +57,7 @@ def load(folder):
     fuzz.PROGRAMS, fuzz.TABLE = folder / "programs", folder / "table.txt"
     fuzz.SPARE_SECONDS, fuzz.LAST_WORDS = 1, 0.5
     fuzz.PROGRAMS.mkdir()
-    for name, targets in (("bad", "crash hang killed parent"), ("good", "late loud slow stuck well")):
+    for name, targets in (("bad", "crash hang killed parent"), ("good", "asleep late loud slow stuck well")):
         program = fuzz.PROGRAMS / name
         program.write_text(PROGRAM.replace("TARGETS", targets), encoding="utf-8")
         program.chmod(0o755)
@@ -113,6 +114,10 @@ def complaints_of_waiting(fuzz, corpus):
         code, rows, text = told(fuzz, *arguments, "stuck")
     if code != 1 or rows["stuck"][4] != 1 or "timeout-1" not in text:
         yield f"an input that takes too long is no finding: {code} {text}"
+    with mock.patch.object(fuzz, "MOST_SECONDS", 1):
+        code, rows, text = told(fuzz, *arguments, "asleep")
+    if code != 1 or rows["asleep"][4] != 1 or "timeout-1" not in text:
+        yield f"an input that waits for ever, without the processor, is no finding: {code} {text}"
 
 
 def complaints_of_memory(fuzz, corpus):
@@ -152,8 +157,9 @@ def main():
         folder = pathlib.Path(name)
         fuzz = load(folder)
         complaints = [*complaints_of_memory(fuzz, folder / "loud"), *complaints_of_runs(fuzz, folder / "corpus"),
-                      *complaints_of_waiting(fuzz, folder / "waiting"), *complaints_of_lengths(fuzz, folder / "lengths"), *complaints_of_targets(fuzz, folder / "corpus")]
-    finish(complaints, "17 rules of scripts/fuzz")
+                      *complaints_of_waiting(fuzz, folder / "waiting"), *complaints_of_lengths(fuzz, folder / "lengths"),
+                      *complaints_of_targets(fuzz, folder / "corpus")]
+    finish(complaints, "18 rules of scripts/fuzz")
 
 
 if __name__ == "__main__":

@@ -62,6 +62,7 @@ class LocalPlannerLocks : public test::FlightTest {
       ros::WallDuration(0.002).sleep();
     }
   }
+
   const test::TemporaryFolder folder_;
   Latest<diagnostic_msgs::DiagnosticArray> diagnostics_{nh_, "/diagnostics"};
   Latest<rosgraph_msgs::Log> log_{nh_, "/rosout"};
@@ -93,9 +94,10 @@ TEST_F(LocalPlannerLocks, ALogThatNobodyReadsEndsInZeros) {
   ASSERT_NO_FATAL_FAILURE(waitUntilItIsUp());
   sendGoal(ros::Time());
   ASSERT_TRUE(flies()) << said();
-  EXPECT_TRUE(test::waitFor([&] {  // until the log is full
+  EXPECT_TRUE(test::waitFor([&] {  // the log is full: the node's slow side says nothing
     refuseGoals();
-    return standsForASecond();
+    const std::size_t reports = diagnostics_.count();
+    return standsForASecond() && diagnostics_.count() == reports;
   }));
   send(manuals_, true);
   EXPECT_TRUE(test::waitFor([&] {

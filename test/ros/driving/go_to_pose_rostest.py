@@ -16,6 +16,8 @@ from std_msgs.msg import Empty
 
 from go_to_session import DEADLINE, PACKAGE, GoToTest, executable, pose, room
 
+ATTEMPTS = 5
+
 
 def set_recovery_steps(steps):
     answer = rospy.ServiceProxy("go_to_pose/set_parameters", Reconfigure)(
@@ -25,6 +27,14 @@ def set_recovery_steps(steps):
 
 class GoToPose(GoToTest):
     def test_a_client_of_actionlib_is_driven_to_its_goal(self):
+        """Where the machine keeps the session waiting to the end of a drive, nothing was heard of it: another one."""
+        for _ in range(ATTEMPTS):
+            if self.is_told_to_the_end():
+                return
+        self.fail("feedback and status end before the drive does: " + self.logs())
+
+    def is_told_to_the_end(self):
+        self.forget()
         feedback, result = [], []
         self.send(pose(8, 1.5, 1.0), feedback_cb=feedback.append, done_cb=lambda state, _: result.append(state))
         text = self.ends("SUCCEEDED")
@@ -32,13 +42,14 @@ class GoToPose(GoToTest):
         self.wait_for(lambda: self.is_at(8, 1.5))
         self.wait_for(lambda: result == [actionlib.GoalStatus.SUCCEEDED])
         xs = [message.base_position.pose.position.x for message in feedback]
-        self.assertTrue(xs and max(xs) > 3.0 and feedback[-1].base_position.header.frame_id == "map", xs)
+        self.assertTrue(xs and feedback[-1].base_position.header.frame_id == "map", xs)
         times = [status.time_remaining_s for status in self.heard() if status.state == "DRIVING"]
         known = [time for time in times if time < 1e3]
-        self.assertTrue(known and known[-1] < known[0], times)
+        self.assertTrue(known, times)
         arrivals = [status.arrival.to_sec() for status in self.heard() if status.time_remaining_s < 1e3]
         self.assertLess(abs(arrivals[0] - rospy.get_time()), 60.0, "foretold in time of the simulation")
         self.drive_to(2, 1.5)
+        return max(xs) > 6.0 and known[-1] < 0.5 * known[0]
 
     def test_a_goal_of_rviz_or_rostopic_is_driven_to_and_its_result_told(self):
         results = []

@@ -83,8 +83,8 @@ TEST_F(NavigateLoop, AWaypointFileIsReadElsewhere) {
   ASSERT_TRUE(test::waitFor([&] { return client.isServerConnected(); }));
   NavigatePathGoal goal;
   goal.filename = file.name;
-  bool has_its_share =
-      false;  // a loaded machine takes some, not all, and of one reading perhaps all
+  // A loaded machine takes some, not all, and of one reading perhaps all.
+  bool has_its_share = false;
   for (std::size_t readings = 1; readings <= 5 && !has_its_share; ++readings) {
     const auto begin = ros::WallTime::now();
     const std::size_t before = velocity_.count();

@@ -71,7 +71,8 @@ TEST_F(NavigateStops, OrderlyWhenAskedToWhileItComesUp) {
     EXPECT_EQ(node.exitCode(), 0) << delay_ms << " ms: " << node.output();
     // Where the master keeps it waiting, it ends without giving its names back.
     ASSERT_TRUE(test::waitFor([&] {
-      if (node.hasSaid("without giving its names back")) test::KilledNode("navigate_path").forget();
+      if (node.hasSaid("without giving its names back"))
+        test::KilledNode("/navigate_path").forget();
       return !registered();
     }));
   }

@@ -33,6 +33,12 @@ class Commanders {
     const std::lock_guard<std::mutex> lock(mutex_);
     return latest_;
   }
+  // How many of `node` came since the first of `other` after the last call of forget().
+  int since(const std::string& node, const std::string& other) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto begin = std::find(nodes_.begin(), nodes_.end(), other);
+    return static_cast<int>(std::count(begin, nodes_.end(), node));
+  }
   // Whether the last twenty are all of `node`.
   bool areOf(const std::string& node) const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -110,14 +116,24 @@ class Takeover : public test::StillTest {
 TEST_F(Takeover, AJoystickCommandsAtOnceAndTheDriveIsResumedByHand) {
   drive();
   startJoystick();
-  commanders_.forget();
-  ASSERT_TRUE(takesOver());
-  EXPECT_TRUE(navigate_->says("The joystick commands: the drive is paused"));
-  EXPECT_FALSE(ask("resume")) << "while the joystick commands";
-  EXPECT_TRUE(pushUntil(true, [&] { return commanders_.areOf("/teleop_joy"); }))
-      << "they command in turns";
-  publishPath(pathOf({{0, 0}, {0, 50}}));
-  ASSERT_TRUE(navigate_->says("drives a path of 2 waypoints"));
+  int after = 5;  // in flight, of 200 a second; more where the machine keeps what reads waiting
+  for (int attempt = 0; attempt < 5 && after > 4; ++attempt) {
+    if (attempt > 0) {
+      ASSERT_TRUE(pushUntil(false, [&] { return commanders_.endInAZero(); }));
+      ASSERT_TRUE(ask("resume"));
+      ASSERT_TRUE(test::waitFor([&] { return commanders_.latest() == "/navigate_path"; }));
+    }
+    commanders_.forget();
+    ASSERT_TRUE(takesOver());
+    EXPECT_TRUE(navigate_->says("The joystick commands: the drive is paused"));
+    EXPECT_TRUE(pushUntil(true, [&] { return commanders_.areOf("/teleop_joy"); }))
+        << "they command in turns";
+    EXPECT_FALSE(ask("resume")) << "while the joystick commands";
+    after = commanders_.since("/navigate_path", "/teleop_joy");
+  }
+  EXPECT_LE(after, 4);
+  publishPath(pathOf({{0, 0}, {0, 25}, {0, 50}}));
+  ASSERT_TRUE(navigate_->says("drives a path of 3 waypoints"));
   for (int i = 0; i < 20; ++i) push(true);
   ASSERT_TRUE(pushUntil(false, [&] { return commanders_.endInAZero(); }));
   commanders_.forget();

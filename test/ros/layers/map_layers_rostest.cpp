@@ -196,8 +196,8 @@ TEST_F(MapLayers, ALaserWhoseScansAreRefusedIsNotDropped) {
     see(5.0F);
     return node_->hasSaid("A scan");
   })) << "tf does not know it";
-  for (int i = 0; i < 50;
-       ++i) {  // for longer than source_timeout, which no stall of the machine is
+  // For longer than source_timeout, which no stall of the machine is.
+  for (int i = 0; i < 50; ++i) {
     see(5.0F);
     ros::WallDuration(0.1).sleep();
   }

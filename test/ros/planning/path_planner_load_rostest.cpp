@@ -94,9 +94,6 @@ TEST_F(LoadTest, ABlockedPathIsReplannedWhateverIsAsked) {
   })) << "not replanned; planning maps: "
       << planning_maps_.count() - maps << ", answers " << answers_;
   const double took = Seconds(Clock::now() - begin).count();
-  const int answered = answers_;
-  ASSERT_TRUE(waitFor([&] { return answers_ > answered + 4; }))
-      << "those that were kept waiting, too";
   EXPECT_LT(took, 1.0 + 4.0 * slowest_) << "an answer took " << slowest_ << " s";
   EXPECT_TRUE(passes(paths_.all().back(), kSide / 2 + 0.5, kSide - 0.5, 2.0));
 }

@@ -164,8 +164,10 @@ TEST_F(ReplanTest, AHeartbeatIsNoChangeOfTheMap) {
   const auto changed = planning_maps_.waitForMoreThan(maps);
   ASSERT_TRUE(changed);
   EXPECT_EQ(changed->data[2 * 7 + 3], 100) << "nothing was published for the heartbeats";
-  for (const rosgraph_msgs::Log& line : log_.all())
-    EXPECT_EQ(line.msg.find("dropped"), std::string::npos) << line.msg;
+  for (const rosgraph_msgs::Log& line : log_.all()) {
+    const bool is_of_the_master = line.msg.find("The master at") == 0;  // on a busy machine
+    EXPECT_TRUE(line.level < line.WARN || is_of_the_master) << line.msg;
+  }
 }
 
 // A lost update went unnoticed: until the next whole map, which might never come, plans led through
@@ -255,12 +257,16 @@ TEST_F(ReplanTest, AGoalWithoutAPathStandsUntilTheMapHasOne) {
   const std::size_t seen = log_.count();
   sendGoal(poseAt(4.5, 0.5));
   ASSERT_EQ(answer_.status, "UNREACHABLE");
-  const std::size_t answers = statistics_.count();
-  for (int i = 0; i < 20; ++i) sendUpdate(0, 2, 1, 1, {static_cast<std::int8_t>(i % 2 * 100)});
-  ASSERT_TRUE(statistics_.waitForMoreThan(answers)) << "it is tried again";
+  bool is_seldom = false;  // where this test is kept waiting between two changes, each may be tried
+  for (int round = 0; round < 5 && !is_seldom; ++round) {
+    const std::size_t answers = statistics_.count();
+    for (int i = 0; i < 20; ++i) sendUpdate(0, 2, 1, 1, {static_cast<std::int8_t>(i % 2 * 100)});
+    ASSERT_TRUE(statistics_.waitForMoreThan(answers)) << "it is tried again";
+    is_seldom = statistics_.count() <= answers + 3;
+  }
+  EXPECT_TRUE(is_seldom) << "and not once for every change";
   sendUpdate(2, 0, 1, 1, {0});
   ASSERT_TRUE(paths_.waitFor(0, [](const nav_msgs::Path& path) { return !path.poses.empty(); }));
-  EXPECT_LT(statistics_.count(), answers + 20) << "and not once for every change";
   ASSERT_TRUE(logged("FOUND", seen));
   const auto lines = log_.all();
   EXPECT_EQ(std::count_if(lines.begin() + static_cast<long>(seen), lines.end(),

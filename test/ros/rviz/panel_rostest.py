@@ -12,13 +12,14 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import rosgraph
 import rospy
 import rostest
 import yaml
 from nav_msgs.msg import OccupancyGrid
 from visualization_msgs.msg import InteractiveMarkerFeedback, MarkerArray
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import killed_node
 from grid_path_planner.msg import PlanPathActionResult, PlanStatistics
 from screen import Screen
 
@@ -199,9 +200,7 @@ class PanelTest(unittest.TestCase):
         self.planner.kill()
         self.planner.wait()
         wait_for(lambda: not self.button(), "a button Plan that may not be pressed")
-        master = rosgraph.Master("/path_planner")  # which would call its port, that another test's node may have by then
-        master.registerSubscriber("/nobody", "std_msgs/Empty", rospy.get_node_uri())
-        master.unregisterSubscriber("/nobody", rospy.get_node_uri())
+        killed_node.forget("/path_planner")
         self.start_planner()
         button = wait_for(self.button, "a button Plan that may be pressed again")
         answer = self.answer_to(lambda: self.screen.click(button.middle()), "a plan of the new one")

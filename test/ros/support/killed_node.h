@@ -1,8 +1,4 @@
-// A node that a test kills, at the master.
-//
-// A master goes on to know what was killed, and calls its ports: with every change of a topic, and with `shutdown` when
-// another node takes the name. A node of another test, with another master, may be there by then, which ends or
-// hears nothing any more.
+// A node that a test kills, at the master, as killed_node.py has it.
 #pragma once
 
 #include <ros/init.h>
@@ -10,35 +6,37 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <string>
+#include <vector>
 
 namespace grid_path_planner::test {
 
 class KilledNode {
  public:
-  // Before it is killed. `name` without a slash before it.
-  explicit KilledNode(const std::string& name) : name_("/" + name), uri_(uriNow()) {}
+  // Before it is killed. The full name.
+  explicit KilledNode(const std::string& name) : name_(name), uri_(uriNow()) {}
 
   // The master forgets it, unless another has its name by now: who registers a name takes all that was registered by it.
   void forget() const {
     if (uri_.empty() || uriNow() != uri_) return;
-    for (const char* method : {"registerSubscriber", "unregisterSubscriber"}) {
-      XmlRpc::XmlRpcValue request, answer, value;
-      request[0] = name_;
-      request[1] = "/nobody";
-      if (method == std::string("registerSubscriber")) request[2] = "std_msgs/Empty";
-      request[request.size()] = "http://localhost:9/";  // discard: nobody is called there
-      ros::master::execute(method, request, answer, value, false);
-    }
+    const std::string discard = "http://localhost:9/";  // nobody is called there
+    ask("registerSubscriber", {"/nobody", "std_msgs/Empty", discard});
+    ask("unregisterSubscriber", {"/nobody", discard});
   }
 
  private:
   std::string uriNow() const {
+    auto uri = ask("lookupNode", {name_});
+    return uri.getType() == XmlRpc::XmlRpcValue::TypeString ? static_cast<std::string&>(uri) : "";
+  }
+  // Invalid without a success.
+  XmlRpc::XmlRpcValue ask(const std::string& method,
+                          const std::vector<std::string>& arguments) const {
     XmlRpc::XmlRpcValue request, answer, value;
     request[0] = name_;
-    request[1] = name_;
-    if (!ros::isInitialized() || !ros::master::execute("lookupNode", request, answer, value, false))
-      return "";
-    return static_cast<std::string&>(value);
+    for (const std::string& argument : arguments) request[request.size()] = argument;
+    const bool done =
+        ros::isInitialized() && ros::master::execute(method, request, answer, value, false);
+    return done ? value : XmlRpc::XmlRpcValue();
   }
 
   std::string name_, uri_;

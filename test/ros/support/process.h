@@ -32,10 +32,10 @@ namespace grid_path_planner::test {
 
 class Process {
  public:
-  // An executable of this package in the devel space, whose node has its name.
+  // An executable of this package in the devel space. Its node has its name, or that of the arguments.
   Process(const std::string& node, const std::vector<std::string>& arguments)
       : Process(joined(GPP_DEVEL "/lib/grid_path_planner/" + node, arguments)) {
-    node_ = node;
+    node_ = valueOf("__ns:=", "", arguments) + "/" + valueOf("__name:=", node, arguments);
   }
 
   // Any program, looked up in PATH; the first argument is its name.
@@ -131,6 +131,12 @@ class Process {
     static int processes = 0;
     return processes;
   }
+  static std::string valueOf(const std::string& key, std::string value,
+                             const std::vector<std::string>& arguments) {
+    for (const std::string& argument : arguments)
+      if (argument.compare(0, key.size(), key) == 0) value = argument.substr(key.size());
+    return value;
+  }
   static std::vector<std::string> joined(const std::string& program,
                                          const std::vector<std::string>& arguments) {
     std::vector<std::string> command{program};
@@ -142,7 +148,7 @@ class Process {
   pid_t pid_;
   int status_ = 0;
   bool exited_ = false;
-  std::string node_;  // its name; empty: another program
+  std::string node_;  // its full name; empty: another program
   std::optional<KilledNode> killed_;
 };
 
