@@ -49,8 +49,9 @@ FlightCommander::FlightCommander(const ros::NodeHandle& nh, const LocalPlannerOp
   const auto refused = [this] { ++refused_; };
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
       own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); }, refused);
+  // Taken over and let go at once, as where both come late, is taken over.
   manual_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      own, "manual_control", 1, [this](const std_msgs::Bool& message) { onManual(message); },
+      own, "manual_control", 10, [this](const std_msgs::Bool& message) { onManual(message); },
       refused);
   waitForPublishers(stop_subscriber_);
   thread_.start(options.control_rate, options.realtime_priority);

@@ -65,8 +65,9 @@ DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& optio
   ros::NodeHandle own(nh);
   own.setCallbackQueue(&thread_.queue());
   const auto refused = [this] { noteRefused(); };
+  // Taken over and let go at once, as where both come late, is taken over.
   manual_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      own, "manual_control", 1, [this](const std_msgs::Bool& message) { onManual(message); },
+      own, "manual_control", 10, [this](const std_msgs::Bool& message) { onManual(message); },
       refused);
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
       own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); }, refused);
@@ -97,10 +98,11 @@ auto DriveLoop::ask(Work work) -> std::invoke_result_t<Work> {
   });
 }
 
-unsigned DriveLoop::start(const Path& path, Join join) {
-  return ask([this, &path, join] {
+unsigned DriveLoop::start(const Path& path, Join join, unsigned takeovers) {
+  return ask([this, &path, join, takeovers] {
     if (finished_) throw base::InputError("navigate_path ends");
     follower_.start(path, join);
+    if (takeovers != takeovers_) follower_.cancel(kTakenOver);
     reported_waypoint_ = -1;
     return ++drive_;
   });
@@ -264,6 +266,7 @@ void DriveLoop::onManual(const std_msgs::Bool& message) {
     manual_.reset();
   if (was == isManual()) return;
   if (isManual() && !follower_.active()) {
+    ++takeovers_;
     DriveReport report;
     report.taken_over = true;
     hand({report});
@@ -299,7 +302,7 @@ void DriveLoop::yieldToJoystick() {
     report.note = "The joystick commands: the drive is paused until ~resume";
     hand({report});
   }
-  if (follower_.state() == FollowState::ARRIVED) follower_.cancel("the joystick commands");
+  if (follower_.state() == FollowState::ARRIVED) follower_.cancel(kTakenOver);
 }
 
 void DriveLoop::publish(const BodyVelocity& velocity) {

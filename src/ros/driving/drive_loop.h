@@ -2,7 +2,7 @@
 // cmd_vel, at a rate by the wall clock.
 //
 //   DriveLoop loop(nh, options, transforms, [&] { queue(&takeReports); });
-//   loop.start(path, Join::NEAREST);                  // throws InputError
+//   loop.start(path, Join::NEAREST, loop.takeovers());  // throws InputError
 //   for (const DriveReport& report : loop.takeReports()) use(report.note);
 //
 // The follower belongs to this thread alone: others hand it work over a callback queue, and it serves
@@ -20,6 +20,7 @@
 #include <ros/subscriber.h>
 #include <std_msgs/Bool.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -40,6 +41,9 @@
 #include "ros/driving/speed_limit_receiver.h"
 
 namespace grid_path_planner::nodes {
+
+// Why a drive ends that a joystick has taken over.
+inline constexpr char kTakenOver[] = "the joystick commands";
 
 // How a drive stands.
 struct DriveStanding {
@@ -76,8 +80,9 @@ class DriveLoop {
   ~DriveLoop();
 
   // These are carried out in the loop's thread, with a tick after them, and waited for.
-  // Returns the drive's number. Throws InputError.
-  unsigned start(const path::Path& path, following::Join join);
+  // Returns the drive's number. Throws InputError. A drive that was given at `takeovers` ends at once where a
+  // joystick has taken over since.
+  unsigned start(const path::Path& path, following::Join join, unsigned takeovers);
   following::PathFollower::Answer pause();
   following::PathFollower::Answer resume();
   following::PathFollower::Answer cancel(const std::string& reason);
@@ -93,6 +98,9 @@ class DriveLoop {
   void setSpeedLimits(const SpeedLimits& limits);
 
   std::vector<DriveReport> takeReports();
+
+  // How often a joystick has taken over a vehicle that nothing drove.
+  unsigned takeovers() const { return takeovers_; }
 
   // How the thread is scheduled, in words.
   std::string scheduling() const { return thread_.scheduling(); }
@@ -136,6 +144,7 @@ class DriveLoop {
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   following::PathFollower follower_;
   unsigned drive_ = 0;  // started so far
+  std::atomic<unsigned> takeovers_{0};
   MapLife map_;
   SpeedLimits limits_;
   ros::Time now_;

@@ -2,6 +2,7 @@
 //
 // What was seen before: a joystick and navigate_path commanded in turns, 50 times a second; nothing
 // but ~cancel stopped a drive; and two navigate_paths drove one vehicle along two paths.
+#include <actionlib_msgs/GoalStatusArray.h>
 #include <sensor_msgs/Joy.h>
 #include <std_msgs/Bool.h>
 
@@ -11,6 +12,8 @@
 #include "grid_path_planner/NavigatePathActionGoal.h"
 #include "grid_path_planner/NavigatePathActionResult.h"
 #include "grid_path_planner/path/waypoint_file.h"
+#include "ros/driving/drive_loop.h"
+#include "ros/support/links.h"
 #include "ros/support/still_fixture.h"
 #include "support/temporary_folder.h"
 
@@ -81,6 +84,9 @@ class Takeover : public test::StillTest {
         std::make_unique<Process>("teleop_joy", std::vector<std::string>{"_joy_timeout:=30"});
     ASSERT_TRUE(test::waitFor([&] { return joy_.getNumSubscribers() > 0; }));
     ASSERT_TRUE(test::waitFor([&] { return velocity_.publishers() == commanders; }));
+    ASSERT_TRUE(test::waitFor([&] {
+      return !navigate_ || test::linksOf(uriOfNode("/teleop_joy", 1.0), "/manual_control", "o") > 0;
+    })) << "navigate_path does not hear it";
   }
   void push(bool deadman) {
     sensor_msgs::Joy message;
@@ -152,22 +158,51 @@ TEST_F(Takeover, AJoystickTakesOverWhileTheFileOfAGoalIsRead) {
   startNavigate({"_no_progress_timeout:=0", "--load-folder", folder.path("")});
   startJoystick();
   const test::Latest<NavigatePathActionResult> results(nh_, "navigate_path/result");
+  const test::Latest<actionlib_msgs::GoalStatusArray> statuses(nh_, "navigate_path/status");
   ros::Publisher goals = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1);
-  ASSERT_TRUE(test::waitFor([&] { return goals.getNumSubscribers() > 0; }));
+  ASSERT_TRUE(test::waitFor([&] {
+    return goals.getNumSubscribers() > 0 && results.connected() && statuses.connected();
+  }));
   commanders_.forget();
   NavigatePathActionGoal goal;
   goal.goal_id.id = "long";
   goal.goal.filename = "route.yaml";
   goals.publish(goal);
+  ASSERT_TRUE(statuses.waitFor(0, [](const actionlib_msgs::GoalStatusArray& array) {
+    return !array.status_list.empty();
+  })) << "or the goal comes after the joystick";
   ASSERT_TRUE(takesOver());
   ASSERT_TRUE(pushUntil(false, [&] { return commanders_.endInAZero(); }));
-  ASSERT_TRUE(test::waitFor(
-      [&] { return results.count() > 0 || navigate_->hasSaid("the drive is paused"); }));
+  ASSERT_TRUE(test::waitFor([&] {
+    return results.count() > 0 || navigate_->hasSaid("the drive is paused");
+  })) << navigate_->output()
+      << joystick_->output();
   commanders_.forget();
   ASSERT_TRUE(test::waitFor([&, until = world_.time() + 8.0] { return world_.time() > until; }));
   EXPECT_EQ(commanders_.latest(), "") << navigate_->output();
   for (const NavigatePathActionResult& result : results.all())
     EXPECT_EQ(result.result.message, "the joystick commands");
+}
+
+// Let go again, too, before whoever reads the file hands over what is in it: it was driven.
+TEST_F(Takeover, WhatWasGivenBeforeAJoystickTookOverIsNotDrivenAfterwards) {
+  FrameTransforms transforms(nh_);
+  NavigatePathOptions options;
+  options.check_map = false;
+  DriveLoop loop(nh_, options, transforms, [] {});
+  ros::Publisher manual = nh_.advertise<std_msgs::Bool>("manual_control", 10);
+  const unsigned given = loop.takeovers();
+  std_msgs::Bool commands;
+  for (const bool on : {true, false}) {
+    commands.data = on;
+    manual.publish(commands);
+  }
+  ASSERT_TRUE(test::waitFor([&] { return loop.takeovers() == given + 1; }));
+  loop.start(pathOf({{0, 0}, {50, 0}}), following::Join::NEAREST, given);
+  EXPECT_EQ(loop.standing().status, following::DriveStatus::CANCELLED);
+  EXPECT_EQ(loop.standing().message, "the joystick commands");
+  loop.start(pathOf({{0, 0}, {50, 0}}), following::Join::NEAREST, given + 1);
+  EXPECT_TRUE(isDriving()) << "nobody commands any more";
 }
 
 TEST_F(Takeover, AJoystickThatWasKilledDoesNotHoldTheDriveForEver) {

@@ -7,6 +7,7 @@
 #include "grid_path_planner/ComparePlans.h"
 #include "grid_path_planner/PlanRecord.h"
 #include "ros/common/master/xmlrpc_call.h"
+#include "ros/support/links.h"
 #include "ros/support/planner_fixture.h"
 #include "support/temporary_folder.h"
 
@@ -25,15 +26,7 @@ constexpr int kRecordedSide = 90;
 
 // Whether the planner has somebody at the other end of the topic beside this test.
 bool isRecorded(const std::string& topic) {
-  const auto uri = uriOfNode("/path_planner", 1.0);
-  if (!uri) return false;
-  auto links = callXmlRpc(*uri, "getBusInfo", {ros::this_node::getName()}, 1.0);
-  int receivers = 0;
-  for (int i = 0; links && i < links->size(); ++i) {
-    XmlRpc::XmlRpcValue& link = (*links)[i];
-    if (std::string(link[2]) == "o" && std::string(link[4]) == topic) ++receivers;
-  }
-  return receivers > 1;
+  return test::linksOf(uriOfNode("/path_planner", 1.0), topic, "o") > 1;
 }
 
 class ReplayTest : public test::PlannerTest {

@@ -175,6 +175,20 @@ class EveryCommander(CommanderTest):
             self.assertTrue(self.resumes(node), name)
             self.assertTrue(self.moves(node), name)
 
+    def test_a_joystick_that_is_let_go_at_once_takes_over_all_the_same(self):
+        """Of two messages that came together the first was dropped: the drive went on by itself."""
+        for name in DRIVERS:
+            node = self.moving(name)
+            node.processes[0].send_signal(signal.SIGSTOP)
+            for commands in (True, False):
+                node.send("manual_control", Bool(commands))
+            time.sleep(0.2)  # both are there when it goes on
+            node.processes[0].send_signal(signal.SIGCONT)
+            self.assertTrue(probes.until(node, lambda: not node.moved_after(time.monotonic() - QUIET), session_seconds() + DEADLINE), name)
+            self.assertTrue(self.stays(node), "%s goes on by itself" % name)
+            self.assertTrue(self.resumes(node), name)
+            self.assertTrue(self.moves(node), name)
+
     def test_a_joystick_that_was_killed_holds_nobody_for_ever(self):
         for name in DRIVERS:
             node = self.moving(name)
