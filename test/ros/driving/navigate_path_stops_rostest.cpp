@@ -21,11 +21,17 @@ using test::StillWorld;
 class NavigateStops : public test::StillTest {
  protected:
   void driveIn(StillWorld&) { drive(); }
+  // A row of cells of 1 m, long enough for a test that stalls; occupied at x = 20, or not.
+  static std::string row(bool free) {
+    std::string cells(30, '.');
+    if (!free) cells[20] = '#';
+    return cells;
+  }
 };
 
 // A vehicle whose commander dies stops.
 TEST_F(NavigateStops, WhenItIsKilled) {
-  startSimulator();
+  startSimulator({}, 2);  // "in transit" is 0.35 s of the wall
   startNavigate();
   publishPath(pathOf({{0, 0}, {50, 0}}));
   ASSERT_TRUE(moves());
@@ -137,14 +143,14 @@ TEST_F(NavigateStops, BeforeOccupiedCellsAndGoesOnWhenTheyAreFree) {
     maps.publish(occupancyToMessage(test::AsciiMap(lines).map, "/map", ros::Time::now()));
   };
   startSimulator({"_initial_x:=0.5", "_initial_y:=0.5"});
-  publishMap({".....#.."});
+  publishMap({row(false)});
   startNavigate({"_check_map:=true"});
-  publishPath(pathOf({{0.5, 0.5}, {7.5, 0.5}}));
+  publishPath(pathOf({{0.5, 0.5}, {25.5, 0.5}}));
   ASSERT_TRUE(moves());
   EXPECT_TRUE(staysStill());
-  EXPECT_NEAR(pose().position.x(), 5.0 - 2.0, 0.8) << "lookahead 2 m, and braking";
-  publishMap({"........"});
-  EXPECT_TRUE(arrivesAt(7.5, 0.5));
+  EXPECT_NEAR(pose().position.x(), 20.0 - 2.0, 0.8) << "lookahead 2 m, and braking";
+  publishMap({row(true)});
+  EXPECT_TRUE(arrivesAt(25.5, 0.5));
 }
 
 // A map that is sent once and then in pieces is watched like one that is sent whole, also where ROS
@@ -153,20 +159,20 @@ TEST_F(NavigateStops, BeforeCellsThatAnUpdateOfTheMapOccupies) {
   ros::Publisher maps = nh_.advertise<nav_msgs::OccupancyGrid>("projected_map", 1, true);
   ros::Publisher updates =
       nh_.advertise<map_msgs::OccupancyGridUpdate>("projected_map_updates", 1, true);
-  maps.publish(occupancyToMessage(test::AsciiMap({"........"}).map, "map", ros::Time(1e6)));
+  maps.publish(occupancyToMessage(test::AsciiMap({row(true)}).map, "map", ros::Time(1e6)));
   startSimulator({"_initial_x:=0.5", "_initial_y:=0.5"});
   startNavigate({"_check_map:=true"});
-  publishPath(pathOf({{0.5, 0.5}, {7.5, 0.5}}));
+  publishPath(pathOf({{0.5, 0.5}, {25.5, 0.5}}));
   ASSERT_TRUE(moves());
   map_msgs::OccupancyGridUpdate update;
   update.header.frame_id = "map";
   update.header.stamp = ros::Time::now();
-  update.x = 5;
+  update.x = 20;
   update.width = update.height = 1;
   update.data = {100};
   updates.publish(update);
   EXPECT_TRUE(staysStill());
-  EXPECT_LT(pose().position.x(), 5.0);
+  EXPECT_LT(pose().position.x(), 20.0);
 }
 
 TEST_F(NavigateStops, RunsAsANodeletAndStopsWhenItIsUnloaded) {

@@ -92,8 +92,9 @@ class NavigateTest : public testing::Test {
     ros::param::del("/navigate_path");
   }
 
-  void startSimulator(std::vector<std::string> arguments = {}) {
-    arguments.insert(arguments.end(), {"_real_time_factor:=8", "_update_rate:=200"});
+  void startSimulator(std::vector<std::string> arguments = {}, int real_time_factor = 8) {
+    arguments.push_back("_real_time_factor:=" + std::to_string(real_time_factor));
+    arguments.push_back("_update_rate:=200");
     simulator_ = std::make_unique<Process>("simulator", arguments);
     ASSERT_TRUE(odom_.waitForMoreThan(odom_.count()));
   }
