@@ -98,11 +98,11 @@ auto DriveLoop::ask(Work work) -> std::invoke_result_t<Work> {
   });
 }
 
-unsigned DriveLoop::start(const Path& path, Join join, unsigned takeovers) {
-  return ask([this, &path, join, takeovers] {
+unsigned DriveLoop::start(const Path& path, Join join, unsigned handovers) {
+  return ask([this, &path, join, handovers] {
     if (finished_) throw base::InputError("navigate_path ends");
     follower_.start(path, join);
-    if (takeovers != takeovers_) follower_.cancel(kTakenOver);
+    if (handovers != handovers_) follower_.cancel(kTakenOver);
     reported_waypoint_ = -1;
     return ++drive_;
   });
@@ -265,8 +265,8 @@ void DriveLoop::onManual(const std_msgs::Bool& message) {
   else
     manual_.reset();
   if (was == isManual()) return;
+  if (!follower_.active()) ++handovers_;
   if (isManual() && !follower_.active()) {
-    ++takeovers_;
     DriveReport report;
     report.taken_over = true;
     hand({report});

@@ -2,7 +2,7 @@
 // cmd_vel, at a rate by the wall clock.
 //
 //   DriveLoop loop(nh, options, transforms, [&] { queue(&takeReports); });
-//   loop.start(path, Join::NEAREST, loop.takeovers());  // throws InputError
+//   loop.start(path, Join::NEAREST, loop.handovers());  // throws InputError
 //   for (const DriveReport& report : loop.takeReports()) use(report.note);
 //
 // The follower belongs to this thread alone: others hand it work over a callback queue, and it serves
@@ -80,9 +80,9 @@ class DriveLoop {
   ~DriveLoop();
 
   // These are carried out in the loop's thread, with a tick after them, and waited for.
-  // Returns the drive's number. Throws InputError. A drive that was given at `takeovers` ends at once where a
-  // joystick has taken over since.
-  unsigned start(const path::Path& path, following::Join join, unsigned takeovers);
+  // Returns the drive's number. Throws InputError. A drive that was given at `handovers` ends at once where there
+  // was another since.
+  unsigned start(const path::Path& path, following::Join join, unsigned handovers);
   following::PathFollower::Answer pause();
   following::PathFollower::Answer resume();
   following::PathFollower::Answer cancel(const std::string& reason);
@@ -99,8 +99,8 @@ class DriveLoop {
 
   std::vector<DriveReport> takeReports();
 
-  // How often a joystick has taken over a vehicle that nothing drove.
-  unsigned takeovers() const { return takeovers_; }
+  // How often a joystick has taken over, or let go of, a vehicle that nothing drove.
+  unsigned handovers() const { return handovers_; }
 
   // How the thread is scheduled, in words.
   std::string scheduling() const { return thread_.scheduling(); }
@@ -144,7 +144,7 @@ class DriveLoop {
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   following::PathFollower follower_;
   unsigned drive_ = 0;  // started so far
-  std::atomic<unsigned> takeovers_{0};
+  std::atomic<unsigned> handovers_{0};
   MapLife map_;
   SpeedLimits limits_;
   ros::Time now_;

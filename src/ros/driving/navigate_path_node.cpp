@@ -193,18 +193,18 @@ void NavigatePathNode::startDriving(const ros::Time& now) {
   ROS_INFO_STREAM("Drives the waypoints of " << options_.config_filename);
   if (goal_active_) return;
   try {
-    drive(file_, options_.join_nearest ? Join::NEAREST : Join::FIRST, loop_->takeovers());
+    drive(file_, options_.join_nearest ? Join::NEAREST : Join::FIRST, loop_->handovers());
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The waypoints are refused: " << error.what());
   }
 }
 
-void NavigatePathNode::drive(const Path& path, Join join, unsigned takeovers) {
+void NavigatePathNode::drive(const Path& path, Join join, unsigned handovers) {
   const std::string& vehicle = options_.base_frame;
   if (transforms_.movesWith(vehicle, path.frame_id))
     throw InputError("the path is in the frame '" + path.frame_id + "', which moves with '" +
                      vehicle + "': nobody arrives there");
-  drive_ = loop_->start(path, join, takeovers);
+  drive_ = loop_->start(path, join, handovers);
 }
 
 void NavigatePathNode::onPath(const nav_msgs::Path& message) {
@@ -229,7 +229,7 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   try {
-    drive(transforms_.pathIn(message, options_.base_frame), Join::NEAREST, loop_->takeovers());
+    drive(transforms_.pathIn(message, options_.base_frame), Join::NEAREST, loop_->handovers());
     given_goals_.drive(message);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
@@ -252,14 +252,14 @@ void NavigatePathNode::onGoal() {
             throw InputError("a goal must give a path of at least one waypoint, or a filename");
           return transforms_.pathIn(goal->path, options_.base_frame);
         },
-        Join::NEAREST, loop_->takeovers());
+        Join::NEAREST, loop_->handovers());
   }
   if (action_.isPreemptRequested()) onPreempt();
 }
 
-void NavigatePathNode::startGoal(const std::function<Path()>& read, Join join, unsigned takeovers) {
+void NavigatePathNode::startGoal(const std::function<Path()>& read, Join join, unsigned handovers) {
   try {
-    drive(read(), join, takeovers);
+    drive(read(), join, handovers);
     given_goals_.endAllUntil(ros::Time::now());
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
@@ -271,16 +271,16 @@ void NavigatePathNode::startGoal(const std::function<Path()>& read, Join join, u
 void NavigatePathNode::readGoal(const std::string& filename) {
   goal_is_read_ = true;
   reader_->post(
-      [this, filename, number = goals_, takeovers = loop_->takeovers()](const StopSource& stop) {
+      [this, filename, number = goals_, handovers = loop_->handovers()](const StopSource& stop) {
         std::function<Path()> read;
         try {
           read = [path = readWaypoints(files_, filename, stop)] { return path; };
         } catch (const std::exception& error) {
           read = [what = std::string(error.what())]() -> Path { throw InputError(what); };
         }
-        callLater([this, read, number, takeovers] {
+        callLater([this, read, number, handovers] {
           if (!goal_active_ || number != goals_ || !std::exchange(goal_is_read_, false)) return;
-          startGoal(read, options_.join_nearest ? Join::NEAREST : Join::FIRST, takeovers);
+          startGoal(read, options_.join_nearest ? Join::NEAREST : Join::FIRST, handovers);
         });
       });
 }

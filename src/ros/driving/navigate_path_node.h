@@ -85,14 +85,14 @@ class NavigatePathNode {
   void use(NavigatePathOptions options);
   void watchClock();
   void startDriving(const ros::Time& now);
-  // `takeovers` of the loop when it was given. Throws InputError.
-  void drive(const path::Path& path, following::Join join, unsigned takeovers);
+  // `handovers` of the loop when it was given. Throws InputError.
+  void drive(const path::Path& path, following::Join join, unsigned handovers);
 
   void onPath(const nav_msgs::Path& message);
   void onGoal();
   void replaceGoal();
   void onPreempt();
-  void startGoal(const std::function<path::Path()>& read, following::Join join, unsigned takeovers);
+  void startGoal(const std::function<path::Path()>& read, following::Join join, unsigned handovers);
   void readGoal(const std::string& filename);
   bool answer(const Answer& answer, std_srvs::Trigger::Response& response);
   Answer cancel(const std::string& reason);

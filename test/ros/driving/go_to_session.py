@@ -23,9 +23,10 @@ from nav_msgs.msg import OccupancyGrid, Odometry
 
 PACKAGE = "grid_path_planner"
 DEADLINE = 60.0  # s, which only a failure reaches
+REAL_TIME_FACTOR = 5  # of the simulator
 WIDTH, HEIGHT, RESOLUTION = 100, 60, 0.1  # cells, cells, m
 ARGUMENTS = {
-    "simulator": ["_initial_x:=2", "_initial_y:=1.5", "_real_time_factor:=5", "_update_rate:=200"],
+    "simulator": ["_initial_x:=2", "_initial_y:=1.5", "_real_time_factor:=%d" % REAL_TIME_FACTOR, "_update_rate:=200"],
     "path_planner": ["_radius:=0.3"],
     "navigate_path": ["_control_rate:=200", "_tf_timeout:=3.0", "path:=navigate_path/path"],
     "go_to_pose": ["_recovery_wait:=2", "_server_timeout:=4", "_tf_timeout:=3.0"],
@@ -88,7 +89,7 @@ class GoToTest(unittest.TestCase):
         """A client of the go_to_pose that runs now."""
         assert until(lambda: cls.is_registered("go_to_pose")), cls.logs()
         cls.client = actionlib.SimpleActionClient("move_base", MoveBaseAction)
-        assert cls.client.wait_for_server(rospy.Duration(DEADLINE * 5)), cls.logs()
+        assert cls.client.wait_for_server(rospy.Duration(DEADLINE * REAL_TIME_FACTOR)), cls.logs()
 
     @classmethod
     def start(cls, name, *more, as_nodelet=False):

@@ -179,11 +179,10 @@ class NavigateMaster : public testing::Test {
     return last.find(",0.0,0.0,0.0,0.0,0.0,0.0") != std::string::npos;
   }
 
+  // Whether the node has a connection from a publisher of the topic.
   bool hears(const std::string& node, const std::string& topic) {
-    const auto uri = callXmlRpc(uri_, "lookupNode", {XmlRpcValue("/test"), XmlRpcValue(node)}, 1.0);
-    if (!uri) return false;
-    XmlRpcValue text = *uri;
-    return test::linksOf(std::string(text), topic, "i") > 0;
+    auto uri = callXmlRpc(uri_, "lookupNode", {XmlRpcValue("/test"), XmlRpcValue(node)}, 1.0);
+    return uri && test::linksOf(std::string(*uri), topic, "i") > 0;
   }
 
   const TemporaryName file_{".yaml"};

@@ -62,7 +62,7 @@ class LayeredDrive : public test::PlannerTest {
     for (const char* node : {"/simulator", "/navigate_path", "/map_layers"}) ros::param::del(node);
     const grid::OccupancyGrid room(grid::GridGeometry(140, 40, 0.25, {-3.0, -5.0, 0.0}), 0);
     simulator_ = std::make_unique<Process>(
-        "simulator", std::vector<std::string>{"_real_time_factor:=3", "_update_rate:=200",
+        "simulator", std::vector<std::string>{"_real_time_factor:=2", "_update_rate:=200",
                                               "_cmd_vel_timeout:=0.1"});
     ASSERT_TRUE(odom_.waitForMoreThan(0));
     layers_ = std::make_unique<Process>(
@@ -100,8 +100,7 @@ TEST_F(LayeredDrive, KeepsOutSlowsDownAndStandsWithoutItsLaser) {
   for (const nav_msgs::Odometry& odometry : odom_.all()) {
     const double at = odometry.pose.pose.position.x;
     if (at < 4.0) before = std::max(before, speedOf(odometry));
-    // A quarter of a second of the wall, for which it may have had no processor, are 0.6 m.
-    if (at > 5.6 && at < 7.0) inside = std::max(inside, speedOf(odometry));
+    if (at > 5.2 && at < 7.0) inside = std::max(inside, speedOf(odometry));
   }
   EXPECT_GT(before, 0.5);
   EXPECT_LT(inside, 0.2 * 1.1);
