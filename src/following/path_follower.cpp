@@ -98,17 +98,21 @@ bool PathFollower::active() const {
 }
 
 PathFollower::Answer PathFollower::pause() {
-  if (starts_paused_) return {true, "paused already"};
-  if (state_ == FollowState::ARRIVED && options_.hold_pose) {
-    cancel("paused");
-    return {true, "the pose at the end of the path is not held any more"};
-  }
-  if (!active()) return {false, std::string("nothing to pause: ") + toString(state_)};
-  if (state_ == FollowState::PAUSED) return {true, "paused already"};
+  if (starts_paused_ || state_ == FollowState::PAUSED) return {true, "paused already"};
+  if (!active()) return pauseTheNext();
   state_ = FollowState::PAUSED;
   blocked_since_.reset();
   standStill();
   return {true, "paused while driving to " + progress_->currentName()};
+}
+
+PathFollower::Answer PathFollower::pauseTheNext() {
+  const bool held = state_ == FollowState::ARRIVED && options_.hold_pose;
+  cancel("paused");
+  starts_paused_ = true;
+  return {true, std::string(held ? "the pose at the end of the path is not held any more"
+                                 : "nothing is driven") +
+                    ": the next path waits until it is resumed"};
 }
 
 PathFollower::Answer PathFollower::resume() {
@@ -119,7 +123,7 @@ PathFollower::Answer PathFollower::resume() {
   return {true, "resumed while driving to " + progress_->currentName()};
 }
 
-void PathFollower::replace(const std::string& reason) {
+void PathFollower::abandon(const std::string& reason) {
   const bool paused = starts_paused_ || state_ == FollowState::PAUSED;
   cancel(reason);
   starts_paused_ = paused;
@@ -154,7 +158,7 @@ BodyVelocity PathFollower::velocityFor(const FollowInput& input) {
   const double seconds = time_ ? input.time - *time_ : 0.0;
   time_ = input.time;
   if (seconds < 0.0) {
-    cancel("time went back by " + std::to_string(-seconds) + " s");
+    abandon("time went back by " + std::to_string(-seconds) + " s");
     return {};
   }
   if (input.pose) pose_ = input.pose;

@@ -90,6 +90,21 @@ TEST(Input, InfinitiesAndHugeNumbersAreNoPoints) {
   EXPECT_TRUE(pilot.rememberedPoints().empty());
 }
 
+// A camera with a focal length next to 0 sees next to nothing: a voxel's place in its row was infinite, and made an int.
+TEST(Input, NoCameraMakesACommandThatIsNotFinite) {
+  const double parts[] = {8.3e-309, 1e-300, 4.2e-314, -1.0, 0.5, 2.0, 2.6e161, 1e308};
+  for (const double fx : parts)
+    for (const double fy : parts)
+      for (const double centre : parts) {
+        Pilot pilot(flyingOptions());
+        pilot.setRoute({{20.0, 0.0, 1.5}});
+        Frame frame = pictureOf(2.0F, 0.0);
+        frame.pinhole = Pinhole{fx, fy, centre, 0.5};
+        EXPECT_TRUE(pilot.update(inputAt(0.0, &frame)).velocity.isFinite())
+            << fx << " " << fy << " " << centre;
+      }
+}
+
 TEST(Input, APoseThatIsNotKnownStopsAtOnce) {
   FlightSetup setup = fieldSetup();
   Pilot pilot(setup.options);

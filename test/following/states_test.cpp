@@ -63,7 +63,7 @@ TEST(States, PauseFromEveryState) {
   for (const FollowState state : kStates) {
     const auto loop = in(state);
     const bool has_drive = loop->follower.active(), holds = state == FollowState::ARRIVED;
-    EXPECT_EQ(loop->follower.pause().done, has_drive || holds) << toString(state);
+    EXPECT_TRUE(loop->follower.pause().done) << toString(state);
     const FollowState without_drive = holds ? FollowState::IDLE : state;
     EXPECT_EQ(loop->follower.state(), has_drive ? FollowState::PAUSED : without_drive)
         << toString(state);
@@ -71,6 +71,13 @@ TEST(States, PauseFromEveryState) {
     loop->run(2.0);
     EXPECT_TRUE(loop->command.isZero()) << toString(state);
     EXPECT_EQ(loop->speed(), 0.0) << toString(state);
+    loop->follower.start(pathOf({{0, 3, 0, 2}}), Join::NEAREST);
+    loop->run(5.0);
+    EXPECT_EQ(loop->follower.state(), FollowState::PAUSED)
+        << toString(state) << ": whoever pauses sees the next path of a planner drive off";
+    EXPECT_EQ(loop->speed(), 0.0) << toString(state);
+    EXPECT_TRUE(loop->follower.resume().done);
+    EXPECT_TRUE(loop->runUntilState(FollowState::ARRIVED)) << toString(state);
   }
 }
 
@@ -224,20 +231,20 @@ TEST(States, ADriveThatReplacesAPausedOneBeginsPaused) {
   PathFollower follower;
   follower.start(path, Join::FIRST);
   follower.pause();
-  follower.replace("another goal");
+  follower.abandon("another goal");
   EXPECT_EQ(follower.state(), FollowState::CANCELLED);
   follower.start(path, Join::FIRST);
   EXPECT_EQ(follower.state(), FollowState::PAUSED);
-  follower.replace("another goal");
+  follower.abandon("another goal");
   EXPECT_TRUE(follower.resume().done) << "before that comes";
   follower.start(path, Join::FIRST);
   EXPECT_EQ(follower.state(), FollowState::DRIVING);
   follower.pause();
-  follower.replace("another goal");
+  follower.abandon("another goal");
   follower.cancel("enough");
   follower.start(path, Join::FIRST);
   EXPECT_EQ(follower.state(), FollowState::DRIVING) << "a cancel ends the pause";
-  follower.replace("another goal");
+  follower.abandon("another goal");
   follower.start(path, Join::FIRST);
   EXPECT_EQ(follower.state(), FollowState::DRIVING) << "none was paused";
 }

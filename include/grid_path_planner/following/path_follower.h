@@ -112,19 +112,19 @@ class PathFollower {
   // InputError for a path that checkWaypoints refuses, then the drive before goes on.
   void start(const path::Path& path, Join join);
 
-  // Whether the state is now the one asked for, and a sentence about it. Pausing needs a drive or a pose
-  // that is held, which is given up; resuming a drive; cancelling is always possible.
+  // Whether the state is now the one asked for, and a sentence about it. Pausing and cancelling are always
+  // possible: without a drive a pause is one of the next path, and a pose that is held is given up. Resuming needs a
+  // pause.
   struct Answer {
     bool done;
     std::string message;
   };
   Answer pause();
   Answer resume();
-  // `reason` goes into the message of the drive.
+  // By hand: a pause ends, too. `reason` goes into the message of the drive.
   Answer cancel(const std::string& reason);
-  // Cancels for a path that start() is given later: where this drive was paused, that one begins paused,
-  // unless resume() or cancel() comes before.
-  void replace(const std::string& reason);
+  // Cancels, but a pause holds: the next path begins paused, unless resume() or cancel() comes before.
+  void abandon(const std::string& reason);
 
   // The velocity from now on. Times must not decrease; one that does cancels the drive.
   base::BodyVelocity update(const FollowInput& input);
@@ -155,6 +155,7 @@ class PathFollower {
   std::vector<FollowEvent> takeEvents();
 
  private:
+  Answer pauseTheNext();
   base::BodyVelocity velocityFor(const FollowInput& input);
   base::BodyVelocity holdEnd(const FollowInput& input, double seconds);
   void limitSpeed(const FollowInput& input, const std::vector<Eigen::Vector3d>& ahead);

@@ -164,6 +164,8 @@ void Navigator::replanned(const NavigatorPlan& plan, double now) {
   if (plan.status == "FOUND" && !plan.path.empty()) {
     if (isWorthIt(plan.path) || (blocked_since_ && ++alternatives_ <= kMostAlternatives))
       drivePlan(plan, "instead of " + lengthText(remaining_) + ", drives");
+  } else if (drive_state_ == NavigatorDrive::State::PAUSED) {
+    tell(Kind::TELL, "planned in vain while paused: " + answerText(plan.status, plan.message));
   } else if (isOneOf(plan.status, {"UNREACHABLE", "GOAL_OCCUPIED", "GOAL_OUTSIDE_MAP"})) {
     stopDrive();
     planFailed(plan, now);

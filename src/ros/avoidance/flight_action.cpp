@@ -8,10 +8,8 @@
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/path/waypoint_file.h"
-#include "ros/common/ending/end_of_node.h"
-#include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
+#include "ros/common/waypoint_reading.h"
 
 namespace grid_path_planner::nodes {
 
@@ -66,7 +64,7 @@ void FlightAction::onGoal() {
           throw base::InputError("a goal must give a path of at least one waypoint or a filename");
         return hands_.read(goal->path);
       },
-      true);
+      true, hands_.handovers());
 }
 
 void FlightAction::onPreempt() {
@@ -84,29 +82,25 @@ bool FlightAction::cancelReading(const std::string& reason) {
 // In the reader's thread, and back.
 void FlightAction::readFile(const std::string& filename) {
   is_read_ = true;
-  reader_.post([this, filename, number = goals_](const StopSource& stop) {
-    const EndOfNode end(stop);
-    std::function<Path()> result;
-    try {
-      const auto read = [&end](const std::string& file) {
-        return path::readWaypointFile(file, {{}, end.token()}).path;
-      };
-      result = [found = files_.read("config_filename", filename, waypointFiles(), read)] {
-        return found;
-      };
-    } catch (const std::exception& error) {
-      result = [what = std::string(error.what())]() -> Path { throw base::InputError(what); };
-    }
-    const auto use = [this, result, number] {
-      if (active_ && number == goals_ && std::exchange(is_read_, false)) start(result, false);
-    };
-    nh_.getCallbackQueue()->addCallback(callbackOf(use), reinterpret_cast<std::uint64_t>(this));
-  });
+  reader_.post(
+      [this, filename, number = goals_, handovers = hands_.handovers()](const StopSource& stop) {
+        std::function<Path()> result;
+        try {
+          result = [found = readWaypoints(files_, filename, stop)] { return found; };
+        } catch (const std::exception& error) {
+          result = [what = std::string(error.what())]() -> Path { throw base::InputError(what); };
+        }
+        const auto use = [this, result, number, handovers] {
+          if (active_ && number == goals_ && std::exchange(is_read_, false))
+            start(result, false, handovers);
+        };
+        nh_.getCallbackQueue()->addCallback(callbackOf(use), reinterpret_cast<std::uint64_t>(this));
+      });
 }
 
-void FlightAction::start(const std::function<Path()>& read, bool along) {
+void FlightAction::start(const std::function<Path()>& read, bool along, unsigned handovers) {
   try {
-    flown_ = hands_.fly(read(), along);
+    flown_ = hands_.fly(read(), along, handovers);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The goal of the action is refused: " << error.what());
     finish("INVALID_REQUEST", error.what());

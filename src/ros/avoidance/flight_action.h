@@ -1,6 +1,7 @@
 // The action `navigate_path` of local_planner: its goals are flown instead of what the topics say.
 //
-//   FlightAction action(nh, files, {fly, cancel, read});
+//   const FlightAction::Hands hands;
+//   FlightAction action(nh, files, hands);
 //   action.report(answer, pose);     // with every answer of the pilot
 //
 // A path is flown along as that of the topic; the waypoints of a file are flown to one after the other. A
@@ -26,8 +27,10 @@ class FlightAction {
  public:
   // What the node does for it.
   struct Hands {
-    // Returns it in the map's frame. Throws InputError, TransformError.
-    std::function<path::Path(const path::Path&, bool along)> fly;
+    // Returns it in the map's frame. `handovers`: as handovers() said when it was given. Throws InputError,
+    // TransformError.
+    std::function<path::Path(const path::Path&, bool along, unsigned handovers)> fly;
+    std::function<unsigned()> handovers;
     std::function<void(const std::string& reason)> cancel;
     std::function<path::Path(const nav_msgs::Path&)> read;  // throws InputError
   };
@@ -45,7 +48,7 @@ class FlightAction {
   void onGoal();
   void onPreempt();
   void readFile(const std::string& filename);
-  void start(const std::function<path::Path()>& read, bool along);
+  void start(const std::function<path::Path()>& read, bool along, unsigned handovers);
   void finish(const std::string& status, const std::string& message);
   void giveFeedback(const avoidance::PilotAnswer& answer);
   double remaining(std::size_t waypoint) const;

@@ -118,7 +118,7 @@ void FlightCommander::onStop(const std_msgs::Bool& message) {
 }
 
 void FlightCommander::onManual(const std_msgs::Bool& message) {
-  hold_.manual(message.data);
+  if (!finished_) hold_.manual(message.data);
 }
 
 void FlightCommander::tick() {

@@ -1,6 +1,6 @@
 // What local_planner commands: cmd_vel and setpoint_velocity, from a thread of their own.
 //
-//   FlightHold hold;
+//   FlightHold hold([](unsigned handovers) {});
 //   FlightCommander commander(nh, LocalPlannerOptions(), hold);
 //   commander.command({{0.5, 0.0, 0.0, 0.0}, {0.4, 0.0, 0.0, 0.0}, 0.0, ros::Time::now(), 0.2});   // with every answer
 //

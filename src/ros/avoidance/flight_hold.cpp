@@ -7,9 +7,11 @@ namespace {
 
 // By the wall clock.
 constexpr std::chrono::milliseconds kClockStands(500);
-constexpr std::chrono::milliseconds kManualHolds(2500);
 
 }  // namespace
+
+FlightHold::FlightHold(std::function<void(unsigned)> on_handover)
+    : on_handover_(std::move(on_handover)) {}
 
 void FlightHold::stop(bool is) {
   const Lock lock(mutex_);
@@ -17,9 +19,22 @@ void FlightHold::stop(bool is) {
 }
 
 void FlightHold::manual(bool is) {
-  const Lock lock(mutex_);
-  manual_ = is ? std::make_optional(Clock::now()) : std::nullopt;
-  paused_ = paused_ || (is && flies_);
+  std::optional<unsigned> handovers;
+  {
+    const Lock lock(mutex_);
+    if (joystick_.hear(is)) handovers = handOver();
+    paused_ = paused_ || (is && flies_);
+  }
+  tell(handovers);
+}
+
+// A flight is paused, and resumed by hand.
+std::optional<unsigned> FlightHold::handOver() {
+  return flies_ ? std::nullopt : std::make_optional(++handovers_);
+}
+
+void FlightHold::tell(std::optional<unsigned> handovers) const {
+  if (handovers) on_handover_(*handovers);
 }
 
 bool FlightHold::stopped() const {
@@ -29,41 +44,57 @@ bool FlightHold::stopped() const {
 
 bool FlightHold::isManual() const {
   const Lock lock(mutex_);
-  return joystickCommands();
-}
-
-bool FlightHold::joystickCommands() const {
-  return manual_ && Clock::now() - *manual_ < kManualHolds;
+  return joystick_.commands();
 }
 
 FlightHold::Answer FlightHold::pause(bool flies) {
   const Lock lock(mutex_);
-  if (!flies) return {false, "nothing to pause: nothing is flown"};
   noticed_ = true;
   if (std::exchange(paused_, true)) return {true, "paused already"};
-  return {true, "paused until ~resume"};
+  return {true, flies ? "paused until ~resume"
+                      : "nothing is flown: the next flight waits until it is resumed"};
 }
 
 FlightHold::Answer FlightHold::resume(bool flies) {
   const Lock lock(mutex_);
-  if (!flies) return {false, "nothing to resume: nothing is flown"};
-  if (joystickCommands()) return {false, "the joystick commands: let it go first"};
+  if (joystick_.commands()) return {false, "the joystick commands: let it go first"};
   noticed_ = false;
-  return {true, std::exchange(paused_, false) ? "resumed" : "not paused"};
+  if (std::exchange(paused_, false))
+    return {true, flies ? "resumed" : "resumed: the next flight is flown"};
+  if (!flies) return {false, "nothing to resume: nothing is flown"};
+  return {true, "not paused"};
+}
+
+bool FlightHold::endPause() {
+  const Lock lock(mutex_);
+  return std::exchange(paused_, false);
+}
+
+bool FlightHold::begin(unsigned handovers) {
+  const Lock lock(mutex_);
+  flies_ = true;
+  return handovers == handovers_;
 }
 
 bool FlightHold::notice(const ros::Time& now, bool flies) {
-  const Lock lock(mutex_);
-  if (std::exchange(now_, now) != now) moved_ = Clock::now();
-  flies_ = flies;
-  paused_ = flies && (paused_ || joystickCommands());
-  return !std::exchange(noticed_, paused_) && paused_;
+  std::optional<unsigned> handovers;
+  bool yields = false;
+  {
+    const Lock lock(mutex_);
+    if (std::exchange(now_, now) != now) moved_ = Clock::now();
+    flies_ = flies;
+    if (joystick_.expire()) handovers = handOver();
+    paused_ = paused_ || (flies && joystick_.commands());
+    yields = !std::exchange(noticed_, paused_) && paused_;
+  }
+  tell(handovers);
+  return yields;
 }
 
 std::string FlightHold::why(double master_timeout) const {
   const Lock lock(mutex_);
   if (stopped_) return "stopped by the topic stop";
-  if (joystickCommands()) return "the joystick commands: paused until ~resume";
+  if (joystick_.commands()) return "the joystick commands: paused until ~resume";
   if (paused_) return "paused until ~resume";
   if (Clock::now() - moved_ > kClockStands) return "ROS time stands still: no /clock comes";
   if (master_timeout > 0.0 && master_->silence() > master_timeout)

@@ -1,23 +1,27 @@
 // Why the vehicle stands although something is flown: stop, a joystick, ~pause, a clock or a master that
 // is gone.
 //
-//   FlightHold hold;
+//   unsigned handovers = 0;
+//   FlightHold hold([&](unsigned n) { handovers = n; });
+//   const bool may_fly = hold.begin(handovers);           // with every route
 //   hold.notice(ros::Time::now(), true);                  // with every plan
 //   const bool flies = hold.why(master_timeout).empty();
 //
 // A joystick that takes over pauses the flight, however late the next plan is: it goes on by resume(), as a drive
-// of navigate_path does. Thread-safe: what plans and what commands ask it both; no file, log or message is
-// handled under its lock.
+// of navigate_path does. A pause outlives its flight. Thread-safe: what plans and what commands ask it both; no file,
+// log or message is handled under its lock.
 #pragma once
 
 #include <ros/time.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
+#include "ros/common/incoming/manual_control.h"
 #include "ros/common/master/master_watch.h"
 
 namespace grid_path_planner::nodes {
@@ -29,18 +33,25 @@ class FlightHold {
     std::string message;
   };
 
+  // `on_handover` is called where a joystick takes over, or lets go of, a vehicle that does not fly, by whoever calls
+  // manual() or notice(); `handovers`: how often that was so far.
+  explicit FlightHold(std::function<void(unsigned handovers)> on_handover);
+
   void stop(bool is);
   void manual(bool is);
-  // Of a flight; where there is none nothing is done.
+  // Of the flight, or where nothing is flown of the next.
   Answer pause(bool flies);
   Answer resume(bool flies);
+  // Of a flight that is cancelled by hand. Whether there was a pause.
+  bool endPause();
 
-  // ROS time is `now`. Whether a joystick has paused the flight since the last call. A pause ends with its
-  // flight.
+  // A flight begins that was given when on_handover had said `handovers`, 0 before it had. Returns whether nobody has
+  // taken the vehicle, or let go of it, since.
+  bool begin(unsigned handovers);
+  // ROS time is `now`. Whether a joystick has paused the flight since the last call.
   bool notice(const ros::Time& now, bool flies);
 
   bool stopped() const;
-  // A joystick whose node was killed says nothing any more.
   bool isManual() const;
   // In a sentence; empty: it is not held.
   std::string why(double master_timeout) const;
@@ -49,15 +60,18 @@ class FlightHold {
   using Clock = std::chrono::steady_clock;
   using Lock = std::lock_guard<std::mutex>;
 
-  bool joystickCommands() const;
+  void tell(std::optional<unsigned> handovers) const;
+  std::optional<unsigned> handOver();
 
+  const std::function<void(unsigned)> on_handover_;
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   mutable std::mutex mutex_;
   bool stopped_ = false;
   bool flies_ = false;
   bool paused_ = false;
-  bool noticed_ = false;                     // that it is paused
-  std::optional<Clock::time_point> manual_;  // when a joystick said last that it commands
+  bool noticed_ = false;  // that it is paused
+  ManualControl joystick_;
+  unsigned handovers_ = 0;
   ros::Time now_;
   Clock::time_point moved_ = Clock::now();  // when ROS time did last
 };

@@ -1,18 +1,21 @@
 #include "ros/avoidance/local_planner_node.h"
 
+#include <ros/callback_queue_interface.h>
 #include <ros/console.h>
+#include <std_msgs/Empty.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "grid_path_planner/LocalPlannerConfig.h"
-#include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/file_kinds.h"
+#include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/advertised_service.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
 #include "ros/common/velocity_message.h"
+#include "ros/common/waypoint_reading.h"
 
 namespace grid_path_planner::nodes {
 
@@ -21,13 +24,11 @@ using avoidance::PilotInput;
 using avoidance::PilotStatus;
 using base::BodyVelocity;
 using base::InputError;
-using diagnostic_msgs::DiagnosticStatus;
 
 namespace {
 
 constexpr std::size_t kMostClouds = 64 << 20;  // bytes that wait
 constexpr double kOdometryAge = 0.5;           // s
-constexpr double kDiagnosed = 1.0;             // s, wall time
 
 // "/map" is "map".
 void nameFrames(LocalPlannerOptions& options) {
@@ -70,11 +71,6 @@ std::vector<Eigen::Vector3d> positionsOf(const path::Path& path) {
   return points;
 }
 
-path::Path waypointsOf(const LocalPlannerOptions& options, const NodeFiles& files) {
-  const auto read = [](const std::string& file) { return path::readWaypointFile(file); };
-  return files.read("config_filename", options.config_filename, waypointFiles(), read).path;
-}
-
 std::vector<std::string> resolvedTopics(const ros::NodeHandle& nh,
                                         const LocalPlannerOptions& options) {
   std::vector<std::string> topics;
@@ -94,6 +90,7 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
       clouds_(resolvedTopics(nh_, options_)),
       publisher_(nh_),
       views_(nh_),
+      hold_([this](unsigned handovers) { noteHandover(handovers); }),
       commander_(nh_, options_, hold_),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   action_ = std::make_unique<FlightAction>(nh_, files, hands());
@@ -103,7 +100,8 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
     pilot_.setMapPlan([this](const auto& from, const auto& goal) { return map_.plan(from, goal); });
   else
     ROS_INFO("Built without the component mapping: there is no map to plan on without progress");
-  if (!options_.config_filename.empty()) fly(waypointsOf(options_, files), false);
+  if (!options_.config_filename.empty())
+    fly(readWaypoints(files, options_.config_filename), false, handovers_);
   subscribe();
   subscribeClouds();
   offerServices(private_nh);
@@ -122,6 +120,7 @@ LocalPlannerNode::~LocalPlannerNode() {
   for (ros::ServiceServer& service : services_) service.shutdown();
   reconfigurable_.reset();
   action_.reset();
+  nh_.getCallbackQueue()->removeByID(reinterpret_cast<std::uint64_t>(this));
 }
 
 void LocalPlannerNode::startLog(const NodeFiles& files) {
@@ -132,17 +131,29 @@ void LocalPlannerNode::startLog(const NodeFiles& files) {
 
 FlightAction::Hands LocalPlannerNode::hands() {
   return {
-      [this](const path::Path& path, bool along) {
+      [this](const path::Path& path, bool along, unsigned handovers) {
         const path::Path flown = inMap(path);
-        fly(flown, along);
+        fly(flown, along, handovers);
         given_goals_.endAllUntil(ros::Time::now());
         return flown;
       },
+      [this] { return handovers_; },
       [this](const std::string& reason) {
         given_goals_.endAllUntil(ros::Time::now());
         if (flies_) pilot_.cancel(reason);
       },
       [this](const nav_msgs::Path& path) { return transforms_.pathIn(path, options_.base_frame); }};
+}
+
+// Whoever took the vehicle that stood still does not find it flying off when he lets it go. What waits in the queue was
+// given before that.
+void LocalPlannerNode::noteHandover(unsigned handovers) {
+  const auto note = [this, handovers] {
+    handovers_ = handovers;
+    given_goals_.endAllUntil(ros::Time::now());
+    action_->cancelReading(kTakenOver);
+  };
+  nh_.getCallbackQueue()->addCallback(callbackOf(note), reinterpret_cast<std::uint64_t>(this));
 }
 
 void LocalPlannerNode::subscribeClouds() {
@@ -170,6 +181,7 @@ void LocalPlannerNode::subscribe() {
 
 void LocalPlannerNode::offerServices(ros::NodeHandle& private_nh) {
   using Answer = FlightHold::Answer;
+  cancelled_publisher_ = nh_.advertise<std_msgs::Empty>("drive_cancelled", 1);
   const auto offer = [&](const char* name, std::function<Answer()> act) {
     services_.push_back(
         advertiseService<std_srvs::Trigger>(private_nh, name, [act](auto&, auto& response) {
@@ -181,15 +193,21 @@ void LocalPlannerNode::offerServices(ros::NodeHandle& private_nh) {
   };
   offer("pause", [this] { return hold_.pause(hasFlight()); });
   offer("resume", [this] { return hold_.resume(hasFlight()); });
-  offer("cancel", [this] {
-    given_goals_.endAllUntil(ros::Time::now());
-    const bool was_read = action_->cancelReading("cancelled by ~cancel while its file was read");
-    if (!flies_ && was_read) return Answer{true, "cancelled while its file was read"};
-    if (!flies_) return Answer{false, "nothing to cancel: nothing is flown"};
-    pilot_.cancel("asked for by ~cancel");
-    return Answer{true, "cancelled"};
-  });
+  offer("cancel", [this] { return cancelByHand(); });
   offer("explain", [this] { return Answer{true, pilot_.pilot().explain()}; });
+}
+
+// Whoever plans for this flight, or is about to send another, hears of it too.
+FlightHold::Answer LocalPlannerNode::cancelByHand() {
+  cancelled_publisher_.publish(std_msgs::Empty());
+  given_goals_.endAllUntil(ros::Time::now());
+  const bool was_paused = hold_.endPause();
+  const bool was_read = action_->cancelReading("cancelled by ~cancel while its file was read");
+  if (flies_) pilot_.cancel("asked for by ~cancel");
+  if (flies_) return {true, "cancelled"};
+  if (was_read) return {true, "cancelled while its file was read"};
+  if (was_paused) return {true, "nothing is flown, and the next flight does not wait any more"};
+  return {false, "nothing to cancel: nothing is flown"};
 }
 
 void LocalPlannerNode::use(LocalPlannerOptions options) {
@@ -214,15 +232,6 @@ void LocalPlannerNode::startTimer() {
                                          [this](const ros::SteadyTimerEvent&) { control(); });
 }
 
-void LocalPlannerNode::startDiagnostics() {
-  diagnostics_.setHardwareID("none");
-  diagnostics_.add("flight", this, &LocalPlannerNode::diagnose);
-  // force_update: the updater's own clock is ROS time, which may jump back.
-  diagnostics_timer_ =
-      nh_.createSteadyTimer(ros::WallDuration(kDiagnosed),
-                            [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
-}
-
 // The first time, and time that jumped back: only then is it known what is from before.
 bool LocalPlannerNode::noticeTime() {
   if (!clock_.hasTime()) return false;
@@ -237,17 +246,19 @@ bool LocalPlannerNode::noticeTime() {
   clouds_.clear();
   map_.forget();
   odometry_.reset();
-  given_goals_.forget();
+  given_goals_.timeWentBack();
+  action_->cancelReading("ROS time went back");
   tick(now);  // a goal that comes now is of this time
   return true;
 }
 
-// A publisher that latches sends what it published before this node was started, or restarted.
-bool LocalPlannerNode::isFromBefore(const char* what, const ros::Time& stamp) {
-  if (noticeTime() && stamp >= started_) return false;
-  ROS_WARN_STREAM(what << " stamped " << stamp << " is not flown: local_planner started at "
-                       << started_);
-  return true;
+// A publisher that latches sends what it published before this node was started, or restarted, or in a time that ROS
+// time went back from.
+bool LocalPlannerNode::isOfAnotherTime(const char* what, const ros::Time& stamp) {
+  noticeTime();
+  const std::string why = whyOfAnotherTime(stamp, started_, "local_planner");
+  if (!why.empty()) ROS_WARN_STREAM(what << " stamped " << stamp << " is not flown: " << why);
+  return !why.empty();
 }
 
 void LocalPlannerNode::onGoal(const geometry_msgs::PoseStamped& goal) {
@@ -255,12 +266,12 @@ void LocalPlannerNode::onGoal(const geometry_msgs::PoseStamped& goal) {
     ROS_WARN("A goal is not flown to: a goal of the action navigate_path is");
     return;
   }
-  if (!goal.header.stamp.isZero() && isFromBefore("A goal", goal.header.stamp)) return;
+  if (!goal.header.stamp.isZero() && isOfAnotherTime("A goal", goal.header.stamp)) return;
   nav_msgs::Path message;
   message.header = goal.header;
   message.poses = {goal};
   try {
-    fly(inMap(transforms_.pathIn(message, options_.base_frame)), false);
+    fly(inMap(transforms_.pathIn(message, options_.base_frame)), false, handovers_);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
   }
@@ -276,13 +287,13 @@ void LocalPlannerNode::onPath(const nav_msgs::Path& message) {
     if (flies_) pilot_.cancel("the path is empty: none was found");
     return;
   }
-  if (isFromBefore("A path", message.header.stamp)) return;
+  if (isOfAnotherTime("A path", message.header.stamp)) return;
   if (given_goals_.isOver(message)) {
     ROS_INFO("A path is not flown: its goal was reached or cancelled; give it again");
     return;
   }
   try {
-    fly(inMap(transforms_.pathIn(message, options_.base_frame)), true);
+    fly(inMap(transforms_.pathIn(message, options_.base_frame)), true, handovers_);
     given_goals_.drive(message);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
@@ -297,13 +308,14 @@ path::Path LocalPlannerNode::inMap(path::Path path) const {
   return path;
 }
 
-void LocalPlannerNode::fly(const path::Path& path, bool along) {
+void LocalPlannerNode::fly(const path::Path& path, bool along, unsigned handovers) {
   if (along)
     pilot_.setPath(positionsOf(path));
   else
     pilot_.setRoute(positionsOf(path));
   publisher_.beginFlight();
   flies_ = true;
+  if (!hold_.begin(handovers)) pilot_.cancel(kTakenOver);
 }
 
 // As measured; without odometry, or with one that is not finite, that commanded last.
@@ -356,8 +368,6 @@ void LocalPlannerNode::tick(const ros::Time& now) {
                      answer_.status == PilotStatus::STUCK ||
                      answer_.status == PilotStatus::CANCELLED;
   if (flies_ && answer_.status == PilotStatus::ARRIVED) given_goals_.end();
-  const bool was_manual = std::exchange(manual_, hold_.isManual());
-  if (manual_ && !was_manual && !flies_) given_goals_.endAllUntil(now);  // somebody takes it
   if (flies_)
     commander_.command({answer_.velocity, given.velocity, at_.yaw, now, good_for_, ended});
   if (yields) ROS_WARN("The joystick commands: the flight is paused until ~resume");
@@ -380,21 +390,6 @@ void LocalPlannerNode::publish(const ros::Time& now) {
   if (!frames_.empty()) views_.show({pilot_.pilot(), answer_, at_, map, base, now});
   if (hold_.stopped() || (flies_ && !hold_.isManual()))
     publisher_.trajectory(pilot_.pilot(), answer_, at_, map, base, now);
-}
-
-void LocalPlannerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const bool well = answer_.status == PilotStatus::IDLE || answer_.status == PilotStatus::FLYING ||
-                    answer_.status == PilotStatus::ARRIVED ||
-                    answer_.status == PilotStatus::CANCELLED;
-  status.summary(well ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
-                 std::string(toString(answer_.status)) + ": " + answer_.sentence);
-  status.add("newest cloud (s old)", answer_.frame_age);
-  status.add("nearest point (m)", answer_.clearance);
-  status.add("open path (m)", answer_.clear_path);
-  status.add("problems of the newest clouds", clouds_.problems());
-  status.add("braked for want of a newer plan", commander_.overdue());
-  status.add("refused messages on stop and manual_control", commander_.refused());
-  status.add("scheduling of commands", commander_.scheduling());
 }
 
 }  // namespace grid_path_planner::nodes

@@ -13,6 +13,7 @@
 //   publishes   cmd_vel            geometry_msgs/Twist in base_frame
 //               setpoint_velocity  geometry_msgs/TwistStamped in map_frame
 //               setpoint_trajectory  trajectory_msgs/MultiDOFJointTrajectory in map_frame
+//               drive_cancelled    std_msgs/Empty; by ~cancel
 //               local_path         nav_msgs/Path, latched
 //               avoidance_status   grid_path_planner/AvoidanceStatus, latched
 //               obstacle_distance  sensor_msgs/LaserScan
@@ -97,6 +98,8 @@ class LocalPlannerNode {
   void subscribeClouds();
   void startLog(const NodeFiles& files);
   FlightAction::Hands hands();
+  void noteHandover(unsigned handovers);
+  FlightHold::Answer cancelByHand();
   void offerServices(ros::NodeHandle& private_nh);
   void use(LocalPlannerOptions options);
   void startTimer();
@@ -104,9 +107,10 @@ class LocalPlannerNode {
   void onGoal(const geometry_msgs::PoseStamped& goal);
   void onPath(const nav_msgs::Path& path);
   bool noticeTime();
-  bool isFromBefore(const char* what, const ros::Time& stamp);
+  bool isOfAnotherTime(const char* what, const ros::Time& stamp);
   path::Path inMap(path::Path path) const;
-  void fly(const path::Path& path, bool along);
+  // `handovers`: handovers_ when it was given.
+  void fly(const path::Path& path, bool along, unsigned handovers);
   void control();
   void tick(const ros::Time& now);
   base::BodyVelocity velocityAt(const ros::Time& now) const;
@@ -135,9 +139,10 @@ class LocalPlannerNode {
   avoidance::VehiclePose at_;
   double good_for_ = 0.0;   // s from the newest plan, until clouds or pose are too old
   GivenGoals given_goals_;  // of the topic `path`
-  bool manual_ = false;     // a joystick commanded at the last plan
+  unsigned handovers_ = 0;  // of the hold, as this queue has heard
   bool flies_ = false;      // there is a route, and cmd_vel is published
 
+  ros::Publisher cancelled_publisher_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<std::unique_ptr<BoundedSubscription<sensor_msgs::PointCloud2>>> cloud_subscriptions_;
   std::vector<ros::ServiceServer> services_;

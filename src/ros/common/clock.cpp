@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <sstream>
 #include <thread>
 #include <utility>
 
@@ -10,6 +11,13 @@ namespace grid_path_planner::nodes {
 using base::Stopped;
 using base::StopReason;
 using base::StopToken;
+
+namespace {
+
+// s: two machines, and two nodes at many times real time of which one has waited for a processor.
+constexpr double kMostAhead = 10.0;
+
+}  // namespace
 
 bool ClockWatch::hasTime() {
   if (ros::Time::isValid()) return true;
@@ -42,6 +50,17 @@ ros::Time LateClock::timeFor(const ros::Time& stamp, double ahead) {
 double secondsBetween(const ros::Time& from, const ros::Time& to) {
   const auto seconds = [](std::uint32_t count) { return static_cast<double>(count); };
   return seconds(to.sec) - seconds(from.sec) + 1e-9 * (seconds(to.nsec) - seconds(from.nsec));
+}
+
+std::string whyOfAnotherTime(const ros::Time& stamp, const ros::Time& started,
+                             const std::string& owner) {
+  const double ahead = secondsBetween(ros::Time::now(), stamp);
+  std::ostringstream why;
+  if (started.isZero() || stamp < started)
+    why << owner << " started at " << started;
+  else if (ahead > kMostAhead)
+    why << "that is " << ahead << " s ahead of the time here";
+  return why.str();
 }
 
 void waitForClock(const StopToken& stop) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "grid_path_planner/base/stop_token.h"
 
@@ -43,6 +44,12 @@ class LateClock {
 // From `from` to `to` in seconds. roscpp's difference of times throws beyond 2^31 s, as a stamp from
 // 2106 or, from 2038 on, one of 0 has it.
 double secondsBetween(const ros::Time& from, const ros::Time& to);
+
+// Why a message stamped `stamp` is of another time, to be told after "A path stamped 7.0 is not driven": it is from
+// before `owner` started, at `started`, or ahead by more than clocks of nodes may differ, as what a publisher that
+// latches sends again after ROS time went back. Empty: it is of this time.
+std::string whyOfAnotherTime(const ros::Time& stamp, const ros::Time& started,
+                             const std::string& owner);
 
 // Waits until there is a ROS time. Throws Stopped.
 void waitForClock(const base::StopToken& stop);

@@ -32,7 +32,6 @@ namespace {
 
 // By the wall clock.
 constexpr std::chrono::milliseconds kClockTimeout(500);
-constexpr std::chrono::milliseconds kManualTimeout(2500);
 constexpr std::chrono::seconds kRefusedPeriod(1);
 
 std::string sentenceOf(const Obstruction& obstruction) {
@@ -55,11 +54,11 @@ std::string sentenceOf(const Obstruction& obstruction) {
 }  // namespace
 
 DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& options,
-                     FrameTransforms& transforms, std::function<void()> on_report)
+                     FrameTransforms& transforms, Listener listener)
     : options_(options),
       footprint_(Footprint::fromText("check_footprint", options.check_footprint)),
       transforms_(transforms),
-      on_report_(std::move(on_report)),
+      listener_(std::move(listener)),
       follower_(options.follower),
       velocity_publisher_(ros::NodeHandle(nh).advertise<geometry_msgs::Twist>("cmd_vel", 10)) {
   ros::NodeHandle own(nh);
@@ -102,7 +101,7 @@ unsigned DriveLoop::start(const Path& path, Join join, unsigned handovers) {
   return ask([this, &path, join, handovers] {
     if (finished_) throw base::InputError("navigate_path ends");
     follower_.start(path, join);
-    if (handovers != handovers_) follower_.cancel(kTakenOver);
+    if (handovers != handovers_) follower_.abandon(kTakenOver);
     reported_waypoint_ = -1;
     return ++drive_;
   });
@@ -114,7 +113,8 @@ PathFollower::Answer DriveLoop::pause() {
 
 PathFollower::Answer DriveLoop::resume() {
   return ask([this] {
-    if (isManual()) return PathFollower::Answer{false, "the joystick commands: let it go first"};
+    if (joystick_.commands())
+      return PathFollower::Answer{false, "the joystick commands: let it go first"};
     return follower_.resume();
   });
 }
@@ -123,8 +123,8 @@ PathFollower::Answer DriveLoop::cancel(const std::string& reason) {
   return ask([this, &reason] { return follower_.cancel(reason); });
 }
 
-void DriveLoop::replace(const std::string& reason) {
-  ask([this, &reason] { follower_.replace(reason); });
+void DriveLoop::abandon(const std::string& reason) {
+  ask([this, &reason] { follower_.abandon(reason); });
 }
 
 void DriveLoop::setOptions(const NavigatePathOptions& options) {
@@ -160,7 +160,7 @@ void DriveLoop::tryToTick() {
   } catch (...) {
     const std::string error = currentErrorText();
     publish({});
-    follower_.cancel("the control loop failed: " + error);
+    follower_.abandon("the control loop failed: " + error);
   }
 }
 
@@ -259,19 +259,14 @@ double DriveLoop::allowedSpeed(const std::vector<Eigen::Vector3d>& ahead) const 
 }
 
 void DriveLoop::onManual(const std_msgs::Bool& message) {
-  const bool was = isManual();
-  if (message.data)
-    manual_ = Clock::now();
-  else
-    manual_.reset();
-  if (was == isManual()) return;
-  if (!follower_.active()) ++handovers_;
-  if (isManual() && !follower_.active()) {
-    DriveReport report;
-    report.taken_over = true;
-    hand({report});
-  }
+  if (!joystick_.hear(message.data)) return;
+  noteHandover();
   thread_.tick();
+}
+
+// A drive that is paused is resumed by hand.
+void DriveLoop::noteHandover() {
+  if (!follower_.active()) listener_.on_handover(++handovers_);
 }
 
 void DriveLoop::onStop(const std_msgs::Bool& message) {
@@ -288,25 +283,21 @@ void DriveLoop::noteRefused() {
   hand({report});
 }
 
-// A joystick whose node was killed says nothing any more.
-bool DriveLoop::isManual() const {
-  return manual_ && Clock::now() - *manual_ < kManualTimeout;
-}
-
 // Also where a drive begins meanwhile; a pose that was held would be returned to.
 void DriveLoop::yieldToJoystick() {
-  if (!isManual()) return;
+  if (joystick_.expire()) noteHandover();
+  if (!joystick_.commands()) return;
   if (follower_.active() && follower_.state() != FollowState::PAUSED) {
     follower_.pause();
     DriveReport report;
     report.note = "The joystick commands: the drive is paused until ~resume";
     hand({report});
   }
-  if (follower_.state() == FollowState::ARRIVED) follower_.cancel(kTakenOver);
+  if (follower_.state() == FollowState::ARRIVED) follower_.abandon(kTakenOver);
 }
 
 void DriveLoop::publish(const BodyVelocity& velocity) {
-  if (isManual() && !stopped_) {
+  if (joystick_.commands() && !stopped_) {
     silent_ = true;  // the joystick's velocities are in force, and its zero when it is let go
     return;
   }
@@ -345,7 +336,7 @@ void DriveLoop::hand(std::vector<DriveReport> reports) {
     first = reports_.empty();
     for (DriveReport& report : reports) reports_.push_back(std::move(report));
   }
-  if (first) on_report_();
+  if (first) listener_.on_report();
 }
 
 DriveStanding DriveLoop::standingNow() const {

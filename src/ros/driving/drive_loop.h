@@ -1,8 +1,9 @@
 // The control loop of navigate_path: a thread of its own that follows the path and publishes
 // cmd_vel, at a rate by the wall clock.
 //
-//   DriveLoop loop(nh, options, transforms, [&] { queue(&takeReports); });
-//   loop.start(path, Join::NEAREST, loop.handovers());  // throws InputError
+//   unsigned handovers = 0;
+//   DriveLoop loop(nh, options, transforms, {[&] { queue(&takeReports); }, [&](unsigned n) { handovers = n; }});
+//   loop.start(path, Join::NEAREST, handovers);  // throws InputError
 //   for (const DriveReport& report : loop.takeReports()) use(report.note);
 //
 // The follower belongs to this thread alone: others hand it work over a callback queue, and it serves
@@ -20,7 +21,6 @@
 #include <ros/subscriber.h>
 #include <std_msgs/Bool.h>
 
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -33,6 +33,7 @@
 #include "grid_path_planner/following/path_follower.h"
 #include "path/footprint/footprint.h"
 #include "ros/common/frame_transforms.h"
+#include "ros/common/incoming/manual_control.h"
 #include "ros/common/master/master_watch.h"
 #include "ros/common/outgoing/direct_publisher.h"
 #include "ros/common/scheduling/control_thread.h"
@@ -41,9 +42,6 @@
 #include "ros/driving/speed_limit_receiver.h"
 
 namespace grid_path_planner::nodes {
-
-// Why a drive ends that a joystick has taken over.
-inline constexpr char kTakenOver[] = "the joystick commands";
 
 // How a drive stands.
 struct DriveStanding {
@@ -60,33 +58,37 @@ struct DriveStanding {
   double yaw_error = 0.0;       // rad
 };
 
-// What happened: an event of the follower, another waypoint, what is
-// said in the note, or a joystick that takes over a vehicle that nothing drives.
+// What happened: an event of the follower, another waypoint, or what is said in the note.
 struct DriveReport {
   std::optional<following::FollowEvent> event;
   unsigned drive = 0;      // which one, as start() counts them
   DriveStanding standing;  // of an event that ends it
   std::optional<geometry_msgs::PoseStamped> waypoint;
   std::string note;
-  bool taken_over = false;
 };
 
 class DriveLoop {
  public:
-  // `on_report` is called in the loop's thread when there is the first report since takeReports().
+  // Both are called in the loop's thread.
+  struct Listener {
+    std::function<void()> on_report;  // there is the first report since takeReports()
+    // A joystick has taken over, or let go of, a vehicle that nothing drives; `handovers`: how often that was so far.
+    std::function<void(unsigned handovers)> on_handover;
+  };
+
   DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& options,
-            FrameTransforms& transforms, std::function<void()> on_report);
+            FrameTransforms& transforms, Listener listener);
   // Cancels the drive and publishes a zero.
   ~DriveLoop();
 
   // These are carried out in the loop's thread, with a tick after them, and waited for.
-  // Returns the drive's number. Throws InputError. A drive that was given at `handovers` ends at once where there
-  // was another since.
+  // Returns the drive's number. Throws InputError. A drive that was given when on_handover had said `handovers`, 0
+  // before it had, ends at once where there was another since.
   unsigned start(const path::Path& path, following::Join join, unsigned handovers);
   following::PathFollower::Answer pause();
   following::PathFollower::Answer resume();
   following::PathFollower::Answer cancel(const std::string& reason);
-  void replace(const std::string& reason);  // PathFollower::replace
+  void abandon(const std::string& reason);  // PathFollower::abandon
   // Cancels the drive of a node that ends, begins no other, and waits until the last command is sent. To be
   // called before anything that asks the master, which may not answer.
   void finish();
@@ -98,9 +100,6 @@ class DriveLoop {
   void setSpeedLimits(const SpeedLimits& limits);
 
   std::vector<DriveReport> takeReports();
-
-  // How often a joystick has taken over, or let go of, a vehicle that nothing drove.
-  unsigned handovers() const { return handovers_; }
 
   // How the thread is scheduled, in words.
   std::string scheduling() const { return thread_.scheduling(); }
@@ -130,7 +129,7 @@ class DriveLoop {
   void onManual(const std_msgs::Bool& message);
   void onStop(const std_msgs::Bool& message);
   void noteRefused();
-  bool isManual() const;
+  void noteHandover();
   void yieldToJoystick();
   void publish(const base::BodyVelocity& velocity);
   void report(const ros::Time& now);
@@ -140,16 +139,16 @@ class DriveLoop {
   NavigatePathOptions options_;
   path::Footprint footprint_;  // of the options
   FrameTransforms& transforms_;
-  const std::function<void()> on_report_;
+  const Listener listener_;
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   following::PathFollower follower_;
   unsigned drive_ = 0;  // started so far
-  std::atomic<unsigned> handovers_{0};
+  unsigned handovers_ = 0;
   MapLife map_;
   SpeedLimits limits_;
   ros::Time now_;
-  Clock::time_point moved_;                   // when ROS time did last
-  std::optional<Clock::time_point> manual_;   // when the joystick last said that it commands
+  Clock::time_point moved_;  // when ROS time did last
+  ManualControl joystick_;
   std::optional<Clock::time_point> refused_;  // when a message was, and that was told
   bool stopped_ = false;                      // by the topic
   bool finished_ = false;                     // the node ends

@@ -1,8 +1,10 @@
 #include "ros/driving/go_to_pose_node.h"
 
 #include <ros/console.h>
+#include <std_msgs/Bool.h>
 #include <std_msgs/Empty.h>
 
+#include <boost/make_shared.hpp>
 #include <cmath>
 #include <utility>
 
@@ -64,12 +66,9 @@ GoToPoseNode::GoToPoseNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
              carryOutOrders();
            }}),
       driver_(nh, private_nh.getNamespace(), "navigate_path",
-              {[this](const NavigatePathResult& result) { onDriveEnd(result); },
+              {[this](const NavigatePathResult& r) { onDriveEnd(r.status, r.message); },
                [this](const NavigatePathFeedback& feedback) { onDriveFeedback(feedback); },
-               [this](const std::string& sentence) {
-                 navigator_.driveEnded(Navigator::kNoAnswer, sentence, seconds());
-                 carryOutOrders();
-               }}),
+               [this](const std::string& why) { onDriveEnd(Navigator::kNoAnswer, why); }}),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   path_publisher_ = nh_.advertise<nav_msgs::Path>("go_to_path", 1, true);
   status_publisher_ = nh_.advertise<GoToStatus>("go_to_status", 1, true);
@@ -77,6 +76,7 @@ GoToPoseNode::GoToPoseNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
       nh_.advertise<geometry_msgs::PoseStamped>(options_.action_name + "/current_goal", 1, true);
   clear_publisher_ = nh_.advertise<std_msgs::Empty>("clear_scan", 1);
   startServer();
+  subscribe();
   reconfigurable_ = std::make_unique<Reconfigurable<GoToPoseConfig, GoToPoseOptions>>(
       private_nh, options_, [this](const GoToPoseOptions& options) { use(options); });
   startTimers();
@@ -84,7 +84,8 @@ GoToPoseNode::GoToPoseNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
 
 GoToPoseNode::~GoToPoseNode() {
   finish();
-  simple_goal_subscriber_.shutdown();  // asks the master, which may not answer
+  for (ros::Subscriber& subscriber : subscribers_)
+    subscriber.shutdown();  // asks the master, which may not answer
 }
 
 void GoToPoseNode::giveUp() {
@@ -105,10 +106,21 @@ void GoToPoseNode::startServer() {
   commands_.refuseSimultaneous();
   goal_publisher_ =
       nh_.advertise<move_base_msgs::MoveBaseActionGoal>(options_.action_name + "/goal", 1);
-  simple_goal_subscriber_ = subscribeChecked<geometry_msgs::PoseStamped>(
-      nh_, "move_base_simple/goal", 1,
-      [this](const geometry_msgs::PoseStamped& message) { onSimpleGoal(message); });
   diagnostics_.add("go to pose", this, &GoToPoseNode::diagnose);
+}
+
+void GoToPoseNode::subscribe() {
+  const auto on_manual = [this](const std_msgs::Bool& message) {
+    if (joystick_.hear(message.data)) noteHandover();
+  };
+  subscribers_ = {
+      subscribeChecked<geometry_msgs::PoseStamped>(
+          nh_, "move_base_simple/goal", 1,
+          [this](const geometry_msgs::PoseStamped& message) { onSimpleGoal(message); }),
+      subscribeChecked<std_msgs::Bool>(nh_, "manual_control", 10, on_manual),
+      subscribeChecked<std_msgs::Empty>(nh_, "drive_cancelled", 10, [this](const std_msgs::Empty&) {
+        abortAll("CANCELLED: asked for by ~cancel");
+      })};
 }
 
 void GoToPoseNode::startTimers() {
@@ -127,7 +139,8 @@ void GoToPoseNode::use(const GoToPoseOptions& options) {
 
 // Goals
 
-// As move_base does it: others see the goal, its status and its result.
+// As move_base does it: others see the goal, its status and its result. It is taken before it is published, so that no
+// cancel and no other goal overtakes it; when it comes back the server knows it by its id.
 void GoToPoseNode::onSimpleGoal(const geometry_msgs::PoseStamped& message) {
   if (started_.isZero() && clock_.hasTime()) started_ = ros::Time::now();
   const ros::Time& stamp = message.header.stamp;
@@ -136,9 +149,12 @@ void GoToPoseNode::onSimpleGoal(const geometry_msgs::PoseStamped& message) {
                                       << " is not driven to: go_to_pose started at " << started_);
     return;
   }
-  move_base_msgs::MoveBaseActionGoal goal;
-  goal.header.stamp = ros::Time::now();
-  goal.goal.target_pose = message;
+  const auto goal = boost::make_shared<move_base_msgs::MoveBaseActionGoal>();
+  goal->header.stamp = ros::Time::now();
+  goal->goal_id.id = "simple_goal-" + std::to_string(ros::WallTime::now().toNSec()) + "-" +
+                     std::to_string(++simple_goals_);
+  goal->goal.target_pose = message;
+  server_->goalCallback(goal);
   goal_publisher_.publish(goal);
 }
 
@@ -210,6 +226,7 @@ void GoToPoseNode::tick() {
     started_ = now;
     abortAll("ROS time went back");
   }
+  if (joystick_.expire()) noteHandover();
   locate();
   noteVehicle(now);
   planner_.watch(options_.server_timeout);
@@ -220,6 +237,12 @@ void GoToPoseNode::tick() {
   told_ = std::chrono::steady_clock::now();
   publishFeedback(now);
   publishStatus();
+}
+
+// A drive that goes on is paused by the driver, and resumed by hand. Between drives nobody but this node knows that there is
+// a goal: whoever takes the vehicle, or lets it go, would see it set off.
+void GoToPoseNode::noteHandover() {
+  if (!driver_heeds_joystick_) abortAll(kTakenOver);
 }
 
 void GoToPoseNode::abortAll(const std::string& reason) {
@@ -261,12 +284,14 @@ void GoToPoseNode::onPlan(const PlanPathResult& result) {
 void GoToPoseNode::onDriveFeedback(const NavigatePathFeedback& feedback) {
   distance_remaining_ = feedback.distance_remaining_m;
   time_remaining_ = feedback.time_remaining_s;
+  driver_heeds_joystick_ = true;
   navigator_.drove({stateOf(feedback), feedback.distance_remaining_m, feedback.message}, seconds());
   carryOutOrders();
 }
 
-void GoToPoseNode::onDriveEnd(const NavigatePathResult& result) {
-  navigator_.driveEnded(result.status, result.message, seconds());
+void GoToPoseNode::onDriveEnd(const std::string& status, const std::string& message) {
+  driver_heeds_joystick_ = false;
+  navigator_.driveEnded(status, message, seconds());
   carryOutOrders();
 }
 
@@ -360,40 +385,6 @@ void GoToPoseNode::end(Order::Kind kind, const std::string& sentence) {
     handle.setAborted({}, sentence);
   }
   publishStatus();
-}
-
-// What is told
-
-void GoToPoseNode::publishFeedback(const ros::Time& now) {
-  if (!vehicle_) return;
-  move_base_msgs::MoveBaseFeedback feedback;
-  feedback.base_position.header.stamp = now;
-  feedback.base_position.header.frame_id = frameName(options_.map_frame);
-  feedback.base_position.pose = poseToMessage(*vehicle_);
-  goal_->handle.publishFeedback(feedback);
-}
-
-void GoToPoseNode::publishStatus() {
-  if (ros::Time::isValid()) status_publisher_.publish(status());
-}
-
-std::string GoToPoseNode::stateName() const {
-  return goal_ && !goal_->pose ? "LOCATING" : toString(navigator_.state());
-}
-
-GoToStatus GoToPoseNode::status() const {
-  GoToStatus status;
-  status.header.stamp = ros::Time::now();
-  status.header.frame_id = frameName(options_.map_frame);
-  status.state = stateName();
-  status.step = navigator_.step();
-  status.sentence = goal_ ? navigator_.sentence() : last_sentence_;
-  status.goal = last_pose_;
-  status.distance_remaining_m = distance_remaining_;
-  status.time_remaining_s = time_remaining_;
-  if (std::isfinite(time_remaining_) && time_remaining_ >= 0.0 && time_remaining_ < 1e6)
-    status.arrival = status.header.stamp + ros::Duration(time_remaining_);
-  return status;
 }
 
 }  // namespace grid_path_planner::nodes

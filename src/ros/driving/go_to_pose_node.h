@@ -2,6 +2,8 @@
 //
 //   action      move_base              move_base_msgs/MoveBaseAction, under the name ~action_name
 //   subscribes  move_base_simple/goal  geometry_msgs/PoseStamped; becomes a goal of the action
+//               manual_control         std_msgs/Bool; a joystick that takes over while nothing is driven yet aborts the goal
+//               drive_cancelled        std_msgs/Empty; somebody cancelled at the driver: the goal is aborted
 //               tf                     the vehicle's pose
 //   publishes   go_to_status           grid_path_planner/GoToStatus, latched
 //               go_to_path             nav_msgs/Path, latched; the one that is driven, empty without one
@@ -31,6 +33,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "following/go_to/navigator.h"
 #include "grid_path_planner/GoToStatus.h"
@@ -40,6 +43,7 @@
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
 #include "ros/common/guarded_queue.h"
+#include "ros/common/incoming/manual_control.h"
 #include "ros/common/master/command_claim.h"
 #include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/move_base_action.h"
@@ -89,6 +93,7 @@ class GoToPoseNode {
   void startTimers();
   void use(const GoToPoseOptions& options);
 
+  void subscribe();
   void onSimpleGoal(const geometry_msgs::PoseStamped& message);
   void onGoal(MoveBaseGoal handle);
   void onCancel(const MoveBaseGoal& handle);
@@ -99,7 +104,7 @@ class GoToPoseNode {
   void noteVehicle(const ros::Time& now);
   void onPlan(const PlanPathResult& result);
   void onDriveFeedback(const NavigatePathFeedback& feedback);
-  void onDriveEnd(const NavigatePathResult& result);
+  void onDriveEnd(const std::string& status, const std::string& message);
 
   void carryOutOrders();
   void tryToCarryOut(const Order& order);
@@ -108,6 +113,7 @@ class GoToPoseNode {
   void drive(path::Path path);
   void showNoPath();
   void end(Order::Kind kind, const std::string& sentence);
+  void noteHandover();
   void abortAll(const std::string& reason);
 
   void publishFeedback(const ros::Time& now);
@@ -130,13 +136,16 @@ class GoToPoseNode {
   std::optional<path::Pose> vehicle_;
   double distance_remaining_ = std::numeric_limits<double>::infinity();  // m
   double time_remaining_ = std::numeric_limits<double>::infinity();      // s
+  ManualControl joystick_;
+  unsigned simple_goals_ = 0;           // taken so far
+  bool driver_heeds_joystick_ = false;  // it has begun with a drive, and not ended since
   bool carrying_out_ = false;
   bool finished_ = false;  // the node ends
   std::chrono::steady_clock::time_point told_;
 
   ros::Publisher status_publisher_, path_publisher_, current_goal_publisher_, goal_publisher_,
       clear_publisher_;
-  ros::Subscriber simple_goal_subscriber_;
+  std::vector<ros::Subscriber> subscribers_;
   ActionCaller<PlanPathAction> planner_;
   ActionCaller<NavigatePathAction> driver_;
   std::unique_ptr<MoveBaseServer> server_;

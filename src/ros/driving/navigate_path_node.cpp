@@ -3,19 +3,17 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/callback_queue_interface.h>
 #include <ros/console.h>
+#include <std_msgs/Empty.h>
 
 #include <optional>
 #include <utility>
 
 #include "grid_path_planner/NavigatePathConfig.h"
-#include "grid_path_planner/base/level_quaternion.h"
-#include "grid_path_planner/path/waypoint_file.h"
-#include "ros/common/ending/end_of_node.h"
-#include "ros/common/file_kinds.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/advertised_service.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
+#include "ros/common/waypoint_reading.h"
 #include "ros/driving/follow_log.h"
 
 namespace grid_path_planner::nodes {
@@ -28,8 +26,6 @@ using following::FollowEvent;
 using following::FollowState;
 using following::Join;
 using path::Path;
-using path::readWaypointFile;
-using path::WaypointFile;
 
 namespace {
 
@@ -46,20 +42,6 @@ NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFil
   checkNavigatePathOptions(options);
   warnUnknownParameters(private_nh, optionNames<NavigatePathOptions>());
   return options;
-}
-
-// `stop` ends it, and so does the end of the node.
-Path readWaypoints(const NodeFiles& files, const std::string& filename,
-                   const StopSource& stop = {}) {
-  const EndOfNode end(stop);
-  WaypointFile read =
-      files.read("config_filename", filename, waypointFiles(), [&](const std::string& file) {
-        return readWaypointFile(file, {{}, end.token()});
-      });
-  if (read.tilt > base::kLargestTilt)
-    ROS_WARN_STREAM("Waypoints of " << filename << " tilt by up to " << read.tilt
-                                    << " rad: the vehicle stays level, their yaw is taken");
-  return std::move(read.path);
 }
 
 Path fileOf(const NavigatePathOptions& options, const NodeFiles& files) {
@@ -87,8 +69,8 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
       action_(nh, "navigate_path", false),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   waypoint_publisher_ = nh_.advertise<geometry_msgs::PoseStamped>("current_waypoint", 1, true);
-  loop_ = std::make_unique<DriveLoop>(nh_, options_, transforms_,
-                                      [this] { callLater([this] { takeReports(); }); });
+  cancelled_publisher_ = nh_.advertise<std_msgs::Empty>("drive_cancelled", 1);
+  loop_ = std::make_unique<DriveLoop>(nh_, options_, transforms_, listener());
   map_ = std::make_unique<MapWatch>(nh_, [this](const MapLife& life) { loop_->setMap(life); });
   limits_ = std::make_unique<SpeedLimitReceiver>(
       nh_, [this](const SpeedLimits& limits) { loop_->setSpeedLimits(limits); });
@@ -120,6 +102,17 @@ NavigatePathNode::~NavigatePathNode() {
   nh_.getCallbackQueue()->removeByID(reinterpret_cast<std::uint64_t>(this));
 }
 
+// What waits in the queue when a joystick takes over was given before that.
+DriveLoop::Listener NavigatePathNode::listener() {
+  return {[this] { callLater([this] { takeReports(); }); },
+          [this](unsigned handovers) {
+            callLater([this, handovers] {
+              handovers_ = handovers;
+              endWhatIsNotDriven(kTakenOver);
+            });
+          }};
+}
+
 void NavigatePathNode::offerServices(ros::NodeHandle& private_nh) {
   using std_srvs::Trigger;
   services_ = {
@@ -127,9 +120,8 @@ void NavigatePathNode::offerServices(ros::NodeHandle& private_nh) {
                                 [this](auto&, auto& r) { return answer(loop_->pause(), r); }),
       advertiseService<Trigger>(private_nh, "resume",
                                 [this](auto&, auto& r) { return answer(loop_->resume(), r); }),
-      advertiseService<Trigger>(private_nh, "cancel", [this](auto&, auto& r) {
-        return answer(cancel("asked for by ~cancel"), r);
-      })};
+      advertiseService<Trigger>(private_nh, "cancel",
+                                [this](auto&, auto& r) { return answer(cancelByHand(), r); })};
 }
 
 void NavigatePathNode::startAction() {
@@ -177,7 +169,8 @@ void NavigatePathNode::watchClock() {
     ROS_WARN_STREAM("ROS time went back by " << *back
                                              << " s: tf is cleared and the drive cancelled");
     started_ = now;
-    given_goals_.forget();
+    endWhatIsNotDriven("ROS time went back");
+    given_goals_.timeWentBack();
   }
   if (started_.isZero()) startDriving(now);
 }
@@ -193,7 +186,7 @@ void NavigatePathNode::startDriving(const ros::Time& now) {
   ROS_INFO_STREAM("Drives the waypoints of " << options_.config_filename);
   if (goal_active_) return;
   try {
-    drive(file_, options_.join_nearest ? Join::NEAREST : Join::FIRST, loop_->handovers());
+    drive(file_, options_.join_nearest ? Join::NEAREST : Join::FIRST, handovers_);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The waypoints are refused: " << error.what());
   }
@@ -209,9 +202,9 @@ void NavigatePathNode::drive(const Path& path, Join join, unsigned handovers) {
 
 void NavigatePathNode::onPath(const nav_msgs::Path& message) {
   watchClock();
-  if (!message.poses.empty() && message.header.stamp < started_ && !options_.follow_latched) {
-    ROS_WARN_STREAM("A path stamped " << message.header.stamp << " is not driven: navigate_path "
-                                      << "started at " << started_
+  const std::string why = whyOfAnotherTime(message.header.stamp, started_, "navigate_path");
+  if (!message.poses.empty() && !why.empty() && !options_.follow_latched) {
+    ROS_WARN_STREAM("A path stamped " << message.header.stamp << " is not driven: " << why
                                       << " (~follow_latched drives it all the same)");
     return;
   }
@@ -221,7 +214,7 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   if (message.poses.empty()) {
-    loop_->cancel("the path is empty: none was found");
+    loop_->abandon("the path is empty: none was found");
     return;
   }
   if (given_goals_.isOver(message)) {
@@ -229,7 +222,7 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   try {
-    drive(transforms_.pathIn(message, options_.base_frame), Join::NEAREST, loop_->handovers());
+    drive(transforms_.pathIn(message, options_.base_frame), Join::NEAREST, handovers_);
     given_goals_.drive(message);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
@@ -252,7 +245,7 @@ void NavigatePathNode::onGoal() {
             throw InputError("a goal must give a path of at least one waypoint, or a filename");
           return transforms_.pathIn(goal->path, options_.base_frame);
         },
-        Join::NEAREST, loop_->handovers());
+        Join::NEAREST, handovers_);
   }
   if (action_.isPreemptRequested()) onPreempt();
 }
@@ -270,25 +263,25 @@ void NavigatePathNode::startGoal(const std::function<Path()>& read, Join join, u
 // In the reader's thread, and back.
 void NavigatePathNode::readGoal(const std::string& filename) {
   goal_is_read_ = true;
-  reader_->post(
-      [this, filename, number = goals_, handovers = loop_->handovers()](const StopSource& stop) {
-        std::function<Path()> read;
-        try {
-          read = [path = readWaypoints(files_, filename, stop)] { return path; };
-        } catch (const std::exception& error) {
-          read = [what = std::string(error.what())]() -> Path { throw InputError(what); };
-        }
-        callLater([this, read, number, handovers] {
-          if (!goal_active_ || number != goals_ || !std::exchange(goal_is_read_, false)) return;
-          startGoal(read, options_.join_nearest ? Join::NEAREST : Join::FIRST, handovers);
-        });
-      });
+  reader_->post([this, filename, number = goals_, handovers = handovers_](const StopSource& stop) {
+    std::function<Path()> read;
+    try {
+      read = [path = readWaypoints(files_, filename, stop)] { return path; };
+    } catch (const std::exception& error) {
+      read = [what = std::string(error.what())]() -> Path { throw InputError(what); };
+    }
+    callLater([this, read, number, handovers] {
+      if (!goal_active_ || number != goals_ || !std::exchange(goal_is_read_, false)) return;
+      startGoal(read, options_.join_nearest ? Join::NEAREST : Join::FIRST, handovers);
+    });
+  });
 }
 
-// A pause, also one by a joystick, holds for the next goal, too.
+// A pause, also one by a joystick, holds for the next goal, too, as it does where a goal is cancelled: that
+// may be a client that has planned anew.
 void NavigatePathNode::replaceGoal() {
   const std::string reason = "replaced by another goal";
-  loop_->replace(reason);
+  loop_->abandon(reason);
   takeReports();
   goal_is_read_ = false;
   if (goal_active_) finishGoal("CANCELLED", reason, loop_->standing());
@@ -296,16 +289,23 @@ void NavigatePathNode::replaceGoal() {
 
 void NavigatePathNode::onPreempt() {
   if (action_.isNewGoalAvailable()) return;  // onGoal follows
-  cancel("the goal was cancelled");
+  loop_->abandon("the goal was cancelled");
+  endDrivesUntilNow("the goal was cancelled");
 }
 
-NavigatePathNode::Answer NavigatePathNode::cancel(const std::string& reason) {
+// Whoever plans for this drive, or is about to send another, hears of it too.
+NavigatePathNode::Answer NavigatePathNode::cancelByHand() {
+  const std::string reason = "asked for by ~cancel";
+  cancelled_publisher_.publish(std_msgs::Empty());
   const Answer answer = loop_->cancel(reason);
-  given_goals_.endAllUntil(ros::Time::now());
+  if (endDrivesUntilNow(reason)) return {true, "cancelled while its file was read"};
+  return answer;
+}
+
+// Whether there was a goal whose file is still read.
+bool NavigatePathNode::endDrivesUntilNow(const std::string& reason) {
   takeReports();
-  if (!std::exchange(goal_is_read_, false) || !goal_active_) return answer;
-  finishGoal("CANCELLED", reason, loop_->standing());
-  return {true, "cancelled while its file was read"};
+  return endWhatIsNotDriven(reason);
 }
 
 bool NavigatePathNode::answer(const Answer& answer, std_srvs::Trigger::Response& response) {
@@ -319,7 +319,6 @@ void NavigatePathNode::takeReports() {
   for (const DriveReport& report : loop_->takeReports()) {
     if (report.waypoint) waypoint_publisher_.publish(*report.waypoint);
     if (!report.note.empty()) ROS_WARN_STREAM(report.note);
-    if (report.taken_over) endWhatIsNotDriven(kTakenOver);
     if (!report.event) continue;
     logEvent(*report.event);
     if (report.event->kind != FollowEvent::Kind::ENDED || report.drive != drive_) continue;
@@ -330,10 +329,12 @@ void NavigatePathNode::takeReports() {
 }
 
 // Whoever took the vehicle that stood still does not find it driving off when he lets it go.
-void NavigatePathNode::endWhatIsNotDriven(const std::string& reason) {
+// Returns whether there was a goal whose file is still read.
+bool NavigatePathNode::endWhatIsNotDriven(const std::string& reason) {
   given_goals_.endAllUntil(ros::Time::now());
-  if (std::exchange(goal_is_read_, false) && goal_active_)
-    finishGoal("CANCELLED", reason, loop_->standing());
+  if (!std::exchange(goal_is_read_, false) || !goal_active_) return false;
+  finishGoal("CANCELLED", reason, loop_->standing());
+  return true;
 }
 
 void NavigatePathNode::finishGoal(const std::string& status, const std::string& message,

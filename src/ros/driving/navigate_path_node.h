@@ -10,6 +10,7 @@
 //               manual_control   std_msgs/Bool; a joystick commands: the drive is paused
 //   publishes   cmd_vel          geometry_msgs/Twist in base_link
 //               current_waypoint geometry_msgs/PoseStamped, latched; the waypoint that is driven to
+//               drive_cancelled  std_msgs/Empty; by ~cancel
 //               /diagnostics
 //   services    ~pause, ~resume, ~cancel   std_srvs/Trigger
 //   action      navigate_path    grid_path_planner/NavigatePathAction
@@ -79,13 +80,14 @@ class NavigatePathNode {
  private:
   using Answer = following::PathFollower::Answer;
 
+  DriveLoop::Listener listener();
   void offerServices(ros::NodeHandle& private_nh);
   void startAction();
   void startTimers();
   void use(NavigatePathOptions options);
   void watchClock();
   void startDriving(const ros::Time& now);
-  // `handovers` of the loop when it was given. Throws InputError.
+  // `handovers`: handovers_ when it was given. Throws InputError.
   void drive(const path::Path& path, following::Join join, unsigned handovers);
 
   void onPath(const nav_msgs::Path& message);
@@ -95,10 +97,11 @@ class NavigatePathNode {
   void startGoal(const std::function<path::Path()>& read, following::Join join, unsigned handovers);
   void readGoal(const std::string& filename);
   bool answer(const Answer& answer, std_srvs::Trigger::Response& response);
-  Answer cancel(const std::string& reason);
+  Answer cancelByHand();
+  bool endDrivesUntilNow(const std::string& reason);
 
   void takeReports();
-  void endWhatIsNotDriven(const std::string& reason);
+  bool endWhatIsNotDriven(const std::string& reason);
   void finishGoal(const std::string& status, const std::string& message,
                   const DriveStanding& standing);
   void publishFeedback();
@@ -121,12 +124,13 @@ class NavigatePathNode {
   unsigned goals_ = 0;         // accepted so far
   bool goal_is_read_ = false;  // its file, still
   unsigned drive_ = 0;         // begun last
+  unsigned handovers_ = 0;     // of the loop, as this queue has heard
   GivenGoals given_goals_;     // of the topic `path`
   std::unique_ptr<DriveLoop> loop_;
   std::unique_ptr<MapWatch> map_;
   std::unique_ptr<SpeedLimitReceiver> limits_;
 
-  ros::Publisher waypoint_publisher_;
+  ros::Publisher waypoint_publisher_, cancelled_publisher_;
   ros::Subscriber path_subscriber_;
   std::vector<ros::ServiceServer> services_;
   NavigatePathServer action_;

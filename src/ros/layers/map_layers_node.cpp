@@ -249,6 +249,7 @@ bool MapLayersNode::noticeTime() {
     transforms_.clear();
     scans_.clear();
     map_.forgetScans();
+    scan_source_.forget();
     expired_ = {};
   }
   return true;

@@ -22,7 +22,6 @@ constexpr char kNoTransform[] = "no transform";
 constexpr char kTooMany[] = "too many waiting for tf";
 constexpr char kTooSlow[] = "faster than they are mapped";
 constexpr char kTooLarge[] = "too many bytes waiting";
-constexpr char kTimeJumped[] = "time jumped back";
 
 Eigen::Isometry3d isometryOf(const geometry_msgs::Transform& t) {
   const Eigen::Quaterniond rotation(t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z);
@@ -144,9 +143,10 @@ std::optional<CloudQueue::Ready> CloudQueue::pop() {
   return ready;
 }
 
-void CloudQueue::clear() {
+void CloudQueue::clear(const std::string& reason) {
   std::lock_guard<std::mutex> lock(mutex_);
-  counts_.dropped[kTimeJumped] += waiting_.size() + ready_.size();
+  if (const std::size_t waiting = waiting_.size() + ready_.size(); waiting > 0)
+    counts_.dropped[reason] += waiting;
   waiting_.clear();
   ready_.clear();
 }

@@ -62,8 +62,8 @@ class CloudQueue {
   bool resolveTransforms();
   // The ready cloud that came first.
   std::optional<Ready> pop();
-  // ROS time jumped back.
-  void clear();
+  // All that wait are dropped; `reason` in a few words, for the counts.
+  void clear(const std::string& reason);
 
   // What became of a popped cloud; `reason` in a few words, for the counts.
   void countInserted();

@@ -59,12 +59,8 @@ Eigen::Vector3d vectorOf(const geometry_msgs::Point& point) {
 }  // namespace
 
 MappingServices::MappingServices(ros::NodeHandle private_nh, MappingThread& thread,
-                                 const NodeFiles& files, std::function<void()> on_change,
-                                 std::function<void()> on_reset)
-    : thread_(thread),
-      files_(files),
-      on_change_(std::move(on_change)),
-      on_reset_(std::move(on_reset)) {
+                                 const NodeFiles& files, Listener listener)
+    : thread_(thread), files_(files), listener_(std::move(listener)) {
   reset_ = advertiseService<std_srvs::Empty>(
       private_nh, "reset",
       [this](auto& request, auto& response) { return reset(request, response); });
@@ -86,22 +82,27 @@ void MappingServices::shutdown() {
 
 bool MappingServices::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
   thread_.run([this](MapModel& map) {
-    on_reset_();
+    listener_.on_reset();
     map.reset();
   });
   ROS_INFO("The map was reset");
-  on_change_();
+  listener_.on_change();
   return true;
 }
 
 bool MappingServices::clearBox(ClearBoxService::Request& request, ClearBoxService::Response&) {
   try {
-    thread_.run([&](MapModel& map) { map.clearBox(vectorOf(request.min), vectorOf(request.max)); });
+    thread_.run([&](MapModel& map) {
+      const auto clear = [&] { map.clearBox(vectorOf(request.min), vectorOf(request.max)); };
+      clear();  // what is no box is refused before anything is done
+      listener_.on_clear_box(map);
+      clear();
+    });
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("clear_bbx refused: " << error.what());
     return false;
   }
-  on_change_();
+  listener_.on_change();
   return true;
 }
 

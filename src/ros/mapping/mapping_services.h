@@ -7,6 +7,8 @@
 //   ~save_map     grid_path_planner/SaveFile   projected_map as a map_server YAML and its image
 //   ~save_octree  grid_path_planner/SaveFile   .bt or .ot
 //
+// A cloud that came before ~reset is dropped; one that came before ~clear_bbx is inserted before the box is emptied, or
+// dropped where it still waits for its transform.
 // Files lie below the folder to save in (ros/common/node_files.h).
 // A request that cannot be fulfilled is refused with a sentence and changes nothing.
 #pragma once
@@ -37,10 +39,16 @@ using ClearBoxService = ClearBox;
 
 class MappingServices {
  public:
-  // `thread` and `files` outlive this; `on_change` is called after every change of the map, `on_reset`
-  // in the mapping thread before the map is emptied.
+  struct Listener {
+    std::function<void()> on_change;  // after every change of the map
+    // In the mapping thread: clouds that came before the map, or a box of it, is emptied are dealt with.
+    std::function<void()> on_reset;
+    std::function<void(mapping::MapModel&)> on_clear_box;
+  };
+
+  // `thread` and `files` outlive this.
   MappingServices(ros::NodeHandle private_nh, MappingThread& thread, const NodeFiles& files,
-                  std::function<void()> on_change, std::function<void()> on_reset);
+                  Listener listener);
 
   void shutdown();
 
@@ -52,8 +60,7 @@ class MappingServices {
 
   MappingThread& thread_;
   const NodeFiles& files_;
-  std::function<void()> on_change_;
-  std::function<void()> on_reset_;
+  const Listener listener_;
   ros::ServiceServer reset_, clear_box_, save_map_, save_octree_;
 };
 

@@ -108,10 +108,10 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   map_publisher_ = std::make_unique<ProjectedMapPublisher>(nh, options.latch, on_change);
   octree_publisher_ =
       std::make_unique<OctreePublisher>(nh, service_nh, options.latch, *thread_, on_change);
-  services_ =
-      std::make_unique<MappingServices>(private_service_nh, *thread_, files_, on_change, [this] {
-        if (autosave_) autosave_->remove();
-      });
+  services_ = std::make_unique<MappingServices>(
+      private_service_nh, *thread_, files_,
+      MappingServices::Listener{on_change, [this] { forgetAll(); },
+                                [this](MapModel& map) { insertAll(map); }});
   diagnostics_ =
       std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *thread_, *octree_publisher_,
                                            autosave_.get(), options.autosave_period);
@@ -220,7 +220,19 @@ void ProjectedMapNode::checkClock() {
   if (!clock_.jumpedBack()) return;
   ROS_WARN("ROS time jumped back: tf and the clouds that wait are forgotten, the map stays");
   transforms_.clear();
-  queue_.clear();
+  queue_.clear("time jumped back");
+}
+
+// What was seen before ~reset does not come back by itself.
+void ProjectedMapNode::forgetAll() {
+  queue_.clear("came before ~reset");
+  if (autosave_) autosave_->remove();
+}
+
+// Those that are ready; a cloud that still waits for its transform would fill again what is cleared now.
+void ProjectedMapNode::insertAll(MapModel& map) {
+  for (std::size_t left = queue_.counts().waiting; left > 0 && insertOne(map);) --left;
+  queue_.clear("came before ~clear_bbx");
 }
 
 void ProjectedMapNode::resolveTransforms() {
@@ -240,15 +252,20 @@ void ProjectedMapNode::postPublishing() {
 
 // One cloud a task, so that services and publications are done in between.
 void ProjectedMapNode::insertNext(MapModel& map) {
+  if (insertOne(map)) postInsertion();
+}
+
+// Whether there was one.
+bool ProjectedMapNode::insertOne(MapModel& map) {
   const auto ready = queue_.pop();
-  if (!ready) return;
+  if (!ready) return false;
   try {
     insert(map, *ready);
     queue_.countInserted();
   } catch (const std::exception& error) {  // whatever is wrong with a cloud ends with it
     queue_.countDropped("cannot be used", error.what());
   }
-  postInsertion();
+  return true;
 }
 
 void ProjectedMapNode::insert(MapModel& map, const CloudQueue::Ready& ready) {

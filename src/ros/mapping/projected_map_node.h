@@ -73,7 +73,10 @@ class ProjectedMapNode {
   void saveAtTheEnd();
 
   // In the map's thread
+  void forgetAll();
+  void insertAll(mapping::MapModel& map);
   void insertNext(mapping::MapModel& map);
+  bool insertOne(mapping::MapModel& map);
   void insert(mapping::MapModel& map, const CloudQueue::Ready& ready);
   void publish(mapping::MapModel& map);
   void publishHeartbeat(mapping::MapModel& map);

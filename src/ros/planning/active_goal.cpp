@@ -22,10 +22,12 @@ void ActiveGoal::setStart(const geometry_msgs::PoseStamped& start) {
   start_ = start;
 }
 
-void ActiveGoal::forgetStart() {
+void ActiveGoal::timeWentBack() {
   std::lock_guard<std::mutex> lock(mutex_);
   start_.reset();
-  if (goal_) goal_->request.start.reset();
+  if (!goal_) return;
+  goal_->request.start.reset();
+  goal_->given = ros::TIME_MIN;
 }
 
 void ActiveGoal::setGoal(const geometry_msgs::PoseStamped& goal, const ros::Time& now) {

@@ -31,7 +31,8 @@ class ActiveGoal {
  public:
   // The pose from which the next new goal starts.
   void setStart(const geometry_msgs::PoseStamped& start);
-  void forgetStart();
+  // The start is forgotten, and the goal was given before all of the new time.
+  void timeWentBack();
 
   // Replaces the goal and uses up the start. `now`: ROS time.
   void setGoal(const geometry_msgs::PoseStamped& goal, const ros::Time& now);

@@ -97,7 +97,7 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   commands_ = std::make_unique<CommandClaim>(
       private_nh.getNamespace(), Commands{{}, {nh.resolveName("plan_path")}, "", false});
   server_ =
-      std::make_unique<PlanningServer>(nh, options, files, [this] { active_goal_.forgetStart(); });
+      std::make_unique<PlanningServer>(nh, options, files, [this] { active_goal_.timeWentBack(); });
   planning_map_ = std::make_unique<PlanningMapPublisher>(nh, [this] { postSearchedMap(); });
   cost_to_go_ = std::make_unique<CostToGoPublisher>(private_nh, [this] { postCostToGo(); });
   services_ = std::make_unique<PlanServices>(private_nh, *server_);

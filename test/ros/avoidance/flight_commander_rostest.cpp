@@ -83,7 +83,7 @@ class CommanderTest : public testing::Test {
   Latest<Twist> commands_{nh_, "cmd_vel"};
   ros::Publisher manuals_ = nh_.advertise<std_msgs::Bool>("manual_control", 1);
   LocalPlannerOptions options_;
-  FlightHold hold_;
+  FlightHold hold_{[](unsigned) {}};
   base::BodyVelocity measured_{1.0, 0.0, 0.0, 0.0};
   std::unique_ptr<FlightCommander> commander_;
 };

@@ -4,6 +4,7 @@
 // or respawned, long after; with /clock standing still every cloud stayed new and the vehicle drove on; one
 // cloud with stamp 0 after the start blinded it until it was restarted; the joystick gave the vehicle
 // back to the flight by itself; ~cancel without a flight was a success.
+#include <actionlib_msgs/GoalID.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
@@ -70,8 +71,9 @@ TEST_F(HoldsTest, AJoystickPausesUntilResume) {
 
 TEST_F(HoldsTest, ServicesSayWhetherTheyDidAnything) {
   ASSERT_NO_FATAL_FAILURE(start());
-  for (const char* service : {"pause", "resume", "cancel"})
-    EXPECT_FALSE(call(service).success) << service;
+  for (const char* service : {"resume", "cancel"}) EXPECT_FALSE(call(service).success) << service;
+  EXPECT_TRUE(call("pause").success) << "of the next flight";
+  EXPECT_TRUE(call("cancel").success);
   sendGoal(sky_.now());
   ASSERT_TRUE(flies()) << said();
   EXPECT_TRUE(call("pause").success);
@@ -97,6 +99,21 @@ TEST_F(HoldsTest, APathForAGoalThatWasCancelledIsNotFlown) {
   EXPECT_TRUE(pilot_->says("A path is not flown: its goal was reached or cancelled"));
   EXPECT_TRUE(endsInAZero());
   sendPath(sky_.now(), {0.0, 40.0});
+  EXPECT_TRUE(flies()) << said();
+}
+
+// path_planner finds no path, and then one again: the vehicle that somebody had paused flew off.
+TEST_F(HoldsTest, APauseOutlivesAnEmptyPathAndHoldsForTheNext) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  const ros::Time goal = sky_.now();
+  sendPath(goal, {0.0, 40.0});
+  ASSERT_TRUE(flies()) << said();
+  EXPECT_TRUE(call("pause").success);
+  sendPath(sky_.now(), {});
+  ASSERT_TRUE(says("CANCELLED: cancelled: the path is empty")) << said();
+  sendPath(goal, {0.0, 40.0});
+  EXPECT_TRUE(standsSaying("paused until ~resume"));
+  EXPECT_TRUE(call("resume").success);
   EXPECT_TRUE(flies()) << said();
 }
 
@@ -157,6 +174,21 @@ TEST_F(ActionHoldsTest, AFileThatReplacesAPausedGoalIsFlownWhenItIsResumed) {
       },
       std::chrono::seconds(3)))
       << "it is read in a fraction of that";
+  EXPECT_TRUE(call("resume").success);
+  EXPECT_TRUE(flies()) << said();
+}
+
+// Of a client that plans anew: whoever has paused the vehicle saw it fly off.
+TEST_F(ActionHoldsTest, APauseOutlivesTheGoalThatIsCancelled) {
+  ASSERT_NO_FATAL_FAILURE(startWithAction());
+  EXPECT_TRUE(call("pause").success);
+  EXPECT_TRUE(standsSaying("paused until ~resume"));
+  ros::Publisher cancels = nh_.advertise<actionlib_msgs::GoalID>("navigate_path/cancel", 1);
+  ASSERT_TRUE(test::waitFor([&] { return cancels.getNumSubscribers() > 0; }));
+  cancels.publish(actionlib_msgs::GoalID());
+  ASSERT_TRUE(results_.waitForMoreThan(0));
+  sendGoal(sky_.now());
+  EXPECT_TRUE(standsSaying("paused until ~resume"));
   EXPECT_TRUE(call("resume").success);
   EXPECT_TRUE(flies()) << said();
 }
@@ -234,9 +266,12 @@ TEST_F(HoldsTest, AClockThatStandsStillStopsIt) {
 
 TEST_F(HoldsTest, TimeThatGoesBackCancelsAndANewGoalIsFlown) {
   ASSERT_NO_FATAL_FAILURE(startAndFly());
+  const ros::Time old = sky_.now();
   sky_.jumpTo(5e8);
   EXPECT_TRUE(says("CANCELLED: time went back")) << said();
   EXPECT_TRUE(endsInAZero());
+  sendGoal(old);
+  EXPECT_TRUE(pilot_->says("s ahead of the time here"));
   sendGoal(sky_.now());
   EXPECT_TRUE(flies()) << said();
 }

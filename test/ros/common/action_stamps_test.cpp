@@ -9,24 +9,44 @@ const ros::Time kLast(~0U, 999'999'999);
 
 TEST(ActionStamps, GoalsAreInTheOrderInWhichTheyCome) {
   ActionStamps stamps;
-  const ros::Time first = stamps.ofGoal(ros::Time(100.0));
+  const ros::Time first = stamps.ofGoal({}, ros::Time(100.0));
   EXPECT_EQ(first, ros::Time(100.0));
-  EXPECT_GT(stamps.ofGoal(ros::Time(100.0)), first);
-  EXPECT_GT(stamps.ofGoal(ros::Time(1.0)), first) << "time began anew";
+  EXPECT_GT(stamps.ofGoal(kLast, ros::Time(100.0)), first);
+  EXPECT_GT(stamps.ofGoal({}, ros::Time(1.0)), first) << "time began anew";
 }
 
 TEST(ActionStamps, ACancelOfTheFutureEndsWhatHasCome) {
   ActionStamps stamps;
-  const ros::Time before = stamps.ofGoal(ros::Time(100.0));
+  const ros::Time before = stamps.ofGoal({}, ros::Time(100.0));
   const ros::Time cancel = stamps.ofCancel(kLast, ros::Time(100.0));
   EXPECT_GE(cancel, before);
-  EXPECT_GT(stamps.ofGoal(ros::Time(100.0)), cancel) << "and nothing later";
+  EXPECT_GT(stamps.ofGoal({}, ros::Time(100.0)), cancel) << "and nothing later";
 }
 
 TEST(ActionStamps, OtherCancelsMeanWhatTheySay) {
   ActionStamps stamps;
   EXPECT_EQ(stamps.ofCancel({}, ros::Time(100.0)), ros::Time());
   EXPECT_EQ(stamps.ofCancel(ros::Time(50.0), ros::Time(100.0)), ros::Time(50.0));
+}
+
+// The cancel of a goal that had come a millisecond after it was sent did nothing, and the vehicle drove on.
+TEST(ActionStamps, ACancelIsOfTheGoalsThatWereStampedUntilThen) {
+  ActionStamps stamps;
+  const ros::Time first = stamps.ofGoal(ros::Time(10.0), ros::Time(10.2));
+  const ros::Time second = stamps.ofGoal(ros::Time(10.1), ros::Time(10.3));
+  const ros::Time cancel = stamps.ofCancel(ros::Time(10.05), ros::Time(10.4));
+  EXPECT_GE(cancel, first);
+  EXPECT_LT(cancel, second);
+  EXPECT_GE(stamps.ofCancel(ros::Time(10.1), ros::Time(10.4)), second);
+}
+
+TEST(ActionStamps, AGoalThatItsCancelOvertookIsCancelledAndAnotherIsNot) {
+  ActionStamps stamps;
+  const ros::Time cancel = stamps.ofCancel(ros::Time(10.0), ros::Time(10.0));
+  EXPECT_LE(stamps.ofGoal(ros::Time(9.9), ros::Time(10.1)), cancel);
+  EXPECT_GT(stamps.ofGoal(ros::Time(10.0), ros::Time(10.0)), cancel) << "given at once after it";
+  EXPECT_GT(stamps.ofGoal({}, ros::Time(10.0)), cancel);
+  EXPECT_GT(stamps.ofGoal(ros::Time(2.0), ros::Time(2.0)), cancel) << "time went back";
 }
 
 }  // namespace

@@ -3,48 +3,17 @@
 import os
 import signal
 import sys
-import threading
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import actionlib
 import rosnode
 import rospy
 import rostest
-from grid_path_planner.msg import PlanPathAction, PlanPathResult
 
-from go_to_session import DEADLINE, PACKAGE, GoToTest, pose, room
-
-
-class HeldPlanner:
-    """Answers `plan_path`, by the straight line to the goal from (2, 1.5), when it is told to."""
-
-    def __enter__(self):
-        self.asked, self.answers = threading.Event(), threading.Event()
-        self.server = actionlib.SimpleActionServer("plan_path", PlanPathAction, self.plan, auto_start=False)
-        self.server.start()
-        return self
-
-    def plan(self, goal):
-        self.asked.set()
-        self.answers.wait(DEADLINE)
-        result = PlanPathResult(status="FOUND")
-        result.path.header.frame_id, result.path.header.stamp = "map", rospy.Time.now()
-        result.path.poses = [pose(2, 1.5), goal.goal]
-        self.server.set_succeeded(result)
-
-    def __exit__(self, *_):
-        self.answers.set()
-        action = self.server.action_server
-        for topic in (action.goal_sub, action.cancel_sub, action.status_pub, action.result_pub, action.feedback_pub):
-            topic.unregister()
+from go_to_session import PACKAGE, GoToTest, HeldPlanner, pose, room
 
 
 class GoToPoseFailures(GoToTest):
-    def start_planner(self):
-        self.start("path_planner")
-        self.wait_for(lambda: self.serves("path_planner", "plan_path"))
-
     def test_a_door_that_closes_stops_it_and_one_that_opens_lets_it_go_on(self):
         self.drive_to(2, 1.5)
         self.send(pose(8, 1.5))

@@ -17,7 +17,7 @@ import roslib.packages
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import PoseStamped
-from grid_path_planner.msg import GoToStatus
+from grid_path_planner.msg import GoToStatus, PlanPathAction, PlanPathResult
 from move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
 from nav_msgs.msg import OccupancyGrid, Odometry
 
@@ -66,6 +66,30 @@ def until(condition, seconds=DEADLINE):
             return False
         time.sleep(0.01)
     return True
+
+
+class HeldPlanner:
+    """Answers `plan_path`, by the straight line to the goal from (2, 1.5), when it is told to."""
+
+    def __enter__(self):
+        self.asked, self.answers = threading.Event(), threading.Event()
+        self.server = actionlib.SimpleActionServer("plan_path", PlanPathAction, self.plan, auto_start=False)
+        self.server.start()
+        return self
+
+    def plan(self, goal):
+        self.asked.set()
+        self.answers.wait(DEADLINE)
+        result = PlanPathResult(status="FOUND")
+        result.path.header.frame_id, result.path.header.stamp = "map", rospy.Time.now()
+        result.path.poses = [pose(2, 1.5), goal.goal]
+        self.server.set_succeeded(result)
+
+    def __exit__(self, *_):
+        self.answers.set()
+        action = self.server.action_server
+        for topic in (action.goal_sub, action.cancel_sub, action.status_pub, action.result_pub, action.feedback_pub):
+            topic.unregister()
 
 
 class GoToTest(unittest.TestCase):
@@ -175,6 +199,10 @@ class GoToTest(unittest.TestCase):
     def stands(self):
         speed = self.odometry.twist.twist
         return abs(speed.linear.x) < 1e-3 and abs(speed.linear.y) < 1e-3 and abs(speed.angular.z) < 1e-3
+
+    def start_planner(self):
+        self.start("path_planner")
+        self.wait_for(lambda: self.serves("path_planner", "plan_path"))
 
     def send(self, target, **callbacks):
         self.client.send_goal(MoveBaseGoal(target_pose=target), **callbacks)

@@ -38,8 +38,8 @@ class NavigateAction : public test::NavigateTest {
 };
 
 TEST_F(NavigateAction, ServicesFromEveryState) {
-  EXPECT_FALSE(ask("pause")) << "idle";
   EXPECT_FALSE(ask("resume")) << "idle";
+  EXPECT_TRUE(ask("pause")) << "idle: of the next path";
   EXPECT_TRUE(ask("cancel")) << "idle";
 
   publishPath(pathOf({{0, 0}, {50, 0}}));
@@ -53,7 +53,8 @@ TEST_F(NavigateAction, ServicesFromEveryState) {
   EXPECT_TRUE(ask("cancel"));
   EXPECT_TRUE(staysStill());
   EXPECT_FALSE(ask("resume")) << "cancelled";
-  EXPECT_FALSE(ask("pause")) << "cancelled";
+  EXPECT_TRUE(ask("pause")) << "cancelled";
+  EXPECT_TRUE(ask("resume")) << "of the next path";
 
   publishPath(pathOf({{50, 0}}));
   ASSERT_TRUE(moves()) << "the next path after a cancel";

@@ -4,6 +4,7 @@
 // somebody else, the map changed there, and it turned around and drove back to the goal of half an hour
 // ago; after ~cancel the next obstacle on the path set it going again.
 #include <actionlib_msgs/GoalID.h>
+#include <actionlib_msgs/GoalStatusArray.h>
 #include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
 
@@ -11,7 +12,9 @@
 
 #include "grid_path_planner/NavigatePathActionGoal.h"
 #include "grid_path_planner/NavigatePathActionResult.h"
+#include "grid_path_planner/path/waypoint_file.h"
 #include "ros/support/still_fixture.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -99,6 +102,32 @@ TEST_F(GivenGoalsTest, WhatSomebodyCancelledStaysCancelled) {
   driveToNewGoal();
 }
 
+// path_planner finds no path, and then one again: the vehicle that somebody had paused drove off.
+TEST_F(GivenGoalsTest, APauseOutlivesAnEmptyPath) {
+  start();
+  const ros::Time goal = driveToNewGoal();
+  EXPECT_TRUE(ask("pause"));
+  EXPECT_TRUE(stops());
+  paths_.publish(pathToMessage(path::Path{"map", {}}, now()));
+  ASSERT_TRUE(navigate_->says("the path is empty"));
+  publishPathFor(goal, far_);
+  ASSERT_TRUE(navigate_->says("once it is resumed"));
+  EXPECT_FALSE(drivesWithin(std::chrono::seconds(1)));
+  EXPECT_TRUE(ask("resume"));
+  EXPECT_TRUE(isDriving());
+}
+
+// It was refused, and the path that came then was driven.
+TEST_F(GivenGoalsTest, APauseBeforeThePathComesHoldsForIt) {
+  start();
+  EXPECT_TRUE(ask("pause"));
+  publishPathFor(now(), far_);
+  ASSERT_TRUE(navigate_->says("once it is resumed"));
+  EXPECT_FALSE(drivesWithin(std::chrono::seconds(1)));
+  EXPECT_TRUE(ask("cancel"));
+  driveToNewGoal();
+}
+
 TEST_F(GivenGoalsTest, AGoalOfTheActionThatIsRefusedEndsNothing) {
   start();
   const ros::Time goal = driveToNewGoal();
@@ -168,13 +197,44 @@ TEST_F(GivenGoalsTest, TheEndOfTheDriveBeforeIsNotThatOfANewGoal) {
   }
 }
 
-TEST_F(GivenGoalsTest, AfterTimeHasGoneBackNewGoalsAreDriven) {
+// A bag that began anew set a vehicle going for a goal that had been cancelled.
+TEST_F(GivenGoalsTest, AfterTimeHasGoneBackNewGoalsAreDrivenAndThoseOfBeforeAreNot) {
   start();
-  driveToNewGoal();
+  const ros::Time old = now(), driven = driveToNewGoal();
   EXPECT_TRUE(ask("cancel"));
   world_.jumpTo(20.0);
   ASSERT_TRUE(navigate_->says("ROS time went back"));
+  for (const ros::Time& goal : {old, driven, ros::TIME_MIN}) expectNotDriven(goal);
+  nav_msgs::Path latched = pathToMessage(far_, old);
+  paths_.publish(latched);
+  EXPECT_TRUE(navigate_->says("s ahead of the time here"));
+  EXPECT_FALSE(drivesWithin(std::chrono::seconds(1)));
   driveToNewGoal();
+}
+
+// It was driven, once it had been read: by then it was a goal of another time.
+TEST_F(GivenGoalsTest, AGoalWhoseFileIsReadAsTimeGoesBackIsNotDriven) {
+  const test::TemporaryFolder folder;
+  path::Path route{"map", {}};
+  for (int i = 0; i < 200000; ++i) route.poses.push_back({{40.0 + 0.001 * i, 0.0, 0.0}, 0.0});
+  path::writeWaypointFile(folder.path("route.yaml"), route);
+  startNavigate({"_no_progress_timeout:=0", "--load-folder", folder.path("")});
+  const test::Latest<NavigatePathActionResult> results(nh_, "navigate_path/result");
+  const test::Latest<actionlib_msgs::GoalStatusArray> statuses(nh_, "navigate_path/status");
+  ros::Publisher action = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1);
+  ASSERT_TRUE(test::waitFor([&] {
+    return action.getNumSubscribers() > 0 && results.connected() && statuses.connected();
+  }));
+  NavigatePathActionGoal goal;
+  goal.goal.filename = "route.yaml";
+  action.publish(goal);
+  ASSERT_TRUE(statuses.waitFor(
+      0, [](const actionlib_msgs::GoalStatusArray& array) { return !array.status_list.empty(); }));
+  world_.jumpTo(20.0);
+  const auto result = results.waitForMoreThan(0);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->result.status, "CANCELLED") << result->result.message;
+  EXPECT_TRUE(test::waitFor([&] { return !drivesWithin(std::chrono::seconds(1)); }));
 }
 
 }  // namespace

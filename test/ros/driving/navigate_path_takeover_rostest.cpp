@@ -6,6 +6,7 @@
 #include <sensor_msgs/Joy.h>
 #include <std_msgs/Bool.h>
 
+#include <atomic>
 #include <mutex>
 #include <utility>
 
@@ -189,21 +190,21 @@ TEST_F(Takeover, WhatWasGivenBeforeAJoystickTookOverOrLetGoIsNotDrivenAfterwards
   FrameTransforms transforms(nh_);
   NavigatePathOptions options;
   options.check_map = false;
-  DriveLoop loop(nh_, options, transforms, [] {});
+  std::atomic<unsigned> handovers{0};
+  DriveLoop loop(nh_, options, transforms, {[] {}, [&](unsigned n) { handovers = n; }});
   ros::Publisher manual = nh_.advertise<std_msgs::Bool>("manual_control", 10);
-  const unsigned before = loop.handovers();
   std_msgs::Bool commands;
   for (const bool on : {true, false}) {
     commands.data = on;
     manual.publish(commands);
   }
-  ASSERT_TRUE(test::waitFor([&] { return loop.handovers() == before + 2; }));
-  for (const unsigned given : {before, before + 1}) {
+  ASSERT_TRUE(test::waitFor([&] { return handovers == 2; }));
+  for (const unsigned given : {0U, 1U}) {
     loop.start(pathOf({{0, 0}, {50, 0}}), following::Join::NEAREST, given);
     EXPECT_EQ(loop.standing().status, following::DriveStatus::CANCELLED);
     EXPECT_EQ(loop.standing().message, "the joystick commands");
   }
-  loop.start(pathOf({{0, 0}, {50, 0}}), following::Join::NEAREST, before + 2);
+  loop.start(pathOf({{0, 0}, {50, 0}}), following::Join::NEAREST, 2);
   EXPECT_TRUE(isDriving()) << "nobody commands any more";
 }
 

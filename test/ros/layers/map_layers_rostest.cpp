@@ -1,4 +1,5 @@
 // map_layers through a real roscore: what it hears as one map, and when there is none.
+#include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/LaserScan.h>
 #include <std_msgs/Empty.h>
 #include <tf2_ros/static_transform_broadcaster.h>
@@ -45,10 +46,10 @@ class MapLayers : public testing::Test {
     broadcaster_.sendTransform(transform);
   }
   // A ray along the x axis.
-  void see(float range) {
+  void see(float range, const ros::Time& stamp = ros::Time::now()) {
     sensor_msgs::LaserScan scan;
     scan.header.frame_id = "laser";
-    scan.header.stamp = ros::Time::now();
+    scan.header.stamp = stamp;
     scan.range_max = 30.0F;
     scan.ranges = {range};
     scans_.publish(scan);
@@ -155,6 +156,49 @@ TEST_F(MapLayers, WhileTheLaserIsSilentThereIsNoMapAndNoHeartbeat) {
   EXPECT_EQ(beats(), before);
   EXPECT_TRUE(waitFor([&] {
     see(5.0F);
+    return beats() > before;
+  }));
+}
+
+// As when a bag begins anew: the obstacles were forgotten, and the map was published without them.
+TEST_F(MapLayers, WhenTimeHasGoneBackThereIsNoMapUntilTheLaserHasLookedAgain) {
+  ros::param::set("/use_sim_time", true);
+  ros::Publisher clock = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  const auto tick = [&](const ros::Time& time) {
+    rosgraph_msgs::Clock message;
+    message.clock = time;
+    clock.publish(message);
+  };
+  placeLaser();
+  publishStatic(kRoom);
+  start({"_use_scan:=true", "_source_timeout:=60", "_stale_source:=drop"});
+  ros::param::del("/use_sim_time");
+  const auto becomesBySeeingAt = [&](const ros::Time& time) {
+    return waitFor([&] {
+      tick(time);
+      see(5.0F, time);
+      return at(5, 0) == 100;
+    });
+  };
+  ASSERT_TRUE(becomesBySeeingAt(ros::Time(1000.0)));
+  const std::size_t maps = copy_.maps(), said = node_->output().size();
+  EXPECT_TRUE(waitFor([&] {
+    tick(ros::Time(500.0));
+    return node_->output().find("vehicles stand: nothing has come on /scan yet", said) !=
+           std::string::npos;
+  }));
+  const std::size_t before = beats();
+  for (int i = 0; i < 15; ++i) {  // in which a heartbeat would come
+    tick(ros::Time(500.0 + 0.1 * i));
+    ros::WallDuration(0.1).sleep();
+  }
+  EXPECT_EQ(beats(), before);
+  EXPECT_EQ(copy_.maps(), maps);
+  EXPECT_EQ(at(5, 0), 100);
+  placeLaser();  // tf has been forgotten, too
+  EXPECT_TRUE(waitFor([&] {
+    tick(ros::Time(502.0));
+    see(5.0F, ros::Time(502.0));
     return beats() > before;
   }));
 }

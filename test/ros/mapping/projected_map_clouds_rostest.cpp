@@ -1,11 +1,13 @@
 // Clouds as they come from the field: none of them loses anything but itself.
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Clock.h>
+#include <std_srvs/Empty.h>
 
 #include <cmath>
 #include <limits>
 
 #include "ros/mapping/cloud_queue.h"
+#include "ros/mapping/mapping_services.h"
 #include "ros/support/mapping_fixture.h"
 #include "support/bounded_run.h"
 
@@ -187,6 +189,56 @@ TEST_F(HostileClouds, TimeThatJumpsBackClearsWhatWaitsAndKeepsTheMap) {
   }
   node_.reset();
   ros::param::del("/use_sim_time");
+}
+
+// What had been seen before ~reset and ~clear_bbx came back by itself, once its transform was there.
+TEST_F(HostileClouds, WhatWaitsIsNotMappedAfterTheMapWasResetOrABoxCleared) {
+  startMapping({"_tf_timeout:=100"});
+  const Maps maps(nh_, "projected_map");
+  const auto sees = [&](const ros::Time& stamp, const std::string& waiting) {
+    clouds_.publish(cloudOf(wallAt(2.0F), "sensor", stamp));
+    return reports("waiting", waiting);
+  };
+  const ros::Time first = ros::Time::now(), second = first + ros::Duration(0.1);
+  ASSERT_TRUE(sees(first, "1"));
+  std_srvs::Empty reset;
+  ASSERT_TRUE(ros::service::call("/projected_map/reset", reset));
+  EXPECT_TRUE(drops("came before ~reset", "1"));
+  ASSERT_TRUE(sees(second, "1"));
+  ClearBoxService clear;
+  clear.request.min.x = 1.0;
+  ASSERT_FALSE(ros::service::call("/projected_map/clear_bbx", clear)) << "that is no box";
+  EXPECT_TRUE(reports("waiting", "1"));
+  clear.request.max.x = 3.0;
+  ASSERT_TRUE(ros::service::call("/projected_map/clear_bbx", clear));
+  EXPECT_TRUE(drops("came before ~clear_bbx", "1"));
+  placeSensor(0.0, 0.0, 0.0, "sensor", first);
+  placeSensor(0.0, 0.0, 0.0, "sensor", second);
+  publish(wallAt(1.0F));
+  ASSERT_TRUE(becomes(maps, 1.05, 0.05, 100));
+  EXPECT_NE(test::valueAt(maps.all().back(), 2.05, 0.05), 100);
+}
+
+// Clouds that were ready were mapped after the box was cleared.
+TEST_F(HostileClouds, WhatIsReadyIsMappedBeforeABoxIsCleared) {
+  startMapping({"_tf_timeout:=100", "_queue_size:=20"});
+  const Maps maps(nh_, "projected_map");
+  CloudPoints points;
+  while (points.size() < 300000)
+    for (const Eigen::Vector3f& point : wallAt(2.0F)) points.push_back(point);
+  for (int i = 0; i < 20; ++i) publish(points);
+  ASSERT_TRUE(reports("received", "20"));
+  ClearBoxService clear;
+  for (double geometry_msgs::Point::*axis :
+       {&geometry_msgs::Point::x, &geometry_msgs::Point::y, &geometry_msgs::Point::z}) {
+    clear.request.min.*axis = -5.0;
+    clear.request.max.*axis = 5.0;
+  }
+  ASSERT_TRUE(ros::service::call("/projected_map/clear_bbx", clear));
+  ASSERT_TRUE(reports("inserted", "20"));
+  publish(wallAt(1.0F));
+  ASSERT_TRUE(becomes(maps, 1.05, 0.05, 100));
+  EXPECT_NE(test::valueAt(maps.all().back(), 2.05, 0.05), 100);
 }
 
 // From 2038 on, or by a clock that is wrong: differences of stamps beyond 2^31 s threw, and the

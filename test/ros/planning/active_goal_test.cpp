@@ -22,6 +22,17 @@ TEST(ActiveGoal, EachGoalIsGivenAtATimeOfItsOwnWhileTimeStands) {
   EXPECT_EQ(givenAt(goal, ros::Time(3, 0)), ros::Time(3, 0)) << "time has gone back";
 }
 
+// Whoever drives knows by it that the goal is not of this time.
+TEST(ActiveGoal, AGoalFromBeforeTimeWentBackIsTheOldestOfAll) {
+  ActiveGoal goal;
+  goal.timeWentBack();
+  EXPECT_FALSE(goal.goal());
+  EXPECT_EQ(givenAt(goal, ros::Time(90)), ros::Time(90));
+  goal.timeWentBack();
+  EXPECT_EQ(goal.goal()->given, ros::TIME_MIN);
+  EXPECT_EQ(givenAt(goal, ros::Time(0, 1)), ros::Time(0, 2)) << "another goal";
+}
+
 TEST(ActiveGoal, NoTimeOfDayEndsIt) {
   for (const ros::Time& now : {ros::Time(), ros::TIME_MIN, ros::TIME_MAX}) {
     ActiveGoal goal;

@@ -192,7 +192,11 @@ class EveryCommander(CommanderTest):
     def test_a_joystick_that_was_killed_holds_nobody_for_ever(self):
         for name in DRIVERS:
             node = self.moving(name)
-            node.send("manual_control", Bool(True))
+
+            def holds():
+                node.send("manual_control", Bool(True))
+                return not self.resumes(node)
+            self.assertTrue(probes.until(node, holds, session_seconds() + DEADLINE), name)
             self.assertTrue(probes.until(node, lambda: self.resumes(node), session_seconds() + DEADLINE), name)
             self.assertTrue(self.moves(node), name)
 

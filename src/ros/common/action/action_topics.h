@@ -49,7 +49,7 @@ void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHand
   using GoalPtr = boost::shared_ptr<const Goal>;
   const auto on_goal = [&server, stamps](const GoalPtr& message) {
     const auto goal = boost::make_shared<Goal>(*message);
-    goal->goal_id.stamp = stamps->ofGoal(ros::Time::now());
+    goal->goal_id.stamp = stamps->ofGoal(message->goal_id.stamp, ros::Time::now());
     server.goalCallback(goal);
   };
   const boost::function<void(const boost::shared_ptr<const Cancel>&)> on_cancel =

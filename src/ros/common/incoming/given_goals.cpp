@@ -1,5 +1,6 @@
 #include "ros/common/incoming/given_goals.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace grid_path_planner::nodes {
@@ -11,17 +12,21 @@ const ros::Duration kClocksDiffer(0.5);
 
 // When the goal of `path` was given; 0: nobody knows. All other poses of a path of path_planner have the stamp of the
 // path, those of a trajectory have times of their own.
-ros::Time goalTime(const nav_msgs::Path& path) {
+ros::Time goalTime(const nav_msgs::Path& path, bool may_be_ahead) {
   if (path.poses.empty()) return {};
   const ros::Time& given = path.poses.back().header.stamp;
-  const bool others = path.poses.size() > 1 && path.poses.front().header.stamp != path.header.stamp;
-  return others || given > path.header.stamp ? ros::Time() : given;
+  const auto is_path_time = [&](const geometry_msgs::PoseStamped& pose) {
+    return pose.header.stamp == path.header.stamp;
+  };
+  const bool others = !std::all_of(path.poses.begin(), path.poses.end() - 1, is_path_time);
+  const bool ahead = given > path.header.stamp && !may_be_ahead;
+  return others || ahead ? ros::Time() : given;
 }
 
 }  // namespace
 
 void GivenGoals::drive(const nav_msgs::Path& path) {
-  driven_ = goalTime(path);
+  driven_ = goalTime(path, went_back_);
 }
 
 void GivenGoals::end() {
@@ -33,13 +38,16 @@ void GivenGoals::endAllUntil(const ros::Time& now) {
   until_ = now.toSec() > kClocksDiffer.toSec() ? now - kClocksDiffer : ros::Time();
 }
 
-void GivenGoals::forget() {
-  *this = GivenGoals();
+void GivenGoals::timeWentBack() {
+  end();
+  until_ = ros::TIME_MIN + ros::Duration(0, 1);
+  went_back_ = true;
 }
 
 bool GivenGoals::isOver(const nav_msgs::Path& path) const {
-  const ros::Time given = goalTime(path);
-  return !given.isZero() && (given == ended_ || given < until_);
+  const ros::Time given = goalTime(path, went_back_);
+  const bool of_old_time = given > path.header.stamp;
+  return !given.isZero() && (given == ended_ || given < until_ || of_old_time);
 }
 
 }  // namespace grid_path_planner::nodes

@@ -27,8 +27,9 @@ class GivenGoals {
   // Somebody ended the drive at `now`: its goal is over, and what was asked for until half a second before, also
   // where no path was found yet.
   void endAllUntil(const ros::Time& now);
-  // Time went back: stamps say nothing any more.
-  void forget();
+  // Time went back, which ended the drive: goals from before are over. path_planner stamps them TIME_MIN from then on;
+  // until it has noticed, they are those that are later than their path.
+  void timeWentBack();
 
   bool isOver(const nav_msgs::Path& path) const;
 
@@ -36,6 +37,7 @@ class GivenGoals {
   ros::Time driven_;
   ros::Time ended_;
   ros::Time until_;
+  bool went_back_ = false;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -74,12 +74,18 @@ TEST(GivenGoals, AGoalOfTheMomentOfACancelIsANewOne) {
   EXPECT_FALSE(goals.isOver(pathFor(0.05)));
 }
 
-TEST(GivenGoals, NothingIsOverWhenTimeHasGoneBack) {
+// A bag that began anew revived goals that were over: the vehicle set off for a goal that it had reached.
+TEST(GivenGoals, WhatIsFromBeforeTimeWentBackIsOver) {
   GivenGoals goals;
   goals.drive(pathFor(5));
-  goals.endAllUntil(ros::Time(1000));
-  goals.forget();
-  EXPECT_FALSE(goals.isOver(pathFor(5)));
+  goals.timeWentBack();
+  EXPECT_TRUE(goals.isOver(pathFor(5))) << "its drive ended";
+  EXPECT_TRUE(goals.isOver(pathFor(3000))) << "the planner has not noticed yet";
+  EXPECT_TRUE(goals.isOver(pathFor(1e-9))) << "it has";
+  EXPECT_FALSE(goals.isOver(pathFor(2))) << "given since";
+  nav_msgs::Path trajectory = pathFor(3000);
+  trajectory.poses[1].header.stamp = ros::Time(2500);
+  EXPECT_FALSE(goals.isOver(trajectory)) << "of others, that plan ahead";
 }
 
 }  // namespace
