@@ -73,7 +73,7 @@ int runFlights(int argc, char** argv) {
   const FlightJob job(file);
   const std::string flight = values["flight"].as<std::string>();
   if (!flight.empty()) return flyOne(job, flight, out);
-  const StudyTarget target = targetFrom(values, "grid_path flights " + file);
+  const StudyTarget target = targetFrom(values, "flights", file);
   ProcessPool pool(static_cast<std::size_t>(jobsFrom(values)), job.work());
   return runAndReport(job.units(), out, [&](const auto& stop, const auto& progress) {
     return job.run(target, pool, stop, progress);

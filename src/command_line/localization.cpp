@@ -55,7 +55,7 @@ int runLocalization(int argc, char** argv) {
     return 0;
   const std::string file = values["trial"].as<std::string>();
   const std::string out = values["out"].as<std::string>();
-  const study::StudyTarget target = targetFrom(values, "grid_path localization " + file);
+  const study::StudyTarget target = targetFrom(values, "localization", file);
   const auto run = [&](const auto& job) {
     study::ProcessPool pool(static_cast<std::size_t>(jobsFrom(values)), job.work(out));
     return runAndReport(job.units(), out, [&](const auto& stop, const auto& progress) {

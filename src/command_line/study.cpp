@@ -55,7 +55,7 @@ int runStudyCommand(int argc, char** argv) {
   const int jobs = jobsFrom(values);
   const StudyJob job(file, readMap);
   ProcessPool pool(static_cast<std::size_t>(jobs), job.work());
-  const StudyTarget target = targetFrom(values, "grid_path study " + file);
+  const StudyTarget target = targetFrom(values, "study", file);
 #ifdef GPP_HAVE_MPI
   if (startedByMpi()) {
     MpiSession session;

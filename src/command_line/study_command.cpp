@@ -4,12 +4,13 @@
 #include <cstdio>
 #include <iostream>
 
+#include "base/shell_text.h"
 #include "command_line/progress_bar.h"
 #include "grid_path_planner/base/errors.h"
 
 namespace grid_path_planner::command_line {
 
-using base::InputError, base::StopSource;
+using base::InputError, base::shellWord, base::StopSource;
 using study::StudyFailure, study::StudyOutcome, study::StudyTarget;
 
 namespace {
@@ -77,12 +78,13 @@ std::vector<char*> withNamedFile(int argc, char** argv, char* flag) {
   return arguments;
 }
 
-StudyTarget targetFrom(const po::variables_map& values, const std::string& command) {
+StudyTarget targetFrom(const po::variables_map& values, const std::string& command,
+                       const std::string& file) {
   const std::string out = values["out"].as<std::string>();
   const std::string results = values["results"].as<std::string>();
   return {out,
-          "rosrun grid_path_planner " + command + " --out " + out +
-              (results.empty() ? "" : " --results " + results),
+          "rosrun grid_path_planner grid_path " + command + ' ' + shellWord(file) + " --out " +
+              shellWord(out) + (results.empty() ? "" : " --results " + shellWord(results)),
           results, values["commit"].as<std::string>()};
 }
 

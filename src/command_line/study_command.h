@@ -21,9 +21,9 @@ int jobsFrom(const boost::program_options::variables_map& values);
 // as long as `argv` and the flag.
 std::vector<char*> withNamedFile(int argc, char** argv, char* flag);
 
-// What a study writes and says of how it was made: `command` is "grid_path study FILE".
+// What a study writes and says of how it was made: the `command` of grid_path with its `file`.
 study::StudyTarget targetFrom(const boost::program_options::variables_map& values,
-                              const std::string& command);
+                              const std::string& command, const std::string& file);
 
 // Runs a study with a bar of its progress, which Ctrl-C ends after the units that were started, and prints what
 // became of it. Returns the exit code.

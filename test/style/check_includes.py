@@ -29,6 +29,8 @@ LENT = {
     "base/cholesky.h": {"localization", "trials", "vision"},
     "base/current_error.h": {"ros_common", "ros_driving", "ros_mapping", "ros_planning", "ros_rviz", "ros_simulation"},
     "base/deflate.h": {"grid", "planners"},
+    "base/shell_text.h": {"command_line", "flights", "study"},
+    "base/utf8.h": {"ros_common", "study"},
     "base/zeroed_array.h": {"planners"},
     "costmap/inflation.h": {"planning"},  # the distances that it keeps
     "following/footprint_clearance.h": {"ros_driving"},

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/shell_text.h"
+
 namespace grid_path_planner::flights {
 
 FlightData::FlightData(const FlightPlan& plan, std::vector<FlightRecord> records)
@@ -11,6 +13,10 @@ FlightData::FlightData(const FlightPlan& plan, std::vector<FlightRecord> records
 
 std::string FlightData::nameOf(const FlightRecord& record) const {
   return plan_.nameOf({record.variant, record.world, record.seed});
+}
+
+std::string FlightData::commandOf(const FlightRecord& record, const std::string& command) const {
+  return command + " --flight " + base::shellWord(nameOf(record));
 }
 
 std::size_t FlightData::count(std::size_t variant, FlightEnd end) const {

@@ -23,6 +23,8 @@ class FlightData {
     return by_variant_[variant];
   }
   std::string nameOf(const FlightRecord& record) const;
+  // `command`, which flew all, for this flight alone.
+  std::string commandOf(const FlightRecord& record, const std::string& command) const;
 
   std::size_t successes(std::size_t variant) const;
   std::size_t count(std::size_t variant, FlightEnd end) const;

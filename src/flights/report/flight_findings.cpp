@@ -169,11 +169,10 @@ Finding failuresFinding(const FlightData& data, const std::string& command) {
       {}};
   for (const FlightRecord& flight : data.records())
     if (!flight.success())
-      finding.table.rows.push_back({data.nameOf(flight), base::choiceName(flight.end),
-                                    flight.sentence, placeText(flight.at),
-                                    TableCell(flight.time_s, 4), TableCell(flight.speed, 3),
-                                    number(static_cast<std::size_t>(flight.waypoints)),
-                                    command + " --flight " + data.nameOf(flight)});
+      finding.table.rows.push_back(
+          {data.nameOf(flight), base::choiceName(flight.end), flight.sentence, placeText(flight.at),
+           TableCell(flight.time_s, 4), TableCell(flight.speed, 3),
+           number(static_cast<std::size_t>(flight.waypoints)), data.commandOf(flight, command)});
   return finding;
 }
 

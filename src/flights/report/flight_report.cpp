@@ -85,7 +85,7 @@ std::string endsHtml(const FlightData& data, WorldOutlines& outlines, const std:
     const std::string title =
         data.nameOf(flight) + ", " + base::choiceName(flight.end) + ": " + flight.sentence;
     html += figureHtml(endPicture(data.study(), outlines.of(flight.world), flight, title), title,
-                       command + " --flight " + data.nameOf(flight));
+                       data.commandOf(flight, command));
   }
   if (html.empty()) return "";
   return "<details><summary>" + std::to_string(drawn) +
@@ -149,7 +149,8 @@ std::string flightResultsPage(const FlightData& data, const std::vector<Finding>
                               std::size_t missing, const StudyTarget& target) {
   std::string page =
       "# Results: " + study::markdown(data.study().title) + "\n\nFlights of commit " +
-      (target.commit.empty() ? "(not told)" : target.commit) + ", by\n\n    " + target.command +
+      (target.commit.empty() ? "(not told)" : study::markdown(target.commit)) + ", by\n\n" +
+      study::markdownCode(target.command) +
       "\n\nDo not edit: the command writes it anew. Times of the CPU are " +
       "of one machine at one time; everything else is the same wherever it runs. " +
       shownNumber(static_cast<double>(data.records().size()), 9) + " flights" +

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/shell_text.h"
 #include "study/findings/finding_text.h"
 #include "study/findings/published_cases.h"
 #include "study/findings/verdicts.h"
@@ -21,7 +22,8 @@ class Conclusions {
   explicit Conclusions(const StudyData& data)
       : data_(data),
         cases_(publishedCases(data, data.study().published.group, Border::FILLED)),
-        command_("grid_path study " + data.study().file + " --out DIR, then DIR/") {
+        command_("grid_path study " + base::shellWord(data.study().file) +
+                 " --out DIR, then DIR/") {
     dijkstra_ = variantOf(data, "dijkstra_published");
     a_star_ = variantOf(data, data.study().published.planner, Heuristic::EUCLIDEAN);
   }

@@ -1,6 +1,8 @@
 #include "study/report/markdown.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cstring>
 
 namespace grid_path_planner::study {
 namespace {
@@ -28,7 +30,27 @@ std::string markdown(const std::string& text) {
   std::string out;
   for (const char letter : text) {
     if (letter == '|' || letter == '*' || letter == '<') out += '\\';
-    out += letter;
+    out += letter == '\n' || letter == '\r' ? ' ' : letter;
+  }
+  return out;
+}
+
+std::string markdownCode(const std::string& text) {
+  std::string out = "    ";
+  for (const char letter : text)
+    out += letter == '\n' ? std::string("\n    ") : std::string(1, letter);
+  return out;
+}
+
+std::string markdownLink(const std::string& name) {
+  constexpr char kHex[] = "0123456789ABCDEF";
+  std::string out;
+  for (const char letter : name) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (std::isalnum(byte) != 0 || std::strchr("/._-", letter) != nullptr)
+      out += letter;
+    else
+      out += std::string("%") + kHex[byte / 16] + kHex[byte % 16];
   }
   return out;
 }

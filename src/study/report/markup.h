@@ -5,30 +5,11 @@
 
 namespace grid_path_planner::study {
 
-// With the special characters of HTML escaped.
-inline std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char letter : text) {
-    if (letter == '&')
-      out += "&amp;";
-    else if (letter == '<')
-      out += "&lt;";
-    else if (letter == '>')
-      out += "&gt;";
-    else if (letter == '"')
-      out += "&quot;";
-    else
-      out += letter;
-  }
-  return out;
-}
+// As text of an element, or as an attribute in double quotes, of HTML or XML: read back, it is the text. What no XML may
+// hold, control characters and what is not UTF-8, becomes U+FFFD.
+std::string escaped(const std::string& text);
 
 // JSON for a script element: nothing in it ends the element.
-inline std::string scriptSafe(const std::string& json) {
-  std::string out;
-  for (const char letter : json)
-    out += letter == '<' ? std::string("\\u003c") : std::string(1, letter);
-  return out;
-}
+std::string scriptSafe(const std::string& json);
 
 }  // namespace grid_path_planner::study

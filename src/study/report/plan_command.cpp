@@ -1,28 +1,17 @@
 #include <algorithm>
-#include <cctype>
 
+#include "base/shell_text.h"
 #include "grid_path_planner/base/option_text.h"
 #include "study/report/report.h"
 #include "study/study_planners.h"
 
 namespace grid_path_planner::study {
 
-using base::describeOptions, base::differingOptions, base::OptionDescription;
+using base::describeOptions, base::differingOptions, base::OptionDescription, base::shellWord;
 using grid::Cell;
 using planning::PlannerOptions;
 
 namespace {
-
-std::string quoted(const std::string& text) {
-  const bool plain = std::all_of(text.begin(), text.end(), [](unsigned char letter) {
-    return std::isalnum(letter) != 0 || std::string("/._-+,").find(letter) != std::string::npos;
-  });
-  if (plain && !text.empty()) return text;
-  std::string out = "'";
-  for (const char letter : text)
-    out += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  return out + '\'';
-}
 
 // --name value for every option that is not as by default.
 std::string optionArguments(PlannerOptions options) {
@@ -32,7 +21,7 @@ std::string optionArguments(PlannerOptions options) {
     if (std::find(changed.begin(), changed.end(), option.name) == changed.end()) continue;
     std::string flag = option.name;
     std::replace(flag.begin(), flag.end(), '_', '-');
-    arguments += " --" + flag + ' ' + quoted(option.value);
+    arguments += " --" + flag + ' ' + shellWord(option.value);
   }
   return arguments;
 }
@@ -53,7 +42,7 @@ std::string planCommand(const StudyData& data, const StudyRun& run) {
   options.search = variant.search;
   options.retry_finer = false;
   return "rosrun grid_path_planner grid_path plan --map " +
-         quoted(data.study().maps[setting.map].file) + " --cells --start " +
+         shellWord(data.study().maps[setting.map].file) + " --cells --start " +
          cellArgument(run.start) + " --goal " + cellArgument(run.goal) + optionArguments(options);
 }
 

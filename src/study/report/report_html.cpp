@@ -152,7 +152,7 @@ std::string reportHtml(const StudyData& data, const std::vector<Finding>& findin
     page.main += findingHtml(finding, chartsFor(data, finding, command));
   page.main += viewerHtml(data, pictures) + "<section><h2 id=\"about-runs\">Every run</h2>" +
                tableHtml(firstRuns(data), "wide tall") + "</section>";
-  return pageHtml(page, pictures.dump());
+  return pageHtml(page, pictures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace grid_path_planner::study

@@ -8,7 +8,7 @@ namespace grid_path_planner::study {
 namespace {
 
 std::string picture(const std::string& what, const std::string& name) {
-  return name.empty() ? "" : "\n![" + what + "](" + name + ")\n";
+  return name.empty() ? "" : "\n![" + what + "](" + markdownLink(name) + ")\n";
 }
 
 }  // namespace
@@ -18,8 +18,9 @@ std::string resultsPage(const StudyData& data, const std::vector<Finding>& findi
                         const std::string& paths_picture) {
   std::ostringstream page;
   page << "# Results: " << markdown(data.study().title) << "\n\nWritten on " << origin.date
-       << ", with the runs of commit " << (origin.commit.empty() ? "(not told)" : origin.commit)
-       << " by\n\n    " << origin.command
+       << ", with the runs of commit "
+       << (origin.commit.empty() ? "(not told)" : markdown(origin.commit)) << " by\n\n"
+       << markdownCode(origin.command)
        << "\n\nDo not edit: the command writes it anew. Times are of one machine at one time; "
           "everything else is the same wherever it runs. "
        << shownNumber(static_cast<double>(data.runs().size()), 9)

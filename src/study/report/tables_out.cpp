@@ -39,7 +39,7 @@ std::string jsonReport(const StudyData& data, const std::vector<Finding>& findin
   for (const StudyFailure& failure : failures)
     report["failures"].push_back({{"unit", failure.unit}, {"reason", failure.reason}});
   for (const StudyRun& run : data.runs()) report["runs"].push_back(json::parse(lineOf(run)));
-  return report.dump(1) + '\n';
+  return report.dump(1, ' ', false, json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace grid_path_planner::study

@@ -195,8 +195,9 @@ void writeRecordedReport(const RecordedResults& results, const study::StudyTarge
   std::vector<Finding> findings = {figuresFinding(results), inputsFinding(results),
                                    consistencyFinding(results)};
   if (!results.recording.truth.empty()) findings.push_back(tracksFinding(results));
-  std::string markdown = "# Results: " + study::markdown(results.trial.title) + "\n\nBy\n\n    " +
-                         target.command + "\n\nDo not edit: the command writes it anew.\n";
+  std::string markdown = "# Results: " + study::markdown(results.trial.title) + "\n\nBy\n\n" +
+                         study::markdownCode(target.command) +
+                         "\n\nDo not edit: the command writes it anew.\n";
   for (const Finding& finding : findings) {
     writeFileAtomically(target.folder + '/' + finding.table.name + ".csv", csvOf(finding.table));
     markdown += markdownSection(finding);

@@ -99,8 +99,9 @@ std::string summaryOf(const TrialData& data) {
 std::string resultsPage(const std::vector<Finding>& findings, const TrialData& data,
                         const StudyTarget& target) {
   std::string page = "# Results: " + study::markdown(data.study.title) + "\n\nRuns of commit " +
-                     (target.commit.empty() ? "(not told)" : target.commit) + ", by\n\n    " +
-                     target.command + "\n\nDo not edit: the command writes it anew.\n";
+                     (target.commit.empty() ? "(not told)" : study::markdown(target.commit)) +
+                     ", by\n\n" + study::markdownCode(target.command) +
+                     "\n\nDo not edit: the command writes it anew.\n";
   for (const Finding& finding : findings) page += markdownSection(finding);
   return page;
 }
