@@ -88,6 +88,11 @@ void removeLeftOvers(int folder, const std::string& leaf) {
   });
 }
 
+// True on a file system that cannot.
+bool sync(int descriptor) {
+  return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
+}
+
 bool writeAll(int descriptor, const std::string& content) {
   std::size_t done = 0;
   while (done < content.size()) {
@@ -96,15 +101,20 @@ bool writeAll(int descriptor, const std::string& content) {
     if (written <= 0) return false;
     done += static_cast<std::size_t>(written);
   }
-  return ::fsync(descriptor) == 0 || errno == EINVAL;  // EINVAL: a file system without fsync
+  return sync(descriptor);
 }
 
-// Not every file system can; the file is there all the same.
-void syncFolder(int folder) {
+// One that may be written and not be read cannot be synced.
+void syncFolder(int folder, const std::string& file) {
   const int again = ::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (again < 0) return;
-  ::fsync(again);
+  const bool synced = sync(again);
+  const int error = errno;
   ::close(again);
+  if (!synced)
+    throw InputError(file, std::string("is written, but a loss of power may undo that: its folder "
+                                       "cannot be synced: ") +
+                               std::strerror(error));
 }
 
 // An owner that already is the right one needs no right to change it.
@@ -156,7 +166,7 @@ class AtomicWriting {
     if (::renameat(*folder_, temporary_.c_str(), *folder_, leaf_.c_str()) != 0)
       throwUnwritten(name_, errno);
     temporary_.clear();
-    syncFolder(*folder_);
+    syncFolder(*folder_, name_);
   }
 
  private:

@@ -86,8 +86,9 @@ class OutputFile {
 // Writes `content` beside `file`, or what a link of that name leads to, renames it over that and
 // syncs the folder. An old file's mode and owner stay. Throws InputError naming the file and the
 // reason, also where the old file may not be written or its owner not be kept; then it is as it was
-// and nothing is left beside it. Several threads or processes may write the same file: one of them
-// wins.
+// and nothing is left beside it. Throws, too, where the folder cannot be synced: then the new file is there,
+// and a loss of power may undo it. Several threads or processes may write the same file: one
+// of them wins.
 void writeFileAtomically(const OutputFile& file, const std::string& content);
 
 // A file that is written piece by piece, so that what a process wrote is there when it is killed: a log.
