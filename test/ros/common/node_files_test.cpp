@@ -3,10 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <functional>
 
+#include "grid_path_planner/mapping/octree_map.h"
+#include "grid_path_planner/path/waypoint_file.h"
+#include "grid_path_planner/ros/bag.h"
+#include "grid_path_planner/simulation/world.h"
+#include "layers/zones.h"
 #include "ros/common/file_kinds.h"
+#include "simulation/sensors/sensor_faults.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
+#include "vision/marker_layout.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -63,6 +71,73 @@ TEST(NodeFiles, ANameByArgumentMayLieAnywhereForItsOptionOnly) {
   EXPECT_NE(errorText([&] { files.toWrite("other", file, waypointFiles()); }), "");
   EXPECT_NE(errorText([&] { files.toRead("other", file, waypointFiles()); }), "");
   EXPECT_NE(errorText([&] { files.toRead("waypoints_file", file + "x", waypointFiles()); }), "");
+}
+
+// Files of others, under a name with an ending that is read: each has the word in a place that some reader's error told.
+const std::vector<std::string> kSecrets = {
+    "hunter2\n",
+    "root:hunter2:19000:0:99999:7:::\n",
+    "-----BEGIN OPENSSH PRIVATE KEY-----\nhunter2hunter2\n-----END OPENSSH PRIVATE KEY-----\n",
+    "export secret=hunter2\n",
+    "hunter2: 1\n",
+    "- hunter2\n",
+    "frame_id: hunter2\nzones: hunter2\n",
+    "image: hunter2\nresolution: hunter2\norigin: hunter2\nhunter2: 1\n",
+    "header: {frame_id: hunter2}\nposes: hunter2\n",
+    "waypoints: hunter2\n",
+    "family: hunter2\nmarkers: [hunter2]\n",
+    "imu: hunter2\nfaults: [hunter2]\n",
+    "type hunter2\nheight hunter2\nwidth 3\nmap\nhunter2\n",
+    "type octile\nheight 2\nwidth 7\nmap\nhunter2\n",
+    "P5 hunter2 3 255\nhunter2",
+    "#ROSBAG V2.0\nhunter2",
+    "# Octomap OcTree file\nid hunter2\nsize 1\nres 0.1\ndata\nhunter2",
+    "<sdf version='1.6'><world name='w'><model name='hunter2'><link name='l'><collision "
+    "name='hunter2'>"
+    "<geometry><hunter2/></geometry></collision></link></model></world></sdf>",
+    "<hunter2>"};
+
+// A name by parameter, service or action may be that of any file in the folder: what a reader says of it goes to whoever
+// asked.
+TEST(NodeFilesLaw, NoErrorOfAFileThatNoArgumentNamesQuotesIt) {
+  const test::TemporaryFolder folder;
+  const NodeFiles files({}, folder.path(""), folder.path(""));
+  struct Reading {
+    const FileKind& kind;
+    std::function<void(const std::string& file)> read;
+  };
+  const std::vector<Reading> readings = {
+      {mapFiles(), [](const std::string& file) { readAnyMapFile(file, {}); }},
+      {waypointFiles(), [](const std::string& file) { path::readWaypointFile(file); }},
+      {octreeFiles(),
+       [](const std::string& file) { mapping::OctreeMap(mapping::OctreeOptions()).load(file); }},
+      {worldFiles(), [](const std::string& file) { simulation::readWorld(file); }},
+      {sensorFaultFiles(), [](const std::string& file) { simulation::readSensorFaults(file, {}); }},
+      {zoneFiles(), [](const std::string& file) { layers::readZones(file, {}); }},
+      {markerLayoutFiles(), [](const std::string& file) { vision::readMarkerLayout(file, {}); }}};
+  std::size_t quoted_by_readers = 0;
+  for (const Reading& reading : readings)
+    for (const std::string& ending : reading.kind.endings) {
+      if (&reading.kind != &mapFiles() && ending != reading.kind.endings.front())
+        break;  // those of maps have readers of their own
+      for (const std::string& secret : kSecrets) {
+        const std::string name = "file." + ending;
+        folder.write(name, secret);
+        const std::string error = errorText([&] {
+          files.read("option", name, reading.kind, [&](const std::string& file) {
+            try {
+              reading.read(file);
+            } catch (const base::InputError& told) {
+              quoted_by_readers += test::contains(told.what(), "hunter2") ? 1 : 0;
+              throw;
+            }
+          });
+        });
+        EXPECT_NE(error, "") << reading.kind.name << ' ' << secret;
+        EXPECT_EQ(error.find("hunter2"), std::string::npos) << error;
+      }
+    }
+  EXPECT_GT(quoted_by_readers, 20u) << "readers tell the owner of a file what is wrong in it";
 }
 
 }  // namespace
