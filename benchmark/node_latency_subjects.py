@@ -195,7 +195,8 @@ class PathPlanner(Node):
     def parameters(self):
         return {"/path_planner/radius": RADIUS if self.inflated else 0.0,
                 "/path_planner/decay": DECAY if self.inflated else 0.0, "/path_planner/timeout": 60.0,
-                "/path_planner/smooth": False}
+                "/path_planner/smooth": False,
+                "/path_planner/outside": "free"}  # as the border is to the other nodes
 
     def command(self):
         return [executable("grid_path_planner", "path_planner"), "__name:=path_planner"]

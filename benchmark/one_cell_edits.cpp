@@ -85,6 +85,7 @@ CostmapOptions inflated() {
   CostmapOptions options;
   options.radius = 0.3;
   options.decay = 3.0;
+  options.outside = grid_path_planner::costmap::Outside::FREE;
   return options;
 }
 

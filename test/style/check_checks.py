@@ -192,6 +192,12 @@ class Files(unittest.TestCase):
             name = "include/grid_path_planner/grid/" + name
             self.assertEqual(len(self.planted(HEADER % "", name)), 1, name)
 
+    def test_a_benchmark_says_what_lies_beyond_its_map(self):
+        radius, outside = "  options.radius = 0.3;\n", "  options.outside = Outside::FREE;\n"
+        self.assertEqual(self.planted(radius + outside, "benchmark/x.cpp"), [])
+        self.assertEqual(len(self.planted(radius, "benchmark/x.cpp")), 1)
+        self.assertEqual(len(self.planted('{"/path_planner/radius": 0.3}', "benchmark/x.py")), 1)
+
 
 @unittest.skipIf(UBUNTU_2004, "its Doxygen is too old")
 class ApiPages(unittest.TestCase):

@@ -1,5 +1,6 @@
 """C++ files are built alike: a header opens with what it is for, has one #pragma once, and everything
-lives in the package's namespace. Names carry no versions, and nothing is left to be done later."""
+lives in the package's namespace. Names carry no versions, and nothing is left to be done later. A benchmark
+that sets a radius says what lies beyond its map."""
 import re
 
 from common import files, finish, read
@@ -8,6 +9,8 @@ NAME = re.compile(r"[a-z][a-z0-9_]*\.(h|cpp)$")
 VERSION = re.compile(r"(^|_)(v?\d+|new|old|final|copy|backup|tmp|fixed|improved|refactored)$")
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b")
 NAMESPACE = re.compile(r"^namespace grid_path_planner(::\w+)? \{", re.MULTILINE)
+RADIUS = re.compile(r'\.radius = |planner/radius"')
+OUTSIDE = re.compile(r'\.outside = |planner/outside"')
 MAIN = re.compile(r"^int main\(", re.MULTILINE)
 
 
@@ -34,11 +37,19 @@ def complaints_of(name, text):
         yield "using namespace in a header"
 
 
+def complaints_of_benchmark(text):
+    if RADIUS.search(text) and not OUTSIDE.search(text):
+        yield "sets a radius and not outside, by which paths keep it from the map's border or not"
+
+
 def main():
     names = files(("include", "src", "test"), (".h", ".cpp"))
+    benchmarks = files(("benchmark",), "")
     finish(["%s: %s" % (name, complaint)
-            for name in names for complaint in complaints_of(name, read(name))],
-           "%d files" % len(names))
+            for name in names for complaint in complaints_of(name, read(name))] +
+           ["%s: %s" % (name, complaint)
+            for name in benchmarks for complaint in complaints_of_benchmark(read(name))],
+           "%d files" % len(names + benchmarks))
 
 
 main()
