@@ -55,4 +55,5 @@ if(CATKIN_ENABLE_TESTING AND GPP_WITH_study AND GPP_WITH_mapping AND GPP_WITH_si
   gpp_run_benchmark(rectangle_repair maps/study_site.yaml 200)
   gpp_run_benchmark(rectangle_tables maps)
   gpp_run_benchmark(replanning --side 128 --edits 20 --rounds 1)
+  gpp_run_benchmark(waypoint_files 1 1000)
 endif()
