@@ -78,7 +78,7 @@ CONTEXT = {
     "end_of_node.h": """#include "grid_path_planner/simulation/world.h"
         extern std::string file; extern ReadOptions read_options;""",
     "bounded_subscription.h": """#include <map_msgs/OccupancyGridUpdate.h>
-        extern ros::NodeHandle nh; void use(const map_msgs::OccupancyGridUpdate&);""",
+        extern ros::NodeHandle nh; extern ros::Subscriber updates;""",
     "claimed_lengths.h": """#include <nav_msgs/OccupancyGrid.h>
         #include <nav_msgs/Path.h>
         extern std::uint8_t* bytes; extern std::uint32_t length; extern ros::NodeHandle nh;

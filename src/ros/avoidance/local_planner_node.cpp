@@ -27,8 +27,7 @@ using base::InputError;
 
 namespace {
 
-constexpr std::size_t kMostClouds = 64 << 20;  // bytes that wait
-constexpr double kOdometryAge = 0.5;           // s
+constexpr double kOdometryAge = 0.5;  // s
 
 // "/map" is "map".
 void nameFrames(LocalPlannerOptions& options) {
@@ -115,7 +114,7 @@ LocalPlannerNode::~LocalPlannerNode() {
   control_timer_.stop();
   diagnostics_timer_.stop();
   stop();
-  for (const auto& clouds : cloud_subscriptions_) clouds->shutdown();
+  for (ros::Subscriber& clouds : cloud_subscribers_) clouds.shutdown();
   for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
   reconfigurable_.reset();
@@ -160,8 +159,8 @@ void LocalPlannerNode::subscribeClouds() {
   using CloudEvent = ros::MessageEvent<const sensor_msgs::PointCloud2>;
   const std::vector<std::string> topics = cloudTopics(options_);
   for (std::size_t i = 0; i < topics.size(); ++i) {
-    cloud_subscriptions_.push_back(std::make_unique<BoundedSubscription<sensor_msgs::PointCloud2>>(
-        nh_, topics[i], kMostClouds / topics.size(),
+    cloud_subscribers_.push_back(subscribeBounded<sensor_msgs::PointCloud2, const CloudEvent&>(
+        nh_, topics[i], {kAnyNumber, kMostWaitingBytes / topics.size()},
         [this, i](const CloudEvent& event) { clouds_.add(i, event.getMessage()); }));
     subscribers_.push_back(subscribeChecked<sensor_msgs::CameraInfo>(
         nh_, cameraTopic(topics[i]), 1,

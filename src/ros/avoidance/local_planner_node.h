@@ -144,7 +144,7 @@ class LocalPlannerNode {
 
   ros::Publisher cancelled_publisher_;
   std::vector<ros::Subscriber> subscribers_;
-  std::vector<std::unique_ptr<BoundedSubscription<sensor_msgs::PointCloud2>>> cloud_subscriptions_;
+  std::vector<ros::Subscriber> cloud_subscribers_;
   std::vector<ros::ServiceServer> services_;
   std::unique_ptr<FlightAction> action_;
   diagnostic_updater::Updater diagnostics_;

@@ -21,8 +21,7 @@ using grid::OccupancyGrid;
 
 namespace {
 
-constexpr std::size_t kMostWaiting = 64 << 20;  // bytes of updates
-constexpr std::chrono::seconds kAnswer(2);      // to wait for a whole map that was asked for
+constexpr std::chrono::seconds kAnswer(2);  // to wait for a whole map that was asked for
 
 CellRect rectOf(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update) {
   const auto end = [](std::int64_t from, std::uint32_t length) { return from + length; };
@@ -82,8 +81,9 @@ void MapReceiver::start(ros::NodeHandle nh, OnChange on_change, std::function<vo
   on_heartbeat_ = std::move(on_heartbeat);
   nh_ = nh;
   subscribeToMaps();
-  updates_ = std::make_unique<BoundedSubscription<map_msgs::OccupancyGridUpdate>>(
-      nh, name_ + "_updates", kMostWaiting, [this](const UpdateEvent& event) { onUpdate(event); });
+  updates_ = subscribeBounded<map_msgs::OccupancyGridUpdate, const UpdateEvent&>(
+      nh, name_ + "_updates", {kAnyNumber, kMostWaitingBytes},
+      [this](const UpdateEvent& event) { onUpdate(event); });
   std::lock_guard<std::mutex> lock(mutex_);
   topic_ = map_subscriber_.getTopic();
 }
@@ -110,7 +110,7 @@ std::optional<MapHeartbeat> MapReceiver::heartbeat() const {
 
 void MapReceiver::shutdown() {
   map_subscriber_.shutdown();
-  if (updates_) updates_->shutdown();
+  updates_.shutdown();
 }
 
 std::string MapReceiver::lost() const {
@@ -223,7 +223,7 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   try {
     change = apply(event);
   } catch (const InputError& error) {
-    refuse(updates_->topic(), error.what());
+    refuse(updates_.getTopic(), error.what());
     return;
   }
   on_change_(change);

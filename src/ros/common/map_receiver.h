@@ -129,7 +129,7 @@ class MapReceiver {
   Clock::time_point asked_at_;  // for a whole map
   ros::NodeHandle nh_;
   ros::Subscriber map_subscriber_;
-  std::unique_ptr<BoundedSubscription<map_msgs::OccupancyGridUpdate>> updates_;
+  ros::Subscriber updates_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -7,7 +7,7 @@
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/clock.h"
-#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/incoming/bounded_subscription.h"
 #include "ros/common/network_text.h"
 
 namespace grid_path_planner::nodes {
@@ -16,7 +16,7 @@ namespace {
 using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
 
 constexpr double kWarningPeriod = 5.0;  // s
-constexpr int kMessages = 100;
+constexpr std::size_t kMessages = 100;
 
 // Seconds. Below the 5 s in which right transforms must count again; above what the clocks of one
 // vehicle's computers, or /clock and /tf, differ by.
@@ -46,8 +46,8 @@ TransformReceiver::TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer
     : buffer_(buffer), hearer_(std::move(hearer)), stamps_(buffer.getCacheLength().toSec()) {
   nh.setCallbackQueue(&guarded_);
   const auto subscribe = [&](const char* topic, bool is_static) {
-    return subscribeChecked<tf2_msgs::TFMessage, const Event&>(
-        nh, topic, kMessages, [this, is_static](const Event& event) {
+    return subscribeBounded<tf2_msgs::TFMessage, const Event&>(
+        nh, topic, {kMessages, kMostWaitingBytes}, [this, is_static](const Event& event) {
           receive(*event.getMessage(), printable(event.getPublisherName()), is_static);
         });
   };

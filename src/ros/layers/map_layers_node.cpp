@@ -11,7 +11,7 @@
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/ending/end_of_node.h"
 #include "ros/common/file_kinds.h"
-#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/incoming/bounded_subscription.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
 #include "ros/layers/scan_messages.h"
@@ -31,6 +31,7 @@ namespace {
 
 constexpr double kHeartbeatPeriod = 1.0;  // s, wall time
 constexpr double kExpiryPeriod = 0.5;     // s of ROS time
+constexpr std::size_t kMostScans = 5;     // that wait for this node
 
 void checkMapLayersOptions(MapLayersOptions& options) {
   base::checkOptionLimits(options);
@@ -134,8 +135,8 @@ void MapLayersNode::listen() {
         "live_map");
   if (options_.use_scan) {
     subscribers_.push_back(
-        subscribeChecked<sensor_msgs::LaserScan, const sensor_msgs::LaserScan::ConstPtr&>(
-            nh_, "scan", 5,
+        subscribeBounded<sensor_msgs::LaserScan, const sensor_msgs::LaserScan::ConstPtr&>(
+            nh_, "scan", {kMostScans, kMostWaitingBytes},
             [this](const sensor_msgs::LaserScan::ConstPtr& scan) { onScan(scan); }));
     subscribers_.push_back(subscribeChecked<std_msgs::Empty>(
         nh_, "clear_scan", 1, [this](const std_msgs::Empty&) { onClearScan(); }));

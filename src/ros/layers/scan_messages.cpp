@@ -36,6 +36,9 @@ void checkScan(const sensor_msgs::LaserScan& scan) {
   if (scan.ranges.size() > kMostBeams)
     throw InputError("it has " + std::to_string(scan.ranges.size()) +
                      " ranges, more than 20000 are not taken");
+  if (scan.intensities.size() > kMostBeams)  // they are not used, and wait for tf all the same
+    throw InputError("it has " + std::to_string(scan.intensities.size()) +
+                     " intensities, more than 20000 are not taken");
 }
 
 void checkScanPose(const geometry_msgs::TransformStamped& map_from_scan) {

@@ -11,7 +11,7 @@
 namespace grid_path_planner::nodes {
 
 // Throws InputError for a scan that cannot be meant: numbers that are not finite, ranges that do not lie between 0 and
-// range_max, a ray for each of more than 20,000 angles, or none.
+// range_max, a ray for each of more than 20,000 angles, or none, or as many intensities.
 void checkScan(const sensor_msgs::LaserScan& scan);
 
 // Throws InputError for a transform that is not finite or leads farther than 1e6 m.

@@ -11,7 +11,7 @@
 #include "localization/input_statistics.h"
 #include "localization/measurement_check.h"
 #include "ros/common/incoming/advertised_service.h"
-#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/incoming/bounded_subscription.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
 
@@ -27,8 +27,9 @@ using localization::Verdict;
 
 namespace {
 
-constexpr double kListens = 0.5;         // s of the wall clock, before the first transform
-constexpr std::uint32_t kWaiting = 200;  // messages of the IMU; 2 s
+constexpr double kListens = 0.5;              // s of the wall clock, before the first transform
+constexpr std::size_t kWaiting = 200;         // messages of the IMU; 2 s
+constexpr std::size_t kWaitingOfOthers = 20;  // of each other sensor
 
 void nameFrames(VehicleLocalizerOptions& options) {
   for (std::string* frame : {&options.map_frame, &options.odom_frame, &options.base_frame,
@@ -120,8 +121,9 @@ geometry_msgs::Transform VehicleLocalizerNode::placeOnVehicle(const std::string&
 }
 
 void VehicleLocalizerNode::subscribe() {
-  subscribers_.push_back(subscribeChecked<sensor_msgs::Imu>(
-      nh_, "imu/data", kWaiting, [this](const sensor_msgs::Imu& message) { onImu(message); }));
+  subscribers_.push_back(subscribeBounded<sensor_msgs::Imu>(
+      nh_, "imu/data", {kWaiting, kMostWaitingBytes},
+      [this](const sensor_msgs::Imu& message) { onImu(message); }));
   subscribers_.push_back(subscribeChecked<geometry_msgs::Twist>(
       nh_, "cmd_vel", 10, [this](const geometry_msgs::Twist& message) { onCommand(message); }));
   subscribers_.push_back(subscribeChecked<PoseWithCovarianceStamped>(
@@ -131,8 +133,9 @@ void VehicleLocalizerNode::subscribe() {
 void VehicleLocalizerNode::subscribeSensors() {
   const auto listen = [this](const char* topic, Source source, auto convert) {
     using Message = typename decltype(convert)::Message;
-    subscribers_.push_back(
-        subscribeChecked<Message>(nh_, topic, 20, [this, source, convert](const Message& message) {
+    subscribers_.push_back(subscribeBounded<Message>(
+        nh_, topic, {kWaitingOfOthers, kMostWaitingBytes},
+        [this, source, convert](const Message& message) {
           take(source, [&] { return (messages_.*convert.function)(message); });
         }));
   };

@@ -25,7 +25,6 @@ using mapping::ProjectionReference;
 
 namespace {
 
-constexpr std::size_t kMostArriving = 64 << 20;  // bytes of clouds, before the queue has them
 constexpr double kCloudPeriod = 0.01;    // s of the wall clock between two lookups of transforms
 constexpr double kFirstCloudWait = 5.0;  // s of the wall clock without the first cloud
 constexpr double kDecayPeriod = 1.0;     // s of ROS time; decay visits every occupied voxel
@@ -118,8 +117,8 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   service_spinner_.start();
 
   using CloudEvent = ros::MessageEvent<const sensor_msgs::PointCloud2>;
-  cloud_subscription_ = std::make_unique<BoundedSubscription<sensor_msgs::PointCloud2>>(
-      nh, "cloud_in", kMostArriving,
+  cloud_subscriber_ = subscribeBounded<sensor_msgs::PointCloud2, const CloudEvent&>(
+      nh, "cloud_in", {kAnyNumber, kMostWaitingBytes},
       [this](const CloudEvent& event) { onCloud(event.getMessage()); });
   cloud_timer_ = nh.createWallTimer(ros::WallDuration(kCloudPeriod),
                                     [this](const ros::WallTimerEvent&) { resolveTransforms(); });
@@ -142,7 +141,7 @@ ProjectedMapNode::~ProjectedMapNode() {
   autosave_timer_.stop();
   service_spinner_.stop();
   saveAtTheEnd();
-  cloud_subscription_->shutdown();  // asks the master, which may not answer
+  cloud_subscriber_.shutdown();  // asks the master, which may not answer
   reconfigurable_.reset();
   services_->shutdown();
   octree_publisher_->shutdown();

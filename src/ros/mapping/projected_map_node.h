@@ -103,7 +103,7 @@ class ProjectedMapNode {
   std::unique_ptr<MappingServices> services_;
   std::unique_ptr<MappingDiagnostics> diagnostics_;
   std::unique_ptr<Reconfigurable<ProjectedMapConfig, mapping::ProjectedMapOptions>> reconfigurable_;
-  std::unique_ptr<BoundedSubscription<sensor_msgs::PointCloud2>> cloud_subscription_;
+  ros::Subscriber cloud_subscriber_;
   ros::WallTimer cloud_timer_;
   ros::WallTimer publish_timer_;
   ros::WallTimer heartbeat_timer_;

@@ -79,6 +79,7 @@ TEST(Scans, ThatCannotBeMeantAreRefused) {
   EXPECT_TRUE(contains(refusal([](auto& s) { s.range_min = 20.0F; }), "range_max"));
   EXPECT_TRUE(contains(refusal([](auto& s) { s.ranges.clear(); }), "no ranges"));
   EXPECT_TRUE(contains(refusal([](auto& s) { s.ranges.resize(20001); }), "20001 ranges"));
+  EXPECT_TRUE(contains(refusal([](auto& s) { s.intensities.resize(20001); }), "20001 intensities"));
 }
 
 // tf2 takes what is finite, whatever its size.

@@ -25,7 +25,7 @@
 #include <string>
 #include <utility>
 
-#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/incoming/bounded_subscription.h"
 
 namespace grid_path_planner::nodes {
 
@@ -50,13 +50,14 @@ class ActionCaller {
     using ActionFeedback = typename Action::_action_feedback_type;
     goals_ = nh.advertise<typename Action::_action_goal_type>(name + "/goal", 10);
     cancels_ = nh.advertise<actionlib_msgs::GoalID>(name + "/cancel", 10);
-    results_ = subscribeChecked<ActionResult>(
-        nh, name + "/result", 10, [this](const ActionResult& result) { onResult(result); });
-    feedback_ = subscribeChecked<ActionFeedback>(
-        nh, name + "/feedback", 10,
+    const WaitingBound most{10, kMostWaitingBytes};
+    results_ = subscribeBounded<ActionResult>(
+        nh, name + "/result", most, [this](const ActionResult& result) { onResult(result); });
+    feedback_ = subscribeBounded<ActionFeedback>(
+        nh, name + "/feedback", most,
         [this](const ActionFeedback& feedback) { onFeedback(feedback); });
-    status_ = subscribeChecked<actionlib_msgs::GoalStatusArray>(
-        nh, name + "/status", 10,
+    status_ = subscribeBounded<actionlib_msgs::GoalStatusArray>(
+        nh, name + "/status", most,
         [this](const actionlib_msgs::GoalStatusArray& status) { onStatus(status); });
   }
 

@@ -6,7 +6,8 @@
 //
 // A member of the library's class is specialized because SimpleActionServer makes its ActionServer
 // itself. What it replaces does the same but for the stamps, for goals whose lengths lie
-// (claimed_lengths.h) and for parameters that nobody sets.
+// (claimed_lengths.h), for goals that wait, which are bounded in bytes too (bounded_subscription.h), and for parameters
+// that nobody sets.
 #pragma once
 
 #include <actionlib/server/action_server.h>
@@ -16,7 +17,7 @@
 #include <boost/make_shared.hpp>
 
 #include "ros/common/action/action_stamps.h"
-#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/incoming/bounded_subscription.h"
 
 namespace grid_path_planner::nodes {
 
@@ -58,9 +59,10 @@ void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHand
         cancel->stamp = stamps->ofCancel(message->stamp, ros::Time::now());
         server.cancelCallback(cancel);
       };
-  topics.goals = subscribeChecked<Goal, const GoalPtr&>(node, "goal", kActionQueueSize, on_goal);
-  topics.cancels = subscribeChecked<Cancel, const boost::shared_ptr<const Cancel>&>(
-      node, "cancel", kActionQueueSize, on_cancel);
+  const WaitingBound most{kActionQueueSize, kMostWaitingBytes};
+  topics.goals = subscribeBounded<Goal, const GoalPtr&>(node, "goal", most, on_goal);
+  topics.cancels = subscribeBounded<Cancel, const boost::shared_ptr<const Cancel>&>(
+      node, "cancel", most, on_cancel);
   topics.status_timeout = ros::Duration(kActionStatusTimeout);
   topics.status_timer = node.createTimer(ros::Duration(kActionStatusPeriod), publish_status);
 }

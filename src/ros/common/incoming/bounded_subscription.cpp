@@ -1,18 +1,81 @@
 #include "ros/common/incoming/bounded_subscription.h"
 
+#include <ros/console.h>
+
+#include <memory>
 #include <utility>
 
+#include "base/current_error.h"
 #include "ros/common/guarded_queue.h"
 
 namespace grid_path_planner::nodes {
 namespace {
 
-// Keeps the bytes of each message. That its type is no message's makes publishers in this process
-// serialize too.
+constexpr double kRefusalPeriod = 1.0;  // s
+
+// What a message costs besides its bytes.
+constexpr std::size_t kOverhead = 256;
+
+std::size_t costOf(const SerializedArrival& arrival) {
+  return arrival.bytes.size() + kOverhead;
+}
+
+// What waits, and who is called for it: apart from the subscription, since a callback may run while that ends.
+class Waiting {
+ public:
+  Waiting(std::string topic, ros::SubscriptionCallbackHelperPtr helper, const WaitingBound& bound)
+      : topic_(std::move(topic)), helper_(std::move(helper)), inbox_(bound) {}
+
+  bool add(SerializedArrival arrival) { return inbox_.add(std::move(arrival)); }
+
+  // In the thread of the queue.
+  void callForOldest() {
+    std::optional<SerializedArrival> arrival = inbox_.take();
+    if (!arrival) return;
+    const ros::VoidConstPtr message = unpacked(*arrival);
+    if (!message) return;
+    arrival->bytes = {};  // what the callback takes, it takes without them
+    using Event = ros::MessageEvent<const void>;
+    ros::SubscriptionCallbackHelperCallParams given;
+    given.event =
+        Event(message, arrival->header, arrival->received, false, Event::CreateFunction());
+    helper_->call(given);
+  }
+
+ private:
+  // Null where it is refused.
+  ros::VoidConstPtr unpacked(SerializedArrival& arrival) {
+    ros::SubscriptionCallbackHelperDeserializeParams given;
+    std::uint8_t none = 0;
+    given.buffer = arrival.bytes.empty() ? &none : arrival.bytes.data();
+    given.length = static_cast<std::uint32_t>(arrival.bytes.size());
+    given.connection_header = arrival.header;
+    try {
+      return helper_->deserialize(given);
+    } catch (...) {
+      const ros::SteadyTime now = ros::SteadyTime::now();
+      if (!told_.isZero() && (now - told_).toSec() < kRefusalPeriod) return {};
+      told_ = now;
+      ROS_ERROR_STREAM("A message of " << arrival.bytes.size() << " bytes on " << topic_
+                                       << " is dropped: " << base::currentErrorText());
+      return {};
+    }
+  }
+
+  const std::string topic_;
+  const ros::SubscriptionCallbackHelperPtr helper_;
+  Inbox inbox_;
+  ros::SteadyTime told_;
+};
+
+// In the place of that helper: keeps the bytes of each message as it arrives, in the thread that received it. That
+// its type is no message's makes publishers in this process serialize too.
 class Arrivals : public ros::SubscriptionCallbackHelper {
  public:
-  explicit Arrivals(std::function<void(SerializedArrival)> on_arrival)
-      : on_arrival_(std::move(on_arrival)) {}
+  Arrivals(std::shared_ptr<Waiting> waiting, ros::CallbackQueueInterface& queue)
+      : waiting_(std::move(waiting)), queue_(queue) {}
+
+  ros::CallbackQueueInterface& atOnce() { return at_once_; }
 
   ros::VoidConstPtr deserialize(
       const ros::SubscriptionCallbackHelperDeserializeParams& given) override {
@@ -26,22 +89,33 @@ class Arrivals : public ros::SubscriptionCallbackHelper {
     SerializedArrival taken = std::move(const_cast<SerializedArrival&>(*arrival));
     taken.header = given.event.getConnectionHeaderPtr();
     taken.received = given.event.getReceiptTime();
-    on_arrival_(std::move(taken));
+    if (waiting_->add(std::move(taken)))
+      queue_.addCallback(callbackOf([waiting = waiting_] { waiting->callForOldest(); }), owner());
   }
   const std::type_info& getTypeInfo() override { return typeid(SerializedArrival); }
   bool isConst() override { return true; }
   bool hasHeader() override { return false; }
 
  private:
-  const std::function<void(SerializedArrival)> on_arrival_;
+  // The queue that roscpp knows for the subscription, and from which it removes what waits when that ends.
+  class AtOnce : public ros::CallbackQueueInterface {
+   public:
+    explicit AtOnce(Arrivals& arrivals) : arrivals_(arrivals) {}
+    void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t) override {
+      callback->call();
+    }
+    void removeByID(std::uint64_t) override { arrivals_.queue_.removeByID(arrivals_.owner()); }
+
+   private:
+    Arrivals& arrivals_;
+  };
+
+  std::uint64_t owner() const { return reinterpret_cast<std::uint64_t>(this); }
+
+  const std::shared_ptr<Waiting> waiting_;
+  ros::CallbackQueueInterface& queue_;
+  AtOnce at_once_{*this};
 };
-
-// What a message costs besides its bytes.
-constexpr std::size_t kOverhead = 256;
-
-std::size_t costOf(const SerializedArrival& arrival) {
-  return arrival.bytes.size() + kOverhead;
-}
 
 }  // namespace
 
@@ -50,18 +124,18 @@ bool Inbox::add(SerializedArrival arrival) {
   const std::size_t before = waiting_.size();
   bytes_ += costOf(arrival);
   waiting_.push_back(std::move(arrival));
-  while (bytes_ > most_bytes_ && waiting_.size() > 1) {
+  while ((bytes_ > most_.bytes || waiting_.size() > most_.messages) && waiting_.size() > 1) {
     bytes_ -= costOf(waiting_.front());
     waiting_.pop_front();
   }
   return waiting_.size() > before;
 }
 
-SerializedArrival Inbox::take() {
+std::optional<SerializedArrival> Inbox::take() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (waiting_.empty()) return {};
-  SerializedArrival oldest = std::move(waiting_.front());
-  bytes_ -= costOf(oldest);
+  if (waiting_.empty()) return std::nullopt;
+  std::optional<SerializedArrival> oldest = std::move(waiting_.front());
+  bytes_ -= costOf(*oldest);
   waiting_.pop_front();
   return oldest;
 }
@@ -71,31 +145,16 @@ std::size_t Inbox::bytes() const {
   return bytes_;
 }
 
-ArrivalSubscription::ArrivalSubscription(ros::NodeHandle nh, ros::SubscribeOptions options,
-                                         std::size_t most_bytes,
-                                         std::function<void(SerializedArrival)> on_arrival)
-    : inbox_(std::make_shared<Inbox>(most_bytes)),
-      on_arrival_(std::move(on_arrival)),
-      queue_(*nh.getCallbackQueue()) {
-  options.helper = boost::make_shared<Arrivals>([this](SerializedArrival arrival) {
-    if (inbox_->add(std::move(arrival))) announce();
-  });
-  options.callback_queue = &at_once_;
+ros::Subscriber subscribeBounded(ros::NodeHandle nh, ros::SubscribeOptions options,
+                                 const WaitingBound& bound) {
+  const auto waiting =
+      std::make_shared<Waiting>(nh.resolveName(options.topic), options.helper, bound);
+  const auto arrivals = boost::make_shared<Arrivals>(waiting, *nh.getCallbackQueue());
+  options.helper = arrivals;
+  options.queue_size = 1;  // each is taken when it arrives
+  options.callback_queue = &arrivals->atOnce();
   options.transport_hints.tcpNoDelay();  // as in claimed_lengths.h
-  subscriber_ = nh.subscribe(options);
-}
-
-void ArrivalSubscription::announce() {
-  queue_.addCallback(callbackOf([this] {
-                       SerializedArrival arrival = inbox_->take();
-                       if (!arrival.bytes.empty()) on_arrival_(std::move(arrival));
-                     }),
-                     owner());
-}
-
-void ArrivalSubscription::shutdown() {
-  subscriber_.shutdown();
-  queue_.removeByID(owner());
+  return nh.subscribe(options);
 }
 
 }  // namespace grid_path_planner::nodes

@@ -101,23 +101,30 @@ SerializedArrival arrivalOf(std::size_t bytes, std::uint8_t mark) {
 // 150 updates of 16 MB that waited took 1.4 GB.
 TEST(Inbox, HoldsNoMoreBytesThanItMay) {
   constexpr std::size_t kMost = 1 << 20;
-  Inbox inbox(kMost);
+  Inbox inbox({kAnyNumber, kMost});
   for (std::uint8_t i = 0; i < 100; ++i) {
     inbox.add(arrivalOf(100000, i));
     EXPECT_LE(inbox.bytes(), kMost);
   }
-  EXPECT_EQ(inbox.take().bytes.front(), 90) << "the oldest were lost";
+  EXPECT_EQ(inbox.take()->bytes.front(), 90) << "the oldest were lost";
   int left = 0;
-  while (!inbox.take().bytes.empty()) ++left;
+  while (inbox.take()) ++left;
   EXPECT_EQ(left, 9);
   EXPECT_EQ(inbox.bytes(), 0u);
 }
 
 TEST(Inbox, OneMessageMayWaitWhateverItsSize) {
-  Inbox inbox(1000);
+  Inbox inbox({kAnyNumber, 1000});
   EXPECT_TRUE(inbox.add(arrivalOf(5000, 1)));
   EXPECT_FALSE(inbox.add(arrivalOf(6000, 2))) << "it takes the place of the first";
-  EXPECT_EQ(inbox.take().bytes.size(), 6000u);
+  EXPECT_EQ(inbox.take()->bytes.size(), 6000u);
+}
+
+TEST(Inbox, HoldsNoMoreMessagesThanItMay) {
+  Inbox inbox({3, 1 << 20});
+  for (std::uint8_t i = 0; i < 10; ++i) EXPECT_EQ(inbox.add(arrivalOf(10, i)), i < 3);
+  for (const std::uint8_t left : {7, 8, 9}) EXPECT_EQ(inbox.take()->bytes.front(), left);
+  EXPECT_FALSE(inbox.take());
 }
 
 // What was seen before, by every_node under ThreadSanitizer: two subscribers of /tf in one process, and a

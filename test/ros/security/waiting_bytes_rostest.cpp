@@ -1,0 +1,90 @@
+// What waits for a thread that is busy. Seen before: 20 goals of 8 MB waited, of 50 that may with 1 GB each, and 20 messages
+// of tf of 8 MB, of 100: both were bounded by number only.
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <atomic>
+#include <future>
+
+#include "ros/common/action/navigate_path_action.h"
+#include "ros/common/transform_receiver.h"
+#include "ros/support/wait.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+constexpr std::size_t kMessages = 20, kLarge = 8 << 20;  // bytes of each
+constexpr std::size_t kMostOfThem = kMostWaitingBytes / kLarge;
+
+class WaitingBytes : public testing::Test {
+ protected:
+  WaitingBytes() { busy_.setCallbackQueue(&queue_); }
+  // A second subscriber, which is told of each message after the first one has it.
+  template <class Message>
+  ros::Subscriber count(const std::string& topic) {
+    return nh_.subscribe<Message>(topic, kMessages,
+                                  [this](const boost::shared_ptr<const Message>&) { ++arrived_; });
+  }
+  bool allHaveArrived() const {
+    return test::waitFor([this] { return arrived_ == kMessages; });
+  }
+
+  ros::NodeHandle nh_, busy_;
+  ros::CallbackQueue queue_;  // of a thread that has other work
+  std::atomic<std::size_t> arrived_{0};
+};
+
+TEST_F(WaitingBytes, OfGoalsOfAnAction) {
+  std::vector<std::string> got;
+  actionlib::ActionServer<NavigatePathAction> server(
+      busy_, "navigate_path", [&](auto handle) { got.push_back(handle.getGoalID().id); },
+      [](auto) {}, false);
+  server.start();
+  const ros::Subscriber counter = count<NavigatePathActionGoal>("navigate_path/goal");
+  ros::Publisher goals = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", kMessages);
+  ASSERT_TRUE(test::waitFor([&] { return goals.getNumSubscribers() > 0; }));
+  for (std::size_t i = 0; i < kMessages; ++i) {
+    NavigatePathActionGoal goal;
+    goal.goal_id.id = std::to_string(i);
+    goal.goal.filename.assign(kLarge, 'x');
+    goals.publish(goal);
+  }
+  ASSERT_TRUE(allHaveArrived());
+  while (!queue_.isEmpty()) queue_.callAvailable();
+  ASSERT_FALSE(got.empty());
+  EXPECT_EQ(got.back(), std::to_string(kMessages - 1)) << "the oldest are dropped";
+  EXPECT_LE(got.size(), kMostOfThem);
+}
+
+TEST_F(WaitingBytes, OfTransforms) {
+  std::promise<void> release;
+  std::shared_future<void> released = release.get_future().share();
+  std::vector<std::string> got;
+  tf2_ros::Buffer buffer;
+  ros::Publisher transforms = nh_.advertise<tf2_msgs::TFMessage>("/tf", kMessages);
+  {
+    TransformReceiver receiver(nh_, buffer,
+                               [&](const tf2_msgs::TFMessage& message, const std::string&, bool) {
+                                 released.wait();
+                                 got.push_back(message.transforms.front().child_frame_id);
+                               });
+    const ros::Subscriber counter = count<tf2_msgs::TFMessage>("/tf");
+    ASSERT_TRUE(test::waitFor([&] { return transforms.getNumSubscribers() > 0; }));
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(2);
+    message.transforms[1].child_frame_id.assign(kLarge, 'x');  // refused, but not before it is read
+    for (std::size_t i = 0; i < kMessages; ++i) {
+      message.transforms[0].child_frame_id = std::to_string(i);
+      transforms.publish(message);
+    }
+    EXPECT_TRUE(allHaveArrived());
+    release.set_value();
+    ASSERT_TRUE(
+        test::waitFor([&] { return !got.empty() && got.back() == std::to_string(kMessages - 1); }));
+  }
+  EXPECT_LE(got.size(), kMostOfThem + 1) << "and the one that was at work";
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
