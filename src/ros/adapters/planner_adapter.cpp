@@ -10,6 +10,7 @@
 #include "grid_path_planner/ros/conversions.h"
 #include "path/pose_spacing.h"
 #include "ros/common/parameters.h"
+#include "ros/common/process/memory_limit_line.h"
 
 namespace grid_path_planner::nodes {
 
@@ -96,6 +97,8 @@ PlannerAdapter::PlannerAdapter(const ros::NodeHandle& private_nh, const std::str
     : frame_id_(withoutSlash(frame_id)),
       options_(loadedOptions(private_nh)),
       planner_(options_.planner) {
+  const planners::SearchOptions& search = options_.planner.search;
+  ROS_INFO_STREAM(memoryLimitLine("Planning", search.memory_limit, memoryLimitOf(search)));
   plan_ = ros::NodeHandle(private_nh).advertise<nav_msgs::Path>("plan", 1);
   reconfiguration_ = std::make_unique<Reconfiguration>(private_nh, options_, *this);
 }

@@ -11,6 +11,7 @@
 #include "ros/common/incoming/cloud_reader.h"
 #include "ros/common/master/end_without_master.h"
 #include "ros/common/parameters.h"
+#include "ros/common/process/memory_limit_line.h"
 
 namespace grid_path_planner::nodes {
 
@@ -88,6 +89,8 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
       queue_(transforms_),
       service_spinner_(1, &service_queue_) {
   ProjectedMapOptions options = loadOptions(private_nh, files);
+  ROS_INFO_STREAM(
+      memoryLimitLine("The 3-D map", options.octree.memory_limit, memoryLimitOf(options.octree)));
   if (options.autosave_period > 0.0)
     autosave_ = std::make_unique<MapAutosave>(files.saveFolder().path(), private_nh.getNamespace(),
                                               options);
@@ -261,8 +264,8 @@ bool ProjectedMapNode::insertOne(MapModel& map) {
   try {
     insert(map, *ready);
     queue_.countInserted();
-  } catch (const std::exception& error) {  // whatever is wrong with a cloud ends with it
-    queue_.countDropped("cannot be used", error.what());
+  } catch (...) {  // whatever is wrong with a cloud ends with it
+    queue_.countDropped("cannot be used", "a cloud that cannot be used: " + currentErrorText());
   }
   return true;
 }

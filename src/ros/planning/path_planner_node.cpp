@@ -16,6 +16,7 @@
 #include "ros/common/network_text.h"
 #include "ros/common/outgoing/topic_changes.h"
 #include "ros/common/parameters.h"
+#include "ros/common/process/memory_limit_line.h"
 
 namespace grid_path_planner::nodes {
 
@@ -92,8 +93,8 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   const PathPlannerNodeOptions options = loadOptions(private_nh, files);
   warnUnusedOptions(options.planner);
   ROS_INFO_STREAM("Plans for " << vehicleText(options.planner));
-  ROS_INFO("Planning may take %zu MB (memory_limit)",
-           memoryLimitOf(options.planner.search) / 1000000);
+  ROS_INFO_STREAM(memoryLimitLine("Planning", options.planner.search.memory_limit,
+                                  memoryLimitOf(options.planner.search)));
   commands_ = std::make_unique<CommandClaim>(
       private_nh.getNamespace(), Commands{{}, {nh.resolveName("plan_path")}, "", false});
   server_ =

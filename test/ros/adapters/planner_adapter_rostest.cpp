@@ -5,6 +5,7 @@
 #include <dynamic_reconfigure/config_tools.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Path.h>
+#include <rosgraph_msgs/Log.h>
 
 #include <atomic>
 #include <cmath>
@@ -47,6 +48,16 @@ struct Site {
 
   Grid<Cost> costs;
 };
+
+TEST(PlannerAdapter, TellsWhatMemoryItMayTake) {
+  ros::param::set("/told/memory_limit", 500);
+  const test::Latest<rosgraph_msgs::Log> log(ros::NodeHandle(), "/rosout");
+  ASSERT_TRUE(test::waitFor([&] { return log.connected(); }));
+  const PlannerAdapter adapter(ros::NodeHandle("/told"), "/map");
+  EXPECT_TRUE(log.waitFor(0, [](const rosgraph_msgs::Log& line) {
+    return line.msg == "Planning may take 500 MB (memory_limit)";
+  }));
+}
 
 TEST(PlannerAdapter, PlansPublishesAndSpacesThePoses) {
   Site site;
