@@ -4,6 +4,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <atomic>
 #include <future>
 
@@ -84,6 +85,36 @@ TEST_F(WaitingBytes, OfTransforms) {
         test::waitFor([&] { return !got.empty() && got.back() == std::to_string(kMessages - 1); }));
   }
   EXPECT_LE(got.size(), kMostOfThem + 1) << "and the one that was at work";
+}
+
+// As roscpp has it of a subscription: never two at once, whoever serves the queue.
+TEST_F(WaitingBytes, MessagesAreHandledOneAfterTheOther) {
+  constexpr int kSmall = 300;
+  std::atomic<int> at_once{0}, most{0};
+  std::vector<std::string> got;
+  std::atomic<std::size_t> count{0};
+  const ros::Subscriber subscriber = subscribeBounded<actionlib_msgs::GoalID>(
+      busy_, "in_turn", {kSmall, kMostWaitingBytes}, [&](const actionlib_msgs::GoalID& message) {
+        most = std::max<int>(most, ++at_once);
+        got.push_back(message.id);
+        std::this_thread::yield();
+        --at_once;
+        ++count;
+      });
+  ros::AsyncSpinner spinner(4, &queue_);
+  spinner.start();
+  ros::Publisher publisher = nh_.advertise<actionlib_msgs::GoalID>("in_turn", kSmall);
+  ASSERT_TRUE(test::waitFor([&] { return publisher.getNumSubscribers() > 0; }));
+  std::vector<std::string> sent;
+  for (int i = 0; i < kSmall; ++i) {
+    actionlib_msgs::GoalID message;
+    message.id = std::to_string(i);
+    sent.push_back(message.id);
+    publisher.publish(message);
+  }
+  ASSERT_TRUE(test::waitFor([&] { return count == kSmall; }));
+  EXPECT_EQ(most, 1);
+  EXPECT_EQ(got, sent);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <ros/node_handle.h>
 
 #include <boost/make_shared.hpp>
+#include <memory>
 
 #include "ros/common/action/action_stamps.h"
 #include "ros/common/incoming/bounded_subscription.h"
@@ -46,7 +47,7 @@ void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHand
   topics.feedback =
       node.advertise<typename Action::_action_feedback_type>("feedback", kActionQueueSize);
   topics.status = node.advertise<actionlib_msgs::GoalStatusArray>("status", kActionQueueSize, true);
-  const auto stamps = boost::make_shared<ActionStamps>();
+  const auto stamps = std::make_shared<ActionStamps>();
   using GoalPtr = boost::shared_ptr<const Goal>;
   const auto on_goal = [&server, stamps](const GoalPtr& message) {
     const auto goal = boost::make_shared<Goal>(*message);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/current_error.h"
-#include "ros/common/guarded_queue.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -28,21 +27,25 @@ class Waiting {
 
   bool add(SerializedArrival arrival) { return inbox_.add(std::move(arrival)); }
 
-  // In the thread of the queue.
-  void callForOldest() {
-    std::optional<SerializedArrival> arrival = inbox_.take();
-    if (!arrival) return;
-    const ros::VoidConstPtr message = unpacked(*arrival);
-    if (!message) return;
-    arrival->bytes = {};  // what the callback takes, it takes without them
-    using Event = ros::MessageEvent<const void>;
-    ros::SubscriptionCallbackHelperCallParams given;
-    given.event =
-        Event(message, arrival->header, arrival->received, false, Event::CreateFunction());
-    helper_->call(given);
+  // In a thread of the queue. False where another one is at it: messages are handled one after the other, in their order.
+  bool callForOldest() {
+    const std::unique_lock<std::recursive_mutex> lock(calling_, std::try_to_lock);
+    if (!lock) return false;
+    if (std::optional<SerializedArrival> arrival = inbox_.take()) call(std::move(*arrival));
+    return true;
   }
 
  private:
+  void call(SerializedArrival arrival) {
+    const ros::VoidConstPtr message = unpacked(arrival);
+    if (!message) return;
+    arrival.bytes = {};  // what the callback takes, it takes without them
+    using Event = ros::MessageEvent<const void>;
+    ros::SubscriptionCallbackHelperCallParams given;
+    given.event = Event(message, arrival.header, arrival.received, false, Event::CreateFunction());
+    helper_->call(given);
+  }
+
   // Null where it is refused.
   ros::VoidConstPtr unpacked(SerializedArrival& arrival) {
     ros::SubscriptionCallbackHelperDeserializeParams given;
@@ -65,7 +68,17 @@ class Waiting {
   const std::string topic_;
   const ros::SubscriptionCallbackHelperPtr helper_;
   Inbox inbox_;
+  std::recursive_mutex calling_;  // a callback may serve the queue
   ros::SteadyTime told_;
+};
+
+class Turn : public ros::CallbackInterface {
+ public:
+  explicit Turn(std::shared_ptr<Waiting> waiting) : waiting_(std::move(waiting)) {}
+  CallResult call() override { return waiting_->callForOldest() ? Success : TryAgain; }
+
+ private:
+  const std::shared_ptr<Waiting> waiting_;
 };
 
 // In the place of that helper: keeps the bytes of each message as it arrives, in the thread that received it. That
@@ -90,7 +103,7 @@ class Arrivals : public ros::SubscriptionCallbackHelper {
     taken.header = given.event.getConnectionHeaderPtr();
     taken.received = given.event.getReceiptTime();
     if (waiting_->add(std::move(taken)))
-      queue_.addCallback(callbackOf([waiting = waiting_] { waiting->callForOldest(); }), owner());
+      queue_.addCallback(boost::make_shared<Turn>(waiting_), owner());
   }
   const std::type_info& getTypeInfo() override { return typeid(SerializedArrival); }
   bool isConst() override { return true; }

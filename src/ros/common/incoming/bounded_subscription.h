@@ -5,8 +5,8 @@
 //
 // roscpp bounds what waits by number: 100 updates of a large map are gigabytes. Here a message is
 // taken when it arrives, and the oldest ones are dropped while more wait than the bound; one message
-// may wait whatever its size. The callback is called by the queue of the node handle, for messages
-// whose lengths are true (claimed_lengths.h); others are dropped with a line in the log.
+// may wait whatever its size. The callback is called by the queue of the node handle, for one message after the
+// other, whose lengths are true (claimed_lengths.h); others are dropped with a line in the log.
 #pragma once
 
 #include <ros/callback_queue_interface.h>
