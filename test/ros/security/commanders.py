@@ -7,11 +7,12 @@ velocities adds a row.
     feeds       by name, what it hears all the time; without any of them it has to stop the vehicle
     offer       gives it something to drive; teleop_joy has that in what it is fed
     clock       whether ROS time that stands still stops the vehicle
+    locks       the test of the law that its thread that commands takes no lock that file, map or publishing code holds
+    storms      of scripts/storms, in which it is killed, or why there is none
 """
 import collections
 import os
 import signal
-import struct
 import tempfile
 import threading
 import time
@@ -21,36 +22,27 @@ import node_probes as probes
 import rospy
 from node_table import NODES
 from running_nodes import Clock, RunningNode
+from session_clock import session_seconds
 
-Commander = collections.namedtuple("Commander", "arguments feeds offer clock")
+Commander = collections.namedtuple("Commander", "arguments feeds offer clock locks storms")
 
+DEADLINE = 60.0   # s
+QUIET = 1.0       # s without a motion: it stands
 VELOCITIES = ("geometry_msgs/Twist", "geometry_msgs/TwistStamped")
 TICK = 0.05       # s, between two of what it is fed
 CLOUD_EVERY = 4   # ticks
-WIDTH, HEIGHT, FOCAL = 80, 60, 52.6
-NOTHING_SEEN = struct.pack("<f", float("nan")) * 3 * WIDTH * HEIGHT
 
 
 def send_transforms(node, _):
-    message = node.transforms(node.clock.now())
-    camera = node.transforms(node.clock.now()).transforms[0]
-    camera.child_frame_id, turn = "camera", camera.transform.rotation
-    turn.x, turn.y, turn.z, turn.w = -0.5, 0.5, -0.5, 0.5
-    message.transforms.append(camera)
-    node.send("tf", message)
+    node.send("tf", probes.camera_transforms(node))
 
 
 def send_cloud(node, tick):
     """Of a sky in which no pixel measures anything."""
     if tick % CLOUD_EVERY:
         return
-    header = probes.header(node, "camera")
-    node.send("camera_info", probes.of("sensor_msgs/CameraInfo", header=header, width=WIDTH, height=HEIGHT,
-                                       K=[FOCAL, 0.0, 0.5 * WIDTH, 0.0, FOCAL, 0.5 * HEIGHT, 0.0, 0.0, 1.0]))
-    cloud = probes.cloud(node)
-    cloud.header.frame_id, cloud.width, cloud.height = "camera", WIDTH, HEIGHT
-    cloud.row_step, cloud.data = WIDTH * cloud.point_step, NOTHING_SEEN
-    node.send("points", cloud)
+    for topic, message in zip(("camera_info", "points"), probes.sky(node)):
+        node.send(topic, message)
 
 
 def send_joystick(node, _):
@@ -66,11 +58,14 @@ def offer_goal(node):
 COMMANDERS = {
     "navigate_path": Commander(
         ["_check_map:=false", "_no_progress_timeout:=0"], {"tf": send_transforms},
-        lambda node: node.send("path", probes.path(node)), True),
+        lambda node: node.send("path", probes.path(node)), True,
+        "driving/navigate_path_locks_rostest.cpp", "kills"),
     "local_planner": Commander(
         ["_no_return_clears:=10", "_recover:=false", "_cloud_timeout:=1", "_tf_timeout:=1", "_stuck_timeout:=1e6"],
-        {"tf": send_transforms, "clouds": send_cloud}, offer_goal, True),
-    "teleop_joy": Commander([], {"joy": send_joystick}, lambda _: None, False),
+        {"tf": send_transforms, "clouds": send_cloud}, offer_goal, True,
+        "avoidance/local_planner_locks_rostest.cpp", "none: the demo that the storms run has a map and drives by navigate_path"),
+    "teleop_joy": Commander([], {"joy": send_joystick}, lambda _: None, False,
+        "driving/teleop_joy_rostest.cpp", "kills"),
 }
 
 
@@ -100,7 +95,7 @@ def is_zero(twist):
 class RunningCommander(RunningNode):
     """One that is fed. `stopped`: what the topic `stop` has said before it starts. `commands` has all velocities that it gave, as (monotonic s, topic, Twist)."""
 
-    def __init__(self, name, kind, clock, folder, stopped=False, master=None):
+    def __init__(self, name, kind, clock, folder, stopped=False, master=None, arguments=()):
         from std_msgs.msg import Bool
         self.table, self.ceased, self.commands = COMMANDERS[name], set(), []
         self.velocities = {topic for topic, kind in NODES[name].outputs.items() if kind in VELOCITIES}
@@ -108,7 +103,7 @@ class RunningCommander(RunningNode):
         self.stops = rospy.Publisher("/%s_as_%s/stop" % (name, kind), Bool, queue_size=1, latch=True)
         if stopped is not None:
             self.stops.publish(stopped)
-        super().__init__(name, NODES[name]._replace(arguments=self.table.arguments), kind, clock, folder)
+        super().__init__(name, NODES[name]._replace(arguments=self.table.arguments + list(arguments)), kind, clock, folder)
         threading.Thread(target=self.feed, daemon=True).start()
 
     def feed_transforms(self):
@@ -169,6 +164,17 @@ class CommanderTest(unittest.TestCase):
     def said(node):
         with open(node.log.name, errors="replace") as file:
             return file.read()[-2000:]
+
+    def moves(self, node):
+        """Whether it commands a motion from now on, offered something to drive now and then."""
+        begin = time.monotonic()
+        return probes.until(node, lambda: node.moved_after(begin), session_seconds() + DEADLINE,
+                            lambda: node.table.offer(node), 2.0)
+
+    def stands(self, node, meanwhile=lambda: None, every=0.1):
+        """It soon commands no motion for a while, whatever is done meanwhile, and has said so by a zero."""
+        return probes.until(node, lambda: not node.moved_after(time.monotonic() - QUIET) and node.ends_in_zeros(),
+                            session_seconds() + DEADLINE, meanwhile, every)
 
     @staticmethod
     def anybody():

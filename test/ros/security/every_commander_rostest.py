@@ -8,21 +8,20 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import rosnode
+import rospkg
 import rospy
 import rostest
 from roslib.message import get_service_class
 from std_msgs.msg import Bool
 
 import node_probes as probes
-from commanders import COMMANDERS, VELOCITIES, CommanderTest, RunningCommander
+from commanders import COMMANDERS, DEADLINE, QUIET, VELOCITIES, CommanderTest, RunningCommander
 from late_publisher import LatePublisher
 from node_table import NODES
 from own_master import start_own_master
 from running_nodes import PACKAGE
 from session_clock import session_seconds
 
-DEADLINE = 60.0   # s
-QUIET = 1.0       # s without a motion: it stands
 END_SECONDS = 10.0
 LATE = 0.7        # s, within what a node waits for a publisher that is known
 ATTEMPTS = 5
@@ -47,15 +46,6 @@ class EveryCommander(CommanderTest):
         self.assertTrue(self.moves(node), "%s: %s" % (node, self.said(node)))
         return node
 
-    def moves(self, node):
-        begin = time.monotonic()
-        return probes.until(node, lambda: node.moved_after(begin), session_seconds() + DEADLINE, lambda: node.table.offer(node), 2.0)
-
-    def stands(self, node, meanwhile=lambda: None, every=0.1):
-        """It soon commands no motion for a while, whatever is done meanwhile, and has said so by a zero."""
-        return probes.until(node, lambda: not node.moved_after(time.monotonic() - QUIET) and node.ends_in_zeros(),
-                            session_seconds() + DEADLINE, meanwhile, every)
-
     def stays(self, node, meanwhile=lambda: None):
         """It commands no motion for a while from now on."""
         begin = time.monotonic()
@@ -68,6 +58,23 @@ class EveryCommander(CommanderTest):
         self.assertEqual({name for name in NODES if set(NODES[name].outputs.values()) & set(VELOCITIES)}, set(COMMANDERS))
         for name in COMMANDERS:
             self.assertIn("stop", NODES[name].inputs, name)
+
+    def test_the_locks_of_every_node_that_commands_are_watched(self):
+        """By support/lock_watch.cpp, in a test that runs this very node and no copy of another's."""
+        tests = os.path.join(rospkg.RosPack().get_path(PACKAGE), "test", "ros")
+        for name, row in COMMANDERS.items():
+            with open(os.path.join(tests, row.locks)) as file:
+                text = file.read()
+            self.assertIn("LD_PRELOAD=\" GPP_LOCK_WATCH", text, name)
+            self.assertIn("/" + name + "\"", text, name)
+
+    def test_the_storms_have_every_node_that_commands(self):
+        sys.path.insert(0, os.path.join(rospkg.RosPack().get_path(PACKAGE), "scripts"))
+        from storms.session import Demo  # pylint: disable=import-outside-toplevel
+        for name, row in COMMANDERS.items():
+            self.assertEqual("kills" == row.storms, "/" + name in Demo.NODES, name)
+            self.assertTrue(row.storms == "kills" or row.storms.startswith("none: "), name)
+        self.assertLessEqual({name[1:] for name in Demo.NODES}, set(NODES))
 
     def test_stop_zeroes_until_it_is_released(self):
         for name in COMMANDERS:

@@ -17,15 +17,14 @@ import rospy
 import rostest
 
 import node_probes as probes
-from commanders import COMMANDERS, VELOCITIES, CommanderTest, RunningCommander
+from commanders import COMMANDERS, DEADLINE, VELOCITIES, CommanderTest, RunningCommander
 from node_table import NODES
 from own_master import start_own_master
 from running_nodes import PACKAGE, RunningNode, executable, nodelet_program
 from session_clock import session_seconds
 from slow_master import SlowMaster
 
-DEADLINE = 60.0  # s
-ATTEMPTS = 5     # where the machine may keep a node waiting
+ATTEMPTS = 5  # where the machine may keep a node waiting
 DRIVERS = [name for name in COMMANDERS if "manual_control" in NODES[name].inputs]
 
 

@@ -162,6 +162,20 @@ class EveryNode(unittest.TestCase):
                 self.goes_on_after("stamps of %d.%09d" % (seconds, nanoseconds), lambda message: [
                     hostile.stamped(message, stamp)] * 2, hostile.has_stamp)
 
+    def test_3_stamps_of_the_clock(self):
+        """Time that all nodes share jumps there and back."""
+        if not self.clock.simulated:
+            self.skipTest("the wall's clock says what it says")
+        now = self.clock.now().secs
+        for seconds in (0, 1, now + HALF, max(0, now - HALF), (1 << 32) - 1):
+            for nanoseconds in (0, 999999999):
+                for _ in range(3):
+                    self.clock.say(Time(seconds, nanoseconds))
+                    time.sleep(0.03)
+                what = "a clock of %d.%09d" % (seconds, nanoseconds)
+                self.assertEqual([], self.all(self.answers), "after " + what)
+                self.assertEqual([], self.all(RunningNode.lives), "after " + what)
+
     def test_4_numbers(self):
         for number in NUMBERS:
             self.goes_on_after("numbers of %g" % number, lambda message: [hostile.with_numbers(message, number)])

@@ -74,7 +74,9 @@ NODES = {
                  "obstacle_distance": "sensor_msgs/LaserScan", "remembered_points": "sensor_msgs/PointCloud2",
                  "histogram_image": "sensor_msgs/Image", "avoidance_markers": "visualization_msgs/MarkerArray"},
         services={"~pause": TRIGGER, "~resume": TRIGGER, "~cancel": TRIGGER, "~explain": TRIGGER},
-        actions={"navigate_path": "grid_path_planner/NavigatePath"}, arguments=["_cloud_timeout:=10"], tf="listens", probe=probes.says_what_it_flies_to),
+        actions={"navigate_path": "grid_path_planner/NavigatePath"},
+        arguments=["_cloud_timeout:=10", "_no_return_clears:=10", "_recover:=false", "_stuck_timeout:=1e6"], tf="listens",
+        probe=probes.flies),
     "marker_localizer": Row(
         inputs={"camera/image_raw": "sensor_msgs/Image", "camera/camera_info": "sensor_msgs/CameraInfo"},
         outputs={"marker_pose": FIX, "panel_pose": FIX, "panel_markers": "visualization_msgs/MarkerArray",

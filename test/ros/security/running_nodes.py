@@ -17,7 +17,7 @@ from roslib.message import get_service_class
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import killed_node
-import node_probes as probes
+import right_messages
 from message_classes import message_class
 from session_clock import session_seconds
 
@@ -43,10 +43,13 @@ class Clock:
             return Time.from_sec(time.time())
         return Time.from_sec(100.0 + time.monotonic() - self.begin)
 
+    def say(self, stamp):
+        self.publisher.publish(self.message(clock=stamp))
+
     def run(self):
         while not rospy.is_shutdown():
             try:
-                self.publisher.publish(self.message(clock=self.now()))
+                self.say(self.now())
             except rospy.ROSException:
                 return  # shut down meanwhile
             time.sleep(0.02)
@@ -86,7 +89,7 @@ class RunningNode:
         self.name, self.row, self.kind, self.clock = name, row, kind, clock
         self.space = space or "/%s_as_%s" % (name, kind)
         self.messages, self.publishers, self.processes = {}, {}, []
-        self.ended = False
+        self.ended, self.map_frame = False, "map"
         self.log = open(os.path.join(log_folder, self.space[1:] + ".log"), "w")
         self.lock = threading.Lock()
         self.start()
@@ -217,7 +220,7 @@ class RunningNode:
         return "%s: not connected: %s; it said last:\n%s" % (self, ", ".join(sorted(topics - links)), "\n".join(lines))
 
     def right(self, message_type):
-        return probes.right(message_type, self)
+        return right_messages.right(message_type, self)
 
     def restart(self):
         """As after kill -9; what it said before is forgotten."""

@@ -6,13 +6,14 @@
 //
 // A member of the library's class is specialized because SimpleActionServer makes its ActionServer
 // itself. What it replaces does the same but for the stamps, for goals whose lengths lie
-// (claimed_lengths.h), for goals that wait, which are bounded in bytes too (bounded_subscription.h), and for parameters
-// that nobody sets.
+// (claimed_lengths.h), for goals that wait, which are bounded in bytes too (bounded_subscription.h), for the clock of its
+// status, and for parameters that nobody sets.
 #pragma once
 
 #include <actionlib/server/action_server.h>
 #include <actionlib_msgs/GoalStatusArray.h>
 #include <ros/node_handle.h>
+#include <ros/steady_timer.h>
 
 #include <boost/make_shared.hpp>
 #include <memory>
@@ -22,7 +23,7 @@
 
 namespace grid_path_planner::nodes {
 
-constexpr double kActionStatusPeriod = 0.2;  // s of ROS time, as actionlib's
+constexpr double kActionStatusPeriod = 0.2;  // s, wall time
 constexpr double kActionStatusTimeout =
     5.0;  // s; how long the status of an ended goal is published
 constexpr std::uint32_t kActionQueueSize = 50;  // messages
@@ -65,7 +66,13 @@ void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHand
   topics.cancels = subscribeBounded<Cancel, const boost::shared_ptr<const Cancel>&>(
       node, "cancel", most, on_cancel);
   topics.status_timeout = ros::Duration(kActionStatusTimeout);
-  topics.status_timer = node.createTimer(ros::Duration(kActionStatusPeriod), publish_status);
+  // roscpp's timers of ROS time end the process where /clock says 4294967295.9 s. The server's own never starts; it holds
+  // this one, which ends with it, before all that is published to.
+  const auto timer = boost::make_shared<ros::SteadyTimer>(node.createSteadyTimer(
+      ros::WallDuration(kActionStatusPeriod),
+      [publish_status](const ros::SteadyTimerEvent&) { publish_status(ros::TimerEvent()); }));
+  topics.status_timer = node.createTimer(
+      ros::Duration(kActionStatusPeriod), [timer](const ros::TimerEvent&) {}, false, false);
 }
 
 }  // namespace grid_path_planner::nodes
