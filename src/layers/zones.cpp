@@ -85,7 +85,7 @@ Zones readZones(const std::string& file, const base::ReadLimits& limits) {
   const YAML::Node root = base::loadYamlFile(file, limits);
   checkKeys(root, "a file of zones", file, {"frame_id", "zones"});
   Zones zones;
-  zones.frame_id = yamlValueOr<std::string>(root, "frame_id", file, "the name of a frame", "map");
+  zones.frame_id = yamlValueOr<std::string>(root, "frame_id", file, "the name of a frame", "");
   const YAML::Node list = yamlNode(root, "zones", file, "a list of zones");
   if (!list.IsSequence())
     throw yamlError(list, file, "zones must be a list, got " + describeYaml(list));

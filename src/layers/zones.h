@@ -1,6 +1,6 @@
 // Zones: areas of the map that a vehicle keeps out of, or drives slowly in.
 //
-//   frame_id: map                    # of the points; map where it is left out
+//   frame_id: map                    # of the points; the map's where it is left out
 //   zones:
 //     - {name: quay, kind: keep_out, polygon: [[1, 1], [5, 2], [3, 6]]}
 //     - {name: door, kind: slow, max_speed: 0.3, polygon: [[8, 1], [9, 1], [9, 3]]}
@@ -28,7 +28,7 @@ struct Zone {
 };
 
 struct Zones {
-  std::string frame_id = "map";
+  std::string frame_id;  // empty where the file names none
   std::vector<Zone> zones;
 };
 

@@ -23,6 +23,11 @@ namespace grid_path_planner::nodes {
 // take for more than a name: quotes, $, `, \, control characters, more than 256 bytes.
 std::string frameName(const std::string& frame_id);
 
+// The frame of a message that says where in the map something is: a map, a goal, a path, points, a fix. That of its
+// header; `map_frame`, the node's parameter, where it names none. Not for what a sensor measured: without a frame nobody
+// knows where the sensor was. Throws as frameName does.
+std::string frameInMap(const std::string& frame_id, const std::string& map_frame);
+
 // The geometry that a message describes, without its cells. Throws InputError for what GridGeometry
 // refuses and for an origin that is not level.
 grid::GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info);

@@ -97,8 +97,9 @@ Frame CloudFrames::read(const Sensor& sensor, const sensor_msgs::PointCloud2& cl
   if (cloud.width == 0 || cloud.height == 0)
     throw base::InputError("the newest cloud holds no point");
   checkSize(cloud);
-  const auto transform =
-      transforms.transform(map_frame, frameName(cloud.header.frame_id), cloud.header.stamp);
+  const std::string source = frameName(cloud.header.frame_id);
+  if (source.empty()) throw base::InputError("the newest cloud names no frame");
+  const auto transform = transforms.transform(map_frame, source, cloud.header.stamp);
   Frame frame = frameOf(cloud, poseOf(transform.transform));
   frame.pinhole = pinholeOf(sensor.camera, cloud);
   return frame;

@@ -129,19 +129,18 @@ void LocalPlannerNode::startLog(const NodeFiles& files) {
 }
 
 FlightAction::Hands LocalPlannerNode::hands() {
-  return {
-      [this](const path::Path& path, bool along, unsigned handovers) {
-        const path::Path flown = inMap(path);
-        fly(flown, along, handovers);
-        given_goals_.endAllUntil(ros::Time::now());
-        return flown;
-      },
-      [this] { return handovers_; },
-      [this](const std::string& reason) {
-        given_goals_.endAllUntil(ros::Time::now());
-        if (flies_) pilot_.cancel(reason);
-      },
-      [this](const nav_msgs::Path& path) { return transforms_.pathIn(path, options_.base_frame); }};
+  return {[this](const path::Path& path, bool along, unsigned handovers) {
+            const path::Path flown = inMap(path);
+            fly(flown, along, handovers);
+            given_goals_.endAllUntil(ros::Time::now());
+            return flown;
+          },
+          [this] { return handovers_; },
+          [this](const std::string& reason) {
+            given_goals_.endAllUntil(ros::Time::now());
+            if (flies_) pilot_.cancel(reason);
+          },
+          [this](const nav_msgs::Path& path) { return pathIn(path); }};
 }
 
 // Whoever took the vehicle that stood still does not find it flying off when he lets it go. What waits in the queue was
@@ -270,7 +269,7 @@ void LocalPlannerNode::onGoal(const geometry_msgs::PoseStamped& goal) {
   message.header = goal.header;
   message.poses = {goal};
   try {
-    fly(inMap(transforms_.pathIn(message, options_.base_frame)), false, handovers_);
+    fly(inMap(pathIn(message)), false, handovers_);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
   }
@@ -292,7 +291,7 @@ void LocalPlannerNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   try {
-    fly(inMap(transforms_.pathIn(message, options_.base_frame)), true, handovers_);
+    fly(inMap(pathIn(message)), true, handovers_);
     given_goals_.drive(message);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());

@@ -108,6 +108,9 @@ class LocalPlannerNode {
   void onPath(const nav_msgs::Path& path);
   bool noticeTime();
   bool isOfAnotherTime(const char* what, const ros::Time& stamp);
+  path::Path pathIn(const nav_msgs::Path& message) const {
+    return transforms_.pathIn(message, options_.base_frame, options_.map_frame);
+  }
   path::Path inMap(path::Path path) const;
   // `handovers`: handovers_ when it was given.
   void fly(const path::Path& path, bool along, unsigned handovers);

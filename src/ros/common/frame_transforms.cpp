@@ -126,9 +126,9 @@ FrameTransforms::FrameTransforms(const ros::NodeHandle& nh, TransformReceiver::H
     : receiver_(nh, buffer_, std::move(hearer)) {}
 
 Pose FrameTransforms::poseIn(const std::string& frame, const geometry_msgs::PoseStamped& pose,
-                             double limit, const StopToken& stop) const {
-  const std::string source = frameName(pose.header.frame_id);
-  if (source.empty()) throw InputError("a pose must name its frame");
+                             const std::string& map_frame, double limit,
+                             const StopToken& stop) const {
+  const std::string source = frameInMap(pose.header.frame_id, map_frame);
   const Pose level = poseFromMessage(pose.pose);
   if (source == frame) return level;
   const auto transform = waitFor(frame, source, pose.header.stamp, limit, stop);
@@ -206,13 +206,13 @@ FrameTransforms::RecentPose FrameTransforms::recentPoseOf(const std::string& veh
 }
 
 void FrameTransforms::checkKnown(const std::string& frame, const std::string& vehicle) const {
-  if (frame.empty()) throw InputError("a path must name its frame, got an empty frame_id");
   if (!buffer_._frameExists(frame) && buffer_._frameExists(vehicle))
     throw InputError("the frame '" + frame + "' is not known to tf");
 }
 
-Path FrameTransforms::pathIn(const nav_msgs::Path& message, const std::string& vehicle) const {
-  const std::string frame = frameName(message.header.frame_id);
+Path FrameTransforms::pathIn(const nav_msgs::Path& message, const std::string& vehicle,
+                             const std::string& map_frame) const {
+  const std::string frame = frameInMap(message.header.frame_id, map_frame);
   checkKnown(frame, vehicle);
   nav_msgs::Path path = message;
   path.header.frame_id = frame;

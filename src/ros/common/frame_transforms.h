@@ -38,10 +38,10 @@ class FrameTransforms {
   // subscription.
   explicit FrameTransforms(const ros::NodeHandle& nh, TransformReceiver::Hearer hearer = {});
 
-  // `pose` in `frame`, at the pose's stamp (0: the latest). Throws InputError for a pose without a
-  // frame and for what poseFromMessage refuses, TransformError, Stopped. `limit` in seconds.
-  path::Pose poseIn(const std::string& frame, const geometry_msgs::PoseStamped& pose, double limit,
-                    const base::StopToken& stop) const;
+  // `pose` in `frame`, at the pose's stamp (0: the latest); one without a frame is in `map_frame`. Throws InputError
+  // for what poseFromMessage refuses, TransformError, Stopped. `limit` in seconds.
+  path::Pose poseIn(const std::string& frame, const geometry_msgs::PoseStamped& pose,
+                    const std::string& map_frame, double limit, const base::StopToken& stop) const;
 
   // The latest pose of the frame `vehicle` in `frame`; with `max_age` one that is within so many
   // seconds of now, which is waited for too. Throws TransformError, Stopped.
@@ -67,10 +67,11 @@ class FrameTransforms {
   RecentPose recentPoseOf(const std::string& vehicle, const std::string& frame,
                           const ros::Time& now, double max_age) const;
 
-  // The path in the frame of its header; poses that name another frame are transformed. Throws
-  // InputError for a path without a frame, a frame that tf does not know (while it knows
-  // `vehicle`), poses that cannot be transformed, and what pathFromMessage refuses.
-  path::Path pathIn(const nav_msgs::Path& message, const std::string& vehicle) const;
+  // The path in the frame of its header, `map_frame` where that names none; poses that name another frame are
+  // transformed. Throws InputError for a frame that tf does not know (while it knows `vehicle`), poses that cannot be
+  // transformed, and what pathFromMessage refuses.
+  path::Path pathIn(const nav_msgs::Path& message, const std::string& vehicle,
+                    const std::string& map_frame) const;
 
   // The frame by which tf joins the two: above both, or one of them; empty where nothing does.
   std::string commonFrame(const std::string& one, const std::string& other) const;

@@ -21,6 +21,11 @@ std::string frameName(const std::string& frame_id) {
   return !frame_id.empty() && frame_id.front() == '/' ? frame_id.substr(1) : frame_id;
 }
 
+std::string frameInMap(const std::string& frame_id, const std::string& map_frame) {
+  const std::string name = frameName(frame_id);
+  return name.empty() ? frameName(map_frame) : name;
+}
+
 GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info) {
   constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
   if (info.width > kMost || info.height > kMost)

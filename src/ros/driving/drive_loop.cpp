@@ -8,6 +8,7 @@
 #include "following/speed_limit.h"
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "grid_path_planner/ros/conversions.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/master/system_state.h"
 #include "ros/common/velocity_message.h"
@@ -231,7 +232,7 @@ void DriveLoop::findVehicle(const ros::Time& now, FollowInput& input) const {
 std::vector<Eigen::Vector3d> DriveLoop::inFrame(const std::string& frame,
                                                 const std::vector<Eigen::Vector3d>& points) const {
   const std::string& path_frame = follower_.path().frame_id;
-  return transforms_.pointsIn(frame.empty() ? path_frame : frame, path_frame, points);
+  return transforms_.pointsIn(frameInMap(frame, options_.map_frame), path_frame, points);
 }
 
 std::string DriveLoop::whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const {

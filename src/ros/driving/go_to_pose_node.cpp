@@ -161,7 +161,6 @@ void GoToPoseNode::onSimpleGoal(const geometry_msgs::PoseStamped& message) {
 void GoToPoseNode::checkGoal(const geometry_msgs::PoseStamped& pose) {
   if (finished_) throw InputError("go_to_pose ends");
   checkNetworkText("the frame of the goal", pose.header.frame_id);
-  if (frameName(pose.header.frame_id).empty()) throw InputError("a goal must name its frame");
   poseFromMessage(pose.pose);
 }
 
@@ -200,8 +199,8 @@ void GoToPoseNode::locate() {
   const StopSource stop;
   try {
     geometry_msgs::PoseStamped pose;
-    pose.pose = poseToMessage(
-        transforms_.poseIn(frameName(options_.map_frame), goal_->asked, 0.0, stop.token()));
+    pose.pose = poseToMessage(transforms_.poseIn(frameName(options_.map_frame), goal_->asked,
+                                                 options_.map_frame, 0.0, stop.token()));
     pose.header.frame_id = frameName(options_.map_frame);
     goal_->pose = last_pose_ = pose;
     navigator_.start(seconds());
@@ -270,6 +269,7 @@ void GoToPoseNode::onPlan(const PlanPathResult& result) {
   try {
     if (result.status == "FOUND") {
       plan.path = pathFromMessage(result.path);
+      plan.path.frame_id = frameInMap(plan.path.frame_id, options_.map_frame);
       if (plan.path.frame_id != frameName(options_.map_frame))
         throw InputError("it is in the frame '" + plan.path.frame_id + "', map_frame is '" +
                          options_.map_frame + "'");

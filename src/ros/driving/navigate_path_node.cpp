@@ -39,6 +39,7 @@ NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFil
   loadParameters(private_nh, options);
   options.config_filename = files.named("config_filename", options.config_filename);
   options.base_frame = frameName(options.base_frame);
+  options.map_frame = frameName(options.map_frame);
   checkNavigatePathOptions(options);
   warnUnknownParameters(private_nh, optionNames<NavigatePathOptions>());
   return options;
@@ -148,6 +149,7 @@ void NavigatePathNode::startTimers() {
 
 void NavigatePathNode::use(NavigatePathOptions options) {
   options.base_frame = frameName(options.base_frame);
+  options.map_frame = frameName(options.map_frame);
   checkNavigatePathOptions(options);
   if (options.config_filename != options_.config_filename)
     throw InputError("config_filename cannot be changed while the node runs: use the action");
@@ -222,7 +224,8 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   try {
-    drive(transforms_.pathIn(message, options_.base_frame), Join::NEAREST, handovers_);
+    drive(transforms_.pathIn(message, options_.base_frame, options_.map_frame), Join::NEAREST,
+          handovers_);
     given_goals_.drive(message);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
@@ -243,7 +246,7 @@ void NavigatePathNode::onGoal() {
             throw InputError("a goal must give a path or a filename, got both");
           if (goal->path.poses.empty())
             throw InputError("a goal must give a path of at least one waypoint, or a filename");
-          return transforms_.pathIn(goal->path, options_.base_frame);
+          return transforms_.pathIn(goal->path, options_.base_frame, options_.map_frame);
         },
         Join::NEAREST, handovers_);
   }

@@ -18,6 +18,7 @@ struct NavigatePathOptions {
   following::ClearanceLimits limits;
   std::string check_footprint;  // "[[x, y], ...]", m; "": check_radius alone
   double map_timeout = 3.0;     // s, wall time
+  std::string map_frame = "map";
   bool use_speed_limit = false;
   std::string base_frame = "base_link";
   double tf_timeout = 0.5;     // s
@@ -59,6 +60,8 @@ void visitMapOptions(NavigatePathOptions& o, Visitor&& visit) {
             "The vehicle stands while a map that has had a heartbeat has been without one for so "
             "long, by the wall clock; above the heartbeat_period of projected_map",
             "s", 0.1, 3600.0});
+  visit("map_frame", o.map_frame,
+        base::OptionInfo{"Frame of paths and maps whose header names none", ""});
   visit("use_speed_limit", o.use_speed_limit,
         base::OptionInfo{"Whether the vehicle stands until a map of speed limits has come on "
                          "speed_limit; one that comes is heeded in any case",
@@ -105,7 +108,7 @@ void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
 }
 
 // Throws InputError naming the option for a value outside its limits, options that
-// checkFollowerOptions refuses, and an empty base_frame.
+// checkFollowerOptions refuses, and an empty map_frame or base_frame.
 void checkNavigatePathOptions(const NavigatePathOptions& options);
 
 }  // namespace grid_path_planner::nodes

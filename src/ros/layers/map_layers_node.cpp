@@ -48,7 +48,8 @@ MapLayersOptions loadMapLayersOptions(const ros::NodeHandle& private_nh, const N
   return options;
 }
 
-void checkFrame(const std::string& frame_id, const MapLayersOptions& options) {
+void checkFrame(const std::string& named, const MapLayersOptions& options) {
+  const std::string frame_id = frameInMap(named, options.map_frame);
   if (frame_id != options.map_frame)
     throw InputError("it is in frame '" + frame_id + "', map_frame is '" + options.map_frame + "'");
 }
@@ -120,7 +121,7 @@ Zones MapLayersNode::loadZones(const MapLayersOptions& options) const {
       files_.read("zones_file", options.zones_file, zoneFiles(), [&](const std::string& file) {
         return layers::readZones(file, {options.reading, end.token()});
       });
-  if (frameName(zones.frame_id) != options.map_frame)
+  if (frameInMap(zones.frame_id, options.map_frame) != options.map_frame)
     throw InputError("the zones are in frame '" + zones.frame_id + "', map_frame is '" +
                      options.map_frame + "'");
   return zones;
@@ -154,7 +155,7 @@ void MapLayersNode::listenToMask(LayerSource& source, const std::string& topic,
   subscribers_.push_back(subscribeChecked<nav_msgs::OccupancyGrid>(
       nh_, topic, 1, [this, &source, use](const nav_msgs::OccupancyGrid& message) {
         take(source, message.header.stamp, [&] {
-          checkFrame(frameName(message.header.frame_id), options_);
+          checkFrame(message.header.frame_id, options_);
           use(std::make_shared<OccupancyGrid>(occupancyFromMessage(message)));
         });
       }));

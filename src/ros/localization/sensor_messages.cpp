@@ -96,7 +96,8 @@ Mounting SensorMessages::mountingOf(const std::string& frame) const {
 }
 
 void SensorMessages::checkMapFrame(const std_msgs::Header& header) const {
-  const std::string frame = nameOf(header);
+  checkNetworkText("its frame", header.frame_id);
+  const std::string frame = frameInMap(header.frame_id, options_.map_frame);
   if (frame != options_.map_frame)
     throw InputError("its frame must be " + options_.map_frame + ", got " + frame);
 }

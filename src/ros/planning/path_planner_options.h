@@ -32,7 +32,8 @@ template <class Visitor>
 void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
   visitOptions(o.planner, visit);
   visit("map_frame", o.map_frame,
-        base::OptionInfo{"Frame of maps that name none, and of results before there is a map", ""}
+        base::OptionInfo{
+            "Frame of maps and goals that name none, and of results before there is a map", ""}
             .under("The node"));
   visit("base_frame", o.base_frame,
         base::OptionInfo{

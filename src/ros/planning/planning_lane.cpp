@@ -184,7 +184,7 @@ ViaRequest PlanningLane::posesOf(const PlanningRequest& request,
                                  const StopToken& stop) const {
   const std::string map_frame = frame(options);
   const auto inMap = [&](const geometry_msgs::PoseStamped& pose) {
-    return transforms_.poseIn(map_frame, pose, options.tf_timeout, stop);
+    return transforms_.poseIn(map_frame, pose, options.map_frame, options.tf_timeout, stop);
   };
   ViaRequest poses;
   if (!request.order.empty()) poses.order = choiceFromName<ViaOrder>("order", request.order);
@@ -215,6 +215,8 @@ PlanStatistics PlanningLane::statistics(const Plan& plan, const PlanningRequest&
   PlanStatistics message = statisticsMessage(plan);
   const PlanningRequest asked = printable(request);
   message.goal = asked.goal;
+  if (!request.closed && asked.goal.header.frame_id.empty())
+    message.goal.header.frame_id = frameName(options.map_frame);
   message.planner = plannerOf(asked, options);
   message.heuristic = heuristicOf(asked, options);
   message.answered_by = plan.answered_by;
@@ -302,13 +304,13 @@ std::string PlanningLane::footprintContact(const Path& path,
 Eigen::Vector2d PlanningLane::goalOf(const PlanningRequest& request,
                                      const PathPlannerNodeOptions& options,
                                      const StopToken& stop) const {
-  return transforms_.poseIn(frame(options), request.goal, options.tf_timeout, stop)
+  return transforms_
+      .poseIn(frame(options), request.goal, options.map_frame, options.tf_timeout, stop)
       .position.head<2>();
 }
 
 std::string PlanningLane::frame(const PathPlannerNodeOptions& options) const {
-  const std::string& of_map = planner_ ? planner_->frameId() : std::string();
-  return of_map.empty() ? frameName(options.map_frame) : of_map;
+  return frameInMap(planner_ ? planner_->frameId() : std::string(), options.map_frame);
 }
 
 }  // namespace grid_path_planner::nodes

@@ -193,7 +193,7 @@ bool PlanningServer::placed(const std::string& frame,
   const PathPlannerNodeOptions options = settings().options;
   try {
     transforms_.poseOf(options.base_frame, frame, 0.0, StopToken(), oldestStart(options));
-    transforms_.poseIn(frame, goal, 0.0, StopToken());
+    transforms_.poseIn(frame, goal, options.map_frame, 0.0, StopToken());
     return true;
   } catch (const TransformError&) {
   } catch (const InputError&) {

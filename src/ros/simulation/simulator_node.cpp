@@ -202,8 +202,8 @@ void SimulatorNode::onCommand(const geometry_msgs::Twist& message) {
 
 void SimulatorNode::onMap(const nav_msgs::OccupancyGrid& message) {
   try {
-    const std::string frame = frameName(message.header.frame_id);
-    if (!frame.empty() && frame != options_.map_frame)
+    const std::string frame = frameInMap(message.header.frame_id, options_.map_frame);
+    if (frame != options_.map_frame)
       throw InputError("its frame must be " + options_.map_frame + ", got '" + frame + "'");
     const auto map = std::make_shared<OccupancyGrid>(occupancyFromMessage(message));
     if (!std::exchange(has_map_, true)) warnOfStart(*map, vehicle_->state(), options_);

@@ -93,12 +93,12 @@ class GoToPose(GoToTest):
         self.assertEqual(actionlib.GoalStatus.PREEMPTED, first.get_state())
 
     def test_what_cannot_be_used_is_rejected_and_the_drive_goes_on(self):
-        """NaN, no frame, and a quaternion of zeros, which clients forget most often."""
+        """NaN, and a quaternion of zeros, which clients forget most often."""
         self.send(pose(2, 4))
         self.wait_for(lambda: any(status.state == "DRIVING" for status in self.heard()))
-        nan, nameless, zeros = pose(float("nan"), 1.5), pose(8, 1.5, frame=""), pose(8, 1.5)
+        nan, zeros = pose(float("nan"), 1.5), pose(8, 1.5)
         zeros.pose.orientation.w = 0.0
-        for bad in (nan, nameless, zeros):
+        for bad in (nan, zeros):
             other = actionlib.SimpleActionClient("move_base", MoveBaseAction)
             other.wait_for_server()
             other.send_goal(MoveBaseGoal(target_pose=bad))
@@ -107,6 +107,11 @@ class GoToPose(GoToTest):
             self.assertTrue(other.get_goal_status_text().startswith("INVALID_REQUEST"), other.get_goal_status_text())
         self.ends("SUCCEEDED")
         self.wait_for(lambda: self.is_at(2, 4))
+
+    def test_a_goal_without_a_frame_is_in_the_map(self):
+        self.send(pose(2, 3, frame=""))
+        self.ends("SUCCEEDED")
+        self.wait_for(lambda: self.is_at(2, 3))
 
     def test_a_goal_in_the_vehicles_frame_is_where_it_was_when_it_came(self):
         self.drive_to(2, 1.5, 1.5708)

@@ -299,6 +299,13 @@ TEST_F(MapLayers, AMapWithAYawIsLaidOnAGridWithoutOne) {
   EXPECT_EQ(merged[*there], 100);
 }
 
+// It held the map: publishers of maps forget the frame more often than anything else.
+TEST_F(MapLayers, AMapWithoutAFrameIsInTheMapFrame) {
+  start({"_use_scan:=false"});
+  publishStatic(kRoom, {}, "");
+  EXPECT_TRUE(becomes(3, 3, 0));
+}
+
 TEST_F(MapLayers, WhatCannotBeMergedIsToldAndHoldsTheMap) {
   start({"_use_scan:=false"});
   publishStatic(kRoom, {}, "odom");

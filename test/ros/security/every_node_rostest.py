@@ -184,6 +184,17 @@ class EveryNode(unittest.TestCase):
         for frame in hostile.HOSTILE_FRAMES:
             self.goes_on_after("the frame %r" % frame, lambda message: [hostile.with_frames(message, frame)])
 
+    def test_5_no_frame_is_the_map_frame(self):
+        """Of maps, goals, paths, fixes; what a sensor measured names where it was. Goals and paths were refused, maps were taken
+        by some nodes and refused by others."""
+        for node in self.nodes:
+            node.map_frame = ""
+        try:
+            self.assertEqual([], self.all(self.answers))
+        finally:
+            for node in self.nodes:
+                node.map_frame = "map"
+
     def test_6_sizes(self):
         for size in SIZES:
             self.goes_on_after("sizes of %d" % size, lambda message: [hostile.with_sizes(message, size)])
