@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "ros/common/master/master_diagnostics.h"
+
 namespace grid_path_planner::nodes {
 namespace {
 
@@ -100,6 +102,11 @@ std::string FlightHold::why(double master_timeout) const {
   if (master_timeout > 0.0 && master_->silence() > master_timeout)
     return "the ROS master has not answered for longer than master_timeout";
   return "";
+}
+
+void FlightHold::diagnoseMaster(double master_timeout,
+                                diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  nodes::diagnoseMaster(master_->silence(), master_timeout, status);
 }
 
 }  // namespace grid_path_planner::nodes

@@ -14,6 +14,8 @@
 
 #include <ros/time.h>
 
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -55,6 +57,9 @@ class FlightHold {
   bool isManual() const;
   // In a sentence; empty: it is not held.
   std::string why(double master_timeout) const;
+  // As master_diagnostics.h has it.
+  void diagnoseMaster(double master_timeout,
+                      diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -34,6 +34,7 @@ void LocalPlannerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("braked for want of a newer plan", commander_.overdue());
   status.add("refused messages on stop and manual_control", commander_.refused());
   status.add("scheduling of commands", commander_.scheduling());
+  hold_.diagnoseMaster(options_.master_timeout, status);
 }
 
 }  // namespace grid_path_planner::nodes

@@ -1,4 +1,5 @@
 // What navigate_path says in /diagnostics.
+#include "ros/common/master/master_diagnostics.h"
 #include "ros/driving/navigate_path_node.h"
 
 namespace grid_path_planner::nodes {
@@ -39,14 +40,11 @@ void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& 
 }
 
 void NavigatePathNode::diagnoseOthers(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const double silence = master_->silence();
   if (other_)
     status.summary(DiagnosticStatus::ERROR, other_->sentence + " too");
-  else if (silence > 3.0)
-    status.summary(DiagnosticStatus::WARN, "the ROS master does not answer");
   else
     status.summary(DiagnosticStatus::OK, "nobody else commands the vehicle");
-  status.add("last answer of the master (s ago)", silence);
+  diagnoseMaster(master_->silence(), options_.master_timeout, status);
   reader_->post(
       [this](const StopSource&) {
         const auto found = commands_.other();

@@ -54,3 +54,28 @@ class SlowMaster:
             def log_message(self, *_):
                 pass
         return Handler
+
+
+class CeasingMaster(SlowMaster):
+    """Answers as `master` does until it ceases: silent, as one that is stopped, or gone, as one that was killed."""
+
+    def __init__(self, master):
+        super().__init__(master, 0.0, 0, method="")  # it is asked before each answer
+        self.goes_on = threading.Event()
+        self.goes_on.set()
+
+    def is_slow(self):
+        self.goes_on.wait()
+        return False
+
+    def fall_silent(self):
+        self.goes_on.clear()
+
+    def die(self):
+        """Connections that it has end with what they ask next."""
+        self.master = "http://localhost:1/"
+        super().end()
+
+    def end(self):
+        self.goes_on.set()
+        super().end()
