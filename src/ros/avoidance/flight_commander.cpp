@@ -35,6 +35,15 @@ double brakedFrom(double measured, double commanded, double change) {
   return reached * commanded <= 0.0 ? 0.0 : nearerOf(reached, commanded);
 }
 
+// A stand, where a number is none, as the heading of a vehicle that odometry has turning at 1e308 rad/s.
+FlightCommander::Command finite(FlightCommander::Command command) {
+  if (command.velocity.isFinite() && command.measured.isFinite() && std::isfinite(command.yaw))
+    return command;
+  command.velocity = command.measured = {};
+  command.yaw = 0.0;
+  return command;
+}
+
 }  // namespace
 
 FlightCommander::FlightCommander(const ros::NodeHandle& nh, const LocalPlannerOptions& options,
@@ -103,7 +112,7 @@ void FlightCommander::keep(const BodyVelocity& sent) {
 }
 
 void FlightCommander::take(const Command& command, Clock::time_point handed_over) {
-  command_ = command;
+  command_ = finite(command);
   handed_over_ = handed_over;
   brakes_since_.reset();
   flies_ = true;

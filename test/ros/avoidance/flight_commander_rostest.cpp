@@ -4,14 +4,20 @@
 // the vehicle stuttered where plans were a little late.
 #include "ros/avoidance/flight_commander.h"
 
+#include <geometry_msgs/TwistStamped.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <random>
 #include <thread>
+#include <vector>
 
+#include "ros/common/velocity_message.h"
 #include "ros/support/flight_fixture.h"
 
 namespace grid_path_planner::nodes {
@@ -167,6 +173,33 @@ TEST_F(CommanderTest, AJoystickThatTookOverWhileThePlanWasLateIsNotForgotten) {
   EXPECT_FALSE(anyDrives(before + 1)) << "one may have been sent before";
   EXPECT_TRUE(hold_.resume(true).done);
   EXPECT_TRUE(fliesBy(1e3));
+}
+
+// A heading that was no number made the setpoint of a vehicle that stood one.
+TEST_F(CommanderTest, WhatIsSentIsFiniteWhateverItIsHanded) {
+  ASSERT_NO_FATAL_FAILURE(start(10.0));
+  const Latest<geometry_msgs::TwistStamped> setpoints{nh_, "setpoint_velocity"};
+  ASSERT_TRUE(test::waitFor([&] { return setpoints.connected(); }));
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  const std::vector<double> odd{std::nan(""), kInfinite, -kInfinite, 1e160, -1e300, 1e-310};
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 3000; ++i) {
+    const auto any = [&] { return random() % 16 == 0 ? odd[random() % odd.size()] : 0.5; };
+    hold_.notice(ros::Time::now(), true);
+    commander_->command({{any(), any(), any(), any()},
+                         {any(), any(), any(), any()},
+                         any(),
+                         ros::Time::now(),
+                         any(),
+                         false});
+    if (i % 10 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  ASSERT_TRUE(test::waitFor([&] { return setpoints.count() > 500 && commands_.count() > 500; }));
+  for (const geometry_msgs::TwistStamped& setpoint : setpoints.all())
+    ASSERT_TRUE(velocityFromMessage(setpoint.twist).isFinite()) << setpoint;
+  const auto all = commands_.all();
+  for (const Twist& v : all) ASSERT_TRUE(velocityFromMessage(v).isFinite()) << v;
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), drives));
 }
 
 TEST_F(CommanderTest, NothingComesAfterItsLastZero) {
