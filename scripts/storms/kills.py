@@ -30,6 +30,7 @@ class Kills:
         self.random = random.Random(seed)
         self.counts = dict.fromkeys(nodes or demo.NODES, 0)
         self.crossed = 0
+        self.asked_without = 0  # plans while there was no mapping
         self.longest_stop = 0.0
 
     def kill(self, node):
@@ -41,10 +42,19 @@ class Kills:
         os.kill(pid, signal.SIGKILL)
         if node == "/projected_map":
             self.map.expect(squares)
+            self.ask_without_a_mapping(squares)
         self.counts[node] += 1
         if node == "/navigate_path":
             self.wait_until_it_stands()
         return squares, node, pid
+
+    def ask_without_a_mapping(self, squares):
+        """A plan before the first map of the mapping that comes back, where the planner is there to make one."""
+        planner, deadline = process_id("/path_planner"), time.monotonic() + patience(BACK_SECONDS)
+        path = self.drive.ask_once(lambda: self.map.expected is None or planner is None or time.monotonic() > deadline)
+        if path is not None:
+            self.asked_without += 1
+            self.crossed += self.map.crossed(path, squares)
 
     def wait_until_it_stands(self):
         """In simulated time, which stands still where the machine does."""
@@ -85,10 +95,10 @@ class Kills:
         if self.crossed or self.map.most_erased > ERASED + 2 * self.map.most_freed:
             raise SessionFailed("%d cells were erased, plans have %d points in walls" % (
                 self.map.erased, self.crossed))
-        return "%s; %d plans found, none through what was occupied, nothing touched; at most %d cells " \
+        return "%s; %d plans found, %d of them without a mapping, none through what was occupied, nothing touched; at most %d cells " \
             "free after a kill, %d without one; stood at most %.2f s after the driver's end" % (
                 ", ".join("%d of %s" % (count, node) for node, count in self.counts.items()), self.drive.found,
-                self.map.most_erased, self.map.most_freed, self.longest_stop)
+                self.asked_without, self.map.most_erased, self.map.most_freed, self.longest_stop)
 
 
 def storm(rounds, folder, given):

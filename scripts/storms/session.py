@@ -217,6 +217,19 @@ class Drive:
         self.found += 1
         return self.path
 
+    def ask_once(self, too_late):
+        """The same, asked once; None where it is too late before there is one, as where the planner is away."""
+        self.path = None
+        if self.goals.get_num_connections() > 0:
+            self.send_goal()
+        while self.path is None and not too_late():
+            self.nodes.check()
+            time.sleep(0.02)
+        if self.path is None or too_late():
+            return None
+        self.found += 1
+        return self.path
+
     def goes_on(self, metres=0.3):
         """Until the vehicle has driven so far, on a path that was asked for now."""
         self.ask()

@@ -103,6 +103,22 @@ TEST_F(Restart, WhatIsMappedBeforeAnOrderlyEndIsKept) {
   EXPECT_EQ(valueAt(*firstMap(maps), 1.55, 0.05), 100);
 }
 
+// Whoever switches it off has no disk for it, or saves maps when it matters.
+TEST_F(Restart, WithoutAutosaveNothingIsWrittenAndItBeginsEmpty) {
+  for (const int signal : {SIGKILL, SIGINT}) {
+    start({"_autosave_period:=0"});
+    mapWall(1.5F);
+    node_->signal(signal);
+    ASSERT_TRUE(node_->waitForExit());
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path(".")));
+    start({"_autosave_period:=0"});
+    const Maps maps(nh_, "projected_map");
+    const auto map = firstMap(maps);
+    ASSERT_TRUE(map);
+    EXPECT_TRUE(isEmpty(*map));
+  }
+}
+
 TEST_F(Restart, UnderAnotherRunItBeginsEmpty) {
   start();
   mapWall(1.5F);
