@@ -130,10 +130,14 @@ class FlightReader {
     const std::size_t at = pattern.find("%d");
     if (at == std::string::npos)
       throw yamlError(entry, file_, "a pattern of worlds needs %d for their seeds");
-    const auto seeds = numbersOf(yamlNode(entry, "seeds", file_, "first and last"), "seeds", 2);
-    if (!(seeds[0] >= 0 && seeds[0] <= seeds[1] && seeds[1] - seeds[0] <= 10000))
+    const YAML::Node seeds =
+        nodes_.entriesOf(yamlNode(entry, "seeds", file_, "first and last"), "seeds");
+    if (seeds.size() != 2) throw yamlError(entry, file_, "seeds must have 2 numbers");
+    const int first = nodes_.wholeNumber(seeds[0], "a seed", 0, kMostSeed);
+    const int last = nodes_.wholeNumber(seeds[1], "a seed", 0, kMostSeed);
+    if (first > last || last - first > 10000)
       throw yamlError(entry, file_, "seeds must be [first, last], at most 10000");
-    for (auto seed = static_cast<int>(seeds[0]); seed <= seeds[1]; ++seed) {
+    for (int seed = first; seed <= last; ++seed) {
       std::string name = pattern;
       name.replace(at, 2, std::to_string(seed));
       study_.worlds.push_back({stemOf(name), name});

@@ -4,11 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "grid_path_planner/base/options.h"
+#include "study/json_numbers.h"
 
 namespace grid_path_planner::flights {
 namespace {
 
 using nlohmann::json;
+using study::wholeNumberOf;
 
 json pathJson(const std::vector<Eigen::Vector3f>& path) {
   json numbers = json::array();
@@ -28,9 +30,9 @@ std::vector<Eigen::Vector3f> pathFrom(const json& numbers) {
 
 FlightRecord recordFrom(const json& object) {
   FlightRecord record;
-  object.at("variant").get_to(record.variant);
-  object.at("world").get_to(record.world);
-  object.at("seed").get_to(record.seed);
+  record.variant = wholeNumberOf<decltype(record.variant)>(object.at("variant"));
+  record.world = wholeNumberOf<decltype(record.world)>(object.at("world"));
+  record.seed = wholeNumberOf<decltype(record.seed)>(object.at("seed"));
   record.end = base::choiceFromName<FlightEnd>("end", object.at("end").get<std::string>());
   object.at("sentence").get_to(record.sentence);
   for (int axis = 0; axis < 3; ++axis) record.at[axis] = object.at("at").at(axis).get<double>();
@@ -40,10 +42,10 @@ FlightRecord recordFrom(const json& object) {
   object.at("home_offset_m").get_to(record.home_offset_m);
   object.at("clearance_m").get_to(record.clearance_m);
   object.at("max_speed").get_to(record.max_speed);
-  object.at("waypoints").get_to(record.waypoints);
-  object.at("unseen").get_to(record.unseen);
-  object.at("updates").get_to(record.updates);
-  object.at("bits").get_to(record.bits);
+  record.waypoints = wholeNumberOf<decltype(record.waypoints)>(object.at("waypoints"));
+  record.unseen = wholeNumberOf<decltype(record.unseen)>(object.at("unseen"));
+  record.updates = wholeNumberOf<decltype(record.updates)>(object.at("updates"));
+  record.bits = wholeNumberOf<decltype(record.bits)>(object.at("bits"));
   record.path = pathFrom(object.at("path"));
   const json& cost = object.at("cpu_ms");
   record.cost = {cost.at(0).get<double>(), cost.at(1).get<double>(), cost.at(2).get<double>(),

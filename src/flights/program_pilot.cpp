@@ -73,8 +73,7 @@ PilotStatus pilotStatusFrom(const std::string& name) {
   throw InputError("no status is called '" + name + "'");
 }
 
-PilotAnswer answerFrom(const std::string& line) {
-  const json object = json::parse(line);
+PilotAnswer answerFrom(const json& object) {
   const json& velocity = object.at("velocity");
   PilotAnswer answer;
   answer.velocity = {velocity.at(0).get<double>(), velocity.at(1).get<double>(),
@@ -86,6 +85,14 @@ PilotAnswer answerFrom(const std::string& line) {
 }
 
 }  // namespace
+
+PilotAnswer pilotAnswerFrom(const std::string& line) {
+  try {
+    return answerFrom(json::parse(line));
+  } catch (const json::exception& error) {
+    throw InputError(error.what());
+  }
+}
 
 ProgramPilot::ProgramPilot(const FlightStudy& study, const FlightVariant& variant,
                            const simulation::CameraIntrinsics& camera)
@@ -102,8 +109,8 @@ PilotAnswer ProgramPilot::update(const PilotInput& input) {
     process_.send(input.frame->points.data(), 4 * input.frame->points.size(), deadline);
   const std::string line = process_.receiveLine(deadline);
   try {
-    return answerFrom(line);
-  } catch (const std::exception& error) {
+    return pilotAnswerFrom(line);
+  } catch (const InputError& error) {
     throw InputError(name_, "answered '" + line.substr(0, 80) + "': " + error.what());
   }
 }

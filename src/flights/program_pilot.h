@@ -9,6 +9,9 @@
 
 namespace grid_path_planner::flights {
 
+// What a program answered. Throws InputError for a line of another form.
+avoidance::PilotAnswer pilotAnswerFrom(const std::string& line);
+
 class ProgramPilot : public FlightPilot {
  public:
   // Starts the program. Throws InputError where that fails.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "grid_path_planner/base/errors.h"
+#include "study/json_numbers.h"
 
 namespace grid_path_planner::study {
 
@@ -27,7 +28,7 @@ json jsonOf(Cell cell) {
 }
 
 Cell cellFrom(const json& pair) {
-  return {pair.at(0).get<int>(), pair.at(1).get<int>()};
+  return {wholeNumberOf<int>(pair.at(0)), wholeNumberOf<int>(pair.at(1))};
 }
 
 // JSON has no infinity: null stands for it.
@@ -72,9 +73,9 @@ StudyRun runFromLine(const std::string& line) {
   try {
     const json object = json::parse(line);
     StudyRun run;
-    object.at("setting").get_to(run.setting);
-    object.at("query").get_to(run.query);
-    object.at("variant").get_to(run.variant);
+    run.setting = wholeNumberOf<decltype(run.setting)>(object.at("setting"));
+    run.query = wholeNumberOf<decltype(run.query)>(object.at("query"));
+    run.variant = wholeNumberOf<decltype(run.variant)>(object.at("variant"));
     run.start = cellFrom(object.at("start"));
     run.goal = cellFrom(object.at("goal"));
     object.at("note").get_to(run.note);
@@ -87,11 +88,11 @@ StudyRun runFromLine(const std::string& line) {
     run.clearance_m = orInfinity(object.at("clearance_m"));
     object.at("unknown_m").get_to(run.unknown_m);
     object.at("occupied_m").get_to(run.occupied_m);
-    object.at("cells").get_to(run.cells);
-    object.at("border_cells").get_to(run.border_cells);
-    object.at("expanded").get_to(run.expanded);
-    object.at("generated").get_to(run.generated);
-    object.at("bytes").get_to(run.bytes);
+    run.cells = wholeNumberOf<decltype(run.cells)>(object.at("cells"));
+    run.border_cells = wholeNumberOf<decltype(run.border_cells)>(object.at("border_cells"));
+    run.expanded = wholeNumberOf<decltype(run.expanded)>(object.at("expanded"));
+    run.generated = wholeNumberOf<decltype(run.generated)>(object.at("generated"));
+    run.bytes = wholeNumberOf<decltype(run.bytes)>(object.at("bytes"));
     object.at("preparation_ms").get_to(run.preparation_ms);
     object.at("times_ms").get_to(run.times_ms);
     object.at("path_xy").get_to(run.path_xy);

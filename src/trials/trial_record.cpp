@@ -4,11 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "grid_path_planner/base/errors.h"
+#include "study/json_numbers.h"
 
 namespace grid_path_planner::trials {
 namespace {
 
 using nlohmann::json;
+using study::wholeNumberOf;
 
 template <class Vector>
 json arrayOf(const Eigen::MatrixBase<Vector>& values) {
@@ -72,7 +74,7 @@ json jsonOf(const ViewSolution& solution) {
 
 ViewSolution viewSolution(const json& object) {
   ViewSolution solution;
-  object.at("markers").get_to(solution.markers);
+  solution.markers = wholeNumberOf<decltype(solution.markers)>(object.at("markers"));
   if (!object.at("mean").is_null()) solution.mean = cameraPose(object.at("mean"));
   if (!object.at("joint").is_null()) solution.joint = jointPose(object.at("joint"));
   const json& panel = object.at("panel");
@@ -89,7 +91,7 @@ json jsonOf(const ErrorSpread& spread) {
 
 ErrorSpread errorSpread(const json& array) {
   return {array.at(0).get<double>(), array.at(1).get<double>(), array.at(2).get<double>(),
-          array.at(3).get<double>(), array.at(4).get<int>()};
+          array.at(3).get<double>(), wholeNumberOf<int>(array.at(4))};
 }
 
 json jsonOf(const RowResult& row) {
@@ -126,9 +128,9 @@ RowResult rowResult(const json& object) {
   object.at("pose_nees").get_to(row.pose_nees);
   for (std::size_t i = 0; i < row.nis.size(); ++i)
     row.nis[i] = {object.at("nis").at(i).at(0).get<double>(),
-                  object.at("nis").at(i).at(1).get<int>()};
-  object.at("gated").get_to(row.gated);
-  object.at("resets").get_to(row.resets);
+                  wholeNumberOf<int>(object.at("nis").at(i).at(1))};
+  row.gated = wholeNumberOf<decltype(row.gated)>(object.at("gated"));
+  row.resets = wholeNumberOf<decltype(row.resets)>(object.at("resets"));
   row.fault_end = poseError(object.at("fault_end"));
   object.at("fault_nees").get_to(row.fault_nees);
   return row;
@@ -170,7 +172,7 @@ bool isFrameLine(const std::string& line) {
 SeenFrame frameFromLine(const std::string& line) {
   return fromLine(line, "an image", [](const json& object) {
     SeenFrame frame;
-    object.at("frame").get_to(frame.frame);
+    frame.frame = wholeNumberOf<decltype(frame.frame)>(object.at("frame"));
     frame.water = object.at("turbid").get<bool>() ? Water::TURBID : Water::CLEAR;
     for (const json& solution : object.at("solutions"))
       frame.solutions.push_back(viewSolution(solution));
@@ -181,8 +183,8 @@ SeenFrame frameFromLine(const std::string& line) {
 RunRecord runFromLine(const std::string& line) {
   return fromLine(line, "a run", [](const json& object) {
     RunRecord run;
-    object.at("set").get_to(run.set);
-    object.at("seed").get_to(run.seed);
+    run.set = wholeNumberOf<decltype(run.set)>(object.at("set"));
+    run.seed = wholeNumberOf<decltype(run.seed)>(object.at("seed"));
     for (const json& row : object.at("rows")) run.rows.push_back(rowResult(row));
     return run;
   });

@@ -74,5 +74,23 @@ TEST(FlightFile, MistakesAreToldWithFileAndLine) {
                        "b: sizes of a moving body"));
 }
 
+// A seed above the largest int became the least one, from which worlds were counted up until there was no memory.
+TEST(FlightFile, WorldsOfSeedsThatAreNoSeedsAreRefused) {
+  const SmallFlights small;
+  const auto refusal = [&](const std::string& seeds) {
+    const std::string file = small.folder.write(
+        "pattern.yaml", "title: Small\nworlds: [{pattern: f%d.sdf, seeds: " + seeds +
+                            "}]\nstart: [0, 0, 1.5, 0]\nroute: [[6, 0, 1.5]]\n"
+                            "configurations: [{name: a}]\n");
+    return errorText([&] { readFlightFile(file); });
+  };
+  EXPECT_EQ(refusal("[7, 9]"), "");
+  for (const char* seeds : {"[3e9, 3e9]", "[3000000000, 3000000000]", "[1e300, 1e300]", "[-1, 3]"})
+    EXPECT_TRUE(contains(refusal(seeds), "pattern.yaml:2: a seed must be a whole number from 0"))
+        << refusal(seeds);
+  EXPECT_TRUE(contains(refusal("[9, 7]"), "seeds must be [first, last]"));
+  EXPECT_TRUE(contains(refusal("[7]"), "seeds must have 2 numbers"));
+}
+
 }  // namespace
 }  // namespace grid_path_planner::flights

@@ -138,6 +138,24 @@ TEST(FlightRecord, ALineHoldsAllOfIt) {
   EXPECT_TRUE(contains(errorText([] { recordFromLine("{}"); }), "is not the line of a flight"));
 }
 
+// What a number of another size became as an int or an index was undefined, or another flight.
+TEST(FlightRecord, ALineWithANumberThatIsNoneOfItsKindIsRefused) {
+  const std::string line = lineOf(FlightRecord());
+  const auto with = [&line](const std::string& name, const std::string& number) {
+    std::string changed = line;
+    const std::string field = "\"" + name + "\":";
+    return changed.replace(changed.find(field + "0"), field.size() + 1, field + number);
+  };
+  EXPECT_EQ(errorText([&] { recordFromLine(with("seed", "7")); }), "");
+  EXPECT_EQ(errorText([&] { recordFromLine(with("bits", "18446744073709551615")); }), "");
+  for (const char* number : {"1e300", "0.5", "2147483648", "-2147483649", "\"7\""})
+    EXPECT_TRUE(contains(errorText([&] { recordFromLine(with("seed", number)); }),
+                         std::string("a whole number must stand where ")))
+        << number;
+  for (const char* number : {"-1", "18446744073709551616"})
+    EXPECT_NE(errorText([&] { recordFromLine(with("variant", number)); }), "") << number;
+}
+
 TEST(FlightPlan, FlightsAreFoundByTheBeginningOfTheirNames) {
   const SmallFlights small;
   const FlightPlan plan(

@@ -1,15 +1,30 @@
-// The fuzzer's targets in the normal build: each over its seeds and damaged copies of them.
+// The fuzzer's targets in the normal build: each over its seeds and damaged copies of them, which take no longer than
+// scripts/fuzz allows.
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <random>
 
 #include "fuzz/fuzz_target.h"
+#include "support/bounded_run.h"
 #include "support/mutation.h"
 
 namespace grid_path_planner::fuzz {
 namespace {
 
 constexpr int kCopies = 10;  // of each seed
+// Of the processor, for one input.
+constexpr double kMostSeconds = test::hasShadowMemory() ? 20.0 : 5.0;
+
+double processorSeconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+void expectAnswer(const FuzzTarget& target, const std::string& input) {
+  const double begin = processorSeconds();
+  EXPECT_NO_THROW(target.run(input));
+  EXPECT_LE(processorSeconds() - begin, kMostSeconds) << testing::PrintToString(input);
+}
 
 class FuzzReplay : public testing::TestWithParam<FuzzTarget> {};
 
@@ -18,15 +33,15 @@ TEST_P(FuzzReplay, AnswersItsSeedsAndDamagedCopiesOfThem) {
   const std::vector<std::string> seeds = GetParam().seeds();
   EXPECT_FALSE(seeds.empty());
   for (const std::string& seed : seeds) {
-    EXPECT_NO_THROW(GetParam().run(seed));
+    expectAnswer(GetParam(), seed);
     for (int copy = 0; copy < kCopies; ++copy)
-      EXPECT_NO_THROW(GetParam().run(test::mutated(seed, random)));
+      expectAnswer(GetParam(), test::mutated(seed, random));
   }
 }
 
 TEST_P(FuzzReplay, AnswersNothingAtAll) {
-  EXPECT_NO_THROW(GetParam().run(""));
-  EXPECT_NO_THROW(GetParam().run(std::string(1, '\0')));
+  expectAnswer(GetParam(), "");
+  expectAnswer(GetParam(), std::string(1, '\0'));
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, FuzzReplay, testing::ValuesIn(fuzzTargets()),

@@ -79,6 +79,7 @@ LENT = {
     "planners/rectangles/rectangle_route.h": {"command_line"},
     "study/confidence.h": {"flights"},
     "study/file/study_nodes.h": {"flights", "trials"},
+    "study/json_numbers.h": {"flights", "trials"},
     "study/report/finding.h": {"flights", "trials"},
     "study/report/markdown.h": {"flights", "trials"},
     "study/report/markup.h": {"flights", "trials"},

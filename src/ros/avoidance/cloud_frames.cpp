@@ -88,7 +88,7 @@ void CloudFrames::clear() {
 // (yet). tf2 throws at the end of what ROS time can hold, and no transform would come before such a stamp; it
 // takes a stamp of 0 for the latest.
 Frame CloudFrames::read(const Sensor& sensor, const sensor_msgs::PointCloud2& cloud,
-                        const FrameTransforms& transforms, const std::string& map_frame,
+                        const FrameLookup& transforms, const std::string& map_frame,
                         const ros::Time& now) {
   const double ahead = secondsBetween(now, cloud.header.stamp);
   if (std::abs(ahead) > kLongestWait)
@@ -106,7 +106,7 @@ Frame CloudFrames::read(const Sensor& sensor, const sensor_msgs::PointCloud2& cl
 }
 
 // One that waits too long keeps the sentence of what it waited for.
-std::optional<Frame> CloudFrames::next(Sensor& sensor, const FrameTransforms& transforms,
+std::optional<Frame> CloudFrames::next(Sensor& sensor, const FrameLookup& transforms,
                                        const std::string& map_frame, const ros::Time& now) {
   for (auto* cloud : {&sensor.waiting, &sensor.next}) {
     if (!*cloud) continue;
@@ -128,8 +128,8 @@ std::optional<Frame> CloudFrames::next(Sensor& sensor, const FrameTransforms& tr
   return std::nullopt;
 }
 
-std::vector<Frame> CloudFrames::take(const FrameTransforms& transforms,
-                                     const std::string& map_frame, const ros::Time& now) {
+std::vector<Frame> CloudFrames::take(const FrameLookup& transforms, const std::string& map_frame,
+                                     const ros::Time& now) {
   std::vector<Frame> frames;
   for (Sensor& sensor : sensors_)
     if (auto frame = next(sensor, transforms, map_frame, now)) frames.push_back(std::move(*frame));

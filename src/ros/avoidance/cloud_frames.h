@@ -32,8 +32,8 @@ class CloudFrames {
   void clear();
 
   // The clouds that waited and of which tf knows where their sensor was, the oldest first.
-  std::vector<avoidance::Frame> take(const FrameTransforms& transforms,
-                                     const std::string& map_frame, const ros::Time& now);
+  std::vector<avoidance::Frame> take(const FrameLookup& transforms, const std::string& map_frame,
+                                     const ros::Time& now);
 
   // Of a topic of which no cloud could be used for longer than `timeout` (s), in a sentence; empty: none.
   std::string silence(const ros::Time& now, double timeout) const;
@@ -53,10 +53,10 @@ class CloudFrames {
     std::string problem = {};
   };
 
-  static std::optional<avoidance::Frame> next(Sensor& sensor, const FrameTransforms& transforms,
+  static std::optional<avoidance::Frame> next(Sensor& sensor, const FrameLookup& transforms,
                                               const std::string& map_frame, const ros::Time& now);
   static avoidance::Frame read(const Sensor& sensor, const sensor_msgs::PointCloud2& cloud,
-                               const FrameTransforms& transforms, const std::string& map_frame,
+                               const FrameLookup& transforms, const std::string& map_frame,
                                const ros::Time& now);
 
   std::vector<Sensor> sensors_;

@@ -318,10 +318,8 @@ void LocalPlannerNode::fly(const path::Path& path, bool along, unsigned handover
 
 // As measured; without odometry, or with one that is not finite, that commanded last.
 BodyVelocity LocalPlannerNode::velocityAt(const ros::Time& now) const {
-  if (!odometry_ || std::abs(secondsBetween(odometry_->header.stamp, now)) >= kOdometryAge)
-    return commander_.sent();
-  const BodyVelocity measured = velocityFromMessage(odometry_->twist.twist);
-  return measured.isFinite() ? measured : commander_.sent();
+  const auto measured = odometry_ ? measuredVelocity(*odometry_, now, kOdometryAge) : std::nullopt;
+  return measured ? *measured : commander_.sent();
 }
 
 PilotInput LocalPlannerNode::input(const ros::Time& now) {

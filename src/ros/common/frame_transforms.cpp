@@ -122,12 +122,8 @@ class LongWait {
 
 }  // namespace
 
-FrameTransforms::FrameTransforms(const ros::NodeHandle& nh, TransformReceiver::Hearer hearer)
-    : receiver_(nh, buffer_, std::move(hearer)) {}
-
-Pose FrameTransforms::poseIn(const std::string& frame, const geometry_msgs::PoseStamped& pose,
-                             const std::string& map_frame, double limit,
-                             const StopToken& stop) const {
+Pose FrameLookup::poseIn(const std::string& frame, const geometry_msgs::PoseStamped& pose,
+                         const std::string& map_frame, double limit, const StopToken& stop) const {
   const std::string source = frameInMap(pose.header.frame_id, map_frame);
   const Pose level = poseFromMessage(pose.pose);
   if (source == frame) return level;
@@ -140,8 +136,8 @@ Pose FrameTransforms::poseIn(const std::string& frame, const geometry_msgs::Pose
   return result;
 }
 
-Pose FrameTransforms::poseOf(const std::string& vehicle, const std::string& frame, double limit,
-                             const StopToken& stop, std::optional<double> max_age) const {
+Pose FrameLookup::poseOf(const std::string& vehicle, const std::string& frame, double limit,
+                         const StopToken& stop, std::optional<double> max_age) const {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
   const std::string source = frameName(vehicle);
   const auto latest = waitFor(frame, source, ros::Time(0), limit, stop);
@@ -159,10 +155,10 @@ Pose FrameTransforms::poseOf(const std::string& vehicle, const std::string& fram
   return poseOfTransform(latest.transform);
 }
 
-geometry_msgs::TransformStamped FrameTransforms::waitFor(const std::string& target,
-                                                         const std::string& source,
-                                                         const ros::Time& stamp, double limit,
-                                                         const StopToken& stop) const {
+geometry_msgs::TransformStamped FrameLookup::waitFor(const std::string& target,
+                                                     const std::string& source,
+                                                     const ros::Time& stamp, double limit,
+                                                     const StopToken& stop) const {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
   LongWait wait;
   while (true) {
@@ -178,9 +174,9 @@ geometry_msgs::TransformStamped FrameTransforms::waitFor(const std::string& targ
   }
 }
 
-geometry_msgs::TransformStamped FrameTransforms::transform(const std::string& target,
-                                                           const std::string& source,
-                                                           const ros::Time& stamp) const {
+geometry_msgs::TransformStamped FrameLookup::transform(const std::string& target,
+                                                       const std::string& source,
+                                                       const ros::Time& stamp) const {
   try {
     return buffer_.lookupTransform(target, source, stamp);
   } catch (const tf2::TransformException& error) {
@@ -188,10 +184,9 @@ geometry_msgs::TransformStamped FrameTransforms::transform(const std::string& ta
   }
 }
 
-FrameTransforms::RecentPose FrameTransforms::recentPoseOf(const std::string& vehicle,
-                                                          const std::string& frame,
-                                                          const ros::Time& now,
-                                                          double max_age) const {
+FrameLookup::RecentPose FrameLookup::recentPoseOf(const std::string& vehicle,
+                                                  const std::string& frame, const ros::Time& now,
+                                                  double max_age) const {
   const std::string pose = "the pose of " + vehicle + " in " + frame;
   geometry_msgs::TransformStamped found;
   try {
@@ -205,13 +200,13 @@ FrameTransforms::RecentPose FrameTransforms::recentPoseOf(const std::string& veh
   return {poseOfTransform(found.transform), age};
 }
 
-void FrameTransforms::checkKnown(const std::string& frame, const std::string& vehicle) const {
+void FrameLookup::checkKnown(const std::string& frame, const std::string& vehicle) const {
   if (!buffer_._frameExists(frame) && buffer_._frameExists(vehicle))
     throw InputError("the frame '" + frame + "' is not known to tf");
 }
 
-Path FrameTransforms::pathIn(const nav_msgs::Path& message, const std::string& vehicle,
-                             const std::string& map_frame) const {
+Path FrameLookup::pathIn(const nav_msgs::Path& message, const std::string& vehicle,
+                         const std::string& map_frame) const {
   const std::string frame = frameInMap(message.header.frame_id, map_frame);
   checkKnown(frame, vehicle);
   nav_msgs::Path path = message;
@@ -234,7 +229,7 @@ Path FrameTransforms::pathIn(const nav_msgs::Path& message, const std::string& v
   return pathFromMessage(path);
 }
 
-std::string FrameTransforms::commonFrame(const std::string& one, const std::string& other) const {
+std::string FrameLookup::commonFrame(const std::string& one, const std::string& other) const {
   const auto up = linksAbove(buffer_, one), down = linksAbove(buffer_, other);
   std::string common = rootOf(up, one);
   if (common != rootOf(down, other)) return "";
@@ -244,7 +239,7 @@ std::string FrameTransforms::commonFrame(const std::string& one, const std::stri
   return common;
 }
 
-bool FrameTransforms::movesWith(const std::string& vehicle, const std::string& frame) const {
+bool FrameLookup::movesWith(const std::string& vehicle, const std::string& frame) const {
   if (frame == vehicle) return true;
   for (const geometry_msgs::TransformStamped& link : linksAbove(buffer_, frame)) {
     if (!link.header.stamp.isZero()) return false;
@@ -253,9 +248,8 @@ bool FrameTransforms::movesWith(const std::string& vehicle, const std::string& f
   return false;
 }
 
-std::vector<Eigen::Vector3d> FrameTransforms::pointsIn(const std::string& to,
-                                                       const std::string& from,
-                                                       std::vector<Eigen::Vector3d> points) const {
+std::vector<Eigen::Vector3d> FrameLookup::pointsIn(const std::string& to, const std::string& from,
+                                                   std::vector<Eigen::Vector3d> points) const {
   if (from == to) return points;
   try {
     const geometry_msgs::TransformStamped moving = transform(to, from);

@@ -18,6 +18,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
@@ -32,11 +33,10 @@ class TransformError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-class FrameTransforms {
+// What a buffer of transforms knows, whoever fills it.
+class FrameLookup {
  public:
-  // `hearer`: see TransformReceiver. Whoever wants to hear tf does so by this, not by a second
-  // subscription.
-  explicit FrameTransforms(const ros::NodeHandle& nh, TransformReceiver::Hearer hearer = {});
+  tf2_ros::Buffer& buffer() { return buffer_; }
 
   // `pose` in `frame`, at the pose's stamp (0: the latest); one without a frame is in `map_frame`. Throws InputError
   // for what poseFromMessage refuses, TransformError, Stopped. `limit` in seconds.
@@ -91,6 +91,17 @@ class FrameTransforms {
   void checkKnown(const std::string& frame, const std::string& vehicle) const;
 
   tf2_ros::Buffer buffer_;
+};
+
+// The same of /tf and /tf_static.
+class FrameTransforms : public FrameLookup {
+ public:
+  // `hearer`: see TransformReceiver. Whoever wants to hear tf does so by this, not by a second
+  // subscription.
+  explicit FrameTransforms(const ros::NodeHandle& nh, TransformReceiver::Hearer hearer = {})
+      : receiver_(nh, buffer(), std::move(hearer)) {}
+
+ private:
   TransformReceiver receiver_;
 };
 

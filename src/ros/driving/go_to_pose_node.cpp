@@ -14,9 +14,9 @@
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/network_text.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
+#include "ros/driving/go_to_messages.h"
 
 namespace grid_path_planner::nodes {
 
@@ -24,8 +24,6 @@ using base::currentErrorText;
 using base::InputError;
 using base::StopSource;
 using following::Navigator;
-using following::NavigatorDrive;
-using following::NavigatorPlan;
 using following::NavigatorState;
 using path::Path;
 
@@ -42,12 +40,6 @@ GoToPoseOptions loadGoToPoseOptions(const ros::NodeHandle& private_nh) {
   checkGoToPoseOptions(options);
   warnUnknownParameters(private_nh, optionNames<GoToPoseOptions>());
   return options;
-}
-
-NavigatorDrive::State stateOf(const NavigatePathFeedback& feedback) {
-  if (feedback.state == "paused") return NavigatorDrive::State::PAUSED;
-  if (feedback.state != "blocked") return NavigatorDrive::State::DRIVING;
-  return feedback.obstructed ? NavigatorDrive::State::OBSTRUCTED : NavigatorDrive::State::HELD;
 }
 
 }  // namespace
@@ -158,15 +150,10 @@ void GoToPoseNode::onSimpleGoal(const geometry_msgs::PoseStamped& message) {
   goal_publisher_.publish(goal);
 }
 
-void GoToPoseNode::checkGoal(const geometry_msgs::PoseStamped& pose) {
-  if (finished_) throw InputError("go_to_pose ends");
-  checkNetworkText("the frame of the goal", pose.header.frame_id);
-  poseFromMessage(pose.pose);
-}
-
 void GoToPoseNode::onGoal(MoveBaseGoal handle) {
   const auto wanted = handle.getGoal();
   try {
+    if (finished_) throw InputError("go_to_pose ends");
     checkGoal(wanted->target_pose);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("A goal is refused: " << error.what());
@@ -265,19 +252,7 @@ void GoToPoseNode::noteVehicle(const ros::Time& now) {
 // What the planner and the driver answer
 
 void GoToPoseNode::onPlan(const PlanPathResult& result) {
-  NavigatorPlan plan{result.status, result.message};
-  try {
-    if (result.status == "FOUND") {
-      plan.path = pathFromMessage(result.path);
-      plan.path.frame_id = frameInMap(plan.path.frame_id, options_.map_frame);
-      if (plan.path.frame_id != frameName(options_.map_frame))
-        throw InputError("it is in the frame '" + plan.path.frame_id + "', map_frame is '" +
-                         options_.map_frame + "'");
-    }
-  } catch (const InputError& error) {
-    plan = {Navigator::kNoAnswer, std::string("the planner's path is refused: ") + error.what()};
-  }
-  navigator_.planned(plan, seconds());
+  navigator_.planned(navigatorPlanOf(result, options_.map_frame), seconds());
   carryOutOrders();
 }
 
@@ -285,7 +260,7 @@ void GoToPoseNode::onDriveFeedback(const NavigatePathFeedback& feedback) {
   distance_remaining_ = feedback.distance_remaining_m;
   time_remaining_ = feedback.time_remaining_s;
   driver_heeds_joystick_ = true;
-  navigator_.drove({stateOf(feedback), feedback.distance_remaining_m, feedback.message}, seconds());
+  navigator_.drove(navigatorDriveOf(feedback), seconds());
   carryOutOrders();
 }
 

@@ -97,7 +97,6 @@ class GoToPoseNode {
   void onSimpleGoal(const geometry_msgs::PoseStamped& message);
   void onGoal(MoveBaseGoal handle);
   void onCancel(const MoveBaseGoal& handle);
-  void checkGoal(const geometry_msgs::PoseStamped& pose);
   void locate();
 
   void tick();

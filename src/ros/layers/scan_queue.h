@@ -22,7 +22,7 @@ namespace grid_path_planner::nodes {
 class ScanQueue {
  public:
   // `transforms` must outlive this.
-  explicit ScanQueue(const FrameTransforms& transforms) : transforms_(transforms) {}
+  explicit ScanQueue(const FrameLookup& transforms) : transforms_(transforms) {}
 
   void add(const sensor_msgs::LaserScan::ConstPtr& scan);
 
@@ -48,7 +48,7 @@ class ScanQueue {
   void check(const sensor_msgs::LaserScan& scan) const;
   bool isOver(const Waiting& waiting, double timeout) const;
 
-  const FrameTransforms& transforms_;
+  const FrameLookup& transforms_;
   std::deque<Waiting> waiting_;
   ros::Time newest_;  // stamp
   InputRecord record_{"A scan"};

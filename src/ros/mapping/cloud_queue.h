@@ -53,7 +53,7 @@ class CloudQueue {
   };
 
   // `transforms` outlives this.
-  explicit CloudQueue(const FrameTransforms& transforms) : transforms_(transforms) {}
+  explicit CloudQueue(const FrameLookup& transforms) : transforms_(transforms) {}
 
   void setOptions(const CloudQueueOptions& options);
 
@@ -86,7 +86,7 @@ class CloudQueue {
   std::size_t bytes() const;
   void drop(const std::string& reason, const std::string& sentence);
 
-  const FrameTransforms& transforms_;
+  const FrameLookup& transforms_;
   mutable std::mutex mutex_;
   CloudQueueOptions options_;
   std::deque<Waiting> waiting_;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 #include <utility>
 
 #include "grid_path_planner/base/decimal_text.h"
@@ -28,7 +27,6 @@ namespace {
 
 constexpr char kSlot[] = "autosave";
 constexpr std::size_t kBeginning = 4096;  // bytes, that hold the lines before the octree
-constexpr char kNewestCloud[] = "# newest cloud ";
 
 // "/a/projected_map" to "a.projected_map": names of nodes have no dots.
 std::string fileName(const std::string& node) {
@@ -94,24 +92,19 @@ std::string MapAutosave::marker() const {
          (octree_.empty() ? ", resolution " + decimalText(resolution_) : ", file " + octree_);
 }
 
-// The lines of the file that say whose it is and what is in it; "" without such a file.
-std::string MapAutosave::beginning() const {
-  if (run_.empty()) return "";
+// What the file says of itself; none where it is not there, or of another map.
+std::optional<KeptMap> MapAutosave::kept() const {
+  if (run_.empty()) return std::nullopt;
   try {
-    std::istringstream file(RegularFile(file_).read(0, kBeginning));
-    std::string first, whose, newest;
-    if (!std::getline(file, first) || !std::getline(file, whose) || !std::getline(file, newest) ||
-        whose != "# " + marker())
-      return "";
-    return newest;
+    return keptMap(RegularFile(file_).read(0, kBeginning), marker());
   } catch (const InputError&) {  // none, or no regular file
-    return "";
+    return std::nullopt;
   }
 }
 
 std::string MapAutosave::begin() const {
   if (!std::filesystem::exists(file_)) return "";
-  if (beginning().empty()) {
+  if (!kept()) {
     ROS_INFO_STREAM(
         "The map that was kept in "
         << file_ << " is of another run, frame, resolution or octree file: it is not begun with");
@@ -124,12 +117,8 @@ std::string MapAutosave::begin() const {
 }
 
 ros::Time MapAutosave::newestCloud() const {
-  const std::string line = beginning();
-  if (line.compare(0, sizeof kNewestCloud - 1, kNewestCloud) != 0) return {};
-  std::istringstream numbers(line.substr(sizeof kNewestCloud - 1));
-  std::uint32_t seconds = 0, nanoseconds = 0;
-  if (!(numbers >> seconds >> nanoseconds) || nanoseconds >= 1000000000) return {};
-  return {seconds, nanoseconds};
+  const auto kept = this->kept();
+  return kept ? kept->newest_cloud : ros::Time();
 }
 
 void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud, When when) {
@@ -138,10 +127,8 @@ void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud, When 
   if (run_.empty() || (map.revision() == saved_revision_ && !failed)) return;
   noteUnsaved();
   if (when == When::IF_DUE && !share_.due()) return;
-  const std::string newest =
-      std::to_string(newest_cloud.sec) + " " + std::to_string(newest_cloud.nsec);
   std::string text;
-  share_.take([&] { text = map.map().fileText({marker(), "newest cloud " + newest}); });
+  share_.take([&] { text = map.map().fileText(commentsOf(marker(), newest_cloud)); });
   saved_revision_ = map.revision();
   writer_.post([this, newest_cloud,
                 text = std::move(text)](const StopSource&) { write(text, newest_cloud); },

@@ -29,6 +29,7 @@
 #include "ros/common/guarded_queue.h"
 #include "ros/common/master/master_watch.h"
 #include "ros/common/scheduling/cpu_share.h"
+#include "ros/mapping/kept_map.h"
 
 namespace grid_path_planner::nodes {
 
@@ -67,7 +68,7 @@ class MapAutosave {
   void followMaster();
   std::string marker() const;
   void noteUnsaved();
-  std::string beginning() const;
+  std::optional<KeptMap> kept() const;
   void write(const std::string& text, const ros::Time& newest_cloud);
 
   std::string folder_;

@@ -6,6 +6,7 @@
 #include "base/current_error.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/common/action/action_topics.h"
+#include "ros/planning/requests/request_messages.h"
 
 namespace actionlib {
 
@@ -48,14 +49,7 @@ void PlanAction::execute(const PlanPathGoalConstPtr& goal) {
 }
 
 void PlanAction::answer(const PlanPathGoal& goal) {
-  PlanningRequest request;
-  if (!goal.start.header.frame_id.empty()) request.start = goal.start;
-  request.goal = goal.goal;
-  request.via_points = goal.via_points;
-  request.order = goal.order;
-  request.closed = goal.closed;
-  request.planner = goal.planner;
-  if (goal.tolerance_m != 0.0) request.tolerance = goal.tolerance_m;
+  const PlanningRequest request = requestOf(goal);
   const auto ticket = server_.ask(request, PlanningServer::Publish::YES);
   if (answeredUncancelled(*ticket)) {
     finish(ticket->plan(), ticket->poses(), ticket->statistics(), ticket->via());

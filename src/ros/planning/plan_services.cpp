@@ -6,10 +6,10 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/waypoint_file.h"
-#include "grid_path_planner/planners/planner_factory.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/common/file_kinds.h"
 #include "ros/common/incoming/advertised_service.h"
+#include "ros/planning/requests/request_messages.h"
 
 namespace grid_path_planner::nodes {
 
@@ -17,40 +17,12 @@ using base::InputError;
 using base::Status;
 using path::Path;
 using path::writeWaypointFile;
-using planners::plannerNames;
 using planning::Explanation;
 using planning::failedPlan;
 
 namespace {
 
-constexpr std::size_t kMostQuestions = 1000;  // of one comparison
 constexpr std::chrono::milliseconds kAsksCaller(20);
-
-// A start without a frame stands for the vehicle's pose.
-std::optional<geometry_msgs::PoseStamped> startOf(const geometry_msgs::PoseStamped& start) {
-  return start.header.frame_id.empty() ? std::nullopt : std::make_optional(start);
-}
-
-// One request for every planner with each of the heuristics that it can use; where they are too many,
-// one more than may be asked.
-std::vector<PlanningRequest> requestsOf(const ComparePlans::Request& compared) {
-  std::vector<PlanningRequest> requests;
-  PlanningRequest request;
-  request.start = startOf(compared.start);
-  request.goal = compared.goal;
-  for (const std::string& planner :
-       compared.planners.empty() ? plannerNames() : compared.planners) {
-    request.planner = planner;
-    const bool several = usesHeuristic(planner) && !compared.heuristics.empty();
-    for (const std::string& heuristic :
-         several ? compared.heuristics : std::vector<std::string>{""}) {
-      request.heuristic = heuristic;
-      requests.push_back(request);
-      if (requests.size() > kMostQuestions) return requests;
-    }
-  }
-  return requests;
-}
 
 // Cancels what is asked for nobody.
 void waitForAnswer(PlanTicket& ticket, const ServiceCaller& caller) {
@@ -116,12 +88,7 @@ PlanServices::~PlanServices() {
 
 bool PlanServices::makePlan(MakePlan& call) {
   const ServiceCaller caller(make_plan_.getService(), call.getConnectionHeader());
-  const nav_msgs::GetPlan::Request& request = call.getRequest();
-  PlanningRequest plan_request;
-  plan_request.start = startOf(request.start);
-  plan_request.goal = request.goal;
-  if (request.tolerance != 0.0F) plan_request.tolerance = request.tolerance;
-  const auto ticket = server_.ask(plan_request, PlanningServer::Publish::YES);
+  const auto ticket = server_.ask(requestOf(call.getRequest()), PlanningServer::Publish::YES);
   while (!ticket->waitForPoses(kAsksCaller))
     if (caller.gone()) ticket->cancel();
   call.getResponse().plan = pathToMessage(ticket->poses(), ros::Time::now());
@@ -154,11 +121,8 @@ void PlanServices::compare(const std::vector<PlanningRequest>& requests,
 
 bool PlanServices::explainPlan(Why& call) {
   const ServiceCaller caller(explain_plan_.getService(), call.getConnectionHeader());
-  PlanningRequest request;
-  request.start = startOf(call.getRequest().start);
-  request.goal = call.getRequest().goal;
-  const auto ticket =
-      server_.ask(request, PlanningServer::Publish::NO, PlanningServer::Explain::YES);
+  const auto ticket = server_.ask(requestOf(call.getRequest()), PlanningServer::Publish::NO,
+                                  PlanningServer::Explain::YES);
   waitForAnswer(*ticket, caller);
   ExplainPlan::Response& response = call.getResponse();
   response = explanationMessage(ticket->explanation());

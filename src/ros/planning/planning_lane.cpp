@@ -14,10 +14,10 @@
 #include "ros/common/clock.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/planning/plan_publisher.h"
+#include "ros/planning/requests/request_poses.h"
 
 namespace grid_path_planner::nodes {
 
-using base::choiceFromName;
 using base::currentErrorText;
 using base::InputError;
 using base::Status;
@@ -28,37 +28,20 @@ using base::TaskQueue;
 using costmap::CostGrid;
 using path::clearanceOf;
 using path::Path;
-using path::Pose;
 using planners::memoryLimitOf;
 using planning::explainFailure;
 using planning::Explanation;
 using planning::failedPlan;
-using planning::kMostVia;
 using planning::MapStore;
 using planning::PathPlanner;
 using planning::Plan;
 using planning::PlannerOptions;
 using planning::planThrough;
 using planning::remainingPath;
-using planning::ViaOrder;
 using planning::ViaPlan;
 using planning::ViaRequest;
 
 namespace {
-
-Pose named(const char* which, const std::function<Pose()>& pose) {
-  try {
-    return pose();
-  } catch (const InputError& error) {
-    throw InputError(std::string("the ") + which + ": " + error.what());
-  }
-}
-
-geometry_msgs::Quaternion levelOrientation() {
-  geometry_msgs::Quaternion orientation;
-  orientation.w = 1.0;
-  return orientation;
-}
 
 // Where there is no memory for copies, nothing is lost: the first change asks for it again.
 void copyForChanges(PathPlanner& planner, const StopToken& stop) {
@@ -69,10 +52,6 @@ void copyForChanges(PathPlanner& planner, const StopToken& stop) {
 }
 
 }  // namespace
-
-std::optional<double> oldestStart(const PathPlannerNodeOptions& options) {
-  return options.tf_timeout > 0.0 ? std::make_optional(options.tf_timeout) : std::nullopt;
-}
 
 PlanningLane::PlanningLane(const MapReceiver& maps, std::shared_ptr<MapStore> store,
                            const FrameTransforms& transforms, const PlanningLane* other)
@@ -138,7 +117,7 @@ ViaPlan PlanningLane::tryToPlan(const PlanningRequest& request,
     setOptions(optionsFor(request, options));
     if (!planner_->hasMap())
       return failed(Status::NO_MAP, "no map has come on " + maps_.topic() + " yet");
-    ViaRequest poses = posesOf(request, options, stop.token());
+    ViaRequest poses = posesOf(request, options, transforms_, frame(options), stop.token());
     poses.record_expanded = options.record_search;
     question_ = PlanQuestion{poses, planner_->options(), options.pose_spacing};
     if (on_phase) on_phase("searching");
@@ -168,7 +147,7 @@ Explanation PlanningLane::explain(const PlanningRequest& request, Status status,
   try {
     takeMap();
     setOptions(optionsFor(request, options));
-    const ViaRequest poses = posesOf(request, options, stop.token());
+    const ViaRequest poses = posesOf(request, options, transforms_, frame(options), stop.token());
     return explainFailure(*planner_, {poses.start, poses.goal, false}, status, stop.token(limit));
   } catch (const InputError&) {
   } catch (const TransformError&) {
@@ -177,37 +156,6 @@ Explanation PlanningLane::explain(const PlanningRequest& request, Status status,
     beginAnew();
   }
   return {};
-}
-
-ViaRequest PlanningLane::posesOf(const PlanningRequest& request,
-                                 const PathPlannerNodeOptions& options,
-                                 const StopToken& stop) const {
-  const std::string map_frame = frame(options);
-  const auto inMap = [&](const geometry_msgs::PoseStamped& pose) {
-    return transforms_.poseIn(map_frame, pose, options.map_frame, options.tf_timeout, stop);
-  };
-  ViaRequest poses;
-  if (!request.order.empty()) poses.order = choiceFromName<ViaOrder>("order", request.order);
-  if (!request.closed) poses.goal = named("goal", [&] { return inMap(request.goal); });
-  poses.start = named("start", [&] {
-    if (request.start) return inMap(*request.start);
-    return transforms_.poseOf(options.base_frame, map_frame, options.tf_timeout, stop,
-                              oldestStart(options));
-  });
-  if (request.closed) poses.goal = poses.start;
-  if (request.via_points.size() > kMostVia)
-    throw InputError("there are " + std::to_string(request.via_points.size()) +
-                     " via-points, and at most " + std::to_string(kMostVia) + " can be visited");
-  for (geometry_msgs::PoseStamped via : request.via_points) {
-    via.pose.orientation = levelOrientation();
-    const std::string name = "via-point " + std::to_string(poses.via.size() + 1);
-    poses.via.push_back(named(name.c_str(), [&] { return inMap(via); }).position);
-  }
-  if (options.goal_z_from == GoalZ::VEHICLE) {
-    poses.goal.position.z() = poses.start.position.z();
-    for (Eigen::Vector3d& via : poses.via) via.z() = poses.start.position.z();
-  }
-  return poses;
 }
 
 PlanStatistics PlanningLane::statistics(const Plan& plan, const PlanningRequest& request,

@@ -33,9 +33,6 @@
 
 namespace grid_path_planner::nodes {
 
-// How old the vehicle's pose may be where a plan starts from it, in seconds; none: as old as it is.
-std::optional<double> oldestStart(const PathPlannerNodeOptions& options);
-
 class PlanningLane {
  public:
   using PhaseListener = std::function<void(const char* phase)>;
@@ -111,9 +108,6 @@ class PlanningLane {
   planning::ViaPlan tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
                               const base::StopSource& stop, const PhaseListener& on_phase,
                               std::uint64_t at_least);
-  planning::ViaRequest posesOf(const PlanningRequest& request,
-                               const PathPlannerNodeOptions& options,
-                               const base::StopToken& stop) const;
   void beginAnew();
   // Of the options, and the memory that the other lane leaves.
   void setOptions(const planning::PlannerOptions& options);

@@ -12,6 +12,7 @@
 #include "path/footprint/footprint.h"
 #include "planning/map_store.h"
 #include "ros/common/file_kinds.h"
+#include "ros/planning/requests/request_poses.h"
 
 namespace grid_path_planner::nodes {
 

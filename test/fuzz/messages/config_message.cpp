@@ -3,9 +3,15 @@
 #include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/mapping/projected_map_options.h"
 #include "layers/map_layers_options.h"
+#include "planning/cost_planner_options.h"
+#include "ros/adapters/adapter_options.h"
+#include "ros/avoidance/local_planner_options.h"
 #include "ros/common/parameters.h"
+#include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
+#include "ros/localization/marker_localizer_options.h"
+#include "ros/localization/vehicle_localizer_options.h"
 #include "ros/planning/map_publisher_options.h"
 #include "ros/planning/path_planner_options.h"
 #include "ros/simulation/simulator_options.h"
@@ -45,6 +51,28 @@ FUZZ_TARGET(config_message, seedsOfConfigs) {
   reconfigure<nodes::MapPublisherOptions>(*message, nodes::checkMapPublisherOptions);
   reconfigure<layers::MapLayersOptions>(*message,
                                         base::checkOptionLimits<layers::MapLayersOptions>);
+}
+
+std::vector<std::string> seedsOfVehicleConfigs() {
+  nodes::MarkerLocalizerOptions markers;
+  markers.layout = "panel.yaml";
+  return {bytesOf(nodes::configMessage(nodes::LocalPlannerOptions())),
+          bytesOf(nodes::configMessage(nodes::GoToPoseOptions())),
+          bytesOf(nodes::configMessage(nodes::VehicleLocalizerOptions())),
+          bytesOf(nodes::configMessage(markers)),
+          bytesOf(nodes::configMessage(nodes::AdapterOptions()))};
+}
+
+FUZZ_TARGET(vehicle_config_message, seedsOfVehicleConfigs) {
+  const auto message = messageOf<dynamic_reconfigure::Config>(input);
+  if (!message) return;
+  reconfigure<nodes::LocalPlannerOptions>(*message, nodes::checkLocalPlannerOptions);
+  reconfigure<nodes::GoToPoseOptions>(*message, nodes::checkGoToPoseOptions);
+  reconfigure<nodes::VehicleLocalizerOptions>(*message, nodes::checkVehicleLocalizerOptions);
+  reconfigure<nodes::MarkerLocalizerOptions>(*message, nodes::checkMarkerLocalizerOptions);
+  reconfigure<nodes::AdapterOptions>(*message, [](const nodes::AdapterOptions& options) {
+    planning::checkCostPlannerOptions(options.planner);
+  });
 }
 
 }  // namespace

@@ -3,45 +3,54 @@
 
 #include <ros/serialization.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
+#include <utility>
+
+#include "grid_path_planner/base/errors.h"
+#include "ros/common/incoming/claimed_lengths.h"
 
 namespace grid_path_planner::fuzz {
 
-// As roscpp's IStream, but a list is no longer than the bytes that are left: roscpp takes the memory
-// that a length asks for before it looks, which is its business and not what is looked for here.
-class BoundedStream : public ros::serialization::Stream {
+// Messages one after the other, each judged and unpacked as nodes do it, and bytes between them that say what is
+// done with them.
+class Messages {
  public:
-  BoundedStream(std::uint8_t* data, std::uint32_t count) : Stream(data, count) {}
+  explicit Messages(std::string bytes) : bytes_(std::move(bytes)) {}
 
-  template <class Value>
-  void next(Value& value) {
-    ros::serialization::deserialize(*this, value);
+  bool atEnd() const { return at_ == bytes_.size(); }
+  // Beyond the end: 0.
+  std::uint8_t byte() { return atEnd() ? 0 : static_cast<std::uint8_t>(bytes_[at_++]); }
+
+  // None, and the end, where the bytes are no such message.
+  template <class Message>
+  std::optional<Message> next() {
+    auto* const begin = reinterpret_cast<std::uint8_t*>(bytes_.data()) + at_;
+    const auto left = static_cast<std::uint32_t>(bytes_.size() - at_);
+    Message message;
+    try {
+      nodes::checkClaimedLengths<Message>(begin, left);
+      ros::serialization::IStream stream(begin, left);
+      ros::serialization::deserialize(stream, message);
+      at_ = bytes_.size() - stream.getLength();
+      return message;
+    } catch (const base::InputError&) {
+    } catch (const ros::serialization::StreamOverrunException&) {
+    }
+    at_ = bytes_.size();
+    return std::nullopt;
   }
 
-  template <class Value, class Allocator>
-  void next(std::vector<Value, Allocator>& values) {
-    std::uint32_t count = 0;
-    next(count);
-    if (count > getLength()) throw ros::serialization::StreamOverrunException("a list is too long");
-    values.resize(count);
-    for (Value& value : values) next(value);
-  }
+ private:
+  std::string bytes_;
+  std::size_t at_ = 0;
 };
 
 // None for bytes that are no such message.
 template <class Message>
 std::optional<Message> messageOf(std::string bytes) {
-  BoundedStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()),
-                       static_cast<std::uint32_t>(bytes.size()));
-  try {
-    Message message;
-    stream.next(message);
-    return message;
-  } catch (const ros::serialization::StreamOverrunException&) {
-    return std::nullopt;
-  }
+  return Messages(std::move(bytes)).next<Message>();
 }
 
 template <class Message>

@@ -58,31 +58,22 @@ void checkPlan(const planning::Plan& plan) {
 }
 
 FUZZ_TARGET(goal_message, seedsOfRequests) {
-  struct Input {
-    std_msgs::String planner, heuristic;
-    nav_msgs::GetPlan::Request request;
-  } message;
-  std::string bytes = input;
-  BoundedStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()),
-                       static_cast<std::uint32_t>(bytes.size()));
-  try {
-    stream.next(message.planner);
-    stream.next(message.heuristic);
-    stream.next(message.request);
-  } catch (const ros::serialization::StreamOverrunException&) {
-    return;
-  }
+  Messages messages(input);
+  const auto planner = messages.next<std_msgs::String>();
+  const auto heuristic = messages.next<std_msgs::String>();
+  const auto asked = messages.next<nav_msgs::GetPlan::Request>();
+  if (!planner || !heuristic || !asked) return;
   nodes::PlanningRequest request;
-  request.start = message.request.start;
-  request.goal = message.request.goal;
-  request.planner = message.planner.data;
-  request.heuristic = message.heuristic.data;
-  request.tolerance = message.request.tolerance;
+  request.start = asked->start;
+  request.goal = asked->goal;
+  request.planner = planner->data;
+  request.heuristic = heuristic->data;
+  request.tolerance = asked->tolerance;
   mayRefuse([&] {
     nodes::checkText(request);
-    planning::PathPlanner planner(nodes::optionsFor(request, {}));
-    planner.setMap(mapWithAWall());
-    checkPlan(planner.plan({anyPose(request.start->pose), anyPose(request.goal.pose)}));
+    planning::PathPlanner path_planner(nodes::optionsFor(request, {}));
+    path_planner.setMap(mapWithAWall());
+    checkPlan(path_planner.plan({anyPose(request.start->pose), anyPose(request.goal.pose)}));
   });
   nodes::checkText(nodes::printable(request));
 }

@@ -9,12 +9,13 @@
 #include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/avoidance/pilot.h"
 #include "grid_path_planner/ros/conversions.h"
-#include "ros/common/incoming/cloud_reader.h"
+#include "ros/avoidance/cloud_frames.h"
 
 namespace grid_path_planner::fuzz {
 namespace {
 
 constexpr std::uint32_t kMostPixels = 4096;
+const ros::Time kNowOfClouds(1000, 0);
 
 std::vector<std::string> seedsOfFlights() {
   sensor_msgs::CameraInfo camera;
@@ -29,6 +30,7 @@ std::vector<std::string> seedsOfFlights() {
   path.poses[0].pose.orientation.w = 1.0;
   sensor_msgs::PointCloud2 cloud;
   cloud.header.frame_id = "camera";
+  cloud.header.stamp = kNowOfClouds;
   cloud.width = cloud.height = 2;
   cloud.point_step = 12;
   cloud.row_step = 24;
@@ -44,19 +46,27 @@ std::vector<std::string> seedsOfFlights() {
   return {bytesOf(camera) + bytesOf(path) + bytesOf(cloud)};
 }
 
-// Splits where the first two messages of the seed end; what does not fit is no message.
+// As the node takes them, of a camera that tf has in the vehicle's middle.
+std::vector<avoidance::Frame> framesOf(const sensor_msgs::CameraInfo& camera,
+                                       const sensor_msgs::PointCloud2& cloud) {
+  nodes::FrameLookup transforms;
+  geometry_msgs::TransformStamped place;
+  place.header.frame_id = "map";
+  place.child_frame_id = "camera";
+  place.transform.rotation.w = 1.0;
+  transforms.buffer().setTransform(place, "fuzz", true);
+  ros::Time::setNow(kNowOfClouds);
+  nodes::CloudFrames frames({"points"});
+  frames.setCamera(0, camera);
+  frames.add(0, boost::make_shared<sensor_msgs::PointCloud2>(cloud));
+  return frames.take(transforms, "map", kNowOfClouds);
+}
+
 FUZZ_TARGET(local_planner_messages, seedsOfFlights) {
-  sensor_msgs::CameraInfo shape;
-  shape.header.frame_id = "camera";
-  const std::size_t camera_end = bytesOf(shape).size();
-  nav_msgs::Path route;
-  route.header.frame_id = "map";
-  route.poses.resize(1);
-  const std::size_t path_end = camera_end + bytesOf(route).size();
-  if (input.size() < path_end) return;
-  const auto camera = messageOf<sensor_msgs::CameraInfo>(input.substr(0, camera_end));
-  const auto path = messageOf<nav_msgs::Path>(input.substr(camera_end, path_end - camera_end));
-  const auto cloud = messageOf<sensor_msgs::PointCloud2>(input.substr(path_end));
+  Messages messages(input);
+  const auto camera = messages.next<sensor_msgs::CameraInfo>();
+  const auto path = messages.next<nav_msgs::Path>();
+  const auto cloud = messages.next<sensor_msgs::PointCloud2>();
   if (!camera || !path || !cloud || std::uint64_t{cloud->width} * cloud->height > kMostPixels)
     return;
   avoidance::Pilot pilot;
@@ -66,16 +76,12 @@ FUZZ_TARGET(local_planner_messages, seedsOfFlights) {
       points.push_back(pose.position);
     pilot.setPath(points);
   });
-  avoidance::Frame frame;
-  mayRefuse([&] { frame.points = nodes::allPoints(*cloud); });
-  frame.width = static_cast<int>(cloud->width);
-  frame.height = static_cast<int>(cloud->height);
-  frame.pinhole = avoidance::Pinhole{camera->K[0], camera->K[4], camera->K[2], camera->K[5]};
+  const std::vector<avoidance::Frame> frames = framesOf(*camera, *cloud);
   for (int i = 0; i < 2; ++i) {
     avoidance::PilotInput given;
-    given.time = frame.time = 0.1 * i;
+    given.time = kNowOfClouds.toSec() + 0.1 * i;
     given.pose = avoidance::VehiclePose{};
-    given.frame = &frame;
+    if (!frames.empty()) given.frame = &frames.back();
     const base::BodyVelocity command = pilot.update(given).velocity;
     mustHold(command.isFinite(), "commands are finite");
     mustHold(std::hypot(command.surge, command.sway) <= pilot.options().max_speed + 1e-9,

@@ -23,6 +23,16 @@ TEST(ActionStamps, ACancelOfTheFutureEndsWhatHasCome) {
   EXPECT_GT(stamps.ofGoal({}, ros::Time(100.0)), cancel) << "and nothing later";
 }
 
+// A stranger's /clock said the last second that a ros::Time can hold; every later goal threw, for as long as the node
+// lived.
+TEST(ActionStamps, GoalsAreTakenAfterAClockAtTheEndOfTime) {
+  ActionStamps stamps;
+  EXPECT_EQ(stamps.ofGoal({}, kLast), kLast);
+  EXPECT_EQ(stamps.ofGoal({}, kLast), kLast);
+  EXPECT_EQ(stamps.ofGoal({}, ros::Time(100.0)), kLast) << "not before the one before";
+  EXPECT_EQ(stamps.ofCancel({}, ros::Time(100.0)), ros::Time());
+}
+
 TEST(ActionStamps, OtherCancelsMeanWhatTheySay) {
   ActionStamps stamps;
   EXPECT_EQ(stamps.ofCancel({}, ros::Time(100.0)), ros::Time());

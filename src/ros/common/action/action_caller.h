@@ -5,7 +5,6 @@
 //   planner.watch(timeout);                           // a few times a second
 //
 // Of actionlib's clients it differs where the network is hostile or the other node dies: lengths that lie are refused
-// before they are unpacked (claimed_lengths.h), a server that was restarted, hangs or is gone is told within `timeout`
 // seconds of the wall clock, and goals that an earlier process of this node's name left behind are cancelled.
 //
 // Guaranteed: every goal that is sent ends by exactly one call of on_result or on_lost, unless forget() or another send()
@@ -13,7 +12,6 @@
 #pragma once
 
 #include <actionlib_msgs/GoalID.h>
-#include <actionlib_msgs/GoalStatus.h>
 #include <actionlib_msgs/GoalStatusArray.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
@@ -25,6 +23,7 @@
 #include <string>
 #include <utility>
 
+#include "ros/common/action/seen_goals.h"
 #include "ros/common/incoming/bounded_subscription.h"
 
 namespace grid_path_planner::nodes {
@@ -117,12 +116,6 @@ class ActionCaller {
   static double secondsSince(Clock::time_point time) {
     return std::chrono::duration<double>(Clock::now() - time).count();
   }
-  static bool isOver(const actionlib_msgs::GoalStatus& status) {
-    return status.status != actionlib_msgs::GoalStatus::PENDING &&
-           status.status != actionlib_msgs::GoalStatus::ACTIVE &&
-           status.status != actionlib_msgs::GoalStatus::PREEMPTING &&
-           status.status != actionlib_msgs::GoalStatus::RECALLING;
-  }
 
   void sendWaiting() {
     if (!waiting_ || !isThere() || !ros::Time::isValid()) return;
@@ -154,26 +147,16 @@ class ActionCaller {
     handlers_.on_feedback(message.feedback);
   }
   void onStatus(const actionlib_msgs::GoalStatusArray& message) {
-    bool found = false;
-    for (const actionlib_msgs::GoalStatus& status : message.status_list) {
-      const std::string& id = status.goal_id.id;
-      if (active() && id == id_) {
-        found = true;
-        if (isOver(status) && !ended_) ended_ = Clock::now();
-      } else if (!isOver(status) && isOfEarlierLife(id)) {
-        cancelNamed(id);
-      }
-    }
+    const SeenGoals seen = seenGoals(message, {mine_, life_, id_});
+    for (const std::string& id : seen.earlier) cancelNamed(id);
+    if (seen.own_is_over && !ended_) ended_ = Clock::now();
     if (!active() || waiting_) return;
-    if (found) {
+    if (seen.own) {
       acknowledged_ = true;
       heard_ = Clock::now();
     } else if (acknowledged_) {
       lose("its server was started anew");
     }
-  }
-  bool isOfEarlierLife(const std::string& id) const {
-    return id.compare(0, mine_.size(), mine_) == 0 && id.compare(0, life_.size(), life_) != 0;
   }
 
   const std::string name_;

@@ -19,7 +19,8 @@ namespace grid_path_planner::nodes {
 
 class ActionStamps {
  public:
-  // Above all that were given out before; now, where that is. The least of all for one that a cancel overtook.
+  // Above all that were given out before; now, where that is. The least of all for one that a cancel overtook. At the end
+  // of what a ros::Time can hold, which /clock may say, they are equal.
   ros::Time ofGoal(const ros::Time& given, const ros::Time& now) {
     noticeTime(now);
     if (!given.isZero() && given < cancelled_until_) return ros::TIME_MIN;
@@ -50,7 +51,7 @@ class ActionStamps {
   static constexpr std::size_t kMostGoals = 50;  // of which the last are meant by whoever cancels
 
   ros::Time next(const ros::Time& now) {
-    last_ = std::max(now, last_ + ros::Duration(0, 1));
+    last_ = std::max(now, last_ == ros::TIME_MAX ? last_ : last_ + ros::Duration(0, 1));
     return last_;
   }
   // Senders' stamps from before time went back are of no order with those from after.

@@ -35,7 +35,7 @@ void GivenGoals::end() {
 
 void GivenGoals::endAllUntil(const ros::Time& now) {
   end();
-  until_ = now.toSec() > kClocksDiffer.toSec() ? now - kClocksDiffer : ros::Time();
+  if (now.toSec() > kClocksDiffer.toSec()) until_ = std::max(until_, now - kClocksDiffer);
 }
 
 void GivenGoals::timeWentBack() {
