@@ -202,9 +202,9 @@ FUZZ_TARGET(sensor_messages, seedsOfSensors) {
   HearingVehicle vehicle(options, *place);
   for (int i = 0; i < kMostSensorMessages && !messages.atEnd(); ++i) {
     hearNextSensor(messages, vehicle);
-    vehicle.check();
     vehicle.passTime();
   }
+  vehicle.check();
 }
 
 }  // namespace
