@@ -66,7 +66,7 @@ FUZZ_TARGET(frame_messages, seedsOfFrames) {
   const auto links = messages.next<tf2_msgs::TFMessage>();
   const auto path = messages.next<nav_msgs::Path>();
   if (!links || !path) return;
-  ros::Time::setNow(kNowOfFrames);
+  setTime(kNowOfFrames);
   nodes::FrameLookup frames;
   nodes::TransformStamps stamps;
   for (const geometry_msgs::TransformStamped& link : links->transforms)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ros/serialization.h>
+#include <ros/time.h>
 
 #include <cstdint>
 #include <optional>
@@ -51,6 +52,12 @@ class Messages {
 template <class Message>
 std::optional<Message> messageOf(std::string bytes) {
   return Messages(std::move(bytes)).next<Message>();
+}
+
+// What ros::Time::now() is from now on.
+inline void setTime(const ros::Time& now) {
+  ros::Time::init();
+  ros::Time::setNow(now);
 }
 
 template <class Message>

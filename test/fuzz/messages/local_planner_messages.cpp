@@ -55,7 +55,7 @@ std::vector<avoidance::Frame> framesOf(const sensor_msgs::CameraInfo& camera,
   place.child_frame_id = "camera";
   place.transform.rotation.w = 1.0;
   transforms.buffer().setTransform(place, "fuzz", true);
-  ros::Time::setNow(kNowOfClouds);
+  setTime(kNowOfClouds);
   nodes::CloudFrames frames({"points"});
   frames.setCamera(0, camera);
   frames.add(0, boost::make_shared<sensor_msgs::PointCloud2>(cloud));

@@ -52,7 +52,7 @@ AskedPlan askedPlan(const nodes::PlanningRequest& request) {
 // As PlanningLane does it.
 template <class Use>
 void withPoses(const nodes::PlanningRequest& request, const Use& use) {
-  ros::Time::setNow(ros::Time(1000, 0));
+  setTime(ros::Time(1000, 0));
   try {
     const AskedPlan asked = askedPlan(request);
     planning::PathPlanner planner(asked.options);
