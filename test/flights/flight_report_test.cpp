@@ -45,7 +45,7 @@ class FlightReport : public testing::Test {
     return verdictOn(plan_.study().conclusions.front(), flightTests(data, "safe"));
   }
 
-  const SmallFlights small_;
+  const SmallFlights small_ = {};
   const FlightPlan plan_{readFlightFile(small_.write("  - {name: slow}\n  - {name: fast}\n",
                                                      std::string("flights: 20\n") + kPublished))};
 };

@@ -21,7 +21,7 @@ class SightAuditTest : public testing::Test {
 
   const World world_{
       {boxMesh("wall", {0.2, 2.0, 4.0}).moved(Isometry3d(Eigen::Translation3d(5.0, 0.0, 0.0)))}};
-  const DepthCameraOptions options_;
+  const DepthCameraOptions options_ = {};
   SightAudit audit_{world_, options_, 0.3, Vector3d(-20.0, 0.0, 0.0), 1.5};
 };
 

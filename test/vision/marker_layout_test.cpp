@@ -79,7 +79,7 @@ TEST(MarkerLayout, AMistakeIsToldWithFileAndLine) {
       {kHead + "markers:\n  - {id: 1, position: [0, 0, 0], yaw: 1}\n", "layout.yaml:5: "},
   };
   for (const auto& [text, sentence] : mistakes) {
-    const std::string error = errorText([&] { layoutOf(text); });
+    const std::string error = errorText([&text = text] { layoutOf(text); });
     EXPECT_TRUE(contains(error, sentence)) << error;
   }
 }

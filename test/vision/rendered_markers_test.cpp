@@ -83,7 +83,7 @@ TEST(PanelWorlds, HaveTheMarkersWhereTheLayoutHasThem) {
   for (const simulation::World* world : {&site(), &dexrov})
     for (const auto& [id, panel_from_tag] : layout.panel_from_tag) {
       const Isometry3d tag_from_map = (mapFromPanel() * panel_from_tag).inverse();
-      const auto boundsOf = [&](const std::string& kind) {
+      const auto boundsOf = [&, &id = id](const std::string& kind) {
         const auto* mesh = visualOf(*world, "tag_" + std::to_string(id) + kind);
         EXPECT_TRUE(mesh) << "tag " << id << kind;
         return mesh ? mesh->moved(tag_from_map).bounds() : Eigen::AlignedBox3f();
