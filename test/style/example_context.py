@@ -47,6 +47,15 @@ CONTEXT = {
         extern ros::NodeHandle nh; extern const PlanPathGoal goal; extern double timeout;
         void on_result(const PlanPathResult&); void on_feedback(const PlanPathFeedback&);
         void on_lost(const std::string&);""",
+    "seen_goals.h": "extern const actionlib_msgs::GoalStatusArray status; extern const std::string id; void waitForResult();",
+    "velocity_message.h": "extern const nav_msgs::Odometry odometry;",
+    "go_to_messages.h": "#include <move_base_msgs/MoveBaseGoal.h>\nextern const move_base_msgs::MoveBaseGoal goal;"
+                        "extern following::Navigator navigator; extern double now; extern const PlanPathResult result;"
+                        "extern const NavigatePathFeedback feedback;",
+    "kept_map.h": "#include \"grid_path_planner/mapping/octree_map.h\"\nextern const mapping::OctreeMap octree; extern ros::Time newest_cloud;",
+    "request_messages.h": "extern const PlanPathGoal goal; extern const ComparePlans::Request comparison; void ask(const PlanningRequest&);",
+    "request_poses.h": "extern const PlanningRequest request; extern const PathPlannerNodeOptions options; extern const FrameLookup transforms;",
+    "json_numbers.h": "struct Run { int seed; }; extern Run run; extern const nlohmann::json object;",
     "map_watch.h": "extern ros::NodeHandle nh;", "direct_publisher.h": "#include <geometry_msgs/Twist.h>\nextern ros::NodeHandle nh; extern geometry_msgs::Twist twist;",
     "map_autosave.h": "extern std::string folder; extern ros::NodeHandle private_nh; extern ProjectedMapOptions options;"
                       "extern ros::Time newest_cloud;",

@@ -1,6 +1,6 @@
 // The poses of a request in the map's frame.
 //
-//   const ViaRequest poses = posesOf(request, options, transforms, "map", stop);
+//   const planning::ViaRequest poses = posesOf(request, options, transforms, "map", stop);
 #pragma once
 
 #include <optional>
