@@ -64,25 +64,21 @@ CONTEXT = {
                 "extern const OccupancyBricks& bricks; extern ProjectionOptions options;",
     "end_segments.h": "extern const CostGrid& costs; extern Eigen::Vector2d pose, centre;",
     "paid_landmarks.h": "extern SearchResult result; extern const std::shared_ptr<const CostGrid> before, shared_map; extern std::size_t room; extern std::vector<CellRect> changed; extern std::uint32_t goal_index;",
-    "bit_maps.h": "extern const CostGrid& map;",
-    "map_differences.h": "extern const OccupancyGrid before, after;",
+    "bit_maps.h": "extern const CostGrid& map;", "map_differences.h": "extern const OccupancyGrid before, after;",
     "class_changes.h": """#include "grid_path_planner/costmap/cost_grid.h"
         extern const OccupancyGrid map; extern OccupancyThresholds thresholds; extern const CostGrid& costs;
         extern std::vector<CellRect> changed;""",
-    "bucket_queue.h": "extern SearchKey f, f_of_the_start; extern unsigned width_shift;"
-                      "extern BucketQueue::Index index;",
+    "bucket_queue.h": "extern SearchKey f, f_of_the_start; extern unsigned width_shift;extern BucketQueue::Index index;",
     "natural_moves.h": "extern Window window; extern unsigned d;",
     "cloud_filter.h": """#include "grid_path_planner/mapping/octree_map.h"
         extern OctreeMap map; extern Eigen::Isometry3d map_from_sensor, base_from_map;
         extern std::vector<Eigen::Vector3d> points; extern CloudFilterOptions options;""",
-    "cloud_queue.h": "extern const FrameTransforms transforms; extern CloudQueueOptions options;"
-                     "extern sensor_msgs::PointCloud2::ConstPtr cloud;",
+    "cloud_queue.h": "extern const FrameTransforms transforms; extern CloudQueueOptions options;extern sensor_msgs::PointCloud2::ConstPtr cloud;",
     "cloud_reader.h": "extern sensor_msgs::PointCloud2::ConstPtr message;",
     "read_limits.h": "extern ReadOptions options; extern StopToken stop_token; extern std::string file;"
                      "extern std::size_t cells; extern int row, height; void readRow(int);",
     "child_process.h": "extern std::string file; extern ReadLimits limits;",
-    "drawn_shapes.h": "extern OccupancyGrid map; extern double resolution; extern std::string file;"
-                      "extern ReadLimits limits;",
+    "drawn_shapes.h": "extern OccupancyGrid map; extern double resolution; extern std::string file;extern ReadLimits limits;",
     "action_stamps.h": "#include <actionlib_msgs/GoalID.h>\nextern actionlib_msgs::GoalID goal_id;",
     "end_of_node.h": """#include "grid_path_planner/simulation/world.h"
         extern std::string file; extern ReadOptions read_options;""",
@@ -236,8 +232,7 @@ CONTEXT = {
         extern std::vector<CellRect> changed;""",
     "widest_path.h": """extern const CostGrid& costs; extern costmap::CostmapOptions options; extern costmap::KeptDistances kept; extern Cell start, goal;""",
     "connections.h": "extern std::vector<CellRect> rectangles;",
-    "conversions.h": "extern geometry_msgs::PoseStamped message; extern Path path;"
-                     "extern ros::Publisher publisher;",
+    "conversions.h": "extern geometry_msgs::PoseStamped message; extern Path path;extern ros::Publisher publisher;",
     "cost_to_go.h": "extern std::shared_ptr<const CostGrid> map; extern Cell cell;",
     "dead_reckoning.h": """#include "grid_path_planner/simulation/vehicle.h"
         extern DeadReckoningOptions options; extern Vehicle vehicle;""",
@@ -268,8 +263,7 @@ CONTEXT = {
     "jump_point_bits.h": "extern const CostGrid& map; extern Cell cell;", "jump_point_density.h": "extern const CostGrid& map;",
     "inconsistency_scan.h": "extern const BackwardNodes& nodes; extern CellRect rect;",
     "landmark_table.h": "extern const CostGrid& map; extern std::uint32_t index, goal_index;",
-    "map_model.h": "extern ProjectedMapOptions options; extern std::vector<Eigen::Vector3d> points;"
-                    "extern CloudFrames frames;",
+    "map_model.h": "extern ProjectedMapOptions options; extern std::vector<Eigen::Vector3d> points;extern CloudFrames frames;",
     "path_planner.h": """#include "grid_path_planner/grid/map_file.h"
         extern PlannerOptions options; extern Pose start, goal;""",
     "map_sizes.h": "extern const RectangleGraph& map;",
@@ -277,8 +271,7 @@ CONTEXT = {
         extern std::shared_ptr<const OccupancyGrid> reader; extern OccupancyGrid map;
         extern CellRect changed; extern Cell cell;""",
     "mapping_thread.h": "extern ProjectedMapOptions options;",
-    "bounded_distance_transform.h": "extern const Grid<Occupancy>& classes; extern CellRect sources, rect;"
-                        "extern int reach;",
+    "bounded_distance_transform.h": "extern const Grid<Occupancy>& classes; extern CellRect sources, rect;extern int reach;",
     "simd_neighbourhood.h": """#include "planners/core/steps.h"
         extern const CostGrid& map; extern CellRect rect; extern const StepRules& rules;
         extern std::vector<std::uint8_t> masks;""",
@@ -290,19 +283,15 @@ CONTEXT = {
         #include "ros/common/file_kinds.h"
         extern NodeFiles files; extern NavigatePathGoal goal; extern SaveWaypoints::Request request;""",
     "node_heap.h": "struct Node {}; extern Node node; extern double f, limit;",
-    "occupancy_bricks.h": "extern OccupancyBricks bricks; extern std::uint16_t x, y, z;"
-                          "extern Brick content;",
-    "occupancy_conversion.h": "extern nav_msgs::OccupancyGrid::ConstPtr message;"
-                              "extern ros::Publisher publisher;",
-    "octree_map.h": "extern OctreeOptions options; extern octomap::point3d origin;"
-                    "extern std::vector<octomap::point3d> hits, clear_only;",
+    "occupancy_bricks.h": "extern OccupancyBricks bricks; extern std::uint16_t x, y, z;extern Brick content;",
+    "occupancy_conversion.h": "extern nav_msgs::OccupancyGrid::ConstPtr message;extern ros::Publisher publisher;",
+    "octree_map.h": "extern OctreeOptions options; extern octomap::point3d origin;extern std::vector<octomap::point3d> hits, clear_only;",
     "option_text.h": """#include "grid_path_planner/planning/path_planner.h"
         extern OptionInfo info; extern PlannerOptions options;""",
     "base/options.h": "enum class E {}; struct O { double radius; E kernel_rule; };",
     "parameters.h": """#include <grid_path_planner/PathPlannerConfig.h>
         #include "grid_path_planner/planning/path_planner.h\"""",
-    "path_follower.h": "extern FollowerOptions options; extern Path path; extern double time;"
-                       "extern Pose pose; extern PathClearanceCheck check;",
+    "path_follower.h": "extern FollowerOptions options; extern Path path; extern double time;extern Pose pose; extern PathClearanceCheck check;",
     "heap_on_top_queue.h": "extern SearchKey first, width, key, bound; extern std::uint32_t order, index;"
                        "extern bool (*renew)(HeapOnTopQueue::Entry&);",
     "path_image.h": "extern OccupancyGrid map; extern OccupancyThresholds thresholds; extern Path path;"
@@ -344,8 +333,7 @@ CONTEXT = {
         extern const BitMap& free_cells;""",
     "rectangle_messages.h": "extern GridGeometry geometry; extern std::vector<CellRect> rectangles;"
                             "extern RectangleMap message; extern ros::Publisher publisher;",
-    "rectangle_publisher.h": "extern ros::NodeHandle nh; extern std::shared_ptr<const CostGrid> costs;"
-                             "extern std::size_t memory_limit;",
+    "rectangle_publisher.h": "extern ros::NodeHandle nh; extern std::shared_ptr<const CostGrid> costs;extern std::size_t memory_limit;",
     "cost_to_go_publisher.h": "extern ros::NodeHandle private_nh; extern std::shared_ptr<const CostGrid> costs;"
                               "extern Eigen::Vector2d goal; extern std::size_t memory_limit; void postCostToGo();",
     "d_star_keys.h": "extern const BackwardNodes& nodes; extern const CostGrid& map;"
@@ -363,8 +351,7 @@ CONTEXT = {
     "ray_scene.h": """#include "grid_path_planner/simulation/world.h"
         extern const World world; extern Eigen::Vector3f origin, rays[]; extern Eigen::Matrix3f map_from_sensor;
         extern float ranges[];""",
-    "noise_stream.h": "#include \"simulation/sensors/pressure_options.h\"\n"
-                      "extern PressureOptions options; extern double truth;",
+    "noise_stream.h": "#include \"simulation/sensors/pressure_options.h\"\nextern PressureOptions options; extern double truth;",
     "drifting_triad.h": "extern int seed; extern TriadErrors errors;",
     "sensors/imu.h": "extern ImuOptions options; extern Vehicle vehicle;",
     "sensors/dvl.h": "extern const World world; extern DvlOptions options; extern Vehicle vehicle;",

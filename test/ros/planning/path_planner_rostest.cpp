@@ -90,14 +90,19 @@ TEST_F(PathPlannerTest, WithoutAMapTheAnswerIsNoMap) {
   expectStampedAndEmpty(path_, "site");
 }
 
+TEST_F(PathPlannerTest, AGoalWithoutAFrameIsInTheMaps) {
+  startPlanner();
+  publishMap(kRoom);
+  placeVehicleAndWait(0.5, 0.5);
+  sendGoal(poseAt(1.5, 2.5, 0.0, ""));
+  EXPECT_EQ(answer_.status, "FOUND") << answer_.message;
+}
+
 TEST_F(PathPlannerTest, ABadGoalIsAnInvalidRequest) {
   startPlanner();
   publishMap(kRoom);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<geometry_msgs::PoseStamped> bad;
-  bad.push_back(poseAt(nan, 0.5));
-  bad.push_back(poseAt(1e180, 0.5));
-  bad.push_back(poseAt(0.5, 0.5, 0.0, ""));
+  std::vector<geometry_msgs::PoseStamped> bad{poseAt(nan, 0.5), poseAt(1e180, 0.5)};
   bad.push_back(poseAt(0.5, 0.5));
   bad.back().pose.orientation.w = 0.0;
   bad.push_back(poseAt(0.5, 0.5));

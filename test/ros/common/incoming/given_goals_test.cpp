@@ -70,8 +70,9 @@ TEST(GivenGoals, AGoalOfTheMomentOfACancelIsANewOne) {
   goals.endAllUntil(ros::Time(8));
   EXPECT_FALSE(goals.isOver(pathFor(7.95))) << "clocks differ";
   EXPECT_TRUE(goals.isOver(pathFor(7.9))) << "it was driven";
-  goals.endAllUntil(ros::Time(0.1));
-  EXPECT_FALSE(goals.isOver(pathFor(0.05)));
+  GivenGoals at_the_beginning;
+  at_the_beginning.endAllUntil(ros::Time(0.1));
+  EXPECT_FALSE(at_the_beginning.isOver(pathFor(0.05)));
 }
 
 // A bag that began anew revived goals that were over: the vehicle set off for a goal that it had reached.
