@@ -163,7 +163,7 @@ PlanStatistics PlanningLane::statistics(const Plan& plan, const PlanningRequest&
   PlanStatistics message = statisticsMessage(plan);
   const PlanningRequest asked = printable(request);
   message.goal = asked.goal;
-  if (!request.closed && asked.goal.header.frame_id.empty())
+  if (!request.closed && request.goal.header.frame_id.empty())
     message.goal.header.frame_id = frameName(options.map_frame);
   message.planner = plannerOf(asked, options);
   message.heuristic = heuristicOf(asked, options);
