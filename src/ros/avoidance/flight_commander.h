@@ -11,8 +11,9 @@
 // as it may have changed since, or from the command where that is less. That is the braking for which the pilot has seen
 // to room (avoidance/steering/braking.h); a plan that comes meanwhile finds the vehicle a little slower. Zeros take
 // the command's place where ROS time went back and where the hold says so, and last until the next. While `stop` is
-// true there are zeros only, and while a joystick commands nothing. A command with a number that is none is a zero. The thread logs nothing, reads and publishes nothing
-// else and takes no lock but for values that are copied; how it is scheduled: control_thread.h.
+// true there are zeros only, and while a joystick commands nothing. A command with a number that is none is a zero.
+// The thread logs nothing, reads and publishes nothing else and takes no lock but for values that are copied; how it is
+// scheduled: control_thread.h.
 #pragma once
 
 #include <ros/node_handle.h>

@@ -301,6 +301,7 @@ void GoToPoseNode::carryOut(const Order& order) {
     case Order::Kind::DRIVE:
       return drive(order.path);
     case Order::Kind::STOP:
+      driver_heeds_joystick_ = false;
       return driver_.cancel();
     case Order::Kind::CLEAR_SCAN:
       if (clear_publisher_.getNumSubscribers() == 0)

@@ -5,6 +5,7 @@
 //   planner.watch(timeout);                           // a few times a second
 //
 // Of actionlib's clients it differs where the network is hostile or the other node dies: lengths that lie are refused
+// before they are unpacked (claimed_lengths.h), a server that was restarted, hangs or is gone is told within `timeout`
 // seconds of the wall clock, and goals that an earlier process of this node's name left behind are cancelled.
 //
 // Guaranteed: every goal that is sent ends by exactly one call of on_result or on_lost, unless forget() or another send()

@@ -18,9 +18,9 @@ inline constexpr char kTakenOver[] = "the joystick commands";
 
 class ManualControl {
  public:
-  // What a message says. Returns whether that is a change.
+  // What a message says. Returns whether that is a change from what was told last, by this or expire().
   bool hear(bool commands) {
-    const bool was = this->commands();
+    const bool was = heard_.has_value();
     heard_ = commands ? std::make_optional(Clock::now()) : std::nullopt;
     return was != commands;
   }

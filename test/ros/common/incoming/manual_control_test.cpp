@@ -29,5 +29,12 @@ TEST(ManualControl, EndsOnceWhenNothingIsHeard) {
   EXPECT_TRUE(joystick.hear(true));
 }
 
+TEST(ManualControl, AnEndThatNobodyHasNoticedIsToldWithTheNextMessage) {
+  ManualControl joystick;
+  joystick.hear(true);
+  EXPECT_TRUE(test::waitFor([&] { return !joystick.commands(); }));
+  EXPECT_TRUE(joystick.hear(false));
+}
+
 }  // namespace
 }  // namespace grid_path_planner::nodes
