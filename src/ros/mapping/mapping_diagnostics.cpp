@@ -34,8 +34,8 @@ MappingDiagnostics::MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle priva
   updater_.add("clouds", this, &MappingDiagnostics::reportClouds);
   updater_.add("map", this, &MappingDiagnostics::reportMap);
   if (autosave_) updater_.add("autosave", this, &MappingDiagnostics::reportAutosave);
-  timer_ = nh.createWallTimer(ros::WallDuration(updater_.getPeriod()),
-                              [this](const ros::WallTimerEvent&) { onTimer(); });
+  timer_ = nh.createSteadyTimer(ros::WallDuration(updater_.getPeriod()),
+                                [this](const ros::SteadyTimerEvent&) { onTimer(); });
 }
 
 void MappingDiagnostics::onTimer() {

@@ -16,7 +16,7 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
-#include <ros/wall_timer.h>
+#include <ros/steady_timer.h>
 
 #include <chrono>
 #include <mutex>
@@ -70,7 +70,7 @@ class MappingDiagnostics {
   std::uint64_t reported_drops_ = 0;
   Clock::time_point measure_not_before_;  // used in the mapping thread
   diagnostic_updater::Updater updater_;
-  ros::WallTimer timer_;
+  ros::SteadyTimer timer_;
 };
 
 }  // namespace grid_path_planner::nodes

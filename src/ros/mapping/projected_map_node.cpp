@@ -123,12 +123,13 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   cloud_subscriber_ = subscribeBounded<sensor_msgs::PointCloud2, const CloudEvent&>(
       nh, "cloud_in", {kAnyNumber, kMostWaitingBytes},
       [this](const CloudEvent& event) { onCloud(event.getMessage()); });
-  cloud_timer_ = nh.createWallTimer(ros::WallDuration(kCloudPeriod),
-                                    [this](const ros::WallTimerEvent&) { resolveTransforms(); });
+  cloud_timer_ =
+      nh.createSteadyTimer(ros::WallDuration(kCloudPeriod),
+                           [this](const ros::SteadyTimerEvent&) { resolveTransforms(); });
   if (filename_.empty())
-    silence_timer_ = nh.createWallTimer(
-        ros::WallDuration(kFirstCloudWait), [this](const ros::WallTimerEvent&) { warnOfSilence(); },
-        true);
+    silence_timer_ = nh.createSteadyTimer(
+        ros::WallDuration(kFirstCloudWait),
+        [this](const ros::SteadyTimerEvent&) { warnOfSilence(); }, true);
   startPublishing(options);
   if (autosave_) startAutosave(options.autosave_period);
   complete_ = true;
@@ -185,12 +186,13 @@ void ProjectedMapNode::use(const ProjectedMapOptions& options) {
 }
 
 void ProjectedMapNode::startPublishing(const ProjectedMapOptions& options) {
-  publish_timer_ = nh_.createWallTimer(ros::WallDuration(1.0 / options.publish_rate),
-                                       [this](const ros::WallTimerEvent&) { postPublishing(); });
+  publish_timer_ =
+      nh_.createSteadyTimer(ros::WallDuration(1.0 / options.publish_rate),
+                            [this](const ros::SteadyTimerEvent&) { postPublishing(); });
   heartbeat_timer_.stop();
   if (options.heartbeat_period <= 0.0) return;
-  heartbeat_timer_ = nh_.createWallTimer(
-      ros::WallDuration(options.heartbeat_period), [this](const ros::WallTimerEvent&) {
+  heartbeat_timer_ = nh_.createSteadyTimer(
+      ros::WallDuration(options.heartbeat_period), [this](const ros::SteadyTimerEvent&) {
         thread_->post("heartbeat", [this](MapModel& map) { publishHeartbeat(map); });
       });
 }
@@ -200,7 +202,7 @@ void ProjectedMapNode::startAutosave(double period) {
   thread_->run(
       [this](MapModel&) { map_publisher_->countCloud(autosave_->newestCloud(), ros::TIME_MAX); });
   autosave_timer_ =
-      nh_.createWallTimer(ros::WallDuration(period / 2.0), [this](const ros::WallTimerEvent&) {
+      nh_.createSteadyTimer(ros::WallDuration(period / 2.0), [this](const ros::SteadyTimerEvent&) {
         thread_->post("autosave", [this](MapModel& map) { save(map, MapAutosave::When::IF_DUE); });
       });
 }

@@ -21,7 +21,7 @@
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
-#include <ros/wall_timer.h>
+#include <ros/steady_timer.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include <atomic>
@@ -104,11 +104,11 @@ class ProjectedMapNode {
   std::unique_ptr<MappingDiagnostics> diagnostics_;
   std::unique_ptr<Reconfigurable<ProjectedMapConfig, mapping::ProjectedMapOptions>> reconfigurable_;
   ros::Subscriber cloud_subscriber_;
-  ros::WallTimer cloud_timer_;
-  ros::WallTimer publish_timer_;
-  ros::WallTimer heartbeat_timer_;
-  ros::WallTimer autosave_timer_;
-  ros::WallTimer silence_timer_;  // until the first cloud
+  ros::SteadyTimer cloud_timer_;
+  ros::SteadyTimer publish_timer_;
+  ros::SteadyTimer heartbeat_timer_;
+  ros::SteadyTimer autosave_timer_;
+  ros::SteadyTimer silence_timer_;  // until the first cloud
 };
 
 }  // namespace grid_path_planner::nodes

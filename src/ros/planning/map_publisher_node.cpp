@@ -54,8 +54,8 @@ MapPublisherNode::MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private
       nh, "static_map", [this](auto&, auto& response) { return getMap(response); });
   reconfigurable_ = std::make_unique<Reconfigurable<MapPublisherConfig, MapPublisherOptions>>(
       private_nh, options_, [this](const MapPublisherOptions& options) { use(options); });
-  timer_ = nh.createWallTimer(ros::WallDuration(0.02),
-                              [this](const ros::WallTimerEvent&) { publishOnceThereIsTime(); });
+  timer_ = nh.createSteadyTimer(ros::WallDuration(0.02),
+                                [this](const ros::SteadyTimerEvent&) { publishOnceThereIsTime(); });
 }
 
 MapPublisherNode::~MapPublisherNode() {

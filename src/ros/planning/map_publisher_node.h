@@ -13,7 +13,7 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/service_server.h>
-#include <ros/wall_timer.h>
+#include <ros/steady_timer.h>
 
 #include <memory>
 #include <string>
@@ -54,7 +54,7 @@ class MapPublisherNode {
   ros::Publisher map_publisher_;
   ros::Publisher metadata_publisher_;
   ros::ServiceServer service_;
-  ros::WallTimer timer_;
+  ros::SteadyTimer timer_;
   std::unique_ptr<Reconfigurable<MapPublisherConfig, MapPublisherOptions>> reconfigurable_;
 };
 

@@ -113,19 +113,19 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   initial_pose_subscriber_ = subscribeChecked<geometry_msgs::PoseWithCovarianceStamped>(
       nh, "initialpose", 1,
       [this](const geometry_msgs::PoseWithCovarianceStamped& message) { onInitialPose(message); });
-  clock_timer_ = nh.createWallTimer(ros::WallDuration(0.05),
-                                    [this](const ros::WallTimerEvent&) { checkTime(); });
-  full_map_timer_ = nh.createWallTimer(ros::WallDuration(0.1), [this](const ros::WallTimerEvent&) {
-    if (planning_map_->wholeMapIsDue(server_->settings().options.full_map_period))
-      postSearchedMap();
-  });
-  startReplanTimer(options.replan_period);
+  clock_timer_ = nh.createSteadyTimer(ros::WallDuration(0.05),
+                                      [this](const ros::SteadyTimerEvent&) { checkTime(); });
+  full_map_timer_ =
+      nh.createSteadyTimer(ros::WallDuration(0.1), [this](const ros::SteadyTimerEvent&) {
+        if (planning_map_->wholeMapIsDue(server_->settings().options.full_map_period))
+          postSearchedMap();
+      });
+  replan_period_.begin(ros::Time::now());
 }
 
 PathPlannerNode::~PathPlannerNode() {
   goal_subscriber_.shutdown();
   initial_pose_subscriber_.shutdown();
-  replan_timer_.stop();
   clock_timer_.stop();
   full_map_timer_.stop();
   reconfigurable_.reset();
@@ -138,6 +138,14 @@ void PathPlannerNode::checkTime() {
     return server_->placed(goal.path.frame_id, goal.request.goal);
   };
   if (active_goal_.retryIsDue(std::chrono::steady_clock::now(), placed)) postPlanForGoal();
+  replanInTime();
+}
+
+void PathPlannerNode::replanInTime() {
+  const double period = server_->settings().options.replan_period;
+  if (period <= 0.0 || !replan_period_.isOver(ros::Time::now(), period)) return;
+  const std::optional<GoalState> goal = active_goal_.goal();
+  if (goal && goal->answered) postPlanForGoal();
 }
 
 void PathPlannerNode::onGoal(const geometry_msgs::PoseStamped& message) {
@@ -161,7 +169,7 @@ void PathPlannerNode::onOptions(const PathPlannerNodeOptions& options) {
   const PathPlannerNodeOptions before = server_->settings().options;
   warnUnusedOptions(options.planner, before.planner);
   server_->setOptions(options);
-  if (options.replan_period != before.replan_period) startReplanTimer(options.replan_period);
+  if (options.replan_period != before.replan_period) replan_period_.begin(ros::Time::now());
   // A planning that runs has the options from before.
   if (active_goal_.goal() && changesPath(options, before)) postPlanForGoal();
   onMapChange();
@@ -172,15 +180,6 @@ void PathPlannerNode::onMapChange() {
   server_->vehicleLane().worker().post([this](const StopSource& stop) { processMap(stop); },
                                        kMapSlot);
   server_->prepareForQuestions();
-}
-
-void PathPlannerNode::startReplanTimer(double period) {
-  replan_timer_.stop();
-  if (period <= 0.0) return;
-  replan_timer_ = nh_.createTimer(ros::Duration(period), [this](const ros::TimerEvent&) {
-    const std::optional<GoalState> goal = active_goal_.goal();
-    if (goal && goal->answered) postPlanForGoal();
-  });
 }
 
 void PathPlannerNode::postPlanForGoal() {

@@ -9,13 +9,13 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <ros/node_handle.h>
+#include <ros/steady_timer.h>
 #include <ros/subscriber.h>
-#include <ros/timer.h>
-#include <ros/wall_timer.h>
 
 #include <memory>
 
 #include "ros/common/master/command_claim.h"
+#include "ros/common/scheduling/ros_period.h"
 #include "ros/planning/active_goal.h"
 #include "ros/planning/plan_action.h"
 #include "ros/planning/plan_diagnostics.h"
@@ -52,7 +52,7 @@ class PathPlannerNode {
   void onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message);
   void onOptions(const PathPlannerNodeOptions& options);
   void onMapChange();
-  void startReplanTimer(double period);
+  void replanInTime();
 
   // In the worker's thread
   void planForGoal(const base::StopSource& stop);
@@ -83,9 +83,9 @@ class PathPlannerNode {
   std::unique_ptr<Reconfigurable<PathPlannerConfig, PathPlannerNodeOptions>> reconfigurable_;
   ros::Subscriber goal_subscriber_;
   ros::Subscriber initial_pose_subscriber_;
-  ros::Timer replan_timer_;
-  ros::WallTimer clock_timer_;
-  ros::WallTimer full_map_timer_;
+  RosPeriod replan_period_;
+  ros::SteadyTimer clock_timer_;
+  ros::SteadyTimer full_map_timer_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -50,8 +50,8 @@ void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
             ""});
   visit("replan_period", o.replan_period,
         base::OptionInfo{
-            "Time between two plannings for the same goal; 0: only a new goal or a blocked "
-            "path is planned for",
+            "ROS time between two plannings for the same goal, 20 in a second of the wall clock at "
+            "most; 0: only a new goal or a blocked path is planned for",
             "s", 0, 86400});
   visit(
       "replan_hysteresis", o.replan_hysteresis,

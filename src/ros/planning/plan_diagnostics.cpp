@@ -15,7 +15,7 @@ PlanDiagnostics::PlanDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
   updater_.setHardwareID("none");
   updater_.add("map", this, &PlanDiagnostics::reportMap);
   updater_.add("plan", this, &PlanDiagnostics::reportPlan);
-  timer_ = nh.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
+  timer_ = nh.createSteadyTimer(ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) {
     if (ros::Time::isValid()) updater_.force_update();
   });
 }

@@ -3,7 +3,7 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
-#include <ros/wall_timer.h>
+#include <ros/steady_timer.h>
 
 #include "ros/planning/planning_server.h"
 
@@ -20,7 +20,7 @@ class PlanDiagnostics {
 
   PlanningServer& server_;
   diagnostic_updater::Updater updater_;
-  ros::WallTimer timer_;
+  ros::SteadyTimer timer_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -48,7 +48,7 @@ NODES = {
                   "~explain_plan": "grid_path_planner/ExplainPlan",
                   "~save_waypoints": "grid_path_planner/SaveWaypoints"},
         actions={"plan_path": "grid_path_planner/PlanPath"},
-        arguments=["_publish_rectangles:=true"], tf="listens", probe=probes.plans),
+        arguments=["_publish_rectangles:=true", "_replan_period:=0.5"], tf="listens", probe=probes.plans),
     "navigate_path": Row(
         inputs=dict(MAPS, path="nav_msgs/Path", stop="std_msgs/Bool", manual_control="std_msgs/Bool",
                     speed_limit="nav_msgs/OccupancyGrid"),

@@ -13,8 +13,8 @@ RefusedParameter::RefusedParameter(const ros::NodeHandle& private_nh)
 void RefusedParameter::refuse(const std::string& sentence) {
   tell(sentence);
   if (timer_) return;
-  timer_ = private_nh_.createWallTimer(
-      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { publishDiagnostics(); });
+  timer_ = private_nh_.createSteadyTimer(
+      ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { publishDiagnostics(); });
 }
 
 void RefusedParameter::accept() {

@@ -6,7 +6,7 @@
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <ros/wall_timer.h>
+#include <ros/steady_timer.h>
 
 #include <string>
 
@@ -28,7 +28,7 @@ class RefusedParameter {
   std::string sentence_;  // of the last request; empty where it was taken
   ros::Publisher publisher_;
   ros::Publisher diagnostics_;
-  ros::WallTimer timer_;
+  ros::SteadyTimer timer_;
 };
 
 }  // namespace grid_path_planner::nodes
