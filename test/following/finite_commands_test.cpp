@@ -6,8 +6,8 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 
+#include "base/odd_numbers.h"
 #include "following/closed_loop.h"
 #include "grid_path_planner/base/errors.h"
 
@@ -16,12 +16,8 @@ namespace {
 
 using path::Path;
 using path::Pose;
+using test::OddNumbers;
 using test::pathOf;
-
-bool isFinite(const base::BodyVelocity& v) {
-  return std::isfinite(v.surge) && std::isfinite(v.sway) && std::isfinite(v.heave) &&
-         std::isfinite(v.yaw_rate);
-}
 
 TEST(FiniteCommands, APoseThatCannotBeEndsTheDriveWithinOneTick) {
   const double inf = std::numeric_limits<double>::infinity();
@@ -61,40 +57,13 @@ TEST(FiniteCommands, ATimeThatIsNoneEndsTheDrive) {
   EXPECT_EQ(follower.state(), FollowState::FAILED);
 }
 
-// Numbers of all sizes, the odd ones more often than they deserve.
-class Numbers {
- public:
-  explicit Numbers(unsigned seed) : random_(seed) {}
-
-  double any() {
-    switch (random_() % 12) {
-      case 0:
-        return 0.0;
-      case 1:
-        return std::ldexp(sign(), static_cast<int>(random_() % 2200) - 1100);
-      case 2:
-        return random_() % 8 == 0 ? std::numeric_limits<double>::infinity() : 1e160 * sign();
-      case 3:
-        return random_() % 8 == 0 ? std::nan("") : 1e6 * sign();
-      default:
-        return near();
-    }
-  }
-  double near() { return std::uniform_real_distribution<double>(-5.0, 5.0)(random_); }
-  double sign() { return random_() % 2 == 0 ? 1.0 : -1.0; }
-  unsigned below(unsigned end) { return static_cast<unsigned>(random_() % end); }
-
- private:
-  std::mt19937_64 random_;
-};
-
-Pose anyPose(Numbers& numbers) {
+Pose anyPose(OddNumbers& numbers) {
   const bool odd = numbers.below(4) == 0;
   const auto number = [&] { return odd ? numbers.any() : numbers.near(); };
   return {{number(), number(), number()}, number()};
 }
 
-FollowerOptions anyOptions(Numbers& numbers) {
+FollowerOptions anyOptions(OddNumbers& numbers) {
   FollowerOptions options;
   options.mode = numbers.below(2) == 0 ? FollowMode::CONTINUOUS : FollowMode::STOP_AT_EACH;
   options.facing = numbers.below(2) == 0 ? FacingMode::PATH_YAW : FacingMode::ALONG;
@@ -106,7 +75,7 @@ FollowerOptions anyOptions(Numbers& numbers) {
 }
 
 TEST(FiniteCommandsLaw, AMillionRandomPosesPathsAndTimes) {
-  Numbers numbers(1);
+  OddNumbers numbers(1);
   int not_finite = 0, moving = 0;
   for (int poses = 0; poses < 1'000'000;) {
     PathFollower follower(anyOptions(numbers));
@@ -122,7 +91,7 @@ TEST(FiniteCommandsLaw, AMillionRandomPosesPathsAndTimes) {
     for (int tick = 0; tick < 20; ++tick, ++poses) {
       time += numbers.below(20) == 0 ? numbers.any() : 0.02;
       const base::BodyVelocity velocity = follower.update({time, anyPose(numbers)});
-      not_finite += isFinite(velocity) ? 0 : 1;
+      not_finite += velocity.isFinite() ? 0 : 1;
       moving += velocity.isZero() ? 0 : 1;
       if (!std::isfinite(time)) time = 0.0;
     }

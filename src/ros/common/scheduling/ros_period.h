@@ -2,9 +2,7 @@
 //
 //   RosPeriod period;
 //   period.begin(ros::Time::now());
-//   timer_ = nh.createSteadyTimer(ros::WallDuration(0.05), [&](const ros::SteadyTimerEvent&) {
-//     if (period.isOver(ros::Time::now(), 2.0)) work();  // every 2 s of ROS time
-//   });
+//   const bool due = period.isOver(ros::Time::now(), 2.0);  // every 2 s of ROS time
 //
 // roscpp's own timers of ROS time end the process where /clock says 4294967295.9 s: they add their period to it.
 #pragma once
