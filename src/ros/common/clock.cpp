@@ -52,6 +52,13 @@ double secondsBetween(const ros::Time& from, const ros::Time& to) {
   return seconds(to.sec) - seconds(from.sec) + 1e-9 * (seconds(to.nsec) - seconds(from.nsec));
 }
 
+ros::Time normalized(const ros::Time& time) {
+  constexpr std::uint32_t kSecond = 1'000'000'000;
+  const std::uint64_t seconds = std::uint64_t{time.sec} + time.nsec / kSecond;
+  if (seconds > ros::TIME_MAX.sec) return ros::TIME_MAX;
+  return {static_cast<std::uint32_t>(seconds), time.nsec % kSecond};
+}
+
 std::string whyOfAnotherTime(const ros::Time& stamp, const ros::Time& started,
                              const std::string& owner) {
   const double ahead = secondsBetween(ros::Time::now(), stamp);

@@ -45,6 +45,10 @@ class LateClock {
 // 2106 or, from 2038 on, one of 0 has it.
 double secondsBetween(const ros::Time& from, const ros::Time& to);
 
+// The same time with less than 10^9 ns, which a message or /clock may have more of; the last that there is where that is
+// beyond it. roscpp throws there, or compares what cannot be compared.
+ros::Time normalized(const ros::Time& time);
+
 // Why a message stamped `stamp` is of another time, to be told after "A path stamped 7.0 is not driven": it is from
 // before `owner` started, at `started`, or ahead by more than clocks of nodes may differ, as what a publisher that
 // latches sends again after ROS time went back. Empty: it is of this time.

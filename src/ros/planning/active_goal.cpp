@@ -2,14 +2,17 @@
 
 #include <utility>
 
+#include "ros/common/clock.h"
+
 namespace grid_path_planner::nodes {
 
 using planning::Plan;
 
 namespace {
 
-// `now`, or a nanosecond after `before` where time stands still.
-ros::Time distinctFrom(const ros::Time& before, const ros::Time& now) {
+// `now`, or a nanosecond after `given` where time stands still.
+ros::Time distinctFrom(const ros::Time& given, const ros::Time& now) {
+  const ros::Time before = normalized(given);
   const bool stands = !now.isZero() && now <= before && before < ros::TIME_MAX &&
                       before.toSec() - now.toSec() < 1e-3;  // their difference as times may throw
   return stands ? ros::Time().fromNSec(before.toNSec() + 1) : now;

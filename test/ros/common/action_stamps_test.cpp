@@ -33,6 +33,21 @@ TEST(ActionStamps, GoalsAreTakenAfterAClockAtTheEndOfTime) {
   EXPECT_EQ(stamps.ofCancel({}, ros::Time(100.0)), ros::Time());
 }
 
+// Found by the fuzzer: a message's time may have more than 999,999,999 ns, and then be beyond the last that there is. Every
+// later goal threw.
+TEST(ActionStamps, GoalsAreTakenAfterATimeBeyondTheLast) {
+  const ros::Time odd = [] {
+    ros::Time time;
+    time.sec = time.nsec = ~0U;
+    return time;
+  }();
+  ActionStamps stamps;
+  EXPECT_EQ(stamps.ofGoal(odd, odd), kLast);
+  EXPECT_EQ(stamps.ofCancel(odd, odd), kLast);
+  EXPECT_EQ(stamps.ofGoal(odd, odd), kLast);
+  EXPECT_EQ(stamps.ofGoal({}, ros::Time(100.0)), kLast);
+}
+
 TEST(ActionStamps, OtherCancelsMeanWhatTheySay) {
   ActionStamps stamps;
   EXPECT_EQ(stamps.ofCancel({}, ros::Time(100.0)), ros::Time());

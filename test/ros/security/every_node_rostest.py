@@ -19,7 +19,6 @@ import rospkg
 import rospy
 import rosservice
 import rostest
-from genpy import Time
 
 import hostile_messages as hostile
 from node_table import NODES
@@ -32,6 +31,7 @@ ANSWER_SECONDS = 5.0
 END_SECONDS = 2.0
 START_SECONDS = 60.0
 HALF = 1 << 31
+NANOSECONDS = (0, 999999999, (1 << 32) - 1)  # the last as no clock says it, and a message may
 NUMBERS = (float("nan"), float("inf"), -float("inf"), 1e300, 1e38, -1e-300)
 SIZES = (0, (1 << 32) - 1)
 # Of roscpp, dynamic_reconfigure, nodelet and the libraries below; not of a node's own.
@@ -157,8 +157,8 @@ class EveryNode(unittest.TestCase):
     def test_3_stamps(self):
         now = self.clock.now().secs
         for seconds in (0, 1, now + HALF, max(0, now - HALF), (1 << 32) - 1):
-            for nanoseconds in (0, 999999999):
-                stamp = Time(min(seconds, (1 << 32) - 1), nanoseconds)
+            for nanoseconds in NANOSECONDS:
+                stamp = hostile.raw_time(min(seconds, (1 << 32) - 1), nanoseconds)
                 self.goes_on_after("stamps of %d.%09d" % (seconds, nanoseconds), lambda message: [
                     hostile.stamped(message, stamp)] * 2, hostile.has_stamp)
 
@@ -168,9 +168,9 @@ class EveryNode(unittest.TestCase):
             self.skipTest("the wall's clock says what it says")
         now = self.clock.now().secs
         for seconds in (0, 1, now + HALF, max(0, now - HALF), (1 << 32) - 1):
-            for nanoseconds in (0, 999999999):
+            for nanoseconds in NANOSECONDS:
                 for _ in range(3):
-                    self.clock.say(Time(seconds, nanoseconds))
+                    self.clock.say(hostile.raw_time(seconds, nanoseconds))
                     time.sleep(0.03)
                 what = "a clock of %d.%09d" % (seconds, nanoseconds)
                 self.assertEqual([], self.all(self.answers), "after " + what)

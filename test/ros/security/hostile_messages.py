@@ -24,8 +24,15 @@ def changed(kind, name, value, change):
     return change(kind, name, value)
 
 
+def raw_time(seconds, nanoseconds):
+    """Also with more than 999,999,999 ns, as a message may carry them and genpy.Time() does not."""
+    time = genpy.Time()
+    time.secs, time.nsecs = seconds, nanoseconds
+    return time
+
+
 def stamped(message, stamp):
-    return walk(message, lambda kind, _, value: genpy.Time(stamp.secs, stamp.nsecs) if kind == "time" else value)
+    return walk(message, lambda kind, _, value: raw_time(stamp.secs, stamp.nsecs) if kind == "time" else value)
 
 
 def has_stamp(message):

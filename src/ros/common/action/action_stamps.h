@@ -15,13 +15,17 @@
 #include <algorithm>
 #include <deque>
 
+#include "ros/common/clock.h"
+
 namespace grid_path_planner::nodes {
 
 class ActionStamps {
  public:
   // Above all that were given out before; now, where that is. The least of all for one that a cancel overtook. At the end
   // of what a ros::Time can hold, which /clock may say, they are equal.
-  ros::Time ofGoal(const ros::Time& given, const ros::Time& now) {
+  ros::Time ofGoal(ros::Time given, ros::Time now) {
+    given = normalized(given);
+    now = normalized(now);
     noticeTime(now);
     if (!given.isZero() && given < cancelled_until_) return ros::TIME_MIN;
     const ros::Time stamp = next(now);
@@ -31,7 +35,9 @@ class ActionStamps {
   }
   // That of the last goal which is meant. One that is ahead means everything that has come. 0 stays: it means the goal of
   // the cancel's id.
-  ros::Time ofCancel(const ros::Time& given, const ros::Time& now) {
+  ros::Time ofCancel(ros::Time given, ros::Time now) {
+    given = normalized(given);
+    now = normalized(now);
     noticeTime(now);
     if (given.isZero()) return given;
     if (given > now) return next(now);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "ros/common/clock.h"
+
 namespace grid_path_planner::nodes {
 namespace {
 
@@ -35,7 +37,8 @@ void GivenGoals::end() {
 
 void GivenGoals::endAllUntil(const ros::Time& now) {
   end();
-  if (now.toSec() > kClocksDiffer.toSec()) until_ = std::max(until_, now - kClocksDiffer);
+  if (now.toSec() > kClocksDiffer.toSec())
+    until_ = std::max(until_, normalized(now) - kClocksDiffer);
 }
 
 void GivenGoals::timeWentBack() {

@@ -76,6 +76,17 @@ TEST(GivenGoals, AGoalOfTheMomentOfACancelIsANewOne) {
 }
 
 // A bag that began anew revived goals that were over: the vehicle set off for a goal that it had reached.
+// A time of /clock may have more than 999,999,999 ns, and then be beyond the last that there is: roscpp throws.
+TEST(GivenGoals, ACancelAtATimeBeyondTheLastCounts) {
+  GivenGoals goals;
+  goals.drive(pathFor(5));
+  ros::Time now;
+  now.sec = now.nsec = ~0U;
+  goals.endAllUntil(now);
+  EXPECT_TRUE(goals.isOver(pathFor(5)));
+  EXPECT_TRUE(goals.isOver(pathFor(7)));
+}
+
 TEST(GivenGoals, WhatIsFromBeforeTimeWentBackIsOver) {
   GivenGoals goals;
   goals.drive(pathFor(5));
