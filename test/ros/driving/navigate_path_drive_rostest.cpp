@@ -1,11 +1,11 @@
 // navigate_path drives what it is given, and refuses what cannot be driven.
 #include <geometry_msgs/PoseStamped.h>
 
-#include <cstdio>
 #include <limits>
 
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/support/navigate_fixture.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 
@@ -17,23 +17,17 @@ namespace {
 using test::Latest;
 using test::pathOf;
 using test::Process;
+using test::TemporaryFolder;
 using NavigateDrive = test::NavigateTest;
 
-// A file that goes when the test does.
-struct TemporaryFile {
-  explicit TemporaryFile(const std::string& name)
-      : name(testing::TempDir() + name + std::to_string(::getpid()) + ".yaml") {}
-  ~TemporaryFile() { std::remove(name.c_str()); }
-  std::string name;
-};
-
 TEST_F(NavigateDrive, AWaypointFileToItsEnd) {
-  const TemporaryFile file("drive");
+  const TemporaryFolder folder;
+  const std::string file = folder.path("drive.yaml");
   const Path path = pathOf({{0, 0}, {2, 0, -0.5}, {2, 2, -1.0, 1.5}});
-  writeWaypointFile(file.name, path);
+  writeWaypointFile(file, path);
   Latest<geometry_msgs::PoseStamped> waypoint(nh_, "current_waypoint");
   startSimulator();
-  startNavigate({"--config-filename", file.name}, false);
+  startNavigate({"--config-filename", file}, false);
   publishPath(pathOf({{-5, -5}}));  // is ignored
   ASSERT_TRUE(arrivesAt(2, 2));
   EXPECT_TRUE(staysStill());
@@ -129,22 +123,16 @@ TEST_F(NavigateDrive, PathsThatCannotBeDrivenAreRefusedAndTheDriveGoesOn) {
 }
 
 TEST_F(NavigateDrive, FilesAndParametersThatCannotBeUsedEndItBeforeItStarts) {
-  const TemporaryFile file("bad");
+  const TemporaryFolder folder;
   const auto endsWithError = [&](const std::string& argument) {
     Process process("navigate_path", {argument});
     return process.waitForExit() && process.exitCode() == 1;
   };
-  const auto write = [&](const std::string& text) {
-    std::FILE* out = std::fopen(file.name.c_str(), "w");
-    std::fputs(text.c_str(), out);
-    std::fclose(out);
-  };
-  write("waypoints: []\n");
-  EXPECT_TRUE(endsWithError("--config-filename=" + file.name));
-  write(
-      "waypoints:\n  - position: {x: 1e180, y: 0, z: 0}\n    orientation: {x: 0, y: 0, z: 0, w: "
-      "1}\n");
-  EXPECT_TRUE(endsWithError("--config-filename=" + file.name));
+  for (const char* text :
+       {"waypoints: []\n",
+        "waypoints:\n  - position: {x: 1e180, y: 0, z: 0}\n    orientation: {x: 0, y: 0, z: 0, w: "
+        "1}\n"})
+    EXPECT_TRUE(endsWithError("--config-filename=" + folder.write("bad.yaml", text))) << text;
   EXPECT_TRUE(endsWithError("--config-filename=/no/such/file.yaml"));
   ros::param::del("/navigate_path");
   EXPECT_TRUE(endsWithError("_max_speed:=-1.0"));

@@ -6,12 +6,11 @@
 #include <actionlib/client/simple_action_client.h>
 #include <std_msgs/Bool.h>
 
-#include <cstdio>
-
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/support/still_fixture.h"
 #include "ros/support/unread_log.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -21,13 +20,7 @@ using test::isZero;
 using test::pathOf;
 using test::Process;
 using test::StillWorld;
-
-struct TemporaryName {
-  explicit TemporaryName(const std::string& end)
-      : name(testing::TempDir() + "navigate_loop_" + std::to_string(::getpid()) + end) {}
-  ~TemporaryName() { std::remove(name.c_str()); }
-  const std::string name;
-};
+using test::TemporaryFolder;
 
 class NavigateLoop : public test::StillTest {
  protected:
@@ -70,15 +63,16 @@ TEST_F(NavigateLoop, ALogThatNobodyReadsDoesNotHoldIt) {
 
 TEST_F(NavigateLoop, AWaypointFileIsReadElsewhere) {
   StillWorld world(100.0);
-  const TemporaryName file(".yaml");
+  const TemporaryFolder folder{testing::TempDir()};
+  const std::string file = folder.path("route.yaml");
   Path path;
   for (int i = 0; i < 20000; ++i) path.poses.push_back({{0.01 * i, 0.1 * (i % 7), 0}, 0.0});
-  path::writeWaypointFile(file.name, path);
+  path::writeWaypointFile(file, path);
   drive();
   actionlib::SimpleActionClient<NavigatePathAction> client("navigate_path", false);
   ASSERT_TRUE(test::waitFor([&] { return client.isServerConnected(); }));
   NavigatePathGoal goal;
-  goal.filename = file.name;
+  goal.filename = file;
   // A loaded machine takes some, not all, and of one reading perhaps all.
   bool has_its_share = false;
   for (std::size_t readings = 1; readings <= 5 && !has_its_share; ++readings) {
@@ -97,15 +91,16 @@ TEST_F(NavigateLoop, AWaypointFileIsReadElsewhere) {
 
 TEST_F(NavigateLoop, AGoalWhoseFileIsReadCanBeCancelled) {
   StillWorld world(100.0);
-  const TemporaryName file(".yaml");
+  const TemporaryFolder folder{testing::TempDir()};
+  const std::string file = folder.path("route.yaml");
   Path path;
   for (int i = 0; i < 20000; ++i) path.poses.push_back({{0.01 * i, 0, 0}, 0.0});
-  path::writeWaypointFile(file.name, path);
+  path::writeWaypointFile(file, path);
   startNavigate();
   actionlib::SimpleActionClient<NavigatePathAction> client("navigate_path", false);
   ASSERT_TRUE(test::waitFor([&] { return client.isServerConnected(); }));
   NavigatePathGoal goal;
-  goal.filename = file.name;
+  goal.filename = file;
   client.sendGoal(goal);
   client.cancelGoal();
   ASSERT_TRUE(test::waitFor([&] { return client.getState().isDone(); }));

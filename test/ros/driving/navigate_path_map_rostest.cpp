@@ -6,11 +6,11 @@
 #include <nav_msgs/OccupancyGrid.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/support/still_fixture.h"
 #include "support/ascii_map.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -148,18 +148,14 @@ TEST_F(NavigateMap, PiecesOfAnotherNodeAreNoSignOfLife) {
 // A map_publisher with a map of its own, which says nothing once the map is sent.
 class NavigateByMapServer : public test::StillTest {
  protected:
-  NavigateByMapServer() : file_(testing::TempDir() + "map" + std::to_string(::getpid()) + ".map") {
-    std::FILE* out = std::fopen(file_.c_str(), "w");
-    std::fputs("type octile\nheight 1\nwidth 8\nmap\n........\n", out);
-    std::fclose(out);
-    serve();
-  }
-  ~NavigateByMapServer() override { std::remove(file_.c_str()); }
+  NavigateByMapServer() { serve(); }
 
   void serve() { server_ = std::make_unique<Process>("map_publisher", arguments()); }
   std::vector<std::string> arguments() const { return {"--filename", file_}; }
 
-  std::string file_;
+  const test::TemporaryFolder folder_;
+  const std::string file_ =
+      folder_.write("site.map", "type octile\nheight 1\nwidth 8\nmap\n........\n");
   std::unique_ptr<Process> server_;
   StillWorld world_{100.0};
 };

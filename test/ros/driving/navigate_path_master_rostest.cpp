@@ -4,13 +4,12 @@
 // the master that hung before it stopped the vehicle.
 #include <gtest/gtest.h>
 
-#include <cstdio>
-
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/common/master/xmlrpc_call.h"
 #include "ros/support/links.h"
 #include "ros/support/own_master.h"
 #include "ros/support/still_fixture.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -18,21 +17,15 @@ namespace {
 using test::OwnMaster;
 using test::pathOf;
 using test::Process;
+using test::TemporaryFolder;
 using XmlRpc::XmlRpcValue;
-
-struct RouteFile {
-  explicit RouteFile(const std::string& end)
-      : name(testing::TempDir() + "navigate_loop_" + std::to_string(::getpid()) + end) {}
-  ~RouteFile() { std::remove(name.c_str()); }
-  const std::string name;
-};
 
 // A master of its own, which the test may kill; its nodes are seen by what they print.
 class NavigateMaster : public testing::Test {
  protected:
   NavigateMaster() {
     useSimulatedTime();
-    path::writeWaypointFile(file_.name, pathOf({{0, 0}, {500, 0}}));
+    path::writeWaypointFile(file_, pathOf({{0, 0}, {500, 0}}));
   }
 
   void useSimulatedTime() {
@@ -72,7 +65,7 @@ class NavigateMaster : public testing::Test {
   }
 
   void expectGoesOnSaysSoAndStands(int signal) {
-    drive(file_.name, "12");
+    drive(file_, "12");
     const auto commands = master_.run({"rostopic", "echo", "-p", "/cmd_vel"});
     const auto diagnostics = master_.run({"rostopic", "echo", "/diagnostics"});
     ASSERT_TRUE(commands->says("field.linear.x"));
@@ -93,14 +86,15 @@ class NavigateMaster : public testing::Test {
     return uri && test::linksOf(std::string(*uri), topic, "i") > 0;
   }
 
-  const RouteFile file_{".yaml"};
+  const TemporaryFolder folder_{testing::TempDir()};
+  const std::string file_ = folder_.path("route.yaml");
   OwnMaster master_;
   const std::string uri_ = master_.uri();
   std::unique_ptr<Process> simulator_, navigate_;
 };
 
 TEST_F(NavigateMaster, OneThatIsRestartedKnowsAllNamesAgain) {
-  drive(file_.name, "3");
+  drive(file_, "3");
   ASSERT_TRUE(test::waitFor([&] { return knowsAll(); }));
   ros::WallDuration(3.0).sleep();  // its nodes have asked it for their services, once a second
   master_.kill();
@@ -114,9 +108,9 @@ TEST_F(NavigateMaster, OneThatIsRestartedKnowsAllNamesAgain) {
 }
 
 TEST_F(NavigateMaster, TheDriveGoesOnWithoutOne) {
-  const RouteFile file("_short.yaml");
-  path::writeWaypointFile(file.name, pathOf({{0, 0}, {8, 0}}));
-  drive(file.name, "0");
+  const std::string file = folder_.path("short.yaml");
+  path::writeWaypointFile(file, pathOf({{0, 0}, {8, 0}}));
+  drive(file, "0");
   ASSERT_TRUE(test::waitFor([&] {
     return hears("/simulator", "/cmd_vel") && hears("/navigate_path", "/tf") &&
            hears("/navigate_path", "/clock");
@@ -136,7 +130,7 @@ TEST_F(NavigateMaster, ADriveWhoseMasterHangsGoesOnSaysSoAndStands) {
 
 // Its destructor gave a topic back to the master before it cancelled the drive, and waited: the vehicle drove on.
 TEST_F(NavigateMaster, ASignalStopsTheVehicleWhileItAnswersNobody) {
-  drive(file_.name, "0");
+  drive(file_, "0");
   const auto commands = master_.run({"rostopic", "echo", "-p", "/cmd_vel"});
   ASSERT_TRUE(commands->says("field.linear.x"));
   ASSERT_TRUE(test::waitFor([&] { return !endsWithZero(commands->output()); }));

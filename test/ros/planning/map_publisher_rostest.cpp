@@ -5,14 +5,16 @@
 #include <nav_msgs/MapMetaData.h>
 #include <ros/ros.h>
 
-#include <fstream>
-#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/support/latest.h"
 #include "ros/support/process.h"
 #include "support/ascii_map.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 
@@ -25,29 +27,25 @@ class MapPublisherTest : public testing::Test {
  protected:
   MapPublisherTest() { ros::param::del("/map_publisher"); }
   std::string fileOf(const std::string& name, const OccupancyGrid& map) {
-    const std::string file = testing::TempDir() + name;
-    writeMovingAiFile(file, map);
-    return file;
+    writeMovingAiFile(folder_.path(name), map);
+    return folder_.path(name);
   }
   // Exit code and output of a map_publisher that ends by itself.
-  std::pair<int, std::string> refusal(const std::string& arguments) {
-    const std::string log = testing::TempDir() + "gpp_map_publisher.log";
-    test::Process process({"sh", "-c",
-                           "exec " GPP_DEVEL "/lib/grid_path_planner/map_publisher " + arguments +
-                               " > " + log + " 2>&1"});
+  std::pair<int, std::string> refusal(const std::vector<std::string>& arguments) {
+    test::Process process("map_publisher", arguments);
     EXPECT_TRUE(process.waitForExit());
-    std::ifstream lines(log);
-    return {process.exitCode(), {std::istreambuf_iterator<char>(lines), {}}};
+    return {process.exitCode(), process.output()};
   }
 
   ros::NodeHandle nh_;
+  const test::TemporaryFolder folder_;
   const OccupancyGrid map_ = test::AsciiMap({"..#", "#.."}).map;
 };
 
 TEST_F(MapPublisherTest, PublishesLatchedWithMetadataAndService) {
-  const test::Process process("map_publisher",
-                              {"_filename:=" + fileOf("gpp_a.map", map_), "--load-folder",
-                               testing::TempDir(), "_frame_id:=/site", "_topic:=ground"});
+  const test::Process process(
+      "map_publisher", {"_filename:=" + fileOf("a.map", map_), "--load-folder", folder_.path(""),
+                        "_frame_id:=/site", "_topic:=ground"});
   test::Latest<nav_msgs::OccupancyGrid> maps(nh_, "ground");
   const auto message = maps.waitForMoreThan(0);
   ASSERT_TRUE(message);
@@ -68,11 +66,11 @@ TEST_F(MapPublisherTest, PublishesLatchedWithMetadataAndService) {
 
 // An office of 30 m was published as one of 620 m.
 TEST_F(MapPublisherTest, AnImageAloneIsWarnedOf) {
-  const std::string file = testing::TempDir() + "gpp_alone.png";
+  const std::string file = folder_.path("alone.png");
   writeImageFile(file, map_);
   test::Process process("map_publisher", {"--filename", file});
   EXPECT_TRUE(process.says(
-      "gpp_alone.png: is an image without a YAML, so each pixel is taken for a cell of 1 m"));
+      "alone.png: is an image without a YAML, so each pixel is taken for a cell of 1 m"));
   EXPECT_TRUE(process.says("3x2 cells of 1 m"));
 }
 
@@ -87,7 +85,7 @@ TEST_F(MapPublisherTest, ReadsBagsToo) {
 
 // As with map_server.
 TEST_F(MapPublisherTest, TakesTheFileAsItsArgument) {
-  const test::Process process("map_publisher", {fileOf("gpp_a.map", map_), "_frame_id:=site"});
+  const test::Process process("map_publisher", {fileOf("a.map", map_), "_frame_id:=site"});
   test::Latest<nav_msgs::OccupancyGrid> maps(nh_, "projected_map");
   const auto message = maps.waitForMoreThan(0);
   ASSERT_TRUE(message);
@@ -99,30 +97,31 @@ TEST_F(MapPublisherTest, OtherArgumentsAreRefused) {
   const std::string usage =
       "usage: map_publisher [[--filename] MAP_FILE] [--save-folder FOLDER] [--load-folder FOLDER] "
       "[_parameter:=value]";
-  for (const char* arguments : {"a.map b.map", "--frame=map"}) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"a.map", "b.map"}, {"--frame=map"}}) {
     const auto [code, said] = refusal(arguments);
-    EXPECT_EQ(code, 2) << arguments;
+    EXPECT_EQ(code, 2) << arguments[0];
     EXPECT_NE(said.find(usage), std::string::npos) << said;
   }
-  EXPECT_EQ(refusal("--help").first, 0);
-  EXPECT_NE(refusal("--help").second.find(usage), std::string::npos);
+  EXPECT_EQ(refusal({"--help"}).first, 0);
+  EXPECT_NE(refusal({"--help"}).second.find(usage), std::string::npos);
 }
 
 TEST_F(MapPublisherTest, WithoutAMapItFailsLoudly) {
-  const auto [no_name, first] = refusal("");
+  const auto [no_name, first] = refusal({});
   EXPECT_EQ(no_name, 1);
   EXPECT_NE(first.find("filename must name a map file"), std::string::npos) << first;
   EXPECT_NE(first.find("`map_publisher FILE`"), std::string::npos) << "and how: " << first;
-  const auto [missing, second] = refusal("--filename /no/such/map.yaml");
+  const auto [missing, second] = refusal({"--filename", "/no/such/map.yaml"});
   EXPECT_EQ(missing, 1);
   EXPECT_NE(second.find("/no/such/map.yaml"), std::string::npos) << second;
 }
 
 TEST_F(MapPublisherTest, AnotherFileIsPublishedWhileItRunsAndABadOneIsRefused) {
-  const std::string first = fileOf("gpp_a.map", map_);
+  const std::string first = fileOf("a.map", map_);
   const OccupancyGrid other = test::AsciiMap({"....", "####"}).map;
   const test::Process process("map_publisher",
-                              {"_filename:=" + first, "--load-folder", testing::TempDir()});
+                              {"_filename:=" + first, "--load-folder", folder_.path("")});
   test::Latest<nav_msgs::OccupancyGrid> maps(nh_, "projected_map");
   ASSERT_TRUE(maps.waitForMoreThan(0));
   const auto reconfigured = [](const std::string& filename) {
@@ -134,7 +133,7 @@ TEST_F(MapPublisherTest, AnotherFileIsPublishedWhileItRunsAndABadOneIsRefused) {
     return answer;
   };
   EXPECT_EQ(reconfigured("/no/such/map.yaml"), first);
-  const std::string second = fileOf("gpp_b.map", other);
+  const std::string second = fileOf("b.map", other);
   EXPECT_EQ(reconfigured(second), second);
   const auto message = maps.waitForMoreThan(1);
   ASSERT_TRUE(message);

@@ -1,12 +1,11 @@
 // path_planner through its topics and ~make_plan: what a path is, and what a failure says.
 #include <visualization_msgs/MarkerArray.h>
 
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/support/planner_fixture.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 
@@ -347,8 +346,8 @@ TEST_F(PathPlannerTest, MarkersForALaterSubscriberShowTheNewestPath) {
 }
 
 TEST_F(PathPlannerTest, EveryFoundPlanIsWrittenToTheWaypointsFile) {
-  const std::string file = ros::names::clean(testing::TempDir()) + "/gpp_every_plan.yaml";
-  ::unlink(file.c_str());
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path("plan.yaml");
   startPlanner({"--waypoints-file", file});
   publishMap(kRoom);
   placeVehicleAndWait(0.5, 0.5);
@@ -359,7 +358,6 @@ TEST_F(PathPlannerTest, EveryFoundPlanIsWrittenToTheWaypointsFile) {
     const Path written = readWaypointFile(file).path;
     return written.poses.size() == 3 && written.poses.back().position.x() == 5.5;
   })) << "the corners";
-  ::unlink(file.c_str());
 }
 
 // A vehicle must not end up under two planners: the first ends in order, the second works.
@@ -382,15 +380,10 @@ TEST_F(PathPlannerTest, BadParametersEndItBeforeAnythingStarts) {
       {"_free_max:=90", "free_max must be below occupied_min, got 90 and 65"}};
   for (const auto& [argument, reason] : bad) {
     ros::param::del("/path_planner");
-    const std::string file = testing::TempDir() + "gpp_bad_parameters.log";
-    test::Process planner({"sh", "-c",
-                           "exec " GPP_DEVEL "/lib/grid_path_planner/path_planner " + argument +
-                               " > " + file + " 2>&1"});
+    test::Process planner("path_planner", {argument});
     ASSERT_TRUE(planner.waitForExit()) << argument;
     EXPECT_EQ(planner.exitCode(), 1) << argument;
-    std::ifstream lines(file);
-    const std::string text((std::istreambuf_iterator<char>(lines)), {});
-    EXPECT_NE(text.find(reason), std::string::npos) << text;
+    EXPECT_TRUE(planner.hasSaid(reason)) << planner.output();
   }
   ros::param::del("/path_planner");
 }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 
 #include "grid_path_planner/ComparePlans.h"
 #include "grid_path_planner/ExplainPlan.h"
@@ -15,6 +14,7 @@
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "ros/support/planner_fixture.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 
@@ -45,7 +45,7 @@ class ServicesTest : public test::PlannerTest {
     EXPECT_TRUE(ros::service::call("/path_planner/set_parameters", call));
     return call.response.config;
   }
-  const std::string directory_ = testing::TempDir();
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(ServicesTest, MakePlanReturnsTrueAndAnEmptyStampedPlanOnFailure) {
@@ -98,14 +98,14 @@ TEST_F(ServicesTest, ComparePlansAsksEveryPlannerAndNamesWhatItAsked) {
 
 // follow_waypoints #20, navigation2 #2688: can't save.
 TEST_F(ServicesTest, SaveWaypointsWritesTheLastPathOrSaysWhyNot) {
-  startPlanner({"--save-folder", directory_});
-  EXPECT_FALSE(save(directory_ + "gpp_save.yaml").success);
-  EXPECT_NE(save(directory_ + "gpp_save.yaml").message.find("no path"), std::string::npos);
+  startPlanner({"--save-folder", folder_.path("")});
+  const std::string file = folder_.path("plan.yaml");
+  EXPECT_FALSE(save(file).success);
+  EXPECT_NE(save(file).message.find("no path"), std::string::npos);
   publishMap(kRoom);
   makePlan(poseAt(0.5, 0.5), poseAt(5.5, 2.5, 1.0));
   EXPECT_NE(save("").message.find("filename"), std::string::npos);
 
-  const std::string file = directory_ + "gpp_save.yaml";
   const auto saved = save(file);
   ASSERT_TRUE(saved.success) << saved.message;
   const Path path = readWaypointFile(file).path;
@@ -116,7 +116,6 @@ TEST_F(ServicesTest, SaveWaypointsWritesTheLastPathOrSaysWhyNot) {
   const auto refused = save(file + "/below/a/file.yaml");
   EXPECT_FALSE(refused.success);
   EXPECT_NE(refused.message.find("/below/a/file.yaml"), std::string::npos) << refused.message;
-  ::unlink(file.c_str());
 }
 
 TEST_F(ServicesTest, AWaypointsFileThatCannotBeWrittenSpoilsNothingElse) {

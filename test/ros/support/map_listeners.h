@@ -6,13 +6,13 @@
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
 
-#include <fstream>
 #include <string>
 
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/support/latest.h"
 #include "ros/support/process.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::test {
 
@@ -66,12 +66,8 @@ class WholeMapListener {
 
  private:
   static grid::OccupancyGrid read(const std::string& message) {
-    const std::string file =
-        testing::TempDir() + "whole_map_" + std::to_string(::getpid()) + ".yaml";
-    std::ofstream(file) << message;
-    const grid::OccupancyGrid grid = grid::readMapFile(file);
-    ::unlink(file.c_str());
-    return grid;
+    const TemporaryFolder folder;
+    return grid::readMapFile(folder.write("whole_map.yaml", message));
   }
 
   Process echo_;
