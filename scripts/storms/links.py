@@ -11,7 +11,7 @@ import time
 
 from ros_session import START_SECONDS, SessionFailed, executable
 
-from .kills import BRAKING, CMD_VEL_TIMEOUT
+from .kills import CMD_VEL_TIMEOUT
 from .session import ABOVE, ENDS, Demo, patience, process_id
 from .wire import Wire
 
@@ -47,7 +47,7 @@ def stands(demo, simulated_seconds):
 def suffer(demo, wire):
     demo.drive.goes_on()
     wire.is_cut = True
-    stood = stands(demo, CMD_VEL_TIMEOUT + BRAKING)
+    stood = stands(demo, CMD_VEL_TIMEOUT + demo.BRAKING)
     time.sleep(CUT_SECONDS)
     stands_still = demo.vehicle.speed() < 0.02
     wire.is_cut = False

@@ -7,11 +7,10 @@ CPU_GROWTH of the processor time of the first.
 """
 import collections
 import math
-import os
 
-from ros_session import SessionFailed, Nodes, Vehicle, set_simulator
+from ros_session import SessionFailed, set_simulator
 
-from .session import Drive, Master, Overrides, cpu_seconds, process_id, resident_mb
+from .session import Overrides, Session, cpu_seconds, process_id, resident_mb
 from .soak import hourly_growth
 
 NODE = "/vehicle_localizer"
@@ -96,12 +95,8 @@ def verdict(samples, estimate):
 
 def storm(hours, folder, given):
     simulator = Overrides(folder, given).write("simulator", "localization_simulator.yaml", image_camera_enabled=False)
-    os.environ["GRID_PATH_PLANNER_SAVE_FOLDER"] = os.path.join(folder, "kept")
-    with Master(), Nodes("localization_demo.launch", ["simulator_overrides:=" + simulator], os.path.join(folder, "log"),
-                         own_master=False) as nodes:
-        vehicle = Vehicle(nodes)
-        vehicle.wait_until_ready()
-        drive, estimate = Drive(nodes, vehicle, ENDS), Estimate(vehicle)
-        drive.goes_on()
+    with Session(folder, "localization_demo.launch", ["simulator_overrides:=" + simulator], ENDS) as session:
+        estimate = Estimate(session.vehicle)
+        session.drive.goes_on()
         set_simulator("real_time_factor", SPEED)
-        return verdict(watch(vehicle, drive, estimate, 3600.0 * hours), estimate)
+        return verdict(watch(session.vehicle, session.drive, estimate, 3600.0 * hours), estimate)

@@ -1,4 +1,5 @@
-"""What the storms share: the demo's nodes under a master of their own, and a vehicle that drives to and fro."""
+"""What the storms share: the nodes of a launch file under a master of their own, and a vehicle that drives to and fro."""
+import math
 import os
 import subprocess
 import time
@@ -14,7 +15,6 @@ BEGIN = ("initial_x", "initial_y", "initial_z", "initial_yaw")  # of the simulat
 SURVEY_SPEED = 4.0       # simulated seconds in one of the wall clock
 SURVEY_SECONDS = 1500.0  # of the wall clock, if nothing else ends it
 ABOVE = 4.5          # m: the survey's height
-THERE = 0.4          # m: so near to an end the vehicle is sent to the other
 
 
 class NotRun(Exception):
@@ -108,54 +108,39 @@ class Master:
         self.kill()
 
 
-class Demo:
-    """The demo's nodes with the vehicle at the first of ENDS, and a drive from there. Without a survey before, it
-    begins there and knows nothing of the site: it drives above the rocks, which it maps as obstacles all the same."""
+class Session:
+    """The nodes of a launch file under a master of their own, and a drive of the vehicle between two ends."""
 
-    NODES = ("/simulator", "/projected_map", "/path_planner", "/navigate_path", "/teleop_joy")
+    NODES = ()
+    THERE = 0.4      # m: so near to an end the vehicle is sent to the other
+    # For the kills in it:
+    MAP_NODE = None  # the first map after its end is to have what was occupied
+    FIRST_CELLS = 300  # occupied ones before the first kill
+    ERASED = 0       # cells that may be free after a kill, beside twice of what one map frees without; an empty map erases hundreds
+    BRAKING = 1.2    # simulated s to a stand, and what a message takes
 
-    def __init__(self, folder, given=(), simulator=(), mapping=(), navigate=(), arguments=(),
-                 survey=False, host="localhost"):
-        overrides = Overrides(folder, given)
-        self.ends = ENDS if survey else [(x, y, ABOVE, yaw) for x, y, _, yaw in ENDS]
-        begin = {} if survey else dict(zip(BEGIN, self.ends[0]))
-        self.folder, self.survey, self.master = folder, survey, Master(host)
+    def __init__(self, folder, launch_file, arguments, ends, host="localhost"):
+        self.folder, self.launch_file, self.arguments, self.ends = folder, launch_file, arguments, ends
+        self.master = Master(host)
         os.environ["GRID_PATH_PLANNER_SAVE_FOLDER"] = os.path.join(folder, "kept")
-        self.arguments = list(arguments) + [
-            "simulator_overrides:=" + overrides.write("simulator", "demo_simulator.yaml", **dict(begin, **dict(simulator))),
-            # whole maps are what is compared
-            "mapping_overrides:=" + overrides.write("projected_map", "demo_mapping.yaml",
-                                                    always_send_full_map=True, **dict(mapping)),
-            "navigate_overrides:=" + overrides.write("navigate_path", "demo_navigate.yaml", control_rate=50.0,
-                                                     **dict(navigate))]
 
     def __enter__(self):
         self.master.__enter__()
-        self.nodes = Nodes("demo.launch", self.arguments, os.path.join(self.folder, "log"), own_master=False)
+        self.nodes = Nodes(self.launch_file, self.arguments, os.path.join(self.folder, "log"), own_master=False)
         try:
             self.vehicle = Vehicle(self.nodes)
             self.vehicle.wait_until_ready()
-            self.drive = Drive(self.nodes, self.vehicle, self.ends)
-            self.wait_for_nodes()
-            if self.survey:
-                self.run_survey()
+            self.drive = Drive(self.nodes, self.vehicle, self.ends, self.THERE)
+            for node in self.NODES:
+                self.nodes.wait_until(lambda node=node: process_id(node), START_SECONDS, node)
+            self.prepare()
         except BaseException:
             self.__exit__()
             raise
         return self
 
-    def wait_for_nodes(self):
-        for node in self.NODES:
-            self.nodes.wait_until(lambda: process_id(node), START_SECONDS, node)
-
-    def run_survey(self):
-        """As fast as the machine can; then the simulator is one that starts at the first of ENDS."""
-        import rospy
-        set_simulator("real_time_factor", SURVEY_SPEED)
-        self.vehicle.drive_file("/survey", share_file("config", "survey_waypoints.yaml"), SURVEY_SECONDS)
-        set_simulator("real_time_factor", 1.0)
-        for name, value in zip(BEGIN, ENDS[0]):
-            rospy.set_param("/simulator/" + name, value)
+    def prepare(self):
+        """Once all nodes are there."""
 
     def pids(self):
         return {node: process_id(node) for node in self.NODES}
@@ -165,15 +150,48 @@ class Demo:
         self.master.__exit__()
 
 
+class Demo(Session):
+    """The demo's nodes with the vehicle at the first of ENDS, and a drive from there. Without a survey before, it
+    begins there and knows nothing of the site: it drives above the rocks, which it maps as obstacles all the same."""
+
+    NODES = ("/simulator", "/projected_map", "/path_planner", "/navigate_path", "/teleop_joy")
+    MAP_NODE, ERASED = "/projected_map", 10
+
+    def __init__(self, folder, given=(), simulator=(), mapping=(), navigate=(), arguments=(),
+                 survey=False, host="localhost"):
+        overrides = Overrides(folder, given)
+        ends = ENDS if survey else [(x, y, ABOVE, yaw) for x, y, _, yaw in ENDS]
+        begin = {} if survey else dict(zip(BEGIN, ends[0]))
+        self.survey = survey
+        super().__init__(folder, "demo.launch", list(arguments) + [
+            "simulator_overrides:=" + overrides.write("simulator", "demo_simulator.yaml", **dict(begin, **dict(simulator))),
+            # whole maps are what is compared
+            "mapping_overrides:=" + overrides.write("projected_map", "demo_mapping.yaml",
+                                                    always_send_full_map=True, **dict(mapping)),
+            "navigate_overrides:=" + overrides.write("navigate_path", "demo_navigate.yaml", control_rate=50.0,
+                                                     **dict(navigate))], ends, host)
+
+    def prepare(self):
+        """A survey as fast as the machine can; then the simulator is one that starts at the first of ENDS."""
+        if not self.survey:
+            return
+        import rospy
+        set_simulator("real_time_factor", SURVEY_SPEED)
+        self.vehicle.drive_file("/survey", share_file("config", "survey_waypoints.yaml"), SURVEY_SECONDS)
+        set_simulator("real_time_factor", 1.0)
+        for name, value in zip(BEGIN, ENDS[0]):
+            rospy.set_param("/simulator/" + name, value)
+
+
 class Drive:
     """Sends the vehicle to and fro between two ends by path_planner and navigate_path."""
 
-    def __init__(self, nodes, vehicle, ends=ENDS):
+    def __init__(self, nodes, vehicle, ends=ENDS, there=Session.THERE):
         import rospy
         from geometry_msgs.msg import PoseStamped
         from grid_path_planner.msg import PlanStatistics
         from nav_msgs.msg import Path
-        self.nodes, self.vehicle, self.ends = nodes, vehicle, ends
+        self.nodes, self.vehicle, self.ends, self.there = nodes, vehicle, ends, there
         self.goal_type, self.path, self.found, self.reason = PoseStamped, None, 0, "nothing"
         self.end = 1
         self.goals = rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=1)
@@ -185,15 +203,22 @@ class Drive:
         if message.poses:
             self.path = message
 
+    def is_there(self):
+        return self.vehicle.distance(self.ends[self.end]) < self.there
+
     def send_goal(self):
-        if self.vehicle.distance(self.ends[self.end]) < THERE:
+        """To the end that it drives to, or the other where it is there."""
+        if self.is_there():
             self.end = 1 - self.end
+        self.publish_goal()
+
+    def publish_goal(self):
         goal = self.goal_type()
         goal.header.frame_id = "map"
         goal.header.stamp = self.vehicle.clock.clock
-        x, y, z, _ = self.ends[self.end]
+        x, y, z, yaw = self.ends[self.end]
         goal.pose.position.x, goal.pose.position.y, goal.pose.position.z = x, y, z
-        goal.pose.orientation.w = 1.0
+        goal.pose.orientation.z, goal.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
         self.goals.publish(goal)
 
     def retry(self, done, what, every=2.0):
@@ -237,12 +262,19 @@ class Drive:
         self.retry(lambda: self.vehicle.driven_m > begin + metres, "motion", every=5.0)
         self.vehicle.check_untouched()
 
+    def goes_on_unasked(self, metres=0.3):
+        """The same, on the path that it has, or until it is where that ends; whether it has driven so far."""
+        begin = self.vehicle.driven_m
+        self.nodes.wait_until(lambda: self.vehicle.driven_m > begin + metres or self.is_there(), patience(BACK_SECONDS),
+                              "motion without a new goal")
+        return self.vehicle.driven_m > begin + metres
+
     def seconds(self, seconds):
         """Drives on for so long, wall clock."""
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:
             self.nodes.check()
             self.vehicle.check_untouched()
-            if self.vehicle.distance(self.ends[self.end]) < THERE:
+            if self.is_there():
                 self.ask()
             time.sleep(0.05)

@@ -2,17 +2,18 @@
 from ros_session import SessionFailed
 
 from . import clocks, master
-from .kills import Kills
+from .kills import Kills, check_that_none_is_missing
 from .session import Demo
 from .silence import Silence
 
-KILLED = ("/projected_map", "/path_planner", "/teleop_joy")
+KILLED = ("/projected_map", "/path_planner")
 JUMPS = (-2.0, 3600.0)  # s
 
 
 def storm(rounds, folder, given):
+    check_that_none_is_missing()
     with Demo(folder, given) as demo, Silence() as silence:
-        kills = Kills(demo, nodes=KILLED)
+        kills = Kills(demo, KILLED)
         text = kills.run(int(rounds))
         for seconds in JUMPS:
             clocks.jump(demo, seconds)

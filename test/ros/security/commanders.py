@@ -8,7 +8,6 @@ velocities adds a row.
     offer       gives it something to drive; teleop_joy has that in what it is fed
     clock       whether ROS time that stands still stops the vehicle
     locks       the test of the law that its thread that commands takes no lock that file, map or publishing code holds
-    storms      of scripts/storms, in which it is killed, or why there is none
 """
 import collections
 import os
@@ -24,7 +23,7 @@ from node_table import NODES
 from running_nodes import Clock, RunningNode
 from session_clock import session_seconds
 
-Commander = collections.namedtuple("Commander", "arguments feeds offer clock locks storms")
+Commander = collections.namedtuple("Commander", "arguments feeds offer clock locks")
 
 DEADLINE = 60.0   # s
 QUIET = 1.0       # s without a motion: it stands
@@ -59,13 +58,13 @@ COMMANDERS = {
     "navigate_path": Commander(
         ["_check_map:=false", "_no_progress_timeout:=0"], {"tf": send_transforms},
         lambda node: node.send("path", probes.path(node)), True,
-        "driving/navigate_path_locks_rostest.cpp", "kills"),
+        "driving/navigate_path_locks_rostest.cpp"),
     "local_planner": Commander(
         ["_no_return_clears:=10", "_recover:=false", "_cloud_timeout:=1", "_tf_timeout:=1", "_stuck_timeout:=1e6"],
         {"tf": send_transforms, "clouds": send_cloud}, offer_goal, True,
-        "avoidance/local_planner_locks_rostest.cpp", "none: the demo that the storms run has a map and drives by navigate_path"),
+        "avoidance/local_planner_locks_rostest.cpp"),
     "teleop_joy": Commander([], {"joy": send_joystick}, lambda _: None, False,
-        "driving/teleop_joy_rostest.cpp", "kills"),
+        "driving/teleop_joy_rostest.cpp"),
 }
 
 
