@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "base/cholesky.h"
+#include "localization/measurement_models.h"
 
 namespace grid_path_planner::localization {
 
 namespace {
+
+constexpr double kKnown = 60.0;  // s
 
 // About the axes of the world, as errors of the body.
 Eigen::Matrix3d attitudeCovariance(const Eigen::Quaterniond& attitude, double tilt, double yaw) {
@@ -49,12 +52,28 @@ MountedPose poseAtOrigin(const ImuMeasurement& imu, const FilterOptions& options
   return pose;
 }
 
-MountedPose poseAtFix(const PositionFix& fix, const Eigen::Quaterniond& attitude,
-                      const FilterOptions& options) {
-  MountedPose sensor{fix.position, attitude, PoseCovariance::Zero()};
+StartAttitude startAttitude(const Eigen::Quaterniond& imu, Stamp now,
+                            const std::optional<KnownHeading>& known,
+                            const FilterOptions& options) {
+  StartAttitude start{imu, square(options.start_tilt), square(options.start_yaw)};
+  const double age = known ? secondsBetween(known->stamp, now) : -1.0;
+  if (age < 0.0 || age > kKnown) return start;
+  start.attitude = Eigen::AngleAxisd(-known->offset, Eigen::Vector3d::UnitZ()) * imu;
+  start.yaw += known->variance + square(options.gyro_bias * age);
+  return start;
+}
+
+KnownHeading knownHeading(Stamp now, const Eigen::Quaterniond& imu, const Estimate& estimate) {
+  const Jacobian<1> yaw = yawJacobian(estimate.state);
+  return {now, std::remainder(yawOf(imu) - yawOf(estimate.state.attitude), 2.0 * M_PI),
+          (yaw * estimate.covariance * yaw.transpose()).value()};
+}
+
+MountedPose poseAtFix(const PositionFix& fix, const StartAttitude& start) {
+  MountedPose sensor{fix.position, start.attitude, PoseCovariance::Zero()};
   sensor.covariance.topLeftCorner<3, 3>() = fix.covariance;
   sensor.covariance.bottomRightCorner<3, 3>() =
-      attitudeCovariance(attitude, square(options.start_tilt), square(options.start_yaw));
+      attitudeCovariance(start.attitude, start.tilt, start.yaw);
   return carried(sensor, {-fix.sensor, Eigen::Quaterniond::Identity()});
 }
 

@@ -4,11 +4,26 @@
 #include <optional>
 
 #include "localization/filter_options.h"
+#include "localization/known_heading.h"
 #include "localization/measurement.h"
 #include "localization/mounted_pose.h"
 #include "localization/state.h"
 
 namespace grid_path_planner::localization {
+
+// What a filter begins with where a fix is a position alone.
+struct StartAttitude {
+  Eigen::Quaterniond attitude;
+  double tilt, yaw;  // variances, rad^2
+};
+
+// That of the IMU, turned by what is known of its heading: of a time before, not longer than a minute ago, since when
+// gyro_bias made it worse.
+StartAttitude startAttitude(const Eigen::Quaterniond& imu, Stamp now,
+                            const std::optional<KnownHeading>& known, const FilterOptions& options);
+
+// By an estimate of the same time.
+KnownHeading knownHeading(Stamp now, const Eigen::Quaterniond& imu, const Estimate& estimate);
 
 // At rest with this pose.
 Estimate estimateAt(const MountedPose& pose, const FilterOptions& options);
@@ -17,9 +32,8 @@ Estimate estimateAt(const MountedPose& pose, const FilterOptions& options);
 // Position and yaw are exact: they define the frame.
 MountedPose poseAtOrigin(const ImuMeasurement& imu, const FilterOptions& options);
 
-// The pose of the body by a fix of a position and the attitude of the IMU.
-MountedPose poseAtFix(const PositionFix& fix, const Eigen::Quaterniond& attitude,
-                      const FilterOptions& options);
+// The pose of the body by a fix of a position.
+MountedPose poseAtFix(const PositionFix& fix, const StartAttitude& start);
 
 // The pose of the body by a fix of something mounted on it.
 MountedPose poseAtFix(const PoseFix& fix);

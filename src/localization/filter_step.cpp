@@ -235,7 +235,9 @@ Outcome FilterStep::take(Context& context, const PositionFix& fix) const {
   FilterSnapshot& snapshot = context.snapshot;
   if (!snapshot.started) {
     if (snapshot.imu && snapshot.imu->measurement.attitude)
-      return begin(snapshot, poseAtFix(fix, *snapshot.imu->measurement.attitude, options_));
+      return begin(snapshot,
+                   poseAtFix(fix, startAttitude(*snapshot.imu->measurement.attitude,
+                                                snapshot.imu->stamp, snapshot.heading, options_)));
     return {};
   }
   const Estimate& estimate = snapshot.estimate;

@@ -19,6 +19,7 @@
 #include <optional>
 
 #include "localization/filter_options.h"
+#include "localization/filter_start.h"
 #include "localization/kalman_update.h"
 #include "localization/measurement.h"
 #include "localization/mounted_pose.h"
@@ -54,7 +55,8 @@ struct FilterSnapshot {
   // That the next fix is compared with while the filter has not started.
   std::optional<MountedPose> first_fix;
   std::optional<Stamp> first_fix_stamp;
-  std::optional<double> depth_offset;  // m, of a filter that starts at the origin
+  std::optional<KnownHeading> heading;  // of the IMU, from before
+  std::optional<double> depth_offset;   // m, of a filter that starts at the origin
   std::optional<Stamp> dvl_used, command_used;
   std::array<Rejections, kSources> rejections;
   // The last one that no fix of another kind has confirmed, and no pose that was set.

@@ -45,6 +45,9 @@ class LaggedFilter {
   // Everything but the options is forgotten.
   void reset();
 
+  // What is known of the IMU's heading, until the next reset(). Precondition: empty().
+  void beginWith(const KnownHeading& heading) { base_.heading = heading; }
+
   bool started() const;
   // Of the newest measurement. Precondition: there is one.
   Stamp newest() const { return events_.back().measurement.stamp; }

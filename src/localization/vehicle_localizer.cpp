@@ -102,6 +102,14 @@ std::optional<FilterSnapshot> VehicleLocalizer::odometryAt(Stamp stamp) const {
   return startedAt(odometry_, stamp);
 }
 
+std::optional<KnownHeading> VehicleLocalizer::headingAt(Stamp stamp) const {
+  const auto snapshot = mapAt(stamp);
+  if (!snapshot || !snapshot->imu || snapshot->imu->stamp != snapshot->stamp) return {};
+  const auto& attitude = snapshot->imu->measurement.attitude;
+  if (!attitude) return {};
+  return knownHeading(snapshot->stamp, *attitude, snapshot->estimate);
+}
+
 // Of the first input that is missed; empty: of none.
 std::string VehicleLocalizer::silence(Stamp now) const {
   const std::array<std::pair<Source, double>, 4> limits = {

@@ -44,6 +44,12 @@ class VehicleLocalizer {
   // Forgets everything.
   void reset();
 
+  // What was known of the IMU's heading before the first measurement, by headingAt(). Without, its heading is taken
+  // for true where the pose begins with positions.
+  void beginWith(const KnownHeading& heading) { map_.beginWith(heading); }
+  // None before the filter has started, and where the IMU tells none at this very time.
+  std::optional<KnownHeading> headingAt(Stamp stamp) const;
+
   // None before the filter has started.
   std::optional<FilterSnapshot> mapAt(Stamp stamp) const;
   std::optional<FilterSnapshot> odometryAt(Stamp stamp) const;

@@ -135,6 +135,48 @@ TEST(Localizer, DoesNotSayOkWhileItIsOff) {
   EXPECT_GT(wrong, 0) << "without reset_doubt";
 }
 
+// Measurements of an IMU whose heading has drifted.
+std::vector<Measurement> driftedRun(SimulatedSensors& sensors, double seconds, double drift) {
+  std::vector<Measurement> all = sensors.run(seconds);
+  for (Measurement& measurement : all)
+    if (measurement.source == Source::IMU) {
+      auto& attitude = std::get<ImuMeasurement>(measurement.data).attitude;
+      attitude = Eigen::AngleAxisd(drift, Eigen::Vector3d::UnitZ()) * *attitude;
+    }
+  return all;
+}
+
+// The heading of a plain IMU drifts. A localizer that was killed and began by it and acoustic fixes said OK, half a radian
+// off, and the vehicle drove into what stood beside its path.
+TEST(Localizer, OneThatStartsAgainBeginsWithTheHeadingThatWasKnown) {
+  SimulatedSensors sensors(6);
+  VehicleLocalizer before{LocalizerOptions{}};
+  before.add(poseSetAt(0.0, sensors));
+  for (const Measurement& measurement : driftedRun(sensors, 20.0, 0.5)) before.add(measurement);
+  const auto known = before.headingAt(stampAt(20.0));
+  ASSERT_TRUE(known);
+  EXPECT_NEAR(known->offset, 0.5, 0.1);
+  KnownHeading old = *known, of_later = *known;
+  old.stamp -= 100'000'000'000;
+  of_later.stamp += 100'000'000'000;
+
+  VehicleLocalizer with{LocalizerOptions{}}, without = with, with_old = with, with_later = with;
+  with.beginWith(*known);
+  with_old.beginWith(old);
+  with_later.beginWith(of_later);
+  for (const Measurement& measurement : driftedRun(sensors, 5.0, 0.5))
+    for (VehicleLocalizer* localizer : {&with, &without, &with_old, &with_later})
+      if (measurement.stamp > stampAt(22.0)) localizer->add(measurement);
+  const auto yawError = [&](const VehicleLocalizer& localizer) {
+    const double yaw = yawOf(localizer.mapAt(stampAt(25.0))->estimate.state.attitude);
+    return std::abs(std::remainder(yaw - yawOf(sensors.truthAt(25.0).attitude), 2.0 * M_PI));
+  };
+  EXPECT_LT(yawError(with), 0.1);
+  EXPECT_EQ(with.report(stampAt(25.0)).status, LocalizationStatus::OK);
+  for (const VehicleLocalizer* localizer : {&without, &with_old, &with_later})
+    EXPECT_GT(yawError(*localizer), 0.3) << "it begins by the IMU alone";
+}
+
 // A marker was all that told the pose: no other sentence tells that it is gone.
 TEST(Localizer, MarkersThatAreGoneAreMissed) {
   SimulatedSensors sensors(8);

@@ -52,6 +52,9 @@ CONTEXT = {
     "go_to_messages.h": "#include <move_base_msgs/MoveBaseGoal.h>\nextern const move_base_msgs::MoveBaseGoal goal;"
                         "extern following::Navigator navigator; extern double now; extern const PlanPathResult result;"
                         "extern const NavigatePathFeedback feedback;",
+    "kept_file.h": "extern const std::string folder; extern ros::NodeHandle private_nh;",
+    "kept_heading.h": "#include \"localization/vehicle_localizer.h\"\nextern const std::string folder; extern ros::NodeHandle private_nh;"
+                      "extern localization::VehicleLocalizer localizer; extern const localization::KnownHeading known;",
     "kept_map.h": "#include \"grid_path_planner/mapping/octree_map.h\"\nextern const mapping::OctreeMap octree; extern ros::Time newest_cloud;",
     "request_messages.h": "extern const PlanPathGoal goal; extern const ComparePlans::Request comparison; void ask(const PlanningRequest&);",
     "request_poses.h": "extern const PlanningRequest request; extern const PathPlannerNodeOptions options; extern const FrameLookup transforms;",

@@ -37,6 +37,7 @@ INPUTS = {
     "ros/common/bag.cpp": {FILE: "bag_file"},
     "ros/common/bag_reader.cpp": {FILE: "bag_file"},
     "ros/common/node_arguments.cpp": {FILE: Without("one byte is read, and not looked at")},
+    "ros/localization/kept_heading.cpp": {FILE: "kept_heading"},
     "ros/localization/navigation_bag.cpp": {FILE: "navigation_bag"},
     "ros/mapping/map_autosave.cpp": {FILE: "kept_map octree_file"},
     "ros/planning/record/recorded_plans.cpp": {FILE: "recording"},

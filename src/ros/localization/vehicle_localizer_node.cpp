@@ -12,6 +12,7 @@
 #include "localization/measurement_check.h"
 #include "ros/common/incoming/advertised_service.h"
 #include "ros/common/incoming/bounded_subscription.h"
+#include "ros/common/node_files.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
 
@@ -82,6 +83,7 @@ VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle&
       transforms_(nh, [this](const tf2_msgs::TFMessage& message, const std::string& node,
                              bool is_static) { rivals_.hear(message, node, is_static); }),
       localizer_(options_.localizer),
+      kept_(NodeFiles().saveFolder().path(), private_nh.getNamespace()),
       messages_([this](const std::string& target,
                        const std::string& source) { return placeOnVehicle(target, source); },
                 options_),
@@ -90,6 +92,7 @@ VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle&
       status_publisher_(nh_.advertise<std_msgs::String>("localization_status", 1, true)),
       heard_since_(ros::SteadyTime::now()),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
+  if (const auto heading = kept_.begin()) localizer_.beginWith(*heading);
   announce(localizer_.report({}));
   subscribe();
   subscribeSensors();
@@ -206,6 +209,7 @@ bool VehicleLocalizerNode::noticeTime() {
 
 void VehicleLocalizerNode::beginAnew() {
   localizer_.reset();
+  kept_.forget();
   messages_.reset();
   transforms_.clear();
   rivals_.reset();
@@ -270,6 +274,7 @@ void VehicleLocalizerNode::publish(const ros::Time& stamp) {
   const auto time = stampOf(stamp);
   report_ = localizer_.report(time);
   announce(report_);
+  keepHeading(time);
   PublishedPoses poses{
       published(localizer_, localizer_.mapAt(time)),
       published(localizer_, localizer_.odometryAt(time)),
@@ -281,6 +286,12 @@ void VehicleLocalizerNode::publish(const ros::Time& stamp) {
   } catch (const std::runtime_error& error) {
     ROS_WARN_STREAM_THROTTLE(5.0, "No pose is published: " << error.what());
   }
+}
+
+// Where the IMU's is used all the time it is no worse at a start.
+void VehicleLocalizerNode::keepHeading(localization::Stamp time) {
+  if (report_.status != LocalizationStatus::OK || options_.use_heading) return;
+  if (const auto heading = localizer_.headingAt(time)) kept_.keep(*heading);
 }
 
 // In the log when the status changes, or another node publishes what is ours.

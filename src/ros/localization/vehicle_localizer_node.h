@@ -16,6 +16,9 @@
 //   services    ~set_pose    grid_path_planner/SetPose
 //               ~reset       std_srvs/Trigger: everything begins anew
 //
+// One that was killed and starts again under the same roscore begins with what it knew of the IMU's heading (kept_heading.h), kept
+// in the folder to save in of node_files.h.
+//
 // Guaranteed: map -> odom is published while the status is OK or DEGRADED only. A message that cannot be
 // used changes nothing; its reason is in the log and in the diagnostics. ROS time that goes back begins
 // everything anew. From the first transform map -> odom or odom -> base_link of another node on, none
@@ -37,6 +40,7 @@
 #include "ros/common/frame_transforms.h"
 #include "ros/localization/fix_markers.h"
 #include "ros/localization/input_log.h"
+#include "ros/localization/kept_heading.h"
 #include "ros/localization/pose_publisher.h"
 #include "ros/localization/sensor_messages.h"
 #include "ros/localization/transform_rivals.h"
@@ -77,6 +81,7 @@ class VehicleLocalizerNode {
   std::string setPose(const geometry_msgs::PoseWithCovarianceStamped& message);
   void onTimer();
   void publish(const ros::Time& stamp);
+  void keepHeading(localization::Stamp time);
   void announce(const localization::LocalizationReport& report);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseInput(localization::Source source,
@@ -89,6 +94,7 @@ class VehicleLocalizerNode {
   ClockWatch clock_;
   LateClock late_clock_;
   localization::VehicleLocalizer localizer_;
+  KeptHeading kept_;
   SensorMessages messages_;
   InputLog inputs_;
   PosePublisher publisher_;

@@ -1,8 +1,6 @@
 #include "ros/mapping/map_autosave.h"
 
 #include <ros/console.h>
-#include <ros/master.h>
-#include <ros/param.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,6 +9,7 @@
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
+#include "ros/common/master/kept_file.h"
 
 namespace grid_path_planner::nodes {
 
@@ -28,27 +27,6 @@ namespace {
 constexpr char kSlot[] = "autosave";
 constexpr std::size_t kBeginning = 4096;  // bytes, that hold the lines before the octree
 
-// "/a/projected_map" to "a.projected_map": names of nodes have no dots.
-std::string fileName(const std::string& node) {
-  std::string name = node.substr(std::min(node.find_first_not_of('/'), node.size()));
-  std::replace(name.begin(), name.end(), '/', '.');
-  return "." + name + "@" + ros::master::getHost() + "_" + std::to_string(ros::master::getPort()) +
-         ".ot";
-}
-
-bool isRunId(const std::string& text) {
-  const auto belongs = [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-';
-  };
-  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), belongs);
-}
-
-// "" where the master has none, or does not answer.
-std::string runId() {
-  std::string run;
-  return ros::param::get("/run_id", run) && isRunId(run) ? run : "";
-}
-
 std::string firstRunId() {
   const std::string run = runId();
   if (!run.empty()) return run;
@@ -63,7 +41,7 @@ std::string firstRunId() {
 MapAutosave::MapAutosave(const std::string& folder, const std::string& node,
                          const ProjectedMapOptions& options)
     : folder_(folder),
-      file_(folder + "/" + fileName(node)),
+      file_(folder + "/" + keptFileName(node, ".ot")),
       run_(firstRunId()),
       frame_id_(options.frame_id) {
   setOptions(options);

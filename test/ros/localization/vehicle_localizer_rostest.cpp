@@ -24,32 +24,10 @@ namespace {
 
 using test::contains;
 using test::Latest;
+using test::LiveStream;
 using test::Process;
 using test::SensorStream;
 using test::waitFor;
-
-// Sends in a thread of its own, by the wall clock.
-class LiveStream {
- public:
-  explicit LiveStream(SensorStream& stream) : thread_([this, &stream] { run(stream); }) {}
-  ~LiveStream() {
-    over_ = true;
-    thread_.join();
-  }
-  double secondsAt(const ros::Time& stamp) const { return (stamp - start_).toSec(); }
-
- private:
-  void run(SensorStream& stream) {
-    for (int tick = 0; !over_; ++tick) {
-      const ros::Time due = start_ + ros::Duration(0.01 * tick);
-      while (ros::Time::now() < due) ros::WallDuration(0.001).sleep();
-      stream.send(due, tick);
-    }
-  }
-  const ros::Time start_ = ros::Time::now();
-  std::atomic<bool> over_{false};
-  std::thread thread_;
-};
 
 class VehicleLocalizerTest : public testing::Test {
  protected:

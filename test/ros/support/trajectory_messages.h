@@ -76,7 +76,7 @@ struct TrajectoryMessages {
             frame("usbl_link", kUsbl)};
   }
 
- private:
+ protected:
   // In the frame of the IMU.
   inline static const Eigen::Vector3d kImu{0.0, 0.0, 0.0}, kBase{0.0, 0.0, -0.1},
       kDvl{-0.3, 0.0, -0.2}, kUsbl{0.0, 0.0, 0.4};
