@@ -41,8 +41,8 @@ std::optional<KnownHeading> headingIn(const std::string& line, const std::string
     return {};
   if (names[0] != "run" || names[1] != "stamp" || names[2] != "offset" || names[3] != "variance")
     return {};
-  if (of_run != run || !(std::abs(heading.offset) <= M_PI) || !(heading.variance >= 0.0) ||
-      !(heading.variance <= M_PI * M_PI))
+  if (of_run != run || heading.stamp < 0 || !(std::abs(heading.offset) <= M_PI) ||
+      !(heading.variance >= 0.0) || !(heading.variance <= M_PI * M_PI))
     return {};
   return heading;
 }

@@ -19,7 +19,8 @@ TEST(KeptHeading, NumbersThatCannotBeAreNone) {
   for (const char* line :
        {"", "run a", "run a stamp 1 offset nan variance 1", "run a stamp 1 offset 4 variance 1",
         "run a stamp 1 offset 0 variance -1", "run a stamp 1 offset 0 variance 1e9",
-        "run a stamp x offset 0 variance 1", "run a stamp 1 offset 0 deviation 1"})
+        "run a stamp x offset 0 variance 1", "run a stamp -1 offset 0 variance 1",
+        "run a stamp 1 offset 0 deviation 1"})
     EXPECT_FALSE(headingIn(line, "a")) << line;
 }
 
