@@ -29,7 +29,6 @@ class LocalizerRestart : public testing::Test {
   LocalizerRestart() {
     ros::param::del("/vehicle_localizer");
     ::setenv("GRID_PATH_PLANNER_SAVE_FOLDER", folder_.path(".").c_str(), 1);
-    start();
   }
   ~LocalizerRestart() override { ::unsetenv("GRID_PATH_PLANNER_SAVE_FOLDER"); }
 
@@ -52,7 +51,8 @@ class LocalizerRestart : public testing::Test {
     return false;
   }
   // It is OK before the IMU drifts, by which its heading is known.
-  void drift() {
+  void startAndDrift() {
+    start();
     ASSERT_TRUE(waitFor([this] { return isOk(); }));
     stream_.drift = kDrift;
     ASSERT_TRUE(waitFor([this] { return isKept(); }));
@@ -85,18 +85,25 @@ class LocalizerRestart : public testing::Test {
 
 // It said OK with the heading of the IMU, and the vehicle drove into the panel.
 TEST_F(LocalizerRestart, BeginsWithTheHeadingThatItKnew) {
-  drift();
+  startAndDrift();
   EXPECT_LT(errorAfterKill(), 0.2);
   EXPECT_TRUE(node_->says("Begins with the heading that was kept"));
 }
 
 TEST_F(LocalizerRestart, ResetForgetsTheHeading) {
-  drift();
+  startAndDrift();
   std_srvs::Trigger call;
   ASSERT_TRUE(ros::service::call("/vehicle_localizer/reset", call));
   node_->signal(SIGKILL);
   ASSERT_TRUE(node_->waitForExit());
   EXPECT_FALSE(isKept());
+}
+
+TEST_F(LocalizerRestart, AFolderThatCannotBeWrittenIsToldAndTheNodeGoesOn) {
+  ::setenv("GRID_PATH_PLANNER_SAVE_FOLDER", "/proc/self/none", 1);
+  start();
+  EXPECT_TRUE(node_->says("The heading cannot be kept for a node that starts again: "));
+  EXPECT_TRUE(waitFor([this] { return isOk(); }));
 }
 
 }  // namespace
