@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "localization/filter_options.h"
-#include "localization/known_heading.h"
 #include "localization/measurement.h"
 #include "localization/mounted_pose.h"
 #include "localization/state.h"

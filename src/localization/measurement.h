@@ -73,6 +73,13 @@ struct PoseFix {
   Mounting mounting;  // in the body frame
 };
 
+// How far the heading of the IMU was off at some time: that of a plain one drifts.
+struct KnownHeading {
+  Stamp stamp = 0;
+  double offset = 0.0;    // rad, of the IMU's yaw less the true one
+  double variance = 0.0;  // rad^2
+};
+
 struct Measurement {
   Stamp stamp;
   Source source;

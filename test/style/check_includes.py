@@ -50,7 +50,6 @@ LENT = {
     "localization/chi_squared.h": {"trials"},
     "localization/filter_options.h": {"trials"},
     "localization/input_statistics.h": {"ros_localization", "trials"},
-    "localization/known_heading.h": {"ros_localization"},
     "localization/lagged_filter.h": {"ros_localization"},
     "localization/localizer_options.h": {"ros_localization"},
     "localization/measurement.h": {"ros_localization", "trials"},

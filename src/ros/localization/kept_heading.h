@@ -17,7 +17,7 @@
 #include <string>
 
 #include "grid_path_planner/base/task_queue.h"
-#include "localization/known_heading.h"
+#include "localization/measurement.h"
 #include "ros/common/guarded_queue.h"
 
 namespace grid_path_planner::nodes {

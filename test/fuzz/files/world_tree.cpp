@@ -57,7 +57,7 @@ std::string shapeOf(sdf::GeometryType type) {
 }
 
 // A world of the six shapes, as its elements say or all of one kind; and any bytes.
-std::vector<std::string> seedsOfTrees() {
+std::vector<std::string> seedsOfWorldTrees() {
   using Type = sdf::GeometryType;
   const std::string pose = numbers(6, '\x84');
   const auto world = [&](const std::array<Type, 6>& types) {
@@ -145,7 +145,7 @@ TriangleMesh meshFrom(Bytes& bytes) {
   return mesh;
 }
 
-FUZZ_TARGET(world_tree, seedsOfTrees) {
+FUZZ_TARGET(world_tree, seedsOfWorldTrees) {
   Bytes bytes(input);
   const sdf::World& tree = *world().WorldByIndex(0);
   for (std::size_t i = 0; i < tree.ModelCount(); ++i) {
