@@ -66,6 +66,11 @@ class FlightReader {
     return numbers;
   }
 
+  // Under `key`, which must be there.
+  YAML::Node listOf(const YAML::Node& parent, const std::string& key) const {
+    return nodes_.entriesOf(yamlNode(parent, key, file_, "a list"), key);
+  }
+
   Vector3d placeOf(const YAML::Node& node, const std::string& name) const {
     const std::vector<double> xyz = numbersOf(node, name, 3);
     return {xyz[0], xyz[1], xyz[2]};
@@ -107,8 +112,7 @@ class FlightReader {
     study_.start_yaw = start[3];
     study_.start_shift = number(root, "start_shift", 0.0, 100.0, 0.0);
     study_.yaw_shift = number(root, "yaw_shift", 0.0, 3.2, 0.0);
-    for (const YAML::Node& entry :
-         nodes_.entriesOf(yamlNode(root, "route", file_, "a list of places"), "route"))
+    for (const YAML::Node& entry : listOf(root, "route"))
       study_.route.push_back(placeOf(entry, "a place of the route"));
     if (root["fence"]) {
       const auto fence = numbersOf(root["fence"], "fence", 2);
@@ -167,7 +171,7 @@ class FlightReader {
       const auto shape = yamlValue<std::string>(entry, "shape", file_, "a shape");
       nodes_.atLine(entry, [&] { body.shape = base::choiceFromName<BodyShape>("shape", shape); });
       body.half_size = placeOf(yamlNode(entry, "half_size", file_, "x, y, z"), "half_size");
-      for (const YAML::Node& at : nodes_.entriesOf(entry["track"], "track")) {
+      for (const YAML::Node& at : listOf(entry, "track")) {
         const auto knot = numbersOf(at, "a place of the track", 4);
         body.track.push_back({knot[0], {knot[1], knot[2], knot[3]}});
       }
@@ -239,17 +243,17 @@ class FlightReader {
       study_.published[yamlAs<std::string>(entry.first, "a name", file_, "a name")] = {
           figures[0], figures[1], figures[2]};
     }
-    for (const YAML::Node& entry : nodes_.entriesOf(node["pairs"], "pairs")) {
+    for (const YAML::Node& entry : listOf(node, "pairs")) {
       checkKeys(entry, "a pair", file_, {"pair", "p"});
-      const auto p = numbersOf(entry["p"], "p of time and length", 2);
-      study_.pairs.push_back({pairOf(entry["pair"]), p[0], p[1]});
+      const auto p = numbersOf(listOf(entry, "p"), "p of time and length", 2);
+      study_.pairs.push_back({pairOf(listOf(entry, "pair")), p[0], p[1]});
     }
     if (!node["conclusions"]) return;
     for (const YAML::Node& entry : nodes_.entriesOf(node["conclusions"], "conclusions")) {
       checkKeys(entry, "a conclusion", file_, {"claim", "pairs"});
       study_.conclusions.push_back(
           {yamlValue<std::string>(entry, "claim", file_, "a sentence"), {}});
-      for (const YAML::Node& pair : nodes_.entriesOf(entry["pairs"], "pairs"))
+      for (const YAML::Node& pair : listOf(entry, "pairs"))
         study_.conclusions.back().pairs.push_back(pairOf(pair));
     }
   }

@@ -74,6 +74,24 @@ TEST(FlightFile, MistakesAreToldWithFileAndLine) {
                        "b: sizes of a moving body"));
 }
 
+// Found by the fuzzer: a library's error named neither file nor line.
+TEST(FlightFile, AListThatIsMissingIsToldWithFileAndLine) {
+  const SmallFlights small;
+  const auto refusal = [&](const std::string& more) {
+    return errorText([&] { readFlightFile(small.write("  - {name: a}\n", more)); });
+  };
+  const std::string published = "published: {source: s, figures: {a: [1, 2, 3]}, ";
+  for (const auto& [more, key] : std::vector<std::pair<std::string, std::string>>{
+           {published + "pairs: [{p: [0, 0.5]}]}", "pair"},
+           {published + "pairs: [{pair: [a, b]}]}", "p"},
+           {published + "pairs: [{pair: [a, b], p: [0, 1]}], conclusions: [{claim: c}]}", "pairs"},
+           {published + "conclusions: [{claim: c, pairs: [[a, b]]}]}", "pairs"},
+           {"bodies: [{name: b, shape: sphere, half_size: [1, 1, 1]}]", "track"}})
+    EXPECT_TRUE(contains(refusal(more), "has no '" + key + "' (a list)") &&
+                contains(refusal(more), "study.yaml:"))
+        << refusal(more);
+}
+
 // A seed above the largest int became the least one, from which worlds were counted up until there was no memory.
 TEST(FlightFile, WorldsOfSeedsThatAreNoSeedsAreRefused) {
   const SmallFlights small;
