@@ -157,6 +157,7 @@ class AtomicWriting {
   AtomicWriting& operator=(const AtomicWriting&) = delete;
 
   int folder() const { return *folder_; }
+  bool replaces() const { return old_.has_value(); }
 
   void write(const std::string& content) {
     removeLeftOvers(*folder_, leaf_);
@@ -246,6 +247,10 @@ std::size_t hashIn(const std::string& leaf) {
   return all_digits && leaf[begin - 1] == '-' ? begin : std::string::npos;
 }
 
+std::filesystem::path placeOf(const OutputFile& file) {
+  return std::filesystem::path(file.name()).parent_path();
+}
+
 // One writer of parts in a folder at a time. It is waited for, but not for ever: whoever asked for
 // the file waits too.
 class FolderLock {
@@ -300,27 +305,29 @@ bool isNamedInFolder(const std::filesystem::path& place, int folder, const std::
   return named;
 }
 
-// Removes the parts of a file, but for the newest. What somebody has changed since is theirs.
+// What somebody has changed since is theirs.
+void removeUnlessNamed(const std::filesystem::path& place, int folder, const std::string& part) {
+  try {
+    const std::size_t largest = std::size_t{1} << 30;
+    const std::string content = readWholeFile((place / part).string(), largest);
+    if (partState(part, content) == PartState::AS_WRITTEN && !isNamedInFolder(place, folder, part))
+      ::unlinkat(folder, part.c_str(), 0);
+  } catch (const InputError&) {
+    // It is none that was written here.
+  }
+}
+
+// Removes the parts of a file, but for the newest.
 void removeOldParts(const OutputFile& newest, int folder, const std::string& leaf) {
   const std::string beginning = leaf.substr(0, hashIn(leaf));
-  const std::filesystem::path place = std::filesystem::path(newest.name()).parent_path();
+  const std::filesystem::path place = placeOf(newest);
   std::vector<std::string> old;
   forEachName(folder, [&](const std::string& name) {
     if (name != leaf && name.substr(0, hashIn(name)) == beginning && hashIn(name) != leaf.npos &&
         extensionOf(name) == extensionOf(leaf))
       old.push_back(name);
   });
-  for (const std::string& name : old) {
-    try {
-      const std::size_t largest = std::size_t{1} << 30;
-      const std::string content = readWholeFile((place / name).string(), largest);
-      if (partState(name, content) == PartState::AS_WRITTEN &&
-          !isNamedInFolder(place, folder, name))
-        ::unlinkat(folder, name.c_str(), 0);
-    } catch (const InputError&) {
-      // It is none that was written here.
-    }
-  }
+  for (const std::string& name : old) removeUnlessNamed(place, folder, name);
 }
 
 }  // namespace
@@ -350,8 +357,14 @@ void writeFileWithPart(const OutputFile& named_file, const std::string& extensio
   const OutputFile named = file.beside(leaf);
   AtomicWriting writing(named);
   const FolderLock lock(writing.folder(), file.name());
-  writing.write(part);
-  writeFileAtomically(file, text_naming(leaf));
+  try {
+    writing.write(part);
+    writeFileAtomically(file, text_naming(leaf));
+  } catch (...) {  // a disk that had room for the part alone
+    if (lock.held() && !writing.replaces())
+      removeUnlessNamed(placeOf(named), writing.folder(), leaf);
+    throw;
+  }
   if (lock.held()) removeOldParts(named, writing.folder(), leaf);
 }
 

@@ -136,6 +136,23 @@ TEST(AtomicFile, OnAFullDiskTheOldFileStaysWholeAndNothingIsLeft) {
   EXPECT_EQ(contentOf(file), large);
 }
 
+// Seen before: each map that was saved on a disk with room for its picture alone left that picture there.
+TEST(AtomicFile, OnADiskWithRoomForThePartAloneItIsNotLeft) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path("a.yaml");
+  const auto text = [](const std::string& name) { return name + std::string(1000, ' '); };
+  writeFileWithPart(file, "pgm", "the old picture", text);
+  const std::string before = contentOf(file);
+  const Names names = folder.names();
+  const auto save = [&](const std::string& picture) {
+    return refusedOnAFullDisk(100, [&] { writeFileWithPart(file, "pgm", picture, text); });
+  };
+  EXPECT_TRUE(save("another picture"));
+  EXPECT_TRUE(save("the old picture"));
+  EXPECT_EQ(folder.names(), names);
+  EXPECT_EQ(contentOf(file), before);
+}
+
 // Nodelets of one process may all be asked to save to the same place.
 TEST(AtomicFile, ThreadsThatWriteTheSameFileDoNotMeet) {
   const test::TemporaryFolder folder;

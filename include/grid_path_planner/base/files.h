@@ -113,7 +113,7 @@ class StreamedFile {
 // name in `file` reads the part that it was written with, whoever is killed or writes meanwhile. Parts
 // that earlier writings of `file` left are removed afterwards, if no YAML file in the folder names them and
 // no other writer holds the folder (flock). Throws like writeFileAtomically; then `file` and the part that it
-// names are as they were.
+// names are as they were, and the new part is not there.
 void writeFileWithPart(const OutputFile& file, const std::string& extension,
                        const std::string& part,
                        const std::function<std::string(const std::string& name)>& text_naming);
