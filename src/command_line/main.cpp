@@ -1,4 +1,5 @@
 // grid_path: plans and measures without a roscore.
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <iostream>
@@ -9,7 +10,8 @@
 
 namespace {
 
-using grid_path_planner::command_line::Command, grid_path_planner::command_line::commands;
+using grid_path_planner::command_line::Command, grid_path_planner::command_line::commands,
+    grid_path_planner::command_line::kBadInput;
 
 constexpr std::size_t kNameWidth = 14;  // with the gap after the longest name
 
@@ -29,10 +31,16 @@ std::string closestCommand(const std::string& name) {
   return grid_path_planner::base::closestName(name, known);
 }
 
-}  // namespace
+int runNamed(const Command& command, int argc, char** argv) {
+  try {
+    return command.run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "grid_path " << command.name << ": " << error.what() << '\n';
+    return kBadInput;
+  }
+}
 
-int main(int argc, char** argv) {
-  using grid_path_planner::command_line::kBadInput;
+int run(int argc, char** argv) {
   if (argc < 2) return usage(std::cerr, kBadInput);
   const std::string name = argv[1];
   if (name == "--version") {
@@ -40,15 +48,25 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (name == "--help" || name == "-h" || name == "help") return usage(std::cout, 0);
-  try {
-    for (const Command& command : commands())
-      if (name == command.name) return command.run(argc - 1, argv + 1);
-  } catch (const std::exception& error) {
-    std::cerr << "grid_path " << name << ": " << error.what() << '\n';
-    return kBadInput;
-  }
+  for (const Command& command : commands())
+    if (name == command.name) return runNamed(command, argc - 1, argv + 1);
   const std::string meant = closestCommand(name);
   std::cerr << "grid_path: there is no command '" << name << "'"
             << (meant.empty() ? "" : "; did you mean " + meant + "?") << "\n\n";
   return usage(std::cerr, kBadInput);
+}
+
+// It may go to a file, on a disk that is full.
+bool isAllPrinted() {
+  std::cout.flush();
+  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int code = run(argc, argv);
+  if (isAllPrinted()) return code;
+  std::cerr << "grid_path: not all that was printed could be written\n";
+  return code == 0 ? kBadInput : code;
 }
