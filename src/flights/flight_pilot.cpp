@@ -18,7 +18,7 @@ constexpr std::uint64_t kLargestLog = std::uint64_t{4} << 30;  // bytes
 class OwnPilot : public FlightPilot {
  public:
   OwnPilot(const FlightStudy& study, const FlightVariant& variant, const std::string& log)
-      : pilot_(variant.pilot), map_(variant.pilot) {
+      : pilot_(variant.pilot), map_(variant.pilot), log_name_(log) {
     if (!log.empty()) log_.emplace(log, variant.pilot, kLargestLog);
     pilot_.setRoute(study.route);
     if (log_) log_->route(study.route);
@@ -35,7 +35,8 @@ class OwnPilot : public FlightPilot {
     const PilotAnswer answer = pilot_.update(input);
     if (!log_) return answer;
     log_->update(input, answer);
-    if (!log_->problem().empty()) throw base::InputError(log_->problem());
+    if (!log_->problem().empty())
+      throw base::InputError(log_name_, "cannot be written: " + log_->problem());
     return answer;
   }
 
@@ -44,6 +45,7 @@ class OwnPilot : public FlightPilot {
  private:
   Pilot pilot_;
   seen_map::SeenMap map_;
+  std::string log_name_;
   std::optional<FlightLog> log_;
 };
 

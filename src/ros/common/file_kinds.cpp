@@ -30,8 +30,9 @@ bool beginsAsOctree(const std::string& beginning) {
   return startsWith(beginning, "# Octomap OcTree ");
 }
 
+// A log that began on a full disk is empty, and must not keep the node from starting again.
 bool beginsAsFlight(const std::string& beginning) {
-  return startsWith(beginning, "grid_path_planner flight ");
+  return beginning.empty() || startsWith(beginning, "grid_path_planner flight ");
 }
 
 }  // namespace
