@@ -6,6 +6,7 @@ velocities adds a row.
     arguments   in the place of those of node_table.py: the vehicle never moves, and that is no failure
     feeds       by name, what it hears all the time; without any of them it has to stop the vehicle
     offer       gives it something to drive; teleop_joy has that in what it is fed
+    far         what it says of a pose beyond a million metres, in its log or its status; None: it asks for none
     clock       whether ROS time that stands still stops the vehicle
     locks       the test of the law that its thread that commands takes no lock that file, map or publishing code holds
 """
@@ -23,7 +24,7 @@ from node_table import NODES
 from running_nodes import Clock, RunningNode
 from session_clock import session_seconds
 
-Commander = collections.namedtuple("Commander", "arguments feeds offer clock locks")
+Commander = collections.namedtuple("Commander", "arguments feeds offer far clock locks")
 
 DEADLINE = 60.0   # s
 QUIET = 1.0       # s without a motion: it stands
@@ -57,13 +58,13 @@ def offer_goal(node):
 COMMANDERS = {
     "navigate_path": Commander(
         ["_check_map:=false", "_no_progress_timeout:=0"], {"tf": send_transforms},
-        lambda node: node.send("path", probes.path(node)), True,
+        lambda node: node.send("path", probes.path(node)), "INVALID_POSE", True,
         "driving/navigate_path_locks_rostest.cpp"),
     "local_planner": Commander(
         ["_no_return_clears:=10", "_recover:=false", "_cloud_timeout:=1", "_tf_timeout:=1", "_stuck_timeout:=1e6"],
-        {"tf": send_transforms, "clouds": send_cloud}, offer_goal, True,
+        {"tf": send_transforms, "clouds": send_cloud}, offer_goal, "the vehicle's pose is beyond 1e6 m", True,
         "avoidance/local_planner_locks_rostest.cpp"),
-    "teleop_joy": Commander([], {"joy": send_joystick}, lambda _: None, False,
+    "teleop_joy": Commander([], {"joy": send_joystick}, lambda _: None, None, False,
         "driving/teleop_joy_rostest.cpp"),
 }
 
@@ -98,7 +99,9 @@ class RunningCommander(RunningNode):
         from std_msgs.msg import Bool
         self.table, self.ceased, self.commands = COMMANDERS[name], set(), []
         self.velocities = {topic for topic, kind in NODES[name].outputs.items() if kind in VELOCITIES}
-        self.environment = dict(os.environ, ROS_MASTER_URI=master) if master else None
+        self.environment = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
+        if master:
+            self.environment["ROS_MASTER_URI"] = master
         self.stops = rospy.Publisher("/%s_as_%s/stop" % (name, kind), Bool, queue_size=1, latch=True)
         if stopped is not None:
             self.stops.publish(stopped)
@@ -134,6 +137,13 @@ class RunningCommander(RunningNode):
         with self.lock:
             return any(at > begin and not is_zero(twist) for at, _, twist in self.commands)
 
+    def stood_from_one_on(self, begin):
+        """Whether no motion of a topic came after its first zero since then."""
+        with self.lock:
+            given = [(topic, is_zero(twist)) for at, topic, twist in self.commands if at > begin]
+        return all(not zero or all(later for other, later in given[i:] if other == topic)
+                   for i, (topic, zero) in enumerate(given))
+
     def ends_in_zeros(self):
         """Whether its last velocity of each topic is none."""
         with self.lock:
@@ -164,10 +174,13 @@ class CommanderTest(unittest.TestCase):
         with open(node.log.name, errors="replace") as file:
             return file.read()[-2000:]
 
-    def moves(self, node):
+    def times_said(self, node, text):
+        return self.said(node).count(text) + sum(text in str(status) for status in node.heard("avoidance_status"))
+
+    def moves(self, node, seconds=DEADLINE):
         """Whether it commands a motion from now on, offered something to drive now and then."""
         begin = time.monotonic()
-        return probes.until(node, lambda: node.moved_after(begin), session_seconds() + DEADLINE,
+        return probes.until(node, lambda: node.moved_after(begin), session_seconds() + seconds,
                             lambda: node.table.offer(node), 2.0)
 
     def stands(self, node, meanwhile=lambda: None, every=0.1):

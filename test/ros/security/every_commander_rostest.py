@@ -15,7 +15,7 @@ from roslib.message import get_service_class
 from std_msgs.msg import Bool
 
 import node_probes as probes
-from commanders import COMMANDERS, DEADLINE, QUIET, VELOCITIES, CommanderTest, RunningCommander
+from commanders import COMMANDERS, DEADLINE, QUIET, TICK, VELOCITIES, CommanderTest, RunningCommander
 from late_publisher import LatePublisher
 from node_table import NODES
 from own_master import start_own_master
@@ -25,7 +25,23 @@ from session_clock import session_seconds
 END_SECONDS = 10.0
 LATE = 0.7        # s, within what a node waits for a publisher that is known
 ATTEMPTS = 5
+FAR = (1e160, -1e308, 1e7)  # m
+RIGHT_SECONDS = 5.0         # after which right data is driven by again
 DRIVERS = [name for name in COMMANDERS if "manual_control" in NODES[name].inputs]
+
+
+def far_transforms(node, x):
+    """Of the vehicle; its camera stays where it is."""
+    message = probes.camera_transforms(node)
+    message.transforms[0].transform.translation.x = x
+    return message
+
+
+def turned_transforms(node, number):
+    message = probes.camera_transforms(node)
+    turn = message.transforms[0].transform.rotation
+    turn.x = turn.y = turn.z = turn.w = number
+    return message
 
 
 class EveryCommander(CommanderTest):
@@ -124,6 +140,35 @@ class EveryCommander(CommanderTest):
                 self.assertTrue(self.stands(node), "%s without %s" % (name, feed))
                 node.ceased.clear()
                 self.assertTrue(self.moves(node), "%s with %s again" % (name, feed))
+
+    def test_a_pose_that_cannot_be_stops_it(self):
+        """One tf of 1e160 m made 20 of 20 velocities NaN. It is fed on, so that none of its inputs is too old."""
+        for name, row in COMMANDERS.items():
+            if row.far is None:
+                continue
+            node = self.moving(name)
+            for x in FAR:
+                node.forget("avoidance_status")
+                told = self.times_said(node, row.far)
+                node.ceased.add("tf")
+                begin = time.monotonic()
+                self.assertTrue(self.stands(node, lambda x=x: node.send("tf", far_transforms(node, x)), TICK), name)
+                self.assertTrue(node.stood_from_one_on(begin), "%s: a motion after the first zero" % name)
+                self.assertTrue(probes.until(node, lambda: self.times_said(node, row.far) > told, session_seconds() + DEADLINE),
+                                "%s of %g m says %s" % (name, x, self.said(node)))
+                node.ceased.clear()
+                self.assertTrue(self.moves(node, RIGHT_SECONDS), "%s after %g m: %s" % (name, x, self.said(node)))
+
+    def test_a_turn_that_cannot_be_is_none(self):
+        """tf2 drops what is no unit quaternion, and its log says so: it goes on by the others."""
+        for name, row in COMMANDERS.items():
+            if row.far is None:
+                continue
+            node = self.moving(name)
+            for number in (1e160, 0.0, float("nan")):
+                for _ in range(10):
+                    node.send("tf", turned_transforms(node, number))
+                self.assertTrue(self.moves(node, RIGHT_SECONDS), "%s after %g: %s" % (name, number, self.said(node)))
 
     def test_a_clock_that_stands_still_stops_it(self):
         for name in [name for name, row in COMMANDERS.items() if row.clock]:
