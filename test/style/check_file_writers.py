@@ -7,7 +7,7 @@ import sys
 from common import ROOT, finish, files, read
 from file_writers import WRITERS, Without
 
-sys.path[:0] = [os.path.join(ROOT, "scripts"), os.path.join(ROOT, "test/ros/disk")]
+sys.path[:0] = [os.path.join(ROOT, "scripts"), os.path.join(ROOT, "test/ros/limits")]
 from commands import Commands  # noqa: E402
 from storms import node_writers  # noqa: E402
 

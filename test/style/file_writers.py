@@ -1,4 +1,4 @@
-"""Which rows of test/ros/disk have each source that writes files: every_writer asks them on a disk that is full, and on one that
+"""Which rows of test/ros/limits have each source that writes files: every_writer asks them on a disk that is full, and on one that
 is read-only."""
 
 
@@ -9,7 +9,7 @@ class Without(str):
 BY_THESE = Without("what others write by")
 A_TOOL = Without("of our own build, which ninja makes again")
 
-# {source below src/: rows of scripts/storms/node_writers.py and test/ros/disk/commands.py}
+# {source below src/: rows of scripts/storms/node_writers.py and test/ros/limits/commands.py}
 WRITERS = {
     "avoidance/log/flight_log.cpp": "flight_log fresh_flight",
     "base/atomic_writing.cpp": BY_THESE,
