@@ -86,8 +86,12 @@ void KeptHeading::forget() {
   writer_
       .post(
           [this](const StopSource&) {
-            std::error_code ignored;  // where there is none
-            std::filesystem::remove(file_, ignored);
+            std::error_code error;  // none where there is no file
+            std::filesystem::remove(file_, error);
+            if (error)
+              ROS_ERROR_STREAM(file_
+                               << " cannot be removed, a node that starts again begins with it: "
+                               << error.message());
           },
           kSlot, TaskQueue::Turn::NEXT)
       ->wait();
