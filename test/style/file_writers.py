@@ -40,7 +40,7 @@ WRITERS = {
     "ros/avoidance/logged_pilot.cpp": "flight_log",
     "ros/common/node_files.cpp": BY_THESE,
     "ros/common/outgoing/unread_log.cpp": Without("the pipe of the node's own log, opened again"),
-    "ros/localization/kept_heading.cpp": Without("not asked yet: a line every two seconds by writeFileAtomically, as autosave"),
+    "ros/localization/kept_heading.cpp": Without("vehicle_localizer_restart: a folder that cannot keep it is told"),
     "ros/mapping/map_autosave.cpp": "autosave",
     "ros/mapping/mapping_services.cpp": "save_map save_octree_bt save_octree_ot",
     "ros/planning/path_planner_node.cpp": Without("asks whether a name may be written"),
