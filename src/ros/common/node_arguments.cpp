@@ -24,13 +24,13 @@ std::string argumentOf(const FileArgument& file) {
   return text;
 }
 
-std::string usageOf(const std::string& name, const std::vector<FileArgument>& files) {
+std::string usageOf(const std::string& name,
+                    const std::optional<std::vector<FileArgument>>& files) {
   std::string usage = "usage: " + name;
-  for (const FileArgument& file : files)
+  for (const FileArgument& file : files.value_or(std::vector<FileArgument>()))
     usage += " [" + (file.without_option ? "[" + argumentOf(file) + "]" : argumentOf(file)) + " " +
              file.value + "]";
-  if (!files.empty())
-    usage += std::string(" [") + kSaveFolder + " FOLDER] [" + kLoadFolder + " FOLDER]";
+  if (files) usage += std::string(" [") + kSaveFolder + " FOLDER] [" + kLoadFolder + " FOLDER]";
   return usage +
          " [_parameter:=value]... [topic:=other_topic]...\n"
          "Parameters, topics and services: doc/nodes.md of grid_path_planner.\n";
@@ -38,7 +38,8 @@ std::string usageOf(const std::string& name, const std::vector<FileArgument>& fi
 
 class Reader {
  public:
-  explicit Reader(const std::vector<FileArgument>& files) : files_(files) {}
+  explicit Reader(const std::optional<std::vector<FileArgument>>& files)
+      : files_(files.value_or(std::vector<FileArgument>())), has_folders_(files.has_value()) {}
 
   // Throws std::invalid_argument with a sentence.
   NodeArguments read(const ros::V_string& arguments) {
@@ -65,7 +66,7 @@ class Reader {
   std::string optionOf(const std::string& argument) const {
     const std::string written = argument.substr(0, argument.find('='));
     const bool plain = argument.empty() || argument[0] != '-';
-    if (!files_.empty() && (written == kSaveFolder || written == kLoadFolder)) return written;
+    if (has_folders_ && (written == kSaveFolder || written == kLoadFolder)) return written;
     for (const FileArgument& file : files_)
       if (plain ? file.without_option && !argument.empty() : written == argumentOf(file))
         return file.option;
@@ -83,7 +84,8 @@ class Reader {
     if (value.empty()) given_.files.erase(option);
   }
 
-  const std::vector<FileArgument>& files_;
+  const std::vector<FileArgument> files_;
+  const bool has_folders_;
   NodeArguments given_;
 };
 
@@ -106,7 +108,7 @@ void checkGivenFiles(const std::vector<FileArgument>& known,
 }
 
 NodeArguments nodeArguments(int argc, const char* const* argv, const std::string& name,
-                            const std::vector<FileArgument>& files) {
+                            const std::optional<std::vector<FileArgument>>& files) {
   ros::V_string arguments;
   ros::removeROSArgs(argc, argv, arguments);
   const std::string usage = usageOf(name, files);

@@ -41,8 +41,8 @@ struct NodeArguments {
 };
 
 // --help and -h print the usage; any other option, an option twice or without its value, and a file
-// too many are refused on the standard error. A node without files has no folders.
+// too many are refused on the standard error. A node that has neither files nor folders has no `files`.
 NodeArguments nodeArguments(int argc, const char* const* argv, const std::string& name,
-                            const std::vector<FileArgument>& files = {});
+                            const std::optional<std::vector<FileArgument>>& files = {});
 
 }  // namespace grid_path_planner::nodes

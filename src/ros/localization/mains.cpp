@@ -12,7 +12,8 @@ int markerLocalizerMain(int argc, char** argv) {
 }
 
 int vehicleLocalizerMain(int argc, char** argv) {
-  return runNode<VehicleLocalizerNode>(argc, argv, "vehicle_localizer");
+  return runNode<VehicleLocalizerNode>(argc, argv, "vehicle_localizer",
+                                       std::vector<FileArgument>());
 }
 
 }  // namespace grid_path_planner::nodes

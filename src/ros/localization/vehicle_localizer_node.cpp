@@ -12,7 +12,6 @@
 #include "localization/measurement_check.h"
 #include "ros/common/incoming/advertised_service.h"
 #include "ros/common/incoming/bounded_subscription.h"
-#include "ros/common/node_files.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
 
@@ -76,14 +75,15 @@ std::optional<PublishedEstimate> published(const localization::VehicleLocalizer&
 
 }  // namespace
 
-VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
+VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                                           const NodeFiles& files)
     : nh_(nh),
       options_(loadVehicleLocalizerOptions(private_nh)),
       rivals_(childrenOf(options_)),
       transforms_(nh, [this](const tf2_msgs::TFMessage& message, const std::string& node,
                              bool is_static) { rivals_.hear(message, node, is_static); }),
       localizer_(options_.localizer),
-      kept_(NodeFiles().saveFolder().path(), private_nh.getNamespace()),
+      kept_(files.saveFolder().path(), private_nh.getNamespace()),
       messages_([this](const std::string& target,
                        const std::string& source) { return placeOnVehicle(target, source); },
                 options_),

@@ -17,7 +17,7 @@
 //               ~reset       std_srvs/Trigger: everything begins anew
 //
 // One that was killed and starts again under the same roscore begins with what it knew of the IMU's heading (kept_heading.h), kept
-// in the folder to save in of node_files.h.
+// below --save-folder (node_files.h).
 //
 // Guaranteed: map -> odom is published while the status is OK or DEGRADED only. A message that cannot be
 // used changes nothing; its reason is in the log and in the diagnostics. ROS time that goes back begins
@@ -38,6 +38,7 @@
 #include "localization/vehicle_localizer.h"
 #include "ros/common/clock.h"
 #include "ros/common/frame_transforms.h"
+#include "ros/common/node_files.h"
 #include "ros/localization/fix_markers.h"
 #include "ros/localization/input_log.h"
 #include "ros/localization/kept_heading.h"
@@ -61,7 +62,8 @@ class VehicleLocalizerNode {
  public:
   // Throws InputError for parameters that cannot be used. All callbacks are served by the queue of
   // `nh`, which must be one thread's.
-  VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
+  VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
+                       const NodeFiles& files = {});
   ~VehicleLocalizerNode();
 
  private:

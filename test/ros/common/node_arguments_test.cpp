@@ -13,7 +13,8 @@ struct Told {
   std::string error;
 };
 
-Told toldOf(std::vector<const char*> arguments, const std::vector<FileArgument>& files = {}) {
+Told toldOf(std::vector<const char*> arguments,
+            const std::optional<std::vector<FileArgument>>& files = {}) {
   arguments.insert(arguments.begin(), "/somewhere/a_node");
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
@@ -51,6 +52,13 @@ TEST(NodeArguments, FilesAndFoldersAreTakenByName) {
                                                                   {"map_file", "out.yaml"}}));
   EXPECT_EQ(told.given.save_folder, "/s");
   EXPECT_EQ(told.given.load_folder, "/l");
+}
+
+TEST(NodeArguments, ANodeMayHaveFoldersAlone) {
+  const Told told = toldOf({"--save-folder", "/s"}, std::vector<FileArgument>());
+  EXPECT_FALSE(told.given.exit_code) << told.error;
+  EXPECT_EQ(told.given.save_folder, "/s");
+  EXPECT_EQ(toldOf({"site.yaml"}, std::vector<FileArgument>()).given.exit_code, 2);
 }
 
 TEST(NodeArguments, AnEmptyValueIsNone) {

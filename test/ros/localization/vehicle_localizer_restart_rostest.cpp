@@ -26,14 +26,11 @@ constexpr double kDrift = 0.6;  // rad
 
 class LocalizerRestart : public testing::Test {
  protected:
-  LocalizerRestart() {
-    ros::param::del("/vehicle_localizer");
-    ::setenv("GRID_PATH_PLANNER_SAVE_FOLDER", folder_.path(".").c_str(), 1);
-  }
-  ~LocalizerRestart() override { ::unsetenv("GRID_PATH_PLANNER_SAVE_FOLDER"); }
+  LocalizerRestart() { ros::param::del("/vehicle_localizer"); }
 
   void start() {
-    node_ = std::make_unique<Process>("vehicle_localizer", std::vector<std::string>());
+    node_ = std::make_unique<Process>("vehicle_localizer",
+                                      std::vector<std::string>{"--save-folder", save_folder_});
   }
   bool isOk() const {
     const auto all = statuses_->all();
@@ -74,6 +71,7 @@ class LocalizerRestart : public testing::Test {
   }
 
   const test::TemporaryFolder folder_;
+  std::string save_folder_ = folder_.path(".");
   ros::NodeHandle nh_;
   std::unique_ptr<Latest<std_msgs::String>> statuses_ =
       std::make_unique<Latest<std_msgs::String>>(nh_, "localization_status");
@@ -100,7 +98,7 @@ TEST_F(LocalizerRestart, ResetForgetsTheHeading) {
 }
 
 TEST_F(LocalizerRestart, AFolderThatCannotBeWrittenIsToldAndTheNodeGoesOn) {
-  ::setenv("GRID_PATH_PLANNER_SAVE_FOLDER", "/proc/self/none", 1);
+  save_folder_ = "/proc/self/none";
   start();
   EXPECT_TRUE(node_->says("The heading cannot be kept for a node that starts again: "));
   EXPECT_TRUE(waitFor([this] { return isOk(); }));
