@@ -1,7 +1,8 @@
 // The command line of a node: ROS's own arguments (_parameter:=value, topic:=other), the files that
 // its owner names, which may lie anywhere, and the folders for the files that others name.
 //
-//   const NodeArguments given = nodeArguments(argc, argv, "map_publisher", {{"filename", "MAP", true}});
+//   const std::vector<FileArgument> files = {{"filename", "MAP", true}};
+//   const NodeArguments given = nodeArguments(argc, argv, "map_publisher", files);
 //   if (given.exit_code) return *given.exit_code;
 //
 // roscpp ignores unknown arguments, so that a node started as `navigate_path site.yaml` would wait
