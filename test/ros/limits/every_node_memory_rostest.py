@@ -28,9 +28,7 @@ from running_nodes import PACKAGE, Clock, RunningNode, executable, is_sanitized 
 from session_clock import session_seconds  # noqa: E402
 
 SIZE = 160 << 20  # bytes of a message
-# Of a message's size, what there is beside it as it came: too little to unpack it; enough for that, and little for what is made of it.
-# In this order: a node that is still at work on the second takes more than it had when the room was measured.
-ROOM = (0.8, 1.3)
+ROOM = 0.8        # of a message's size, what there is beside it as it came: too little to unpack it
 SECONDS = 60.0    # for the start, for what is said, for a right answer behind what is large
 SAID = ("not enough memory", "bad_alloc")
 
@@ -79,8 +77,7 @@ class EveryNodeMemory(unittest.TestCase):
             topics = [(topic, kind) for topic, kind in node.fed() if kind in LARGE]
             for topic, kind in topics:
                 node = node or self.started(name, row)
-                for room in ROOM:
-                    self.goes_on_after(node, topic, large(node, kind, SIZE), room)
+                self.goes_on_after(node, topic, large(node, kind, SIZE))
                 node = node.end(signal.SIGKILL) and None  # what it has kept of the message counts in no other's room
 
     def started(self, name, row):
@@ -90,16 +87,15 @@ class EveryNodeMemory(unittest.TestCase):
         self.assertTrue(self.answers(node), story(node))
         return node
 
-    def goes_on_after(self, node, topic, message, room):
+    def goes_on_after(self, node, topic, message):
         size, pid = len(serialized(message)), node.processes[0].pid
         with open(node.log.name, errors="replace") as log:
             log.seek(0, os.SEEK_END)
-            limit(pid, address_space(pid) + int(size * (1.0 + room)))
+            limit(pid, address_space(pid) + int(size * (1.0 + ROOM)))
             node.send(topic, message)
             said = []
-            if room < 1.0:
-                self.assertTrue(probes.until(node, lambda: self.says(log, said), session_seconds() + SECONDS),
-                                "%s by %s" % (topic, story(node)))
+            self.assertTrue(probes.until(node, lambda: self.says(log, said), session_seconds() + SECONDS),
+                            "%s by %s" % (topic, story(node)))
             self.assertTrue(self.answers(node), "after %s by %s" % (topic, story(node)))
         limit(pid)
 
