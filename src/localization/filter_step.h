@@ -19,7 +19,6 @@
 #include <optional>
 
 #include "localization/filter_options.h"
-#include "localization/filter_start.h"
 #include "localization/kalman_update.h"
 #include "localization/measurement.h"
 #include "localization/mounted_pose.h"

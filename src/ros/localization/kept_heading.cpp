@@ -51,7 +51,7 @@ KeptHeading::KeptHeading(const std::string& folder, const std::string& node)
     : folder_(folder), file_(folder + "/" + keptFileName(node, ".heading")), run_(runId()) {}
 
 std::optional<KnownHeading> KeptHeading::begin() const {
-  if (run_.empty() || !std::filesystem::exists(file_)) return {};
+  if (run_.empty()) return {};
   try {
     const auto heading = headingIn(base::RegularFile(file_).read(0, kLongest), run_);
     if (heading)
@@ -59,15 +59,17 @@ std::optional<KnownHeading> KeptHeading::begin() const {
                       << file_ << ", by which the IMU's was off by " << heading->offset
                       << " rad; the service ~reset forgets it");
     return heading;
-  } catch (const InputError&) {  // no regular file
+  } catch (const InputError&) {  // there is none, or none that can be read
     return {};
   }
 }
 
+bool KeptHeading::isDue() const {
+  return !run_.empty() && (kept_.isZero() || (ros::SteadyTime::now() - kept_).toSec() >= kEvery);
+}
+
 void KeptHeading::keep(const KnownHeading& heading) {
-  const ros::SteadyTime now = ros::SteadyTime::now();
-  if (run_.empty() || (!kept_.isZero() && (now - kept_).toSec() < kEvery)) return;
-  kept_ = now;
+  kept_ = ros::SteadyTime::now();
   writer_.post([this, line = lineOf(heading, run_)](const StopSource&) { write(line); }, kSlot);
 }
 

@@ -2,7 +2,7 @@
 //
 //   KeptHeading kept(folder, private_nh.getNamespace());
 //   if (const auto heading = kept.begin()) localizer.beginWith(*heading);
-//   kept.keep(known);      // as often as wanted
+//   if (kept.isDue()) kept.keep(known);
 //
 // The heading of a plain IMU drifts by radians in minutes. A pose that begins with positions alone takes its heading
 // from it, which is right at the start of a mission only.
@@ -34,7 +34,9 @@ class KeptHeading {
 
   // That of this run; none where there is no file of it. Says what was found.
   std::optional<localization::KnownHeading> begin() const;
-  // Has it written, where the last one was written long enough ago.
+  // Whether the last one was written long enough ago, under a known run.
+  bool isDue() const;
+  // Has it written.
   void keep(const localization::KnownHeading& heading);
   // The file is gone when this returns.
   void forget();

@@ -290,7 +290,7 @@ void VehicleLocalizerNode::publish(const ros::Time& stamp) {
 
 // Where the IMU's is used all the time it is no worse at a start.
 void VehicleLocalizerNode::keepHeading(localization::Stamp time) {
-  if (report_.status != LocalizationStatus::OK || options_.use_heading) return;
+  if (report_.status != LocalizationStatus::OK || options_.use_heading || !kept_.isDue()) return;
   if (const auto heading = localizer_.headingAt(time)) kept_.keep(*heading);
 }
 
