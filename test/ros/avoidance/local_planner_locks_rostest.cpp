@@ -19,6 +19,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "grid_path_planner/NavigatePathActionGoal.h"
@@ -109,15 +110,15 @@ TEST_F(LocalPlannerLocks, ALogThatNobodyReadsEndsInZeros) {
   pilot_->signal(SIGKILL);  // the log holds its orderly end
 }
 
-sensor_msgs::PointCloud2 largeCloud() {
-  constexpr std::uint32_t kWidth = 1280, kHeight = 1024;  // 16 MB
+sensor_msgs::PointCloud2 largeCloud(std::uint32_t height = 1024) {  // 16 kB a row
+  constexpr std::uint32_t kWidth = 1280;
   sensor_msgs::PointCloud2 cloud;
   sensor_msgs::PointCloud2Modifier modifier(cloud);
   modifier.setPointCloud2FieldsByString(1, "xyz");
-  modifier.resize(kWidth * kHeight);
+  modifier.resize(kWidth * height);
   cloud.header.frame_id = "camera";
   cloud.width = kWidth;
-  cloud.height = kHeight;
+  cloud.height = height;
   cloud.row_step = kWidth * cloud.point_step;
   std::fill(cloud.data.begin(), cloud.data.end(), std::uint8_t{0xff});  // NaN
   return cloud;
@@ -144,7 +145,8 @@ TEST_F(LocalPlannerLocks, LargeCloudsAndSlowViewersDelayPlansAndNoVelocities) {
   EXPECT_TRUE(flies()) << said();
 }
 
-// Whether an update of a flight log was given a velocity that was less than the answer before it.
+// Whether an update of a flight log, which may still be written, was given a velocity that was less than the answer
+// before it, and no stand: where a plan comes after the braking, there is nothing to tell the two by.
 bool wasGivenLess(const std::string& file) {
   bool less = false;
   base::BodyVelocity before;
@@ -159,26 +161,28 @@ TEST_F(LocalPlannerLocks, WithoutOdometryALatePlanIsGivenTheVelocityThatWasSent)
   const std::string log = folder_.path("late.flight");
   std::vector<std::string> command{GPP_DEVEL "/lib/grid_path_planner/local_planner", "--log", log};
   for (const std::string& argument :
-       arguments({"_frame_period:=0.01", "_control_rate:=100", "_max_acceleration:=10"}))
+       arguments({"_frame_period:=0.01", "_control_rate:=100", "_max_acceleration:=4"}))
     command.push_back(argument);
   pilot_ = std::make_unique<Process>(command);
   ASSERT_NO_FATAL_FAILURE(waitUntilItIsUp());
   sendGoal(ros::Time());
   ASSERT_TRUE(flies()) << said();
   ros::Publisher clouds = nh_.advertise<sensor_msgs::PointCloud2>("points", 1);
-  sensor_msgs::PointCloud2 cloud = largeCloud();
+  // One of them takes a little longer than a period, whatever the machine.
+  std::vector<sensor_msgs::PointCloud2> sizes{largeCloud(), largeCloud(256), largeCloud(64)};
   ASSERT_TRUE(test::waitFor([&] { return clouds.getNumSubscribers() > 0; }));
   const auto late = [&] {
     return test::valueIn(diagnostics_.all(), "braked for want of a newer plan");
   };
-  ASSERT_TRUE(test::waitFor([&] {
-    cloud.header.stamp = sky_.now();
-    clouds.publish(cloud);
-    return !late().empty() && std::stoi(late()) > 5;
-  }));
-  ASSERT_TRUE(flies()) << said();
-  pilot_->end(SIGINT);
-  EXPECT_TRUE(wasGivenLess(log));
+  std::string judged;
+  std::size_t sent = 0;
+  EXPECT_TRUE(test::waitFor([&] {
+    for (sensor_msgs::PointCloud2& cloud : sizes) cloud.header.stamp = sky_.now();
+    clouds.publish(sizes[sent++ / 20 % sizes.size()]);
+    const std::string now = late();
+    return now != std::exchange(judged, now) && std::stoi(now) > 5 && wasGivenLess(log);
+  })) << late();
+  EXPECT_TRUE(flies()) << said();
 }
 
 // As navigate_path's: see there.
