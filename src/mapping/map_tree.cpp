@@ -46,10 +46,34 @@ MapTree::Node* MapTree::createRoot() {
   return root;
 }
 
+// A node that was made and not filled is a leaf of no evidence, which OctoMap takes for occupied, however large it is. One
+// that is left without children, which it had, has their value: it is unknown what was there.
+void MapTree::restoreInvariants() {
+  if (root) restoreBelow(root);
+  if (root && !nodeHasChildren(root)) clear();
+  tree_size = calcNumNodes();
+  size_changed = true;
+}
+
+void MapTree::restoreBelow(Node* node) {
+  for (unsigned i = 0; i < 8 && nodeHasChildren(node); ++i) {
+    Node* const below = child(node, i);
+    if (!below) continue;
+    restoreBelow(below);
+    if (!nodeHasChildren(below) && below->getLogOdds() == 0.0F) deleteLeaf(node, i);
+  }
+  deleteArrayWithoutChild(node);
+  if (nodeHasChildren(node)) pruneOrUpdate(node);
+}
+
 void MapTree::deleteLeaf(Node* parent, unsigned index) {
   deleteNodeChild(parent, index);
-  if (nodeHasChildren(parent)) return;
-  auto& children = NodeAccess::of(parent);
+  deleteArrayWithoutChild(parent);
+}
+
+void MapTree::deleteArrayWithoutChild(Node* node) {
+  if (nodeHasChildren(node)) return;
+  auto& children = NodeAccess::of(node);
   delete[] children;
   children = nullptr;
 }

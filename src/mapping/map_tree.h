@@ -51,6 +51,10 @@ class MapTree : public octomap::OcTree {
   // Deletes `child`, a leaf, and the parent's array of children with the last of them.
   void deleteLeaf(Node* parent, unsigned index);
 
+  // After a change that had not enough memory: what was made and not filled goes, and inner nodes have the largest value
+  // below them.
+  void restoreInvariants();
+
   // To be called after a child has changed: children that are all leaves of one value become their
   // parent's value, otherwise it takes their largest.
   void pruneOrUpdate(Node* node) {
@@ -59,6 +63,9 @@ class MapTree : public octomap::OcTree {
 
  private:
   struct NodeAccess;
+
+  void deleteArrayWithoutChild(Node* node);
+  void restoreBelow(Node* node);
 };
 
 }  // namespace grid_path_planner::mapping

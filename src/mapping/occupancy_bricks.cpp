@@ -68,6 +68,15 @@ void OccupancyBricks::clear(double resolution) {
   released_ = {};
 }
 
+void OccupancyBricks::beginAnew(double resolution) {
+  *this = OccupancyBricks(resolution);
+  begun_anew_ = true;
+}
+
+bool OccupancyBricks::drainBeginning() {
+  return std::exchange(begun_anew_, false);
+}
+
 std::vector<BrickColumn> OccupancyBricks::columns() const {
   std::vector<BrickColumn> present;
   for (const auto& entry : columns_)

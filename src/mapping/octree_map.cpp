@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -35,6 +36,18 @@ const OctreeOptions& checked(const OctreeOptions& options) {
 
 }  // namespace
 
+// What changes the tree and the bricks: where there is no memory for it, nobody knows how far it came.
+template <class Work>
+auto OctreeMap::change(Work work) -> std::invoke_result_t<Work> {
+  restoreBricks();
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    bricks_are_right_ = false;
+    throw;
+  }
+}
+
 OctreeMap::OctreeMap(const OctreeOptions& options)
     : options_(checked(options)),
       tree_(std::make_unique<MapTree>(options.resolution, options)),
@@ -49,6 +62,25 @@ const octomap::OcTree& OctreeMap::tree() const {
   return *tree_;
 }
 
+OccupancyBricks& OctreeMap::bricks() {
+  restoreBricks();
+  return bricks_;
+}
+
+void OctreeMap::restoreBricks() {
+  if (bricks_are_right_) return;
+  tree_->restoreInvariants();
+  bricks_.beginAnew(tree_->getResolution());
+  makeBricks();
+}
+
+void OctreeMap::makeBricks() {
+  bricks_are_right_ = false;
+  bricks_.clear(tree_->getResolution());
+  treeToBricks(*tree_, bricks_);
+  bricks_are_right_ = true;
+}
+
 void OctreeMap::setOptions(const OctreeOptions& options) {
   checkOctreeOptions(options);
   if (options.resolution != options_.resolution)
@@ -57,17 +89,17 @@ void OctreeMap::setOptions(const OctreeOptions& options) {
   const bool judged_anew = options.occupancy_threshold != options_.occupancy_threshold;
   options_ = options;
   tree_->setModel(options);
-  if (!judged_anew) return;
-  bricks_.clear(tree_->getResolution());
-  treeToBricks(*tree_, bricks_);
+  if (judged_anew) makeBricks();
 }
 
 std::size_t OctreeMap::insert(const Scan& scan) {
   OcTreeKey origin_key;
   if (!tree_->keyOf(scan.origin, origin_key))
     throw InputError("the origin " + text(scan.origin) + " of a scan is outside the octree");
-  return insertion_->insert(scan, origin_key, options_.max_range, memoryLimitOf(options_), *tree_,
-                            bricks_);
+  return change([&] {
+    return insertion_->insert(scan, origin_key, options_.max_range, memoryLimitOf(options_), *tree_,
+                              bricks_);
+  });
 }
 
 void OctreeMap::clearBox(const point3d& low, const point3d& high) {
@@ -79,12 +111,14 @@ void OctreeMap::clearBox(const point3d& low, const point3d& high) {
     keys[0][axis] = nearestKey(low(axis));
     keys[1][axis] = nearestKey(high(axis));
   }
-  freeBox(*tree_, bricks_, keys[0], keys[1]);
+  change([&] { freeBox(*tree_, bricks_, keys[0], keys[1]); });
 }
 
 void OctreeMap::reset() {
-  tree_->clear();
-  bricks_.clear(tree_->getResolution());
+  change([&] {
+    tree_->clear();
+    bricks_.clear(tree_->getResolution());
+  });
 }
 
 void OctreeMap::decay(double seconds) {
@@ -92,7 +126,9 @@ void OctreeMap::decay(double seconds) {
     throw InputError("a map decays by a time of 0 s or more, got " + decimalText(seconds));
   if (options_.decay_time == 0.0) return;
   const double range = tree_->getClampingThresMaxLog() - tree_->getOccupancyThresLog();
-  fadeOccupied(*tree_, bricks_, static_cast<float>(range * seconds / options_.decay_time));
+  change([&] {
+    fadeOccupied(*tree_, bricks_, static_cast<float>(range * seconds / options_.decay_time));
+  });
 }
 
 void OctreeMap::load(const std::string& file, const base::ReadLimits& limits) {
@@ -145,8 +181,7 @@ void OctreeMap::replace(std::unique_ptr<MapTree> tree, const std::string& name,
   }
   options_ = options;
   tree_ = std::move(tree);
-  bricks_.clear(options_.resolution);
-  treeToBricks(*tree_, bricks_);
+  makeBricks();
 }
 
 }  // namespace grid_path_planner::mapping

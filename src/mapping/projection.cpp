@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -85,15 +87,28 @@ void Projection::setSensor(double x, double y) {
   extent_->setSensor(x, y);
 }
 
+void Projection::startAnew() noexcept {
+  begins_anew_ = all_columns_pending_ = true;
+}
+
 std::size_t Projection::columnsLeftOut() const {
   return options_.bounds.given() ? 0 : extent_->leftOut();
 }
 
 ProjectionChange Projection::update(OccupancyBricks& bricks) {
-  collectColumns(bricks);
+  if (bricks.drainBeginning()) startAnew();
   ProjectionChange change;
-  change.geometry = fitGeometry(bricks);
-  projectColumns(bricks, change.cells);
+  change.geometry = begins_anew_;
+  try {
+    if (begins_anew_) std::fill(grid_.values().begin(), grid_.values().end(), std::int8_t{-1});
+    collectColumns(bricks);
+    change.geometry = fitGeometry(bricks) || change.geometry;
+    projectColumns(bricks, change.cells);
+  } catch (const std::bad_alloc&) {
+    startAnew();
+    throw;
+  }
+  begins_anew_ = false;
   return change;
 }
 

@@ -33,7 +33,7 @@ CONTEXT = {
                      "bool legal(const std::vector<Eigen::Vector2d>&);",
     "cholesky.h": "extern const Eigen::Matrix<double, 6, 6> covariance; extern const Eigen::Matrix<double, 6, 1> error, right;",
     "shown_text.h": "extern std::string message;",
-    "guarded_queue.h": "extern ros::NodeHandle nh;", "straight_runs.h": "extern const std::vector<Eigen::Vector2d> points;",
+    "guarded_queue.h": "extern ros::NodeHandle nh;", "guarded_timer.h": "extern ros::NodeHandle nh; void checkTime();", "straight_runs.h": "extern const std::vector<Eigen::Vector2d> points;",
     "master_watch.h": "void halt();", "turning_points.h": "extern std::vector<Cell> cells; extern const CostGrid& map;",
     "update_sequence.h": "#include <map_msgs/OccupancyGridUpdate.h>\n#include <ros/message_event.h>\nextern UpdateSequence sequence;"
                          "extern ros::MessageEvent<map_msgs::OccupancyGridUpdate const> event;"

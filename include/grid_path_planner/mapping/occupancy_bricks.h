@@ -87,6 +87,12 @@ class OccupancyBricks {
   // the order of their first change.
   std::vector<BrickColumn> drainChangedColumns();
 
+  // Empties them as if they were new: for bricks that a change without enough memory left as nobody knows. Which columns
+  // there were is forgotten, too.
+  void beginAnew(double resolution);
+  // Whether that was done since the last call.
+  bool drainBeginning();
+
   // What is allocated, in bytes.
   std::size_t memoryUsage() const;
 
@@ -121,6 +127,7 @@ class OccupancyBricks {
   std::deque<Brick> mixed_;  // growing moves none of them
   std::vector<Handle> released_;
   std::vector<BrickColumn> changed_;
+  bool begun_anew_ = false;
 };
 
 template <class Visit>

@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "grid_path_planner/base/files.h"
@@ -89,7 +90,8 @@ class OctreeMap {
 
   const octomap::OcTree& tree() const;
   const OccupancyBricks& bricks() const { return bricks_; }
-  OccupancyBricks& bricks() { return bricks_; }  // to drain what has changed
+  // To drain what has changed.
+  OccupancyBricks& bricks();
 
   // Of tree, bricks and what is kept for the next insertion, in bytes.
   std::size_t memoryUsage() const;
@@ -99,12 +101,18 @@ class OctreeMap {
   static constexpr std::size_t kMostBricks = std::size_t{1} << 25;
 
  private:
+  template <class Work>
+  auto change(Work work) -> std::invoke_result_t<Work>;
+  // Makes them of the tree, where a change of both had no memory.
+  void restoreBricks();
+  void makeBricks();
   octomap::key_type nearestKey(double coordinate) const;
   void replace(std::unique_ptr<MapTree> tree, const std::string& name, base::ReadLimits& limits);
 
   OctreeOptions options_;
   std::unique_ptr<MapTree> tree_;
   OccupancyBricks bricks_;
+  bool bricks_are_right_ = true;
   std::unique_ptr<ScanInsertion> insertion_;
 };
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/current_error.h"
 #include "grid_path_planner/base/errors.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/waypoint_reading.h"
@@ -104,6 +105,8 @@ void FlightAction::start(const std::function<Path()>& read, bool along, unsigned
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The goal of the action is refused: " << error.what());
     finish("INVALID_REQUEST", error.what());
+  } catch (...) {
+    finish("INVALID_REQUEST", "the goal was given up: " + base::currentErrorText());
   }
 }
 

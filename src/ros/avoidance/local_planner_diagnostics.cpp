@@ -1,5 +1,6 @@
 // What local_planner says in /diagnostics.
 #include "ros/avoidance/local_planner_node.h"
+#include "ros/common/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
 
@@ -16,9 +17,7 @@ void LocalPlannerNode::startDiagnostics() {
   diagnostics_.setHardwareID("none");
   diagnostics_.add("flight", this, &LocalPlannerNode::diagnose);
   // force_update: the updater's own clock is ROS time, which may jump back.
-  diagnostics_timer_ =
-      nh_.createSteadyTimer(ros::WallDuration(kDiagnosed),
-                            [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
+  diagnostics_timer_ = guardedTimer(nh_, kDiagnosed, [this] { diagnostics_.force_update(); });
 }
 
 void LocalPlannerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -14,6 +14,7 @@
 #include "ros/common/incoming/advertised_service.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
+#include "ros/common/scheduling/guarded_timer.h"
 #include "ros/common/velocity_message.h"
 #include "ros/common/waypoint_reading.h"
 
@@ -226,8 +227,7 @@ void LocalPlannerNode::use(LocalPlannerOptions options) {
 }
 
 void LocalPlannerNode::startTimer() {
-  control_timer_ = nh_.createSteadyTimer(ros::WallDuration(1.0 / options_.control_rate),
-                                         [this](const ros::SteadyTimerEvent&) { control(); });
+  control_timer_ = guardedTimer(nh_, 1.0 / options_.control_rate, [this] { control(); });
 }
 
 // The first time, and time that jumped back: only then is it known what is from before.

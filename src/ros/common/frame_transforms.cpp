@@ -181,6 +181,8 @@ geometry_msgs::TransformStamped FrameLookup::transform(const std::string& target
     return buffer_.lookupTransform(target, source, stamp);
   } catch (const tf2::TransformException& error) {
     throw TransformError(reasonOf(buffer_, target, source, error.what()));
+  } catch (const std::runtime_error&) {  // roscpp's: times that are 2^31 s apart have no difference
+    throw TransformError("its time is not within decades of those that /tf has");
   }
 }
 

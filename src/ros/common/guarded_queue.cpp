@@ -25,7 +25,7 @@ class GuardedCallback : public ros::CallbackInterface {
     try {
       return callback_->call();
     } catch (...) {
-      tellGivenUp("A callback", currentErrorText());
+      tellGivenUp("A callback");
       return Success;
     }
   }
@@ -86,6 +86,22 @@ void GuardedQueue::release() {
 
 void tellGivenUp(const std::string& what, const std::string& error) {
   ROS_ERROR_STREAM_THROTTLE(1.0, what << " was given up, the node goes on: " << error);
+}
+
+void tellGivenUp(const char* what) noexcept {
+  try {
+    tellGivenUp(what, currentErrorText());
+  } catch (...) {
+    return;
+  }
+}
+
+void callWaiting(ros::CallbackQueue& queue, ros::WallDuration timeout) noexcept {
+  try {
+    queue.callAvailable(timeout);
+  } catch (...) {
+    tellGivenUp("A round of callbacks");
+  }
 }
 
 ros::CallbackInterfacePtr callbackOf(std::function<void()> work) {

@@ -3,13 +3,14 @@
 //   GuardedQueue queue(*nh.getCallbackQueue());
 //   nh.setCallbackQueue(&queue);   // subscriptions, timers, services and actions of `nh` from now on
 //
-// Guaranteed: an exception ends its callback, never the thread that serves the queue; the log says
-// which, at most once a second. roscpp by itself lets it end the process, a nodelet manager with all
+// Guaranteed: an exception ends its callback, never the thread that serves the queue, also where there is no memory to
+// tell it; the log says which, at most once a second. roscpp by itself lets it end the process, a nodelet manager with all
 // that it holds. Between hold() and release() nothing is called: a node's constructor is not met by its
 // own callbacks in another thread. The queue behind it does the work and outlives this; callbacks that
 // wait in it may outlive this too. Thread-safe.
 #pragma once
 
+#include <ros/callback_queue.h>
 #include <ros/callback_queue_interface.h>
 
 #include <cstdint>
@@ -41,6 +42,12 @@ class GuardedQueue : public ros::CallbackQueueInterface {
 
 // Into the log, at most once a second: an exception ended `what`, and nothing else.
 void tellGivenUp(const std::string& what, const std::string& error);
+// The exception that is being handled. Where there is no memory to tell it, nothing is told. Precondition: called in a
+// catch block.
+void tellGivenUp(const char* what) noexcept;
+
+// Calls what waits in a queue. For the loop of a thread that serves one: roscpp's queue itself wants memory, too.
+void callWaiting(ros::CallbackQueue& queue, ros::WallDuration timeout) noexcept;
 
 // Work for the thread that serves a queue.
 ros::CallbackInterfacePtr callbackOf(std::function<void()> work);

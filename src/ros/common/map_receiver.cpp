@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <new>
 #include <sstream>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
 
@@ -22,6 +24,7 @@ using grid::OccupancyGrid;
 namespace {
 
 constexpr std::chrono::seconds kAnswer(2);  // to wait for a whole map that was asked for
+constexpr double kMemoryPeriod = 1.0;  // s, after which what there was no memory for is tried again
 
 CellRect rectOf(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update) {
   const auto end = [](std::int64_t from, std::uint32_t length) { return from + length; };
@@ -84,6 +87,7 @@ void MapReceiver::start(ros::NodeHandle nh, OnChange on_change, std::function<vo
   updates_ = subscribeBounded<map_msgs::OccupancyGridUpdate, const UpdateEvent&>(
       nh, name_ + "_updates", {kAnyNumber, kMostWaitingBytes},
       [this](const UpdateEvent& event) { onUpdate(event); });
+  memory_timer_ = guardedTimer(nh, kMemoryPeriod, [this] { makeUpForMemory(); });
   std::lock_guard<std::mutex> lock(mutex_);
   topic_ = map_subscriber_.getTopic();
 }
@@ -109,6 +113,7 @@ std::optional<MapHeartbeat> MapReceiver::heartbeat() const {
 }
 
 void MapReceiver::shutdown() {
+  memory_timer_.stop();
   map_subscriber_.shutdown();
   updates_.shutdown();
 }
@@ -133,6 +138,9 @@ void MapReceiver::onMap(const MapEvent& event) {
   } catch (const InputError& error) {
     refuse(map_subscriber_.getTopic(), error.what());
     return;
+  } catch (const std::bad_alloc&) {
+    lacked_memory_ = true;
+    throw;
   }
   if (older) noteLoss("A map came that is older than its updates");
   on_change_(change);
@@ -183,6 +191,11 @@ void MapReceiver::noteLoss(const std::string& what) {
   askForAWholeMap();
 }
 
+void MapReceiver::makeUpForMemory() {
+  if (std::exchange(lacked_memory_, false)) noteLoss("A change of the map had no memory");
+  if (!map_subscriber_) subscribeToMaps();
+}
+
 void MapReceiver::askForAWholeMap() {
   const auto now = Clock::now();
   if (now - asked_at_ < kAnswer) return;
@@ -225,6 +238,9 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   } catch (const InputError& error) {
     refuse(updates_.getTopic(), error.what());
     return;
+  } catch (const std::bad_alloc&) {
+    lacked_memory_ = true;
+    throw;
   }
   on_change_(change);
 }

@@ -24,6 +24,7 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <ros/message_event.h>
 #include <ros/node_handle.h>
+#include <ros/steady_timer.h>
 #include <ros/subscriber.h>
 
 #include <chrono>
@@ -110,6 +111,8 @@ class MapReceiver {
   void noteLoss(const std::string& what);
   void subscribeToMaps();
   void askForAWholeMap();
+  // By a timer: for what came, or for the subscription.
+  void makeUpForMemory();
   MapChange apply(const UpdateEvent& event);
   // The map whose grid is the present one of grids_.
   MapChange store(ReceivedMap map, std::optional<std::vector<grid::CellRect>> changed);
@@ -129,6 +132,8 @@ class MapReceiver {
   Clock::time_point asked_at_;  // for a whole map
   ros::NodeHandle nh_;
   ros::Subscriber map_subscriber_;
+  bool lacked_memory_ = false;  // for a map or an update
+  ros::SteadyTimer memory_timer_;
   ros::Subscriber updates_;
 };
 

@@ -94,7 +94,7 @@ void serve(const std::string& name, const NodeMaker& make) {
   ROS_INFO_STREAM(name << " runs");
   std::string reason = endReason();
   while (ros::ok() && reason.empty()) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+    callWaiting(*ros::getGlobalCallbackQueue(), ros::WallDuration(0.01));
     reason = endReason();
   }
   ROS_WARN_STREAM(name << " ends: " << (reason.empty() ? "ROS was shut down" : reason));

@@ -152,6 +152,7 @@ void DriveLoop::setSpeedLimits(const SpeedLimits& limits) {
 
 std::vector<DriveReport> DriveLoop::takeReports() {
   const std::lock_guard<std::mutex> lock(reports_mutex_);
+  reports_told_ = false;
   return std::exchange(reports_, {});
 }
 
@@ -159,8 +160,8 @@ void DriveLoop::tryToTick() {
   try {
     tick();
   } catch (...) {
+    publish({});  // before there is memory for anything else
     const std::string error = currentErrorText();
-    publish({});
     follower_.abandon("the control loop failed: " + error);
   }
 }
@@ -331,13 +332,18 @@ void DriveLoop::report(const ros::Time& now) {
 
 void DriveLoop::hand(std::vector<DriveReport> reports) {
   if (reports.empty()) return;
-  bool first = false;
   {
     const std::lock_guard<std::mutex> lock(reports_mutex_);
-    first = reports_.empty();
     for (DriveReport& report : reports) reports_.push_back(std::move(report));
+    if (std::exchange(reports_told_, true)) return;
   }
-  if (first) listener_.on_report();
+  try {
+    listener_.on_report();
+  } catch (...) {  // no memory: the next report tries again
+    const std::lock_guard<std::mutex> lock(reports_mutex_);
+    reports_told_ = false;
+    throw;
+  }
 }
 
 DriveStanding DriveLoop::standingNow() const {

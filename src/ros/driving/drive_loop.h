@@ -157,6 +157,7 @@ class DriveLoop {
 
   std::mutex reports_mutex_;
   std::vector<DriveReport> reports_;
+  bool reports_told_ = false;  // since takeReports()
 
   DirectPublisher velocity_publisher_;
   ControlThread thread_{[this] { tryToTick(); }};

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/current_error.h"
 #include "grid_path_planner/GoToPoseConfig.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
@@ -16,11 +15,11 @@
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
+#include "ros/common/scheduling/guarded_timer.h"
 #include "ros/driving/go_to_messages.h"
 
 namespace grid_path_planner::nodes {
 
-using base::currentErrorText;
 using base::InputError;
 using base::StopSource;
 using following::Navigator;
@@ -116,8 +115,7 @@ void GoToPoseNode::subscribe() {
 }
 
 void GoToPoseNode::startTimers() {
-  timer_ = nh_.createSteadyTimer(ros::WallDuration(kTickPeriod),
-                                 [this](const ros::SteadyTimerEvent&) { tick(); });
+  timer_ = guardedTimer(nh_, kTickPeriod, [this] { tick(); });
   diagnostics_timer_ = diagnosticsTimer(nh_, diagnostics_);
 }
 
@@ -287,7 +285,7 @@ void GoToPoseNode::tryToCarryOut(const Order& order) {
   try {
     carryOut(order);
   } catch (...) {
-    tellGivenUp("An order", currentErrorText());
+    tellGivenUp("An order");
   }
 }
 

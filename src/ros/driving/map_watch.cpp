@@ -2,13 +2,10 @@
 
 #include <utility>
 
-#include "base/current_error.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/master/xmlrpc_call.h"
 
 namespace grid_path_planner::nodes {
-
-using base::currentErrorText;
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -78,21 +75,34 @@ void MapWatch::onHeartbeat() {
 void MapWatch::run() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!done_) {
-    if (life_.map.grid && !life_.heartbeat) {
-      const std::string node = life_.map.publisher;
-      if (node != std::exchange(node_, node)) uri_.clear();
-      lock.unlock();
-      const bool answers = publisherAnswers();
-      lock.lock();
-      if (answers && life_.map.publisher == node) {
-        life_.sign = Clock::now();
-        lock.unlock();
-        tell();
-        lock.lock();
-      }
+    lock.unlock();
+    try {
+      askPublisher();
+    } catch (...) {
+      tellGivenUp("A question to the map's publisher");
     }
+    lock.lock();
     ends_.wait_for(lock, kPublisherPeriod, [this] { return done_; });
   }
+}
+
+// Of a map without a heartbeat.
+void MapWatch::askPublisher() {
+  std::string node;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!life_.map.grid || life_.heartbeat) return;
+    node = life_.map.publisher;
+  }
+  if (node != node_) uri_.clear();
+  node_ = node;
+  if (!publisherAnswers()) return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (life_.map.publisher != node) return;
+    life_.sign = Clock::now();
+  }
+  tell();
 }
 
 // Where it does not, the next time at the URI that the master knows by then.
@@ -101,7 +111,7 @@ bool MapWatch::publisherAnswers() {
     if (uri_.empty()) uri_ = uriOfNode(node_, kPublisherPatience).value_or("");
     if (!uri_.empty() && answersXmlRpc(uri_, kPublisherPatience)) return true;
   } catch (...) {
-    tellGivenUp("A question to the map's publisher", currentErrorText());
+    tellGivenUp("A question to the map's publisher");
   }
   uri_.clear();
   return false;

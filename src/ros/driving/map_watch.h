@@ -32,6 +32,7 @@ class MapWatch {
   void onHeartbeat();
   void tell();
   void run();
+  void askPublisher();
   bool publisherAnswers();
 
   const Listener listener_;

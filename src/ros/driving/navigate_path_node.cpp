@@ -8,16 +8,19 @@
 #include <optional>
 #include <utility>
 
+#include "base/current_error.h"
 #include "grid_path_planner/NavigatePathConfig.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/advertised_service.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/parameters.h"
+#include "ros/common/scheduling/guarded_timer.h"
 #include "ros/common/waypoint_reading.h"
 #include "ros/driving/follow_log.h"
 
 namespace grid_path_planner::nodes {
 
+using base::currentErrorText;
 using base::InputError;
 using base::StopSource;
 using base::TaskQueue;
@@ -55,6 +58,11 @@ Commands commandsOf(const ros::NodeHandle& nh, const NavigatePathOptions& option
   commands.actions = {nh.resolveName("navigate_path")};
   commands.manual_control = nh.resolveName("manual_control");
   return commands;
+}
+
+bool isDriven(FollowState state) {
+  return state == FollowState::DRIVING || state == FollowState::PAUSED ||
+         state == FollowState::BLOCKED;
 }
 
 }  // namespace
@@ -136,15 +144,11 @@ void NavigatePathNode::startTimers() {
   diagnostics_.add("path following", this, &NavigatePathNode::diagnose);
   diagnostics_.add("map", this, &NavigatePathNode::diagnoseMap);
   diagnostics_.add("other nodes", this, &NavigatePathNode::diagnoseOthers);
-  clock_timer_ = nh_.createSteadyTimer(ros::WallDuration(kClockPeriod),
-                                       [this](const ros::SteadyTimerEvent&) { watchClock(); });
-  feedback_timer_ =
-      nh_.createSteadyTimer(ros::WallDuration(kFeedbackPeriod),
-                            [this](const ros::SteadyTimerEvent&) { publishFeedback(); });
+  clock_timer_ = guardedTimer(nh_, kClockPeriod, [this] { watchClock(); });
+  feedback_timer_ = guardedTimer(nh_, kFeedbackPeriod, [this] { publishFeedback(); });
   // force_update: the updater's own clock is ROS time, which may jump back.
   diagnostics_timer_ =
-      nh_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
-                            [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
+      guardedTimer(nh_, kDiagnosticsPeriod, [this] { diagnostics_.force_update(); });
 }
 
 void NavigatePathNode::use(NavigatePathOptions options) {
@@ -260,6 +264,9 @@ void NavigatePathNode::startGoal(const std::function<Path()>& read, Join join, u
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
     finishGoal("INVALID_REQUEST", error.what(), loop_->standing());
+  } catch (...) {
+    finishGoal("INVALID_REQUEST", "the goal was given up: " + currentErrorText(),
+               loop_->standing());
   }
 }
 
@@ -358,8 +365,11 @@ void NavigatePathNode::finishGoal(const std::string& status, const std::string& 
 }
 
 void NavigatePathNode::publishFeedback() {
+  takeReports();
   if (!goal_active_ || goal_is_read_) return;
   const DriveStanding standing = loop_->standing();
+  if (!isDriven(standing.state))  // where there was no memory to report its end
+    return finishGoal(toString(standing.status), standing.message, standing);
   NavigatePathFeedback feedback;
   feedback.current_waypoint = static_cast<std::uint32_t>(standing.waypoint);
   feedback.distance_remaining_m = standing.distance_remaining;

@@ -14,6 +14,7 @@
 #include "ros/common/incoming/bounded_subscription.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
+#include "ros/common/scheduling/guarded_timer.h"
 #include "ros/layers/scan_messages.h"
 
 namespace grid_path_planner::nodes {
@@ -162,11 +163,8 @@ void MapLayersNode::listenToMask(LayerSource& source, const std::string& topic,
 }
 
 void MapLayersNode::startPublishing() {
-  publish_timer_ = nh_.createSteadyTimer(ros::WallDuration(1.0 / options_.publish_rate),
-                                         [this](const ros::SteadyTimerEvent&) { publish(); });
-  heartbeat_timer_ =
-      nh_.createSteadyTimer(ros::WallDuration(kHeartbeatPeriod),
-                            [this](const ros::SteadyTimerEvent&) { publishHeartbeat(); });
+  publish_timer_ = guardedTimer(nh_, 1.0 / options_.publish_rate, [this] { publish(); });
+  heartbeat_timer_ = guardedTimer(nh_, kHeartbeatPeriod, [this] { publishHeartbeat(); });
 }
 
 void MapLayersNode::use(MapLayersOptions options) {
@@ -187,6 +185,9 @@ void MapLayersNode::take(LayerSource& source, const ros::Time& stamp,
     source.accept(stamp);
   } catch (const InputError& error) {
     source.refuse(error.what());
+  } catch (const std::bad_alloc&) {
+    lays_again_ = true;
+    source.refuse("there is not enough memory");
   }
 }
 
@@ -257,7 +258,19 @@ bool MapLayersNode::noticeTime() {
   return true;
 }
 
+// Of a scan that was taken in part nobody knows what is in the map: as after clear_scan.
 void MapLayersNode::takeScans() {
+  try {
+    insertScans();
+  } catch (const std::bad_alloc&) {
+    lays_again_ = true;
+    scans_.clear();
+    scan_source_.forget();
+    throw;
+  }
+}
+
+void MapLayersNode::insertScans() {
   while (const auto ready = scans_.take(options_.map_frame, options_.tf_timeout)) {
     map_.insert(scanInMap(*ready->scan, ready->map_from_scan, options_.scan.inf_clears));
     scan_source_.accept(ready->scan->header.stamp);
@@ -293,8 +306,18 @@ std::string MapLayersNode::whyHeld() {
   return of_live.empty() ? of_scan : of_live;
 }
 
+// All that is there, where memory failed while a part of it was laid.
+void MapLayersNode::layAgain() {
+  if (!std::exchange(lays_again_, false)) return;
+  publisher_.withdraw();
+  for (auto [maps, take] : {std::pair(&static_maps_, &MapLayersNode::onStaticMap),
+                            std::pair(&live_maps_, &MapLayersNode::onLiveMap)})
+    if (const ReceivedMap map = maps->latest(); map.grid) (this->*take)({map, std::nullopt});
+}
+
 void MapLayersNode::publish() {
   if (!noticeTime()) return;
+  layAgain();
   takeScans();
   const std::string why = whyHeld();
   const std::string before = std::exchange(held_, why);

@@ -71,6 +71,8 @@ class MapLayersNode {
   void onClearScan();
   bool noticeTime();
   void takeScans();
+  void insertScans();
+  void layAgain();
   void publish();
   void publishHeartbeat();
   // Why there is no map now, in a sentence; empty where there is.
@@ -90,6 +92,7 @@ class MapLayersNode {
   layers::LayeredMap map_;
   LayerSource static_source_, live_source_, scan_source_, keep_out_source_, speed_source_;
   bool live_dropped_ = false, scan_dropped_ = false;
+  bool lays_again_ = false;                         // there was no memory to lay a source
   std::string held_ = "the node has just started";  // why there is no map
   ScanQueue scans_;
   std::uint64_t refused_scans_ = 0;

@@ -14,6 +14,7 @@
 #include "ros/common/incoming/bounded_subscription.h"
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
+#include "ros/common/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
 
@@ -100,8 +101,7 @@ VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle&
   reconfigurable_ =
       std::make_unique<Reconfigurable<VehicleLocalizerConfig, VehicleLocalizerOptions>>(
           private_nh, options_, [this](const VehicleLocalizerOptions& options) { use(options); });
-  publish_timer_ = nh_.createSteadyTimer(ros::WallDuration(1.0 / options_.publish_rate),
-                                         [this](const ros::SteadyTimerEvent&) { onTimer(); });
+  publish_timer_ = guardedTimer(nh_, 1.0 / options_.publish_rate, [this] { onTimer(); });
   startDiagnostics();
 }
 

@@ -54,21 +54,22 @@ void CloudQueue::add(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
   waiting_.push_back({cloud, Clock::now()});
 }
 
+// Each is taken out before it is looked at: what throws loses that one, and leaves no hole.
 bool CloudQueue::resolveTransforms() {
   std::lock_guard<std::mutex> lock(mutex_);
   const auto now = Clock::now();
   const std::chrono::duration<double> limit(options_.tf_timeout);
-  std::deque<Waiting> still_waiting;
-  for (Waiting& waiting : waiting_) {
+  for (std::size_t left = waiting_.size(); left > 0; --left) {
+    const Waiting waiting = std::move(waiting_.front());
+    waiting_.pop_front();
     std::string problem;
     if (const auto frames = framesOf(*waiting.cloud, problem))
-      ready_.push_back({std::move(waiting.cloud), *frames});
+      ready_.push_back({waiting.cloud, *frames});
     else if (now - waiting.since > limit)
       drop(kNoTransform, describe(*waiting.cloud) + ": " + problem);
     else
-      still_waiting.push_back(std::move(waiting));
+      waiting_.push_back(waiting);
   }
-  waiting_ = std::move(still_waiting);
   dropTooMany();
   dropTooLarge();
   return !ready_.empty();

@@ -1,4 +1,5 @@
 #include "ros/mapping/mapping_diagnostics.h"
+#include "ros/common/scheduling/guarded_timer.h"
 
 #include <string>
 
@@ -34,8 +35,7 @@ MappingDiagnostics::MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle priva
   updater_.add("clouds", this, &MappingDiagnostics::reportClouds);
   updater_.add("map", this, &MappingDiagnostics::reportMap);
   if (autosave_) updater_.add("autosave", this, &MappingDiagnostics::reportAutosave);
-  timer_ = nh.createSteadyTimer(ros::WallDuration(updater_.getPeriod()),
-                                [this](const ros::SteadyTimerEvent&) { onTimer(); });
+  timer_ = guardedTimer(nh, updater_.getPeriod(), [this] { onTimer(); });
 }
 
 void MappingDiagnostics::onTimer() {

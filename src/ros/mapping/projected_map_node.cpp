@@ -12,6 +12,7 @@
 #include "ros/common/master/end_without_master.h"
 #include "ros/common/parameters.h"
 #include "ros/common/process/memory_limit_line.h"
+#include "ros/common/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
 
@@ -123,13 +124,9 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   cloud_subscriber_ = subscribeBounded<sensor_msgs::PointCloud2, const CloudEvent&>(
       nh, "cloud_in", {kAnyNumber, kMostWaitingBytes},
       [this](const CloudEvent& event) { onCloud(event.getMessage()); });
-  cloud_timer_ =
-      nh.createSteadyTimer(ros::WallDuration(kCloudPeriod),
-                           [this](const ros::SteadyTimerEvent&) { resolveTransforms(); });
+  cloud_timer_ = guardedTimer(nh, kCloudPeriod, [this] { resolveTransforms(); });
   if (filename_.empty())
-    silence_timer_ = nh.createSteadyTimer(
-        ros::WallDuration(kFirstCloudWait),
-        [this](const ros::SteadyTimerEvent&) { warnOfSilence(); }, true);
+    silence_timer_ = guardedTimerOnce(nh, kFirstCloudWait, [this] { warnOfSilence(); });
   startPublishing(options);
   if (autosave_) startAutosave(options.autosave_period);
   complete_ = true;
@@ -158,7 +155,7 @@ void ProjectedMapNode::saveAtTheEnd() {
   try {
     thread_->run([this](MapModel& map) { save(map, MapAutosave::When::AT_ONCE); });
   } catch (...) {
-    tellGivenUp("Keeping the map at the end", currentErrorText());
+    tellGivenUp("Keeping the map at the end");
   }
 }
 
@@ -186,25 +183,21 @@ void ProjectedMapNode::use(const ProjectedMapOptions& options) {
 }
 
 void ProjectedMapNode::startPublishing(const ProjectedMapOptions& options) {
-  publish_timer_ =
-      nh_.createSteadyTimer(ros::WallDuration(1.0 / options.publish_rate),
-                            [this](const ros::SteadyTimerEvent&) { postPublishing(); });
+  publish_timer_ = guardedTimer(nh_, 1.0 / options.publish_rate, [this] { postPublishing(); });
   heartbeat_timer_.stop();
   if (options.heartbeat_period <= 0.0) return;
-  heartbeat_timer_ = nh_.createSteadyTimer(
-      ros::WallDuration(options.heartbeat_period), [this](const ros::SteadyTimerEvent&) {
-        thread_->post("heartbeat", [this](MapModel& map) { publishHeartbeat(map); });
-      });
+  heartbeat_timer_ = guardedTimer(nh_, options.heartbeat_period, [this] {
+    thread_->post("heartbeat", [this](MapModel& map) { publishHeartbeat(map); });
+  });
 }
 
 // Half of the period is left for the writing.
 void ProjectedMapNode::startAutosave(double period) {
   thread_->run(
       [this](MapModel&) { map_publisher_->countCloud(autosave_->newestCloud(), ros::TIME_MAX); });
-  autosave_timer_ =
-      nh_.createSteadyTimer(ros::WallDuration(period / 2.0), [this](const ros::SteadyTimerEvent&) {
-        thread_->post("autosave", [this](MapModel& map) { save(map, MapAutosave::When::IF_DUE); });
-      });
+  autosave_timer_ = guardedTimer(nh_, period / 2.0, [this] {
+    thread_->post("autosave", [this](MapModel& map) { save(map, MapAutosave::When::IF_DUE); });
+  });
 }
 
 void ProjectedMapNode::warnOfSilence() const {

@@ -23,7 +23,9 @@ ProjectedMapPublisher::ProjectedMapPublisher(ros::NodeHandle nh, bool latch,
 
 void ProjectedMapPublisher::publish(MapModel& map, const ros::Time& stamp) {
   if (!topic_.hasSubscribers()) return;
-  send(map, stamp);
+  const bool owed = std::exchange(owes_map_, true);
+  send(map, stamp, owed);
+  owes_map_ = false;
   newest_published_cloud_ = newest_cloud_;
 }
 
@@ -37,11 +39,11 @@ bool ProjectedMapPublisher::wholeMapIsWanted(const ProjectionChange& change,
          (options.always_send_full_map || topic_.needsWholeMaps() || !sent_);
 }
 
-void ProjectedMapPublisher::send(MapModel& map, const ros::Time& stamp) {
+void ProjectedMapPublisher::send(MapModel& map, const ros::Time& stamp, bool whole) {
   const OccupancyGrid& grid = map.grid();
   const ProjectionChange change = map.takeChange();
   const std::string& frame_id = map.options().frame_id;
-  if (wholeMapIsWanted(change, map.options())) {
+  if (wholeMapIsWanted(change, map.options()) || whole) {
     topic_.send(occupancyToMessage(grid, frame_id, stamp));
     sent_ = true;
     warnOfFloor(grid, map.options());

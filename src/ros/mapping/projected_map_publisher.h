@@ -45,11 +45,12 @@ class ProjectedMapPublisher {
  private:
   bool wholeMapIsWanted(const mapping::ProjectionChange& change,
                         const mapping::ProjectedMapOptions& options);
-  void send(mapping::MapModel& map, const ros::Time& stamp);
+  void send(mapping::MapModel& map, const ros::Time& stamp, bool whole);
   // Once.
   void warnOfFloor(const grid::OccupancyGrid& grid, const mapping::ProjectedMapOptions& options);
 
-  bool sent_ = false;  // a whole map
+  bool sent_ = false;      // a whole map
+  bool owes_map_ = false;  // a whole one, since what was to be sent last was not
   bool warned_of_floor_ = false;
   ros::Time newest_cloud_;            // in the tree
   ros::Time newest_published_cloud_;  // in the map as it was published last

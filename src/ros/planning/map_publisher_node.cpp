@@ -10,6 +10,7 @@
 #include "ros/common/incoming/advertised_service.h"
 #include "ros/common/network_text.h"
 #include "ros/common/parameters.h"
+#include "ros/common/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
 
@@ -54,8 +55,7 @@ MapPublisherNode::MapPublisherNode(ros::NodeHandle& nh, ros::NodeHandle& private
       nh, "static_map", [this](auto&, auto& response) { return getMap(response); });
   reconfigurable_ = std::make_unique<Reconfigurable<MapPublisherConfig, MapPublisherOptions>>(
       private_nh, options_, [this](const MapPublisherOptions& options) { use(options); });
-  timer_ = nh.createSteadyTimer(ros::WallDuration(0.02),
-                                [this](const ros::SteadyTimerEvent&) { publishOnceThereIsTime(); });
+  timer_ = guardedTimer(nh, 0.02, [this] { publishOnceThereIsTime(); });
 }
 
 MapPublisherNode::~MapPublisherNode() {

@@ -17,6 +17,7 @@
 #include "ros/common/outgoing/topic_changes.h"
 #include "ros/common/parameters.h"
 #include "ros/common/process/memory_limit_line.h"
+#include "ros/common/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
 
@@ -113,13 +114,11 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   initial_pose_subscriber_ = subscribeChecked<geometry_msgs::PoseWithCovarianceStamped>(
       nh, "initialpose", 1,
       [this](const geometry_msgs::PoseWithCovarianceStamped& message) { onInitialPose(message); });
-  clock_timer_ = nh.createSteadyTimer(ros::WallDuration(0.05),
-                                      [this](const ros::SteadyTimerEvent&) { checkTime(); });
-  full_map_timer_ =
-      nh.createSteadyTimer(ros::WallDuration(0.1), [this](const ros::SteadyTimerEvent&) {
-        if (planning_map_->wholeMapIsDue(server_->settings().options.full_map_period))
-          postSearchedMap();
-      });
+  clock_timer_ = guardedTimer(nh, 0.05, [this] { checkTime(); });
+  full_map_timer_ = guardedTimer(nh, 0.1, [this] {
+    if (planning_map_->wholeMapIsDue(server_->settings().options.full_map_period))
+      postSearchedMap();
+  });
   replan_period_.begin(ros::Time::now());
 }
 

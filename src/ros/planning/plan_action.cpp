@@ -6,6 +6,7 @@
 #include "base/current_error.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/common/action/action_topics.h"
+#include "ros/common/guarded_queue.h"
 #include "ros/planning/requests/request_messages.h"
 
 namespace actionlib {
@@ -41,10 +42,19 @@ void PlanAction::execute(const PlanPathGoalConstPtr& goal) {
   try {
     answer(*goal);
   } catch (...) {
+    tryToGiveUp();
+  }
+}
+
+// In a catch block. Where there is no memory for this either, actionlib aborts the goal that has no end.
+void PlanAction::tryToGiveUp() noexcept {
+  try {
     PlanPathResult result;
     result.status = std::string(toString(Status::INVALID_REQUEST));
     result.message = "the request was given up: " + currentErrorText();
     action_.setAborted(result, result.message);
+  } catch (...) {
+    tellGivenUp("The answer to a goal of plan_path");
   }
 }
 

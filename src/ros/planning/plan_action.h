@@ -29,6 +29,7 @@ class PlanAction {
 
  private:
   void execute(const PlanPathGoalConstPtr& goal);
+  void tryToGiveUp() noexcept;
   void answer(const PlanPathGoal& goal);
   bool answeredUncancelled(PlanTicket& ticket);
   void finish(const planning::Plan& plan, const path::Path& poses, const PlanStatistics& statistics,

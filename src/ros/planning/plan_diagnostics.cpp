@@ -1,4 +1,5 @@
 #include "ros/planning/plan_diagnostics.h"
+#include "ros/common/scheduling/guarded_timer.h"
 
 #include <optional>
 #include <string>
@@ -15,7 +16,7 @@ PlanDiagnostics::PlanDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
   updater_.setHardwareID("none");
   updater_.add("map", this, &PlanDiagnostics::reportMap);
   updater_.add("plan", this, &PlanDiagnostics::reportPlan);
-  timer_ = nh.createSteadyTimer(ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) {
+  timer_ = guardedTimer(nh, 1.0, [this] {
     if (ros::Time::isValid()) updater_.force_update();
   });
 }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "base/current_error.h"
 #include "grid_path_planner/base/options.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/simulation/camera_info.h"
@@ -11,8 +10,6 @@
 #include "simulation/camera/pinhole.h"
 
 namespace grid_path_planner::nodes {
-
-using base::currentErrorText;
 
 using base::sameOptions;
 using simulation::DepthCameraOptions;
@@ -106,7 +103,7 @@ void DepthCameraPublisher::renderLoop() {
     try {
       render(shot);
     } catch (...) {
-      tellGivenUp("A picture of the camera", currentErrorText());
+      tellGivenUp("A picture of the camera");
     }
     lock.lock();
     shot_.reset();

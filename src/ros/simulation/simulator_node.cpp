@@ -14,6 +14,7 @@
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/outgoing/topic_changes.h"
 #include "ros/common/parameters.h"
+#include "ros/common/scheduling/guarded_timer.h"
 #include "ros/common/velocity_message.h"
 #include "ros/simulation/transform_message.h"
 #include "simulation/camera/pinhole.h"
@@ -187,8 +188,7 @@ void SimulatorNode::resetVehicle(const SimulatorOptions& options) {
 void SimulatorNode::startTimer() {
   last_tick_ = ros::SteadyTime::now();
   last_tick_stamp_ = ros::Time::now();
-  timer_ = nh_.createSteadyTimer(ros::WallDuration(1.0 / options_.update_rate),
-                                 &SimulatorNode::onTimer, this);
+  timer_ = guardedTimer(nh_, 1.0 / options_.update_rate, [this] { onTimer(); });
 }
 
 void SimulatorNode::onCommand(const geometry_msgs::Twist& message) {
@@ -214,7 +214,7 @@ void SimulatorNode::onMap(const nav_msgs::OccupancyGrid& message) {
   }
 }
 
-void SimulatorNode::onTimer(const ros::SteadyTimerEvent&) {
+void SimulatorNode::onTimer() {
   const double time_step = options_.vehicle.time_step;
   addElapsedTime();
   const std::int64_t before = vehicle_->timeNs();

@@ -78,7 +78,7 @@ class SimulatorNode {
 
   void onCommand(const geometry_msgs::Twist& message);
   void onMap(const nav_msgs::OccupancyGrid& message);
-  void onTimer(const ros::SteadyTimerEvent& event);
+  void onTimer();
   void addElapsedTime();
   void step();
   bool mustWaitForCamera() const;

@@ -20,6 +20,7 @@
 
 #include "ros/common/action/action_stamps.h"
 #include "ros/common/incoming/bounded_subscription.h"
+#include "ros/common/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
 
@@ -68,9 +69,8 @@ void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHand
   topics.status_timeout = ros::Duration(kActionStatusTimeout);
   // roscpp's timers of ROS time end the process where /clock says 4294967295.9 s. The server's own never starts; it holds
   // this one, which ends with it, before all that is published to.
-  const auto timer = boost::make_shared<ros::SteadyTimer>(node.createSteadyTimer(
-      ros::WallDuration(kActionStatusPeriod),
-      [publish_status](const ros::SteadyTimerEvent&) { publish_status(ros::TimerEvent()); }));
+  const auto timer = boost::make_shared<ros::SteadyTimer>(guardedTimer(
+      node, kActionStatusPeriod, [publish_status] { publish_status(ros::TimerEvent()); }));
   topics.status_timer = node.createTimer(
       ros::Duration(kActionStatusPeriod), [timer](const ros::TimerEvent&) {}, false, false);
 }

@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
+#include "ros/common/guarded_queue.h"
 #include "ros/common/master/system_state.h"
 #include "ros/common/master/xmlrpc_call.h"
 
@@ -77,16 +79,21 @@ void MasterWatch::run() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!done_) {
     lock.unlock();
+    tryToAsk();
+    lock.lock();
+    ends_.wait_for(lock, kMasterPeriod, [this] { return done_; });
+  }
+}
+
+void MasterWatch::tryToAsk() noexcept {
+  try {
     try {
       ask();
     } catch (const XmlRpc::XmlRpcException& error) {  // no std::exception
-      ROS_ERROR_STREAM_THROTTLE(5.0,
-                                "The master's answer is not understood: " << error.getMessage());
-    } catch (const std::exception& error) {
-      ROS_ERROR_STREAM_THROTTLE(5.0, "The master's answer is not understood: " << error.what());
+      throw std::runtime_error(error.getMessage());
     }
-    lock.lock();
-    ends_.wait_for(lock, kMasterPeriod, [this] { return done_; });
+  } catch (...) {
+    tellGivenUp("A question to the master");
   }
 }
 

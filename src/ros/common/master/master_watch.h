@@ -42,6 +42,7 @@ class MasterWatch {
 
   MasterWatch();
   void run();
+  void tryToAsk() noexcept;
   void ask();
   void rememberServices();
   bool rememberingIsDue();

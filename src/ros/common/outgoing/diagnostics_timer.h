@@ -5,6 +5,8 @@
 #include <ros/node_handle.h>
 #include <ros/steady_timer.h>
 
+#include "ros/common/scheduling/guarded_timer.h"
+
 namespace grid_path_planner::nodes {
 
 constexpr double kDiagnosisPeriod = 1.0;  // s, wall time
@@ -13,10 +15,9 @@ constexpr double kDiagnosisPeriod = 1.0;  // s, wall time
 inline ros::SteadyTimer diagnosticsTimer(ros::NodeHandle& nh,
                                          diagnostic_updater::Updater& updater) {
   updater.setHardwareID("none");
-  return nh.createSteadyTimer(ros::WallDuration(kDiagnosisPeriod),
-                              [&updater](const ros::SteadyTimerEvent&) {
-                                if (ros::Time::isValid()) updater.force_update();
-                              });
+  return guardedTimer(nh, kDiagnosisPeriod, [&updater] {
+    if (ros::Time::isValid()) updater.force_update();
+  });
 }
 
 }  // namespace grid_path_planner::nodes

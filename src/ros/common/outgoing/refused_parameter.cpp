@@ -3,6 +3,8 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <std_msgs/String.h>
 
+#include "ros/common/scheduling/guarded_timer.h"
+
 namespace grid_path_planner::nodes {
 
 RefusedParameter::RefusedParameter(const ros::NodeHandle& private_nh)
@@ -13,8 +15,7 @@ RefusedParameter::RefusedParameter(const ros::NodeHandle& private_nh)
 void RefusedParameter::refuse(const std::string& sentence) {
   tell(sentence);
   if (timer_) return;
-  timer_ = private_nh_.createSteadyTimer(
-      ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { publishDiagnostics(); });
+  timer_ = guardedTimer(private_nh_, 1.0, [this] { publishDiagnostics(); });
 }
 
 void RefusedParameter::accept() {

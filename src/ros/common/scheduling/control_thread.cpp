@@ -3,6 +3,11 @@
 #include <sys/prctl.h>
 
 #include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <new>
+#include <utility>
 
 #include "ros/common/scheduling/cpu_share.h"
 #include "ros/common/scheduling/realtime_priority.h"
@@ -11,6 +16,41 @@ namespace grid_path_planner::nodes {
 namespace {
 
 constexpr double kMostShare = 0.5;  // of a processor
+
+// Work that another thread waits for. No promise: one that is dropped takes memory.
+class AskedWork {
+ public:
+  explicit AskedWork(const std::function<void()>& work) : work_(work) {}
+
+  void call() {
+    called_ = true;
+    try {
+      work_();
+    } catch (...) {
+      thrown_ = std::current_exception();
+    }
+  }
+  // Done, or dropped. Nothing of who waits is touched after this.
+  void end() noexcept {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ended_ = true;
+    changed_.notify_all();
+  }
+  void wait() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return ended_; });
+    if (!called_) throw std::bad_alloc();
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  const std::function<void()>& work_;
+  bool called_ = false;
+  std::exception_ptr thrown_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool ended_ = false;
+};
 
 }  // namespace
 
@@ -32,6 +72,18 @@ void ControlThread::stop() {
 
 void ControlThread::post(std::function<void()> work) {
   guarded_.addCallback(callbackOf(std::move(work)));
+}
+
+void ControlThread::doAndWait(const std::function<void()>& work) {
+  const auto asked = std::make_shared<AskedWork>(work);
+  // The last copy of what is posted goes with the call, or where the queue has no memory for it.
+  std::shared_ptr<void> end(nullptr, [asked](void*) { asked->end(); });
+  post([this, asked, end = std::move(end)] {
+    asked->call();
+    tick();
+    asked->end();
+  });
+  asked->wait();
 }
 
 // An owner that can say why it failed catches that itself.
@@ -80,12 +132,9 @@ void ControlThread::run() {
 
 void ControlThread::workOrTick() {
   const auto left = std::chrono::duration<double>(next_tick_ - Clock::now()).count();
-  if (left > 0.0) {
-    queue_.callOne(ros::WallDuration(left));
-    return;
-  }
+  if (left > 0.0) return callWaiting(queue_, ros::WallDuration(left));
   next_tick_ = std::max(next_tick_ + period(), Clock::now());
-  queue_.callAvailable();
+  callWaiting(queue_, ros::WallDuration(0.0));
   tick();
 }
 

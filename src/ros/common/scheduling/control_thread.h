@@ -16,9 +16,8 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
-#include <future>
-#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <type_traits>
@@ -46,20 +45,18 @@ class ControlThread {
 
   // Hands `work` over.
   void post(std::function<void()> work);
-  // The same with a tick after it, and waits for both. What `work` throws comes back.
+  // The same with a tick after it, and waits for both. What `work` throws comes back, std::bad_alloc where there was no
+  // memory to call it.
   template <class Work>
   auto ask(Work work) -> std::invoke_result_t<Work> {
-    const auto task =
-        std::make_shared<std::packaged_task<std::invoke_result_t<Work>()>>(std::move(work));
-    auto result = task->get_future();
-    const auto ticked = std::make_shared<std::promise<void>>();
-    post([this, task, ticked] {
-      (*task)();
-      tick();
-      ticked->set_value();
-    });
-    ticked->get_future().wait();
-    return result.get();
+    using Result = std::invoke_result_t<Work>;
+    if constexpr (std::is_void_v<Result>) {
+      doAndWait(work);
+    } else {
+      std::optional<Result> result;
+      doAndWait([&] { result = work(); });
+      return std::move(*result);
+    }
   }
 
   // These are called in the thread:
@@ -75,6 +72,7 @@ class ControlThread {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void doAndWait(const std::function<void()>& work);
   Clock::duration period() const;
   void run();
   void workOrTick();

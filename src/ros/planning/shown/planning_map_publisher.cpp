@@ -88,6 +88,7 @@ void PlanningMapPublisher::publish(const CostGrid& costs, const CostChanges& cha
   const auto cells = changed(costs, changes, frame_id);
   const bool whole = topic_.takeNewSubscriber() || !cells || topic_.wholeMapIsDue(full_map_period);
   const ros::Time now = ros::Time::now();
+  published_.reset();  // until it is sent
   if (whole || (!cells->empty() && topic_.needsWholeMaps()))
     topic_.send(planningMapMessage(costs, frame_id, now));
   else
