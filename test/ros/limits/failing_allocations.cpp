@@ -26,12 +26,9 @@ namespace {
 constexpr std::size_t kLeastBytes =
     200;  // smaller ones are had as long as a process can run at all
 constexpr unsigned kOneIn = 5;
-constexpr unsigned kLooksAtFileEvery = 4;  // allocations
-constexpr int kDeepest = 64;               // calls
+constexpr int kDeepest = 64;  // calls
 
 thread_local bool inside = false;  // this library itself
-thread_local unsigned allocations = 0;
-thread_local bool is_on = false;
 
 const char* fileName() {
   static const char* const file = std::getenv("FAILING_ALLOCATIONS");
@@ -39,15 +36,13 @@ const char* fileName() {
 }
 
 bool isOn() {
-  if (allocations++ % kLooksAtFileEvery == 0)
-    is_on = fileName() != nullptr && ::access(fileName(), F_OK) == 0;
-  return is_on;
+  return fileName() != nullptr && ::access(fileName(), F_OK) == 0;
 }
 
 void tell() {
   const int file = ::open(fileName(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (file < 0) return;
-  if (::write(file, "x", 1) == 1) allocations = 0;  // looks again
+  if (::write(file, "x", 1) != 1) std::abort();
   ::close(file);
 }
 
