@@ -138,12 +138,14 @@ YAML::Node parseYaml(const std::string& text, const std::string& file, ReadLimit
 }
 
 InputError yamlError(const YAML::Node& node, const std::string& file, const std::string& message) {
-  const YAML::Mark mark = node.Mark();
+  const YAML::Mark mark = node.IsDefined() ? node.Mark() : YAML::Mark::null_mark();
   return mark.is_null() ? InputError(file, message) : InputError(file, mark.line + 1, message);
 }
 
 std::string describeYaml(const YAML::Node& node) {
   constexpr std::size_t kShown = 40;
+  if (!node.IsDefined())
+    return "nothing";  // yaml-cpp throws where such a one is asked for its type
   switch (node.Type()) {
     case YAML::NodeType::Undefined:
     case YAML::NodeType::Null:

@@ -130,7 +130,8 @@ class FlightReader {
   // {pattern: "course_%d.sdf", seeds: [200, 249]}
   void readPattern(const YAML::Node& entry) {
     checkKeys(entry, "a world", file_, {"pattern", "seeds"});
-    const std::string pattern = nodes_.resolved(entry["pattern"], "pattern");
+    const std::string pattern =
+        nodes_.resolved(yamlNode(entry, "pattern", file_, "a file name"), "pattern");
     const std::size_t at = pattern.find("%d");
     if (at == std::string::npos)
       throw yamlError(entry, file_, "a pattern of worlds needs %d for their seeds");

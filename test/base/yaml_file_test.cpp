@@ -93,5 +93,12 @@ TEST(YamlFile, ManyShallowListsAreNotDeep) {
   EXPECT_EQ(parseYaml(text, "wide.yaml")["waypoints"].size(), 1000u);
 }
 
+TEST(YamlFile, AnEntryThatIsNotThereIsNothing) {
+  const YAML::Node map = YAML::Load("{a: 1}");
+  EXPECT_EQ(describeYaml(map["b"]), "nothing");
+  const std::string error = errorText([&] { throw yamlError(map["b"], "f.yaml", "b is missing"); });
+  EXPECT_TRUE(contains(error, "f.yaml: b is missing")) << error;
+}
+
 }  // namespace
 }  // namespace grid_path_planner::base

@@ -92,6 +92,19 @@ TEST(FlightFile, AListThatIsMissingIsToldWithFileAndLine) {
         << refusal(more);
 }
 
+// Found by the fuzzer, as above: yaml-cpp throws where an entry that is not there is asked what it is.
+TEST(FlightFile, WorldsWithoutAPatternAreToldWithFileAndLine) {
+  const SmallFlights small;
+  const std::string file = small.folder.write(
+      "none.yaml",
+      "title: Small\nworlds: [{seeds: [1, 2]}]\nstart: [0, 0, 1.5, 0]\nroute: [[6, 0, 1.5]]\n"
+      "configurations: [{name: a}]\n");
+  const std::string refusal = errorText([&] { readFlightFile(file); });
+  EXPECT_TRUE(contains(refusal, "none.yaml:2: ") &&
+              contains(refusal, "has no 'pattern' (a file name)"))
+      << refusal;
+}
+
 // A seed above the largest int became the least one, from which worlds were counted up until there was no memory.
 TEST(FlightFile, WorldsOfSeedsThatAreNoSeedsAreRefused) {
   const SmallFlights small;

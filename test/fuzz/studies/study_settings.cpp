@@ -26,7 +26,8 @@ std::vector<std::string> seedsOfFlightStudies() {
               "  conclusions: [{claim: c, pairs: [[x, y]]}]\n",
           "title: T\nworlds: [{pattern: \"%d.sdf\", seeds: [3e9, 3e9]}]\nstart: [0, 0, 1.5, 0]\n"
           "route: [[30, 10, 1.5]]\nconfigurations: [{name: a}]\n",
-          begin + "configurations: [{name: x}]\npublished: {source: s, pairs: [{p: [0, 0.5]}]}\n"};
+          begin + "configurations: [{name: x}]\npublished: {source: s, pairs: [{p: [0, 0.5]}]}\n",
+          "title: T\nworlds: [{seeds: [1, 2]}]\n"};
 }
 
 FUZZ_TARGET(flight_study, seedsOfFlightStudies) {
