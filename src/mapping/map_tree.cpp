@@ -46,8 +46,8 @@ MapTree::Node* MapTree::createRoot() {
   return root;
 }
 
-// A node that was made and not filled is a leaf of no evidence, which OctoMap takes for occupied, however large it is. One
-// that is left without children, which it had, has their value: it is unknown what was there.
+// A node that was made and not filled is a leaf of no evidence, which OctoMap takes for occupied, however large it is. A leaf
+// that was to be divided keeps its value.
 void MapTree::restoreInvariants() {
   if (root) restoreBelow(root);
   if (root && !nodeHasChildren(root)) clear();

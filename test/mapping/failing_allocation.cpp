@@ -24,6 +24,18 @@ void* operator new[](std::size_t bytes) {
   return allocated(bytes);
 }
 
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  try {
+    return allocated(bytes);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+
+void* operator new[](std::size_t bytes, const std::nothrow_t& none) noexcept {
+  return operator new(bytes, none);
+}
+
 void operator delete(void* memory) noexcept {
   std::free(memory);
 }
