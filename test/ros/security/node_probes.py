@@ -79,12 +79,30 @@ def drives(node, deadline):
     node.forget("cmd_vel")
     if not until(node, is_driven, deadline, offer, every=2.0):
         return False
-    goal = drive_goal(node)
-    fed = succeeds(node, "navigate_path", goal, deadline, lambda identity: any(
-        feedback.status.goal_id.id == identity and feedback.feedback.state == "driving"
-        for feedback in node.heard("navigate_path/feedback")))
+    goal = driven_goal(node, deadline)
+    if not goal:
+        return False
     node.send("navigate_path/cancel", of("actionlib_msgs/GoalID", id=goal.goal_id.id))
-    return fed and until(node, lambda: status_of(node, "navigate_path", goal.goal_id.id) is not None, deadline)
+    return until(node, lambda: status_of(node, "navigate_path", goal.goal_id.id) is not None, deadline)
+
+
+def driven_goal(node, deadline):
+    """One of the action that was driven, or None. A cancel of the offers may be read after it, and be for it too: then
+    another. What was seen before: a node that had done all it was told to was called silent, twice in some ten runs of CI."""
+    while node.lives() and session_seconds() < deadline:
+        goal = drive_goal(node)
+
+        def is_fed():
+            return any(feedback.status.goal_id.id == goal.goal_id.id and feedback.feedback.state == "driving"
+                       for feedback in node.heard("navigate_path/feedback"))
+
+        def has_ended():
+            return status_of(node, "navigate_path", goal.goal_id.id) is not None
+        node.send("navigate_path/goal", goal)
+        until(node, lambda: is_fed() or has_ended(), deadline)
+        if is_fed():
+            return goal
+    return None
 
 
 def goes_to_a_pose(node, deadline):
