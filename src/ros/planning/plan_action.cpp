@@ -13,10 +13,11 @@ namespace actionlib {
 
 template <>
 void ActionServer<grid_path_planner::PlanPathAction>::initialize() {
-  grid_path_planner::nodes::openActionTopics(*this, node_,
-                                             {goal_sub_, cancel_sub_, result_pub_, feedback_pub_,
-                                              status_pub_, status_timer_, status_list_timeout_},
-                                             [this](const ros::TimerEvent&) { publishStatus(); });
+  grid_path_planner::nodes::openActionTopics(
+      *this, node_,
+      {goal_sub_, cancel_sub_, result_pub_, feedback_pub_, status_pub_, status_timer_,
+       status_list_timeout_, status_list_, lock_},
+      [this](const ros::TimerEvent&) { publishStatus(); });
 }
 
 }  // namespace actionlib

@@ -1,6 +1,8 @@
 // path_planner under simulated time: no time yet, time that jumps back, a bag that loops.
 #include <rosgraph_msgs/Clock.h>
 
+#include "grid_path_planner/PlanPathActionGoal.h"
+#include "grid_path_planner/PlanPathActionResult.h"
 #include "ros/support/planner_fixture.h"
 
 namespace grid_path_planner::nodes {
@@ -147,6 +149,34 @@ TEST_F(ClockTest, ABagThatLoopsIsPlannedOn) {
   ASSERT_TRUE(planning_maps_.waitForMoreThan(seen));
   EXPECT_TRUE(test::waitFor(plan_in_bag)) << answer_.status << ": " << answer_.message;
   EXPECT_TRUE(planner_->running());
+}
+
+// actionlib adds five seconds to the time at which a goal ended, beyond what a time can hold: roscpp threw in the thread of
+// the action server, and path_planner ended. Before that status, and every later goal, had been silent for good.
+TEST_F(ClockTest, GoalsOfTheActionAreRejectedAtTheEndOfTimeAndTakenAfterIt) {
+  startPlanner();
+  beginAt(400.0);
+  publishMap(AsciiMap({"...."}).map, "map", ros::Time(400.0));
+  setTimeAndWait(400.0);
+  const ros::Publisher goals = nh_.advertise<PlanPathActionGoal>("plan_path/goal", 10);
+  const test::Latest<PlanPathActionResult> results(nh_, "plan_path/result");
+  ASSERT_TRUE(test::waitFor([&] { return goals.getNumSubscribers() > 0 && results.connected(); }));
+  const auto statusOf = [&](const std::string& id) {
+    PlanPathActionGoal goal;
+    goal.goal_id.id = id;
+    goal.goal.start = poseAt(0.5, 0.5);
+    goal.goal.goal = poseAt(3.5, 0.5);
+    goals.publish(goal);
+    const auto result = results.waitFor(
+        0, [&](const PlanPathActionResult& other) { return other.status.goal_id.id == id; });
+    return result ? int(result->status.status) : -1;
+  };
+  using actionlib_msgs::GoalStatus;
+  EXPECT_EQ(statusOf("before"), int(GoalStatus::SUCCEEDED));
+  setTimeAndWait(4294967295.0);
+  EXPECT_EQ(statusOf("at the end"), int(GoalStatus::REJECTED));
+  setTimeAndWait(500.0);
+  EXPECT_EQ(statusOf("after"), int(GoalStatus::SUCCEEDED));
 }
 
 }  // namespace

@@ -11,11 +11,14 @@
 #pragma once
 
 #include <actionlib/server/action_server.h>
+#include <actionlib_msgs/GoalStatus.h>
 #include <actionlib_msgs/GoalStatusArray.h>
 #include <ros/node_handle.h>
 #include <ros/steady_timer.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
+#include <list>
 #include <memory>
 
 #include "ros/common/action/action_stamps.h"
@@ -29,6 +32,7 @@ constexpr double kActionStatusTimeout =
     5.0;  // s; how long the status of an ended goal is published
 constexpr std::uint32_t kActionQueueSize = 50;  // messages
 
+template <class Action>
 struct ActionTopics {
   ros::Subscriber& goals;
   ros::Subscriber& cancels;
@@ -37,12 +41,41 @@ struct ActionTopics {
   ros::Publisher& status;
   ros::Timer& status_timer;
   ros::Duration& status_timeout;
+  std::list<actionlib::StatusTracker<Action>>& statuses;
+  boost::recursive_mutex& lock;  // of the statuses
 };
+
+// actionlib adds the timeout to the time at which a goal ended, and roscpp throws where that is beyond what a time can
+// hold: in the thread of a server that executes, this ends the process.
+inline ros::Time lastTimeOfActions() {
+  return ros::TIME_MAX - ros::Duration(2.0 * kActionStatusTimeout);
+}
+
+// For goals that ended while /clock was beyond that: no status would be published any more, and no goal be taken.
+template <class Statuses>
+void boundEnds(Statuses& statuses, boost::recursive_mutex& lock) {
+  const boost::recursive_mutex::scoped_lock locked(lock);
+  for (auto& status : statuses)
+    status.handle_destruction_time_ =
+        std::min(status.handle_destruction_time_, lastTimeOfActions());
+}
+
+// The answer to a goal that comes meanwhile.
+template <class Action>
+typename Action::_action_result_type rejection(const actionlib_msgs::GoalID& goal) {
+  typename Action::_action_result_type result;
+  result.header.stamp = ros::Time::now();
+  result.status.goal_id = goal;
+  result.status.status = actionlib_msgs::GoalStatus::REJECTED;
+  result.status.text = "ROS time is at the end of what it can say";
+  return result;
+}
 
 // `node` is the action's own namespace.
 template <class Action>
 void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHandle& node,
-                      const ActionTopics& topics, const ros::TimerCallback& publish_status) {
+                      const ActionTopics<Action>& topics,
+                      const ros::TimerCallback& publish_status) {
   using Goal = typename Action::_action_goal_type;
   using Cancel = actionlib_msgs::GoalID;
   topics.results = node.advertise<typename Action::_action_result_type>("result", kActionQueueSize);
@@ -51,7 +84,14 @@ void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHand
   topics.status = node.advertise<actionlib_msgs::GoalStatusArray>("status", kActionQueueSize, true);
   const auto stamps = std::make_shared<ActionStamps>();
   using GoalPtr = boost::shared_ptr<const Goal>;
-  const auto on_goal = [&server, stamps](const GoalPtr& message) {
+  const auto bound_ends = [&statuses = topics.statuses, &lock = topics.lock] {
+    boundEnds(statuses, lock);
+  };
+  const auto on_goal = [&server, stamps, bound_ends,
+                        &results = topics.results](const GoalPtr& message) {
+    bound_ends();
+    if (lastTimeOfActions() < ros::Time::now())
+      return results.publish(rejection<Action>(message->goal_id));
     const auto goal = boost::make_shared<Goal>(*message);
     goal->goal_id.stamp = stamps->ofGoal(message->goal_id.stamp, ros::Time::now());
     server.goalCallback(goal);
@@ -69,8 +109,11 @@ void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHand
   topics.status_timeout = ros::Duration(kActionStatusTimeout);
   // roscpp's timers of ROS time end the process where /clock says 4294967295.9 s. The server's own never starts; it holds
   // this one, which ends with it, before all that is published to.
-  const auto timer = boost::make_shared<ros::SteadyTimer>(guardedTimer(
-      node, kActionStatusPeriod, [publish_status] { publish_status(ros::TimerEvent()); }));
+  const auto timer = boost::make_shared<ros::SteadyTimer>(
+      guardedTimer(node, kActionStatusPeriod, [publish_status, bound_ends] {
+        bound_ends();
+        publish_status(ros::TimerEvent());
+      }));
   topics.status_timer = node.createTimer(
       ros::Duration(kActionStatusPeriod), [timer](const ros::TimerEvent&) {}, false, false);
 }
