@@ -70,6 +70,12 @@ class CommanderTest : public testing::Test {
     const std::size_t seen = commands_.count();
     return noticed([&] { return commands_.count() > seen + 10; }) && !anyDrives(seen);
   }
+  // As endsInZeros(), for want of a newer plan. A /clock of the test that stands still on a busy machine is a reason of its
+  // own: then once more.
+  bool endsOverdue(double good_for) {
+    return test::waitFor(
+        [&] { return fliesBy(good_for) && endsInZeros() && commander_->overdue() > 0; });
+  }
   static bool isSlower(const Twist& v) { return v.linear.x > 0.0 && v.linear.x < 0.95; }
   bool becomesSlower() {
     return test::waitFor([&] {
@@ -96,9 +102,7 @@ class CommanderTest : public testing::Test {
 
 TEST_F(CommanderTest, AVelocityThatNoOtherFollowsBecomesAZero) {
   ASSERT_NO_FATAL_FAILURE(start(0.1));
-  ASSERT_TRUE(fliesBy(1e3));
-  EXPECT_TRUE(endsInZeros());
-  EXPECT_GE(commander_->overdue(), 1U);
+  EXPECT_TRUE(endsOverdue(1e3));
   EXPECT_TRUE(fliesBy(1e3)) << "by the next plan";
 }
 
@@ -151,9 +155,7 @@ TEST_F(CommanderTest, SaysWhatItHasSent) {
 
 TEST_F(CommanderTest, AVelocityWhoseCloudsGrowTooOldBecomesAZero) {
   ASSERT_NO_FATAL_FAILURE(start(10.0));
-  ASSERT_TRUE(fliesBy(0.5));
-  EXPECT_TRUE(endsInZeros());
-  EXPECT_GE(commander_->overdue(), 1U);
+  EXPECT_TRUE(endsOverdue(0.5));
 }
 
 TEST_F(CommanderTest, AVelocityOfATimeToComeBecomesAZero) {
