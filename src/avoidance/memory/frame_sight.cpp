@@ -172,7 +172,8 @@ void FrameSight::crossPicture(const Frame& frame, const PilotOptions& options,
       double low = 0.0, high = 2.0 * reach;
       for (const Vector3d& side : sides) clip(side.dot(first), side.dot(along), low, high);
       clip(first.z() - options.range_min, along.z(), low, high);
-      if (!(low <= high)) continue;  // inf, where a camera sees next to nothing
+      if (!(low <= high && std::isfinite(low) && std::isfinite(high)))
+        continue;  // a camera that sees next to nothing
       const int begin = static_cast<int>(std::ceil(low));
       const int count = static_cast<int>(std::floor(high)) - begin + 1;
       if (count > 0)
