@@ -90,9 +90,10 @@ TEST(Input, InfinitiesAndHugeNumbersAreNoPoints) {
   EXPECT_TRUE(pilot.rememberedPoints().empty());
 }
 
-// A camera with a focal length next to 0 sees next to nothing: a voxel's place in its row was infinite, and made an int.
+// A camera with a focal length next to 0 sees next to nothing: a voxel's place in its row was infinite, and made an int, at
+// 8.3e-309 and, where a row that begins at infinity was emptied by ending it one before, at 4.4e-308.
 TEST(Input, NoCameraMakesACommandThatIsNotFinite) {
-  const double parts[] = {8.3e-309, 1e-300, 4.2e-314, -1.0, 0.5, 2.0, 2.6e161, 1e308};
+  const double parts[] = {8.3e-309, 4.4e-308, 1e-300, 4.2e-314, -1.0, 0.5, 2.0, 2.6e161, 1e308};
   for (const double fx : parts)
     for (const double fy : parts)
       for (const double centre : parts) {

@@ -58,7 +58,7 @@ Planes sidesOf(const Frame& frame) {
 // The part of 0 .. count - 1 in which offset + i * slope >= 0.
 void clip(double offset, double slope, double& low, double& high) {
   if (std::abs(slope) < 1e-12) {
-    if (offset < 0.0) high = low - 1.0;
+    if (offset < 0.0) high = -1.0;  // none
     return;
   }
   const double root = -offset / slope;
@@ -172,8 +172,7 @@ void FrameSight::crossPicture(const Frame& frame, const PilotOptions& options,
       double low = 0.0, high = 2.0 * reach;
       for (const Vector3d& side : sides) clip(side.dot(first), side.dot(along), low, high);
       clip(first.z() - options.range_min, along.z(), low, high);
-      if (!(low <= high && std::isfinite(low) && std::isfinite(high)))
-        continue;  // a camera that sees next to nothing
+      if (!(low <= high)) continue;  // low may be inf, where a camera sees next to nothing
       const int begin = static_cast<int>(std::ceil(low));
       const int count = static_cast<int>(std::floor(high)) - begin + 1;
       if (count > 0)

@@ -43,7 +43,10 @@ std::vector<std::string> seedsOfFlights() {
     cloud.fields.push_back(field);
   }
   cloud.data.assign(48, 64);
-  return {bytesOf(camera) + bytesOf(path) + bytesOf(cloud)};
+  sensor_msgs::CameraInfo blind = camera;
+  blind.K[0] = 4.450147717014403e-308;
+  return {bytesOf(camera) + bytesOf(path) + bytesOf(cloud),
+          bytesOf(blind) + bytesOf(path) + bytesOf(cloud)};
 }
 
 // As the node takes them, of a camera that tf has in the vehicle's middle.
