@@ -1,6 +1,5 @@
 #include "ros/planning/plan_action.h"
 
-#include <boost/bind/bind.hpp>
 #include <chrono>
 
 #include "base/current_error.h"
@@ -31,31 +30,74 @@ using planning::failedPlan;
 using planning::Plan;
 using planning::ViaPlan;
 
+namespace {
+
+constexpr double kRetryPeriod = 0.1;  // s, after which what failed with a goal is tried again
+
+}  // namespace
+
 PlanAction::PlanAction(const ros::NodeHandle& nh, PlanningServer& server)
-    : server_(server),
-      action_(nh, "plan_path", boost::bind(&PlanAction::execute, this, boost::placeholders::_1),
-              false) {
+    : server_(server), action_(nh, "plan_path", false) {
+  action_.registerGoalCallback([this] { onGoal(); });
   action_.start();
+  thread_ = std::thread([this] { run(); });
 }
 
-// actionlib calls it in a thread of its own, which no exception may leave.
-void PlanAction::execute(const PlanPathGoalConstPtr& goal) {
+PlanAction::~PlanAction() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ends_ = true;
+    changed_.notify_all();
+  }
+  thread_.join();
+}
+
+// Wants no memory: a goal that waits is never lost.
+void PlanAction::onGoal() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  goal_came_ = true;
+  changed_.notify_all();
+}
+
+// Not in the thread that actionlib has for this, which an exception would leave: it throws where a goal is taken while
+// /clock is at the end of what a time can hold.
+void PlanAction::run() {
+  while (waitForGoal()) answerNext();
+}
+
+bool PlanAction::waitForGoal() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [this] { return ends_ || goal_came_; });
+  goal_came_ = false;
+  return !ends_;
+}
+
+bool PlanAction::endsWithin(double seconds) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  return changed_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return ends_; });
+}
+
+void PlanAction::answerNext() noexcept {
   try {
-    answer(*goal);
+    if (action_.isNewGoalAvailable()) answer(*action_.acceptNewGoal());
   } catch (...) {
-    tryToGiveUp();
+    giveUp();
+    if (!endsWithin(kRetryPeriod)) onGoal();  // one that could not be taken waits still
   }
 }
 
-// In a catch block. Where there is no memory for this either, actionlib aborts the goal that has no end.
-void PlanAction::tryToGiveUp() noexcept {
-  try {
-    PlanPathResult result;
-    result.status = std::string(toString(Status::INVALID_REQUEST));
-    result.message = "the request was given up: " + currentErrorText();
-    action_.setAborted(result, result.message);
-  } catch (...) {
-    tellGivenUp("The answer to a goal of plan_path");
+// In a catch block, until the goal has its end: nobody else would end it.
+void PlanAction::giveUp() noexcept {
+  while (action_.isActive()) {
+    try {
+      PlanPathResult result;
+      result.status = std::string(toString(Status::INVALID_REQUEST));
+      result.message = "the request was given up: " + currentErrorText();
+      action_.setAborted(result, result.message);
+    } catch (...) {
+      tellGivenUp("The answer to a goal of plan_path");
+      if (endsWithin(kRetryPeriod)) return;
+    }
   }
 }
 

@@ -9,6 +9,10 @@
 #include <actionlib/server/simple_action_server.h>
 #include <ros/node_handle.h>
 
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
 #include "grid_path_planner/PlanPathAction.h"
 #include "ros/planning/planning_server.h"
 
@@ -26,17 +30,29 @@ class PlanAction {
  public:
   // `server` outlives this, and its stop() is called before the destructor.
   PlanAction(const ros::NodeHandle& nh, PlanningServer& server);
+  ~PlanAction();
+  PlanAction(const PlanAction&) = delete;
+  PlanAction& operator=(const PlanAction&) = delete;
 
  private:
-  void execute(const PlanPathGoalConstPtr& goal);
-  void tryToGiveUp() noexcept;
+  void onGoal();
+  void run();
+  bool waitForGoal();
+  bool endsWithin(double seconds);
+  void answerNext() noexcept;
+  void giveUp() noexcept;
   void answer(const PlanPathGoal& goal);
   bool answeredUncancelled(PlanTicket& ticket);
   void finish(const planning::Plan& plan, const path::Path& poses, const PlanStatistics& statistics,
               const planning::ViaPlan& via);
 
   PlanningServer& server_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool goal_came_ = false;
+  bool ends_ = false;
   actionlib::SimpleActionServer<PlanPathAction> action_;
+  std::thread thread_;
 };
 
 }  // namespace grid_path_planner::nodes
