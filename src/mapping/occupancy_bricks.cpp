@@ -68,13 +68,13 @@ void OccupancyBricks::clear(double resolution) {
   released_ = {};
 }
 
-void OccupancyBricks::beginAnew(double resolution) {
+void OccupancyBricks::restart(double resolution) {
   *this = OccupancyBricks(resolution);
-  begun_anew_ = true;
+  restarted_ = true;
 }
 
-bool OccupancyBricks::drainBeginning() {
-  return std::exchange(begun_anew_, false);
+bool OccupancyBricks::drainRestart() {
+  return std::exchange(restarted_, false);
 }
 
 std::vector<BrickColumn> OccupancyBricks::columns() const {

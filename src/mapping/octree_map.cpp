@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <string>
 #include <utility>
 
@@ -36,14 +35,16 @@ const OctreeOptions& checked(const OctreeOptions& options) {
 
 }  // namespace
 
-// What changes the tree and the bricks: where there is no memory for it, nobody knows how far it came.
+// What changes the tree and the bricks: where it fails, for want of memory, nobody knows how far it came.
 template <class Work>
 auto OctreeMap::change(Work work) -> std::invoke_result_t<Work> {
   restoreBricks();
   try {
     return work();
-  } catch (const std::bad_alloc&) {
-    bricks_are_right_ = false;
+  } catch (const InputError&) {  // nothing was changed
+    throw;
+  } catch (...) {
+    bricks_match_tree_ = false;
     throw;
   }
 }
@@ -68,17 +69,17 @@ OccupancyBricks& OctreeMap::bricks() {
 }
 
 void OctreeMap::restoreBricks() {
-  if (bricks_are_right_) return;
+  if (bricks_match_tree_) return;
   tree_->restoreInvariants();
-  bricks_.beginAnew(tree_->getResolution());
+  bricks_.restart(tree_->getResolution());
   makeBricks();
 }
 
 void OctreeMap::makeBricks() {
-  bricks_are_right_ = false;
+  bricks_match_tree_ = false;
   bricks_.clear(tree_->getResolution());
   treeToBricks(*tree_, bricks_);
-  bricks_are_right_ = true;
+  bricks_match_tree_ = true;
 }
 
 void OctreeMap::setOptions(const OctreeOptions& options) {

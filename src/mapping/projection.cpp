@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <new>
 #include <string>
 #include <utility>
 
@@ -87,8 +86,8 @@ void Projection::setSensor(double x, double y) {
   extent_->setSensor(x, y);
 }
 
-void Projection::startAnew() noexcept {
-  begins_anew_ = all_columns_pending_ = true;
+void Projection::restart() noexcept {
+  restarts_ = all_columns_pending_ = true;
 }
 
 std::size_t Projection::columnsLeftOut() const {
@@ -96,19 +95,21 @@ std::size_t Projection::columnsLeftOut() const {
 }
 
 ProjectionChange Projection::update(OccupancyBricks& bricks) {
-  if (bricks.drainBeginning()) startAnew();
+  if (bricks.drainRestart()) restart();
   ProjectionChange change;
-  change.geometry = begins_anew_;
+  change.geometry = restarts_;
   try {
-    if (begins_anew_) std::fill(grid_.values().begin(), grid_.values().end(), std::int8_t{-1});
+    if (restarts_) std::fill(grid_.values().begin(), grid_.values().end(), std::int8_t{-1});
     collectColumns(bricks);
     change.geometry = fitGeometry(bricks) || change.geometry;
     projectColumns(bricks, change.cells);
-  } catch (const std::bad_alloc&) {
-    startAnew();
+  } catch (const InputError&) {  // a grid that is too large: what is pending stays so
+    throw;
+  } catch (...) {
+    restart();
     throw;
   }
-  begins_anew_ = false;
+  restarts_ = false;
   return change;
 }
 

@@ -27,7 +27,7 @@ LENT = {
     "base/available_memory.h": {"mapping", "planners"},
     "base/child_process.h": {"simulation"},
     "base/cholesky.h": {"localization", "trials", "vision"},
-    "base/current_error.h": {"ros_avoidance", "ros_common", "ros_driving", "ros_mapping", "ros_planning", "ros_rviz"},
+    "base/current_error.h": {"ros_avoidance", "ros_common", "ros_driving", "ros_layers", "ros_mapping", "ros_planning", "ros_rviz"},
     "base/deflate.h": {"grid", "planners"},
     "base/shell_text.h": {"command_line", "flights", "study"},
     "base/utf8.h": {"ros_common", "study"},

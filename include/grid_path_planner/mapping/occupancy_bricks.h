@@ -87,11 +87,10 @@ class OccupancyBricks {
   // the order of their first change.
   std::vector<BrickColumn> drainChangedColumns();
 
-  // Empties them as if they were new: for bricks that a change without enough memory left as nobody knows. Which columns
-  // there were is forgotten, too.
-  void beginAnew(double resolution);
+  // As new: for bricks of which a change that failed left nobody knows what. Which columns there were is forgotten, too.
+  void restart(double resolution);
   // Whether that was done since the last call.
-  bool drainBeginning();
+  bool drainRestart();
 
   // What is allocated, in bytes.
   std::size_t memoryUsage() const;
@@ -127,7 +126,7 @@ class OccupancyBricks {
   std::deque<Brick> mixed_;  // growing moves none of them
   std::vector<Handle> released_;
   std::vector<BrickColumn> changed_;
-  bool begun_anew_ = false;
+  bool restarted_ = false;
 };
 
 template <class Visit>

@@ -112,7 +112,7 @@ class OctreeMap {
   OctreeOptions options_;
   std::unique_ptr<MapTree> tree_;
   OccupancyBricks bricks_;
-  bool bricks_are_right_ = true;
+  bool bricks_match_tree_ = true;
   std::unique_ptr<ScanInsertion> insertion_;
 };
 

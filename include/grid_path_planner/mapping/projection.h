@@ -63,8 +63,8 @@ class Projection {
   // Where the newest scan was taken, m: what lies around it is in the grid.
   void setSensor(double x, double y);
 
-  // Drains the changed columns of `bricks`, which are always the same ones. Where there was no memory for the last call, or
-  // for a change of the bricks, all is projected anew, and called changed.
+  // Drains the changed columns of `bricks`, which are always the same ones. Where the last call failed for want of
+  // memory, or a change of the bricks did, all is projected anew, and called changed.
   ProjectionChange update(OccupancyBricks& bricks);
 
   const grid::OccupancyGrid& grid() const { return grid_; }
@@ -73,7 +73,7 @@ class Projection {
   std::size_t columnsLeftOut() const;
 
  private:
-  void startAnew() noexcept;
+  void restart() noexcept;
   // A value for each of the 8x8 cells of a brick column; cell (x, y) stands at y * 8 + x.
   using ColumnValues = std::array<std::int8_t, 64>;
 
@@ -93,7 +93,7 @@ class Projection {
   grid::OccupancyGrid grid_;
   grid::CellRect cells_;             // of the grid, counted from the cell that begins at (0, 0) m
   bool all_columns_pending_ = true;  // every column is to be projected
-  bool begins_anew_ = false;         // and what the grid has is forgotten
+  bool restarts_ = false;            // and what the grid has is forgotten
   std::vector<BrickColumn> pending_columns_;
   std::unique_ptr<Extent> extent_;  // without bounds
   std::unique_ptr<Seabed> seabed_;  // with the reference SEABED

@@ -3,7 +3,6 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <new>
 #include <sstream>
 #include <utility>
 
@@ -24,7 +23,8 @@ using grid::OccupancyGrid;
 namespace {
 
 constexpr std::chrono::seconds kAnswer(2);  // to wait for a whole map that was asked for
-constexpr double kMemoryPeriod = 1.0;  // s, after which what there was no memory for is tried again
+constexpr double kRetryPeriod =
+    1.0;  // s, after which what failed for want of memory is tried again
 
 CellRect rectOf(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update) {
   const auto end = [](std::int64_t from, std::uint32_t length) { return from + length; };
@@ -87,7 +87,7 @@ void MapReceiver::start(ros::NodeHandle nh, OnChange on_change, std::function<vo
   updates_ = subscribeBounded<map_msgs::OccupancyGridUpdate, const UpdateEvent&>(
       nh, name_ + "_updates", {kAnyNumber, kMostWaitingBytes},
       [this](const UpdateEvent& event) { onUpdate(event); });
-  memory_timer_ = guardedTimer(nh, kMemoryPeriod, [this] { makeUpForMemory(); });
+  retry_timer_ = guardedTimer(nh, kRetryPeriod, [this] { retry(); });
   std::lock_guard<std::mutex> lock(mutex_);
   topic_ = map_subscriber_.getTopic();
 }
@@ -113,7 +113,7 @@ std::optional<MapHeartbeat> MapReceiver::heartbeat() const {
 }
 
 void MapReceiver::shutdown() {
-  memory_timer_.stop();
+  retry_timer_.stop();
   map_subscriber_.shutdown();
   updates_.shutdown();
 }
@@ -138,12 +138,12 @@ void MapReceiver::onMap(const MapEvent& event) {
   } catch (const InputError& error) {
     refuse(map_subscriber_.getTopic(), error.what());
     return;
-  } catch (const std::bad_alloc&) {
-    lacked_memory_ = true;
+  } catch (...) {
+    lost_one_ = true;
     throw;
   }
   if (older) noteLoss("A map came that is older than its updates");
-  on_change_(change);
+  tell(std::move(change));
 }
 
 // Whether its publisher sent an update stamped later, unless ROS time jumped back.
@@ -191,9 +191,17 @@ void MapReceiver::noteLoss(const std::string& what) {
   askForAWholeMap();
 }
 
-void MapReceiver::makeUpForMemory() {
-  if (std::exchange(lacked_memory_, false)) noteLoss("A change of the map had no memory");
+void MapReceiver::retry() {
+  if (std::exchange(lost_one_, false)) noteLoss("A change of the map could not be taken");
   if (!map_subscriber_) subscribeToMaps();
+  if (owes_map_) tell({latest(), std::nullopt});
+}
+
+// A listener that failed to take a change takes the whole map with the next, or by retry().
+void MapReceiver::tell(MapChange change) {
+  if (std::exchange(owes_map_, true)) change.changed.reset();
+  on_change_(change);
+  owes_map_ = false;
 }
 
 void MapReceiver::askForAWholeMap() {
@@ -238,11 +246,11 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   } catch (const InputError& error) {
     refuse(updates_.getTopic(), error.what());
     return;
-  } catch (const std::bad_alloc&) {
-    lacked_memory_ = true;
+  } catch (...) {
+    lost_one_ = true;
     throw;
   }
-  on_change_(change);
+  tell(std::move(change));
 }
 
 MapChange MapReceiver::apply(const UpdateEvent& event) {

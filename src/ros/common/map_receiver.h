@@ -111,8 +111,9 @@ class MapReceiver {
   void noteLoss(const std::string& what);
   void subscribeToMaps();
   void askForAWholeMap();
-  // By a timer: for what came, or for the subscription.
-  void makeUpForMemory();
+  void tell(MapChange change);
+  // What failed for want of memory: a map or an update that came, the subscription, the listener. By a timer.
+  void retry();
   MapChange apply(const UpdateEvent& event);
   // The map whose grid is the present one of grids_.
   MapChange store(ReceivedMap map, std::optional<std::vector<grid::CellRect>> changed);
@@ -132,8 +133,9 @@ class MapReceiver {
   Clock::time_point asked_at_;  // for a whole map
   ros::NodeHandle nh_;
   ros::Subscriber map_subscriber_;
-  bool lacked_memory_ = false;  // for a map or an update
-  ros::SteadyTimer memory_timer_;
+  bool lost_one_ = false;  // a map or an update that came
+  bool owes_map_ = false;  // to the listener
+  ros::SteadyTimer retry_timer_;
   ros::Subscriber updates_;
 };
 

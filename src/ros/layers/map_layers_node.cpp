@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "base/current_error.h"
 #include "grid/level_grid.h"
 #include "grid_path_planner/MapLayersConfig.h"
 #include "grid_path_planner/base/decimal_text.h"
@@ -81,6 +82,21 @@ void addTo(diagnostic_updater::DiagnosticStatusWrapper& status, const LayerSourc
 }
 
 }  // namespace
+
+// Of a scan that was laid in part nobody knows what is in the map: as after clear_scan.
+template <class Work>
+void MapLayersNode::lay(Work work) {
+  try {
+    work();
+  } catch (const InputError&) {
+    throw;
+  } catch (...) {
+    lays_again_ = true;
+    scans_.clear();
+    scan_source_.forget();
+    throw;
+  }
+}
 
 MapLayersNode::MapLayersNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
                              const NodeFiles& files)
@@ -171,7 +187,7 @@ void MapLayersNode::use(MapLayersOptions options) {
   checkMapLayersOptions(options);
   checkUnchanged(options, options_);
   const Zones zones = options.zones_file == options_.zones_file ? zones_ : loadZones(options);
-  map_.configure(options, zones);
+  lay([&] { map_.configure(options, zones); });
   zones_ = zones;
   options_ = options;
   warnOfZonesOutside();
@@ -185,9 +201,9 @@ void MapLayersNode::take(LayerSource& source, const ros::Time& stamp,
     source.accept(stamp);
   } catch (const InputError& error) {
     source.refuse(error.what());
-  } catch (const std::bad_alloc&) {
+  } catch (...) {
     lays_again_ = true;
-    source.refuse("there is not enough memory");
+    source.refuse(base::currentErrorText());
   }
 }
 
@@ -231,14 +247,14 @@ ros::Time MapLayersNode::liveStamp() const {
 void MapLayersNode::onScan(const sensor_msgs::LaserScan::ConstPtr& scan) {
   if (!noticeTime()) return;
   scans_.add(scan);
-  takeScans();
+  lay([this] { takeScans(); });
 }
 
 // What waits for its transform was seen before, too. Without a scan since then nobody knows what is there: there is
 // no map until the next.
 void MapLayersNode::onClearScan() {
   scans_.clear();
-  map_.forgetScans();
+  lay([this] { map_.forgetScans(); });
   scan_source_.forget();
   ROS_INFO_STREAM_THROTTLE(
       1.0, "The obstacles of " << scan_source_.topic() << " are forgotten, as clear_scan asks");
@@ -251,26 +267,14 @@ bool MapLayersNode::noticeTime() {
     ROS_WARN_STREAM("ROS time went back by " << *back << " s: scans and tf are forgotten");
     transforms_.clear();
     scans_.clear();
-    map_.forgetScans();
+    lay([this] { map_.forgetScans(); });
     scan_source_.forget();
     expired_ = {};
   }
   return true;
 }
 
-// Of a scan that was taken in part nobody knows what is in the map: as after clear_scan.
 void MapLayersNode::takeScans() {
-  try {
-    insertScans();
-  } catch (const std::bad_alloc&) {
-    lays_again_ = true;
-    scans_.clear();
-    scan_source_.forget();
-    throw;
-  }
-}
-
-void MapLayersNode::insertScans() {
   while (const auto ready = scans_.take(options_.map_frame, options_.tf_timeout)) {
     map_.insert(scanInMap(*ready->scan, ready->map_from_scan, options_.scan.inf_clears));
     scan_source_.accept(ready->scan->header.stamp);
@@ -318,6 +322,10 @@ void MapLayersNode::layAgain() {
 void MapLayersNode::publish() {
   if (!noticeTime()) return;
   layAgain();
+  lay([this] { layAndPublish(); });
+}
+
+void MapLayersNode::layAndPublish() {
   takeScans();
   const std::string why = whyHeld();
   const std::string before = std::exchange(held_, why);

@@ -71,8 +71,11 @@ class MapLayersNode {
   void onClearScan();
   bool noticeTime();
   void takeScans();
-  void insertScans();
+  // What changes the map: where it fails, for want of memory, all is laid again.
+  template <class Work>
+  void lay(Work work);
   void layAgain();
+  void layAndPublish();
   void publish();
   void publishHeartbeat();
   // Why there is no map now, in a sentence; empty where there is.
@@ -92,7 +95,7 @@ class MapLayersNode {
   layers::LayeredMap map_;
   LayerSource static_source_, live_source_, scan_source_, keep_out_source_, speed_source_;
   bool live_dropped_ = false, scan_dropped_ = false;
-  bool lays_again_ = false;                         // there was no memory to lay a source
+  bool lays_again_ = false;                         // what was to be laid was not, or in part
   std::string held_ = "the node has just started";  // why there is no map
   ScanQueue scans_;
   std::uint64_t refused_scans_ = 0;
