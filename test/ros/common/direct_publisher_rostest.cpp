@@ -2,75 +2,36 @@
 // roscpp's one thread of connections read maps of 16 MB meanwhile. That thread stands still here.
 #include "ros/common/outgoing/direct_publisher.h"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <ros/header.h>
 #include <ros/node_handle.h>
 #include <ros/poll_manager.h>
 #include <ros/xmlrpc_manager.h>
 #include <std_msgs/String.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <cstdint>
 #include <string>
-#include <vector>
 
-#include "ros/common/master/xmlrpc_call.h"
 #include "ros/support/latest.h"
+#include "ros/support/raw_subscriber.h"
 #include "ros/support/wait.h"
 
 namespace grid_path_planner::nodes {
 namespace {
 
-using XmlRpc::XmlRpcValue;
-
-// A subscriber of its own, without roscpp: it reads when it is asked to.
+// Its numbers; -1 if none came before the deadline.
 class Socket {
  public:
-  explicit Socket(const std::string& topic) {
-    XmlRpcValue protocols;
-    protocols[0][0] = "TCPROS";
-    auto answer = callXmlRpc(ros::XMLRPCManager::instance()->getServerURI(), "requestTopic",
-                             {XmlRpcValue("/socket"), XmlRpcValue(topic), protocols}, 10.0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(static_cast<int&>((*answer)[2])));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const timeval limit{test::kDeadline.count(), 0};
-    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
-    ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address);
-    sendHeader({{"callerid", "/socket"}, {"topic", topic}, {"type", "*"}, {"md5sum", "*"}});
-    read(readLength());
-  }
-  ~Socket() { ::close(socket_); }
+  explicit Socket(const std::string& topic)
+      : subscriber_(ros::XMLRPCManager::instance()->getServerURI(), topic) {}
 
-  // The number that the next message begins with; -1 if none came before the deadline.
   int next() {
-    const std::vector<std::uint8_t> bytes = read(readLength());
-    return bytes.size() > 4 ? std::stoi(std::string(bytes.begin() + 4, bytes.end())) : -1;
+    const auto message = subscriber_.next<std_msgs::String>();
+    return message ? std::stoi(message->data) : -1;
   }
 
  private:
-  void sendHeader(const ros::M_string& fields) {
-    boost::shared_array<std::uint8_t> bytes;
-    std::uint32_t length = 0;
-    ros::Header::write(fields, bytes, length);
-    ::send(socket_, &length, 4, 0);
-    ::send(socket_, bytes.get(), length, 0);
-  }
-  std::vector<std::uint8_t> read(std::size_t length) {
-    std::vector<std::uint8_t> bytes(length);
-    const ssize_t got = ::recv(socket_, bytes.data(), length, MSG_WAITALL);
-    return got == static_cast<ssize_t>(length) ? bytes : std::vector<std::uint8_t>();
-  }
-  std::size_t readLength() {
-    const std::vector<std::uint8_t> bytes = read(4);
-    return bytes.empty() ? 0 : bytes[0] | bytes[1] << 8 | bytes[2] << 16;
-  }
-
-  const int socket_ = ::socket(AF_INET, SOCK_STREAM, 0);
+  test::RawSubscriber subscriber_;
 };
 
 // While it lives, roscpp's thread of connections does nothing.

@@ -9,29 +9,22 @@ import resource
 import signal
 import subprocess
 import sys
-import tempfile
-import unittest
 
-import rospkg
 import rospy
 import rostest
 from roslib.message import get_service_class
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [HERE, os.path.join(HERE, os.pardir, "security")]
-import node_probes as probes  # noqa: E402
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from nodes_without_memory import PACKAGE, SECONDS, NodesWithoutMemory, RunningNode, executable, probes, session_seconds  # noqa: E402
 from hostile_messages import serialized  # noqa: E402
 from large_messages import LARGE, has_size, large  # noqa: E402
 from node_table import NODES  # noqa: E402
 from own_master import start_own_master  # noqa: E402
-from running_nodes import PACKAGE, Clock, RunningNode, executable, is_sanitized, threads_of  # noqa: E402
-from session_clock import session_seconds  # noqa: E402
 
 SIZE = 160 << 20  # bytes of a message
 # Of a message's size, what there is beside it as it came: too little to unpack it; enough for that, and little for what is made of it.
 # In this order: a node that is still at work on the second takes more than it had when the room was measured.
 ROOM = (0.8, 1.3)
-SECONDS = 60.0    # for the start, for what is said, for a right answer behind what is large
 SAID = ("not enough memory", "bad_alloc")
 
 
@@ -46,27 +39,13 @@ def limit(pid, size=None):
     resource.prlimit(pid, resource.RLIMIT_AS, (most if size is None else size, most))
 
 
-def story(node):
-    with open(node.log.name, errors="replace") as log:
-        return "%s, %s, whose log ends with: %s\nIts threads:\n%s" % (
-            node, "which runs" if node.lives() else "which has ended", log.read()[-1500:],
-            "\n".join(threads_of(process) for process in node.processes))
-
-
-class EveryNodeMemory(unittest.TestCase):
+class EveryNodeMemory(NodesWithoutMemory):
     @classmethod
     def setUpClass(cls):
-        if is_sanitized(executable("path_planner")):
-            raise unittest.SkipTest("shadow memory takes the address space that the limit is on")
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        os.environ["GRID_PATH_PLANNER_LOAD_FOLDER"] = os.path.join(rospkg.RosPack().get_path(PACKAGE), "test", "data")
-        os.environ["GRID_PATH_PLANNER_SAVE_FOLDER"] = os.path.join(folder.name, "saved")
-        os.environ["ROSCONSOLE_STDOUT_LINE_BUFFERED"] = "1"
+        super().setUpClass()
         os.environ["MALLOC_ARENA_MAX"] = "1"  # or each thread's first allocation takes 128 MB of addresses for a while
-        cls.folder, cls.clock = folder.name, Clock(False)
         cls.map_publisher = NODES["map_publisher"]._replace(
-            arguments=["_filename:=large.yaml", "--load-folder", folder.name])
+            arguments=["_filename:=large.yaml", "--load-folder", cls.folder])
 
     def test_every_type_with_a_size_has_a_large_message(self):
         node = RunningNode("teleop_joy", NODES["teleop_joy"], "process", self.clock, self.folder, "/types")
@@ -84,18 +63,6 @@ class EveryNodeMemory(unittest.TestCase):
                 for room in ROOM:
                     self.goes_on_after(node, topic, large(node, kind, SIZE), room)
                 node = node.end(signal.SIGKILL) and None  # what it has kept of the message counts in no other's room
-
-    def holds(self, done, node, what="at its start"):
-        """Asks the debugger for the node's threads only where it does not."""
-        if not done:
-            self.fail("%s: %s" % (what, story(node)))
-
-    def started(self, name, row):
-        node = RunningNode(name, row, "process", self.clock, self.folder)
-        self.addCleanup(node.end, signal.SIGKILL)
-        self.holds(probes.until(node, node.is_connected, session_seconds() + SECONDS), node)
-        self.holds(self.answers(node), node)
-        return node
 
     def goes_on_after(self, node, topic, message, room):
         size, pid = len(serialized(message)), node.processes[0].pid
@@ -147,10 +114,6 @@ class EveryNodeMemory(unittest.TestCase):
     def says(log, said):
         said.append(log.read())
         return any(text in "".join(said) for text in SAID)
-
-    @staticmethod
-    def answers(node):
-        return node.row.probe(node, session_seconds() + SECONDS) and node.lives()
 
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
 //
 //   FAILING_ALLOCATIONS=file LD_PRELOAD=libfailing_allocations.so navigate_path
 //
-// Not in the threads in which roscpp receives and keeps timers, nor in that of an action server before it calls the node:
-// what cannot be handed over there is lost for good, and ends the process (doc/security.md).
+// Not in the threads in which roscpp receives and keeps timers: what cannot be handed over there is lost for good, and ends
+// the process (doc/security_results.md).
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fcntl.h>
@@ -16,9 +16,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <functional>
-#include <new>
 #include <random>
 #include <thread>
+
+#include "memory/failing_operators.h"
 
 namespace grid_path_planner::test {
 namespace {
@@ -57,8 +58,16 @@ bool has(const char* text, const char* part) {
 }
 
 bool isOfRoscppAlone(const char* function) {
-  return has(function, "PollManager10threadFunc") || has(function, "TimerManager") ||
-         has(function, "executeLoop");
+  return has(function, "PollManager10threadFunc") || has(function, "TimerManager");
+}
+
+const void* thisLibrary() {
+  static const void* const base = [] {
+    Dl_info library{};
+    return ::dladdr(reinterpret_cast<const void*>(&fileName), &library) != 0 ? library.dli_fbase
+                                                                             : nullptr;
+  }();
+  return base;
 }
 
 // From the innermost call to the outermost.
@@ -69,7 +78,7 @@ bool isAskedForByUs() {
   for (int i = 0; i < depth; ++i) {
     Dl_info call{};
     if (::dladdr(calls[static_cast<std::size_t>(i)], &call) == 0) continue;
-    if (has(call.dli_sname, "PlanAction7execute")) return true;
+    if (call.dli_fbase == thisLibrary()) continue;
     if (isOfRoscppAlone(call.dli_sname)) return false;
     ours = ours ||
            has(call.dli_sname,
@@ -78,7 +87,9 @@ bool isAskedForByUs() {
   return ours;
 }
 
-bool fails(std::size_t bytes) {
+}  // namespace
+
+bool allocationFails(std::size_t bytes) {
   if (inside || bytes < kLeastBytes) return false;
   inside = true;
   const bool result = isOn() && isDue() && isAskedForByUs();
@@ -87,31 +98,4 @@ bool fails(std::size_t bytes) {
   return result;
 }
 
-}  // namespace
 }  // namespace grid_path_planner::test
-
-void* operator new(std::size_t bytes) {
-  if (grid_path_planner::test::fails(bytes)) throw std::bad_alloc();
-  if (void* const memory = std::malloc(bytes == 0 ? 1 : bytes)) return memory;
-  throw std::bad_alloc();
-}
-
-void* operator new[](std::size_t bytes) {
-  return operator new(bytes);
-}
-
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-
-void operator delete[](void* memory) noexcept {
-  std::free(memory);
-}
-
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-
-void operator delete[](void* memory, std::size_t) noexcept {
-  std::free(memory);
-}

@@ -6,6 +6,7 @@ import math
 import random
 import time
 
+from genpy import Duration
 from right_messages import (
     ARRIVED, FOUND, SUCCEEDED, camera_info, camera_transforms, cloud, drive_goal, go_to_goal, grid, imu, initial_pose, joystick,
     of, path, picture, plan_goal, pose_stamped, scan, sky)
@@ -69,7 +70,10 @@ def drives(node, deadline):
         node.send("stop", of("std_msgs/Bool", data=False))
         for topic in ("projected_map", "speed_limit"):
             node.send(topic, grid(node))
-        node.send("navigate_path/cancel", of("actionlib_msgs/GoalID"))
+        # Of the goals until now, by a clock that the node may hear a little later: topics overtake each other, and a cancel
+        # of all goals was read after the goal below.
+        until_now = node.clock.now() - Duration(0.2)
+        node.send("navigate_path/cancel", of("actionlib_msgs/GoalID", stamp={"secs": until_now.secs, "nsecs": until_now.nsecs}))
         node.call("~cancel", get_service_class("std_srvs/Trigger")._request_class())
         node.forget("cmd_vel")
         node.send("path", path(node))
@@ -79,30 +83,12 @@ def drives(node, deadline):
     node.forget("cmd_vel")
     if not until(node, is_driven, deadline, offer, every=2.0):
         return False
-    goal = driven_goal(node, deadline)
-    if not goal:
-        return False
+    goal = drive_goal(node)
+    fed = succeeds(node, "navigate_path", goal, deadline, lambda identity: any(
+        feedback.status.goal_id.id == identity and feedback.feedback.state == "driving"
+        for feedback in node.heard("navigate_path/feedback")))
     node.send("navigate_path/cancel", of("actionlib_msgs/GoalID", id=goal.goal_id.id))
-    return until(node, lambda: status_of(node, "navigate_path", goal.goal_id.id) is not None, deadline)
-
-
-def driven_goal(node, deadline):
-    """One of the action that was driven, or None. A cancel of the offers may be read after it, and be for it too: then
-    another. What was seen before: a node that had done all it was told to was called silent, twice in some ten runs of CI."""
-    while node.lives() and session_seconds() < deadline:
-        goal = drive_goal(node)
-
-        def is_fed():
-            return any(feedback.status.goal_id.id == goal.goal_id.id and feedback.feedback.state == "driving"
-                       for feedback in node.heard("navigate_path/feedback"))
-
-        def has_ended():
-            return status_of(node, "navigate_path", goal.goal_id.id) is not None
-        node.send("navigate_path/goal", goal)
-        until(node, lambda: is_fed() or has_ended(), deadline)
-        if is_fed():
-            return goal
-    return None
+    return fed and until(node, lambda: status_of(node, "navigate_path", goal.goal_id.id) is not None, deadline)
 
 
 def goes_to_a_pose(node, deadline):

@@ -1,32 +1,32 @@
-#include "mapping/failing_allocation.h"
+#include "memory/failing_operators.h"
 
-#include <cstddef>
 #include <cstdlib>
 #include <new>
 
+namespace grid_path_planner::test {
 namespace {
 
-thread_local int left = -1;  // allocations before the one that fails; negative: none does
-
 void* allocated(std::size_t bytes) {
-  if (left >= 0 && left-- == 0) throw std::bad_alloc();
-  if (void* const memory = std::malloc(bytes == 0 ? 1 : bytes)) return memory;
-  throw std::bad_alloc();
+  void* const memory = allocationFails(bytes) ? nullptr : std::malloc(bytes == 0 ? 1 : bytes);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
 }
 
 }  // namespace
+}  // namespace grid_path_planner::test
 
 void* operator new(std::size_t bytes) {
-  return allocated(bytes);
+  return grid_path_planner::test::allocated(bytes);
 }
 
 void* operator new[](std::size_t bytes) {
-  return allocated(bytes);
+  return operator new(bytes);
 }
 
+// Theirs, too: a sanitizer's own would hand out memory that the delete below gives to free().
 void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
   try {
-    return allocated(bytes);
+    return operator new(bytes);
   } catch (const std::bad_alloc&) {
     return nullptr;
   }
@@ -51,19 +51,3 @@ void operator delete(void* memory, std::size_t) noexcept {
 void operator delete[](void* memory, std::size_t) noexcept {
   std::free(memory);
 }
-
-namespace grid_path_planner::test {
-
-FailingAllocation::FailingAllocation(int number) {
-  left = number - 1;
-}
-
-FailingAllocation::~FailingAllocation() {
-  left = -1;
-}
-
-bool FailingAllocation::happened() const {
-  return left < 0;
-}
-
-}  // namespace grid_path_planner::test
