@@ -83,28 +83,28 @@ MapModel::Inserted MapModel::insert(std::vector<Eigen::Vector3d> points,
   inserted.points = points.size();
   const FilteredCloud cloud = filterCloud(std::move(points), frames, options_.cloud);
   inserted.ground_missed = cloud.ground_missed;
+  ++revision_;  // also of a map that is changed in part, for want of memory
   inserted.left_out = map_.insert(cloud.scan);
   inserted.map_is_full = map_.isFull();
   projection_.setSensor(cloud.scan.origin.x(), cloud.scan.origin.y());
-  ++revision_;
   inserted.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return inserted;
 }
 
 void MapModel::reset() {
-  map_.reset();
   ++revision_;
+  map_.reset();
 }
 
 void MapModel::clearBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  map_.clearBox(treePoint(low), treePoint(high));
   ++revision_;
+  map_.clearBox(treePoint(low), treePoint(high));
 }
 
 void MapModel::decay(double seconds) {
-  map_.decay(seconds);
   ++revision_;
+  map_.decay(seconds);
 }
 
 const OccupancyGrid& MapModel::grid() {

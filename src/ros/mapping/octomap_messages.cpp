@@ -4,11 +4,12 @@
 
 #include <octomap_msgs/GetOctomap.h>
 #include <octomap_msgs/Octomap.h>
-#include <ros/publisher.h>
 #include <ros/service_server.h>
 
 #include <sstream>
 #include <string>
+
+#include "ros/mapping/octree_topic.h"
 
 namespace grid_path_planner::nodes {
 
@@ -45,7 +46,7 @@ struct OctomapMessages::Topics {
   }
 
   MappingThread& thread;
-  ros::Publisher binary, full;
+  OctreeTopic binary, full;
   ros::ServiceServer binary_service, full_service;
 };
 
@@ -55,9 +56,10 @@ OctomapMessages::OctomapMessages(ros::NodeHandle nh, ros::NodeHandle service_nh,
   const auto connected = [on_subscriber](const ros::SingleSubscriberPublisher&) {
     on_subscriber();
   };
-  topics_->binary =
+  topics_->binary.publisher =
       nh.advertise<octomap_msgs::Octomap>("octomap_binary", 1, connected, {}, {}, latch);
-  topics_->full = nh.advertise<octomap_msgs::Octomap>("octomap_full", 1, connected, {}, {}, latch);
+  topics_->full.publisher =
+      nh.advertise<octomap_msgs::Octomap>("octomap_full", 1, connected, {}, {}, latch);
   const auto answer = [topics = topics_.get()](bool binary) {
     return [=](auto&, auto& response) { return topics->answer(binary, response); };
   };
@@ -69,13 +71,13 @@ OctomapMessages::OctomapMessages(ros::NodeHandle nh, ros::NodeHandle service_nh,
 
 OctomapMessages::~OctomapMessages() = default;
 
-bool OctomapMessages::hasSubscribers() const {
-  return topics_->binary.getNumSubscribers() > 0 || topics_->full.getNumSubscribers() > 0;
+bool OctomapMessages::isDue(const MapModel& map) const {
+  return topics_->binary.isDue(map) || topics_->full.isDue(map);
 }
 
 void OctomapMessages::publish(const MapModel& map, const ros::Time& stamp) {
-  if (topics_->binary.getNumSubscribers() > 0) topics_->binary.publish(messageOf(map, true, stamp));
-  if (topics_->full.getNumSubscribers() > 0) topics_->full.publish(messageOf(map, false, stamp));
+  if (topics_->binary.isDue(map)) topics_->binary.publish(messageOf(map, true, stamp), map);
+  if (topics_->full.isDue(map)) topics_->full.publish(messageOf(map, false, stamp), map);
 }
 
 void OctomapMessages::shutdown() {
@@ -96,7 +98,7 @@ struct OctomapMessages::Topics {};
 OctomapMessages::OctomapMessages(ros::NodeHandle, ros::NodeHandle, bool, MappingThread&,
                                  const std::function<void()>&) {}
 OctomapMessages::~OctomapMessages() = default;
-bool OctomapMessages::hasSubscribers() const {
+bool OctomapMessages::isDue(const MapModel&) const {
   return false;
 }
 void OctomapMessages::publish(const MapModel&, const ros::Time&) {}

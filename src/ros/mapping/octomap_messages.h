@@ -19,9 +19,9 @@ class OctomapMessages {
                   const std::function<void()>& on_subscriber);
   ~OctomapMessages();
 
-  // Publishes the topics that have subscribers. In the mapping thread.
+  // Both in the mapping thread, as octree_topic.h says.
+  bool isDue(const mapping::MapModel& map) const;
   void publish(const mapping::MapModel& map, const ros::Time& stamp);
-  bool hasSubscribers() const;
   void shutdown();
 
  private:

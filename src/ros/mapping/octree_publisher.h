@@ -1,13 +1,11 @@
 // The topics of the octree: occupied_cells_vis_array, free_cells_vis_array,
 // octomap_point_cloud_centers, and octomap_binary and octomap_full where there is octomap_msgs.
 //
-// These messages hold the whole tree, so their cost grows with the map. They are built only for
-// subscribers, when the tree changed or a subscriber is new, and take at most a fifth of the time:
-// after a publication that took t seconds there is none for 4 t.
+// These messages hold the whole tree, so their cost grows with the map. They are built as octree_topic.h says,
+// and take at most a fifth of the time: after a publication that took t seconds there is none for 4 t.
 #pragma once
 
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
 
 #include <atomic>
 #include <chrono>
@@ -18,6 +16,7 @@
 #include "grid_path_planner/mapping/map_model.h"
 #include "ros/mapping/mapping_thread.h"
 #include "ros/mapping/octomap_messages.h"
+#include "ros/mapping/octree_topic.h"
 
 namespace grid_path_planner::nodes {
 
@@ -37,15 +36,14 @@ class OctreePublisher {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool hasSubscribers() const;
+  bool isDue(const mapping::MapModel& map) const;
+  bool isFreeDue(const mapping::MapModel& map) const;
   void send(const mapping::MapModel& map, const ros::Time& stamp);
   void sendMarkers(const mapping::MapModel& map, const ros::Time& stamp);
 
-  std::atomic<bool> new_subscriber_{false};
   std::atomic<std::uint64_t> builds_{0};
-  std::uint64_t sent_revision_ = 0;
   Clock::time_point not_before_;
-  ros::Publisher occupied_, free_, centres_;
+  OctreeTopic occupied_, free_, centres_;
   std::unique_ptr<OctomapMessages> messages_;
 };
 
