@@ -4,6 +4,8 @@
 // the master that hung before it stopped the vehicle.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "grid_path_planner/path/waypoint_file.h"
 #include "ros/common/master/xmlrpc_call.h"
 #include "ros/support/links.h"
@@ -105,6 +107,20 @@ TEST_F(NavigateMaster, OneThatIsRestartedKnowsAllNamesAgain) {
   EXPECT_TRUE(test::waitFor([&] { return knowsAll(); }));
   std::printf("all names again after %.1f s\n", (ros::WallTime::now() - back).toSec());
   EXPECT_TRUE(navigate_->says("goes on"));
+}
+
+// What did not reach the master in the first second was lost for good: it knew the node again, and nobody told it the rest.
+TEST_F(NavigateMaster, NamesThatTheMasterDidNotHearAreToldAgain) {
+  const std::string lossy = folder_.path("lossy");
+  master_.stayBehind(lossy);
+  drive(file_, "0");
+  ASSERT_TRUE(test::waitFor([&] { return knowsAll(); }));
+  ros::WallDuration(3.0).sleep();  // as above
+  master_.kill();
+  std::ofstream(lossy).put(0);
+  master_.run();
+  useSimulatedTime();
+  EXPECT_TRUE(test::waitFor([&] { return knowsAll(); }));
 }
 
 TEST_F(NavigateMaster, TheDriveGoesOnWithoutOne) {

@@ -34,6 +34,16 @@ class OwnMaster {
     ASSERT_TRUE(waitFor([&] { return nodes::answersXmlRpc(uri_, 1.0); }));
   }
   void signal(int number) const { process_->signal(number); }
+  // For the nodes that are started from now on: while the file `lossy` exists, the first questions of each registration
+  // and name do not reach the master.
+  void stayBehind(const std::string& lossy) {
+    const int port = freePort();
+    between_ = std::make_unique<Process>(std::vector<std::string>{
+        "/usr/bin/python3", GPP_TEST_DATA "/../ros/support/lossy_master.py", uri_,
+        std::to_string(port), lossy});
+    nodes_uri_ = "http://localhost:" + std::to_string(port);
+    ASSERT_TRUE(waitFor([&] { return nodes::answersXmlRpc(nodes_uri_, 1.0); }));
+  }
   void kill() {
     process_->signal(SIGKILL);
     ASSERT_TRUE(process_->waitForExit());
@@ -47,7 +57,7 @@ class OwnMaster {
     return run(command);
   }
   std::unique_ptr<Process> run(const std::vector<std::string>& program) const {
-    std::vector<std::string> command{"env", "ROS_MASTER_URI=" + uri_};
+    std::vector<std::string> command{"env", "ROS_MASTER_URI=" + nodes_uri_};
     command.insert(command.end(), program.begin(), program.end());
     return std::make_unique<Process>(command);
   }
@@ -69,7 +79,8 @@ class OwnMaster {
 
   const int port_;
   const std::string uri_;
-  std::unique_ptr<Process> process_;
+  std::string nodes_uri_ = uri_;
+  std::unique_ptr<Process> process_, between_;
 };
 
 }  // namespace grid_path_planner::test

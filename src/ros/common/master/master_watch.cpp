@@ -16,6 +16,7 @@
 #include "ros/common/guarded_queue.h"
 #include "ros/common/master/system_state.h"
 #include "ros/common/master/xmlrpc_call.h"
+#include "ros/common/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -100,7 +101,8 @@ void MasterWatch::tryToAsk() noexcept {
 void MasterWatch::ask() {
   auto pid = askMaster("getPid");
   if (!pid) {
-    ROS_WARN_STREAM_THROTTLE(10.0, "The master at " << masterUri() << " does not answer");
+    static LogThrottle seldom(10.0);
+    ROS_WARN_STREAM_COND(seldom.isDue(), "The master at " << masterUri() << " does not answer");
     return;
   }
   answered_ = Clock::now().time_since_epoch().count();
@@ -109,9 +111,10 @@ void MasterWatch::ask() {
   if (restarted) ++restarts_;
   const bool knows = askMaster("lookupNode", {self()}).has_value();
   if (ros::isShuttingDown()) return;  // its names are gone because they were given back
-  if (restarted || (known_ && !knows)) registerAgain();
+  owes_names_ = owes_names_ || restarted || (known_ && !knows);
+  if (owes_names_) owes_names_ = !registersAgain();
   known_ = known_ || knows;
-  if (rememberingIsDue()) rememberServices();
+  if (!owes_names_ && rememberingIsDue()) rememberServices();
 }
 
 // Whoever holds the watch has just made its services, or is about to.
@@ -129,35 +132,46 @@ bool MasterWatch::rememberingIsDue() {
 
 void MasterWatch::rememberServices() {
   const auto state = systemState(kMasterPatience);
-  if (!state) return;
+  auto pid = askMaster("getPid");
+  if (!state || !pid || static_cast<int&>(*pid) != pid_) return;  // another one knows none of them
   services_.clear();
   const std::string name = ros::this_node::getName();
   for (const auto& [service, nodes] : state->services)
     if (std::find(nodes.begin(), nodes.end(), name) != nodes.end()) services_.push_back(service);
 }
 
-void MasterWatch::registerAgain() const {
-  ROS_WARN_STREAM("The master at " << masterUri()
-                                   << " does not know this node: it is registered again");
-  registerTopics("getPublications", "registerPublisher");
-  registerTopics("getSubscriptions", "registerSubscriber");
-  for (const std::string& service : services_)
-    askMaster("registerService",
-              {XmlRpcValue(service), XmlRpcValue(services_uri_), XmlRpcValue(ownUri())});
+// Whether the master and this process have answered every question; if not, it is all tried again.
+bool MasterWatch::registersAgain() const {
+  static LogThrottle seldom(10.0);
+  ROS_WARN_STREAM_COND(seldom.isDue(), "The master at "
+                                           << masterUri()
+                                           << " does not know this node: it is registered again");
+  bool all = registersTopics("getPublications", "registerPublisher");
+  all = registersTopics("getSubscriptions", "registerSubscriber") && all;
+  for (const std::string& service : services_) {
+    const std::vector<XmlRpcValue> offer = {XmlRpcValue(service), XmlRpcValue(services_uri_),
+                                            XmlRpcValue(ownUri())};
+    all = askMaster("registerService", offer).has_value() && all;
+  }
+  return all;
 }
 
 // The master answers a subscriber with the publishers of its topic, and tells nobody else.
-void MasterWatch::registerTopics(const char* list, const char* method) const {
+bool MasterWatch::registersTopics(const char* list, const char* method) const {
   auto topics = callXmlRpc(ownUri(), list, {self()}, kMasterPatience);
+  bool all = topics.has_value();
   for (int i = 0; topics && i < topics->size(); ++i) {
     const XmlRpcValue& topic = (*topics)[i][0];
     const auto known = askMaster(method, {topic, (*topics)[i][1], XmlRpcValue(ownUri())});
+    all = all && known;
     const bool publishers =
         known && known->getType() == XmlRpcValue::TypeArray && known->size() > 0;
     if (publishers && std::string(method) == "registerSubscriber")
-      callXmlRpc(ownUri(), "publisherUpdate", {XmlRpcValue("/master"), topic, *known},
-                 kMasterPatience);
+      all = callXmlRpc(ownUri(), "publisherUpdate", {XmlRpcValue("/master"), topic, *known},
+                       kMasterPatience) &&
+            all;
   }
+  return all;
 }
 
 }  // namespace grid_path_planner::nodes

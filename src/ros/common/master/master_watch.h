@@ -46,15 +46,16 @@ class MasterWatch {
   void ask();
   void rememberServices();
   bool rememberingIsDue();
-  void registerAgain() const;
-  void registerTopics(const char* list, const char* method) const;
+  bool registersAgain() const;
+  bool registersTopics(const char* list, const char* method) const;
 
   const std::string services_uri_;  // asked for once: roscpp has none when it is shut down
   std::atomic<Clock::rep> answered_;
   std::atomic<unsigned> restarts_{0};
   // The thread's:
-  int pid_ = 0;         // of the master
-  bool known_ = false;  // to the master, once
+  int pid_ = 0;              // of the master
+  bool known_ = false;       // to the master, once
+  bool owes_names_ = false;  // to a master that did not know them and has not answered yet for all
   std::vector<std::string> services_;
   Clock::time_point remembers_at_{};
   Clock::duration between_{};
