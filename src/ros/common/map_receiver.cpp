@@ -11,6 +11,7 @@
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/scheduling/guarded_timer.h"
+#include "ros/common/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 
@@ -183,7 +184,8 @@ std::optional<std::vector<CellRect>> MapReceiver::takeGrid(const nav_msgs::Occup
 
 void MapReceiver::noteLoss(const std::string& what) {
   const std::string sentence = what + ": a whole map is asked for";
-  ROS_WARN_STREAM_THROTTLE(5.0, sentence);
+  static LogThrottle seldom(5.0);
+  ROS_WARN_STREAM_COND(seldom.isDue(), sentence);
   {
     std::lock_guard<std::mutex> lock(mutex_);
     lost_ = sentence;
@@ -229,15 +231,17 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   }
   const ReceivedMap before = latest();
   if (!before.grid) {
-    ROS_WARN_THROTTLE(5.0, "An update of the map was dropped: no map has come yet");
+    static LogThrottle seldom(5.0);
+    ROS_WARN_COND(seldom.isDue(), "An update of the map was dropped: no map has come yet");
     return;
   }
   // A map from the future is from before the time jumped back, as when a bag loops.
   const bool newer_map = message.header.stamp < before.stamp && before.stamp <= ros::Time::now();
   if (newer_map) {
-    ROS_WARN_STREAM_THROTTLE(5.0, "An update of the map stamped "
-                                      << message.header.stamp << " was dropped: the map is newer, "
-                                      << before.stamp);
+    static LogThrottle seldom(5.0);
+    ROS_WARN_STREAM_COND(seldom.isDue(), "An update of the map stamped "
+                                             << message.header.stamp
+                                             << " was dropped: the map is newer, " << before.stamp);
     return;
   }
   MapChange change;
@@ -268,6 +272,7 @@ MapChange MapReceiver::apply(const UpdateEvent& event) {
 
 MapChange MapReceiver::store(ReceivedMap map, std::optional<std::vector<CellRect>> changed) {
   map.grid = grids_.current();
+  map.received = Clock::now();
   std::lock_guard<std::mutex> lock(mutex_);
   map_ = std::move(map);
   refusal_.clear();

@@ -44,10 +44,11 @@ namespace grid_path_planner::nodes {
 
 struct ReceivedMap {
   std::shared_ptr<const grid::OccupancyGrid> grid;
-  std::string frame_id;   // empty where the message named none
-  ros::Time stamp;        // of the newest message in it
-  std::string publisher;  // the node that sent it whole
-  std::string sender;     // of the newest message in it: a node
+  std::string frame_id;                              // empty where the message named none
+  ros::Time stamp;                                   // of the newest message in it
+  std::string publisher;                             // the node that sent it whole
+  std::string sender;                                // of the newest message in it: a node
+  std::chrono::steady_clock::time_point received{};  // that message
 };
 
 struct MapChange {

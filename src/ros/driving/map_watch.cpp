@@ -52,7 +52,7 @@ void MapWatch::onMap() {
     life_.map = std::move(map);
     life_.heartbeat = life_.map.publisher == heartbeat_of_;
     if (!life_.heartbeat) life_.newest = life_.map.stamp;
-    if (life_.map.sender == life_.map.publisher) life_.sign = Clock::now();
+    if (life_.map.sender == life_.map.publisher) life_.sign = life_.map.received;
   }
   tell();
 }

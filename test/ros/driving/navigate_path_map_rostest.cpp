@@ -6,8 +6,12 @@
 #include <nav_msgs/OccupancyGrid.h>
 
 #include <algorithm>
+#include <new>
+#include <optional>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/guarded_queue.h"
+#include "ros/driving/map_watch.h"
 #include "ros/support/still_fixture.h"
 #include "support/ascii_map.h"
 #include "support/temporary_folder.h"
@@ -25,11 +29,12 @@ class NavigateMap : public test::StillTest {
   void publishMap() {
     maps_.publish(occupancyToMessage(test::AsciiMap({"........"}).map, "map", ros::Time::now()));
   }
-  void beat() {
+  ros::Time beat() {
     map_msgs::OccupancyGridUpdate heartbeat;
     heartbeat.header.frame_id = "map";
     heartbeat.header.stamp = ros::Time::now() - ros::Duration(7.0);  // of the newest cloud
     updates_.publish(heartbeat);
+    return heartbeat.header.stamp;
   }
   // Whether `condition` comes true while the heart beats.
   bool beatsUntil(const std::function<bool()>& condition) {
@@ -56,6 +61,45 @@ class NavigateMap : public test::StillTest {
       nh_.advertise<map_msgs::OccupancyGridUpdate>("projected_map_updates", 10);
   StillWorld world_{100.0};
 };
+
+// By the code, a map that had no memory at first was a sign of life when it was handed over once more, of whom it had not been.
+TEST_F(NavigateMap, OneThatIsTakenLateIsNoSignOfLifeAgain) {
+  using Time = std::chrono::steady_clock::time_point;
+  std::mutex mutex;
+  std::optional<Time> failed, sign;
+  std::optional<ros::Time> first;  // stamp of the map that is taken at once
+  ros::CallbackQueue queue;
+  GuardedQueue guarded(queue);
+  ros::NodeHandle nh;
+  nh.setCallbackQueue(&guarded);
+  const MapWatch watch(nh, [&](const MapLife& life) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (!first || life.map.stamp == *first || sign) return;
+    if (!failed) {
+      failed = std::chrono::steady_clock::now();
+      throw std::bad_alloc();
+    }
+    sign = life.sign;
+  });
+  ros::AsyncSpinner spinner(1, &queue);
+  spinner.start();
+  publishMap();
+  ASSERT_TRUE(beatsUntil([&] { return watch.life().map.grid && watch.life().heartbeat; }));
+  const ros::Time last_beat = beat();
+  ASSERT_TRUE(test::waitFor([&] { return watch.life().newest == last_beat; }));
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    first = watch.life().map.stamp;
+  }
+  publishMap();
+  const auto seen = [&] {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return sign.has_value();
+  };
+  ASSERT_TRUE(test::waitFor(seen));
+  spinner.stop();
+  EXPECT_LE(*sign, *failed);
+}
 
 TEST_F(NavigateMap, WithoutOneItDoesNotStartAndSaysWhatToDo) {
   startNavigate({"_check_map:=true", "projected_map:=/site/map"});
