@@ -192,10 +192,11 @@ class Files(unittest.TestCase):
             name = "include/grid_path_planner/grid/" + name
             self.assertEqual(len(self.planted(HEADER % "", name)), 1, name)
 
-    def test_timers_of_nodes_outlive_an_exception(self):
-        timer = (HEADER % "").replace("#pragma once\n", "") + "timer_ = nh_.createWallTimer(period, tick);\n"
-        self.assertEqual(len(self.planted(timer, "src/ros/driving/x.cpp")), 1)
-        self.assertEqual(self.planted(timer, "test/ros/x_rostest.cpp"), [])
+    def test_nodes_take_neither_timers_nor_throttled_lines_from_roscpp(self):
+        for text in ("timer_ = nh_.createWallTimer(period, tick);\n", 'ROS_WARN_STREAM_THROTTLE(1.0, "late");\n'):
+            source = (HEADER % "").replace("#pragma once\n", "") + text
+            self.assertEqual(len(self.planted(source, "src/ros/driving/x.cpp")), 1)
+            self.assertEqual(self.planted(source, "test/ros/x_rostest.cpp"), [])
 
     def test_a_benchmark_says_what_lies_beyond_its_map(self):
         radius, outside = "  options.radius = 0.3;\n", "  options.outside = Outside::FREE;\n"

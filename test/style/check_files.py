@@ -13,6 +13,7 @@ RADIUS = re.compile(r'\.radius = |planner/radius"')
 OUTSIDE = re.compile(r'\.outside = |planner/outside"')
 TIMER = re.compile(r"(?:\.|->)create(?:Wall|Steady)?Timer\(")
 TIMERS = ("src/ros/common/scheduling/guarded_timer.cpp", "src/ros/common/action/action_topics.h")  # the latter's never starts
+THROTTLE = re.compile(r"ROS_\w+_THROTTLE\(")
 MAIN = re.compile(r"^int main\(", re.MULTILINE)
 
 
@@ -29,6 +30,8 @@ def complaints_of(name, text):
         yield "no namespace grid_path_planner"
     if name.startswith("src/") and name not in TIMERS and TIMER.search(text):
         yield "a timer of roscpp's, which an exception ends for good: guarded_timer.h"
+    if name.startswith("src/") and THROTTLE.search(text):
+        yield "a line of the log whose time is in no lock: log_throttle.h"
     if base.endswith(".cpp"):
         if "#pragma once" in text:
             yield "#pragma once in a source file"

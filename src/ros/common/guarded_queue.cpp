@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/current_error.h"
+#include "ros/common/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 
@@ -85,7 +86,8 @@ void GuardedQueue::release() {
 }
 
 void tellGivenUp(const std::string& what, const std::string& error) {
-  ROS_ERROR_STREAM_THROTTLE(1.0, what << " was given up, the node goes on: " << error);
+  static LogThrottle seldom(1.0);
+  ROS_ERROR_STREAM_COND(seldom.isDue(), what << " was given up, the node goes on: " << error);
 }
 
 void tellGivenUp(const char* what) noexcept {

@@ -9,6 +9,7 @@
 #include "ros/common/clock.h"
 #include "ros/common/incoming/bounded_subscription.h"
 #include "ros/common/network_text.h"
+#include "ros/common/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -70,9 +71,10 @@ void TransformReceiver::receive(const tf2_msgs::TFMessage& message, const std::s
     buffer_.clear();
     stamps_.clear();
   }
+  static LogThrottle seldom(kWarningPeriod);
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     const std::string why = insertTransform(buffer_, stamps_, transform, node, is_static, now);
-    if (!why.empty()) ROS_WARN_STREAM_THROTTLE(kWarningPeriod, why);
+    ROS_WARN_STREAM_COND(!why.empty() && seldom.isDue(), why);
   }
 }
 

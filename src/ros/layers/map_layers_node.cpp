@@ -16,6 +16,7 @@
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
 #include "ros/common/scheduling/guarded_timer.h"
+#include "ros/common/scheduling/log_throttle.h"
 #include "ros/layers/scan_messages.h"
 
 namespace grid_path_planner::nodes {
@@ -65,8 +66,10 @@ void checkUnchanged(const MapLayersOptions& a, const MapLayersOptions& b) {
 
 void tellOfYaw(const LayerSource& source, const OccupancyGrid& map) {
   if (!source.there() || !grid::hasYaw(map.geometry())) return;
-  ROS_INFO_STREAM_THROTTLE(
-      60.0, source.topic() << " is turned by " << base::decimalText(map.geometry().origin().yaw)
+  static LogThrottle seldom(60.0);
+  ROS_INFO_STREAM_COND(seldom.isDue(),
+                       source.topic()
+                           << " is turned by " << base::decimalText(map.geometry().origin().yaw)
                            << " rad: it is laid on a grid without a yaw, where obstacles grow by "
                               "a cell's diagonal at most");
 }
@@ -224,10 +227,11 @@ void MapLayersNode::onLiveMap(const MapChange& change) {
   });
   if (change.changed) return;
   tellOfYaw(live_source_, *change.map.grid);
+  static LogThrottle seldom(60.0);
   if (map_.liveIsCut())
-    ROS_WARN_STREAM_THROTTLE(60.0, live_source_.topic()
-                                       << " reaches beyond " << static_source_.topic()
-                                       << ": that part is left out");
+    ROS_WARN_STREAM_COND(seldom.isDue(), live_source_.topic()
+                                             << " reaches beyond " << static_source_.topic()
+                                             << ": that part is left out");
 }
 
 // Another node's heartbeat says nothing about the map.
@@ -256,8 +260,9 @@ void MapLayersNode::onClearScan() {
   scans_.clear();
   lay([this] { map_.forgetScans(); });
   scan_source_.forget();
-  ROS_INFO_STREAM_THROTTLE(
-      1.0, "The obstacles of " << scan_source_.topic() << " are forgotten, as clear_scan asks");
+  static LogThrottle seldom(1.0);
+  ROS_INFO_STREAM_COND(seldom.isDue(), "The obstacles of " << scan_source_.topic()
+                                                           << " are forgotten, as clear_scan asks");
 }
 
 // False while there is no ROS time.

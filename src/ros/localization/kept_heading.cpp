@@ -10,6 +10,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
 #include "ros/common/master/kept_file.h"
+#include "ros/common/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 
@@ -79,8 +80,9 @@ void KeptHeading::write(const std::string& line) const {
   try {
     base::writeFileAtomically(file_, line);
   } catch (const InputError& error) {
-    ROS_WARN_STREAM_THROTTLE(
-        10.0, "The heading cannot be kept for a node that starts again: " << error.what());
+    static LogThrottle seldom(10.0);
+    ROS_WARN_STREAM_COND(seldom.isDue(), "The heading cannot be kept for a node that starts again: "
+                                             << error.what());
   }
 }
 

@@ -15,6 +15,7 @@
 #include "ros/common/outgoing/diagnostics_timer.h"
 #include "ros/common/parameters.h"
 #include "ros/common/scheduling/guarded_timer.h"
+#include "ros/common/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 
@@ -284,7 +285,8 @@ void VehicleLocalizerNode::publish(const ros::Time& stamp) {
   try {
     publisher_.publish(poses, messages_.base(), stamp, rivals_);
   } catch (const std::runtime_error& error) {
-    ROS_WARN_STREAM_THROTTLE(5.0, "No pose is published: " << error.what());
+    static LogThrottle seldom(5.0);
+    ROS_WARN_STREAM_COND(seldom.isDue(), "No pose is published: " << error.what());
   }
 }
 

@@ -10,6 +10,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
 #include "ros/common/master/kept_file.h"
+#include "ros/common/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 
@@ -127,8 +128,9 @@ void MapAutosave::write(const std::string& text, const ros::Time& newest_cloud) 
     writeFileAtomically(file_, text);
   } catch (const InputError& error) {
     state.problem = error.what();
-    ROS_WARN_STREAM_THROTTLE(
-        10.0, "The map cannot be kept for a node that starts again: " << state.problem);
+    static LogThrottle seldom(10.0);
+    ROS_WARN_STREAM_COND(seldom.isDue(),
+                         "The map cannot be kept for a node that starts again: " << state.problem);
   }
   std::lock_guard<std::mutex> lock(mutex_);
   if (state.problem.empty()) {

@@ -13,6 +13,7 @@
 #include "ros/common/parameters.h"
 #include "ros/common/process/memory_limit_line.h"
 #include "ros/common/scheduling/guarded_timer.h"
+#include "ros/common/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 
@@ -269,18 +270,20 @@ void ProjectedMapNode::insert(MapModel& map, const CloudQueue::Ready& ready) {
   const MapModel::Inserted inserted = map.insert(finitePoints(*ready.cloud), ready.frames);
   map_publisher_->countCloud(ready.cloud->header.stamp, ros::Time::now());
   diagnostics_->recordInsertion(inserted);
+  static LogThrottle no_ground(10.0), full(10.0), outside(10.0);
   if (inserted.ground_missed)
-    ROS_WARN_THROTTLE(10.0,
-                      "No ground plane found in a cloud: points near z = 0 of %s were taken "
-                      "for ground",
-                      map.options().base_frame_id.c_str());
+    ROS_WARN_COND(no_ground.isDue(),
+                  "No ground plane found in a cloud: points near z = 0 of %s were taken "
+                  "for ground",
+                  map.options().base_frame_id.c_str());
   if (inserted.map_is_full)
-    ROS_WARN_THROTTLE(10.0,
-                      "The map takes memory_limit: what was unknown stays so; ~reset, or a coarser "
-                      "resolution, helps");
+    ROS_WARN_COND(full.isDue(),
+                  "The map takes memory_limit: what was unknown stays so; ~reset, or a coarser "
+                  "resolution, helps");
   if (inserted.left_out > 0)
-    ROS_WARN_STREAM_THROTTLE(10.0, inserted.left_out << " of " << inserted.points
-                                                     << " points of a cloud lie outside the tree");
+    ROS_WARN_STREAM_COND(outside.isDue(), inserted.left_out
+                                              << " of " << inserted.points
+                                              << " points of a cloud lie outside the tree");
 }
 
 void ProjectedMapNode::publish(MapModel& map) {
@@ -290,12 +293,14 @@ void ProjectedMapNode::publish(MapModel& map) {
   try {
     if (updateVehicleHeight(map)) map_publisher_->publish(map, stamp);
   } catch (const InputError& error) {
-    ROS_ERROR_STREAM_THROTTLE(10.0, "projected_map stays as it was: " << error.what());
+    static LogThrottle seldom(10.0);
+    ROS_ERROR_STREAM_COND(seldom.isDue(), "projected_map stays as it was: " << error.what());
   }
+  static LogThrottle cut(10.0);
   if (const double area = map.areaLeftOut(); area > 0.0)
-    ROS_WARN_STREAM_THROTTLE(10.0, "projected_map leaves out "
-                                       << area << " m^2 that were seen: "
-                                       << "they do not fit into projection_max_cells");
+    ROS_WARN_STREAM_COND(cut.isDue(), "projected_map leaves out "
+                                          << area << " m^2 that were seen: "
+                                          << "they do not fit into projection_max_cells");
   octree_publisher_->publish(map, stamp);
 }
 
@@ -326,7 +331,9 @@ bool ProjectedMapNode::updateVehicleHeight(MapModel& map) {
         transforms_.transform(options.frame_id, options.base_frame_id).transform.translation.z);
     return true;
   } catch (const TransformError& error) {
-    ROS_WARN_STREAM_THROTTLE(10.0, "projected_map waits for the vehicle's depth: " << error.what());
+    static LogThrottle seldom(10.0);
+    ROS_WARN_STREAM_COND(seldom.isDue(),
+                         "projected_map waits for the vehicle's depth: " << error.what());
     return false;
   }
 }

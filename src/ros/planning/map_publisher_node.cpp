@@ -11,6 +11,7 @@
 #include "ros/common/network_text.h"
 #include "ros/common/parameters.h"
 #include "ros/common/scheduling/guarded_timer.h"
+#include "ros/common/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 
@@ -89,7 +90,8 @@ void MapPublisherNode::use(const MapPublisherOptions& options) {
 
 void MapPublisherNode::publishOnceThereIsTime() {
   if (!ros::Time::isValid()) {
-    ROS_WARN_THROTTLE(5.0, "use_sim_time is set and no /clock has come yet: waiting for it");
+    static LogThrottle seldom(5.0);
+    ROS_WARN_COND(seldom.isDue(), "use_sim_time is set and no /clock has come yet: waiting for it");
     return;
   }
   timer_.stop();
