@@ -83,6 +83,7 @@ TEST_F(NavigateMap, OneThatIsTakenLateIsNoSignOfLifeAgain) {
   });
   ros::AsyncSpinner spinner(1, &queue);
   spinner.start();
+  ASSERT_TRUE(test::waitFor([] { return !ros::Time::now().isZero(); })) << "/clock";
   publishMap();
   ASSERT_TRUE(beatsUntil([&] { return watch.life().map.grid && watch.life().heartbeat; }));
   const ros::Time last_beat = beat();
