@@ -190,6 +190,15 @@ TEST_F(Takeover, WhatWasGivenBeforeAJoystickTookOverOrLetGoIsNotDrivenAfterwards
   FrameTransforms transforms(nh_);
   NavigatePathOptions options;
   options.check_map = false;
+  options.tf_timeout = 3.0;  // a test that is kept waiting sends none meanwhile
+  ASSERT_TRUE(test::waitFor([&] {
+    try {
+      transforms.transform(options.map_frame, options.base_frame);
+      return true;
+    } catch (const TransformError&) {
+      return false;
+    }
+  }));
   std::atomic<unsigned> handovers{0};
   DriveLoop loop(nh_, options, transforms, {[] {}, [&](unsigned n) { handovers = n; }});
   ros::Publisher manual = nh_.advertise<std_msgs::Bool>("manual_control", 10);
@@ -205,7 +214,7 @@ TEST_F(Takeover, WhatWasGivenBeforeAJoystickTookOverOrLetGoIsNotDrivenAfterwards
     EXPECT_EQ(loop.standing().message, "the joystick commands");
   }
   loop.start(pathOf({{0, 0}, {50, 0}}), following::Join::NEAREST, 2);
-  EXPECT_TRUE(isDriving()) << "nobody commands any more";
+  EXPECT_TRUE(isDriving()) << "nobody commands any more, but: " << loop.standing().message;
 }
 
 TEST_F(Takeover, AJoystickThatWasKilledDoesNotHoldTheDriveForEver) {
