@@ -240,6 +240,10 @@ TEST_F(Publishing, OM75NothingIsBuiltThatNobodySubscribesTo) {
   const test::Latest<sensor_msgs::PointCloud2> centres(nh_, "octomap_point_cloud_centers");
   EXPECT_TRUE(centres.waitForMoreThan(0));
   EXPECT_TRUE(reports("tree_messages", "1", "map"));
+  const test::Latest<visualization_msgs::MarkerArray> cells(nh_, "occupied_cells_vis_array");
+  EXPECT_TRUE(cells.waitForMoreThan(0));
+  EXPECT_TRUE(reports("tree_messages", "2", "map"));
+  EXPECT_EQ(centres.count(), 1U) << "the map has stayed as it is";
 }
 
 TEST_F(Publishing, PublicationsAreRateLimited) {

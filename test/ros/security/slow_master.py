@@ -1,4 +1,4 @@
-"""A ROS master that is slow in one of its answers, in front of the real one."""
+"""A ROS master that is slow in one of its answers, or loses questions, in front of the real one."""
 import http.server
 import threading
 import time
@@ -14,11 +14,11 @@ class SlowMaster:
     """Hands all calls on to `master`; `times` of `method` are answered after `seconds`, once `before` of them have been at
     once. `asked_at` has when each came (monotonic s)."""
 
-    def __init__(self, master, seconds, times, method="getSystemState", before=0):
+    def __init__(self, master, seconds, times, method="getSystemState", before=0, port=0):
         self.master, self.seconds, self.method = master, seconds, method.encode()
         self.slow_ones = range(before, before + times)
         self.asked_at, self.lock = [], threading.Lock()
-        self.server = Server(("localhost", 0), self.handler())
+        self.server = Server(("localhost", port), self.handler())
         self.uri = "http://localhost:%d/" % self.server.server_address[1]
         threading.Thread(target=self.server.serve_forever, daemon=True).start()
 
@@ -31,12 +31,18 @@ class SlowMaster:
             self.asked_at.append(time.monotonic())
             return len(self.asked_at) - 1 in self.slow_ones
 
+    def is_lost(self, question):  # pylint: disable=unused-argument
+        return False
+
     def handler(slow):  # pylint: disable=no-self-argument
         class Handler(http.server.BaseHTTPRequestHandler):
             protocol_version = "HTTP/1.1"
 
             def do_POST(self):  # pylint: disable=invalid-name
                 body = self.rfile.read(int(self.headers["Content-Length"]))
+                if slow.is_lost(body):
+                    self.close_connection = True
+                    return
                 if slow.method in body and slow.is_slow():
                     time.sleep(slow.seconds)
                 request = urllib.request.Request(slow.master, body, {"Content-Type": "text/xml"})

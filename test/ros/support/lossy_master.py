@@ -4,44 +4,30 @@
     lossy_master.py http://localhost:20001 20002 /tmp/lossy    # nodes have ROS_MASTER_URI=http://localhost:20002
 """
 import collections
-import http.server
 import os
+import signal
 import sys
-import urllib.request
 import xmlrpc.client
 
-MASTER, PORT, SWITCH = sys.argv[1], int(sys.argv[2]), sys.argv[3]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "security"))
+from slow_master import SlowMaster  # noqa: E402
+
 LOST = 4  # a client of roscpp asks twice
-asked = collections.Counter()
 
 
-def is_lost(question):
-    arguments, method = xmlrpc.client.loads(question)
-    if not method.startswith("register") or not os.path.exists(SWITCH):
-        return False
-    asked[method, arguments[:2]] += 1
-    return asked[method, arguments[:2]] <= LOST
+class LossyMaster(SlowMaster):
+    def __init__(self, master, port, switch):
+        self.switch, self.asked = switch, collections.Counter()
+        super().__init__(master, 0.0, 0, port=port)
+
+    def is_lost(self, question):
+        arguments, method = xmlrpc.client.loads(question)
+        if not method.startswith("register") or not os.path.exists(self.switch):
+            return False
+        with self.lock:
+            self.asked[method, arguments[:2]] += 1
+            return self.asked[method, arguments[:2]] <= LOST
 
 
-class Questions(http.server.BaseHTTPRequestHandler):
-    protocol_version = "HTTP/1.1"
-
-    def do_POST(self):
-        question = self.rfile.read(int(self.headers["Content-Length"]))
-        self.close_connection = is_lost(question)
-        if self.close_connection:
-            return
-        request = urllib.request.Request(MASTER, question, {"Content-Type": "text/xml"})
-        with urllib.request.urlopen(request) as reply:
-            answer = reply.read()
-        self.send_response(200)
-        self.send_header("Content-Type", "text/xml")
-        self.send_header("Content-Length", str(len(answer)))
-        self.end_headers()
-        self.wfile.write(answer)
-
-    def log_message(self, *_):
-        pass
-
-
-http.server.ThreadingHTTPServer(("localhost", PORT), Questions).serve_forever()
+LossyMaster(sys.argv[1], int(sys.argv[2]), sys.argv[3])
+signal.pause()
