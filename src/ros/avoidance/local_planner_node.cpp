@@ -234,7 +234,7 @@ void LocalPlannerNode::startTimer() {
 bool LocalPlannerNode::noticeTime() {
   if (!clock_.hasTime()) return false;
   const ros::Time now = ros::Time::now();
-  const auto back = clock_.jumpedBack(now);
+  const auto back = clock_.jumpedBack();
   if (started_.isZero()) given_goals_.endAllUntil(now);  // of one that was there before
   if (started_.isZero() || back) started_ = now;
   if (!back) return true;

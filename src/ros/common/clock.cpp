@@ -30,8 +30,10 @@ bool ClockWatch::hasTime() {
   return false;
 }
 
-std::optional<double> ClockWatch::jumpedBack(const ros::Time& now) {
+std::optional<double> ClockWatch::jumpedBack() {
   std::lock_guard<std::mutex> lock(mutex_);
+  const ros::Time now =
+      ros::Time::now();  // under the lock: else another call's is later, and before
   const ros::Time before = std::exchange(latest_, now);
   return now < before ? std::make_optional(secondsBetween(now, before)) : std::nullopt;
 }

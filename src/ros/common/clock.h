@@ -19,9 +19,9 @@ class ClockWatch {
   // would be 0, and every 5 s a warning says so.
   bool hasTime();
 
-  // By how many seconds `now` is before that of an earlier call, as when a bag loops; none where it
+  // By how many seconds ROS time is before that of an earlier call, as when a bag loops; none where it
   // is not. Reported once for each jump.
-  std::optional<double> jumpedBack(const ros::Time& now = ros::Time::now());
+  std::optional<double> jumpedBack();
 
  private:
   std::mutex mutex_;

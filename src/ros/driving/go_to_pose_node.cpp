@@ -204,7 +204,7 @@ void GoToPoseNode::tick() {
   if (!clock_.hasTime() || finished_) return;
   const ros::Time now = ros::Time::now();
   if (started_.isZero()) started_ = now;
-  if (const std::optional<double> back = clock_.jumpedBack(now)) {
+  if (const std::optional<double> back = clock_.jumpedBack()) {
     ROS_WARN_STREAM("ROS time went back by " << *back << " s: tf is cleared, the goal aborted");
     transforms_.clear();
     started_ = now;

@@ -171,7 +171,7 @@ void NavigatePathNode::watchClock() {
   }
   if (std::exchange(waits_for_clock_, false)) ROS_INFO("/clock is there");
   const ros::Time now = ros::Time::now();
-  if (const std::optional<double> back = clock_.jumpedBack(now)) {
+  if (const std::optional<double> back = clock_.jumpedBack()) {
     ROS_WARN_STREAM("ROS time went back by " << *back
                                              << " s: tf is cleared and the drive cancelled");
     started_ = now;

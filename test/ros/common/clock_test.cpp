@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
+#include <vector>
 
 #include "ros/support/wait.h"
 
@@ -51,6 +53,30 @@ TEST_F(LateClockTest, OneStampThatIsWrongDoesNotHoldTheOthers) {
   for (int i = 0; i < 100; ++i) clock_.timeFor(ros::Time(101.0), kAhead);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   EXPECT_LT(spent.count(), 100 * 0.05);
+}
+
+// Beside the machine's own clock, which goes on meanwhile.
+TEST(ClockWatch, TimeThatSeveralThreadsReadDoesNotGoBack) {
+  ros::Time::init();
+  ClockWatch clock;
+  std::atomic<int> jumps = 0;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      for (int call = 0; call < 200000; ++call) jumps += clock.jumpedBack().has_value();
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(jumps, 0);
+}
+
+TEST(ClockWatch, TimeThatWentBackIsToldOnce) {
+  ros::Time::setNow(ros::Time(100.0));
+  ClockWatch clock;
+  EXPECT_FALSE(clock.jumpedBack());
+  ros::Time::setNow(ros::Time(93.0));
+  EXPECT_EQ(clock.jumpedBack(), 7.0);
+  EXPECT_FALSE(clock.jumpedBack());
+  ros::Time::init();
 }
 
 ros::Time raw(std::uint32_t seconds, std::uint32_t nanoseconds) {
