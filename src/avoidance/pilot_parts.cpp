@@ -47,6 +47,7 @@ void Pilot::Parts::start() {
   unseen.forget();
   ended_ = false;
   restarts_ = true;
+  frames_without_ = 0;
   status_ = PilotStatus::BLOCKED;
   sentence_ = "the flight begins";
 }
@@ -180,8 +181,10 @@ bool Pilot::Parts::goalIsOccupied() const {
   return true;
 }
 
+// With every frame; for a route that has just begun by what is remembered, since to wait for the next frame is to hover.
 void Pilot::Parts::findPath() {
-  if (!fresh_ || unseen.looks()) return;
+  const bool begins = flown.empty() && !kept_;
+  if ((!fresh_ && !begins) || unseen.looks()) return;
   if (flown.empty() && frames_without_ > 0 && frames_without_ < kFramesBetween) {
     ++frames_without_;
     return;

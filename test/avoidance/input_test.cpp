@@ -44,6 +44,17 @@ Frame pictureOf(float value, double time) {
   return frame;
 }
 
+// Of a sky, in which no pixel measures anything, ahead of a vehicle that looks along x.
+Frame skyOf(double time) {
+  Frame frame = pictureOf(kNan, time);
+  frame.width = 80;
+  frame.height = 60;
+  frame.points.assign(3 * frame.pixels(), kNan);
+  frame.pinhole = Pinhole{50.0, 50.0, 40.0, 30.0};
+  frame.map_from_sensor.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  return frame;
+}
+
 // Stands, with a status and words of its sentence.
 void expectStands(const PilotAnswer& answer, PilotStatus status, const std::string& words) {
   EXPECT_TRUE(answer.velocity.isZero());
@@ -124,6 +135,24 @@ TEST(Input, APoseThatIsNotKnownStopsAtOnce) {
   expectStands(pilot.update(input), PilotStatus::TRANSFORM_ERROR, "velocity is not finite");
   input.velocity.surge = 1e300;
   expectStands(pilot.update(input), PilotStatus::TRANSFORM_ERROR, "1000 m/s");
+}
+
+// Where each new path made the vehicle hover until the next frame, one that was planned anew ten times a second hovered
+// half of the time, and said that no path was free.
+TEST(Input, ARouteThatIsGivenInFlightIsFlownAtOnce) {
+  Pilot pilot(flyingOptions());
+  pilot.setRoute({{20.0, 0.0, 1.5}});
+  for (const double time : {0.0, 0.1, 0.2}) {
+    const Frame sky = skyOf(time);
+    pilot.update(inputAt(time, &sky));
+  }
+  ASSERT_EQ(pilot.update(inputAt(0.25, nullptr)).status, PilotStatus::FLYING);
+  for (const double time : {0.26, 0.27, 0.28}) {
+    pilot.setRoute({{20.0, 1.0, 1.5}});
+    const PilotAnswer answer = pilot.update(inputAt(time, nullptr));
+    EXPECT_EQ(answer.status, PilotStatus::FLYING) << answer.sentence;
+    EXPECT_GT(answer.velocity.surge, 0.1);
+  }
 }
 
 // In flight the clouds cease: zero within half a second.
