@@ -29,6 +29,7 @@ Commander = collections.namedtuple("Commander", "arguments feeds offer far clock
 DEADLINE = 60.0   # s
 QUIET = 1.0       # s without a motion: it stands
 VELOCITIES = ("geometry_msgs/Twist", "geometry_msgs/TwistStamped")
+TRAJECTORIES = ("trajectory_msgs/MultiDOFJointTrajectory",)
 TICK = 0.05       # s, between two of what it is fed
 CLOUD_EVERY = 4   # ticks
 

@@ -15,7 +15,7 @@ from roslib.message import get_service_class
 from std_msgs.msg import Bool
 
 import node_probes as probes
-from commanders import COMMANDERS, DEADLINE, QUIET, TICK, VELOCITIES, CommanderTest, RunningCommander
+from commanders import COMMANDERS, DEADLINE, QUIET, TICK, TRAJECTORIES, VELOCITIES, CommanderTest, RunningCommander
 from late_publisher import LatePublisher
 from node_table import NODES
 from own_master import start_own_master
@@ -71,7 +71,8 @@ class EveryCommander(CommanderTest):
         return not node.moved_after(begin)
 
     def test_the_table_has_every_node_that_commands(self):
-        self.assertEqual({name for name in NODES if set(NODES[name].outputs.values()) & set(VELOCITIES)}, set(COMMANDERS))
+        kinds = set(VELOCITIES + TRAJECTORIES)
+        self.assertEqual({name for name in NODES if set(NODES[name].outputs.values()) & kinds}, set(COMMANDERS))
         for name in COMMANDERS:
             self.assertIn("stop", NODES[name].inputs, name)
 

@@ -8,6 +8,10 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <utility>
 
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/SaveFile.h"
@@ -28,6 +32,38 @@ constexpr char kStartUp[] = "# start-up file of a shell\nexport secret=hunter2\n
 // A second is what is promised: measured (the line that TearDownTestSuite prints), not judged, since machines that run tests
 // are loaded. What hung did so for ever.
 const std::chrono::duration<double> kLongestAnswer = std::chrono::seconds(5);
+
+using NodeOptions = std::set<std::pair<std::string, std::string>>;  // (node, option)
+
+// What names a file that is read or tried when the node starts, and what a service asks for later.
+const NodeOptions kAtTheStart = {
+    {"local_planner", "config_filename"}, {"local_planner", "log"},
+    {"map_layers", "zones_file"},         {"map_publisher", "filename"},
+    {"marker_localizer", "layout"},       {"navigate_path", "config_filename"},
+    {"path_planner", "waypoints_file"},   {"projected_map", "filename"},
+    {"simulator", "sensor_faults"},       {"simulator", "world"}};
+const NodeOptions kBySaving = {{"projected_map", "map_file"}, {"projected_map", "octree_file"}};
+
+// All options of config/ whose description says below which folder the file lies.
+NodeOptions optionsThatNameFiles() {
+  const std::regex option("([a-z_]+): [^#]*# (.*)"), more(" +# (.*)"),
+      folder("below the\\s+folder to");
+  NodeOptions found;
+  for (const auto& entry : std::filesystem::directory_iterator(GPP_TEST_DATA "/../../config")) {
+    std::ifstream file(entry.path());
+    std::string line, name, description;
+    for (std::smatch match; std::getline(file, line);) {
+      if (std::regex_match(line, match, option)) {
+        name = match[1];
+        description = match[2];
+      } else if (std::regex_match(line, match, more)) {
+        description += " " + match[1].str();
+      }
+      if (std::regex_search(description, folder)) found.emplace(entry.path().stem().string(), name);
+    }
+  }
+  return found;
+}
 
 // home/ has what nobody may touch; files/ is the folder of the nodes.
 class NamedFiles : public test::PlannerTest {
@@ -101,6 +137,18 @@ class NamedFiles : public test::PlannerTest {
     return answer;
   }
 
+  // In projected_map: a map of which nothing is known is not saved.
+  void mapAWall() {
+    ros::Publisher clouds = nh_.advertise<sensor_msgs::PointCloud2>("cloud_in", 10);
+    EXPECT_TRUE(test::waitFor([&] {
+      clouds.publish(test::cloudOf(test::wallAt(1.0F), "map", ros::Time::now()));
+      return save<SaveFile>("/projected_map/save_map", "map.yaml").success;
+    }));
+  }
+
+  // Those of its action that name files outside, or one that is no waypoint file.
+  void refuseGoals(const std::string& node);
+
   static int exitCodeOf(const std::string& node, const std::vector<std::string>& arguments) {
     Process process(node, arguments);
     EXPECT_TRUE(process.waitForExit()) << node;
@@ -165,18 +213,44 @@ TEST_F(NamedFiles, MapsAndOctreesAreSavedBelowTheFolderOnly) {
   for (const char* service : {"/projected_map/save_map", "/projected_map/save_octree"})
     for (const std::string& name : namesOutside())
       EXPECT_FALSE(save<SaveFile>(service, name).success) << service << ' ' << name;
-  ros::Publisher clouds = nh_.advertise<sensor_msgs::PointCloud2>("cloud_in", 10);
-  EXPECT_TRUE(test::waitFor([&] {  // a map of which nothing is known is not saved
-    clouds.publish(test::cloudOf(test::wallAt(1.0F), "map", ros::Time::now()));
-    return save<SaveFile>("/projected_map/save_map", "map.yaml").success;
-  }));
+  mapAWall();
   EXPECT_TRUE(save<SaveFile>("/projected_map/save_octree", "tree.bt").success);
   EXPECT_TRUE(std::filesystem::exists(files() + "/tree.bt"));
 }
 
+// ~save_map and ~save_octree write there where their requests name no file.
+TEST_F(NamedFiles, WhatServicesWriteToByAParameterLiesBelowTheFolderToo) {
+  const Process mapping("projected_map", folders());
+  ASSERT_TRUE(ros::service::waitForService("/projected_map/save_octree", 20000));
+  mapAWall();
+  for (const auto& [node, option] : kBySaving) {
+    const bool map = option == "map_file";
+    const std::string service = map ? "/projected_map/save_map" : "/projected_map/save_octree";
+    for (const std::string& name : namesOutside()) {
+      reconfigured("/" + node, option, name);
+      EXPECT_FALSE(save<SaveFile>(service, "").success) << option << ' ' << name;
+    }
+    const std::string name = map ? "by_parameter.yaml" : "by_parameter.bt";
+    reconfigured("/" + node, option, name);
+    EXPECT_TRUE(save<SaveFile>(service, "").success) << option;
+    EXPECT_TRUE(std::filesystem::exists(files() + "/" + name));
+  }
+}
+
+// Whoever adds an option that names a file adds it to one of the lists above, and is asked.
+TEST_F(NamedFiles, NoOptionThatNamesAFileIsMissing) {
+  NodeOptions listed = kAtTheStart;
+  listed.insert(kBySaving.begin(), kBySaving.end());
+  EXPECT_EQ(listed, optionsThatNameFiles());
+}
+
 TEST_F(NamedFiles, WaypointsOfAGoalAreReadBelowTheFolderOnlyAndNotQuoted) {
   folder_.write("files/notes.yaml", kStartUp);
-  Process navigate("navigate_path", {"--load-folder", files()});
+  for (const char* node : {"navigate_path", "local_planner"}) refuseGoals(node);
+}
+
+void NamedFiles::refuseGoals(const std::string& node) {
+  Process navigate(node, {"--load-folder", files()});
   actionlib::SimpleActionClient<NavigatePathAction> client("navigate_path", true);
   ASSERT_TRUE(client.waitForServer(ros::Duration(20.0)));
   std::vector<std::string> names = namesOutside();
@@ -221,20 +295,10 @@ TEST_F(NamedFiles, WhatIsReadAtTheStartIsNotQuoted) {
 }
 
 TEST_F(NamedFiles, WhatIsReadAtTheStartLiesBelowTheFolderToo) {
-  const std::vector<std::pair<std::string, std::string>> options = {
-      {"navigate_path", "_config_filename"},
-      {"projected_map", "_filename"},
-      {"map_publisher", "_filename"},
-      {"marker_localizer", "_layout"},
-      {"map_layers", "_zones_file"},
-      {"simulator", "_world"},
-      {"simulator", "_sensor_faults"},
-      {"local_planner", "_config_filename"},
-      {"local_planner", "_log"},
-      {"path_planner", "_waypoints_file"}};
-  for (const auto& [node, option] : options)
+  for (const auto& [node, option] : kAtTheStart)
     for (const std::string& name : {start_up_, other_, std::string("../home/notes.yaml")}) {
-      EXPECT_EQ(exitCodeOf(node, {option + ":=" + name, "--load-folder", files()}), 1) << node;
+      EXPECT_EQ(exitCodeOf(node, {"_" + option + ":=" + name, "--load-folder", files()}), 1)
+          << node;
       ros::param::del("/" + node);
     }
 }
