@@ -1,13 +1,14 @@
 """Simulated time jumps back and forth: the simulator is killed, and starts again with another time and the vehicle
 where it was. Holds if no other node ends, and after every jump the map and the path are of the new time, the vehicle
-goes on and touches nothing; and if navigate_path says of each jump back that there was one."""
+goes on and touches nothing; and if the node that drives it by itself says of each jump back that there was one."""
 import os
 import signal
 import struct
 
 from ros_session import SessionFailed
 
-from .session import BEGIN, BACK_SECONDS, Demo, patience, process_id
+from .other_sessions import COMMANDED
+from .session import BEGIN, BACK_SECONDS, patience, process_id
 
 JUMPS = (0.1, -2.0, 3600.0, -3600.0, 2e9, -1.9e9, -100.0)  # s
 LEAST_BACK = 1.0  # s: of a shorter way back the node may see nothing, since the simulator takes a while to start
@@ -70,12 +71,12 @@ def jump(demo, seconds):
         raise SessionFailed("after a jump of %g s to %.1f s a path is stamped %.1f" % (seconds, to, stamp))
     if to < before - LEAST_BACK:
         demo.nodes.wait_until(lambda: times_said(demo) > said, patience(BACK_SECONDS),
-                              "word of navigate_path that time went back by %g s" % -seconds)
+                              "word that time went back by %g s" % -seconds)
 
 
-def storm(rounds, folder, given):
+def storm(rounds, folder, given, name):
     rounds = int(rounds)
-    with Demo(folder, given) as demo:
+    with COMMANDED[name](folder, given) as demo:
         demo.drive.goes_on()
         before = demo.pids()
         for number in range(rounds * len(JUMPS)):

@@ -15,7 +15,7 @@ import xml.etree.ElementTree
 
 from ros_session import SessionFailed, share_file
 
-from .kill_sessions import Flight, Localization, Manual, Site
+from .other_sessions import Flight, Localization, Manual, Site
 from .seen_map import SeenMap
 from .session import BACK_SECONDS, Demo, patience, process_id
 

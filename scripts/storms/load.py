@@ -1,11 +1,11 @@
 """More is asked of the nodes than they can do: maps of 4000x4000 cells, goals at 1 kHz, service clients, and a
 subscriber that never reads.
 
-On path_planner and navigate_path with a simulated vehicle, without a world; the map is free but for a wall. Half of the
-time maps come at 5 Hz, half at 10 Hz. Holds if no node ends, resident memory ends up below MOST_MB, every question of
+On path_planner and one of COMMANDERS with a simulated vehicle; the map is free but for a wall. navigate_path and
+teleop_joy have no world; local_planner sees that of SKY, in which it is alone. Half of the time maps come at 5 Hz, half at 10 Hz. Holds if no node ends, resident memory ends up below MOST_MB, every question of
 ~make_plan is answered, 95 % of them within PROMPT seconds and all within LONGEST_ANSWER, once the load is over within 1 s, and
 cmd_vel is silent no longer than silence.py allows. A drive that ends, where path_planner finds no path, is silent too:
-the row says how often that was. A machine whose load is above twice its cores has more time, in
+the row says how often that was. The goals lie at two ends in turn, so that no drive is over: who has arrived commands nothing. A machine whose load is above twice its cores has more time, in
 proportion: the clients take a core themselves.
 """
 import os
@@ -16,18 +16,54 @@ import sys
 import threading
 import time
 
-from ros_session import START_SECONDS, SessionFailed, executable
+from ros_session import START_SECONDS, SessionFailed, executable, share_file
 
-from .session import Master, patience, process_id, resident_mb
+from .other_sessions import Flight, Manual, hold
+from .session import Demo, Master, patience, process_id, resident_mb
 from .silence import Silence, quantile
 
 SIDE, RESOLUTION = 4000, 0.05
 MAP_RATES, GOAL_RATE, CLIENTS = (5.0, 10.0), 1000.0, 50
 MOST_MB = 2500.0
-PROMPT = {5.0: 0.5, 10.0: 1.0}  # s that 95 % of the answers take at most, by the rate of the maps
-LONGEST_ANSWER = 5.0            # s
-NODES = {"simulator": [], "path_planner": ["_unknown_is_passable:=true"],
-         "navigate_path": ["_check_map:=false", "_loop:=true", "_no_progress_timeout:=0"]}
+PROMPT = 0.5          # s that 95 % of the answers take at most
+LONGEST_ANSWER = 5.0  # s
+ENDS, END_SECONDS = ((180.0, 180.0), (180.0, 20.0)), 45.0  # m; so long each, in which none drives 100 m
+HEIGHT = 1.5  # m; 2-D nodes do not care
+SKY = """<sdf version="1.6"><world name="sky"><model name="far"><static>true</static><pose>0 -500 0 0 0 0</pose><link name="box">
+<collision name="box"><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></world></sdf>"""
+
+
+class Commander:
+    """One that is put under load: its node, what starts it and the simulator, and what it needs to move."""
+
+    def __init__(self, session, arguments, parameters=(), is_held=False, world=None):
+        self.node, self.tick, self.is_held, self.world = session.COMMANDER[1:], session.TICK, is_held, world
+        self.arguments, self.parameters = arguments, dict(parameters)
+
+    def programs(self, folder):
+        """{node: arguments} of all that runs."""
+        simulator = ["_initial_x:=1", "_initial_y:=1"]
+        if self.world:
+            name = os.path.join(folder, "world.sdf")
+            with open(name, "w") as file:
+                file.write(self.world)
+            simulator += ["--world", name, "_initial_z:=%g" % HEIGHT]
+        return {"simulator": simulator, "path_planner": ["_unknown_is_passable:=true"], self.node: self.arguments}
+
+    def set_parameters(self):
+        import rospy
+        import yaml
+        for node, config in self.parameters.items():
+            with open(share_file("config", config)) as file:
+                rospy.set_param(node, yaml.safe_load(file))
+
+
+COMMANDERS = {
+    "demo": Commander(Demo, ["_check_map:=false", "_loop:=true", "_no_progress_timeout:=0"]),
+    "manual": Commander(Manual, [], is_held=True),
+    "flight": Commander(Flight, ["points:=depth_camera/points", "camera_info:=depth_camera/camera_info", "goal:=local_goal"],
+                        {"/simulator": "multirotor.yaml", "/local_planner": "flight_local.yaml"}, world=SKY),
+}
 
 
 def serialized_map():
@@ -60,9 +96,14 @@ def publish_goals():
     from geometry_msgs.msg import PoseStamped
     publisher = rospy.Publisher("goal", PoseStamped, queue_size=100)
     goal = PoseStamped()
-    goal.header.frame_id, goal.pose.orientation.w = "map", 1.0
-    goal.pose.position.x = goal.pose.position.y = 150.0
-    return lambda: publisher.publish(goal), GOAL_RATE
+    goal.header.frame_id, goal.pose.orientation.w, goal.pose.position.z = "map", 1.0, HEIGHT
+
+    begin = time.monotonic()
+
+    def publish():
+        goal.pose.position.x, goal.pose.position.y = ENDS[int((time.monotonic() - begin) / END_SECONDS) % 2]
+        publisher.publish(goal)
+    return publish, GOAL_RATE
 
 
 def make_plan(persistent=False):
@@ -140,14 +181,14 @@ def put_load(kind, rate=None):
 
 
 class Nodes:
-    def __init__(self, folder, given):
+    def __init__(self, folder, given, commander):
         self.log = open(os.path.join(folder, "log"), "w")
         extra = {}
         for text in given:
             node, _, parameter = text.partition("/")
             extra.setdefault(node, []).append("_" + parameter.replace("=", ":=", 1))
-        self.processes = {name: self.start([executable(name), "goal:=goal"] + arguments + extra.get(name, []))
-                          for name, arguments in NODES.items()}
+        self.processes = {name: self.start([executable(name)] + arguments + extra.get(name, []))
+                          for name, arguments in commander.programs(folder).items()}
         self.loads = []
 
     def start(self, command, **more):
@@ -172,7 +213,7 @@ class Nodes:
 
     def drives_ended(self):
         with open(self.log.name, errors="replace") as log:
-            return sum("CANCELLED: the path is empty" in line for line in log)
+            return sum("the path is empty" in line for line in log)
 
     def resident(self):
         return {name: resident_mb(process.pid) for name, process in self.processes.items()}
@@ -187,17 +228,17 @@ class Nodes:
 
 
 def drive_a_line(nodes):
-    """A path to and fro over free space, again and again."""
+    """A path over free space, which navigate_path drives again and again."""
     import rospy
     from geometry_msgs.msg import PoseStamped
     from nav_msgs.msg import Path
     publisher = rospy.Publisher("path", Path, queue_size=1)
-    wait(nodes, lambda: publisher.get_num_connections() > 0, "navigate_path")
+    wait(nodes, lambda: publisher.get_num_connections() > 0, "subscriber of path")
     path = Path()
     path.header.frame_id, path.header.stamp = "map", rospy.Time.now()
-    for x in (0.0, 10.0, 0.1):
+    for x in (1.0, 10.0, 1.1):
         pose = PoseStamped()
-        pose.pose.position.x, pose.pose.orientation.w = x, 1.0
+        pose.pose.position.x, pose.pose.position.y, pose.pose.position.z, pose.pose.orientation.w = x, 1.0, HEIGHT, 1.0
         path.poses.append(pose)
     publisher.publish(path)
 
@@ -258,8 +299,8 @@ def verdict(answers, most, calm, silent):
         raise SessionFailed("no answer under load")
     text = "; ".join(told(rate, each) for rate, each in answers.items())
     text += "; after it %.2f s; at most %.0f MB; %s" % (calm, most, silent)
-    late = any(quantile(each.seconds, 0.95) > patience(PROMPT[rate]) or max(each.seconds) > patience(LONGEST_ANSWER)
-               for rate, each in answers.items())
+    late = any(quantile(each.seconds, 0.95) > patience(PROMPT) or max(each.seconds) > patience(LONGEST_ANSWER)
+               for each in answers.values())
     if late or any(each.failures for each in answers.values()) or calm > patience(1.0) or most > MOST_MB:
         raise SessionFailed(text)
     return text
@@ -273,17 +314,22 @@ def judged(silence, nodes):
         raise SessionFailed(str(reason) + ended) from reason
 
 
-def storm(minutes, folder, given):
+def storm(minutes, folder, given, name):
     import rospy
+    commander = COMMANDERS[name]
     with Master():
         rospy.init_node("storm", anonymous=True, disable_signals=True)
         rospy.set_param("/use_sim_time", False)
+        commander.set_parameters()
         rospy.set_param("/simulator/publish_clock", False)
-        nodes = Nodes(folder, given)
+        nodes = Nodes(folder, given, commander)
         try:
-            wait(nodes, lambda: all(process_id("/" + name) for name in NODES), "nodes")
-            drive_a_line(nodes)
-            with Silence(stops=True) as silence:
+            wait(nodes, lambda: all(process_id("/" + node) for node in nodes.processes), "nodes")
+            if commander.is_held:
+                threading.Thread(target=hold, args=(Manual.AXES, Manual.BUTTONS), daemon=True).start()
+            else:
+                drive_a_line(nodes)
+            with Silence(commander.tick, stops=True) as silence:
                 answers, most = {}, 0.0
                 for rate in MAP_RATES:
                     answers[rate], megabytes = suffer(nodes, 60.0 * minutes / len(MAP_RATES), silence, rate)

@@ -112,6 +112,8 @@ class Session:
     """The nodes of a launch file under a master of their own, and a drive of the vehicle between two ends."""
 
     NODES = ()
+    COMMANDER, TICK = "/navigate_path", 0.02  # publishes cmd_vel; s, its period
+    MASTER_TIMEOUT = 6.0  # s, of the commander where it is given in `commander`; None: it has none
     THERE = 0.4      # m: so near to an end the vehicle is sent to the other
     # For the kills in it:
     MAP_NODE = None  # the first map after its end is to have what was occupied
@@ -157,7 +159,7 @@ class Demo(Session):
     NODES = ("/simulator", "/projected_map", "/path_planner", "/navigate_path", "/teleop_joy")
     MAP_NODE, ERASED = "/projected_map", 10
 
-    def __init__(self, folder, given=(), simulator=(), mapping=(), navigate=(), arguments=(),
+    def __init__(self, folder, given=(), simulator=(), mapping=(), commander=(), arguments=(),
                  survey=False, host="localhost"):
         overrides = Overrides(folder, given)
         ends = ENDS if survey else [(x, y, ABOVE, yaw) for x, y, _, yaw in ENDS]
@@ -169,7 +171,7 @@ class Demo(Session):
             "mapping_overrides:=" + overrides.write("projected_map", "demo_mapping.yaml",
                                                     always_send_full_map=True, **dict(mapping)),
             "navigate_overrides:=" + overrides.write("navigate_path", "demo_navigate.yaml", control_rate=50.0,
-                                                     **dict(navigate))], ends, host)
+                                                     **dict(commander))], ends, host)
 
     def prepare(self):
         """A survey as fast as the machine can; then the simulator is one that starts at the first of ENDS."""

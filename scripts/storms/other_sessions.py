@@ -1,4 +1,4 @@
-"""The sessions in which nodes are killed, beside the demo: launch files of the package, each with a vehicle that drives."""
+"""The sessions beside the demo: launch files of the package, each with a vehicle that drives."""
 import os
 import threading
 import time
@@ -22,26 +22,31 @@ string frame_id
 """
 
 
+HELD_EVERY = 0.05  # s
+
+
+def hold(axes, buttons):
+    """A joystick, for ever."""
+    import rospy
+    from genpy.dynamic import generate_dynamic
+    joy = generate_dynamic("sensor_msgs/Joy", JOY)["sensor_msgs/Joy"]
+    publisher = rospy.Publisher("joy", joy, queue_size=1)
+    while True:
+        time.sleep(HELD_EVERY)
+        publisher.publish(joy(axes=axes, buttons=buttons))
+
+
 class Manual(Demo):
     """The demo, above whose site somebody drives circles by joystick, whose button is held for ever; what is planned for
     goals meanwhile nobody drives."""
 
     FIRST_CELLS = 20
+    COMMANDER, TICK, MASTER_TIMEOUT = "/teleop_joy", 0.05, None  # whoever holds the button sees the vehicle
     AXES = (0.0, 0.5, 0.0, 0.5, 0.0)  # ahead, and to the left
     BUTTONS = (0, 0, 0, 0, 1, 0)
-    TICK = 0.05                  # s
 
     def prepare(self):
-        threading.Thread(target=self.hold, daemon=True).start()
-
-    def hold(self):
-        import rospy
-        from genpy.dynamic import generate_dynamic
-        joy = generate_dynamic("sensor_msgs/Joy", JOY)["sensor_msgs/Joy"]
-        publisher = rospy.Publisher("joy", joy, queue_size=1)
-        while True:
-            time.sleep(self.TICK)
-            publisher.publish(joy(axes=self.AXES, buttons=self.BUTTONS))
+        threading.Thread(target=hold, args=(self.AXES, self.BUTTONS), daemon=True).start()
 
 
 class Flight(Session):
@@ -50,14 +55,18 @@ class Flight(Session):
     NODES = ("/simulator", "/projected_map", "/path_planner", "/local_planner")
     THERE = 1.5
     FIRST_CELLS, BRAKING = 20, 1.7  # from 2 m/s
+    COMMANDER, TICK = "/local_planner", 0.05
 
-    def __init__(self, folder, given):
+    def __init__(self, folder, given=(), commander=()):
         overrides = Overrides(folder, given)
         super().__init__(folder, "flight_demo.launch", [
             "simulator_overrides:=" + overrides.write("simulator", "multirotor.yaml"),
             "mapping_overrides:=" + overrides.write("projected_map", "flight_mapping.yaml", always_send_full_map=True),
-            "local_overrides:=" + overrides.write("local_planner", "flight_local.yaml")],
+            "local_overrides:=" + overrides.write("local_planner", "flight_local.yaml", **dict(commander))],
             ((0.0, 0.0, 1.5, 0.0), (30.0, 10.0, 1.5, 0.0)))
+
+
+COMMANDED = {"demo": Demo, "manual": Manual, "flight": Flight}  # one of each node that publishes cmd_vel
 
 
 class Localization(Session):
