@@ -118,7 +118,6 @@ void FlightCommander::take(const Command& command, Clock::time_point handed_over
   flies_ = true;
   thread_.restartPeriod();
   thread_.tick();
-  flies_ = !command.is_last;
 }
 
 void FlightCommander::onStop(const std_msgs::Bool& message) {
@@ -130,8 +129,14 @@ void FlightCommander::onManual(const std_msgs::Bool& message) {
   if (!finished_) hold_.manual(message.data);
 }
 
+// The last command is given again until it was sent.
 void FlightCommander::tick() {
   if (finished_) return;
+  sendCommand();
+  if (command_.is_last) flies_ = false;
+}
+
+void FlightCommander::sendCommand() {
   const bool time_went_back = secondsBetween(command_.time, ros::Time::now()) < 0.0;
   if (time_went_back || !hold_.why(master_timeout_).empty()) command_.velocity = {};
   if (hold_.stopped()) return send({});

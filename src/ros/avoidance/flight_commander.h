@@ -74,6 +74,7 @@ class FlightCommander {
   void onStop(const std_msgs::Bool& message);
   void onManual(const std_msgs::Bool& message);
   void tick();
+  void sendCommand();
   void beginToBrake();
   bool isOverdue() const;
   base::BodyVelocity due() const;

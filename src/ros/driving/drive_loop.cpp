@@ -287,7 +287,10 @@ void DriveLoop::noteRefused() {
 
 // Also where a drive begins meanwhile; a pose that was held would be returned to.
 void DriveLoop::yieldToJoystick() {
-  if (joystick_.expire()) noteHandover();
+  if (joystick_.expire()) {
+    silent_ = false;  // whose node was killed has sent no zero
+    noteHandover();
+  }
   if (!joystick_.commands()) return;
   if (follower_.active() && follower_.state() != FollowState::PAUSED) {
     follower_.pause();
@@ -305,8 +308,8 @@ void DriveLoop::publish(const BodyVelocity& velocity) {
   }
   const bool driven = follower_.active() && follower_.state() != FollowState::PAUSED;
   if (!driven && !stopped_ && velocity.isZero() && silent_) return;
-  silent_ = !driven && velocity.isZero();
   velocity_publisher_.publish(velocityToMessage(velocity));
+  silent_ = !driven && velocity.isZero();  // sent: what threw is tried again
 }
 
 void DriveLoop::report(const ros::Time& now) {

@@ -108,7 +108,7 @@ void JoystickLoop::command(const BodyVelocity& velocity) {
 void JoystickLoop::tick() {
   if (finished_) return;
   if (!velocity_) {
-    if (stopped_) publish({});
+    if (!release() && stopped_) publish({});
     return;
   }
   const double silence = std::chrono::duration<double>(Clock::now() - heard_).count();
@@ -132,12 +132,13 @@ void JoystickLoop::announce(bool commands) {
   manual_publisher_.publish(message);
 }
 
-// Whether it commanded.
+// Whether it commanded. What could not be sent for want of memory is sent by the next tick.
 bool JoystickLoop::release() {
-  if (!std::exchange(velocity_, std::nullopt)) return false;
-  commands_ = false;
+  if (!commands_) return false;
+  velocity_.reset();
   publish({});
   announce(false);
+  commands_ = false;
   note_(Level::INFO, "The joystick commands no longer");
   return true;
 }

@@ -69,7 +69,7 @@ class JoystickLoop {
   bool finished_ = false;                       // the node ends
   Clock::time_point heard_;
   std::optional<Clock::time_point> refused_;  // when that was told last
-  std::atomic<bool> commands_{false};
+  std::atomic<bool> commands_{false};         // until the zero is sent
   bool started_ = false;
 
   DirectPublisher publisher_, manual_publisher_;

@@ -138,6 +138,11 @@ class RunningCommander(RunningNode):
         with self.lock:
             return any(at > begin and not is_zero(twist) for at, _, twist in self.commands)
 
+    def zeroed_after(self, begin):
+        """Whether it commanded a zero since then."""
+        with self.lock:
+            return any(at > begin and is_zero(twist) for at, _, twist in self.commands)
+
     def stood_from_one_on(self, begin):
         """Whether no motion of a topic came after its first zero since then."""
         with self.lock:

@@ -247,6 +247,9 @@ class EveryCommander(CommanderTest):
                 node.send("manual_control", Bool(True))
                 return not self.resumes(node)
             self.assertTrue(probes.until(node, holds, session_seconds() + DEADLINE), name)
+            begin = time.monotonic()
+            self.assertTrue(probes.until(node, lambda: node.zeroed_after(begin), session_seconds() + DEADLINE),
+                            "%s leaves the last velocity of a joystick in force" % name)
             self.assertTrue(probes.until(node, lambda: self.resumes(node), session_seconds() + DEADLINE), name)
             self.assertTrue(self.moves(node), name)
 
