@@ -77,6 +77,7 @@ void PathFollower::setOptions(const FollowerOptions& options) {
 
 void PathFollower::start(const Path& path, Join join) {
   checkWaypoints(path, options_.loop);
+  if (path.frame_id != progress_->path().frame_id) controller_->changeFrame();
   progress_ = std::make_unique<RouteProgress>(path, join, options_, *events_);
   if (!std::exchange(starts_paused_, false) && state_ != FollowState::PAUSED)
     state_ = FollowState::DRIVING;

@@ -1,7 +1,9 @@
 #include "following/velocity_controller.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace grid_path_planner::following {
 
@@ -10,6 +12,7 @@ using path::Pose;
 
 namespace {
 
+using Eigen::AngleAxisd;
 using Eigen::Vector3d;
 
 double towards(double from, double to, double largest) {
@@ -99,9 +102,16 @@ void VelocityController::stop() {
   yaw_rate_ = 0.0;
 }
 
+void VelocityController::changeFrame() {
+  other_frame_ = true;
+}
+
 // In the body frame, inside the limits of speed and of its change since the last call.
 BodyVelocity VelocityController::limited(const Pose& vehicle, const Vector3d& velocity,
                                          double yaw_error, double seconds) {
+  if (std::exchange(other_frame_, false))
+    velocity_ = AngleAxisd(vehicle.yaw - yaw_, Vector3d::UnitZ()) * velocity_;
+  yaw_ = vehicle.yaw;
   velocity_ = towards(velocity_, velocity * speedScale(velocity, speed_limit_, options_),
                       options_.max_acceleration * seconds);
 

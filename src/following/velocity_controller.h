@@ -48,6 +48,8 @@ class VelocityController {
   void stop();
   // A new drive: nothing is held any longer.
   void release() { returning_ = false; }
+  // From the next call on poses are in another frame; the vehicle has the velocity that it had.
+  void changeFrame();
 
  private:
   Eigen::Vector3d wantedVelocity(const RoutePosition& position,
@@ -58,6 +60,8 @@ class VelocityController {
   const FollowerOptions& options_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // commanded last, path frame
   double yaw_rate_ = 0.0;
+  double yaw_ = 0.0;          // of the vehicle then
+  bool other_frame_ = false;  // than that of velocity_ and yaw_: the next call's
   double speed_limit_ = std::numeric_limits<double>::infinity();
   bool returning_ = false;  // to the pose that is held
 };

@@ -1,6 +1,7 @@
 // Every state and every transition between two.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "following/closed_loop.h"
@@ -57,6 +58,30 @@ TEST(States, TheVelocityIsZeroInEveryStateButDriving) {
     loop->step();
     EXPECT_EQ(loop->command.isZero(), state != FollowState::DRIVING) << toString(state);
   }
+}
+
+// In a frame that is turned by half a turn the vehicle was commanded to drive backwards, by the velocity that it had.
+TEST(States, APathInAnotherFrameTurnsNoVelocity) {
+  FollowerOptions options;
+  PathFollower follower(options);
+  const auto inputAt = [](double time, const path::Pose& pose) {
+    FollowInput input;
+    input.time = time;
+    input.pose = pose;
+    return input;
+  };
+  follower.start(pathOf({{0, 0}, {40, 0}}), Join::NEAREST);
+  base::BodyVelocity before;
+  double time = 0.0;
+  for (int i = 0; i < 100; ++i)
+    before = follower.update(inputAt(time += 0.05, {{10.0, 0.0, 0.0}, 0.0}));
+  ASSERT_GT(before.surge, 0.5);
+  Path other = pathOf({{-10, 0}, {-40, 0}});  // the same way, where x looks back
+  other.frame_id = "odom";
+  follower.start(other, Join::NEAREST);
+  const auto after = follower.update(inputAt(time += 0.05, {{-10.0, 0.0, 0.0}, M_PI}));
+  EXPECT_NEAR(after.surge, before.surge, 1.01 * options.max_acceleration * 0.05);
+  EXPECT_NEAR(after.sway, before.sway, 1.01 * options.max_acceleration * 0.05);
 }
 
 TEST(States, PauseFromEveryState) {
