@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "ros/common/map_receiver.h"
@@ -11,6 +12,9 @@ namespace grid_path_planner::nodes {
 // How long a publisher without heartbeats may be deaf.
 constexpr double kPublisherTimeout = 5.0;  // s
 
+// How long a map may lack changes that were lost: a whole one is asked for at once.
+constexpr double kLostTimeout = 1.0;  // s
+
 struct MapLife {
   std::string topic;       // resolved
   ReceivedMap map;         // its grid is null before the first
@@ -18,6 +22,8 @@ struct MapLife {
   ros::Time newest;        // measurement in the map, or the map's own stamp
   // The last map, piece, heartbeat or, without heartbeats, answer of the publisher; pieces of others are none.
   std::chrono::steady_clock::time_point sign;
+  std::string lost;  // why the map lacks changes; empty where it does not
+  std::optional<std::chrono::steady_clock::time_point> lost_since;
 
   double silence() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - sign).count();

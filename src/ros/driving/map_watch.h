@@ -29,6 +29,7 @@ class MapWatch {
 
  private:
   void onMap();
+  void noteLoss(std::string lost);  // under the lock
   void onHeartbeat();
   void tell();
   void run();
@@ -36,6 +37,7 @@ class MapWatch {
   bool publisherAnswers();
 
   const Listener listener_;
+  std::mutex telling_;  // so that no older life is told after a newer one
   MapReceiver receiver_;
 
   mutable std::mutex mutex_;

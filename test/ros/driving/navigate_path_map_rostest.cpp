@@ -6,6 +6,7 @@
 #include <nav_msgs/OccupancyGrid.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <optional>
 
@@ -29,10 +30,11 @@ class NavigateMap : public test::StillTest {
   void publishMap() {
     maps_.publish(occupancyToMessage(test::AsciiMap({"........"}).map, "map", ros::Time::now()));
   }
-  ros::Time beat() {
+  // With a newest cloud that is so old.
+  ros::Time beat(double age = 7.0) {
     map_msgs::OccupancyGridUpdate heartbeat;
     heartbeat.header.frame_id = "map";
-    heartbeat.header.stamp = ros::Time::now() - ros::Duration(7.0);  // of the newest cloud
+    heartbeat.header.stamp = ros::Time::now() - ros::Duration(age);
     updates_.publish(heartbeat);
     return heartbeat.header.stamp;
   }
@@ -86,7 +88,7 @@ TEST_F(NavigateMap, OneThatIsTakenLateIsNoSignOfLifeAgain) {
   ASSERT_TRUE(test::waitFor([] { return !ros::Time::now().isZero(); })) << "/clock";
   publishMap();
   ASSERT_TRUE(beatsUntil([&] { return watch.life().map.grid && watch.life().heartbeat; }));
-  const ros::Time last_beat = beat();
+  const ros::Time last_beat = beat(6.0);  // a stamp that none before had
   ASSERT_TRUE(test::waitFor([&] { return watch.life().newest == last_beat; }));
   {
     const std::lock_guard<std::mutex> lock(mutex);
@@ -113,6 +115,42 @@ TEST_F(NavigateMap, WithoutOneItDoesNotStartAndSaysWhatToDo) {
   ros::Publisher late = nh_.advertise<nav_msgs::OccupancyGrid>("/site/map", 1, true);
   late.publish(occupancyToMessage(test::AsciiMap({"........"}).map, "map", ros::Time::now()));
   EXPECT_TRUE(isDriving()) << "by itself when there is a map";
+}
+
+// It drove on by a map that it knew to lack changes, for ever where its publisher sends no whole map when it is asked.
+TEST_F(NavigateMap, ALostUpdateThatIsNotMendedHoldsTheDrive) {
+  updates_.shutdown();
+  auto numbered = ros::AdvertiseOptions::create<map_msgs::OccupancyGridUpdate>(
+      "projected_map_updates", 10, {}, {}, {}, nullptr);
+  numbered.has_header = false;  // header.seq is the test's
+  updates_ = nh_.advertise(numbered);
+  ASSERT_TRUE(test::waitFor([&] {
+    return std::abs(ros::Time::now().toSec() - world_.time()) < 1.0;
+  })) << "/clock of this test";
+  publishMap();
+  startNavigate({"_check_map:=true", "_map_timeout:=1.0", "_no_progress_timeout:=0"});
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  std::uint32_t number = 0;
+  const auto beatNumbered = [&] {
+    map_msgs::OccupancyGridUpdate heartbeat;
+    heartbeat.header.seq = ++number;
+    heartbeat.header.stamp = ros::Time::now();
+    updates_.publish(heartbeat);
+  };
+  const auto beatsUntilIt = [&](bool drives) {
+    return test::waitFor([&] {
+      beatNumbered();
+      return drivesNow() == drives;
+    });
+  };
+  ASSERT_TRUE(test::waitFor([&] { return updates_.getNumSubscribers() > 0; }));
+  ASSERT_TRUE(beatsUntilIt(true));
+  number += 3;  // one that was lost; the map that comes again is the one of before
+  ASSERT_TRUE(beatsUntilIt(false));
+  EXPECT_TRUE(navigate_->says("lacks changes: 3 updates of the map were lost"))
+      << navigate_->output();
+  publishMap();
+  EXPECT_TRUE(beatsUntilIt(true)) << "by itself when a whole map has come";
 }
 
 TEST_F(NavigateMap, AHeartThatStopsHoldsTheDriveUntilItBeatsAgain) {
