@@ -23,6 +23,8 @@ using grid::OccupancyGrid;
 
 namespace {
 
+constexpr double kMasterSilence =
+    2.0;  // s, after which it counts as gone: roscpp waits for it without end
 constexpr std::chrono::seconds kAnswer(2);  // to wait for a whole map that was asked for
 constexpr double kRetryPeriod =
     1.0;  // s, after which what failed for want of memory is tried again
@@ -80,6 +82,7 @@ void applyUpdate(const map_msgs::OccupancyGridUpdate& update, const CellRect& re
 
 void MapReceiver::start(ros::NodeHandle nh, OnChange on_change, std::function<void()> on_heartbeat,
                         const std::string& topic) {
+  master_ = MasterWatch::shared();
   name_ = topic;
   on_change_ = std::move(on_change);
   on_heartbeat_ = std::move(on_heartbeat);
@@ -130,9 +133,10 @@ void MapReceiver::subscribeToMaps() {
 }
 
 void MapReceiver::onMap(const MapEvent& event) {
+  const ros::Time newest = latest().stamp;
+  const bool lacks = isOlder(event) && !recent_.complete(event.getConstMessage()->header.stamp);
   // A latched map of before, where a new one was asked for and follows.
-  const bool older = isOlder(event);
-  if (older && Clock::now() - asked_at_ < kAnswer) return;
+  if (lacks && Clock::now() - asked_at_ < kAnswer) return;
   MapChange change;
   try {
     change = use(event);
@@ -140,10 +144,10 @@ void MapReceiver::onMap(const MapEvent& event) {
     refuse(map_subscriber_.getTopic(), error.what());
     return;
   } catch (...) {
-    lost_one_ = true;
+    lost_one_ = owes_map_ = true;  // the grid may have it, and nobody was told
     throw;
   }
-  if (older) noteLoss("A map came that is older than its updates");
+  if (lacks) noteLoss("A map came that is older than its updates", newest);
   tell(std::move(change));
 }
 
@@ -158,12 +162,17 @@ bool MapReceiver::isOlder(const MapEvent& event) const {
 MapChange MapReceiver::use(const MapEvent& event) {
   const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
   const std::string frame_id = frameName(message.header.frame_id);
-  auto changed = takeGrid(message, frame_id);
   const std::string sender = event.getPublisherName();
-  MapChange change =
-      store({nullptr, frame_id, message.header.stamp, sender, sender}, std::move(changed));
+  const ros::Time &sent = message.header.stamp, now = ros::Time::now();
+  const bool has_lost =
+      sender == latest().publisher && !sent.isZero() && sent <= lost_at_ && lost_at_ <= now;
+  const auto newer = recent_.since(sender, sent, now);
+  auto changed =
+      newer.empty() ? takeGrid(message, frame_id) : takeGrid(withUpdates(message, newer), frame_id);
+  const ros::Time stamp = newer.empty() ? sent : newer.back()->header.stamp;
+  MapChange change = store({nullptr, frame_id, stamp, sender, sender}, std::move(changed));
   std::lock_guard<std::mutex> lock(mutex_);
-  lost_.clear();
+  if (!has_lost) lost_.clear();
   return change;
 }
 
@@ -182,7 +191,8 @@ std::optional<std::vector<CellRect>> MapReceiver::takeGrid(const nav_msgs::Occup
   return changed;
 }
 
-void MapReceiver::noteLoss(const std::string& what) {
+void MapReceiver::noteLoss(const std::string& what, const ros::Time& at) {
+  lost_at_ = std::min(at, ros::Time::now());  // /clock may be late
   const std::string sentence = what + ": a whole map is asked for";
   static LogThrottle seldom(5.0);
   ROS_WARN_STREAM_COND(seldom.isDue(), sentence);
@@ -194,9 +204,10 @@ void MapReceiver::noteLoss(const std::string& what) {
 }
 
 void MapReceiver::retry() {
-  if (std::exchange(lost_one_, false)) noteLoss("A change of the map could not be taken");
-  if (!map_subscriber_) subscribeToMaps();
-  if (owes_map_) tell({latest(), std::nullopt});
+  if (std::exchange(lost_one_, false))
+    noteLoss("A change of the map could not be taken", latest().stamp);
+  if (!map_subscriber_ && master_->silence() < kMasterSilence) subscribeToMaps();
+  if (owes_map_ && latest().grid) tell({latest(), std::nullopt});
 }
 
 // A listener that failed to take a change takes the whole map with the next, or by retry().
@@ -208,7 +219,7 @@ void MapReceiver::tell(MapChange change) {
 
 void MapReceiver::askForAWholeMap() {
   const auto now = Clock::now();
-  if (now - asked_at_ < kAnswer) return;
+  if (now - asked_at_ < kAnswer || master_->silence() > kMasterSilence) return;
   asked_at_ = now;
   map_subscriber_.shutdown();  // a second subscription of a node would share the link of the first
   subscribeToMaps();
@@ -218,7 +229,8 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   const map_msgs::OccupancyGridUpdate& message = *event.getConstMessage();
   const std::uint32_t missed = sequence_.missed(event.getPublisherName(), message.header.seq);
   if (missed > 0 && latest().grid)
-    noteLoss(std::to_string(missed) + " updates of the map were lost");
+    noteLoss(std::to_string(missed) + " updates of the map were lost",
+             std::max(latest().stamp, message.header.stamp));
   else if (!lost().empty())
     askForAWholeMap();
   if (isHeartbeat(message)) {
@@ -231,8 +243,9 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   }
   const ReceivedMap before = latest();
   if (!before.grid) {
+    recent_.keep(event.getPublisherName(), event.getConstMessage(), ros::Time::now());
     static LogThrottle seldom(5.0);
-    ROS_WARN_COND(seldom.isDue(), "An update of the map was dropped: no map has come yet");
+    ROS_WARN_COND(seldom.isDue(), "An update of the map waits: no map has come yet");
     return;
   }
   // A map from the future is from before the time jumped back, as when a bag loops.
@@ -247,11 +260,12 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   MapChange change;
   try {
     change = apply(event);
+    recent_.keep(event.getPublisherName(), event.getConstMessage(), ros::Time::now());
   } catch (const InputError& error) {
     refuse(updates_.getTopic(), error.what());
     return;
   } catch (...) {
-    lost_one_ = true;
+    lost_one_ = owes_map_ = true;  // the grid may have it, and nobody was told
     throw;
   }
   tell(std::move(change));

@@ -12,7 +12,8 @@
 // A piece without cells (0x0) is a heartbeat: it changes nothing and is accepted before there is a
 // map; only its stamp, who sent it and when it came are kept.
 //
-// Of updates that come faster than they are applied at most 64 MB wait; the oldest are lost first.
+// Of updates that come faster than they are applied at most 64 MB wait; the oldest are lost first. A whole map that updates
+// overtook, which have connections of their own, is taken with these (incoming/recent_updates.h).
 //
 // An update that is lost is noticed by the numbers of those that come (update_sequence.h), also of
 // heartbeats. Then the topic of maps is subscribed anew, which makes projected_map send a whole map;
@@ -38,6 +39,8 @@
 #include "grid_path_planner/grid/double_buffered.h"
 #include "grid_path_planner/grid/occupancy.h"
 #include "ros/common/incoming/bounded_subscription.h"
+#include "ros/common/incoming/recent_updates.h"
+#include "ros/common/master/master_watch.h"
 #include "ros/common/update_sequence.h"
 
 namespace grid_path_planner::nodes {
@@ -109,7 +112,8 @@ class MapReceiver {
   std::optional<std::vector<grid::CellRect>> takeGrid(const nav_msgs::OccupancyGrid& message,
                                                       const std::string& frame_id);
   bool isOlder(const MapEvent& event) const;
-  void noteLoss(const std::string& what);
+  // Of what had come by `at`.
+  void noteLoss(const std::string& what, const ros::Time& at);
   void subscribeToMaps();
   void askForAWholeMap();
   void tell(MapChange change);
@@ -132,6 +136,9 @@ class MapReceiver {
   std::string lost_;
   UpdateSequence sequence_;     // of the subscribers, as the next
   Clock::time_point asked_at_;  // for a whole map
+  std::shared_ptr<MasterWatch> master_;
+  RecentUpdates recent_;
+  ros::Time lost_at_;  // a whole map from before that lacks what was lost, too
   ros::NodeHandle nh_;
   ros::Subscriber map_subscriber_;
   bool lost_one_ = false;  // a map or an update that came

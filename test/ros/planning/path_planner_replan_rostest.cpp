@@ -195,6 +195,26 @@ TEST_F(ReplanTest, ALostUpdateIsNoticedAndAWholeMapAskedFor) {
   publishMap({".......", ".......", ".......", ".......", "......#"});
 }
 
+// A whole map that was sent before an update, and came after it since it takes longer, took the update's obstacle away.
+TEST_F(ReplanTest, AWholeMapThatAnUpdateOvertookIsTakenWithIt) {
+  startPlanner();
+  const ros::Time now = ros::Time::now();
+  publishMap(AsciiMap(kCorridors).map, "map", now - ros::Duration(3.0));
+  const std::size_t seen = planning_maps_.count();
+  sendUpdate(3, 2, 1, 1, {100}, now - ros::Duration(1.0));
+  ASSERT_TRUE(planning_maps_.waitForMoreThan(seen));
+  auto overtaken = AsciiMap(kCorridors).map;
+  overtaken[Cell{6, 4}] = 100;
+  publishMap(overtaken, "map", now - ros::Duration(2.0));
+  makePlan(poseAt(0.5, 2.5), poseAt(6.5, 2.5));
+  EXPECT_EQ(answer_.status, "FOUND");
+  EXPECT_FALSE(passesCell(3, 2));
+  makePlan(poseAt(0.5, 2.5), poseAt(6.5, 4.5));
+  EXPECT_NE(answer_.status, "FOUND") << "the rest of the whole map counts";
+  for (const rosgraph_msgs::Log& line : log_.all())
+    EXPECT_EQ(line.msg.find("a whole map is asked for"), std::string::npos) << line.msg;
+}
+
 TEST_F(ReplanTest, APathIsKeptWhileItIsAboutAsGoodAndReplacedWhenItIsNot) {
   startPlanner({"_replan_period:=0.02", "_replan_hysteresis:=0.2"});
   publishMap({"...........", ".....#.....", "...........", ".....#.....", "..........."});

@@ -13,31 +13,31 @@
 namespace grid_path_planner::nodes {
 namespace {
 
-using Links = std::vector<ros::ServiceClientLinkPtr> ros::ServicePublication::*;
-using Mutex = boost::mutex ros::ServicePublication::*;
+using ClientLinks = std::vector<ros::ServiceClientLinkPtr> ros::ServicePublication::*;
+using ClientMutex = boost::mutex ros::ServicePublication::*;
 using Stays = bool ros::ServiceClientLink::*;
 
-Links linksMember();
-Mutex mutexMember();
+ClientLinks clientLinksMember();
+ClientMutex clientMutexMember();
 Stays staysMember();
 
-template <Links links, Mutex mutex, Stays stays>
-struct PrivateMembers {
-  friend Links linksMember() { return links; }
-  friend Mutex mutexMember() { return mutex; }
+template <ClientLinks links, ClientMutex mutex, Stays stays>
+struct PrivateServiceMembers {
+  friend ClientLinks clientLinksMember() { return links; }
+  friend ClientMutex clientMutexMember() { return mutex; }
   friend Stays staysMember() { return stays; }
 };
-template struct PrivateMembers<&ros::ServicePublication::client_links_,
-                               &ros::ServicePublication::client_links_mutex_,
-                               &ros::ServiceClientLink::persistent_>;
+template struct PrivateServiceMembers<&ros::ServicePublication::client_links_,
+                                      &ros::ServicePublication::client_links_mutex_,
+                                      &ros::ServiceClientLink::persistent_>;
 
 // Null: closed before.
 ros::ServiceClientLinkPtr linkOf(const std::string& service, const ros::M_string* header) {
   const ros::ServicePublicationPtr publication =
       ros::ServiceManager::instance()->lookupServicePublication(service);
   if (!publication) return nullptr;
-  const boost::mutex::scoped_lock lock((*publication).*mutexMember());
-  for (const ros::ServiceClientLinkPtr& link : (*publication).*linksMember())
+  const boost::mutex::scoped_lock lock((*publication).*clientMutexMember());
+  for (const ros::ServiceClientLinkPtr& link : (*publication).*clientLinksMember())
     if (link->getConnection()->getHeader().getValues().get() == header) return link;
   return nullptr;
 }

@@ -1,0 +1,90 @@
+#include "ros/common/incoming/recent_updates.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "grid_path_planner/ros/occupancy_conversion.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+constexpr std::size_t kMostBytes = 16'000'000, kMostUpdates = 1000;
+
+bool isValid(const map_msgs::OccupancyGridUpdate& update) {
+  return update.data.size() == std::size_t{update.width} * update.height &&
+         std::all_of(update.data.begin(), update.data.end(),
+                     [](std::int8_t value) { return value >= -1 && value <= 100; });
+}
+
+bool liesIn(const nav_msgs::OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& update) {
+  return update.x >= 0 && update.y >= 0 &&
+         std::int64_t{update.x} + update.width <= map.info.width &&
+         std::int64_t{update.y} + update.height <= map.info.height;
+}
+
+void apply(const map_msgs::OccupancyGridUpdate& update, nav_msgs::OccupancyGrid& map) {
+  for (std::size_t row = 0; row < update.height; ++row)
+    std::copy_n(update.data.begin() + static_cast<std::ptrdiff_t>(row * update.width), update.width,
+                map.data.begin() +
+                    static_cast<std::ptrdiff_t>((update.y + row) * map.info.width + update.x));
+}
+
+}  // namespace
+
+void RecentUpdates::keep(const std::string& publisher, const Update& update,
+                         const ros::Time& now) noexcept {
+  try {
+    if (!isValid(*update)) return;
+    kept_.push_back({publisher, update, now});
+    bytes_ += update->data.size();
+  } catch (...) {  // no memory
+    noteForgotten(update, now);
+    return;
+  }
+  while (bytes_ > kMostBytes || kept_.size() > kMostUpdates) forgetTheOldest();
+}
+
+void RecentUpdates::forgetTheOldest() {
+  const Kept& oldest = kept_.front();
+  noteForgotten(oldest.update, oldest.came);
+  bytes_ -= oldest.update->data.size();
+  kept_.pop_front();
+}
+
+void RecentUpdates::noteForgotten(const Update& update, const ros::Time& came) {
+  forgotten_ = std::max(forgotten_, update->header.stamp);
+  forgotten_came_ = std::max(forgotten_came_, came);
+}
+
+std::vector<RecentUpdates::Update> RecentUpdates::since(const std::string& publisher,
+                                                        const ros::Time& stamp,
+                                                        const ros::Time& now) {
+  if (forgotten_came_ > now) forgotten_ = forgotten_came_ = ros::Time();  // ROS time went back
+  std::vector<Update> newer;
+  for (const Kept& kept : kept_)
+    if (kept.publisher == publisher && kept.update->header.stamp > stamp && kept.came <= now)
+      newer.push_back(kept.update);
+  kept_.erase(std::remove_if(kept_.begin(), kept_.end(),
+                             [&](const Kept& kept) {
+                               return std::find(newer.begin(), newer.end(), kept.update) ==
+                                      newer.end();
+                             }),
+              kept_.end());
+  bytes_ = 0;
+  for (const Kept& kept : kept_) bytes_ += kept.update->data.size();
+  return newer;
+}
+
+nav_msgs::OccupancyGrid withUpdates(nav_msgs::OccupancyGrid map,
+                                    const std::vector<RecentUpdates::Update>& updates) {
+  if (map.data.size() != std::size_t{map.info.width} * map.info.height) return map;  // is refused
+  const std::string frame_id = frameName(map.header.frame_id);
+  for (const RecentUpdates::Update& update : updates) {
+    const std::string of_update = frameName(update->header.frame_id);
+    if ((of_update.empty() || of_update == frame_id) && liesIn(map, *update)) apply(*update, map);
+  }
+  return map;
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,86 @@
+#include "ros/common/incoming/recent_updates.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/make_shared.hpp>
+
+namespace grid_path_planner::nodes {
+namespace {
+
+const ros::Time kNow(100.0);
+
+RecentUpdates::Update updateAt(double stamp, int x, std::int8_t value, std::size_t cells = 1) {
+  auto update = boost::make_shared<map_msgs::OccupancyGridUpdate>();
+  update->header.stamp = ros::Time(stamp);
+  update->x = x;
+  update->width = static_cast<std::uint32_t>(cells);
+  update->height = 1;
+  update->data.assign(cells, value);
+  return update;
+}
+
+nav_msgs::OccupancyGrid mapOf(std::uint32_t width, std::uint32_t height) {
+  nav_msgs::OccupancyGrid map;
+  map.info.width = width;
+  map.info.height = height;
+  map.data.assign(std::size_t{width} * height, 0);
+  return map;
+}
+
+std::vector<int> columnsOf(const std::vector<RecentUpdates::Update>& updates) {
+  std::vector<int> columns;
+  for (const auto& update : updates) columns.push_back(update->x);
+  return columns;
+}
+
+TEST(RecentUpdates, AreThoseOfThePublisherThatAreNewerThanTheMap) {
+  RecentUpdates recent;
+  recent.keep("/a", updateAt(1.0, 1, 100), kNow);
+  recent.keep("/a", updateAt(2.0, 2, 100), kNow);
+  recent.keep("/b", updateAt(3.0, 3, 100), kNow);
+  recent.keep("/a", updateAt(3.0, 4, 100), kNow);
+  recent.keep("/a", updateAt(100.1, 5, 100), kNow);              // /clock is late
+  recent.keep("/a", updateAt(500.0, 6, 100), ros::Time(500.0));  // of a time that has gone back
+  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(1.0), kNow)), std::vector<int>({2, 4, 5}));
+  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(1.0), kNow)), std::vector<int>({2, 4, 5}))
+      << "for the next map";
+  EXPECT_TRUE(recent.since("/b", ros::Time(0.0), kNow).empty()) << "of another publisher's map";
+}
+
+TEST(RecentUpdates, AreCompleteUntilTheOldestAreForgotten) {
+  RecentUpdates recent;
+  for (int i = 0; i < 1000; ++i) recent.keep("/a", updateAt(1.0 + 0.01 * i, i, 0), kNow);
+  EXPECT_TRUE(recent.complete(ros::Time(0.5)));
+  recent.keep("/a", updateAt(20.0, 0, 0), kNow);
+  EXPECT_FALSE(recent.complete(ros::Time(0.5)));
+  EXPECT_TRUE(recent.complete(ros::Time(1.0))) << "of its own time is in it";
+  recent.keep("/a", updateAt(21.0, 0, 0, 15'999'500), kNow);
+  EXPECT_FALSE(recent.complete(ros::Time(5.0))) << "16 MB";
+  EXPECT_EQ(recent.since("/a", ros::Time(19.0), kNow).size(), 2U);
+}
+
+TEST(RecentUpdates, WithoutValuesThatNoMapHas) {
+  RecentUpdates recent;
+  recent.keep("/a", updateAt(1.0, 1, 101), kNow);
+  auto lies = boost::make_shared<map_msgs::OccupancyGridUpdate>(*updateAt(1.0, 1, 0));
+  lies->width = lies->height = 4'000'000'000U;
+  recent.keep("/a", lies, kNow);
+  EXPECT_TRUE(recent.since("/a", ros::Time(0.0), kNow).empty());
+}
+
+TEST(WithUpdates, HasTheNewestOfThoseThatLieInIt) {
+  nav_msgs::OccupancyGrid map = mapOf(4, 2);
+  auto second_row = boost::make_shared<map_msgs::OccupancyGridUpdate>(*updateAt(1.0, 2, 50, 2));
+  second_row->y = 1;
+  auto of_another_frame = boost::make_shared<map_msgs::OccupancyGridUpdate>(*updateAt(1.0, 0, 7));
+  of_another_frame->header.frame_id = "odom";
+  const auto merged =
+      withUpdates(map, {updateAt(1.0, 1, 100), updateAt(2.0, 1, -1), second_row, of_another_frame,
+                        updateAt(3.0, 3, 100, 2), updateAt(3.0, -1, 100)});
+  EXPECT_EQ(merged.data, std::vector<std::int8_t>({0, -1, 0, 0, 0, 0, 50, 50}));
+  map.data.pop_back();
+  EXPECT_EQ(withUpdates(map, {updateAt(1.0, 1, 100)}).data, map.data) << "a map that is refused";
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
