@@ -6,7 +6,8 @@
 //
 // Of actionlib's clients it differs where the network is hostile or the other node dies: lengths that lie are refused
 // before they are unpacked (claimed_lengths.h), a server that was restarted, hangs or is gone is told within `timeout`
-// seconds of the wall clock, and goals that an earlier process of this node's name left behind are cancelled.
+// seconds of the wall clock, and goals that an earlier process of this node's name left behind are cancelled; a cancel that
+// was lost on its way is repeated with each status that says that its goal goes on.
 //
 // Guaranteed: every goal that is sent ends by exactly one call of on_result or on_lost, unless forget() or another send()
 // comes first. All calls come from the queue of `nh`, or from watch().
@@ -73,25 +74,27 @@ class ActionCaller {
 
   // It goes out once a server is there. At most once, since a server does a goal that comes twice once.
   void send(const Goal& goal) {
-    forget();
     typename Action::_action_goal_type message;
     message.goal = goal;
-    message.goal_id.id = id_ = life_ + std::to_string(++count_);
-    waiting_ = message;
+    std::string id = life_ + std::to_string(++count_);
+    message.goal_id.id = id;
+    forget();  // by now nothing wants memory any more
+    id_ = std::move(id);
+    waiting_ = std::move(message);
     heard_ = Clock::now();
     sendWaiting();
   }
   // The server is asked to end the goal, and its result awaited.
   void cancel() {
-    if (waiting_)
-      lose("the goal was not sent yet");
-    else if (active())
-      cancelNamed(id_);
+    if (waiting_) return lose("the goal was not sent yet");
+    if (!active()) return;
+    cancelled_ = true;
+    cancelNamed(id_);
   }
   void forget() {
     waiting_.reset();
     id_.clear();
-    acknowledged_ = false;
+    acknowledged_ = cancelled_ = false;
     ended_.reset();
   }
 
@@ -148,8 +151,9 @@ class ActionCaller {
     handlers_.on_feedback(message.feedback);
   }
   void onStatus(const actionlib_msgs::GoalStatusArray& message) {
-    const SeenGoals seen = seenGoals(message, {mine_, life_, id_});
+    const SeenGoals seen = seenGoals(message, {mine_, id_});
     for (const std::string& id : seen.earlier) cancelNamed(id);
+    if (cancelled_ && seen.own && !seen.own_is_over) cancelNamed(id_);
     if (seen.own_is_over && !ended_) ended_ = Clock::now();
     if (!active() || waiting_) return;
     if (seen.own) {
@@ -170,6 +174,7 @@ class ActionCaller {
   std::string id_;  // of the goal that goes on; "" without one
   std::optional<typename Action::_action_goal_type> waiting_;  // not sent yet
   bool acknowledged_ = false;
+  bool cancelled_ = false;
   std::optional<Clock::time_point> ended_;  // by its status
   Clock::time_point heard_;
 };

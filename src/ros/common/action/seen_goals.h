@@ -1,6 +1,6 @@
 // What the status of an action says of a client's goals.
 //
-//   const SeenGoals seen = seenGoals(status, {"/go_to_pose-calls-", "/go_to_pose-calls-17-", id});
+//   const SeenGoals seen = seenGoals(status, {"/go_to_pose-calls-", id});
 //   if (seen.own_is_over) waitForResult();
 #pragma once
 
@@ -15,14 +15,14 @@ namespace grid_path_planner::nodes {
 // By which a client knows its goals.
 struct GoalNames {
   std::string mine;  // what the names of all begin with, also of those that an earlier process sent
-  std::string life;  // what those of this process begin with; it begins with `mine`
   std::string id;    // the one that goes on; "" without one
 };
 
 struct SeenGoals {
   bool own = false;  // the status has the goal that goes on
   bool own_is_over = false;
-  std::vector<std::string> earlier;  // of earlier processes, that go on still
+  std::vector<std::string>
+      earlier;  // others of its own, also of earlier processes, that go on still
 };
 
 inline bool isGoalOver(const actionlib_msgs::GoalStatus& status) {
@@ -41,7 +41,7 @@ inline SeenGoals seenGoals(const actionlib_msgs::GoalStatusArray& message, const
     if (!names.id.empty() && id == names.id) {
       seen.own = true;
       seen.own_is_over = seen.own_is_over || isGoalOver(status);
-    } else if (!isGoalOver(status) && beginsWith(id, names.mine) && !beginsWith(id, names.life)) {
+    } else if (!isGoalOver(status) && beginsWith(id, names.mine)) {
       seen.earlier.push_back(id);
     }
   }
