@@ -233,8 +233,8 @@ void LocalPlannerNode::startTimer() {
 // The first time, and time that jumped back: only then is it known what is from before.
 bool LocalPlannerNode::noticeTime() {
   if (!clock_.hasTime()) return false;
-  const ros::Time now = ros::Time::now();
   const auto back = clock_.jumpedBack();
+  const ros::Time now = ros::Time::now();                // after it: of the time that it says
   if (started_.isZero()) given_goals_.endAllUntil(now);  // of one that was there before
   if (started_.isZero() || back) started_ = now;
   if (!back) return true;

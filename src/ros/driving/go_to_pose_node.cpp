@@ -134,9 +134,9 @@ void GoToPoseNode::use(const GoToPoseOptions& options) {
 void GoToPoseNode::onSimpleGoal(const geometry_msgs::PoseStamped& message) {
   if (started_.isZero() && clock_.hasTime()) started_ = ros::Time::now();
   const ros::Time& stamp = message.header.stamp;
-  if (!stamp.isZero() && (started_.isZero() || stamp < started_)) {
-    ROS_WARN_STREAM("A goal stamped " << message.header.stamp
-                                      << " is not driven to: go_to_pose started at " << started_);
+  const std::string why = stamp.isZero() ? "" : whyOfAnotherTime(stamp, started_, "go_to_pose");
+  if (!why.empty()) {
+    ROS_WARN_STREAM("A goal stamped " << stamp << " is not driven to: " << why);
     return;
   }
   const auto goal = boost::make_shared<move_base_msgs::MoveBaseActionGoal>();
@@ -202,9 +202,10 @@ void GoToPoseNode::locate() {
 
 void GoToPoseNode::tick() {
   if (!clock_.hasTime() || finished_) return;
-  const ros::Time now = ros::Time::now();
+  const std::optional<double> back = clock_.jumpedBack();
+  const ros::Time now = ros::Time::now();  // after it: of the time that it says
   if (started_.isZero()) started_ = now;
-  if (const std::optional<double> back = clock_.jumpedBack()) {
+  if (back) {
     ROS_WARN_STREAM("ROS time went back by " << *back << " s: tf is cleared, the goal aborted");
     transforms_.clear();
     started_ = now;

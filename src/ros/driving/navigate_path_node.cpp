@@ -170,8 +170,9 @@ void NavigatePathNode::watchClock() {
     return;
   }
   if (std::exchange(waits_for_clock_, false)) ROS_INFO("/clock is there");
-  const ros::Time now = ros::Time::now();
-  if (const std::optional<double> back = clock_.jumpedBack()) {
+  const std::optional<double> back = clock_.jumpedBack();
+  const ros::Time now = ros::Time::now();  // after it: of the time that it says
+  if (back) {
     ROS_WARN_STREAM("ROS time went back by " << *back
                                              << " s: tf is cleared and the drive cancelled");
     started_ = now;

@@ -71,6 +71,13 @@ std::optional<GoalState> ActiveGoal::beginPlanning(Time now) {
   return goal_;
 }
 
+void ActiveGoal::failed(std::uint64_t id) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  if (!goal_ || goal_->id != id) return;
+  goal_->answered = map_changed_ = true;
+  goal_->path = {};
+}
+
 bool ActiveGoal::commit(std::uint64_t id, const Plan& plan, unsigned path_settings,
                         const std::function<void()>& publish) {
   std::lock_guard<std::mutex> lock(mutex_);

@@ -48,6 +48,8 @@ class ActiveGoal {
   // The goal, whose planning begins `now`, on a map with all changes so far.
   std::optional<GoalState> beginPlanning(Time now);
 
+  // An answer to it failed: there is no path, and a retry is due.
+  void failed(std::uint64_t id);
   // If `id` is still the goal's: stores the answer and calls `publish` before any new goal is
   // accepted. Returns whether it was.
   bool commit(std::uint64_t id, const planning::Plan& plan, unsigned path_settings,

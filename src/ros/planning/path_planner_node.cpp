@@ -203,24 +203,34 @@ void PathPlannerNode::postCostToGo() {
 }
 
 void PathPlannerNode::planForGoal(const StopSource& stop) {
+  server_->checkClock();  // it may forget the start
   const auto goal = active_goal_.beginPlanning(std::chrono::steady_clock::now());
+  try {
+    planFor(*goal, stop);
+  } catch (const Stopped&) {
+    throw;
+  } catch (...) {
+    active_goal_.failed(goal->id);
+    throw;
+  }
+}
+
+void PathPlannerNode::planFor(const GoalState& goal, const StopSource& stop) {
   const PlanningServer::Settings settings = server_->settings();
-  server_->checkClock();
   PlanningLane& lane = server_->vehicleLane();
-  const Plan plan =
-      lane.plan(goal->request, server_->recordingOptions(settings.options), stop).plan;
+  const Plan plan = lane.plan(goal.request, server_->recordingOptions(settings.options), stop).plan;
   server_->record(lane, plan, settings.options);
-  if (stop.cancelled() || keepsOldPath(*goal, plan, settings, stop)) return;
-  const bool as_before = goal->answered && !plan.found() && plan.status == goal->status;
-  const bool taken = active_goal_.commit(goal->id, plan, settings.revision, [&] {
+  if (stop.cancelled() || keepsOldPath(goal, plan, settings, stop)) return;
+  const bool as_before = goal.answered && !plan.found() && plan.status == goal.status;
+  const bool taken = active_goal_.commit(goal.id, plan, settings.revision, [&] {
     server_->remember(plan);
     if (!as_before)
-      server_->publisher().publishPath(lane.posesAlong(plan, settings.options), goal->given);
+      server_->publisher().publishPath(lane.posesAlong(plan, settings.options), goal.given);
   });
   if (!taken) return;
   // Who drives the path does not wait for what is told of it.
-  server_->publish(lane, plan, lane.statistics(plan, goal->request, settings.options), as_before);
-  if (!as_before) server_->explainLater(goal->request, plan);
+  server_->publish(lane, plan, lane.statistics(plan, goal.request, settings.options), as_before);
+  if (!as_before) server_->explainLater(goal.request, plan);
 }
 
 bool PathPlannerNode::keepsOldPath(const GoalState& goal, const Plan& plan,

@@ -56,6 +56,7 @@ class PathPlannerNode {
 
   // In the worker's thread
   void planForGoal(const base::StopSource& stop);
+  void planFor(const GoalState& goal, const base::StopSource& stop);
   bool keepsOldPath(const GoalState& goal, const planning::Plan& plan,
                     const PlanningServer::Settings& settings, const base::StopSource& stop);
   void processMap(const base::StopSource& stop);

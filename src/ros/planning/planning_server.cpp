@@ -203,6 +203,8 @@ bool PlanningServer::placed(const std::string& frame,
 }
 
 void PlanningServer::checkClock() {
+  const std::lock_guard<std::mutex> lock(
+      clock_mutex_);  // who asks next finds what is done of a jump done
   if (!clock_.jumpedBack()) return;
   ROS_WARN("ROS time jumped back: transforms and start poses from before are forgotten");
   transforms_.clear();

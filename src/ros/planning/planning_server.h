@@ -154,6 +154,7 @@ class PlanningServer {
 
   NodeFiles files_;
   std::function<void()> on_time_jump_;
+  std::mutex clock_mutex_;
   ClockWatch clock_;
   mutable std::mutex mutex_;
   Settings settings_;

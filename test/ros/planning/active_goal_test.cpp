@@ -33,6 +33,21 @@ TEST(ActiveGoal, AGoalFromBeforeTimeWentBackIsTheOldestOfAll) {
   EXPECT_EQ(givenAt(goal, ros::Time(0, 1)), ros::Time(0, 2)) << "another goal";
 }
 
+// By the code: a plan for which memory failed left a goal without an answer, and none was tried again.
+TEST(ActiveGoal, IsPlannedForAgainWhereAPlanFailed) {
+  ActiveGoal goal;
+  const auto placed = [](const GoalState&) { return false; };
+  const auto now = std::chrono::steady_clock::now(), later = now + std::chrono::seconds(10);
+  goal.setGoal({}, ros::Time(5.0));
+  const auto begun = goal.beginPlanning(now);
+  EXPECT_FALSE(goal.retryIsDue(later, placed)) << "it is being planned for";
+  goal.failed(begun->id);
+  EXPECT_TRUE(goal.retryIsDue(later, placed));
+  goal.setGoal({}, ros::Time(6.0));
+  goal.failed(begun->id);
+  EXPECT_FALSE(goal.retryIsDue(later, placed)) << "another goal";
+}
+
 TEST(ActiveGoal, NoTimeOfDayEndsIt) {
   for (const ros::Time& now : {ros::Time(), ros::TIME_MIN, ros::TIME_MAX}) {
     ActiveGoal goal;

@@ -12,6 +12,9 @@ namespace {
 // before it.
 const ros::Duration kClocksDiffer(0.5);
 
+// Goals that are given while /clock stands differ by nanoseconds, and their paths do not.
+constexpr double kInstant = 1e-3;  // s
+
 // When the goal of `path` was given; 0: nobody knows. All other poses of a path of path_planner have the stamp of the
 // path, those of a trajectory have times of their own.
 ros::Time goalTime(const nav_msgs::Path& path, bool may_be_ahead) {
@@ -49,7 +52,7 @@ void GivenGoals::timeWentBack() {
 
 bool GivenGoals::isOver(const nav_msgs::Path& path) const {
   const ros::Time given = goalTime(path, went_back_);
-  const bool of_old_time = given > path.header.stamp;
+  const bool of_old_time = secondsBetween(path.header.stamp, given) > kInstant;
   return !given.isZero() && (given == ended_ || given < until_ || of_old_time);
 }
 

@@ -31,6 +31,16 @@ TEST(GivenGoals, AGoalIsOverWithItsDriveAndOthersAreNot) {
   EXPECT_TRUE(goals.isOver(pathFor(6))) << "an end without a drive changes nothing";
 }
 
+// A goal that is given while /clock stands is a nanosecond after the one before; the path for it is stamped with the time.
+TEST(GivenGoals, AnInstantIsNoOldTime) {
+  GivenGoals goals;
+  goals.timeWentBack();
+  nav_msgs::Path path = pathFor(2000);
+  path.poses.back().header.stamp.nsec += 1;
+  EXPECT_FALSE(goals.isOver(path));
+  EXPECT_TRUE(goals.isOver(pathFor(2001))) << "given before time went back";
+}
+
 TEST(GivenGoals, WhatWasAskedForBeforeSomebodyCancelledIsOver) {
   GivenGoals goals;
   goals.drive(pathFor(5));
