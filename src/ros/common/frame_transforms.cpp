@@ -262,6 +262,7 @@ std::vector<Eigen::Vector3d> FrameLookup::pointsIn(const std::string& to, const 
       message.z = point.z();
       tf2::doTransform(message, message, moving);
       point = {message.x, message.y, message.z};
+      if (!point.allFinite()) throw TransformError("it leads beyond all numbers");
     }
     return points;
   } catch (const TransformError& error) {

@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -92,6 +93,12 @@ std::string insertTransform(tf2::BufferCore& buffer, TransformStamps& stamps,
     why << "A transform from " << transform.child_frame_id << " to " << transform.header.frame_id
         << " of " << node << " is dropped: it is stamped " << transform.header.stamp << ", now is "
         << now;
+    return why.str();
+  }
+  const geometry_msgs::Vector3& by = transform.transform.translation;
+  if (!std::isfinite(by.x) || !std::isfinite(by.y) || !std::isfinite(by.z)) {
+    why << "A transform from " << transform.child_frame_id << " to " << transform.header.frame_id
+        << " of " << node << " is dropped: it is not finite";
     return why.str();
   }
   const std::string child = frameName(transform.child_frame_id);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <string>
 
@@ -49,6 +50,9 @@ TEST(TransformStamps, TransformsThatAreDroppedForTheirStampsAreNoneThatCame) {
   auto broken = transformOf("base_link", now);
   broken.transform.translation.x = std::nan("");
   insertTransform(buffer, stamps, broken, "/broken", false, now);
+  broken.transform.translation.x = std::numeric_limits<double>::infinity();
+  EXPECT_NE(insertTransform(buffer, stamps, broken, "/infinite", false, now), "")
+      << "of a map by which no path can be looked at";
   EXPECT_EQ(insertTransform(buffer, stamps, transformOf("base_link", now), "/right", false, now),
             "");
   EXPECT_EQ(buffer.lookupTransform("map", "base_link", ros::Time(0)).header.stamp, now);
