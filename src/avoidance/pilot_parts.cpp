@@ -132,7 +132,7 @@ bool Pilot::Parts::cannotFly(const PilotInput& input) {
 bool Pilot::Parts::hasFrame(const std::string& cloud_problem) {
   const std::optional<double>& seen = surroundings.frameTime();
   if (!cloud_problem.empty()) {
-    hover(PilotStatus::NO_CLOUD, cloud_problem);
+    hold(PilotStatus::NO_CLOUD, cloud_problem);
     return false;
   }
   if (seen && time_ - *seen <= options.cloud_timeout) return true;

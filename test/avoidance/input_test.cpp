@@ -155,6 +155,24 @@ TEST(Input, ARouteThatIsGivenInFlightIsFlownAtOnce) {
   }
 }
 
+// It stands for want of a sensor: that is no lack of progress, for which it looked around, or ended the flight.
+TEST(Input, ACameraThatIsLostEndsNoFlight) {
+  PilotOptions options = flyingOptions();
+  options.recover = false;
+  options.stuck_timeout = 2.0;
+  Pilot pilot(options);
+  pilot.setRoute({{20.0, 0.0, 1.5}});
+  const Frame sky = skyOf(0.0);
+  pilot.update(inputAt(0.0, &sky));
+  for (double time = 0.1; time < 10.0; time += 0.1) {
+    PilotInput input = inputAt(time, nullptr);
+    input.cloud_problem = "nothing comes on points";
+    expectStands(pilot.update(input), PilotStatus::NO_CLOUD, "nothing comes on points");
+  }
+  const Frame again = skyOf(10.0);
+  EXPECT_EQ(pilot.update(inputAt(10.0, &again)).status, PilotStatus::FLYING);
+}
+
 // In flight the clouds cease: zero within half a second.
 TEST(Input, ACameraThatIsCutStopsTheVehicle) {
   FlightSetup setup = fieldSetup();
