@@ -53,6 +53,8 @@ class LayeredMap {
 
   bool hasBase() const { return stack_.hasBase(); }
   const grid::OccupancyGrid& merged() const { return stack_.merged(); }
+  // Whether takeNewGeometry() would say so.
+  bool hasNewGeometry() const { return new_geometry_; }
   // Whether it has another geometry than at the last call.
   bool takeNewGeometry() { return std::exchange(new_geometry_, false); }
   std::vector<grid::CellRect> takeChanged() { return stack_.takeChanged(); }

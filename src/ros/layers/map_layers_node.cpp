@@ -214,6 +214,7 @@ void MapLayersNode::onStaticMap(const MapChange& change) {
   take(static_source_, change.map.stamp, [&] {
     checkFrame(change.map.frame_id, options_);
     map_.setBase(change.map.grid, change.changed);
+    if (map_.hasNewGeometry()) scan_source_.forget();  // what scans saw is in no grid of it
   });
   if (change.changed) return;
   warnOfZonesOutside();

@@ -203,6 +203,28 @@ TEST_F(MapLayers, WhenTimeHasGoneBackThereIsNoMapUntilTheLaserHasLookedAgain) {
   }));
 }
 
+// Scans that came before the static map, or one of another geometry, are in no grid of it: the map went out without the
+// laser's obstacles.
+TEST_F(MapLayers, AScanFromBeforeTheStaticMapDoesNotCountAsLookedAt) {
+  placeLaser();
+  start({"_use_scan:=true", "_source_timeout:=60", "_stale_source:=drop"});
+  ASSERT_TRUE(waitFor([&] { return scans_.getNumSubscribers() > 0; }));
+  for (int i = 0; i < 5; ++i) {
+    see(5.0F);
+    ros::WallDuration(0.1).sleep();
+  }
+  publishStatic(kRoom);
+  ASSERT_TRUE(node_->says("vehicles stand: nothing has come on /scan yet"));
+  EXPECT_EQ(copy_.maps(), 0U);
+  ASSERT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
+  ros::WallDuration(0.5).sleep();  // for the scans that are on their way
+  const std::size_t maps = copy_.maps();
+  publishStatic({"......", "......"});
+  ros::WallDuration(1.5).sleep();  // in which a map would come
+  EXPECT_EQ(copy_.maps(), maps);
+  EXPECT_TRUE(becomesBySeeing(4.0F, 4, 0, 100));
+}
+
 TEST_F(MapLayers, ALaserThatIsSilentCanBeDropped) {
   placeLaser();
   publishStatic(kRoom);
