@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
+#include "ros/common/master/end_without_master.h"
 #include "ros/common/master/kept_file.h"
 #include "ros/common/scheduling/log_throttle.h"
 
@@ -109,8 +111,8 @@ void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud, When 
   std::string text;
   share_.take([&] { text = map.map().fileText(commentsOf(marker(), newest_cloud)); });
   saved_revision_ = map.revision();
-  writer_.post([this, newest_cloud,
-                text = std::move(text)](const StopSource&) { write(text, newest_cloud); },
+  writer_.post([this, newest_cloud, text = std::move(text), work = std::make_shared<LastWork>()](
+                   const StopSource&) { write(text, newest_cloud); },
                kSlot);
 }
 

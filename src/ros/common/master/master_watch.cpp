@@ -82,7 +82,7 @@ void MasterWatch::run() {
     lock.unlock();
     tryToAsk();
     lock.lock();
-    ends_.wait_for(lock, kMasterPeriod, [this] { return done_; });
+    ends_.wait_for(lock, kMasterPeriod, [this] { return done_.load(); });
   }
 }
 
@@ -110,7 +110,7 @@ void MasterWatch::ask() {
   const bool restarted = before != 0 && before != pid_;
   if (restarted) ++restarts_;
   const bool knows = askMaster("lookupNode", {self()}).has_value();
-  if (ros::isShuttingDown()) return;  // its names are gone because they were given back
+  if (done_ || ros::isShuttingDown()) return;  // its names are gone because they were given back
   owes_names_ = owes_names_ || restarted || (known_ && !knows);
   if (owes_names_) owes_names_ = !registersAgain();
   known_ = known_ || knows;
@@ -132,6 +132,7 @@ bool MasterWatch::rememberingIsDue() {
 
 void MasterWatch::rememberServices() {
   const auto state = systemState(kMasterPatience);
+  if (done_) return;
   auto pid = askMaster("getPid");
   if (!state || !pid || static_cast<int&>(*pid) != pid_) return;  // another one knows none of them
   services_.clear();
@@ -149,6 +150,7 @@ bool MasterWatch::registersAgain() const {
   bool all = registersTopics("getPublications", "registerPublisher");
   all = registersTopics("getSubscriptions", "registerSubscriber") && all;
   for (const std::string& service : services_) {
+    if (done_) return false;
     const std::vector<XmlRpcValue> offer = {XmlRpcValue(service), XmlRpcValue(services_uri_),
                                             XmlRpcValue(ownUri())};
     all = askMaster("registerService", offer).has_value() && all;
@@ -161,6 +163,7 @@ bool MasterWatch::registersTopics(const char* list, const char* method) const {
   auto topics = callXmlRpc(ownUri(), list, {self()}, kMasterPatience);
   bool all = topics.has_value();
   for (int i = 0; topics && i < topics->size(); ++i) {
+    if (done_) return false;
     const XmlRpcValue& topic = (*topics)[i][0];
     const auto known = askMaster(method, {topic, (*topics)[i][1], XmlRpcValue(ownUri())});
     all = all && known;

@@ -63,7 +63,7 @@ class MasterWatch {
   std::atomic<bool> services_grow_{true};
   std::mutex mutex_;
   std::condition_variable ends_;
-  bool done_ = false;
+  std::atomic<bool> done_{false};  // looked at between two questions: who ends waits for one
   std::thread thread_;
 };
 
