@@ -76,7 +76,7 @@ TEST(States, APathInAnotherFrameTurnsNoVelocity) {
   for (int i = 0; i < 100; ++i)
     before = follower.update(inputAt(time += 0.05, {{10.0, 0.0, 0.0}, 0.0}));
   ASSERT_GT(before.surge, 0.5);
-  Path other = pathOf({{-10, 0}, {-40, 0}});  // the same way, where x looks back
+  Path other = pathOf({{-10, 0}, {-40, 0}});  // in the same direction, where x looks back
   other.frame_id = "odom";
   follower.start(other, Join::NEAREST);
   const auto after = follower.update(inputAt(time += 0.05, {{-10.0, 0.0, 0.0}, M_PI}));

@@ -217,7 +217,7 @@ TEST_F(MapLayers, AScanFromBeforeTheStaticMapDoesNotCountAsLookedAt) {
   ASSERT_TRUE(node_->says("vehicles stand: nothing has come on /scan yet"));
   EXPECT_EQ(copy_.maps(), 0U);
   ASSERT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
-  ros::WallDuration(0.5).sleep();  // for the scans that are on their way
+  ros::WallDuration(0.5).sleep();  // for the scans that were sent
   const std::size_t maps = copy_.maps();
   publishStatic({"......", "......"});
   ros::WallDuration(1.5).sleep();  // in which a map would come

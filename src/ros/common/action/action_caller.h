@@ -7,7 +7,7 @@
 // Of actionlib's clients it differs where the network is hostile or the other node dies: lengths that lie are refused
 // before they are unpacked (claimed_lengths.h), a server that was restarted, hangs or is gone is told within `timeout`
 // seconds of the wall clock, and goals that an earlier process of this node's name left behind are cancelled; a cancel that
-// was lost on its way is repeated with each status that says that its goal goes on.
+// was lost is repeated with each status that says that its goal goes on.
 //
 // Guaranteed: every goal that is sent ends by exactly one call of on_result or on_lost, unless forget() or another send()
 // comes first. All calls come from the queue of `nh`, or from watch().
