@@ -14,10 +14,12 @@ FLAG = re.compile(r"-(I|isystem|D|std=)")
 
 
 def files(folders, endings):
-    """Names, relative to the root, of the files below `folders` with one of the endings, sorted."""
+    """Names, relative to the root, of the files below `folders` with one of the endings, sorted. What Python compiles them
+    to, which comes while a program beside runs, is none."""
     found = []
     for folder in folders:
-        for path, _, names in os.walk(os.path.join(ROOT, folder)):
+        for path, below, names in os.walk(os.path.join(ROOT, folder)):
+            below[:] = [name for name in below if name != "__pycache__"]
             found += [os.path.relpath(os.path.join(path, name), ROOT)
                       for name in names if name.endswith(endings)]
     return sorted(found)
