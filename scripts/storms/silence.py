@@ -4,7 +4,7 @@
         silence.begin(); ...; silence.end()
         print(silence.verdict())          # SessionFailed where the law does not hold
 
-p99.9 is at most two ticks and what the bare thread is late, and no silence is longer than the half of cmd_vel_timeout and
+p99.9 is at most two ticks and what the bare thread is late, and the half of cmd_vel_timeout, and no silence is longer than the half of cmd_vel_timeout and
 the latest that the bare thread was: so long nobody had the machine.
 
 With Silence(stops=True) the vehicle is stopped by `stop` every STOP_EVERY seconds, too: a zero follows within
@@ -21,7 +21,7 @@ TICK = 0.02             # s; of the bare thread
 CMD_VEL_TIMEOUT = 0.5   # s
 STOP_EVERY = 5.0        # s
 STOP_FOR = 0.5          # s
-ENOUGH = 2000           # silences; of fewer, p99.9 is the longest one of a moment
+ENOUGH = 2000           # silences; of fewer, p99.9 is the longest one of a moment, held to the half of that timeout
 
 
 def quantile(values, share):
@@ -69,8 +69,8 @@ class Silence:
         silence, bare = quantile(gaps, 0.999), quantile(late, 0.999)
         text = "p99.9 of %d silences of cmd_vel %.0f ms, longest %.0f ms, a bare 50 Hz thread is %.0f ms late, at most %.0f ms" % (
             len(gaps), 1e3 * silence, 1e3 * max(gaps), 1e3 * bare, 1e3 * max(late))
-        judged = len(gaps) >= ENOUGH
-        if max(gaps) > CMD_VEL_TIMEOUT / 2 + max(late) or (judged and silence > 2 * self.tick + bare):
+        most = CMD_VEL_TIMEOUT / 2 + bare if len(gaps) < ENOUGH else min(2 * self.tick + bare, CMD_VEL_TIMEOUT / 2)
+        if silence > most or max(gaps) > CMD_VEL_TIMEOUT / 2 + max(late):
             raise SessionFailed(text)
         return text + (judge_stops(delays) if self.stops else "")
 

@@ -46,14 +46,14 @@ LayeredMap::Map LayeredMap::levelled(Map map) const {
   return std::make_shared<OccupancyGrid>(levelOccupancy(*map, options_.occupied_min));
 }
 
-void LayeredMap::setBase(Map base, const Changed& changed) {
+bool LayeredMap::setBase(Map base, const Changed& changed) {
   const Map given = base;
   base = levelled(std::move(base));
   turned_base_ = given == base ? nullptr : given;
   if (hasBase() && changed && base->geometry() == merged().geometry()) {
     const std::vector<CellRect> all{base->geometry().rect()};
     stack_.setBase(std::move(base), turned_base_ ? all : *changed);
-    return;
+    return false;
   }
   stack_.setBase(std::move(base));
   new_geometry_ = true;
@@ -63,6 +63,7 @@ void LayeredMap::setBase(Map base, const Changed& changed) {
   if (live_) layLive({live_->geometry().rect()});
   layKeepOut();
   layLimits();
+  return true;
 }
 
 void LayeredMap::setLive(Map live, const Changed& changed) {

@@ -37,7 +37,8 @@ class LayeredMap {
   void configure(const MapLayersOptions& options, const Zones& zones);
 
   // Those whose origin has a yaw are laid on a grid without one: throw InputError as LevelGrid.
-  void setBase(Map base, const Changed& changed = {});
+  // Returns whether what scans saw is forgotten: it lies elsewhere, or nobody knows what of it changed.
+  bool setBase(Map base, const Changed& changed = {});
   void setLive(Map live, const Changed& changed = {});
   void setKeepOutMask(Map mask);
   // Throws InputError too for values that limitsOfMask() refuses.
@@ -53,8 +54,6 @@ class LayeredMap {
 
   bool hasBase() const { return stack_.hasBase(); }
   const grid::OccupancyGrid& merged() const { return stack_.merged(); }
-  // Whether takeNewGeometry() would say so.
-  bool hasNewGeometry() const { return new_geometry_; }
   // Whether it has another geometry than at the last call.
   bool takeNewGeometry() { return std::exchange(new_geometry_, false); }
   std::vector<grid::CellRect> takeChanged() { return stack_.takeChanged(); }

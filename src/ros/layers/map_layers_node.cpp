@@ -213,8 +213,7 @@ void MapLayersNode::take(LayerSource& source, const ros::Time& stamp,
 void MapLayersNode::onStaticMap(const MapChange& change) {
   take(static_source_, change.map.stamp, [&] {
     checkFrame(change.map.frame_id, options_);
-    map_.setBase(change.map.grid, change.changed);
-    if (map_.hasNewGeometry()) scan_source_.forget();  // what scans saw is in no grid of it
+    if (map_.setBase(change.map.grid, change.changed)) scan_source_.forget();
   });
   if (change.changed) return;
   warnOfZonesOutside();

@@ -202,13 +202,15 @@ bool PlanningServer::placed(const std::string& frame,
   return false;
 }
 
+// Who asks next finds what is done of a jump done.
 void PlanningServer::checkClock() {
-  const std::lock_guard<std::mutex> lock(
-      clock_mutex_);  // who asks next finds what is done of a jump done
-  if (!clock_.jumpedBack()) return;
+  {
+    const std::lock_guard<std::mutex> lock(clock_mutex_);
+    if (!clock_.jumpedBack()) return;
+    transforms_.clear();
+    on_time_jump_();
+  }
   ROS_WARN("ROS time jumped back: transforms and start poses from before are forgotten");
-  transforms_.clear();
-  on_time_jump_();
 }
 
 void PlanningServer::stop() {

@@ -90,6 +90,13 @@ class EveryCommander(CommanderTest):
         from storms.kills import KILLED  # pylint: disable=import-outside-toplevel
         self.assertEqual({"/" + name for name in NODES}, set(KILLED))
 
+    def test_the_storms_try_every_node_that_commands(self):
+        sys.path.insert(0, os.path.join(rospkg.RosPack().get_path(PACKAGE), "scripts"))
+        from storms import load, other_sessions  # pylint: disable=import-outside-toplevel
+        self.assertEqual({"/" + name for name in COMMANDERS},
+                         {session.COMMANDER for session in other_sessions.COMMANDED.values()})
+        self.assertEqual(set(COMMANDERS), {commander.node for commander in load.COMMANDERS.values()})
+
     def test_stop_zeroes_until_it_is_released(self):
         for name in COMMANDERS:
             node = self.moving(name)

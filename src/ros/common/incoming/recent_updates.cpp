@@ -60,10 +60,13 @@ void RecentUpdates::noteForgotten(const Update& update, const ros::Time& came) {
 std::vector<RecentUpdates::Update> RecentUpdates::since(const std::string& publisher,
                                                         const ros::Time& stamp,
                                                         const ros::Time& now) {
-  if (forgotten_came_ > now) forgotten_ = forgotten_came_ = ros::Time();  // ROS time went back
+  if (forgotten_came_ > now) forgotten_ = ros::Time();  // ROS time went back
+  forgotten_ = std::max(forgotten_, stamp);
+  forgotten_came_ = now;
   std::vector<Update> newer;
   for (const Kept& kept : kept_)
-    if (kept.publisher == publisher && kept.update->header.stamp > stamp && kept.came <= now)
+    if (!stamp.isZero() && kept.publisher == publisher && kept.update->header.stamp > stamp &&
+        kept.came <= now)
       newer.push_back(kept.update);
   kept_.erase(std::remove_if(kept_.begin(), kept_.end(),
                              [&](const Kept& kept) {

@@ -22,7 +22,7 @@ class RecentUpdates {
   // `publisher`: the node. The oldest are forgotten beyond 16 MB and 1,000 updates; one with values that no map has is not kept.
   void keep(const std::string& publisher, const Update& update, const ros::Time& now) noexcept;
   // Those of `publisher` that are stamped later than `stamp`, in the order in which they came; none that came after `now`,
-  // which was before ROS time went back. The others are forgotten.
+  // which was before ROS time went back, or where `stamp` is 0, of no time. The others are forgotten.
   std::vector<Update> since(const std::string& publisher, const ros::Time& stamp,
                             const ros::Time& now);
   // Whether since() would have all of these that have come.

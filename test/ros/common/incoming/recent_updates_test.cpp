@@ -59,6 +59,23 @@ TEST(RecentUpdates, AreCompleteUntilTheOldestAreForgotten) {
   EXPECT_EQ(recent.since("/a", ros::Time(19.0), kNow).size(), 2U);
 }
 
+// A map without a stamp would be overwritten with all that had come before it.
+TEST(RecentUpdates, AreNoneForAMapOfNoTime) {
+  RecentUpdates recent;
+  recent.keep("/a", updateAt(1.0, 1, 100), kNow);
+  EXPECT_TRUE(recent.since("/a", ros::Time(), kNow).empty());
+}
+
+TEST(RecentUpdates, AreNotCompleteForAMapThatIsOlderThanOneThatWasTaken) {
+  RecentUpdates recent;
+  recent.keep("/a", updateAt(2.0, 1, 100), kNow);
+  recent.since("/a", ros::Time(3.0), kNow);
+  EXPECT_FALSE(recent.complete(ros::Time(1.0)));
+  EXPECT_TRUE(recent.complete(ros::Time(3.0)));
+  recent.since("/a", ros::Time(1.0), ros::Time(50.0));
+  EXPECT_TRUE(recent.complete(ros::Time(1.0))) << "ROS time went back";
+}
+
 TEST(RecentUpdates, WithoutValuesThatNoMapHas) {
   RecentUpdates recent;
   recent.keep("/a", updateAt(1.0, 1, 101), kNow);
