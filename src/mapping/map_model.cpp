@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "base/seconds_since.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/grid/map_file.h"
@@ -87,8 +88,7 @@ MapModel::Inserted MapModel::insert(std::vector<Eigen::Vector3d> points,
   inserted.left_out = map_.insert(cloud.scan);
   inserted.map_is_full = map_.isFull();
   projection_.setSensor(cloud.scan.origin.x(), cloud.scan.origin.y());
-  inserted.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  inserted.seconds = base::secondsSince(start);
   return inserted;
 }
 

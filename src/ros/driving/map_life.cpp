@@ -5,10 +5,6 @@
 namespace grid_path_planner::nodes {
 namespace {
 
-double secondsSince(std::chrono::steady_clock::time_point time) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
-}
-
 // With one decimal: the text changes from tick to tick.
 std::string seconds(double value) {
   return base::decimalText(static_cast<int>(value * 10.0) / 10.0) + " s";
@@ -27,7 +23,7 @@ std::string whyNoMap(const MapLife& life, double map_timeout) {
   if (!life.heartbeat && silence > kPublisherTimeout)
     return "the map on " + life.topic + " is not kept up: " + life.map.publisher +
            " has not answered for " + seconds(silence);
-  if (life.lost_since && secondsSince(*life.lost_since) > kLostTimeout)
+  if (life.lost_since && base::secondsSince(*life.lost_since) > kLostTimeout)
     return "the map on " + life.topic + " lacks changes: " + life.lost;
   return "";
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/seconds_since.h"
 #include "ros/common/map_receiver.h"
 
 namespace grid_path_planner::nodes {
@@ -25,9 +26,7 @@ struct MapLife {
   std::string lost;  // why the map lacks changes; empty where it does not
   std::optional<std::chrono::steady_clock::time_point> lost_since;
 
-  double silence() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - sign).count();
-  }
+  double silence() const { return base::secondsSince(sign); }
 };
 
 // Why the vehicle must not be driven by it, in a sentence; empty where it may.

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "base/seconds_since.h"
 #include "grid_path_planner/base/decimal_text.h"
 
 namespace grid_path_planner::nodes {
@@ -54,10 +55,10 @@ class LayerSource {
   // Whether whyNot() is that it says nothing, for `timeout` or, before the first, for that long since it
   // was made or forgotten.
   bool silentFor(double timeout) const {
-    return problem_.empty() && expires_ && secondsSince(std::max(heard_, refused_)) > timeout;
+    return problem_.empty() && expires_ && base::secondsSince(std::max(heard_, refused_)) > timeout;
   }
   // s of the wall clock; 0 before the first.
-  double silence() const { return there_ ? secondsSince(heard_) : 0.0; }
+  double silence() const { return there_ ? base::secondsSince(heard_) : 0.0; }
 
   const std::string& topic() const { return topic_; }
   bool used() const { return used_; }
@@ -66,10 +67,6 @@ class LayerSource {
   const ros::Time& stamp() const { return stamp_; }
 
  private:
-  static double secondsSince(Clock::time_point then) {
-    return std::chrono::duration<double>(Clock::now() - then).count();
-  }
-
   const std::string topic_;
   const bool used_;
   const bool expires_;

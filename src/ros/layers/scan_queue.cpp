@@ -1,5 +1,6 @@
 #include "ros/layers/scan_queue.h"
 
+#include "base/seconds_since.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/clock.h"
@@ -42,7 +43,7 @@ void ScanQueue::add(const LaserScan::ConstPtr& scan) {
 }
 
 bool ScanQueue::isOver(const Waiting& waiting, double timeout) const {
-  return std::chrono::duration<double>(Clock::now() - waiting.since).count() > timeout;
+  return base::secondsSince(waiting.since) > timeout;
 }
 
 std::optional<ScanQueue::Ready> ScanQueue::take(const std::string& frame, double timeout) {

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "base/current_error.h"
+#include "base/seconds_since.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/common/action/action_topics.h"
 #include "ros/common/guarded_queue.h"
@@ -128,8 +129,7 @@ bool PlanAction::answeredUncancelled(PlanTicket& ticket) {
     if (rounds % 10 != 0) continue;
     PlanPathFeedback feedback;
     feedback.phase = ticket.phase();
-    feedback.elapsed_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    feedback.elapsed_s = base::secondsSince(begin);
     action_.publishFeedback(feedback);
   }
   return true;

@@ -25,6 +25,7 @@
 #include <string>
 #include <utility>
 
+#include "base/seconds_since.h"
 #include "ros/common/action/seen_goals.h"
 #include "ros/common/incoming/bounded_subscription.h"
 
@@ -101,12 +102,12 @@ class ActionCaller {
   void watch(double timeout) {
     sendWaiting();
     if (!active()) return;
-    const bool silent = secondsSince(heard_) > timeout;
+    const bool silent = base::secondsSince(heard_) > timeout;
     if (waiting_ && silent)
       lose("nobody serves it");
     else if (!waiting_ && !isThere())
       lose("its server is gone");
-    else if (ended_ && secondsSince(*ended_) > kResultDelay)
+    else if (ended_ && base::secondsSince(*ended_) > kResultDelay)
       lose("it ended without a result");
     else if (silent)
       lose("nothing has been heard of its server");
@@ -116,10 +117,6 @@ class ActionCaller {
   using Clock = std::chrono::steady_clock;
 
   static constexpr double kResultDelay = 2.0;  // s, by which a result may come after the status
-
-  static double secondsSince(Clock::time_point time) {
-    return std::chrono::duration<double>(Clock::now() - time).count();
-  }
 
   void sendWaiting() {
     if (!waiting_ || !isThere() || !ros::Time::isValid()) return;
