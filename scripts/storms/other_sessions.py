@@ -42,6 +42,7 @@ class Manual(Demo):
 
     FIRST_CELLS = 20
     COMMANDER, TICK, MASTER_TIMEOUT = "/teleop_joy", 0.05, None  # whoever holds the button sees the vehicle
+    PREFIX, OVER_A_LINK = "joystick_prefix", {}
     AXES = (0.0, 0.5, 0.0, 0.5, 0.0)  # ahead, and to the left
     BUTTONS = (0, 0, 0, 0, 1, 0)
 
@@ -56,14 +57,15 @@ class Flight(Session):
     THERE = 1.5
     FIRST_CELLS, BRAKING = 20, 1.7  # from 2 m/s
     COMMANDER, TICK = "/local_planner", 0.05
+    PREFIX, OVER_A_LINK = "local_prefix", {}
 
-    def __init__(self, folder, given=(), commander=()):
+    def __init__(self, folder, given=(), commander=(), arguments=(), host="localhost"):
         overrides = Overrides(folder, given)
-        super().__init__(folder, "flight_demo.launch", [
+        super().__init__(folder, "flight_demo.launch", list(arguments) + [
             "simulator_overrides:=" + overrides.write("simulator", "multirotor.yaml"),
             "mapping_overrides:=" + overrides.write("projected_map", "flight_mapping.yaml", always_send_full_map=True),
             "local_overrides:=" + overrides.write("local_planner", "flight_local.yaml", **dict(commander))],
-            ((0.0, 0.0, 1.5, 0.0), (30.0, 10.0, 1.5, 0.0)))
+            ((0.0, 0.0, 1.5, 0.0), (30.0, 10.0, 1.5, 0.0)), host)
 
 
 COMMANDED = {"demo": Demo, "manual": Manual, "flight": Flight}  # one of each node that publishes cmd_vel

@@ -113,6 +113,8 @@ class Session:
 
     NODES = ()
     COMMANDER, TICK = "/navigate_path", 0.02  # publishes cmd_vel; s, its period
+    PREFIX = "navigate_prefix"  # the launch file's argument for what is put before the command of the commander
+    OVER_A_LINK = {"tf_timeout": 1.0, "no_progress_timeout": 0.0}  # what changes of its parameters where it is on one
     MASTER_TIMEOUT = 6.0  # s, of the commander where it is given in `commander`; None: it has none
     THERE = 0.4      # m: so near to an end the vehicle is sent to the other
     # For the kills in it:
