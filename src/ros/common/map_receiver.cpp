@@ -10,6 +10,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/incoming/claimed_lengths.h"
+#include "ros/common/outgoing/map_announcement.h"
 #include "ros/common/scheduling/guarded_timer.h"
 #include "ros/common/scheduling/log_throttle.h"
 
@@ -26,6 +27,8 @@ namespace {
 constexpr double kMasterSilence =
     2.0;  // s, after which it counts as gone: roscpp waits for it without end
 constexpr std::chrono::seconds kAnswer(2);  // to wait for a whole map that was asked for
+constexpr std::chrono::seconds kLongestAnswer(
+    64);  // where none comes, or none that has what was lost
 constexpr double kRetryPeriod =
     1.0;  // s, after which what failed for want of memory is tried again
 
@@ -40,10 +43,6 @@ CellRect rectOf(const OccupancyGrid& map, const map_msgs::OccupancyGridUpdate& u
     throw InputError(text.str());
   }
   return {update.x, update.y, static_cast<int>(update.width), static_cast<int>(update.height)};
-}
-
-bool isHeartbeat(const map_msgs::OccupancyGridUpdate& update) {
-  return update.width == 0 && update.height == 0 && update.data.empty();
 }
 
 // Copies the cells of `rects` and checks them.
@@ -134,7 +133,8 @@ void MapReceiver::subscribeToMaps() {
 
 void MapReceiver::onMap(const MapEvent& event) {
   const ros::Time newest = latest().stamp;
-  const bool lacks = isOlder(event) && !recent_.complete(event.getConstMessage()->header.stamp);
+  const bool lacks = (isOlder(event) || isAwaited(event.getPublisherName())) &&
+                     !recent_.complete(event.getConstMessage()->header.stamp);
   // A latched map of before, where a new one was asked for and follows.
   if (lacks && Clock::now() - asked_at_ < kAnswer) return;
   MapChange change;
@@ -166,13 +166,23 @@ MapChange MapReceiver::use(const MapEvent& event) {
   const ros::Time &sent = message.header.stamp, now = ros::Time::now();
   const bool has_lost =
       sender == latest().publisher && !sent.isZero() && sent <= lost_at_ && lost_at_ <= now;
-  const auto newer = recent_.since(sender, sent, now);
+  // Of those that were sent after a map that was announced, the places are others in one from before.
+  const bool is_before = isAwaited(sender) && sent < announced_->stamp;
+  const auto newer =
+      recent_.since(sender, sent, now, is_before ? announced_->stamp : ros::TIME_MAX);
   auto changed =
       newer.empty() ? takeGrid(message, frame_id) : takeGrid(withUpdates(message, newer), frame_id);
   const ros::Time stamp = newer.empty() ? sent : newer.back()->header.stamp;
   MapChange change = store({nullptr, frame_id, stamp, sender, sender}, std::move(changed));
+  recent_.forgetBefore(sender, sent, now);
+  whole_of_ = sender;
+  whole_stamp_ = sent;
+  whole_heard_ = now;
+  if (isAwaited(sender) && !is_before) announced_.reset();
+  if (has_lost) return change;
+  until_asked_again_ = kAnswer;
   std::lock_guard<std::mutex> lock(mutex_);
-  if (!has_lost) lost_.clear();
+  lost_.clear();
   return change;
 }
 
@@ -206,6 +216,11 @@ void MapReceiver::noteLoss(const std::string& what, const ros::Time& at) {
 void MapReceiver::retry() {
   if (std::exchange(lost_one_, false))
     noteLoss("A change of the map could not be taken", latest().stamp);
+  else if (!lost().empty())
+    askForAWholeMap();
+  else if (announced_ && isAwaited(announced_->publisher) &&
+           Clock::now() - announced_->came > kAnswer)
+    noteLoss("A map of another place or size was announced and has not come", latest().stamp);
   if (!map_subscriber_ && master_->silence() < kMasterSilence) subscribeToMaps();
   if (owes_map_ && latest().grid) tell({latest(), std::nullopt});
 }
@@ -219,8 +234,9 @@ void MapReceiver::tell(MapChange change) {
 
 void MapReceiver::askForAWholeMap() {
   const auto now = Clock::now();
-  if (now - asked_at_ < kAnswer || master_->silence() > kMasterSilence) return;
+  if (now - asked_at_ < until_asked_again_ || master_->silence() > kMasterSilence) return;
   asked_at_ = now;
+  until_asked_again_ = std::clamp<Clock::duration>(2 * until_asked_again_, kAnswer, kLongestAnswer);
   map_subscriber_.shutdown();  // a second subscription of a node would share the link of the first
   subscribeToMaps();
 }
@@ -233,19 +249,35 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
              std::max(latest().stamp, message.header.stamp));
   else if (!lost().empty())
     askForAWholeMap();
-  if (isHeartbeat(message)) {
-    {
-      std::lock_guard<std::mutex> lock(mutex_);
-      heartbeat_ = {message.header.stamp, Clock::now(), event.getPublisherName()};
-    }
-    on_heartbeat_();
-    return;
+  if (isAnnouncement(message)) return noteAnnouncement(event);
+  if (!hasNoCells(message)) return noteUpdate(event);
+  {
+    std::lock_guard<std::mutex> lock(mutex_);
+    heartbeat_ = {message.header.stamp, Clock::now(), event.getPublisherName()};
   }
+  on_heartbeat_();
+}
+
+// Unless the map came before it; but where ROS time went back, that was another one.
+void MapReceiver::noteAnnouncement(const UpdateEvent& event) {
+  const ros::Time stamp = event.getConstMessage()->header.stamp, now = ros::Time::now();
+  const std::string publisher = event.getPublisherName();
+  const bool came = publisher == whole_of_ && stamp <= whole_stamp_ && whole_heard_ <= now;
+  if (!came && !stamp.isZero()) announced_ = {publisher, stamp, now, Clock::now()};
+}
+
+// But not where ROS time went back meanwhile.
+bool MapReceiver::isAwaited(const std::string& publisher) const {
+  return announced_ && announced_->publisher == publisher && announced_->heard <= ros::Time::now();
+}
+
+void MapReceiver::noteUpdate(const UpdateEvent& event) {
+  const map_msgs::OccupancyGridUpdate& message = *event.getConstMessage();
   const ReceivedMap before = latest();
-  if (!before.grid) {
+  if (!before.grid || isAwaited(event.getPublisherName())) {
     recent_.keep(event.getPublisherName(), event.getConstMessage(), ros::Time::now());
     static LogThrottle seldom(5.0);
-    ROS_WARN_COND(seldom.isDue(), "An update of the map waits: no map has come yet");
+    ROS_WARN_COND(seldom.isDue(), "An update of the map waits: the map has not come yet");
     return;
   }
   // A map from the future is from before the time jumped back, as when a bag loops.

@@ -12,13 +12,15 @@
 // A piece without cells (0x0) is a heartbeat: it changes nothing and is accepted before there is a
 // map; only its stamp, who sent it and when it came are kept.
 //
+// Updates that follow the announcement of a map of another place or size (outgoing/map_announcement.h) wait for that map.
+//
 // Of updates that come faster than they are applied at most 64 MB wait; the oldest are lost first. A whole map that updates
 // overtook, which have connections of their own, is taken with these (incoming/recent_updates.h).
 //
 // An update that is lost is noticed by the numbers of those that come (update_sequence.h), also of
-// heartbeats. Then the topic of maps is subscribed anew, which makes projected_map send a whole map;
-// another publisher is waited for. Until a whole map is there, lost() says so and the updates that
-// come are applied.
+// heartbeats. Then the topic of maps is subscribed anew, which makes projected_map send a whole map, and again after 2, 4, 8 s,
+// a minute at last; another publisher is waited for. Until a whole map is there, lost() says so and the updates that
+// come are applied. A map that was announced and has not come for 2 s is lost, too.
 #pragma once
 
 #include <map_msgs/OccupancyGridUpdate.h>
@@ -112,6 +114,10 @@ class MapReceiver {
   std::optional<std::vector<grid::CellRect>> takeGrid(const nav_msgs::OccupancyGrid& message,
                                                       const std::string& frame_id);
   bool isOlder(const MapEvent& event) const;
+  // Whether it was announced that `publisher` sends a map of another place or size, which has not come.
+  bool isAwaited(const std::string& publisher) const;
+  void noteAnnouncement(const UpdateEvent& event);
+  void noteUpdate(const UpdateEvent& event);
   // Of what had come by `at`.
   void noteLoss(const std::string& what, const ros::Time& at);
   void subscribeToMaps();
@@ -134,8 +140,17 @@ class MapReceiver {
   std::string refusal_;
   std::optional<MapHeartbeat> heartbeat_;
   std::string lost_;
-  UpdateSequence sequence_;     // of the subscribers, as the next
-  Clock::time_point asked_at_;  // for a whole map
+  UpdateSequence sequence_;              // of the subscribers, as the next
+  Clock::time_point asked_at_;           // for a whole map
+  Clock::duration until_asked_again_{};  // from then
+  struct Announced {
+    std::string publisher;
+    ros::Time stamp, heard;
+    Clock::time_point came;
+  };
+  std::optional<Announced> announced_;  // a map that has not come
+  std::string whole_of_;                // publisher of the last whole map
+  ros::Time whole_stamp_, whole_heard_;
   std::shared_ptr<MasterWatch> master_;
   RecentUpdates recent_;
   ros::Time lost_at_;  // a whole map from before that lacks what was lost, too

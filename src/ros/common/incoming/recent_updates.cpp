@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/network_text.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -12,7 +13,8 @@ namespace {
 constexpr std::size_t kMostBytes = 16'000'000, kMostUpdates = 1000;
 
 bool isValid(const map_msgs::OccupancyGridUpdate& update) {
-  return update.data.size() == std::size_t{update.width} * update.height &&
+  return printable(update.header.frame_id) == update.header.frame_id &&
+         update.data.size() == std::size_t{update.width} * update.height &&
          std::all_of(update.data.begin(), update.data.end(),
                      [](std::int8_t value) { return value >= -1 && value <= 100; });
 }
@@ -57,26 +59,34 @@ void RecentUpdates::noteForgotten(const Update& update, const ros::Time& came) {
   forgotten_came_ = std::max(forgotten_came_, came);
 }
 
+bool RecentUpdates::isSince(const Kept& kept, const std::string& publisher, const ros::Time& stamp,
+                            const ros::Time& now) {
+  return !stamp.isZero() && kept.publisher == publisher && kept.update->header.stamp > stamp &&
+         kept.came <= now;
+}
+
 std::vector<RecentUpdates::Update> RecentUpdates::since(const std::string& publisher,
                                                         const ros::Time& stamp,
-                                                        const ros::Time& now) {
-  if (forgotten_came_ > now) forgotten_ = ros::Time();  // ROS time went back
-  forgotten_ = std::max(forgotten_, stamp);
-  forgotten_came_ = now;
+                                                        const ros::Time& now,
+                                                        const ros::Time& until) const {
   std::vector<Update> newer;
   for (const Kept& kept : kept_)
-    if (!stamp.isZero() && kept.publisher == publisher && kept.update->header.stamp > stamp &&
-        kept.came <= now)
+    if (isSince(kept, publisher, stamp, now) && kept.update->header.stamp <= until)
       newer.push_back(kept.update);
-  kept_.erase(std::remove_if(kept_.begin(), kept_.end(),
-                             [&](const Kept& kept) {
-                               return std::find(newer.begin(), newer.end(), kept.update) ==
-                                      newer.end();
-                             }),
-              kept_.end());
+  return newer;
+}
+
+void RecentUpdates::forgetBefore(const std::string& publisher, const ros::Time& stamp,
+                                 const ros::Time& now) {
+  if (forgotten_came_ > now) forgotten_ = ros::Time();  // ROS time went back
+  forgotten_ = std::max(forgotten_, std::min(stamp, now));
+  forgotten_came_ = now;
+  kept_.erase(
+      std::remove_if(kept_.begin(), kept_.end(),
+                     [&](const Kept& kept) { return !isSince(kept, publisher, stamp, now); }),
+      kept_.end());
   bytes_ = 0;
   for (const Kept& kept : kept_) bytes_ += kept.update->data.size();
-  return newer;
 }
 
 nav_msgs::OccupancyGrid withUpdates(nav_msgs::OccupancyGrid map,

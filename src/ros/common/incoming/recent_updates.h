@@ -19,12 +19,15 @@ class RecentUpdates {
  public:
   using Update = map_msgs::OccupancyGridUpdate::ConstPtr;
 
-  // `publisher`: the node. The oldest are forgotten beyond 16 MB and 1,000 updates; one with values that no map has is not kept.
+  // `publisher`: the node. The oldest are forgotten beyond 16 MB and 1,000 updates; one with values, or the name of a frame, that no
+  // map has is not kept.
   void keep(const std::string& publisher, const Update& update, const ros::Time& now) noexcept;
-  // Those of `publisher` that are stamped later than `stamp`, in the order in which they came; none that came after `now`,
-  // which was before ROS time went back, or where `stamp` is 0, of no time. The others are forgotten.
+  // Those of `publisher` that are stamped later than `stamp` and no later than `until`, in the order in which they came; none
+  // that came after `now`, which was before ROS time went back, or where `stamp` is 0, of no time.
   std::vector<Update> since(const std::string& publisher, const ros::Time& stamp,
-                            const ros::Time& now);
+                            const ros::Time& now, const ros::Time& until = ros::TIME_MAX) const;
+  // A map of `publisher` that is stamped so was taken: all but since() are forgotten.
+  void forgetBefore(const std::string& publisher, const ros::Time& stamp, const ros::Time& now);
   // Whether since() would have all of these that have come.
   bool complete(const ros::Time& stamp) const { return forgotten_ <= stamp; }
 
@@ -35,6 +38,8 @@ class RecentUpdates {
     ros::Time came;
   };
 
+  static bool isSince(const Kept& kept, const std::string& publisher, const ros::Time& stamp,
+                      const ros::Time& now);
   void forgetTheOldest();
   void noteForgotten(const Update& update, const ros::Time& came);
 

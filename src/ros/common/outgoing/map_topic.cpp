@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ros/common/outgoing/latched_message.h"
+#include "ros/common/outgoing/map_announcement.h"
 
 namespace grid_path_planner::nodes {
 
@@ -82,7 +83,18 @@ bool MapTopic::wholeMapIsDue(double period) const {
   return updated_ && passed.count() >= period;
 }
 
+// Than the map that was sent last.
+bool MapTopic::liesElsewhere(const nav_msgs::OccupancyGrid& map) {
+  nav_msgs::OccupancyGrid place;
+  place.header.frame_id = map.header.frame_id;
+  place.info = map.info;
+  place.info.map_load_time = ros::Time();
+  std::swap(place, place_);
+  return place.info.width > 0 && place != place_;
+}
+
 void MapTopic::send(const nav_msgs::OccupancyGrid& map) {
+  if (liesElsewhere(map) && !map.header.stamp.isZero()) updates_.publish(announcementOf(map));
   maps_.publish(map);
   std::lock_guard<std::mutex> lock(mutex_);
   updated_ = false;

@@ -5,6 +5,8 @@
 // latched; takeNewSubscriber(), needsWholeMaps() and wholeMapIsDue(), any of which asks for a whole
 // map; else an update will do.
 //
+// A whole map of another place or size than the one before is announced to those who take the updates (map_announcement.h).
+//
 // One thread sends; the callbacks come in that of the node's queue. Subscribers are told apart by
 // the names of their nodes, so nodelets of one manager count as one.
 #pragma once
@@ -57,6 +59,7 @@ class MapTopic {
  private:
   using Subscribers = std::multiset<std::string>;
 
+  bool liesElsewhere(const nav_msgs::OccupancyGrid& map);
   ros::SubscriberStatusCallback adding(Subscribers& to);
   ros::SubscriberStatusCallback removing(Subscribers& from);
 
@@ -67,6 +70,7 @@ class MapTopic {
   bool new_subscriber_ = false;
   bool updated_ = false;  // since the last whole map
   std::chrono::steady_clock::time_point sent_at_;
+  nav_msgs::OccupancyGrid place_;  // of the map that was sent last, without its cells
   ros::Publisher maps_;
   ros::Publisher updates_;
 };

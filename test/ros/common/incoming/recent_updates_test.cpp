@@ -41,7 +41,9 @@ TEST(RecentUpdates, AreThoseOfThePublisherThatAreNewerThanTheMap) {
   recent.keep("/a", updateAt(3.0, 4, 100), kNow);
   recent.keep("/a", updateAt(100.1, 5, 100), kNow);              // /clock is late
   recent.keep("/a", updateAt(500.0, 6, 100), ros::Time(500.0));  // of a time that has gone back
-  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(1.0), kNow)), std::vector<int>({2, 4, 5}));
+  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(1.0), kNow, ros::Time(3.0))),
+            std::vector<int>({2, 4}));
+  recent.forgetBefore("/a", ros::Time(1.0), kNow);
   EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(1.0), kNow)), std::vector<int>({2, 4, 5}))
       << "for the next map";
   EXPECT_TRUE(recent.since("/b", ros::Time(0.0), kNow).empty()) << "of another publisher's map";
@@ -69,20 +71,32 @@ TEST(RecentUpdates, AreNoneForAMapOfNoTime) {
 TEST(RecentUpdates, AreNotCompleteForAMapThatIsOlderThanOneThatWasTaken) {
   RecentUpdates recent;
   recent.keep("/a", updateAt(2.0, 1, 100), kNow);
-  recent.since("/a", ros::Time(3.0), kNow);
+  recent.forgetBefore("/a", ros::Time(3.0), kNow);
   EXPECT_FALSE(recent.complete(ros::Time(1.0)));
   EXPECT_TRUE(recent.complete(ros::Time(3.0)));
-  recent.since("/a", ros::Time(1.0), ros::Time(50.0));
+  recent.forgetBefore("/a", ros::Time(1.0), ros::Time(50.0));
   EXPECT_TRUE(recent.complete(ros::Time(1.0))) << "ROS time went back";
 }
 
-TEST(RecentUpdates, WithoutValuesThatNoMapHas) {
+// From a map of a time that has not come, every later one of any publisher counted as lacking updates.
+TEST(RecentUpdates, AreCompleteAfterAMapFromTheFuture) {
+  RecentUpdates recent;
+  recent.forgetBefore("/x", ros::TIME_MAX, kNow);
+  EXPECT_TRUE(recent.complete(kNow));
+}
+
+TEST(RecentUpdates, WithoutValuesAndFramesThatNoMapHas) {
   RecentUpdates recent;
   recent.keep("/a", updateAt(1.0, 1, 101), kNow);
   auto lies = boost::make_shared<map_msgs::OccupancyGridUpdate>(*updateAt(1.0, 1, 0));
   lies->width = lies->height = 4'000'000'000U;
   recent.keep("/a", lies, kNow);
-  EXPECT_TRUE(recent.since("/a", ros::Time(0.0), kNow).empty());
+  for (const std::string& frame : {std::string("a'b"), std::string(1'000'000, 'a')}) {
+    auto of_no_frame = boost::make_shared<map_msgs::OccupancyGridUpdate>(*updateAt(1.0, 1, 0));
+    of_no_frame->header.frame_id = frame;
+    recent.keep("/a", of_no_frame, kNow);
+  }
+  EXPECT_TRUE(recent.since("/a", ros::Time(0.5), kNow).empty());
 }
 
 TEST(WithUpdates, HasTheNewestOfThoseThatLieInIt) {

@@ -1,0 +1,199 @@
+// Whole maps and updates, which have connections of their own and come in any order.
+#include "ros/common/map_receiver.h"
+
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/outgoing/map_announcement.h"
+#include "ros/common/outgoing/map_topic.h"
+#include "ros/support/latest.h"
+#include "ros/support/wait.h"
+#include "support/ascii_map.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+using grid::Cell;
+
+// Of 1 m cells whose first column lies at `x`.
+nav_msgs::OccupancyGrid mapAt(double x, const std::vector<std::string>& picture, double age) {
+  auto message =
+      occupancyToMessage(test::AsciiMap(picture).map, "map", ros::Time::now() - ros::Duration(age));
+  message.info.origin.position.x = x;
+  return message;
+}
+
+map_msgs::OccupancyGridUpdate cellAt(int column, std::int8_t value, double age) {
+  auto update = updateOf({column, 0, 1, 1}, "map", ros::Time::now() - ros::Duration(age));
+  update.data = {value};
+  return update;
+}
+
+class MapReceiverTest : public testing::Test {
+ protected:
+  MapReceiverTest() {
+    ros::NodeHandle nh;
+    nh.setCallbackQueue(&queue_);
+    auto numbered = ros::AdvertiseOptions::create<map_msgs::OccupancyGridUpdate>(
+        "projected_map_updates", 10, {}, {}, {}, nullptr);
+    numbered.has_header = false;  // header.seq is the test's
+    updates_ = nh_.advertise(numbered);
+    receiver_.start(nh, [](const MapChange&) {});
+    EXPECT_TRUE(test::waitFor([&] { return links_ > 0 && updates_.getNumSubscribers() > 0; }));
+  }
+  ~MapReceiverTest() override { receiver_.shutdown(); }
+
+  bool comes(const std::function<bool()>& condition) {
+    return test::waitFor([&] {
+      queue_.callAvailable();
+      return condition();
+    });
+  }
+  void send(map_msgs::OccupancyGridUpdate update) {
+    update.header.seq = ++number_;
+    updates_.publish(update);
+  }
+  // Once all that was sent before is taken.
+  bool isTaken() {
+    map_msgs::OccupancyGridUpdate heartbeat;
+    heartbeat.header.stamp = ros::Time(++beats_);
+    send(heartbeat);
+    return comes([&] {
+      const auto heard = receiver_.heartbeat();
+      return heard && heard->stamp == heartbeat.header.stamp;
+    });
+  }
+  std::vector<std::int8_t> values() const {
+    const auto map = receiver_.latest();
+    return map.grid ? map.grid->values() : std::vector<std::int8_t>();
+  }
+  bool hasCome(const nav_msgs::OccupancyGrid& map) {
+    return comes([&] { return values() == map.data; });
+  }
+
+  ros::NodeHandle nh_;
+  std::atomic<int> links_{0};  // made so far
+  ros::Publisher maps_ = nh_.advertise<nav_msgs::OccupancyGrid>(
+      "projected_map", 1, [this](const ros::SingleSubscriberPublisher&) { ++links_; });
+  ros::Publisher updates_;
+  std::uint32_t number_ = 0;
+  int beats_ = 0;
+  ros::CallbackQueue queue_;
+  MapReceiver receiver_;
+};
+
+// By the code, an update that overtook the map of another place was laid at its column and row of the map before: free cells
+// upon a wall, until the map was there.
+TEST_F(MapReceiverTest, AnUpdateOfAMapOfAnotherPlaceWaitsForIt) {
+  const auto before = mapAt(0.0, {"....#"}, 5.0);
+  maps_.publish(before);
+  ASSERT_TRUE(hasCome(before));
+  const auto grown = mapAt(-4.0, {"........#"}, 3.0);
+  send(announcementOf(grown));
+  send(cellAt(4, 0, 2.0));
+  send(cellAt(2, 100, 2.0));
+  ASSERT_TRUE(isTaken());
+  EXPECT_EQ(values(), before.data);
+  maps_.publish(grown);
+  EXPECT_TRUE(comes([&] { return values() == mapAt(-4.0, {"..#.....#"}, 0.0).data; }));
+  send(cellAt(0, 100, 1.0));
+  ASSERT_TRUE(isTaken());
+  EXPECT_EQ(values(), mapAt(-4.0, {"#.#.....#"}, 0.0).data) << "what comes then is laid at once";
+  EXPECT_EQ(receiver_.lost(), "");
+}
+
+TEST_F(MapReceiverTest, AMapFromBeforeTheAnnouncedOneIsTakenWithoutWhatFollowed) {
+  const auto before = mapAt(0.0, {"....#"}, 9.0);
+  maps_.publish(before);
+  ASSERT_TRUE(hasCome(before));
+  send(cellAt(1, 100, 6.0));
+  send(announcementOf(mapAt(-4.0, {"........#"}, 5.0)));
+  send(cellAt(4, 0, 4.0));
+  ASSERT_TRUE(isTaken());
+  maps_.publish(mapAt(0.0, {"..#.#"}, 7.0));
+  EXPECT_TRUE(comes([&] { return values() == mapAt(0.0, {".##.#"}, 0.0).data; }));
+  maps_.publish(mapAt(-4.0, {"........#"}, 5.0));
+  EXPECT_TRUE(comes([&] { return values() == mapAt(-4.0, {"........#"}, 0.0).data; }));
+}
+
+TEST_F(MapReceiverTest, AMapThatCameBeforeItsAnnouncementIsNotAwaited) {
+  const auto before = mapAt(0.0, {"....#"}, 5.0);
+  maps_.publish(before);
+  ASSERT_TRUE(hasCome(before));
+  send(announcementOf(before));
+  send(cellAt(0, 100, 1.0));
+  ASSERT_TRUE(isTaken());
+  EXPECT_EQ(values(), mapAt(0.0, {"#...#"}, 0.0).data);
+}
+
+TEST_F(MapReceiverTest, AnAnnouncedMapThatDoesNotComeIsLost) {
+  const auto before = mapAt(0.0, {"....#"}, 5.0);
+  maps_.publish(before);
+  ASSERT_TRUE(hasCome(before));
+  send(announcementOf(mapAt(-4.0, {"........#"}, 3.0)));
+  EXPECT_TRUE(comes([&] { return receiver_.lost().find("announced") != std::string::npos; }));
+  EXPECT_TRUE(comes([&] { return links_ > 1; })) << "asked for";
+  const auto other = mapAt(-4.0, {"#.......#"}, 0.0);
+  maps_.publish(other);
+  EXPECT_TRUE(hasCome(other));
+  EXPECT_EQ(receiver_.lost(), "");
+}
+
+// Lost soon after a whole map was asked for, and nothing followed: it was not asked for again, and the vehicle stood for good.
+TEST_F(MapReceiverTest, AnUpdateThatIsLostSoonAfterAnotherIsAskedForAgain) {
+  const auto before = mapAt(0.0, {"....#"}, 5.0);
+  maps_.publish(before);
+  ASSERT_TRUE(hasCome(before));
+  send(cellAt(0, 0, 4.0));
+  ++number_;
+  send(cellAt(1, 0, 3.0));
+  ASSERT_TRUE(comes([&] { return links_ == 2; }));
+  maps_.publish(mapAt(0.0, {"...##"}, 0.0));
+  ASSERT_TRUE(comes([&] { return receiver_.lost().empty(); }));
+  ++number_;
+  send(cellAt(1, 0, 0.0));
+  ASSERT_TRUE(comes([&] { return !receiver_.lost().empty(); }));
+  EXPECT_TRUE(comes([&] { return links_ > 2; })) << "though no update has come since";
+}
+
+// A map that was refused had all updates forgotten that a good one was to be taken with.
+TEST_F(MapReceiverTest, AMapThatIsRefusedTakesNothingWithIt) {
+  const auto before = mapAt(0.0, {"....#"}, 5.0);
+  maps_.publish(before);
+  ASSERT_TRUE(hasCome(before));
+  send(cellAt(0, 100, 1.0));
+  ASSERT_TRUE(isTaken());
+  auto bad = mapAt(0.0, {"....#"}, 0.0);
+  bad.header.stamp = ros::TIME_MAX;
+  bad.data.pop_back();
+  maps_.publish(bad);
+  ASSERT_TRUE(comes([&] { return !receiver_.refusal().empty(); }));
+  maps_.publish(mapAt(0.0, {"..#.#"}, 2.0));
+  EXPECT_TRUE(comes([&] { return values() == mapAt(0.0, {"#.#.#"}, 0.0).data; }));
+  EXPECT_EQ(receiver_.lost(), "");
+}
+
+TEST(MapTopic, AnnouncesAMapOfAnotherPlace) {
+  ros::NodeHandle nh("announced");
+  MapTopic topic(nh, "map", true, [] {});
+  const test::Latest<map_msgs::OccupancyGridUpdate> updates(nh, "map_updates");
+  ASSERT_TRUE(test::waitFor([&] { return updates.connected(); }));
+  topic.send(mapAt(0.0, {"....#"}, 5.0));
+  topic.send(mapAt(0.0, {"#...#"}, 4.0));
+  const auto grown = mapAt(-4.0, {"........#"}, 3.0);
+  topic.send(grown);
+  topic.send(cellAt(0, 100, 2.0));
+  ASSERT_TRUE(updates.waitFor(0, [](const auto& update) { return !hasNoCells(update); }));
+  const auto all = updates.all();
+  ASSERT_EQ(all.size(), 2U) << "nothing of the first map, and of the second";
+  EXPECT_TRUE(isAnnouncement(all.front()));
+  EXPECT_EQ(all.front().header.stamp, grown.header.stamp);
+}
+
+}  // namespace
+}  // namespace grid_path_planner::nodes
