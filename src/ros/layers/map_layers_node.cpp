@@ -213,7 +213,7 @@ void MapLayersNode::take(LayerSource& source, const ros::Time& stamp,
 void MapLayersNode::onStaticMap(const MapChange& change) {
   take(static_source_, change.map.stamp, [&] {
     checkFrame(change.map.frame_id, options_);
-    if (map_.setBase(change.map.grid, change.changed)) scan_source_.forget();
+    if (map_.setBase(change.map.grid, change.changed) && !scan_dropped_) scan_source_.forget();
   });
   if (change.changed) return;
   warnOfZonesOutside();

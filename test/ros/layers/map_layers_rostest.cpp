@@ -235,6 +235,22 @@ TEST_F(MapLayers, ALaserThatIsSilentCanBeDropped) {
   EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
 }
 
+// Each static map of another size made a laser that is gone count again for source_timeout: where such maps come more often,
+// there was never a map again.
+TEST_F(MapLayers, ALaserThatWasDroppedStaysSoWhileTheStaticMapGrows) {
+  placeLaser();
+  publishStatic(kRoom);
+  start({"_use_scan:=true", "_source_timeout:=1", "_stale_source:=drop"});
+  EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
+  ASSERT_TRUE(node_->says("The map goes on without what is not there: /scan"));
+  for (std::size_t columns = 7; columns < 12; ++columns) {
+    const std::size_t maps = copy_.maps();
+    publishStatic({std::string(columns, '.'), std::string(columns, '.')});
+    EXPECT_TRUE(waitFor([&] { return copy_.maps() > maps; })) << columns;
+  }
+  EXPECT_FALSE(node_->hasSaid("/scan counts again"));
+}
+
 // It was dropped at the start, before it could have come, where it was refused, and by clear_scan: the vehicle drove
 // through what it had just forgotten.
 TEST_F(MapLayers, OnlyALaserThatIsSilentForItsTimeIsDropped) {
