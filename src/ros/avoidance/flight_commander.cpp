@@ -79,11 +79,13 @@ void FlightCommander::setOptions(const LocalPlannerOptions& options) {
 }
 
 void FlightCommander::finish() {
-  const bool sent = thread_.ask([this] {
+  bool sent = false;
+  thread_.askAtLast([&] {
     finished_ = true;
-    const bool commands = std::exchange(flies_, false);
-    if (commands) send({});
-    return commands;
+    if (!flies_) return;
+    send({});
+    flies_ = false;
+    sent = true;
   });
   if (sent && velocity_.numberOfListeners() + setpoint_.numberOfListeners() > 0)
     ros::WallDuration(0.1).sleep();  // what a connection did not take is sent by roscpp's thread

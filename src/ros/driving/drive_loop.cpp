@@ -81,9 +81,10 @@ DriveLoop::~DriveLoop() {
 }
 
 void DriveLoop::finish() {
-  ask([this] {
+  thread_.askAtLast([this] {
     follower_.cancel("navigate_path ends");
     finished_ = true;
+    tryToTick();
   });
   if (numberOfListeners() > 0)
     ros::WallDuration(0.1).sleep();  // what a connection did not take is sent by roscpp's thread

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/seconds_since.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/master/system_state.h"
 #include "ros/common/velocity_message.h"
@@ -60,9 +61,10 @@ void JoystickLoop::setOptions(const TeleopJoyOptions& options) {
 }
 
 void JoystickLoop::finish() {
-  const bool sent = thread_.ask([this] {
+  bool sent = false;
+  thread_.askAtLast([&] {
     finished_ = true;
-    return release();
+    sent = release() || sent;
   });
   if (sent && publisher_.numberOfListeners() > 0)
     ros::WallDuration(0.1).sleep();  // what a connection did not take is sent by roscpp's thread
@@ -111,7 +113,7 @@ void JoystickLoop::tick() {
     if (!release() && stopped_) publish({});
     return;
   }
-  const double silence = std::chrono::duration<double>(Clock::now() - heard_).count();
+  const double silence = base::secondsSince(heard_);
   if (silence > options_.joy_timeout) {
     release();
     note_(Level::WARN, "Nothing has come from the joystick for " + std::to_string(silence) +

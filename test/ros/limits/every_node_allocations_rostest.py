@@ -16,15 +16,12 @@ import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from nodes_without_memory import PACKAGE, SECONDS, NodesWithoutMemory, RunningNode, session_seconds  # noqa: E402
+from nodes_without_memory import (PACKAGE, SECONDS, NodesWithoutMemory, RunningNode, failing_allocations,  # noqa: E402
+                                  session_seconds)
 from node_table import NODES  # noqa: E402
 from own_master import start_own_master  # noqa: E402
 
 SHORT_OF_MEMORY = 2.0  # s
-
-
-def library():
-    return os.path.join(os.environ["CMAKE_PREFIX_PATH"].split(":")[0], "lib", "libfailing_allocations.so")
 
 
 class EveryNodeAllocations(NodesWithoutMemory):
@@ -32,7 +29,7 @@ class EveryNodeAllocations(NodesWithoutMemory):
     def setUpClass(cls):
         super().setUpClass()
         cls.switch = os.path.join(cls.folder, "memory_fails")
-        RunningNode.environment = dict(os.environ, LD_PRELOAD=library(), FAILING_ALLOCATIONS=cls.switch)
+        RunningNode.environment = failing_allocations(cls.switch)
 
     def test_every_node_answers_when_memory_is_back(self):
         for kind in ("process", "nodelet"):

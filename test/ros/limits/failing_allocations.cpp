@@ -3,11 +3,14 @@
 //
 //   FAILING_ALLOCATIONS=file LD_PRELOAD=libfailing_allocations.so navigate_path
 //
+// With FAILING_ALLOCATIONS_THREAD=NAME only in threads of that name, and there of any size.
+//
 // Not in the threads in which roscpp receives and keeps timers: what cannot be handed over there is lost for good, and ends
 // the process (doc/security_results.md).
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <array>
@@ -34,6 +37,21 @@ thread_local bool inside = false;  // this library itself
 const char* fileName() {
   static const char* const file = std::getenv("FAILING_ALLOCATIONS");
   return file;
+}
+
+// None: in all.
+const char* threadName() {
+  static const char* const name = std::getenv("FAILING_ALLOCATIONS_THREAD");
+  return name;
+}
+
+bool isOfThatThread() {
+  std::array<char, 16> name{};
+  return ::prctl(PR_GET_NAME, name.data()) == 0 && std::strcmp(name.data(), threadName()) == 0;
+}
+
+bool isMeant(std::size_t bytes) {
+  return threadName() == nullptr ? bytes >= kLeastBytes : isOfThatThread();
 }
 
 bool isOn() {
@@ -90,9 +108,9 @@ bool isAskedForByUs() {
 }  // namespace
 
 bool allocationFails(std::size_t bytes) {
-  if (inside || bytes < kLeastBytes) return false;
+  if (inside) return false;
   inside = true;
-  const bool result = isOn() && isDue() && isAskedForByUs();
+  const bool result = isMeant(bytes) && isOn() && isDue() && isAskedForByUs();
   if (result) tell();
   inside = false;
   return result;

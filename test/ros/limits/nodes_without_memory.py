@@ -16,11 +16,24 @@ from session_clock import session_seconds  # noqa: E402
 SECONDS = 60.0  # for the start, for what is said, for a right answer
 
 
+def skip_where_sanitized():
+    if is_sanitized(executable("path_planner")):
+        raise unittest.SkipTest("a sanitizer takes addresses, and an operator new, of its own")
+
+
+def failing_allocations(switch, thread=None):
+    """The environment of a node whose memory fails while there is the file `switch` (failing_allocations.cpp)."""
+    library = os.path.join(os.environ["CMAKE_PREFIX_PATH"].split(":")[0], "lib", "libfailing_allocations.so")
+    environment = dict(os.environ, LD_PRELOAD=library, FAILING_ALLOCATIONS=switch)
+    if thread:
+        environment["FAILING_ALLOCATIONS_THREAD"] = thread
+    return environment
+
+
 class NodesWithoutMemory(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        if is_sanitized(executable("path_planner")):
-            raise unittest.SkipTest("a sanitizer takes addresses, and an operator new, of its own")
+        skip_where_sanitized()
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         os.environ["GRID_PATH_PLANNER_LOAD_FOLDER"] = os.path.join(rospkg.RosPack().get_path(PACKAGE), "test", "data")

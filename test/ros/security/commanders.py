@@ -6,6 +6,7 @@ velocities adds a row.
     arguments   in the place of those of node_table.py: the vehicle never moves, and that is no failure
     feeds       by name, what it hears all the time; without any of them it has to stop the vehicle
     offer       gives it something to drive; teleop_joy has that in what it is fed
+    halt        ends that
     far         what it says of a pose beyond a million metres, in its log or its status; None: it asks for none
     clock       whether ROS time that stands still stops the vehicle
     locks       the test of the law that its thread that commands takes no lock that file, map or publishing code holds
@@ -20,11 +21,12 @@ import unittest
 
 import node_probes as probes
 import rospy
+from roslib.message import get_service_class
 from node_table import NODES
 from running_nodes import Clock, RunningNode
 from session_clock import session_seconds
 
-Commander = collections.namedtuple("Commander", "arguments feeds offer far clock locks")
+Commander = collections.namedtuple("Commander", "arguments feeds offer halt far clock locks")
 
 DEADLINE = 60.0   # s
 QUIET = 1.0       # s without a motion: it stands
@@ -50,6 +52,16 @@ def send_joystick(node, _):
     node.send("joy", probes.joystick(node))
 
 
+def cancel(node):
+    node.call("~cancel", get_service_class("std_srvs/Trigger")._request_class())
+
+
+def let_joystick_go(node):
+    released = probes.joystick(node)
+    released.buttons = [0] * len(released.buttons)
+    node.send("joy", released)
+
+
 def offer_goal(node):
     goal = probes.pose_stamped(node)
     goal.pose.position.x = 40.0
@@ -59,13 +71,13 @@ def offer_goal(node):
 COMMANDERS = {
     "navigate_path": Commander(
         ["_check_map:=false", "_no_progress_timeout:=0"], {"tf": send_transforms},
-        lambda node: node.send("path", probes.path(node)), "INVALID_POSE", True,
+        lambda node: node.send("path", probes.path(node)), cancel, "INVALID_POSE", True,
         "driving/navigate_path_locks_rostest.cpp"),
     "local_planner": Commander(
         ["_no_return_clears:=10", "_recover:=false", "_cloud_timeout:=1", "_tf_timeout:=1", "_stuck_timeout:=1e6"],
-        {"tf": send_transforms, "clouds": send_cloud}, offer_goal, "the vehicle's pose is beyond 1e6 m", True,
+        {"tf": send_transforms, "clouds": send_cloud}, offer_goal, cancel, "the vehicle's pose is beyond 1e6 m", True,
         "avoidance/local_planner_locks_rostest.cpp"),
-    "teleop_joy": Commander([], {"joy": send_joystick}, lambda _: None, None, False,
+    "teleop_joy": Commander([], {"joy": send_joystick}, lambda _: None, let_joystick_go, None, False,
         "driving/teleop_joy_rostest.cpp"),
 }
 
@@ -96,11 +108,11 @@ def is_zero(twist):
 class RunningCommander(RunningNode):
     """One that is fed. `stopped`: what the topic `stop` has said before it starts. `commands` has all velocities that it gave, as (monotonic s, topic, Twist)."""
 
-    def __init__(self, name, kind, clock, folder, stopped=False, master=None, arguments=()):
+    def __init__(self, name, kind, clock, folder, stopped=False, master=None, arguments=(), environment=None):
         from std_msgs.msg import Bool
         self.table, self.ceased, self.commands = COMMANDERS[name], set(), []
         self.velocities = {topic for topic, kind in NODES[name].outputs.items() if kind in VELOCITIES}
-        self.environment = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
+        self.environment = dict(environment or os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
         if master:
             self.environment["ROS_MASTER_URI"] = master
         self.stops = rospy.Publisher("/%s_as_%s/stop" % (name, kind), Bool, queue_size=1, latch=True)

@@ -16,6 +16,8 @@ namespace grid_path_planner::nodes {
 namespace {
 
 constexpr double kMostShare = 0.5;  // of a processor
+constexpr int kLastAttempts = 20;
+constexpr std::chrono::milliseconds kBetweenAttempts(50);
 
 // Work that another thread waits for. No promise: one that is dropped takes memory.
 class AskedWork {
@@ -84,6 +86,18 @@ void ControlThread::doAndWait(const std::function<void()>& work) {
     asked->end();
   });
   asked->wait();
+}
+
+bool ControlThread::askAtLast(const std::function<void()>& work) noexcept {
+  for (int i = 0; i < kLastAttempts; ++i) {
+    try {
+      doAndWait(work);
+      return true;
+    } catch (...) {
+      std::this_thread::sleep_for(kBetweenAttempts);
+    }
+  }
+  return false;
 }
 
 // An owner that can say why it failed catches that itself.

@@ -59,6 +59,9 @@ class ControlThread {
     }
   }
 
+  // As ask(), for the last work of a node that ends: again and again for a second where it throws. Whether it was done.
+  bool askAtLast(const std::function<void()>& work) noexcept;
+
   // These are called in the thread:
   void tick();
   // The next tick comes a whole period from now.
