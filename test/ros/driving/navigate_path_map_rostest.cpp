@@ -6,9 +6,12 @@
 #include <nav_msgs/OccupancyGrid.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <map>
 #include <new>
 #include <optional>
+#include <thread>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/guarded_queue.h"
@@ -102,6 +105,37 @@ TEST_F(NavigateMap, OneThatIsTakenLateIsNoSignOfLifeAgain) {
   ASSERT_TRUE(test::waitFor(seen));
   spinner.stop();
   EXPECT_LE(*sign, *failed);
+}
+
+// By the code, what one thread read before the other had told was told after it: a sign of life was taken back for a second.
+TEST_F(NavigateMap, WhatOneThreadTellsIsNeverOlderThanWhatTheOtherHasTold) {
+  std::mutex mutex;
+  std::map<std::thread::id, int>
+      times;  // told, by thread: that of maps, and that which asks their publisher
+  std::atomic<int> telling{0}, at_once{0};
+  const auto main = std::this_thread::get_id();
+  ros::CallbackQueue queue;
+  GuardedQueue guarded(queue);
+  ros::NodeHandle nh;
+  nh.setCallbackQueue(&guarded);
+  const MapWatch watch(nh, [&](const MapLife&) {
+    at_once = std::max(at_once.load(), ++telling);
+    ros::WallDuration(0.1).sleep();
+    --telling;
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (std::this_thread::get_id() != main) ++times[std::this_thread::get_id()];
+  });
+  ros::AsyncSpinner spinner(1, &queue);
+  spinner.start();
+  const auto told_by_both = [&] {
+    publishMap();
+    const std::lock_guard<std::mutex> lock(mutex);
+    return times.size() == 2 && std::all_of(times.begin(), times.end(),
+                                            [](const auto& thread) { return thread.second > 2; });
+  };
+  EXPECT_TRUE(test::waitFor(told_by_both));
+  spinner.stop();
+  EXPECT_EQ(at_once, 1);
 }
 
 TEST_F(NavigateMap, WithoutOneItDoesNotStartAndSaysWhatToDo) {
