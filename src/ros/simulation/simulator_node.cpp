@@ -193,8 +193,8 @@ void SimulatorNode::startTimer() {
 
 void SimulatorNode::onCommand(const geometry_msgs::Twist& message) {
   try {
-    commanded_at_ = ros::SteadyTime::now();
     vehicle_->command(velocityFromMessage(message));
+    commanded_at_ = ros::SteadyTime::now();  // one that is refused is not waited for
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("cmd_vel refused: " << error.what());
   }

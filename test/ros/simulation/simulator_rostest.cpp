@@ -174,6 +174,18 @@ TEST_F(SimulatorTest, RefusesACommandThatIsNotFiniteAndLivesOn) {
   EXPECT_TRUE(std::isfinite(odometry->pose.pose.position.x));
 }
 
+// Simulated time waited 0.2 s after each of them for the next command, and so for ever.
+TEST_F(SimulatorTest, RefusedCommandsHoldNoSimulatedTime) {
+  start({}, 8);
+  const auto moving =
+      driveUntil(twist(0.5), [](const Odometry& o) { return o.twist.twist.linear.x > 0.4; });
+  ASSERT_TRUE(moving);
+  const auto stopped = driveUntil(twist(std::numeric_limits<double>::quiet_NaN()),
+                                  [](const Odometry& o) { return o.twist.twist.linear.x == 0.0; });
+  ASSERT_TRUE(stopped) << "the vehicle has no command any more";
+  EXPECT_GT(stopped->header.stamp, moving->header.stamp);
+}
+
 TEST_F(SimulatorTest, AReconfigurationThatContradictsItselfIsReverted) {
   start({});
   dynamic_reconfigure::Reconfigure call;
