@@ -1,4 +1,6 @@
 // What PlanPanel asks of navigate_path.
+#include <utility>
+
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/rviz/plan_panel.h"
 
@@ -18,7 +20,8 @@ void PlanPanel::connectDrives() {
     model_.driveHeard(feedback.state, feedback.current_waypoint, feedback.distance_remaining_m,
                       ros::Time::now().toSec());
   };
-  nodes_->drive.onResult = [this](const std::string&, const NavigatePathResult& result) {
+  nodes_->drive.onResult = [this](const std::string& id, const NavigatePathResult& result) {
+    if (id == drive_) drive_.clear();
     model_.driveEnded(result.status, result.message);
   };
 }
@@ -27,25 +30,45 @@ void PlanPanel::drive() {
   if (!model_.buttons().drive) return;
   NavigatePathGoal goal;
   goal.path = pathToMessage(model_.path(), ros::Time::now());
-  nodes_->drive.send(goal);
+  drive_ = nodes_->drive.send(goal);
   model_.driveSent();
 }
 
 void PlanPanel::callDriver(const std::string& service) {
-  calls_.start<Trigger>(
-      nodes_->nh(), "navigate_path/" + service, Trigger(), kPatienceOfDriver,
-      [this](const Trigger& answered) {
-        model_.say(answered.response.success ? Tone::CALM : Tone::BAD, answered.response.message);
-      },
-      [this](const std::string& why) { model_.say(Tone::BAD, why); });
+  askDriver(service, [this](const Trigger& answered) {
+    model_.say(answered.response.success ? Tone::CALM : Tone::BAD, answered.response.message);
+  });
+}
+
+void PlanPanel::askDriver(const std::string& service,
+                          std::function<void(const Trigger&)> answered) {
+  calls_.start<Trigger>(nodes_->nh(), "navigate_path/" + service, Trigger(), kPatienceOfDriver,
+                        std::move(answered),
+                        [this](const std::string& why) { model_.say(Tone::BAD, why); });
+}
+
+void PlanPanel::cancelPlans() {
+  if (model_.cancelPlan() > 0)
+    for (const auto& [id, number] : requests_) nodes_->plan.cancel(id);
+  requests_.clear();
+}
+
+void PlanPanel::cancelDrives() {
+  if (nodes_->drive.servers() == 0) return;
+  const std::string own = drive_;
+  // A service is looked up at the master, which may be gone; the topic is connected. Without an id: all goals.
+  nodes_->drive.cancel(own);
+  askDriver("cancel", [this, own](const Trigger& answered) {
+    // The result of the panel's own drive says more than that nothing is driven any more.
+    if (own.empty() || !answered.response.success)
+      model_.say(answered.response.success ? Tone::CALM : Tone::BAD, answered.response.message);
+  });
 }
 
 void PlanPanel::cancel() {
   if (!nodes_) return;
-  if (model_.cancelPlan() > 0)
-    for (const auto& [id, number] : requests_) nodes_->plan.cancel(id);
-  requests_.clear();
-  if (nodes_->drive.servers() > 0) callDriver("cancel");
+  cancelPlans();
+  cancelDrives();
 }
 
 }  // namespace grid_path_planner::nodes

@@ -14,6 +14,7 @@
 
 #include <QTimer>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -57,7 +58,12 @@ class PlanPanel : public rviz::Panel {
   void explain();
   void setParameter(const dynamic_reconfigure::Config& change);
   void drive();
+  // A sentence says what came of it.
   void callDriver(const std::string& service);
+  void askDriver(const std::string& service,
+                 std::function<void(const std_srvs::Trigger&)> answered);
+  void cancelPlans();
+  void cancelDrives();
   void cancel();
   void saveWaypoints();
   void loadWaypoints();
@@ -70,7 +76,8 @@ class PlanPanel : public rviz::Panel {
   ServiceCalls calls_;
   std::unique_ptr<PanelNodes> nodes_;
   std::map<std::string, unsigned> requests_;  // numbers of the model by the action's id; the last
-  double parameter_sent_ = -1e9;              // s, when it was
+  std::string drive_;             // the action's id of the panel's own, until its result
+  double parameter_sent_ = -1e9;  // s, when it was
   bool parameters_known_ = false;
   ParameterControls* parameters_;
   PanelWidgets widgets_;
