@@ -1,5 +1,7 @@
 #include "panel/panel_model.h"
 
+#include <algorithm>
+
 #include "panel/shown_text.h"
 
 namespace grid_path_planner::panel {
@@ -10,6 +12,7 @@ using path::Pose;
 namespace {
 
 constexpr std::size_t kLongestSentence = 400, kLongestName = 40;
+constexpr std::size_t kMostEnded = 20, kLongestGoal = 256;
 constexpr double kOwnEcho = 1.0;  // s, in which the planner repeats its answer to the panel for all
 
 std::string figuresText(const PlanFigures& figures) {
@@ -36,7 +39,7 @@ void PanelModel::setPlanners(std::size_t count) {
 
 void PanelModel::setDrivers(std::size_t count) {
   if (count == 0 && driving_)
-    driveEnded("LOST", "navigate_path is gone: the vehicle stops when commands cease");
+    loseDrive("navigate_path is gone: the vehicle stops when commands cease");
   drivers_ = count;
 }
 
@@ -101,6 +104,9 @@ std::optional<PlanRequest> PanelModel::tick(double now) {
         "TIMEOUT", "path_planner has not answered for " + shownDuration(RoutePlanning::kPatience));
     showOutcome();
   }
+  if (driving_ && now - drive_heard_ > kPatienceWithDrives)
+    loseDrive("navigate_path has not been heard for " + shownDuration(kPatienceWithDrives) +
+              ": what the vehicle does is not known");
   return planning_.next(now);
 }
 
@@ -154,27 +160,45 @@ void PanelModel::callEnded(Tone tone, const std::string& sentence) {
   say(tone, sentence);
 }
 
-void PanelModel::driveSent() {
+void PanelModel::driveSent(const std::string& goal, double now) {
   driving_ = true;
+  driven_ = goal.substr(0, kLongestGoal);
+  drive_heard_ = now;
   drive_state_ = "starting";
   waypoint_ = 0;
   progress_.clear();
   say(Tone::BUSY, "Driving");
 }
 
-void PanelModel::driveHeard(const std::string& state, unsigned waypoint, double remaining,
-                            double now) {
+void PanelModel::driveHeard(const std::string& goal, const DriveFeedback& feedback, double now) {
+  const std::string id = goal.substr(0, kLongestGoal);
+  if (std::find(ended_.begin(), ended_.end(), id) != ended_.end()) return;
   driving_ = true;
-  drive_state_ = shownText(state, kLongestName);
-  waypoint_ = waypoint;
-  progress_.add(now, remaining);
+  driven_ = id;
+  drive_heard_ = now;
+  drive_state_ = shownText(feedback.state, kLongestName);
+  waypoint_ = feedback.waypoint;
+  progress_.add(feedback.time, feedback.remaining);
 }
 
-void PanelModel::driveEnded(const std::string& status, const std::string& message) {
-  driving_ = false;
-  drive_state_ = shownText(status, kLongestName);
-  progress_.clear();
+void PanelModel::driveEnded(const std::string& goal, const std::string& status,
+                            const std::string& message) {
+  const std::string id = goal.substr(0, kLongestGoal);
+  ended_.push_back(id);
+  if (ended_.size() > kMostEnded) ended_.pop_front();
+  if (!driving_ || id == driven_) standStill(status);  // or another goal has taken its place
   say(status == "ARRIVED" ? Tone::GOOD : Tone::BAD, status + ": " + message);
+}
+
+void PanelModel::standStill(const std::string& state) {
+  driving_ = false;
+  drive_state_ = shownText(state, kLongestName);
+  progress_.clear();
+}
+
+void PanelModel::loseDrive(const std::string& why) {
+  standStill("LOST");
+  say(Tone::BAD, "LOST: " + why);
 }
 
 void PanelModel::say(Tone tone, const std::string& sentence) {

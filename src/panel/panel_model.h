@@ -9,10 +9,11 @@
 //   use(model.sentence(), model.buttons());
 //
 // Guaranteed: no state is for ever. A planner that is gone, is restarted or falls silent ends what
-// was asked of it with a sentence; calls of services end with callEnded(), which the caller gives at
+// was asked of it with a sentence, and so does a driver; calls of services end with callEnded(), which the caller gives at
 // its deadline. `now` is in seconds of a clock that does not go back. Text of others is cleaned.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 
@@ -29,6 +30,13 @@ struct Buttons {
   bool plan = false, compare = false, explain = false;
   bool drive = false, pause = false, resume = false, cancel = false;
   bool save = false;
+};
+
+struct DriveFeedback {
+  std::string state;  // driving, paused, ...
+  unsigned waypoint = 0;
+  double remaining = 0.0;  // m
+  double time = 0.0;       // s of the clock that the vehicle drives by
 };
 
 class PanelModel {
@@ -66,10 +74,12 @@ class PanelModel {
   void callBegan(Call call);
   void callEnded(Tone tone, const std::string& sentence);
 
-  // ---- Driving
-  void driveSent();
-  void driveHeard(const std::string& state, unsigned waypoint, double remaining, double now);
-  void driveEnded(const std::string& status, const std::string& message);
+  // ---- Driving. `goal` is the action's id. What is heard of a goal that has ended is passed over, and a
+  // drive that nothing is heard of for kPatienceWithDrives seconds is LOST, until there is more of it.
+  static constexpr double kPatienceWithDrives = 3.0;  // s; a driver speaks every 0.2 s
+  void driveSent(const std::string& goal, double now);
+  void driveHeard(const std::string& goal, const DriveFeedback& feedback, double now);
+  void driveEnded(const std::string& goal, const std::string& status, const std::string& message);
 
   // ---- What is shown
   void say(Tone tone, const std::string& sentence);
@@ -88,6 +98,8 @@ class PanelModel {
  private:
   void pointsChanged(const std::string& complaint);
   void showOutcome();
+  void standStill(const std::string& state);
+  void loseDrive(const std::string& why);
 
   std::size_t planners_ = 0, drivers_ = 0;
   RoutePoints points_;
@@ -97,6 +109,9 @@ class PanelModel {
   double answered_ = -1e9;  // s, when it was last
   Call call_ = Call::NONE;
   bool driving_ = false;
+  std::string driven_;             // the goal
+  double drive_heard_ = 0.0;       // s, when it was last
+  std::deque<std::string> ended_;  // goals; the last ones
   std::string drive_state_;
   unsigned waypoint_ = 0;
   DriveProgress progress_;

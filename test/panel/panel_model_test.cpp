@@ -66,11 +66,11 @@ TEST_F(PanelModelTest, WhatMayBePressed) {
   EXPECT_EQ(pressable(), "P---URX-") << "planning";
   planAndFind();
   EXPECT_EQ(pressable(), "PCEDURXS") << "found";
-  model_.driveSent();
+  model_.driveSent("1", 0.0);
   EXPECT_EQ(pressable(), "PCE-U-XS") << "driving";
-  model_.driveHeard("paused", 1, 3.0, 0.0);
+  model_.driveHeard("1", {"paused", 1, 3.0, 0.0}, 0.0);
   EXPECT_EQ(pressable(), "PCE--RXS") << "paused";
-  model_.driveEnded("ARRIVED", "there");
+  model_.driveEnded("1", "ARRIVED", "there");
   EXPECT_EQ(pressable(), "PCEDURXS");
   model_.clear();
   EXPECT_EQ(pressable(), "----URX-");
@@ -172,10 +172,43 @@ TEST_F(PanelModelTest, CancelledPlansAreNotShown) {
 
 TEST_F(PanelModelTest, ADriverThatDiesEndsTheDrive) {
   bothNodes();
-  model_.driveSent();
+  model_.driveSent("1", 0.0);
   model_.setDrivers(0);
   EXPECT_EQ(model_.driveText(), "LOST");
   EXPECT_EQ(model_.tone(), Tone::BAD);
+}
+
+// It was driving for ever, and Drive could not be pressed any more.
+TEST_F(PanelModelTest, ADriverThatFallsSilentIsLostUntilItSpeaks) {
+  bothNodes();
+  setGoal();
+  planAndFind();
+  model_.driveSent("1", 0.0);
+  model_.driveHeard("1", {"driving", 1, 3.0, 0.0}, 1.0);
+  model_.tick(1.0 + PanelModel::kPatienceWithDrives);
+  EXPECT_EQ(pressable(), "PCE-U-XS") << "driving";
+  model_.tick(1.1 + PanelModel::kPatienceWithDrives);
+  EXPECT_EQ(model_.driveText(), "LOST");
+  EXPECT_EQ(model_.tone(), Tone::BAD);
+  EXPECT_EQ(pressable(), "PCEDURXS");
+  model_.driveHeard("1", {"driving", 1, 2.0, 0.0}, 20.0);
+  EXPECT_EQ(pressable(), "PCE-U-XS") << "it was stopped, and goes on";
+}
+
+// They come by two connections.
+TEST_F(PanelModelTest, FeedbackAfterTheResultIsPassedOver) {
+  bothNodes();
+  setGoal();
+  planAndFind();
+  model_.driveSent("1", 0.0);
+  model_.driveEnded("1", "ARRIVED", "there");
+  model_.driveHeard("1", {"driving", 1, 0.1, 0.0}, 0.1);
+  EXPECT_EQ(model_.driveText(), "ARRIVED");
+  EXPECT_EQ(pressable(), "PCEDURXS");
+  model_.driveHeard("2", {"driving", 0, 3.0, 0.0}, 0.2);
+  EXPECT_EQ(pressable(), "PCE-U-XS") << "another goal";
+  model_.driveEnded("3", "CANCELLED", "replaced by another goal");
+  EXPECT_EQ(pressable(), "PCE-U-XS") << "not that one";
 }
 
 TEST_F(PanelModelTest, PlansOfOthersAreToldButNoEchoOfItsOwn) {
@@ -209,7 +242,7 @@ TEST_F(PanelModelTest, NamesAndSentencesOfOthersAreCleaned) {
   EXPECT_LT(model_.sentence().size(), 500U);
   EXPECT_EQ(model_.sentence().find('\x1b'), std::string::npos);
   EXPECT_EQ(model_.figures().substr(0, 15), "a  b: cost inf,");
-  model_.driveHeard("x\ny", 0, 1.0, 0.0);
+  model_.driveHeard("1", {"x\ny", 0, 1.0, 0.0}, 0.0);
   EXPECT_EQ(model_.driveText(), "x y, waypoint 0, time left unknown");
 }
 
@@ -217,7 +250,7 @@ TEST_F(PanelModelTest, NamesAndSentencesOfOthersAreCleaned) {
 // everything that the nodes are there for may be pressed.
 TEST_F(PanelModelTest, NoStateIsForEver) {
   std::mt19937 random(11);
-  std::uniform_int_distribution<int> event(0, 9);
+  std::uniform_int_distribution<int> event(0, 12);
   unsigned last = 0;
   double now = 0.0;
   for (int round = 0; round < 20000; ++round) {
@@ -250,6 +283,15 @@ TEST_F(PanelModelTest, NoStateIsForEver) {
       case 8:
         model_.planAgain();
         break;
+      case 9:
+        model_.driveSent(std::to_string(round), now);
+        break;
+      case 10:
+        model_.driveHeard(std::to_string(round - round % 9), {"driving", 1, 1.0, now}, now);
+        break;
+      case 11:
+        model_.driveEnded(std::to_string(round - round % 7), "ARRIVED", "there");
+        break;
       default:
         break;
     }
@@ -263,6 +305,7 @@ TEST_F(PanelModelTest, NoStateIsForEver) {
     }
     const Buttons may = model_.buttons();
     ASSERT_TRUE(may.plan && may.compare && may.explain && may.cancel) << "round " << round;
+    ASSERT_TRUE(may.pause && may.resume) << "round " << round;
   }
 }
 

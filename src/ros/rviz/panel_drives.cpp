@@ -16,13 +16,15 @@ constexpr double kPatienceOfDriver = 5.0;  // s
 }  // namespace
 
 void PlanPanel::connectDrives() {
-  nodes_->drive.onFeedback = [this](const std::string&, const NavigatePathFeedback& feedback) {
-    model_.driveHeard(feedback.state, feedback.current_waypoint, feedback.distance_remaining_m,
-                      ros::Time::now().toSec());
+  nodes_->drive.onFeedback = [this](const std::string& id, const NavigatePathFeedback& heard) {
+    model_.driveHeard(
+        id,
+        {heard.state, heard.current_waypoint, heard.distance_remaining_m, ros::Time::now().toSec()},
+        now());
   };
   nodes_->drive.onResult = [this](const std::string& id, const NavigatePathResult& result) {
     if (id == drive_) drive_.clear();
-    model_.driveEnded(result.status, result.message);
+    model_.driveEnded(id, result.status, result.message);
   };
 }
 
@@ -31,7 +33,7 @@ void PlanPanel::drive() {
   NavigatePathGoal goal;
   goal.path = pathToMessage(model_.path(), ros::Time::now());
   drive_ = nodes_->drive.send(goal);
-  model_.driveSent();
+  model_.driveSent(drive_, now());
 }
 
 void PlanPanel::callDriver(const std::string& service) {
