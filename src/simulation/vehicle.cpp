@@ -4,12 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "grid_path_planner/base/decimal_text.h"
 #include "simulation/obstacle_distance.h"
 #include "simulation/swept_sphere.h"
 
 namespace grid_path_planner::simulation {
 
 using base::BodyVelocity;
+using base::decimalText;
 using base::InputError;
 using grid::OccupancyGrid;
 
@@ -17,6 +19,8 @@ namespace {
 
 constexpr double kContactEnds = 1e-3;  // m, beyond the vehicle's radius
 constexpr double kTouch = 1e-9;        // m, below which two lengths are the same
+constexpr int kContactHalvings = 40;   // of the piece in which a contact begins
+constexpr double kMostCells = 1e8;     // that one step looks at: a fraction of a second
 
 std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds * 1e9);
@@ -30,6 +34,27 @@ double towards(double value, double target, double share, double largest_change)
 double normalized(double angle) {
   const double turned = std::remainder(angle, 2.0 * M_PI);
   return turned <= -M_PI ? M_PI : turned;
+}
+
+// So short that no cell is skipped.
+double longestPiece(const VehicleOptions& o, double resolution) {
+  return std::min(0.5 * resolution, o.vehicle_radius);
+}
+
+// How far from the vehicle's middle the cells of the map are looked at.
+double reachOf(const VehicleOptions& o) {
+  return o.vehicle_radius + 2.0 * kContactEnds;
+}
+
+// Throws InputError where a step would take longer than anybody waits for, its end by a signal included.
+void checkCells(const VehicleOptions& o, double resolution) {
+  const double motion = std::hypot(o.max_surge_speed, o.max_sway_speed) * o.time_step;
+  const double looks = std::ceil(motion / longestPiece(o, resolution)) + kContactHalvings + 2.0;
+  const double side = 2.0 * reachOf(o) / resolution + 1.0;
+  if (looks * side * side <= kMostCells) return;
+  throw InputError("cells of " + decimalText(resolution) + " m are too small for vehicle_radius " +
+                   decimalText(o.vehicle_radius) + " m and time_step " + decimalText(o.time_step) +
+                   " s: a step would look at more than " + decimalText(kMostCells) + " cells");
 }
 
 }  // namespace
@@ -64,10 +89,12 @@ Vehicle::Vehicle(const VehicleOptions& options, const VehicleState& initial) {
 
 void Vehicle::setOptions(const VehicleOptions& options) {
   checkVehicleOptions(options);
+  if (map_) checkCells(options, map_->geometry().resolution());
   options_ = options;
 }
 
 void Vehicle::setMap(std::shared_ptr<const OccupancyGrid> map) {
+  if (map) checkCells(options_, map->geometry().resolution());
   map_ = std::move(map);
   if (isClear()) in_contact_ = false;
 }
@@ -180,7 +207,7 @@ bool Vehicle::moveInPlane(const Eigen::Vector2d& motion) {
     state_.position.head<2>() += motion;
     return true;
   }
-  const double longest = std::min(0.5 * map_->geometry().resolution(), options_.vehicle_radius);
+  const double longest = longestPiece(options_, map_->geometry().resolution());
   const int pieces = std::max(1, static_cast<int>(std::ceil(motion.norm() / longest)));
   const Eigen::Vector2d from = state_.position.head<2>();
   double distance = clearance(from);
@@ -196,7 +223,7 @@ bool Vehicle::moveInPlane(const Eigen::Vector2d& motion) {
       distance = clearance(state_.position.head<2>());
       continue;
     }
-    for (int halving = 0; halving < 40; ++halving) {
+    for (int halving = 0; halving < kContactHalvings; ++halving) {
       const double middle = 0.5 * (free + closed);
       (blocked(middle) ? closed : free) = middle;
     }
@@ -238,8 +265,7 @@ bool Vehicle::isClear() const {
 }
 
 double Vehicle::clearance(const Eigen::Vector2d& position) const {
-  return obstacleDistance(*map_, options_.occupied_min, position,
-                          options_.vehicle_radius + 2.0 * kContactEnds);
+  return obstacleDistance(*map_, options_.occupied_min, position, reachOf(options_));
 }
 
 }  // namespace grid_path_planner::simulation

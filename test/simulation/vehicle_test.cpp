@@ -9,6 +9,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "support/ascii_map.h"
+#include "support/error_text.h"
 #include "support/vehicle_run.h"
 
 namespace grid_path_planner::simulation {
@@ -243,6 +244,32 @@ TEST(VehicleLaw, LimitsWallsAndRepeatability) {
     EXPECT_EQ(first.state().yaw, second.state().yaw);
     EXPECT_EQ(first.contacts(), second.contacts());
   }
+}
+
+// A map of 1000x1000 cells of 1e-6 m held a step, and the simulator's end, for hours.
+TEST(Vehicle, RefusesCellsThatAStepWouldLookAtForTooLong) {
+  Vehicle vehicle({}, {Eigen::Vector3d(1.5, 0.5, 0.0), 0.0});
+  vehicle.setMap(mapOf({"...#"}));
+  const auto tiny = std::make_shared<OccupancyGrid>(grid::GridGeometry(1000, 1000, 1e-6));
+  EXPECT_EQ(test::errorText([&] { vehicle.setMap(tiny); }),
+            "cells of 1e-06 m are too small for vehicle_radius 0.3 m and time_step 0.01 s: a step "
+            "would look at more than 100000000 cells");
+  run(vehicle, {1.0, 0.0, 0.0, 0.0}, 3.0);
+  EXPECT_EQ(vehicle.contacts(), 1) << "the map before holds";
+}
+
+TEST(Vehicle, RefusesARadiusThatItsMapIsTooFineFor) {
+  Vehicle vehicle;
+  vehicle.setMap(std::make_shared<OccupancyGrid>(test::AsciiMap({"...."}, 0.01).map));
+  VehicleOptions options;
+  options.vehicle_radius = 100.0;
+  EXPECT_THROW(vehicle.setOptions(options), InputError);
+  EXPECT_EQ(vehicle.options().vehicle_radius, 0.3);
+  options.vehicle_radius = 5.0;
+  EXPECT_NO_THROW(vehicle.setOptions(options)) << "a ship on cells of a centimetre";
+  vehicle.setMap(nullptr);
+  options.vehicle_radius = 100.0;
+  EXPECT_NO_THROW(vehicle.setOptions(options));
 }
 
 }  // namespace

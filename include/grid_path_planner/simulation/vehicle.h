@@ -59,11 +59,13 @@ class Vehicle {
   // Throws InputError for options or a state that checkVehicleOptions or `reset` refuse.
   explicit Vehicle(const VehicleOptions& options = {}, const VehicleState& initial = {});
 
-  // From the next step on. Throws InputError as the constructor does, then nothing has changed.
+  // From the next step on. Throws InputError as the constructor does, and as setMap() where the map is too
+  // fine for these; then nothing has changed.
   void setOptions(const VehicleOptions& options);
   const VehicleOptions& options() const { return options_; }
 
-  // The obstacles; a null pointer removes them. Contacts counted so far stay.
+  // The obstacles; a null pointer removes them. Contacts counted so far stay. Throws InputError for cells so
+  // small that one step would look at more than 10^8 of them; the map before stays.
   void setMap(std::shared_ptr<const grid::OccupancyGrid> map);
   // The same for the solid surfaces of a world.
   void setWorld(std::shared_ptr<const World> world);

@@ -150,10 +150,10 @@ void SimulatorNode::use(const SimulatorOptions& options) {
   if (options.sensor_faults != options_.sensor_faults)
     throw InputError("sensor_faults cannot be changed while the simulator runs, it is '" +
                      options_.sensor_faults + "'");
+  vehicle_->setOptions(options.vehicle);  // which the map may refuse, before anything has changed
   sensors_->setOptions(options.sensors);
   sensor_publisher_.setOptions(options.sensors);
   updateCamera(options);
-  vehicle_->setOptions(options.vehicle);
   odometry_.setOptions(options.odometry);
   if (!sameOptions(options.initial, options_.initial)) resetVehicle(options);
   const bool other_rate = options.update_rate != options_.update_rate;
@@ -206,8 +206,8 @@ void SimulatorNode::onMap(const nav_msgs::OccupancyGrid& message) {
     if (frame != options_.map_frame)
       throw InputError("its frame must be " + options_.map_frame + ", got '" + frame + "'");
     const auto map = std::make_shared<OccupancyGrid>(occupancyFromMessage(message));
-    if (!std::exchange(has_map_, true)) warnOfStart(*map, vehicle_->state(), options_);
     vehicle_->setMap(map);
+    if (!std::exchange(has_map_, true)) warnOfStart(*map, vehicle_->state(), options_);
     contact_publisher_.start(*vehicle_);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("projected_map refused, the one before stays: " << error.what());
