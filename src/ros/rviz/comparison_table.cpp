@@ -2,6 +2,7 @@
 
 #include <QHeaderView>
 #include <QPixmap>
+#include <QTextDocument>
 #include <algorithm>
 #include <set>
 
@@ -35,6 +36,13 @@ bool comparedAtFirst(const std::string& planner) {
   static const std::set<std::string> names = {"weighted_jump_point", "lazy_theta_star",
                                               "incremental_a_star", "rectangle_map"};
   return names.count(planner) > 0;
+}
+
+// Qt takes a text with tags for HTML, opens the files that it names, and takes its tags away.
+QString tipOf(const std::string& text) {
+  if (text.empty()) return {};
+  return Qt::convertFromPlainText(QString::fromStdString(shownText(text, kLongestText)),
+                                  Qt::WhiteSpaceNormal);
 }
 
 }  // namespace
@@ -74,8 +82,7 @@ void ComparisonTable::show(const std::vector<PlanStatistics>& results) {
             found ? shownNumber(result->cost) : shownText(there ? result->status : "", 12));
     setText(row, LENGTH, found ? shownNumber(result->length_m) : "");
     setText(row, TIME, there ? shownNumber(result->planning_time_ms) : "");
-    item(row, COST)->setToolTip(
-        QString::fromStdString(there ? shownText(result->message, kLongestText) : ""));
+    item(row, COST)->setToolTip(tipOf(there ? result->message : ""));
   }
 }
 
