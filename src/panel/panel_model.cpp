@@ -190,6 +190,10 @@ void PanelModel::driveEnded(const std::string& goal, const std::string& status,
   say(status == "ARRIVED" ? Tone::GOOD : Tone::BAD, status + ": " + message);
 }
 
+void PanelModel::leaveDriver() {
+  standStill("");
+}
+
 void PanelModel::standStill(const std::string& state) {
   driving_ = false;
   drive_state_ = shownText(state, kLongestName);

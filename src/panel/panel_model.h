@@ -79,6 +79,8 @@ class PanelModel {
   static constexpr double kPatienceWithDrives = 3.0;  // s; a driver speaks every 0.2 s
   void driveSent(const std::string& goal, double now);
   void driveHeard(const std::string& goal, const DriveFeedback& feedback, double now);
+  // The drives of another vehicle are shown from here on.
+  void leaveDriver();
   void driveEnded(const std::string& goal, const std::string& status, const std::string& message);
 
   // ---- What is shown

@@ -195,6 +195,17 @@ TEST_F(PanelModelTest, ADriverThatFallsSilentIsLostUntilItSpeaks) {
   EXPECT_EQ(pressable(), "PCE-U-XS") << "it was stopped, and goes on";
 }
 
+TEST_F(PanelModelTest, ADriveOfAnotherVehicleIsNotShown) {
+  bothNodes();
+  setGoal();
+  planAndFind();
+  model_.driveHeard("1", {"driving", 1, 3.0, 0.0}, 1.0);
+  model_.leaveDriver();
+  EXPECT_EQ(model_.driveText(), "no drive is reported");
+  EXPECT_EQ(model_.progress().share(), std::nullopt);
+  EXPECT_EQ(pressable(), "PCEDURXS");
+}
+
 // They come by two connections.
 TEST_F(PanelModelTest, FeedbackAfterTheResultIsPassedOver) {
   bothNodes();

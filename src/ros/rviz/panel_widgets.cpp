@@ -91,6 +91,7 @@ PanelWidgets::PanelWidgets(QWidget* parent, ParameterControls* parameters)
   auto* column = new QVBoxLayout(parent);
   column->setSpacing(4);
   plan->setStyleSheet(kFirstButton);
+  name_space->setObjectName("Namespace");
   name_space->setPlaceholderText("namespace of the nodes");
   name_space->setToolTip("Of path_planner and navigate_path, such as /a; empty: that of rviz");
   progress->setRange(0, 1000);

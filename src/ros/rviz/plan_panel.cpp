@@ -5,6 +5,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/conversions.h"
+#include "ros/common/master/xmlrpc_call.h"
 
 namespace grid_path_planner::nodes {
 
@@ -17,6 +18,14 @@ namespace {
 
 constexpr int kTick = 50;           // ms
 constexpr double kOwnChange = 5.0;  // s, in which a refusal is of a parameter that the panel sent
+constexpr double kMasterPatience = 0.5;  // s, for which rviz's window may stand
+
+// "" about a namespace as roscpp has them.
+std::string complaintAbout(const std::string& name) {
+  if (name.find('~') != std::string::npos) return "A namespace has no ~";
+  std::string complaint;
+  return ros::names::validate(name, complaint) ? "" : complaint;
+}
 
 }  // namespace
 
@@ -62,10 +71,7 @@ void PlanPanel::connectButtons() {
     connect(button, &QPushButton::clicked, this, pressed);
   connect(widgets_.best_order, &QCheckBox::toggled, this,
           [this](bool best) { model_.setBestOrder(best); });
-  connect(widgets_.name_space, &QLineEdit::editingFinished, this, [this] {
-    connectNodes();
-    Q_EMIT configChanged();
-  });
+  connect(widgets_.name_space, &QLineEdit::editingFinished, this, [this] { changeNodes(); });
 }
 
 void PlanPanel::subscribePoints() {
@@ -91,17 +97,45 @@ void PlanPanel::subscribePoint(const std::string& topic, const Point& point) {
       }));
 }
 
+std::string PlanPanel::namespaceInField() const {
+  return widgets_.name_space->text().trimmed().toStdString();
+}
+
+bool PlanPanel::isConnectedTo(const std::string& name) const {
+  return nodes_ && nodes_->nh().getNamespace() == nh_.resolveName(name);
+}
+
+// roscpp asks the master for each topic until it answers, and rviz's window would stand so long.
+void PlanPanel::changeNodes() {
+  const std::string name = namespaceInField();
+  if (complaintAbout(name).empty() && !isConnectedTo(name) &&
+      !answersXmlRpc(masterUri(), kMasterPatience)) {
+    model_.say(Tone::BAD, "The ROS master does not answer: the nodes are those of " +
+                              nodes_->nh().getNamespace() +
+                              " as before. Press Enter in the field again when it is back");
+    return;
+  }
+  connectNodes();
+  Q_EMIT configChanged();
+}
+
+// Whoever looks at another vehicle stops none: drives are not ended.
+void PlanPanel::leaveNodes() {
+  if (nodes_) cancelPlans();
+  drive_.clear();
+  model_.leaveDriver();
+  model_.clear();
+}
+
 void PlanPanel::connectNodes() {
-  const std::string name = widgets_.name_space->text().trimmed().toStdString();
-  std::string complaint;
-  if (name.find('~') != std::string::npos) complaint = "A namespace has no ~";
-  if (!complaint.empty() || !ros::names::validate(name, complaint)) {
+  const std::string name = namespaceInField();
+  const std::string complaint = complaintAbout(name);
+  if (!complaint.empty()) {
     model_.say(Tone::BAD, complaint);
     return;
   }
-  if (nodes_ && nodes_->nh().getNamespace() == nh_.resolveName(name)) return;
-  cancel();
-  model_.clear();
+  if (isConnectedTo(name)) return;
+  leaveNodes();
   parameters_known_ = false;
   ros::NodeHandle nh(nh_, name);
   nh.setCallbackQueue(&queue_);

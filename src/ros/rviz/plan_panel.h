@@ -44,7 +44,13 @@ class PlanPanel : public rviz::Panel {
   void connectButtons();
   void subscribePoints();
   void subscribePoint(const std::string& topic, const Point& point);
+  // Somebody has changed the namespace in the field.
+  void changeNodes();
+  // To the nodes of that namespace, whether the master answers or not.
   void connectNodes();
+  void leaveNodes();
+  std::string namespaceInField() const;
+  bool isConnectedTo(const std::string& name) const;
   void connectPlans();
   void connectDrives();
   void tick();

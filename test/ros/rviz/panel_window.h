@@ -12,6 +12,7 @@
 
 #include <QApplication>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <functional>
 #include <string>
@@ -49,6 +50,14 @@ class PanelWindow {
     if (!button || !waitFor([&] { return button->isEnabled(); })) return false;
     button->click();
     return true;
+  }
+
+  // Writes into the field of the namespace, and presses Enter.
+  void lookAt(const char* name) const {
+    auto* const field = panel_.findChild<QLineEdit*>("Namespace");
+    ASSERT_TRUE(field);
+    field->setText(name);
+    Q_EMIT field->editingFinished();
   }
 
   // Whether one of its sentences has this in it now.
