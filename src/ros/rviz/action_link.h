@@ -7,8 +7,8 @@
 //   link.cancel(id);
 //
 // actionlib's client holds a goal as active for ever when its server is gone; here the caller judges,
-// by servers() and by what it hears. Feedback and results of other clients' goals are given too.
-// Callbacks come in the queue of `nh`.
+// by servers() and by what it hears. Feedback and results of other clients' goals are given too; messages
+// whose lengths lie are dropped. Callbacks come in the queue of `nh`.
 #pragma once
 
 #include <actionlib_msgs/GoalID.h>
@@ -19,6 +19,8 @@
 #include <algorithm>
 #include <functional>
 #include <string>
+
+#include "ros/common/incoming/claimed_lengths.h"
 
 namespace grid_path_planner::nodes {
 
@@ -35,15 +37,17 @@ class ActionLink {
   ActionLink(ros::NodeHandle nh, const std::string& name)
       : goals_(nh.advertise<ActionGoal>(name + "/goal", 10)),
         cancels_(nh.advertise<actionlib_msgs::GoalID>(name + "/cancel", 10)),
-        states_(nh.subscribe(name + "/status", 1, &ActionLink::passOver)),
-        feedback_(nh.subscribe<ActionFeedback>(
-            name + "/feedback", 10,
-            [this](const typename ActionFeedback::ConstPtr& message) {
-              if (onFeedback) onFeedback(message->status.goal_id.id, message->feedback);
-            })),
-        results_(nh.subscribe<ActionResult>(
-            name + "/result", 10, [this](const typename ActionResult::ConstPtr& message) {
-              if (onResult) onResult(message->status.goal_id.id, message->result);
+        states_(subscribeChecked<actionlib_msgs::GoalStatusArray>(nh, name + "/status", 1,
+                                                                  &ActionLink::passOver)),
+        feedback_(subscribeChecked<ActionFeedback>(nh, name + "/feedback", 10,
+                                                   [this](const ActionFeedback& message) {
+                                                     if (onFeedback)
+                                                       onFeedback(message.status.goal_id.id,
+                                                                  message.feedback);
+                                                   })),
+        results_(subscribeChecked<ActionResult>(
+            nh, name + "/result", 10, [this](const ActionResult& message) {
+              if (onResult) onResult(message.status.goal_id.id, message.result);
             })) {}
   ActionLink(const ActionLink&) = delete;
   ActionLink& operator=(const ActionLink&) = delete;
@@ -76,7 +80,7 @@ class ActionLink {
 
  private:
   // Who publishes the status is all that is asked.
-  static void passOver(const actionlib_msgs::GoalStatusArray::ConstPtr&) {}
+  static void passOver(const actionlib_msgs::GoalStatusArray&) {}
 
   ros::Publisher goals_, cancels_;
   ros::Subscriber states_, feedback_, results_;

@@ -10,6 +10,7 @@
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/PlanPathAction.h"
 #include "grid_path_planner/PlanStatistics.h"
+#include "ros/common/incoming/claimed_lengths.h"
 #include "ros/rviz/action_link.h"
 
 namespace grid_path_planner::nodes {
@@ -28,15 +29,14 @@ class PanelNodes {
       : plan(nh, "plan_path"),
         drive(nh, "navigate_path"),
         nh_(nh),
-        parameters_(nh.subscribe<dynamic_reconfigure::Config>(
-            "path_planner/parameter_updates", 10,
-            [heard](const dynamic_reconfigure::Config::ConstPtr& m) { heard.parameters(*m); })),
-        refused_(nh.subscribe<std_msgs::String>(
-            "path_planner/parameter_refused", 10,
-            [heard](const std_msgs::String::ConstPtr& m) { heard.refused(m->data); })),
-        plans_(nh.subscribe<PlanStatistics>(
-            "plan_statistics", 10,
-            [heard](const PlanStatistics::ConstPtr& m) { heard.plan(*m); })) {}
+        parameters_(subscribeChecked<dynamic_reconfigure::Config>(
+            nh, "path_planner/parameter_updates", 10,
+            [heard](const dynamic_reconfigure::Config& m) { heard.parameters(m); })),
+        refused_(subscribeChecked<std_msgs::String>(
+            nh, "path_planner/parameter_refused", 10,
+            [heard](const std_msgs::String& m) { heard.refused(m.data); })),
+        plans_(subscribeChecked<PlanStatistics>(
+            nh, "plan_statistics", 10, [heard](const PlanStatistics& m) { heard.plan(m); })) {}
 
   const ros::NodeHandle& nh() const { return nh_; }
 

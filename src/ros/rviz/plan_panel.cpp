@@ -5,6 +5,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/conversions.h"
+#include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/master/xmlrpc_call.h"
 
 namespace grid_path_planner::nodes {
@@ -87,10 +88,10 @@ void PlanPanel::subscribePoints() {
 }
 
 void PlanPanel::subscribePoint(const std::string& topic, const Point& point) {
-  points_.push_back(nh_.subscribe<geometry_msgs::PoseStamped>(
-      topic, 10, [this, point](const geometry_msgs::PoseStamped::ConstPtr& message) {
+  points_.push_back(subscribeChecked<geometry_msgs::PoseStamped>(
+      nh_, topic, 10, [this, point](const geometry_msgs::PoseStamped& message) {
         try {
-          point(message->header.frame_id, poseFromMessage(message->pose));
+          point(message.header.frame_id, poseFromMessage(message.pose));
         } catch (const InputError& error) {
           model_.say(Tone::BAD, std::string("The point is passed over: ") + error.what());
         }

@@ -22,63 +22,13 @@
 #include "grid_path_planner/ComparePlans.h"
 #include "grid_path_planner/NavigatePathActionGoal.h"
 #include "ros/support/process.h"
+#include "ros/support/raw_bytes.h"
 #include "ros/support/wait.h"
 
 namespace grid_path_planner::nodes {
-
-// A message as it goes over the wire, of the type of another one.
-template <class Message>
-struct RawBytes {
-  std::vector<std::uint8_t> bytes;
-};
-
-}  // namespace grid_path_planner::nodes
-
-namespace ros::message_traits {
-
-template <class Message>
-struct MD5Sum<grid_path_planner::nodes::RawBytes<Message>> : MD5Sum<Message> {
-  static const char* value(const grid_path_planner::nodes::RawBytes<Message>&) {
-    return MD5Sum<Message>::value();
-  }
-  static const char* value() { return MD5Sum<Message>::value(); }
-};
-template <class Message>
-struct DataType<grid_path_planner::nodes::RawBytes<Message>> : DataType<Message> {
-  static const char* value(const grid_path_planner::nodes::RawBytes<Message>&) {
-    return DataType<Message>::value();
-  }
-  static const char* value() { return DataType<Message>::value(); }
-};
-template <class Message>
-struct Definition<grid_path_planner::nodes::RawBytes<Message>> : Definition<Message> {
-  static const char* value(const grid_path_planner::nodes::RawBytes<Message>&) {
-    return Definition<Message>::value();
-  }
-  static const char* value() { return Definition<Message>::value(); }
-};
-
-}  // namespace ros::message_traits
-
-namespace ros::serialization {
-
-template <class Message>
-struct Serializer<grid_path_planner::nodes::RawBytes<Message>> {
-  template <class Stream>
-  static void write(Stream& stream, const grid_path_planner::nodes::RawBytes<Message>& message) {
-    std::memcpy(stream.advance(static_cast<std::uint32_t>(message.bytes.size())),
-                message.bytes.data(), message.bytes.size());
-  }
-  static std::uint32_t serializedLength(
-      const grid_path_planner::nodes::RawBytes<Message>& message) {
-    return static_cast<std::uint32_t>(message.bytes.size());
-  }
-};
-
-}  // namespace ros::serialization
-
-namespace grid_path_planner::nodes {
 namespace {
+
+using test::RawBytes;
 
 // Where a message without any elements has the length of an array: so many bytes before its end.
 template <class Message>
@@ -91,13 +41,7 @@ constexpr std::size_t kFromEnd<NavigatePathActionGoal> = 8;  // a name follows
 // A message with an array that claims so many elements, of which 100 bytes are there.
 template <class Message>
 std::vector<std::uint8_t> lie(std::uint32_t claimed) {
-  const Message message;
-  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
-  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(stream, message);
-  std::memcpy(&bytes[bytes.size() - kFromEnd<Message>], &claimed, 4);
-  bytes.resize(bytes.size() + 100);
-  return bytes;
+  return test::lyingBytes<Message>(claimed, kFromEnd<Message>);
 }
 
 std::size_t refusals(const test::Process& node) {
