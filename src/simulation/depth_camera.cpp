@@ -11,6 +11,7 @@ namespace grid_path_planner::simulation {
 namespace {
 
 constexpr std::size_t kPacket = RayScene::kPacket;
+constexpr std::uint32_t kPacketsBetweenPolls = 256;
 
 }  // namespace
 
@@ -39,7 +40,8 @@ Eigen::Isometry3d DepthCamera::baseFromOptical() const {
 }
 
 void DepthCamera::render(const Eigen::Isometry3d& map_from_optical, std::uint64_t frame,
-                         std::vector<float>& points, const BodiesAt& bodies) const {
+                         std::vector<float>& points, const BodiesAt& bodies,
+                         const base::StopToken& stop) const {
   const Eigen::Matrix3f turn = map_from_optical.linear().cast<float>();
   const Eigen::Vector3f origin = map_from_optical.translation().cast<float>();
   const RangeNoise noise(options_.seed, frame);
@@ -54,7 +56,9 @@ void DepthCamera::render(const Eigen::Isometry3d& map_from_optical, std::uint64_
     return noisy >= nearest && noisy <= farthest ? noisy : NAN;
   };
   points.resize(3 * rays_.size());
+  base::StopPoll poll(stop, kPacketsBetweenPolls);
   for (std::size_t first = 0; first < rays_.size(); first += kPacket) {
+    poll();
     const std::size_t count = std::min(kPacket, rays_.size() - first);
     float ranges[kPacket];
     scene_->ranges(origin, turn, &rays_[first], count, farthest, ranges);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "grid_path_planner/base/stop_token.h"
 #include "support/error_text.h"
 #include "support/option_laws.h"
 
@@ -67,6 +68,27 @@ TEST(DepthCameraOptions, TheNearestRangeIsBelowTheFarthest) {
   options.range_min = options.range_max;
   EXPECT_EQ(test::errorText([&] { DepthCamera(World({}), options); }),
             "range_min must be below range_max, got 10 m and 10 m");
+}
+
+// One of 8192x8192, by reconfiguring, took gigabytes and held the simulator's end for a minute.
+TEST(DepthCameraOptions, APictureHasAtMostFourMillionPixels) {
+  DepthCameraOptions options;
+  options.width = options.height = 2048;
+  EXPECT_NO_THROW(checkDepthCameraOptions(options));
+  options.width = 2049;
+  EXPECT_EQ(test::errorText([&] { checkDepthCameraOptions(options); }),
+            "width times height must be at most 4194304 pixels, got 2049 and 2048");
+  options.width = options.height = 8192;
+  EXPECT_NE(test::errorText([&] { checkDepthCameraOptions(options); }), "");
+}
+
+TEST(DepthCamera, APictureThatNobodyWaitsForIsNotFinished) {
+  const DepthCamera camera(wallAt(3.0), exact());
+  std::vector<float> points;
+  base::StopSource stop;
+  EXPECT_NO_THROW(camera.render(camera.baseFromOptical(), 0, points, {}, stop.token()));
+  stop.cancel();
+  EXPECT_THROW(camera.render(camera.baseFromOptical(), 0, points, {}, stop.token()), base::Stopped);
 }
 
 TEST(DepthCamera, AWallAcrossTheViewHasOneDepthAndItsPixelsLieOnThePinholesRays) {

@@ -23,6 +23,7 @@
 #include <memory>
 #include <vector>
 
+#include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/simulation/depth_camera_options.h"
 #include "grid_path_planner/simulation/moving_bodies.h"
 #include "grid_path_planner/simulation/world.h"
@@ -51,9 +52,10 @@ class DepthCamera {
   // The optical frame in base_link.
   Eigen::Isometry3d baseFromOptical() const;
 
-  // Fills `points` with x, y, z (m) of width x height pixels, row by row from the top left.
+  // Fills `points` with x, y, z (m) of width x height pixels, row by row from the top left. Throws Stopped.
   void render(const Eigen::Isometry3d& map_from_optical, std::uint64_t frame,
-              std::vector<float>& points, const BodiesAt& bodies = {}) const;
+              std::vector<float>& points, const BodiesAt& bodies = {},
+              const base::StopToken& stop = {}) const;
 
  private:
   DepthCameraOptions options_;

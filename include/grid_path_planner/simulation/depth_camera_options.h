@@ -32,7 +32,9 @@ void visitOptions(DepthCameraOptions& o, Visitor&& visit) {
             .under("The depth camera; there is one only with a world, and it works only for "
                    "subscribers"));
   visit("width", o.width, base::OptionInfo{"Width of the picture", "pixels", 1, 8192});
-  visit("height", o.height, base::OptionInfo{"Height of the picture", "pixels", 1, 8192});
+  visit("height", o.height,
+        base::OptionInfo{"Height of the picture; width times height is at most 4194304", "pixels",
+                         1, 8192});
   visit("rate", o.rate,
         base::OptionInfo{
             "Pictures in a simulated second, which takes longer where pictures take too long", "Hz",
@@ -62,8 +64,8 @@ void visitOptions(DepthCameraOptions& o, Visitor&& visit) {
         base::OptionInfo{"Another seed, other noise and dropouts", "", 0, 2147483647});
 }
 
-// Throws InputError naming the option for a value outside its limits and for a range_min that is
-// not below range_max.
+// Throws InputError naming the option for a value outside its limits, for a range_min that is not below
+// range_max and for a picture of more than 2^22 pixels.
 void checkDepthCameraOptions(const DepthCameraOptions& options);
 
 }  // namespace grid_path_planner::simulation

@@ -64,6 +64,7 @@ DepthCameraPublisher::~DepthCameraPublisher() {
     const std::lock_guard<std::mutex> lock(mutex_);
     stopping_ = true;
   }
+  stop_.cancel();
   changed_.notify_all();
   thread_.join();
 }
@@ -102,6 +103,7 @@ void DepthCameraPublisher::renderLoop() {
     lock.unlock();
     try {
       render(shot);
+    } catch (const base::Stopped&) {  // the camera ends
     } catch (...) {
       tellGivenUp("A picture of the camera");
     }
@@ -118,7 +120,7 @@ void DepthCameraPublisher::render(const Shot& shot) {
   info_publisher_.publish(info);
   if (points_publisher_.getNumSubscribers() == 0) return;
   std::vector<float> points;
-  camera_.render(shot.map_from_optical, shot.frame, points);
+  camera_.render(shot.map_from_optical, shot.frame, points, {}, stop_.token());
   const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(emptyCloud(o));
   cloud->header = info.header;
   cloud->data.resize(points.size() * sizeof(float));

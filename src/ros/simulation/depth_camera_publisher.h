@@ -30,6 +30,7 @@
 #include <thread>
 #include <vector>
 
+#include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/simulation/depth_camera.h"
 #include "grid_path_planner/simulation/vehicle.h"
 
@@ -51,7 +52,7 @@ class DepthCameraPublisher {
   DepthCameraPublisher(ros::NodeHandle& nh, const simulation::World& world,
                        const simulation::DepthCameraOptions& options,
                        const CameraFrameNames& frames);
-  // Waits for the image that is being rendered.
+  // Leaves the image that is being rendered unfinished.
   ~DepthCameraPublisher();
 
   // Whether this is the camera that these would give.
@@ -81,6 +82,7 @@ class DepthCameraPublisher {
   ros::Publisher points_publisher_;
   ros::Publisher info_publisher_;
 
+  base::StopSource stop_;
   mutable std::mutex mutex_;  // of the following
   std::condition_variable changed_;
   std::optional<Shot> shot_;  // until it is published
