@@ -41,6 +41,9 @@ constexpr double kLongestDelay = 0.05;  // s
 // Wall time after a command that simulated time waits for the next one before it ends.
 constexpr double kLongestWait = 0.2;  // s
 
+// Steps with readings that wait while ROS time stands: 10 s of them at the default time step.
+constexpr std::size_t kMostReadings = 1000;
+
 VehicleState initialState(const SimulatorOptions& o) {
   return {Eigen::Vector3d(o.initial.x, o.initial.y, o.initial.z), o.initial.yaw, {}};
 }
@@ -298,12 +301,16 @@ void SimulatorNode::publishReadings() {
   readings_.clear();
 }
 
+// A clock of another node stands for most ticks, and the readings of these wait for its next time; those of
+// before its first time have none.
+void SimulatorNode::dropOldReadings() {
+  if (last_stamp_.isZero()) readings_.clear();
+  while (readings_.size() > kMostReadings) readings_.pop_front();
+}
+
 void SimulatorNode::publishState() {
   const ros::Time stamp = now();
-  if (stamp == last_stamp_) {  // tf warns about repeated stamps
-    readings_.clear();
-    return;
-  }
+  if (stamp == last_stamp_) return dropOldReadings();  // tf warns about repeated stamps
   last_stamp_ = stamp;
   if (options_.publish_clock) {
     rosgraph_msgs::Clock clock;

@@ -33,6 +33,7 @@
 #include <ros/steady_timer.h>
 #include <ros/subscriber.h>
 
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -87,6 +88,7 @@ class SimulatorNode {
   void captureImage();
   void publishState();
   void publishReadings();
+  void dropOldReadings();
   ros::Time now() const;
   ros::Time stampOf(std::int64_t time_ns) const;
 
@@ -109,7 +111,7 @@ class SimulatorNode {
   std::unique_ptr<ImageCameraPublisher> image_camera_;  // where enabled
   SensorPublisher sensor_publisher_;
   std::unique_ptr<simulation::NavigationSensors> sensors_;
-  std::vector<simulation::SensorReadings> readings_;  // not yet published
+  std::deque<simulation::SensorReadings> readings_;  // not yet published
   ros::Publisher clock_publisher_;
   ros::Subscriber command_subscriber_;
   ros::Subscriber map_subscriber_;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/Range.h>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <set>
 
@@ -257,6 +259,28 @@ TEST_F(SimulatorSensors, WithoutAClockOfItsOwnStampsAreThoseAtWhichStepsWereDue)
   for (std::size_t i = 1; i < all.size(); ++i)
     EXPECT_GT(all[i].header.stamp, all[i - 1].header.stamp) << i;
   EXPECT_LE(all.back().header.stamp.toSec(), ros::WallTime::now().toSec());
+}
+
+// Where another node's clock ticks less often than the simulator, the readings between its ticks vanished.
+TEST_F(SimulatorSensors, ReadingsWaitForAClockThatStands) {
+  constexpr double period = 0.5;  // s
+  Latest<Imu> imu(nh_, "imu/data");
+  const ros::Publisher clocks = nh_.advertise<rosgraph_msgs::Clock>("/clock", 1);
+  rosgraph_msgs::Clock clock;
+  clock.clock = ros::Time(1000.0);
+  const auto ticks =
+      nh_.createSteadyTimer(ros::WallDuration(period), [&](const ros::SteadyTimerEvent&) {
+        clock.clock += ros::Duration(period);
+        clocks.publish(clock);
+      });
+  start({"_publish_clock:=false", "_imu_enabled:=true", "_imu_rate:=100"});
+  EXPECT_TRUE(test::waitFor([&] {
+    std::map<int, int> between;  // ticks of the clock
+    for (const Imu& unit : imu.all())
+      ++between[static_cast<int>(unit.header.stamp.toSec() / period)];
+    return std::any_of(between.begin(), between.end(),
+                       [](const auto& readings) { return readings.second > 20; });
+  })) << "of 50, of which a late tick of the simulator alone has 6";
 }
 
 }  // namespace
