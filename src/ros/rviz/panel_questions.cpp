@@ -172,14 +172,20 @@ void PlanPanel::explain() {
   model_.callBegan(Call::EXPLAIN);
   calls_.start<ExplainPlan>(
       nodes_->nh(), "path_planner/explain_plan", question, kPatienceOfQuestions,
-      [this](const ExplainPlan& answered) {
-        const ExplainPlan::Response& why = answered.response;
-        explanation_ = explanationMarkers(why, model_.points().frame());
-        draw();
-        model_.callEnded(why.status == "FOUND" ? Tone::GOOD : Tone::BAD,
-                         why.status + ": " + why.message);
+      [this, points = model_.revision()](const ExplainPlan& answered) {
+        showExplanation(answered.response, points);
       },
       [this](const std::string& why) { model_.callEnded(Tone::BAD, why); });
+}
+
+void PlanPanel::showExplanation(const ExplainPlan::Response& why, unsigned points) {
+  if (points != model_.revision()) {
+    model_.callEnded(Tone::CALM, "The points are others by now: press Explain again");
+    return;
+  }
+  explanation_ = explanationMarkers(why, model_.points().frame());
+  draw();
+  model_.callEnded(why.status == "FOUND" ? Tone::GOOD : Tone::BAD, why.status + ": " + why.message);
 }
 
 void PlanPanel::setParameter(const dynamic_reconfigure::Config& change) {

@@ -62,6 +62,7 @@ class PlanPanel : public rviz::Panel {
   // `points`: the revision of the model that was asked about.
   void showComparison(const ComparePlans::Response& response, unsigned points);
   void explain();
+  void showExplanation(const ExplainPlan::Response& why, unsigned points);
   void setParameter(const dynamic_reconfigure::Config& change);
   void drive();
   // A sentence says what came of it.
