@@ -5,10 +5,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/plain_text.h"
 #include "grid_path_planner/base/errors.h"
 
 namespace grid_path_planner::simulation {
 
+using base::cleanedText;
 using base::InputError;
 
 namespace {
@@ -71,7 +73,7 @@ sdf::Root loadSdf(const std::string& file,
                        std::string("libsdformat does not accept it: a number in it is none (") +
                            error.what() + ")");
     }
-    printed = withoutEnd(console.text()).substr(0, kLongestText);
+    printed = cleanedText(withoutEnd(console.text()), kLongestText);
   }
   if (errors.empty()) {
     if (!printed.empty()) std::cerr << file << ": " << printed << "\n";

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/plain_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
 #include "simulation/mesh_file.h"
@@ -15,9 +16,15 @@
 
 namespace grid_path_planner::simulation {
 
+using base::checkPlainText;
 using base::InputError;
 
 namespace {
+
+// Names are said and published where the vehicle runs into something.
+constexpr std::size_t kLongestName = 256;       // bytes, of a model, link or shape
+constexpr std::size_t kLongestWhole = 1024;     // with those that it is part of
+constexpr std::size_t kLongestSentence = 4000;  // about a world
 
 Eigen::Vector3d vectorOf(const ignition::math::Vector3d& v) {
   return {v.X(), v.Y(), v.Z()};
@@ -62,6 +69,7 @@ class WorldReader {
 
   void addModel(const sdf::Model& model, const Eigen::Isometry3d& parent,
                 const std::string& prefix) {
+    checkPlainText("the name of a model", model.Name(), kLongestName);
     const std::string name = prefix + model.Name();
     const Eigen::Isometry3d pose = poseOf(model, parent, name);
     for (std::size_t i = 0; i < model.LinkCount(); ++i)
@@ -71,6 +79,7 @@ class WorldReader {
   }
 
   void addLink(const sdf::Link& link, const Eigen::Isometry3d& parent, const std::string& prefix) {
+    checkPlainText("the name of a link", link.Name(), kLongestName);
     const std::string name = prefix + link.Name() + "::";
     const Eigen::Isometry3d pose = poseOf(link, parent, prefix + link.Name());
     std::vector<TriangleMesh> collisions;
@@ -88,7 +97,9 @@ class WorldReader {
   template <class Shape>  // collision or visual
   void addShape(const Shape& shape, const Eigen::Isometry3d& parent, const std::string& prefix,
                 std::vector<TriangleMesh>& meshes) {
+    checkPlainText("the name of a shape", shape.Name(), kLongestName);
     const std::string name = prefix + shape.Name();
+    checkPlainText("the name of a shape with its models' and its link's", name, kLongestWhole);
     const sdf::Geometry* geometry = shape.Geom();
     const std::string kind = kindOf(geometry);
     if (kind == "empty") return;
@@ -156,6 +167,14 @@ class WorldReader {
   std::map<std::string, TriangleMesh> meshes_;  // by their files, each of which is read once
 };
 
+WorldMeshes readUnchecked(const std::string& file) {
+  const base::RegularFile regular(file);  // libsdformat would wait for a pipe
+  const std::string folder = folderOf(file);
+  const sdf::Root root =
+      loadSdf(file, [&](const std::string& uri) { return resourcePath(uri, folder, folder); });
+  return meshesOfWorld(root, file, readMesh);
+}
+
 }  // namespace
 
 WorldMeshes meshesOfWorld(const sdf::Root& root, const std::string& file,
@@ -163,12 +182,13 @@ WorldMeshes meshesOfWorld(const sdf::Root& root, const std::string& file,
   return WorldReader(file, read_mesh).read(root);
 }
 
+// Sentences of libraries and about names, files and values quote what stands in a world.
 WorldMeshes readWorldMeshes(const std::string& file) {
-  const base::RegularFile regular(file);  // libsdformat would wait for a pipe
-  const std::string folder = folderOf(file);
-  const sdf::Root root =
-      loadSdf(file, [&](const std::string& uri) { return resourcePath(uri, folder, folder); });
-  return meshesOfWorld(root, file, readMesh);
+  try {
+    return readUnchecked(file);
+  } catch (const InputError& error) {
+    throw InputError(base::cleanedText(error.what(), kLongestSentence));
+  }
 }
 
 }  // namespace grid_path_planner::simulation

@@ -257,6 +257,34 @@ TEST_F(WorldFile, PosesThatAreNoneAreRefusedWithFileAndName) {
 }
 
 // libsdformat and Assimp would wait for its other end.
+// The vehicle says, and publishes, what it runs into.
+TEST_F(WorldFile, NamesThatATerminalObeysAreRefusedWithoutQuotingThem) {
+  const std::string escape = "a\x1b[2Jb";
+  const std::string shapes = shape("visual", "v", kUnitBox);
+  for (const std::string& content : {model(escape, "0 0 0 0 0 0", shapes),
+                                     model("m", "0 0 0 0 0 0", shape("visual", escape, kUnitBox)),
+                                     "<model name='m'><static>true</static><link name='" + escape +
+                                         "'>" + shapes + "</link></model>"}) {
+    const std::string text = complaint(content);
+    EXPECT_TRUE(contains(text, "must not hold control characters")) << text;
+    EXPECT_TRUE(contains(text, folder_.path("world.sdf"))) << text;
+    EXPECT_FALSE(contains(text, "\x1b"));
+  }
+  const std::string number = complaint(
+      model("m", "0 0 0 0 0 0", shape("visual", "v", "<box><size>1 x\x1b[2J 2</size></box>")));
+  EXPECT_NE(number, "");
+  EXPECT_FALSE(contains(number, "\x1b"));
+}
+
+TEST_F(WorldFile, NamesOfAnyLengthAreRefused) {
+  const std::string text =
+      complaint(model(std::string(257, 'm'), "0 0 0 0 0 0", shape("visual", "v", kUnitBox)));
+  EXPECT_TRUE(contains(text, "the name of a model has 257 bytes, expected at most 256")) << text;
+  const World world =
+      read(model(std::string(256, 'm'), "0 0 0 0 0 0", shape("visual", "\xd1\x84", kUnitBox)));
+  EXPECT_EQ(world.solid().at(0).name, std::string(256, 'm') + "::link::\xd1\x84");
+}
+
 TEST_F(WorldFile, APipeIsRefusedAtOnce) {
   for (const char* name : {"pipe.sdf", "pipe.obj"})
     ASSERT_EQ(::mkfifo(folder_.path(name).c_str(), 0600), 0);

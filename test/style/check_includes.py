@@ -28,6 +28,7 @@ LENT = {
     "base/child_process.h": {"simulation"},
     "base/cholesky.h": {"localization", "trials", "vision"},
     "base/current_error.h": {"ros_avoidance", "ros_common", "ros_driving", "ros_layers", "ros_mapping", "ros_planning", "ros_rviz"},
+    "base/plain_text.h": {"ros_common", "simulation"},
     "base/deflate.h": {"grid", "planners"},
     "base/shell_text.h": {"command_line", "flights", "study"},
     "base/utf8.h": {"ros_common", "study"},

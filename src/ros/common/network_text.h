@@ -13,12 +13,10 @@ namespace grid_path_planner::nodes {
 
 constexpr std::size_t kLongestNetworkText = 256;  // bytes
 
-// Throws InputError that calls the text `what` and does not quote it.
+// Throws InputError that calls the text `what` and does not quote it. Text that may quote, such as options, is checked by
+// base/plain_text.h.
 void checkNetworkText(const std::string& what, const std::string& text,
                       std::size_t longest = kLongestNetworkText);
-
-// The same for text that may quote: options.
-void checkPlainText(const std::string& what, const std::string& text, std::size_t longest);
 
 // The text, or "" where checkNetworkText refuses it: for answers that repeat what they were asked.
 std::string printable(const std::string& text);

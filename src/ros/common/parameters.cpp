@@ -4,6 +4,7 @@
 #include <set>
 #include <sstream>
 
+#include "base/plain_text.h"
 #include "ros/common/incoming/advertised_service.h"
 #include "ros/common/network_text.h"
 
@@ -27,6 +28,7 @@ bool ServiceCallbackHelperT<Reconfigure>::call(ServiceCallbackHelperCallParams& 
 
 namespace grid_path_planner::nodes {
 
+using base::checkPlainText;
 using base::closestName;
 using base::configName;
 using base::InputError;
