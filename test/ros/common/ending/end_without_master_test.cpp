@@ -15,15 +15,15 @@
 namespace grid_path_planner::nodes {
 namespace {
 
-constexpr int kDone = 7;            // exit code of a process that came to its end
-constexpr unsigned kDeadline = 60;  // s
+constexpr int kDone = 7;               // exit code of a process that came to its end
+constexpr unsigned kMostSeconds = 60;  // s
 constexpr std::chrono::seconds kLongWork(4);
 
 // The exit code of a process that is asked to end and works on.
 int endOf(const std::function<void()>& work) {
   const pid_t child = ::fork();
   if (child == 0) {
-    ::alarm(kDeadline);
+    ::alarm(kMostSeconds);
     ::setenv("ROS_MASTER_URI", "http://127.0.0.1:1", 1);
     const EndWithoutMaster limit("a node", [] { return std::string("asked to"); });
     work();
@@ -35,7 +35,7 @@ int endOf(const std::function<void()>& work) {
 }
 
 TEST(EndWithoutMaster, EndsAProcessThatWaits) {
-  EXPECT_EQ(endOf([] { std::this_thread::sleep_for(std::chrono::seconds(kDeadline)); }), 0);
+  EXPECT_EQ(endOf([] { std::this_thread::sleep_for(std::chrono::seconds(kMostSeconds)); }), 0);
 }
 
 TEST(EndWithoutMaster, LetsTheLastWorkBeDone) {
@@ -49,7 +49,7 @@ TEST(EndWithoutMaster, LetsTheLastWorkBeDone) {
 TEST(EndWithoutMaster, EndsAProcessThatWaitsAfterIt) {
   EXPECT_EQ(endOf([] {
               { const LastWork work; }
-              std::this_thread::sleep_for(std::chrono::seconds(kDeadline));
+              std::this_thread::sleep_for(std::chrono::seconds(kMostSeconds));
             }),
             0);
 }
