@@ -31,7 +31,7 @@ LENT = {
     "base/plain_text.h": {"ros_common", "simulation"},
     "base/deflate.h": {"grid", "planners"},
     "base/shell_text.h": {"command_line", "flights", "study"},
-    "base/utf8.h": {"ros_common", "study"},
+    "base/utf8.h": {"study"},
     "base/zeroed_array.h": {"planners"},
     "costmap/inflation.h": {"planning"},  # the distances that it keeps
     "following/footprint_clearance.h": {"ros_driving"},
