@@ -30,6 +30,7 @@ LENT = {
     "base/current_error.h": {"ros_avoidance", "ros_common", "ros_driving", "ros_layers", "ros_mapping", "ros_planning", "ros_rviz"},
     "base/plain_text.h": {"ros_common", "simulation"},
     "base/deflate.h": {"grid", "planners"},
+    "base/seconds_since.h": {"mapping", "ros_common", "ros_driving", "ros_layers", "ros_planning"},
     "base/shell_text.h": {"command_line", "flights", "study"},
     "base/utf8.h": {"study"},
     "base/zeroed_array.h": {"planners"},

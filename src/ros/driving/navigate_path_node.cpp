@@ -98,17 +98,24 @@ NavigatePathNode::~NavigatePathNode() {
   feedback_timer_.stop();
   diagnostics_timer_.stop();
   loop_->finish();
-  takeReports();
+  takeLastReports();
   path_subscriber_.shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
   reconfigurable_.reset();
   reader_.reset();
   map_.reset();
   limits_.reset();
-  loop_->cancel("navigate_path ends");
-  takeReports();
+  takeLastReports();
   loop_.reset();
   nh_.getCallbackQueue()->removeByID(reinterpret_cast<std::uint64_t>(this));
+}
+
+void NavigatePathNode::takeLastReports() noexcept {
+  try {
+    takeReports();
+  } catch (...) {
+    tellGivenUp("A report of the last drive");
+  }
 }
 
 // What waits in the queue when a joystick takes over was given before that.

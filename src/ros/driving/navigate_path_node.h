@@ -101,6 +101,7 @@ class NavigatePathNode {
   bool endDrivesUntilNow(const std::string& reason);
 
   void takeReports();
+  void takeLastReports() noexcept;
   bool endWhatIsNotDriven(const std::string& reason);
   void finishGoal(const std::string& status, const std::string& message,
                   const DriveStanding& standing);
