@@ -47,7 +47,7 @@ LaggedFilter filterAfter(SimulatedSensors& sensors, double seconds) {
 
 void measureSteps() {
   SimulatedSensors sensors(1);
-  Estimate estimate = filterAfter(sensors, 10.0).snapshotAt(0).estimate;
+  Estimate estimate = filterAfter(sensors, 10.0).snapshot().estimate;
   const Inertial imu = sensors.trajectory.inertialAt(10.0, 9.80665);
   const ImuNoise noise{1e-4, 1e-5, 1e-3, 1e-4, 9.80665};
   const double predict =
@@ -82,7 +82,7 @@ void measureErrors(double seconds, unsigned runs) {
   double all = 0.0, of_pose = 0.0, metres = 0.0, degrees = 0.0;
   for (unsigned seed = 1; seed <= runs; ++seed) {
     SimulatedSensors sensors(seed);
-    const Estimate estimate = filterAfter(sensors, seconds).snapshotAt(0).estimate;
+    const Estimate estimate = filterAfter(sensors, seconds).snapshot().estimate;
     const ErrorVector error = errorBetween<double>(estimate.state, sensors.truthAt(seconds));
     Eigen::Matrix<double, 6, 1> pose;
     pose << error.segment<3>(kPosition), error.segment<3>(kAttitude);

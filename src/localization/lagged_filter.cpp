@@ -1,6 +1,7 @@
 #include "localization/lagged_filter.h"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 
 namespace grid_path_planner::localization {
@@ -96,8 +97,15 @@ void LaggedFilter::trim() {
 }
 
 FilterSnapshot LaggedFilter::snapshotAt(Stamp stamp) const {
-  FilterSnapshot snapshot = empty() ? base_ : events_.back().after;
-  if (stamp > snapshot.stamp) step_.advance(snapshot, stamp, nullptr);
+  const auto next =
+      std::upper_bound(events_.begin(), events_.end(), stamp,
+                       [](Stamp at, const Event& event) { return at < event.measurement.stamp; });
+  FilterSnapshot snapshot = next == events_.begin() ? base_ : std::prev(next)->after;
+  TimedImu imu;
+  const TimedImu* next_imu = next == events_.end()
+                                 ? nullptr
+                                 : nextImu(static_cast<std::size_t>(next - events_.begin()), imu);
+  if (stamp > snapshot.stamp) step_.advance(snapshot, stamp, next_imu);
   return snapshot;
 }
 

@@ -53,7 +53,10 @@ class LaggedFilter {
   Stamp newest() const { return events_.back().measurement.stamp; }
   bool empty() const { return events_.empty(); }
 
-  // The newest snapshot moved on to `stamp`, or as it is where that is earlier.
+  // After the newest measurement.
+  FilterSnapshot snapshot() const { return empty() ? base_ : events_.back().after; }
+  // After the last measurement at or before `stamp`, moved on to it; where that is before the history, the oldest that
+  // there is.
   FilterSnapshot snapshotAt(Stamp stamp) const;
   // Of the body, rad/s, without the gyro's bias.
   Eigen::Vector3d rateOf(const FilterSnapshot& snapshot) const;

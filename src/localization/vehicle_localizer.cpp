@@ -6,6 +6,7 @@
 
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
+#include "localization/filter_start.h"
 #include "localization/measurement_check.h"
 
 namespace grid_path_planner::localization {
@@ -49,8 +50,8 @@ bool isContradicted(const FilterSnapshot& snapshot) {
 }
 
 std::optional<FilterSnapshot> startedAt(const LaggedFilter& filter, Stamp stamp) {
-  if (!filter.started()) return {};
-  return filter.snapshotAt(stamp);
+  const FilterSnapshot snapshot = filter.snapshotAt(stamp);
+  return snapshot.started ? std::make_optional(snapshot) : std::nullopt;
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ Errors errorsAfter(SimulatedSensors& sensors, double seconds) {
   LaggedFilter filter(sensors.options, Start::AT_FIX);
   for (const Measurement& measurement : sensors.run(seconds)) filter.add(measurement);
   EXPECT_TRUE(filter.started());
-  return errorsOf(filter.snapshotAt(0).estimate, sensors.truthAt(seconds));
+  return errorsOf(filter.snapshot().estimate, sensors.truthAt(seconds));
 }
 
 using Setup = std::function<void(SimulatedSensors&)>;
@@ -81,7 +81,7 @@ double turnMissed(bool measures_means, bool takes_means) {
   filter.add({stampAt(0.0), Source::SET_POSE,
               PoseFix{start.position, start.attitude, start.covariance, {}}});
   for (const Measurement& measurement : sensors.run(60.0)) filter.add(measurement);
-  return errorsOf(filter.snapshotAt(0).estimate, sensors.truthAt(60.0)).radians;
+  return errorsOf(filter.snapshot().estimate, sensors.truthAt(60.0)).radians;
 }
 
 // The simulator's IMU measures means. Taken for the rate at its stamp, a turn at 0.8 rad/s came out 4 mrad short,
@@ -125,7 +125,7 @@ TEST(Consistency, WhatNothingTellsStaysUnknown) {
     filter.add({stampAt(0.0), Source::SET_POSE,
                 PoseFix{start.position, start.attitude, start.covariance, {}}});
     for (const Measurement& measurement : sensors.run(seconds)) filter.add(measurement);
-    const Estimate estimate = filter.snapshotAt(0).estimate;
+    const Estimate estimate = filter.snapshot().estimate;
     const Errors errors = errorsOf(estimate, sensors.truthAt(seconds));
     mean += errors.nees / runs;
     radians += errors.radians / runs;
@@ -242,7 +242,7 @@ TEST(Consistency, AfterALongSilenceOfAllSensorsThePoseIsFoundAgain) {
           if (start == Start::AT_FIX || !is_fix) filter.add(measurement);
         }
         ASSERT_TRUE(filter.started());
-        const State state = filter.snapshotAt(0).estimate.state, truth = same.truthAt(gap + 60.0);
+        const State state = filter.snapshot().estimate.state, truth = same.truthAt(gap + 60.0);
         const Eigen::Vector3d up = state.attitude.conjugate() * Eigen::Vector3d::UnitZ();
         const Eigen::Vector3d true_up = truth.attitude.conjugate() * Eigen::Vector3d::UnitZ();
         EXPECT_LT((up - true_up).norm(), 0.05) << gap << " s, seed " << seed;

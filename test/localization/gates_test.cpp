@@ -110,7 +110,7 @@ TEST(Gates, FixesThatAgreeBeginNothingAnewWhileAnotherFixIsUsed) {
   }
   EXPECT_GE(filter.counts(Source::USBL).gated, 28u);
   EXPECT_EQ(filter.counts(Source::USBL).resets, 0u);
-  EXPECT_LT((filter.snapshotAt(0).estimate.state.position - sensors.truthAt(40.0).position).norm(),
+  EXPECT_LT((filter.snapshot().estimate.state.position - sensors.truthAt(40.0).position).norm(),
             0.1);
 }
 
@@ -158,7 +158,7 @@ ByCompass drivenByCompass(unsigned seed, double turn) {
         std::remainder(yawOf(sensors.truthAt(t).attitude) + error(random), 2.0 * M_PI);
     filter.add({measurement.stamp, Source::HEADING, HeadingFix{yaw, 0.02 * 0.02}});
   }
-  const Estimate estimate = filter.snapshotAt(0).estimate;
+  const Estimate estimate = filter.snapshot().estimate;
   const State truth = sensors.truthAt(60.0);
   const ErrorVector off = errorBetween<double>(estimate.state, truth);
   return {

@@ -51,7 +51,7 @@ TEST(OrderOfArrival, AnyOrderGivesTheSameBits) {
     ASSERT_TRUE(in_order.started());
     std::shuffle(measurements.begin(), measurements.end(), std::mt19937_64(seed));
     const LaggedFilter shuffled = filtered(measurements, options);
-    expectSameBits(in_order.snapshotAt(0).estimate, shuffled.snapshotAt(0).estimate);
+    expectSameBits(in_order.snapshot().estimate, shuffled.snapshot().estimate);
   }
 }
 
@@ -71,7 +71,7 @@ TEST(OrderOfArrival, LateSourcesGiveTheSameBits) {
       measurements.begin(), measurements.end(),
       [&](const Measurement& a, const Measurement& b) { return arrival(a) < arrival(b); });
   const LaggedFilter late = filtered(measurements, options);
-  expectSameBits(in_order.snapshotAt(0).estimate, late.snapshotAt(0).estimate);
+  expectSameBits(in_order.snapshot().estimate, late.snapshot().estimate);
   EXPECT_EQ(in_order.counts(Source::USBL).taken, late.counts(Source::USBL).taken);
   EXPECT_EQ(in_order.counts(Source::USBL).gated, late.counts(Source::USBL).gated);
   EXPECT_GT(late.counts(Source::USBL).gated, 0u);
@@ -80,10 +80,10 @@ TEST(OrderOfArrival, LateSourcesGiveTheSameBits) {
 TEST(OrderOfArrival, ASecondOfTheSameStampIsADuplicate) {
   std::vector<Measurement> measurements = everything(1, 1.0);
   LaggedFilter filter = filtered(measurements, {});
-  const FilterSnapshot before = filter.snapshotAt(0);
+  const FilterSnapshot before = filter.snapshot();
   for (const Measurement& measurement : measurements)
     EXPECT_EQ(filter.add(measurement), Verdict::DUPLICATE);
-  expectSameBits(before.estimate, filter.snapshotAt(0).estimate);
+  expectSameBits(before.estimate, filter.snapshot().estimate);
 }
 
 TEST(OrderOfArrival, WhatIsOlderThanTheHistoryIsRefusedAndTheMemoryIsBounded) {
@@ -102,8 +102,32 @@ TEST(OrderOfArrival, AfterAResetNothingIsKept) {
   filter.reset();
   EXPECT_FALSE(filter.started());
   for (const Measurement& measurement : everything(3, 8.0)) filter.add(measurement);
-  expectSameBits(filter.snapshotAt(0).estimate,
-                 filtered(everything(3, 8.0), {}).snapshotAt(0).estimate);
+  expectSameBits(filter.snapshot().estimate, filtered(everything(3, 8.0), {}).snapshot().estimate);
+}
+
+// A fix stamped 80 ms ahead came, and what was published of now was the pose of then.
+TEST(OrderOfArrival, AnEarlierTimeIsAskedForAsBeforeALaterMeasurementCame) {
+  const std::vector<Measurement> measurements = everything(4, 8.0);
+  LaggedFilter filter = filtered(measurements, {});
+  const Stamp now = filter.newest();
+  const Estimate before = filter.snapshotAt(now).estimate;
+  ASSERT_GT(before.state.velocity.norm(), 0.1);
+  filter.add({now + 80'000'000, Source::DEPTH, DepthFix{-19.5, 0.01, {0.0, 0.0, 0.0}}});
+  expectSameBits(before, filter.snapshotAt(now).estimate);
+  EXPECT_EQ(filter.snapshotAt(now).stamp, now);
+  EXPECT_GT((filter.snapshot().estimate.state.position - before.state.position).norm(), 0.001);
+}
+
+// Between two measurements of the IMU it is where it passes, too.
+TEST(OrderOfArrival, BetweenTwoMeasurementsItIsMovedOn) {
+  SimulatedSensors sensors(5);
+  const LaggedFilter filter = filtered(sensors.run(10.0), {});
+  const auto errorAt = [&](double t) {
+    return Eigen::Vector3d(filter.snapshotAt(stampAt(t)).estimate.state.position -
+                           sensors.truthAt(t).position);
+  };
+  EXPECT_LT((errorAt(9.0051) - errorAt(9.0001)).norm(), 1e-4);
+  EXPECT_EQ(filter.snapshotAt(stampAt(9.0051)).stamp, stampAt(9.0051));
 }
 
 // The same run in a world that is shifted and turned: the estimate is shifted and turned, whatever
@@ -125,8 +149,8 @@ TEST(Invariance, UnderAShiftAndATurnOfTheWorld) {
         fix.position = q * (original.position - here.trajectory.shift) + there.trajectory.shift;
         fix.attitude = q * original.attitude;
       }
-    const Estimate a = filtered(first, here.options).snapshotAt(0).estimate;
-    const Estimate b = filtered(second, there.options).snapshotAt(0).estimate;
+    const Estimate a = filtered(first, here.options).snapshot().estimate;
+    const Estimate b = filtered(second, there.options).snapshot().estimate;
     EXPECT_LT(
         (q * (a.state.position - here.trajectory.shift) + there.trajectory.shift - b.state.position)
             .norm(),
@@ -176,7 +200,7 @@ TEST(LinearCase, TheFilterIsTheBatchLeastSquares) {
   const base::Cholesky<Eigen::Dynamic> factor(information);
   const Eigen::VectorXd solution = factor.solved(rows.transpose().lazyProduct(values));
   const Eigen::MatrixXd covariance = factor.inverse();
-  const Estimate estimate = filter.snapshotAt(0).estimate;
+  const Estimate estimate = filter.snapshot().estimate;
   EXPECT_NEAR(estimate.state.position.x(), solution[2 * fixes], 1e-9);
   EXPECT_NEAR(estimate.state.velocity.x(), solution[2 * fixes + 1], 1e-9);
   EXPECT_NEAR(estimate.covariance(kPosition, kPosition), covariance(2 * fixes, 2 * fixes), 1e-9);
@@ -195,7 +219,7 @@ TEST(NoInformation, TheCovarianceOnlyGrows) {
   for (const Measurement& measurement : sensors.run(10.0)) {
     filter.add(measurement);
     if (secondsBetween(stampAt(1.5), measurement.stamp) < 0.0) continue;
-    const ErrorVector now = filter.snapshotAt(0).estimate.covariance.diagonal();
+    const ErrorVector now = filter.snapshot().estimate.covariance.diagonal();
     for (int block = 0; block < kErrors; block += 3)
       EXPECT_GE(now.segment<3>(block).sum(), before.segment<3>(block).sum() * (1.0 - 1e-9))
           << block;
