@@ -93,15 +93,21 @@ nav_msgs::Odometry PosePublisher::odometryOf(const PublishedEstimate& published,
   return message;
 }
 
+std::optional<Mounting> PosePublisher::mapToOdometry(const PublishedPoses& poses,
+                                                     const Mounting& base) const {
+  if (!options_.publish_map_to_odom || !poses.map || !poses.map_to_odom) return {};
+  if (!options_.publish_odom_to_base) return poses.map_to_other_odometry;
+  return baseIn(*poses.map, base) * localization::inverse(baseIn(*poses.odometry, base));
+}
+
 void PosePublisher::sendTransforms(const PublishedPoses& poses, const Mounting& base,
                                    const ros::Time& stamp, TransformRivals& rivals) {
-  const Mounting in_odometry = baseIn(*poses.odometry, base);
   std::vector<geometry_msgs::TransformStamped> transforms;
   if (options_.publish_odom_to_base)
-    transforms.push_back(transformOf(in_odometry, options_.odom_frame, options_.base_frame, stamp));
-  if (options_.publish_map_to_odom && poses.map && poses.map_to_odom)
-    transforms.push_back(transformOf(baseIn(*poses.map, base) * localization::inverse(in_odometry),
-                                     options_.map_frame, options_.odom_frame, stamp));
+    transforms.push_back(transformOf(baseIn(*poses.odometry, base), options_.odom_frame,
+                                     options_.base_frame, stamp));
+  if (const auto odometry = mapToOdometry(poses, base))
+    transforms.push_back(transformOf(*odometry, options_.map_frame, options_.odom_frame, stamp));
   if (transforms.empty()) return;
   rivals.sent(stamp);
   broadcaster_.sendTransform(transforms);

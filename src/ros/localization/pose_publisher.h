@@ -4,6 +4,9 @@
 //   odometry/local     nav_msgs/Odometry in odom_frame
 //   tf                 map_frame -> odom_frame -> base_frame
 //
+// Where another node publishes odom_frame -> base_frame its odometry has an origin of its own: map_frame -> odom_frame is
+// then what the caller has found out by it, and left out where that is nothing.
+//
 // Guaranteed: each stamp is published once, in rising order; what is stamped before the last is passed
 // over. No transform is static.
 #pragma once
@@ -30,6 +33,8 @@ struct PublishedEstimate {
 struct PublishedPoses {
   std::optional<PublishedEstimate> map, odometry;
   bool map_to_odom = false;  // whether the pose in the map may be relied on
+  // map_frame -> odom_frame where another node publishes odom_frame -> base_frame (other_odometry.h).
+  std::optional<localization::Mounting> map_to_other_odometry = {};
 };
 
 class PosePublisher {
@@ -51,6 +56,8 @@ class PosePublisher {
   nav_msgs::Odometry odometryOf(const PublishedEstimate& published,
                                 const localization::Mounting& base, const std::string& frame,
                                 const ros::Time& stamp) const;
+  std::optional<localization::Mounting> mapToOdometry(const PublishedPoses& poses,
+                                                      const localization::Mounting& base) const;
   void sendTransforms(const PublishedPoses& poses, const localization::Mounting& base,
                       const ros::Time& stamp, TransformRivals& rivals);
 

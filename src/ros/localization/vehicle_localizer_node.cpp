@@ -16,6 +16,7 @@
 #include "ros/common/parameters.h"
 #include "ros/common/scheduling/guarded_timer.h"
 #include "ros/common/scheduling/log_throttle.h"
+#include "ros/localization/other_odometry.h"
 
 namespace grid_path_planner::nodes {
 
@@ -217,6 +218,7 @@ void VehicleLocalizerNode::beginAnew() {
   publisher_.reset();
   fixes_.clear();
   report_ = {};
+  withheld_.clear();
   last_command_ = {};
 }
 
@@ -274,19 +276,40 @@ void VehicleLocalizerNode::onTimer() {
 void VehicleLocalizerNode::publish(const ros::Time& stamp) {
   const auto time = stampOf(stamp);
   report_ = localizer_.report(time);
-  announce(report_);
   keepHeading(time);
+  withheld_ = publishPoses(stamp);
+  if (!withheld_.empty()) {
+    static LogThrottle seldom(5.0);
+    ROS_WARN_STREAM_COND(seldom.isDue(), withheld_);
+    report_.sentence = withheld_ + "; " + report_.sentence;
+    if (report_.status == LocalizationStatus::OK) report_.status = LocalizationStatus::DEGRADED;
+  }
+  announce(report_);
+}
+
+// What is not published, and why; empty: all is.
+std::string VehicleLocalizerNode::publishPoses(const ros::Time& stamp) {
+  const auto time = stampOf(stamp);
   PublishedPoses poses{
       published(localizer_, localizer_.mapAt(time)),
       published(localizer_, localizer_.odometryAt(time)),
       report_.status == LocalizationStatus::OK || report_.status == LocalizationStatus::DEGRADED};
-  if (!poses.odometry && !poses.map) return;
-  if ((ros::SteadyTime::now() - heard_since_).toSec() < kListens) return;
+  if (!poses.odometry && !poses.map) return {};
+  if ((ros::SteadyTime::now() - heard_since_).toSec() < kListens) return {};
   try {
-    publisher_.publish(poses, messages_.base(), stamp, rivals_);
+    const localization::Mounting base = messages_.base();
+    const bool by_other = options_.publish_map_to_odom && !options_.publish_odom_to_base &&
+                          poses.map && poses.map_to_odom;
+    if (by_other)
+      poses.map_to_other_odometry = mapToOtherOdometry(
+          transforms_, {options_.odom_frame, options_.base_frame}, localizer_, base, stamp);
+    publisher_.publish(poses, base, stamp, rivals_);
+    if (!by_other || poses.map_to_other_odometry) return {};
+    return "No " + options_.map_frame + " -> " + options_.odom_frame +
+           " is published: publish_odom_to_base is false, and tf has no " + options_.odom_frame +
+           " -> " + options_.base_frame + " of the last 0.5 s";
   } catch (const std::runtime_error& error) {
-    static LogThrottle seldom(5.0);
-    ROS_WARN_STREAM_COND(seldom.isDue(), "No pose is published: " << error.what());
+    return "No pose is published: " + std::string(error.what());
   }
 }
 
@@ -296,10 +319,10 @@ void VehicleLocalizerNode::keepHeading(localization::Stamp time) {
   if (const auto heading = localizer_.headingAt(time)) kept_.keep(*heading);
 }
 
-// In the log when the status changes, or another node publishes what is ours.
+// In the log when the status changes, another node publishes what is ours, or something is withheld.
 void VehicleLocalizerNode::announce(const LocalizationReport& report) {
   const std::string rival = rivals_.rival();
-  const std::string told = nameOf(report.status) + rival;
+  const std::string told = nameOf(report.status) + rival + (withheld_.empty() ? "" : ", withheld");
   if (told == std::exchange(told_, told)) return;
   std_msgs::String message;
   message.data = std::string(nameOf(report.status)) + ": " + report.sentence;

@@ -22,7 +22,8 @@
 // Guaranteed: map -> odom is published while the status is OK or DEGRADED only. A message that cannot be
 // used changes nothing; its reason is in the log and in the diagnostics. ROS time that goes back begins
 // everything anew. From the first transform map -> odom or odom -> base_link of another node on, none
-// is published, until ~reset. Poses are stamped as the measurements of the IMU, or as now while it is
+// is published, until ~reset. Where another node is to publish odom -> base_link (publish_odom_to_base) and does not,
+// there is no map -> odom, and the status is DEGRADED. Poses are stamped as the measurements of the IMU, or as now while it is
 // silent.
 #pragma once
 
@@ -83,6 +84,7 @@ class VehicleLocalizerNode {
   std::string setPose(const geometry_msgs::PoseWithCovarianceStamped& message);
   void onTimer();
   void publish(const ros::Time& stamp);
+  std::string publishPoses(const ros::Time& stamp);
   void keepHeading(localization::Stamp time);
   void announce(const localization::LocalizationReport& report);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -103,7 +105,8 @@ class VehicleLocalizerNode {
   FixMarkers fixes_;
   ros::Publisher status_publisher_;
   localization::LocalizationReport report_;
-  std::string told_;             // of status and rival
+  std::string withheld_;         // what is not published, and why; empty: all is
+  std::string told_;             // of status, rival and what is withheld
   ros::SteadyTime heard_since_;  // when tf was first listened to
   ros::Time last_command_;
 
