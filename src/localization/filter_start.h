@@ -16,6 +16,8 @@ struct StartAttitude {
   double tilt, yaw;  // variances, rad^2
 };
 
+constexpr double kUnknownHeading = 3.14159265358979 * 3.14159265358979;  // rad^2
+
 // That of the IMU, turned by what is known of its heading: of a time before, not longer than a minute ago, since when
 // gyro_bias made it worse.
 StartAttitude startAttitude(const Eigen::Quaterniond& imu, Stamp now,

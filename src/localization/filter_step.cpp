@@ -22,6 +22,10 @@ constexpr double kAnyAngle = 10.0;    // rad^2
 constexpr double kSilence = 1.0;                                          // s
 constexpr double kUnknownTilt = 0.25, kUnknownTiltWithoutAttitude = 1.0;  // rad
 
+// Standard deviations by which the heading of an IMU that is back may be off the one that the vehicle kept meanwhile. An
+// IMU that was started again has a heading of its own, and what was known of it says nothing.
+constexpr double kSameImu = 2.0;
+
 using Scalar = Eigen::Matrix<double, 1, 1>;
 
 Inertial between(const TimedImu& from, const TimedImu& to, double stamp) {
@@ -142,6 +146,8 @@ Outcome FilterStep::take(Context& context, const ImuMeasurement& imu) const {
   if (snapshot.started && was_silent && isTiltUnknown(snapshot.estimate, imu))
     beginAnew(snapshot, imu);
   snapshot.imu = TimedImu{snapshot.stamp, imu};
+  if (snapshot.started && start_ == Start::AT_FIX && imu.attitude)
+    snapshot.heading = knownHeading(snapshot.stamp, *imu.attitude, snapshot.estimate);
   if (!snapshot.started && start_ == Start::AT_ORIGIN) {
     snapshot.estimate = estimateAt(poseAtOrigin(imu, options_), options_);
     snapshot.started = true;
@@ -296,7 +302,18 @@ Outcome FilterStep::begin(FilterSnapshot& snapshot, const MountedPose& pose) con
   return {Verdict::TAKEN, 0, 0.0};
 }
 
+// The estimate is that of before, moved on without an IMU.
+void FilterStep::doubtHeading(FilterSnapshot& snapshot, const ImuMeasurement& imu) const {
+  if (!snapshot.heading || !imu.attitude) return;
+  const StartAttitude back =
+      startAttitude(*imu.attitude, snapshot.stamp, snapshot.heading, options_);
+  const KnownHeading off = knownHeading(snapshot.stamp, back.attitude, snapshot.estimate);
+  if (square(off.offset) > square(kSameImu) * (off.variance + back.yaw))
+    snapshot.heading->variance = kUnknownHeading;
+}
+
 void FilterStep::beginAnew(FilterSnapshot& snapshot, const ImuMeasurement& imu) const {
+  doubtHeading(snapshot, imu);
   snapshot.dvl_used.reset();
   snapshot.rejections = {};
   snapshot.begun_anew.reset();

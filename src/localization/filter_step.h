@@ -12,7 +12,8 @@
 //
 // An IMU that comes back when nobody knows any more how the vehicle is tilted begins the estimate anew: errors of such
 // angles are not linear, and a filter that goes on may settle upside down. AT_FIX it begins with the next two fixes
-// that agree, AT_ORIGIN with the tilt of the IMU at the position and heading of before.
+// that agree, by the IMU's heading less what it was off before (not known any more where that contradicts the vehicle's of
+// before, as that of an IMU which was started again), AT_ORIGIN with the tilt of the IMU at the position and heading of before.
 #pragma once
 
 #include <array>
@@ -54,7 +55,7 @@ struct FilterSnapshot {
   // That the next fix is compared with while the filter has not started.
   std::optional<MountedPose> first_fix;
   std::optional<Stamp> first_fix_stamp;
-  std::optional<KnownHeading> heading;  // of the IMU, from before
+  std::optional<KnownHeading> heading;  // of the IMU, when AT_FIX was started last
   std::optional<double> depth_offset;   // m, of a filter that starts at the origin
   std::optional<Stamp> dvl_used, command_used;
   std::array<Rejections, kSources> rejections;
@@ -103,6 +104,7 @@ class FilterStep {
   Outcome fixed(Context& context, const Outcome& outcome) const;
   Outcome begin(FilterSnapshot& snapshot, const MountedPose& pose) const;
   void beginAnew(FilterSnapshot& snapshot, const ImuMeasurement& imu) const;
+  void doubtHeading(FilterSnapshot& snapshot, const ImuMeasurement& imu) const;
   void adoptVelocity(Context& context, const DvlVelocity& dvl) const;
   Outcome setPose(FilterSnapshot& snapshot, const PoseFix& fix) const;
   bool passes(const Innovation& innovation) const;
