@@ -10,8 +10,6 @@ namespace grid_path_planner::localization {
 
 namespace {
 
-constexpr double kKnown = 60.0;  // s
-
 // About the axes of the world, as errors of the body.
 Eigen::Matrix3d attitudeCovariance(const Eigen::Quaterniond& attitude, double tilt, double yaw) {
   const Eigen::Matrix3d to_body = attitude.toRotationMatrix().transpose();
@@ -57,9 +55,10 @@ StartAttitude startAttitude(const Eigen::Quaterniond& imu, Stamp now,
                             const FilterOptions& options) {
   StartAttitude start{imu, square(options.start_tilt), square(options.start_yaw)};
   const double age = known ? secondsBetween(known->stamp, now) : -1.0;
-  if (age < 0.0 || age > kKnown) return start;
+  if (age < 0.0) return start;
   start.attitude = Eigen::AngleAxisd(-known->offset, Eigen::Vector3d::UnitZ()) * imu;
-  start.yaw += known->variance + square(options.gyro_bias * age);
+  start.yaw = std::min(start.yaw + known->variance + square(options.gyro_bias * age),
+                       std::max(start.yaw, kUnknownHeading));
   return start;
 }
 

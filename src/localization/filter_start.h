@@ -16,10 +16,10 @@ struct StartAttitude {
   double tilt, yaw;  // variances, rad^2
 };
 
-constexpr double kUnknownHeading = 3.14159265358979 * 3.14159265358979;  // rad^2
+constexpr double kUnknownHeading = 3.14159265358979 * 3.14159265358979;  // rad^2, the most
 
-// That of the IMU, turned by what is known of its heading: of a time before, not longer than a minute ago, since when
-// gyro_bias made it worse.
+// That of the IMU, turned by what is known of its heading: of a time before, since when gyro_bias made it worse. What is
+// known from long ago says that the IMU's heading is not to be believed. One of a later time is of another clock.
 StartAttitude startAttitude(const Eigen::Quaterniond& imu, Stamp now,
                             const std::optional<KnownHeading>& known, const FilterOptions& options);
 
