@@ -108,7 +108,7 @@ std::optional<KnownHeading> VehicleLocalizer::headingAt(Stamp stamp) const {
   if (!snapshot || !snapshot->imu || snapshot->imu->stamp != snapshot->stamp) return {};
   const auto& attitude = snapshot->imu->measurement.attitude;
   if (!attitude) return {};
-  return knownHeading(snapshot->stamp, *attitude, snapshot->estimate);
+  return localization::knownHeading(snapshot->stamp, *attitude, snapshot->estimate);
 }
 
 // Of the first input that is missed; empty: of none.

@@ -47,6 +47,8 @@ class VehicleLocalizer {
   // What was known of the IMU's heading before the first measurement, by headingAt(). Without, its heading is taken
   // for true where the pose begins with positions.
   void beginWith(const KnownHeading& heading) { map_.beginWith(heading); }
+  // The newest that is known, by a filter that has started or by beginWith(); of its own stamp.
+  std::optional<KnownHeading> knownHeading() const { return map_.snapshot().heading; }
   // None before the filter has started, and where the IMU tells none at this very time.
   std::optional<KnownHeading> headingAt(Stamp stamp) const;
 

@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -48,6 +49,15 @@ std::optional<KnownHeading> headingIn(const std::string& line, const std::string
   return heading;
 }
 
+std::optional<KnownHeading> headingAfterStep(const std::optional<KnownHeading>& heading,
+                                             double back, localization::Stamp now,
+                                             bool is_simulated) {
+  if (!heading || is_simulated) return {};
+  KnownHeading known = *heading;
+  known.stamp = std::min(now, known.stamp - static_cast<localization::Stamp>(1e9 * back));
+  return known;
+}
+
 KeptHeading::KeptHeading(const std::string& folder, const std::string& node)
     : folder_(folder), file_(folder + "/" + keptFileName(node, ".heading")), run_(runId()) {}
 
@@ -70,6 +80,7 @@ bool KeptHeading::isDue() const {
 }
 
 void KeptHeading::keep(const KnownHeading& heading) {
+  if (run_.empty()) return;
   kept_ = ros::SteadyTime::now();
   writer_.post([this, line = lineOf(heading, run_)](const StopSource&) { write(line); }, kSlot);
 }

@@ -27,6 +27,12 @@ std::string lineOf(const localization::KnownHeading& heading, const std::string&
 std::optional<localization::KnownHeading> headingIn(const std::string& line,
                                                     const std::string& run);
 
+// What is still known when ROS time went back by `back` s to `now`. A step of the wall clock leaves the vehicle and its IMU as
+// they were: the same, as old as before. With /clock (`is_simulated`) a bag begins anew: nothing.
+std::optional<localization::KnownHeading> headingAfterStep(
+    const std::optional<localization::KnownHeading>& heading, double back, localization::Stamp now,
+    bool is_simulated);
+
 class KeptHeading {
  public:
   // Asks the master for the run. `folder` need not exist; `node` is the node's full name.
@@ -36,7 +42,7 @@ class KeptHeading {
   std::optional<localization::KnownHeading> begin() const;
   // Whether the last one was written long enough ago, under a known run.
   bool isDue() const;
-  // Has it written.
+  // Has it written, under a known run.
   void keep(const localization::KnownHeading& heading);
   // The file is gone when this returns.
   void forget();

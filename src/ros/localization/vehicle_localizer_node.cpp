@@ -204,14 +204,21 @@ bool VehicleLocalizerNode::noticeTime() {
   if (!clock_.hasTime()) return false;
   if (const auto back = clock_.jumpedBack()) {
     ROS_WARN_STREAM("ROS time went back by " << *back << " s: everything begins anew");
-    beginAnew();
+    beginAnew(headingAfterStep(localizer_.knownHeading(), *back, stampOf(ros::Time::now()),
+                               ros::Time::isSimTime()));
   }
   return true;
 }
 
-void VehicleLocalizerNode::beginAnew() {
+// But with what is known of the IMU's heading, if anything is.
+void VehicleLocalizerNode::beginAnew(const std::optional<localization::KnownHeading>& heading) {
   localizer_.reset();
-  kept_.forget();
+  if (heading) {
+    localizer_.beginWith(*heading);
+    kept_.keep(*heading);
+  } else {
+    kept_.forget();
+  }
   messages_.reset();
   transforms_.clear();
   rivals_.reset();

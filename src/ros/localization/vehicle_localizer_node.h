@@ -21,7 +21,7 @@
 //
 // Guaranteed: map -> odom is published while the status is OK or DEGRADED only. A message that cannot be
 // used changes nothing; its reason is in the log and in the diagnostics. ROS time that goes back begins
-// everything anew. From the first transform map -> odom or odom -> base_link of another node on, none
+// everything anew, but what is known of the IMU's heading where somebody set the wall clock. From the first transform map -> odom or odom -> base_link of another node on, none
 // is published, until ~reset. Where another node is to publish odom -> base_link (publish_odom_to_base) and does not,
 // there is no map -> odom, and the status is DEGRADED. Poses are stamped as the measurements of the IMU, or as now while it is
 // silent.
@@ -32,6 +32,7 @@
 #include <ros/steady_timer.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -76,7 +77,7 @@ class VehicleLocalizerNode {
   void startDiagnostics();
   void use(VehicleLocalizerOptions options);
   bool noticeTime();
-  void beginAnew();
+  void beginAnew(const std::optional<localization::KnownHeading>& heading = {});
   template <class Convert>
   std::string take(localization::Source source, const Convert& convert);
   void onImu(const sensor_msgs::Imu& message);

@@ -24,5 +24,19 @@ TEST(KeptHeading, NumbersThatCannotBeAreNone) {
     EXPECT_FALSE(headingIn(line, "a")) << line;
 }
 
+// A wall clock that was set back by a millisecond had it forgotten, and the pose began with the raw one of the IMU, OK.
+TEST(KeptHeading, OutlivesAStepOfTheWallClockButNotABagThatBeginsAnew) {
+  const localization::KnownHeading heading{100'000'000'000, -0.4, 3e-4};
+  const auto after = headingAfterStep(heading, 60.0, 42'000'000'000, false);
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->stamp, 40'000'000'000) << "2 s old, as before";
+  EXPECT_EQ(after->offset, -0.4);
+  EXPECT_EQ(after->variance, 3e-4);
+  EXPECT_EQ(headingAfterStep(heading, 0.001, 99'000'000'000, false)->stamp, 99'000'000'000)
+      << "never of the future";
+  EXPECT_FALSE(headingAfterStep(heading, 60.0, 42'000'000'000, true));
+  EXPECT_FALSE(headingAfterStep({}, 60.0, 42'000'000'000, false));
+}
+
 }  // namespace
 }  // namespace grid_path_planner::nodes
