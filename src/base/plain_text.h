@@ -1,7 +1,7 @@
 // Text of strangers, of the network or of a file, that ends in logs, sentences and messages.
 //
-//   checkPlainText("the name of a model", name, 256);   // throws
-//   std::cerr << cleanedText(printed, 2000) << "\n";
+//   checkPlainText("the name of a model", "hull", 256);   // throws
+//   use(cleanedText("hull\n", 2000));                     // "hull "
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,5 @@
 // map -> odom where another node publishes odom -> base_link: by that one's origin, which is not this node's.
 //
-//   if (const auto joint = mapToOtherOdometry(transforms, frames, localizer, base, stamp)) publish(*joint);
-//
 // The vehicle's place in the odometry is asked of tf, and not waited for: at the stamp, else the newest that is at most
 // kOldestOdometry from it. The pose in the map is that of the same time, so that a driver that is late makes no error.
 #pragma once

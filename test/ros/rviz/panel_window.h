@@ -37,7 +37,9 @@ inline void beginApplication() {
 class PanelWindow {
  public:
   // Once it has said who is there, which is when it says what may be pressed.
-  PanelWindow() { EXPECT_TRUE(waitFor([&] { return shows("path_planner"); })); }
+  PanelWindow() {
+    EXPECT_TRUE(waitFor([&] { return shows("path_planner"); }));
+  }
 
   // Qt's work is done while this waits.
   bool waitFor(const std::function<bool()>& condition) const {
