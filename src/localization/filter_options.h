@@ -28,15 +28,17 @@ struct FilterOptions {
   double accelerometer_bias = 0.196;   // m/s^2
   double gravity = 9.80665;            // m/s^2
   bool imu_averages = true;
-  double imu_timeout = 0.1;         // s
-  double coast_acceleration = 0.3;  // m/s/sqrt(s)
-  double coast_turn = 0.2;          // rad/sqrt(s)
-  double start_velocity = 0.5;      // m/s
-  double start_tilt = 0.02;         // rad
-  double start_yaw = 0.02;          // rad
-  double dvl_timeout = 1.0;         // s
-  double command_deviation = 0.2;   // m/s
-  double command_period = 1.0;      // s
+  double imu_timeout = 0.1;             // s
+  double imu_max_rate = 10.0;           // rad/s
+  double imu_max_acceleration = 100.0;  // m/s^2
+  double coast_acceleration = 0.3;      // m/s/sqrt(s)
+  double coast_turn = 0.2;              // rad/sqrt(s)
+  double start_velocity = 0.5;          // m/s
+  double start_tilt = 0.02;             // rad
+  double start_yaw = 0.02;              // rad
+  double dvl_timeout = 1.0;             // s
+  double command_deviation = 0.2;       // m/s
+  double command_period = 1.0;          // s
   Gate gate = Gate::CHI_SQUARED;
   double gate_probability = 0.999;
   double gate_distance = 1.0;  // m
@@ -76,6 +78,13 @@ void visitMotionOptions(FilterOptions& o, Visitor& visit) {
       OptionInfo{"A measurement of the IMU holds for so long; then the vehicle is assumed to keep "
                  "its velocity and attitude",
                  "s", 0.001, 1.0});
+  visit("imu_max_rate", o.imu_max_rate,
+        OptionInfo{"A measurement of the IMU that turns faster about an axis is refused: one such "
+                   "sample turns the heading, and nothing shows it; above what the vehicle can do",
+                   "rad/s", 0.1, 100.0});
+  visit("imu_max_acceleration", o.imu_max_acceleration,
+        OptionInfo{"The same for the acceleration along an axis, gravity included", "m/s^2", 15.0,
+                   1000.0});
   visit("coast_acceleration", o.coast_acceleration,
         OptionInfo{"How fast the velocity may change without an IMU", "m/s/sqrt(s)", 0.001, 100.0}
             .under("Without an IMU"));

@@ -16,8 +16,6 @@ using base::InputError;
 
 constexpr double kFarthest = 1e6;            // m
 constexpr double kFastest = 100.0;           // m/s
-constexpr double kFastestTurn = 100.0;       // rad/s
-constexpr double kStrongest = 1000.0;        // m/s^2
 constexpr double kFarthestMounted = 1000.0;  // m
 constexpr double kOtherClock = 1e6;          // s
 constexpr double kLeastVariance = 1e-12, kLargestVariance = 1e12;
@@ -49,41 +47,41 @@ void checkVariance(double variance) {
     throw InputError("a variance must be within 1e-12..1e12, got " + decimalText(variance));
 }
 
-void checkData(const ImuMeasurement& imu) {
-  checkVector("the angular velocity (rad/s)", imu.inertial.rate, kFastestTurn);
-  checkVector("the acceleration (m/s^2)", imu.inertial.acceleration, kStrongest);
+void checkData(const ImuMeasurement& imu, const FilterOptions& options) {
+  checkVector("the angular velocity (rad/s)", imu.inertial.rate, options.imu_max_rate);
+  checkVector("the acceleration (m/s^2)", imu.inertial.acceleration, options.imu_max_acceleration);
   if (imu.attitude) checkAttitude(*imu.attitude);
 }
 
-void checkData(const DvlVelocity& dvl) {
+void checkData(const DvlVelocity& dvl, const FilterOptions&) {
   checkVector("the velocity (m/s)", dvl.velocity, kFastest);
   checkCovariance(dvl.covariance);
   checkMounting(dvl.sensor);
 }
 
-void checkData(const CommandedVelocity& command) {
+void checkData(const CommandedVelocity& command, const FilterOptions&) {
   checkVector("the velocity (m/s)", command.velocity, kFastest);
   checkMounting(command.base);
 }
 
-void checkData(const DepthFix& depth) {
+void checkData(const DepthFix& depth, const FilterOptions&) {
   checkVector("z (m)", {0.0, 0.0, depth.z}, kFarthest);
   checkVariance(depth.variance);
   checkPlace(depth.sensor);
 }
 
-void checkData(const HeadingFix& heading) {
+void checkData(const HeadingFix& heading, const FilterOptions&) {
   checkVector("the yaw (rad)", {0.0, 0.0, heading.yaw}, 7.0);
   checkVariance(heading.variance);
 }
 
-void checkData(const PositionFix& fix) {
+void checkData(const PositionFix& fix, const FilterOptions&) {
   checkVector("the position (m)", fix.position, kFarthest);
   checkCovariance(fix.covariance);
   checkPlace(fix.sensor);
 }
 
-void checkData(const PoseFix& fix) {
+void checkData(const PoseFix& fix, const FilterOptions&) {
   checkVector("the position (m)", fix.position, kFarthest);
   checkAttitude(fix.attitude);
   checkCovariance(fix.covariance);
@@ -114,8 +112,8 @@ void checkCovariance(const Eigen::MatrixXd& covariance) {
     throw InputError("the covariance is not positive definite");
 }
 
-void checkMeasurement(const Measurement& measurement) {
-  std::visit([](const auto& data) { checkData(data); }, measurement.data);
+void checkMeasurement(const Measurement& measurement, const FilterOptions& options) {
+  std::visit([&](const auto& data) { checkData(data, options); }, measurement.data);
 }
 
 void checkStamp(Stamp stamp, Stamp now, double history) {

@@ -1,9 +1,10 @@
 // Measurements that cannot be used are refused with a sentence, before they reach a filter.
 //
-//   checkMeasurement(measurement);          // throws base::InputError
+//   checkMeasurement(measurement, options);      // throws base::InputError
 //   checkStamp(measurement.stamp, now, history);
 #pragma once
 
+#include "localization/filter_options.h"
 #include "localization/measurement.h"
 
 namespace grid_path_planner::localization {
@@ -11,9 +12,9 @@ namespace grid_path_planner::localization {
 constexpr double kMostAhead = 0.1;  // s
 
 // Throws InputError naming the value: for numbers that are not finite or beyond what a vehicle can do
-// (1e6 m, 100 m/s, 100 rad/s, 1000 m/s^2), a quaternion whose length is off 1 by more than 0.01,
+// (1e6 m, 100 m/s, imu_max_rate, imu_max_acceleration), a quaternion whose length is off 1 by more than 0.01,
 // covariances that checkCovariance refuses, and sensors where checkMounting refuses them.
-void checkMeasurement(const Measurement& measurement);
+void checkMeasurement(const Measurement& measurement, const FilterOptions& options);
 
 // Throws InputError for a place more than 1000 m from the body frame, and a quaternion as above: tf says
 // where sensors are, and anybody may publish it.

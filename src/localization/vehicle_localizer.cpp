@@ -69,7 +69,7 @@ VehicleLocalizer::VehicleLocalizer(const LocalizerOptions& options)
 }
 
 Verdict VehicleLocalizer::add(const Measurement& measurement) {
-  checkMeasurement(measurement);
+  checkMeasurement(measurement, options_.filter);
   const Verdict verdict = map_.add(measurement);
   if (verdict == Verdict::DUPLICATE) throw InputError("one of the same stamp was used already");
   if (verdict == Verdict::TOO_OLD)

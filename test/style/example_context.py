@@ -143,13 +143,16 @@ CONTEXT = {
         extern Eigen::Matrix3d noise; extern double gate;""",
     "filter_step.h": "extern FilterOptions options; extern FilterSnapshot snapshot; extern Measurement measurement; extern TimedImu* next_imu;",
     "lagged_filter.h": "extern FilterOptions options; extern Measurement measurement; extern Stamp now;",
-    "measurement_check.h": "extern Measurement measurement; extern Stamp now; extern double history;",
+    "measurement_check.h": "extern Measurement measurement; extern FilterOptions options; extern Stamp now; extern double history;",
     "input_statistics.h": "extern LaggedFilter filter; extern Stamp now; void warn(const char*);",
     "vehicle_localizer.h": """extern LocalizerOptions options; extern Measurement measurement; extern Stamp now;
         void drive(const Estimate&);""",
     "sensor_messages.h": """#include "localization/vehicle_localizer.h"
         extern SensorMessages::Lookup lookup; extern VehicleLocalizerOptions options; extern sensor_msgs::Imu message;
         extern localization::VehicleLocalizer localizer;""",
+    "other_odometry.h": """extern FrameTransforms transforms; extern OdometryFrames frames; extern ros::Time stamp;
+        extern localization::VehicleLocalizer localizer; extern localization::Mounting base;
+        void publish(const localization::Mounting&);""",
     "transform_rivals.h": "extern ros::Time stamp; void beSilent(const std::string&);"
                           "extern const tf2_msgs::TFMessage& message; extern std::string node; extern bool is_static;",
     "input_log.h": "extern std::exception error; using localization::Source;",

@@ -196,7 +196,7 @@ class NavigationBag {
   }
 
   void add(const Measurement& measurement, Stamp received) {
-    localization::checkMeasurement(measurement);
+    localization::checkMeasurement(measurement, question_.options.localizer.filter);
     localization::checkStamp(measurement.stamp, received,
                              question_.options.localizer.filter.history);
     if (!stamps_[static_cast<std::size_t>(measurement.source)].insert(measurement.stamp).second)
@@ -251,7 +251,7 @@ class NavigationBag {
     message.pose.pose = pose;
     for (std::size_t i = 0; i < 36; i += 7) message.pose.covariance[i] = 1.0;
     const Measurement measurement = messages_.marker(message);
-    localization::checkMeasurement(measurement);
+    localization::checkMeasurement(measurement, question_.options.localizer.filter);
     auto& truth = recording_.truth;
     if (!truth.empty() && measurement.stamp <= truth.back().stamp)
       throw InputError("it is not newer than the one before");
