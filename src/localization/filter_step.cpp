@@ -127,7 +127,9 @@ Outcome FilterStep::fuse(Context& context, Innovation innovation, const Deviatio
   Rejections& rejections = snapshot.rejections[static_cast<std::size_t>(context.source)];
   if (!passes(innovation)) {
     const double drift = square(options_.start_velocity);
-    if (rejections.add(snapshot.stamp, deviation, drift, gates_[6]) < options_.reset_after)
+    const int agreeing = rejections.add(snapshot.stamp, deviation, drift, gates_[6]);
+    // A vehicle that does not do as it is told is no sign that its velocity is wrong.
+    if (agreeing < options_.reset_after || context.source == Source::COMMAND)
       return outcome.verdict = Verdict::GATED, outcome;
     (this->*forget)(snapshot.estimate);
     innovation.project(snapshot.estimate.covariance);
@@ -199,7 +201,7 @@ Outcome FilterStep::take(Context& context, const CommandedVelocity& command) con
   const Eigen::Matrix3d covariance =
       square(options_.command_deviation) * Eigen::Matrix3d::Identity();
   const Outcome outcome = fuseVelocity(context, {command.velocity, covariance, command.base});
-  if (outcome.verdict != Verdict::GATED) snapshot.command_used = snapshot.stamp;
+  snapshot.command_used = snapshot.stamp;
   return outcome;
 }
 

@@ -55,9 +55,9 @@ struct FilterSnapshot {
   // That the next fix is compared with while the filter has not started.
   std::optional<MountedPose> first_fix;
   std::optional<Stamp> first_fix_stamp;
-  std::optional<KnownHeading> heading;  // of the IMU, when AT_FIX was started last
-  std::optional<double> depth_offset;   // m, of a filter that starts at the origin
-  std::optional<Stamp> dvl_used, command_used;
+  std::optional<KnownHeading> heading;          // of the IMU, when AT_FIX was started last
+  std::optional<double> depth_offset;           // m, of a filter that starts at the origin
+  std::optional<Stamp> dvl_used, command_used;  // a command that was gated, too
   std::array<Rejections, kSources> rejections;
   // The last one that no fix of another kind has confirmed, and no pose that was set.
   std::optional<NewBegin> begun_anew;
