@@ -186,7 +186,9 @@ Outcome FilterStep::take(Context& context, const DvlVelocity& dvl) const {
   if (!context.snapshot.started) return {};
   if (!context.snapshot.dvl_used) adoptVelocity(context, dvl);
   const Outcome outcome = fuseVelocity(context, dvl);
-  if (outcome.verdict != Verdict::GATED) context.snapshot.dvl_used = context.snapshot.stamp;
+  if (outcome.verdict == Verdict::GATED) return outcome;
+  context.snapshot.dvl_used = context.snapshot.stamp;
+  context.snapshot.rejections[static_cast<std::size_t>(Source::COMMAND)].clear();
   return outcome;
 }
 

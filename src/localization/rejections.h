@@ -26,6 +26,7 @@ class Rejections {
   int add(Stamp stamp, const Deviation& deviation, double drift, double limit);
   void clear() { count_ = 0; }
   int count() const { return count_; }
+  Stamp newest() const { return stamp_; }
 
  private:
   int count_ = 0;

@@ -43,10 +43,17 @@ std::string whatIsMissing(const LaggedFilter& map) {
          "IMU";
 }
 
-// Two fixes in a row that were rejected and agree with each other.
-bool isContradicted(const FilterSnapshot& snapshot) {
-  return std::any_of(snapshot.rejections.begin(), snapshot.rejections.end(),
-                     [](const Rejections& rejections) { return rejections.count() >= 2; });
+// Two measurements in a row that were rejected and agree with each other. Those of acoustic and marker fixes stand until a
+// fix is used; those of what comes all the time, as a heading, for `lasting` s: its source may have been switched off.
+bool isContradicted(const FilterSnapshot& snapshot, Stamp now, double lasting) {
+  for (std::size_t source = 0; source < snapshot.rejections.size(); ++source) {
+    const Rejections& rejections = snapshot.rejections[source];
+    if (rejections.count() < 2) continue;
+    const bool stands =
+        isFix(static_cast<Source>(source)) && static_cast<Source>(source) != Source::HEADING;
+    if (stands || secondsBetween(rejections.newest(), now) <= lasting) return true;
+  }
+  return false;
 }
 
 std::optional<FilterSnapshot> startedAt(const LaggedFilter& filter, Stamp stamp) {
@@ -139,7 +146,8 @@ double VehicleLocalizer::sinceFix(Stamp now) const {
 // Why the pose may be off though the standard deviations are small; empty: nothing shows it.
 std::string VehicleLocalizer::problemOf(const FilterSnapshot& snapshot, Stamp now) const {
   if (const std::string silent = silence(now); !silent.empty()) return silent;
-  if (isContradicted(snapshot)) return "fixes that agree contradict the pose";
+  if (isContradicted(snapshot, now, options_.input_timeout))
+    return "fixes that agree contradict the pose";
   if (options_.fix_timeout > 0.0 && sinceFix(now) > options_.fix_timeout / 3.0)
     return "no fix has been used for " + rounded(sinceFix(now)) + " s";
   if (!snapshot.begun_anew) return {};

@@ -1,5 +1,7 @@
-// Commands that the vehicle does not obey, while there is no DVL.
+// Commands that the vehicle does not obey, while there is no DVL, and what contradicted and is there no longer.
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "localization/support/simulated_sensors.h"
 #include "localization/vehicle_localizer.h"
@@ -42,6 +44,39 @@ TEST(Commands, BeginNothingAnewHoweverManyAgree) {
     filter.add(measurement);
   EXPECT_GE(filter.counts(Source::COMMAND).gated, 6u);
   EXPECT_EQ(filter.counts(Source::COMMAND).resets, 0u);
+}
+
+// "Fixes that agree contradict the pose" was said for ever of commands that nobody used any more.
+TEST(Commands, ThatWereGatedAreForgottenWhenTheDvlIsBack) {
+  SimulatedSensors sensors(26);
+  VehicleLocalizer localizer{LocalizerOptions{}};
+  bool contradicted = false;
+  for (const Measurement& measurement : disobeyed(sensors, 24.0, 27.0, 40.0)) {
+    localizer.add(measurement);
+    if (measurement.stamp > stampAt(23.0) && measurement.stamp < stampAt(26.0))
+      contradicted =
+          contradicted ||
+          localizer.map().snapshot().rejections[static_cast<int>(Source::COMMAND)].count() >= 2;
+  }
+  EXPECT_TRUE(contradicted);
+  const LocalizationReport report = localizer.report(stampAt(40.0));
+  EXPECT_EQ(report.status, LocalizationStatus::OK) << report.sentence;
+}
+
+// As when use_heading is switched off.
+TEST(Heading, ThatContradictedAndCeasedContradictsNoLonger) {
+  SimulatedSensors sensors(27);
+  VehicleLocalizer localizer{LocalizerOptions{}};
+  for (const Measurement& measurement : sensors.run(30.0)) localizer.add(measurement);
+  const double yaw = yawOf(sensors.truthAt(30.0).attitude) + 0.7;
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(localizer.add({stampAt(30.0) + i * 1'000'000, Source::HEADING,
+                             HeadingFix{std::remainder(yaw, 2.0 * M_PI), 1e-4}}),
+              Verdict::GATED);
+  EXPECT_TRUE(test::contains(localizer.report(stampAt(30.0) + 2'000'000).sentence, "contradict"));
+  for (const Measurement& measurement : sensors.run(10.0)) localizer.add(measurement);
+  const LocalizationReport report = localizer.report(stampAt(40.0));
+  EXPECT_EQ(report.status, LocalizationStatus::OK) << report.sentence;
 }
 
 }  // namespace
