@@ -244,7 +244,8 @@ Outcome FilterStep::take(Context& context, const HeadingFix& heading) const {
 Outcome FilterStep::take(Context& context, const PositionFix& fix) const {
   FilterSnapshot& snapshot = context.snapshot;
   if (!snapshot.started) {
-    if (snapshot.imu && snapshot.imu->measurement.attitude)
+    if (snapshot.imu && snapshot.imu->measurement.attitude &&
+        secondsBetween(snapshot.imu->stamp, snapshot.stamp) <= options_.imu_timeout)
       return begin(snapshot,
                    poseAtFix(fix, startAttitude(*snapshot.imu->measurement.attitude,
                                                 snapshot.imu->stamp, snapshot.heading, options_)));

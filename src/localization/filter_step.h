@@ -7,8 +7,9 @@
 // measurement comes late.
 //
 // A filter that starts AT_FIX begins where a set pose says, or where two fixes in a row agree; the
-// attitude is that of the fix, or of the IMU. One that starts AT_ORIGIN begins with the first
-// measurement of the IMU, at position 0, and takes no fix but depth, relative to the first.
+// attitude is that of the fix, or of the IMU at the same time (within imu_timeout). One that starts
+// AT_ORIGIN begins with the first measurement of the IMU, at position 0, and takes no fix but depth,
+// relative to the first.
 //
 // An IMU that comes back when nobody knows any more how the vehicle is tilted begins the estimate anew: errors of such
 // angles are not linear, and a filter that goes on may settle upside down. AT_FIX it begins with the next two fixes
