@@ -10,6 +10,9 @@ namespace grid_path_planner::localization {
 
 namespace {
 
+// What two fixes may be apart grows no longer: with an acoustic fix each 10 s an outlier of 15 m would be believed.
+constexpr double kLongestDrift = 3.0;  // s
+
 // About the axes of the world, as errors of the body.
 Eigen::Matrix3d attitudeCovariance(const Eigen::Quaterniond& attitude, double tilt, double yaw) {
   const Eigen::Matrix3d to_body = attitude.toRotationMatrix().transpose();
@@ -82,12 +85,13 @@ MountedPose poseAtFix(const PoseFix& fix) {
 
 bool agree(const MountedPose& first, const MountedPose& second, double seconds,
            const FilterOptions& options, double limit) {
+  const double drift = std::min(seconds, kLongestDrift);
   Eigen::Matrix<double, 6, 1> difference;
   difference << second.position - first.position,
       logSO3<double>(first.attitude.conjugate() * second.attitude);
   PoseCovariance covariance = first.covariance + second.covariance;
-  covariance.topLeftCorner<3, 3>().diagonal().array() += square(options.start_velocity * seconds);
-  covariance.bottomRightCorner<3, 3>().diagonal().array() += square(options.coast_turn) * seconds;
+  covariance.topLeftCorner<3, 3>().diagonal().array() += square(options.start_velocity * drift);
+  covariance.bottomRightCorner<3, 3>().diagonal().array() += square(options.coast_turn) * drift;
   return base::Cholesky<6>(covariance).squaredMahalanobis(difference) <= limit;
 }
 

@@ -39,7 +39,8 @@ MountedPose poseAtFix(const PositionFix& fix, const StartAttitude& start);
 // The pose of the body by a fix of something mounted on it.
 MountedPose poseAtFix(const PoseFix& fix);
 
-// Whether two fixes can be of one vehicle, so many seconds apart.
+// Whether two fixes can be of one vehicle, so many seconds apart; more than 3 s apart as if it were 3 s: a vehicle whose
+// fixes are seldom begins where it stands or is slow.
 bool agree(const MountedPose& first, const MountedPose& second, double seconds,
            const FilterOptions& options, double limit);
 
