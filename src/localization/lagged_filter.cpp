@@ -87,7 +87,7 @@ void LaggedFilter::applyFrom(std::size_t index) {
 void LaggedFilter::trim() {
   const Stamp oldest =
       newest() - static_cast<Stamp>(1e9 * (options_.history + options_.imu_timeout));
-  while (events_.front().measurement.stamp < oldest) {
+  while (events_.front().measurement.stamp < oldest || events_.size() > kMostEvents) {
     const Event& event = events_.front();
     count(counted_[static_cast<std::size_t>(event.measurement.source)], event.outcome.verdict);
     base_ = event.after;

@@ -9,7 +9,8 @@
 //
 // Guaranteed: the same measurements give the same estimate to the last bit, in whatever order they
 // come, as long as none is refused: as older than the history, or as the second of its source and stamp.
-// Memory and time per measurement are bounded by the history. Not guaranteed: that a measurement
+// Memory and time per measurement are bounded by the history, and by kMostEvents whatever comes: of more the oldest leave
+// the history early. Not guaranteed: that a measurement
 // stamped in the future is noticed; it makes others too old, and must be kept away.
 #pragma once
 
@@ -21,6 +22,8 @@
 #include "localization/filter_step.h"
 
 namespace grid_path_planner::localization {
+
+constexpr std::size_t kMostEvents = 20'000;  // some 5 KB each; 5 s of 4000 measurements in a second
 
 struct SourceCounts {
   std::uint64_t taken = 0, gated = 0, resets = 0;

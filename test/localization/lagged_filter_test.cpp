@@ -97,6 +97,21 @@ TEST(OrderOfArrival, WhatIsOlderThanTheHistoryIsRefusedAndTheMemoryIsBounded) {
   EXPECT_LT(kept, 5.2 * 130.0);
 }
 
+// An IMU of 100 kHz: the history of 5 s took gigabytes.
+TEST(OrderOfArrival, TheMemoryIsBoundedHoweverManyComeInTheHistory) {
+  LaggedFilter filter({}, Start::AT_ORIGIN);
+  ImuMeasurement imu;
+  imu.inertial.acceleration = {0.0, 0.0, 9.80665};
+  const int number = 100'000;
+  for (int i = 0; i < number; ++i) {
+    ASSERT_EQ(filter.add({kStart + 10'000 * i, Source::IMU, imu}), Verdict::TAKEN);
+    ASSERT_LE(filter.events().size(), kMostEvents);
+  }
+  EXPECT_EQ(filter.counts(Source::IMU).taken, static_cast<std::uint64_t>(number));
+  EXPECT_EQ(filter.add({kStart + 5, Source::IMU, imu}), Verdict::TOO_OLD);
+  EXPECT_LT(filter.snapshot().estimate.state.position.norm(), 1e-6);
+}
+
 TEST(OrderOfArrival, AfterAResetNothingIsKept) {
   LaggedFilter filter = filtered(everything(3, 8.0), {});
   filter.reset();
