@@ -153,7 +153,7 @@ CONTEXT = {
     "other_odometry.h": """extern FrameTransforms transforms; extern OdometryFrames frames; extern ros::Time stamp;
         extern localization::VehicleLocalizer localizer; extern localization::Mounting base;
         void publish(const localization::Mounting&);""",
-    "transform_rivals.h": "extern ros::Time stamp; void beSilent(const std::string&);"
+    "transform_rivals.h": "extern ros::Time stamp; extern std::string child; void beSilent(const std::string&);"
                           "extern const tf2_msgs::TFMessage& message; extern std::string node; extern bool is_static;",
     "input_log.h": "extern std::exception error; using localization::Source;",
     "input_record.h": "extern std::exception error;",

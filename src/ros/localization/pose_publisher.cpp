@@ -109,7 +109,7 @@ void PosePublisher::sendTransforms(const PublishedPoses& poses, const Mounting& 
   if (const auto odometry = mapToOdometry(poses, base))
     transforms.push_back(transformOf(*odometry, options_.map_frame, options_.odom_frame, stamp));
   if (transforms.empty()) return;
-  rivals.sent(stamp);
+  for (const auto& transform : transforms) rivals.sent(transform.child_frame_id, stamp);
   broadcaster_.sendTransform(transforms);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/network_text.h"
 
@@ -12,16 +13,16 @@ namespace grid_path_planner::nodes {
 
 namespace {
 
-constexpr std::size_t kRemembered = 500;
+constexpr std::size_t kRemembered = 1000;
 
 }  // namespace
 
 TransformRivals::TransformRivals(std::vector<std::string> children)
     : children_(std::move(children)) {}
 
-void TransformRivals::sent(const ros::Time& stamp) {
+void TransformRivals::sent(const std::string& child, const ros::Time& stamp) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  sent_.push_back(stamp);
+  sent_.push_back({child, stamp});
   if (sent_.size() > kRemembered) sent_.pop_front();
 }
 
@@ -35,25 +36,40 @@ void TransformRivals::reset() {
   rival_.clear();
 }
 
-bool TransformRivals::isOurs(const ros::Time& stamp, const std::string& node) const {
-  return node == ros::this_node::getName() &&
-         std::find(sent_.rbegin(), sent_.rend(), stamp) != sent_.rend();
+// Each that was sent is heard once.
+bool TransformRivals::isOurs(const std::string& child, const ros::Time& stamp,
+                             const std::string& node) {
+  if (node != ros::this_node::getName()) return false;
+  const auto found = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& sent) {
+    return sent.stamp == stamp && sent.child == child;
+  });
+  if (found == sent_.end()) return false;
+  sent_.erase(found);
+  return true;
+}
+
+// A sentence; empty where the transform is ours, or of a frame that is not.
+std::string TransformRivals::rivalIn(const geometry_msgs::TransformStamped& transform,
+                                     const std::string& node, bool is_static) {
+  const std::string child = frameName(transform.child_frame_id);
+  if (std::find(children_.begin(), children_.end(), child) == children_.end()) return {};
+  if (!is_static && isOurs(child, transform.header.stamp, node)) return {};
+  return printable(node) + " publishes tf " + printable(transform.header.frame_id) + " -> " +
+         child + " too" +
+         (is_static ? ", a static one, which tf keeps: end it and start this node again"
+                    : ": end it and call ~reset");
 }
 
 void TransformRivals::hear(const tf2_msgs::TFMessage& message, const std::string& node,
                            bool is_static) {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::string& rival = is_static ? static_rival_ : rival_;
-  if (!rival.empty()) return;
-  for (const auto& transform : message.transforms) {
-    const std::string child = frameName(transform.child_frame_id);
-    if (std::find(children_.begin(), children_.end(), child) == children_.end()) continue;
-    if (!is_static && isOurs(transform.header.stamp, node)) continue;
-    rival = printable(node) + " publishes tf " + printable(transform.header.frame_id) + " -> " +
-            child + " too";
-    rival += is_static ? ", a static one, which tf keeps: end it and start this node again"
-                       : ": end it and call ~reset";
-    return;
+  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+    try {
+      const std::string found = rivalIn(transform, node, is_static);
+      if (rival.empty()) rival = found;
+    } catch (const base::InputError&) {  // a name that is none is not of our frames
+    }
   }
 }
 

@@ -2,14 +2,16 @@
 //
 //   TransformRivals rivals({"odom", "base_link"});
 //   rivals.hear(message, node, is_static);                // all that comes on tf
-//   rivals.sent(stamp);                                   // before each transform of our own
+//   rivals.sent(child, stamp);                            // before each transform of our own
 //   if (!rivals.rival().empty()) beSilent(rivals.rival());
 //
 // tf has one parent for each frame: two that publish it make the vehicle jump to and fro. A node of the
-// same process, which has our name, is known by stamps that are not ours. A static transform is a rival
-// whoever sent it, and stays one: tf keeps it when its publisher is gone. Thread-safe.
+// same process, which has our name, is known by stamps that are not ours, or that come once more than we
+// sent them. A static transform is a rival whoever sent it, and stays one: tf keeps it when its publisher
+// is gone. Thread-safe.
 #pragma once
 
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/time.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -27,17 +29,23 @@ class TransformRivals {
 
   // `node`: who published the message.
   void hear(const tf2_msgs::TFMessage& message, const std::string& node, bool is_static);
-  void sent(const ros::Time& stamp);
+  void sent(const std::string& child, const ros::Time& stamp);
   // A sentence that names the first that was heard since reset(), or a static one; empty: none.
   std::string rival() const;
   void reset();
 
  private:
-  bool isOurs(const ros::Time& stamp, const std::string& node) const;
+  bool isOurs(const std::string& child, const ros::Time& stamp, const std::string& node);
+  std::string rivalIn(const geometry_msgs::TransformStamped& transform, const std::string& node,
+                      bool is_static);
 
   const std::vector<std::string> children_;
   mutable std::mutex mutex_;
-  std::deque<ros::Time> sent_;  // the newest last
+  struct Sent {
+    std::string child;
+    ros::Time stamp;
+  };
+  std::deque<Sent> sent_;  // and not heard yet, the newest last
   std::string rival_, static_rival_;
 };
 

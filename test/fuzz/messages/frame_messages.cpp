@@ -86,7 +86,7 @@ FUZZ_TARGET(rival_transforms, seedsOfRivals) {
   if (!message) return;
   for (const bool is_static : {false, true}) {
     nodes::TransformRivals rivals({"odom", "base_link"});
-    rivals.sent(kNowOfFrames);
+    rivals.sent("odom", kNowOfFrames);
     mayRefuse([&] { rivals.hear(*message, "/rival", is_static); });
     mustHold(rivals.rival().find_first_of("\"'$`\\\n\r\t\x1b\x7f") == std::string::npos,
              "what is told of it is harmless");
