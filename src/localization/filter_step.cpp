@@ -124,6 +124,7 @@ Outcome FilterStep::fuse(Context& context, Innovation innovation, const Deviatio
                          void (FilterStep::*forget)(Estimate&) const) const {
   FilterSnapshot& snapshot = context.snapshot;
   Outcome outcome{Verdict::TAKEN, innovation.size(), innovation.nis()};
+  if (!std::isfinite(outcome.nis)) return outcome.verdict = Verdict::GATED, outcome;
   Rejections& rejections = snapshot.rejections[static_cast<std::size_t>(context.source)];
   if (!passes(innovation)) {
     const double drift = square(options_.start_velocity);

@@ -49,6 +49,13 @@ struct Estimate {
   Covariance covariance = Covariance::Zero();
 };
 
+// Whether all numbers of state and covariance are.
+bool isFinite(const Estimate& estimate);
+
+// The standard deviation of the three errors from `first`, along their worst axis; infinite where the covariance is not
+// finite.
+double worstDeviation(const Covariance& covariance, int first);
+
 // A place on the vehicle in the body frame: turns and then shifts vectors of its frame.
 struct Mounting {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // m

@@ -1,6 +1,5 @@
 #include "localization/vehicle_localizer.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -23,13 +22,6 @@ constexpr std::array<Source, 4> kFixes = {Source::SET_POSE, Source::HEADING, Sou
 
 bool isFix(Source source) {
   return std::find(kFixes.begin(), kFixes.end(), source) != kFixes.end();
-}
-
-// Along the worst axis.
-double deviationOf(const Covariance& covariance, int first) {
-  const Eigen::Matrix3d block = covariance.block<3, 3>(first, first);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(block, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
 }
 
 std::string rounded(double value) {
@@ -118,6 +110,11 @@ std::optional<KnownHeading> VehicleLocalizer::headingAt(Stamp stamp) const {
   return localization::knownHeading(snapshot->stamp, *attitude, snapshot->estimate);
 }
 
+bool VehicleLocalizer::isFinite() const {
+  return localization::isFinite(map_.snapshot().estimate) &&
+         localization::isFinite(odometry_.snapshot().estimate);
+}
+
 // Of the first input that is missed; empty: of none.
 std::string VehicleLocalizer::silence(Stamp now) const {
   const std::array<std::pair<Source, double>, 4> limits = {
@@ -162,8 +159,8 @@ LocalizationReport VehicleLocalizer::report(Stamp now) const {
   if (!snapshot) return {LocalizationStatus::INITIALIZING, whatIsMissing(map_)};
   LocalizationReport report;
   const Covariance& covariance = snapshot->estimate.covariance;
-  report.deviation = deviationOf(covariance, kPosition);
-  report.angle_deviation = deviationOf(covariance, kAttitude) * 180.0 / M_PI;
+  report.deviation = worstDeviation(covariance, kPosition);
+  report.angle_deviation = worstDeviation(covariance, kAttitude) * 180.0 / M_PI;
   report.sentence = "the pose is known to " + rounded(report.deviation) + " m, " +
                     rounded(report.angle_deviation) + " deg (standard deviations)";
   if (report.deviation > options_.max_deviation)

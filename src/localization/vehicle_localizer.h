@@ -59,6 +59,9 @@ class VehicleLocalizer {
 
   LocalizationReport report(Stamp now) const;
 
+  // Whether the estimates are numbers; else nothing that comes later mends them.
+  bool isFinite() const;
+
   const LaggedFilter& map() const { return map_; }
   const LaggedFilter& odometry() const { return odometry_; }
 

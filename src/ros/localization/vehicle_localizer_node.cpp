@@ -257,7 +257,8 @@ void VehicleLocalizerNode::onImu(const sensor_msgs::Imu& message) {
   messages_.keep(message);
   if (options_.use_heading && messages_.heading(message))
     take(Source::HEADING, [&] { return *messages_.heading(message); });
-  if (publisher_.isDue(message.header.stamp)) publish(message.header.stamp);
+  const ros::Time stamp = normalized(message.header.stamp);
+  if (publisher_.isDue(stamp)) publish(stamp);
 }
 
 // Several within one step of simulated time are one command.
@@ -282,6 +283,10 @@ void VehicleLocalizerNode::onTimer() {
 
 void VehicleLocalizerNode::publish(const ros::Time& stamp) {
   const auto time = stampOf(stamp);
+  if (!localizer_.isFinite()) {
+    ROS_ERROR("An estimate is no number any more: everything begins anew");
+    beginAnew();
+  }
   report_ = localizer_.report(time);
   keepHeading(time);
   withheld_ = publishPoses(stamp);

@@ -12,6 +12,7 @@
 
 #include <limits>
 #include <map>
+#include <set>
 
 #include "grid_path_planner/SetPose.h"
 #include "ros/support/latest.h"
@@ -261,6 +262,26 @@ TEST_F(VehicleLocalizerTest, ASensorThatTfHasInTheMapIsRefused) {
     others.publish(twist);
     return node_->hasSaid("tf has 'fixed_dvl' in map, not on the vehicle");
   })) << node_->output();
+}
+
+// 1.2 s may be written as 0 s and 1.2e9 ns, which roscpp compares and adds as another time.
+TEST_F(VehicleLocalizerTest, AStampIsPublishedWithLessThanASecondOfNanoseconds) {
+  ros::Publisher others = nh_.advertise<sensor_msgs::Imu>("imu/data", 100);
+  start();
+  ASSERT_TRUE(hasStatus("OK"));
+  stream_.sends_imu = false;
+  std::set<ros::Time> sent;
+  ASSERT_TRUE(waitFor([&] {
+    const ros::Time now = ros::Time::now();
+    sensor_msgs::Imu imu = stream_.imu(now, live_->secondsAt(now));
+    imu.header.stamp.sec -= 1;
+    imu.header.stamp.nsec += 1'000'000'000;
+    others.publish(imu);
+    sent.insert(now);
+    return sent.count(filtered_.all().back().header.stamp) > 0;
+  })) << node_->output();
+  for (const nav_msgs::Odometry& odometry : filtered_.all())
+    ASSERT_LT(odometry.header.stamp.nsec, 1'000'000'000u);
 }
 
 TEST_F(VehicleLocalizerTest, FixesAreShownAsTheyWereJudged) {
